@@ -1,5 +1,6 @@
 /* zipact: reads the command line. */
 #include <errno.h>
+#include <fcntl.h>
 #include <getopt.h>
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -209,7 +210,18 @@ static void keep_freed_memory(void) {
 #endif
 }
 
+/* A standard stream that the caller closed would be the next file that is opened: results would go into a journal, and
+ * messages into a picture. It becomes one that cannot be written, so that cli_flush reports what is lost. */
+static void occupy_standard_streams(void) {
+  int fd;
+  do
+    fd = open("/dev/null", O_RDONLY);
+  while (fd >= 0 && fd <= STDERR_FILENO);
+  if (fd >= 0) close(fd);
+}
+
 int cli_main(int argc, char **argv, const Crew *crew) {
+  occupy_standard_streams();
   keep_freed_memory();
   ZpError err;
   if (zp_hdf5_skip_exit(&err) != ZP_OK) return cli_fail(&err);

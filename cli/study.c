@@ -1,6 +1,7 @@
 /* zipact STUDY and zipact run: scenario => runs => report. */
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <zipact/batch.h>
@@ -19,14 +20,13 @@ static void note_bare_numbers(const ZpScenario *scenario) {
   }
 }
 
-static ZpStatus set_templates(ZpScenario *scenario, const char *folder, ZpError *err) {
-  char assignment[4096];
-  const int length = snprintf(assignment, sizeof assignment, "output.templates=%s", folder);
-  if (length >= (int)sizeof assignment) {
-    *err = (ZpError){ZP_BAD_INPUT, "--templates: the name of the folder is too long"};
-    return ZP_BAD_INPUT;
-  }
-  return zp_scenario_set(scenario, assignment, err);
+/* The folder must exist: otherwise its templates would be ignored without notice. */
+static ZpStatus check_templates(const char *folder, ZpError *err) {
+  struct stat there;
+  if (stat(folder, &there) == 0 && S_ISDIR(there.st_mode)) return ZP_OK;
+  *err = (ZpError){ZP_BAD_INPUT, ""};
+  snprintf(err->message, sizeof err->message, "--templates: there is no folder %s", folder);
+  return ZP_BAD_INPUT;
 }
 
 ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
@@ -34,7 +34,7 @@ ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scen
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
   if (status == ZP_OK && o->no_plots) status = zp_scenario_set(scenario, "output.plots=false", err);
-  if (status == ZP_OK && o->templates) status = set_templates(scenario, o->templates, err);
+  if (status == ZP_OK && o->templates) status = check_templates(o->templates, err);
   if (status == ZP_OK && !o->quiet) note_bare_numbers(scenario);
   if (!study || status != ZP_OK) return status;
   char assignment[64];
@@ -50,10 +50,11 @@ static int write_report(const ZpReport *what, const Options *o) {
   ZpReport report = *what;
   report.hooks = &hooks;
   report.jobs = o->jobs;
+  report.templates = o->templates;
   if (cli_interrupted()) cli_watch_interrupts(); /* finished results are still drawn, unless Ctrl-C comes again */
   if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
   if (o->json) {
-    if (zp_summary_write(&report, stdout, &err) != ZP_OK) return cli_fail(&err);
+    if (zp_summary_write(&report, stdout, &err) != ZP_OK) return ferror(stdout) ? EXIT_MACHINE : cli_fail(&err);
   } else if (!o->quiet) {
     summary_print(&report, !o->no_plots);
   }

@@ -53,10 +53,17 @@ extern _Thread_local char last_message[MESSAGE];
 typedef enum Steps { WHOLE_STEPS, STEPS_TO_EVENTS } Steps;
 
 Instance fmu_instantiate(const Fmu *fmu, const char *token, Steps steps);
+
+/* An instance of what this FMU is not. */
+typedef enum Other { OTHER_EXCHANGE, OTHER_SCHEDULED, OTHER_INTERMEDIATE } Other;
+void *fmu_instantiate_other(const Fmu *fmu, Other other);
+
 void fmu_free(Instance *instance);
 
 /* Each gives the status, which is numbered alike in both versions. */
 int fmu_enter(Instance *instance, double start);
+int fmu_enter_until(Instance *instance, double start, double stop);
+int fmu_set_time(Instance *instance, double time); /* of model exchange */
 int fmu_exit(Instance *instance);
 int fmu_terminate(Instance *instance);
 int fmu_reset(Instance *instance);

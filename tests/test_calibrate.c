@@ -651,9 +651,9 @@ END_TEST
 
 START_TEST(files_that_are_no_tables_are_refused) {
   const char *E = "ribbon.young_modulus";
-  refuse_file("load_g\n8\n", E, "bad.csv:1: one column, \"load_g\"");
+  refuse_file("load_g\n8\n", E, "bad.csv:1: not a table: one column; commas, semicolons or tabs");
   refuse_file("load_g,stroke_mm\n8,\n", E, "bad.csv:2: column stroke_mm: an empty cell; remove the row");
-  refuse_file("load_g stroke_mm\n8 2\n", E, "bad.csv:1: one column, \"load_g stroke_mm\"; commas, semicolons or tabs");
+  refuse_file("load_g stroke_mm\n8 2\n", E, "bad.csv:1: not a table: one column");
   refuse_file("8,2\n9,3\n", E, "bad.csv: the first row has numbers; it needs names with units, such as load_g");
   refuse_file("\xFF\xFEl", E, "bad.csv: text in UTF-16; save it as CSV in UTF-8");
 }
@@ -666,7 +666,7 @@ START_TEST(bad_input_is_refused) {
   refuse(ZP_STUDY_CALIBRATE, &nameless, "data.file: empty");
   refuse_file("", E, "empty");
   refuse_file("# only a remark\n\n", E, "empty");
-  refuse_file("load_g,stroke_mm\n", E, "0 rows of data");
+  refuse_file("load_g,stroke_mm\n", E, "not a table: below the row of names, no column has a number");
   refuse_file("load_g,stroke_mm\n\n8,abc\n", E, "bad.csv:3: column stroke_mm: \"abc\": text in a number column");
   refuse_file("load_g,stroke_mm\n8,nan\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm\n8,0x10\n", E, "text in a number column");

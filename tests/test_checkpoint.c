@@ -354,6 +354,94 @@ START_TEST(test_forged_bytes) {
 }
 END_TEST
 
+/* Actuators that use the numbers of a state in different ways. */
+static ZpActuatorDef user_of_numbers(int which) {
+  switch (which) {
+  case 0:
+    return DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"control.kind", ZP_CONTROL_PI},
+               {"control.proportional", 1e6}, {"control.period", 1e-3}, {"control.delay", 3e-3},
+               {"control.noise", 1e-6}, {"setpoint.value", 10e-3});
+  case 1:
+    return DEF({"mesh.nodes", 9}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e6},
+               {"source.current_limit", 1e-3}, {"source.capacitance", 1e-10});
+  case 2:
+    return DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"insulator.resistivity", 1e12},
+               {"ribbon.plasticity", true}, {"load.change_time", 1e-4}, {"load.change_mass", 1e-3});
+  case 3:
+    return DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"stack.series", 2});
+  default:
+    return DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 21});
+  }
+}
+
+/* Every number of the state by values that no run leaves, with the right checksum: refused, or taken and then steps
+ * end. An index from it that is out of bounds stops the sanitizers. */
+START_TEST(test_forged_numbers) {
+  static const double wrong[] = {-1, 0.5, 3, 1e18, -1e300, INFINITY, NAN};
+  ZpActuatorDef def = user_of_numbers(_i);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 2.5e-3, false, NULL, NULL);
+  model->def.solver.max_steps = 5; /* a supply whose voltage changes at 1e300 V/s is followed in very short steps */
+  size_t size = zp_sim_state_size(sim), own = size / zp_members(model);
+  unsigned char *byte = malloc(size);
+  zp_sim_save(sim, byte);
+  unsigned char *item = block(byte, own, "state.values");
+  size_t numbers = item[-8] + 256u * item[-7];
+  for (size_t k = 0; k < numbers; k++)
+    for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
+      unsigned char kept[8];
+      memcpy(kept, item + 8 * k, 8);
+      memcpy(item + 8 * k, &wrong[w], 8); /* the tests' machines are little-endian */
+      forge(byte, own);
+      if (zp_sim_restore(sim, byte, size, NULL) == ZP_OK)
+        for (int step = 0; step < 2; step++)
+          zp_sim_step(sim, 1e-4, NULL, NULL);
+      memcpy(item + 8 * k, kept, 8);
+    }
+  free(byte);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The place of a number among those of a state. */
+static unsigned char *number_in(unsigned char *byte, size_t size, const char *name) {
+  const char *names = (const char *)block(byte, size, "state.names");
+  size_t k = 0;
+  for (; strncmp(names, name, strlen(name)) != 0; k++)
+    names = strchr(names, '\n') + 1;
+  return block(byte, size, "state.values") + 8 * k;
+}
+
+/* A controller's samples and outputs so far index the outputs that are pending: -1, and what does not fit the time. */
+START_TEST(test_forged_samples) {
+  static const double wrong[] = {-1, 0, 1.5, 2, 4, 1e9, INFINITY, NAN};
+  static const char *const name[] = {"control.taken", "control.given"};
+  ZpActuatorDef def = user_of_numbers(0);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_run(sim, 2.5e-3, false, NULL, NULL); /* samples at 0, 1 and 2 ms; the first output is due at 3 ms */
+  size_t size = zp_sim_state_size(sim);
+  unsigned char *byte = malloc(size);
+  for (size_t k = 0; k < LENGTH_OF(name); k++)
+    for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
+      ZpError err;
+      zp_sim_save(sim, byte);
+      memcpy(number_in(byte, size, name[k]), &wrong[w], 8);
+      forge(byte, size);
+      bool fits = k == 1 && wrong[w] >= 0 && wrong[w] <= 3 && wrong[w] == floor(wrong[w]);
+      ck_assert_msg(zp_sim_restore(sim, byte, size, &err) == (fits ? ZP_OK : ZP_BAD_INPUT), "%s = %g", name[k],
+                    wrong[w]);
+      ck_assert(fits || strstr(err.message, "not a state of an actuator"));
+      if (fits) zp_sim_run(sim, zp_sim_get(sim, "time") + 1e-6, false, NULL, NULL);
+    }
+  free(byte);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A saved state that is cut short at any byte or damaged at any was taken if only its length was right. Now it is
  * refused and the simulation stays where it is. */
 START_TEST(test_damaged_state_changes_nothing) {
@@ -492,6 +580,8 @@ int main(void) {
   tcase_add_test(refusals, test_another_model);
   tcase_add_test(refusals, test_no_state);
   tcase_add_test(refusals, test_forged_bytes);
+  tcase_add_loop_test(refusals, test_forged_numbers, 0, 5);
+  tcase_add_test(refusals, test_forged_samples);
   tcase_add_test(refusals, test_damaged_state_changes_nothing);
   tcase_add_test(refusals, test_earlier_file);
   tcase_add_loop_test(refusals, test_keys, 0, 5);

@@ -283,6 +283,15 @@ ok "3: -o where nothing can be made" status_is 3
 ok "3: says where" says '/proc/zipact-cannot-be'
 zp actuate $short -o ''
 ok "3: -o is empty" status_is 3
+zp_closed() { PATH=/nowhere "$zipact" "$@" >&- 2>stderr; status=$?; }
+zp_closed actuate $short --json -o closed-output
+ok "a closed standard output: 3" status_is 3
+ok "a closed standard output: it says so" says "standard output"
+ok "a closed standard output: the files are there" complete closed-output
+zp_closed stationary --set mesh.nodes=9 --set 'load.mass=[8 g, 9 g]' --json -o closed-output
+ok "a sweep and a closed standard output: 3" status_is 3
+zp_closed actuate $short --quiet -o closed-output
+ok "nothing is lost where nothing is printed: 0" status_is 0
 if [ -c /dev/full ]; then
   PATH=/nowhere "$zipact" actuate $short --json -o full >/dev/full 2>stderr
   status=$?
@@ -296,6 +305,37 @@ if [ -c /dev/full ]; then
   status=$?
   ok "3: --version to a full device" status_is 3
 fi
+# -- what a scenario of a stranger, or a folder, may lead to -------------------------------------------------------
+printf 'root:x:0:0:secret:/root:/bin/sh\nsecret word\n' >private
+printf 'name,secret\nme,hidden\n' >private.csv
+for file in private private.csv; do
+  for words in "calibrate --set data.file=$file" "stationary --set data.file=$file" "calibrate --set data.file=$file --set data.columns=a=load_g" \
+    "actuate --set drive.waveform=table --set drive.file=$file" "actuate --set initial.state=checkpoint --set initial.file=$file"; do
+    zp $words -o reading
+    ok "$words: 2" status_is 2
+    ok "$words: no message quotes a file that is not a table" [ -z "$(grep -E 'secret|hidden' stderr)" ]
+  done
+done
+mkdir outside leads
+for name in plots shapes journal.sqlite table.csv; do
+  ln -s ../outside "leads/$name"
+  zp actuate $short -o leads
+  ok "3: $name is a link that leads out of the folder" status_is 3
+  ok "3: $name: says so" says "leads/$name: it is a link that leads out of its folder"
+  rm "leads/$name"
+done
+ok "nothing is written there" [ -z "$(ls outside)" ]
+mkdir leads/inside && ln -s inside leads/plots
+zp actuate $short -o leads
+ok "a link inside the folder is allowed" status_is 0
+mkfifo pipe.fmu leads/journal.sqlite
+zp actuate $short -o leads
+ok "3: a special file in the folder" status_is 3
+ok "3: a special file: says so" says 'journal.sqlite: it is a special file'
+zp fmu -o pipe.fmu
+ok "3: an FMU as a special file" status_is 3
+ok "3: the special file stays" [ -p pipe.fmu ]
+rm -rf pipe.fmu leads private private.csv
 if [ "$(id -u)" -ne 0 ]; then
   mkdir locked && chmod 555 locked
   zp actuate $short -o locked/here
@@ -496,10 +536,17 @@ echo '# edited' >>mine/stroke.gp
 zp actuate $short --templates mine -o edited
 ok "--templates: status 0" status_is 0
 ok "--templates: the script has what was edited" grep -q '^# edited' edited/plots/stroke.gp
-ok "--templates is in scenario.yaml" grep -q 'templates: .*/mine' edited/scenario.yaml
+ok "--templates is not in scenario.yaml, which others may run" [ -z "$(grep templates edited/scenario.yaml)" ]
+mkdir evil
+printf 'system "touch escaped"\n!touch escaped\n' >evil/stroke.gp
+printf 'study: actuate\noutput: {templates: evil}\n' >stranger.yaml
+zp_drawing run stranger.yaml -o stranger
+ok "a scenario names templates: status 2" status_is 2
+ok "a scenario names templates: says where they belong" says '--templates FOLDER'
+ok "a scenario names templates: none of their commands ran" is_absent escaped
 zp actuate $short --templates nowhere -o nothing
 ok "--templates of no folder: status 2" status_is 2
-ok "--templates of no folder: says so" says 'output.templates: there is no folder .*/nowhere'
+ok "--templates of no folder: says so" says '--templates: there is no folder nowhere'
 
 cat >terminal.py <<'END'
 """Run a command with stderr on a terminal => what it wrote there."""

@@ -126,6 +126,144 @@ START_TEST(description_is_of_the_tables) {
 }
 END_TEST
 
+/* Every function of both standards, without fmi2 and fmi3. */
+static const char *const of_two[] = {"GetTypesPlatform",
+                                     "GetVersion",
+                                     "SetDebugLogging",
+                                     "Instantiate",
+                                     "FreeInstance",
+                                     "SetupExperiment",
+                                     "EnterInitializationMode",
+                                     "ExitInitializationMode",
+                                     "Terminate",
+                                     "Reset",
+                                     "GetReal",
+                                     "GetInteger",
+                                     "GetBoolean",
+                                     "GetString",
+                                     "SetReal",
+                                     "SetInteger",
+                                     "SetBoolean",
+                                     "SetString",
+                                     "GetFMUstate",
+                                     "SetFMUstate",
+                                     "FreeFMUstate",
+                                     "SerializedFMUstateSize",
+                                     "SerializeFMUstate",
+                                     "DeSerializeFMUstate",
+                                     "GetDirectionalDerivative",
+                                     "EnterEventMode",
+                                     "NewDiscreteStates",
+                                     "EnterContinuousTimeMode",
+                                     "CompletedIntegratorStep",
+                                     "SetTime",
+                                     "SetContinuousStates",
+                                     "GetDerivatives",
+                                     "GetEventIndicators",
+                                     "GetContinuousStates",
+                                     "GetNominalsOfContinuousStates",
+                                     "SetRealInputDerivatives",
+                                     "GetRealOutputDerivatives",
+                                     "DoStep",
+                                     "CancelStep",
+                                     "GetStatus",
+                                     "GetRealStatus",
+                                     "GetIntegerStatus",
+                                     "GetBooleanStatus",
+                                     "GetStringStatus"};
+static const char *const of_three[] = {"GetVersion",
+                                       "SetDebugLogging",
+                                       "InstantiateModelExchange",
+                                       "InstantiateCoSimulation",
+                                       "InstantiateScheduledExecution",
+                                       "FreeInstance",
+                                       "EnterInitializationMode",
+                                       "ExitInitializationMode",
+                                       "EnterEventMode",
+                                       "Terminate",
+                                       "Reset",
+                                       "GetFloat32",
+                                       "GetFloat64",
+                                       "GetInt8",
+                                       "GetUInt8",
+                                       "GetInt16",
+                                       "GetUInt16",
+                                       "GetInt32",
+                                       "GetUInt32",
+                                       "GetInt64",
+                                       "GetUInt64",
+                                       "GetBoolean",
+                                       "GetString",
+                                       "GetBinary",
+                                       "GetClock",
+                                       "SetFloat32",
+                                       "SetFloat64",
+                                       "SetInt8",
+                                       "SetUInt8",
+                                       "SetInt16",
+                                       "SetUInt16",
+                                       "SetInt32",
+                                       "SetUInt32",
+                                       "SetInt64",
+                                       "SetUInt64",
+                                       "SetBoolean",
+                                       "SetString",
+                                       "SetBinary",
+                                       "SetClock",
+                                       "GetNumberOfVariableDependencies",
+                                       "GetVariableDependencies",
+                                       "GetFMUState",
+                                       "SetFMUState",
+                                       "FreeFMUState",
+                                       "SerializedFMUStateSize",
+                                       "SerializeFMUState",
+                                       "DeserializeFMUState",
+                                       "GetDirectionalDerivative",
+                                       "GetAdjointDerivative",
+                                       "EnterConfigurationMode",
+                                       "ExitConfigurationMode",
+                                       "GetIntervalDecimal",
+                                       "GetIntervalFraction",
+                                       "GetShiftDecimal",
+                                       "GetShiftFraction",
+                                       "SetIntervalDecimal",
+                                       "SetIntervalFraction",
+                                       "SetShiftDecimal",
+                                       "SetShiftFraction",
+                                       "EvaluateDiscreteStates",
+                                       "UpdateDiscreteStates",
+                                       "EnterContinuousTimeMode",
+                                       "CompletedIntegratorStep",
+                                       "SetTime",
+                                       "SetContinuousStates",
+                                       "GetContinuousStateDerivatives",
+                                       "GetEventIndicators",
+                                       "GetContinuousStates",
+                                       "GetNominalsOfContinuousStates",
+                                       "GetNumberOfEventIndicators",
+                                       "GetNumberOfContinuousStates",
+                                       "EnterStepMode",
+                                       "GetOutputDerivatives",
+                                       "DoStep",
+                                       "ActivateModelPartition"};
+
+/* Importers load all functions of the standard, also those that an FMU for co-simulation refuses. */
+START_TEST(exports_every_function) {
+  Fmu fmu = made(_i, SMALL);
+  ck_assert_uint_eq(LENGTH_OF(of_two), 44);
+  ck_assert_uint_eq(LENGTH_OF(of_three), 75);
+  for (size_t k = 0; _i == 2 && k < LENGTH_OF(of_two); k++)
+    fmu_function(&fmu, of_two[k]); /* which fails the test if there is none */
+  for (size_t k = 0; _i == 3 && k < LENGTH_OF(of_three); k++)
+    fmu_function(&fmu, of_three[k]);
+  Instance instance = started(&fmu);
+  ck_assert_int_ne(fmu_set_time(&instance, 0), OK);
+  ck_assert_ptr_nonnull(strstr(last_message, "SetTime is for model exchange"));
+  fmu_free(&instance);
+  fmu_close(&fmu);
+}
+END_TEST
+
 /* The same scenario gives the same bytes. */
 START_TEST(same_bytes) {
   char again[64];
@@ -143,7 +281,7 @@ END_TEST
 static size_t read_row(FILE *file, double value[SIGNALS]) {
   char line[4096];
   size_t count = 0;
-  if (!fgets(line, sizeof line, file)) return 0;
+  if (!fgets(line, sizeof line, file) || *line == '#') return 0;
   for (char *cell = line; cell && count < SIGNALS; count++) {
     char *comma = strchr(cell, ',');
     value[count] = *cell == ',' || *cell == '\n' ? NAN : strtod(cell, NULL);
@@ -257,6 +395,50 @@ START_TEST(agrees_with_actuate) {
   expect_actuate(_i, &voltage, false,
                  SMALL
                  " --set source.model=amplifier --set 'source.slew_rate=1 V/us' --set 'source.current_limit=0.1 mA'");
+}
+END_TEST
+
+/* An FMU plays no waveform: its input begins with what the waveform is at t = 0, and stays there. */
+START_TEST(begins_where_the_waveform_does) {
+  static const struct {
+    const char *settings, *input;
+    double first;
+  } of[] = {{" --set drive.waveform=square --set drive.frequency=5 --set drive.duty=0.3", "voltage", 10e3},
+            {" --set drive.waveform=square --set drive.frequency=5 --set drive.rise_time=1ms --set drive.offset=1kV",
+             "voltage", 1e3},
+            {" --set drive.waveform=sine --set drive.frequency=5 --set drive.offset=2kV", "voltage", 2e3},
+            {" --set drive.waveform=ramp --set drive.rise_time=5ms --set drive.offset=3kV", "voltage", 3e3},
+            {" --set drive.waveform=table --set 'drive.table=0 ms = 4 kV, 1 ms = 0 kV'", "voltage", 4e3},
+            {" --set control.kind=pi --set control.proportional=1e6 --set setpoint.waveform=table --set "
+             "'setpoint.table=0 ms = 8 mm, 1 ms = 5 mm'",
+             "setpoint", 8e-3}};
+  for (size_t k = (size_t)_i % 2; k < LENGTH_OF(of); k += 2) {
+    char settings[512];
+    snprintf(settings, sizeof settings, SMALL "%s", of[k].settings);
+    char folder[64], path[80];
+    snprintf(folder, sizeof folder, "%s/waveform-%zu", scratch, k);
+    snprintf(path, sizeof path, "%s/arm.fmu", folder);
+    write_fmu(folder, _i, settings);
+    fmu_unpack(path, folder);
+    Fmu fmu = fmu_open(folder);
+    ck_assert_double_eq(fmu_find(&fmu, of[k].input)->start, of[k].first);
+    Instance instance = started(&fmu);
+    must_step(&instance, 0, 2e-3);
+    ck_assert_double_eq(fmu_get(&instance, of[k].input), of[k].first);
+    if (strcmp(of[k].input, "voltage") == 0) ck_assert_double_eq(fmu_get(&instance, "electrode_voltage"), of[k].first);
+    fmu_free(&instance);
+    fmu_close(&fmu);
+  }
+}
+END_TEST
+
+/* Every example with a waveform exports; what is refused is a sweep or has several members. */
+START_TEST(examples_export) {
+  run_command("cd %s && for one in $(grep -l 'waveform' " ZP_SOURCE_DIR "/examples/*.yaml); do " ZP_COMMAND
+              " fmu $one --set output.errors=false --set solver.end_time=1ms --quiet -o example.fmu 2>said.txt || grep "
+              "-qE 'an FMU "
+              "contains a single actuator' said.txt || { cat said.txt >&2; exit 1; }; done",
+              scratch);
 }
 END_TEST
 
@@ -746,6 +928,39 @@ START_TEST(wrong_calls) {
 }
 END_TEST
 
+/* An importer that gets no instance is told why. */
+START_TEST(refused_instances_say_why) {
+  static const char *const says[] = {"not for model exchange", "not for scheduled execution", "intermediate"};
+  Fmu fmu = made(_i, SMALL);
+  for (Other other = OTHER_EXCHANGE; other <= (_i == 2 ? OTHER_EXCHANGE : OTHER_INTERMEDIATE); other++) {
+    ck_assert_ptr_null(fmu_instantiate_other(&fmu, other));
+    ck_assert_msg(strstr(last_message, says[other]) != NULL, "%s", last_message);
+  }
+  ck_assert_ptr_null(fmu_instantiate(&fmu, "another token", WHOLE_STEPS).handle);
+  ck_assert_msg(strstr(last_message, "the token differs") != NULL, "%s", last_message);
+  fmu_close(&fmu);
+}
+END_TEST
+
+/* A step beyond the stop time is an error and does nothing; times that were summed up may pass it by their rounding. */
+START_TEST(ends_at_the_stop_time) {
+  Fmu fmu = made(_i, SMALL);
+  Instance instance = new_instance(&fmu);
+  ck_assert_int_eq(fmu_enter_until(&instance, 0, 3e-3), OK);
+  ck_assert_int_eq(fmu_exit(&instance), OK);
+  must_step(&instance, 0, 2e-3);
+  ck_assert_int_ne(fmu_step(&instance, 2e-3, 1.1e-3), OK);
+  ck_assert_msg(strstr(last_message, "after the stop time") != NULL, "%s", last_message);
+  must_step(&instance, 2e-3, 1e-3 * (1 + 1e-12));
+  ck_assert_int_ne(fmu_step(&instance, 3e-3, 1e-3), OK);
+  ck_assert_int_eq(fmu_reset(&instance), OK);
+  fmu_start(&instance); /* without a stop time */
+  must_step(&instance, 0, 5e-3);
+  fmu_free(&instance);
+  fmu_close(&fmu);
+}
+END_TEST
+
 /* Parameters that do not fit one another are found where initialization ends; a reset helps. */
 START_TEST(parameters_that_do_not_fit) {
   Fmu fmu = made(_i, SMALL);
@@ -795,6 +1010,7 @@ START_TEST(wrong_commands) {
                {"stationary --fmi 2", 2},
                {"fmu --set 'load.mass=[1 g, 2 g]' -o no.fmu", 2},
                {"fmu --set load.mass=1m -o no.fmu", 2},
+               {"fmu --set drive.waveform=sine --set drive.offset=-2kV --set drive.frequency=5 -o no.fmu", 2},
                {"fmu --set initial.state=checkpoint --set initial.file=none.zps -o no.fmu", 2},
                {"fmu -o /nowhere/at/all/no.fmu", 3}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++)
@@ -816,10 +1032,13 @@ static void add(Suite *suite, const TTest *test, const char *name, bool loop) {
 int main(void) {
   Suite *suite = suite_create("fmu");
   add(suite, description_is_of_the_tables, "description_is_of_the_tables", true);
+  add(suite, exports_every_function, "exports_every_function", true);
   add(suite, same_bytes, "same_bytes", true);
   add(suite, expected_results, "expected_results", true);
   add(suite, agrees_with_actuate, "agrees_with_actuate", true);
   add(suite, agrees_with_actuate_under_control, "agrees_with_actuate_under_control", true);
+  add(suite, begins_where_the_waveform_does, "begins_where_the_waveform_does", true);
+  add(suite, examples_export, "examples_export", false);
   add(suite, follows_slopes_of_inputs, "follows_slopes_of_inputs", false);
   add(suite, variable_steps, "variable_steps", true);
   add(suite, parameters, "parameters", true);
@@ -836,6 +1055,8 @@ int main(void) {
   add(suite, instances, "instances", true);
   add(suite, threads, "threads", true);
   add(suite, wrong_calls, "wrong_calls", true);
+  add(suite, refused_instances_say_why, "refused_instances_say_why", true);
+  add(suite, ends_at_the_stop_time, "ends_at_the_stop_time", true);
   add(suite, parameters_that_do_not_fit, "parameters_that_do_not_fit", true);
   add(suite, wrong_commands, "wrong_commands", false);
   char tidy[64];

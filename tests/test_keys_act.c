@@ -929,10 +929,10 @@ END_TEST
 
 /* -- every key has a row --------------------------------------------------------------------------- */
 
-/* What is written or drawn, or which cases are run, which no study knows: test_report, test_templates, test_scenario,
+/* What is written or drawn, or which cases are run, which no study knows: test_report, test_scenario,
  * test_campaign.py and test_optimize.py. */
 static bool is_of_files(const char *key) {
-  static const char *const files[] = {"output.series", "output.plots", "output.templates", "output.animation"};
+  static const char *const files[] = {"output.series", "output.plots", "output.animation", "solver.max_cpu_time"};
   bool found = strncmp(key, "sampling.", 9) == 0 || strncmp(key, "optimize.", 9) == 0;
   for (size_t i = 0; i < LENGTH_OF(files); i++)
     found |= strcmp(files[i], key) == 0;

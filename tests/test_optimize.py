@@ -123,7 +123,7 @@ def check_interrupt(zipact, scratch):
     folder = scratch / "interrupted"
     sets = [*LIGHTEST, "mesh.nodes=81", "optimize.evaluations=2000"]
     process = subprocess.Popen(zipact.command(sets, folder), stderr=subprocess.DEVNULL)
-    while not (folder / "journal.sqlite-wal").exists() or (folder / "journal.sqlite-wal").stat().st_size < 100000:
+    while process.poll() is None and (not (folder / "journal.sqlite-wal").exists() or (folder / "journal.sqlite-wal").stat().st_size < 100000):
         time.sleep(0.05)
     process.send_signal(signal.SIGINT)
     ok("interrupted: 130", process.wait() == 130)

@@ -152,7 +152,6 @@ START_TEST(what_a_spring_lacks_is_said) {
     Setting one, other;
     const char *says;
   } refused[] = {{{"load.stiffness", 3}, {"mesh.nodes", 21}, "load.rest_opening: missing; load.stiffness requires it"},
-                 {{"load.rest_opening", 3e-3}, {"mesh.nodes", 21}, "requires load.stiffness"},
                  {{"load.stop_stiffness", 3}, {"mesh.nodes", 21}, "requires load.stop_opening"},
                  {{"load.stop_opening", 3e-3}, {"actuator.kind", ZP_KIND_RIBBON}, "electro_ribbon"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
@@ -164,6 +163,30 @@ START_TEST(what_a_spring_lacks_is_said) {
 }
 END_TEST
 
+/* A sweep may begin at 0: a key that does nothing there asks for nothing, and what belongs to it may stay. */
+START_TEST(keys_do_nothing_at_zero) {
+  static const struct {
+    Setting zero, beside;
+  } neutral[] = {{{"load.rest_opening", 15e-3}, {"load.stiffness", 0}},
+                 {{"load.stop_stiffness", 0}, {"mesh.nodes", 11}},
+                 {{"load.stop_stiffness", 0}, {"load.stop_opening", 5e-3}},
+                 {{"load.change_mass", 0}, {"load.change_time", 1e-3}},
+                 {{"ribbon.hardening_modulus", 0}, {"lower.ribbon.hardening_modulus", 0}},
+                 {{"sense.noise", 0}, {"mesh.nodes", 11}}};
+  ZpActuatorDef plain = DEF({"mesh.nodes", 11}, {"solver.end_time", 3e-3}, {"liquid.model", ZP_LIQUID_NONE});
+  const double opening = answered_value(ZP_STUDY_ACTUATE, &plain, "opening_m");
+  for (size_t k = 0; k < LENGTH_OF(neutral); k++) {
+    ZpActuatorDef def = plain;
+    zp_def_set(&def, zp_key_find(neutral[k].zero.key), neutral[k].zero.value, NULL);
+    zp_def_set(&def, zp_key_find(neutral[k].beside.key), neutral[k].beside.value, NULL);
+    ck_assert_msg(answered_value(ZP_STUDY_ACTUATE, &def, "opening_m") == opening, "%s", neutral[k].zero.key);
+  }
+  ZpActuatorDef falls = plain; /* from a height that counts only with a mass */
+  falls.load.change_time = 1e-3, falls.load.drop_height = 10e-3;
+  ck_assert_double_eq(answered_value(ZP_STUDY_ACTUATE, &falls, "opening_m"), opening);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("spring");
   TCase *rest = tcase_create("rest");
@@ -172,6 +195,7 @@ int main(void) {
   tcase_add_loop_test(rest, stop_holds_the_platforms, 0, 2);
   tcase_add_test(rest, held_platform_does_not_feel_it);
   tcase_add_test(rest, what_a_spring_lacks_is_said);
+  tcase_add_test(rest, keys_do_nothing_at_zero);
   suite_add_tcase(suite, rest);
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, energy_with_a_spring, 0, 4);

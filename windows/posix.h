@@ -39,11 +39,14 @@ FILE *zp_windows_fopen(const char *path, const char *mode);
 #define __fsetlocking(file, how) ((void)(file))
 
 /* -- files ------------------------------------------------------------------------------------------ */
-#define O_CLOEXEC         O_NOINHERIT
-#define O_NOFOLLOW        0
-#define mkdir(path, mode) mkdir(path)
-#define rename            zp_windows_rename
-#define getcwd            zp_windows_getcwd
+#define O_CLOEXEC          O_NOINHERIT
+#define O_NOFOLLOW         0
+#define lstat              stat
+#define S_ISLNK(mode)      0
+#define realpath(path, to) _fullpath(to, path, 0)
+#define mkdir(path, mode)  mkdir(path)
+#define rename             zp_windows_rename
+#define getcwd             zp_windows_getcwd
 int zp_windows_rename(const char *from, const char *to);
 char *zp_windows_getcwd(char *buffer, int size);
 #define _SC_PAGESIZE  0

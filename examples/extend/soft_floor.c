@@ -6,14 +6,16 @@
  * 2 P lambda / k + q / k, lambda^4 = k / (4 EI) (Winkler and Hetenyi), as long as its weight keeps it on the floor. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 #include "rest/rest.h"
 
 static const double k = 1.2e4; /* of the floor, per length and depth, N/m^2 */
 
-/* Of the floor under node i, N/m. */
-static double floor_stiffness(const ZpModel *model, size_t i) {
-  return k * model->l * (i == 0 || i + 1 == model->nodes ? 0.5 : 1);
+/* Of the floor under node j, N/m. A pair has two nodes at each station, one of each ribbon. */
+static double floor_stiffness(const ZpModel *model, size_t j) {
+  size_t station = j / model->s;
+  return k * model->l * (station == 0 || station + 1 == model->nodes ? 0.5 : 1);
 }
 
 /* The floor is at y = 0. It pushes where a node is below it at the end of the span, and does not hold what rises. */
@@ -21,20 +23,40 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double
   (void)eval;
   const double *y = span->end + model->stride;
   double *Fy = F + model->stride;
-  for (size_t i = 0; i < model->nodes; i++)
-    if (y[i] < 0) Fy[i] -= floor_stiffness(model, i) * y[i];
+  for (size_t j = 0; j < model->count; j++)
+    if (y[j] < 0) Fy[j] -= floor_stiffness(model, j) * y[j];
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K) {
   (void)eval;
   const double *y = span->end + model->stride;
-  for (size_t i = 0; i < model->nodes; i++) {
-    int row = assembly->equation[2 * i + 1];
-    if (row >= 0 && y[i] < 0) *zp_band_at(K, (size_t)row, (size_t)row) += floor_stiffness(model, i);
+  for (size_t j = 0; j < model->count; j++) {
+    int row = assembly->equation[2 * j + 1];
+    if (row >= 0 && y[j] < 0) *zp_band_at(K, (size_t)row, (size_t)row) += floor_stiffness(model, j);
   }
 }
 
 static const ZpTerm soft_floor = {.name = "soft_floor", .force = force, .stiffness = stiffness};
+
+/* A pair is pressed 1 mm deep into the floor: does it push with k times this depth times the length of both ribbons? */
+static bool check_pair(void) {
+  const double depth = 1e-3;
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpModel *model;
+  ZpError err;
+  if (zp_model_create(&def, &model, &err) != ZP_OK) return false;
+  double *q = calloc(4 * model->stride, sizeof *q), *F = q + 2 * model->stride, found = 0;
+  for (size_t j = 0; q && j < model->count; j++)
+    q[model->stride + j] = -depth;
+  if (q) force(model, &(ZpSpan){.start = q, .end = q}, NULL, F);
+  for (size_t j = 0; q && j < model->count; j++)
+    found += F[model->stride + j];
+  double expected = k * depth * 2 * model->l * (double)(model->nodes - 1);
+  printf("a pair is pushed with %.4f N, expected %.4f N\n", found, expected);
+  free(q);
+  zp_model_destroy(model);
+  return fabs(found - expected) < 1e-9 * expected;
+}
 
 int main(void) {
   ZpActuatorDef def = zp_actuator_def_default();
@@ -57,5 +79,5 @@ int main(void) {
   printf("the end sinks by %.3f um, expected %.3f um; %d iterations\n", 1e6 * found, 1e6 * expected, info.iterations);
   zp_rest_close(&rest);
   zp_model_destroy(model);
-  return zp_newton_good(info.end) && fabs(found - expected) < 0.005 * expected ? 0 : 1;
+  return zp_newton_good(info.end) && fabs(found - expected) < 0.005 * expected && check_pair() ? 0 : 1;
 }

@@ -24,6 +24,11 @@ ZP_API ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hook
 ZP_API ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
                                   ZpError *err);
 
+/* As zp_study_run, within solver.max_cpu_time, which zp_data_study_run respects, too: the core itself has no clock. The
+ * limit acts where `hooks` are asked, so a run may take somewhat longer. */
+ZP_API ZpStatus zp_study_run_limited(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input,
+                                     const ZpHooks *hooks, ZpResult **result, ZpError *err);
+
 #ifdef __cplusplus
 }
 #endif

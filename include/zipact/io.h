@@ -74,7 +74,7 @@ ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
  * SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
 ZP_API ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
-/* Write the templates of all pictures to `folder`, which is created if needed, for editing; key output.templates names
+/* Write the templates of all pictures to `folder`, which is created if needed, for editing; ZpReport.templates names
  * the folder. ZP_BAD_INPUT if a file of that name exists already, ZP_MACHINE if one cannot be written. */
 ZP_API ZpStatus zp_templates_write(const char *folder, ZpError *err);
 
@@ -148,6 +148,8 @@ typedef struct ZpReport {
   const ZpRows *rows;         /* instead of `result`; NULL: none */
   int jobs; /* files written and pictures drawn at once, 1 or more; 0: as many as there are processors */
   const ZpOptimum *optimum; /* result of an optimisation; otherwise NULL */
+  const char *templates;    /* folder of templates that replace the built-in ones of the same names; NULL: none. gnuplot
+                             * runs them as programs: never take the folder from a scenario */
 } ZpReport;
 
 /* The largest number `scalar` of the rows whose number `where` is 1; NAN if there is none. */

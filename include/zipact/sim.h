@@ -30,6 +30,7 @@ typedef enum ZpOutcome {
   ZP_PULLED_IN,     /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
   ZP_EVENT,         /* "event": zp_sim_step_to_event has ended at an event */
   ZP_AT_BOUND,      /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
+  ZP_TIME_LIMIT,    /* "time_limit": solver.max_cpu_time was not enough */
   ZP_REOPENED       /* "reopened": the actuator has closed, and is open again at the end */
 } ZpOutcome;
 

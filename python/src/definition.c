@@ -266,7 +266,7 @@ static PyObject *definition_run(PyObject *object, PyObject *progress) {
   ZpResult *result = NULL;
   ZpError err;
   ZpStudyInput arrays = {.table = &self->drive};
-  ZpStatus status = self->drive.rows ? zp_study_run(self->study, &self->def, &arrays, &hooks, &result, &err)
+  ZpStatus status = self->drive.rows ? zp_study_run_limited(self->study, &self->def, &arrays, &hooks, &result, &err)
                                      : zp_data_study_run(self->study, &self->def, &hooks, &result, &err);
   watch_end(&watch);
   if (watch.failed) {

@@ -177,13 +177,19 @@ static PyObject *get_field(PyObject *self, void *unused) {
 
 /* -- files ----------------------------------------------------------------------------------------- */
 
-static ZpStatus write_report(const char *directory, const char *text, ZpResult *result, ZpError *err) {
+static ZpStatus write_report(const char *directory, const char *text, const char *templates, ZpResult *result,
+                             ZpError *err) {
   ZpScenario *scenario = zp_scenario_create();
   if (!scenario) {
     *err = (ZpError){ZP_MACHINE, "no memory"};
     return ZP_MACHINE;
   }
-  ZpReport report = {directory, scenario, &result, 1, zp_result_get(result, "wall_time_s"), NULL, NULL, NULL, 0, NULL};
+  ZpReport report = {.directory = directory,
+                     .scenario = scenario,
+                     .result = &result,
+                     .count = 1,
+                     .wall_time = zp_result_get(result, "wall_time_s"),
+                     .templates = *templates ? templates : NULL};
   ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "scenario", err);
   if (status == ZP_OK) status = zp_report_write(&report, NULL, err);
   zp_scenario_destroy(scenario);
@@ -193,13 +199,14 @@ static ZpStatus write_report(const char *directory, const char *text, ZpResult *
 /* Keeps the interpreter lock, because HDF5 does not support several threads. */
 static PyObject *result_save(PyObject *object, PyObject *args) {
   Result *self = (Result *)object;
-  PyObject *directory, *scenario;
-  if (!PyArg_ParseTuple(args, "UU", &directory, &scenario)) return NULL;
+  PyObject *directory, *scenario, *folder;
+  if (!PyArg_ParseTuple(args, "UUU", &directory, &scenario, &folder)) return NULL;
   const char *where = text_of(self->state, directory, "directory");
   const char *text = where ? text_of(self->state, scenario, "scenario") : NULL;
+  const char *templates = text ? text_of(self->state, folder, "templates") : NULL;
   ZpError err;
-  if (!text) return NULL;
-  if (write_report(where, text, self->result, &err) != ZP_OK) return raise_error(self->state, &err);
+  if (!templates) return NULL;
+  if (write_report(where, text, templates, self->result, &err) != ZP_OK) return raise_error(self->state, &err);
   Py_RETURN_NONE;
 }
 
@@ -223,7 +230,7 @@ static PyGetSetDef getters[] = {
     {NULL, NULL, NULL, NULL, NULL},
 };
 static PyMethodDef methods[] = {
-    {"save", result_save, METH_VARARGS, "save(directory, scenario): write the files of the command."},
+    {"save", result_save, METH_VARARGS, "save(directory, scenario, templates): write the files of the command."},
     {"pack", result_pack_method, METH_NOARGS, "Everything that unpack_result needs."},
     {NULL, NULL, 0, NULL},
 };

@@ -176,12 +176,12 @@ class Result(Mapping[str, float]):
 
         return plot.result(self, ax)
 
-    def save(self, directory: str | os.PathLike[str]) -> None:
+    def save(self, directory: str | os.PathLike[str], templates: str | os.PathLike[str] = "") -> None:
         """Write the files of the command: scenario.yaml, summary.json, table.csv, results.h5, plots/, ...; and drive.csv
-        if arrays drove the actuator."""
+        if arrays drove the actuator. `templates`: folder of gnuplot templates of your own, which run as programs."""
         folder = os.fspath(directory)
         os.makedirs(folder, exist_ok=True)
-        self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario())
+        self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario(), os.fspath(templates))
 
     def __reduce__(self) -> tuple[Any, ...]:
         columns = None if self.series is None else self._found.series[0]

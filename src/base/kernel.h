@@ -1,13 +1,16 @@
 /* How hot loops are compiled: for the plainest processor and again for wider vectors; the loader picks. Kernels are
  * static: gcc exports the choice among the versions of any other, though it is hidden.
- * All versions give the same bits, since the build forbids contraction and loops sum in a fixed order. */
+ * All versions give the same bits, since loops sum in a fixed order and the build forbids contraction (ZP_UNCONTRACTED;
+ * so does a strict standard, -std=c99). Sources of an FMU that are built without such a flag have the plainest version
+ * alone, since the others would contract products and sums. */
 #ifndef ZP_BASE_KERNEL_H
 #define ZP_BASE_KERNEL_H
 
 #include <stddef.h>
 
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__ELF__) && defined(__OPTIMIZE__) &&    \
-    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    (defined(ZP_UNCONTRACTED) || defined(__STRICT_ANSI__)) && !defined(__SANITIZE_ADDRESS__) &&                        \
+    !defined(__SANITIZE_THREAD__)
 #define ZP_KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
 #else
 #define ZP_KERNEL

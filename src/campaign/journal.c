@@ -1,9 +1,12 @@
 /* The journal is an SQLite database in WAL mode: a process may be killed at any instant without losing committed rows.
  * With synchronous = FULL each commit is on the disk, so it also survives a loss of power.
  *
- * about(name, value)                            version of the program, study, number of cases: for people
- * name(id, name, unit, help, timing)            names of scalars and columns, once for all rows
- * row(number, hash, outcome, message, result)   a finished case; result: record.c
+ * about(name, value)                                 version of the program, study, number of cases: for people
+ * name(id, name, unit, help, timing, sum)            names of scalars and columns, once for all rows
+ * row(number, hash, outcome, message, result, sum)   a finished case; result: record.c
+ *
+ * sum: checksum of the other columns. SQLite has none: it would take a bit that a disk has lost for a number. A damaged
+ * row does not count and is computed again.
  *
  * Names are written in the transaction of the first row that uses them. The threads that compute the rows also pack
  * them, so the ids of names depend on their order; the results that are read do not. */
@@ -15,11 +18,12 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "campaign/case_hash.h"
 #include "campaign/record.h"
 #include "io/atomic.h"
 
 /* "zipa", and the number of this layout. */
-enum { APPLICATION = 0x7a697061, LAYOUT = 1 };
+enum { APPLICATION = 0x7a697061, LAYOUT = 2 };
 
 /* One thread at a time uses a journal. */
 static const int open_flags = SQLITE_OPEN_NOMUTEX;
@@ -59,6 +63,43 @@ static sqlite3_int64 ask(ZpJournal *journal, const char *sql) {
   return answer;
 }
 
+/* -- checksums -------------------------------------------------------------------------------------- */
+
+static uint64_t sum_text(uint64_t sum, const char *text) {
+  return text ? zp_hash_bytes(sum, text, strlen(text) + 1) : sum;
+}
+
+static uint64_t sum_number(uint64_t sum, uint64_t number) {
+  return zp_hash_bytes(sum, &number, sizeof number);
+}
+
+static sqlite3_int64 sum_of_name(size_t id, const ZpName *name) {
+  const uint64_t texts = sum_text(sum_text(sum_text(ZP_HASH_START, name->name), name->unit), name->help);
+  return (sqlite3_int64)sum_number(sum_number(texts, id), name->timing);
+}
+
+/* `about`: number and hash of the case. */
+static sqlite3_int64 sum_of_row(const uint64_t about[2], const char *outcome, const char *message, const void *byte,
+                                size_t size) {
+  const uint64_t numbers = sum_number(sum_number(ZP_HASH_START, about[0]), about[1]);
+  return (sqlite3_int64)zp_hash_bytes(sum_text(sum_text(numbers, outcome), message), byte, size);
+}
+
+/* The columns of a row from a query. */
+#define ROW_COLUMNS "number, hash, outcome, message, result, sum"
+enum { NUMBER, HASH, OUTCOME, MESSAGE, RESULT, SUM };
+
+static bool is_whole(sqlite3_stmt *query) {
+  const uint64_t about[2] = {(uint64_t)sqlite3_column_int64(query, NUMBER),
+                             (uint64_t)sqlite3_column_int64(query, HASH)};
+  const char *outcome = (const char *)sqlite3_column_text(query, OUTCOME),
+             *message = (const char *)sqlite3_column_text(query, MESSAGE);
+  const void *byte = sqlite3_column_blob(query, RESULT);
+  const size_t size = (size_t)sqlite3_column_bytes(query, RESULT);
+  return outcome && message && byte &&
+         sqlite3_column_int64(query, SUM) == sum_of_row(about, outcome, message, byte, size);
+}
+
 /* -- open and close --------------------------------------------------------------------------------- */
 
 static ZpStatus remove_old(const char *directory, ZpError *err) {
@@ -74,8 +115,9 @@ static ZpStatus make_tables(ZpJournal *journal, ZpError *err) {
   snprintf(sql, sizeof sql,
            "BEGIN; PRAGMA application_id = %d; PRAGMA user_version = %d;"
            "CREATE TABLE about(name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-           "CREATE TABLE name(id INTEGER PRIMARY KEY, name TEXT, unit TEXT, help TEXT, timing INTEGER);"
-           "CREATE TABLE row(number INTEGER PRIMARY KEY, hash INTEGER, outcome TEXT, message TEXT, result BLOB);"
+           "CREATE TABLE name(id INTEGER PRIMARY KEY, name TEXT, unit TEXT, help TEXT, timing INTEGER, sum INTEGER);"
+           "CREATE TABLE row(number INTEGER PRIMARY KEY, hash INTEGER, outcome TEXT, message TEXT, result BLOB, "
+           "sum INTEGER);"
            "INSERT INTO about VALUES('version', '%s'); COMMIT;",
            APPLICATION, LAYOUT, zp_version());
   return run(journal, sql, err);
@@ -119,15 +161,22 @@ static ZpStatus need_tables(ZpJournal *journal, ZpError *err) {
 static ZpStatus read_names(ZpJournal *journal, ZpError *err) {
   sqlite3_stmt *query = NULL;
   int step = SQLITE_ROW;
-  bool added = true;
-  if (sqlite3_prepare_v2(journal->base, "SELECT name, unit, help, timing FROM name ORDER BY id", -1, &query, NULL))
+  bool added = true, whole = true;
+  if (sqlite3_prepare_v2(journal->base, "SELECT name, unit, help, timing, id, sum FROM name ORDER BY id", -1, &query,
+                         NULL))
     return fail_base(journal, err);
-  while (added && (step = sqlite3_step(query)) == SQLITE_ROW) {
+  while (added && whole && (step = sqlite3_step(query)) == SQLITE_ROW) {
     const ZpName name = {(char *)sqlite3_column_text(query, 0), (char *)sqlite3_column_text(query, 1),
                          (char *)sqlite3_column_text(query, 2), sqlite3_column_int(query, 3) != 0};
-    added = name.name && name.unit && zp_names_add(&journal->names, &name);
+    const size_t id = journal->names.count;
+    whole = name.name && name.unit && sqlite3_column_int64(query, 4) == (sqlite3_int64)id &&
+            sqlite3_column_int64(query, 5) == sum_of_name(id, &name);
+    added = !whole || zp_names_add(&journal->names, &name);
   }
-  ZpStatus status = !added ? zp_fail_memory(err) : step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
+  ZpStatus status = step == SQLITE_DONE ? ZP_OK : added && whole ? fail_base(journal, err) : zp_fail_memory(err);
+  if (!whole)
+    status = zp_fail(err, ZP_MACHINE, "%.300s: damaged: a name differs from its checksum; start without --resume",
+                     journal->path);
   journal->names_written = journal->names.count;
   sqlite3_finalize(query);
   return status;
@@ -139,15 +188,15 @@ static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **stat
 }
 
 static ZpStatus prepare_get(ZpJournal *journal, ZpError *err) {
-  return prepare(journal, "SELECT number, outcome, message, result FROM row WHERE number >= ? ORDER BY number",
-                 &journal->get, err);
+  return prepare(journal, "SELECT " ROW_COLUMNS " FROM row WHERE number >= ? ORDER BY number", &journal->get, err);
 }
 
 static ZpStatus prepare_all(ZpJournal *journal, ZpError *err) {
   ZpStatus status = prepare_get(journal, err);
   if (status == ZP_OK)
-    status = prepare(journal, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?)", &journal->put, err);
-  return status == ZP_OK ? prepare(journal, "INSERT INTO name VALUES(?, ?, ?, ?, ?)", &journal->put_name, err) : status;
+    status = prepare(journal, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?, ?)", &journal->put, err);
+  return status == ZP_OK ? prepare(journal, "INSERT INTO name VALUES(?, ?, ?, ?, ?, ?)", &journal->put_name, err)
+                         : status;
 }
 
 static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
@@ -226,11 +275,14 @@ ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t n
                           void *user, ZpError *err) {
   sqlite3_stmt *query = NULL;
   int step;
-  if (sqlite3_prepare_v2(journal->base, "SELECT number, hash, outcome FROM row ORDER BY number", -1, &query, NULL))
+  if (sqlite3_prepare_v2(journal->base, "SELECT " ROW_COLUMNS " FROM row ORDER BY number", -1, &query, NULL))
     return fail_base(journal, err);
-  while ((step = sqlite3_step(query)) == SQLITE_ROW)
-    visit(user, (size_t)sqlite3_column_int64(query, 0), (uint64_t)sqlite3_column_int64(query, 1),
-          zp_outcome_good(outcome_of((const char *)sqlite3_column_text(query, 2))));
+  while ((step = sqlite3_step(query)) == SQLITE_ROW) {
+    const ZpOutcome outcome = outcome_of((const char *)sqlite3_column_text(query, OUTCOME));
+    if (outcome != ZP_TIME_LIMIT && is_whole(query)) /* more time, or another machine, may be enough */
+      visit(user, (size_t)sqlite3_column_int64(query, NUMBER), (uint64_t)sqlite3_column_int64(query, HASH),
+            zp_outcome_good(outcome));
+  }
   sqlite3_finalize(query);
   return step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
 }
@@ -250,6 +302,7 @@ static ZpStatus write_name(ZpJournal *journal, size_t number, ZpError *err) {
   sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
   sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
   sqlite3_bind_int(journal->put_name, 5, name->timing);
+  sqlite3_bind_int64(journal->put_name, 6, sum_of_name(number, name));
   return finish(journal, journal->put_name, err);
 }
 
@@ -292,11 +345,14 @@ ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const 
   journal->open = status == ZP_OK;
   if (status == ZP_OK) status = write_names(journal, err);
   if (status != ZP_OK) return status;
+  const char *outcome = zp_outcome_name(row->outcome);
+  const sqlite3_int64 sum = sum_of_row((uint64_t[]){number, hash}, outcome, row->message, row->byte, row->size);
   sqlite3_bind_int64(journal->put, 1, (sqlite3_int64)number);
   sqlite3_bind_int64(journal->put, 2, (sqlite3_int64)hash);
-  sqlite3_bind_text(journal->put, 3, zp_outcome_name(row->outcome), -1, SQLITE_STATIC);
+  sqlite3_bind_text(journal->put, 3, outcome, -1, SQLITE_STATIC);
   sqlite3_bind_text(journal->put, 4, row->message, -1, SQLITE_STATIC);
   sqlite3_bind_blob64(journal->put, 5, row->byte, row->size, SQLITE_STATIC);
+  sqlite3_bind_int64(journal->put, 6, sum);
   return finish(journal, journal->put, err);
 }
 
@@ -319,7 +375,7 @@ static bool find_row(ZpJournal *journal, size_t number) {
   }
   journal->at = number;
   journal->reading =
-      sqlite3_step(journal->get) == SQLITE_ROW && sqlite3_column_int64(journal->get, 0) == (sqlite3_int64)number;
+      sqlite3_step(journal->get) == SQLITE_ROW && sqlite3_column_int64(journal->get, NUMBER) == (sqlite3_int64)number;
   if (!journal->reading) end_reading(journal);
   return journal->reading;
 }
@@ -328,12 +384,11 @@ static bool find_row(ZpJournal *journal, size_t number) {
 static bool read_row(ZpJournal *journal, size_t number) {
   sqlite3_stmt *query = journal->get;
   ZpResult *result = &journal->row;
-  if (!find_row(journal, number)) return false;
-  const char *message = (const char *)sqlite3_column_text(query, 2);
-  const unsigned char *byte = sqlite3_column_blob(query, 3);
-  result->outcome = outcome_of((const char *)sqlite3_column_text(query, 1));
-  snprintf(result->message, sizeof result->message, "%s", message ? message : "");
-  return byte && zp_record_read(byte, (size_t)sqlite3_column_bytes(query, 3), &journal->names, result);
+  if (!find_row(journal, number) || !is_whole(query)) return false;
+  const unsigned char *byte = sqlite3_column_blob(query, RESULT);
+  result->outcome = outcome_of((const char *)sqlite3_column_text(query, OUTCOME));
+  snprintf(result->message, sizeof result->message, "%s", (const char *)sqlite3_column_text(query, MESSAGE));
+  return zp_record_read(byte, (size_t)sqlite3_column_bytes(query, RESULT), &journal->names, result);
 }
 
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {

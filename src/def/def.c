@@ -896,10 +896,10 @@ static ZpStatus check_leak(const ZpActuatorDef *def, ZpError *err) {
  * none. */
 static ZpStatus check_plasticity(const ZpActuatorDef *def, ZpError *err) {
   static const Need needs[] = {NEED(ribbon, model, ZP_RIBBON_ROD), NEED(control, kind, ZP_CONTROL_NONE)};
-  bool hardens = def->ribbon.hardening_modulus != 0 || !isnan(def->lower.ribbon.hardening_modulus);
+  bool hardens = def->ribbon.hardening_modulus > 0 || def->lower.ribbon.hardening_modulus > 0;
   if (!def->ribbon.plasticity && hardens)
     return zp_fail(err, ZP_BAD_INPUT, "%sribbon.hardening_modulus: requires ribbon.plasticity true",
-                   def->ribbon.hardening_modulus != 0 ? "" : "lower.");
+                   def->ribbon.hardening_modulus > 0 ? "" : "lower.");
   if (!def->ribbon.plasticity) return ZP_OK;
   if (def->ribbon.plane == ZP_PLANE_ANTICLASTIC)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -921,7 +921,7 @@ static ZpStatus check_meter_keys(const ZpActuatorDef *def, ZpError *err) {
   } of[] = {{"sense.amplitude", def->sense.amplitude, true},
             {"sense.sampling_rate", def->sense.sampling_rate, true},
             {"sense.bits", def->sense.bits, false},
-            {"sense.noise", def->sense.noise, false}};
+            {"sense.noise", def->sense.noise > 0 ? def->sense.noise : NAN, false}};
   bool on = !isnan(def->sense.frequency);
   for (size_t i = 0; i < sizeof of / sizeof of[0]; i++) {
     bool given = !isnan(of[i].value);
@@ -957,7 +957,7 @@ static ZpStatus check_meter(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of the stop that limits the opening. */
 static ZpStatus check_stop(const ZpActuatorDef *def, ZpError *err) {
-  bool given = def->load.stop_stiffness != keys[zp_key_find("load.stop_stiffness")].def;
+  bool given = def->load.stop_stiffness != keys[zp_key_find("load.stop_stiffness")].def && def->load.stop_stiffness > 0;
   if (isnan(def->load.stop_opening))
     return given ? zp_fail(err, ZP_BAD_INPUT, "load.stop_stiffness: requires load.stop_opening") : ZP_OK;
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
@@ -973,10 +973,10 @@ static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
   bool timed = !isnan(def->load.change_time);
   if (def->load.change_mass != 0 && !timed)
     return zp_fail(err, ZP_BAD_INPUT, "load.change_time: missing; load.change_mass requires it");
-  if (def->load.change_mass == 0 && timed)
-    return zp_fail(err, ZP_BAD_INPUT, "load.change_time: requires load.change_mass");
-  if (def->load.drop_height > 0 && !(def->load.change_mass > 0))
-    return zp_fail(err, ZP_BAD_INPUT, "load.drop_height: requires a load.change_mass above 0 kg");
+  if (def->load.drop_height > 0 && (def->load.change_mass < 0 || !timed))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "load.drop_height: requires a load.change_mass of 0 kg or more that is caught at "
+                   "load.change_time");
   if (-def->load.change_mass > def->load.mass)
     return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: cannot drop more than load.mass = %g kg",
                    def->load.change_mass, def->load.mass);
@@ -1046,11 +1046,9 @@ static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of the spring in parallel with the load. */
 static ZpStatus check_spring(const ZpActuatorDef *def, ZpError *err) {
-  bool given = !isnan(def->load.rest_opening);
-  if (def->load.stiffness == 0 && given)
-    return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: requires load.stiffness above 0 N/m");
   if (def->load.stiffness == 0) return ZP_OK;
-  if (!given) return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: missing; load.stiffness requires it");
+  if (isnan(def->load.rest_opening))
+    return zp_fail(err, ZP_BAD_INPUT, "load.rest_opening: missing; load.stiffness requires it");
   if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "load.stiffness: requires actuator.kind electro_ribbon, because the spring acts on its platforms");

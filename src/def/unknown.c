@@ -49,6 +49,9 @@ static const NotModelled not_modelled[] = {
     {"radiat", "radiation", NULL},
 };
 
+/* Pictures are drawn by programs, and a scenario may come from a stranger. */
+static const char templates[] = "output.templates";
+
 /* A name that others use for a group or for the last word of a key, and its name here. */
 typedef struct OtherName {
   const char *theirs, *ours;
@@ -168,6 +171,12 @@ static bool list_group(const char *name, char *text, size_t size) {
 }
 
 void zp_key_unknown(const char *name, char *text, size_t size) {
+  if (strcmp(name, templates) == 0) {
+    snprintf(text, size,
+             "templates of pictures run as programs, so no scenario can name them; use --templates FOLDER on the "
+             "command line");
+    return;
+  }
   const NotModelled *row = find_row(name);
   if (row) {
     snprintf(text, size, "%s is not modelled%s%s", row->what, row->instead ? "; " : "",

@@ -34,6 +34,15 @@ void zp_control_restart(const ZpControl *c, double t, ZpControlState *state) {
   state->taken = state->given = fmax(0, ceil(t / c->period - rounding));
 }
 
+bool zp_control_fits(const ZpControl *c, double t, const ZpControlState *state) {
+  static const double near = 1e-6; /* of a period: times that were rounded */
+  if (c->kind == ZP_CONTROL_NONE) return state->taken == 0 && state->given == 0;
+  const double passed = t / c->period, pending = state->taken - state->given;
+  bool whole = state->taken == floor(state->taken) && state->given == floor(state->given);
+  return whole && state->given >= 0 && pending >= 0 && pending <= PENDING && state->taken >= passed - near &&
+         state->taken <= passed + 1 + near;
+}
+
 double zp_control_sample_time(const ZpControl *c, const ZpControlState *state) {
   return state->taken * c->period;
 }

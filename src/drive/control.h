@@ -36,6 +36,9 @@ ZpControl zp_control_of(const ZpActuatorDef *def);
 ZpControlState zp_control_start(void);
 void zp_control_restart(const ZpControl *c, double t, ZpControlState *state);
 
+/* Can a controller be in this state at time t? Samples are taken when they are due, outputs follow them. */
+bool zp_control_fits(const ZpControl *c, double t, const ZpControlState *state);
+
 /* When the next sample is due, and the next output; INFINITY where none is pending. s */
 double zp_control_sample_time(const ZpControl *c, const ZpControlState *state);
 double zp_control_output_time(const ZpControl *c, const ZpControlState *state);

@@ -212,7 +212,7 @@ const char *zp_drive_table_fault(const ZpDriveTable *table, size_t *row) {
   static const double latest = 1e4, largest = 1e6; /* s, V: as solver.end_time and drive.voltage */
   const double *t = table->time;
   *row = 0;
-  if (table->rows < 2) return "a table needs at least two rows";
+  if (table->rows < 1) return "a table needs at least one row";
   for (size_t i = 0; i < table->rows; i++) {
     *row = i;
     if (!(t[i] >= 0 && t[i] <= latest)) return "the time is out of range; 0 s to 10000 s";

@@ -73,7 +73,7 @@ static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, ZpResu
                     ZpResult **result, ZpError *err) {
   ZpStudy study = zp_scenario_study(scenario);
   const ZpStudyInput input = {.neighbour = before};
-  if (before && before->limits) return zp_study_run(study, def, &input, hooks, result, err);
+  if (before && before->limits) return zp_study_run_limited(study, def, &input, hooks, result, err);
   return zp_data_study_run(study, def, hooks, result, err);
 }
 

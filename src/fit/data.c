@@ -6,6 +6,7 @@
 #include "fit/data.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
+#include "fit/time_limit.h"
 #include "io/drive_table.h"
 
 /* -- none ------------------------------------------------------------------------------------------- */
@@ -164,5 +165,9 @@ ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHook
                            ZpError *err) {
   *result = NULL;
   ZpStatus status = needs_no_file(study, def) ? ZP_OK : zp_study_check(study, def, err);
-  return status == ZP_OK ? with_files[study].run(study, def, hooks, result, err) : status;
+  if (status != ZP_OK) return status;
+  ZpTimeLimit limit;
+  status = with_files[study].run(study, def, zp_time_limit_begin(&limit, def, hooks), result, err);
+  if (status == ZP_OK) zp_time_limit_end(&limit, *result);
+  return status;
 }

@@ -81,14 +81,6 @@ static ZpStatus check_names(const Reading *r, const Names *names) {
   return ZP_OK;
 }
 
-/* A file without columns is one whose columns are separated by something else. */
-static ZpStatus fail_columns(const Names *names, const char *text, const ZpData *data, ZpError *err) {
-  if (data->columns > 1 || names->count > 0) return fail_column(names, text, data->path, err);
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "%.200s:1: one column, \"%.60s\"; commas, semicolons or tabs must separate the columns", data->path,
-                 data->name[0]);
-}
-
 /* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
 static ZpStatus find_measured(Reading *r) {
   ZpFit *fit = r->fit;
@@ -102,7 +94,7 @@ static ZpStatus find_measured(Reading *r) {
     if (find_columns(data, &r->x, 0, x) == 0) return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
     measured->x = x[0];
     measured->columns = find_columns(data, &r->y, 1, measured->y);
-    if (measured->columns == 0) return fail_columns(&r->y, fit->def->calibrate.y, data, r->err);
+    if (measured->columns == 0) return fail_column(&r->y, fit->def->calibrate.y, data->path, r->err);
     if (data->rows == 0) return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: 0 rows of data", data->path);
     fit->rows += data->rows * (size_t)measured->columns;
     r->sets += (size_t)measured->columns;

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/fail.h"
+#include "drive/waveform.h"
 
 bool zp_fmu_has_number(int index) {
   return zp_key(index)->type != ZP_KEY_TEXT && zp_key(index)->offset != ZP_NO_FIELD;
@@ -20,8 +21,25 @@ ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *
   return zp_def_resolve(def, list, count, err);
 }
 
+/* A voltage that does not begin as a step does is stored as that of a ramp, whose offset is the first one and whose end
+ * the largest, which is a scale of the solver. */
+void zp_fmu_forget_waveforms(ZpActuatorDef *def, const ZpDriveTable *table) {
+  static const double any_rise_time = 1; /* s */
+  const ZpActuatorDef fresh = zp_actuator_def_default();
+  const ZpWaveform voltage = zp_waveform_of(def, table), setpoint = zp_setpoint_of(def, table);
+  def->drive = fresh.drive;
+  def->setpoint = fresh.setpoint;
+  def->drive.voltage = voltage.voltage;
+  if (def->control.kind != ZP_CONTROL_NONE) def->setpoint.value = zp_waveform_voltage(&setpoint, 0);
+  if (voltage.kind == ZP_WAVEFORM_STEP) return;
+  def->drive.waveform = ZP_WAVEFORM_RAMP;
+  def->drive.voltage = zp_waveform_largest(&voltage);
+  def->drive.offset = zp_waveform_voltage(&voltage, 0);
+  def->drive.rise_time = any_rise_time;
+}
+
 double zp_fmu_first_voltage(const ZpActuatorDef *def) {
-  return def->drive.waveform == ZP_WAVEFORM_STEP ? def->drive.voltage : 0;
+  return def->drive.waveform == ZP_WAVEFORM_STEP ? def->drive.voltage : def->drive.offset;
 }
 
 double zp_fmu_first_setpoint(const ZpActuatorDef *def) {

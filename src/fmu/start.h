@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include <zipact/def.h>
+#include <zipact/drive.h>
 
 /* Number of keys, counted by one. */
 #define ZP_GROUP(group)
@@ -45,7 +46,11 @@ extern const volatile ZpFmuStart zp_fmu_start;
 /* (start) => its Def. ZP_BAD_INPUT if it has no values, or those of a program with other keys. */
 ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *err);
 
-/* The initial voltage of the input: that of a step; 0 for other waveforms, which an FMU does not have. V */
+/* Replace the waveforms of voltage and setpoint, of which `table` has the rows, by their values at t = 0, where the
+ * inputs of an FMU begin. An FMU does not play a waveform. */
+void zp_fmu_forget_waveforms(ZpActuatorDef *def, const ZpDriveTable *table);
+
+/* The initial voltage of the input, V. */
 double zp_fmu_first_voltage(const ZpActuatorDef *def);
 
 /* The initial setpoint of the input: setpoint.value, or 0 if it is none. */

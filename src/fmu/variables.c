@@ -43,11 +43,26 @@ bool zp_fmu_follows(int index, ZpInput input) {
 }
 
 bool zp_fmu_is_parameter(int index, double value) {
-  static const char *const others[] = {
-      "preset",       "drive.",         "sense.",     "solver.end_time", "solver.stop_when_zipped",
-      "control.kind", "control.signal", "setpoint.",  "initial.",        "data.",
-      "calibrate.",   "modes.",         "isometric.", "profile.",        "cycle.",
-      "sensitivity.", "sampling.",      "optimize.",  "output."};
+  static const char *const others[] = {"preset",
+                                       "drive.",
+                                       "sense.",
+                                       "solver.end_time",
+                                       "solver.stop_when_zipped",
+                                       "solver.max_cpu_time",
+                                       "control.kind",
+                                       "control.signal",
+                                       "setpoint.",
+                                       "initial.",
+                                       "data.",
+                                       "calibrate.",
+                                       "modes.",
+                                       "isometric.",
+                                       "profile.",
+                                       "cycle.",
+                                       "sensitivity.",
+                                       "sampling.",
+                                       "optimize.",
+                                       "output."};
   if (!zp_fmu_has_number(index) || zp_key_is_material(index) || isnan(value)) return false;
   return !is_one_of(zp_key(index)->name, others, sizeof others / sizeof others[0]);
 }
@@ -95,9 +110,13 @@ const char *zp_fmu_unit(ZpFmuVariable variable) {
 
 const char *zp_fmu_help(ZpFmuVariable variable) {
   static const char *const of_input[ZP_INPUT_COUNT] = {
-      "commanded voltage of the source",
+      "commanded voltage of the source; it starts at the value that the scenario's waveform has at t = 0, and the "
+      "waveform "
+      "is not played",
       "force on the whole actuator in addition to load.mass, without inertia; positive pulls the lower platform down",
-      "setpoint of the controller, in the SI unit of control.signal"};
+      "setpoint of the controller, in the SI unit of control.signal; it starts at the value that the scenario's "
+      "waveform "
+      "has at t = 0, and the waveform is not played"};
   size_t count;
   if (variable.role == ZP_FMU_TIME) return "time since the start";
   if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];

@@ -73,6 +73,31 @@ ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err) {
   return status;
 }
 
+/* Is the target of the link `path` below `directory`? */
+static bool stays_inside(const char *directory, const char *path) {
+  char *folder = realpath(directory, NULL), *target = realpath(path, NULL);
+  const size_t length = folder ? strlen(folder) : 0;
+  bool inside = folder && target && strncmp(target, folder, length) == 0 && (target[length] == '/' || length == 1);
+  free(folder);
+  free(target);
+  return inside;
+}
+
+ZpStatus zp_check_place(const char *directory, const char *name, ZpError *err) {
+  struct stat there;
+  ZpStatus status = ZP_OK;
+  char *path = zp_path_join(directory, name);
+  if (!path) return zp_fail_memory(err);
+  if (lstat(path, &there) == 0) {
+    if (S_ISLNK(there.st_mode) && !stays_inside(directory, path))
+      status = zp_fail(err, ZP_MACHINE, "cannot write %s: it is a link that leads out of its folder", path);
+    else if (!S_ISLNK(there.st_mode) && !S_ISREG(there.st_mode) && !S_ISDIR(there.st_mode))
+      status = zp_fail(err, ZP_MACHINE, "cannot write %s: it is a special file", path);
+  }
+  free(path);
+  return status;
+}
+
 /* A new file. An existing file of the same temporary name can only be from a killed process with our process id. */
 static int create(const char *path) {
   const int flags = O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
@@ -82,6 +107,9 @@ static int create(const char *path) {
 }
 
 ZpStatus zp_atomic_reserve(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
+  *atomic = (ZpAtomic){0};
+  const ZpStatus place = zp_check_place(directory, name, err);
+  if (place != ZP_OK) return place;
   if (!make_names(atomic, directory, name)) {
     forget(atomic);
     zp_fail_memory(err);

@@ -16,6 +16,9 @@ typedef struct ZpAtomic {
   char *temporary;     /* its temporary name, in the same folder */
 } ZpAtomic;
 
+/* ZP_MACHINE if `name` is, in `directory`, a special file such as a device, or a link that leads out of the folder. */
+ZpStatus zp_check_place(const char *directory, const char *name, ZpError *err);
+
 /* (directory, name) => an empty file under a temporary name in `directory`. ZP_MACHINE gives the name of the file and
  * the reason. */
 ZpStatus zp_atomic_open(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err);

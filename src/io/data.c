@@ -245,10 +245,32 @@ static ZpStatus cut(ZpData *data, char *text, ZpError *err) {
   return status;
 }
 
+static bool has_only_numbers(const ZpData *data, size_t column) {
+  char number[LONGEST_NUMBER];
+  for (size_t row = 1; row <= data->rows; row++)
+    if (!plain_decimal(data->cell[row * data->columns + column], data->separator, number)) return false;
+  return data->rows > 0;
+}
+
+/* Is it a table of numbers? A scenario may name any file, and messages quote names and cells: those of a table, and
+ * never what a file is that was not made for zipact. */
+static ZpStatus check_table(const ZpData *data, ZpError *err) {
+  if (data->columns < 2)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%s: %.300s:%d: not a table: one column; commas, semicolons or tabs must separate the columns",
+                   data->key, data->path, data->line[0]);
+  for (size_t column = 0; column < data->columns; column++)
+    if (has_only_numbers(data, column)) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%s: %.300s: not a table: below the row of names, no column has a number in each row", data->key,
+                 data->path);
+}
+
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
   *data = (ZpData){.key = key, .path = path};
   ZpStatus status = read_text(key, path, &data->text, err);
-  return status == ZP_OK ? cut(data, data->text, err) : status;
+  if (status == ZP_OK) status = cut(data, data->text, err);
+  return status == ZP_OK ? check_table(data, err) : status;
 }
 
 /* -- names ------------------------------------------------------------------------------------------- */

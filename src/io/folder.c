@@ -47,6 +47,16 @@ static ZpStatus make_folders(const char *directory, ZpError *err) {
 
 /* -- open and close -------------------------------------------------------------------------------- */
 
+/* What is written here, and does not replace its place as other files do, must not lead elsewhere. */
+static ZpStatus check_places(const char *directory, ZpError *err) {
+  static const char *const name[] = {
+      "shapes", "plots", "runs", "journal.sqlite", "journal.sqlite-wal", "journal.sqlite-shm"};
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < sizeof name / sizeof name[0] && status == ZP_OK; i++)
+    status = zp_check_place(directory, name[i], err);
+  return status;
+}
+
 /* Remove the temporary files of killed runs, here and in the folders of frames and pictures. */
 static ZpStatus clean(const char *directory, ZpError *err) {
   static const char *const below[] = {"shapes", "plots"};
@@ -61,6 +71,7 @@ static ZpStatus clean(const char *directory, ZpError *err) {
 
 static ZpStatus open_folder(ZpFolder *folder, const char *directory, ZpError *err) {
   ZpStatus status = make_folders(directory, err);
+  if (status == ZP_OK) status = check_places(directory, err);
   if (status != ZP_OK) return status;
   char *path = zp_path_join(directory, LOCK_NAME);
   status = path ? zp_lock_take(path, directory, &folder->lock, err) : zp_fail_memory(err);

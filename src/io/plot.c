@@ -54,7 +54,7 @@ static void put_text(FILE *file, const char *text) {
   for (; *text; text++) {
     if (strchr("_^@&~{}\\", *text)) fputc('\\', file);
     if (*text == '\'') fputc('\'', file);
-    fputc(*text, file);
+    fputc(iscntrl((unsigned char)*text) ? ' ' : *text, file); /* a new line would begin a command */
   }
   fputc('\'', file);
 }

@@ -64,7 +64,9 @@ static ZpStatus read_template(const ZpDrawing *drawing, const ZpPicture *picture
   *text = NULL;
   FILE *file = open_memstream(text, &size);
   if (!file) return zp_fail_memory(err);
-  ZpStatus status = zp_template_write(drawing->plot->def.output.templates, picture->template, file, err);
+  const ZpReport *report = drawing->plot->report;
+  ZpStatus status =
+      zp_template_write(report && report->templates ? report->templates : "", picture->template, file, err);
   return fclose(file) != 0 && status == ZP_OK ? zp_fail_memory(err) : status;
 }
 

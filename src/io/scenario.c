@@ -354,20 +354,9 @@ static char *resolve_path(const Reader *reader, int key, const char *path) {
   return absolute_path(reader->source, path, (int)strlen(path));
 }
 
-static bool names_folder(int key) {
-  return strcmp(zp_key(key)->name, "output.templates") == 0;
-}
-
 static bool names_path(int key) {
   const char *name = zp_key(key)->name, *last = strrchr(name, '.');
-  return (last && strcmp(last, ".file") == 0) || names_folder(key);
-}
-
-/* The folder must exist: otherwise its templates would be ignored without notice. */
-static ZpStatus check_folder(const Reader *reader, int key, const ZpYamlItem *item, const char *path, ZpError *err) {
-  struct stat there;
-  if (!names_folder(key) || !*path || (stat(path, &there) == 0 && S_ISDIR(there.st_mode))) return ZP_OK;
-  return zp_source_fail(reader->source, item->line, err, "%s: there is no folder %s", zp_key(key)->name, path);
+  return last && strcmp(last, ".file") == 0;
 }
 
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
@@ -380,7 +369,6 @@ static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpErr
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK && zp_def_set_text(&scratch, key, slot.text, &reason) != ZP_OK)
     status = zp_source_fail(reader->source, item->line, err, "%s", reason.message);
-  if (status == ZP_OK) status = check_folder(reader, key, item, slot.text, err);
   if (status != ZP_OK) {
     free(slot.value);
     free(slot.text);

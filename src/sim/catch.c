@@ -8,7 +8,8 @@
 /* The instant of a change of the load that is still to come, s; else INFINITY. */
 double zp_sim_load_due(const ZpSim *sim) {
   const ZpActuatorDef *def = &sim->model->def;
-  return sim->state->load_changed || isnan(def->load.change_time) ? INFINITY : def->load.change_time;
+  const bool waits = def->load.change_mass != 0 && !isnan(def->load.change_time) && !sim->state->load_changed;
+  return waits ? def->load.change_time : INFINITY;
 }
 
 /* Kinetic energy that the change of the load adds or removes, of one part, J: a caught mass has fallen from

@@ -54,6 +54,7 @@ bool zp_checkpoint_holds(int index) {
                                            "control.boost_voltage",
                                            "control.boost_band",
                                            "solver.max_steps",
+                                           "solver.max_cpu_time",
                                            "initial.",
                                            "data.",
                                            "calibrate.",

@@ -15,9 +15,10 @@
 #include "sim/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",      "zipped",    "interrupted", "not_settled", "diverged",
-                                      "step_limit",    "converged", "followed",    "branch_lost", "bad_argument",
-                                      "short_circuit", "pulled_in", "event",       "at_bound",    "reopened"};
+  static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
+                                      "diverged",    "step_limit",   "converged",     "followed",
+                                      "branch_lost", "bad_argument", "short_circuit", "pulled_in",
+                                      "event",       "at_bound",     "time_limit",    "reopened"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
@@ -744,6 +745,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_BRANCH_LOST:
   case ZP_PULLED_IN:
   case ZP_AT_BOUND:
+  case ZP_TIME_LIMIT:
   case ZP_REOPENED:
     break; /* of studies */
   case ZP_EVENT:

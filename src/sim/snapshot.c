@@ -32,6 +32,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "sim/feed.h"
 
 enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 8, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
@@ -39,7 +40,13 @@ static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A
 
 /* -- the numbers of a state ------------------------------------------------------------------------ */
 
-typedef enum Kind { REAL, FLAG, COUNT } Kind;
+typedef enum Kind {
+  REAL,
+  FLAG,
+  NODE,  /* a number of one, in a size_t */
+  MODE,  /* a ZpFeedMode, in a size_t */
+  SAMPLE /* a whole number, in a double */
+} Kind;
 
 typedef struct Number {
   const char *name;
@@ -52,11 +59,11 @@ typedef struct Number {
 static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, U),
                                 NUMBER(FLAG, by_hand),
-                                NUMBER(COUNT, zip.front),
+                                NUMBER(NODE, zip.front),
                                 NUMBER(FLAG, zip.platform),
                                 NUMBER(FLAG, was_open),
                                 NUMBER(FLAG, load_changed),
-                                NUMBER(COUNT, supply_mode),
+                                NUMBER(MODE, supply_mode),
                                 NUMBER(REAL, zip_time),
                                 NUMBER(REAL, closed_from),
                                 NUMBER(REAL, still.from),
@@ -119,8 +126,8 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, load_input.since),
                                 NUMBER(REAL, load_input.until),
                                 NUMBER(REAL, load_work),
-                                NUMBER(REAL, control.taken),
-                                NUMBER(REAL, control.given),
+                                NUMBER(SAMPLE, control.taken),
+                                NUMBER(SAMPLE, control.given),
                                 NUMBER(REAL, control.integral),
                                 NUMBER(REAL, control.measured),
                                 NUMBER(REAL, control.pending[0]),
@@ -151,10 +158,14 @@ static size_t length_of(const ZpModel *model, size_t k) {
   return k + 1 < ARRAYS ? 2 * model->stride : zp_own_unknowns(model) + model->kept;
 }
 
+static bool is_size(size_t k) {
+  return number[k].kind == NODE || number[k].kind == MODE;
+}
+
 static double number_of(const ZpState *state, size_t k) {
   const char *place = (const char *)state + number[k].offset;
   if (number[k].kind == FLAG) return *(const bool *)place;
-  if (number[k].kind == COUNT) return (double)*(const size_t *)(const void *)place;
+  if (is_size(k)) return (double)*(const size_t *)(const void *)place;
   return *(const double *)(const void *)place;
 }
 
@@ -162,7 +173,7 @@ static void set_number(ZpState *state, size_t k, double value) {
   char *place = (char *)state + number[k].offset;
   if (number[k].kind == FLAG)
     *(bool *)place = value != 0;
-  else if (number[k].kind == COUNT)
+  else if (is_size(k))
     *(size_t *)(void *)place = (size_t)value;
   else
     *(double *)(void *)place = value;
@@ -484,16 +495,34 @@ static ZpStatus check_keys(const Parts *parts, const ZpActuatorDef *def, ZpError
   return all ? ZP_OK : fail_version(&parts->program, "keys", err);
 }
 
-/* Numbers that would index beyond arrays, or that no run can have. */
-static bool is_sound(const Parts *parts, const ZpActuatorDef *def) {
-  const unsigned char *item = parts->number.item;
-  bool sound = real_at(item, TIME) >= 0 && isfinite(real_at(item, TIME)) && isfinite(real_at(item, VOLTAGE));
-  for (size_t k = 0; k < NUMBERS; k++) {
-    double value = real_at(item, k);
-    if (number[k].kind == FLAG) sound = sound && (value == 0 || value == 1);
-    if (number[k].kind == COUNT) sound = sound && value >= 0 && value < def->mesh.nodes && value == floor(value);
+/* Can item k be this number? Others would index beyond arrays, or no run has them. */
+static bool is_possible(size_t k, double value, const ZpActuatorDef *def) {
+  switch (number[k].kind) {
+  case FLAG:
+    return value == 0 || value == 1;
+  case NODE:
+    return value >= 0 && value < def->mesh.nodes && value == floor(value);
+  case MODE:
+    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST;
+  default:
+    return k > VOLTAGE || (isfinite(value) && (k != TIME || value >= 0));
   }
-  return sound;
+}
+
+static double value_of(const Parts *parts, const char *name) {
+  size_t k = 0;
+  while (strcmp(number[k].name, name) != 0)
+    k++;
+  return real_at(parts->number.item, k);
+}
+
+/* Are all numbers possible, and have a controller's samples and outputs come in time? */
+static bool is_sound(const Parts *parts, const ZpActuatorDef *def) {
+  const ZpControl control = zp_control_of(def);
+  const ZpControlState samples = {.taken = value_of(parts, "control.taken"), .given = value_of(parts, "control.given")};
+  for (size_t k = 0; k < NUMBERS; k++)
+    if (!is_possible(k, real_at(parts->number.item, k), def)) return false;
+  return zp_control_fits(&control, real_at(parts->number.item, TIME), &samples);
 }
 
 static ZpStatus check_numbers(const Parts *parts, const ZpActuatorDef *def, ZpError *err) {

@@ -4,6 +4,7 @@
  * Both branches are followed for the table. The voltages are those of study limits: of a slowly rising and a slowly
  * falling voltage, rest/slow.h. Theory, section 10. */
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -225,34 +226,53 @@ static void note(Follower *f) {
         f->shorted);
 }
 
-static void describe(Follower *f) {
+/* Add words to the end of a message. */
+__attribute__((format(printf, 2, 3))) static void add(ZpResult *r, const char *format, ...) {
+  const size_t length = strlen(r->message);
+  va_list values;
+  va_start(values, format);
+  vsnprintf(r->message + length, sizeof r->message - length, format, values);
+  va_end(values);
+}
+
+static void describe_way_up(const Follower *f) {
   ZpResult *r = f->result;
-  double pull_in = f->pull_in.value, closing = f->closing.value, release = f->release.value;
-  char up[96], closes[64] = "", down[128] = "";
-  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->rest.statics);
+  const double pull_in = f->pull_in.value, closing = f->closing.value;
   if (!isnan(pull_in))
-    snprintf(up, sizeof up, "pulls in at %.4g V", pull_in);
+    add(r, "pulls in at %.4g V", pull_in);
   else if (!isnan(f->shorted))
-    snprintf(up, sizeof up, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
+    add(r, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
   else if (!isnan(closing))
-    snprintf(up, sizeof up, "no pull-in: closes gradually at %.4g V", closing);
+    add(r, "no pull-in: closes gradually at %.4g V", closing);
   else
-    snprintf(up, sizeof up, "no pull-in up to %g V", f->model->def.drive.voltage);
-  if (!isnan(pull_in) && closing > pull_in) snprintf(closes, sizeof closes, ", closes at %.4g V", closing);
-  if (f->closing.end == ZP_MARCH_LOST) snprintf(closes, sizeof closes, "; %s", f->closing.reason);
-  if (!isnan(release))
-    snprintf(down, sizeof down, ", releases at %.4g V", release);
+    add(r, "no pull-in up to %g V", f->model->def.drive.voltage);
+  if (f->closing.end == ZP_MARCH_LOST)
+    add(r, "; %s", f->closing.reason);
+  else if (!isnan(pull_in) && closing > pull_in)
+    add(r, ", closes at %.4g V", closing);
+}
+
+static void describe_way_down(const Follower *f) {
+  ZpResult *r = f->result;
+  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->rest.statics);
+  if (!isnan(f->release.value))
+    add(r, ", releases at %.4g V", f->release.value);
   else if (isnan(f->shorted))
-    snprintf(down, sizeof down, "; no release: %s", f->release.reason);
-  if (f->rest.statics.stopped)
-    snprintf(r->message, sizeof r->message, "interrupted at %.4g V; the results so far are kept",
-             fabs(f->rest.statics.U));
-  else if (f->outcome == ZP_NOT_SETTLED)
-    snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
-  else
-    snprintf(r->message, sizeof r->message, "%s%s%s%s%s%s", up, closes, down,
-             f->outcome == ZP_BRANCH_LOST ? "; a branch could not be followed to its end" : "", trouble ? ": " : "",
-             trouble ? trouble : "");
+    add(r, "; no release: %s", f->release.reason);
+  if (f->outcome == ZP_BRANCH_LOST) add(r, "; a branch could not be followed to its end");
+  if (trouble) add(r, ": %s", trouble);
+}
+
+static void describe(const Follower *f) {
+  f->result->message[0] = 0;
+  if (f->rest.statics.stopped) {
+    add(f->result, "interrupted at %.4g V; the results so far are kept", fabs(f->rest.statics.U));
+  } else if (f->outcome == ZP_NOT_SETTLED) {
+    add(f->result, "no hanging equilibrium found");
+  } else {
+    describe_way_up(f);
+    describe_way_down(f);
+  }
 }
 
 static ZpOutcome outcome_of(const Follower *f) {

@@ -20,9 +20,18 @@ const char *fmi2GetVersion(void) {
 
 /* -- life ------------------------------------------------------------------------------------------ */
 
+/* The logger takes a format with further arguments, which few importers written in other languages can read: the
+ * message comes without. */
 static void hand_over(const ZpSlave *slave, ZpSlaveStatus status, const char *category, const char *message) {
   const fmi2CallbackFunctions *functions = slave->functions;
-  functions->logger(functions->componentEnvironment, slave->name, (fmi2Status)status, category, "%s", message);
+  char format[2 * sizeof((ZpError *)0)->message];
+  size_t length = 0;
+  for (; *message && length + 2 < sizeof format; message++) {
+    if (*message == '%') format[length++] = '%';
+    format[length++] = *message;
+  }
+  format[length] = 0;
+  functions->logger(functions->componentEnvironment, slave->name, (fmi2Status)status, category, format);
 }
 
 fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String guid, fmi2String resources,
@@ -31,7 +40,8 @@ fmi2Component fmi2Instantiate(fmi2String instance, fmi2Type type, fmi2String gui
   const ZpSlave like = {.log = functions && functions->logger ? hand_over : NULL,
                         .logging = logging != fmi2False,
                         .functions = functions};
-  return type == fmi2CoSimulation ? zp_slave_create(&like, instance, guid) : NULL;
+  if (type == fmi2CoSimulation) return zp_slave_create(&like, instance, guid);
+  return zp_slave_refuse(&like, instance, "this FMU is for co-simulation, not for model exchange");
 }
 
 void fmi2FreeInstance(fmi2Component c) {
@@ -235,4 +245,57 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, fmi2StatusKind kind, fmi2Boolea
 fmi2Status fmi2GetStringStatus(fmi2Component c, fmi2StatusKind kind, fmi2String *value) {
   (void)kind, (void)value;
   return no_status(c, "fmi2GetStringStatus");
+}
+
+/* -- model exchange -------------------------------------------------------------------------------- */
+
+/* Importers look for every function of the standard. */
+
+fmi2Status fmi2EnterEventMode(fmi2Component c) {
+  return (fmi2Status)zp_slave_exchange(c, "fmi2EnterEventMode");
+}
+
+fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info) {
+  (void)info;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2NewDiscreteStates");
+}
+
+fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
+  return (fmi2Status)zp_slave_exchange(c, "fmi2EnterContinuousTimeMode");
+}
+
+fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean same_point, fmi2Boolean *enter_event_mode,
+                                       fmi2Boolean *terminate) {
+  (void)same_point, (void)enter_event_mode, (void)terminate;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2CompletedIntegratorStep");
+}
+
+fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
+  (void)time;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2SetTime");
+}
+
+fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t count) {
+  (void)x, (void)count;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2SetContinuousStates");
+}
+
+fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivative[], size_t count) {
+  (void)derivative, (void)count;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2GetDerivatives");
+}
+
+fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicator[], size_t count) {
+  (void)indicator, (void)count;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2GetEventIndicators");
+}
+
+fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t count) {
+  (void)x, (void)count;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2GetContinuousStates");
+}
+
+fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominal[], size_t count) {
+  (void)nominal, (void)count;
+  return (fmi2Status)zp_slave_exchange(c, "fmi2GetNominalsOfContinuousStates");
 }

@@ -29,6 +29,15 @@ typedef enum fmi2StatusKind {
   fmi2Terminated
 } fmi2StatusKind;
 
+typedef struct fmi2EventInfo {
+  fmi2Boolean newDiscreteStatesNeeded;
+  fmi2Boolean terminateSimulation;
+  fmi2Boolean nominalsOfContinuousStatesChanged;
+  fmi2Boolean valuesOfContinuousStatesChanged;
+  fmi2Boolean nextEventTimeDefined;
+  fmi2Real nextEventTime;
+} fmi2EventInfo;
+
 typedef struct fmi2CallbackFunctions {
   void (*logger)(fmi2ComponentEnvironment, fmi2String instance, fmi2Status, fmi2String category, fmi2String message,
                  ...);
@@ -81,5 +90,18 @@ ZP_FMI fmi2Status fmi2GetRealStatus(fmi2Component, fmi2StatusKind, fmi2Real *);
 ZP_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component, fmi2StatusKind, fmi2Integer *);
 ZP_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component, fmi2StatusKind, fmi2Boolean *);
 ZP_FMI fmi2Status fmi2GetStringStatus(fmi2Component, fmi2StatusKind, fmi2String *);
+
+/* For model exchange: all are refused. */
+ZP_FMI fmi2Status fmi2EnterEventMode(fmi2Component);
+ZP_FMI fmi2Status fmi2NewDiscreteStates(fmi2Component, fmi2EventInfo *info);
+ZP_FMI fmi2Status fmi2EnterContinuousTimeMode(fmi2Component);
+ZP_FMI fmi2Status fmi2CompletedIntegratorStep(fmi2Component, fmi2Boolean same_point, fmi2Boolean *enter_event_mode,
+                                              fmi2Boolean *terminate);
+ZP_FMI fmi2Status fmi2SetTime(fmi2Component, fmi2Real time);
+ZP_FMI fmi2Status fmi2SetContinuousStates(fmi2Component, const fmi2Real[], size_t count);
+ZP_FMI fmi2Status fmi2GetDerivatives(fmi2Component, fmi2Real[], size_t count);
+ZP_FMI fmi2Status fmi2GetEventIndicators(fmi2Component, fmi2Real[], size_t count);
+ZP_FMI fmi2Status fmi2GetContinuousStates(fmi2Component, fmi2Real[], size_t count);
+ZP_FMI fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component, fmi2Real[], size_t count);
 
 #endif

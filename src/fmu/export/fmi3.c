@@ -34,14 +34,21 @@ fmi3Instance fmi3InstantiateCoSimulation(fmi3String name, fmi3String token, fmi3
                         .environment = environment,
                         .callback = (void (*)(void))log};
   (void)resources, (void)visible, (void)intermediate, (void)update;
-  return count == 0 ? zp_slave_create(&like, name, token) : NULL; /* intermediate update is not supported */
+  if (count == 0) return zp_slave_create(&like, name, token);
+  return zp_slave_refuse(&like, name, "this FMU has no intermediate update: it needs no intermediate variables");
+}
+
+static fmi3Instance refuse(fmi3String name, fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
+                           const char *why) {
+  const ZpSlave like = {.log = log ? hand_over : NULL, .environment = environment, .callback = (void (*)(void))log};
+  return zp_slave_refuse(&like, name, why);
 }
 
 fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources, fmi3Boolean visible,
                                           fmi3Boolean logging, fmi3InstanceEnvironment environment,
                                           fmi3LogMessageCallback log) {
-  (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)environment, (void)log;
-  return NULL;
+  (void)token, (void)resources, (void)visible, (void)logging;
+  return refuse(name, environment, log, "this FMU is for co-simulation, not for model exchange");
 }
 
 fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token, fmi3String resources,
@@ -49,9 +56,8 @@ fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3String token
                                                fmi3InstanceEnvironment environment, fmi3LogMessageCallback log,
                                                fmi3ClockUpdateCallback update, fmi3LockPreemptionCallback lock,
                                                fmi3UnlockPreemptionCallback unlock) {
-  (void)name, (void)token, (void)resources, (void)visible, (void)logging, (void)environment, (void)log;
-  (void)update, (void)lock, (void)unlock;
-  return NULL;
+  (void)token, (void)resources, (void)visible, (void)logging, (void)update, (void)lock, (void)unlock;
+  return refuse(name, environment, log, "this FMU is for co-simulation, not for scheduled execution");
 }
 
 void fmi3FreeInstance(fmi3Instance instance) {
@@ -356,4 +362,58 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, f
 fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock, fmi3Float64 time) {
   (void)clock, (void)time;
   return of_none(instance, ZP_FMU_ANY, "fmi3ActivateModelPartition", 1);
+}
+
+/* -- model exchange -------------------------------------------------------------------------------- */
+
+/* Importers look for every function of the standard. */
+
+fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3EnterContinuousTimeMode");
+}
+
+fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean same_point, fmi3Boolean *enter_event_mode,
+                                       fmi3Boolean *terminate) {
+  (void)same_point, (void)enter_event_mode, (void)terminate;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3CompletedIntegratorStep");
+}
+
+fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
+  (void)time;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3SetTime");
+}
+
+fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t count) {
+  (void)x, (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3SetContinuousStates");
+}
+
+fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivative[], size_t count) {
+  (void)derivative, (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetContinuousStateDerivatives");
+}
+
+fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicator[], size_t count) {
+  (void)indicator, (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetEventIndicators");
+}
+
+fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t count) {
+  (void)x, (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetContinuousStates");
+}
+
+fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominal[], size_t count) {
+  (void)nominal, (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetNominalsOfContinuousStates");
+}
+
+fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count) {
+  (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetNumberOfEventIndicators");
+}
+
+fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *count) {
+  (void)count;
+  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetNumberOfContinuousStates");
 }

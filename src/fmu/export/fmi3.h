@@ -147,4 +147,17 @@ ZP_FMI fmi3Status fmi3DoStep(fmi3Instance, fmi3Float64 now, fmi3Float64 size, fm
                              fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached);
 ZP_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance, fmi3ValueReference, fmi3Float64 time);
 
+/* For model exchange: all are refused. */
+ZP_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance);
+ZP_FMI fmi3Status fmi3CompletedIntegratorStep(fmi3Instance, fmi3Boolean same_point, fmi3Boolean *enter_event_mode,
+                                              fmi3Boolean *terminate);
+ZP_FMI fmi3Status fmi3SetTime(fmi3Instance, fmi3Float64 time);
+ZP_FMI fmi3Status fmi3SetContinuousStates(fmi3Instance, const fmi3Float64[], size_t count);
+ZP_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance, fmi3Float64[], size_t count);
+ZP_FMI fmi3Status fmi3GetEventIndicators(fmi3Instance, fmi3Float64[], size_t count);
+ZP_FMI fmi3Status fmi3GetContinuousStates(fmi3Instance, fmi3Float64[], size_t count);
+ZP_FMI fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance, fmi3Float64[], size_t count);
+ZP_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance, size_t *count);
+ZP_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance, size_t *count);
+
 #endif

@@ -30,21 +30,39 @@ bool zp_slave_allows(const ZpSlave *slave, unsigned phases, const char *what) {
   return false;
 }
 
+/* The data of an importer, for an instance of that name. */
+static ZpSlave named(const ZpSlave *like, const char *name) {
+  ZpSlave slave = *like;
+  slave.stop = INFINITY;
+  snprintf(slave.name, sizeof slave.name, "%s", name ? name : "");
+  return slave;
+}
+
+ZpSlave *zp_slave_refuse(const ZpSlave *like, const char *name, const char *why) {
+  const ZpSlave slave = named(like, name);
+  zp_slave_say(&slave, ZP_SLAVE_ERROR, why);
+  return NULL;
+}
+
+ZpSlaveStatus zp_slave_exchange(const ZpSlave *slave, const char *what) {
+  char text[160];
+  if (!slave) return ZP_SLAVE_ERROR;
+  snprintf(text, sizeof text, "%s is for model exchange; this FMU is for co-simulation and has no continuous states",
+           what);
+  return zp_slave_say(slave, ZP_SLAVE_ERROR, text);
+}
+
 ZpSlave *zp_slave_create(const ZpSlave *like, const char *name, const char *token) {
   ZpError err;
   ZpFmuStart start = zp_fmu_start;
-  ZpSlave *slave = zp_calloc(1, sizeof *slave);
-  if (!slave) return NULL;
-  *slave = *like;
-  snprintf(slave->name, sizeof slave->name, "%s", name ? name : "");
   if (!token || strcmp(token, start.token) != 0)
-    zp_slave_say(slave, ZP_SLAVE_ERROR, "the token differs from that in modelDescription.xml of this FMU");
-  else if (zp_fmu_create(&start, &slave->fmu, &err) == ZP_OK)
-    return slave;
-  else
-    zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
+    return zp_slave_refuse(like, name, "the token differs from that in modelDescription.xml of this FMU");
+  ZpSlave *slave = zp_calloc(1, sizeof *slave);
+  if (!slave) return zp_slave_refuse(like, name, "no memory");
+  *slave = named(like, name);
+  if (zp_fmu_create(&start, &slave->fmu, &err) == ZP_OK) return slave;
   zp_free(slave);
-  return NULL;
+  return zp_slave_refuse(like, name, err.message);
 }
 
 void zp_slave_destroy(ZpSlave *slave) {
@@ -63,6 +81,7 @@ ZpSlaveStatus zp_slave_setup(ZpSlave *slave, double start, double tolerance, dou
   if (!isfinite(start) || !(stop > start))
     return zp_slave_say(slave, ZP_SLAVE_ERROR, "the start time must be finite and before the stop time");
   slave->fmu->start_time = slave->fmu->time = start;
+  slave->stop = stop;
   return isnan(tolerance) ? ZP_SLAVE_OK : use_tolerance(slave, tolerance);
 }
 
@@ -75,6 +94,7 @@ ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave, ZpFmuPhase next) {
 ZpSlaveStatus zp_slave_reset(ZpSlave *slave) {
   ZpError err;
   slave->terminates = false;
+  slave->stop = INFINITY;
   return zp_slave_after(slave, zp_fmu_reset(slave->fmu, &err), &err);
 }
 
@@ -88,6 +108,8 @@ ZpSlaveStatus zp_slave_step(ZpSlave *slave, double now, double size, ZpFmuStep *
   if (!(size > 0) || isinf(size)) return zp_slave_say(slave, ZP_SLAVE_ERROR, "the step size must be above 0 s");
   if (!(fabs(now - fmu->time) <= rounding * fmax(size, fabs(now))))
     return zp_slave_say(slave, ZP_SLAVE_ERROR, "the communication point differs from the time of the simulation");
+  if (now + size > slave->stop + rounding * fmax(size, fabs(slave->stop)))
+    return zp_slave_say(slave, ZP_SLAVE_ERROR, "the step ends after the stop time of the experiment");
   ZpStatus status = zp_fmu_step(fmu, now + size, slave->uses_events && slave->returns_early, step, &err);
   slave->terminates = step->terminate;
   if (status != ZP_OK) return zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);

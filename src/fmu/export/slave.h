@@ -24,6 +24,7 @@ struct ZpSlave {
   bool logging;   /* also messages that are not errors */
   bool uses_events, returns_early;
   bool terminates; /* the last step asked for the end of the simulation */
+  double stop;     /* s: no step goes beyond; INFINITY: there is no stop time */
   /* Data of the importer that `log` uses: */
   const void *functions;  /* FMI 2: its callbacks */
   void *environment;      /* FMI 3: the argument of its function, */
@@ -40,6 +41,13 @@ typedef struct ZpSlaveState {
  * is no memory. */
 ZpSlave *zp_slave_create(const ZpSlave *like, const char *name, const char *token);
 void zp_slave_destroy(ZpSlave *slave);
+
+/* No instance: logs why with the importer data of `like` => NULL. */
+ZpSlave *zp_slave_refuse(const ZpSlave *like, const char *name, const char *why);
+
+/* A function `what` for model exchange, which an FMU has to have and this one refuses => ZP_SLAVE_ERROR, with a
+ * message. */
+ZpSlaveStatus zp_slave_exchange(const ZpSlave *slave, const char *what);
 
 /* Is the call `what` allowed now? If not, logs a message. */
 bool zp_slave_allows(const ZpSlave *slave, unsigned phases, const char *what);
