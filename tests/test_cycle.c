@@ -23,10 +23,10 @@ static void map(const double *x, double *y) {
 START_TEST(test_fixed_point_of_slow_swings) {
   ZpFixedPoint f;
   ZpCarver carver = {NULL, 0};
-  zp_fixed_point_carve(&f, N, &carver);
+  zp_fixed_point_carve(&f, N, N, &carver);
   carver = (ZpCarver){zp_calloc(1, carver.used), 0};
   void *memory = carver.base;
-  zp_fixed_point_carve(&f, N, &carver);
+  zp_fixed_point_carve(&f, N, N, &carver);
   double x[N] = {0}, y[N], next[N], off = 1;
   int evaluations = 0;
   for (; off > 1e-8 && evaluations < 100; evaluations++) {

@@ -4,6 +4,7 @@
  * The motion from one start of a cycle to the next is a map of the state; a periodic motion is a fixed point of it. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -26,20 +27,27 @@ typedef struct Mark {
   double slow[SLOW]; /* volume outside the faces over that of the bead; interface voltage over the drive's */
 } Mark;
 
+/* How large the motion of a cycle is. */
+typedef struct Response {
+  double size, rate;  /* half of the range of the opening, m, and of its rate, m/s */
+  double spent, kept; /* what the source has given in the cycle: energy that was lost, and the rest, which is stored, J */
+  double drawn;       /* sum of all that it has given before it took some back, J */
+} Response;
+
 typedef struct Cycles {
   ZpSim *sim;
   const ZpModel *model;
   const ZpHooks *hooks;
-  ZpTable *rows;              /* of the last cycle */
-  double period;              /* s */
-  double highest;             /* size of the command, V, */
-  double far, fast;           /* what distances and rates are compared with, m, m/s */
-  Mark mark[HISTORY];         /* the newest first */
-  double moved[2];            /* distance between the last two starts, and the one before */
-  double least[2];            /* least distance in this quarter of the cycles, and in the one before */
-  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
-  double *start, *end, *next; /* [4 stride] positions and velocities of a cycle's start and end, and of the next start,
-                                 in units of far and fast */
+  ZpTable *rows;         /* of the last cycle */
+  double period;         /* s */
+  double highest;        /* size of the command, V */
+  double far, fast;      /* units of positions and velocities in a search, m, m/s */
+  Response response;     /* of the last cycle */
+  Mark mark[HISTORY];    /* the newest first */
+  double moved[2];       /* distance between the last two starts, and the one before, relative to the response */
+  double least[2];       /* least distance in this quarter of the cycles, and in the one before */
+  ZpFixedPoint shooting; /* to the fixed point, while the actuator stays open */
+  double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
   int done;                   /* cycles so far */
   int repeats;                /* cycles in which the motion repeats itself; 0: it has not repeated itself */
   int alike;                  /* how often in a row that was so */
@@ -73,6 +81,57 @@ static bool run_cycle(Cycles *c) {
   return true;
 }
 
+/* -- how large the motion is ------------------------------------------------------------------------ */
+
+static double at(const Cycles *c, int row, const char *column) {
+  return zp_table_get(c->rows, (size_t)row, column);
+}
+
+typedef struct Range {
+  double least, most;
+} Range;
+
+static Range range_of(const Cycles *c, const char *column) {
+  Range range = {INFINITY, -INFINITY};
+  for (int k = 0; k <= PHASES; k++) {
+    range.least = fmin(range.least, at(c, k, column));
+    range.most = fmax(range.most, at(c, k, column));
+  }
+  return range;
+}
+
+static double half_range(const Cycles *c, const char *column) {
+  Range range = range_of(c, column);
+  return 0.5 * (range.most - range.least);
+}
+
+/* Energy that the source delivers in a cycle, and that it takes back, J. */
+static void energies_of(const Cycles *c, double *given, double *taken) {
+  *given = *taken = 0;
+  for (int k = 0; k < PHASES; k++) {
+    double change = at(c, k + 1, "source_energy_J") - at(c, k, "source_energy_J");
+    *given += fmax(change, 0);
+    *taken += fmax(-change, 0);
+  }
+}
+
+/* What is stored at the end of a cycle more than at its start, J. */
+static double kept(const Cycles *c) {
+  static const char *const stores[] = {"kinetic_energy_J", "axial_energy_J", "bending_energy_J", "gravity_energy_J",
+                                       "spring_energy_J",  "field_energy_J", "liquid_energy_J",  "cable_energy_J"};
+  double sum = 0;
+  for (size_t k = 0; k < sizeof stores / sizeof stores[0]; k++)
+    sum += at(c, PHASES, stores[k]) - at(c, 0, stores[k]);
+  return sum;
+}
+
+static Response response_of(const Cycles *c) {
+  double given, taken, stored = kept(c);
+  energies_of(c, &given, &taken);
+  return (Response){half_range(c, "opening_m"), half_range(c, "end_velocity_m_per_s"), given - taken - stored, stored,
+                    given};
+}
+
 /* -- is it periodic? -------------------------------------------------------------------------------- */
 
 static void take_mark(Cycles *c) {
@@ -87,16 +146,31 @@ static void take_mark(Cycles *c) {
   c->mark[0] = oldest;
 }
 
+/* Distances are relative to the response, or to what rounding makes of positions and energies if that is more. */
+static double size_of_response(const Cycles *c) {
+  static const double rounding = 1e-11;
+  return fmax(c->response.size, rounding * c->far);
+}
+
+static double rate_of_response(const Cycles *c) {
+  return fmax(c->response.rate, size_of_response(c) / c->period);
+}
+
+static double energy_of_response(const Cycles *c) {
+  static const double rounding = 1e-9;
+  return fmax(fabs(c->response.spent), rounding * c->response.drawn);
+}
+
 /* Distance of the newest start from the one `back` cycles before. */
 static double distance(const Cycles *c, int back) {
   const double *a = c->mark[0].q, *b = c->mark[back].q;
   double most = 0;
   for (size_t k = 0; k < 2 * c->model->stride; k++)
     most = fmax(most, fabs(a[k] - b[k]));
-  most /= c->far;
+  most /= size_of_response(c);
   for (int k = 0; k < SLOW; k++)
     most = fmax(most, fabs(c->mark[0].slow[k] - c->mark[back].slow[k]));
-  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
+  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / rate_of_response(c));
 }
 
 /* Sum of all further changes, eq. (24.1), if each is smaller than the previous one by the same factor. */
@@ -106,40 +180,66 @@ static double still_to_go(const Cycles *c) {
   return c->moved[0] / (1 - fmin(share, slowest));
 }
 
+/* Does the cycle store next to nothing, eq. (24.2)? */
+static bool keeps_nothing(const Cycles *c) {
+  return fabs(c->response.kept) < c->model->def.cycle.tolerance * energy_of_response(c);
+}
+
 /* Number of cycles in which the motion repeats itself; 0: it does not yet. */
 static int repeats_in(Cycles *c) {
   double tolerance = c->model->def.cycle.tolerance;
   c->moved[1] = c->moved[0];
   c->moved[0] = distance(c, 1);
   if (c->done < 3) return 0;
-  if (still_to_go(c) < tolerance) return 1;
+  if (still_to_go(c) < tolerance && keeps_nothing(c)) return 1;
   for (int back = 2; back < HISTORY && back < c->done; back++)
     if (distance(c, back) < tolerance && c->moved[0] > 10 * tolerance) return back;
   return 0;
 }
 
-/* Positions and velocities now, in units of far and fast => x [4 stride]. */
+/* -- shooting --------------------------------------------------------------------------------------- */
+
+/* A state as a vector: what decides, in units of its own (positions, velocities, interface voltages), then what is
+ * carried along: rates of the last step, and what the laws know beyond positions. */
+static size_t deciding(const ZpModel *model) {
+  return 4 * model->stride + (model->leaks ? model->kept - model->leak_at : 0);
+}
+
+static size_t carried(const ZpModel *model) {
+  return 4 * model->stride + zp_own_unknowns(model) + model->kept;
+}
+
+static double *carried_of(const Cycles *c) {
+  return c->sim->state->data + 8 * c->model->stride;
+}
+
+static double *leaked_of(const Cycles *c) {
+  return carried_of(c) + 4 * c->model->stride + zp_own_unknowns(c->model) + c->model->leak_at;
+}
+
 static void read_state(const Cycles *c, double *x) {
-  size_t n = 2 * c->model->stride;
+  size_t n = 2 * c->model->stride, leaked = deciding(c->model) - 2 * n;
   const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
   for (size_t k = 0; k < n; k++) {
     x[k] = q[k] / c->far;
     x[n + k] = v[k] / c->fast;
   }
+  for (size_t k = 0; k < leaked; k++)
+    x[2 * n + k] = leaked_of(c)[k] / c->highest;
+  memcpy(x + deciding(c->model), carried_of(c), carried(c->model) * sizeof *x);
 }
 
-/* The next cycle starts there, with a new account of energy. */
+/* The next cycle starts there, with a new account of energy. Liquid at the edges stays where it is. */
 static void write_state(Cycles *c, const double *x) {
   size_t n = 2 * c->model->stride;
   ZpState *state = c->sim->state;
-  double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state), *w = zp_state_mean_v(c->model, state),
-         *a = zp_state_mean_a(c->model, state);
+  double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state);
+  memcpy(carried_of(c), x + deciding(c->model), carried(c->model) * sizeof *x);
   for (size_t k = 0; k < n; k++) {
     q[k] = c->far * x[k];
-    v[k] = w[k] = c->fast * x[n + k];
-    a[k] = 0;
+    v[k] = c->fast * x[n + k];
   }
-  state->last_step = 0;
+  zp_sim_lay_beads(c->sim);
   if (state->U != state->base_U) zp_sim_close_account(c->sim);
   zp_sim_start_account(c->sim);
   zp_sim_start_row(c->sim);
@@ -148,32 +248,32 @@ static void write_state(Cycles *c, const double *x) {
 /* An actuator that stays open moves smoothly from start to start, with little damping of its swing. So a few cycles
  * predict what thousands would lead to. */
 static bool stays_open(const Cycles *c) {
-  double least = INFINITY;
-  for (size_t k = 0; k < c->rows->rows; k++)
-    least = fmin(least, zp_table_get(c->rows, k, "opening_m"));
-  return least > 0.1 * c->sim->state->opening0;
+  return range_of(c, "opening_m").least > 0.1 * c->sim->state->opening0;
 }
 
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
  * next cycle starts at that point. */
 static int shoot(Cycles *c) {
   static const double farthest = 0.5; /* hanging openings; a farther point is not used */
-  size_t n = 4 * c->model->stride;
-  double ahead = 0;
+  size_t n = 2 * c->model->stride;
+  double ahead = 0, faster = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
-  for (size_t k = 0; k < n; k++)
+  for (size_t k = 0; k < n; k++) {
     ahead = fmax(ahead, fabs(c->next[k] - c->start[k]));
-  if (c->shooting.pairs >= 2 && ahead < c->model->def.cycle.tolerance) return 1;
-  if (ahead < farthest) write_state(c, c->next);
+    faster = fmax(faster, fabs(c->next[n + k] - c->start[n + k]));
+  }
+  double away = ahead * c->far / size_of_response(c);
+  if (getenv("CYCD")) fprintf(stderr, "%3d pairs %2d away %.3g ahead %.3g moved %.3g size %.6g kept %.3g spent %.4g slow %.4g %.4g\n", c->done, c->shooting.pairs, away, ahead, c->moved[0], c->response.size, c->response.kept, c->response.spent, c->mark[0].slow[0], c->sim->state->bead[0].supply);
+  if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
+  if (fmax(ahead, faster) < farthest) write_state(c, c->next);
   return 0;
 }
 
-/* Number of cycles in which the motion repeats itself, by waiting or by shooting. Shooting starts from positions and
- * velocities alone. They are the whole state only without liquid, remaining charge and yielding ribbons. */
+/* Number of cycles in which the motion repeats itself, by waiting or by shooting, which does not know what a ribbon
+ * that yields has been through. */
 static int look(Cycles *c) {
   read_state(c, c->end);
-  const ZpModel *model = c->model;
-  bool remembers = model->has_film || model->leaks || model->rod.plastic, open = stays_open(c) && !remembers;
+  bool open = stays_open(c) && !c->model->rod.plastic;
   if (!open) zp_fixed_point_forget(&c->shooting);
   int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
   read_state(c, c->start);
@@ -201,6 +301,7 @@ static bool settle(Cycles *c) {
   while (c->done < c->model->def.cycle.most_cycles) {
     if (!run_cycle(c)) return false;
     take_mark(c);
+    c->response = response_of(c);
     int repeats = look(c);
     c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
     c->repeats = repeats;
@@ -212,23 +313,6 @@ static bool settle(Cycles *c) {
 }
 
 /* -- the results of a cycle ------------------------------------------------------------------------ */
-
-static double at(const Cycles *c, int row, const char *column) {
-  return zp_table_get(c->rows, (size_t)row, column);
-}
-
-typedef struct Range {
-  double least, most;
-} Range;
-
-static Range range_of(const Cycles *c, const char *column) {
-  Range range = {INFINITY, -INFINITY};
-  for (int k = 0; k <= PHASES; k++) {
-    range.least = fmin(range.least, at(c, k, column));
-    range.most = fmax(range.most, at(c, k, column));
-  }
-  return range;
-}
 
 /* Harmonic n of minus the opening, or of the squared command, over a cycle. */
 typedef struct Harmonic {
@@ -276,16 +360,6 @@ static double phase_of(const Cycles *c) {
          sine = (drive.cosine * moves.sine - drive.sine * moves.cosine) / product;
   double phase = angle_of(cosine, sine);
   return phase < -0.5 * zp_pi ? phase + 2 * zp_pi : phase; /* a lag above its resonance is near pi */
-}
-
-/* Energy that the source delivers in a cycle, and that it takes back, J. */
-static void energies_of(const Cycles *c, double *given, double *taken) {
-  *given = *taken = 0;
-  for (int k = 0; k < PHASES; k++) {
-    double change = at(c, k + 1, "source_energy_J") - at(c, k, "source_energy_J");
-    *given += fmax(change, 0);
-    *taken += fmax(-change, 0);
-  }
 }
 
 /* Work against pull and springs of the load on the way up, J; on the way down it is returned. */
@@ -371,14 +445,14 @@ static void summarize(const Cycles *c, ZpResult *result) {
 /* -- the study -------------------------------------------------------------------------------------- */
 
 static size_t carve(Cycles *c, void *block) {
-  size_t n = 2 * c->model->stride;
+  size_t n = deciding(c->model) + carried(c->model);
   ZpCarver carver = {block, 0};
   for (int k = 0; k < HISTORY; k++)
-    c->mark[k].q = zp_carve(&carver, n);
+    c->mark[k].q = zp_carve(&carver, 2 * c->model->stride);
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
-    *of_states[k] = zp_carve(&carver, 2 * n);
-  zp_fixed_point_carve(&c->shooting, 2 * n, &carver);
+    *of_states[k] = zp_carve(&carver, n);
+  zp_fixed_point_carve(&c->shooting, n, deciding(c->model), &carver);
   return carver.used;
 }
 
