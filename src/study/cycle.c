@@ -274,6 +274,7 @@ static int shoot(Cycles *c) {
 static int look(Cycles *c) {
   read_state(c, c->end);
   bool open = stays_open(c) && !c->model->rod.plastic;
+  c->sim->dynamics.settles = open;
   if (!open) zp_fixed_point_forget(&c->shooting);
   int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
   read_state(c, c->start);
