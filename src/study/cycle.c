@@ -1,10 +1,9 @@
-/* Study `cycle`: a periodic drive until the motion is periodic, and the results of one cycle. docs/theory.md, section
- * 24.
+/* Study `cycle`: the periodic motion under a periodic drive, and the results of one cycle. docs/theory.md, section 24.
  *
- * The motion from one start of a cycle to the next is a map of the state; a periodic motion is a fixed point of it. */
+ * Small motion is linear (cycle_linear.c). Of any other, the motion from one start of a cycle to the next is a map of
+ * the state, and a periodic motion is a fixed point of it. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -13,6 +12,7 @@
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
 #include "solve/fixed_point.h"
+#include "study/cycle_linear.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
@@ -51,6 +51,8 @@ typedef struct Cycles {
   int done;                   /* cycles so far */
   int repeats;                /* cycles in which the motion repeats itself; 0: it has not repeated itself */
   int alike;                  /* how often in a row that was so */
+  bool linear;                /* the answer is the linear one */
+  ZpLinearCycle small;        /* it, or the start of the search */
   ZpRunInfo info;             /* of the last piece */
   int64_t steps;
   void *memory;
@@ -79,6 +81,43 @@ static bool run_cycle(Cycles *c) {
   }
   c->done++;
   return true;
+}
+
+/* -- the linear answer ------------------------------------------------------------------------------ */
+
+/* Move the ribbons to a phase of the cycle, at the voltage in the middle between both, so that the source does its work
+ * along the way; then let the voltage glide and jump. */
+static void put(Cycles *c, double turns) {
+  const ZpWaveform *w = &c->model->waveform;
+  double t = turns * c->period, before = zp_waveform_voltage_before(w, t);
+  zp_sim_glide(c->sim, 0.5 * (c->sim->state->U + before));
+  zp_linear_cycle_put(&c->small, turns, c->sim);
+  c->sim->state->t = t;
+  zp_sim_glide(c->sim, before);
+  zp_sim_jump(c->sim, zp_waveform_voltage(w, t));
+  if (c->sim->state->U != c->sim->state->base_U) zp_sim_close_account(c->sim);
+}
+
+/* The first cycle begins at the state of the linear answer. */
+static void start_linear(Cycles *c) {
+  zp_linear_cycle_put(&c->small, 0, c->sim);
+  zp_sim_start_account(c->sim);
+  zp_sim_start_row(c->sim);
+}
+
+static void ride(Cycles *c) {
+  start_linear(c);
+  zp_sim_watch(c->sim);
+  keep_row(c);
+  for (int k = 1; k <= PHASES; k++) {
+    double t = c->sim->state->t, to = k * c->period / PHASES;
+    while ((t = zp_waveform_next_corner(&c->model->waveform, t)) < to)
+      put(c, t / c->period);
+    put(c, (double)k / PHASES);
+    keep_row(c);
+  }
+  c->repeats = 1;
+  c->info.outcome = ZP_REACHED_END;
 }
 
 /* -- how large the motion is ------------------------------------------------------------------------ */
@@ -182,7 +221,7 @@ static double still_to_go(const Cycles *c) {
 
 /* Does the cycle store next to nothing, eq. (24.2)? */
 static bool keeps_nothing(const Cycles *c) {
-  return fabs(c->response.kept) < c->model->def.cycle.tolerance * energy_of_response(c);
+  return fabs(c->response.kept) < 10 * c->model->def.cycle.tolerance * energy_of_response(c);
 }
 
 /* Number of cycles in which the motion repeats itself; 0: it does not yet. */
@@ -263,7 +302,6 @@ static int shoot(Cycles *c) {
     faster = fmax(faster, fabs(c->next[n + k] - c->start[n + k]));
   }
   double away = ahead * c->far / size_of_response(c);
-  if (getenv("CYCD")) fprintf(stderr, "%3d pairs %2d away %.3g ahead %.3g moved %.3g size %.6g kept %.3g spent %.4g slow %.4g %.4g\n", c->done, c->shooting.pairs, away, ahead, c->moved[0], c->response.size, c->response.kept, c->response.spent, c->mark[0].slow[0], c->sim->state->bead[0].supply);
   if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
   if (fmax(ahead, faster) < farthest) write_state(c, c->next);
   return 0;
@@ -374,34 +412,51 @@ static double work_of(const Cycles *c) {
   return work;
 }
 
+/* A number of a cycle that is not of a periodic motion says nothing: NAN. */
+static void add_periodic(const Cycles *c, ZpResult *result, const char *name, const char *unit, double value) {
+  zp_result_add(result, name, unit, c->repeats == 1 ? value : NAN);
+}
+
 static void summarize_motion(const Cycles *c, ZpResult *result) {
-  Range opening = range_of(c, "opening_m"), stroke = range_of(c, "stroke_m");
+  Range opening = range_of(c, "opening_m");
   zp_result_add(result, "frequency_Hz", "Hz", 1 / c->period);
   zp_result_add(result, "periodic", "count", c->repeats == 1);
-  zp_result_add(result, "cycles", "count", c->done);
+  zp_result_add(result, "linear", "count", c->linear);
+  zp_result_add(result, "second_order", "1", isfinite(c->small.curvature) ? c->small.curvature : NAN);
+  zp_result_add(result, "cycles", "count", c->linear ? NAN : (double)c->done);
   zp_result_add(result, "repeats_in_cycles", "count", c->repeats > 0 ? (double)c->repeats : NAN);
-  zp_result_add(result, "opening_min_m", "m", opening.least);
-  zp_result_add(result, "opening_max_m", "m", opening.most);
-  zp_result_add(result, "stroke_amplitude_m", "m", 0.5 * (stroke.most - stroke.least));
-  zp_result_add(result, "phase_rad", "rad", phase_of(c));
+  add_periodic(c, result, "opening_min_m", "m", opening.least);
+  add_periodic(c, result, "opening_max_m", "m", opening.most);
+  add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
+  add_periodic(c, result, "phase_rad", "rad", phase_of(c));
   zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
 }
 
+/* What the source gives in a cycle of the periodic motion is what the cycle loses; jumps of the voltage do so, too. */
+static double energy_of(const Cycles *c, double jumps) {
+  return c->linear ? c->small.energy + jumps : c->response.spent;
+}
+
 static void summarize_energy(const Cycles *c, ZpResult *result) {
-  double given, taken, work = work_of(c), square = 0;
+  double work = work_of(c), square = 0, jumps = at(c, PHASES, "charging_loss_J") - at(c, 0, "charging_loss_J"),
+         energy = energy_of(c, jumps);
   Range current = range_of(c, "current_A");
-  energies_of(c, &given, &taken);
   for (int k = 1; k <= PHASES; k++)
     square += at(c, k, "current_A") * at(c, k, "current_A") / PHASES;
-  bool jumps = at(c, PHASES, "charging_loss_J") > at(c, 0, "charging_loss_J");
-  zp_result_add(result, "energy_per_cycle_J", "J", given - taken);
-  zp_result_add(result, "energy_drawn_per_cycle_J", "J", given);
-  zp_result_add(result, "work_per_cycle_J", "J", work);
-  zp_result_add(result, "power_W", "W", (given - taken) / c->period);
-  zp_add_efficiency(result, "efficiency", work, given - taken);
-  zp_add_efficiency(result, "efficiency_without_recovery", work, given);
-  zp_result_add(result, "peak_current_A", "A", jumps ? NAN : fmax(current.most, -current.least));
-  zp_result_add(result, "rms_current_A", "A", jumps ? NAN : sqrt(square));
+  add_periodic(c, result, "energy_per_cycle_J", "J", energy);
+  add_periodic(c, result, "energy_drawn_per_cycle_J", "J", c->response.drawn);
+  add_periodic(c, result, "work_per_cycle_J", "J", work);
+  add_periodic(c, result, "power_W", "W", energy / c->period);
+  if (c->repeats == 1) {
+    zp_add_efficiency(result, "efficiency", work, energy);
+    zp_add_efficiency(result, "efficiency_without_recovery", work, c->response.drawn);
+  } else {
+    zp_result_add(result, "efficiency", "1", NAN);
+    zp_result_add(result, "efficiency_without_recovery", "1", NAN);
+    zp_result_note(result, "the motion is not periodic: numbers of a cycle are null");
+  }
+  add_periodic(c, result, "peak_current_A", "A", jumps > 0 ? NAN : fmax(current.most, -current.least));
+  add_periodic(c, result, "rms_current_A", "A", jumps > 0 ? NAN : sqrt(square));
 }
 
 static void describe(const Cycles *c, ZpResult *result) {
@@ -410,6 +465,8 @@ static void describe(const Cycles *c, ZpResult *result) {
   result->outcome = c->info.outcome;
   if (c->info.outcome != ZP_REACHED_END)
     snprintf(text, size, "%s", c->info.message);
+  else if (c->linear)
+    snprintf(text, size, "linear: motion of second order is %.1g of the amplitude", c->small.curvature);
   else if (c->repeats == 1)
     snprintf(text, size, "periodic after %d cycles", c->done);
   else if (c->repeats > 1)
@@ -418,7 +475,7 @@ static void describe(const Cycles *c, ZpResult *result) {
   else
     snprintf(text, size,
              "not periodic within %d cycles: between the starts of the last two cycles the state still changes by %.2g "
-             "hanging openings (slow decay, beating or chaotic impacts)",
+             "of the amplitude (slow decay, beating or chaotic impacts)",
              c->done, c->moved[0]);
 }
 
@@ -472,18 +529,51 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   return c->rows && c->memory;
 }
 
+/* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
+static bool choose(Cycles *c) {
+  const ZpActuatorDef *def = &c->model->def;
+  bool failed = false;
+  c->small.curvature = NAN;
+  if (def->cycle.method == ZP_CYCLE_MOTION || zp_linear_cycle_lacks(def)) return true;
+  bool found = zp_linear_cycle_open(c->model, c->hooks, &c->small, &failed);
+  c->linear = found && (def->cycle.method == ZP_CYCLE_LINEAR || c->small.curvature < def->cycle.tolerance);
+  if (def->cycle.method != ZP_CYCLE_LINEAR || found || failed) return !failed;
+  c->info.outcome = ZP_PULLED_IN;
+  snprintf(c->info.message, sizeof c->info.message,
+           "no stable hanging equilibrium at the root mean square of the voltage, %g V, about which motion could be "
+           "linear",
+           sqrt(c->small.mean));
+  return true;
+}
+
+static void answer(Cycles *c) {
+  static const double near = 0.3; /* motion of second order, relative to the first, with which the search begins there */
+  if (c->info.outcome == ZP_PULLED_IN) return;
+  if (c->linear) {
+    ride(c);
+    c->response = response_of(c);
+    return;
+  }
+  if (c->small.curvature < near) start_linear(c);
+  take_mark(c);
+  settle(c);
+}
+
 static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  Cycles c = {.hooks = hooks};
-  ZpStatus status = zp_sim_create(model, hooks, &c.sim, err);
-  if (status != ZP_OK) return status;
-  if (create(&c, model, result)) {
-    take_mark(&c);
-    settle(&c);
-    summarize(&c, result);
-  } else
-    status = zp_fail_memory(err);
-  zp_free(c.memory);
-  zp_sim_destroy(c.sim);
+  Cycles *c = zp_calloc(1, sizeof *c);
+  ZpStatus status = c ? zp_sim_create(model, hooks, &c->sim, err) : zp_fail_memory(err);
+  if (status == ZP_OK) {
+    c->hooks = hooks;
+    if (create(c, model, result) && choose(c)) {
+      answer(c);
+      summarize(c, result);
+    } else
+      status = zp_fail_memory(err);
+    zp_linear_cycle_close(&c->small);
+    zp_free(c->memory);
+    zp_sim_destroy(c->sim);
+  }
+  zp_free(c);
   return status;
 }
 
@@ -566,6 +656,8 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = explicit: study cycle requires implicit");
+  const char *lacks = def->cycle.method == ZP_CYCLE_LINEAR ? zp_linear_cycle_lacks(def) : NULL;
+  if (lacks) return zp_fail(err, ZP_BAD_INPUT, "cycle.method = linear: there is no linear answer with %s", lacks);
   ZpStatus status = zp_def_check_motion(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err) : status;
 }
