@@ -253,33 +253,60 @@ static void change_film(ZpLinearCycle *l, size_t n, double strain, ZpComplex *x)
   }
 }
 
-/* => sum of the amplitudes of second order, m. */
-static double bent_amplitude(ZpLinearCycle *l, ZpComplex *x, double *sample) {
-  const size_t shapes = l->small.shapes;
-  double sum = 0;
+/* Harmonic n of the forces of second order => x. */
+static void harmonic_of(const ZpLinearCycle *l, size_t n, const double *sample, ZpComplex *x) {
+  memset(x, 0, l->small.rates * sizeof *x);
   for (int k = 0; k < PHASES; k++)
-    find_bent(l, (double)k / PHASES, sample + (size_t)k * shapes);
+    for (size_t j = 0; j < l->small.shapes; j++)
+      add_wave(&x[j], (n > 0 ? 2.0 : 1.0) / PHASES * sample[(size_t)k * l->small.shapes + j], (double)n * k / PHASES);
+}
+
+static double answered(ZpLinearCycle *l, size_t n, ZpComplex *x) {
+  return answer(l, n, x) ? amplitude(l, x) : INFINITY;
+}
+
+/* Amplitudes of the motion of second order, m: its mean, and the sum of its harmonics. */
+typedef struct Bent {
+  double mean, swings;
+} Bent;
+
+static Bent find_second(ZpLinearCycle *l, ZpComplex *x, double *sample) {
+  Bent bent = {0, 0};
+  for (int k = 0; k < PHASES; k++)
+    find_bent(l, (double)k / PHASES, sample + (size_t)k * l->small.shapes);
   for (size_t n = 0; n <= BENT; n++) {
-    memset(x, 0, l->small.rates * sizeof *x);
-    for (int k = 0; k < PHASES; k++)
-      for (size_t j = 0; j < shapes; j++)
-        add_wave(&x[j], (n > 0 ? 2.0 : 1.0) / PHASES * sample[(size_t)k * shapes + j], (double)n * k / PHASES);
-    sum += answer(l, n, x) ? amplitude(l, x) : INFINITY;
+    harmonic_of(l, n, sample, x);
+    *(n > 0 ? &bent.swings : &bent.mean) += answered(l, n, x);
   }
-  if (!l->model->has_film) return sum;
+  if (!l->model->has_film) return bent;
   const double strain = largest_strain(l);
   for (size_t n = 1; n <= l->harmonics && n <= BENT; n++) {
     change_film(l, n, strain, x);
-    sum += answer(l, n, x) ? amplitude(l, x) : INFINITY;
+    bent.swings += answered(l, n, x);
   }
-  return sum;
+  return bent;
 }
 
+/* How much larger harmonic n is than at rest under the same forces. */
+static double gain(ZpLinearCycle *l, size_t n, ZpComplex *x) {
+  for (size_t j = 0; j < l->small.shapes; j++) {
+    double force = per_square(l, l->small.by_voltage[j]);
+    x[j] = (ZpComplex){force * l->square[n].re, force * l->square[n].im};
+  }
+  double still = answered(l, 0, x);
+  return still > 0 ? amplitude(l, moved(l, n)) / still : 0;
+}
+
+/* Near a resonance also what is of third order counts: it tunes the actuator. Eq. (24.8). */
 static double find_curvature(ZpLinearCycle *l, ZpComplex *x, double *sample) {
-  double first = 0;
-  for (size_t n = 1; n <= l->harmonics; n++)
-    first = fmax(first, amplitude(l, moved(l, n)));
-  return first > 0 ? bent_amplitude(l, x, sample) / first : 0;
+  size_t largest = 1;
+  for (size_t n = 2; n <= l->harmonics; n++)
+    if (amplitude(l, moved(l, n)) > amplitude(l, moved(l, largest))) largest = n;
+  double first = amplitude(l, moved(l, largest));
+  if (!(first > 0)) return 0;
+  Bent bent = find_second(l, x, sample);
+  double whole = (bent.mean + bent.swings) / first;
+  return bent.swings / first + whole * whole * gain(l, largest, x);
 }
 
 /* -- all together ----------------------------------------------------------------------------------- */
