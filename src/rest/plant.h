@@ -21,8 +21,8 @@ typedef struct ZpPlant {
 bool zp_plant_create(const ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant);
 void zp_plant_destroy(ZpPlant *plant);
 
-/* These motions as equations of second order. The rates w, those of the shapes first, obey M w' + D w + K x = f, where x
- * is the integral of w and f [shapes] the forces on the shapes. */
+/* These motions as equations of second order. The rates w, those of the shapes first, obey M w' + D w + K x = f, where
+ * x is the integral of w and f [shapes] the forces on the shapes. */
 typedef struct ZpSmallMotion {
   size_t shapes, rates;
   double *mass, *damping, *stiffness; /* [rates * rates], row by row */

@@ -9,7 +9,7 @@
 
 #include "base/memory.h"
 
-enum { ZP_FIXED_POINT_DEPTH = 40 };
+enum { ZP_FIXED_POINT_DEPTH = 28 };
 
 typedef struct ZpFixedPoint {
   size_t n, judged;                      /* unknowns; how many of them, the first, decide */

@@ -29,25 +29,35 @@ typedef struct Mark {
 
 /* How large the motion of a cycle is. */
 typedef struct Response {
-  double size, rate;  /* half of the range of the opening, m, and of its rate, m/s */
-  double spent, kept; /* what the source has given in the cycle: energy that was lost, and the rest, which is stored, J */
-  double drawn;       /* sum of all that it has given before it took some back, J */
+  double size, rate; /* half of the range of the opening, m, and of its rate, m/s */
+  double spent,
+      kept;     /* what the source has given in the cycle: energy that was lost, and the rest, which is stored, J */
+  double drawn; /* sum of all that it has given before it took some back, J */
 } Response;
+
+/* Liquid at the edges of a bead in a cycle, m^3: at its start, least and most. */
+typedef struct Edge {
+  double start, least, most;
+} Edge;
 
 typedef struct Cycles {
   ZpSim *sim;
   const ZpModel *model;
   const ZpHooks *hooks;
-  ZpTable *rows;         /* of the last cycle */
-  double period;         /* s */
-  double highest;        /* size of the command, V */
-  double far, fast;      /* units of positions and velocities in a search, m, m/s */
-  Response response;     /* of the last cycle */
-  Mark mark[HISTORY];    /* the newest first */
-  double moved[2];       /* distance between the last two starts, and the one before, relative to the response */
-  double least[2];       /* least distance in this quarter of the cycles, and in the one before */
-  ZpFixedPoint shooting; /* to the fixed point, while the actuator stays open */
+  ZpTable *rows;              /* of the last cycle */
+  double period;              /* s */
+  double highest;             /* size of the command, V */
+  double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with */
+  double heaviest;            /* the largest mass, kg */
+  Response response;          /* of the last cycle */
+  Edge edge[ZP_BEADS];        /* likewise */
+  Mark mark[HISTORY];         /* the newest first */
+  double moved[2];            /* distance between the last two starts, and the one before, relative to the response */
+  double least[2];            /* least distance in this quarter of the cycles, and in the one before */
+  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
   double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
+  int64_t steps_of[PHASES];   /* in each row of a cycle */
+  double frozen_at;           /* size of the response for which cycles have those steps, m; 0: steps are free */
   int done;                   /* cycles so far */
   int repeats;                /* cycles in which the motion repeats itself; 0: it has not repeated itself */
   int alike;                  /* how often in a row that was so */
@@ -67,17 +77,31 @@ static void keep_row(Cycles *c) {
   zp_sim_see(c->sim);
 }
 
+static void see_edges(Cycles *c, bool starts) {
+  for (int half = 0; half < ZP_BEADS; half++) {
+    Edge *edge = &c->edge[half];
+    double outside = c->sim->state->bead[half].outside;
+    if (starts) *edge = (Edge){outside, outside, outside};
+    edge->least = fmin(edge->least, outside);
+    edge->most = fmax(edge->most, outside);
+  }
+}
+
 /* => false if the run ended before: c->info says how. */
 static bool run_cycle(Cycles *c) {
   c->rows->rows = 0;
+  see_edges(c, true);
   zp_sim_watch(c->sim);
   keep_row(c);
   for (int k = 1; k <= PHASES; k++) {
     double end = k == PHASES ? (c->done + 1.0) * c->period : (c->done + (double)k / PHASES) * c->period;
+    if (c->frozen_at > 0) c->sim->dynamics.stepper.fixed = c->period / PHASES / (double)c->steps_of[k - 1];
     zp_sim_run(c->sim, end, false, c->hooks, &c->info);
+    if (!(c->frozen_at > 0)) c->steps_of[k - 1] = c->info.steps;
     c->steps += c->info.steps;
     if (c->info.outcome != ZP_REACHED_END) return false;
     keep_row(c);
+    see_edges(c, false);
   }
   c->done++;
   return true;
@@ -256,19 +280,35 @@ static double *leaked_of(const Cycles *c) {
   return carried_of(c) + 4 * c->model->stride + zp_own_unknowns(c->model) + c->model->leak_at;
 }
 
+/* Unit of a velocity, larger for a small mass, so that squares are like energies. */
+static double speed_of(const Cycles *c, size_t k) {
+  double mass = c->model->mass[k % c->model->stride];
+  return mass > 0 ? c->fast * sqrt(c->heaviest / mass) : c->fast;
+}
+
 static void read_state(const Cycles *c, double *x) {
   size_t n = 2 * c->model->stride, leaked = deciding(c->model) - 2 * n;
   const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
   for (size_t k = 0; k < n; k++) {
     x[k] = q[k] / c->far;
-    x[n + k] = v[k] / c->fast;
+    x[n + k] = v[k] / speed_of(c, k);
   }
   for (size_t k = 0; k < leaked; k++)
     x[2 * n + k] = leaked_of(c)[k] / c->highest;
   memcpy(x + deciding(c->model), carried_of(c), carried(c->model) * sizeof *x);
 }
 
-/* The next cycle starts there, with a new account of energy. Liquid at the edges stays where it is. */
+/* Any amount of liquid at the edges that never run dry goes with a periodic motion, so each cycle starts with the same
+ * amount; after one in which they have nearly run dry, with more by the range of it. */
+static void refill(Cycles *c) {
+  for (int half = 0; c->model->has_bead && half < ZP_BEADS; half++) {
+    const Edge *edge = &c->edge[half];
+    double range = edge->most - edge->least;
+    c->sim->state->bead[half].outside = edge->start + (edge->least < 0.25 * range ? range : 0);
+  }
+}
+
+/* The next cycle starts there, with a new account of energy. */
 static void write_state(Cycles *c, const double *x) {
   size_t n = 2 * c->model->stride;
   ZpState *state = c->sim->state;
@@ -276,8 +316,9 @@ static void write_state(Cycles *c, const double *x) {
   memcpy(carried_of(c), x + deciding(c->model), carried(c->model) * sizeof *x);
   for (size_t k = 0; k < n; k++) {
     q[k] = c->far * x[k];
-    v[k] = c->fast * x[n + k];
+    v[k] = speed_of(c, k) * x[n + k];
   }
+  refill(c);
   zp_sim_lay_beads(c->sim);
   if (state->U != state->base_U) zp_sim_close_account(c->sim);
   zp_sim_start_account(c->sim);
@@ -307,12 +348,25 @@ static int shoot(Cycles *c) {
   return 0;
 }
 
+/* Steps that the local error chooses differ a little from cycle to cycle, and the search sees that as noise. From the
+ * second cycle on, each row has as many steps as in the cycle before; until the motion has become much larger. */
+static void freeze(Cycles *c, bool open) {
+  static const double larger = 1.5;
+  if (isfinite(c->model->def.solver.time_step)) return;
+  bool keep = open && c->done > 1 && c->response.size < larger * c->frozen_at;
+  if (keep) return;
+  bool again = open && c->done > 1 && !(c->frozen_at > 0);
+  c->frozen_at = again ? size_of_response(c) : 0;
+  if (!again) c->sim->dynamics.stepper.fixed = 0;
+}
+
 /* Number of cycles in which the motion repeats itself, by waiting or by shooting, which does not know what a ribbon
  * that yields has been through. */
 static int look(Cycles *c) {
   read_state(c, c->end);
   bool open = stays_open(c) && !c->model->rod.plastic;
   c->sim->dynamics.settles = open;
+  freeze(c, open);
   if (!open) zp_fixed_point_forget(&c->shooting);
   int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
   read_state(c, c->start);
@@ -522,6 +576,8 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   c->period = zp_waveform_period(&model->waveform);
   c->highest = fmax(zp_waveform_largest(&model->waveform), 1);
   c->far = fmax(c->sim->state->opening0, model->faces.depth);
+  for (size_t j = 0; j < model->stride; j++)
+    c->heaviest = fmax(c->heaviest, model->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
   c->memory = zp_calloc(1, carve(c, NULL));
@@ -547,7 +603,8 @@ static bool choose(Cycles *c) {
 }
 
 static void answer(Cycles *c) {
-  static const double near = 0.3; /* motion of second order, relative to the first, with which the search begins there */
+  static const double near =
+      0.3; /* motion of second order, relative to the first, with which the search begins there */
   if (c->info.outcome == ZP_PULLED_IN) return;
   if (c->linear) {
     ride(c);

@@ -1,5 +1,5 @@
-/* Letters: x integrals of the rates w of small motions (rest/plant.h), u the squared voltage less its mean, n the number
- * of a harmonic, eqs. (24.4) to (24.8). */
+/* Letters: x integrals of the rates w of small motions (rest/plant.h), u the squared voltage less its mean, n the
+ * number of a harmonic, eqs. (24.4) to (24.8). */
 #include "study/cycle_linear.h"
 
 #include <math.h>
@@ -70,8 +70,7 @@ static bool answer(ZpLinearCycle *l, size_t n, ZpComplex *x) {
   for (size_t r = 0; r < rates; r++)
     for (size_t c = 0; c < rates; c++) {
       size_t at = r * s->rates + c;
-      l->matrix[r * rates + c] =
-          (ZpComplex){s->stiffness[at] - omega * omega * s->mass[at], omega * s->damping[at]};
+      l->matrix[r * rates + c] = (ZpComplex){s->stiffness[at] - omega * omega * s->mass[at], omega * s->damping[at]};
     }
   return zp_complex_solve(rates, l->matrix, x);
 }
@@ -96,8 +95,8 @@ static bool find_motion(ZpLinearCycle *l) {
     }
     if (!answer(l, n, x)) return false;
     for (size_t r = 0; r < l->small.rates; r++) /* half the square times the change of capacitance, eq. (24.6) */
-      l->energy += l->model->parts * zp_pi * (double)n * per_square(l, l->small.charge[r]) *
-                   (u.im * x[r].re - u.re * x[r].im);
+      l->energy +=
+          l->model->parts * zp_pi * (double)n * per_square(l, l->small.charge[r]) * (u.im * x[r].re - u.re * x[r].im);
   }
   return true;
 }
@@ -134,14 +133,15 @@ static double outside(const ZpLinearCycle *l, int half, const double *x) {
   return sum;
 }
 
-/* The least of it in a cycle. */
-static double least_outside(ZpLinearCycle *l, int half) {
-  double least = 0;
+/* How much must be there at the mean, so that the edges never run dry: twice the range in a cycle before the least. */
+static double reserve(ZpLinearCycle *l, int half) {
+  double least = 0, most = 0;
   for (int k = 0; k < PHASES; k++) {
     at_phase(l, (double)k / PHASES, false, l->x);
     least = fmin(least, outside(l, half, l->x));
+    most = fmax(most, outside(l, half, l->x));
   }
-  return least;
+  return (most - least) - least;
 }
 
 /* -- the motion of second order --------------------------------------------------------------------- */
@@ -363,9 +363,10 @@ void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
   ZpState *state = sim->state;
   double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++) {
-    double least = least_outside(l, half);
+    double mean = reserve(l, half);
     at_phase(l, turns, false, l->x);
-    state->bead[half].outside = outside(l, half, l->x) - least;
+    state->bead[half].outside = mean + outside(l, half, l->x);
+    state->bead[half].supply = 1;
   }
   at_phase(l, turns, true, l->x);
   combine(l, l->x, 1, v);

@@ -11,10 +11,10 @@ enum { ZP_CYCLE_HARMONICS = 64 }; /* most */
 
 typedef struct ZpLinearCycle {
   const ZpModel *model;
-  ZpRest rest;         /* at the mean */
-  ZpSmallMotion small; /* about it */
-  size_t harmonics;    /* of the squared voltage, 1, 2, ... */
-  double mean;         /* of the squared voltage, V^2 */
+  ZpRest rest;                              /* at the mean */
+  ZpSmallMotion small;                      /* about it */
+  size_t harmonics;                         /* of the squared voltage, 1, 2, ... */
+  double mean;                              /* of the squared voltage, V^2 */
   ZpComplex square[ZP_CYCLE_HARMONICS + 1]; /* its harmonics: the sum of Re(square e^(2 pi i n t / T)), V^2 */
   ZpComplex *moved;                         /* [harmonics + 1][rates] integrals of the rates, likewise */
   double energy;                            /* that a cycle loses, of the whole actuator, J */
