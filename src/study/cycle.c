@@ -54,7 +54,7 @@ typedef struct Cycles {
   Mark mark[HISTORY];         /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before, relative to the response */
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
-  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
+  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open or closed */
   double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
   int64_t steps_of[PHASES];   /* in each row of a cycle */
   bool refills;               /* each cycle starts with the same liquid at the edges */
@@ -327,10 +327,12 @@ static void write_state(Cycles *c, const double *x) {
   zp_sim_start_row(c->sim);
 }
 
-/* An actuator that stays open moves smoothly from start to start, with little damping of its swing. So a few cycles
- * predict what thousands would lead to. */
-static bool stays_open(const Cycles *c) {
-  return range_of(c, "opening_m").least > 0.1 * c->sim->state->opening0;
+/* An actuator that stays open, or closed, moves smoothly from start to start, with little damping of its swing. So a
+ * few cycles predict what thousands would lead to. */
+static bool stays(const Cycles *c) {
+  double hanging = c->sim->state->opening0;
+  Range opening = range_of(c, "opening_m");
+  return opening.least > 0.1 * hanging || opening.most < fmax(ZP_CLOSED_PART * hanging, ZP_CLOSED_GAP);
 }
 
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
@@ -352,12 +354,12 @@ static int shoot(Cycles *c) {
 
 /* Steps that the local error chooses differ a little from cycle to cycle, and the search sees that as noise. From the
  * second cycle on, each row has as many steps as in the cycle before; until the motion has become much larger. */
-static void freeze(Cycles *c, bool open) {
+static void freeze(Cycles *c, bool smooth) {
   static const double larger = 1.5;
   if (isfinite(c->model->def.solver.time_step)) return;
-  bool keep = open && c->done > 1 && c->response.size < larger * c->frozen_at;
+  bool keep = smooth && c->done > 1 && c->response.size < larger * c->frozen_at;
   if (keep) return;
-  bool again = open && c->done > 1 && !(c->frozen_at > 0);
+  bool again = smooth && c->done > 1 && !(c->frozen_at > 0);
   c->frozen_at = again ? size_of_response(c) : 0;
   if (!again) c->sim->dynamics.stepper.fixed = 0;
 }
@@ -366,13 +368,13 @@ static void freeze(Cycles *c, bool open) {
  * that yields has been through. */
 static int look(Cycles *c) {
   read_state(c, c->end);
-  bool open = stays_open(c) && !c->model->rod.plastic;
-  c->sim->dynamics.settles = open;
-  freeze(c, open);
-  bool refills = open && c->model->has_bead && 2 * c->done > c->model->def.cycle.most_cycles;
-  if (!open || refills != c->refills) zp_fixed_point_forget(&c->shooting);
+  bool smooth = stays(c) && !c->model->rod.plastic;
+  c->sim->dynamics.settles = smooth;
+  freeze(c, smooth);
+  bool refills = smooth && c->model->has_bead && 2 * c->done > c->model->def.cycle.most_cycles;
+  if (!smooth || refills != c->refills) zp_fixed_point_forget(&c->shooting);
   c->refills = refills;
-  int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
+  int waiting = repeats_in(c), repeats = smooth ? shoot(c) : waiting;
   read_state(c, c->start);
   return repeats;
 }
@@ -385,7 +387,7 @@ static bool leads_nowhere(Cycles *c) {
   if (quarter < FEWEST) quarter = FEWEST;
   c->least[0] = fmin(c->least[0], c->moved[0]);
   if (c->done % quarter != 0) return false;
-  bool nowhere = c->alike == 0 && !stays_open(c) && c->least[0] > 0.5 * c->least[1];
+  bool nowhere = c->alike == 0 && !stays(c) && c->least[0] > 0.5 * c->least[1];
   c->least[1] = c->least[0];
   c->least[0] = INFINITY;
   return nowhere;
