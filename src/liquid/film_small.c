@@ -20,19 +20,21 @@ static size_t across(size_t i, int k) {
 }
 
 /* A step so short that only inertia resists, and one so long that only viscosity does: so the program has these
- * formulas only once, in the step. */
+ * formulas only once, in the step. In a bath the mean flow of the short one is half of that at its end; under a cover a
+ * flow that begins does so at once (film.c). */
 void zp_film_ways(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *zeros,
                   const ZpFilmEval *e, ZpFilmWays *ways) {
   static const double instant = 1e-18, ever = 1e12; /* s */
   const ZpFilmEnds ends = {.cover = cover};
+  const double mean = cover ? 1 : 0.5;
   ways->params = p;
   ways->eval = e;
   for (size_t i = 0; i < p->nodes; i++)
     e->rate[i] = 0;
   zp_film_step(p, &ends, gap, gap, instant, zeros, zeros, e);
   for (size_t at = 0; at < ZP_FILM_MODES * p->nodes; at++) {
-    ways->along_inertia[at] = instant / e->conductance[at];
-    ways->across_inertia[at] = instant / e->leak_conductance[at];
+    ways->along_inertia[at] = mean * instant / e->conductance[at];
+    ways->across_inertia[at] = mean * instant / e->leak_conductance[at];
   }
   zp_film_step(p, &ends, gap, gap, ever, zeros, zeros, e);
   for (size_t at = 0; at < ZP_FILM_MODES * p->nodes; at++) {
@@ -87,12 +89,13 @@ void zp_film_ways_flow(const ZpFilmWays *ways, const double *rate, int k, bool v
   }
 }
 
-void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag) {
+void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, bool viscous, double *drag) {
   const ZpFilmParams *p = ways->params;
   memset(drag, 0, p->nodes * sizeof *drag);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     if (!(p->share[k] > 0)) continue;
-    find_heads(ways, rate, k, ways->along_resistance, ways->across_resistance);
+    find_heads(ways, rate, k, viscous ? ways->along_resistance : ways->along_inertia,
+               viscous ? ways->across_resistance : ways->across_inertia);
     for (size_t i = 0; i < p->nodes; i++)
       for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < p->nodes; j++)
         drag[j] += zp_film_by_gap(p, ways->eval, i, j, k) * ways->head[i];
