@@ -89,13 +89,12 @@ void zp_film_ways_flow(const ZpFilmWays *ways, const double *rate, int k, bool v
   }
 }
 
-void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, bool viscous, double *drag) {
+void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag) {
   const ZpFilmParams *p = ways->params;
   memset(drag, 0, p->nodes * sizeof *drag);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     if (!(p->share[k] > 0)) continue;
-    find_heads(ways, rate, k, viscous ? ways->along_resistance : ways->along_inertia,
-               viscous ? ways->across_resistance : ways->across_inertia);
+    find_heads(ways, rate, k, ways->along_resistance, ways->across_resistance);
     for (size_t i = 0; i < p->nodes; i++)
       for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < p->nodes; j++)
         drag[j] += zp_film_by_gap(p, ways->eval, i, j, k) * ways->head[i];

@@ -31,9 +31,8 @@ enum { ZP_FILM_FLOWS = 2 * ZP_FILM_MODES };
  * the mode stay as they are. */
 void zp_film_ways_flow(const ZpFilmWays *ways, const double *rate, int k, bool viscous, double *flow);
 
-/* Force on the gaps [N] against that rate where viscosity rules, N, or against a rate that changes by as much per second
- * where inertia does; both modes. */
-void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, bool viscous, double *drag);
+/* Force on the gaps [N] against that rate where viscosity rules, N; both modes. */
+void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag);
 
 /* (two sets of flows) => twice the kinetic energy of both, f' L g, J; what f dissipates with the heads of g, f' R g, W.
  */

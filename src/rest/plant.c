@@ -13,7 +13,7 @@
 #include "math/vector.h"
 #include "rest/vibration.h"
 
-enum { SLOW = 16, SHAPES = ZP_VIBRATIONS + 1 + 2 * SLOW, OWN_FLOWS = ZP_FILM_MODES * SHAPES, RATES = SHAPES + OWN_FLOWS };
+enum { SLOW = 16, SHAPES = ZP_VIBRATIONS + 1 + SLOW, OWN_FLOWS = ZP_FILM_MODES * SHAPES, RATES = SHAPES + OWN_FLOWS };
 
 /* A bead that ends before the middle of the actuator. */
 typedef struct End {
@@ -39,7 +39,7 @@ typedef struct Work {
   double *shape; /* [m][n] */
   double *rate;  /* [m][N] of the gaps */
   double *flow;  /* [m + z][4 N] */
-  double *force, *moved, *zeros, *x, *y, *by_voltage, *drag;
+  double *force, *moved, *zeros, *x, *y, *by_voltage;
   double (*spare)[4]; /* [3 edges] */
   double stiffness[SHAPES * SHAPES];
   double mass[RATES * RATES], damping[RATES * RATES];
@@ -63,7 +63,6 @@ static size_t carve(Work *w, void *block) {
   w->rate = zp_carve(&carver, SHAPES * N);
   w->flow = zp_carve(&carver, (size_t)RATES * ZP_FILM_FLOWS * N);
   w->zeros = zp_carve(&carver, ZP_FILM_STATE * N);
-  w->drag = zp_carve(&carver, N);
   w->x = zp_carve(&carver, n);
   w->y = zp_carve(&carver, n);
   double **of_nodes[] = {&w->force, &w->moved, &w->by_voltage};
@@ -191,45 +190,23 @@ static double *find_rate(Work *w, size_t j) {
   return rate;
 }
 
-/* Add the force of the liquid outside on shape j, accelerated, to w->force. */
-static void push_outside(Work *w, size_t j) {
-  const ZpModel *model = w->model;
-  const size_t stride = model->stride;
-  const double side = zp_outer_side(&model->outer);
-  const ZpSpan span = span_of(w, w->rest->statics.U);
-  memset(w->moved, 0, 2 * stride * sizeof *w->moved);
-  zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
-  zp_term_outer.inertia(model, &span, &w->eval, w->moved, w->force);
-  for (size_t node = 0; node < model->count; node++)
-    w->force[stride + node] += side * zp_film_length(&model->film, node / model->s) * w->moved[stride + node];
-}
-
-/* Add the static response to the liquid's force on the last shape: to its drag, or to its inertia. */
-static void add_response(Work *w, bool viscous) {
-  const ZpTopology *t = &w->model->topology;
-  const size_t stride = w->model->stride, last = w->m - 1;
-  double *drag = w->drag, *Fy = w->force + stride;
-  zp_film_ways_drag(&w->ways, find_rate(w, last), viscous, drag);
-  memset(w->force, 0, 2 * stride * sizeof *w->force);
-  for (size_t i = 0; i < w->model->nodes; i++) {
-    Fy[zp_upper(t, i)] += drag[i];
-    Fy[zp_lower(t, i)] -= drag[i];
-  }
-  if (!viscous) push_outside(w, last);
-  zp_assembly_sum(&w->assembly, w->force, w->y);
-  zp_band_solve(&w->factors, w->y);
-  add_shape(w, w->y);
-}
-
 /* A viscous film lets the actuator creep in shapes that are not vibrations. Each of them is the static response to the
- * film's drag in the previous one (Krylov's space). A bath is also heavier than the ribbons: they swing in the static
- * responses to its inertia, from the lowest vibration on. */
+ * film's drag in the previous one (Krylov's space). */
 static void find_slow_shapes(Work *w) {
-  for (int k = 0; k < SLOW && w->m < w->assembly.n; k++)
-    add_response(w, true);
-  if (!zp_term_outer.acts(w->model) || !(w->model->outer.rho > 0)) return;
-  for (int k = 0; k < SLOW && w->m < w->assembly.n; k++)
-    add_response(w, false);
+  const ZpTopology *t = &w->model->topology;
+  const size_t N = w->model->nodes, stride = w->model->stride;
+  for (int k = 0; k < SLOW && w->m < w->assembly.n; k++) {
+    double *drag = w->force;
+    zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
+    memset(w->moved, 0, 2 * stride * sizeof *w->moved);
+    for (size_t i = 0; i < N; i++) {
+      w->moved[stride + zp_upper(t, i)] += drag[i];
+      w->moved[stride + zp_lower(t, i)] -= drag[i];
+    }
+    zp_assembly_sum(&w->assembly, w->moved, w->y);
+    zp_band_solve(&w->factors, w->y);
+    add_shape(w, w->y);
+  }
 }
 
 static double *flow_of(const Work *w, size_t r) {
@@ -353,8 +330,16 @@ static void find_signal(Work *w, const ZpSetpointSignal *signal) {
 
 /* Add the inertia of the liquid outside, which shape j moves, to column j. */
 static void add_outer(Work *w, size_t j) {
-  memset(w->force, 0, 2 * w->model->stride * sizeof *w->force);
-  push_outside(w, j);
+  const ZpModel *model = w->model;
+  const size_t stride = model->stride;
+  const double side = zp_outer_side(&model->outer);
+  const ZpSpan span = span_of(w, w->rest->statics.U);
+  memset(w->moved, 0, 2 * stride * sizeof *w->moved);
+  memset(w->force, 0, 2 * stride * sizeof *w->force);
+  zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
+  zp_term_outer.inertia(model, &span, &w->eval, w->moved, w->force);
+  for (size_t node = 0; node < model->count; node++)
+    w->force[stride + node] += side * zp_film_length(&model->film, node / model->s) * w->moved[stride + node];
   for (size_t k = 0; k < w->m; k++)
     w->mass[k * (w->m + w->z) + j] += along_shape(w, w->force, k);
 }

@@ -98,7 +98,7 @@ static bool run_cycle(Cycles *c) {
     double end = k == PHASES ? (c->done + 1.0) * c->period : (c->done + (double)k / PHASES) * c->period;
     if (c->frozen_at > 0) c->sim->dynamics.stepper.fixed = c->period / PHASES / (double)c->steps_of[k - 1];
     zp_sim_run(c->sim, end, false, c->hooks, &c->info);
-    if (!(c->frozen_at > 0)) c->steps_of[k - 1] = c->info.steps;
+    if (!(c->frozen_at > 0)) c->steps_of[k - 1] = c->info.steps > 2 ? c->info.steps : 2;
     c->steps += c->info.steps;
     if (c->info.outcome != ZP_REACHED_END) return false;
     keep_row(c);
@@ -353,7 +353,8 @@ static int shoot(Cycles *c) {
 }
 
 /* Steps that the local error chooses differ a little from cycle to cycle, and the search sees that as noise. From the
- * second cycle on, each row has as many steps as in the cycle before; until the motion has become much larger. */
+ * second cycle on, each row has as many steps as in the cycle before, at least two, until the motion has become much
+ * larger. */
 static void freeze(Cycles *c, bool smooth) {
   static const double larger = 1.5;
   if (isfinite(c->model->def.solver.time_step)) return;
@@ -368,7 +369,7 @@ static void freeze(Cycles *c, bool smooth) {
  * that yields has been through. */
 static int look(Cycles *c) {
   read_state(c, c->end);
-  bool smooth = stays(c) && !c->model->rod.plastic;
+  bool yields = at(c, PHASES, "plastic_loss_J") > at(c, 0, "plastic_loss_J"), smooth = stays(c) && !yields;
   c->sim->dynamics.settles = smooth;
   freeze(c, smooth);
   bool refills = smooth && c->model->has_bead && 2 * c->done > c->model->def.cycle.most_cycles;
