@@ -329,17 +329,12 @@ static void find_signal(Work *w, const ZpSetpointSignal *signal) {
 /* -- together -------------------------------------------------------------------------------------- */
 
 /* Add the inertia of the liquid outside, which shape j moves, to column j. */
-static void add_outer(Work *w, size_t j) {
-  const ZpModel *model = w->model;
-  const size_t stride = model->stride;
-  const double side = zp_outer_side(&model->outer);
-  const ZpSpan span = span_of(w, w->rest->statics.U);
-  memset(w->moved, 0, 2 * stride * sizeof *w->moved);
-  memset(w->force, 0, 2 * stride * sizeof *w->force);
+static void add_outside(Work *w, size_t j) {
+  const size_t nodes = 2 * w->model->stride;
+  memset(w->moved, 0, nodes * sizeof *w->moved);
+  memset(w->force, 0, nodes * sizeof *w->force);
   zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
-  zp_term_outer.inertia(model, &span, &w->eval, w->moved, w->force);
-  for (size_t node = 0; node < model->count; node++)
-    w->force[stride + node] += side * zp_film_length(&model->film, node / model->s) * w->moved[stride + node];
+  zp_term_add_outside(w->model, &w->eval, w->moved, w->force);
   for (size_t k = 0; k < w->m; k++)
     w->mass[k * (w->m + w->z) + j] += along_shape(w, w->force, k);
 }
@@ -360,7 +355,7 @@ static void find_rate_laws(Work *w) {
       w->damping[r * rates + s] += zp_film_ways_resistance(&w->ways, flow_of(w, r), flow_of(w, s));
     }
   for (size_t j = 0; zp_term_outer.acts(w->model) && j < w->m; j++)
-    add_outer(w, j);
+    add_outside(w, j);
 }
 
 /* M = L L' in place. */
