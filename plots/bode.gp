@@ -1,6 +1,10 @@
 # Amplitude and phase of the stroke against the frequency of a drive.
 title = 'Amplitude and phase of the stroke'
 foot = note
+set datafile separator ','
+set datafile columnheaders
+stats '../table.csv' using (column('periodic')) nooutput
+if (STATS_sum < STATS_records) remark = 'nothing is drawn where the motion is not periodic'
 load 'over_key.gp'
 set logscale x
 set autoscale x noextend

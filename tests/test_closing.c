@@ -136,7 +136,7 @@ START_TEST(a_run_may_end_at_the_first_closing) {
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
   ck_assert(isnan(zp_result_get(result, "closed_from_s")));
   ck_assert_double_lt(zp_result_get(result, "simulated_time_s"), zip + 1e-3);
-  ck_assert_double_eq(zip, zp_result_get(held, "zip_time_s"));
+  ck_near(zip, zp_result_get(held, "zip_time_s"), 3e-7); /* a step ends there; it is interpolated in a step */
   zp_result_destroy(result);
   zp_result_destroy(held);
 }

@@ -20,19 +20,21 @@ static size_t across(size_t i, int k) {
 }
 
 /* A step so short that only inertia resists, and one so long that only viscosity does: so the program has these
- * formulas only once, in the step. */
+ * formulas only once, in the step. In a bath the mean flow of the short one is half of that at its end; under a cover a
+ * flow that begins does so at once (film.c). */
 void zp_film_ways(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *zeros,
                   const ZpFilmEval *e, ZpFilmWays *ways) {
   static const double instant = 1e-18, ever = 1e12; /* s */
   const ZpFilmEnds ends = {.cover = cover};
+  const double mean = cover ? 1 : 0.5;
   ways->params = p;
   ways->eval = e;
   for (size_t i = 0; i < p->nodes; i++)
     e->rate[i] = 0;
   zp_film_step(p, &ends, gap, gap, instant, zeros, zeros, e);
   for (size_t at = 0; at < ZP_FILM_MODES * p->nodes; at++) {
-    ways->along_inertia[at] = instant / e->conductance[at];
-    ways->across_inertia[at] = instant / e->leak_conductance[at];
+    ways->along_inertia[at] = mean * instant / e->conductance[at];
+    ways->across_inertia[at] = mean * instant / e->leak_conductance[at];
   }
   zp_film_step(p, &ends, gap, gap, ever, zeros, zeros, e);
   for (size_t at = 0; at < ZP_FILM_MODES * p->nodes; at++) {

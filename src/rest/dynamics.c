@@ -433,7 +433,7 @@ static double impact(ZpDynamics *d) {
   const bool film = d->model->has_film;
   for (const ZpDynamics *m = d; m; m = m->below)
     loss += pushed(m);
-  d->filters = d->lead ? d->lead->filters : !film && misses_layers(d);
+  d->filters = d->lead ? d->lead->filters : !film && (d->settles || misses_layers(d));
   if (film ? !any_meet(d) : !d->filters) return loss;
   loss += kinetic_energy(d);
   if (film)

@@ -39,6 +39,8 @@ typedef struct ZpDynamics {
   struct ZpDynamics *above, *below; /* of a series: its neighbours; NULL: none */
   size_t at;                        /* index of its first equation among those of the series */
   size_t links;                     /* of the uppermost member: number of links between the members */
+  bool settles;                     /* without a film, each step removes velocities that are too fast for it, not only
+                                       after impacts: for a search of motion that has settled */
   bool filters;                     /* the last step has removed velocities that are too fast for it */
   const struct ZpDynamics *lead;    /* a simulation with nearly the same key whose filtering these steps repeat; NULL:
                                        none */

@@ -328,6 +328,17 @@ static void find_signal(Work *w, const ZpSetpointSignal *signal) {
 
 /* -- together -------------------------------------------------------------------------------------- */
 
+/* Add the inertia of the liquid outside, which shape j moves, to column j. */
+static void add_outside(Work *w, size_t j) {
+  const size_t nodes = 2 * w->model->stride;
+  memset(w->moved, 0, nodes * sizeof *w->moved);
+  memset(w->force, 0, nodes * sizeof *w->force);
+  zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
+  zp_term_add_outside(w->model, &w->eval, w->moved, w->force);
+  for (size_t k = 0; k < w->m; k++)
+    w->mass[k * (w->m + w->z) + j] += along_shape(w, w->force, k);
+}
+
 /* Inertia and losses of rates r and s. */
 static void find_rate_laws(Work *w) {
   const size_t rates = w->m + w->z;
@@ -343,6 +354,8 @@ static void find_rate_laws(Work *w) {
       w->mass[r * rates + s] += zp_film_ways_inertia(&w->ways, flow_of(w, r), flow_of(w, s));
       w->damping[r * rates + s] += zp_film_ways_resistance(&w->ways, flow_of(w, r), flow_of(w, s));
     }
+  for (size_t j = 0; zp_term_outer.acts(w->model) && j < w->m; j++)
+    add_outside(w, j);
 }
 
 /* M = L L' in place. */
@@ -511,20 +524,93 @@ static void linearize(Work *w, const ZpSetpointSignal *signal) {
   find_rate_laws(w);
 }
 
+/* Work space with everything about the present point of `rest`; false if there is no memory. To be closed in any case.
+ */
+static bool open_linear(const ZpRest *rest, const ZpSetpointSignal *signal, Work **out) {
+  Work *w = *out = zp_calloc(1, sizeof *w);
+  if (!w || !open_work(rest, w)) return false;
+  linearize(w, signal);
+  return true;
+}
+
+static void close_linear(Work *w) {
+  if (w) close_work(w);
+  zp_free(w);
+}
+
 bool zp_plant_create(const ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
   const ZpSupply supply = zp_supply_of(&rest->statics.model->def);
+  Work *w;
   *plant = (ZpPlant){0};
-  Work *w = zp_calloc(1, sizeof *w);
-  if (!w) return false;
-  bool done = open_work(rest, w);
-  if (done) linearize(w, signal);
-  done = done && fill(w, &supply, plant);
-  close_work(w);
-  zp_free(w);
+  bool done = open_linear(rest, signal, &w) && fill(w, &supply, plant);
+  close_linear(w);
   return done;
 }
 
 void zp_plant_destroy(ZpPlant *plant) {
   zp_free(plant->memory);
   plant->memory = NULL;
+}
+
+/* -- as equations of second order -------------------------------------------------------------------- */
+
+static size_t carve_small(const Work *w, void *block, ZpSmallMotion *small) {
+  ZpCarver carver = {block, 0};
+  const size_t rates = w->m + w->z;
+  small->mass = zp_carve(&carver, rates * rates);
+  small->damping = zp_carve(&carver, rates * rates);
+  small->stiffness = zp_carve(&carver, rates * rates);
+  small->by_voltage = zp_carve(&carver, w->m);
+  small->charge = zp_carve(&carver, rates);
+  small->shape = zp_carve(&carver, w->m * 2 * w->model->stride);
+  for (int half = 0; half < ZP_BEADS; half++)
+    small->out[half] = zp_carve(&carver, rates);
+  return carver.used;
+}
+
+/* A bead's end acts on the shapes with the volume that shapes displace, and with what has flowed past the edges. */
+static void fill_small(const Work *w, ZpSmallMotion *small) {
+  const size_t rates = small->rates, nodes = 2 * w->model->stride;
+  memcpy(small->mass, w->mass, rates * rates * sizeof *w->mass);
+  memcpy(small->damping, w->damping, rates * rates * sizeof *w->damping);
+  memcpy(small->by_voltage, w->by_u, w->m * sizeof *w->by_u);
+  memcpy(small->charge, w->by_u, w->m * sizeof *w->by_u);
+  for (size_t k = 0; k < w->m; k++) {
+    zp_assembly_scatter(&w->assembly, w->shape + k * w->assembly.n, small->shape + k * nodes);
+    for (size_t j = 0; j < w->m; j++)
+      small->stiffness[k * rates + j] = w->stiffness[k * w->m + j];
+  }
+  for (const End *end = w->end; end < w->end + w->ends; end++) {
+    memcpy(small->out[end->half], end->out, rates * sizeof *end->out);
+    for (size_t r = 0; r < rates; r++) {
+      double back = ((r < w->m ? end->volume_by[r] : 0) + end->out[r]) / end->section;
+      small->charge[r] -= end->charge_by * back;
+      for (size_t k = 0; k < w->m; k++)
+        small->stiffness[k * rates + r] += end->force_by[k] * back;
+    }
+  }
+}
+
+bool zp_small_motion_create(const ZpRest *rest, ZpSmallMotion *small) {
+  const ZpSetpointSignal signal = {.kind = ZP_CONTROL_OPENING};
+  Work *w;
+  *small = (ZpSmallMotion){0};
+  bool done = open_linear(rest, &signal, &w);
+  if (done) {
+    small->shapes = w->m;
+    small->rates = w->m + w->z;
+    small->memory = zp_calloc(1, carve_small(w, NULL, small));
+    done = small->memory != NULL;
+  }
+  if (done) {
+    carve_small(w, small->memory, small);
+    fill_small(w, small);
+  }
+  close_linear(w);
+  return done;
+}
+
+void zp_small_motion_destroy(ZpSmallMotion *small) {
+  zp_free(small->memory);
+  small->memory = NULL;
 }

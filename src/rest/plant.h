@@ -21,4 +21,21 @@ typedef struct ZpPlant {
 bool zp_plant_create(const ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant);
 void zp_plant_destroy(ZpPlant *plant);
 
+/* These motions as equations of second order. The rates w, those of the shapes first, obey M w' + D w + K x = f, where
+ * x is the integral of w and f [shapes] the forces on the shapes. */
+typedef struct ZpSmallMotion {
+  size_t shapes, rates;
+  double *mass, *damping, *stiffness; /* [rates * rates], row by row */
+  double *by_voltage;                 /* [shapes] forces by the voltage of the electrodes, N/V */
+  double *charge;                     /* [rates] charge of one part by x, also through where beads end, C/m */
+  double *shape;                      /* [shapes][2 stride] the nodes */
+  double *out[ZP_BEADS];              /* [rates] what flows past the edges of a bead that ends, by the rates, m^2; 0 of
+                                         any other */
+  void *memory;
+} ZpSmallMotion;
+
+/* About the present point of `rest`, as above. */
+bool zp_small_motion_create(const ZpRest *rest, ZpSmallMotion *small);
+void zp_small_motion_destroy(ZpSmallMotion *small);
+
 #endif

@@ -10,16 +10,17 @@
 enum { DEPTH = ZP_FIXED_POINT_DEPTH };
 static const double dependent = 1e-10; /* share of a column whose remainder is rounding */
 
-void zp_fixed_point_carve(ZpFixedPoint *f, size_t n, ZpCarver *carver) {
+void zp_fixed_point_carve(ZpFixedPoint *f, size_t n, size_t judged, ZpCarver *carver) {
   f->n = n;
+  f->judged = judged;
   f->pairs = -1;
   f->x = zp_carve(carver, n);
   f->left = zp_carve(carver, n);
-  f->rest = zp_carve(carver, n);
+  f->rest = zp_carve(carver, judged);
   for (int k = 0; k < DEPTH; k++) {
     f->moved[k] = zp_carve(carver, n);
     f->changed[k] = zp_carve(carver, n);
-    f->q[k] = zp_carve(carver, n);
+    f->q[k] = zp_carve(carver, judged);
   }
 }
 
@@ -53,19 +54,19 @@ static void remember(ZpFixedPoint *f, const double *x, const double *mapped) {
 
 /* R = Q T by Gram and Schmidt, twice; column k is made orthogonal to those before. False if it depends on them. */
 static bool orthogonal(ZpFixedPoint *f, int k, double T[DEPTH][DEPTH]) {
-  double *q = f->q[k], size = sqrt(zp_dot(f->n, f->changed[k], f->changed[k]));
-  memcpy(q, f->changed[k], f->n * sizeof *q);
+  double *q = f->q[k], size = sqrt(zp_dot(f->judged, f->changed[k], f->changed[k]));
+  memcpy(q, f->changed[k], f->judged * sizeof *q);
   for (int j = 0; j < k; j++)
     T[j][k] = 0;
   for (int twice = 0; twice < 2; twice++)
     for (int j = 0; j < k; j++) {
-      double share = zp_dot(f->n, f->q[j], q);
+      double share = zp_dot(f->judged, f->q[j], q);
       T[j][k] += share;
-      subtract(f->n, share, f->q[j], q);
+      subtract(f->judged, share, f->q[j], q);
     }
-  T[k][k] = sqrt(zp_dot(f->n, q, q));
+  T[k][k] = sqrt(zp_dot(f->judged, q, q));
   if (!(T[k][k] > dependent * size)) return false;
-  for (size_t i = 0; i < f->n; i++)
+  for (size_t i = 0; i < f->judged; i++)
     q[i] /= T[k][k];
   return true;
 }
@@ -76,10 +77,10 @@ void zp_fixed_point_next(ZpFixedPoint *f, const double *x, const double *mapped,
   remember(f, x, mapped);
   while (used < f->pairs && orthogonal(f, used, T))
     used++;
-  memcpy(f->rest, f->left, f->n * sizeof *f->rest);
+  memcpy(f->rest, f->left, f->judged * sizeof *f->rest);
   for (int k = 0; k < used; k++) {
-    g[k] = zp_dot(f->n, f->q[k], f->rest);
-    subtract(f->n, g[k], f->q[k], f->rest);
+    g[k] = zp_dot(f->judged, f->q[k], f->rest);
+    subtract(f->judged, g[k], f->q[k], f->rest);
   }
   memcpy(next, mapped, f->n * sizeof *next);
   for (int k = used - 1; k >= 0; k--) {

@@ -1,7 +1,7 @@
-/* Study `cycle`: a periodic drive until the motion is periodic, and the results of one cycle. docs/theory.md, section
- * 24.
+/* Study `cycle`: the periodic motion under a periodic drive, and the results of one cycle. docs/theory.md, section 24.
  *
- * The motion from one start of a cycle to the next is a map of the state; a periodic motion is a fixed point of it. */
+ * Small motion is linear (cycle_linear.c). Of any other, the motion from one start of a cycle to the next is a map of
+ * the state, and a periodic motion is a fixed point of it. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,6 +12,7 @@
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
 #include "solve/fixed_point.h"
+#include "study/cycle_linear.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
@@ -26,23 +27,43 @@ typedef struct Mark {
   double slow[SLOW]; /* volume outside the faces over that of the bead; interface voltage over the drive's */
 } Mark;
 
+/* How large the motion of a cycle is. */
+typedef struct Response {
+  double size, rate; /* half of the range of the opening, m, and of its rate, m/s */
+  double spent,
+      kept;     /* what the source has given in the cycle: energy that was lost, and the rest, which is stored, J */
+  double drawn; /* sum of all that it has given before it took some back, J */
+} Response;
+
+/* Liquid at the edges of a bead in a cycle, m^3: at its start, least and most. */
+typedef struct Edge {
+  double start, least, most;
+} Edge;
+
 typedef struct Cycles {
   ZpSim *sim;
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpTable *rows;              /* of the last cycle */
   double period;              /* s */
-  double highest;             /* size of the command, V, */
-  double far, fast;           /* what distances and rates are compared with, m, m/s */
+  double highest;             /* size of the command, V */
+  double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with */
+  double heaviest;            /* the largest mass, kg */
+  Response response;          /* of the last cycle */
+  Edge edge[ZP_BEADS];        /* likewise */
   Mark mark[HISTORY];         /* the newest first */
-  double moved[2];            /* distance between the last two starts, and the one before */
+  double moved[2];            /* distance between the last two starts, and the one before, relative to the response */
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
-  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open */
-  double *start, *end, *next; /* [4 stride] positions and velocities of a cycle's start and end, and of the next start,
-                                 in units of far and fast */
+  ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open or closed */
+  double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
+  int64_t steps_of[PHASES];   /* in each row of a cycle */
+  bool refills;               /* each cycle starts with the same liquid at the edges */
+  double frozen_at;           /* size of the response for which cycles have those steps, m; 0: steps are free */
   int done;                   /* cycles so far */
   int repeats;                /* cycles in which the motion repeats itself; 0: it has not repeated itself */
   int alike;                  /* how often in a row that was so */
+  bool linear;                /* the answer is the linear one */
+  ZpLinearCycle small;        /* it, or the start of the search */
   ZpRunInfo info;             /* of the last piece */
   int64_t steps;
   void *memory;
@@ -57,161 +78,74 @@ static void keep_row(Cycles *c) {
   zp_sim_see(c->sim);
 }
 
+static void see_edges(Cycles *c, bool starts) {
+  for (int half = 0; half < ZP_BEADS; half++) {
+    Edge *edge = &c->edge[half];
+    double outside = c->sim->state->bead[half].outside;
+    if (starts) *edge = (Edge){outside, outside, outside};
+    edge->least = fmin(edge->least, outside);
+    edge->most = fmax(edge->most, outside);
+  }
+}
+
 /* => false if the run ended before: c->info says how. */
 static bool run_cycle(Cycles *c) {
   c->rows->rows = 0;
+  see_edges(c, true);
   zp_sim_watch(c->sim);
   keep_row(c);
   for (int k = 1; k <= PHASES; k++) {
     double end = k == PHASES ? (c->done + 1.0) * c->period : (c->done + (double)k / PHASES) * c->period;
+    if (c->frozen_at > 0) c->sim->dynamics.stepper.fixed = c->period / PHASES / (double)c->steps_of[k - 1];
     zp_sim_run(c->sim, end, false, c->hooks, &c->info);
+    if (!(c->frozen_at > 0)) c->steps_of[k - 1] = c->info.steps > 2 ? c->info.steps : 2;
     c->steps += c->info.steps;
     if (c->info.outcome != ZP_REACHED_END) return false;
     keep_row(c);
+    see_edges(c, false);
   }
   c->done++;
   return true;
 }
 
-/* -- is it periodic? -------------------------------------------------------------------------------- */
+/* -- the linear answer ------------------------------------------------------------------------------ */
 
-static void take_mark(Cycles *c) {
-  const ZpModel *model = c->model;
-  Mark oldest = c->mark[HISTORY - 1];
-  memmove(c->mark + 1, c->mark, (HISTORY - 1) * sizeof *c->mark);
-  memcpy(oldest.q, zp_state_q(model, c->sim->state), 2 * model->stride * sizeof *oldest.q);
-  for (int k = 0; k < ZP_BEADS; k++)
-    oldest.slow[k] = model->has_bead ? c->sim->state->bead[k].outside / model->bead.volume : 0;
-  oldest.slow[ZP_BEADS] = model->leaks ? zp_sim_get(c->sim, "interface_voltage") / c->highest : 0;
-  oldest.rate = zp_platform_middle(&model->topology, zp_state_motion(model, c->sim->state).vy);
-  c->mark[0] = oldest;
+/* Move the ribbons to a phase of the cycle, at the voltage in the middle between both, so that the source does its work
+ * along the way; then let the voltage glide and jump. */
+static void put(Cycles *c, double turns) {
+  const ZpWaveform *w = &c->model->waveform;
+  double t = turns * c->period, before = zp_waveform_voltage_before(w, t);
+  zp_sim_glide(c->sim, 0.5 * (c->sim->state->U + before));
+  zp_linear_cycle_put(&c->small, turns, c->sim);
+  c->sim->state->t = t;
+  zp_sim_glide(c->sim, before);
+  zp_sim_jump(c->sim, zp_waveform_voltage(w, t));
+  if (c->sim->state->U != c->sim->state->base_U) zp_sim_close_account(c->sim);
 }
 
-/* Distance of the newest start from the one `back` cycles before. */
-static double distance(const Cycles *c, int back) {
-  const double *a = c->mark[0].q, *b = c->mark[back].q;
-  double most = 0;
-  for (size_t k = 0; k < 2 * c->model->stride; k++)
-    most = fmax(most, fabs(a[k] - b[k]));
-  most /= c->far;
-  for (int k = 0; k < SLOW; k++)
-    most = fmax(most, fabs(c->mark[0].slow[k] - c->mark[back].slow[k]));
-  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / c->fast);
-}
-
-/* Sum of all further changes, eq. (24.1), if each is smaller than the previous one by the same factor. */
-static double still_to_go(const Cycles *c) {
-  static const double slowest = 1 - 1e-4;
-  double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0;
-  return c->moved[0] / (1 - fmin(share, slowest));
-}
-
-/* Number of cycles in which the motion repeats itself; 0: it does not yet. */
-static int repeats_in(Cycles *c) {
-  double tolerance = c->model->def.cycle.tolerance;
-  c->moved[1] = c->moved[0];
-  c->moved[0] = distance(c, 1);
-  if (c->done < 3) return 0;
-  if (still_to_go(c) < tolerance) return 1;
-  for (int back = 2; back < HISTORY && back < c->done; back++)
-    if (distance(c, back) < tolerance && c->moved[0] > 10 * tolerance) return back;
-  return 0;
-}
-
-/* Positions and velocities now, in units of far and fast => x [4 stride]. */
-static void read_state(const Cycles *c, double *x) {
-  size_t n = 2 * c->model->stride;
-  const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
-  for (size_t k = 0; k < n; k++) {
-    x[k] = q[k] / c->far;
-    x[n + k] = v[k] / c->fast;
-  }
-}
-
-/* The next cycle starts there, with a new account of energy. */
-static void write_state(Cycles *c, const double *x) {
-  size_t n = 2 * c->model->stride;
-  ZpState *state = c->sim->state;
-  double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state), *w = zp_state_mean_v(c->model, state),
-         *a = zp_state_mean_a(c->model, state);
-  for (size_t k = 0; k < n; k++) {
-    q[k] = c->far * x[k];
-    v[k] = w[k] = c->fast * x[n + k];
-    a[k] = 0;
-  }
-  state->last_step = 0;
-  if (state->U != state->base_U) zp_sim_close_account(c->sim);
+/* The first cycle begins at the state of the linear answer. */
+static void start_linear(Cycles *c) {
+  zp_linear_cycle_put(&c->small, 0, c->sim);
   zp_sim_start_account(c->sim);
   zp_sim_start_row(c->sim);
 }
 
-/* An actuator that stays open moves smoothly from start to start, with little damping of its swing. So a few cycles
- * predict what thousands would lead to. */
-static bool stays_open(const Cycles *c) {
-  double least = INFINITY;
-  for (size_t k = 0; k < c->rows->rows; k++)
-    least = fmin(least, zp_table_get(c->rows, k, "opening_m"));
-  return least > 0.1 * c->sim->state->opening0;
-}
-
-/* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
- * next cycle starts at that point. */
-static int shoot(Cycles *c) {
-  static const double farthest = 0.5; /* hanging openings; a farther point is not used */
-  size_t n = 4 * c->model->stride;
-  double ahead = 0;
-  zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
-  for (size_t k = 0; k < n; k++)
-    ahead = fmax(ahead, fabs(c->next[k] - c->start[k]));
-  if (c->shooting.pairs >= 2 && ahead < c->model->def.cycle.tolerance) return 1;
-  if (ahead < farthest) write_state(c, c->next);
-  return 0;
-}
-
-/* Number of cycles in which the motion repeats itself, by waiting or by shooting. Shooting starts from positions and
- * velocities alone. They are the whole state only without liquid, remaining charge and yielding ribbons. */
-static int look(Cycles *c) {
-  read_state(c, c->end);
-  const ZpModel *model = c->model;
-  bool remembers = model->has_film || model->leaks || model->rod.plastic, open = stays_open(c) && !remembers;
-  if (!open) zp_fixed_point_forget(&c->shooting);
-  int waiting = repeats_in(c), repeats = open ? shoot(c) : waiting;
-  read_state(c, c->start);
-  return repeats;
-}
-
-/* If, in a quarter of the cycles, the least distance of starts is more than half of that in the quarter before, the
- * remaining cycles lead nowhere. */
-static bool leads_nowhere(Cycles *c) {
-  enum { FEWEST = 6 };
-  int quarter = (c->model->def.cycle.most_cycles + 3) / 4;
-  if (quarter < FEWEST) quarter = FEWEST;
-  c->least[0] = fmin(c->least[0], c->moved[0]);
-  if (c->done % quarter != 0) return false;
-  bool nowhere = c->alike == 0 && !stays_open(c) && c->least[0] > 0.5 * c->least[1];
-  c->least[1] = c->least[0];
-  c->least[0] = INFINITY;
-  return nowhere;
-}
-
-/* Until the motion is periodic, a few times in a row where that takes several cycles. */
-static bool settle(Cycles *c) {
-  read_state(c, c->start);
-  c->least[0] = c->least[1] = INFINITY;
-  while (c->done < c->model->def.cycle.most_cycles) {
-    if (!run_cycle(c)) return false;
-    take_mark(c);
-    int repeats = look(c);
-    c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
-    c->repeats = repeats;
-    if (repeats == 1 || c->alike > 2 * HISTORY) return true;
-    if (leads_nowhere(c)) break;
+static void ride(Cycles *c) {
+  start_linear(c);
+  zp_sim_watch(c->sim);
+  keep_row(c);
+  for (int k = 1; k <= PHASES; k++) {
+    double t = c->sim->state->t, to = k * c->period / PHASES;
+    while ((t = zp_waveform_next_corner(&c->model->waveform, t)) < to)
+      put(c, t / c->period);
+    put(c, (double)k / PHASES);
+    keep_row(c);
   }
-  c->repeats = 0;
-  return true;
+  c->repeats = 1;
+  c->info.outcome = ZP_REACHED_END;
 }
 
-/* -- the results of a cycle ------------------------------------------------------------------------ */
+/* -- how large the motion is ------------------------------------------------------------------------ */
 
 static double at(const Cycles *c, int row, const char *column) {
   return zp_table_get(c->rows, (size_t)row, column);
@@ -229,6 +163,256 @@ static Range range_of(const Cycles *c, const char *column) {
   }
   return range;
 }
+
+static double half_range(const Cycles *c, const char *column) {
+  Range range = range_of(c, column);
+  return 0.5 * (range.most - range.least);
+}
+
+/* Energy that the source delivers in a cycle, and that it takes back, J. */
+static void energies_of(const Cycles *c, double *given, double *taken) {
+  *given = *taken = 0;
+  for (int k = 0; k < PHASES; k++) {
+    double change = at(c, k + 1, "source_energy_J") - at(c, k, "source_energy_J");
+    *given += fmax(change, 0);
+    *taken += fmax(-change, 0);
+  }
+}
+
+/* What is stored at the end of a cycle more than at its start, J. */
+static double kept(const Cycles *c) {
+  static const char *const stores[] = {"kinetic_energy_J", "axial_energy_J", "bending_energy_J", "gravity_energy_J",
+                                       "spring_energy_J",  "field_energy_J", "liquid_energy_J",  "cable_energy_J"};
+  double sum = 0;
+  for (size_t k = 0; k < sizeof stores / sizeof stores[0]; k++)
+    sum += at(c, PHASES, stores[k]) - at(c, 0, stores[k]);
+  return sum;
+}
+
+static Response response_of(const Cycles *c) {
+  double given, taken, stored = kept(c);
+  energies_of(c, &given, &taken);
+  return (Response){half_range(c, "opening_m"), half_range(c, "end_velocity_m_per_s"), given - taken - stored, stored,
+                    given};
+}
+
+/* -- is it periodic? -------------------------------------------------------------------------------- */
+
+static void take_mark(Cycles *c) {
+  const ZpModel *model = c->model;
+  Mark oldest = c->mark[HISTORY - 1];
+  memmove(c->mark + 1, c->mark, (HISTORY - 1) * sizeof *c->mark);
+  memcpy(oldest.q, zp_state_q(model, c->sim->state), 2 * model->stride * sizeof *oldest.q);
+  for (int k = 0; k < ZP_BEADS; k++)
+    oldest.slow[k] = model->has_bead ? c->sim->state->bead[k].outside / model->bead.volume : 0;
+  oldest.slow[ZP_BEADS] = model->leaks ? zp_sim_get(c->sim, "interface_voltage") / c->highest : 0;
+  oldest.rate = zp_platform_middle(&model->topology, zp_state_motion(model, c->sim->state).vy);
+  c->mark[0] = oldest;
+}
+
+/* Distances are relative to the response, or to what rounding makes of positions and energies if that is more. */
+static double size_of_response(const Cycles *c) {
+  static const double rounding = 1e-11;
+  return fmax(c->response.size, rounding * c->far);
+}
+
+static double rate_of_response(const Cycles *c) {
+  return fmax(c->response.rate, size_of_response(c) / c->period);
+}
+
+static double energy_of_response(const Cycles *c) {
+  static const double rounding = 1e-9;
+  return fmax(fabs(c->response.spent), rounding * c->response.drawn);
+}
+
+/* Distance of the newest start from the one `back` cycles before. */
+static double distance(const Cycles *c, int back) {
+  const double *a = c->mark[0].q, *b = c->mark[back].q;
+  double most = 0;
+  for (size_t k = 0; k < 2 * c->model->stride; k++)
+    most = fmax(most, fabs(a[k] - b[k]));
+  most /= size_of_response(c);
+  for (int k = 0; k < SLOW; k++)
+    most = fmax(most, fabs(c->mark[0].slow[k] - c->mark[back].slow[k]));
+  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / rate_of_response(c));
+}
+
+/* Sum of all further changes, eq. (24.1), if each is smaller than the previous one by the same factor. */
+static double still_to_go(const Cycles *c) {
+  static const double slowest = 1 - 1e-4;
+  double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0;
+  return c->moved[0] / (1 - fmin(share, slowest));
+}
+
+/* Does the cycle store next to nothing, eq. (24.2)? */
+static bool keeps_nothing(const Cycles *c) {
+  return fabs(c->response.kept) < 10 * c->model->def.cycle.tolerance * energy_of_response(c);
+}
+
+/* Number of cycles in which the motion repeats itself; 0: it does not yet. */
+static int repeats_in(Cycles *c) {
+  double tolerance = c->model->def.cycle.tolerance;
+  c->moved[1] = c->moved[0];
+  c->moved[0] = distance(c, 1);
+  if (c->done < 3) return 0;
+  if (still_to_go(c) < tolerance && keeps_nothing(c)) return 1;
+  for (int back = 2; back < HISTORY && back < c->done; back++)
+    if (distance(c, back) < tolerance && c->moved[0] > 10 * tolerance) return back;
+  return 0;
+}
+
+/* -- shooting --------------------------------------------------------------------------------------- */
+
+/* A state as a vector: what decides, in units of its own (positions, velocities, interface voltages), then what is
+ * carried along: rates of the last step, and what the laws know beyond positions. */
+static size_t deciding(const ZpModel *model) {
+  return 4 * model->stride + (model->leaks ? model->kept - model->leak_at : 0);
+}
+
+static size_t carried(const ZpModel *model) {
+  return 4 * model->stride + zp_own_unknowns(model) + model->kept;
+}
+
+static double *carried_of(const Cycles *c) {
+  return c->sim->state->data + 8 * c->model->stride;
+}
+
+static double *leaked_of(const Cycles *c) {
+  return carried_of(c) + 4 * c->model->stride + zp_own_unknowns(c->model) + c->model->leak_at;
+}
+
+/* Unit of a velocity, larger for a small mass, so that squares are like energies. */
+static double speed_of(const Cycles *c, size_t k) {
+  double mass = c->model->mass[k % c->model->stride];
+  return mass > 0 ? c->fast * sqrt(c->heaviest / mass) : c->fast;
+}
+
+static void read_state(const Cycles *c, double *x) {
+  size_t n = 2 * c->model->stride, leaked = deciding(c->model) - 2 * n;
+  const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
+  for (size_t k = 0; k < n; k++) {
+    x[k] = q[k] / c->far;
+    x[n + k] = v[k] / speed_of(c, k);
+  }
+  for (size_t k = 0; k < leaked; k++)
+    x[2 * n + k] = leaked_of(c)[k] / c->highest;
+  memcpy(x + deciding(c->model), carried_of(c), carried(c->model) * sizeof *x);
+}
+
+/* Liquid at the edges goes its own way from cycle to cycle. Where it runs dry in every cycle, it does so by jumps from
+ * step to step. The motion hardly depends on it then; so, if half of the cycles have led nowhere, each of the others
+ * starts with the same amount, enough for a cycle: after one in which it has nearly run dry, with more by its range. */
+static void refill(Cycles *c) {
+  for (int half = 0; c->model->has_bead && half < ZP_BEADS; half++) {
+    const Edge *edge = &c->edge[half];
+    double range = edge->most - edge->least;
+    c->sim->state->bead[half].outside = edge->start + (edge->least < 0.25 * range ? range : 0);
+  }
+}
+
+/* The next cycle starts there, with a new account of energy. */
+static void write_state(Cycles *c, const double *x) {
+  size_t n = 2 * c->model->stride;
+  ZpState *state = c->sim->state;
+  double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state);
+  memcpy(carried_of(c), x + deciding(c->model), carried(c->model) * sizeof *x);
+  for (size_t k = 0; k < n; k++) {
+    q[k] = c->far * x[k];
+    v[k] = speed_of(c, k) * x[n + k];
+  }
+  if (c->refills) refill(c);
+  zp_sim_lay_beads(c->sim);
+  if (state->U != state->base_U) zp_sim_close_account(c->sim);
+  zp_sim_start_account(c->sim);
+  zp_sim_start_row(c->sim);
+}
+
+/* An actuator that stays open, or closed, moves smoothly from start to start, with little damping of its swing. So a
+ * few cycles predict what thousands would lead to. */
+static bool stays(const Cycles *c) {
+  double hanging = c->sim->state->opening0;
+  Range opening = range_of(c, "opening_m");
+  return opening.least > 0.1 * hanging || opening.most < fmax(ZP_CLOSED_PART * hanging, c->sim->model->faces.range);
+}
+
+/* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
+ * next cycle starts at that point. */
+static int shoot(Cycles *c) {
+  static const double farthest = 0.5; /* hanging openings; a farther point is not used */
+  size_t n = 2 * c->model->stride;
+  double ahead = 0, faster = 0;
+  zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
+  for (size_t k = 0; k < n; k++) {
+    ahead = fmax(ahead, fabs(c->next[k] - c->start[k]));
+    faster = fmax(faster, fabs(c->next[n + k] - c->start[n + k]));
+  }
+  double away = ahead * c->far / size_of_response(c);
+  if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
+  if (fmax(ahead, faster) < farthest) write_state(c, c->next);
+  return 0;
+}
+
+/* Steps that the local error chooses differ a little from cycle to cycle, and the search sees that as noise. From the
+ * second cycle on, each row has as many steps as in the cycle before, at least two, until the motion has become much
+ * larger. */
+static void freeze(Cycles *c, bool smooth) {
+  static const double larger = 1.5;
+  if (isfinite(c->model->def.solver.time_step)) return;
+  bool keep = smooth && c->done > 1 && c->response.size < larger * c->frozen_at;
+  if (keep) return;
+  bool again = smooth && c->done > 1 && !(c->frozen_at > 0);
+  c->frozen_at = again ? size_of_response(c) : 0;
+  if (!again) c->sim->dynamics.stepper.fixed = 0;
+}
+
+/* Number of cycles in which the motion repeats itself, by waiting or by shooting, which does not know what a ribbon
+ * that yields has been through. */
+static int look(Cycles *c) {
+  read_state(c, c->end);
+  bool yields = at(c, PHASES, "plastic_loss_J") > at(c, 0, "plastic_loss_J"), smooth = stays(c) && !yields;
+  c->sim->dynamics.settles = smooth;
+  freeze(c, smooth);
+  bool refills = smooth && c->model->has_bead && 2 * c->done > c->model->def.cycle.most_cycles;
+  if (!smooth || refills != c->refills) zp_fixed_point_forget(&c->shooting);
+  c->refills = refills;
+  int waiting = repeats_in(c), repeats = smooth ? shoot(c) : waiting;
+  read_state(c, c->start);
+  return repeats;
+}
+
+/* If, in a quarter of the cycles, the least distance of starts is more than half of that in the quarter before, the
+ * remaining cycles lead nowhere. */
+static bool leads_nowhere(Cycles *c) {
+  enum { FEWEST = 6 };
+  int quarter = (c->model->def.cycle.most_cycles + 3) / 4;
+  if (quarter < FEWEST) quarter = FEWEST;
+  c->least[0] = fmin(c->least[0], c->moved[0]);
+  if (c->done % quarter != 0) return false;
+  bool nowhere = c->alike == 0 && !stays(c) && c->least[0] > 0.5 * c->least[1];
+  c->least[1] = c->least[0];
+  c->least[0] = INFINITY;
+  return nowhere;
+}
+
+/* Until the motion is periodic, a few times in a row where that takes several cycles. */
+static bool settle(Cycles *c) {
+  read_state(c, c->start);
+  c->least[0] = c->least[1] = INFINITY;
+  while (c->done < c->model->def.cycle.most_cycles) {
+    if (!run_cycle(c)) return false;
+    take_mark(c);
+    c->response = response_of(c);
+    int repeats = look(c);
+    c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
+    c->repeats = repeats;
+    if (repeats == 1 || c->alike > 2 * HISTORY) return true;
+    if (leads_nowhere(c)) break;
+  }
+  c->repeats = 0;
+  return true;
+}
+
+/* -- the results of a cycle ------------------------------------------------------------------------ */
 
 /* Harmonic n of minus the opening, or of the squared command, over a cycle. */
 typedef struct Harmonic {
@@ -278,16 +462,6 @@ static double phase_of(const Cycles *c) {
   return phase < -0.5 * zp_pi ? phase + 2 * zp_pi : phase; /* a lag above its resonance is near pi */
 }
 
-/* Energy that the source delivers in a cycle, and that it takes back, J. */
-static void energies_of(const Cycles *c, double *given, double *taken) {
-  *given = *taken = 0;
-  for (int k = 0; k < PHASES; k++) {
-    double change = at(c, k + 1, "source_energy_J") - at(c, k, "source_energy_J");
-    *given += fmax(change, 0);
-    *taken += fmax(-change, 0);
-  }
-}
-
 /* Work against pull and springs of the load on the way up, J; on the way down it is returned. */
 static double work_of(const Cycles *c) {
   double work = 0;
@@ -299,34 +473,51 @@ static double work_of(const Cycles *c) {
   return work;
 }
 
+/* A number of a cycle that is not of a periodic motion says nothing: NAN. */
+static void add_periodic(const Cycles *c, ZpResult *result, const char *name, const char *unit, double value) {
+  zp_result_add(result, name, unit, c->repeats == 1 ? value : NAN);
+}
+
 static void summarize_motion(const Cycles *c, ZpResult *result) {
-  Range opening = range_of(c, "opening_m"), stroke = range_of(c, "stroke_m");
+  Range opening = range_of(c, "opening_m");
   zp_result_add(result, "frequency_Hz", "Hz", 1 / c->period);
   zp_result_add(result, "periodic", "count", c->repeats == 1);
-  zp_result_add(result, "cycles", "count", c->done);
+  zp_result_add(result, "linear", "count", c->linear);
+  zp_result_add(result, "second_order", "1", isfinite(c->small.curvature) ? c->small.curvature : NAN);
+  zp_result_add(result, "cycles", "count", c->linear ? NAN : (double)c->done);
   zp_result_add(result, "repeats_in_cycles", "count", c->repeats > 0 ? (double)c->repeats : NAN);
-  zp_result_add(result, "opening_min_m", "m", opening.least);
-  zp_result_add(result, "opening_max_m", "m", opening.most);
-  zp_result_add(result, "stroke_amplitude_m", "m", 0.5 * (stroke.most - stroke.least));
-  zp_result_add(result, "phase_rad", "rad", phase_of(c));
+  add_periodic(c, result, "opening_min_m", "m", opening.least);
+  add_periodic(c, result, "opening_max_m", "m", opening.most);
+  add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
+  add_periodic(c, result, "phase_rad", "rad", phase_of(c));
   zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
 }
 
+/* What the source gives in a cycle of the periodic motion is what the cycle loses; jumps of the voltage do so, too. */
+static double energy_of(const Cycles *c, double jumps) {
+  return c->linear ? c->small.energy + jumps : c->response.spent;
+}
+
 static void summarize_energy(const Cycles *c, ZpResult *result) {
-  double given, taken, work = work_of(c), square = 0;
+  double work = work_of(c), square = 0, jumps = at(c, PHASES, "charging_loss_J") - at(c, 0, "charging_loss_J"),
+         energy = energy_of(c, jumps);
   Range current = range_of(c, "current_A");
-  energies_of(c, &given, &taken);
   for (int k = 1; k <= PHASES; k++)
     square += at(c, k, "current_A") * at(c, k, "current_A") / PHASES;
-  bool jumps = at(c, PHASES, "charging_loss_J") > at(c, 0, "charging_loss_J");
-  zp_result_add(result, "energy_per_cycle_J", "J", given - taken);
-  zp_result_add(result, "energy_drawn_per_cycle_J", "J", given);
-  zp_result_add(result, "work_per_cycle_J", "J", work);
-  zp_result_add(result, "power_W", "W", (given - taken) / c->period);
-  zp_add_efficiency(result, "efficiency", work, given - taken);
-  zp_add_efficiency(result, "efficiency_without_recovery", work, given);
-  zp_result_add(result, "peak_current_A", "A", jumps ? NAN : fmax(current.most, -current.least));
-  zp_result_add(result, "rms_current_A", "A", jumps ? NAN : sqrt(square));
+  add_periodic(c, result, "energy_per_cycle_J", "J", energy);
+  add_periodic(c, result, "energy_drawn_per_cycle_J", "J", c->response.drawn);
+  add_periodic(c, result, "work_per_cycle_J", "J", work);
+  add_periodic(c, result, "power_W", "W", energy / c->period);
+  if (c->repeats == 1) {
+    zp_add_efficiency(result, "efficiency", work, energy);
+    zp_add_efficiency(result, "efficiency_without_recovery", work, c->response.drawn);
+  } else {
+    zp_result_add(result, "efficiency", "1", NAN);
+    zp_result_add(result, "efficiency_without_recovery", "1", NAN);
+    zp_result_note(result, "the motion is not periodic: numbers of a cycle are null");
+  }
+  add_periodic(c, result, "peak_current_A", "A", jumps > 0 ? NAN : fmax(current.most, -current.least));
+  add_periodic(c, result, "rms_current_A", "A", jumps > 0 ? NAN : sqrt(square));
 }
 
 static void describe(const Cycles *c, ZpResult *result) {
@@ -335,6 +526,8 @@ static void describe(const Cycles *c, ZpResult *result) {
   result->outcome = c->info.outcome;
   if (c->info.outcome != ZP_REACHED_END)
     snprintf(text, size, "%s", c->info.message);
+  else if (c->linear)
+    snprintf(text, size, "linear: motion of second order is %.1g of the amplitude", c->small.curvature);
   else if (c->repeats == 1)
     snprintf(text, size, "periodic after %d cycles", c->done);
   else if (c->repeats > 1)
@@ -343,7 +536,7 @@ static void describe(const Cycles *c, ZpResult *result) {
   else
     snprintf(text, size,
              "not periodic within %d cycles: between the starts of the last two cycles the state still changes by %.2g "
-             "hanging openings (slow decay, beating or chaotic impacts)",
+             "of the amplitude (slow decay, beating or chaotic impacts)",
              c->done, c->moved[0]);
 }
 
@@ -366,19 +559,24 @@ static void summarize(const Cycles *c, ZpResult *result) {
   zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
   zp_note_start(result, c->model, c->sim->state->opening0);
   zp_note_liquid(result, c->model);
+  if (c->repeats == 1 && c->refills)
+    zp_result_note(result,
+                   "bead: the motion is that with enough liquid at the edges of the ribbons; over a cycle that "
+                   "liquid changes by %.2g uL at a front",
+                   1e9 * (c->sim->state->bead[0].outside - c->edge[0].start));
 }
 
 /* -- the study -------------------------------------------------------------------------------------- */
 
 static size_t carve(Cycles *c, void *block) {
-  size_t n = 2 * c->model->stride;
+  size_t n = deciding(c->model) + carried(c->model);
   ZpCarver carver = {block, 0};
   for (int k = 0; k < HISTORY; k++)
-    c->mark[k].q = zp_carve(&carver, n);
+    c->mark[k].q = zp_carve(&carver, 2 * c->model->stride);
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
-    *of_states[k] = zp_carve(&carver, 2 * n);
-  zp_fixed_point_carve(&c->shooting, 2 * n, &carver);
+    *of_states[k] = zp_carve(&carver, n);
+  zp_fixed_point_carve(&c->shooting, n, deciding(c->model), &carver);
   return carver.used;
 }
 
@@ -390,6 +588,8 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   c->period = zp_waveform_period(&model->waveform);
   c->highest = fmax(zp_waveform_largest(&model->waveform), 1);
   c->far = fmax(c->sim->state->opening0, model->faces.depth);
+  for (size_t j = 0; j < model->stride; j++)
+    c->heaviest = fmax(c->heaviest, model->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
   c->memory = zp_calloc(1, carve(c, NULL));
@@ -397,18 +597,52 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   return c->rows && c->memory;
 }
 
+/* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
+static bool choose(Cycles *c) {
+  const ZpActuatorDef *def = &c->model->def;
+  bool failed = false;
+  c->small.curvature = NAN;
+  if (def->cycle.method == ZP_CYCLE_MOTION || zp_linear_cycle_lacks(def)) return true;
+  bool found = zp_linear_cycle_open(c->model, c->hooks, &c->small, &failed);
+  c->linear = found && (def->cycle.method == ZP_CYCLE_LINEAR || c->small.curvature < def->cycle.tolerance);
+  if (def->cycle.method != ZP_CYCLE_LINEAR || found || failed) return !failed;
+  c->info.outcome = ZP_PULLED_IN;
+  snprintf(c->info.message, sizeof c->info.message,
+           "no stable hanging equilibrium at the root mean square of the voltage, %g V, about which motion could be "
+           "linear",
+           sqrt(c->small.mean));
+  return true;
+}
+
+static void answer(Cycles *c) {
+  static const double near =
+      0.3; /* motion of second order, relative to the first, with which the search begins there */
+  if (c->info.outcome == ZP_PULLED_IN) return;
+  if (c->linear) {
+    ride(c);
+    c->response = response_of(c);
+    return;
+  }
+  if (c->small.curvature < near) start_linear(c);
+  take_mark(c);
+  settle(c);
+}
+
 static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result, ZpError *err) {
-  Cycles c = {.hooks = hooks};
-  ZpStatus status = zp_sim_create(model, hooks, &c.sim, err);
-  if (status != ZP_OK) return status;
-  if (create(&c, model, result)) {
-    take_mark(&c);
-    settle(&c);
-    summarize(&c, result);
-  } else
-    status = zp_fail_memory(err);
-  zp_free(c.memory);
-  zp_sim_destroy(c.sim);
+  Cycles *c = zp_calloc(1, sizeof *c);
+  ZpStatus status = c ? zp_sim_create(model, hooks, &c->sim, err) : zp_fail_memory(err);
+  if (status == ZP_OK) {
+    c->hooks = hooks;
+    if (create(c, model, result) && choose(c)) {
+      answer(c);
+      summarize(c, result);
+    } else
+      status = zp_fail_memory(err);
+    zp_linear_cycle_close(&c->small);
+    zp_free(c->memory);
+    zp_sim_destroy(c->sim);
+  }
+  zp_free(c);
   return status;
 }
 
@@ -491,6 +725,8 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = explicit: study cycle requires implicit");
+  const char *lacks = def->cycle.method == ZP_CYCLE_LINEAR ? zp_linear_cycle_lacks(def) : NULL;
+  if (lacks) return zp_fail(err, ZP_BAD_INPUT, "cycle.method = linear: there is no linear answer with %s", lacks);
   ZpStatus status = zp_def_check_motion(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err) : status;
 }

@@ -67,6 +67,13 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
   }
 }
 
+void zp_term_add_outside(const ZpModel *model, const ZpEval *e, const double *a, double *F) {
+  inertia(model, NULL, e, a, F);
+  for (size_t j = 0; j < model->count; j++)
+    F[model->stride + j] +=
+        zp_outer_side(&model->outer) * zp_film_length(&model->film, j / model->s) * a[model->stride + j];
+}
+
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
   zp_plates_gaps(&model->plates, now->end, now->end + model->stride, &e->plates);
   for (size_t i = 0; i < model->nodes; i++) {

@@ -114,6 +114,10 @@ typedef struct ZpRoom {
  * mm before all is wet its head decreases to 0. */
 ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach);
 
+/* F [2 stride] += all inertia of the liquid outside, on pairs and on each outer face, at accelerations a [2 stride] and
+ * the gaps found last. */
+void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double *a, double *F);
+
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);
 

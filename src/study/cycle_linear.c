@@ -1,0 +1,378 @@
+/* Letters: x integrals of the rates w of small motions (rest/plant.h), u the squared voltage less its mean, n the
+ * number of a harmonic, eqs. (24.4) to (24.8). */
+#include "study/cycle_linear.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "math/elementary.h"
+#include "math/gauss.h"
+#include "sim/hooks.h"
+
+enum { SINE = 2, BENT = 8, PHASES = 32 }; /* harmonics of a sine, and of forces of second order; their samples */
+
+const char *zp_linear_cycle_lacks(const ZpActuatorDef *def) {
+  if (def->ribbon.model != ZP_RIBBON_ROD) return "ribbon.model = mass_spring, whose shear law has no energy; use rod";
+  if (def->electro.model == ZP_ELECTRO_FIELD) return "electro.model = field; use plates";
+  if (def->source.model != ZP_SOURCE_IDEAL) return "source.model = amplifier, whose limits are not linear; use ideal";
+  if (def->bead.suction > 0 && zp_def_liquid(def) == ZP_LIQUID_BEAD) return "bead.suction above 0; use 0";
+  if (def->ribbon.plasticity) return "ribbon.plasticity; use false";
+  if (isfinite(def->insulator.resistivity) || isfinite(def->medium.resistivity))
+    return "insulator.resistivity and medium.resistivity; use none";
+  return NULL;
+}
+
+/* -- the squared voltage ---------------------------------------------------------------------------- */
+
+/* f <- f + a (cos - i sin)(turns) */
+static void add_wave(ZpComplex *f, double a, double turns) {
+  turns -= floor(turns);
+  f->re += a * zp_cosine_of(turns);
+  f->im -= a * zp_sine_of(turns);
+}
+
+/* Its part between two corners, times s. */
+static void add_piece(ZpLinearCycle *l, double from, double to) {
+  enum { PARTS = 128 };
+  const double period = zp_waveform_period(&l->model->waveform);
+  for (int k = 0; k < PARTS; k++)
+    for (int g = 0; g < GAUSS; g++) {
+      double t = from + (to - from) * (k + gauss_at[g]) / PARTS, U = zp_waveform_voltage(&l->model->waveform, t);
+      double part = U * U * gauss_weight[g] * (to - from) / PARTS / period;
+      l->mean += part;
+      for (size_t n = 1; n <= l->harmonics; n++)
+        add_wave(&l->square[n], 2 * part, (double)n * t / period);
+    }
+}
+
+static void find_square(ZpLinearCycle *l) {
+  const ZpWaveform *w = &l->model->waveform;
+  const double period = zp_waveform_period(w);
+  l->harmonics = w->kind == ZP_WAVEFORM_SINE ? SINE : ZP_CYCLE_HARMONICS;
+  for (double t = 0; t < period;) {
+    double next = fmin(zp_waveform_next_corner(w, t), period);
+    add_piece(l, t, next);
+    t = next;
+  }
+}
+
+/* -- the motion ------------------------------------------------------------------------------------- */
+
+static double angular(const ZpLinearCycle *l, size_t n) {
+  return 2 * zp_pi * (double)n / zp_waveform_period(&l->model->waveform);
+}
+
+/* Harmonic n of the forces on the shapes => of x, eq. (24.5): [rates]. For n = 0 the liquid at the edges stays. */
+static bool answer(ZpLinearCycle *l, size_t n, ZpComplex *x) {
+  const ZpSmallMotion *s = &l->small;
+  const double omega = angular(l, n);
+  const size_t rates = n > 0 ? s->rates : s->shapes;
+  for (size_t r = 0; r < rates; r++)
+    for (size_t c = 0; c < rates; c++) {
+      size_t at = r * s->rates + c;
+      l->matrix[r * rates + c] = (ZpComplex){s->stiffness[at] - omega * omega * s->mass[at], omega * s->damping[at]};
+    }
+  return zp_complex_solve(rates, l->matrix, x);
+}
+
+static ZpComplex *moved(const ZpLinearCycle *l, size_t n) {
+  return l->moved + n * l->small.rates;
+}
+
+/* Forces follow the squared voltage as dF/dU / 2 U; the charge, as it changes with x, does so like half of the
+ * capacitance. */
+static double per_square(const ZpLinearCycle *l, double by_voltage) {
+  return l->mean > 0 ? by_voltage / (2 * sqrt(l->mean)) : 0;
+}
+
+/* => false if a matrix is singular. */
+static bool find_motion(ZpLinearCycle *l) {
+  for (size_t n = 1; n <= l->harmonics; n++) {
+    ZpComplex *x = moved(l, n), u = l->square[n];
+    for (size_t j = 0; j < l->small.shapes; j++) {
+      double force = per_square(l, l->small.by_voltage[j]);
+      x[j] = (ZpComplex){force * u.re, force * u.im};
+    }
+    if (!answer(l, n, x)) return false;
+    for (size_t r = 0; r < l->small.rates; r++) /* half the square times the change of capacitance, eq. (24.6) */
+      l->energy +=
+          l->model->parts * zp_pi * (double)n * per_square(l, l->small.charge[r]) * (u.im * x[r].re - u.re * x[r].im);
+  }
+  return true;
+}
+
+static double part(ZpComplex a, double turns) {
+  return a.re * zp_cosine_of(turns) - a.im * zp_sine_of(turns);
+}
+
+/* x, or with `rate` w, at a phase => [rates]. */
+static void at_phase(const ZpLinearCycle *l, double turns, bool rate, double *x) {
+  memset(x, 0, l->small.rates * sizeof *x);
+  for (size_t n = 1; n <= l->harmonics; n++) {
+    double angle = (double)n * turns - floor((double)n * turns), omega = angular(l, n);
+    const ZpComplex *a = moved(l, n);
+    for (size_t r = 0; r < l->small.rates; r++)
+      x[r] += rate ? part((ZpComplex){-omega * a[r].im, omega * a[r].re}, angle) : part(a[r], angle);
+  }
+}
+
+/* share times the shapes => q [2 stride]. */
+static void combine(const ZpLinearCycle *l, const double *x, double share, double *q) {
+  const size_t nodes = 2 * l->model->stride;
+  memset(q, 0, nodes * sizeof *q);
+  for (size_t j = 0; j < l->small.shapes; j++)
+    for (size_t i = 0; i < nodes; i++)
+      q[i] += share * x[j] * l->small.shape[j * nodes + i];
+}
+
+/* What has flowed past the edges of a bead. */
+static double outside(const ZpLinearCycle *l, int half, const double *x) {
+  double sum = 0;
+  for (size_t r = 0; r < l->small.rates; r++)
+    sum += l->small.out[half][r] * x[r];
+  return sum;
+}
+
+/* How much must be there at the mean, so that the edges never run dry: twice the range in a cycle before the least. */
+static double reserve(ZpLinearCycle *l, int half) {
+  double least = 0, most = 0;
+  for (int k = 0; k < PHASES; k++) {
+    at_phase(l, (double)k / PHASES, false, l->x);
+    least = fmin(least, outside(l, half, l->x));
+    most = fmax(most, outside(l, half, l->x));
+  }
+  return (most - least) - least;
+}
+
+/* -- the motion of second order --------------------------------------------------------------------- */
+
+static double opening_of(const ZpLinearCycle *l, size_t j) {
+  return zp_opening(&l->model->topology, l->small.shape + j * 2 * l->model->stride + l->model->stride);
+}
+
+/* Amplitude of the opening in a harmonic of x, m. */
+static double amplitude(const ZpLinearCycle *l, const ZpComplex *x) {
+  ZpComplex sum = {0, 0};
+  for (size_t j = 0; j < l->small.shapes; j++) {
+    sum.re += opening_of(l, j) * x[j].re;
+    sum.im += opening_of(l, j) * x[j].im;
+  }
+  return sqrt(sum.re * sum.re + sum.im * sum.im);
+}
+
+/* The forces of all laws at rest, `share` of the motion at a phase away from the mean => force [2 stride]. */
+static void find_force(ZpLinearCycle *l, double share, double u) {
+  ZpStatics *s = &l->rest.statics;
+  const ZpModel *model = s->model;
+  combine(l, l->x, share, l->q);
+  for (size_t i = 0; i < 2 * model->stride; i++)
+    l->q[i] += s->q[i];
+  ZpBead bead[ZP_BEADS] = {{0}};
+  ZpSpan span = zp_span_at(l->q);
+  span.U0 = span.U1 = sqrt(fmax(l->mean + share * u, 0));
+  if (model->has_bead) {
+    double reach[ZP_BEADS];
+    zp_plates_gaps(&model->plates, l->q, l->q + model->stride, &s->eval.plates);
+    for (int half = 0; half < zp_beads(&model->film); half++)
+      bead[half].outside = share * outside(l, half, l->x);
+    zp_eval_reach(model, s->eval.plates.gap, bead, reach);
+    for (int half = 0; half < ZP_BEADS; half++)
+      bead[half].reach = reach[half];
+    span.bead = bead;
+  }
+  zp_system_force(model, &span, &s->eval, l->force);
+}
+
+static void add_along_shapes(const ZpLinearCycle *l, double weight, double *sum) {
+  const size_t nodes = 2 * l->model->stride;
+  for (size_t j = 0; j < l->small.shapes; j++)
+    for (size_t i = 0; i < nodes; i++)
+      sum[j] += weight * l->force[i] * l->small.shape[j * nodes + i];
+}
+
+/* Form drag of the liquid outside at the present rates. */
+static void find_drag(ZpLinearCycle *l, double turns) {
+  const ZpModel *model = l->model;
+  at_phase(l, turns, true, l->x);
+  combine(l, l->x, 1, l->q);
+  memset(l->force, 0, 2 * model->stride * sizeof *l->force);
+  for (size_t j = 0; j < model->count; j++) {
+    double v = l->q[model->stride + j], length = zp_film_length(&model->film, j / model->s);
+    l->force[model->stride + j] = -model->outer.drag * model->film.w * length * fabs(v) * v;
+  }
+}
+
+/* Forces of second order at a phase, eq. (24.7) => sum [shapes]: the even part of the laws, at a share of the motion at
+ * which the squared voltage is positive on both sides. */
+static void find_bent(ZpLinearCycle *l, double turns, double *sum) {
+  const double U = zp_waveform_voltage(&l->model->waveform, turns * zp_waveform_period(&l->model->waveform)),
+               u = U * U - l->mean;
+  const double share = fmin(0.5, 0.5 * l->mean / fmax(fabs(u), 1e-300)), per = 1 / (share * share);
+  memset(sum, 0, l->small.shapes * sizeof *sum);
+  at_phase(l, turns, false, l->x);
+  find_force(l, share, u);
+  add_along_shapes(l, 0.5 * per, sum);
+  find_force(l, -share, u);
+  add_along_shapes(l, 0.5 * per, sum);
+  find_force(l, 0, 0);
+  add_along_shapes(l, -per, sum);
+  if (!l->model->has_film || l->model->has_bead) return;
+  find_drag(l, turns);
+  add_along_shapes(l, 1, sum);
+}
+
+/* Largest relative change of a wet film. */
+static double largest_strain(ZpLinearCycle *l) {
+  const ZpModel *model = l->model;
+  ZpStatics *s = &l->rest.statics;
+  const double *y = l->q + model->stride;
+  double most = 0;
+  for (int k = 0; k < PHASES; k++) {
+    at_phase(l, (double)k / PHASES, false, l->x);
+    combine(l, l->x, 1, l->q);
+    zp_plates_gaps(&model->plates, s->q, s->q + model->stride, &s->eval.plates);
+    for (size_t i = 0; i < model->nodes; i++) {
+      double change = y[zp_upper(&model->topology, i)] - y[zp_lower(&model->topology, i)];
+      most = fmax(most, fabs(change) / zp_film_thickness(&model->film, s->eval.plates.gap[i]));
+    }
+  }
+  return most;
+}
+
+/* The film's resistance goes with the cube of its thickness: harmonic n of that change of its force => x. */
+static void change_film(ZpLinearCycle *l, size_t n, double strain, ZpComplex *x) {
+  const ZpSmallMotion *s = &l->small;
+  const ZpComplex *a = moved(l, n);
+  const double per = 3 * strain * angular(l, n);
+  for (size_t r = 0; r < s->rates; r++) {
+    x[r] = (ZpComplex){0, 0};
+    for (size_t c = 0; c < s->rates; c++) {
+      x[r].re -= per * s->damping[r * s->rates + c] * a[c].im;
+      x[r].im += per * s->damping[r * s->rates + c] * a[c].re;
+    }
+  }
+}
+
+/* Harmonic n of the forces of second order => x. */
+static void harmonic_of(const ZpLinearCycle *l, size_t n, const double *sample, ZpComplex *x) {
+  memset(x, 0, l->small.rates * sizeof *x);
+  for (int k = 0; k < PHASES; k++)
+    for (size_t j = 0; j < l->small.shapes; j++)
+      add_wave(&x[j], (n > 0 ? 2.0 : 1.0) / PHASES * sample[(size_t)k * l->small.shapes + j], (double)n * k / PHASES);
+}
+
+static double answered(ZpLinearCycle *l, size_t n, ZpComplex *x) {
+  return answer(l, n, x) ? amplitude(l, x) : INFINITY;
+}
+
+/* Amplitudes of the motion of second order, m: its mean, and the sum of its harmonics. */
+typedef struct Bent {
+  double mean, swings;
+} Bent;
+
+static Bent find_second(ZpLinearCycle *l, ZpComplex *x, double *sample) {
+  Bent bent = {0, 0};
+  for (int k = 0; k < PHASES; k++)
+    find_bent(l, (double)k / PHASES, sample + (size_t)k * l->small.shapes);
+  for (size_t n = 0; n <= BENT; n++) {
+    harmonic_of(l, n, sample, x);
+    *(n > 0 ? &bent.swings : &bent.mean) += answered(l, n, x);
+  }
+  if (!l->model->has_film) return bent;
+  const double strain = largest_strain(l);
+  for (size_t n = 1; n <= l->harmonics && n <= BENT; n++) {
+    change_film(l, n, strain, x);
+    bent.swings += answered(l, n, x);
+  }
+  return bent;
+}
+
+/* How much larger harmonic n is than at rest under the same forces. */
+static double gain(ZpLinearCycle *l, size_t n, ZpComplex *x) {
+  for (size_t j = 0; j < l->small.shapes; j++) {
+    double force = per_square(l, l->small.by_voltage[j]);
+    x[j] = (ZpComplex){force * l->square[n].re, force * l->square[n].im};
+  }
+  double still = answered(l, 0, x);
+  return still > 0 ? amplitude(l, moved(l, n)) / still : 0;
+}
+
+/* Near a resonance also what is of third order counts: it tunes the actuator. Eq. (24.8). */
+static double find_curvature(ZpLinearCycle *l, ZpComplex *x, double *sample) {
+  size_t largest = 1;
+  for (size_t n = 2; n <= l->harmonics; n++)
+    if (amplitude(l, moved(l, n)) > amplitude(l, moved(l, largest))) largest = n;
+  double first = amplitude(l, moved(l, largest));
+  if (!(first > 0)) return 0;
+  Bent bent = find_second(l, x, sample);
+  double whole = (bent.mean + bent.swings) / first;
+  return bent.swings / first + whole * whole * gain(l, largest, x);
+}
+
+/* -- all together ----------------------------------------------------------------------------------- */
+
+static bool stop(void *hooks) {
+  return zp_hooks_stop(hooks, "finding the mean", 0);
+}
+
+typedef struct Room {
+  ZpComplex *x;
+  double *sample;
+} Room;
+
+static size_t carve(ZpLinearCycle *l, void *block, Room *room) {
+  ZpCarver carver = {block, 0};
+  const size_t rates = l->small.rates;
+  l->moved = (ZpComplex *)(void *)zp_carve(&carver, 2 * (l->harmonics + 1) * rates);
+  l->matrix = (ZpComplex *)(void *)zp_carve(&carver, 2 * rates * rates);
+  room->x = (ZpComplex *)(void *)zp_carve(&carver, 2 * rates);
+  room->sample = zp_carve(&carver, PHASES * l->small.shapes);
+  l->x = zp_carve(&carver, rates);
+  l->q = zp_carve(&carver, 2 * l->model->stride);
+  l->force = zp_carve(&carver, 2 * l->model->stride);
+  return carver.used;
+}
+
+bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCycle *l, bool *failed) {
+  *l = (ZpLinearCycle){.model = model, .curvature = INFINITY};
+  find_square(l);
+  *failed = !zp_rest_open(&l->rest, model, NULL, NULL);
+  if (*failed) return false;
+  l->rest.statics.stop = stop;
+  l->rest.statics.caller = (void *)hooks;
+  if (!zp_rest_hang(&l->rest, sqrt(l->mean))) return false;
+  if (!zp_statics_stable(&l->rest.statics, &l->rest.branch.newton)) return false;
+  Room room;
+  *failed = !zp_small_motion_create(&l->rest, &l->small) || !(l->memory = zp_calloc(1, carve(l, NULL, &room)));
+  if (*failed) return false;
+  carve(l, l->memory, &room);
+  if (!find_motion(l)) return false;
+  l->curvature = find_curvature(l, room.x, room.sample);
+  return true;
+}
+
+void zp_linear_cycle_close(ZpLinearCycle *l) {
+  zp_free(l->memory);
+  zp_small_motion_destroy(&l->small);
+  zp_rest_close(&l->rest);
+}
+
+void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
+  const ZpModel *model = l->model;
+  const size_t nodes = 2 * model->stride;
+  ZpState *state = sim->state;
+  double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
+  for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++) {
+    double mean = reserve(l, half);
+    at_phase(l, turns, false, l->x);
+    state->bead[half].outside = mean + outside(l, half, l->x);
+    state->bead[half].supply = 1;
+  }
+  at_phase(l, turns, true, l->x);
+  combine(l, l->x, 1, v);
+  at_phase(l, turns, false, l->x);
+  combine(l, l->x, 1, q);
+  for (size_t i = 0; i < nodes; i++)
+    q[i] += l->rest.statics.q[i];
+  zp_sim_lay_beads(sim);
+}
