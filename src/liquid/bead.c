@@ -1,6 +1,5 @@
 #include "liquid/bead.h"
 
-#include <float.h>
 #include <math.h>
 
 int zp_beads(const ZpFilmParams *p) {
@@ -97,19 +96,18 @@ double zp_bead_thickness(const ZpFilmParams *p, const ZpBeadPlace *place, const 
 
 /* What is at hand in a step like the last one, over what the film would take of it. */
 static double supply_of(double outside, double comes, double wanted) {
-  static const double least = 1e-3; /* so that what the film would take is seen */
   double at_hand = 0.5 * outside + comes;
-  if (at_hand >= wanted) return at_hand > 0 ? 1 : least;
-  return fmax(at_hand / wanted, least);
+  if (!(at_hand > 0)) return 0;
+  return at_hand < wanted ? at_hand / wanted : 1;
 }
 
 ZpBead zp_bead_after(const ZpBeadParams *params, const ZpFilmParams *p, const double *gap, int half, ZpBead before,
-                     double pressed_out, double drawn_in, double h) {
+                     ZpBeadEdges edges, double h) {
   double share = params->returned;
-  ZpBead after = {.outside = fmax(before.outside + share * pressed_out - drawn_in, 0),
-                  .lost = before.lost + (1 - share) * pressed_out};
+  ZpBead after = {.outside = fmax(before.outside + share * edges.pressed_out - edges.drawn_in, 0),
+                  .lost = before.lost + (1 - share) * edges.pressed_out};
   after.reach = zp_bead_reach(p, gap, half, params->volume - after.outside - after.lost);
   after.rate = (after.reach - before.reach) / h;
-  after.supply = supply_of(after.outside, share * pressed_out, drawn_in / fmax(before.supply, DBL_MIN));
+  after.supply = supply_of(after.outside, share * edges.pressed_out, edges.wanted);
   return after;
 }
