@@ -27,8 +27,7 @@ static size_t element(const ZpFilmParams *p, int half, size_t k) {
   return half ? p->nodes - 2 - k : k;
 }
 
-/* How far from its near end an element is wet that holds `area`: n d + (f - n) d^2 / (2 l) = area. */
-static double within(double near, double far, double l, double area) {
+double zp_bead_within(double near, double far, double l, double area) {
   double slope = (far - near) / l;
   return 2 * area / (near + sqrt(fmax(near * near + 2 * slope * area, 0)));
 }
@@ -41,7 +40,7 @@ double zp_bead_reach(const ZpFilmParams *p, const double *gap, int half, double 
   double area = fmax(volume, 0) / p->w, near = thickness(p, gap, half, 0);
   for (size_t k = 0; k < zp_bead_elements(p); k++) {
     double far = thickness(p, gap, half, k + 1), all = 0.5 * p->l * (near + far);
-    if (area < all) return (double)k * p->l + fmin(within(near, far, p->l, area), p->l);
+    if (area < all) return (double)k * p->l + fmin(zp_bead_within(near, far, p->l, area), p->l);
     area -= all;
     near = far;
   }
