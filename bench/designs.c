@@ -14,6 +14,10 @@
  *   designs liquid [COUNT [SEED [FIRST]]]   zips in a bath or with beads of oil, of 0.5 to 5000 mm2/s, at 2 to 15 kV:
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
  *                                        the studies
+ *   designs supply [COUNT [SEED [FIRST]]]   motions of 21 nodes behind supplies: every preset, or random ones with a
+ *                                        resistance from 0 to 1 Gohm, a capacitance from 0 to 1 nF, limits of the
+ *                                        current from 1 uA to 1 kA; with and without cap, in every liquid, with
+ *                                        tolerances of 1e-3 to 1e-6: as for liquid
  *   designs ramp [COUNT [SEED]]          do `limits` and a slow ramp of the voltage in time close and open the actuator
  *                                        at the same voltages to 1 %, with 61 nodes or more, or where the mesh is too
  *                                        coarse to 1 % beyond what half the elements' length changes? Status 1 if one
@@ -238,6 +242,31 @@ static int check_study(ZpStudy study, int designs, uint64_t seed) {
   return bad;
 }
 
+/* Do the designs from `first` on have an answer to study actuate? => how many have none */
+static int check_motions(const char *what, ZpActuatorDef (*draws)(uint64_t *state), int designs, uint64_t seed,
+                         int first) {
+  int bad = 0;
+  double start = cpu_s(), slowest = 0;
+  for (int i = 0; i < designs; i++) {
+    char text[512];
+    ZpActuatorDef def = draws(&seed);
+    if (i < first) continue;
+    double begun = cpu_s();
+    bool answered = is_answered(ZP_STUDY_ACTUATE, &def, text);
+    slowest = fmax(slowest, cpu_s() - begun);
+    if (answered) continue;
+    bad++;
+    printf("design %d: zipact actuate", i);
+    print_design(&def);
+    printf("  %s\n", text);
+    fflush(stdout);
+  }
+  int looked = designs > first ? designs - first : 0;
+  printf("%s: %d of %d designs answered, %.2f s of CPU, the slowest %.2f s\n", what, looked - bad, looked,
+         cpu_s() - start, slowest);
+  return bad;
+}
+
 /* -- in liquid ----------------------------------------------------------------------------------------- */
 
 /* A design as above in oil: in a bath, or with beads of which half have suction. */
@@ -254,28 +283,64 @@ static ZpActuatorDef design_in_liquid(uint64_t *state) {
   return def;
 }
 
-/* => how many of the designs from `first` on have no answer */
-static int check_liquid(int designs, uint64_t seed, int first) {
-  int bad = 0;
-  double start = cpu_s(), slowest = 0;
-  for (int i = 0; i < designs; i++) {
-    char text[512];
-    ZpActuatorDef def = design_in_liquid(&seed);
-    if (i < first) continue;
-    double begun = cpu_s();
-    bool answered = is_answered(ZP_STUDY_ACTUATE, &def, text);
-    slowest = fmax(slowest, cpu_s() - begun);
-    if (answered) continue;
-    bad++;
-    printf("design %d: zipact actuate", i);
-    print_design(&def);
-    printf("  %s\n", text);
-    fflush(stdout);
+/* -- behind a supply ----------------------------------------------------------------------------------- */
+
+/* Nothing, or up to `most` times as much as `least`. */
+static double none_or(uint64_t *state, double share_of_none, double none, double least, double most) {
+  bool is_none = draw(state) < share_of_none;
+  double value = log_uniform(state, least, most);
+  return is_none ? none : value;
+}
+
+static void draw_supply(uint64_t *state, ZpActuatorDef *def) {
+  def->source.resistance = none_or(state, 0.3, 0, 1e-3, 1e9);
+  def->source.capacitance = none_or(state, 0.4, 0, 1e-14, 1e-9);
+  def->source.current_limit = none_or(state, 0.3, NAN, 1e-6, 1e3);
+  def->source.sink_limit = draw(state) < 0.2 ? 0 : none_or(state, 0.6, NAN, 1e-6, 1e3);
+  def->source.slew_rate = none_or(state, 0.6, NAN, 1e4, 1e10);
+  def->source.bandwidth = none_or(state, 0.6, NAN, 1, 1e5);
+  def->source.bleeder = none_or(state, 0.7, NAN, 1e6, 1e12);
+}
+
+static void draw_waveform(uint64_t *state, ZpActuatorDef *def) {
+  static const ZpWaveformKind kinds[] = {ZP_WAVEFORM_STEP, ZP_WAVEFORM_STEP, ZP_WAVEFORM_RAMP, ZP_WAVEFORM_SQUARE,
+                                         ZP_WAVEFORM_SINE};
+  def->drive.waveform = kinds[(int)uniform(state, 0, 5)];
+  def->drive.frequency = log_uniform(state, 5, 500);
+  double rise = draw(state);
+  if (def->drive.waveform == ZP_WAVEFORM_RAMP) def->drive.rise_time = 0.1 * rise * rise * rise;
+  if (def->drive.waveform == ZP_WAVEFORM_SQUARE)
+    def->drive.rise_time = rise < 0.5 ? 0 : 0.2 * rise / def->drive.frequency;
+}
+
+/* The keys of a preset, where there is one. */
+static ZpActuatorDef supplied(const ZpActuatorDef *def, ZpSupplyName supply) {
+  const ZpActuatorDef plain = zp_actuator_def_default();
+  ZpAssignment list[64];
+  size_t count = 0;
+  for (int k = 0; k < zp_key_count(); k++) {
+    double value = zp_def_get(def, k), usual = zp_def_get(&plain, k);
+    if (!isnan(value) && value != usual) list[count++] = (ZpAssignment){k, value};
   }
-  int looked = designs > first ? designs - first : 0;
-  printf("liquid: %d of %d designs answered, %.2f s of CPU, the slowest %.2f s\n", looked - bad, looked,
-         cpu_s() - start, slowest);
-  return bad;
+  list[count++] = (ZpAssignment){zp_key_find("source.supply"), supply};
+  ZpActuatorDef all;
+  return zp_def_resolve(&all, list, count, NULL) == ZP_OK ? all : *def;
+}
+
+static ZpActuatorDef design_behind_supply(uint64_t *state) {
+  ZpActuatorDef def = draw(state) < 0.4 ? design(state) : design_in_liquid(state);
+  ZpSupplyName supply = (ZpSupplyName)uniform(state, 0, 10);
+  if (supply > ZP_SUPPLY_CONVERTER_10KV) supply = ZP_SUPPLY_NONE;
+  def.mesh.nodes = 21;
+  def.source.model = ZP_SOURCE_AMPLIFIER;
+  draw_waveform(state, &def);
+  def.solver.tolerance = log_uniform(state, 1e-6, 1e-3);
+  def.solver.end_time = 0.1;
+  def.output.samples = 100;
+  if (supply == ZP_SUPPLY_NONE) draw_supply(state, &def);
+  if (supply != ZP_SUPPLY_NONE) def = supplied(&def, supply);
+  if (def.drive.voltage > def.source.voltage_limit) def.drive.voltage = def.source.voltage_limit;
+  return def;
 }
 
 /* -- limits against equilibrium ----------------------------------------------------------------------- */
@@ -709,7 +774,7 @@ static const ZpStudy every[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,  ZP_STUDY
 
 int main(int argc, char **argv) {
   const char *word = argc > 1 ? argv[1] : "all";
-  int designs = argc > 2 ? atoi(argv[2]) : 100, bad = 0, known = 0;
+  int designs = argc > 2 ? atoi(argv[2]) : 100, first = argc > 4 ? atoi(argv[4]) : 0, bad = 0, known = 0;
   uint64_t seed = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
   static const ZpStudy still[] = {ZP_STUDY_LIMITS, ZP_STUDY_STATIONARY, ZP_STUDY_MODES, ZP_STUDY_ISOMETRIC};
   static const ZpStudy moving[] = {ZP_STUDY_ACTUATE};
@@ -718,13 +783,15 @@ int main(int argc, char **argv) {
   if (strcmp(word, "times") == 0) return check_errors(moving, 1, designs, seed, 61) > 0;
   if (strcmp(word, "tolerance") == 0) return check_tolerances(designs, seed, 61), 0;
   if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
-  if (strcmp(word, "liquid") == 0) return check_liquid(designs, seed, argc > 4 ? atoi(argv[4]) : 0) > 0;
+  if (strcmp(word, "liquid") == 0) return check_motions(word, design_in_liquid, designs, seed, first) > 0;
+  if (strcmp(word, "supply") == 0) return check_motions(word, design_behind_supply, designs, seed, first) > 0;
   if (strcmp(word, "ramp") == 0) return check_ramp(designs, seed) > 0;
   for (size_t k = 0; k < sizeof every / sizeof every[0]; k++) {
     if (strcmp(word, "all") != 0 && strcmp(word, zp_study_name(every[k])) != 0) continue;
     bad += check_study(every[k], designs, seed);
     known++;
   }
-  if (known == 0) fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, ramp, liquid\n", word);
+  if (known == 0)
+    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, ramp, liquid, supply\n", word);
   return known == 0 ? 2 : bad > 0;
 }

@@ -211,7 +211,13 @@ static double first_order_error(const ZpImplicit *s, double h, double moved, siz
   return h * h * h / 3 * (change - history->a[i]) / (h + 3 * history->last);
 }
 
-/* Local error relative to the required accuracy. Algebraic unknowns follow from the others. */
+/* Algebraic unknowns follow from the others. */
+static double share_resolved(const ZpImplicitSystem *system, size_t i) {
+  if (system->kind[i] == ZP_ALGEBRAIC) return 0;
+  return system->resolved ? system->resolved(system->self, i) : 1;
+}
+
+/* Local error relative to the required accuracy. */
 static double local_error(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
   const ZpImplicitSystem *system = s->system;
   size_t counted = system->n;
@@ -220,10 +226,10 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
   else
     memset(s->r, 0, system->n * sizeof *s->r);
   for (size_t i = 0; system->kind && i < system->n; i++) {
-    if (system->kind[i] == ZP_FIRST_ORDER) s->r[i] = first_order_error(s, h, s->q[i] - q[i], i, history);
-    if (system->kind[i] != ZP_ALGEBRAIC) continue;
-    s->r[i] = 0;
-    counted--;
+    if (system->kind[i] == ZP_SECOND_ORDER) continue;
+    double share = share_resolved(system, i);
+    s->r[i] = share > 0 ? share * first_order_error(s, h, s->q[i] - q[i], i, history) : 0;
+    if (share == 0) counted--;
   }
   return rms(system, s->r, counted) / s->accuracy;
 }
