@@ -80,26 +80,27 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
 
-/* Capacitance of one part's electrodes at the end of the step between the voltages of its start and its end, or where
- * these are one above it, F. Capped charges have none. */
-static double chord(const ZpDynamics *d, const ZpSpan *span, double charge) {
-  static const double least = 1e-3; /* of the scale */
-  double apart = d->U0 - d->U1;
-  if (fabs(apart) < least * d->source->scale) apart = copysign(least * d->source->scale, d->U1);
-  return (zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1 + apart).charge - charge) / apart;
+/* The charge that all electrodes have taken at the end of the step at a voltage, C. */
+static double taken_at(const void *self, double U) {
+  const ZpDynamics *d = self;
+  ZpSpan span = span_of(d);
+  ZpElectric end = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U);
+  return d->model->parts * (end.charge + end.passed - d->charge0);
 }
 
-/* The source's law, of the whole actuator. */
-static void ask_source(ZpDynamics *d, const ZpSpan *span) {
-  ZpElectric end = zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1);
-  double parts = d->model->parts;
-  ZpSourceStep step = {d->state->t,
-                       d->h,
-                       d->U0,
-                       d->U1,
-                       parts * (end.charge + end.passed - d->charge0),
-                       parts * fmax(chord(d, span, end.charge), 0)};
-  d->chord = step.C / parts;
+/* Their capacitance there between the voltages of the step's start and end, or where these are one above it, F. Capped
+ * charges have none. */
+static double chord(const ZpDynamics *d, double taken) {
+  static const double same = 1e-9, above = 1e-3; /* of the scale */
+  double apart = d->U0 - d->U1, scale = d->source->scale;
+  if (fabs(apart) < same * scale) apart = copysign(above * scale, d->U1);
+  return fmax((taken_at(d, d->U1 + apart) - taken) / apart, 0);
+}
+
+static void ask_source(ZpDynamics *d) {
+  double taken = taken_at(d, d->U1);
+  d->chord = chord(d, taken);
+  ZpSourceStep step = {d->state->t, d->h, d->U0, d->U1, taken, d->chord, d, taken_at};
   d->law = d->source->law(d->source->self, &step);
 }
 
@@ -146,7 +147,7 @@ static void force_of_one(ZpDynamics *d, const double *q1, double h, double *f) {
   for (size_t c = 0; c < zp_own_unknowns(model); c++)
     f[d->assembly.own_equation[c]] = d->eval.own_residual[c];
   if (!d->source) return;
-  ask_source(d, &span);
+  ask_source(d);
   f[d->assembly.n] = d->law.lacks / model->parts;
 }
 
@@ -199,8 +200,16 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   return ZP_END_FOUND;
 }
 
-/* Row and column of the voltage behind a source, eq. (18.10). Beyond a kink of the charge, where it is capped, its
- * slope would lead anywhere: the chord from the start of the step leads back to the kink. */
+/* Of one part. Beyond a kink of the charge, where it is capped, the slope would lead anywhere: the chord leads back
+ * towards the start of the step. */
+static double capacitance(const ZpDynamics *d) {
+  static const double none = 1e-3; /* of the chord */
+  double slope = d->by_voltage.capacitance, chord = d->chord / d->model->parts;
+  bool goes_back = d->law.lacks * (d->U1 - d->U0) < 0;
+  return goes_back || slope < none * chord ? fmax(slope, chord) : slope;
+}
+
+/* Row and column of the voltage behind a source, eq. (18.10). */
 static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   const ZpByVoltage *by = &d->by_voltage;
   size_t u = d->assembly.n;
@@ -211,7 +220,7 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
     J->B[i] = -J->B[i];
     J->C[i] *= -d->law.by_taken;
   }
-  *zp_bordered_at(J, u, u) = -d->law.by_taken * fmax(by->capacitance, d->chord) - d->law.by_voltage / d->model->parts;
+  *zp_bordered_at(J, u, u) = -d->law.by_taken * capacitance(d) - d->law.by_voltage / d->model->parts;
 }
 
 /* The tangent of one member, in its part of the band. */

@@ -25,7 +25,7 @@ typedef struct ZpDynamics {
   ZpUnknown *kind;        /* [n] with a source: the last is the voltage */
   double *scale;          /* [n] */
   ZpByVoltage by_voltage; /* with a source */
-  ZpSourceLaw law;        /* its law at the last residual, and the electrodes' capacitance there, F */
+  ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
   double chord;
   double charge0;                   /* of one part at the start of the step, C */
   double charge1;                   /* of one part at the end of the last step, C */

@@ -9,11 +9,12 @@
 #include "math/elementary.h"
 #include "sim/sim_internal.h"
 
-static const double least_capacitance = 1e-15; /* F, of a wire: a capped charge has no capacitance */
+static const double least_capacitance = 1e-15; /* F: a capped charge has none, and a law needs a scale */
 static const double undecided = 1e-13;         /* F: with less, charge that cannot leave would raise any voltage */
 static const double past_limit = 1e-6;         /* of the scale: a limit is passed */
 static const double shortest = 1e-12;          /* s: in shorter ones only time advances */
-static const double instant = 1e-9;            /* s: the electrodes charge at once */
+static const double instant = 1e-8;            /* s: what voltages do in less time happens at once, */
+static const double mechanical = 1e-3;         /* and in less than this it hardly moves an actuator */
 
 bool zp_sim_is_fed(const ZpSim *sim) {
   return sim->model->supply.acts;
@@ -59,68 +60,92 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
 
 /* -- the law of the current ------------------------------------------------------------------------ */
 
-static double cable_of(const ZpSim *sim) {
-  return fmax(sim->model->supply.capacitance, least_capacitance);
-}
-
 double zp_feed_cable_energy(const ZpSim *sim, double U) {
-  return 0.5 * cable_of(sim) * U * U;
+  return 0.5 * sim->model->supply.capacitance * U * U;
 }
 
-/* A wire and a bleeder are parallel to the electrodes: the charge that all take over a step, C, and its derivative by
- * the voltage at the end beside that of the electrodes, F. */
-static double taken_by_all(const ZpSim *sim, const ZpSourceStep *s) {
-  double bleeds = 0.5 * (s->U0 + s->U1) * sim->model->supply.conductance;
-  return s->taken + cable_of(sim) * (s->U1 - s->U0) + s->h * bleeds;
+/* A cable and a bleeder are parallel to the electrodes: the charge that all take over a step, C, if the voltage ends at
+ * U; its derivative by the voltage beside that of the electrodes, F. */
+static double taken_by_all(const ZpSupply *supply, const ZpSourceStep *s, double electrodes, double U) {
+  return electrodes + supply->capacitance * (U - s->U0) + 0.5 * s->h * (s->U0 + U) * supply->conductance;
 }
 
-static double parallel(const ZpSim *sim, double h) {
-  return cable_of(sim) + 0.5 * h * sim->model->supply.conductance;
+static double parallel(const ZpSupply *supply, double h) {
+  return supply->capacitance + 0.5 * h * supply->conductance;
 }
 
-/* The law without limits of the current: s = 0 for the mean s over the step of V - U less the drop R I. With the weight
- * theta of the step's end a constant capacitance charges exactly, whatever the step, eq. (23.5). As a charge that falls
- * with U1 like that of the electrodes. */
-static ZpSourceLaw follows_voltage(const ZpSim *sim, const ZpSourceStep *s) {
-  double R = sim->model->supply.resistance, beside = parallel(sim, s->h), C = s->C + beside;
-  double x = s->h / (R * (s->C + cable_of(sim))), end = zp_decay_weight(x), scale = C / (end + R * C / s->h);
-  double drop = (1 - end) * (sim->state->supply.voltage - s->U0) + end * (inner_after(sim, s->h) - s->U1);
-  return (ZpSourceLaw){.lacks = scale * (drop - R * taken_by_all(sim, s) / s->h),
-                       .by_voltage = -scale * (end + R * beside / s->h),
-                       .by_taken = -scale * R / s->h,
-                       .resolved = 1 / (1 + x)};
+/* Share of an error of the voltage that lasts so long, s, in what it does to the motion. */
+static double share_of(double lasts) {
+  return fmax(lasts - instant, 0) / (lasts + mechanical);
 }
 
-static ZpSourceLaw has_current(const ZpSim *sim, const ZpSourceStep *s, double current) {
-  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(sim, s),
-                       .by_voltage = -parallel(sim, s->h),
-                       .by_taken = -1,
-                       .resolved = 1};
-}
+/* A step behind the resistance R. The voltage V - U over it has the weight `end` at the step's end: a constant
+ * capacitance then charges exactly, whatever the step, eq. (23.5). */
+typedef struct Drop {
+  double tau;       /* R C, s */
+  double end;       /* theta */
+  double start, V1; /* V - U at the start; V at the end, V */
+} Drop;
 
-/* Would the charge that lacks raise a voltage without capacitance? The charge that the cap holds cannot grow. */
-static bool is_undecided(const ZpSim *sim, const ZpSourceStep *s, double lacks) {
-  return s->C + parallel(sim, s->h) < undecided && lacks * s->U1 > 0;
-}
-
-/* Of the laws "the voltage follows", "the current is the largest" and "the current is the smallest", all of which lack
- * less the higher U1 is, the middle one holds, eq. (23.3). */
-static ZpFeedMode mode_of(const ZpSim *sim, const ZpSourceStep *s, double follows) {
+static Drop drop_over(const ZpSim *sim, const ZpSourceStep *s) {
   const ZpSupply *supply = &sim->model->supply;
-  double taken = taken_by_all(sim, s), most = s->h * supply->most - taken, least = -s->h * supply->sinks - taken;
-  ZpFeedMode mode = follows > most ? ZP_FEED_GIVES_MOST : follows < least ? ZP_FEED_SINKS_MOST : ZP_FEED_FREE;
-  if (mode == ZP_FEED_FREE) return mode;
-  return is_undecided(sim, s, mode == ZP_FEED_GIVES_MOST ? most : least) ? ZP_FEED_FREE : mode;
+  double tau = supply->resistance * (s->C + supply->capacitance), x = tau > 0 ? s->h / tau : INFINITY;
+  return (Drop){tau, zp_decay_weight(x), sim->state->supply.voltage - s->U0, inner_after(sim, s->h)};
+}
+
+/* The law without limits of the current: the mean of V - U is R I. As a charge that falls with U1 like that of the
+ * electrodes. */
+static ZpSourceLaw follows_voltage(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
+  double R = supply->resistance, beside = parallel(supply, s->h), C = fmax(s->C + beside, least_capacitance);
+  double scale = C / (drop->end + R * C / s->h), taken = taken_by_all(supply, s, s->taken, s->U1);
+  double mean = (1 - drop->end) * drop->start + drop->end * (drop->V1 - s->U1);
+  return (ZpSourceLaw){.lacks = scale * (mean - R * taken / s->h),
+                       .by_voltage = -scale * (drop->end + R * beside / s->h),
+                       .by_taken = -scale * R / s->h,
+                       .resolved = share_of(drop->tau * drop->tau / (drop->tau + s->h))};
+}
+
+/* The charge is exact: errors are those of the voltage's path within the step. */
+static ZpSourceLaw has_current(const ZpSupply *supply, const ZpSourceStep *s, double current) {
+  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1),
+                       .by_voltage = -parallel(supply, s->h),
+                       .by_taken = -1,
+                       .resolved = share_of(s->h)};
+}
+
+/* What a current brings over the step less what is taken at the voltage that it leaves behind the resistance, C. */
+static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
+  double U = drop->V1 - (supply->resistance * current - (1 - drop->end) * drop->start) / drop->end;
+  return s->h * current - taken_by_all(supply, s, s->taken_at(s->electrodes, U), U);
+}
+
+/* Does charge that the supply cannot take back raise a voltage without capacitance? The cap, which holds this charge,
+ * is a breakdown, so the charge is lost there. */
+static bool is_undecided(const ZpSupply *supply, const ZpSourceStep *s, double current) {
+  double lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1);
+  return current * s->U1 < 0 && lacks * s->U1 > 0 && s->C + parallel(supply, s->h) < undecided;
+}
+
+/* Charges grow with the voltage. So the current is the largest if the electrodes take more at the voltage that it
+ * leaves, and the smallest if they take less; otherwise the voltage follows, eq. (23.3). */
+static ZpFeedMode mode_of(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
+  if (isfinite(supply->most) && left_by(supply, s, drop, supply->most) < 0)
+    return is_undecided(supply, s, supply->most) ? ZP_FEED_FREE : ZP_FEED_GIVES_MOST;
+  if (isfinite(supply->sinks) && left_by(supply, s, drop, -supply->sinks) > 0)
+    return is_undecided(supply, s, -supply->sinks) ? ZP_FEED_FREE : ZP_FEED_SINKS_MOST;
+  return ZP_FEED_FREE;
 }
 
 static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
   ZpSim *sim = (ZpSim *)self;
   const ZpSupply *supply = &sim->model->supply;
-  ZpSourceLaw follows = follows_voltage(sim, s);
-  sim->feed.mode = mode_of(sim, s, follows.lacks);
-  if (sim->feed.mode == ZP_FEED_GIVES_MOST) return has_current(sim, s, supply->most);
-  if (sim->feed.mode == ZP_FEED_SINKS_MOST) return has_current(sim, s, -supply->sinks);
-  if (sim->state->supply_mode != ZP_FEED_FREE) follows.resolved = 1; /* where a limit ends, the rate has a corner */
+  Drop drop = drop_over(sim, s);
+  sim->feed.mode = mode_of(supply, s, &drop);
+  if (sim->feed.mode == ZP_FEED_GIVES_MOST) return has_current(supply, s, supply->most);
+  if (sim->feed.mode == ZP_FEED_SINKS_MOST) return has_current(supply, s, -supply->sinks);
+  ZpSourceLaw follows = follows_voltage(supply, s, &drop);
+  bool corner = sim->state->supply_mode != ZP_FEED_FREE; /* where a limit ends */
+  if (corner) follows.resolved = fmax(follows.resolved, share_of(s->h));
   return follows;
 }
 
@@ -142,7 +167,8 @@ static double given(const ZpState *state, double charge) {
  * heat of the resistance. */
 static void jump(ZpSim *sim, double V) {
   ZpState *state = sim->state;
-  double parts = sim->model->parts, C = cable_of(sim), R = sim->model->supply.resistance, U0 = state->U;
+  double parts = sim->model->parts, C = sim->model->supply.capacitance, R = sim->model->supply.resistance,
+         U0 = state->U;
   double charge0 = zp_system_electric_now(sim->model, state, U0, &sim->eval).charge, work0 = given(state, charge0);
   double loss0 = state->charging_loss;
   zp_sim_jump(sim, V);
@@ -167,7 +193,7 @@ static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
   double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
   double bled = (state->t - before->t) * sim->model->supply.conductance * 0.5 * (before->U + state->U);
-  return taken + cable_of(sim) * (state->U - before->U) + bled;
+  return taken + sim->model->supply.capacitance * (state->U - before->U) + bled;
 }
 
 void zp_feed_note_current(ZpSim *sim, double current, double h) {
@@ -190,7 +216,7 @@ static void book(ZpSim *sim) {
   double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
   double electrodes = sim->model->parts * (given(state, d->charge1) - given(before, d->charge0));
   double bled = h * sim->model->supply.conductance * U * U;
-  double taken = electrodes + cable_of(sim) * U * (state->U - before->U) + bled;
+  double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
   bool ideal = state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance == 0;
   double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
   state->source_charge += charge;
@@ -208,7 +234,7 @@ static double capacitance_now(ZpSim *sim) {
   const ZpState *state = sim->state;
   double V = state->supply.voltage, now = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge,
          then = zp_system_electric_now(sim->model, state, V, &sim->eval).charge;
-  return cable_of(sim) + sim->model->parts * (then - now) / (V - state->U);
+  return sim->model->supply.capacitance + sim->model->parts * (then - now) / (V - state->U);
 }
 
 /* A jump of the command that no limit of the current holds back, through a resistance too small to last. */

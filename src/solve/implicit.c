@@ -143,6 +143,15 @@ static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
   return !system->unforeseen || system->unforeseen(system->self, s->q) <= imbalance.allowed;
 }
 
+/* What an algebraic unknown, such as a pressure, moves in a short step grows with the square of the step, and its
+ * rounding with the inverse of the step: so little of its correction counts. */
+static void forgive_momentary(ZpImplicit *s, double h) {
+  static const double momentary = 1e-6; /* s */
+  double share = h / momentary;
+  for (size_t i = 0; s->system->kind && share < 1 && i < s->system->n; i++)
+    if (s->system->kind[i] == ZP_ALGEBRAIC) s->r[i] *= share * share;
+}
+
 /* => how it ended, and the iterations that it took. */
 static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v, int *iterations) {
   double least = INFINITY, before = 0;
@@ -155,6 +164,7 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
       s->q[i] += s->r[i];
     s->counts.iterations++;
     *iterations = k + 1;
+    forgive_momentary(s, h);
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
     if (!isfinite(size) || (k >= PATIENCE && size > least)) return ZP_END_SHORTER;
     if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;

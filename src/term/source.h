@@ -10,6 +10,8 @@
  * C; C is their capacitance between both voltages where the step ends, F. */
 typedef struct ZpSourceStep {
   double t, h, U0, U1, taken, C;
+  const void *electrodes;
+  double (*taken_at)(const void *electrodes, double U); /* what they take if the voltage ends at U, C; grows with U */
 } ZpSourceStep;
 
 /* What the source's law lacks over the step, C: 0 where it holds, and falling with U1. Its derivatives, F and 1. */
