@@ -107,7 +107,7 @@ typedef struct Supply {
 static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
   const Supply *supply = self;
   double flows = s->h * (supply->V - 0.5 * (s->U0 + s->U1)) / supply->R - supply->K * (s->U1 - s->U0);
-  return (ZpSourceLaw){flows - s->taken, -0.5 * s->h / supply->R - supply->K, -1, 1};
+  return (ZpSourceLaw){flows - s->taken, -0.5 * s->h / supply->R - supply->K, -1, NAN, 1};
 }
 
 static ZpSim *sim_behind(const ZpSource *source, ZpActuatorDef *def, ZpModel **model) {

@@ -209,6 +209,12 @@ static double capacitance(const ZpDynamics *d) {
   return goes_back || slope < none * chord ? fmax(slope, chord) : slope;
 }
 
+/* Where a charge is capped, the slope would lead far beyond any voltage. */
+static double least_slope(const ZpDynamics *d) {
+  double left = d->law.bound - d->U1;
+  return left * d->law.lacks > 0 ? d->law.lacks / left / d->model->parts : 0;
+}
+
 /* Row and column of the voltage behind a source, eq. (18.10). */
 static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   const ZpByVoltage *by = &d->by_voltage;
@@ -220,7 +226,8 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
     J->B[i] = -J->B[i];
     J->C[i] *= -d->law.by_taken;
   }
-  *zp_bordered_at(J, u, u) = -d->law.by_taken * capacitance(d) - d->law.by_voltage / d->model->parts;
+  double slope = -d->law.by_taken * capacitance(d) - d->law.by_voltage / d->model->parts;
+  *zp_bordered_at(J, u, u) = fmax(slope, least_slope(d));
 }
 
 /* The tangent of one member, in its part of the band. */

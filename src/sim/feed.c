@@ -102,20 +102,18 @@ static ZpSourceLaw follows_voltage(const ZpSupply *supply, const ZpSourceStep *s
   return (ZpSourceLaw){.lacks = scale * (mean - R * taken / s->h),
                        .by_voltage = -scale * (drop->end + R * beside / s->h),
                        .by_taken = -scale * R / s->h,
+                       .bound = NAN,
                        .resolved = share_of(drop->tau * drop->tau / (drop->tau + s->h))};
 }
 
-/* The charge is exact: errors are those of the voltage's path within the step. */
-static ZpSourceLaw has_current(const ZpSupply *supply, const ZpSourceStep *s, double current) {
-  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1),
-                       .by_voltage = -parallel(supply, s->h),
-                       .by_taken = -1,
-                       .resolved = share_of(s->h)};
+/* The voltage that a mean current leaves behind the resistance at the end, V. */
+static double behind(const ZpSupply *supply, const Drop *drop, double current) {
+  return drop->V1 - (supply->resistance * current - (1 - drop->end) * drop->start) / drop->end;
 }
 
-/* What a current brings over the step less what is taken at the voltage that it leaves behind the resistance, C. */
+/* What a current brings over the step less what is taken at that voltage, C. */
 static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
-  double U = drop->V1 - (supply->resistance * current - (1 - drop->end) * drop->start) / drop->end;
+  double U = behind(supply, drop, current);
   return s->h * current - taken_by_all(supply, s, s->taken_at(s->electrodes, U), U);
 }
 
@@ -136,13 +134,22 @@ static ZpFeedMode mode_of(const ZpSupply *supply, const ZpSourceStep *s, const D
   return ZP_FEED_FREE;
 }
 
+/* The charge is exact: errors are those of the voltage's path within the step. */
+static ZpSourceLaw has_current(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
+  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1),
+                       .by_voltage = -parallel(supply, s->h),
+                       .by_taken = -1,
+                       .bound = behind(supply, drop, current),
+                       .resolved = share_of(s->h)};
+}
+
 static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
   ZpSim *sim = (ZpSim *)self;
   const ZpSupply *supply = &sim->model->supply;
   Drop drop = drop_over(sim, s);
   sim->feed.mode = mode_of(supply, s, &drop);
-  if (sim->feed.mode == ZP_FEED_GIVES_MOST) return has_current(supply, s, supply->most);
-  if (sim->feed.mode == ZP_FEED_SINKS_MOST) return has_current(supply, s, -supply->sinks);
+  if (sim->feed.mode == ZP_FEED_GIVES_MOST) return has_current(supply, s, &drop, supply->most);
+  if (sim->feed.mode == ZP_FEED_SINKS_MOST) return has_current(supply, s, &drop, -supply->sinks);
   ZpSourceLaw follows = follows_voltage(supply, s, &drop);
   bool corner = sim->state->supply_mode != ZP_FEED_FREE; /* where a limit ends */
   if (corner) follows.resolved = fmax(follows.resolved, share_of(s->h));

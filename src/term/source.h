@@ -17,6 +17,7 @@ typedef struct ZpSourceStep {
 /* What the source's law lacks over the step, C: 0 where it holds, and falling with U1. Its derivatives, F and 1. */
 typedef struct ZpSourceLaw {
   double lacks, by_voltage, by_taken;
+  double bound;    /* the voltage at the end is not beyond this one, V; NAN: none */
   double resolved; /* 0 to 1: the share of the voltage's change that goes as slowly as the step, and has its error */
 } ZpSourceLaw;
 
