@@ -34,8 +34,8 @@ double zp_bead_longest(const ZpFilmParams *film);
 /* (gaps [N], m; volume, m^3) => wet length, m, at most the longest. Thickness is linear between stations. */
 double zp_bead_reach(const ZpFilmParams *film, const double *gap, int half, double volume);
 
-/* How far from its near end an element of length l is wet that holds `area`, m^2, with the thicknesses n near and f far,
- * m: n d + (f - n) d^2 / (2 l) = area => d, m. */
+/* How far from its near end an element of length l is wet that holds `area`, m^2, with the thicknesses n near and f
+ * far, m: n d + (f - n) d^2 / (2 l) = area => d, m. */
 double zp_bead_within(double near, double far, double l, double area);
 
 /* And back: the volume between the faces as far as `reach`, m^3. */
