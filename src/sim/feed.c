@@ -12,7 +12,7 @@
 static const double least_capacitance = 1e-15; /* F: a capped charge has none, and a law needs a scale */
 static const double undecided = 1e-13;         /* F: with less, charge that cannot leave would raise any voltage */
 static const double past_limit = 1e-6;         /* of the scale: a limit is passed */
-static const double shortest = 1e-12;          /* s: in shorter ones only time advances */
+static const double shortest = 1e-10;          /* s: in shorter ones, before a corner, only time advances */
 static const double instant = 1e-8;            /* s: what voltages do in less time happens at once, */
 static const double mechanical = 1e-3;         /* and in less than this it hardly moves an actuator */
 
