@@ -15,9 +15,15 @@
  *                                        how many of the designs from FIRST (0) to COUNT - 1 end with an answer; as for
  *                                        the studies
  *   designs tilt [COUNT [SEED [NODES]]]  `stationary` and `limits` of whole actuators that lean by more than 90
- * degrees, with at most NODES nodes (61): as for the studies designs ramp [COUNT [SEED]]          do `limits` and a
- * slow ramp of the voltage in time close and open the actuator at the same voltages to 1 %, with 61 nodes or more, or
- * where the mesh is too coarse to 1 % beyond what half the elements' length changes? Status 1 if one does not
+ *                                        degrees, with at most NODES nodes (61): as for the studies
+ *   designs supply [COUNT [SEED [FIRST]]]   motions of 21 nodes behind supplies: every preset, or random ones with a
+ *                                        resistance from 0 to 1 Gohm, a capacitance from 0 to 1 nF, limits of the
+ *                                        current from 1 uA to 1 kA; with and without cap, in every liquid, with
+ *                                        tolerances of 1e-3 to 1e-6: as for liquid
+ *   designs ramp [COUNT [SEED]]          do `limits` and a slow ramp of the voltage in time close and open the actuator
+ *                                        at the same voltages to 1 %, with 61 nodes or more, or where the mesh is too
+ *                                        coarse to 1 % beyond what half the elements' length changes? Status 1 if one
+ *                                        does not
  */
 #include <zipact/zipact.h>
 
@@ -176,7 +182,9 @@ static const char *violated(const ZpActuatorDef *def, const ZpResult *r) {
   double release = zp_result_get(r, "release_voltage_V"), closing = zp_result_get(r, "closing_voltage_V");
   if (release > closing) return "release above closing";
   if (says_negative_voltage(r->message)) return "a negative voltage in the message";
-  if (leaves(r->series, "voltage_V", 0, 1.001 * def->drive.voltage)) return "a voltage outside 0 ... drive.voltage";
+  bool ideal = def->source.model == ZP_SOURCE_IDEAL; /* behind others a charge that is kept has any voltage */
+  if (ideal && leaves(r->series, "voltage_V", 0, 1.001 * def->drive.voltage))
+    return "a voltage outside 0 ... drive.voltage";
   bool at_rest = r->study == ZP_STUDY_EQUILIBRIUM || r->study == ZP_STUDY_LIMITS || r->study == ZP_STUDY_ISOMETRIC;
   if (at_rest && leaves(r->series, "capacitance_F", 0, closed_capacitance(def)))
     return "capacitance above that of closed plates";
@@ -275,6 +283,31 @@ static int check_study(ZpStudy study, int designs, uint64_t seed) {
   return bad;
 }
 
+/* Do the designs from `first` on have an answer to study actuate? => how many have none */
+static int check_motions(const char *what, ZpActuatorDef (*draws)(uint64_t *state), int designs, uint64_t seed,
+                         int first) {
+  int bad = 0;
+  double start = cpu_s(), slowest = 0;
+  for (int i = 0; i < designs; i++) {
+    char text[512];
+    ZpActuatorDef def = draws(&seed);
+    if (i < first) continue;
+    double begun = cpu_s();
+    bool answered = is_answered(ZP_STUDY_ACTUATE, &def, text);
+    slowest = fmax(slowest, cpu_s() - begun);
+    if (answered) continue;
+    bad++;
+    printf("design %d: zipact actuate", i);
+    print_design(&def);
+    printf("  %s\n", text);
+    fflush(stdout);
+  }
+  int looked = designs > first ? designs - first : 0;
+  printf("%s: %d of %d designs answered, %.2f s of CPU, the slowest %.2f s\n", what, looked - bad, looked,
+         cpu_s() - start, slowest);
+  return bad;
+}
+
 /* -- in liquid ----------------------------------------------------------------------------------------- */
 
 /* A design as above in oil: in a bath, or with beads of which half have suction. */
@@ -291,28 +324,64 @@ static ZpActuatorDef design_in_liquid(uint64_t *state) {
   return def;
 }
 
-/* => how many of the designs from `first` on have no answer */
-static int check_liquid(int designs, uint64_t seed, int first) {
-  int bad = 0;
-  double start = cpu_s(), slowest = 0;
-  for (int i = 0; i < designs; i++) {
-    char text[512];
-    ZpActuatorDef def = design_in_liquid(&seed);
-    if (i < first) continue;
-    double begun = cpu_s();
-    bool answered = is_answered(ZP_STUDY_ACTUATE, &def, text);
-    slowest = fmax(slowest, cpu_s() - begun);
-    if (answered) continue;
-    bad++;
-    printf("design %d: zipact actuate", i);
-    print_design(&def);
-    printf("  %s\n", text);
-    fflush(stdout);
+/* -- behind a supply ----------------------------------------------------------------------------------- */
+
+/* Nothing, or up to `most` times as much as `least`. */
+static double none_or(uint64_t *state, double share_of_none, double none, double least, double most) {
+  bool is_none = draw(state) < share_of_none;
+  double value = log_uniform(state, least, most);
+  return is_none ? none : value;
+}
+
+static void draw_supply(uint64_t *state, ZpActuatorDef *def) {
+  def->source.resistance = none_or(state, 0.3, 0, 1e-3, 1e9);
+  def->source.capacitance = none_or(state, 0.4, 0, 1e-14, 1e-9);
+  def->source.current_limit = none_or(state, 0.3, NAN, 1e-6, 1e3);
+  def->source.sink_limit = draw(state) < 0.2 ? 0 : none_or(state, 0.6, NAN, 1e-6, 1e3);
+  def->source.slew_rate = none_or(state, 0.6, NAN, 1e4, 1e10);
+  def->source.bandwidth = none_or(state, 0.6, NAN, 1, 1e5);
+  def->source.bleeder = none_or(state, 0.7, NAN, 1e6, 1e12);
+  if (def->source.sink_limit == 0) def->source.capacitance += 0.1e-12; /* without one it is refused beside the cap */
+}
+
+static void draw_waveform(uint64_t *state, ZpActuatorDef *def) {
+  static const ZpWaveformKind kinds[] = {ZP_WAVEFORM_STEP, ZP_WAVEFORM_STEP, ZP_WAVEFORM_RAMP, ZP_WAVEFORM_SQUARE,
+                                         ZP_WAVEFORM_SINE};
+  double frequency = log_uniform(state, 10, 500), rise = draw(state);
+  ZpWaveformKind kind = def->drive.waveform = kinds[(int)uniform(state, 0, 5)];
+  if (kind == ZP_WAVEFORM_SQUARE || kind == ZP_WAVEFORM_SINE) def->drive.frequency = frequency;
+  if (kind == ZP_WAVEFORM_RAMP) def->drive.rise_time = 0.03 * rise * rise * rise;
+  if (kind == ZP_WAVEFORM_SQUARE && rise > 0.5) def->drive.rise_time = 0.2 * rise / frequency;
+}
+
+/* The keys of a preset, where there is one. */
+static ZpActuatorDef supplied(const ZpActuatorDef *def, ZpSupplyName supply) {
+  const ZpActuatorDef plain = zp_actuator_def_default();
+  ZpAssignment list[64];
+  size_t count = 0;
+  for (int k = 0; k < zp_key_count(); k++) {
+    double value = zp_def_get(def, k), usual = zp_def_get(&plain, k);
+    if (!isnan(value) && value != usual) list[count++] = (ZpAssignment){k, value};
   }
-  int looked = designs > first ? designs - first : 0;
-  printf("liquid: %d of %d designs answered, %.2f s of CPU, the slowest %.2f s\n", looked - bad, looked,
-         cpu_s() - start, slowest);
-  return bad;
+  list[count++] = (ZpAssignment){zp_key_find("source.supply"), supply};
+  ZpActuatorDef all;
+  return zp_def_resolve(&all, list, count, NULL) == ZP_OK ? all : *def;
+}
+
+static ZpActuatorDef design_behind_supply(uint64_t *state) {
+  ZpActuatorDef def = draw(state) < 0.4 ? design(state) : design_in_liquid(state);
+  ZpSupplyName supply = (ZpSupplyName)uniform(state, 0, 10);
+  if (supply > ZP_SUPPLY_CONVERTER_10KV) supply = ZP_SUPPLY_NONE;
+  def.mesh.nodes = 21;
+  def.source.model = ZP_SOURCE_AMPLIFIER;
+  draw_waveform(state, &def);
+  def.solver.tolerance = log_uniform(state, 1e-6, 1e-3);
+  def.solver.end_time = 0.03;
+  def.output.samples = 100;
+  if (supply == ZP_SUPPLY_NONE) draw_supply(state, &def);
+  if (supply != ZP_SUPPLY_NONE) def = supplied(&def, supply);
+  if (def.drive.voltage > def.source.voltage_limit) def.drive.voltage = def.source.voltage_limit;
+  return def;
 }
 
 /* -- limits against equilibrium ----------------------------------------------------------------------- */
@@ -748,7 +817,7 @@ static const ZpStudy every[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,  ZP_STUDY
 
 int main(int argc, char **argv) {
   const char *word = argc > 1 ? argv[1] : "all";
-  int designs = argc > 2 ? atoi(argv[2]) : 100, bad = 0, known = 0;
+  int designs = argc > 2 ? atoi(argv[2]) : 100, first = argc > 4 ? atoi(argv[4]) : 0, bad = 0, known = 0;
   uint64_t seed = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
   static const ZpStudy still[] = {ZP_STUDY_LIMITS, ZP_STUDY_STATIONARY, ZP_STUDY_MODES, ZP_STUDY_ISOMETRIC};
   static const ZpStudy moving[] = {ZP_STUDY_ACTUATE};
@@ -757,7 +826,8 @@ int main(int argc, char **argv) {
   if (strcmp(word, "times") == 0) return check_errors(moving, 1, designs, seed, 61) > 0;
   if (strcmp(word, "tolerance") == 0) return check_tolerances(designs, seed, 61), 0;
   if (strcmp(word, "agree") == 0) return check_agreement(designs, seed, argc > 4 ? atof(argv[4]) : 1e-3) > 0;
-  if (strcmp(word, "liquid") == 0) return check_liquid(designs, seed, argc > 4 ? atoi(argv[4]) : 0) > 0;
+  if (strcmp(word, "liquid") == 0) return check_motions(word, design_in_liquid, designs, seed, first) > 0;
+  if (strcmp(word, "supply") == 0) return check_motions(word, design_behind_supply, designs, seed, first) > 0;
   if (strcmp(word, "tilt") == 0) {
     int most = argc > 4 ? atoi(argv[4]) : 61;
     bad = check_tilt(ZP_STUDY_STATIONARY, designs, seed, most);
@@ -770,6 +840,6 @@ int main(int argc, char **argv) {
     known++;
   }
   if (known == 0)
-    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, ramp, liquid\n", word);
+    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, ramp, liquid, supply\n", word);
   return known == 0 ? 2 : bad > 0;
 }

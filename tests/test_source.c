@@ -104,16 +104,10 @@ typedef struct Supply {
   double V, R, K; /* V, ohm; of a cable, F */
 } Supply;
 
-static double flow(const void *self, double t, double h, double U0, double U1) {
+static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
   const Supply *supply = self;
-  (void)t;
-  return h * (supply->V - 0.5 * (U0 + U1)) / supply->R - supply->K * (U1 - U0);
-}
-
-static double slope(const void *self, double t, double h, double U0, double U1) {
-  const Supply *supply = self;
-  (void)t, (void)U0, (void)U1;
-  return -0.5 * h / supply->R - supply->K;
+  double flows = s->h * (supply->V - 0.5 * (s->U0 + s->U1)) / supply->R - supply->K * (s->U1 - s->U0);
+  return (ZpSourceLaw){flows - s->taken, -0.5 * s->h / supply->R - supply->K, -1, NAN, 1};
 }
 
 static ZpSim *sim_behind(const ZpSource *source, ZpActuatorDef *def, ZpModel **model) {
@@ -129,7 +123,7 @@ static ZpSim *sim_behind(const ZpSource *source, ZpActuatorDef *def, ZpModel **m
 /* A closed actuator without weight is a capacitor: U = V (1 - exp(-t / (R C))). Measured 5e-6. */
 START_TEST(test_charging_of_a_closed_actuator) {
   Supply supply = {50, 1e8, 0}; /* V: little enough that the layers are not pressed */
-  ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
+  ZpSource source = {.self = &supply, .law = law, .scale = supply.V};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", 7e-5});
   ZpModel *model;
@@ -150,7 +144,7 @@ END_TEST
  * actuator and lose voltage while it closes. */
 START_TEST(test_slow_supply_by_both_routes) {
   Supply supply = {10e3, 1e9, 10e-12};
-  ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
+  ZpSource source = {.self = &supply, .law = law, .scale = supply.V};
   ZpActuatorDef of[] = {DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5}),
                         DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5}, {"drive.voltage", supply.V},
                             {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", supply.R},
@@ -176,7 +170,7 @@ END_TEST
 /* The opening after 10 ms, before ribbons meet beyond the clip, with a resistance (the ideal source has none). */
 static double opening_behind(double R) {
   Supply supply = {10e3, R, 0};
-  ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
+  ZpSource source = {.self = &supply, .law = law, .scale = supply.V};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5});
   ZpModel *model;
   ZpSim *sim;

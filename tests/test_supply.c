@@ -440,6 +440,81 @@ START_TEST(test_snapshot_behind_a_supply) {
 }
 END_TEST
 
+/* -- faces at the breakdown cap --------------------------------------------------------------------- */
+
+/* Closed faces with a limit of the current: a ramp I / C up to the cap. From there on the charge does not grow, so no
+ * current flows, and the voltage is that of the command at once. */
+START_TEST(test_voltage_of_capped_faces) {
+  const double I = 1e-3, command = 5e3;
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"initial.state", ZP_INITIAL_STRAIGHT},
+          {"drive.voltage", command}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.current_limit", I});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double C = zp_sim_get(sim, "capacitance"), capped = 20e6 * 2 * 130e-6 * 2.75 / 4.62, full = C * capped / I;
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 0.5 * full, false, NULL, NULL)));
+  ck_near(zp_sim_get(sim, "voltage"), 0.5 * capped, 0.01); /* the layers are pressed */
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 1.05 * full, false, NULL, NULL)));
+  ck_near(zp_sim_get(sim, "voltage"), command, 1e-9);
+  double charge = zp_sim_get(sim, "charge");
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 2 * full, false, NULL, NULL)));
+  ck_near(zp_sim_get(sim, "voltage"), command, 1e-9);
+  ck_near(zp_sim_get(sim, "charge"), charge, 1e-2);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+static double imbalance_behind(ZpActuatorDef def) {
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  double error = zp_result_get(result, "energy_error");
+  zp_result_destroy(result);
+  return error;
+}
+
+/* "No time step converges": faces that close at the cap behind a limit of the current, behind a resistance, with a
+ * supply that cannot sink; and with layers of 14 um in air, all of which the cap holds from 18 V on. Energy closes. */
+START_TEST(test_zips_at_the_cap) {
+  const ZpActuatorDef defs[] = {
+      DEF({"mesh.nodes", 21}, {"source.supply", ZP_SUPPLY_LABORATORY_10KV}, {"ribbon.thickness", 200e-6},
+          {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"solver.end_time", 0.03}),
+      DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", 1},
+          {"solver.end_time", 0.1}),
+      DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", 1e7},
+          {"solver.tolerance", 1e-5}, {"solver.end_time", 0.1}),
+      DEF({"mesh.nodes", 21}, {"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
+          {"drive.frequency", 5}, {"solver.end_time", 0.15}),
+      DEF({"mesh.nodes", 21}, {"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"insulator.thickness", 14e-6},
+          {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6}, {"ribbon.length", 25e-3},
+          {"ribbon.thickness", 280e-6}, {"platform.length", 2.5e-3}, {"load.mass", 0.2e-3}, {"solver.end_time", 0.01}),
+  };
+  ck_below(imbalance_behind(defs[_i]), 1e-8);
+}
+END_TEST
+
+/* A run behind a resistance goes to that of the ideal source with it: the zip time differs by what is in proportion to
+ * it, and by the tolerance. */
+static double zip_time_behind(double R) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.tolerance", 1e-5}, {"solver.stop_when_zipped", ZP_WHEN_TRUE});
+  if (R > 0) def.source.model = ZP_SOURCE_AMPLIFIER;
+  def.source.resistance = R;
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  double time = zp_result_get(result, "zip_time_s");
+  zp_result_destroy(result);
+  return time;
+}
+
+START_TEST(test_small_resistances_converge) {
+  static const double R[] = {1e-3, 1, 1e3};
+  double ideal = zip_time_behind(0), lag = (zip_time_behind(1e6) - ideal) / 1e6;
+  for (size_t k = 0; k < LENGTH_OF(R); k++) {
+    double off = zip_time_behind(R[k]) - ideal;
+    printf("%g ohm: zip time off by %.2e of it\n", R[k], off / ideal);
+    ck_below(fabs(off - lag * R[k]), 1e-6 * ideal);
+  }
+}
+END_TEST
+
 /* -- what is refused -------------------------------------------------------------------------------- */
 
 START_TEST(test_refusals) {
@@ -487,6 +562,9 @@ int main(void) {
   tcase_add_test(charges, test_slew_rate_alone);
   tcase_add_test(charges, test_discharge_through_the_bleeder);
   tcase_add_test(motion, test_without_limits_it_is_ideal);
+  tcase_add_test(motion, test_voltage_of_capped_faces);
+  tcase_add_loop_test(motion, test_zips_at_the_cap, 0, 5);
+  tcase_add_test(motion, test_small_resistances_converge);
   tcase_add_test(keys, test_voltage_beyond_the_supply);
   tcase_add_test(keys, test_undecided_voltage);
   tcase_add_loop_test(motion, test_energy_behind_supplies, 0, 3);

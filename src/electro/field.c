@@ -375,7 +375,13 @@ static void traction(const ZpField *f, const Side *side, size_t c, double xi, do
   *E_in = sqrt(En * En + Et * Et);
 }
 
-/* The same at node column i, mean of the elements that meet there. */
+/* Length of the elements of column c beside a row of nodes, m. */
+static double element_length(const ZpField *f, size_t c, size_t row) {
+  return f->grid.x[(2 * c + 2) * f->grid.ny + row] - f->grid.x[2 * c * f->grid.ny + row];
+}
+
+/* The same at node column i, mean of the elements that meet there by their lengths: Simpson's rule is then exact on
+ * both sides of a jump. */
 static void traction_at(const ZpField *f, const Side *side, size_t i, double *W, double *E_out, double *E_in) {
   double W2, E2, I2;
   if (i % 2) {
@@ -386,9 +392,11 @@ static void traction_at(const ZpField *f, const Side *side, size_t i, double *W,
   traction(f, side, i / 2 - 1, 1, W, E_out, E_in);
   if (!right || i == f->first) return;
   traction(f, side, i / 2, -1, &W2, &E2, &I2);
-  *W = 0.5 * (*W + W2);
-  *E_out = 0.5 * (*E_out + E2);
-  *E_in = 0.5 * (*E_in + I2);
+  double before = element_length(f, i / 2 - 1, 2 * side->row), after = element_length(f, i / 2, 2 * side->row);
+  double share = after / (before + after);
+  *W += share * (W2 - *W);
+  *E_out += share * (E2 - *E_out);
+  *E_in += share * (I2 - *E_in);
 }
 
 void zp_field_profile(ZpField *f) {

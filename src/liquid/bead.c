@@ -1,6 +1,5 @@
 #include "liquid/bead.h"
 
-#include <float.h>
 #include <math.h>
 
 int zp_beads(const ZpFilmParams *p) {
@@ -28,8 +27,7 @@ static size_t element(const ZpFilmParams *p, int half, size_t k) {
   return half ? p->nodes - 2 - k : k;
 }
 
-/* How far from its near end an element is wet that holds `area`: n d + (f - n) d^2 / (2 l) = area. */
-static double within(double near, double far, double l, double area) {
+double zp_bead_within(double near, double far, double l, double area) {
   double slope = (far - near) / l;
   return 2 * area / (near + sqrt(fmax(near * near + 2 * slope * area, 0)));
 }
@@ -42,7 +40,7 @@ double zp_bead_reach(const ZpFilmParams *p, const double *gap, int half, double 
   double area = fmax(volume, 0) / p->w, near = thickness(p, gap, half, 0);
   for (size_t k = 0; k < zp_bead_elements(p); k++) {
     double far = thickness(p, gap, half, k + 1), all = 0.5 * p->l * (near + far);
-    if (area < all) return (double)k * p->l + fmin(within(near, far, p->l, area), p->l);
+    if (area < all) return (double)k * p->l + fmin(zp_bead_within(near, far, p->l, area), p->l);
     area -= all;
     near = far;
   }
@@ -97,19 +95,18 @@ double zp_bead_thickness(const ZpFilmParams *p, const ZpBeadPlace *place, const 
 
 /* What is at hand in a step like the last one, over what the film would take of it. */
 static double supply_of(double outside, double comes, double wanted) {
-  static const double least = 1e-3; /* so that what the film would take is seen */
   double at_hand = 0.5 * outside + comes;
-  if (at_hand >= wanted) return at_hand > 0 ? 1 : least;
-  return fmax(at_hand / wanted, least);
+  if (!(at_hand > 0)) return 0;
+  return at_hand < wanted ? at_hand / wanted : 1;
 }
 
 ZpBead zp_bead_after(const ZpBeadParams *params, const ZpFilmParams *p, const double *gap, int half, ZpBead before,
-                     double pressed_out, double drawn_in, double h) {
+                     ZpBeadEdges edges, double h) {
   double share = params->returned;
-  ZpBead after = {.outside = fmax(before.outside + share * pressed_out - drawn_in, 0),
-                  .lost = before.lost + (1 - share) * pressed_out};
+  ZpBead after = {.outside = fmax(before.outside + share * edges.pressed_out - edges.drawn_in, 0),
+                  .lost = before.lost + (1 - share) * edges.pressed_out};
   after.reach = zp_bead_reach(p, gap, half, params->volume - after.outside - after.lost);
   after.rate = (after.reach - before.reach) / h;
-  after.supply = supply_of(after.outside, share * pressed_out, drawn_in / fmax(before.supply, DBL_MIN));
+  after.supply = supply_of(after.outside, share * edges.pressed_out, edges.wanted);
   return after;
 }

@@ -34,6 +34,10 @@ double zp_bead_longest(const ZpFilmParams *film);
 /* (gaps [N], m; volume, m^3) => wet length, m, at most the longest. Thickness is linear between stations. */
 double zp_bead_reach(const ZpFilmParams *film, const double *gap, int half, double volume);
 
+/* How far from its near end an element of length l is wet that holds `area`, m^2, with the thicknesses n near and f
+ * far, m: n d + (f - n) d^2 / (2 l) = area => d, m. */
+double zp_bead_within(double near, double far, double l, double area);
+
 /* And back: the volume between the faces as far as `reach`, m^3. */
 double zp_bead_volume(const ZpFilmParams *film, const double *gap, int half, double reach);
 
@@ -57,10 +61,15 @@ ZpBeadPlace zp_bead_place(const ZpFilmParams *film, int half, double reach);
 double zp_bead_at(const ZpBeadPlace *place, const double *value);
 double zp_bead_thickness(const ZpFilmParams *film, const ZpBeadPlace *place, const double *gap);
 
-/* A bead over a step: (gaps at its end [N], volumes pressed out and drawn in at the long edges, m^3) => it there.
- * Nothing is drawn in that is not there. What has no room stays at the edges, too, without being counted as `outside`.
- */
+/* Volumes that pass the long edges in a step, m^3. */
+typedef struct ZpBeadEdges {
+  double pressed_out, drawn_in;
+  double wanted; /* the film would draw in so much if liquid were all along the edges */
+} ZpBeadEdges;
+
+/* A bead over a step of h, s: (gaps at its end [N], volumes at the edges) => it there. Nothing is drawn in that is not
+ * there. What has no room stays at the edges, too, without being counted as `outside`. */
 ZpBead zp_bead_after(const ZpBeadParams *params, const ZpFilmParams *film, const double *gap, int half, ZpBead before,
-                     double pressed_out, double drawn_in, double h);
+                     ZpBeadEdges edges, double h);
 
 #endif

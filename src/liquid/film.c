@@ -269,13 +269,18 @@ static double open_share(const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) 
   return ends->open ? ends->open[i] : 1;
 }
 
+/* Across open edges if inertia does not count, m/(s Pa). */
+static double viscous_conductance(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
+  double H = e->middle[i];
+  return H * H * H / (12 * p->mu) * p->kappa2[k];
+}
+
 /* If only a part of the edges has liquid, it flows in so slowly that its inertia does not count. */
 static void flow_in(const ZpFilmParams *p, size_t i, double share, const double *heads, const ZpFilmEval *e) {
-  double H = e->middle[i], mobility = share > 0 ? share * H * H * H / (12 * p->mu) : 0;
   e->jet[i] = e->coupling[i] = 0;
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     size_t at = zp_film_mode_at(i, k);
-    e->leak_conductance[at] = mobility * p->kappa2[k];
+    e->leak_conductance[at] = share > 0 ? share * viscous_conductance(p, e, i, k) : 0;
     e->leak[at] = e->leak_conductance[at] * heads[at];
     e->end[across_at(i, k)] = 0;
   }
@@ -535,6 +540,13 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *p, const ZpFilmEnds *ends, double h,
 double zp_film_edge_flow(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
   return p->w * zp_film_wet(e, i) *
          (p->share[0] * e->leak[zp_film_mode_at(i, 0)] + p->share[1] * e->leak[zp_film_mode_at(i, 1)]);
+}
+
+double zp_film_open_flow(const ZpFilmParams *p, const ZpFilmEval *e, const double *heads, size_t i) {
+  double sum = 0;
+  for (int k = 0; k < ZP_FILM_MODES; k++)
+    sum += p->share[k] * viscous_conductance(p, e, i, k) * heads[zp_film_mode_at(i, k)];
+  return p->w * zp_film_wet(e, i) * sum;
 }
 
 bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {

@@ -80,20 +80,28 @@ static ZpSpan span_of(const ZpDynamics *d) {
                   .beyond = zp_state_beyond(d->model, d->state)};
 }
 
-/* If a source holds the voltage at the step's end, the equation of the voltage is that of a small capacitor. */
-static const double holding = 1e-12; /* F */
-
-static bool is_held(const ZpDynamics *d, double *U1) {
-  return d->source->holds && d->source->holds(d->source->self, d->state->t, d->h, U1);
+/* The charge that all electrodes have taken at the end of the step at a voltage, C. */
+static double taken_at(const void *self, double U) {
+  const ZpDynamics *d = self;
+  ZpSpan span = span_of(d);
+  ZpElectric end = zp_system_electric(d->model, &span, &d->eval, ZP_SPAN_END, U);
+  return d->model->parts * (end.charge + end.passed - d->charge0);
 }
 
-/* Charge through the source over the step less the charge that the electrodes have taken, of one part, C. */
-static double missing_charge(const ZpDynamics *d, const ZpSpan *span) {
-  double held;
-  if (is_held(d, &held)) return holding * (held - d->U1);
-  double flowed = d->source->flow(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
-  ZpElectric end = zp_system_electric(d->model, span, &d->eval, ZP_SPAN_END, d->U1);
-  return flowed - (end.charge + end.passed - d->charge0);
+/* Their capacitance there between the voltages of the step's start and end, or where these are one above it, F. Capped
+ * charges have none. */
+static double chord(const ZpDynamics *d, double taken) {
+  static const double same = 1e-9, above = 1e-3; /* of the scale */
+  double apart = d->U0 - d->U1, scale = d->source->scale;
+  if (fabs(apart) < same * scale) apart = copysign(above * scale, d->U1);
+  return fmax((taken_at(d, d->U1 + apart) - taken) / apart, 0);
+}
+
+static void ask_source(ZpDynamics *d) {
+  double taken = taken_at(d, d->U1);
+  d->chord = chord(d, taken);
+  ZpSourceStep step = {d->state->t, d->h, d->U0, d->U1, taken, d->chord, d, taken_at};
+  d->law = d->source->law(d->source->self, &step);
 }
 
 /* => energies of bending and field, with which an imbalance is compared. */
@@ -138,7 +146,9 @@ static void force_of_one(ZpDynamics *d, const double *q1, double h, double *f) {
   zp_assembly_sum(&d->assembly, d->force, f);
   for (size_t c = 0; c < zp_own_unknowns(model); c++)
     f[d->assembly.own_equation[c]] = d->eval.own_residual[c];
-  if (d->source) f[d->assembly.n] = missing_charge(d, &span);
+  if (!d->source) return;
+  ask_source(d);
+  f[d->assembly.n] = d->law.lacks / model->parts;
 }
 
 /* Two platforms that a link joins. `above` is the equation of the height of the lower platform of the member above.
@@ -190,23 +200,34 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   return ZP_END_FOUND;
 }
 
+/* Of one part. Beyond a kink of the charge, where it is capped, the slope would lead anywhere: the chord leads back
+ * towards the start of the step. */
+static double capacitance(const ZpDynamics *d) {
+  static const double none = 1e-3; /* of the chord */
+  double slope = d->by_voltage.capacitance, chord = d->chord / d->model->parts;
+  bool goes_back = d->law.lacks * (d->U1 - d->U0) < 0;
+  return goes_back || slope < none * chord ? fmax(slope, chord) : slope;
+}
+
+/* Where a charge is capped, the slope would lead far beyond any voltage. */
+static double least_slope(const ZpDynamics *d) {
+  double left = d->law.bound - d->U1;
+  return left * d->law.lacks > 0 ? d->law.lacks / left / d->model->parts : 0;
+}
+
 /* Row and column of the voltage behind a source, eq. (18.10). */
 static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
   const ZpByVoltage *by = &d->by_voltage;
   size_t u = d->assembly.n;
-  double held;
   zp_system_by_voltage(d->model, span, &d->eval, &d->by_voltage);
   zp_assembly_sum(&d->assembly, by->force, J->B);
   zp_assembly_sum(&d->assembly, by->charge, J->C);
-  for (size_t i = 0; i < u; i++)
+  for (size_t i = 0; i < u; i++) {
     J->B[i] = -J->B[i];
-  if (is_held(d, &held)) {
-    memset(J->C, 0, u * sizeof *J->C);
-    *zp_bordered_at(J, u, u) = holding;
-    return;
+    J->C[i] *= -d->law.by_taken;
   }
-  double slope = d->source->slope(d->source->self, d->state->t, d->h, d->U0, d->U1) / d->model->parts;
-  *zp_bordered_at(J, u, u) = by->capacitance - slope;
+  double slope = -d->law.by_taken * capacitance(d) - d->law.by_voltage / d->model->parts;
+  *zp_bordered_at(J, u, u) = fmax(slope, least_slope(d));
 }
 
 /* The tangent of one member, in its part of the band. */
@@ -463,6 +484,12 @@ static void add_own(ZpDynamics *d) {
   }
 }
 
+/* What a source's voltage does faster than the step is exact. */
+static double resolved(void *self, size_t i) {
+  const ZpDynamics *d = self;
+  return d->source && i == d->assembly.n ? d->law.resolved : 1;
+}
+
 static void inertia(void *self, const double *a, double *f) {
   for (ZpDynamics *m = self; m; m = m->below) {
     ZpSpan span = span_of(m);
@@ -552,6 +579,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .tangent = tangent,
                             .inertia = d->model->has_film ? inertia : NULL,
                             .attempt = attempt,
+                            .resolved = resolved,
                             .unforeseen = unforeseen};
 }
 
@@ -666,9 +694,6 @@ static void load(ZpDynamics *d, ZpState *state) {
   }
   if (d->source) {
     size_t u = d->assembly.n;
-    double held;
-    d->h = d->latest - state->t;
-    d->kind[u] = is_held(d, &held) ? ZP_ALGEBRAIC : ZP_FIRST_ORDER;
     d->q[u] = state->U;
     d->v[u] = 0;
     d->history.w[u] = state->U_rate;

@@ -18,13 +18,15 @@ typedef struct ZpDynamics {
   ZpEval eval;
   ZpImplicitHistory history;
   ZpAssembly assembly;
-  double *moved;                    /* [2 stride] work space */
-  double *own;                      /* [own N] the laws' own unknowns in the present step */
-  const double *mean_v;             /* [2 stride] mean velocity over the last step, m/s */
-  const ZpSource *source;           /* NULL: the voltage is given */
-  ZpUnknown *kind;                  /* [n] with a source: the last is the voltage */
-  double *scale;                    /* [n] */
-  ZpByVoltage by_voltage;           /* with a source */
+  double *moved;          /* [2 stride] work space */
+  double *own;            /* [own N] the laws' own unknowns in the present step */
+  const double *mean_v;   /* [2 stride] mean velocity over the last step, m/s */
+  const ZpSource *source; /* NULL: the voltage is given */
+  ZpUnknown *kind;        /* [n] with a source: the last is the voltage */
+  double *scale;          /* [n] */
+  ZpByVoltage by_voltage; /* with a source */
+  ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
+  double chord;
   double charge0;                   /* of one part at the start of the step, C */
   double charge1;                   /* of one part at the end of the last step, C */
   double *mass, *q, *v;             /* [n] by equations */

@@ -1,6 +1,6 @@
 /* The supply at the electrodes, docs/theory.md, section 23. Its inner voltage V follows from the command alone
- * (drive/supply.c), so its events are corners in time. Limits of the current depend on what the electrodes take: a step
- * that passes one is taken again, so that it ends there. */
+ * (drive/supply.c), so its events are corners in time. A limit of the current depends on what the electrodes take: it
+ * is part of the step's equations. */
 #include "sim/feed.h"
 
 #include <math.h>
@@ -9,11 +9,12 @@
 #include "math/elementary.h"
 #include "sim/sim_internal.h"
 
-static const double least_capacitance = 1e-15; /* F, of a wire: a capped charge has no capacitance */
-static const double at_limit = 1e-7;           /* of the scale: a limit is reached, */
-static const double past_limit = 1e-6;         /* or passed */
-static const double shortest = 1e-12;          /* s: a limit is passed at once; */
-static const double shortest_held = 1e-9;      /* under a held voltage: shorter steps are rounding of positions */
+static const double least_capacitance = 1e-15; /* F: a capped charge has none, and a law needs a scale */
+static const double undecided = 1e-13;         /* F: with less, charge that cannot leave would raise any voltage */
+static const double past_limit = 1e-6;         /* of the scale: a limit is passed */
+static const double shortest = 1e-10;          /* s: in shorter ones, before a corner, only time advances */
+static const double instant = 1e-8;            /* s: what voltages do in less time happens at once, */
+static const double mechanical = 1e-3;         /* and in less than this it hardly moves an actuator */
 
 bool zp_sim_is_fed(const ZpSim *sim) {
   return sim->model->supply.acts;
@@ -59,107 +60,107 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
 
 /* -- the law of the current ------------------------------------------------------------------------ */
 
-static double cable_of(const ZpSim *sim) {
-  return fmax(sim->model->supply.capacitance, least_capacitance);
-}
-
 double zp_feed_cable_energy(const ZpSim *sim, double U) {
-  return 0.5 * cable_of(sim) * U * U;
+  return 0.5 * sim->model->supply.capacitance * U * U;
 }
 
-static bool holds_voltage(const ZpSim *sim) {
-  return sim->state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance == 0;
+/* A cable and a bleeder are parallel to the electrodes: the charge that all take over a step, C, if the voltage ends at
+ * U; its derivative by the voltage beside that of the electrodes, F. */
+static double taken_by_all(const ZpSupply *supply, const ZpSourceStep *s, double electrodes, double U) {
+  return electrodes + supply->capacitance * (U - s->U0) + 0.5 * s->h * (s->U0 + U) * supply->conductance;
 }
 
-/* Weight of a step's end in the drop over the resistance: with it a constant capacitance charges exactly, whatever the
- * step, eq. (23.5). */
-static double weight_of_end(const ZpSim *sim, double h) {
-  return zp_decay_weight(h / (sim->model->supply.resistance * sim->feed.capacitance));
+static double parallel(const ZpSupply *supply, double h) {
+  return supply->capacitance + 0.5 * h * supply->conductance;
 }
 
-/* Mean current over a step, A. */
-static double current_over(const ZpSim *sim, double h, double U0, double U1) {
+/* Share of an error of the voltage that lasts so long, s, in what it does to the motion. */
+static double share_of(double lasts) {
+  return fmax(lasts - instant, 0) / (lasts + mechanical);
+}
+
+/* A step behind the resistance R. The voltage V - U over it has the weight `end` at the step's end: a constant
+ * capacitance then charges exactly, whatever the step, eq. (23.5). */
+typedef struct Drop {
+  double tau;       /* R C, s */
+  double end;       /* theta */
+  double start, V1; /* V - U at the start; V at the end, V */
+} Drop;
+
+static Drop drop_over(const ZpSim *sim, const ZpSourceStep *s) {
   const ZpSupply *supply = &sim->model->supply;
-  if (sim->state->supply_mode == ZP_FEED_GIVES_MOST) return supply->most;
-  if (sim->state->supply_mode == ZP_FEED_SINKS_MOST) return -supply->sinks;
-  double end = weight_of_end(sim, h), V0 = sim->state->supply.voltage;
-  return ((1 - end) * (V0 - U0) + end * (inner_after(sim, h) - U1)) / supply->resistance;
+  double tau = supply->resistance * (s->C + supply->capacitance), x = tau > 0 ? s->h / tau : INFINITY;
+  return (Drop){tau, zp_decay_weight(x), sim->state->supply.voltage - s->U0, inner_after(sim, s->h)};
 }
 
-static double flow(const void *self, double t, double h, double U0, double U1) {
-  const ZpSim *sim = self;
-  (void)t;
-  double bleeds = 0.5 * (U0 + U1) * sim->model->supply.conductance;
-  return h * (current_over(sim, h, U0, U1) - bleeds) - cable_of(sim) * (U1 - U0);
+/* The law without limits of the current: the mean of V - U is R I. As a charge that falls with U1 like that of the
+ * electrodes. */
+static ZpSourceLaw follows_voltage(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
+  double R = supply->resistance, beside = parallel(supply, s->h), C = fmax(s->C + beside, least_capacitance);
+  double scale = C / (drop->end + R * C / s->h), taken = taken_by_all(supply, s, s->taken, s->U1);
+  double mean = (1 - drop->end) * drop->start + drop->end * (drop->V1 - s->U1);
+  return (ZpSourceLaw){.lacks = scale * (mean - R * taken / s->h),
+                       .by_voltage = -scale * (drop->end + R * beside / s->h),
+                       .by_taken = -scale * R / s->h,
+                       .bound = NAN,
+                       .resolved = share_of(drop->tau * drop->tau / (drop->tau + s->h))};
 }
 
-static double slope(const void *self, double t, double h, double U0, double U1) {
-  const ZpSim *sim = self;
+/* The voltage that a mean current leaves behind the resistance at the end, V. */
+static double behind(const ZpSupply *supply, const Drop *drop, double current) {
+  return drop->V1 - (supply->resistance * current - (1 - drop->end) * drop->start) / drop->end;
+}
+
+/* What a current brings over the step less what is taken at that voltage, C. */
+static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
+  double U = behind(supply, drop, current);
+  return s->h * current - taken_by_all(supply, s, s->taken_at(s->electrodes, U), U);
+}
+
+/* Does charge that the supply cannot take back raise a voltage without capacitance? The cap, which holds this charge,
+ * is a breakdown, so the charge is lost there. */
+static bool is_undecided(const ZpSupply *supply, const ZpSourceStep *s, double current) {
+  double lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1);
+  return current * s->U1 < 0 && lacks * s->U1 > 0 && s->C + parallel(supply, s->h) < undecided;
+}
+
+/* Charges grow with the voltage. So the current is the largest if the electrodes take more at the voltage that it
+ * leaves, and the smallest if they take less; otherwise the voltage follows, eq. (23.3). */
+static ZpFeedMode mode_of(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
+  if (isfinite(supply->most) && left_by(supply, s, drop, supply->most) < 0)
+    return is_undecided(supply, s, supply->most) ? ZP_FEED_FREE : ZP_FEED_GIVES_MOST;
+  if (isfinite(supply->sinks) && left_by(supply, s, drop, -supply->sinks) > 0)
+    return is_undecided(supply, s, -supply->sinks) ? ZP_FEED_FREE : ZP_FEED_SINKS_MOST;
+  return ZP_FEED_FREE;
+}
+
+/* The charge is exact: errors are those of the voltage's path within the step. */
+static ZpSourceLaw has_current(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
+  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1),
+                       .by_voltage = -parallel(supply, s->h),
+                       .by_taken = -1,
+                       .bound = behind(supply, drop, current),
+                       .resolved = share_of(s->h)};
+}
+
+static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
+  ZpSim *sim = (ZpSim *)self;
   const ZpSupply *supply = &sim->model->supply;
-  (void)t, (void)U0, (void)U1;
-  double through = sim->state->supply_mode == ZP_FEED_FREE ? weight_of_end(sim, h) / supply->resistance : 0;
-  return -h * (through + 0.5 * supply->conductance) - cable_of(sim);
-}
-
-/* Without a resistance the electrodes have the inner voltage, except for the difference that the end of a limit has
- * left. */
-static bool holds(const void *self, double t, double h, double *U1) {
-  const ZpSim *sim = self;
-  const ZpState *state = sim->state;
-  (void)t;
-  if (!holds_voltage(sim)) return false;
-  double left = state->U - state->supply.voltage;
-  *U1 = inner_after(sim, h) + (fabs(left) > 1e-2 * at_limit * sim->feed.scale ? left : 0);
-  return true;
+  Drop drop = drop_over(sim, s);
+  sim->feed.mode = mode_of(supply, s, &drop);
+  if (sim->feed.mode == ZP_FEED_GIVES_MOST) return has_current(supply, s, &drop, supply->most);
+  if (sim->feed.mode == ZP_FEED_SINKS_MOST) return has_current(supply, s, &drop, -supply->sinks);
+  ZpSourceLaw follows = follows_voltage(supply, s, &drop);
+  bool corner = sim->state->supply_mode != ZP_FEED_FREE; /* where a limit ends */
+  if (corner) follows.resolved = fmax(follows.resolved, share_of(s->h));
+  return follows;
 }
 
 void zp_feed_create(ZpSim *sim) {
   static const double usual = 1e3; /* V: scale where the waveform has none */
   double largest = zp_waveform_largest(&sim->model->waveform);
   sim->feed.scale = largest > 0 ? largest : usual;
-  sim->feed.source = (ZpSource){.self = sim, .flow = flow, .slope = slope, .holds = holds, .scale = sim->feed.scale};
-}
-
-/* -- limits ---------------------------------------------------------------------------------------- */
-
-/* Drop over the resistance at which a limit of the current begins, V. */
-static double drop_at(const ZpSupply *supply, double limit) {
-  return supply->resistance > 0 ? supply->resistance * limit : 0;
-}
-
-/* Scale of currents of a supply without a resistance, A. */
-static double usual_current(const ZpSupply *supply) {
-  static const double usual = 1e-3;
-  if (isfinite(supply->most)) return supply->most;
-  return isfinite(supply->sinks) && supply->sinks > 0 ? supply->sinks : usual;
-}
-
-/* Distance of a mean current from the nearer limit => that limit. */
-static double within(const ZpSupply *supply, double current, ZpFeedMode *nearer) {
-  double out = supply->most - current, in = supply->sinks + current;
-  *nearer = out < in ? ZP_FEED_GIVES_MOST : ZP_FEED_SINKS_MOST;
-  return fmin(out, in);
-}
-
-/* Distance of the supply from the end of its mode, in its scale; negative beyond. `left`: V - U; `current`: the mean of
- * the step, of a supply without a resistance. */
-static double margin(ZpSim *sim, double left, double current) {
-  const ZpSupply *supply = &sim->model->supply;
-  switch (sim->state->supply_mode) {
-  case ZP_FEED_GIVES_MOST:
-    return (left - drop_at(supply, supply->most)) / sim->feed.scale;
-  case ZP_FEED_SINKS_MOST:
-    return (-left - drop_at(supply, supply->sinks)) / sim->feed.scale;
-  default:
-    break;
-  }
-  if (supply->resistance == 0) return within(supply, current, &sim->feed.beyond) / usual_current(supply);
-  return within(supply, left / supply->resistance, &sim->feed.beyond) * supply->resistance / sim->feed.scale;
-}
-
-static void change_mode(ZpSim *sim) {
-  ZpState *state = sim->state;
-  state->supply_mode = state->supply_mode == ZP_FEED_FREE ? sim->feed.beyond : ZP_FEED_FREE;
+  sim->feed.source = (ZpSource){.self = sim, .law = law, .scale = sim->feed.scale};
 }
 
 /* -- books ----------------------------------------------------------------------------------------- */
@@ -169,18 +170,29 @@ static double given(const ZpState *state, double charge) {
   return state->work + state->U * (charge - state->base_charge);
 }
 
-/* Energy that a jump of the voltage takes at once. The part that the electrodes do not keep is their charging loss. */
+/* Energy that a jump of the voltage takes at once. The part that the electrodes do not keep is their charging loss, or
+ * heat of the resistance. */
 static void jump(ZpSim *sim, double V) {
   ZpState *state = sim->state;
-  double parts = sim->model->parts, C = cable_of(sim), U0 = state->U;
+  double parts = sim->model->parts, C = sim->model->supply.capacitance, R = sim->model->supply.resistance,
+         U0 = state->U;
   double charge0 = zp_system_electric_now(sim->model, state, U0, &sim->eval).charge, work0 = given(state, charge0);
+  double loss0 = state->charging_loss;
   zp_sim_jump(sim, V);
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  double work = parts * (given(state, state->base_charge) - work0);
+  double work = parts * (given(state, state->base_charge) - work0), lost = state->charging_loss - loss0;
   state->source_charge += parts * (state->base_charge - charge0) + C * (V - U0);
   state->source_energy += work + C * V * (V - U0);
   state->source_loss += 0.5 * C * (V - U0) * (V - U0);
-  sim->feed.peak = sim->feed.square = INFINITY;
+  if (!(R > 0)) {
+    sim->feed.peak = sim->feed.square = INFINITY;
+    return;
+  }
+  state->work -= lost;
+  state->charging_loss -= lost;
+  state->source_loss += parts * lost;
+  sim->feed.square += (parts * lost + 0.5 * C * (V - U0) * (V - U0)) / R;
+  sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);
 }
 
 /* Charge that the supply has delivered over the last step, C. */
@@ -188,7 +200,7 @@ static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
   double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
   double bled = (state->t - before->t) * sim->model->supply.conductance * 0.5 * (before->U + state->U);
-  return taken + cable_of(sim) * (state->U - before->U) + bled;
+  return taken + sim->model->supply.capacitance * (state->U - before->U) + bled;
 }
 
 void zp_feed_note_current(ZpSim *sim, double current, double h) {
@@ -196,19 +208,20 @@ void zp_feed_note_current(ZpSim *sim, double current, double h) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(current));
 }
 
-/* Behind a resistance the current is largest at the start or the end of a step, A; at a limit it is constant. */
-static double through(const ZpSim *sim, double drop, double mean) {
-  const ZpState *state = sim->state;
-  const bool varies = state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance > 0;
-  return varies ? drop / sim->model->supply.resistance : mean;
+/* Current where the supply and the actuator have a state, A: behind a resistance that of the drop over it, within the
+ * limits; without one the mean of the step. */
+static double current_at(const ZpSim *sim, const ZpState *state, double mean) {
+  const ZpSupply *supply = &sim->model->supply;
+  if (supply->resistance == 0) return mean;
+  return fmin(fmax((state->supply.voltage - state->U) / supply->resistance, -supply->sinks), supply->most);
 }
 
+/* Behind a resistance the current is largest at the start or the end of a step, or at its limit. */
 static void note_currents(ZpSim *sim, double mean, double h) {
-  const ZpState *state = sim->state, *before = sim->before;
   ZpFeed *feed = &sim->feed;
   feed->current[ZP_CURRENT_MEAN] = mean;
-  feed->current[ZP_CURRENT_AT_START] = through(sim, before->supply.voltage - before->U, mean);
-  feed->current[ZP_CURRENT_AT_END] = through(sim, state->supply.voltage - state->U, mean);
+  feed->current[ZP_CURRENT_AT_START] = current_at(sim, sim->before, mean);
+  feed->current[ZP_CURRENT_AT_END] = current_at(sim, sim->state, mean);
   feed->largest = ZP_FEED_CURRENTS;
   feed->square += mean * mean * h;
   for (int k = 0; k < ZP_FEED_CURRENTS; k++)
@@ -223,8 +236,9 @@ static void book(ZpSim *sim) {
   const double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
   double electrodes = sim->model->parts * (given(state, d->charge1) - given(before, d->charge0));
   double bled = h * sim->model->supply.conductance * U * U;
-  double taken = electrodes + cable_of(sim) * U * (state->U - before->U) + bled;
-  double energy = holds_voltage(sim) ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
+  double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
+  bool ideal = state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance == 0;
+  double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
   state->source_charge += charge;
   state->source_energy += energy;
   state->source_loss += energy - taken;
@@ -234,94 +248,45 @@ static void book(ZpSim *sim) {
 
 /* -- a step ---------------------------------------------------------------------------------------- */
 
+/* Capacitance of electrodes and cable while they charge towards the inner voltage. */
+static double capacitance_now(ZpSim *sim) {
+  const ZpState *state = sim->state;
+  double V = state->supply.voltage, now = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge,
+         then = zp_system_electric_now(sim->model, state, V, &sim->eval).charge;
+  return sim->model->supply.capacitance + sim->model->parts * (then - now) / (V - state->U);
+}
+
+/* A jump of the command that no limit of the current holds back, through a resistance too small to last. */
 void zp_feed_arrive(ZpSim *sim) {
   ZpCommand command = command_of(sim);
   const ZpSupply *supply = &sim->model->supply;
   ZpState *state = sim->state;
   state->supply = zp_supply_jump(supply, &command, state->t, state->supply);
-  double left = state->supply.voltage - state->U, little = past_limit * sim->feed.scale;
-  double out = left - drop_at(supply, supply->most), in = -left - drop_at(supply, supply->sinks);
-  size_t mode = state->supply_mode;
-  bool goes_on = mode == ZP_FEED_GIVES_MOST ? out > -little : mode == ZP_FEED_SINKS_MOST && in > -little;
-  state->supply_mode = out > little  ? ZP_FEED_GIVES_MOST
-                       : in > little ? ZP_FEED_SINKS_MOST
-                       : goes_on     ? mode
-                                     : ZP_FEED_FREE;
-  double limit = state->supply_mode == ZP_FEED_GIVES_MOST ? supply->most : supply->sinks;
-  if (state->supply_mode == ZP_FEED_FREE || isfinite(limit)) return;
-  state->supply_mode = ZP_FEED_FREE;
-  jump(sim, state->supply.voltage);
-}
-
-/* Capacitance of electrodes and cable while they charge towards the inner voltage. */
-static double capacitance_now(ZpSim *sim) {
-  static const double share = 1e-3;
-  const ZpState *state = sim->state;
-  double step = copysign(share * sim->feed.scale, state->supply.voltage - state->U);
-  double now = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge,
-         then = zp_system_electric_now(sim->model, state, state->U + step, &sim->eval).charge;
-  return cable_of(sim) + sim->model->parts * (then - now) / step;
+  double left = state->supply.voltage - state->U, limit = left > 0 ? supply->most : supply->sinks;
+  if (fabs(left) <= past_limit * sim->feed.scale || supply->resistance * limit < fabs(left)) return;
+  if (supply->resistance * capacitance_now(sim) < instant) jump(sim, state->supply.voltage);
 }
 
 void zp_feed_begin(ZpSim *sim) {
-  sim->feed.capacitance = capacitance_now(sim);
   memcpy(sim->before, sim->state, zp_state_size(sim->model));
 }
 
 void zp_feed_end(ZpSim *sim) {
   sim->state->supply = followed(sim, sim->before, sim->state->t);
+  sim->state->supply_mode = sim->feed.mode;
   book(sim);
 }
 
-/* => its margin at the end; NAN: no step was found. */
-static double try_step(ZpSim *sim, double latest) {
-  ZpState *state = sim->state;
-  memcpy(sim->before, state, zp_state_size(sim->model));
-  if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return NAN;
-  state->supply = followed(sim, sim->before, state->t);
-  return margin(sim, state->supply.voltage - state->U, charge_given(sim) / (state->t - sim->before->t));
-}
-
-/* Where in a step of h the margin is 0, as a share of the step: on a straight line, if the margin at its start is
- * known. */
-static double crossing(double at_start, double at_end) {
-  static const double least = 0.02, most = 0.98, blind = 0.25;
-  return at_start > 0 ? fmin(fmax(at_start / (at_start - at_end), least), most) : blind;
-}
-
-/* The mode ends at the start of the step. At the end of a limit without a resistance the voltage jumps. */
-static void leave_at_once(ZpSim *sim) {
-  bool limited = sim->state->supply_mode != ZP_FEED_FREE;
-  change_mode(sim);
-  if (limited && sim->model->supply.resistance == 0) jump(sim, sim->state->supply.voltage);
-}
-
 bool zp_feed_step(ZpSim *sim, double latest) {
-  enum { MOST_TRIES = 100, MOST_CHANGES = 4 };
   ZpState *state = sim->state;
   if (latest - state->t < shortest) {
     state->supply = followed(sim, state, latest);
     state->t = latest;
     return true;
   }
-  double until = latest, at_end = NAN;
-  sim->feed.capacitance = capacitance_now(sim);
-  for (int tries = 0, changes = 0;; tries++) {
-    bool known = !holds_voltage(sim);
-    double at_start = known ? margin(sim, state->supply.voltage - state->U, 0) : NAN;
-    at_end = try_step(sim, until);
-    if (isnan(at_end)) return false;
-    if (at_end >= -at_limit || tries == MOST_TRIES || changes == MOST_CHANGES) break;
-    double h = (state->t - sim->before->t) * crossing(at_start, at_end);
-    memcpy(state, sim->before, zp_state_size(sim->model));
-    until = state->t + h;
-    if (h > (known ? shortest : shortest_held)) continue;
-    leave_at_once(sim);
-    changes++;
-    until = latest;
-  }
-  book(sim);
-  if (at_end <= at_limit) change_mode(sim);
+  zp_feed_begin(sim);
+  if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return false;
+  zp_feed_end(sim);
   return true;
 }
 

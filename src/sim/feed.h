@@ -14,9 +14,8 @@ typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT
 
 typedef struct ZpFeed {
   ZpSource source;     /* what the dynamics ask */
-  double capacitance;  /* of electrodes and cable where the step begins, F */
   double scale;        /* V */
-  ZpFeedMode beyond;   /* the limit that the last step has passed */
+  ZpFeedMode mode;     /* of the step at the last residual */
   double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
   double current[ZP_FEED_CURRENTS]; /* of the last step, A */
   int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
@@ -31,7 +30,7 @@ void zp_feed_create(ZpSim *sim);
 /* What the supply is told now, V. */
 double zp_sim_command(const ZpSim *sim);
 
-/* Before a step: jumps of the command arrive, and the limit that acts from now on. */
+/* Before a step: jumps of the command arrive. */
 void zp_feed_arrive(ZpSim *sim);
 
 /* The next event of the supply before `latest`, s. */
@@ -40,7 +39,7 @@ double zp_feed_event(const ZpSim *sim, double latest);
 /* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
 double zp_feed_resolution(const ZpSim *sim, double least);
 
-/* One step that ends at `latest`, at a limit that is reached or left, or before. False if none was found. */
+/* One step that ends at `latest` or before. False if none was found. */
 bool zp_feed_step(ZpSim *sim, double latest);
 
 /* Before and after a step of the dynamics that is found otherwise, without a limit in it. */

@@ -143,6 +143,15 @@ static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
   return !system->unforeseen || system->unforeseen(system->self, s->q) <= imbalance.allowed;
 }
 
+/* What an algebraic unknown, such as a pressure, moves in a short step grows with the square of the step, and its
+ * rounding with the inverse of the step: so little of its correction counts. */
+static void forgive_momentary(ZpImplicit *s, double h) {
+  static const double momentary = 1e-6; /* s */
+  double share = h / momentary;
+  for (size_t i = 0; s->system->kind && share < 1 && i < s->system->n; i++)
+    if (s->system->kind[i] == ZP_ALGEBRAIC) s->r[i] *= share * share;
+}
+
 /* => how it ended, and the iterations that it took. */
 static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v, int *iterations) {
   double least = INFINITY, before = 0;
@@ -155,6 +164,7 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
       s->q[i] += s->r[i];
     s->counts.iterations++;
     *iterations = k + 1;
+    forgive_momentary(s, h);
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
     if (!isfinite(size) || (k >= PATIENCE && size > least)) return ZP_END_SHORTER;
     if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;
@@ -211,7 +221,13 @@ static double first_order_error(const ZpImplicit *s, double h, double moved, siz
   return h * h * h / 3 * (change - history->a[i]) / (h + 3 * history->last);
 }
 
-/* Local error relative to the required accuracy. Algebraic unknowns follow from the others. */
+/* Algebraic unknowns follow from the others. */
+static double share_resolved(const ZpImplicitSystem *system, size_t i) {
+  if (system->kind[i] == ZP_ALGEBRAIC) return 0;
+  return system->resolved ? system->resolved(system->self, i) : 1;
+}
+
+/* Local error relative to the required accuracy. */
 static double local_error(ZpImplicit *s, double h, const double *q, const double *v, const ZpImplicitHistory *history) {
   const ZpImplicitSystem *system = s->system;
   size_t counted = system->n;
@@ -220,10 +236,10 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
   else
     memset(s->r, 0, system->n * sizeof *s->r);
   for (size_t i = 0; system->kind && i < system->n; i++) {
-    if (system->kind[i] == ZP_FIRST_ORDER) s->r[i] = first_order_error(s, h, s->q[i] - q[i], i, history);
-    if (system->kind[i] != ZP_ALGEBRAIC) continue;
-    s->r[i] = 0;
-    counted--;
+    if (system->kind[i] == ZP_SECOND_ORDER) continue;
+    double share = share_resolved(system, i);
+    s->r[i] = share > 0 ? share * first_order_error(s, h, s->q[i] - q[i], i, history) : 0;
+    if (share == 0) counted--;
   }
   return rms(system, s->r, counted) / s->accuracy;
 }

@@ -50,6 +50,9 @@ typedef struct ZpImplicitSystem {
   /* Called before a step is tried from a first guess y1 of its end; may change y1 so that nothing passes through
    * anything. May be NULL. */
   void (*attempt)(void *self, double *y1);
+  /* The share of the error (18.9) of first-order unknown i that counts, 0 to 1, at the last residual: less than 1 for
+   * what decays within the step, if the equations have this decay exactly. NULL: all. */
+  double (*resolved)(void *self, size_t i);
   /* Called after the last correction has led to y1. Returns |work|, J, of the forces that the last tangent did not
    * predict there: those of contacts that have closed or opened since. An accepted step ends at the last y1 of these
    * calls. May be NULL. */

@@ -1,12 +1,32 @@
 #include "study/faces.h"
 
+#include <math.h>
+
+/* Number of station k over that of the last, where no station is moved. */
+static double number(const ZpStations *s, size_t k) {
+  double even = (double)k / (double)(s->count - 1), front = (double)s->front / (double)(s->count - 1);
+  if (s->front == 0) return even;
+  return k <= s->front ? s->moved * (even / front) : 1 - (1 - s->moved) * ((1 - even) / (1 - front));
+}
+
 /* Place of station k of an odd number between clip and platform, 0 .. 1. Stations of even k are twice as close at the
  * clip as in the middle, because the force of a wide wedge is there. The others are midway, as Simpson's rule
  * requires. */
 static double place(const ZpStations *s, size_t k) {
   if (k % 2) return 0.5 * (place(s, k - 1) + place(s, k + 1));
-  double even = (double)k / (double)(s->count - 1);
+  double even = number(s, k);
   return 0.5 * even * (1 + even);
+}
+
+size_t zp_faces_move_front(ZpStations *s, size_t k, double share) {
+  static const double least = 1e-3; /* of the number of all: closer to an end it is there */
+  s->front = 0;
+  double last = (double)(s->count - 1), at = place(s, k) + share * (place(s, k + 1) - place(s, k));
+  s->moved = 0.5 * (sqrt(1 + 8 * at) - 1);
+  if (s->moved < least) return 0;
+  if (s->moved > 1 - least) return s->count - 1;
+  s->front = (size_t)fmin(fmax(2 * round(0.5 * last * s->moved), 2), last - 2);
+  return s->front;
 }
 
 void zp_faces_cubic(double length, double separation, ZpStations *s) {

@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "electro/field.h"
+#include "liquid/bead.h"
 #include "rest/rest.h"
 #include "study/bookkeeping.h"
 #include "study/faces.h"
@@ -30,7 +31,7 @@ static const ZpColumn columns[COLUMNS] = {
     {"ratio", "1", "field over plates"},
     {"force_N_per_m", "N/m",
      "attraction per length by electro.model, limited by breakdown if electro.breakdown_cap is true"},
-    {"medium_field_V_per_m", "V/m", "field in the liquid at the faces, before any cap"},
+    {"medium_field_V_per_m", "V/m", "field in liquid or air at the faces, before any cap"},
     {"insulator_field_V_per_m", "V/m", "field in the insulators"},
     {"capped", "1", "1: breakdown limits the force, 0: it does not"},
 };
@@ -50,12 +51,21 @@ static const double valid = 0.02;
 
 typedef double Row[COLUMNS];
 
+/* The plates law where liquid is, and where a bead leaves air. */
+typedef struct Law {
+  ZpPlatesParams liquid, air;
+} Law;
+
 typedef struct Profiler {
   const ZpModel *model;
   ZpResult *result;
   double U;
-  bool by_field;                   /* electro.model */
-  ZpPlatesParams set, free, right; /* the plates law as set; without cap; the right one, without cap */
+  bool by_field;        /* electro.model */
+  Law set, free, right; /* the plates law as set; without cap; the right one, without cap */
+  double *wet;       /* [rows / 2] how much of the two intervals from row 2 k on liquid wets: of the flexible part all
+                        or nothing */
+  ZpCover cover;     /* the same for the field */
+  double wet_length; /* of the flexible part, m */
   ZpFieldParams params;
   ZpField field;
   ZpFieldTotals totals;
@@ -70,24 +80,33 @@ typedef struct Profiler {
 
 /* -- setting up ------------------------------------------------------------------------------------ */
 
+static void set_right(const ZpActuatorDef *def, double permittivity, ZpPlatesParams *law) {
+  law->k = 0.5 * ZP_EPS0 * permittivity * def->ribbon.width;
+  law->d = 2 * def->insulator.thickness * permittivity / def->insulator.permittivity;
+}
+
 static void find_laws(Profiler *p) {
-  const ZpActuatorDef *def = &p->model->def;
-  p->set = p->free = p->right = p->model->plates;
-  p->free.h_per_volt = p->right.h_per_volt = 0;
-  p->right.k = 0.5 * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  p->right.d = 2 * def->insulator.thickness * def->medium.permittivity / def->insulator.permittivity;
+  const ZpModel *model = p->model;
+  p->set = (Law){model->plates, model->air};
+  p->free = p->set;
+  p->free.liquid.h_per_volt = p->free.air.h_per_volt = 0;
+  p->right = p->free;
+  set_right(&model->def, model->def.medium.permittivity, &p->right.liquid);
+  set_right(&model->def, 1, &p->right.air);
 }
 
 static size_t carve(Profiler *p, void *block) {
   ZpCarver carver = {block, 0};
   size_t n = STATIONS;
-  p->stations = (ZpStations){n, NULL, NULL};
+  p->stations = (ZpStations){.count = n};
   p->stations.x = zp_carve(&carver, 2 * n);
   p->stations.y = zp_carve(&carver, 2 * n);
   p->gap = zp_carve(&carver, n);
   p->line = zp_carve(&carver, n);
   p->insulator = zp_carve(&carver, n);
   p->row = (void *)zp_carve(&carver, p->field.profiles * COLUMNS);
+  p->wet = zp_carve(&carver, p->field.profiles);
+  p->cover.part = zp_carve(&carver, n);
   return carver.used;
 }
 
@@ -95,7 +114,6 @@ static bool allocate(Profiler *p) {
   p->params = p->model->cross_section;
   p->params.stations = STATIONS;
   p->params.columns = 1;
-  p->params.eps_out = p->params.eps_m; /* both laws in the liquid */
   if (!zp_field_create(&p->params, &p->field)) return false;
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return false;
@@ -109,6 +127,65 @@ static bool allocate(Profiler *p) {
 
 /* -- the shape ------------------------------------------------------------------------------------- */
 
+/* On the faces of two ribbons at nodes q, or with NULL on the wedge. */
+static void lay_stations(Profiler *p, const double *q) {
+  const ZpModel *model = p->model;
+  if (q)
+    zp_faces_smooth(model->nodes, model->is_rod, q, q + model->stride, &p->stations);
+  else
+    zp_faces_cubic(model->L, model->def.isometric.separation, &p->stations);
+}
+
+/* Length of a face from station k to the next, m. */
+static double chord(const Profiler *p, size_t k, size_t face) {
+  const double *x = p->stations.x + 2 * k + face, *y = p->stations.y + 2 * k + face;
+  double dx = x[2] - x[0], dy = y[2] - y[0];
+  return sqrt(dx * dx + dy * dy);
+}
+
+static double thickness(const Profiler *p, size_t k) {
+  return zp_film_thickness(&p->model->film, p->stations.y[2 * k] - p->stations.y[2 * k + 1]);
+}
+
+/* A bead at rest, eq. (22.16) => the last station that liquid wets, where its meniscus shall be; what of the volume is
+ * beyond the flexible part, over the width, m^2. */
+static size_t find_meniscus(Profiler *p, double *beyond) {
+  double area = p->model->bead.volume / p->model->film.w;
+  p->wet_length = *beyond = 0;
+  for (size_t k = 0; k + 1 < STATIONS; k++) {
+    double l = 0.5 * (chord(p, k, 0) + chord(p, k, 1)), near = thickness(p, k), far = thickness(p, k + 1),
+           all = 0.5 * l * (near + far);
+    if (area < all) {
+      double wet = zp_bead_within(near, far, l, area);
+      p->wet_length += wet;
+      return zp_faces_move_front(&p->stations, k, wet / l);
+    }
+    area -= all;
+    p->wet_length += l;
+  }
+  *beyond = area;
+  return STATIONS - 1;
+}
+
+/* Stations on the faces, one of them at the meniscus of a bead. */
+static void lay(Profiler *p, const double *q) {
+  const ZpModel *model = p->model;
+  size_t front = STATIONS - 1;
+  p->cover.flat[0] = p->cover.flat[1] = 1;
+  lay_stations(p, q);
+  if (model->has_bead) {
+    double beyond, flat = model->film.flat_length * thickness(p, STATIONS - 1);
+    front = find_meniscus(p, &beyond);
+    p->cover.flat[0] = beyond < flat ? beyond / flat : 1;
+    lay_stations(p, q);
+  }
+  for (size_t k = 0; k + 1 < STATIONS; k++)
+    p->cover.part[k] = k < front;
+  for (size_t k = 0; k + 2 < p->rows; k += 2)
+    p->wet[k / 2] = k < p->last ? k < front : p->cover.flat[0];
+  if (model->has_bead) zp_field_cover(&p->field, &p->cover);
+}
+
 /* The unpowered shape. *found tells whether there is one; false if there is no memory. */
 static bool hold(Profiler *p, bool *found) {
   const ZpModel *model = p->model;
@@ -119,7 +196,7 @@ static bool hold(Profiler *p, bool *found) {
     *found = zp_newton_good(info.end) && !zp_statics_fault(&rest.statics);
     ZpShape shape = zp_statics_shape(&rest.statics, 0, &rest.shape_room);
     if (*found) p->margins = zp_margins_of(model, &shape);
-    zp_faces_smooth(model->nodes, model->is_rod, rest.statics.q, rest.statics.q + model->stride, &p->stations);
+    lay(p, rest.statics.q);
   }
   zp_rest_close(&rest);
   return opened;
@@ -127,17 +204,55 @@ static bool hold(Profiler *p, bool *found) {
 
 static bool find_shape(Profiler *p, bool *found) {
   if (p->model->def.profile.shape == ZP_PROFILE_HELD) return hold(p, found);
-  zp_faces_cubic(p->model->L, p->model->def.isometric.separation, &p->stations);
+  lay(p, NULL);
   *found = true;
   return true;
 }
 
 /* -- the profile ----------------------------------------------------------------------------------- */
 
+/* The attraction per length at a gap in the two intervals from row k on, an even one, N/m. */
+static double within(const Profiler *p, const Law *law, double U, size_t k, double gap) {
+  double wet = p->wet[k / 2], W = wet > 0 ? wet * zp_plates_law(&law->liquid, U, gap).W : 0;
+  return wet < 1 ? W + (1 - wet) * zp_plates_law(&law->air, U, gap).W : W;
+}
+
+/* The intervals that meet at row k begin at rows left and right; the latter has this share of their length. */
+typedef struct Beside {
+  size_t left, right;
+  double share;
+} Beside;
+
+static Beside beside(const Profiler *p, size_t k) {
+  if (k % 2) return (Beside){k - 1, k - 1, 1};
+  if (k == 0 || k + 2 >= p->rows) return (Beside){k > 0 ? k - 2 : 0, k > 0 ? k - 2 : 0, 1};
+  const ZpFieldProfile *at = p->field.profile + k;
+  return (Beside){k - 2, k, (at[2].x - at[0].x) / (at[2].x - at[-2].x)};
+}
+
+/* The same at row k, the mean of both sides, as the field has it. */
+static double at_row(const Profiler *p, const Law *law, double U, size_t k) {
+  double gap = p->field.profile[k].gap;
+  Beside of = beside(p, k);
+  double left = within(p, law, U, of.left, gap);
+  return left + of.share * (within(p, law, U, of.right, gap) - left);
+}
+
+/* The gap below which breakdown limits the force in the intervals from row k on, m. */
+static double capped_gap(const Profiler *p, size_t k) {
+  const ZpPlatesParams *law = p->wet[k / 2] > 0 ? &p->set.liquid : &p->set.air;
+  return law->h_per_volt * p->U - law->d;
+}
+
+static bool is_wet(const Profiler *p, size_t k) {
+  Beside of = beside(p, k);
+  return p->wet[of.left / 2] > 0 && p->wet[of.right / 2] > 0;
+}
+
 static void fill_row(const Profiler *p, size_t k, double *row) {
   const ZpFieldProfile *at = &p->field.profile[k];
-  double U = p->U, mean = 0.5 * (at->upper + at->lower), unit = zp_plates_law(&p->free, 1, at->gap).W;
-  ZpPlatesLaw law = zp_plates_law(&p->set, U, at->gap);
+  double U = p->U, mean = 0.5 * (at->upper + at->lower), unit = at_row(p, &p->free, 1, k);
+  Beside of = beside(p, k);
   row[X] = at->x;
   row[GAP] = fabs(at->gap) > rounding ? at->gap : 0;
   row[PLATES] = unit * U * U;
@@ -147,9 +262,9 @@ static void fill_row(const Profiler *p, size_t k, double *row) {
   row[RATIO] = unit > 0 ? mean / unit : (double)NAN;
   row[LIQUID] = at->E * U;
   row[INSULATOR] = at->E_insulator * U;
-  bool capped = at->gap + p->set.d < p->set.h_per_volt * U;
+  bool capped = at->gap < fmax(capped_gap(p, of.left), capped_gap(p, of.right));
   row[CAPPED] = capped;
-  row[FORCE] = p->by_field && !capped ? p->model->field_scale * row[FIELD] : law.W;
+  row[FORCE] = p->by_field && !capped ? p->model->field_scale * row[FIELD] : at_row(p, &p->set, U, k);
 }
 
 /* Simpson's rule over rows from .. to, an even number of intervals. */
@@ -162,10 +277,10 @@ static double integrate(const Profiler *p, int column, size_t from, size_t to) {
   return sum;
 }
 
-static double largest(const Profiler *p, int column) {
+static double largest_in_liquid(const Profiler *p) {
   double most = 0;
   for (size_t k = 0; k < p->rows; k++)
-    most = fmax(most, p->row[k][column]);
+    if (is_wet(p, k)) most = fmax(most, p->row[k][LIQUID]);
   return most;
 }
 
@@ -178,26 +293,34 @@ static double gap_within(const Row *r, double part) {
   return 0.5 * u * (u - 1) * r[0][GAP] + (1 - u * u) * r[1][GAP] + 0.5 * u * (u + 1) * r[2][GAP];
 }
 
-/* Mean of the capped law along the parabola through three rows, N/m. */
-static double capped_mean(const Profiler *p, const ZpPlatesParams *law, const Row *r) {
+/* Mean of the law as set along the parabola through the three rows from k on, N/m. */
+static double fine_mean(const Profiler *p, size_t k) {
   double sum = 0;
   for (int i = 0; i <= FINER; i++)
-    sum += (i % 2 ? 4 : i == 0 || i == FINER ? 1 : 2) * zp_plates_law(law, p->U, gap_within(r, (double)i / FINER)).W;
+    sum += (i % 2                  ? 4
+            : i == 0 || i == FINER ? 1
+                                   : 2) *
+           within(p, &p->set, p->U, k, gap_within(p->row + k, (double)i / FINER));
   return sum / (3 * FINER);
 }
 
-/* Integral of FORCE over rows from .. to. Where a part is capped: the integral of the capped law in fine steps, plus
- * that of the difference of the model from the law, which is smooth. */
+/* Does the law have a kink in the intervals from row k on, or a jump at an end of them? */
+static bool is_rough(const Profiler *p, size_t k) {
+  const Row *r = p->row + k;
+  Beside from = beside(p, k), to = beside(p, k + 2);
+  return r[0][CAPPED] + r[1][CAPPED] + r[2][CAPPED] > 0 || p->wet[from.left / 2] != p->wet[to.right / 2];
+}
+
+/* Integral of FORCE over rows from .. to. Where it is rough: the integral of the law in fine steps, plus that of the
+ * difference of the model from the law, which is smooth. */
 static double limited_force(const Profiler *p, size_t from, size_t to) {
-  const ZpPlatesParams *law = &p->set;
   double sum = 0;
   for (size_t k = from; k + 2 <= to; k += 2) {
     const Row *r = p->row + k;
     double part = r[0][FORCE] + 4 * r[1][FORCE] + r[2][FORCE];
-    if (r[0][CAPPED] + r[1][CAPPED] + r[2][CAPPED] > 0) {
-      part += 6 * capped_mean(p, law, r);
-      part -= zp_plates_law(law, p->U, r[0][GAP]).W + 4 * zp_plates_law(law, p->U, r[1][GAP]).W +
-              zp_plates_law(law, p->U, r[2][GAP]).W;
+    if (is_rough(p, k)) {
+      part += 6 * fine_mean(p, k);
+      part -= at_row(p, &p->set, p->U, k) + 4 * at_row(p, &p->set, p->U, k + 1) + at_row(p, &p->set, p->U, k + 2);
     }
     sum += (r[2][X] - r[0][X]) / 6 * part;
   }
@@ -206,10 +329,10 @@ static double limited_force(const Profiler *p, size_t from, size_t to) {
 
 /* Length of the flexible part where breakdown limits the force; gaps are straight within a fine step. */
 static double capped_length(const Profiler *p) {
-  double limit = p->set.h_per_volt * p->U - p->set.d, length = 0;
+  double length = 0;
   for (size_t k = 0; k + 2 <= p->last; k += 2) {
     const Row *r = p->row + k;
-    double step = (r[2][X] - r[0][X]) / FINER;
+    double step = (r[2][X] - r[0][X]) / FINER, limit = capped_gap(p, k);
     for (int i = 0; i < FINER; i++) {
       double a = gap_within(r, (double)i / FINER) - limit, b = gap_within(r, (i + 1.0) / FINER) - limit;
       double low = fmin(a, b), high = fmax(a, b);
@@ -248,13 +371,12 @@ static double difference(const Profiler *p) {
 }
 
 /* Total force on the flexible part, field over a plates law without cap; the voltage cancels. */
-static double field_over(const Profiler *p, const ZpPlatesParams *law) {
+static double field_over(const Profiler *p, const Law *law) {
   double plates = 0;
   for (size_t k = 0; k + 2 <= p->last; k += 2) {
     const ZpFieldProfile *at = p->field.profile + k;
-    plates += (at[2].x - at[0].x) / 6 *
-              (zp_plates_law(law, 1, at[0].gap).W + 4 * zp_plates_law(law, 1, at[1].gap).W +
-               zp_plates_law(law, 1, at[2].gap).W);
+    plates +=
+        (at[2].x - at[0].x) / 6 * (at_row(p, law, 1, k) + 4 * at_row(p, law, 1, k + 1) + at_row(p, law, 1, k + 2));
   }
   return plates > 0 ? 0.5 * (p->totals.upper + p->totals.lower) / plates : (double)NAN;
 }
@@ -272,8 +394,9 @@ static void summarize(const Profiler *p) {
   zp_result_add(r, "virtual_work_force_N", "N", 0.5 * (t->upper_work + t->lower_work) * U2);
   zp_result_add(r, "virtual_work_difference", "1", difference(p));
   zp_result_add(r, "scale_factor", "1", field_over(p, &p->free));
-  zp_result_add(r, "max_field_V_per_m", "V/m", largest(p, LIQUID));
+  zp_result_add(r, "max_field_V_per_m", "V/m", largest_in_liquid(p));
   zp_result_add(r, "capped_length_m", "m", capped_length(p));
+  if (p->model->has_bead) zp_result_add(r, "wet_length_m", "m", p->wet_length);
   zp_result_add(r, "capacitance_F", "F", 2 * p->model->parts * p->field.energy);
   zp_result_add(r, "equations", "count", (double)p->field.grid.K.n);
 }
@@ -292,8 +415,10 @@ static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
 
 /* The fields in the materials, from the solved field. */
 static void look(Profiler *p) {
-  for (size_t k = 0; k < p->rows; k++)
-    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], p->row[k][LIQUID], NAN, NAN, NAN});
+  for (size_t k = 0; k < p->rows; k++) {
+    double liquid = is_wet(p, k) ? p->row[k][LIQUID] : NAN;
+    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], liquid, NAN, NAN, NAN});
+  }
 }
 
 static void note(const Profiler *p) {
@@ -309,7 +434,8 @@ static void note(const Profiler *p) {
   if (fabs(off) > agreement)
     zp_result_note(
         p->result,
-        "forces by traction and by virtual work differ by %.2g %%: the wedge is too steep for the field's grid",
+        "forces by traction and by virtual work differ by %.2g %%: the wedge is too steep, or its bead too short, for "
+        "the field's grid",
         100 * fabs(off));
 }
 

@@ -6,6 +6,9 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "drive/meter.h"
+#include "rest/rest.h"
+
+enum { MOST_SHAPES = 5000 };
 
 /* Of one run. */
 typedef struct Sensing {
@@ -188,8 +191,11 @@ static void fill_columns(const Sensing *s, ZpTable *series) {
   }
 }
 
-/* The equilibria up to the largest voltage of the run. */
+/* The equilibria up to the largest voltage of the run. With the field their shapes are those of the plates law, up to a
+ * somewhat higher voltage: shapes of one stroke hardly differ, and a field for each of a path's steps would take
+ * minutes. */
 static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **path, ZpError *err) {
+  static const double beyond = 1.1;
   ZpActuatorDef def = *task->def, fresh = zp_actuator_def_default();
   def.drive = fresh.drive;
   def.drive.voltage = zp_waveform_largest(&model->waveform);
@@ -201,7 +207,45 @@ static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **p
   def.initial = fresh.initial;
   def.insulator.resistivity = def.medium.resistivity = NAN;
   def.output.errors = false;
+  def.output.shapes = MOST_SHAPES;
+  if (def.electro.model == ZP_ELECTRO_FIELD) def.drive.voltage *= beyond;
+  def.electro.model = ZP_ELECTRO_PLATES;
   return zp_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, task->hooks, path, err);
+}
+
+/* The field's capacitance of one shape, F. */
+static double capacitance_of(ZpRest *rest, const ZpShape *shape, double *force) {
+  const ZpModel *model = rest->statics.model;
+  ZpStaticSystem system = zp_statics_system(&rest->statics);
+  memcpy(rest->statics.q, shape->x, model->count * sizeof(double));
+  memcpy(rest->statics.q + model->stride, shape->y, model->count * sizeof(double));
+  rest->statics.U = shape->voltage;
+  bool solved = !system.refresh || system.refresh(&rest->statics) == ZP_END_FOUND;
+  return solved && system.residual(&rest->statics, force, NULL) == ZP_END_FOUND ? zp_statics_capacitance(&rest->statics)
+                                                                                : NAN;
+}
+
+/* The path's capacitances by the field, as far as readings come near them. */
+static bool take_field(const Sensing *s, const ZpModel *model, const ZpResult *path) {
+  static const double near = 2;
+  ZpRest rest;
+  double least = INFINITY, most = 0, *force = zp_calloc(4 * model->stride, sizeof *force);
+  bool opened = zp_rest_open(&rest, model, NULL, NULL) && force;
+  size_t column = 0;
+  for (size_t k = 0; k < s->readings->rows; k++) {
+    least = fmin(least, s->readings->value[k * COLUMNS + CAPACITANCE]);
+    most = fmax(most, s->readings->value[k * COLUMNS + CAPACITANCE]);
+  }
+  while (strcmp(path->series->column[column].name, "capacitance_F") != 0)
+    column++;
+  for (size_t k = 0; opened && k < path->series->rows && k < path->shapes->frames; k++) {
+    double *C = &path->series->value[k * path->series->columns + column];
+    ZpShape shape = zp_shapes_get(path->shapes, k);
+    if (*C > least / near && *C < most * near) *C = capacitance_of(&rest, &shape, force);
+  }
+  zp_rest_close(&rest);
+  zp_free(force);
+  return opened;
 }
 
 ZpStatus zp_sense(const ZpTask *task, const ZpModel *model, const ZpTable *trace, ZpResult *result, ZpError *err) {
@@ -212,7 +256,9 @@ ZpStatus zp_sense(const ZpTask *task, const ZpModel *model, const ZpTable *trace
   Sensing s = {.trace = trace, .path = path->series, .zipped = isfinite(zipped) ? zipped : INFINITY};
   s.released = released_at(trace, s.zipped);
   s.meter = zp_meter_of(task->def, largest(trace, ZP_TRACE_CAPACITANCE));
-  if (trace->rows > 1 && path->series->rows > 1 && read_all(&s)) {
+  bool read = trace->rows > 1 && path->series->rows > 1 && read_all(&s);
+  if (read && task->def->electro.model == ZP_ELECTRO_FIELD) read = take_field(&s, model, path);
+  if (read) {
     invert(&s);
     summarize(&s, result);
     fill_columns(&s, result->series);

@@ -118,22 +118,23 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
   sum->liquid += zp_film_energy(&model->film, ends.cover, e->plates.gap, now->memory) + surface_energy(model, e->reach);
 }
 
-/* Volumes pressed out and drawn in at the long edges over the step, m^3. */
-static void past_edges(const ZpModel *model, const ZpSpan *span, const ZpEval *e, double out[ZP_BEADS],
-                       double in[ZP_BEADS]) {
+static void past_edges(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpBeadEdges edges[ZP_BEADS]) {
   for (size_t i = 0; i < model->nodes; i++) {
+    ZpBeadEdges *of = &edges[half_of(model, i)];
     double volume = span->h * zp_film_edge_flow(&model->film, &e->film, i);
-    out[half_of(model, i)] += fmax(volume, 0);
-    in[half_of(model, i)] += fmax(-volume, 0);
+    double free = e->open[i] < 1 ? span->h * zp_film_open_flow(&model->film, &e->film, span->own, i) : volume;
+    of->pressed_out += fmax(volume, 0);
+    of->drawn_in += fmax(-volume, 0);
+    of->wanted += fmax(-free, 0);
   }
 }
 
 static void find_end(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  double out[ZP_BEADS] = {0}, in[ZP_BEADS] = {0};
-  past_edges(model, span, e, out, in);
+  ZpBeadEdges edges[ZP_BEADS] = {0};
+  past_edges(model, span, e, edges);
   for (int half = 0; half < zp_beads(&model->film); half++)
     e->bead_end[half] =
-        zp_bead_after(&model->bead, &model->film, e->plates.gap, half, span->bead[half], out[half], in[half], span->h);
+        zp_bead_after(&model->bead, &model->film, e->plates.gap, half, span->bead[half], edges[half], span->h);
 }
 
 /* Energy of the gap at one end of the step, with liquid up to `reach`: the field's potential and the film's energy,
