@@ -171,7 +171,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   def.bead.volume = 50e-9;
   def.solver.end_time = 2;
   def.solver.stop_when_zipped = ZP_WHEN_TRUE;
-  def.output.samples = 2000;
+  def.output.samples = 100000; /* a row for nearly each step, whose mean force it has */
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   const ZpTable *table = result->series;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
@@ -185,7 +185,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
     opening -= fell;
   }
   double risen = start - opening;
-  ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed), _i == 0 ? 1e-2 : 1e-4);
+  ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed), _i == 0 ? 1e-2 : 3e-5);
   zp_result_destroy(result);
 }
 END_TEST
