@@ -751,7 +751,7 @@ static void make_report(const char *text) {
     ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
                   err.message);
   }
-  shared_report = (ZpReport){report_folder, scenario, result, count, 0.25, NULL, NULL, NULL, 0, NULL};
+  shared_report = (ZpReport){report_folder, scenario, result, count, 0.25, NULL, NULL, NULL, 0, NULL, NULL};
 }
 
 static void free_report(void) {

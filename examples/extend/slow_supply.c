@@ -21,16 +21,15 @@ typedef struct Supply {
   double V, R, K; /* V, ohm, F */
 } Supply;
 
-static double flow(const void *self, double t, double h, double U0, double U1) {
+/* What flows in less what is taken, and its derivatives by U1 and by the charge that is taken. */
+static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
   const Supply *supply = self;
-  (void)t;
-  return h * (supply->V - 0.5 * (U0 + U1)) / supply->R - supply->K * (U1 - U0);
-}
-
-static double slope(const void *self, double t, double h, double U0, double U1) {
-  const Supply *supply = self;
-  (void)t, (void)U0, (void)U1;
-  return -0.5 * h / supply->R - supply->K;
+  double flows = s->h * (supply->V - 0.5 * (s->U0 + s->U1)) / supply->R - supply->K * (s->U1 - s->U0);
+  return (ZpSourceLaw){.lacks = flows - s->taken,
+                       .by_voltage = -0.5 * s->h / supply->R - supply->K,
+                       .by_taken = -1,
+                       .bound = NAN,
+                       .resolved = 1};
 }
 
 /* What the supply has given, and the heat in R. */
@@ -77,7 +76,7 @@ int main(void) {
   def.liquid.model = ZP_LIQUID_NONE;
   def.drive.voltage = 0; /* ours takes over */
   Supply supply = {10e3, 1e9, 10e-12};
-  ZpSource source = {.self = &supply, .flow = flow, .slope = slope, .scale = supply.V};
+  ZpSource source = {.self = &supply, .law = law, .scale = supply.V};
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
   ZpError err = {0};
