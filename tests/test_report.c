@@ -189,7 +189,7 @@ static ZpScenario *scenario_of(const char *assignment) {
 static void write_single(const char *name, const char *assignment, ZpResult *result, double wall_time) {
   ZpScenario *scenario = scenario_of(assignment);
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL, NULL, 0, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   zp_result_destroy(result);
@@ -207,7 +207,7 @@ static void write_sweep(const char *name, const char *assignment, size_t count) 
   if (count > 1) result[1]->outcome = ZP_DIVERGED;
   if (count > 1) result[1]->scalar[1].value = NAN;
   ZpError err = {0};
-  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL, NULL, 0, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
@@ -228,7 +228,7 @@ static void write_scenario(const char *name, ZpScenario *scenario) {
     ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result[i], &err) == ZP_OK, "%s",
                   err.message);
   }
-  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   for (size_t i = 0; i < count; i++)
     zp_result_destroy(result[i]);
@@ -602,7 +602,7 @@ END_TEST
 START_TEST(interrupted_before_the_first_run) {
   ZpScenario *scenario = scenario_of("drive.voltage=[6 kV, 8 kV]");
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL, NULL, 0, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   json_t *json = load_json("out/summary.json");
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "interrupted");
@@ -1038,7 +1038,7 @@ START_TEST(name_taken_by_a_folder) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL, NULL};
   ck_assert_int_eq(mkdir(in_base("out"), 0777), 0);
   ck_assert_int_eq(mkdir(in_base("out/results.h5"), 0777), 0);
   ck_assert_int_eq(zp_report_write(&report, note, &err), ZP_MACHINE);
@@ -1054,7 +1054,7 @@ START_TEST(summary_to_a_full_device) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
-  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {"unused", scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL, NULL};
   FILE *full = fopen("/dev/full", "w");
   if (full) {
     ck_assert_int_eq(zp_summary_write(&report, full, &err), ZP_MACHINE);
@@ -1084,7 +1084,7 @@ static bool write_on_small_disk(int kilobytes) {
   ZpError err = {0};
   snprintf(option, sizeof option, "size=%dk", kilobytes);
   ck_assert_int_eq(mount("none", in_base("disk"), "tmpfs", 0, option), 0);
-  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL};
+  const ZpReport report = {in_base("disk/out"), scenario, &result, 1, 1, NULL, NULL, NULL, 0, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK || strstr(err.message, strerror(ENOSPC)), "%s", err.message);
   ck_assert_msg(status == ZP_OK || strstr(err.message, "disk/out"), "no file name: %s", err.message);
