@@ -1250,7 +1250,7 @@ START_TEST(numbers_come_before_pictures) {
   ZpResult *result = made_up(50, 10, false, 8e3, 1);
   ZpError err = {0};
   const ZpHooks hooks = {.progress = stop_with_numbers};
-  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks, NULL, 0, NULL};
+  const ZpReport report = {in_base("out"), scenario, &result, 1, 1, NULL, &hooks, NULL, 0, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
   ck_assert_ptr_nonnull(strstr(notices, "was not drawn: interrupted; the rest are not drawn either"));
   ck_assert(nothing_runs("out/plots/started"));
