@@ -269,9 +269,33 @@ static void choose(ZpSlow *f, const ZpBranchSystem *along) {
   f->march.event = zp_closing_gap;
 }
 
-ZpSlowEnd zp_slow_change_load(ZpSlow *f, double target, ZpLimit *at) {
+bool zp_slow_fold_of_load(ZpSlow *f, const double *null) {
   choose(f, &f->load);
-  return change(f, target, at, NULL);
+  memcpy(f->march.fold.null, null, f->statics->assembly.n * sizeof *null);
+  return zp_fold_solve(&f->march.fold) && f->march.fold.negative == 0;
+}
+
+bool zp_slow_event_of_load(ZpSlow *f, double gap) {
+  choose(f, &f->load);
+  return zp_fold_event(&f->march.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && f->march.fold.negative == 0;
+}
+
+/* March to `target` => the limit at which this ends, if there is one. */
+static ZpMarchEnd go_to_first(ZpSlow *f, double target, ZpLimit *at) {
+  ZpMarchEnd end = zp_march(&f->march, target);
+  zp_limit_none(at, NULL);
+  if (end == ZP_MARCH_FOLD || end == ZP_MARCH_EVENT) zp_slow_note(f, at, end);
+  return end;
+}
+
+ZpMarchEnd zp_slow_drop_load(ZpSlow *f, ZpLimit *at) {
+  choose(f, &f->load);
+  return go_to_first(f, 0, at);
+}
+
+ZpMarchEnd zp_slow_first(ZpSlow *f, double top, ZpLimit *at) {
+  choose(f, &f->square);
+  return go_to_first(f, top * top, at);
 }
 
 ZpSlowEnd zp_slow_close_at(ZpSlow *f, double target, ZpLimit *at) {
