@@ -3,6 +3,13 @@
 #include <math.h>
 #include <string.h>
 
+static const double far = 1.2;   /* times the voltage asked for: as far as a closing voltage matters */
+static const double same = 1e-7; /* of the voltage */
+
+static bool is_at_top(const ZpLift *l) {
+  return fabs(l->at.value / l->top - 1) < same;
+}
+
 void zp_lift_carve(ZpLift *l, ZpSlow *slow, const ZpRest *rest, ZpCarver *carver) {
   l->slow = slow;
   zp_limit_carve(&l->at, zp_rest_save_size(rest), rest->statics.assembly.n, carver);
@@ -16,8 +23,7 @@ void zp_lift_start(ZpLift *l, double top, double *hung) {
   l->at_least = l->at_most = NAN;
 }
 
-void zp_lift_narrow(ZpLift *l, double load, double voltage) {
-  bool closes = voltage <= l->top;
+void zp_lift_narrow(ZpLift *l, double load, bool closes, double voltage) {
   if (closes ? load <= l->least : load >= l->most) return;
   *(closes ? &l->least : &l->most) = load;
   *(closes ? &l->at_least : &l->at_most) = voltage;
@@ -35,22 +41,38 @@ bool zp_lift_hang(ZpLift *l, double load) {
 
 /* -- a voltage that rises under a load ---------------------------------------------------------------- */
 
-/* Voltage that closes the actuator under this load, not above `far` => at; 0: it hangs closed, NAN: there is none. */
-static double closing_under(ZpLift *l, double load, double far, ZpSlowEnd *end) {
-  *end = ZP_SLOW_LOST;
+/* A limit point is at the voltage, as accurately as it was solved: if the actuator falls closed from there, this is
+ * where it closes. Else the next limit is above. */
+static ZpSlowEnd fall_at_top(ZpLift *l) {
+  if (zp_slow_falls_closed(l->slow)) return ZP_SLOW_CHANGED;
+  if (zp_slow_is_closed(l->slow)) return ZP_SLOW_LOST;
   zp_limit_none(&l->at, NULL);
-  if (!zp_lift_hang(l, load)) return NAN;
-  *end = ZP_SLOW_CHANGED;
-  if (zp_slow_is_closed(l->slow)) zp_slow_note(l->slow, &l->at, ZP_MARCH_ARRIVED);
-  if (zp_slow_is_closed(l->slow)) return 0;
-  *end = zp_slow_close_at(l->slow, far, &l->at);
-  return *end == ZP_SLOW_CHANGED ? l->at.value : (double)NAN;
+  return zp_slow_close_at(l->slow, far * l->top, l->top, &l->at);
 }
 
-ZpSlowEnd zp_lift_raise(ZpLift *l, double load) {
-  ZpSlowEnd end;
-  double voltage = closing_under(l, load, l->top, &end);
-  zp_lift_narrow(l, load, voltage);
+/* Raise the voltage under this load until it closes, or to the first limit that is not below the voltage asked for =>
+ * at
+ */
+static ZpSlowEnd raise(ZpLift *l, double load) {
+  zp_limit_none(&l->at, NULL);
+  if (!zp_lift_hang(l, load)) return ZP_SLOW_LOST;
+  if (zp_slow_is_closed(l->slow)) zp_slow_note(l->slow, &l->at, ZP_MARCH_ARRIVED);
+  if (zp_slow_is_closed(l->slow)) return ZP_SLOW_CHANGED;
+  ZpSlowEnd end = zp_slow_close_at(l->slow, far * l->top, (1 - same) * l->top, &l->at);
+  return end == ZP_SLOW_BEYOND && is_at_top(l) ? fall_at_top(l) : end;
+}
+
+/* Does the voltage close the actuator under this load? */
+static bool closes_under(ZpLift *l, double load) {
+  bool closes = raise(l, load) == ZP_SLOW_CHANGED && !(l->at.value > (1 + same) * l->top);
+  zp_lift_narrow(l, load, closes, l->at.value);
+  return closes;
+}
+
+ZpSlowEnd zp_lift_hang_at_top(ZpLift *l, double load) {
+  if (!zp_lift_hang(l, load)) return ZP_SLOW_LOST;
+  ZpSlowEnd end = zp_slow_close_at(l->slow, l->top, l->top, &l->at);
+  zp_lift_narrow(l, load, end == ZP_SLOW_CHANGED, NAN);
   return end;
 }
 
@@ -122,46 +144,52 @@ static double middle(const ZpLift *l) {
   return l->least * pow(l->most / l->least, part);
 }
 
-/* The largest load below `most`: where the voltage closes it, or below which its closing voltage jumps, which is no
- * limit point. False if there is none. */
+/* The closing voltage jumps above the load under which it last closed: this is no limit point. */
+static bool settle_at_jump(ZpLift *l, ZpLimit *limit) {
+  raise(l, l->least);
+  zp_slow_copy(l->slow, &l->at, limit);
+  limit->end = ZP_MARCH_ARRIVED;
+  limit->value = l->least;
+  return true;
+}
+
+/* The largest load below `most`: where the voltage closes it, or below which its closing voltage jumps. False if there
+ * is none. */
 static bool find_below_most(ZpLift *l, double load, ZpLimit *limit) {
   enum { MOST = 100 };
-  static const double same = 1e-7, near = 0.1; /* of the voltage; a limit nearer than this leads to the one asked for */
-  static const double narrowest = 3e-7, lightest = 1e-12, far = 1.2; /* of the load; kg; of the voltage */
+  static const double near = 0.1; /* of the voltage: a limit nearer than this leads to the one asked for */
+  static const double narrowest = 3e-7, lightest = 1e-12; /* of the load; kg */
   for (int k = 0; k < MOST && !zp_statics_asked_to_stop(l->slow->statics) && l->most > lightest; k++) {
-    ZpSlowEnd end;
-    bool jumps = l->most / l->least - 1 < narrowest;
-    double voltage = closing_under(l, jumps ? l->least : load, far * l->top, &end), off = fabs(voltage / l->top - 1);
-    if (jumps || off < same) {
+    if (l->most / l->least - 1 < narrowest) return settle_at_jump(l, limit);
+    if (closes_under(l, load) && is_at_top(l)) {
       zp_slow_copy(l->slow, &l->at, limit);
-      limit->value = jumps ? l->least : load;
-      if (jumps) limit->end = ZP_MARCH_ARRIVED;
+      limit->value = load;
       return true;
     }
-    zp_lift_narrow(l, load, voltage);
-    load = k % 2 == 0 && off < near && follow(l, limit) ? limit->value : middle(l);
+    bool follows = k % 2 == 0 && fabs(l->at.value / l->top - 1) < near;
+    load = follows && follow(l, limit) ? limit->value : middle(l);
   }
   return false;
+}
+
+/* Is the first limit that the voltage meets under this load, if there is any, above the one asked for? */
+static bool meets_none(ZpLift *l, double load) {
+  if (!zp_lift_hang(l, load)) return false;
+  return zp_slow_first(l->slow, far * l->top, &l->at) == ZP_MARCH_ARRIVED || l->at.value > l->top;
 }
 
 /* Does it close under any of these larger loads? Then `least` is that one. Where the voltage does not even meet a limit
  * point, it meets none under larger loads. */
 static bool closes_above(ZpLift *l, double load, bool *first) {
   static const double more[] = {1e-3, 1e-2, 3e-2, 0.1, 0.3};
-  *first = false;
-  l->most = INFINITY;
-  for (size_t k = 0; k < sizeof more / sizeof more[0]; k++) {
-    double larger = load * (1 + more[k]);
-    bool hangs = zp_lift_hang(l, larger);
-    if (hangs && zp_slow_first(l->slow, l->top, &l->at) == ZP_MARCH_ARRIVED) {
-      *first = k == 0;
-      return false;
-    }
-    bool closes = zp_lift_raise(l, larger) == ZP_SLOW_CHANGED;
-    l->most = INFINITY;
-    if (closes) return true;
+  bool closes = false, none = false;
+  for (size_t k = 0; k < sizeof more / sizeof more[0] && !closes && !none; k++) {
+    none = meets_none(l, load * (1 + more[k]));
+    *first = none && k == 0;
+    closes = !none && closes_under(l, load * (1 + more[k]));
   }
-  return false;
+  l->most = INFINITY;
+  return closes;
 }
 
 bool zp_lift_settle(ZpLift *l, ZpLimit *limit) {
@@ -169,7 +197,7 @@ bool zp_lift_settle(ZpLift *l, ZpLimit *limit) {
   bool candidate = limit->end != ZP_MARCH_ARRIVED && limit->value > l->least && limit->value < l->most, first = false;
   double load = candidate ? limit->value : middle(l);
   zp_limit_none(limit, "it does not close at drive.voltage even without load");
-  if (!candidate && l->least == 0 && zp_lift_raise(l, 0) != ZP_SLOW_CHANGED) return false;
+  if (!candidate && l->least == 0 && !closes_under(l, 0)) return false;
   for (int k = 0; k < MOST && find_below_most(l, load, limit) && closes_above(l, limit->value, &first); k++)
     load = middle(l);
   return first;

@@ -22,15 +22,15 @@ void zp_lift_carve(ZpLift *lift, ZpSlow *slow, const ZpRest *rest, ZpCarver *car
 /* `hung` is a state that hangs under any load, in the caller's memory. */
 void zp_lift_start(ZpLift *lift, double top, double *hung);
 
-/* A voltage closes it under this load; NAN: not the voltage asked for, but perhaps a higher one. */
-void zp_lift_narrow(ZpLift *lift, double load, double voltage);
+/* Does the voltage asked for close it under this load? At most at `voltage`, V, or at least there; NAN: not known. */
+void zp_lift_narrow(ZpLift *lift, double load, bool closes, double voltage);
 
 /* Hang without voltage under this load, kg; from then on the actuator counts as closed as under this load. False if it
  * does not hang. */
 bool zp_lift_hang(ZpLift *lift, double load);
 
-/* Raise the voltage under this load, to the one asked for or until it closes. */
-ZpSlowEnd zp_lift_raise(ZpLift *lift, double load);
+/* Raise the voltage to the one asked for under this load. ZP_SLOW_ARRIVED if the actuator then hangs. */
+ZpSlowEnd zp_lift_hang_at_top(ZpLift *lift, double load);
 
 /* From the present point, at the voltage, to the load at which the actuator closes gradually, by the gap at which it
  * counts as closed under this load, about `closed`, m. False if there is none nearby. */

@@ -169,9 +169,9 @@ static bool hang_heavy(Finder *f) {
   double top = f->lift.top, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
   double load = fmax(f->model->def.load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
-    ZpSlowEnd end = zp_lift_raise(&f->lift, load);
+    ZpSlowEnd end = zp_lift_hang_at_top(&f->lift, load);
     if (end == ZP_SLOW_ARRIVED) return true;
-    if (end != ZP_SLOW_CHANGED) return false;
+    if (end == ZP_SLOW_LOST || end == ZP_SLOW_STOPPED) return false;
   }
   return false;
 }
@@ -191,13 +191,14 @@ static void lift(Finder *f, bool closes) {
   memcpy(f->limits->hung, f->limits->start, f->slow.square.save_size);
   zp_lift_start(&f->lift, f->model->def.drive.voltage, f->limits->hung);
   if (lift_as_neighbour(f)) return;
-  zp_lift_narrow(&f->lift, f->model->def.load.mass, f->limits->limit[ZP_LIMIT_CLOSING].value);
+  zp_lift_narrow(&f->lift, f->model->def.load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
   bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->model->def.load.mass);
   zp_limit_none(limit, "no load was found that it cannot lift");
   if (!hangs) return;
   if (!closes) zp_slow_go_to(&f->slow, f->top);
   zp_lift_drop(&f->lift, limit);
   f->limits->first = zp_lift_settle(&f->lift, limit);
+  if (limit->end == ZP_MARCH_EVENT) zp_lift_hang(&f->lift, limit->value);
 }
 
 static void none_closed(Finder *f, const char *reason) {
@@ -384,7 +385,8 @@ static void derive_all(void *user, ZpSlope *slope, ZpResult *result) {
 }
 
 static ZpStatus derive(Finder *f, ZpResult *r, ZpError *err) {
-  f->list = (ZpLimitList){.slow = &f->slow, .hanging = f->limits->start, .count = ZP_LIMIT_KINDS};
+  f->list =
+      (ZpLimitList){.slow = &f->slow, .hanging = f->limits->start, .hung = f->limits->hung, .count = ZP_LIMIT_KINDS};
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     f->list.item[k] = (ZpNamedLimit){scalars[k].name, &f->limits->limit[k], k == ZP_LIMIT_LOAD};
   return zp_sensitivity_of(&f->rest, derive_all, f, r, err);
