@@ -262,9 +262,6 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
   for (int k = 0; k < MOST; k++) {
     if (zp_statics_asked_to_stop(f->statics)) return ZP_SLOW_STOPPED;
     ZpMarchEnd end = zp_march(&f->march, target);
-      fprintf(stderr, "%s from %.6g gap %.6g to end %d at %.8g gap %.6g neg %zu  [%d fact]\n",
-              along_load(f) ? "load" : "U", dbg0, dbgg, end, value_at(f), zp_closing_gap(f->statics, NULL),
-    if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
     if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;
     if (end == ZP_MARCH_LOST) continue;
     zp_slow_note(f, at, end);
