@@ -270,9 +270,6 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
     bool found = fall(f, sign), jumped = zp_slow_is_closed(f) != was_closed;
-      fprintf(stderr, "  crest %.8g; fell found %d to %.8g gap %.6g  [%d]\n", at->value, found, value_at(f),
-    bool is_first = first && first->end == ZP_MARCH_ARRIVED;
-    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
     if (!found) return ZP_SLOW_LOST;
     if (jumped) return ZP_SLOW_CHANGED;
   }
