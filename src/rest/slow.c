@@ -262,6 +262,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
   for (int k = 0; k < MOST; k++) {
     if (zp_statics_asked_to_stop(f->statics)) return ZP_SLOW_STOPPED;
     ZpMarchEnd end = zp_march(&f->march, target);
+    if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
     if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;
     if (end == ZP_MARCH_LOST) continue;
     zp_slow_note(f, at, end);
@@ -270,6 +271,8 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
     bool found = fall(f, sign), jumped = zp_slow_is_closed(f) != was_closed;
+    bool is_first = first && first->end == ZP_MARCH_ARRIVED;
+    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
     if (!found) return ZP_SLOW_LOST;
     if (jumped) return ZP_SLOW_CHANGED;
   }
