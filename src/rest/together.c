@@ -222,6 +222,16 @@ static void restore(void *self, const void *from) {
   }
 }
 
+/* Are all members the same actuator, side by side? */
+static bool are_equal(const ZpTogether *all) {
+  for (size_t which = 1; which < all->count; which++)
+    for (int key = 0; key < zp_key_count(); key++) {
+      double one = zp_def_get(&member(all, which)->model->def, key), first = zp_def_get(&first_model(all)->def, key);
+      if (one != first && !(isnan(one) && isnan(first))) return false;
+    }
+  return !(all->distance > 0);
+}
+
 static ZpBranchSystem system_of(ZpTogether *all) {
   size_t n = 1, save_size = 0;
   for (size_t which = 0; which < all->count; which++) {
@@ -242,6 +252,7 @@ static ZpBranchSystem system_of(ZpTogether *all) {
                           .save = save,
                           .restore = restore,
                           .save_size = save_size,
+                          .alike = are_equal(all) ? all->count - 1 : 0,
                           .q_scale = 0.01 * first_model(all)->L * sqrt((double)n),
                           .m_scale = fmax(first_model(all)->def.drive.voltage, 1)};
 }

@@ -29,9 +29,10 @@ void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, ZpBandForm form,
 
 /* Negative eigenvalues for motions in which equal parts move alike, as they do along a branch. The common unknowns are
  * coupled to each part in the same way. So each eigenvalue of a part alone occurs once for each part, and at most one
- * more belongs to them together. */
-static size_t negative_of_part(const ZpParts *parts, size_t negative) {
-  return (negative + parts->more) / (1 + parts->more);
+ * more belongs to them together. Where the former change their sign another branch crosses this one, which goes on. */
+static size_t negative_alike(const ZpBranch *b, size_t negative) {
+  size_t more = b->system->at_rest.parts.more + b->system->alike;
+  return (negative + more) / (1 + more);
 }
 
 /* Tangent of the branch at the present point, of length 1 and towards increasing m => direction. => is the determinant
@@ -52,7 +53,7 @@ static int find_tangent(ZpBranch *b) {
   b->a_m = 1 / length;
   for (size_t i = 0; i < n; i++)
     b->a[i] *= b->a_m;
-  return isfinite(length) ? (int)(negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2) : -1;
+  return isfinite(length) ? (int)(negative_alike(b, zp_band_negative(&b->newton.K)) % 2) : -1;
 }
 
 /* The tangent => direction, on this side. */
@@ -154,7 +155,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
     double ta = zp_static_dot(rest, b->direction, b->a) / sys->q_scale,
            tb = zp_static_dot(rest, b->direction, b->b) / sys->q_scale;
     double across = tb + b->direction_m / sys->m_scale, dm = (s - gone - ta) / across;
-    look_at_side(&sides, (across < 0) != (negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2 == 1), k);
+    look_at_side(&sides, (across < 0) != (negative_alike(b, zp_band_negative(&b->newton.K)) % 2 == 1), k);
     for (size_t i = 0; i < n; i++)
       b->a[i] += b->b[i] * dm;
     zp_closing_correct(&closing, rest, b->a);

@@ -15,6 +15,7 @@ typedef struct ZpBranchSystem {
   void (*restore)(void *self, const void *from);
   size_t save_size;
   double q_scale, m_scale; /* coordinates and parameter are measured in these */
+  size_t alike;            /* systems of equal equations, beyond the first, that move as it does along a branch */
 } ZpBranchSystem;
 
 /* A branch being followed. Direction in scaled units, length 1. */
