@@ -139,9 +139,9 @@ static bool follow(ZpLift *l, ZpLimit *limit) {
 static double middle(const ZpLift *l) {
   static const double wide = 2, margin = 0.1;
   if (l->least == 0 || isinf(l->most)) return l->least > 0 ? wide * l->least : l->most / wide;
-  double part = log(l->top / l->at_least) / log(l->at_most / l->at_least);
-  part = part > 0 && part < 1 ? fmin(fmax(part, margin), 1 - margin) : 0.5;
-  return l->least * pow(l->most / l->least, part);
+  double part = (l->top - l->at_least) / (l->at_most - l->at_least);
+  if (!(part > 0 && part < 1)) return sqrt(l->least * l->most);
+  return l->least + fmin(fmax(part, margin), 1 - margin) * (l->most - l->least);
 }
 
 /* The closing voltage jumps above the load under which it last closed: this is no limit point. */
