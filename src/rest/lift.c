@@ -15,9 +15,10 @@ void zp_lift_carve(ZpLift *l, ZpSlow *slow, const ZpRest *rest, ZpCarver *carver
   zp_limit_carve(&l->at, zp_rest_save_size(rest), rest->statics.assembly.n, carver);
 }
 
-void zp_lift_start(ZpLift *l, double top, double *hung) {
+void zp_lift_start(ZpLift *l, double top, double *hung, double *lifted) {
   l->top = top;
   l->hung = hung;
+  l->lifted = lifted;
   l->least = 0;
   l->most = INFINITY;
   l->at_least = l->at_most = NAN;
@@ -44,7 +45,9 @@ bool zp_lift_hang(ZpLift *l, double load) {
 /* A limit point is at the voltage, as accurately as it was solved: if the actuator falls closed from there, this is
  * where it closes. Else the next limit is above. */
 static ZpSlowEnd fall_at_top(ZpLift *l) {
-  if (zp_slow_falls_closed(l->slow)) return ZP_SLOW_CHANGED;
+  bool closes = zp_slow_falls_closed(l->slow);
+  if (closes) l->slow->square.save(l->slow->statics, l->lifted);
+  if (closes) return ZP_SLOW_CHANGED;
   if (zp_slow_is_closed(l->slow)) return ZP_SLOW_LOST;
   zp_limit_none(&l->at, NULL);
   return zp_slow_close_at(l->slow, far * l->top, l->top, &l->at);

@@ -12,6 +12,7 @@ typedef struct ZpLift {
   ZpSlow *slow;
   double top;         /* the voltage, V */
   double *hung;       /* state that hangs without voltage under the last load */
+  double *lifted;     /* closed state to which it last fell at the voltage */
   ZpLimit at;         /* where the voltage closes it under that load */
   double least, most; /* loads; it closes under the former, but not under the latter; 0 and INFINITY: not known, kg */
   double at_least, at_most; /* voltages that close it under these, V; NAN: not known */
@@ -19,8 +20,8 @@ typedef struct ZpLift {
 
 void zp_lift_carve(ZpLift *lift, ZpSlow *slow, const ZpRest *rest, ZpCarver *carver);
 
-/* `hung` is a state that hangs under any load, in the caller's memory. */
-void zp_lift_start(ZpLift *lift, double top, double *hung);
+/* States in the caller's memory; `hung` hangs under any load. */
+void zp_lift_start(ZpLift *lift, double top, double *hung, double *lifted);
 
 /* Does the voltage asked for close it under this load? At most at `voltage`, V, or at least there; NAN: not known. */
 void zp_lift_narrow(ZpLift *lift, double load, bool closes, double voltage);

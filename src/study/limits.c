@@ -176,12 +176,25 @@ static bool hang_heavy(Finder *f) {
   return false;
 }
 
+/* Is the state to which the neighbour falls from its limit point closed here, too? */
+static bool falls_as_neighbour(Finder *f) {
+  const ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
+  if (limit->end != ZP_MARCH_FOLD) return true;
+  if (!zp_lift_hang(&f->lift, limit->value)) return false;
+  take(f, f->near->lifted);
+  bool closed = zp_slow_close(&f->slow, f->lift.top);
+  f->slow.square.save(&f->rest.statics, f->limits->lifted);
+  return closed;
+}
+
 /* From a neighbour: only if the voltage meets no other limit point before, and the mesh is too fine to hold a front
  * between nodes, to which the actuator might fall. */
 static bool lift_as_neighbour(Finder *f) {
   static const double fine = 2; /* elements */
   bool trusted = f->near && f->near->first && zp_mesh_resolution(f->model, f->model->def.drive.voltage) > fine;
-  f->limits->first = trusted && from_neighbour(f, ZP_LIMIT_LOAD);
+  bool found = trusted && from_neighbour(f, ZP_LIMIT_LOAD);
+  f->limits->first = found && falls_as_neighbour(f);
+  if (found && !f->limits->first) f->limits->warm--;
   return f->limits->first;
 }
 
@@ -189,7 +202,7 @@ static bool lift_as_neighbour(Finder *f) {
 static void lift(Finder *f, bool closes) {
   ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
   memcpy(f->limits->hung, f->limits->start, f->slow.square.save_size);
-  zp_lift_start(&f->lift, f->model->def.drive.voltage, f->limits->hung);
+  zp_lift_start(&f->lift, f->model->def.drive.voltage, f->limits->hung, f->limits->lifted);
   if (lift_as_neighbour(f)) return;
   zp_lift_narrow(&f->lift, f->model->def.load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
   bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->model->def.load.mass);
@@ -268,6 +281,7 @@ static size_t carve_limits(ZpLimits *limits, size_t save, size_t equations, void
   limits->start = zp_carve(&carver, save);
   limits->closed = zp_carve(&carver, save);
   limits->hung = zp_carve(&carver, save);
+  limits->lifted = zp_carve(&carver, save);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_carve(&limits->limit[k], save, equations, &carver);
   return carver.used;
