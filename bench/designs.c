@@ -20,6 +20,9 @@
  *                                        resistance from 0 to 1 Gohm, a capacitance from 0 to 1 nF, limits of the
  *                                        current from 1 uA to 1 kA; with and without cap, in every liquid, with
  *                                        tolerances of 1e-3 to 1e-6: as for liquid
+ *   designs loads [COUNT [SEED [NODES]]]   the largest load at ten voltages (with 31 nodes): from scratch and from the
+ *                                        voltage before to 1e-6, and against its definition, by which drive.voltage
+ *                                        closes slightly less and none of some larger loads
  *   designs ramp [COUNT [SEED]]          do `limits` and a slow ramp of the voltage in time close and open the actuator
  *                                        at the same voltages to 1 %, with 61 nodes or more, or where the mesh is too
  *                                        coarse to 1 % beyond what half the elements' length changes? Status 1 if one
@@ -462,6 +465,87 @@ static int check_agreement(int designs, uint64_t state, double part) {
   return designs - count.all_same;
 }
 
+/* -- the largest load against its definition ----------------------------------------------------------- */
+
+/* Shares of the largest load, the first of which drive.voltage closes, and no other. */
+static const double share[] = {0.999, 1.001, 1.01, 1.03, 1.1, 1.3};
+enum { SHARES = sizeof share / sizeof share[0] };
+
+typedef struct LoadCount {
+  int voltages, none, apart, lost, wrong[SHARES], right;
+  double cold_s, warm_s;
+} LoadCount;
+
+/* => study limits, from a neighbour if there is one; NULL if it fails */
+static ZpResult *limits_from(const ZpActuatorDef *def, const ZpResult *near, double *seconds) {
+  const ZpStudyInput input = {.neighbour = near};
+  ZpResult *result = NULL;
+  double start = cpu_s();
+  if (zp_study_run(ZP_STUDY_LIMITS, def, &input, NULL, &result, NULL) != ZP_OK) return NULL;
+  *seconds += cpu_s() - start;
+  return result;
+}
+
+/* => does drive.voltage close it exactly up to this load? */
+static bool is_largest(ZpActuatorDef def, double load, LoadCount *count) {
+  bool all = true;
+  for (int k = 0; k < SHARES; k++) {
+    def.load.mass = share[k] * load;
+    bool closes = !isnan(answer_of(ZP_STUDY_LIMITS, &def).voltage[1]), right = closes == (share[k] < 1);
+    count->wrong[k] += !right;
+    if (!right) printf("  %s at %g times the largest load\n", closes ? "closes" : "does not close", share[k]);
+    all = all && right;
+  }
+  return all;
+}
+
+/* => the result from the neighbour, which replaces it */
+static ZpResult *check_load(int design, const ZpActuatorDef *def, ZpResult *near, LoadCount *count) {
+  static const double same = 1e-6;
+  ZpResult *cold = limits_from(def, NULL, &count->cold_s), *warm = limits_from(def, near, &count->warm_s);
+  zp_result_destroy(near);
+  bool good = cold && warm && zp_outcome_good(cold->outcome) && zp_outcome_good(warm->outcome);
+  double from_cold = cold ? zp_result_get(cold, "max_load_kg") : NAN,
+         from_warm = warm ? zp_result_get(warm, "max_load_kg") : NAN, off = apart(from_cold, from_warm);
+  count->voltages++;
+  count->lost += !good;
+  count->none += isnan(from_cold);
+  count->apart += off > same;
+  bool right = good && off <= same && (isnan(from_cold) || is_largest(*def, from_cold, count));
+  count->right += right;
+  if (!right)
+    printf("design %d: %.10g kg from scratch, %.10g from a neighbour; %s\n  zipact limits", design, from_cold,
+           from_warm, warm ? warm->message : "");
+  if (!right) print_design(def);
+  zp_result_destroy(cold);
+  return warm;
+}
+
+/* => how many largest loads are not what they should be */
+static int check_loads(int designs, uint64_t seed, int nodes) {
+  enum { STEPS = 10 };
+  static const double least = 0.55, step = 0.05; /* of the design's voltage */
+  LoadCount count = {.voltages = 0};
+  for (int i = 0; i < designs; i++) {
+    ZpActuatorDef def = design(&seed);
+    double top = def.drive.voltage;
+    ZpResult *near = NULL;
+    def.mesh.nodes = nodes;
+    for (int k = 0; k < STEPS; k++) {
+      def.drive.voltage = top * (least + k * step);
+      near = check_load(i, &def, near, &count);
+    }
+    zp_result_destroy(near);
+  }
+  printf("loads: %d of %d right, %d without a largest load, %d lost; %d differ from a neighbour's; closing is wrong at",
+         count.right, count.voltages, count.none, count.lost, count.apart);
+  for (int k = 0; k < SHARES; k++)
+    printf(" %g times: %d%s", share[k], count.wrong[k], k + 1 < SHARES ? "," : "");
+  printf("; %.2f ms from scratch, %.2f ms from a neighbour\n", 1e3 * count.cold_s / count.voltages,
+         1e3 * count.warm_s / count.voltages);
+  return count.voltages - count.right;
+}
+
 /* -- estimated errors against true ones -------------------------------------------------------------- */
 
 /* A number of a study, its estimated error, and over the designs: how often the estimate is above the true error, and
@@ -833,6 +917,7 @@ int main(int argc, char **argv) {
     bad = check_tilt(ZP_STUDY_STATIONARY, designs, seed, most);
     return bad + check_tilt(ZP_STUDY_LIMITS, designs, seed, most) > 0;
   }
+  if (strcmp(word, "loads") == 0) return check_loads(designs, seed, argc > 4 ? atoi(argv[4]) : 31) > 0;
   if (strcmp(word, "ramp") == 0) return check_ramp(designs, seed) > 0;
   for (size_t k = 0; k < sizeof every / sizeof every[0]; k++) {
     if (strcmp(word, "all") != 0 && strcmp(word, zp_study_name(every[k])) != 0) continue;
@@ -840,6 +925,6 @@ int main(int argc, char **argv) {
     known++;
   }
   if (known == 0)
-    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, ramp, liquid, supply\n", word);
+    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, loads, ramp, liquid, supply\n", word);
   return known == 0 ? 2 : bad > 0;
 }

@@ -52,6 +52,7 @@ static const Number numbers[] = {
     {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 12, 2, RIPPLE, 2, 2},
     {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 2.5, 1.75, POWERS, 2, 2},
     {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 20, 1.75, POWERS, 2, 2},
+    {ZP_STUDY_LIMITS, "max_load_kg", "max_load_error_kg", 12, 2, RIPPLE, 3, 4},
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate

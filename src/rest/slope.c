@@ -236,7 +236,8 @@ double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, c
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 
-double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate) {
+double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate,
+                         double by_parameter) {
   size_t n = p->at->assembly.n;
   if (!solve_both(p, pose, branch)) return NAN;
   double direct = 0;
@@ -247,7 +248,7 @@ double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, 
     direct += p->by.weight[k] * event(near, NULL);
   }
   event(p->at, p->row);
-  return (rate - direct - zp_dot(n, p->row, p->by_key)) / zp_dot(n, p->row, p->by_parameter);
+  return (rate - direct - zp_dot(n, p->row, p->by_key)) / (zp_dot(n, p->row, p->by_parameter) - by_parameter);
 }
 
 /* -- outputs -------------------------------------------------------------------------------------- */

@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "math/vector.h"
+
 /* -- limits --------------------------------------------------------------------------------------- */
 
 void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver) {
@@ -39,6 +41,17 @@ void zp_slow_start(ZpSlow *f, double hanging) {
 
 bool zp_slow_is_closed(const ZpSlow *f) {
   return zp_closing_gap(f->statics, NULL) <= f->closed;
+}
+
+double zp_slow_closed_by_load(ZpSlow *f) {
+  static const double step = 1e-3; /* of the gap: the law is linear but for a corner */
+  ZpStatics *s = f->statics;
+  ZpFold *fold = &f->march.fold;
+  fold->system = &f->load;
+  if (!zp_fold_tangent(fold)) return NAN;
+  double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->assembly.n, fold->x, fold->along);
+  double change = zp_closing_limit(s, (1 + step) * gap) - zp_closing_limit(s, (1 - step) * gap);
+  return by_load * change / (2 * step * gap);
 }
 
 void zp_slow_go_to(ZpSlow *f, const double *state) {
@@ -240,8 +253,9 @@ static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
- * point on the way that is not a ripple is `first` (NULL: not requested). */
-static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
+ * point on the way that is not a ripple is `first` (NULL: not requested). A limit point further than `enough` ends the
+ * search. */
+static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, ZpLimit *first) {
   enum { MOST = 1000 }; /* limit points; there are many ripples where a front passes node by node */
   double sign = target > parameter(f) ? 1 : -1;
   bool was_closed = zp_slow_is_closed(f);
@@ -254,6 +268,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, ZpLimit *at, ZpLimit *first) {
     zp_slow_note(f, at, end);
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
+    if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
     bool found = fall(f, sign), impossible = zp_statics_fault(f->statics) != NULL;
     bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
@@ -270,14 +285,42 @@ static void choose(ZpSlow *f, const ZpBranchSystem *along) {
   f->march.event = zp_closing_gap;
 }
 
-ZpSlowEnd zp_slow_change_load(ZpSlow *f, double target, ZpLimit *at) {
+bool zp_slow_fold_of_load(ZpSlow *f, const double *null) {
   choose(f, &f->load);
-  return change(f, target, at, NULL);
+  memcpy(f->march.fold.null, null, f->statics->assembly.n * sizeof *null);
+  return zp_fold_solve(&f->march.fold) && f->march.fold.negative == 0;
 }
 
-ZpSlowEnd zp_slow_close_at(ZpSlow *f, double target, ZpLimit *at) {
+bool zp_slow_event_of_load(ZpSlow *f, double gap) {
+  choose(f, &f->load);
+  return zp_fold_event(&f->march.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && f->march.fold.negative == 0;
+}
+
+/* March to `target` => the limit at which this ends, if there is one. */
+static ZpMarchEnd go_to_first(ZpSlow *f, double target, ZpLimit *at) {
+  ZpMarchEnd end = zp_march(&f->march, target);
+  zp_limit_none(at, NULL);
+  if (end == ZP_MARCH_FOLD || end == ZP_MARCH_EVENT) zp_slow_note(f, at, end);
+  return end;
+}
+
+ZpMarchEnd zp_slow_drop_load(ZpSlow *f, ZpLimit *at) {
+  choose(f, &f->load);
+  return go_to_first(f, 0, at);
+}
+
+ZpMarchEnd zp_slow_first(ZpSlow *f, double top, ZpLimit *at) {
   choose(f, &f->square);
-  return change(f, target * target, at, NULL);
+  return go_to_first(f, top * top, at);
+}
+
+ZpSlowEnd zp_slow_close_at(ZpSlow *f, double top, double enough, ZpLimit *at) {
+  choose(f, &f->square);
+  return change(f, top * top, enough * enough, at, NULL);
+}
+
+bool zp_slow_falls_closed(ZpSlow *f) {
+  return fall(f, 1) && zp_slow_is_closed(f);
 }
 
 /* It has closed gradually: is there a limit point further up? */
@@ -298,7 +341,7 @@ ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closin
   zp_limit_none(pull_in, "no limit point up to drive.voltage");
   zp_limit_none(closing, "it does not close up to drive.voltage");
   choose(f, &f->square);
-  ZpSlowEnd end = change(f, top * top, closing, pull_in);
+  ZpSlowEnd end = change(f, top * top, INFINITY, closing, pull_in);
   if (end == ZP_SLOW_LOST) zp_limit_lost(closing, lost);
   if (end == ZP_SLOW_LOST && isnan(pull_in->value)) zp_limit_lost(pull_in, lost);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
@@ -325,7 +368,7 @@ bool zp_slow_close(ZpSlow *f, double top) {
 ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
   zp_limit_none(release, "it stays closed down to 0 V");
   choose(f, &f->square);
-  ZpSlowEnd end = change(f, 0, release, NULL);
+  ZpSlowEnd end = change(f, 0, -INFINITY, release, NULL);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
   if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost as the voltage fell");
   if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;

@@ -39,6 +39,7 @@ typedef struct ZpSlow {
 typedef enum ZpSlowEnd {
   ZP_SLOW_ARRIVED, /* the change has ended */
   ZP_SLOW_CHANGED, /* it has closed or opened */
+  ZP_SLOW_BEYOND,  /* a limit point is further than was asked */
   ZP_SLOW_LOST,
   ZP_SLOW_STOPPED
 } ZpSlowEnd;
@@ -50,6 +51,10 @@ void zp_slow_carve(ZpSlow *slow, ZpRest *rest, ZpCarver *carver);
 void zp_slow_start(ZpSlow *slow, double hanging);
 
 bool zp_slow_is_closed(const ZpSlow *slow);
+
+/* Derivative of the gap at which it counts as closed by the load, m/kg, at the present point, where it hangs without
+ * voltage. */
+double zp_slow_closed_by_load(ZpSlow *slow);
 
 /* Go to a saved state. */
 void zp_slow_go_to(ZpSlow *slow, const double *state);
@@ -66,11 +71,22 @@ ZpAround zp_slow_look_around(ZpSlow *slow, ZpLimit *limit, double sign);
 /* The room that the limit at the present point keeps of that of `near`, a limit of a neighbour with this `gap`. */
 double zp_slow_room_left(ZpSlow *slow, const ZpLimit *near, double gap);
 
-/* From the present equilibrium, change the load to `target`, kg, or until the actuator closes: this limit is `at`. */
-ZpSlowEnd zp_slow_change_load(ZpSlow *slow, double target, ZpLimit *at);
+/* From close by, at the present voltage, to the load of a limit point with about this null vector, and to the one under
+ * which the closing gap has this value. False if there is none, or it is not stable apart from the null vector. */
+bool zp_slow_fold_of_load(ZpSlow *slow, const double *null);
+bool zp_slow_event_of_load(ZpSlow *slow, double gap);
 
-/* The same with the voltage, rising to `target`, V. */
-ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double target, ZpLimit *at);
+/* From the present equilibrium, lower the load to 0, or raise the voltage to `top`, V, or to the first limit => at, if
+ * there is one. */
+ZpMarchEnd zp_slow_drop_load(ZpSlow *slow, ZpLimit *at);
+ZpMarchEnd zp_slow_first(ZpSlow *slow, double top, ZpLimit *at);
+
+/* From the present equilibrium, raise the voltage to `top`, V, until the actuator closes, or to the first limit point
+ * not below `enough`, V, from which it does not fall: this limit is `at`. */
+ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double top, double enough, ZpLimit *at);
+
+/* Does the actuator close when it falls from this limit point of the voltage? */
+bool zp_slow_falls_closed(ZpSlow *slow);
 
 /* From the hanging state without voltage, raise the voltage to `top`, V, or until the actuator closes => pull_in, the
  * first limit point that is no ripple of the mesh, and closing. */

@@ -222,8 +222,38 @@ static void restore(void *self, const void *from) {
   }
 }
 
+/* Equal members move alike: where another branch crosses, rounding would lead to it. */
+static void make_alike(void *self, double *step) {
+  const ZpTogether *all = self;
+  for (size_t i = 0; i < own_count(all, 0); i++) {
+    double mean = 0;
+    for (size_t which = 0; which < all->count; which++)
+      mean += step[place_of(all, which, i)] / (double)all->count;
+    for (size_t which = 0; which < all->count; which++)
+      step[place_of(all, which, i)] = mean;
+  }
+}
+
+/* Then one alone, with its share of the load, has the stiffness against such motions. */
+static size_t negative_alike(void *self) {
+  ZpTogether *all = self;
+  ZpBand *own = &all->of[0].branch.newton.K;
+  return zp_band_factor(own) ? zp_band_negative(own) : 0;
+}
+
+/* Are all members the same actuator, side by side? */
+static bool are_equal(const ZpTogether *all) {
+  for (size_t which = 1; which < all->count; which++)
+    for (int key = 0; key < zp_key_count(); key++) {
+      double one = zp_def_get(&member(all, which)->model->def, key), first = zp_def_get(&first_model(all)->def, key);
+      if (one != first && !(isnan(one) && isnan(first))) return false;
+    }
+  return !(all->distance > 0);
+}
+
 static ZpBranchSystem system_of(ZpTogether *all) {
   size_t n = 1, save_size = 0;
+  bool alike = are_equal(all);
   for (size_t which = 0; which < all->count; which++) {
     n += own_count(all, which) - 1;
     save_size += all->of[which].system.save_size;
@@ -242,6 +272,8 @@ static ZpBranchSystem system_of(ZpTogether *all) {
                           .save = save,
                           .restore = restore,
                           .save_size = save_size,
+                          .make_alike = alike ? make_alike : NULL,
+                          .negative = alike ? negative_alike : NULL,
                           .q_scale = 0.01 * first_model(all)->L * sqrt((double)n),
                           .m_scale = fmax(first_model(all)->def.drive.voltage, 1)};
 }

@@ -34,6 +34,21 @@ static size_t negative_of_part(const ZpParts *parts, size_t negative) {
   return (negative + parts->more) / (1 + parts->more);
 }
 
+/* Is the determinant of the factored stiffness negative, for motions in which equal parts and systems move alike? Where
+ * others change its sign another branch crosses this one, which goes on. */
+static bool is_negative(ZpBranch *b) {
+  const ZpBranchSystem *sys = b->system;
+  size_t negative = sys->negative ? sys->negative(sys->at_rest.self) : zp_band_negative(&b->newton.K);
+  return negative_of_part(&sys->at_rest.parts, negative) % 2 == 1;
+}
+
+/* K^-1 x => x, of which only what moves equal systems alike. */
+static void solve(ZpBranch *b, double *x) {
+  const ZpBranchSystem *sys = b->system;
+  zp_band_solve(&b->newton.K, x);
+  if (sys->make_alike) sys->make_alike(sys->at_rest.self, x);
+}
+
 /* Tangent of the branch at the present point, of length 1 and towards increasing m => direction. => is the determinant
  * of the stiffness negative? Neither 0 nor 1: there is no tangent. */
 static int find_tangent(ZpBranch *b) {
@@ -44,7 +59,7 @@ static int find_tangent(ZpBranch *b) {
   rest->stiffness(rest->self, &b->newton.K, NULL);
   sys->sensitivity(rest->self, b->a);
   if (!zp_band_factor(&b->newton.K)) return -1;
-  zp_band_solve(&b->newton.K, b->a);
+  solve(b, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
     b->a[i] *= to_scaled;
@@ -52,7 +67,7 @@ static int find_tangent(ZpBranch *b) {
   b->a_m = 1 / length;
   for (size_t i = 0; i < n; i++)
     b->a[i] *= b->a_m;
-  return isfinite(length) ? (int)(negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2) : -1;
+  return isfinite(length) ? is_negative(b) : -1;
 }
 
 /* The tangent => direction, on this side. */
@@ -149,12 +164,12 @@ static int correct(ZpBranch *b, double s, double m_start) {
     sys->sensitivity(rest->self, b->b);
     if (!zp_band_factor(&b->newton.K)) return -1;
     memcpy(b->a, b->newton.r, n * sizeof *b->a);
-    zp_band_solve(&b->newton.K, b->a);
-    zp_band_solve(&b->newton.K, b->b);
+    solve(b, b->a);
+    solve(b, b->b);
     double ta = zp_static_dot(rest, b->direction, b->a) / sys->q_scale,
            tb = zp_static_dot(rest, b->direction, b->b) / sys->q_scale;
     double across = tb + b->direction_m / sys->m_scale, dm = (s - gone - ta) / across;
-    look_at_side(&sides, (across < 0) != (negative_of_part(&rest->parts, zp_band_negative(&b->newton.K)) % 2 == 1), k);
+    look_at_side(&sides, (across < 0) != is_negative(b), k);
     for (size_t i = 0; i < n; i++)
       b->a[i] += b->b[i] * dm;
     zp_closing_correct(&closing, rest, b->a);

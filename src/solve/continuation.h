@@ -15,6 +15,9 @@ typedef struct ZpBranchSystem {
   void (*restore)(void *self, const void *from);
   size_t save_size;
   double q_scale, m_scale; /* coordinates and parameter are measured in these */
+  /* of systems of equal equations that move alike along a branch; NULL: there are none */
+  void (*make_alike)(void *self, double *step); /* what of a step moves them alike */
+  size_t (*negative)(void *self);               /* negative eigenvalues of such motions, of the last stiffness */
 } ZpBranchSystem;
 
 /* A branch being followed. Direction in scaled units, length 1. */

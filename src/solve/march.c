@@ -172,8 +172,10 @@ static bool halve(ZpMarch *m, double sign, double value) {
 }
 
 /* The same if the limit point is smooth: solve it as such, starting where the tangents at both ends make the branch
- * turn. */
+ * turn. If a parabola does not lead there from the last good point, it is the crest of a ripple beyond the one that was
+ * passed. */
 static bool solve_between(ZpMarch *m, double sign, double value) {
+  static const double part = 0.3;
   double here = 1 / m->slope, there = turn_of(m), at = m->value + (value - m->value) * here / (here - there);
   if (!(here * there < 0)) return false;
   bool near = fabs(at - m->value) < fabs(at - value);
@@ -182,8 +184,10 @@ static bool solve_between(ZpMarch *m, double sign, double value) {
   if (!solve_at(m, at, m->to)) return false;
   zp_fold_guess(&m->fold);
   if (!zp_fold_solve(&m->fold) || m->fold.negative > 0) return false;
-  double found = m->event(m->fold.system->at_rest.self, m->guess);
-  return (found - m->value) * (found - value) < 0 && sign * (parameter(m) - m->m) > 0;
+  double found = m->event(m->fold.system->at_rest.self, m->guess), gone = parameter(m) - m->m;
+  double parabola = 0.5 * (found - m->value) * here;
+  bool between = (found - m->value) * (found - value) < 0 && sign * gone > 0;
+  return between && fabs(gone - parabola) < part * fabs(gone);
 }
 
 /* The limit point that the step to `value` has passed. */

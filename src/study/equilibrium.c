@@ -284,6 +284,7 @@ static ZpOutcome outcome_of(const Follower *f) {
 static ZpStatus derive(Follower *f, ZpError *err) {
   ZpLimitList list = {&f->slow,
                       f->hung,
+                      NULL,
                       {{"pull_in_voltage_V", &f->pull_in, false},
                        {"release_voltage_V", &f->release, false},
                        {"closing_voltage_V", &f->closing, false}},

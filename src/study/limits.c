@@ -38,6 +38,7 @@ typedef struct Finder {
   const ZpTask *task;
   ZpRest rest;
   ZpSlow slow;
+  ZpLift lift;
   ZpLimits *limits;
   const ZpLimits *near; /* of a neighbour; NULL: none */
   void *top;            /* the hanging state at drive.voltage under its own load, if it hangs there */
@@ -49,6 +50,7 @@ typedef struct Finder {
 static void carve(void *user, ZpCarver *carver) {
   Finder *f = user;
   zp_slow_carve(&f->slow, &f->rest, carver);
+  zp_lift_carve(&f->lift, &f->slow, &f->rest, carver);
   f->top = zp_carve(carver, zp_rest_save_size(&f->rest));
 }
 
@@ -85,7 +87,9 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   if (load) s->U = f->model->def.drive.voltage;
   memcpy(f->slow.march.fold.null, near->null, s->assembly.n * sizeof *near->null);
   ZpFold *solver = &f->slow.march.fold;
-  bool found = fold ? zp_fold_solve(solver) : zp_fold_event(solver, zp_closing_gap, f->slow.closed, ZP_FOLD_EXACT);
+  bool found = fold   ? zp_fold_solve(solver)
+               : load ? zp_lift_event(&f->lift, near_gap)
+                      : zp_fold_event(solver, zp_closing_gap, f->slow.closed, ZP_FOLD_EXACT);
   if (!found) return false;
   double value = load ? s->load : s->U;
   bool sided = !fold || (near_gap <= 2 * f->slow.closed) == (zp_closing_gap(s, NULL) <= 2 * f->slow.closed);
@@ -162,33 +166,52 @@ static void lower_voltage(Finder *f) {
 static bool hang_heavy(Finder *f) {
   enum { MOST = 12 };
   static const double lightest = 1e-3, heavier = 3; /* kg; than what forces as the voltage's square could lift */
-  ZpStatics *s = &f->rest.statics;
-  double top = f->model->def.drive.voltage, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
+  double top = f->lift.top, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
   double load = fmax(f->model->def.load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
-    f->slow.square.restore(s, f->limits->start);
-    s->load = load;
-    if (!zp_newton_good(zp_statics_hang(s, &f->rest.branch.newton).end)) return false;
-    if (!zp_statics_stable(s, &f->rest.branch.newton)) return false;
-    ZpSlowEnd end = zp_slow_close_at(&f->slow, top, &f->limits->limit[ZP_LIMIT_LOAD]);
-    if (end == ZP_SLOW_ARRIVED) return !zp_slow_is_closed(&f->slow);
-    if (end != ZP_SLOW_CHANGED) return false;
+    ZpSlowEnd end = zp_lift_hang_at_top(&f->lift, load);
+    if (end == ZP_SLOW_ARRIVED) return true;
+    if (end == ZP_SLOW_LOST || end == ZP_SLOW_STOPPED) return false;
   }
   return false;
 }
 
-/* A load that falls at drive.voltage until it is lifted. */
-static void lower_load(Finder *f, bool closes) {
-  if (from_neighbour(f, ZP_LIMIT_LOAD)) return;
-  bool hangs = closes ? hang_heavy(f) : true;
-  zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "no load was found that it cannot lift");
+/* Is the state to which the neighbour falls from its limit point closed here, too? */
+static bool falls_as_neighbour(Finder *f) {
+  const ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
+  if (limit->end != ZP_MARCH_FOLD) return true;
+  if (!zp_lift_hang(&f->lift, limit->value)) return false;
+  take(f, f->near->lifted);
+  bool closed = zp_slow_close(&f->slow, f->lift.top);
+  f->slow.square.save(&f->rest.statics, f->limits->lifted);
+  return closed;
+}
+
+/* From a neighbour: only if the voltage meets no other limit point before, and the mesh is too fine to hold a front
+ * between nodes, to which the actuator might fall. */
+static bool lift_as_neighbour(Finder *f) {
+  static const double fine = 2; /* elements */
+  bool trusted = f->near && f->near->first && zp_mesh_resolution(f->model, f->model->def.drive.voltage) > fine;
+  bool found = trusted && from_neighbour(f, ZP_LIMIT_LOAD);
+  f->limits->first = found && falls_as_neighbour(f);
+  if (found && !f->limits->first) f->limits->warm--;
+  return f->limits->first;
+}
+
+/* The largest load. The search starts where a load that falls at drive.voltage meets its first limit. */
+static void lift(Finder *f, bool closes) {
+  ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
+  memcpy(f->limits->hung, f->limits->start, f->slow.square.save_size);
+  zp_lift_start(&f->lift, f->model->def.drive.voltage, f->limits->hung, f->limits->lifted);
+  if (lift_as_neighbour(f)) return;
+  zp_lift_narrow(&f->lift, f->model->def.load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
+  bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->model->def.load.mass);
+  zp_limit_none(limit, "no load was found that it cannot lift");
   if (!hangs) return;
   if (!closes) zp_slow_go_to(&f->slow, f->top);
-  ZpSlowEnd end = zp_slow_change_load(&f->slow, 0, &f->limits->limit[ZP_LIMIT_LOAD]);
-  if (end == ZP_SLOW_ARRIVED)
-    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it does not close at drive.voltage even without load");
-  if (end == ZP_SLOW_LOST)
-    zp_limit_lost(&f->limits->limit[ZP_LIMIT_LOAD], "the hanging state was lost as the load fell");
+  zp_lift_drop(&f->lift, limit);
+  f->limits->first = zp_lift_settle(&f->lift, limit);
+  if (limit->end == ZP_MARCH_EVENT) zp_lift_hang(&f->lift, limit->value);
 }
 
 static void none_closed(Finder *f, const char *reason) {
@@ -216,7 +239,7 @@ static bool find(Finder *f) {
   lower_voltage(f);
   f->rest.statics.load = f->model->def.load.mass;
   if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
-    lower_load(f, up == ZP_SLOW_CHANGED);
+    lift(f, up == ZP_SLOW_CHANGED);
   else
     zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "gravity does not pull the platform down, so a mass is no load");
   return true;
@@ -257,6 +280,8 @@ static size_t carve_limits(ZpLimits *limits, size_t save, size_t equations, void
   ZpCarver carver = {block, 0};
   limits->start = zp_carve(&carver, save);
   limits->closed = zp_carve(&carver, save);
+  limits->hung = zp_carve(&carver, save);
+  limits->lifted = zp_carve(&carver, save);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_carve(&limits->limit[k], save, equations, &carver);
   return carver.used;
@@ -374,7 +399,8 @@ static void derive_all(void *user, ZpSlope *slope, ZpResult *result) {
 }
 
 static ZpStatus derive(Finder *f, ZpResult *r, ZpError *err) {
-  f->list = (ZpLimitList){.slow = &f->slow, .hanging = f->limits->start, .count = ZP_LIMIT_KINDS};
+  f->list =
+      (ZpLimitList){.slow = &f->slow, .hanging = f->limits->start, .hung = f->limits->hung, .count = ZP_LIMIT_KINDS};
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     f->list.item[k] = (ZpNamedLimit){scalars[k].name, &f->limits->limit[k], k == ZP_LIMIT_LOAD};
   return zp_sensitivity_of(&f->rest, derive_all, f, r, err);

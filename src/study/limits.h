@@ -4,7 +4,7 @@
 
 #include <zipact/study.h>
 
-#include "rest/slow.h"
+#include "rest/lift.h"
 
 typedef enum ZpLimitKind {
   ZP_LIMIT_PULL_IN,
@@ -22,6 +22,9 @@ struct ZpLimits {
   bool hangs;
   double *closed; /* closed state at drive.voltage */
   bool closes;
+  double *hung;   /* state that hangs without voltage under the largest load */
+  double *lifted; /* closed state to which it falls there, if it does */
+  bool first;     /* the limit of the largest load is the first that the voltage meets under it */
   ZpLimit limit[ZP_LIMIT_KINDS];
   int warm; /* how many limits were found from the neighbour's */
   void *memory;

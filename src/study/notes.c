@@ -70,10 +70,14 @@ static double hanging_length(const ZpModel *model) {
   return hangs > 0 ? sqrt(EI * (double)model->topology.halves / hangs) : INFINITY;
 }
 
+double zp_mesh_resolution(const ZpModel *model, double voltage) {
+  return fmin(front_length(model, voltage), hanging_length(model)) / model->l;
+}
+
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   static const double fewest = 6; /* elements: docs/theory.md, section 9, has what this and the other bound leave */
   double front = front_length(model, voltage), elements = model->L / model->l;
-  result->resolution = fmin(front, hanging_length(model)) / model->l;
+  result->resolution = zp_mesh_resolution(model, voltage);
   if (elements < fewest)
     zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements the error of a shape at rest may reach 8 %%",
                    model->def.mesh.nodes, fewest);

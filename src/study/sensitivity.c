@@ -90,26 +90,46 @@ static void pose_voltage(const ZpActuatorDef *def, ZpStatics *s) {
   s->U = def->drive.voltage;
 }
 
-/* Derivative of the gap at which it counts as closed, from the hanging state. */
-static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope) {
-  zp_slow_go_to(list->slow, list->hanging);
+static void pose_as_is(const ZpActuatorDef *def, ZpStatics *s) {
+  (void)def, (void)s;
+}
+
+/* Derivative of the gap at which it counts as closed, from the state that hangs. */
+static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope, const double *hangs, ZpPose pose) {
+  zp_slow_go_to(list->slow, hangs);
   double hanging = zp_closing_gap(list->slow->statics, NULL), rate, sum = 0;
-  if (!zp_slope_solve(slope, zp_pose_load)) return NAN;
-  rate = zp_slope_of(slope, zp_pose_load, closing_gap, NULL);
+  if (!zp_slope_solve(slope, pose)) return NAN;
+  rate = zp_slope_of(slope, pose, closing_gap, NULL);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
     if (slope->by.model[k])
       sum += slope->by.weight[k] * zp_closing_limit(&slope->near[k], hanging + slope->by.offset[k] * rate);
   return sum;
 }
 
-static double derive_limit(const ZpLimitList *list, const ZpNamedLimit *item, double closed, ZpSlope *slope) {
-  ZpSlow *slow = list->slow;
-  ZpPose pose = item->is_load ? pose_voltage : zp_pose_load;
-  const ZpBranchSystem *branch = item->is_load ? &slow->load : &slow->square;
+/* Of a gradual closing: the gap at which it counts as closed changes, too, with the key and with the largest load. */
+static double derive_event(const ZpLimitList *list, const ZpNamedLimit *item, const ZpBranchSystem *branch,
+                           ZpSlope *slope) {
+  double closed = item->is_load ? rate_of_closed(list, slope, list->hung, pose_as_is)
+                                : rate_of_closed(list, slope, list->hanging, zp_pose_load);
+  double by_load = 0;
+  if (item->is_load) zp_slow_go_to(list->slow, list->hung);
+  if (item->is_load) by_load = zp_slow_closed_by_load(list->slow);
+  zp_slow_go_to(list->slow, item->limit->state);
+  return zp_slope_of_event(slope, item->is_load ? pose_voltage : zp_pose_load, branch, zp_closing_gap, closed, by_load);
+}
+
+static double derive_fold(const ZpLimitList *list, const ZpNamedLimit *item, const ZpBranchSystem *branch,
+                          ZpSlope *slope) {
+  zp_slow_go_to(list->slow, item->limit->state);
+  return zp_slope_of_fold(slope, item->is_load ? pose_voltage : zp_pose_load, branch, item->limit->null);
+}
+
+static double derive_limit(const ZpLimitList *list, const ZpNamedLimit *item, ZpSlope *slope) {
+  const ZpBranchSystem *branch = item->is_load ? &list->slow->load : &list->slow->square;
+  double rate = NAN;
   if (isnan(item->limit->value)) return NAN;
-  zp_slow_go_to(slow, item->limit->state);
-  double rate = item->limit->end == ZP_MARCH_FOLD ? zp_slope_of_fold(slope, pose, branch, item->limit->null)
-                                                  : zp_slope_of_event(slope, pose, branch, zp_closing_gap, closed);
+  if (item->limit->end == ZP_MARCH_FOLD) rate = derive_fold(list, item, branch, slope);
+  if (item->limit->end == ZP_MARCH_EVENT) rate = derive_event(list, item, branch, slope);
   return item->is_load ? rate : rate / (2 * item->limit->value);
 }
 
@@ -122,15 +142,17 @@ static bool has_none(const ZpResult *result, const char *output) {
 
 void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result) {
   const ZpLimitList *list = user;
-  double closed = rate_of_closed(list, slope), found[ZP_MOST_LIMITS];
+  double found[ZP_MOST_LIMITS];
   for (size_t k = 0; k < list->count; k++) {
     const ZpNamedLimit *item = &list->item[k];
     size_t same = 0; /* a release is at most the closing voltage, whatever its state says */
     while (same < k && list->item[same].limit->value != item->limit->value)
       same++;
-    found[k] = same < k ? found[same] : derive_limit(list, item, closed, slope);
+    found[k] = same < k ? found[same] : derive_limit(list, item, slope);
     if (isnan(found[k]) && !isnan(item->limit->value) && !has_none(result, item->output))
-      zp_result_note(result, "%s has no derivatives: the slope of a force jumps at this state", item->output);
+      zp_result_note(result, "%s has no derivatives: %s", item->output,
+                     item->limit->end == ZP_MARCH_ARRIVED ? "beyond it the closing voltage jumps"
+                                                          : "the slope of a force jumps at this state");
     zp_result_add_sensitivity(result, item->output, slope->key, found[k]);
   }
 }

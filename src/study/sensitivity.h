@@ -32,6 +32,7 @@ typedef struct ZpNamedLimit {
 typedef struct ZpLimitList {
   ZpSlow *slow;
   const double *hanging; /* its state */
+  const double *hung;    /* the one under the largest load; NULL: that is not asked for */
   ZpNamedLimit item[ZP_MOST_LIMITS];
   size_t count;
 } ZpLimitList;
