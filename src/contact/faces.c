@@ -145,9 +145,13 @@ static void add_damper(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i
   e->own[i] += c * s1;
 }
 
+double zp_faces_late(const ZpFacesParams *p, double h) {
+  return h / (h + p->settling);
+}
+
 ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
   if (!(h > 0)) return (ZpFacesSpan){start, end, 0, 0};
-  return (ZpFacesSpan){start, end, h / (h + p->settling), 1 / h};
+  return (ZpFacesSpan){start, end, zp_faces_late(p, h), 1 / h};
 }
 
 /* Length of the faces that belong to station i, m. */

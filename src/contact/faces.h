@@ -47,7 +47,10 @@ typedef struct ZpFacesSpan {
   double rate;               /* one over the time that they take, 1/s; 0: rest */
 } ZpFacesSpan;
 
-/* The same over a time h, s; 0: rest. */
+/* The share `late` of a step h, s. */
+double zp_faces_late(const ZpFacesParams *params, double h);
+
+/* From where to where faces go over a time h, s; 0: rest. */
 ZpFacesSpan zp_faces_span(const ZpFacesParams *params, const double *start, const double *end, double h);
 
 /* => all of eval: the mean push of the span, its derivatives by the gaps at the end. At rest both ends move: the

@@ -415,31 +415,21 @@ static bool any_meet(const ZpDynamics *d) {
   return false;
 }
 
-/* Is there a vibration of masses on contact layers that the step does not resolve? Theory, section 18, Filter. */
-static bool misses_layers(const ZpDynamics *d) {
-  static const double followed = 4; /* angle by which such a vibration turns in a step, at most */
-  double most = followed * followed / (d->h * d->h);
-  for (const ZpDynamics *m = d; m; m = m->below)
-    for (size_t i = 1; i < m->model->nodes; i++)
-      if (meets(m, i) && m->eval.faces.stiffness[i] > most * pair_of(m, i).reduced) return true;
-  return false;
-}
-
-/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, if the step
- * does not resolve the vibrations of the layers, motion too fast for the step is removed from velocities after an
- * impact. With a film the damper (9.3) acts instead. */
+/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, motion too fast
+ * for the step then loses the share of (18.11) of its velocity. With a film the damper (9.3) acts instead. */
 static double impact(ZpDynamics *d) {
   double loss = 0;
   const bool film = d->model->has_film;
   for (const ZpDynamics *m = d; m; m = m->below)
     loss += pushed(m);
-  d->filters = d->lead ? d->lead->filters : !film && misses_layers(d);
-  if (film ? !any_meet(d) : !d->filters) return loss;
+  const bool meet = d->lead && !film ? d->lead->filters : any_meet(d);
+  d->filters = meet && !film;
+  if (!meet) return loss;
   loss += kinetic_energy(d);
   if (film)
     damp_all(d);
   else
-    zp_implicit_smooth(&d->stepper, d->h, d->v);
+    zp_implicit_smooth(&d->stepper, d->h, zp_faces_late(&d->model->faces, d->h), d->v);
   return loss - kinetic_energy(d);
 }
 

@@ -121,9 +121,9 @@ void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v)
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver);
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
-/* Remove from velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of
- * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with their
+/* Remove from velocities v a share of what is too fast for the last step, of length h: share (x / (1 + x))^3 of a mode
+ * of angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with their
  * sign changed in every step. */
-void zp_implicit_smooth(ZpImplicit *stepper, double h, double *v);
+void zp_implicit_smooth(ZpImplicit *stepper, double h, double share, double *v);
 
 #endif
