@@ -576,10 +576,10 @@ static void fill_equations(ZpDynamics *d) {
 /* Error of a step as a share of the reference length, eq. (18.12): errors of steps add up, and shorter steps are more.
  * With a tolerance below `finest`, the balance of energy would have to be below the rounding of positions, and no step
  * would converge. */
-static double error_of_step(const ZpActuatorDef *def) {
+static double error_of_step(const ZpModel *model) {
   static const double finest = 1e-7;
-  double tolerance = fmax(def->solver.tolerance, finest);
-  return 1.5 * tolerance * sqrt(tolerance);
+  double tolerance = fmax(model->def.solver.tolerance, finest);
+  return (model->has_film ? 1.5 : 16) * tolerance * sqrt(tolerance);
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
@@ -591,7 +591,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!allocate(d)) return false;
   fill_equations(d);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.balance = 2e-6 * error_of_step(def);
+  d->stepper.balance = 2e-6 * error_of_step(model);
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }
@@ -797,7 +797,7 @@ void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
 
 double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   zp_dynamics_begin(d, state, latest);
-  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
+  d->stepper.accuracy = error_of_step(d->model) * far(d->model, state[0]);
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
   if (taken > 0) zp_dynamics_end(d, state);
   return taken;
