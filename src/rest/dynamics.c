@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "def/tolerance.h"
+
 /* Arrays over the equations of all members. */
 static void carve_equations(ZpDynamics *d, ZpCarver *carver) {
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale};
@@ -578,7 +580,7 @@ static void fill_equations(ZpDynamics *d) {
  * would converge. */
 static double error_of_step(const ZpModel *model) {
   static const double finest = 1e-7;
-  double tolerance = fmax(model->def.solver.tolerance, finest);
+  double tolerance = fmax(zp_tolerance_in_motion(&model->def), finest);
   return (model->has_film ? 1.5 : 16) * tolerance * sqrt(tolerance);
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/tolerance.h"
 
 enum { MESHES = 5, FEWEST_ELEMENTS = 3 };
 
@@ -56,11 +57,12 @@ static int elements_of(int mesh, int elements) {
 /* In motion, steps lengthen by the same factor as elements. Only numbers of the summary are requested. */
 static ZpActuatorDef coarser(ZpActuatorDef def, int elements, bool moves) {
   double longer = (def.mesh.nodes - 1) / (double)elements;
+  double tolerance = zp_tolerance_in_motion(&def);
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
-  if (moves) def.solver.tolerance *= longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
+  if (moves) def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
   if (moves) def.solver.time_step *= longer;          /* NAN, auto, stays */
   return def;
 }
