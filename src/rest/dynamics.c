@@ -326,6 +326,46 @@ static void attempt(void *self, double *q1) {
   }
 }
 
+/* Where the contact force follows its law and the rest of the motion its tangent, eq. (18.14). Letters: s relative
+ * depth, s0 at the start of the step, x where Newton's method leads; k contact stiffness, rest that of the inertia. */
+static double depth_by_law(double s0, double s, double x, double k, double rest) {
+  enum { ROUNDS = 8 };
+  double slope = 0.25 * (s0 * s0 + 2 * s0 * s + 3 * s * s), per = slope * rest / k;
+  double wanted = 0.25 * (s0 + s) * (s0 * s0 + s * s) + slope * (x - s) + per * x;
+  double found = s;
+  if (wanted <= 0.25 * s0 * s0 * s0) return x;
+  for (int round = 0; round < ROUNDS; round++) {
+    double off = 0.25 * (s0 + found) * (s0 * s0 + found * found) + per * found - wanted;
+    found = fmax(found - off / (0.25 * (s0 * s0 + 2 * s0 * found + 3 * found * found) + per), 0);
+  }
+  return found;
+}
+
+static void bend_one(const ZpDynamics *d, double *q1) {
+  static const double near = 0.2; /* where the law and its tangent agree */
+  const ZpModel *model = d->model;
+  const double *y = d->start + model->stride;
+  const double depth = model->faces.depth;
+  for (size_t i = 1; i < model->nodes; i++) {
+    double s = -d->gap[i] / depth, k = 0.5 * d->eval.faces.stiffness[i];
+    if (!(s > 0) || !(k > 0)) continue;
+    Pair pair = pair_of(d, i);
+    if (pair.lower < 0) continue;
+    double held = zp_is_pair(&model->topology) ? y[zp_upper(&model->topology, i)] : model->plates.flat_height;
+    double upper = pair.upper >= 0 ? q1[pair.upper] : held, x = (q1[pair.lower] - upper) / depth;
+    if (fabs(x - s) < near * s) continue;
+    double s0 = fmax(-d->eval.plates_start.gap[i] / depth, 0);
+    double off = depth * (depth_by_law(s0, s, x, k, 2 * pair.reduced / (d->h * d->h)) - x);
+    q1[pair.lower] += off * (pair.upper >= 0 ? pair.upper_share : 1);
+    if (pair.upper >= 0) q1[pair.upper] -= off * (1 - pair.upper_share);
+  }
+}
+
+static void bend(void *self, double *q1) {
+  for (ZpDynamics *m = self; m; m = m->below)
+    if (m->model->field) bend_one(m, q1 + m->at);
+}
+
 /* Work of the part of the last correction's change of contact forces and cavities that the tangent did not predict,
  * J. */
 static double unforeseen_of_one(ZpDynamics *d, const double *q1) {
@@ -544,6 +584,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .tangent = tangent,
                             .inertia = d->model->has_film ? inertia : NULL,
                             .attempt = attempt,
+                            .bend = bend,
                             .unforeseen = unforeseen};
 }
 
@@ -638,7 +679,8 @@ static void book_work(ZpDynamics *d, ZpState *state) {
 static double far(const ZpModel *model, const ZpState *state) {
   static const double of_length = 0.08, of_opening = 0.2;
   double length = of_length * model->L;
-  return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
+  bool opens = zp_is_pair(&model->topology) && state->opening0 > ZP_CLOSED_GAP;
+  return opens ? fmin(length, of_opening * state->opening0) : length;
 }
 
 /* The state at the start of the step => q, v and what else evolves. */

@@ -153,6 +153,7 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
     zp_bordered_solve(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
+    if (s->system->bend) s->system->bend(s->system->self, s->q);
     s->counts.iterations++;
     *iterations = k + 1;
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
