@@ -484,6 +484,26 @@ static double calm(ZpDynamics *d) {
   return before - kinetic_energy(d);
 }
 
+/* In a bath the film takes a relative velocity that is not that of the step's mean, in the time H^2 / (12 nu), eq.
+ * (18.15). */
+static double settle_films(ZpDynamics *d) {
+  double before = kinetic_energy(d);
+  for (ZpDynamics *m = d; m; m = m->below) {
+    const ZpFilmParams *film = &m->model->film;
+    for (size_t i = 1; i < m->model->nodes; i++) {
+      Pair pair = pair_of(m, i);
+      if (pair.lower < 0) continue;
+      double H = zp_film_thickness(film, m->eval.plates.gap[i]), x = 6 * film->mu * d->h / (film->rho * H * H);
+      double share = x / (1 + x), w = -m->history.w[pair.lower], v = -m->v[pair.lower];
+      if (pair.upper >= 0) w += m->history.w[pair.upper], v += m->v[pair.upper];
+      double lost = share * share * share * (v - w);
+      m->v[pair.lower] += lost * (pair.upper >= 0 ? pair.upper_share : 1);
+      if (pair.upper >= 0) m->v[pair.upper] -= lost * (1 - pair.upper_share);
+    }
+  }
+  return before - kinetic_energy(d);
+}
+
 /* -- creation and step ---------------------------------------------------------------------------- */
 
 /* Pressures are unknowns of one step, without memory. */
@@ -791,7 +811,10 @@ static void book(ZpDynamics *d, ZpState *state) {
 static void book_impacts(ZpDynamics *d, ZpState *state) {
   if (!d->model->field) return;
   state->contact_loss += impact(d);
-  if (d->model->has_bead) state->across_loss += calm(d);
+  if (d->model->has_bead)
+    state->across_loss += calm(d);
+  else if (d->model->has_film)
+    state->across_loss += settle_films(d);
 }
 
 /* Store the state at the step's end, and book the work of the load input. */
