@@ -301,21 +301,30 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   return pair;
 }
 
+/* Height of the upper one of two faces that meet at station i. */
+static double upper_height(const ZpDynamics *d, const Pair *pair, size_t i, const double *q) {
+  const ZpModel *model = d->model;
+  if (pair->upper >= 0) return q[pair->upper];
+  return zp_is_pair(&model->topology) ? d->start[model->stride + zp_upper(&model->topology, i)]
+                                      : model->plates.flat_height;
+}
+
+/* Bring the faces of a pair closer by `way`. The centre of mass stays where it is. */
+static void bring_closer(const Pair *pair, double way, double *q) {
+  q[pair->lower] += way * (pair->upper >= 0 ? pair->upper_share : 1);
+  if (pair->upper >= 0) q[pair->upper] -= way * (1 - pair->upper_share);
+}
+
 /* A first guess. Faces that overlap keep their overlap, and faces that would pass through each other overlap a little.
  * The centre of mass of each pair stays where it was predicted. */
 static void keep_apart(const ZpDynamics *d, double *q1) {
-  const ZpModel *model = d->model;
-  const double *y = d->start + model->stride, little = 0.5 * model->faces.depth;
-  for (size_t i = 1; i < model->nodes; i++) {
+  const double little = 0.5 * d->model->faces.depth;
+  for (size_t i = 1; i < d->model->nodes; i++) {
     Pair pair = pair_of(d, i);
     if (pair.lower < 0) continue;
-    double held = zp_is_pair(&model->topology) ? y[zp_upper(&model->topology, i)] : model->plates.flat_height;
-    double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
-    bool overlapped = d->eval.plates_start.gap[i] < 0;
-    if (!(overlap > 0) && !overlapped) continue;
-    overlap += overlapped ? d->eval.plates_start.gap[i] : -fmin(little, overlap);
-    q1[pair.lower] -= overlap * (pair.upper >= 0 ? pair.upper_share : 1);
-    if (pair.upper >= 0) q1[pair.upper] += overlap * (1 - pair.upper_share);
+    double gap = d->eval.plates_start.gap[i], overlap = q1[pair.lower] - upper_height(d, &pair, i, q1);
+    if (!(overlap > 0) && !(gap < 0)) continue;
+    bring_closer(&pair, -(overlap + (gap < 0 ? gap : -fmin(little, overlap))), q1);
   }
 }
 
@@ -326,38 +335,18 @@ static void attempt(void *self, double *q1) {
   }
 }
 
-/* Where the contact force follows its law and the rest of the motion its tangent, eq. (18.14). Letters: s relative
- * depth, s0 at the start of the step, x where Newton's method leads; k contact stiffness, rest that of the inertia. */
-static double depth_by_law(double s0, double s, double x, double k, double rest) {
-  enum { ROUNDS = 8 };
-  double slope = 0.25 * (s0 * s0 + 2 * s0 * s + 3 * s * s), per = slope * rest / k;
-  double wanted = 0.25 * (s0 + s) * (s0 * s0 + s * s) + slope * (x - s) + per * x;
-  double found = s;
-  if (wanted <= 0.25 * s0 * s0 * s0) return x;
-  for (int round = 0; round < ROUNDS; round++) {
-    double off = 0.25 * (s0 + found) * (s0 * s0 + found * found) + per * found - wanted;
-    found = fmax(found - off / (0.25 * (s0 * s0 + 2 * s0 * found + 3 * found * found) + per), 0);
-  }
-  return found;
-}
-
+/* Faces that overlap go as far as the law of contact allows, not its tangent: eq. (18.14). */
 static void bend_one(const ZpDynamics *d, double *q1) {
-  static const double near = 0.2; /* where the law and its tangent agree */
-  const ZpModel *model = d->model;
-  const double *y = d->start + model->stride;
-  const double depth = model->faces.depth;
-  for (size_t i = 1; i < model->nodes; i++) {
-    double s = -d->gap[i] / depth, k = 0.5 * d->eval.faces.stiffness[i];
-    if (!(s > 0) || !(k > 0)) continue;
+  static const double near = 0.05; /* where the tangent is as good */
+  const ZpFacesParams *faces = &d->model->faces;
+  for (size_t i = 1; i < d->model->nodes; i++) {
+    double s = -d->gap[i] / faces->depth, k = 0.5 * d->eval.faces.stiffness[i];
     Pair pair = pair_of(d, i);
-    if (pair.lower < 0) continue;
-    double held = zp_is_pair(&model->topology) ? y[zp_upper(&model->topology, i)] : model->plates.flat_height;
-    double upper = pair.upper >= 0 ? q1[pair.upper] : held, x = (q1[pair.lower] - upper) / depth;
+    if (!(s > 0) || !(k > 0) || pair.lower < 0) continue;
+    double x = (q1[pair.lower] - upper_height(d, &pair, i, q1)) / faces->depth;
     if (fabs(x - s) < near * s) continue;
-    double s0 = fmax(-d->eval.plates_start.gap[i] / depth, 0);
-    double off = depth * (depth_by_law(s0, s, x, k, 2 * pair.reduced / (d->h * d->h)) - x);
-    q1[pair.lower] += off * (pair.upper >= 0 ? pair.upper_share : 1);
-    if (pair.upper >= 0) q1[pair.upper] -= off * (1 - pair.upper_share);
+    double start = -d->eval.plates_start.gap[i] / faces->depth, inertia = 2 * pair.reduced / (d->h * d->h);
+    bring_closer(&pair, faces->depth * (zp_faces_depth(start, s, x, inertia / k) - x), q1);
   }
 }
 
@@ -484,8 +473,9 @@ static double calm(ZpDynamics *d) {
   return before - kinetic_energy(d);
 }
 
-/* In a bath the film takes a relative velocity that is not that of the step's mean, in the time H^2 / (12 nu), eq.
- * (18.15). */
+/* A film of thickness H takes momentum in the time H^2 / (12 nu). Where a step is longer, relative velocities of faces
+ * would reverse in every step around their mean, so each station loses a share of that difference, eq. (18.15) => the
+ * loss, J. */
 static double settle_films(ZpDynamics *d) {
   double before = kinetic_energy(d);
   for (ZpDynamics *m = d; m; m = m->below) {

@@ -50,8 +50,8 @@ typedef struct ZpImplicitSystem {
   /* Called before a step is tried from a first guess y1 of its end; may change y1 so that nothing passes through
    * anything. May be NULL. */
   void (*attempt)(void *self, double *y1);
-  /* Called after each correction has led to y1; may change y1 where the system knows a law that is far from its
-   * tangent, by less the smaller the correction is. May be NULL. */
+  /* Called after each correction has led to y1; may change y1 where a law is known to be far from its tangent. The
+   * change must vanish faster than the correction. May be NULL. */
   void (*bend)(void *self, double *y1);
   /* Called after the last correction has led to y1. Returns |work|, J, of the forces that the last tangent did not
    * predict there: those of contacts that have closed or opened since. An accepted step ends at the last y1 of these
