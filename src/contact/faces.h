@@ -57,9 +57,9 @@ ZpFacesSpan zp_faces_span(const ZpFacesParams *params, const double *start, cons
  * derivatives are then half of the stiffness. */
 void zp_faces_eval(const ZpFacesParams *params, const ZpFacesSpan *span, const ZpFacesEval *eval);
 
-/* Newton's method leads from the relative depth s to x, with faces at `start` when the step began (negative: apart). The
- * depth to which it would lead with the contact law in place of its tangent, if all else has the stiffness `rest` times
- * that of the contact at s; x if faces separate. Eq. (18.14). */
+/* Newton's method leads from the relative depth s to x, with faces at `start` when the step began (negative: apart).
+ * The depth to which it would lead with the contact law in place of its tangent, if all else has the stiffness `rest`
+ * times that of the contact at s; x if faces separate. Eq. (18.14). */
 double zp_faces_depth(double start, double s, double x, double rest);
 
 /* Let the damper (9.6) act at station i on relative motions of a mass, kg. */

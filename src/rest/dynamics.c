@@ -446,8 +446,8 @@ static bool any_meet(const ZpDynamics *d) {
   return false;
 }
 
-/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, motion too fast
- * for the step then loses the share of (18.11) of its velocity. With a film the damper (9.3) acts instead. */
+/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, motion too
+ * fast for the step then loses the share of (18.11) of its velocity. With a film the damper (9.3) acts instead. */
 static double impact(ZpDynamics *d) {
   double loss = 0;
   const bool film = d->model->has_film;
@@ -627,12 +627,13 @@ static void fill_equations(ZpDynamics *d) {
 }
 
 /* Error of a step as a share of the reference length, eq. (18.12): errors of steps add up, and shorter steps are more.
- * With a tolerance below `finest`, the balance of energy would have to be below the rounding of positions, and no step
- * would converge. */
+ * Where dry faces meet most of them belong to waves, and only a part of them adds up. With a
+ * tolerance below `finest`, the balance of energy would have to be below the rounding of positions, and no step would
+ * converge. */
 static double error_of_step(const ZpModel *model) {
-  static const double finest = 1e-7;
+  static const double finest = 1e-7, usual = 1.5, of_waves = 10;
   double tolerance = fmax(zp_tolerance_in_motion(&model->def), finest);
-  return (model->has_film ? 1.5 : 16) * tolerance * sqrt(tolerance);
+  return (model->field && !model->has_film ? of_waves : usual) * tolerance * sqrt(tolerance);
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {

@@ -125,8 +125,8 @@ void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCa
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
 /* Remove from velocities v a share of what is too fast for the last step, of length h: share (x / (1 + x))^3 of a mode
- * of angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with their
- * sign changed in every step. */
+ * of angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with
+ * their sign changed in every step. */
 void zp_implicit_smooth(ZpImplicit *stepper, double h, double share, double *v);
 
 #endif

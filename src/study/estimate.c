@@ -62,8 +62,9 @@ static ZpActuatorDef coarser(ZpActuatorDef def, int elements, bool moves) {
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
-  if (moves) def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
-  if (moves) def.solver.time_step *= longer;          /* NAN, auto, stays */
+  if (moves)
+    def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
+  if (moves) def.solver.time_step *= longer;            /* NAN, auto, stays */
   return def;
 }
 
