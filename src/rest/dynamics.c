@@ -477,14 +477,15 @@ static double calm(ZpDynamics *d) {
  * would reverse in every step around their mean, so each station loses a share of that difference, eq. (18.15) => the
  * loss, J. */
 static double settle_films(ZpDynamics *d) {
+  static const double thin = 2; /* times the roughness: faces lie on each other */
   double before = kinetic_energy(d);
   for (ZpDynamics *m = d; m; m = m->below) {
     const ZpFilmParams *film = &m->model->film;
     for (size_t i = 1; i < m->model->nodes; i++) {
       Pair pair = pair_of(m, i);
-      if (pair.lower < 0) continue;
-      double H = zp_film_thickness(film, m->eval.plates.gap[i]), x = 6 * film->mu * d->h / (film->rho * H * H);
-      double share = x / (1 + x), w = -m->history.w[pair.lower], v = -m->v[pair.lower];
+      double H = zp_film_thickness(film, m->eval.plates.gap[i]), drag = 6 * film->mu * d->h;
+      if (pair.lower < 0 || H > thin * film->roughness) continue;
+      double share = drag / (drag + film->rho * H * H), w = -m->history.w[pair.lower], v = -m->v[pair.lower];
       if (pair.upper >= 0) w += m->history.w[pair.upper], v += m->v[pair.upper];
       double lost = share * share * share * (v - w);
       m->v[pair.lower] += lost * (pair.upper >= 0 ? pair.upper_share : 1);
