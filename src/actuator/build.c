@@ -521,10 +521,11 @@ static double largest_attraction(const ZpModel *model) {
   return p->k * (capped ? field * field : voltage * voltage / (d * d));
 }
 
-/* About the period in which a ribbon bends, eq. (18.11), s. */
+/* A small part of the time in which a ribbon bends, eq. (18.11), s. */
 static double settling_time(const ZpModel *model) {
+  static const double part = 1.0 / 16;
   ZpSection section = zp_ribbon_section(model, 0);
-  return model->L * model->L * sqrt(section.mu / section.EI);
+  return part * model->L * model->L * sqrt(section.mu / section.EI);
 }
 
 /* Eq. (9.2). */

@@ -33,19 +33,6 @@ static inline Mean mean_of(double x0, double x1, double late) {
   return (Mean){push + late * (q1 * s1 - push), slope + late * (3 * q1 - slope)};
 }
 
-double zp_faces_depth(double start, double s, double x, double rest) {
-  enum { ROUNDS = 8 };
-  const Mean at = mean_of(start, s, 0);
-  const double slope = rest * at.slope, wanted = at.push + at.slope * (x - s) + slope * x;
-  double depth = s;
-  if (wanted <= mean_of(start, 0, 0).push) return x;
-  for (int round = 0; round < ROUNDS; round++) {
-    Mean m = mean_of(start, depth, 0);
-    depth = fmax(depth - (m.push + slope * depth - wanted) / (m.slope + slope), 0);
-  }
-  return depth;
-}
-
 static void add_element(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
   const double *share = zp_gauss_shares(&p->level, i), *start = span->start, *end = span->end;
   for (int q = 0; q < GAUSS; q++) {
@@ -158,13 +145,9 @@ static void add_damper(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i
   e->own[i] += c * s1;
 }
 
-double zp_faces_late(const ZpFacesParams *p, double h) {
-  return h / (h + p->settling);
-}
-
 ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
   if (!(h > 0)) return (ZpFacesSpan){start, end, 0, 0};
-  return (ZpFacesSpan){start, end, zp_faces_late(p, h), 1 / h};
+  return (ZpFacesSpan){start, end, h / (h + p->settling), 1 / h};
 }
 
 /* Length of the faces that belong to station i, m. */

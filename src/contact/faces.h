@@ -47,20 +47,12 @@ typedef struct ZpFacesSpan {
   double rate;               /* one over the time that they take, 1/s; 0: rest */
 } ZpFacesSpan;
 
-/* The share `late` of a step h, s. */
-double zp_faces_late(const ZpFacesParams *params, double h);
-
-/* From where to where faces go over a time h, s; 0: rest. */
+/* The same over a time h, s; 0: rest. */
 ZpFacesSpan zp_faces_span(const ZpFacesParams *params, const double *start, const double *end, double h);
 
 /* => all of eval: the mean push of the span, its derivatives by the gaps at the end. At rest both ends move: the
  * derivatives are then half of the stiffness. */
 void zp_faces_eval(const ZpFacesParams *params, const ZpFacesSpan *span, const ZpFacesEval *eval);
-
-/* Newton's method leads from the relative depth s to x, with faces at `start` when the step began (negative: apart).
- * The depth to which it would lead with the contact law in place of its tangent, if all else has the stiffness `rest`
- * times that of the contact at s; x if faces separate. Eq. (18.14). */
-double zp_faces_depth(double start, double s, double x, double rest);
 
 /* Let the damper (9.6) act at station i on relative motions of a mass, kg. */
 void zp_faces_damp(const ZpFacesParams *params, size_t i, double reduced_mass, const ZpFacesEval *eval);

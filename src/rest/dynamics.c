@@ -301,30 +301,21 @@ static Pair pair_of(const ZpDynamics *d, size_t i) {
   return pair;
 }
 
-/* Height of the upper one of two faces that meet at station i. */
-static double upper_height(const ZpDynamics *d, const Pair *pair, size_t i, const double *q) {
-  const ZpModel *model = d->model;
-  if (pair->upper >= 0) return q[pair->upper];
-  return zp_is_pair(&model->topology) ? d->start[model->stride + zp_upper(&model->topology, i)]
-                                      : model->plates.flat_height;
-}
-
-/* Bring the faces of a pair closer by `way`. The centre of mass stays where it is. */
-static void bring_closer(const Pair *pair, double way, double *q) {
-  q[pair->lower] += way * (pair->upper >= 0 ? pair->upper_share : 1);
-  if (pair->upper >= 0) q[pair->upper] -= way * (1 - pair->upper_share);
-}
-
 /* A first guess. Faces that overlap keep their overlap, and faces that would pass through each other overlap a little.
  * The centre of mass of each pair stays where it was predicted. */
 static void keep_apart(const ZpDynamics *d, double *q1) {
-  const double little = 0.5 * d->model->faces.depth;
-  for (size_t i = 1; i < d->model->nodes; i++) {
+  const ZpModel *model = d->model;
+  const double *y = d->start + model->stride, little = 0.5 * model->faces.depth;
+  for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(d, i);
     if (pair.lower < 0) continue;
-    double gap = d->eval.plates_start.gap[i], overlap = q1[pair.lower] - upper_height(d, &pair, i, q1);
-    if (!(overlap > 0) && !(gap < 0)) continue;
-    bring_closer(&pair, -(overlap + (gap < 0 ? gap : -fmin(little, overlap))), q1);
+    double held = zp_is_pair(&model->topology) ? y[zp_upper(&model->topology, i)] : model->plates.flat_height;
+    double upper = pair.upper >= 0 ? q1[pair.upper] : held, overlap = q1[pair.lower] - upper;
+    bool overlapped = d->eval.plates_start.gap[i] < 0;
+    if (!(overlap > 0) && !overlapped) continue;
+    overlap += overlapped ? d->eval.plates_start.gap[i] : -fmin(little, overlap);
+    q1[pair.lower] -= overlap * (pair.upper >= 0 ? pair.upper_share : 1);
+    if (pair.upper >= 0) q1[pair.upper] += overlap * (1 - pair.upper_share);
   }
 }
 
@@ -333,26 +324,6 @@ static void attempt(void *self, double *q1) {
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
     if (m->model->field) keep_apart(m, q1 + m->at);
   }
-}
-
-/* Faces that overlap go as far as the law of contact allows, not its tangent: eq. (18.14). */
-static void bend_one(const ZpDynamics *d, double *q1) {
-  static const double near = 0.05; /* where the tangent is as good */
-  const ZpFacesParams *faces = &d->model->faces;
-  for (size_t i = 1; i < d->model->nodes; i++) {
-    double s = -d->gap[i] / faces->depth, k = 0.5 * d->eval.faces.stiffness[i];
-    Pair pair = pair_of(d, i);
-    if (!(s > 0) || !(k > 0) || pair.lower < 0) continue;
-    double x = (q1[pair.lower] - upper_height(d, &pair, i, q1)) / faces->depth;
-    if (fabs(x - s) < near * s) continue;
-    double start = -d->eval.plates_start.gap[i] / faces->depth, inertia = 2 * pair.reduced / (d->h * d->h);
-    bring_closer(&pair, faces->depth * (zp_faces_depth(start, s, x, inertia / k) - x), q1);
-  }
-}
-
-static void bend(void *self, double *q1) {
-  for (ZpDynamics *m = self; m; m = m->below)
-    if (m->model->field) bend_one(m, q1 + m->at);
 }
 
 /* Work of the part of the last correction's change of contact forces and cavities that the tangent did not predict,
@@ -446,21 +417,31 @@ static bool any_meet(const ZpDynamics *d) {
   return false;
 }
 
-/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, motion too
- * fast for the step then loses the share of (18.11) of its velocity. With a film the damper (9.3) acts instead. */
+/* Is there a vibration of masses on contact layers that the step does not resolve? Theory, section 18, Filter. */
+static bool misses_layers(const ZpDynamics *d) {
+  static const double followed = 4; /* angle by which such a vibration turns in a step, at most */
+  double most = followed * followed / (d->h * d->h);
+  for (const ZpDynamics *m = d; m; m = m->below)
+    for (size_t i = 1; i < m->model->nodes; i++)
+      if (meets(m, i) && m->eval.faces.stiffness[i] > most * pair_of(m, i).reduced) return true;
+  return false;
+}
+
+/* Loss by contact forces over the step, including their damper (9.6), and after it => J. Without a film, if the step
+ * does not resolve the vibrations of the layers, motion too fast for the step is removed from velocities after an
+ * impact. With a film the damper (9.3) acts instead. */
 static double impact(ZpDynamics *d) {
   double loss = 0;
   const bool film = d->model->has_film;
   for (const ZpDynamics *m = d; m; m = m->below)
     loss += pushed(m);
-  const bool meet = d->lead && !film ? d->lead->filters : any_meet(d);
-  d->filters = meet && !film;
-  if (!meet) return loss;
+  d->filters = d->lead ? d->lead->filters : !film && misses_layers(d);
+  if (film ? !any_meet(d) : !d->filters) return loss;
   loss += kinetic_energy(d);
   if (film)
     damp_all(d);
   else
-    zp_implicit_smooth(&d->stepper, d->h, zp_faces_late(&d->model->faces, d->h), d->v);
+    zp_implicit_smooth(&d->stepper, d->h, d->v);
   return loss - kinetic_energy(d);
 }
 
@@ -595,7 +576,6 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .tangent = tangent,
                             .inertia = d->model->has_film ? inertia : NULL,
                             .attempt = attempt,
-                            .bend = bend,
                             .unforeseen = unforeseen};
 }
 
@@ -628,13 +608,12 @@ static void fill_equations(ZpDynamics *d) {
 }
 
 /* Error of a step as a share of the reference length, eq. (18.12): errors of steps add up, and shorter steps are more.
- * Where dry faces meet most of them belong to waves, and only a part of them adds up. With a
- * tolerance below `finest`, the balance of energy would have to be below the rounding of positions, and no step would
- * converge. */
-static double error_of_step(const ZpModel *model) {
-  static const double finest = 1e-7, usual = 1.5, of_waves = 10;
-  double tolerance = fmax(zp_tolerance_in_motion(&model->def), finest);
-  return (model->field && !model->has_film ? of_waves : usual) * tolerance * sqrt(tolerance);
+ * With a tolerance below `finest`, the balance of energy would have to be below the rounding of positions, and no step
+ * would converge. */
+static double error_of_step(const ZpActuatorDef *def) {
+  static const double finest = 1e-7;
+  double tolerance = fmax(zp_tolerance_in_motion(def), finest);
+  return 1.5 * tolerance * sqrt(tolerance);
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
@@ -646,7 +625,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!allocate(d)) return false;
   fill_equations(d);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.balance = 2e-6 * error_of_step(model);
+  d->stepper.balance = 2e-6 * error_of_step(def);
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }
@@ -691,8 +670,7 @@ static void book_work(ZpDynamics *d, ZpState *state) {
 static double far(const ZpModel *model, const ZpState *state) {
   static const double of_length = 0.08, of_opening = 0.2;
   double length = of_length * model->L;
-  bool opens = zp_is_pair(&model->topology) && state->opening0 > ZP_CLOSED_GAP;
-  return opens ? fmin(length, of_opening * state->opening0) : length;
+  return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
 }
 
 /* The state at the start of the step => q, v and what else evolves. */
@@ -856,7 +834,7 @@ void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
 
 double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   zp_dynamics_begin(d, state, latest);
-  d->stepper.accuracy = error_of_step(d->model) * far(d->model, state[0]);
+  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
   if (taken > 0) zp_dynamics_end(d, state);
   return taken;

@@ -153,7 +153,6 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
     zp_bordered_solve(&s->A, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
-    if (s->system->bend) s->system->bend(s->system->self, s->q);
     s->counts.iterations++;
     *iterations = k + 1;
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
@@ -255,13 +254,12 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
   s->counts.steps++;
 }
 
-/* Remove a share of what is too fast for the step. `all`: the inertia beyond `mass` counts. */
-static void smooth(ZpImplicit *s, double h, bool all, double share, double *v) {
-  enum { POWER = 3 };
+/* Switch the inertia beyond `mass` on or off. */
+static void smooth(ZpImplicit *s, double h, bool all, int power, double *v) {
   size_t n = s->system->n;
   double *fast = s->r, *slow = s->q;
   memcpy(fast, v, n * sizeof *v);
-  for (int k = 0; k < POWER; k++) {
+  for (int k = 0; k < power; k++) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
     if (all) add_inertia(s, 2 / (h * h), fast, slow);
@@ -270,17 +268,17 @@ static void smooth(ZpImplicit *s, double h, bool all, double share, double *v) {
       fast[i] = kind_of(s->system, i) == ZP_SECOND_ORDER ? fast[i] - slow[i] : 0;
   }
   for (size_t i = 0; i < n; i++)
-    v[i] -= share * fast[i];
+    v[i] -= fast[i];
 }
 
-void zp_implicit_smooth(ZpImplicit *s, double h, double share, double *v) {
-  smooth(s, h, true, share, v);
+void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
+  smooth(s, h, true, 5, v);
 }
 
 void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
   for (size_t i = 0; i < s->system->n; i++)
     v[i] -= w[i];
-  smooth(s, h, false, 1, v);
+  smooth(s, h, false, 3, v);
   for (size_t i = 0; i < s->system->n; i++)
     v[i] += w[i];
 }

@@ -50,9 +50,6 @@ typedef struct ZpImplicitSystem {
   /* Called before a step is tried from a first guess y1 of its end; may change y1 so that nothing passes through
    * anything. May be NULL. */
   void (*attempt)(void *self, double *y1);
-  /* Called after each correction has led to y1; may change y1 where a law is known to be far from its tangent. The
-   * change must vanish faster than the correction. May be NULL. */
-  void (*bend)(void *self, double *y1);
   /* Called after the last correction has led to y1. Returns |work|, J, of the forces that the last tangent did not
    * predict there: those of contacts that have closed or opened since. An accepted step ends at the last y1 of these
    * calls. May be NULL. */
@@ -124,9 +121,9 @@ void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v)
 void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver);
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
-/* Remove from velocities v a share of what is too fast for the last step, of length h: share (x / (1 + x))^3 of a mode
- * of angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with
- * their sign changed in every step. */
-void zp_implicit_smooth(ZpImplicit *stepper, double h, double share, double *v);
+/* Remove from velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of
+ * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with their
+ * sign changed in every step. */
+void zp_implicit_smooth(ZpImplicit *stepper, double h, double *v);
 
 #endif
