@@ -109,8 +109,8 @@ START_TEST(description_is_of_the_tables) {
   for (size_t k = 0; k < fmu.variables; k++)
     if (strcmp(fmu.variable[k].causality, "parameter") == 0) {
       const char *name = fmu.variable[k].name;
-      bool given =
-          strcmp(name, "load.mass") == 0 || strcmp(name, "mesh.nodes") == 0 || strcmp(name, "liquid.model") == 0;
+      bool given = strcmp(name, "load.mass") == 0 || strcmp(name, "mesh.nodes") == 0 ||
+                   strcmp(name, "liquid.model") == 0 || strcmp(name, "solver.tolerance") == 0; /* auto as a number */
       expect_parameter(&fmu, name, given ? fmu.variable[k].start : zp_def_get(&def, zp_key_find(name)));
       ck_assert(strncmp(name, "drive.", 6) != 0 && strcmp(name, "damping.internal") != 0);
       parameters++;
@@ -232,8 +232,9 @@ static void expect_actuate(int version, const Input *input, bool straight, const
   write_input(path, input, straight);
   run_command(ZP_COMMAND
               " actuate %s --set solver.end_time=100ms --set output.samples=100000 --set output.errors=false "
+              "--set solver.tolerance=%.17g "
               "--set %s.waveform=table --set %s.file=%s --no-plots --quiet -o %s/run",
-              settings, input->keys, input->keys, path, fmu.folder);
+              settings, fmu_find(&fmu, "solver.tolerance")->start, input->keys, input->keys, path, fmu.folder);
   snprintf(path, sizeof path, "%s/run/table.csv", fmu.folder);
   ck_assert_uint_ge(read_actuate(path, opening, charge), INTERVALS / 2);
   for (int k = 0; k < INTERVALS; k++) {
@@ -307,7 +308,8 @@ START_TEST(parameters) {
   ck_assert_int_eq(fmu_exit(&instance), OK);
   must_step(&instance, 5, 1e-3);
   double opening = fmu_get(&instance, "opening");
-  ZpActuatorDef def = DEF({"load.mass", 0.02}, {"mesh.nodes", 13}, {"liquid.model", 2}, {"platform.electrode", 0});
+  ZpActuatorDef def = DEF({"load.mass", 0.02}, {"mesh.nodes", 13}, {"liquid.model", 2}, {"platform.electrode", 0},
+                          {"solver.tolerance", fmu_find(&fmu, "solver.tolerance")->start});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   zp_sim_run(sim, 1e-3, false, NULL, NULL);

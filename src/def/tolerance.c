@@ -11,7 +11,7 @@ static double of_mesh(const ZpActuatorDef *def) {
   return fmin(fmax(worth, usual), dry ? 1.5e-3 : 1e-3);
 }
 
-double zp_tolerance_in_motion(const ZpActuatorDef *def) {
+double zp_def_tolerance(const ZpActuatorDef *def) {
   if (!isnan(def->solver.tolerance)) return def->solver.tolerance;
   return def->actuator.kind == ZP_KIND_RIBBON ? usual : of_mesh(def);
 }

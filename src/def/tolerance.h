@@ -1,11 +1,8 @@
-/* What solver.tolerance means. */
+/* What solver.tolerance means at rest; zp_def_tolerance says what it means in motion. */
 #ifndef ZP_DEF_TOLERANCE_H
 #define ZP_DEF_TOLERANCE_H
 
 #include <zipact/def.h>
-
-/* Relative error at which the time steps of a motion aim; eq. (18.13) if it is auto. */
-double zp_tolerance_in_motion(const ZpActuatorDef *def);
 
 /* Relative error at which equilibria are solved. */
 double zp_tolerance_at_rest(const ZpActuatorDef *def);

@@ -277,6 +277,7 @@ ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, 
   char *name = status == ZP_OK ? model_name(path) : NULL;
   if (status == ZP_OK && !name) status = zp_fail_memory(err);
   if (status == ZP_OK) {
+    def.solver.tolerance = zp_def_tolerance(&def); /* importers need a number */
     fill_start(&def, &start);
     const double end = fmin(def.solver.end_time, MOST_STEPS * step_size);
     const ZpFmuPlan plan = {
@@ -287,6 +288,7 @@ ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, 
         .first = {[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&def), [ZP_INPUT_SETPOINT] = zp_fmu_first_setpoint(&def)},
         .end = end,
         .step = fmin(step_size, end),
+        .tolerance = def.solver.tolerance,
         .sources = &names};
     status = write_archive(&plan, kit, path, err);
   }

@@ -3,8 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "def/tolerance.h"
-
 /* Arrays over the equations of all members. */
 static void carve_equations(ZpDynamics *d, ZpCarver *carver) {
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale};
@@ -455,7 +453,7 @@ static double calm(ZpDynamics *d) {
 }
 
 /* A film of thickness H takes momentum in the time H^2 / (12 nu). Where a step is longer, relative velocities of faces
- * would reverse in every step around their mean, so each station loses a share of that difference, eq. (18.15) => the
+ * would reverse in every step around their mean, so each station loses a share of that difference, eq. (18.14) => the
  * loss, J. */
 static double settle_films(ZpDynamics *d) {
   static const double thin = 2; /* times the roughness: faces lie on each other */
@@ -612,7 +610,7 @@ static void fill_equations(ZpDynamics *d) {
  * would converge. */
 static double error_of_step(const ZpActuatorDef *def) {
   static const double finest = 1e-7;
-  double tolerance = fmax(zp_tolerance_in_motion(def), finest);
+  double tolerance = fmax(zp_def_tolerance(def), finest);
   return 1.5 * tolerance * sqrt(tolerance);
 }
 

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/tolerance.h"
 
 enum { MESHES = 5, FEWEST_ELEMENTS = 3 };
 
@@ -57,7 +56,7 @@ static int elements_of(int mesh, int elements) {
 /* In motion, steps lengthen by the same factor as elements. Only numbers of the summary are requested. */
 static ZpActuatorDef coarser(ZpActuatorDef def, int elements, bool moves) {
   double longer = (def.mesh.nodes - 1) / (double)elements;
-  double tolerance = zp_tolerance_in_motion(&def);
+  double tolerance = zp_def_tolerance(&def);
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
