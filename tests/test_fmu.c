@@ -222,7 +222,9 @@ static size_t read_actuate(const char *path, double opening[INTERVALS + 1], doub
 }
 
 static void expect_actuate(int version, const Input *input, bool straight, const char *settings) {
-  Fmu fmu = made(version, settings);
+  char all[600];
+  snprintf(all, sizeof all, "%s --set solver.tolerance=1e-4", settings);
+  Fmu fmu = made(version, all);
   Instance instance = started(&fmu);
   double opening[INTERVALS + 1], charge[INTERVALS + 1], largest = 0;
   char path[600];
@@ -232,9 +234,8 @@ static void expect_actuate(int version, const Input *input, bool straight, const
   write_input(path, input, straight);
   run_command(ZP_COMMAND
               " actuate %s --set solver.end_time=100ms --set output.samples=100000 --set output.errors=false "
-              "--set solver.tolerance=%.17g "
               "--set %s.waveform=table --set %s.file=%s --no-plots --quiet -o %s/run",
-              settings, fmu_find(&fmu, "solver.tolerance")->start, input->keys, input->keys, path, fmu.folder);
+              all, input->keys, input->keys, path, fmu.folder);
   snprintf(path, sizeof path, "%s/run/table.csv", fmu.folder);
   ck_assert_uint_ge(read_actuate(path, opening, charge), INTERVALS / 2);
   for (int k = 0; k < INTERVALS; k++) {
