@@ -394,6 +394,7 @@ static ZpActuatorDef refined(ZpStudy which, const ZpActuatorDef *def, int refere
   fine.output.errors = false;
   fine.mesh.nodes = (moves ? in_motion : at_rest)[reference];
   if (moves) fine.solver.tolerance = tolerance[reference];
+  if (moves) fine.solver.stop_when_zipped = ZP_WHEN_TRUE;
   return fine;
 }
 
@@ -505,6 +506,7 @@ static int check_errors_of(const char *word, const ZpStudy *studies, int count, 
 static double zip_time(const ZpActuatorDef *def, double tolerance) {
   ZpActuatorDef at = *def;
   at.solver.tolerance = tolerance;
+  at.solver.stop_when_zipped = ZP_WHEN_TRUE;
   ZpResult *result = result_of(ZP_STUDY_ACTUATE, &at);
   double time = result ? zp_result_get(result, "zip_time_s") : NAN;
   zp_result_destroy(result);

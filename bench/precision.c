@@ -126,6 +126,7 @@ static ZpStatus zip_time(const Actuator *a, double tolerance, double *time, ZpEr
   if (a->mass > 0) def.load.mass = a->mass;
   if (a->voltage > 0) def.drive.voltage = a->voltage;
   def.solver.tolerance = tolerance;
+  def.solver.stop_when_zipped = ZP_WHEN_TRUE;
   def.output.errors = false;
   ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, err);
   if (status == ZP_OK) *time = zp_result_get(result, "zip_time_s");

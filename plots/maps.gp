@@ -1,7 +1,9 @@
 # The same over three keys: a map for each value panel_at[k] of the third, with axes named once.
 data = 'maps.dat'
 tics_most = |panel_at| > 4 ? 3 : 4
-contours = 4
+contours = 6
+if (|panel_at| > 9) height = 560
+left_out = panels > |panel_at| ? sprintf('; %d of %d panels', |panel_at|, panels) : ''
 load 'of_maps.gp'
 subtitle = subtitle.(subtitle eq '' ? '' : ', ').'panels: '.z_name
 set label 2 subtitle

@@ -1,5 +1,5 @@
-# Axes and colours of maps from `data`, with at most `tics_most` tics on an axis and
-# about `contours` contours; where a key grows by factors its axis is logarithmic, with tics at its values.
+# Axes and colours of maps from `data`, with at most `tics_most` tics on an axis and at most `contours` contours, of the same
+# levels in all panels; where a key grows by factors its axis is logarithmic, with tics at its values.
 load 'functions.gp'
 none = found < cases ? '; white: no value' : ''
 if (exists('answer')) {
@@ -14,6 +14,7 @@ if (exists('answer')) {
 }
 lowest_value = value('lowest_'.scalar)
 highest_value = value('highest_'.scalar)
+if (exists('left_out')) remark = remark.left_out
 right = 0.77
 if (motion) foot = note
 load 'style.gp'
@@ -22,7 +23,7 @@ factor = scale(size, si)
 x_label = label(x_name, x_unit)
 y_label = label(y_name, y_unit)
 set xlabel x_label
-set ylabel y_label offset 0.5
+set ylabel y_label offset -0.5
 set cblabel label(what, unit(size, si)) offset 0.5
 if (x_log) set logscale x
 if (y_log) set logscale y
@@ -39,7 +40,12 @@ if (y_tics eq '' && !y_log) set ytics step(key_max_y - key_min_y, tics_most)
 constant = highest_value - lowest_value < 1e-3*size # then contours would all have the same label
 slack = constant ? 0.01*size : 0
 set cbrange [(lowest_value - slack)*factor:(highest_value + slack)*factor]
-if (constant) { set cntrparam levels discrete 2*size*factor } else { set cntrparam levels auto contours }
+if (constant) {
+  set cntrparam levels discrete 2*size*factor
+} else {
+  apart = step((highest_value - lowest_value)*factor, contours)
+  set cntrparam levels incremental ceil(lowest_value*factor/apart)*apart, apart, highest_value*factor
+}
 load 'scale_of_shades.gp'
 unset grid
 unset key

@@ -1,12 +1,17 @@
 # Curves of a sweep from its table: against the list key that varies fastest, a curve for each value of the others, curve k
 # in the rows first[k] to last[k]. Shades tell the curves in their order; dashes and marks tell neighbours, in grey, too.
-# Of three keys the first has a style of line, `alike` curves each, the second a shade.
+# Of three keys the first has a style of line, `alike` curves each, the second a shade. Of `curves` in all some may be left
+# out.
 load 'functions.gp'
 many = |list_key| > 1
 if (!exists('letters')) letters = 0
 do for [k=1:|curve|] { letters = max(letters, strlen(curve[k])) }
 letters = max(letters, letters_of(|list_key| - 1))
 if (!many && letters == 0) right = 0.96
+if (curves > |curve|) {
+  if (!exists('remark')) { remark = '' }
+  remark = (remark eq '' || strstrt(remark, 'are drawn') ? '' : remark.'; ').sprintf('%d of %d curves are drawn', |curve|, curves)
+}
 load 'style.gp'
 set datafile separator ','
 set datafile columnheaders

@@ -345,7 +345,7 @@ def mm(value):
 # What moves a zip time in oil and is not known: key, the values that are possible, why.
 UNKNOWN = [
     ("bead.suction", ("0", "1"), "no measurement"),
-    ("bead.volume", ("40 uL", "60 uL"), "how a drop is put on"),
+    ("bead.volume", ("200 uL", "400 uL"), "how a drop is put on"),
     ("air.breakdown_field", ("2 MV/m", "4 MV/m"), "3 MV/m is that of wide gaps"),
     ("medium.breakdown_field", ("15 MV/m", "30 MV/m"), "of the paper's oil; does the force end there?"),
     ("film.roughness", ("0.5 um", "10 um"), "of tapes"),
@@ -353,7 +353,7 @@ UNKNOWN = [
     ("ribbon.thickness", ("47.5 um", "52.5 um"), "gauge of strip"),
     ("medium.drag_coefficient", ("0.75", "3"), "assumed"),
 ]
-LIQUIDS = {"bath": {}, "bead of 50 µL": {"liquid.model": "bead"}}
+LIQUIDS = {"bath": {}, "bead of 300 µL": {"liquid.model": "bead"}}
 
 
 def moved(change):
@@ -382,6 +382,34 @@ def zip_band(runs):
     return table(["not known", "from, to", "why", *LIQUIDS], rows)
 
 
+BEADS = [20, 50, 100, 150, 200, 300, 400]  # volumes at each front, µL
+
+
+def ms(time):
+    return "–" if time is None else f"{1e3 * time:.4g} ms"
+
+
+def bead_volumes(runs):
+    """What becomes of beads of several volumes: when they close, starve and reopen, and where their liquid is in the end."""
+    rows = []
+    for volume in BEADS:
+        keys = {"bead.volume": f"{volume} uL"}
+        s = runs.summary("bead-volume", keys)
+        after = [row["contraction"] for row in runs.rows("bead-volume", keys) if s["zip_time_s"] and row["time_s"] > s["zip_time_s"]]
+        rows.append([f"{volume} µL", ms(s["starved_time_s"]), ms(s["zip_time_s"]), f"{100 * min(after):.3g} %" if after else "–",
+                     ms(s["closed_from_s"]), f"{100 * s['contraction']:.4g} %", f"{1e3 * s['wet_length_m']:.3g} mm",
+                     f"{1e9 * s['bead_outside_m3']:.3g} µL"])
+    return table(["at each front", "starves from", "first 99 %", "opens again to", "closed from", "after 1 s", "wet then", "at the edges then"], rows)
+
+
+def bead_contractions(runs):
+    curves = {}
+    for volume in (50, 100, 200, 300):
+        rows = runs.rows("bead-volume", {"bead.volume": f"{volume} uL"})
+        curves[f"{volume} µL"] = [(1e3 * row["time_s"], 100 * row["contraction"]) for row in rows if row["time_s"] < 0.6]
+    return curves
+
+
 def quick_sections(runs):
     force, strokes = field_force(runs), chain_strokes(runs)
     yield "field-limits", limits(force, "plates against field, ribbons of 100 mm", mm, "not up to 78 mm")
@@ -401,6 +429,7 @@ def slow_sections(runs):
     yield "contact-release", release_table(closed_lengths(runs))
     yield "chain-motion", grid(chain_motion(runs), "N", "{:g}".format)
     yield "zip-band", zip_band(runs)
+    yield "bead-volume", bead_volumes(runs)
 
 
 def markers(name):
@@ -417,12 +446,13 @@ def part(page, name):
 # The pictures.
 
 
-def panel(title, x_label, y_label, curves, extra=""):
+def panel(title, x_label, y_label, curves, extra="", points=True):
     """gnuplot text of one panel of a picture."""
     blocks, plots = [], []
-    for k, (label, points) in enumerate(curves.items()):
-        blocks.append(f"$c{k} << EOD\n" + "\n".join(f"{x:.9g} {abs(y):.9g}" for x, y in points) + "\nEOD\n")
-        plots.append(f"$c{k} using 1:2 with linespoints lw 2 pt {5 + 2 * (k % 6)} ps 0.6 lc rgb '{INK[k % len(INK)]}' title '{label}'")
+    for k, (label, found) in enumerate(curves.items()):
+        blocks.append(f"$c{k} << EOD\n" + "\n".join(f"{x:.9g} {abs(y):.9g}" for x, y in found) + "\nEOD\n")
+        style = f"linespoints lw 2 pt {5 + 2 * (k % 6)} ps 0.6" if points else "lines lw 2"
+        plots.append(f"$c{k} using 1:2 with {style} lc rgb '{INK[k % len(INK)]}' title '{label}'")
     return ("".join(blocks) + f"set title '{title}'\nset xlabel '{x_label}' offset 0, 0.5\nset ylabel '{y_label}'\n{extra}\nplot "
             + ", ".join(plots) + "\n")
 
@@ -484,6 +514,9 @@ def pictures(runs):
         panel("Closed length after the voltage fell from 10 kV", "voltage it fell to / kV", "closed length of one half / mm",
               closed_lengths(runs), "set xrange [0:2]\nset yrange [-2:50]\n")])
     draw_experiments(experiments(runs), bands(runs))
+    draw("validity-bead", [
+        panel("Beads of several volumes at each front, 8 g, 10 kV", "time / ms", "contraction / %", bead_contractions(runs),
+              "set yrange [60:101]\nset arrow 2 from graph 0, first 99 to graph 1, first 99 nohead dt 2 lc rgb '#404040'\n", points=False)])
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
               LOG.format(low=0.003, high=20) + "set xrange [0:0.7]\n"),

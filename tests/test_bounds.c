@@ -58,6 +58,7 @@ static bool scalar_may_be_missing(const char *name, const ZpActuatorDef *def) {
   static const char *const names[] = {"pull_in_voltage_V",
                                       "release_voltage_V",
                                       "zip_time_s",
+                                      "closed_from_s",
                                       "contraction",
                                       "energy_error",
                                       "real_time_factor",

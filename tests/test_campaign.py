@@ -32,6 +32,7 @@ CASES = {
     "limits": ["limits", "--set", "liquid.model=none", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
     "samples": ["limits", "--set", "liquid.model=none", "--set", "load.mass=[8 g, 9 g]", "--set", "ribbon.thickness=normal(50 um, 1 um)", "--set", "insulator.thickness=uniform(120 um, 140 um)",
                 "--set", "sampling.count=8", "--set", "sampling.indices=true", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
+    "closing": ["actuate", "--set", "bead.volume=[50 uL, 300 uL]", "--set", "mesh.nodes=11", "--set", "solver.end_time=0.3 s", "--set", "output.errors=false"],
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
 
@@ -235,6 +236,15 @@ def check_full_disk(zipact, scratch):
     ok("with room again: the bytes of an uninterrupted run", again.returncode == 0 and results(folder) == results(scratch / "rest-1"))
 
 
+def check_outcomes(zipact, scratch):
+    """Rows keep the outcomes of their runs; that of an actuator that opens again is an answer."""
+    folder = scratch / "outcomes"
+    done = zipact.run("closing", folder)
+    rows = json.loads((folder / "summary.json").read_text())["rows"]
+    ok("outcomes of rows", done.returncode == 0 and [row["outcome"] for row in rows] == ["reopened", "zipped"])
+    ok("closed from", rows[0]["closed_from_s"] is None and rows[1]["closed_from_s"] > rows[1]["zip_time_s"])
+
+
 def check_failures(zipact, scratch):
     """A case whose solver fails is a row; the campaign goes on and its status says 1."""
     folder = scratch / "failing"
@@ -297,6 +307,7 @@ def main():
     check_broken_files(zipact, scratch)
     check_full_disk(zipact, scratch)
     check_failures(zipact, scratch)
+    check_outcomes(zipact, scratch)
     os.chdir(scratch)
     check_batch(zipact)
     return finish()

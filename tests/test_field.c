@@ -507,7 +507,9 @@ END_TEST
 
 /* The same with a bead: equal liquid and air in both models. */
 START_TEST(test_bead_by_field_and_by_plates) {
-  ZpActuatorDef plates = DEF({"liquid.model", ZP_LIQUID_BEAD}, {"mesh.nodes", 31}), field = plates;
+  ZpActuatorDef plates = DEF({"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"mesh.nodes", 31},
+                             {"solver.stop_when_zipped", ZP_WHEN_TRUE}),
+                field = plates;
   field.electro.model = ZP_ELECTRO_FIELD;
   double closing[2] = {value(ZP_STUDY_ACTUATE, plates, "zip_time_s"), value(ZP_STUDY_ACTUATE, field, "zip_time_s")};
   plates.drive.voltage = field.drive.voltage = 6e3;
@@ -540,7 +542,8 @@ END_TEST
 
 /* The number of field solutions in motion has little effect: the held difference is small. */
 START_TEST(test_refresh_in_motion) {
-  ZpActuatorDef def = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 21});
+  ZpActuatorDef def =
+      DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 21}, {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   double coarse, fine;
   ZpResult *result = study(ZP_STUDY_ACTUATE, &def);
   coarse = zp_result_get(result, "zip_time_s");

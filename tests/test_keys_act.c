@@ -88,10 +88,11 @@
 #define FALLS HANGING " drive.voltage=0 liquid.model=none load.change_time=1us solver.end_time=2us"
 
 /* The same in a bath, and in one so viscous that nothing else counts. */
-#define BATH "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s"
+#define BATH "study=actuate mesh.nodes=11 liquid.model=submerged solver.end_time=20s solver.stop_when_zipped=true"
 
 /* The default actuator with a bead at its fronts; faces pressed flat on a drop of it, and parted by it. */
-#define BEAD      "study=actuate mesh.nodes=11 liquid.model=bead solver.end_time=0.5s"
+#define BEAD                                                                                                           \
+  "study=actuate mesh.nodes=11 liquid.model=bead bead.volume=50uL solver.end_time=0.5s solver.stop_when_zipped=true"
 #define DROP      "study=actuate mesh.nodes=11 liquid.model=bead bead.volume=1uL solver.end_time=1ns"
 #define CAPILLARY DROP
 #define VISCOUS   BATH " medium.kinematic_viscosity=1000mm2/s liquid.inertia=false medium.drag_coefficient=0"
@@ -622,7 +623,7 @@ static const Row rows[] = {
      {{TIMES, "voltage_V", 0.5, 1e-9}}},
 
     {"source.model",
-     HANGING " drive.voltage=10kV solver.end_time=0.2s",
+     HANGING " drive.voltage=10kV liquid.model=none solver.end_time=0.5s",
      "ideal",
      "amplifier",
      {{MORE, "simulated_time_s", 2, 0}, {SAME, "zip_time_s", 0, 0}}},
@@ -751,8 +752,8 @@ static const Row rows[] = {
     {"solver.tolerance", SWING, "1e-5", "1e-6", {{TIMES, "steps", 3.16, 0.1}}},
     {"solver.time_step", SWING " solver.end_time=2ms", "20us", "10us", {{TIMES, "steps", 2, 2e-2}}},
     {"solver.stop_when_zipped",
-     HANGING " drive.voltage=10kV solver.end_time=0.2s",
-     "auto",
+     HANGING " drive.voltage=10kV solver.end_time=0.3s",
+     "true",
      "false",
      {{MORE, "simulated_time_s", 2, 0}, {SAME, "zip_time_s", 0, 0}}},
     {"solver.max_steps", SWING, "20", "7", {{BECOMES, "steps", 7, 0}}},

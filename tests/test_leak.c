@@ -57,6 +57,26 @@ START_TEST(test_step_of_the_voltage) {
 }
 END_TEST
 
+/* Straight ribbons that stay closed, insulators that do not conduct: there is no voltage across a liquid without
+ * thickness, so that its conduction gives no heat, although it takes the attraction away. */
+START_TEST(test_no_heat_between_closed_faces) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"liquid.model", ZP_LIQUID_NONE},
+                          {"initial.state", ZP_INITIAL_STRAIGHT}, {"electro.breakdown_cap", _i}, {"gravity", 0},
+                          {"load.mass", 0}, {"medium.resistivity", 1e12}, {"drive.voltage", 3e3}, {"mesh.nodes", 9});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double pressed = zp_sim_get(sim, "electric_work");
+  for (int i = 0; i < 10; i++) {
+    ck_assert(zp_outcome_good(zp_sim_step(sim, 10, NULL, NULL)));
+    ck_assert_double_eq(zp_sim_get(sim, "leak_loss"), 0);
+  }
+  ck_assert_double_gt(fabs(zp_sim_get(sim, "interface_voltage")), 2900);
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-9 * pressed);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* Behind a supply that cannot sink, closed electrodes discharge through their insulators with the time constant of
  * these, because the liquid between them has no thickness. */
 START_TEST(test_leakage_alone) {
@@ -294,6 +314,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("leak");
   TCase *tcase = tcase_create("leak");
+  tcase_add_loop_test(tcase, test_no_heat_between_closed_faces, 0, 2);
   tcase_add_loop_test(tcase, test_step_of_the_voltage, 0, 3);
   add_long_test(tcase, test_leakage_alone);
   tcase_add_loop_test(tcase, test_derivatives, 0, 2);

@@ -32,6 +32,7 @@ static Run run_with(const Setting *list, size_t count) {
   ZpActuatorDef def = def_with(list, count);
   def.output.errors = false;
   def.liquid.model = ZP_LIQUID_SUBMERGED;
+  def.solver.stop_when_zipped = ZP_WHEN_TRUE;
   return run_of(&def);
 }
 #define RUN(...) run_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))

@@ -185,6 +185,17 @@ def check_refusals(zipact, scratch):
     ok("several objectives by slsqp: refused", several.returncode == 2 and "nsga2" in several.stderr)
 
 
+def check_end_of_runs(zipact, scratch):
+    """Runs of which only the zip time is read end at the first 99 %; others where the actuator stays closed."""
+    bath = ["study=actuate", "mesh.nodes=9", "output.errors=false", "liquid.model=submerged", "solver.end_time=0.4 s", "optimize.variables=medium.kinematic_viscosity = 20 mm2/s .. 80 mm2/s",
+            "optimize.method=cobyla", "optimize.evaluations=10"]
+    for objective, stays in (("min zip_time_s", False), ("max contraction", True)):
+        run = zipact.run([*bath, "optimize.objective=" + objective], scratch / "ends")
+        lines = (scratch / "ends" / "table.csv").read_text().splitlines()
+        place = lines[0].split(",").index("closed_from_s")
+        ok(objective + ": where runs end", run.returncode == 0 and all((line.split(",")[place] != "") == stays for line in lines[1:]))
+
+
 def main():
     program, scratch = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(scratch, ignore_errors=True)
@@ -197,6 +208,7 @@ def main():
     check_interrupt(zipact, scratch)
     check_empty_box(zipact, scratch)
     check_steep_corner(zipact, scratch)
+    check_end_of_runs(zipact, scratch)
     check_search_after_exclusion(zipact, scratch)
     check_refusals(zipact, scratch)
     return finish()

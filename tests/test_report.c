@@ -801,8 +801,9 @@ START_TEST(axes_without_a_unit_say_so) {
 }
 END_TEST
 
-/* Of three keys the first has a style of line and the second a shade. Where curves are left out, not every value of the
- * first key has as many, and each curve has a shade of its own. Names have at most four digits. */
+/* Of three keys the first has a style of line and the second a shade. Where there are too many curves, each value that
+ * is drawn of one key is drawn with all that are drawn of the other, and the picture says how many are left out. Names
+ * have at most four digits. */
 START_TEST(shades_of_three_keys) {
   write_rest("s", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 12 mm, 14 mm]", "ribbon.thickness=20 um .. 200 um : 3 log",
@@ -813,7 +814,26 @@ START_TEST(shades_of_three_keys) {
   write_rest("t", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 11 mm, 12 mm, 14 mm]",
                                    "ribbon.thickness=20 um .. 200 um : 3 log", "load.mass=[8 g, 20 g]", NULL});
-  ck_assert(file_says("t/plots/strokes.gp", "\nalike = 10\n") && file_says("t/plots/strokes.gp", "array curve[10]\n"));
+  ck_assert(file_says("t/plots/strokes.gp", "\nalike = 3\n") && file_says("t/plots/strokes.gp", "array curve[9]\n"));
+  ck_assert(file_says("t/plots/strokes.svg", "; 9 of 12 curves are drawn<") ||
+            file_says("t/plots/strokes.svg", ">9 of 12 curves are drawn<"));
+  ck_assert(file_says("t/plots/strokes.svg", ">10 mm, 20 µm<") && file_says("t/plots/strokes.svg", ">14 mm, 200 µm<"));
+  ck_assert(!file_says("s/plots/strokes.svg", "curves are drawn"));
+}
+END_TEST
+
+/* Ten maps in one picture: none is left out, and all have contours of the same levels. */
+START_TEST(maps_have_one_scale) {
+  write_rest("m", "stationary",
+             (const char *const[]){"ribbon.length=80 mm .. 130 mm : 10", "ribbon.thickness=40 um .. 100 um : 3",
+                                   "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
+  ck_assert(file_says("m/plots/maps.gp", "array panel_at[10]\n") && file_says("m/plots/maps.svg", ">130 mm<"));
+  ck_assert(file_says("m/plots/maps.gp", "set cntrparam levels incremental"));
+  ck_assert(!file_says("m/plots/maps.svg", "panels<"));
+  write_rest("n", "stationary",
+             (const char *const[]){"ribbon.length=80 mm .. 130 mm : 20", "ribbon.thickness=40 um .. 100 um : 3",
+                                   "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
+  ck_assert(file_says("n/plots/maps.svg", "; 12 of 20 panels<"));
 }
 END_TEST
 
@@ -1331,7 +1351,15 @@ START_TEST(only_one_process_has_a_folder) {
 }
 END_TEST
 
-static Suite *suite_of_report(void) {
+static TCase *case_of(const char *name, const TTest *const *test, size_t count) {
+  TCase *part = tcase_create(name);
+  tcase_add_checked_fixture(part, set_up, tear_down);
+  for (size_t i = 0; i < count; i++)
+    tcase_add_test(part, test[i]);
+  return part;
+}
+
+static TCase *numbers_and_files(void) {
   const TTest *const test[] = {numbers_are_short_and_exact,
                                numbers_read_back,
                                numbers_are_those_of_the_library,
@@ -1348,11 +1376,16 @@ static Suite *suite_of_report(void) {
                                little_to_write,
                                interrupted_before_the_first_run,
                                kind_ribbon,
-                               diverged,
-                               files_of_rest,
+                               diverged};
+  return case_of("numbers and files", test, sizeof test / sizeof test[0]);
+}
+
+static TCase *pictures(void) {
+  const TTest *const test[] = {files_of_rest,
                                sweeps_of_rest,
                                design_chart,
                                shades_of_three_keys,
+                               maps_have_one_scale,
                                contour_label_on_the_edge_of_a_map_is_cut,
                                largest_loads_are_those_of_no_load,
                                small_print_of_a_map,
@@ -1365,8 +1398,12 @@ static Suite *suite_of_report(void) {
                                field_of_a_profile,
                                field_of_equal_permittivities,
                                frequencies_are_an_array,
-                               no_pull_in_is_null,
-                               folder_that_cannot_be,
+                               no_pull_in_is_null};
+  return case_of("pictures", test, sizeof test / sizeof test[0]);
+}
+
+static TCase *failures(void) {
+  const TTest *const test[] = {folder_that_cannot_be,
                                name_taken_by_a_folder,
                                summary_to_a_full_device,
                                full_disk,
@@ -1381,12 +1418,14 @@ static Suite *suite_of_report(void) {
                                folder_of_another_run_is_refused,
                                what_a_killed_run_left_is_cleaned_up,
                                only_one_process_has_a_folder};
+  return case_of("failures", test, sizeof test / sizeof test[0]);
+}
+
+static Suite *suite_of_report(void) {
   Suite *suite = suite_create("report");
-  TCase *part = tcase_create("files");
-  tcase_add_checked_fixture(part, set_up, tear_down);
-  for (size_t i = 0; i < sizeof test / sizeof test[0]; i++)
-    tcase_add_test(part, test[i]);
-  suite_add_tcase(suite, part);
+  suite_add_tcase(suite, numbers_and_files());
+  suite_add_tcase(suite, pictures());
+  suite_add_tcase(suite, failures());
   return suite;
 }
 

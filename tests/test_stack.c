@@ -169,7 +169,9 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   ZpActuatorDef def = unlike();
   def.liquid.model = liquid[_i];
   def.solver.tolerance = 1e-4; /* a row per step shows the impacts */
+  def.bead.volume = 50e-9;
   def.solver.end_time = 2;
+  def.solver.stop_when_zipped = ZP_WHEN_TRUE;
   def.output.samples = 2000;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   const ZpTable *table = result->series;

@@ -145,6 +145,7 @@ static void check_signal(Both both, const char *column, double scale, bool alway
 /* Rounding grows from bounce to bounce, and a velocity turns round in each, so after closing only positions are
  * compared, and not as closely. */
 static void check_motion(ZpActuatorDef def) {
+  def.solver.stop_when_zipped = ZP_WHEN_TRUE;
   def.solver.tolerance = 1e-3; /* rounding grows with the number of steps */
   static const char *const by_largest[] = {"time_s",         "voltage_V",     "stroke_m",
                                            "opening_m",      "contraction",   "force_N",

@@ -49,9 +49,9 @@ def wedge(separation, cap):
     return {**DRY, "profile.shape": "cubic", "isometric.separation": separation, "drive.voltage": "6 kV", "electro.breakdown_cap": cap}
 
 
-BATH = {"liquid.model": "submerged"}
+BATH = {"liquid.model": "submerged", "solver.stop_when_zipped": "true"}
 FILM = {**BATH, "liquid.inertia": "false", "medium.drag_coefficient": 0}
-UNDAMPED = {**DRY, "damping.internal": 0}
+UNDAMPED = {**DRY, "damping.internal": 0, "solver.stop_when_zipped": "true"}
 ALONE = {**BEAM, "ribbon.density": "7850 kg/m3"}
 
 # case: study, keys, what the case asks of its summary

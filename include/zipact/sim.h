@@ -29,7 +29,8 @@ typedef enum ZpOutcome {
   ZP_SHORT_CIRCUIT, /* "short_circuit": electrodes without an insulator touched under a voltage */
   ZP_PULLED_IN,     /* "pulled_in": no hanging equilibrium at this voltage: the actuator pulls in below it */
   ZP_EVENT,         /* "event": zp_sim_step_to_event has ended at an event */
-  ZP_AT_BOUND       /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
+  ZP_AT_BOUND,      /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
+  ZP_REOPENED       /* "reopened": the actuator has closed, and is open again at the end */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" for any other number. */
@@ -192,6 +193,10 @@ ZP_API ZpLiquid zp_sim_liquid(ZpSim *sim);
 
 /* Time at which 99 % contraction was reached (or the pair of contact.complete_margin joined), s; NAN if not yet. */
 ZP_API double zp_sim_zip_time(const ZpSim *sim);
+
+/* Time from which the contraction has stayed at or above 99 % until now, s, at least zp_sim_zip_time; NAN if it is
+ * lower now. A platform that arrives may bounce, and an actuator may open again. */
+ZP_API double zp_sim_closed_from(const ZpSim *sim);
 
 /* Time at which a zip front has outrun the liquid of its bead (liquid.model bead), s; NAN if not yet. */
 ZP_API double zp_sim_starved_time(const ZpSim *sim);

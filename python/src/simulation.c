@@ -247,10 +247,18 @@ static PyObject *get_zip_time(PyObject *object, void *unused) {
   return refuse_busy(self) ? NULL : PyFloat_FromDouble(zp_sim_zip_time(self->sim));
 }
 
+static PyObject *get_closed_from(PyObject *object, void *unused) {
+  (void)unused;
+  Simulation *self = (Simulation *)object;
+  return refuse_busy(self) ? NULL : PyFloat_FromDouble(zp_sim_closed_from(self->sim));
+}
+
 static PyGetSetDef getters[] = {
     {"time", get_time, NULL, "Time reached, s.", NULL},
     {"steps", get_steps, NULL, "Steps of the integrator so far.", NULL},
     {"zip_time", get_zip_time, NULL, "Time at which the actuator had closed, s; nan if not yet.", NULL},
+    {"closed_from", get_closed_from, NULL, "Time from which it has stayed closed until now, s; nan if it is open.",
+     NULL},
     {NULL, NULL, NULL, NULL, NULL},
 };
 static PyMethodDef methods[] = {

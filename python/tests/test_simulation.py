@@ -68,6 +68,9 @@ def test_zips(integrator):
     while not np.isfinite(simulation.zip_time):
         simulation.step("1 ms", voltage="10 kV")
     assert 0.04 < simulation.zip_time <= simulation.time < 0.1
+    assert np.isnan(simulation.closed_from) or simulation.closed_from >= simulation.zip_time
+    simulation.step("50 ms")
+    assert simulation["contraction"] > 0.99 and simulation.zip_time <= simulation.closed_from < simulation.time
 
 
 @both

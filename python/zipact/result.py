@@ -124,7 +124,7 @@ class Result(Mapping[str, float]):
         """the actuator that was simulated"""
         self.study: str = found.study
         self.outcome: str = found.outcome
-        """outcome, a word: zipped, end_time, converged, followed; or diverged, not_settled, ..."""
+        """outcome, a word: zipped, reopened, end_time, converged, followed; or diverged, not_settled, ..."""
         self.good: bool = found.good
         """whether the run completed; false if the solver failed or the run was interrupted"""
         self.message: str = found.message

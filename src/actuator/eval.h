@@ -104,6 +104,7 @@ typedef struct ZpLosses {
   double along, across, jets; /* in the film of liquid, J */
   double outer;               /* to the form drag of the liquid outside, J */
   double leak;                /* heat of conduction through insulators and liquid, J */
+  double contact;             /* to the contact of faces whose overlap the field changes, J */
   double meniscus;            /* by menisci that move, J, of any sign */
 } ZpLosses;
 

@@ -115,6 +115,12 @@ struct ZpModel {
   double ratio, bias; /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
 };
 
+/* Since when an opening has hardly changed, and its bounds since then. */
+typedef struct ZpStill {
+  double from;        /* s */
+  double least, most; /* m */
+} ZpStill;
+
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
  * is a snapshot (sim/snapshot.h). */
 typedef struct ZpState {
@@ -124,6 +130,8 @@ typedef struct ZpState {
   ZpZipState zip;
   bool was_open;        /* has the opening been above 1 % of the hanging one? */
   double zip_time;      /* s; NAN until zipped */
+  double closed_from;   /* since when it has been closed, after zip_time, s; NAN: it is open */
+  ZpStill still;        /* while it is closed */
   double opening0;      /* of the hanging equilibrium, m */
   double base_U;        /* voltage since the account of work was last closed, V; where U is another, it has jumped
                            there now */

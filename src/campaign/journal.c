@@ -217,7 +217,7 @@ void zp_journal_close(ZpJournal *journal) {
 
 /* The outcome with this word; ZP_BAD_ARGUMENT for any other word. */
 static ZpOutcome outcome_of(const char *word) {
-  for (int i = 0; word && i <= ZP_PULLED_IN; i++)
+  for (int i = 0; word && strcmp(zp_outcome_name((ZpOutcome)i), "unknown") != 0; i++)
     if (strcmp(zp_outcome_name((ZpOutcome)i), word) == 0) return (ZpOutcome)i;
   return ZP_BAD_ARGUMENT;
 }

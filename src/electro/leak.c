@@ -29,17 +29,24 @@ void zp_leak_carve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpCarver *carver
 
 /* -- a place over a step --------------------------------------------------------------------------- */
 
-/* q where the gap is g: straight in Y until the cap holds it. Faces that overlap touch. */
+/* q: straight in Y until the cap holds it. */
 typedef struct Charge {
   double slope; /* dq/dY, F/m */
   double bend;  /* of that by g, F/m^2 */
   double most;  /* C/m */
 } Charge;
 
+/* Of the plates law, whose gap may be negative where faces overlap. */
+static Charge charge_in_field(const ZpPlatesParams *p, double g) {
+  double h = g + p->d;
+  return (Charge){2 * p->k / h, -2 * p->k / (h * h), p->h_per_volt > 0 ? 2 * p->k / p->h_per_volt : INFINITY};
+}
+
+/* Of conduction: faces that overlap touch. */
 static Charge charge_of(const ZpPlatesParams *p, double g) {
-  double h = fmax(g, 0) + p->d;
-  return (Charge){2 * p->k / h, g > 0 ? -2 * p->k / (h * h) : 0,
-                  p->h_per_volt > 0 ? 2 * p->k / p->h_per_volt : INFINITY};
+  Charge charge = charge_in_field(p, fmax(g, 0));
+  if (g <= 0) charge.bend = 0;
+  return charge;
 }
 
 static double at(Charge charge, double Y) {
@@ -187,23 +194,35 @@ double zp_leak_passed(const ZpPlatesParams *plates, const ZpLeakStep *step, cons
   return sum;
 }
 
-/* Of one place and one end's gap, by how much the potential rises as Z does, at a voltage. */
-static double rise(const ZpLeakParams *p, const ZpPlatesParams *plates, double U, double g, double Z0, double Z1) {
-  double law = zp_plates_law(plates, U + Z1, g).P - zp_plates_law(plates, U + Z0, g).P;
-  return law + of_interface(p, U, Z1) - of_interface(p, U, Z0);
+/* Integral of C Y - q, which is C times the voltage across the liquid, over Y from 0, at a gap g: eq. (25.4), J/m. */
+static double across_liquid(const ZpLeakParams *p, const ZpPlatesParams *plates, double g, double Y) {
+  Charge charge = charge_in_field(plates, g);
+  double free = fmin(fabs(Y), charge.most / charge.slope), held = fabs(Y) - free;
+  double sum = 0.5 * p->insulators * g / (g + plates->d) * free * free;
+  return held > 0 ? sum + held * (p->insulators * (free + 0.5 * held) - charge.most) : sum;
 }
 
-double zp_leak_heat(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, const ZpLeakEval *e) {
-  double stored = 0;
+/* By how much the potential of a place rises as Z goes from Z0 to Z1 at constant gap and voltage, J/m. */
+static double rise(const ZpLeakParams *p, const ZpPlatesParams *plates, double U, double g, double Z0, double Z1) {
+  return across_liquid(p, plates, g, U + Z1) - across_liquid(p, plates, g, U + Z0);
+}
+
+ZpLeakHeat zp_leak_heat(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
+                        const ZpLeakEval *e) {
+  double touching = 0, stored = 0;
   for (size_t k = 0; k < places(plates); k++) {
     ZpPlatesPlace place = zp_plates_place(plates, k);
     if (!is_face(&place)) continue;
     double g0 = zp_plates_place_gap(&place, step->start), g1 = zp_plates_place_gap(&place, step->end);
-    double dx0 = zp_plates_place_length(&place, step->start), dx1 = zp_plates_place_length(&place, step->end);
-    stored += 0.5 * dx0 * rise(p, plates, step->U1, g0, step->Z[k], e->Z[k]) +
-              0.5 * dx1 * rise(p, plates, step->U0, g1, step->Z[k], e->Z[k]);
+    double dx0 = 0.5 * zp_plates_place_length(&place, step->start),
+           dx1 = 0.5 * zp_plates_place_length(&place, step->end);
+    double Z0 = step->Z[k], Z1 = e->Z[k];
+    touching +=
+        dx0 * rise(p, plates, step->U1, fmax(g0, 0), Z0, Z1) + dx1 * rise(p, plates, step->U0, fmax(g1, 0), Z0, Z1);
+    stored += dx0 * rise(p, plates, step->U1, g0, Z0, Z1) + dx1 * rise(p, plates, step->U0, g1, Z0, Z1);
   }
-  return 0.5 * (step->U0 + step->U1) * zp_leak_passed(plates, step, e) - stored;
+  double given = 0.5 * (step->U0 + step->U1) * zp_leak_passed(plates, step, e);
+  return (ZpLeakHeat){given - touching, touching - stored};
 }
 
 ZpPlatesTotals zp_leak_totals(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesEval *gaps, double U,

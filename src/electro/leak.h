@@ -58,9 +58,14 @@ void zp_leak_by_voltage(const ZpLeakParams *params, const ZpPlatesParams *plates
 /* Charge that has passed through the insulators, C. */
 double zp_leak_passed(const ZpPlatesParams *plates, const ZpLeakStep *step, const ZpLeakEval *eval);
 
-/* Heat of the conduction, eq. (25.8), J. */
-double zp_leak_heat(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step,
-                    const ZpLeakEval *eval);
+/* Where the work goes that neither field nor ribbons receive, eq. (25.8). */
+typedef struct ZpLeakHeat {
+  double conduction; /* heat of the conduction, J: between faces that overlap there is no liquid */
+  double overlap;    /* energy of the field that faces which overlap exchange with the contact between them, J */
+} ZpLeakHeat;
+
+ZpLeakHeat zp_leak_heat(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step,
+                        const ZpLeakEval *eval);
 
 /* Totals at some gaps, a voltage and interface voltages Z. */
 ZpPlatesTotals zp_leak_totals(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpPlatesEval *gaps,

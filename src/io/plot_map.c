@@ -9,7 +9,7 @@
 static const size_t fewest = 3;
 
 /* Maps in one picture: if the third key has more values, some are chosen evenly. */
-enum { PANELS_MOST = 9 };
+enum { PANELS_MOST = 12 };
 
 /* The runs as a grid: x is the key that varies fastest. */
 typedef struct Grid {
@@ -127,6 +127,7 @@ static void define_maps(const ZpPlot *plot, FILE *file) {
   Grid grid;
   if (!find_grid(plot, &grid)) return;
   define_map(plot, file);
+  zp_plot_define_count(file, "panels", grid.panels);
   zp_plot_define_array(file, "panel_at", drawn_panels(&grid));
   for (size_t k = 0; k < drawn_panels(&grid); k++)
     zp_plot_define(file, zp_plot_entry("panel_at", k + 1).text,

@@ -103,14 +103,18 @@ static void data_indices(const ZpPlot *plot, FILE *file) {
   int key[KEYS_MOST];
   const size_t keys = drawn_keys(plot, &all, key);
   double *value = calloc(d.count + 1, sizeof *value);
-  fprintf(file, "# row, share of the variance of %s / %%: first-order, then total\n", d.curve[0].scalar);
+  fprintf(file, "# row, share of the variance of %s / %% and its 95 %% interval: first-order, then total\n",
+          d.curve[0].scalar);
   for (size_t i = 0; value && i < d.count; i++)
     value[i] = value_of(plot, &d.curve[0], i);
   for (int total = 0; value && total < 2; total++) {
     for (size_t k = 0; k < keys; k++) {
       const ZpIndices indices = zp_sobol_indices(d.design, value, (int)k);
+      const ZpIndex *index = total ? &indices.total : &indices.first;
       fprintf(file, "%zu ", keys - k);
-      zp_plot_put(file, 100 * (total ? indices.total : indices.first), '\n');
+      zp_plot_put(file, 100 * index->value, ' ');
+      zp_plot_put(file, 100 * index->low, ' ');
+      zp_plot_put(file, 100 * index->high, '\n');
     }
     fputs("\n\n", file);
   }

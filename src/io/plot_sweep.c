@@ -3,6 +3,7 @@
  * factors.svg; forces.svg and torques.svg, a curve for each value of the others. All but the first read
  * ../table.csv. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "io/plot.h"
@@ -83,18 +84,86 @@ static bool begins_drawn(const ZpPlot *plot, size_t first) {
   return has_point(plot, run);
 }
 
-/* Runs that begin a curve with points, at most LEGEND evenly chosen => their number. If there are none, the first run,
- * because a gnuplot array needs an entry. */
-static size_t choose_curves(const ZpPlot *plot, size_t chosen[LEGEND]) {
-  size_t curves = 0, kept = 0, at = 0;
-  for (size_t run = 0; run < plot->report->count; run++)
-    curves += begins_drawn(plot, run);
-  for (size_t run = 0; run < plot->report->count && kept < LEGEND; run++) {
-    if (!begins_drawn(plot, run)) continue;
-    if (curves <= LEGEND || at * (LEGEND - 1) >= kept * (curves - 1)) chosen[kept++] = run;
-    at++;
+/* The values of a key that curves with points have, in the order of the runs. */
+typedef struct Values {
+  int key;
+  double *value; /* [count] */
+  size_t count;
+  size_t kept; /* so many of them are drawn */
+} Values;
+
+static void add_value(Values *v, double value) {
+  for (size_t i = 0; i < v->count; i++)
+    if (v->value[i] == value) return;
+  v->value[v->count++] = value;
+}
+
+/* Is the value among those kept, which are evenly chosen and have both ends? */
+static bool keeps(const Values *v, double value) {
+  size_t i = 0;
+  while (i < v->count && v->value[i] != value)
+    i++;
+  if (v->kept == 1) return i == v->count / 2;
+  for (size_t k = 0; k < v->kept; k++)
+    if ((2 * k * (v->count - 1) + v->kept - 1) / (2 * (v->kept - 1)) == i) return true;
+  return false;
+}
+
+/* How many values of each key are drawn: together at most LEGEND curves, and of each key about the same share. */
+static void share_out(Values *v, size_t keys) {
+  for (size_t i = 0; i < keys; i++)
+    v[i].kept = 1;
+  for (;;) {
+    size_t curves = 1, next = keys;
+    for (size_t i = 0; i < keys; i++)
+      curves *= v[i].kept;
+    for (size_t i = 0; i < keys; i++) {
+      bool fits = v[i].kept < v[i].count && curves / v[i].kept * (v[i].kept + 1) <= LEGEND;
+      if (fits && (next == keys || v[i].kept * v[next].count < v[next].kept * v[i].count)) next = i;
+    }
+    if (next == keys) return;
+    v[next].kept++;
   }
-  return kept > 0 ? kept : 1;
+}
+
+/* Curves of a picture, by the runs that begin them. If there are none, the first run, because a gnuplot array needs an
+ * entry. `all`: those with points, drawn or not. */
+typedef struct Curves {
+  size_t first[LEGEND], count, all;
+} Curves;
+
+enum { KEYS_MOST = 16 };
+
+static void choose_kept(const ZpPlot *plot, const Values *v, size_t keys, Curves *curves) {
+  for (size_t run = 0; run < plot->report->count && curves->count < LEGEND; run++) {
+    bool kept = begins_drawn(plot, run);
+    for (size_t i = 0; kept && i < keys; i++)
+      kept = keeps(&v[i], zp_sweep_value(plot, run, v[i].key));
+    if (kept) curves->first[curves->count++] = run;
+  }
+}
+
+/* Of too many curves some values of each key are drawn, each with all that are drawn of the others. */
+static Curves choose_curves(const ZpPlot *plot) {
+  Curves curves = {.count = 0};
+  Values v[KEYS_MOST] = {0};
+  size_t keys = 0, runs = plot->report->count;
+  double *room = calloc(KEYS_MOST * (runs + 1), sizeof *room);
+  while (keys < KEYS_MOST && zp_sweep_key(plot, keys + 1) >= 0) {
+    v[keys] = (Values){.key = zp_sweep_key(plot, keys + 1), .value = room + keys * runs};
+    keys++;
+  }
+  for (size_t run = 0; room && run < runs; run++) {
+    if (!begins_drawn(plot, run)) continue;
+    curves.all++;
+    for (size_t i = 0; i < keys; i++)
+      add_value(&v[i], zp_sweep_value(plot, run, v[i].key));
+  }
+  share_out(v, keys);
+  if (room) choose_kept(plot, v, keys, &curves);
+  free(room);
+  if (curves.count == 0) curves.count = 1;
+  return curves;
 }
 
 /* With more than two keys: the number of successive curves in which the first key has one value; all, if that key
@@ -113,18 +182,20 @@ static size_t curves_alike(const ZpPlot *plot, const size_t *chosen, size_t curv
 
 /* Curve k is curve[k], in the rows first[k] to last[k] of the table, from 0. */
 static void define_curves(const ZpPlot *plot, FILE *file) {
-  size_t chosen[LEGEND] = {0}, curves = choose_curves(plot, chosen);
+  const Curves chosen = choose_curves(plot);
+  const size_t curves = chosen.count;
   static const char *const array[] = {"curve", "first", "last"};
   for (size_t i = 0; i < 3; i++)
     zp_plot_define_array(file, array[i], curves);
   for (size_t k = 0; k < curves; k++) {
     char text[256];
-    zp_sweep_run_name(plot, chosen[k], 1, text, sizeof text);
+    zp_sweep_run_name(plot, chosen.first[k], 1, text, sizeof text);
     zp_plot_define_text(file, zp_plot_entry("curve", k + 1).text, text);
-    zp_plot_define_count(file, zp_plot_entry("first", k + 1).text, chosen[k]);
-    zp_plot_define_count(file, zp_plot_entry("last", k + 1).text, last_of_curve(plot, chosen[k]));
+    zp_plot_define_count(file, zp_plot_entry("first", k + 1).text, chosen.first[k]);
+    zp_plot_define_count(file, zp_plot_entry("last", k + 1).text, last_of_curve(plot, chosen.first[k]));
   }
-  zp_plot_define_count(file, "alike", curves_alike(plot, chosen, curves));
+  zp_plot_define_count(file, "alike", curves_alike(plot, chosen.first, curves));
+  zp_plot_define_count(file, "curves", chosen.all);
 }
 
 /* x, y and z: x is the key that varies fastest; its values are in the column x_column of the table. */
@@ -137,10 +208,21 @@ static void define_axes(const ZpPlot *plot, FILE *file) {
   zp_plot_define_word(file, "x_column", column);
 }
 
+/* Runs that have closed and are open at the end. */
+static size_t count_reopened(const ZpPlot *plot) {
+  size_t reopened = 0;
+  for (size_t run = 0; run < plot->report->count; run++)
+    reopened += has_number(plot, run, "zip_time_s") && !has_number(plot, run, "closed_from_s") &&
+                zp_table_get(plot->table, run, "contraction") < 0.99;
+  return reopened;
+}
+
 static void define_answer(const ZpAnswer *a, const ZpPlot *plot, FILE *file) {
-  char counted[96];
-  snprintf(counted, sizeof counted, "%zu of %zu runs %s", zp_plot_count(plot->table, a->scalar[0]), plot->report->count,
-           a->count);
+  char counted[128];
+  int size = snprintf(counted, sizeof counted, "%zu of %zu runs %s", zp_plot_count(plot->table, a->scalar[0]),
+                      plot->report->count, a->count);
+  size_t reopened = count_reopened(plot);
+  if (reopened > 0) snprintf(counted + size, sizeof counted - (size_t)size, ", %zu of them end open", reopened);
   zp_plot_define_text(file, "answer", a->title);
   zp_plot_define_text(file, "answers", counted);
   zp_plot_define_text(file, "quantity", a->axis);

@@ -28,9 +28,19 @@ static void read_columns(Samples *s, const ZpScalarNames *names, size_t first, s
   }
 }
 
-/* {"first": {key: ...}, "total": {key: ...}} */
+/* Two bounds. */
+static json_t *interval(const ZpIndex *index) {
+  json_t *pair = json_array();
+  bool done = pair && json_array_append_new(pair, zp_json_number(index->low, "1")) == 0;
+  if (done && json_array_append_new(pair, zp_json_number(index->high, "1")) == 0) return pair;
+  json_decref(pair);
+  return NULL;
+}
+
+/* An object per index, and one of its intervals, each with an entry per key. */
 static bool set_indices(json_t *object, const Samples *s, const double *value) {
-  json_t *first = json_object(), *total = json_object();
+  json_t *first = json_object(), *first_interval = json_object(), *total = json_object(),
+         *total_interval = json_object();
   size_t keys;
   const int *key = zp_scenario_lists(s->report->scenario, &keys);
   bool done = true;
@@ -38,11 +48,16 @@ static bool set_indices(json_t *object, const Samples *s, const double *value) {
   for (size_t i = 0; i < keys; i++) {
     if (!zp_scenario_spread(s->report->scenario, key[i])) continue;
     const ZpIndices indices = zp_sobol_indices(s->design, value, dimension++);
-    done = zp_json_set(first, zp_key(key[i])->name, zp_json_number(indices.first, "1")) && done;
-    done = zp_json_set(total, zp_key(key[i])->name, zp_json_number(indices.total, "1")) && done;
+    const char *name = zp_key(key[i])->name;
+    done = zp_json_set(first, name, zp_json_number(indices.first.value, "1")) && done;
+    done = zp_json_set(first_interval, name, interval(&indices.first)) && done;
+    done = zp_json_set(total, name, zp_json_number(indices.total.value, "1")) && done;
+    done = zp_json_set(total_interval, name, interval(&indices.total)) && done;
   }
   done = zp_json_set(object, "first_order_indices", first) && done;
-  return zp_json_set(object, "total_indices", total) && done;
+  done = zp_json_set(object, "first_order_interval_95", first_interval) && done;
+  done = zp_json_set(object, "total_indices", total) && done;
+  return zp_json_set(object, "total_interval_95", total_interval) && done;
 }
 
 static json_t *describe(const Samples *s, const double *value) {

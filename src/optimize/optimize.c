@@ -82,11 +82,19 @@ static size_t room_of(const ZpProblem *p) {
   return twice < most ? twice : most;
 }
 
+/* A search that reads no number but the zip time needs no more of a motion than its first closing. */
+static void stop_early(const ZpProblem *p, ZpActuatorDef *def) {
+  for (size_t g = 0; g < p->goals; g++)
+    if (strcmp(p->goal[g].output, "zip_time_s") != 0) return;
+  if (def->solver.stop_when_zipped == ZP_WHEN_AUTO) def->solver.stop_when_zipped = ZP_WHEN_TRUE;
+}
+
 static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
   ZpError reason;
   ZpStatus status = zp_scenario_def(s->scenario, 0, &s->def, err);
   s->study = zp_scenario_study(s->scenario);
   if (status == ZP_OK) status = zp_problem_read(&s->def, &s->problem, err);
+  if (status == ZP_OK) stop_early(&s->problem, &s->def);
   if (status == ZP_OK) status = check_lists(s->scenario, &s->problem, err);
   if (status == ZP_OK) status = zp_data_check(s->study, &s->def, err);
   if (status == ZP_OK && (status = look_ahead(s, &reason)) != ZP_OK) zp_fail(err, status, "%s", reason.message);

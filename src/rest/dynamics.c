@@ -724,6 +724,7 @@ static void book_losses(ZpDynamics *d, ZpState *state) {
   state->jet_loss += losses.jets;
   state->outer_drag_loss += losses.outer;
   state->leak_loss += losses.leak;
+  state->contact_loss += losses.contact;
   state->meniscus_loss += losses.meniscus;
 }
 

@@ -1,6 +1,7 @@
 #include "sample/statistics.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 
 const double zp_quantile_share[ZP_QUANTILES] = {0.05, 0.25, 0.5, 0.75, 0.95};
@@ -50,31 +51,53 @@ ZpStatistics zp_statistics(const ZpDesign *design, const double *value, double *
   return s;
 }
 
-/* Sums over the points of a design that have all three values of a dimension. */
-typedef struct Sums {
-  size_t count;
-  double base;           /* a value, so that what follows are sums of deviations */
-  double value, square;  /* of A and B */
-  double from_A, from_B; /* squares of what changes if one coordinate is that of B, or all others are those of A */
-} Sums;
+/* Squared differences of the values of a point: of A and B, and of either from the block that has one coordinate of B.
+ * Their means estimate 2 V, 2 V T and 2 V (1 - S), with V the variance, S the first-order and T the total index (Jansen
+ * 1999). The variance is that of the same pairs, so that a dimension without influence has indices of exactly 0, and
+ * one that alone has influence, of exactly 1. */
+typedef struct Squares {
+  double whole, from_A, from_B;
+} Squares;
 
-static void add(Sums *s, double A, double B, double mixed) {
-  if (!(isfinite(A) && isfinite(B) && isfinite(mixed))) return;
-  if (s->count++ == 0) s->base = A;
-  s->value += A - s->base + (B - s->base);
-  s->square += (A - s->base) * (A - s->base) + (B - s->base) * (B - s->base);
-  s->from_A += (A - mixed) * (A - mixed);
-  s->from_B += (B - mixed) * (B - mixed);
+static double square(double x) {
+  return x * x;
+}
+
+/* False if a value is missing. */
+static bool squares_of(const double *of_point, int dimension, Squares *s) {
+  const double A = of_point[ZP_BLOCK_A], B = of_point[ZP_BLOCK_B], mixed = of_point[ZP_BLOCK_FIRST + dimension];
+  *s = (Squares){square(A - B), square(A - mixed), square(B - mixed)};
+  return isfinite(s->whole) && isfinite(s->from_A) && isfinite(s->from_B);
+}
+
+/* A ratio of two means with the interval that their scatter over n points leaves. `scatter`: the sum of the squares of
+ * numerator - ratio * denominator; `whole`: the sum of the denominators. */
+static ZpIndex with_interval(double ratio, double scatter, double whole, double n) {
+  static const double deviations = 1.959963984540054; /* of a normal distribution, for 95 % */
+  const double half = n > 1 ? deviations * sqrt(scatter * n / (n - 1)) / whole : (double)NAN;
+  return (ZpIndex){ratio, ratio - half, ratio + half};
 }
 
 ZpIndices zp_sobol_indices(const ZpDesign *design, const double *value, int dimension) {
   const size_t blocks = zp_design_blocks(design);
-  Sums s = {0};
+  const ZpIndex none = {NAN, NAN, NAN};
+  Squares sum = {0}, s;
+  size_t count = 0;
   for (size_t point = 0; point < design->count; point++) {
-    const double *of_point = value + point * blocks;
-    add(&s, of_point[ZP_BLOCK_A], of_point[ZP_BLOCK_B], of_point[ZP_BLOCK_FIRST + dimension]);
+    if (!squares_of(value + point * blocks, dimension, &s)) continue;
+    count++;
+    sum.whole += s.whole;
+    sum.from_A += s.from_A;
+    sum.from_B += s.from_B;
   }
-  const double n = (double)s.count, mean = s.value / (2 * n), variance = s.square / (2 * n) - mean * mean;
-  if (!(variance > 0)) return (ZpIndices){NAN, NAN, s.count};
-  return (ZpIndices){1 - s.from_B / (2 * n) / variance, s.from_A / (2 * n) / variance, s.count};
+  if (!(sum.whole > 0)) return (ZpIndices){none, none, count};
+  const double total = sum.from_A / sum.whole, rest = sum.from_B / sum.whole;
+  double scatter_A = 0, scatter_B = 0;
+  for (size_t point = 0; point < design->count; point++) {
+    if (!squares_of(value + point * blocks, dimension, &s)) continue;
+    scatter_A += square(s.from_A - total * s.whole);
+    scatter_B += square(s.from_B - rest * s.whole);
+  }
+  return (ZpIndices){with_interval(1 - rest, scatter_B, sum.whole, (double)count),
+                     with_interval(total, scatter_A, sum.whole, (double)count), count};
 }

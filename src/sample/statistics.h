@@ -21,11 +21,17 @@ typedef struct ZpStatistics {
  * has the same length. Without a sample all numbers but the counts are NAN. */
 ZpStatistics zp_statistics(const ZpDesign *design, const double *value, double *work);
 
-/* The indices of Sobol of one dimension, by the estimators of Jansen (1999). */
+/* An estimate and its confidence interval of 95 %, for points that are independent; those of a Sobol sequence scatter
+ * less. */
+typedef struct ZpIndex {
+  double value, low, high;
+} ZpIndex;
+
+/* The indices of Sobol of one dimension: shares of the variance of the output. */
 typedef struct ZpIndices {
-  double first; /* share of the variance that this dimension alone explains */
-  double total; /* share that would go if all but this dimension were fixed, interactions included */
-  size_t count; /* points of the design that have all values */
+  ZpIndex first; /* caused by this dimension alone */
+  ZpIndex total; /* left if all but this dimension were fixed, interactions included */
+  size_t count;  /* points of the design that have all values */
 } ZpIndices;
 
 /* NAN where the output does not vary. The design must have indices. */

@@ -16,14 +16,15 @@
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",      "zipped",    "interrupted", "not_settled", "diverged",
                                       "step_limit",    "converged", "followed",    "branch_lost", "bad_argument",
-                                      "short_circuit", "pulled_in", "event",       "at_bound"};
+                                      "short_circuit", "pulled_in", "event",       "at_bound",    "reopened"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
 
 bool zp_outcome_good(ZpOutcome outcome) {
   return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
-         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT || outcome == ZP_AT_BOUND;
+         outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT || outcome == ZP_AT_BOUND ||
+         outcome == ZP_REOPENED;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -144,7 +145,7 @@ static ZpSim *create_straight(const ZpModel *model, bool uppermost) {
     return NULL;
   }
   ZpState *state = sim->state;
-  state->zip_time = state->refreshed = state->starved_time = NAN;
+  state->zip_time = state->closed_from = state->refreshed = state->starved_time = NAN;
   lay_straight(model, zp_state_q(model, state));
   return sim;
 }
@@ -348,29 +349,40 @@ static bool started_open(const ZpSim *sim) {
   return sim->step_start.opening > closed_opening(sim->state);
 }
 
-/* Has it gone from open to closed? An actuator that starts closed, as straight ribbons do, has to open first. */
-static bool reached_zip(const ZpModel *model, const ZpState *state) {
+/* Is it closed, after it was open? An actuator that starts closed, as straight ribbons do, has to open first. */
+static bool is_zipped(const ZpModel *model, const ZpState *state) {
   size_t margin = (size_t)model->def.contact.complete_margin;
   if (!state->was_open) return false;
   if (margin) return state->zip.front + margin >= model->topology.platform.first;
   return state->opening0 > 0 && (state->zip.platform || !is_open(model, state));
 }
 
-/* Is it closed for good? With a margin, or in a liquid, in which it then creeps for seconds, this is so as soon as it
- * has zipped; otherwise when the platform has arrived or turns back. */
+/* Has it closed for the first time? With a margin, or in a liquid, in which it then creeps for seconds, this is so as
+ * soon as it has zipped; otherwise when the platform has arrived or turns back. */
 static bool has_closed(const ZpModel *model, const ZpState *state) {
   if (isnan(state->zip_time)) return false;
   if (model->def.contact.complete_margin || model->has_film) return true;
   return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
 }
 
+/* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
+static bool stays_closed(const ZpModel *model, const ZpState *state) {
+  static const double while_still = 0.1; /* s */
+  if (model->def.contact.model == ZP_CONTACT_SEQUENTIAL) return has_closed(model, state);
+  return !isnan(state->closed_from) && state->t - state->still.from >= while_still;
+}
+
 /* A series has closed when all its members have; antagonists have when one has. */
-static bool closed(const ZpSim *sim) {
-  if (zp_is_opposed(sim->model))
-    return has_closed(sim->model, sim->state) || has_closed(sim->below->model, sim->below->state);
+static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, const ZpState *state)) {
+  if (zp_is_opposed(sim->model)) return holds(sim->model, sim->state) || holds(sim->below->model, sim->below->state);
   for (const ZpSim *m = sim; m; m = m->below)
-    if (!has_closed(m->model, m->state)) return false;
+    if (!holds(m->model, m->state)) return false;
   return true;
+}
+
+bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
+  if (stop == ZP_STOP_AT_END || !sim->model->field) return false;
+  return is_true_of(sim, stop == ZP_STOP_CLOSED ? has_closed : stays_closed);
 }
 
 /* Do electrodes without an insulator touch under a voltage? */
@@ -407,14 +419,29 @@ static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart star
   return start.opening > closed_opening(state) && !is_open(model, state);
 }
 
-/* Has the last step closed the actuator? */
+/* Has the opening left the bounds within which it counts as still? Then new ones begin here. */
+static void note_still(ZpState *state, double opening) {
+  static const double range = 1e-4; /* of the contraction */
+  ZpStill *still = &state->still;
+  still->least = fmin(still->least, opening);
+  still->most = fmax(still->most, opening);
+  if (still->most - still->least >= range * state->opening0) *still = (ZpStill){state->t, opening, opening};
+}
+
+/* Has the last step closed the actuator, or opened it again? */
 static void note_closing(ZpSim *sim) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   state->was_open |= started_open(sim) || is_open(model, state);
-  if (!isnan(state->zip_time) || state->U == 0 || !reached_zip(model, state)) return;
+  const bool zipped = is_zipped(model, state), begins = zipped && isnan(state->closed_from);
+  if (!zipped) state->closed_from = NAN;
   bool within = !sim->stepping->fine && crosses(model, state, sim->step_start);
-  state->zip_time = within ? zp_sim_crossing(sim) : state->t;
+  double since = within ? zp_sim_crossing(sim) : state->t;
+  if (zipped && isnan(state->zip_time) && state->U != 0) state->zip_time = since;
+  if (!zipped || isnan(state->zip_time)) return;
+  double now = opening(model, state);
+  if (begins) state->closed_from = since, state->still = (ZpStill){state->t, now, now};
+  note_still(state, now);
 }
 
 /* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the
@@ -514,7 +541,7 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return zp_hooks_stop(hooks, "simulating", fraction);
 }
 
-static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
+static ZpOutcome advance(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks *hooks, ZpRunInfo *info) {
   enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
   const int64_t between = sim->stepping->between_questions;
@@ -543,7 +570,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, bool stop_when_zipped, con
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
     if (shorted(sim)) return ZP_SHORT_CIRCUIT;
-    if (stop_when_zipped && model->field && closed(sim)) return ZP_ZIPPED;
+    if (zp_sim_stops(sim, stop)) return ZP_ZIPPED;
     if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
@@ -592,7 +619,8 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_BRANCH_LOST:
   case ZP_PULLED_IN:
   case ZP_AT_BOUND:
-    break; /* of studies of rest, of fits */
+  case ZP_REOPENED:
+    break; /* of studies */
   case ZP_EVENT:
     snprintf(text, size, "an event at %g s", t);
     break;
@@ -618,7 +646,7 @@ static ZpOutcome refuse(const ZpSim *sim, const char *name, double value, const 
   return ZP_BAD_ARGUMENT;
 }
 
-ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *out) {
+ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks *hooks, ZpRunInfo *out) {
   if (!(end_time >= sim->state->t))
     return refuse(sim, "end_time", end_time, "must not be earlier than the present time", out);
   ZpRunInfo info = {.settle_steps = sim->settle_steps,
@@ -631,7 +659,7 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   sim->cut = false;
   if (info.outcome == ZP_REACHED_END) {
     keep(sim);
-    info.outcome = advance(sim, end_time, stop_when_zipped, hooks, &info);
+    info.outcome = advance(sim, end_time, stop, hooks, &info);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
@@ -643,6 +671,10 @@ ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const Z
   describe(sim, &info);
   if (out) *out = info;
   return info.outcome;
+}
+
+ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, const ZpHooks *hooks, ZpRunInfo *info) {
+  return zp_sim_run_until(sim, end_time, stop_when_zipped ? ZP_STOP_CLOSED : ZP_STOP_AT_END, hooks, info);
 }
 
 ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info) {
@@ -669,12 +701,29 @@ double zp_sim_starved_time(const ZpSim *sim) {
   return sim->state->starved_time;
 }
 
-double zp_sim_zip_time(const ZpSim *sim) {
-  double last = sim->state->zip_time;
-  if (zp_is_opposed(sim->model)) return fmin(last, sim->below->state->zip_time);
+/* Of one of two antagonists, the earlier; else of all members, the last. */
+static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
+  double last = instant(sim->state);
+  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim->below->state));
   for (const ZpSim *m = sim->below; m; m = m->below)
-    last = m->state->zip_time > last || isnan(m->state->zip_time) ? m->state->zip_time : last;
+    last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
   return last;
+}
+
+static double zip_time(const ZpState *state) {
+  return state->zip_time;
+}
+
+static double closed_from(const ZpState *state) {
+  return state->closed_from;
+}
+
+double zp_sim_zip_time(const ZpSim *sim) {
+  return time_of(sim, zip_time);
+}
+
+double zp_sim_closed_from(const ZpSim *sim) {
+  return time_of(sim, closed_from);
 }
 
 double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {

@@ -127,6 +127,19 @@ struct ZpSim {
  * its hanging equilibrium. NULL: there is no memory. */
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 
+/* Where a run ends before its end time. */
+typedef enum ZpStop {
+  ZP_STOP_AT_END, /* nowhere */
+  ZP_STOP_CLOSED, /* where the actuator has closed for the first time */
+  ZP_STOP_HELD    /* where it has stayed closed for 0.1 s and its contraction has changed by less than 1e-4 in them */
+} ZpStop;
+
+/* Would a run end in the present state? */
+bool zp_sim_stops(const ZpSim *sim, ZpStop stop);
+
+/* As zp_sim_run, with this end. */
+ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks *hooks, ZpRunInfo *info);
+
 /* Time of the next corner of the inputs, s. */
 double zp_sim_next_corner(ZpSim *sim);
 

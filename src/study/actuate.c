@@ -42,9 +42,11 @@ static double widest_opening(const ZpTable *series) {
   return widest;
 }
 
-static void summarize_actuator(ZpSim *sim, ZpResult *result) {
+static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
+  bool first = result->outcome == ZP_ZIPPED && stop == ZP_STOP_CLOSED; /* nothing is known of what follows */
   zp_result_add(result, "contraction", "1", at_end(sim, result, "contraction"));
   zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
+  zp_result_add(result, "closed_from_s", "s", first ? NAN : zp_sim_closed_from(sim));
   zp_result_add(result, "zipped_length_m", "m", at_end(sim, result, "zipped_length"));
   zp_result_add(result, "opening_m", "m", at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
@@ -219,10 +221,41 @@ static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *
     zp_result_add(result, names[k - 1], "s", zp_sim_member_zip_time(sim, k));
 }
 
-static void summarize(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
+static bool has_constant_drive(const ZpModel *model) {
+  return zp_waveform_is_constant(&model->waveform) && model->def.control.kind == ZP_CONTROL_NONE;
+}
+
+static ZpStop stop_of(const ZpModel *model) {
+  const ZpActuatorDef *def = zp_model_def(model);
+  if (def->solver.stop_when_zipped == ZP_WHEN_TRUE) return ZP_STOP_CLOSED;
+  bool ideal = def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
+  bool may = def->solver.stop_when_zipped == ZP_WHEN_AUTO && has_constant_drive(model) && ideal;
+  return may ? ZP_STOP_HELD : ZP_STOP_AT_END;
+}
+
+/* Under a constant drive, whether an actuator that has closed is closed at the end, and since when. A run that stops
+ * where it has closed, and sequential contact, which never opens, leave nothing to say. */
+static void judge(const ZpSim *sim, const ZpModel *model, ZpStop stop, ZpRunInfo *info) {
+  double zip = zp_sim_zip_time(sim), from = zp_sim_closed_from(sim), t = sim->state->t;
+  bool at_once = stop == ZP_STOP_CLOSED || model->def.contact.model == ZP_CONTACT_SEQUENTIAL;
+  bool ended = info->outcome == ZP_REACHED_END || (info->outcome == ZP_ZIPPED && !at_once);
+  if (!ended || !has_constant_drive(model) || isnan(zip)) return;
+  info->outcome = isnan(from) ? ZP_REOPENED : ZP_ZIPPED;
+  char *text = info->message;
+  size_t size = sizeof info->message;
+  if (isnan(from))
+    snprintf(text, size, "closed after %.4g ms, but is open at the end, at %.4g s", 1e3 * zip, t);
+  else if (from > zip)
+    snprintf(text, size, "closed after %.4g ms, stays closed from %.4g ms to the end, at %.4g s", 1e3 * zip, 1e3 * from,
+             t);
+  else
+    snprintf(text, size, "closed after %.4g ms, stays closed to the end, at %.4g s", 1e3 * zip, t);
+}
+
+static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRunInfo *info, ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
-  if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, result);
+  if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, stop, result);
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
   if (model->rod.plastic) summarize_plastic(sim, result);
@@ -246,14 +279,7 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
   return ZP_OK;
 }
 
-static bool ends_when_zipped(const ZpModel *model) {
-  const ZpActuatorDef *def = zp_model_def(model);
-  if (def->solver.stop_when_zipped != ZP_WHEN_AUTO) return def->solver.stop_when_zipped == ZP_WHEN_TRUE;
-  bool constant = zp_waveform_is_constant(&model->waveform) && def->control.kind == ZP_CONTROL_NONE;
-  return constant && def->source.model == ZP_SOURCE_IDEAL && !model->leaks;
-}
-
-/* A run that resumes after it has zipped does not end because of that. */
+/* A run that resumes where it would end continues to the end time. */
 static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
                          ZpResult *result, ZpError *err) {
   zp_sim_record(sim, result->series, result->shapes);
@@ -261,7 +287,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpStatus status = start ? zp_sim_continue(sim, start, err) : ZP_OK;
   if (status != ZP_OK) return status;
   const ZpActuatorDef *def = zp_model_def(model);
-  bool until_zipped = ends_when_zipped(model) && isnan(zp_sim_zip_time(sim));
+  const ZpStop stop = zp_sim_stops(sim, stop_of(model)) ? ZP_STOP_AT_END : stop_of(model);
   bool controlled = def->control.kind != ZP_CONTROL_NONE;
   ZpTable *samples = controlled ? zp_loop_watch(sim) : NULL;
   if (controlled && !samples) return zp_fail_memory(err);
@@ -269,8 +295,9 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpRunRates rates;
   status = zp_rates_open(&rates, sim, err);
   if (status == ZP_OK) {
-    zp_sim_run(sim, def->solver.end_time, until_zipped, hooks, &info);
-    summarize(sim, model, &info, result);
+    zp_sim_run_until(sim, def->solver.end_time, stop, hooks, &info);
+    judge(sim, model, stop, &info);
+    summarize(sim, model, stop, &info, result);
     zp_rates_add(&rates, result);
   }
   zp_run_rates_close(&rates);

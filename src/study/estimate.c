@@ -1,5 +1,5 @@
 /* Letters of docs/theory.md, section 21: f a number of the summary, n the number of elements; 0 the requested mesh; 1,
- * 2, 3, 4 coarser ones. */
+ * 2, 3, 4 coarser ones, or 1 and 2 finer ones if elements of the requested one are longer than the bend. */
 #include "study/estimate.h"
 
 #include <math.h>
@@ -40,27 +40,45 @@ static bool is_estimated(ZpStudy study) {
 }
 
 /* The paper's chain has coefficients for single meshes, and a resumed run has the mesh of its checkpoint. */
-static bool has_coarser(const ZpActuatorDef *def, bool moves) {
+static bool has_others(const ZpActuatorDef *def, bool moves) {
   if (def->ribbon.model != ZP_RIBBON_ROD) return false;
   return !moves || (def->solver.integrator == ZP_INTEGRATOR_IMPLICIT && def->initial.state != ZP_INITIAL_CHECKPOINT);
 }
 
+/* The meshes of an estimate. `finer`: elements of the requested mesh are longer than the bend, so that no mesh with
+ * longer ones shows the error. */
+typedef struct Meshes {
+  bool finer;
+  int elements[MESHES];
+} Meshes;
+
 /* Three fifths and two fifths of the elements. Together they cost as much as the study itself. They are so near to it
  * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
  * that four meshes must show also need four fifths and seven tenths. */
-static int elements_of(int mesh, int elements) {
+static Meshes coarser_meshes(int elements) {
   static const int tenths[MESHES] = {10, 6, 4, 8, 7};
-  return (tenths[mesh] * elements + 5) / 10;
+  Meshes meshes = {.finer = false};
+  for (int mesh = 0; mesh < MESHES; mesh++)
+    meshes.elements[mesh] = (tenths[mesh] * elements + 5) / 10;
+  return meshes;
 }
 
-/* In motion, steps lengthen by the same factor as elements. Only numbers of the summary are requested. */
-static ZpActuatorDef coarser(ZpActuatorDef def, int elements, bool moves) {
-  double longer = (def.mesh.nodes - 1) / (double)elements;
-  double tolerance = zp_def_tolerance(&def);
+/* Two elements in the length of the bend, and three fifths of that. */
+static Meshes finer_meshes(int elements, double resolution) {
+  int resolved = (int)ceil(2 * elements / resolution);
+  return (Meshes){true, {elements, resolved, (6 * resolved + 5) / 10}};
+}
+
+/* In motion, steps lengthen by the same factor as elements; they do not shorten with them, because the finer mesh is
+ * for its elements alone. Only numbers of the summary are requested. */
+static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
+  double longer = fmax(1, (def.mesh.nodes - 1) / (double)elements);
+  const double tolerance = zp_def_tolerance(&def);
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
+  if (moves) def.solver.stop_when_zipped = ZP_WHEN_TRUE; /* its zip time is requested */
   if (moves)
     def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
   if (moves) def.solver.time_step *= longer;            /* NAN, auto, stays */
@@ -73,7 +91,7 @@ static void take(const ZpResult *result, ZpStudy study, int mesh, const ZpActuat
     findings->f[k][mesh] = estimated[k].study == study ? zp_result_get(result, estimated[k].value) : NAN;
 }
 
-/* Solve on a coarser mesh. One on which the study has no answer is no failure. */
+/* Solve on another mesh. One on which the study has no answer is no failure. */
 static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mesh, const ZpActuatorDef *def,
                       Findings *findings, ZpError *err) {
   const ZpTask again = {def, {.table = task->input.table}, task->hooks};
@@ -152,8 +170,15 @@ static double of_either(const Findings *findings, int k, double order) {
   return fabs(richardson(findings, k, 1, shows_order(findings, k, 1, 4) ? 3 : 2));
 }
 
-static double error_of(const Findings *findings, int k) {
+/* Eq. (21.5): the difference from the finer mesh, and the error of that. */
+static double of_finer(const Findings *findings, int k) {
+  const double *f = findings->f[k], *n = findings->elements;
+  return fabs(f[0] - f[1]) + estimated[k].safety * fabs(f[2] - f[1]) / (square(n[1] / n[2]) - 1);
+}
+
+static double error_of(const Findings *findings, const Meshes *meshes, int k) {
   const Estimated *e = &estimated[k];
+  if (meshes->finer) return of_finer(findings, k);
   if (e->law == POWERS) return e->safety * of_powers(findings, k);
   if (e->law == RIPPLE) return e->safety * of_ripple(findings, k);
   return e->safety * of_either(findings, k, e->order);
@@ -173,19 +198,26 @@ static void forget_all(Findings *findings) {
   }
 }
 
-/* If elements are longer than the bend, no mesh with longer ones shows the error of this mesh. */
-static bool is_resolved(const ZpActuatorDef *def, ZpResult *result) {
-  if (result->resolution >= 1) return true;
-  double enough = 1 + ceil((def->mesh.nodes - 1) / result->resolution);
+/* Of a mesh whose elements are longer than the bend, if finer ones that resolve it are affordable. */
+static bool has_finer(const ZpActuatorDef *def, Meshes meshes, ZpResult *result) {
+  static const int times = 32, most = 2000; /* elements */
+  if (meshes.elements[1] <= most && meshes.elements[1] <= times * meshes.elements[0]) {
+    zp_result_note(
+        result,
+        "mesh.nodes = %d: the estimated errors are the differences from a mesh that resolves the bend of the "
+        "ribbon, mesh.nodes = %d",
+        def->mesh.nodes, meshes.elements[1] + 1);
+    return true;
+  }
   zp_result_note(
       result,
-      "mesh.nodes = %d: errors are not estimated, because elements are longer than the length over which the "
-      "ribbon bends; use mesh.nodes = %.0f",
-      def->mesh.nodes, enough);
+      "mesh.nodes = %d: errors are not estimated and may exceed the numbers, because elements are much longer "
+      "than the length over which the ribbon bends; use mesh.nodes = %d",
+      def->mesh.nodes, meshes.elements[1] + 1);
   return false;
 }
 
-/* The number of coarser meshes that the numbers found need. A number that the study does not find needs none. */
+/* The number of other meshes that the numbers found need. A number that the study does not find needs none. */
 static int meshes_of(const Findings *findings) {
   int most = 0;
   for (int k = 0; k < COUNT; k++)
@@ -195,20 +227,25 @@ static int meshes_of(const Findings *findings) {
 
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err) {
   ZpStudy study = result->study;
-  if (!task->def->output.errors || !is_estimated(study) || !has_coarser(task->def, moves)) return ZP_OK;
+  if (!task->def->output.errors || !is_estimated(study) || !has_others(task->def, moves)) return ZP_OK;
   Findings findings;
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
   ZpStatus status = ZP_OK;
-  int meshes = meshes_of(&findings);
-  bool enough = elements_of(2, task->def->mesh.nodes - 1) >= FEWEST_ELEMENTS;
-  bool wanted = enough && zp_outcome_good(result->outcome) && meshes > 0 && is_resolved(task->def, result);
-  for (int mesh = 1; mesh <= meshes && status == ZP_OK && wanted; mesh++) {
-    const ZpActuatorDef def = coarser(*task->def, elements_of(mesh, task->def->mesh.nodes - 1), moves);
+  int elements = task->def->mesh.nodes - 1;
+  bool resolved = result->resolution >= 1;
+  const Meshes meshes = resolved ? coarser_meshes(elements) : finer_meshes(elements, result->resolution);
+  int others = meshes_of(&findings);
+  bool wanted = zp_outcome_good(result->outcome) && others > 0;
+  if (resolved) wanted = wanted && meshes.elements[2] >= FEWEST_ELEMENTS;
+  if (wanted && !resolved) wanted = has_finer(task->def, meshes, result);
+  if (!resolved) others = 2;
+  for (int mesh = 1; mesh <= others && status == ZP_OK && wanted; mesh++) {
+    const ZpActuatorDef def = on_mesh(*task->def, meshes.elements[mesh], moves);
     status = solve(task, run, study, mesh, &def, &findings, err);
   }
   for (int k = 0; k < COUNT && status == ZP_OK; k++)
     if (estimated[k].study == study && has(result, estimated[k].value))
-      zp_result_add(result, estimated[k].error, estimated[k].unit, error_of(&findings, k));
+      zp_result_add(result, estimated[k].error, estimated[k].unit, error_of(&findings, &meshes, k));
   return status;
 }

@@ -80,8 +80,10 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   if (model->l > front)
     zp_result_note(
         result,
-        "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm; the error of pull-in, "
-        "zip time and force may reach 10 %%; with mesh.nodes = %.0f that of pull-in is usually less than 1 %%",
+        "mesh.nodes = %d: elements of %.3g mm are longer than the zip front, %.3g mm, so that closing voltage, "
+        "largest load, zip time and force may be off by more than half; with mesh.nodes = %.0f the error of pull-in is "
+        "usually less "
+        "than 1 %%",
         model->def.mesh.nodes, 1e3 * model->l, 1e3 * front, 1 + ceil(2 * model->L / front));
 }
 

@@ -39,7 +39,9 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
   ZpLeakStep step = step_of(model, span, e);
   zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
-  sum->leak += zp_leak_heat(&model->leak, &model->plates, &step, &e->leak);
+  ZpLeakHeat heat = zp_leak_heat(&model->leak, &model->plates, &step, &e->leak);
+  sum->leak += heat.conduction;
+  sum->contact += heat.overlap;
 }
 
 static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,

@@ -119,7 +119,7 @@ function ending({result, refused, stopped, broken: words}) {
 }
 
 const runColumns = ['time_s', 'stroke_m'], restColumns = ['voltage_V', 'stroke_m', 'stable', 'branch'];
-const runStudy = new Study(module, 'actuate', ['zip_time_s', 'max_stress_Pa', 'yield_margin', 'breakdown_margin', 'allowed_voltage_V'], runColumns, (answer) => view.showRun(answer, ending(answer)));
+const runStudy = new Study(module, 'actuate', ['zip_time_s', 'closed_from_s', 'max_stress_Pa', 'yield_margin', 'breakdown_margin', 'allowed_voltage_V'], runColumns, (answer) => view.showRun(answer, ending(answer)));
 const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'release_voltage_V'], restColumns, (answer) => {
   view.showRest(answer, ending(answer));
   showButtons();
@@ -127,12 +127,11 @@ const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'releas
 
 const kept = [['output.samples', '1000'], ['output.shapes', '2']]; // the plots need only few samples and shapes
 
-/** The run ends at the zip time, also with a supply. */
 function askStudies(values) {
-  runStudy.ask(new Map([['solver.stop_when_zipped', 'true'], ...values, ...kept]));
+  runStudy.ask(new Map([...values, ...kept]));
   const rest = scenario.atRest(values);
   restStudy.ask(new Map([...rest, ...kept, ['drive.voltage', `${highest} V`]]));
-  chart.ask(new Map([['mesh.nodes', '31'], ...rest, ...kept, ['output.errors', 'false'], ['liquid.model', 'none']]));
+  chart.ask(new Map([['mesh.nodes', '31'], ...rest, ...kept, ['output.errors', 'false']]));
 }
 
 // -- the scenario
@@ -215,9 +214,7 @@ function announceZip() {
 function work(passed) {
   live.advance(paused ? 0 : passed / slow.factor);
   showAlert();
-  $('time-note').classList.toggle('due', runStudy.due);
-  $('voltage-note').classList.toggle('due', restStudy.due);
-  $('chart-note').classList.toggle('due', chart.due);
+  view.showDue({run: runStudy.due, rest: restStudy.due, chart: chart.due});
   if (!live.frame) return;
   view.draw(calm);
   announceZip();

@@ -40,9 +40,10 @@ export function pretty(text) {
   return text.replace(/ohm\b/, 'Ω').replace(/\bmm2\b/, 'mm²').replace(/\bu(?=[a-zA-Z])/, 'µ').replace(/ (?=\S)/, ' ').replace('-', '−');
 }
 
-/** Tiles of a description list: name => {label, unit, title, study: from a study, not of this instant}. */
+/** Tiles of a description list: name => {label, unit, title, study: the name of a study, if not of this instant}. */
 export class Tiles {
   #values = new Map();
+  #studies = []; // [name, tile]
 
   constructor(list, tiles) {
     for (const [name, {unit, label, title, study}] of Object.entries(tiles)) {
@@ -51,6 +52,7 @@ export class Tiles {
       term.textContent = label;
       tile.title = title;
       tile.classList.toggle('study', Boolean(study));
+      if (study) this.#studies.push([study, tile]);
       number.id = `n-${name}`;
       number.textContent = '–';
       small.textContent = ` ${unit}`;
@@ -59,6 +61,11 @@ export class Tiles {
       list.append(tile);
       this.#values.set(name, number);
     }
+  }
+
+  /** Are the numbers of a study those of an older scenario? */
+  setDue(study, due) {
+    for (const [name, tile] of this.#studies) if (name === study) tile.classList.toggle('due', due);
   }
 
   show(name, text) {

@@ -15,13 +15,14 @@ const tiles = {
   capacitance: {label: 'Capacitance', unit: 'pF', title: 'capacitance of the electrodes'},
   bent: {label: 'Stress', unit: 'MPa', title: 'largest stress of the metal, from bending and tension'},
   time: {label: 'Time', unit: 'ms', title: 'simulated time since the last button was pressed'},
-  zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: true},
-  stress: {label: 'Largest stress', unit: 'MPa', title: 'largest stress of the metal from hanging to closed, at the voltage of Step', study: true},
-  yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal bends permanently', study: true},
-  breaks: {label: 'Breakdown margin', unit: '', title: 'insulator.breakdown_field over the field in the insulators at the voltage of Step: below 1 they break down', study: true},
-  allowed: {label: 'Allowed voltage', unit: 'kV', title: 'voltage at which the breakdown margin is 1', study: true},
-  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which the actuator pulls in as the voltage rises slowly', study: true},
-  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which the actuator opens again as the voltage falls slowly', study: true},
+  zip: {label: 'Zip time', unit: 'ms', title: 'from hanging to 99 % contraction at the voltage of Step', study: 'run'},
+  closed: {label: 'Stays closed from', unit: 'ms', title: 'the contraction stays at or above 99 % from then to the end of the run; a dash if it ends open', study: 'run'},
+  stress: {label: 'Largest stress', unit: 'MPa', title: 'largest stress of the metal from hanging to closed, at the voltage of Step', study: 'run'},
+  yields: {label: 'Yield margin', unit: '', title: 'ribbon.yield_stress over the largest stress: below 1 the metal bends permanently', study: 'run'},
+  breaks: {label: 'Breakdown margin', unit: '', title: 'insulator.breakdown_field over the field in the insulators at the voltage of Step: below 1 they break down', study: 'run'},
+  allowed: {label: 'Allowed voltage', unit: 'kV', title: 'voltage at which the breakdown margin is 1', study: 'run'},
+  pullin: {label: 'Pull-in', unit: 'kV', title: 'voltage at which the actuator pulls in as the voltage rises slowly', study: 'rest'},
+  letgo: {label: 'Opens at', unit: 'kV', title: 'voltage at which the actuator opens again as the voltage falls slowly', study: 'rest'},
 };
 
 const $ = (id) => document.getElementById(id);
@@ -98,6 +99,7 @@ export class View {
     this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
     const scalars = result?.scalars ?? {};
     this.tiles.show('zip', digits(1e3 * (scalars.zip_time_s ?? NaN)));
+    this.tiles.show('closed', digits(1e3 * (scalars.closed_from_s ?? NaN)));
     this.tiles.show('stress', digits((scalars.max_stress_Pa ?? NaN) / 1e6));
     this.tiles.show('yields', digits(scalars.yield_margin ?? NaN));
     this.tiles.show('breaks', digits(scalars.breakdown_margin ?? NaN));
@@ -118,6 +120,14 @@ export class View {
     this.tiles.show('letgo', digits(this.release / 1e3));
     $('voltage-note').textContent = words;
     list($('voltage-notes'), (result?.notes ?? []).map((words) => `up to ${this.#rest.highest / 1e3} kV: ${words}`));
+  }
+
+  /** Which results belong to an older scenario, until the answers arrive: of the run, of the equilibria, of the chart. */
+  showDue(due) {
+    for (const [study, note] of [['run', 'time'], ['rest', 'voltage'], ['chart', 'chart']]) {
+      this.tiles.setDue(study, due[study]);
+      $(`${note}-note`).classList.toggle('due', due[study]);
+    }
   }
 
   /** The legend of the field's colours. */

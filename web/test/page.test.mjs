@@ -52,6 +52,11 @@ const closed = (page) => until(page, 'contraction', (c) => c > 99, 'it closes');
 const native = (study, values) => JSON.parse(execFileSync(
   command, [study, ...[...values].flatMap(([key, text]) => ['--set', `${key}=${text}`]), '-o', folder, '--json', '--quiet'],
   {encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}));
+/** Wait until the answer of a study, with the note `note`, belongs to the scenario. */
+const answered = (page, note) => page.waitForFunction((id) => {
+  const {textContent, classList} = document.getElementById(id);
+  return textContent && !classList.contains('due');
+}, note);
 
 test('the page is one file', () => {
   assert.deepEqual(readdirSync(new URL('../dist', import.meta.url)), ['index.html']);
@@ -77,7 +82,9 @@ pageTest('zips by itself, holds, releases, zips again', {hash: '#liquid.model=no
 pageTest('the numbers shown are those of the command', {}, async (page) => {
   const values = scenario.beginning;
   const run = native('actuate', values), rest = native('equilibrium', new Map([...values, ['drive.voltage', '12 kV']]));
+  await answered(page, 'time-note');
   assert.equal(await page.textContent('#n-zip'), digits(1e3 * run.zip_time_s));
+  assert.equal(await page.textContent('#n-closed'), digits(1e3 * run.closed_from_s));
   assert.equal(await page.textContent('#n-stress'), digits(run.max_stress_Pa / 1e6));
   assert.equal(await page.textContent('#n-yields'), digits(run.yield_margin));
   assert.equal(await page.textContent('#n-breaks'), digits(run.breakdown_margin));
@@ -86,6 +93,25 @@ pageTest('the numbers shown are those of the command', {}, async (page) => {
   assert.equal(await page.textContent('#n-letgo'), digits(rest.release_voltage_V / 1e3));
   assert.equal(await page.textContent('#time-note'), run.message);
   assert.equal(await page.textContent('#voltage-note'), rest.message);
+});
+
+pageTest('zip time, stress and margins of the last actuator are marked until those of the new one arrive', {hash: '#liquid.model=none&mesh.nodes=31'}, async (page) => {
+  const run = ['zip', 'closed', 'stress', 'yields', 'breaks', 'allowed'], rest = ['pullin', 'letgo'];
+  const marked = (names) => page.evaluate((all) => all.map((name) => document.getElementById(`n-${name}`).closest('.study').classList.contains('due')), names);
+  const all = (names, due) => names.map(() => due);
+  await answered(page, 'time-note');
+  await answered(page, 'voltage-note');
+  assert.deepEqual(await marked([...run, ...rest]), all([...run, ...rest], false));
+  assert.notEqual(await page.textContent('#n-zip'), '–');
+  await page.click('button:text-is("Too heavy")');
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+  assert.deepEqual(await marked(run), all(run, true));
+  await answered(page, 'time-note');
+  assert.deepEqual(await marked(run), all(run, false));
+  const heavy = native('actuate', new Map([['load.mass', '30 g']]));
+  assert.equal(await page.textContent('#n-zip'), '–');
+  assert.equal(await page.textContent('#n-stress'), digits(heavy.max_stress_Pa / 1e6));
+  assert.equal(await page.textContent('#time-note'), heavy.message);
 });
 
 pageTest('a pause shows one instant; the number there is the command’s within a step’s error', {hash: '#liquid.model=none&solver.tolerance=1e-6&slow=20'}, async (page) => {
@@ -207,21 +233,23 @@ pageTest('materials fill what is not set otherwise', {hash: '#insulator.permitti
   assert.equal(await page.textContent('label[for=insulator-permittivity] ~ output'), '9');
 });
 
-pageTest('the design chart follows the thickness; its last point is the command’s', {}, async (page) => {
-  const most = async () => Number((await page.getAttribute('#plot-chart', 'aria-label')).match(/up to ([\d.]+) grams/)?.[1]);
-  const settled = () => page.waitForFunction(() => !document.getElementById('chart-note').classList.contains('due'));
-  await page.waitForFunction(() => /up to \d/.test(document.getElementById('plot-chart').getAttribute('aria-label')));
-  await settled();
-  await page.waitForTimeout(300);
-  const thin = await most();
-  const {max_load_kg: load} = native('limits', new Map([['liquid.model', 'none'], ['mesh.nodes', '31'], ['drive.voltage', '12 kV'], ['output.errors', 'false']]));
-  assert.equal(thin, Number(digits(1e3 * load)));
-  await page.focus('#ribbon-thickness');
-  for (let k = 0; k < 10; k++) await page.keyboard.press('ArrowRight');
-  await settled();
-  await page.waitForTimeout(300);
-  assert.ok((await most()) > 1.2 * thin, `${await most()} after ${thin}`);
-});
+for (const liquid of ['bead', 'submerged']) {
+  pageTest(`the design chart of a ${liquid} follows the thickness; its last point is the command’s`, {hash: `#liquid.model=${liquid}`}, async (page) => {
+    const most = async () => Number((await page.getAttribute('#plot-chart', 'aria-label')).match(/up to ([\d.]+) grams/)?.[1]);
+    const settled = () => answered(page, 'chart-note');
+    await page.waitForFunction(() => /up to \d/.test(document.getElementById('plot-chart').getAttribute('aria-label')));
+    await settled();
+    await page.waitForTimeout(300);
+    const thin = await most();
+    const {max_load_kg: load} = native('limits', new Map([['liquid.model', liquid], ['mesh.nodes', '31'], ['drive.voltage', '12 kV'], ['output.errors', 'false']]));
+    assert.equal(thin, Number(digits(1e3 * load)));
+    await page.focus('#ribbon-thickness');
+    for (let k = 0; k < 10; k++) await page.keyboard.press('ArrowRight');
+    await settled();
+    await page.waitForTimeout(300);
+    assert.ok((await most()) > 1.2 * thin, `${await most()} after ${thin}`);
+  });
+}
 
 pageTest('the tour has five steps and ends where it began', {}, async (page) => {
   await page.click('#tour');
