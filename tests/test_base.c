@@ -325,7 +325,7 @@ START_TEST(test_defaults_are_those_promised) {
       {"damping.drag", 0, NULL},
       {"solver.integrator", 0, "implicit"},
       {"solver.end_time", 1, NULL},
-      {"solver.tolerance", 1e-4, NULL},
+      {"solver.tolerance", NAN, NULL},
       {"solver.time_step", NAN, NULL},
       {"initial.state", 0, "equilibrium"},
       {"preset", 0, "none"},

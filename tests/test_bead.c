@@ -456,7 +456,7 @@ END_TEST
 
 /* The zip time depends neither on the roughness nor on the mesh. */
 START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
-  double time = RUN(BEAD).zip_time, rough = RUN(BEAD, {"film.roughness", 10e-6}).zip_time,
+  double time = RUN(BEAD, {"solver.tolerance", 1e-4}).zip_time, rough = RUN(BEAD, {"film.roughness", 10e-6}).zip_time,
          fine = RUN(BEAD, {"film.roughness", 0.5e-6}).zip_time, mesh = RUN(BEAD, {"mesh.nodes", 121}).zip_time,
          exact = RUN(BEAD, {"solver.tolerance", 1e-5}).zip_time;
   printf("bead: %.2f ms; roughness 0.5 and 10 um %.2f, %.2f ms; 121 nodes %.2f ms; finer steps %.2f ms\n", 1e3 * time,

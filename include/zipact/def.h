@@ -181,6 +181,9 @@ ZP_API ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, Z
  * ZP_LIQUID_NONE. ZP_LIQUID_NONE also for a Def of another library. */
 ZP_API ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
 
+/* solver.tolerance as a number: the relative error at which the time steps of a motion aim. */
+ZP_API double zp_def_tolerance(const ZpActuatorDef *def);
+
 #ifdef __cplusplus
 }
 #endif

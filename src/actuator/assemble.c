@@ -58,6 +58,22 @@ static int outermost(const ZpAssembly *a, size_t i, size_t end, int sign) {
   return most;
 }
 
+static size_t wider(size_t width, int first, int last) {
+  return last - first > (int)width ? (size_t)(last - first) : width;
+}
+
+/* Coordinates of a station couple to those of the next two, unknowns of the laws to all of the next station. */
+static size_t bandwidth_of(const ZpAssembly *a) {
+  size_t width = 2 * per_station(a) - 1;
+  for (size_t i = 0; i < a->nodes; i++) {
+    int first = outermost(a, i, i + 1, -1);
+    if (first < 0) continue;
+    width = wider(width, first, outermost(a, i, i + 3, 1));
+    if (a->own > 0) width = wider(width, first, a->own_equation[a->own * least(i + 2, a->nodes) - 1]);
+  }
+  return width;
+}
+
 /* Each station couples to the next two. With two ribbons it is a group of four equations, with one ribbon half a group,
  * unless held or joined nodes shift them. */
 static ZpBandGroups groups_of(const ZpAssembly *a) {
@@ -83,7 +99,6 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
                     .stride = model->stride,
                     .own = own,
                     .symmetric = symmetric};
-  a->bandwidth = 3 * per_station(a) - 1;
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->first = zp_calloc(model->nodes, sizeof *a->first);
   a->own_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->own_equation);
@@ -92,6 +107,7 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
     return false;
   }
   a->n = number(&model->topology, a);
+  a->bandwidth = bandwidth_of(a);
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
     a->first[i] = first_of(a, i);

@@ -316,7 +316,7 @@ static void put_experiment(FILE *file, const ZpFmuPlan *plan) {
         "  <DefaultExperiment startTime=\"0\"",
         file);
   put_number(file, "stopTime", plan->end);
-  put_number(file, "tolerance", plan->start->value[zp_key_find("solver.tolerance")]);
+  put_number(file, "tolerance", plan->tolerance);
   put_number(file, "stepSize", plan->step);
   fputs("/>\n", file);
 }

@@ -17,6 +17,7 @@ typedef struct ZpFmuPlan {
   bool controlled;              /* the setpoint replaces the voltage as input */
   double first[ZP_INPUT_COUNT]; /* start value of the input */
   double end, step;             /* default experiment, s */
+  double tolerance;             /* and its relative error */
   const ZpKit *sources;         /* files of the kit, including those in sources/ */
 } ZpFmuPlan;
 

@@ -72,6 +72,7 @@ static ZpStatus fill_start(ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) 
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.offset: the voltage is %g V at t = 0, where the input of an FMU starts; it takes 0 V or more",
                    zp_fmu_first_voltage(def));
+  def->solver.tolerance = zp_def_tolerance(def); /* importers need a number */
   memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
   start->size = sizeof *start;
   start->layout = zp_def_layout();
@@ -299,6 +300,7 @@ ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, 
         .first = {[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&def), [ZP_INPUT_SETPOINT] = zp_fmu_first_setpoint(&def)},
         .end = end,
         .step = fmin(step_size, end),
+        .tolerance = def.solver.tolerance,
         .sources = &names};
     status = write_archive(&plan, kit, path, err);
   }

@@ -338,8 +338,8 @@ ZP_INLINE void multiply_rows(const ZpBand *band, size_t width, const double *x, 
   }
 }
 
-/* The blocks of rows of one ribbon and of two are compiled on their own. */
-enum { ONE_RIBBON = 2, TWO_RIBBONS = 3 };
+/* The blocks of rows of one ribbon, of two, and of two with a film are compiled on their own. */
+enum { ONE_RIBBON = 2, TWO_RIBBONS = 3, WITH_FILM = 5 };
 
 static size_t blocks_of(const ZpBand *band) {
   return band->stride / ZP_BAND_BLOCK;
@@ -349,6 +349,7 @@ ZP_KERNEL static bool factor_symmetric(const ZpBand *band) {
   fill_blocks(band);
   if (blocks_of(band) == TWO_RIBBONS) return factor_blocks(band, TWO_RIBBONS);
   if (blocks_of(band) == ONE_RIBBON) return factor_blocks(band, ONE_RIBBON);
+  if (blocks_of(band) == WITH_FILM) return factor_blocks(band, WITH_FILM);
   return factor_blocks(band, blocks_of(band));
 }
 
@@ -357,6 +358,8 @@ ZP_KERNEL static void solve_symmetric(const ZpBand *band, double *b) {
     solve_blocks(band, TWO_RIBBONS, b);
   else if (blocks_of(band) == ONE_RIBBON)
     solve_blocks(band, ONE_RIBBON, b);
+  else if (blocks_of(band) == WITH_FILM)
+    solve_blocks(band, WITH_FILM, b);
   else
     solve_blocks(band, blocks_of(band), b);
 }

@@ -473,6 +473,28 @@ static double calm(ZpDynamics *d) {
   return before - kinetic_energy(d);
 }
 
+/* A film of thickness H takes momentum in the time H^2 / (12 nu). Where a step is longer, relative velocities of faces
+ * would reverse in every step around their mean, so each station loses a share of that difference, eq. (18.14) => the
+ * loss, J. */
+static double settle_films(ZpDynamics *d) {
+  static const double thin = 2; /* times the roughness: faces lie on each other */
+  double before = kinetic_energy(d);
+  for (ZpDynamics *m = d; m; m = m->below) {
+    const ZpFilmParams *film = &m->model->film;
+    for (size_t i = 1; i < m->model->nodes; i++) {
+      Pair pair = pair_of(m, i);
+      double H = zp_film_thickness(film, m->eval.plates.gap[i]), drag = 6 * film->mu * d->h;
+      if (pair.lower < 0 || H > thin * film->roughness) continue;
+      double share = drag / (drag + film->rho * H * H), w = -m->history.w[pair.lower], v = -m->v[pair.lower];
+      if (pair.upper >= 0) w += m->history.w[pair.upper], v += m->v[pair.upper];
+      double lost = share * share * share * (v - w);
+      m->v[pair.lower] += lost * (pair.upper >= 0 ? pair.upper_share : 1);
+      if (pair.upper >= 0) m->v[pair.upper] -= lost * (1 - pair.upper_share);
+    }
+  }
+  return before - kinetic_energy(d);
+}
+
 /* -- creation and step ---------------------------------------------------------------------------- */
 
 /* Pressures are unknowns of one step, without memory. */
@@ -616,7 +638,7 @@ static void fill_equations(ZpDynamics *d) {
  * would converge. */
 static double error_of_step(const ZpActuatorDef *def) {
   static const double finest = 1e-7;
-  double tolerance = fmax(def->solver.tolerance, finest);
+  double tolerance = fmax(zp_def_tolerance(def), finest);
   return 1.5 * tolerance * sqrt(tolerance);
 }
 
@@ -783,7 +805,10 @@ static void book(ZpDynamics *d, ZpState *state) {
 static void book_impacts(ZpDynamics *d, ZpState *state) {
   if (!d->model->field) return;
   state->contact_loss += impact(d);
-  if (d->model->has_bead) state->across_loss += calm(d);
+  if (d->model->has_bead)
+    state->across_loss += calm(d);
+  else if (d->model->has_film)
+    state->across_loss += settle_films(d);
 }
 
 /* Store the state at the step's end, and book the work of the load input. */

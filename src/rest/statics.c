@@ -6,6 +6,7 @@
 
 #include "base/kernel.h"
 #include "def/check.h"
+#include "def/tolerance.h"
 #include "math/elementary.h"
 #include "rest/crossing.h"
 #include "solve/descend.h"
@@ -79,7 +80,7 @@ void zp_statics_destroy(ZpStatics *s) {
 
 double zp_statics_tolerance(const ZpStatics *s) {
   const ZpModel *model = s->model;
-  return fmax(1e-3 * model->def.solver.tolerance, 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
+  return fmax(zp_tolerance_at_rest(&model->def), 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
 }
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
@@ -578,7 +579,7 @@ static double change(void *self, const double *step) {
   const ZpModel *model = s->model;
   double most = largest_rotation(s, step);
   if (model->field && s->U != 0) most = fmax(most, gap_share(s, step));
-  return most / (1e-3 * model->def.solver.tolerance);
+  return most / zp_tolerance_at_rest(&model->def);
 }
 
 /* The axial stiffness of edge j is S[j], or `all` if S is NULL. => edge vectors in place of the displacements of their

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "def/tolerance.h"
 #include "rest/rest.h"
 #include "rest/together.h"
 #include "ribbon/rod_plastic.h"
@@ -106,7 +107,7 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   const ZpModel *model = sim->model;
   size_t n = 2 * model->stride;
   /* the stroke's error is of the order of the imbalance times the number of nodes */
-  double tolerance = fmax(1e-3 * model->def.solver.tolerance, rounding_floor(model));
+  double tolerance = fmax(zp_tolerance_at_rest(&model->def), rounding_floor(model));
   Settling settling = {.sim = sim, .hooks = hooks, .tolerance = tolerance};
   ZpRelaxSystem system = {n, &settling, accelerate, residual, stop};
   memcpy(q, zp_state_q(model, sim->state), n * sizeof *q);

@@ -613,7 +613,6 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   info->steps++;
   limit = limit_of(sim, limit, corner, end_time);
   info->limited[limit]++;
-  if (!fine) zp_sim_see(sim);
   if (sim->rates) zp_run_rates_follow(sim->rates);
   sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(zp_sim_zip_time(sim)));
 }
@@ -666,6 +665,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
     bool sample = recording && state->t >= next_sample;
+    if (!sample && !sim->stepping->fine) zp_sim_see(sim); /* a record sees, too */
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
       if (diverged(sim)) return ZP_DIVERGED;
       keep(sim);

@@ -73,13 +73,15 @@ static Meshes finer_meshes(int elements, double resolution) {
  * for its elements alone. Only numbers of the summary are requested. */
 static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
   double longer = fmax(1, (def.mesh.nodes - 1) / (double)elements);
+  const double tolerance = zp_def_tolerance(&def);
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
   if (moves) def.solver.stop_when_zipped = ZP_WHEN_TRUE; /* its zip time is requested */
-  if (moves) def.solver.tolerance *= longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
-  if (moves) def.solver.time_step *= longer;          /* NAN, auto, stays */
+  if (moves)
+    def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
+  if (moves) def.solver.time_step *= longer;            /* NAN, auto, stays */
   return def;
 }
 

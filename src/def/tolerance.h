@@ -1,0 +1,10 @@
+/* What solver.tolerance means at rest; zp_def_tolerance says what it means in motion. */
+#ifndef ZP_DEF_TOLERANCE_H
+#define ZP_DEF_TOLERANCE_H
+
+#include <zipact/def.h>
+
+/* Relative error at which equilibria are solved. */
+double zp_tolerance_at_rest(const ZpActuatorDef *def);
+
+#endif
