@@ -925,6 +925,7 @@ int main(int argc, char **argv) {
     known++;
   }
   if (known == 0)
-    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, loads, ramp, liquid, supply\n", word);
+    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, loads, ramp, liquid, supply\n",
+            word);
   return known == 0 ? 2 : bad > 0;
 }

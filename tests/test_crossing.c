@@ -31,6 +31,23 @@ START_TEST(depth_is_that_of_two_lines) {
 }
 END_TEST
 
+/* Only one node overlaps, by 1 um, beside a neighbour far outside: the faces cross twice, and the depth is that of the
+ * node, as at a zip front on a coarse mesh. */
+START_TEST(depth_of_one_node_is_its_own) {
+  enum { AT = 6 };
+  ZpActuatorDef def = DEF({"mesh.nodes", 11});
+  ZpModel *model = model_of(&def);
+  double *q = zp_calloc(2 * model->stride, sizeof *q);
+  for (size_t j = 0; j < model->count; j++) {
+    q[j] = zp_straight_x(model, j / 2);
+    q[model->stride + j] = j % 2 ? (j / 2 == AT ? 1e-6 : j / 2 < AT ? -2e-7 : -4e-4) : 0;
+  }
+  ck_near(zp_crossing_depth(model, q), 1e-6, 1e-6);
+  zp_free(q);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* The reason why a state is refused. */
 START_TEST(impossible_states_are_named) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
@@ -80,6 +97,7 @@ int main(void) {
   Suite *suite = suite_create("crossing");
   TCase *states = tcase_create("states");
   tcase_add_test(states, depth_is_that_of_two_lines);
+  tcase_add_test(states, depth_of_one_node_is_its_own);
   tcase_add_test(states, impossible_states_are_named);
   tcase_add_test(states, release_of_a_fold_converges);
   suite_add_tcase(suite, states);

@@ -146,8 +146,8 @@ START_TEST(test_liquid_is_waited_for) {
   static const struct { double liquid, frequency; } row[] = {{ZP_LIQUID_SUBMERGED, 3}, {ZP_LIQUID_BEAD, 8}};
   enum { CYCLES = 40 };
   double f = row[_i].frequency, least = 1, most = 0;
-  ZpActuatorDef def =
-      DEF(SINE, {"mesh.nodes", 21}, {"liquid.model", row[_i].liquid}, {"bead.volume", 50e-9}, {"drive.frequency", f});
+  ZpActuatorDef def = DEF(SINE, {"mesh.nodes", 21}, {"liquid.model", row[_i].liquid}, {"bead.volume", 50e-9},
+                          {"drive.frequency", f}, {"solver.tolerance", 1e-4});
   ZpResult *result = cycle_of(&def);
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);

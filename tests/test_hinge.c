@@ -159,7 +159,8 @@ END_TEST
 START_TEST(swing_keeps_energy) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.2e-3},
                           {"load.mass", 4e-3}, {"hinge.stiffness", 5e-3}, {"hinge.rest_angle", 0.5}, {"mesh.nodes", 21},
-                          {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 0}, {"solver.end_time", 0.5});
+                          {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 0}, {"solver.end_time", 0.5},
+                          {"solver.tolerance", 1e-4});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   double most = 0, widest = 0, fastest = 0;
   for (size_t i = 0; i < result->series->rows; i++) {
@@ -181,14 +182,17 @@ START_TEST(zips_and_keeps_the_books) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.1e-3},
           {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2}, {"mesh.nodes", FULL_OR(31, 15)},
-          {"electro.edges", _i}, {"solver.end_time", FULL_OR(0.4, 0.3)});
+          {"electro.edges", _i}, {"solver.end_time", _i ? FULL_OR(0.4, 0.3) : 0.06}, {"solver.tolerance", 1e-4});
   if (_i) def.drive.waveform = ZP_WAVEFORM_SQUARE, def.drive.frequency = 4;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_below(zp_result_get(result, "energy_error"), 1e-6);
   ck_assert_double_gt(zp_table_get(result->series, 0, "angle_rad"), 0.2);
   if (_i == 0) {
     ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-    ck_near(zp_result_get(result, "zipped_length_m"), def.ribbon.length, 0.1);
+    double longest = 0; /* dry faces that have closed still vibrate */
+    for (size_t i = 0; i < result->series->rows; i++)
+      longest = fmax(longest, zp_table_get(result->series, i, "zipped_length_m"));
+    ck_near(longest, def.ribbon.length, 0.1);
     double rise = zp_table_get(result->series, 0, "stroke_m") - zp_result_get(result, "stroke_m");
     ck_near(zp_result_get(result, "mechanical_work_J"), def.load.mass * def.gravity * rise, 1e-9);
   }

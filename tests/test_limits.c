@@ -503,7 +503,8 @@ START_TEST(largest_load_is_the_largest_that_closes) {
   const ZpActuatorDef designs[] = {
       DEF({"drive.voltage", 3600}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"mesh.nodes", 61}),
       DEF({"drive.voltage", 9100}, {"ribbon.length", 80e-3}, {"ribbon.thickness", 25e-6},
-          {"insulator.thickness", 50e-6}, {"insulator.permittivity", 3.4}, {"mesh.nodes", 241}),
+          {"insulator.thickness", 50e-6}, {"insulator.permittivity", 3.4}, {"liquid.model", ZP_LIQUID_BEAD},
+          {"bead.volume", 40e-9}, {"mesh.nodes", 61}),
       DEF({"drive.voltage", 6900}, {"ribbon.length", 30e-3}, {"ribbon.thickness", 100e-6}, {"load.mass", 1},
           {"mesh.nodes", 31}),
       DEF({"ribbon.length", 0.01888528211665429}, {"ribbon.width", 0.0088206067348378832},

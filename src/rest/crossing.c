@@ -32,12 +32,26 @@ static double distance_to_upper(const ZpModel *model, const double *q, size_t st
   return least;
 }
 
-/* The lower ribbon passes above the upper one at its edge `station`, forwards or backwards: how deep it is there. */
+static bool cross(Point a, Point b, Point c, Point d) {
+  return side(c, d, a) * side(c, d, b) < 0 && side(a, b, c) * side(a, b, d) < 0;
+}
+
+/* Does this edge of the lower ribbon cross the upper one? */
+static bool edge_crosses(const ZpModel *model, const double *q, size_t station) {
+  Point a = node(model, q, 1, station), b = node(model, q, 1, station + 1);
+  for (size_t i = 0; i + 1 < model->nodes; i++)
+    if (cross(a, b, node(model, q, 0, i), node(model, q, 0, i + 1))) return true;
+  return false;
+}
+
+/* The lower ribbon passes above the upper one at its edge `station`, forwards or backwards: how deep it is there, by the
+ * next two nodes, or by one if it comes back behind that. */
 static double depth_beyond(const ZpModel *model, const double *q, size_t station, bool forwards) {
   size_t first = forwards ? station + 1 : station;
   size_t next = forwards ? first + 1 : first - 1; /* wraps below 0 */
   double depth = distance_to_upper(model, q, first);
-  return next < model->nodes ? fmax(depth, distance_to_upper(model, q, next)) : depth;
+  if (next >= model->nodes || edge_crosses(model, q, forwards ? first : next)) return depth;
+  return fmax(depth, distance_to_upper(model, q, next));
 }
 
 /* Do both ribbons run to the right everywhere? */
@@ -60,9 +74,8 @@ double zp_crossing_depth(const ZpModel *model, const double *q) {
       Point c = node(model, q, 0, k), d = node(model, q, 0, k + 1);
       if (sorted && c.x > right) break;
       if (fmax(c.x, d.x) < left || fmin(c.x, d.x) > right || fmax(c.y, d.y) < bottom || fmin(c.y, d.y) > top) continue;
-      double of_a = side(c, d, a), of_b = side(c, d, b);
-      if (!(of_a * of_b < 0 && side(a, b, c) * side(a, b, d) < 0)) continue;
-      deepest = fmax(deepest, depth_beyond(model, q, i, of_b > 0));
+      if (!cross(a, b, c, d)) continue;
+      deepest = fmax(deepest, depth_beyond(model, q, i, side(c, d, b) > 0));
     }
   }
   return deepest;

@@ -338,17 +338,22 @@ static double deepest_crossing(const ZpStatics *s) {
   return fmax(deepest_overlap(s), of_insulators * zp_insulation(&s->model->def));
 }
 
-const char *zp_statics_fault(const ZpStatics *s) {
+const char *zp_statics_fault_of_stations(const ZpStatics *s) {
   static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
   if (!s->model->field) return NULL;
   double least = INFINITY, most = deepest_overlap(s), capacitance = zp_statics_capacitance(s);
   for (size_t i = 0; i < s->model->nodes; i++)
     least = fmin(least, s->eval.plates.gap[i]);
   if (s->contact_acts && least < -most) return "the insulators' faces overlap";
-  if (s->contact_acts && zp_crossing_depth(s->model, s->q) > deepest_crossing(s)) return "the faces cross each other";
   if (capacitance < 0) return "the capacitance is negative";
   if (capacitance > beyond_plates * closed_capacitance(s)) return "the capacitance is above that of closed faces";
   return NULL;
+}
+
+const char *zp_statics_fault(const ZpStatics *s) {
+  bool apart = s->model->field && s->contact_acts; /* as contact wants them */
+  if (apart && zp_crossing_depth(s->model, s->q) > deepest_crossing(s)) return "the faces cross each other";
+  return zp_statics_fault_of_stations(s);
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *room) {

@@ -119,6 +119,10 @@ const char *zp_statics_trouble(const ZpStatics *statics);
  * faces. NULL if there is none. Of the last residual. */
 const char *zp_statics_fault(const ZpStatics *statics);
 
+/* As zp_statics_fault, without faces that cross each other where ribbons are steep. Points on the way of a branch may:
+ * coarse meshes have such points beside right answers. */
+const char *zp_statics_fault_of_stations(const ZpStatics *statics);
+
 /* The present point: charge and capacitance of the whole actuator's electrodes, C, F. */
 double zp_statics_charge(const ZpStatics *statics);
 double zp_statics_capacitance(const ZpStatics *statics);

@@ -122,7 +122,7 @@ static bool follow(Follower *f, bool growing, int mark) {
   if (!zp_rest_follow(&f->rest, growing)) return false;
   for (int k = 0; k < MOST_POINTS; k++) {
     double direction = f->rest.branch.direction_m;
-    if (!zp_branch_advance(&f->rest.branch) || zp_statics_fault(&f->rest.statics)) return false;
+    if (!zp_branch_advance(&f->rest.branch) || zp_statics_fault_of_stations(&f->rest.statics)) return false;
     f->turns += direction * f->rest.branch.direction_m < 0;
     if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
     if (f->rest.statics.U < 0) return !f->ran_back;

@@ -113,11 +113,12 @@ static bool asked_to_stop(void *holder) {
   return zp_task_stops(h->task, "raising the voltage", fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage);
 }
 
-/* Is the present state possible? Its force is at most the attraction of closed faces. */
-static bool is_possible(Holder *h) {
+/* Is the present state possible, as an answer or as a point on the way? Its force is at most the attraction of closed
+ * faces. */
+static bool is_possible(Holder *h, bool answer) {
   const ZpPlatesParams *plates = &h->rest.statics.model->plates;
   double most = zp_plates_law(plates, h->rest.statics.U, 0).W * zp_faces_length(h->model);
-  h->fault = zp_statics_fault(&h->rest.statics);
+  h->fault = answer ? zp_statics_fault(&h->rest.statics) : zp_statics_fault_of_stations(&h->rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
 }
@@ -160,7 +161,7 @@ static End follow(Holder *h) {
     double direction = h->rest.branch.direction_m;
     h->rising = direction > 0;
     h->rest.system.save(s, h->before);
-    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h);
+    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h, false);
     if (!further && !turned) memcpy(h->edge, h->before, h->rest.system.save_size);
     if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
@@ -186,7 +187,7 @@ static bool fall(Holder *h, bool turned) {
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     h->rest.system.restore(s, h->edge);
     double U = fmin((1 + above[k]) * h->highest + least * top, top);
-    found = zp_newton_good(zp_statics_fall(s, U, &h->rest.branch.newton).end) && is_possible(h);
+    found = zp_newton_good(zp_statics_fall(s, U, &h->rest.branch.newton).end) && is_possible(h, false);
   }
   if (!found) return false;
   pass(h, turned);
@@ -208,7 +209,7 @@ static bool settle(Holder *h, ZpNewtonInfo *info) {
   int iterations = info->iterations;
   *info = zp_rest_settle(&h->rest, h->model->def.drive.voltage);
   info->iterations += iterations;
-  return zp_newton_good(info->end) && is_stable(h) && is_possible(h);
+  return zp_newton_good(info->end) && is_stable(h) && is_possible(h, true);
 }
 
 /* If that fails, limit points are near: repeat the branch's last step in shorter and shorter ones. */
@@ -231,7 +232,7 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
   h->rest.system.restore(&h->rest.statics, h->before);
   *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage, &h->rest.branch.newton);
-  return zp_newton_good(info->end) && is_possible(h);
+  return zp_newton_good(info->end) && is_possible(h, true);
 }
 
 /* Further along the branch: other stable states at drive.voltage. */
