@@ -32,7 +32,7 @@ CASES = {
     "limits": ["limits", "--set", "liquid.model=none", "--set", "load.mass=" + listed(2, 20, 12, "g"), "--set", "ribbon.thickness=" + listed(40, 80, 5, "um"), "--set", "mesh.nodes=31", "--set", "output.errors=false"],
     "samples": ["limits", "--set", "liquid.model=none", "--set", "load.mass=[8 g, 9 g]", "--set", "ribbon.thickness=normal(50 um, 1 um)", "--set", "insulator.thickness=uniform(120 um, 140 um)",
                 "--set", "sampling.count=8", "--set", "sampling.indices=true", "--set", "mesh.nodes=21", "--set", "output.errors=false"],
-    "closing": ["actuate", "--set", "bead.volume=[50 uL, 300 uL]", "--set", "mesh.nodes=11", "--set", "solver.end_time=0.3 s", "--set", "output.errors=false"],
+    "closing": ["actuate", "--set", "bead.volume=[50 uL, 300 uL]", "--set", "mesh.nodes=11", "--set", "solver.end_time=0.3 s", "--set", "solver.tolerance=1e-4", "--set", "output.errors=false"],
     "motion": ["actuate", "--set", "drive.voltage=[0, 6 kV, 8 kV]", "--set", "mesh.nodes=11", "--set", "solver.end_time=5 ms", "--set", "output.errors=false"],
 }
 

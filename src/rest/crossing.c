@@ -23,35 +23,31 @@ static double distance_to_edge(Point a, Point b, Point c) {
   return sqrt(dx * dx + dy * dy);
 }
 
-/* From a node of the lower ribbon to the upper one. */
-static double distance_to_upper(const ZpModel *model, const double *q, size_t station) {
-  double least = INFINITY;
+static double distance_to_line(Point a, Point b, Point c) {
+  return side(a, b, c) / hypot(b.x - a.x, b.y - a.y);
+}
+
+/* By how much a node of the lower ribbon lies beyond the upper one, m, at least 0: on the left of its nearest edge.
+ * Where that is a corner, the edge counts from whose line the node is farther. */
+static double depth_of(const ZpModel *model, const double *q, size_t station) {
+  double least = INFINITY, beyond = 0;
   Point at = node(model, q, 1, station);
-  for (size_t i = 0; i + 1 < model->nodes; i++)
-    least = fmin(least, distance_to_edge(node(model, q, 0, i), node(model, q, 0, i + 1), at));
-  return least;
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    Point a = node(model, q, 0, i), b = node(model, q, 0, i + 1);
+    double distance = distance_to_edge(a, b, at), to_line = distance_to_line(a, b, at);
+    bool corner = distance == least && fabs(to_line) > fabs(beyond);
+    if (distance < least || corner) beyond = to_line;
+    least = fmin(least, distance);
+  }
+  return beyond > 0 ? least : 0;
 }
 
-static bool cross(Point a, Point b, Point c, Point d) {
-  return side(c, d, a) * side(c, d, b) < 0 && side(a, b, c) * side(a, b, d) < 0;
-}
-
-/* Does this edge of the lower ribbon cross the upper one? */
-static bool edge_crosses(const ZpModel *model, const double *q, size_t station) {
-  Point a = node(model, q, 1, station), b = node(model, q, 1, station + 1);
-  for (size_t i = 0; i + 1 < model->nodes; i++)
-    if (cross(a, b, node(model, q, 0, i), node(model, q, 0, i + 1))) return true;
-  return false;
-}
-
-/* The lower ribbon passes above the upper one at its edge `station`, forwards or backwards: how deep it is there, by the
- * next two nodes, or by one if it comes back behind that. */
+/* The lower ribbon passes above the upper one at its edge `station`, forwards or backwards: how deep it is there. */
 static double depth_beyond(const ZpModel *model, const double *q, size_t station, bool forwards) {
   size_t first = forwards ? station + 1 : station;
   size_t next = forwards ? first + 1 : first - 1; /* wraps below 0 */
-  double depth = distance_to_upper(model, q, first);
-  if (next >= model->nodes || edge_crosses(model, q, forwards ? first : next)) return depth;
-  return fmax(depth, distance_to_upper(model, q, next));
+  double depth = depth_of(model, q, first);
+  return next < model->nodes ? fmax(depth, depth_of(model, q, next)) : depth;
 }
 
 /* Do both ribbons run to the right everywhere? */
@@ -74,8 +70,9 @@ double zp_crossing_depth(const ZpModel *model, const double *q) {
       Point c = node(model, q, 0, k), d = node(model, q, 0, k + 1);
       if (sorted && c.x > right) break;
       if (fmax(c.x, d.x) < left || fmin(c.x, d.x) > right || fmax(c.y, d.y) < bottom || fmin(c.y, d.y) > top) continue;
-      if (!cross(a, b, c, d)) continue;
-      deepest = fmax(deepest, depth_beyond(model, q, i, side(c, d, b) > 0));
+      double of_b = side(c, d, b);
+      if (!(side(c, d, a) * of_b < 0 && side(a, b, c) * side(a, b, d) < 0)) continue;
+      deepest = fmax(deepest, depth_beyond(model, q, i, of_b > 0));
     }
   }
   return deepest;
