@@ -140,6 +140,15 @@ static const ZpPoint *point_of(const ZpOptimization *o, size_t row) {
   return &o->search.point[o->number[row]];
 }
 
+/* Does an earlier row of the front have the same objectives? Evolution may try a design twice. */
+static bool is_on_front(const ZpOptimization *o, size_t row) {
+  const ZpProblem *p = &o->search.problem;
+  for (size_t k = 0; k < o->optimum.count; k++)
+    if (memcmp(point_of(o, o->best[k])->value, point_of(o, row)->value, p->objectives * sizeof(double)) == 0)
+      return true;
+  return false;
+}
+
 /* Rows that no other row betters or dominates. */
 static void find_best(ZpOptimization *o) {
   const ZpProblem *p = &o->search.problem;
@@ -156,7 +165,7 @@ static void find_best(ZpOptimization *o) {
     for (size_t other = 0; other < o->report.count && !dominated; other++)
       dominated = zp_dominates(p, point_of(o, other)->value, point_of(o, row)->value);
     size_t place = o->optimum.count;
-    if (dominated) continue;
+    if (dominated || is_on_front(o, row)) continue;
     for (; place > 0 && point_of(o, o->best[place - 1])->value[0] > point_of(o, row)->value[0]; place--)
       o->best[place] = o->best[place - 1];
     o->best[place] = row;
