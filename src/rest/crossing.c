@@ -24,7 +24,8 @@ static double distance_to_edge(Point a, Point b, Point c) {
 }
 
 static double distance_to_line(Point a, Point b, Point c) {
-  return side(a, b, c) / hypot(b.x - a.x, b.y - a.y);
+  double x = b.x - a.x, y = b.y - a.y;
+  return side(a, b, c) / sqrt(x * x + y * y);
 }
 
 /* By how much a node of the lower ribbon lies beyond the upper one, m, at least 0: on the left of its nearest edge.
