@@ -235,7 +235,7 @@ test('the command line that the page shows gives the page’s scenario', () => {
 
 test('numbers that leave all bounds are said to, and the next scenario runs', () => {
   const core = new Core(module);
-  core.resolve(new Map([['drive.voltage', '1000 kV'], ['electro.breakdown_cap', 'false'], ['insulator.thickness', '10 um']]));
+  core.resolve(new Map([['drive.voltage', '1000 kV'], ['electro.breakdown_cap', 'false'], ['insulator.thickness', '10 um'], ['ribbon.thickness', '1 um']]));
   core.start();
   assert.match(core.run(0.01), /no time step converges/);
   core.resolve(new Map());
