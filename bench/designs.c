@@ -28,8 +28,6 @@
  *                                        coarse to 1 % beyond what half the elements' length changes? Status 1 if one
  *                                        does not
  */
-#include <zipact/zipact.h>
-
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
@@ -37,22 +35,12 @@
 #include <string.h>
 #include <time.h>
 
-/* -- drawing ------------------------------------------------------------------------------------------ */
+#include "draw.h"
 
-/* splitmix64: the same designs on every machine. => uniform in [0, 1) */
-static double draw(uint64_t *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
+/* -- drawing ------------------------------------------------------------------------------------------ */
 
 static double uniform(uint64_t *state, double from, double to) {
   return from + (to - from) * draw(state);
-}
-
-static double log_uniform(uint64_t *state, double from, double to) {
-  return from * pow(to / from, draw(state));
 }
 
 typedef struct Metal {
@@ -94,23 +82,6 @@ static ZpActuatorDef design_for(ZpStudy study, uint64_t *state) {
     def.isometric.separation = def.ribbon.length * log_uniform(&own, 3e-3, 0.3);
   if (study == ZP_STUDY_MODES) def.modes.voltage = 0.5 * def.drive.voltage;
   return def;
-}
-
-/* As options of the command; keys that are as by default are left out. */
-static void print_design(const ZpActuatorDef *def) {
-  const ZpActuatorDef plain = zp_actuator_def_default();
-  for (int k = 0; k < zp_key_count(); k++) {
-    const ZpKey *key = zp_key(k);
-    double value = zp_def_get(def, k);
-    if (isnan(value) || value == zp_def_get(&plain, k)) continue;
-    if (key->type == ZP_KEY_BOOL)
-      printf(" --set %s=%s", key->name, value == 0 ? "false" : "true");
-    else if (key->type == ZP_KEY_ENUM)
-      printf(" --set %s=%s", key->name, key->choices[(int)value].word);
-    else
-      printf(" --set %s=%.17g", key->name, value);
-  }
-  printf("\n");
 }
 
 /* -- bounds ------------------------------------------------------------------------------------------- */

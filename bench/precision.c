@@ -33,7 +33,7 @@ static ZpStatus print_row(const ZpActuatorDef *def, const Trajectory *reference,
   if (status != ZP_OK) return status;
   const bool equal = implicit && !isnan(def->solver.time_step);
   printf("%s,%d,", equal ? "equal" : implicit ? "implicit" : "explicit", def->mesh.nodes);
-  if (implicit && !equal) printf("%g", def->solver.tolerance);
+  if (implicit && !equal) printf("%g", zp_def_tolerance(def));
   printf(",%.0f,%.4g,%.4g\n", motion.steps, motion.seconds, motion.rms / scale);
   fflush(stdout);
   return ZP_OK;

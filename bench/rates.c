@@ -6,25 +6,13 @@
  *                                      what the two differences differ. Every other derivative is printed, with a
  *                                      command that repeats it. Status 1 if there is one
  */
-#include <zipact/zipact.h>
-
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* splitmix64: the same runs on every machine. => uniform in [0, 1) */
-static double draw(uint64_t *state) {
-  uint64_t z = *state += 0x9e3779b97f4a7c15u;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return (double)((z ^ (z >> 31)) >> 11) * 0x1p-53;
-}
-
-static double log_uniform(uint64_t *state, double from, double to) {
-  return from * pow(to / from, draw(state));
-}
+#include "draw.h"
 
 static int one_of(uint64_t *state, int count) {
   return (int)(count * draw(state));
@@ -69,22 +57,9 @@ static int key_of(const ZpActuatorDef *def, uint64_t *state) {
   return zp_key_find(def->liquid.model == ZP_LIQUID_NONE ? "ribbon.density" : "medium.kinematic_viscosity");
 }
 
-/* As options of the command; keys that are as by default are left out. */
 static void print_run(const ZpActuatorDef *def) {
-  const ZpActuatorDef plain = zp_actuator_def_default();
   printf("  zipact actuate --set sensitivity.by=%s", def->sensitivity.by);
-  for (int k = 0; k < zp_key_count(); k++) {
-    const ZpKey *key = zp_key(k);
-    double value = zp_def_get(def, k);
-    if (isnan(value) || value == zp_def_get(&plain, k)) continue;
-    if (key->type == ZP_KEY_BOOL)
-      printf(" --set %s=%s", key->name, value == 0 ? "false" : "true");
-    else if (key->type == ZP_KEY_ENUM)
-      printf(" --set %s=%s", key->name, key->choices[(int)value].word);
-    else
-      printf(" --set %s=%.17g", key->name, value);
-  }
-  printf("\n");
+  print_design(def);
 }
 
 static ZpResult *run(const ZpActuatorDef *def) {

@@ -248,6 +248,27 @@ START_TEST(numbers_at_a_short_circuit_move_with_it) {
 }
 END_TEST
 
+/* With derivatives the default tolerance is 1e-4: with that number given, the same ones are settled, with the same
+ * values. */
+START_TEST(default_tolerance_settles_as_its_number) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"output.errors", false},
+                          {"solver.stop_when_zipped", ZP_WHEN_TRUE});
+  ZpResult *by_default = run_by(&def, "drive.voltage");
+  def.solver.tolerance = 1e-4;
+  ZpResult *given = run_by(&def, "drive.voltage");
+  ck_assert_uint_eq(by_default->sensitivities, given->sensitivities);
+  size_t settled = 0;
+  for (size_t i = 0; i < given->sensitivities; i++) {
+    double a = by_default->sensitivity[i].value, b = given->sensitivity[i].value;
+    ck_assert_msg(a == b || (isnan(a) && isnan(b)), "%s: %g and %g", given->sensitivity[i].output, a, b);
+    if (!isnan(b)) settled++;
+  }
+  ck_assert_uint_gt(settled, 0);
+  zp_result_destroy(by_default);
+  zp_result_destroy(given);
+}
+END_TEST
+
 /* -- the current of a supply ----------------------------------------------------------------------------- */
 
 /* The largest current is at the corner of the ramp. Steps at an impact are so short that the current of a neighbour
@@ -445,6 +466,7 @@ int main(void) {
   tcase_add_test(ends, numbers_at_the_closing_agree_with_differences);
   tcase_add_test(ends, numbers_at_rest_move_with_the_closing);
   tcase_add_test(ends, numbers_at_a_short_circuit_move_with_it);
+  tcase_add_test(ends, default_tolerance_settles_as_its_number);
   tcase_add_test(ends, peak_and_rms_current);
   tcase_add_test(ends, limits_of_a_supply_end_them);
   tcase_add_test(ends, what_the_steps_do_not_settle_is_null);

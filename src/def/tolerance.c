@@ -4,7 +4,8 @@
 
 static const double usual = 1e-4;
 
-/* What the mesh is worth, eq. (18.13): dry zips are off by about 1.2 tolerances, those in a liquid by 2.4. */
+/* Tolerance of the steps that the mesh is worth, eq. (18.13): dry zips are off by about 1.2 tolerances, those in a
+ * liquid by 2.4. */
 static double of_mesh(const ZpActuatorDef *def) {
   bool dry = zp_def_liquid(def) == ZP_LIQUID_NONE;
   double elements = def->mesh.nodes - 1, worth = (dry ? 5 : 1.5) / (elements * elements);
@@ -13,7 +14,8 @@ static double of_mesh(const ZpActuatorDef *def) {
 
 double zp_def_tolerance(const ZpActuatorDef *def) {
   if (!isnan(def->solver.tolerance)) return def->solver.tolerance;
-  return def->actuator.kind == ZP_KIND_RIBBON ? usual : of_mesh(def);
+  bool fine = def->actuator.kind == ZP_KIND_RIBBON || *def->sensitivity.by; /* derivatives need finer steps */
+  return fine ? usual : of_mesh(def);
 }
 
 double zp_tolerance_at_rest(const ZpActuatorDef *def) {

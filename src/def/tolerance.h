@@ -1,4 +1,4 @@
-/* What solver.tolerance means at rest; zp_def_tolerance says what it means in motion. */
+/* Meaning of solver.tolerance at rest; zp_def_tolerance has that in motion. */
 #ifndef ZP_DEF_TOLERANCE_H
 #define ZP_DEF_TOLERANCE_H
 

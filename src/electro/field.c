@@ -380,8 +380,8 @@ static double element_length(const ZpField *f, size_t c, size_t row) {
   return f->grid.x[(2 * c + 2) * f->grid.ny + row] - f->grid.x[2 * c * f->grid.ny + row];
 }
 
-/* The same at node column i, mean of the elements that meet there by their lengths: Simpson's rule is then exact on
- * both sides of a jump. */
+/* Traction and fields at node column i, the mean of the elements that meet there by their lengths: Simpson's rule is
+ * then exact on both sides of a jump. */
 static void traction_at(const ZpField *f, const Side *side, size_t i, double *W, double *E_out, double *E_in) {
   double W2, E2, I2;
   if (i % 2) {

@@ -47,7 +47,7 @@ static ZpStatus make_folders(const char *directory, ZpError *err) {
 
 /* -- open and close -------------------------------------------------------------------------------- */
 
-/* What is written here, and does not replace its place as other files do, must not lead elsewhere. */
+/* Files that are written in place, and do not replace what stands there, must not be links that lead elsewhere. */
 static ZpStatus check_places(const char *directory, ZpError *err) {
   static const char *const name[] = {
       "shapes", "plots", "runs", "journal.sqlite", "journal.sqlite-wal", "journal.sqlite-shm"};

@@ -133,7 +133,7 @@ double zp_film_length(const ZpFilmParams *params, size_t i);
 /* What flows out at the long edges in the cell of station i, mean over the step, m^3/s. */
 double zp_film_edge_flow(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
-/* What would flow out there at the heads of the step if the edges were open and inertia did not count, m^3/s. */
+/* Flow out over the long edges at the heads of the step if these were open and inertia did not count, m^3/s. */
 double zp_film_open_flow(const ZpFilmParams *params, const ZpFilmEval *eval, const double *heads, size_t i);
 
 /* Derivative of r of mode k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with

@@ -506,7 +506,7 @@ static void add_own(ZpDynamics *d) {
   }
 }
 
-/* What a source's voltage does faster than the step is exact. */
+/* The law of a source is exact for changes of its voltage that are faster than the step, so they have no error. */
 static double resolved(void *self, size_t i) {
   const ZpDynamics *d = self;
   return d->source && i == d->assembly.n ? d->law.resolved : 1;

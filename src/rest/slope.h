@@ -58,7 +58,8 @@ double zp_output_angle(ZpStatics *statics, void *user);
  * turns where a law has a corner. `null` [n] is the null vector. */
 double zp_slope_of_fold(ZpSlope *slope, ZpPose pose, const ZpBranchSystem *branch, const double *null);
 
-/* The same at an event; `rate` and `by_parameter` are the derivatives of its value by the key and by the parameter. */
+/* Derivative by the key of the parameter at which an event is; `rate` and `by_parameter` are the derivatives of its
+ * value by the key and by the parameter. */
 double zp_slope_of_event(ZpSlope *slope, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate,
                          double by_parameter);
 

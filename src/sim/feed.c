@@ -111,7 +111,7 @@ static double behind(const ZpSupply *supply, const Drop *drop, double current) {
   return drop->V1 - (supply->resistance * current - (1 - drop->end) * drop->start) / drop->end;
 }
 
-/* What a current brings over the step less what is taken at that voltage, C. */
+/* Charge that a current brings over the step less the charge taken at the voltage that it leaves, C. */
 static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
   double U = behind(supply, drop, current);
   return s->h * current - taken_by_all(supply, s, s->taken_at(s->electrodes, U), U);

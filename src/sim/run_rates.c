@@ -120,7 +120,7 @@ static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_c
   near->state->t = t;
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
   if (zp_sim_is_fed(near)) zp_feed_arrive(near);
-  memcpy(near->origin, near->state, zp_state_size(near->model));
+  memcpy(near->before, near->state, zp_state_size(near->model));
   if (!at_corner) return;
   of->from[k] = t;
   of->to[k] = corner_of(near, end_time);
@@ -222,7 +222,7 @@ static double closing_near(const ZpRunRates *rates, const ZpSim *near, double be
 static bool follow_step(ZpRunRates *rates, ZpKeyRates *of, bool moves) {
   const ZpState *now = rates->sim->state, *before = rates->before;
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
-    if (of->near[k]) memcpy(of->near[k]->state, of->near[k]->origin, zp_state_size(of->near[k]->model));
+    if (of->near[k]) memcpy(of->near[k]->state, of->near[k]->before, zp_state_size(of->near[k]->model));
   if (moves && !move(rates, of)) return false;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
     ZpSim *near = of->near[k];
@@ -232,9 +232,9 @@ static bool follow_step(ZpRunRates *rates, ZpKeyRates *of, bool moves) {
     else
       near->state->t = end_near(rates, of, k);
     ZpState *state = near->state;
-    const ZpState *origin = near->origin;
-    state->zip_time = closing_near(rates, near, before->zip_time, now->zip_time, origin->zip_time);
-    state->closed_from = closing_near(rates, near, before->closed_from, now->closed_from, origin->closed_from);
+    const ZpState *start = near->before;
+    state->zip_time = closing_near(rates, near, before->zip_time, now->zip_time, start->zip_time);
+    state->closed_from = closing_near(rates, near, before->closed_from, now->closed_from, start->closed_from);
   }
   take_rate(rates, of);
   return true;
@@ -301,7 +301,7 @@ static void follow_peak(const ZpRunRates *rates, ZpKeyRates *of) {
 static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
   double mean = rates->sim->feed.current[ZP_CURRENT_MEAN], h = rates->sim->state->t - rates->before->t, dh = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
-    if (of->near[k]) dh += of->by.weight[k] * (of->near[k]->state->t - of->near[k]->origin->t);
+    if (of->near[k]) dh += of->by.weight[k] * (of->near[k]->state->t - of->near[k]->before->t);
   of->square += 2 * mean * rate_of_current(of, ZP_CURRENT_MEAN) * h + mean * mean * dh;
   follow_peak(rates, of);
 }

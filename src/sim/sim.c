@@ -66,15 +66,14 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
   size_t signals = zp_sim_row_size();
   sim->state = zp_calloc(1, zp_state_size(model));
-  sim->origin = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->before = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->origin && sim->kept && sim->before &&
-             sim->relax_work && sim->row && make_shape_room(sim);
+  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
+             sim->row && make_shape_room(sim);
   return own && (!uppermost || (sim->stepping->create(sim) && make_liquid_room(sim)));
 }
 
@@ -252,7 +251,6 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_paper_motion_destroy(&sim->paper);
   zp_system_destroy(&sim->eval);
   zp_free(sim->state);
-  zp_free(sim->origin);
   zp_free(sim->kept);
   zp_free(sim->before);
   zp_free(sim->relax_work);
@@ -389,6 +387,15 @@ static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, con
   return true;
 }
 
+/* Of one of two antagonists, the earlier; else of all members, the last. */
+static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
+  double last = instant(sim->state);
+  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim->below->state));
+  for (const ZpSim *m = sim->below; m; m = m->below)
+    last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
+  return last;
+}
+
 bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
   if (stop == ZP_STOP_AT_END || !sim->model->field) return false;
   return is_true_of(sim, stop == ZP_STOP_CLOSED ? has_closed : stays_closed);
@@ -510,7 +517,7 @@ double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
     double own = shorts ? left_to_short(m->model, m->state) : left_to_close(m->model, m->state);
     if (first)
       left = fmin(left, own);
-    else if (isnan(m->origin->zip_time)) /* members that have closed before may have opened again */
+    else if (isnan(m->before->zip_time)) /* members that have closed before may have opened again */
       left = fmax(left, own);
   }
   return left;
@@ -523,14 +530,8 @@ static ZpLanding landing_of(const ZpSim *sim) {
   return closes && sim->model->def.contact.complete_margin == 0 ? ZP_LANDS_CLOSED : ZP_LANDS_NOWHERE;
 }
 
-static void keep_origin(ZpSim *sim) {
-  for (ZpSim *m = sim; m; m = m->below)
-    memcpy(m->origin, m->state, zp_state_size(m->model));
-}
-
-static void return_to_origin(ZpSim *sim, const ZpFeed *feed) {
-  for (ZpSim *m = sim; m; m = m->below)
-    memcpy(m->state, m->origin, zp_state_size(m->model));
+static void return_to_start(ZpSim *sim, const ZpFeed *feed) {
+  zp_sim_take_states_back(sim);
   sim->feed = *feed;
 }
 
@@ -563,30 +564,21 @@ static void land(ZpSim *sim, ZpLanding landing, const ZpFeed *feed, ZpStepLimit 
   enum { MOST_TRIES = 50 };
   const double shortest = 1e-15 * sim->state->t, least = 1e-15 * sim->model->L; /* rounding */
   Bracket b = {.late = sim->state->t, .left_late = zp_sim_left(sim, landing)};
-  return_to_origin(sim, feed);
+  return_to_start(sim, feed);
   b.early = sim->state->t;
   b.left_early = sim->left_before = zp_sim_left(sim, landing);
   bool inside = b.left_early > 0 && isfinite(b.left_early);
   for (int k = 0; k < MOST_TRIES && inside && b.late - b.early > shortest && b.left_late < -least; k++) {
     if (!narrow(sim, landing, &b, limit)) break;
-    if (sim->state->t != b.late || b.left_late < -least) return_to_origin(sim, feed);
+    if (sim->state->t != b.late || b.left_late < -least) return_to_start(sim, feed);
   }
   if (inside) sim->landing = landing;
   if (sim->state->t == b.late && !sim->stuck) return;
-  return_to_origin(sim, feed);
+  return_to_start(sim, feed);
   take(sim, b.late, limit);
 }
 
 /* -- a step of a run ------------------------------------------------------------------------------- */
-
-/* When the run ends if all members that have to rest stay at rest, s. */
-static double rest_due(const ZpSim *sim) {
-  bool first = zp_is_opposed(sim->model);
-  double due = first ? INFINITY : 0;
-  for (const ZpSim *m = sim; m; m = m->below)
-    due = first ? fmin(due, due_to_rest(m->state)) : fmax(due, due_to_rest(m->state));
-  return due;
-}
 
 static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   ZpState *state = sim->state;
@@ -595,7 +587,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
   double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
   const bool fine = sim->stepping->fine;
-  if (!fine && sim->stop == ZP_STOP_HELD) latest = fmin(latest, rest_due(sim));
+  if (!fine && sim->stop == ZP_STOP_HELD) latest = fmin(latest, time_of(sim, due_to_rest));
   if (!fine) latest = fmin(latest, state->t + resolution(sim));
   if (zp_sim_is_fed(sim)) {
     corner = fmin(corner, zp_feed_event(sim, latest));
@@ -605,7 +597,7 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   const bool unzipped = isnan(zp_sim_zip_time(sim));
   const ZpFeed feed = sim->feed;
   ZpStepLimit limit;
-  if (!fine) keep_origin(sim);
+  if (!fine) zp_sim_keep_states(sim);
   if (!take(sim, latest, &limit)) return;
   ZpLanding landing = fine ? ZP_LANDS_NOWHERE : landing_of(sim);
   if (landing != ZP_LANDS_NOWHERE) land(sim, landing, &feed, &limit);
@@ -830,15 +822,6 @@ ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRu
 
 double zp_sim_starved_time(const ZpSim *sim) {
   return sim->state->starved_time;
-}
-
-/* Of one of two antagonists, the earlier; else of all members, the last. */
-static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
-  double last = instant(sim->state);
-  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim->below->state));
-  for (const ZpSim *m = sim->below; m; m = m->below)
-    last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
-  return last;
 }
 
 static double zip_time(const ZpState *state) {

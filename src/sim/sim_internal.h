@@ -91,9 +91,8 @@ typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_SHORTED } Z
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
-  ZpState *origin; /* a copy of the state at the start of the step */
   ZpState *kept;   /* a copy of a valid state through which a longer run would also pass */
-  ZpState *before; /* behind a supply: a copy of the state at the start of the step */
+  ZpState *before; /* a copy of the state at the start of the step */
   ZpFeed feed;     /* the supply at the electrodes */
   ZpOwnControl control;
   bool cut;   /* the end of the run has shortened a step since `kept` */

@@ -143,8 +143,8 @@ static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
   return !system->unforeseen || system->unforeseen(system->self, s->q) <= imbalance.allowed;
 }
 
-/* What an algebraic unknown, such as a pressure, moves in a short step grows with the square of the step, and its
- * rounding with the inverse of the step: so little of its correction counts. */
+/* The motion that an algebraic unknown, such as a pressure, causes in a short step grows with the square of the step,
+ * and its rounding with the inverse of the step: so little of its correction counts. */
 static void forgive_momentary(ZpImplicit *s, double h) {
   static const double momentary = 1e-6; /* s */
   double share = h / momentary;

@@ -179,7 +179,7 @@ static void energies_of(const Cycles *c, double *given, double *taken) {
   }
 }
 
-/* What is stored at the end of a cycle more than at its start, J. */
+/* Energy stored at the end of a cycle less that at its start, J. */
 static double kept(const Cycles *c) {
   static const char *const stores[] = {"kinetic_energy_J", "axial_energy_J", "bending_energy_J", "gravity_energy_J",
                                        "spring_energy_J",  "field_energy_J", "liquid_energy_J",  "cable_energy_J"};
@@ -493,7 +493,7 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
 }
 
-/* What the source gives in a cycle of the periodic motion is what the cycle loses; jumps of the voltage do so, too. */
+/* Energy lost in a cycle of the periodic motion, which the source gives, J; jumps of the voltage take a part of it. */
 static double energy_of(const Cycles *c, double jumps) {
   return c->linear ? c->small.energy + jumps : c->response.spent;
 }

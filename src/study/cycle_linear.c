@@ -125,7 +125,7 @@ static void combine(const ZpLinearCycle *l, const double *x, double share, doubl
       q[i] += share * x[j] * l->small.shape[j * nodes + i];
 }
 
-/* What has flowed past the edges of a bead. */
+/* Volume that has flowed over the long edges of a bead, m^3. */
 static double outside(const ZpLinearCycle *l, int half, const double *x) {
   double sum = 0;
   for (size_t r = 0; r < l->small.rates; r++)

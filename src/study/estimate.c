@@ -49,24 +49,26 @@ static bool has_others(const ZpActuatorDef *def, bool moves) {
  * longer ones shows the error. */
 typedef struct Meshes {
   bool finer;
+  int others; /* how many of them are solved beside the requested one */
   int elements[MESHES];
 } Meshes;
 
 /* Three fifths and two fifths of the elements. Together they cost as much as the study itself. They are so near to it
  * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
  * that four meshes must show also need four fifths and seven tenths. */
-static Meshes coarser_meshes(int elements) {
+static Meshes coarser_meshes(int elements, int others) {
   static const int tenths[MESHES] = {10, 6, 4, 8, 7};
-  Meshes meshes = {.finer = false};
+  Meshes meshes = {.others = others};
   for (int mesh = 0; mesh < MESHES; mesh++)
     meshes.elements[mesh] = (tenths[mesh] * elements + 5) / 10;
+  if (meshes.elements[2] < FEWEST_ELEMENTS) meshes.others = 0;
   return meshes;
 }
 
 /* Two elements in the length of the bend, and three fifths of that. */
 static Meshes finer_meshes(int elements, double resolution) {
   int resolved = (int)ceil(2 * elements / resolution);
-  return (Meshes){true, {elements, resolved, (6 * resolved + 5) / 10}};
+  return (Meshes){true, 2, {elements, resolved, (6 * resolved + 5) / 10}};
 }
 
 /* In motion, steps lengthen by the same factor as elements; they do not shorten with them, because the finer mesh is
@@ -78,10 +80,10 @@ static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
-  if (moves) def.solver.stop_when_zipped = ZP_WHEN_TRUE; /* its zip time is requested */
-  if (moves)
-    def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
-  if (moves) def.solver.time_step *= longer;            /* NAN, auto, stays */
+  if (!moves) return def;
+  def.solver.stop_when_zipped = ZP_WHEN_TRUE;         /* its zip time is requested */
+  def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
+  def.solver.time_step *= longer;                     /* NAN, auto, stays */
   return def;
 }
 
@@ -192,8 +194,8 @@ static void forget_all(Findings *findings) {
   }
 }
 
-/* Of a mesh whose elements are longer than the bend, if finer ones that resolve it are affordable. */
-static bool has_finer(const ZpActuatorDef *def, Meshes meshes, ZpResult *result) {
+/* Are the meshes that resolve the bend affordable? A note says how errors are estimated. */
+static bool is_affordable(const ZpActuatorDef *def, Meshes meshes, ZpResult *result) {
   static const int times = 32, most = 2000; /* elements */
   if (meshes.elements[1] <= most && meshes.elements[1] <= times * meshes.elements[0]) {
     zp_result_note(
@@ -219,6 +221,15 @@ static int meshes_of(const Findings *findings) {
   return most;
 }
 
+/* The meshes on which the study is solved again. */
+static Meshes choose_meshes(const ZpActuatorDef *def, const Findings *findings, ZpResult *result) {
+  int others = zp_outcome_good(result->outcome) ? meshes_of(findings) : 0, elements = def->mesh.nodes - 1;
+  if (others == 0 || result->resolution >= 1) return coarser_meshes(elements, others);
+  Meshes meshes = finer_meshes(elements, result->resolution);
+  if (!is_affordable(def, meshes, result)) meshes.others = 0;
+  return meshes;
+}
+
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err) {
   ZpStudy study = result->study;
   if (!task->def->output.errors || !is_estimated(study) || !has_others(task->def, moves)) return ZP_OK;
@@ -226,15 +237,8 @@ ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpRe
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
   ZpStatus status = ZP_OK;
-  int elements = task->def->mesh.nodes - 1;
-  bool resolved = result->resolution >= 1;
-  const Meshes meshes = resolved ? coarser_meshes(elements) : finer_meshes(elements, result->resolution);
-  int others = meshes_of(&findings);
-  bool wanted = zp_outcome_good(result->outcome) && others > 0;
-  if (resolved) wanted = wanted && meshes.elements[2] >= FEWEST_ELEMENTS;
-  if (wanted && !resolved) wanted = has_finer(task->def, meshes, result);
-  if (!resolved) others = 2;
-  for (int mesh = 1; mesh <= others && status == ZP_OK && wanted; mesh++) {
+  const Meshes meshes = choose_meshes(task->def, &findings, result);
+  for (int mesh = 1; mesh <= meshes.others && status == ZP_OK; mesh++) {
     const ZpActuatorDef def = on_mesh(*task->def, meshes.elements[mesh], moves);
     status = solve(task, run, study, mesh, &def, &findings, err);
   }

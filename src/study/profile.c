@@ -230,7 +230,7 @@ static Beside beside(const Profiler *p, size_t k) {
   return (Beside){k - 2, k, (at[2].x - at[0].x) / (at[2].x - at[-2].x)};
 }
 
-/* The same at row k, the mean of both sides, as the field has it. */
+/* Attraction per length at row k, the mean of both sides, as the field has it, N/m. */
 static double at_row(const Profiler *p, const Law *law, double U, size_t k) {
   double gap = p->field.profile[k].gap;
   Beside of = beside(p, k);

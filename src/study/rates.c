@@ -203,11 +203,11 @@ typedef struct Other {
 static Other with_tolerance(const ZpActuatorDef *def) {
   static const double largest = 0.1;
   Other c = {*def, 0.75};
-  c.def.solver.tolerance = fmin(4 * def->solver.tolerance, largest);
+  c.def.solver.tolerance = fmin(4 * zp_def_tolerance(def), largest);
   return c;
 }
 
-/* And to the square of equal steps. They are shorter, because the drive limits longer ones. */
+/* Errors are proportional to the square of equal steps. These are shorter, because the drive limits longer ones. */
 static Other with_steps(const ZpActuatorDef *def, const ZpResult *result) {
   Other c = {*def, 4.0 / 3};
   c.def.solver.time_step = 0.5 * zp_result_get(result, "mean_time_step_s");

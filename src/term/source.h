@@ -14,7 +14,7 @@ typedef struct ZpSourceStep {
   double (*taken_at)(const void *electrodes, double U); /* what they take if the voltage ends at U, C; grows with U */
 } ZpSourceStep;
 
-/* What the source's law lacks over the step, C: 0 where it holds, and falling with U1. Its derivatives, F and 1. */
+/* Residual of the source's law over a step, C: 0 where the law holds, and falling with U1. Its derivatives, F and 1. */
 typedef struct ZpSourceLaw {
   double lacks, by_voltage, by_taken;
   double bound;    /* the voltage at the end is not beyond this one, V; NAN: none */
