@@ -1,0 +1,353 @@
+#!/usr/bin/env python3
+"""Faults that a maintainer could make, and whether a test notices: mutants.py [BUILD] [--only TEXT] [--jobs N] [--again]
+
+tests/mutants/*.txt has the faults: a file, a name, the text and what replaces it.
+
+    src/sim/feed.c leaves_out_the_cable
+    - charge + [[cable]]
+    + 0
+
+replaces the text in double brackets, or the whole text where there are none. It stands once in its file, and is an
+expression or whole statements. All faults of C are compiled at once, into a copy of the sources in BUILD/mutants, and one
+is chosen when a program starts (ZP_MUTANT=NUMBER). A file that is not C, and one marked `compiled`, is changed and
+compiled for its fault alone. A line `? WHY` says why a fault changes nothing that could be tested: it is not counted.
+
+Each test runs once without a fault, which shows the lines that it reaches and what it costs. Then each fault meets the
+tests that reach it, the quickest first, until one fails. Pages that are made from the program's numbers are no tests.
+Results are kept in BUILD/mutants/results.json: a second call goes on where the first one ended (--again begins anew).
+Status 1 if less than 95 % of the faults are noticed, or less than 90 % in one room.
+"""
+import argparse
+import concurrent.futures
+import glob
+import hashlib
+import itertools
+import json
+import os
+import re
+import resource
+import shutil
+import subprocess
+import sys
+
+HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+PAGES = re.compile(r"_current$|^(links|rules|deps|examples|bits|bench|embedded|test_install|binaries)$")
+WANTED, WANTED_IN_A_ROOM = 0.95, 0.90
+
+# The header is included by each file with a fault: reaching a fault marks it in a file that all processes of a test share.
+RUNTIME_H = """#ifndef ZP_MUTANT_H
+#define ZP_MUTANT_H
+__attribute__((visibility("hidden"))) extern int zp_mutant_chosen;
+__attribute__((visibility("hidden"))) extern unsigned char *zp_mutant_reached;
+#define ZP_MUTANT(k) (zp_mutant_reached[k] = 1, zp_mutant_chosen == (k))
+#endif
+"""
+RUNTIME_C = """#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/mman.h>
+#include <unistd.h>
+#include <zipact/mutant.h>
+
+static unsigned char nowhere[SIZE];
+int zp_mutant_chosen;
+unsigned char *zp_mutant_reached = nowhere;
+
+__attribute__((constructor)) static void choose(void) {
+  const char *number = getenv("ZP_MUTANT"), *path = getenv("ZP_MUTANTS_REACHED");
+  zp_mutant_chosen = number ? atoi(number) : 0;
+  int file = path ? open(path, O_RDWR) : -1;
+  if (file < 0) return;
+  void *map = mmap(NULL, SIZE, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+  if (map != MAP_FAILED) zp_mutant_reached = map;
+  close(file);
+}
+"""
+
+
+class Mutant:
+    def __init__(self, file, name, compiled, place):
+        self.file, self.name, self.place = file, name, place
+        self.compiled = compiled or not re.search(r"\.[ch]$", file)
+        self.old, self.new, self.why = [], [], []
+        self.number = 0
+
+    def key(self):
+        return f"{self.file} {self.name}"
+
+    def room(self):
+        parts = self.file.split("/")
+        return "/".join(parts[:2]) if parts[0] == "src" else parts[0]
+
+    def find(self, text):
+        """Where it begins and ends in the text, and what replaces it."""
+        old, new = "\n".join(self.old), "\n".join(self.new)
+        inner = re.search(r"\[\[(.*?)\]\]", old, re.S)
+        whole = old if not inner else old[:inner.start()] + inner[1] + old[inner.end():]
+        pattern = r"\s+".join(re.escape(word) for word in whole.split())
+        places = list(re.finditer(pattern, text))
+        if len(places) != 1:
+            raise SystemExit(f"{self.place}: {self.file} has this text {len(places)} times, not once: {whole}")
+        begin, end = places[0].span()
+        if inner:
+            before = r"\s+".join(re.escape(word) for word in old[:inner.start()].split())
+            part = r"\s+".join(re.escape(word) for word in inner[1].split())
+            found = re.compile(before + r"\s*(" + part + ")").match(text, begin)
+            begin, end = found.span(1)
+        return begin, end, new
+
+    def choice(self, old, new):
+        """Both texts, of which the program takes one."""
+        if re.search(r"[;}]$", old):
+            return f"if (ZP_MUTANT({self.number})) {{ {new} }} else {{ {old} }}"
+        return f"(ZP_MUTANT({self.number}) ? ({new}) : ({old}))"
+
+
+def read_tables():
+    mutants = []
+    for path in sorted(glob.glob(os.path.join(HOME, "tests/mutants/*.txt"))):
+        for number, line in enumerate(open(path, encoding="utf-8"), 1):
+            line = line.rstrip("\n")
+            if not line.strip() or line.startswith("#"):
+                continue
+            if line[:2] in ("- ", "+ ", "? ") or line in ("-", "+"):
+                {"-": mutants[-1].old, "+": mutants[-1].new, "?": mutants[-1].why}[line[0]].append(line[2:])
+                continue
+            words = line.split()
+            mutants.append(Mutant(words[0], words[1], "compiled" in words[2:], f"{os.path.basename(path)}:{number}"))
+    for k, mutant in enumerate(mutants):
+        mutant.number = k + 1
+    keys = [mutant.key() for mutant in mutants]
+    for key in keys:
+        if keys.count(key) > 1:
+            raise SystemExit(f"tests/mutants: two faults are called {key}")
+    return mutants
+
+
+def sources():
+    """All files of the project, by their path in it."""
+    listed = subprocess.run(["git", "-C", HOME, "ls-files", "-co", "--exclude-standard"], check=True, stdout=subprocess.PIPE, text=True)
+    return [file for file in listed.stdout.splitlines() if os.path.isfile(os.path.join(HOME, file))]
+
+
+def read(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+def write(path, content):
+    """Only if it changes: what has not changed is not compiled again."""
+    if os.path.exists(path) and read(path) == content:
+        return
+    os.makedirs(os.path.dirname(path), exist_ok=True)
+    with open(path, "wb") as file:
+        file.write(content)
+
+
+def planted(file, mutants):
+    """The text of a file with all its faults that are chosen at run time."""
+    text = read(os.path.join(HOME, file)).decode()
+    places = sorted((mutant.find(text) + (mutant,) for mutant in mutants), key=lambda place: place[0])
+    places = [place for place in places if not place[3].compiled]
+    for this, following in zip(places, places[1:]):
+        if this[1] > following[0]:
+            raise SystemExit(f"{following[3].place}: overlaps {this[3].name}")
+    for begin, end, new, mutant in reversed(places):
+        text = text[:begin] + mutant.choice(text[begin:end], new) + text[end:]
+    return '#include "zipact/mutant.h"\n#line 1\n' + text if places else text
+
+
+def copy_sources(mutants, tree):
+    by_file = {}
+    for mutant in mutants:
+        by_file.setdefault(mutant.file, []).append(mutant)
+    for file in sources():
+        content = planted(file, by_file[file]).encode() if file in by_file else read(os.path.join(HOME, file))
+        if file == "CMakeLists.txt":  # the shared library of files has its own copy of what libzipact does not export
+            content = content.replace(b"src/base/fail.c ", b"src/base/fail.c src/base/mutant.c ")
+        write(os.path.join(tree, file), content)
+        shutil.copymode(os.path.join(HOME, file), os.path.join(tree, file))
+    write(os.path.join(tree, "include/zipact/mutant.h"), RUNTIME_H.encode())
+    write(os.path.join(tree, "src/base/mutant.c"), RUNTIME_C.replace("SIZE", str(len(mutants) + 1)).encode())
+
+
+def build(folder, *targets):
+    command = ["cmake", "--build", os.path.join(folder, "build"), "-j", str(os.cpu_count() or 2)]
+    done = subprocess.run(command + [word for target in targets for word in ("--target", target)],
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.returncode == 0, done.stdout
+
+
+class Test:
+    def __init__(self, entry):
+        self.name, self.command = entry["name"], entry.get("command", [])
+        properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
+        self.environment = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
+        self.folder = properties["WORKING_DIRECTORY"]
+        self.skipped = properties.get("SKIP_RETURN_CODE")
+        self.cost, self.reached = None, frozenset()
+
+    def run(self, folder, worker, number, reached=None):
+        """Does it pass? And the CPU time that it takes, s."""
+        scratch = os.path.join(folder, "build/tests/scratch")
+        own = f"{scratch}-{worker}"
+        os.makedirs(own, exist_ok=True)
+        environment = dict(os.environ, **self.environment, ZP_MUTANT=str(number))
+        if reached:
+            environment["ZP_MUTANTS_REACHED"] = reached
+        limit = None if self.cost is None else int(3 * self.cost + 10)
+        began = resource.getrusage(resource.RUSAGE_CHILDREN)
+        process = subprocess.Popen([word.replace(scratch, own) for word in self.command],
+                                   cwd=self.folder.replace(scratch, own), env=environment, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
+                                   preexec_fn=lambda: limit and resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
+        try:
+            # a process that waits for ever uses no CPU time
+            code = process.wait(timeout=None if limit is None else 60 + 20 * limit)
+        except subprocess.TimeoutExpired:
+            code = 1
+        finally:
+            try:
+                os.killpg(process.pid, 9)
+            except ProcessLookupError:
+                pass
+        process.wait()
+        ended = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return code == 0 or code == self.skipped, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+
+
+def tests_of(folder):
+    listed = subprocess.run(["ctest", "--test-dir", os.path.join(folder, "build"), "--show-only=json-v1"], check=True,
+                            stdout=subprocess.PIPE, text=True)
+    return [Test(entry) for entry in json.loads(listed.stdout)["tests"] if not PAGES.search(entry["name"])]
+
+
+def baseline(job):
+    """A test without a fault: whether it passes, its CPU time, the faults that it reaches."""
+    folder, test, count = job
+    path = os.path.join(folder, f"reached-{os.getpid()}")
+    with open(path, "wb") as file:
+        file.write(bytes(count + 1))
+    passes, cost = test.run(folder, os.getpid(), 0, path)
+    marks = read(path)
+    os.remove(path)
+    return test.name, passes, cost, [k for k in range(1, count + 1) if marks[k]]
+
+
+def notice(job):
+    """The first test that fails with a fault, or None; and what the tests took together, s."""
+    folder, mutant, tests = job
+    spent = 0
+    for test in tests:
+        passes, cost = test.run(folder, os.getpid(), mutant.number)
+        spent += cost
+        if not passes:
+            return mutant.key(), test.name, spent
+    return mutant.key(), None, spent
+
+
+def notice_compiled(folder, mutant, tests):
+    """As notice(), for a fault that is compiled alone; the copy is as it was after it."""
+    path = os.path.join(folder, mutant.file)
+    before = read(path)
+    text = before.decode()
+    begin, end, new = mutant.find(text)
+    write(path, (text[:begin] + new + text[end:]).encode())
+    try:
+        built, _ = build(folder)
+        return (mutant.key(), "the compiler", 0) if not built else notice((folder, mutant, tests))
+    finally:
+        write(path, before)
+
+
+def fingerprint(folder):
+    """Of all that the results depend on."""
+    digest = hashlib.sha256()
+    for file in sources():
+        if not file.startswith("docs/"):
+            digest.update(file.encode() + b"\0" + read(os.path.join(HOME, file)) + b"\0")
+    return digest.hexdigest()
+
+
+class Results:
+    """What is known so far, in a file that a second call reads."""
+
+    def __init__(self, path, key, again):
+        self.path, self.known = path, {"of": key, "tests": {}, "faults": {}}
+        if os.path.exists(path) and not again:
+            with open(path, encoding="utf-8") as file:
+                kept = json.load(file)
+            if kept["of"] == key:
+                self.known = kept
+
+    def keep(self):
+        with open(self.path + ".new", "w", encoding="utf-8") as file:
+            json.dump(self.known, file, indent=1)
+        os.replace(self.path + ".new", self.path)
+
+
+def report(mutants, faults):
+    """Prints what no test notices, and the shares by room; are these as wanted?"""
+    counted = [mutant for mutant in mutants if not mutant.why]
+    for mutant in counted:
+        if faults.get(mutant.key()) is None:
+            print(f"not noticed: {mutant.key()} ({mutant.place})")
+    rooms = sorted({mutant.room() for mutant in counted})
+    enough = True
+    print(f"\n{'room':<16} {'faults':>6} {'noticed':>8}")
+    for room in rooms + ["all"]:
+        of_room = [mutant for mutant in counted if room in (mutant.room(), "all")]
+        noticed = sum(faults.get(mutant.key()) is not None for mutant in of_room)
+        print(f"{room:<16} {len(of_room):>6} {noticed:>8}")
+        enough &= noticed >= (WANTED if room == "all" else WANTED_IN_A_ROOM) * len(of_room)
+    print(f"{len(mutants) - len(counted)} more change nothing that could be tested, each for a reason in the table")
+    return enough
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("build", nargs="?", help="build folder; without one, only whether each text stands once in its file")
+    parser.add_argument("--only", default="", help="faults whose file and name have this text")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
+    parser.add_argument("--again", action="store_true", help="begin anew")
+    arguments = parser.parse_args()
+    mutants = read_tables()
+    if not arguments.build:
+        for file in {mutant.file for mutant in mutants}:
+            planted(file, [mutant for mutant in mutants if mutant.file == file])
+        return print(f"{len(mutants)} faults, each text once in its file") or 0
+    folder = os.path.abspath(os.path.join(arguments.build, "mutants"))
+    copy_sources(mutants, folder)
+    configure = ["cmake", "-S", folder, "-B", os.path.join(folder, "build"), "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                 "-DCMAKE_C_FLAGS_RELWITHDEBINFO=-O2"]
+    subprocess.run(configure, check=True, stdout=subprocess.DEVNULL)
+    built, printed = build(folder)
+    if not built:
+        raise SystemExit(printed[-4000:])
+    tests = tests_of(folder)
+    results = Results(os.path.join(folder, "results.json"), fingerprint(folder), arguments.again)
+    with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
+        missing = [(folder, test, len(mutants)) for test in tests if test.name not in results.known["tests"]]
+        for name, passes, cost, reached in pool.map(baseline, missing):
+            results.known["tests"][name] = {"passes": passes, "cost": cost, "reached": reached}
+            results.keep()
+            if not passes:
+                print(f"fails without a fault: {name}", flush=True)
+        for test in tests:
+            known = results.known["tests"][test.name]
+            test.cost, test.reached = known["cost"], frozenset(known["reached"])
+        tests = sorted((test for test in tests if results.known["tests"][test.name]["passes"]), key=lambda test: test.cost)
+        wanted = [mutant for mutant in mutants if arguments.only in mutant.key() and not mutant.why
+                  and mutant.key() not in results.known["faults"]]
+        jobs = [(folder, mutant, [test for test in tests if mutant.number in test.reached])
+                for mutant in wanted if not mutant.compiled]
+        done = itertools.chain((finished.result() for finished in concurrent.futures.as_completed([pool.submit(notice, job) for job in jobs])),
+                               (notice_compiled(folder, mutant, tests) for mutant in wanted if mutant.compiled))
+        for key, test, spent in done:
+            results.known["faults"][key] = test
+            results.keep()
+            print(f"{key}: {test or 'NOT NOTICED'} ({spent:.1f} s)", flush=True)
+    return 0 if report([m for m in mutants if arguments.only in m.key()], results.known["faults"]) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
