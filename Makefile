@@ -38,7 +38,7 @@ demo: $(BUILD)/zipact
 
 check: deps $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) -j $(JOBS) -- --no-print-directory
-	cd $(BUILD) && ctest --output-on-failure -j $(JOBS)
+	cd $(BUILD) && ctest --output-on-failure -j $(JOBS) -LE nightly
 
 python: $(BUILD)/zipact
 	scripts/test-python.sh $(BUILD)

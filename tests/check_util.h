@@ -13,6 +13,7 @@
 #include <zipact/zipact.h>
 
 #include "sanitized.h"
+#include "suite.h"
 
 #define LENGTH_OF(array) (sizeof(array) / sizeof((array)[0]))
 
@@ -185,15 +186,4 @@ static inline double slope_in(const ZpResult *result, const char *output, const 
   ck_abort_msg("no derivative of %s by %s", output, key);
   return NAN;
 }
-
-/* Run the suite; exit status of main. */
-static inline int run_suite(Suite *suite) {
-  setvbuf(stdout, NULL, _IOLBF, 0); /* what was measured stands there even if the test then fails */
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
-}
-
 #endif
