@@ -154,13 +154,13 @@ static double work_of_push(const ZpFacesParams *faces, const double *from, const
 }
 
 /* Over a step faces push with the mean that does the work by which the energy of their layers changes: where they stay
- * closed, meet, part, or both within an element. */
+ * closed, meet, part, or both within an element, also beside a free end. */
 START_TEST(push_over_a_step_does_the_work_of_the_layers) {
   static const double way[][2][3] = {{{-1e-7, -2e-7, -1e-7}, {-2e-7, -1e-7, -1e-7}},
                                      {{5e-8, 5e-8, 5e-8}, {-1e-7, -1e-7, -1e-7}},
                                      {{-1e-7, -1e-7, -1e-7}, {2e-7, 2e-7, 2e-7}},
                                      {{1e-7, 1e-7, 1e-7}, {2e-7, 2e-7, 2e-7}}};
-  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
+  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3, .free_end = _i};
   double push[3], own[3], next[3], stiffness[3];
   double none[3] = {0};
   ZpFacesEval eval = {push, own, next, stiffness, none};
@@ -178,7 +178,7 @@ END_TEST
 START_TEST(push_over_a_step_has_this_derivative) {
   static const double from[][3] = {{-1e-7, -2e-7, -1e-7}, {5e-8, 5e-8, 5e-8}, {-3e-7, 1e-7, 2e-7}};
   const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
-  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
+  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3, .free_end = _i};
   double push[3], own[3], next[3], stiffness[3], more[3], other[3][3];
   double damper[3] = {0};
   ZpFacesEval eval = {push, own, next, stiffness, damper}, at_more = {more, other[0], other[1], other[2], damper};
@@ -294,8 +294,8 @@ int main(void) {
   tcase_add_test(c, closed_faces_lie_on_each_other);
   tcase_add_test(c, damper_takes_what_the_loss_factor_says);
   tcase_add_test(c, damper_in_a_step_is_that_of_the_loss_factor);
-  tcase_add_test(c, push_over_a_step_does_the_work_of_the_layers);
-  tcase_add_test(c, push_over_a_step_has_this_derivative);
+  tcase_add_loop_test(c, push_over_a_step_does_the_work_of_the_layers, 0, 2);
+  tcase_add_loop_test(c, push_over_a_step_has_this_derivative, 0, 2);
   tcase_add_test(c, pull_in_does_not_depend_on_the_largest_voltage);
   tcase_add_test(c, floppy_ribbon_hangs_straight_down);
   tcase_add_test(c, other_states_are_counted);

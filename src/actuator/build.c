@@ -549,7 +549,8 @@ static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) 
                          .platform = model->topology.platform.first,
                          .platform_end = model->topology.platform.last,
                          .level = level_faces(model),
-                         .flat_length = platform_length(model)};
+                         .flat_length = platform_length(model),
+                         .free_end = model->topology.platform.kind == ZP_JOINT_FREE};
 }
 
 /* Air beyond a bead. Eq. (8) of the paper caps its attraction even if that of the liquid is not capped. */

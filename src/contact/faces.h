@@ -1,7 +1,8 @@
 /* Contact, at rest and in motion: insulator faces that overlap push each other apart, eq. (9.1), and nothing holds them
  * together. The push begins smoothly, so that a branch of equilibria has no corner where contact begins, and it is
- * integrated inside each element at the same points as the field, so that the two balance point by point. In motion a
- * damper acts between faces that overlap, eq. (9.3): within a step, eq. (9.6), or after it.
+ * integrated inside each element at the same points as the field, so that the two balance point by point. Beside a free
+ * end the points include the end, which may touch the other face alone, eq. (9.8). In motion a damper acts between
+ * faces that overlap, eq. (9.3): within a step, eq. (9.6), or after it.
  *
  * Stations are pairs of facing nodes, or nodes below a flat face. */
 #ifndef ZP_CONTACT_FACES_H
@@ -23,6 +24,7 @@ typedef struct ZpFacesParams {
   size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
   ZpLevelEnds level;             /* elements with a level end */
   double flat_length;            /* of its faces, at the gap of each of these, m */
+  bool free_end;                 /* the last element ends free: its end may touch alone, as a point */
 } ZpFacesParams;
 
 /* Range of contact of insulators that are so thick together, m: 0.5 um for 260 um, at least a nanometre. */

@@ -252,6 +252,11 @@ static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
 
 /* -- a slow change -------------------------------------------------------------------------------- */
 
+/* Is the present point a closed state that cannot be? From there on it is not known when the actuator opens. */
+static bool has_become_impossible(const ZpSlow *f, bool was_closed) {
+  return was_closed && zp_slow_is_closed(f) && zp_statics_fault(f->statics);
+}
+
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
  * point on the way that is not a ripple is `first` (NULL: not requested). A limit point further than `enough` ends the
  * search. */
@@ -266,16 +271,17 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;
     if (end == ZP_MARCH_LOST) continue;
     zp_slow_note(f, at, end);
+    if (has_become_impossible(f, was_closed)) return ZP_SLOW_IMPOSSIBLE;
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
-    bool found = fall(f, sign), impossible = zp_statics_fault(f->statics) != NULL;
-    bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
+    bool found = fall(f, sign), jumped = zp_slow_is_closed(f) != was_closed;
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
     if (!found) return ZP_SLOW_LOST;
     if (jumped) return ZP_SLOW_CHANGED;
+    if (has_become_impossible(f, was_closed)) return ZP_SLOW_IMPOSSIBLE;
   }
   return ZP_SLOW_LOST;
 }
@@ -371,6 +377,8 @@ ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
   ZpSlowEnd end = change(f, 0, -INFINITY, release, NULL);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
   if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost as the voltage fell");
+  if (end == ZP_SLOW_IMPOSSIBLE)
+    zp_limit_lost(release, "as the voltage fell, faces of the closed state came to lie inside each other");
   if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;
   return end;
 }

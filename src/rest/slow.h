@@ -41,6 +41,7 @@ typedef enum ZpSlowEnd {
   ZP_SLOW_CHANGED, /* it has closed or opened */
   ZP_SLOW_BEYOND,  /* a limit point is further than was asked */
   ZP_SLOW_LOST,
+  ZP_SLOW_IMPOSSIBLE, /* still closed, in a state that cannot be */
   ZP_SLOW_STOPPED
 } ZpSlowEnd;
 
