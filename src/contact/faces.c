@@ -38,21 +38,10 @@ static inline Mean mean_of(double x0, double x1, double late) {
   return (Mean){push + late * (q1 * s1 - push), slope + late * (3 * q1 - slope)};
 }
 
-/* Does element i have a free end? */
-static bool ends_free(const ZpFacesParams *p, size_t i) {
-  return p->free_end && i + 2 == p->nodes;
-}
-
-/* Radau's points, which include the right end: exact for polynomials of degree 4, as is the push of an element that
- * overlaps as a whole. */
-static const double radau_at[GAUSS] = {0.15505102572168219, 0.64494897427831781, 1};
-static const double radau_weight[GAUSS] = {0.37640306270046727, 0.51248582618842162, 1.0 / 9};
-
 static void add_element(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
-  const double *share = ends_free(p, i) ? radau_at : zp_gauss_shares(&p->level, i), *start = span->start;
-  const double *share_of_length = ends_free(p, i) ? radau_weight : gauss_weight, *end = span->end;
+  const double *share = zp_gauss_shares(&p->level, i), *start = span->start, *end = span->end;
   for (int q = 0; q < GAUSS; q++) {
-    double r = share[q], l = 1 - r, weight = share_of_length[q] * p->l * p->push;
+    double r = share[q], l = 1 - r, weight = gauss_weight[q] * p->l * p->push;
     double x0 = -(l * start[i] + r * start[i + 1]) / p->depth, x1 = -(l * end[i] + r * end[i + 1]) / p->depth;
     Mean m = mean_of(x0, x1, span->late);
     double f = weight * m.push, c = weight * m.slope / p->depth;
@@ -119,11 +108,10 @@ static void add_of_block(const Block *of, size_t k, size_t i, const ZpFacesEval 
   e->next[i] += of->next[k];
 }
 
-/* Are the push's points in element i those of the field in an element without a level or a free end? */
-static bool is_usual(const ZpFacesParams *p, size_t i) {
+static bool is_level(const ZpFacesParams *p, size_t i) {
   for (size_t k = 0; k < p->level.count; k++)
-    if (p->level.of[k].element == i) return false;
-  return !ends_free(p, i);
+    if (p->level.of[k].element == i) return true;
+  return false;
 }
 
 static void elements_at_rest(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
@@ -139,10 +127,10 @@ static void elements_at_rest(const ZpFacesParams *p, const ZpFacesSpan *span, co
     for (size_t k = 0; any && k < count; k++) {
       size_t i = first + k;
       if (!touches(gap, i) || is_rigid(p, i)) continue;
-      if (is_usual(p, i))
-        add_of_block(&block, k, i, e);
-      else
+      if (is_level(p, i))
         add_element(p, span, i, e);
+      else
+        add_of_block(&block, k, i, e);
     }
   }
 }

@@ -1,8 +1,7 @@
 /* Contact, at rest and in motion: insulator faces that overlap push each other apart, eq. (9.1), and nothing holds them
  * together. The push begins smoothly, so that a branch of equilibria has no corner where contact begins, and it is
- * integrated inside each element at the same points as the field, so that the two balance point by point. Beside a free
- * end the points include the end, which may touch the other face alone, eq. (9.8). In motion a damper acts between
- * faces that overlap, eq. (9.3): within a step, eq. (9.6), or after it.
+ * integrated inside each element at the same points as the field, so that the two balance point by point. In motion a
+ * damper acts between faces that overlap, eq. (9.3): within a step, eq. (9.6), or after it.
  *
  * Stations are pairs of facing nodes, or nodes below a flat face. */
 #ifndef ZP_CONTACT_FACES_H
@@ -21,10 +20,10 @@ typedef struct ZpFacesParams {
   double depth;                  /* delta: overlap at which the push is p_c, m */
   double push;                   /* p_c, N/m */
   double settling;               /* tau_c: what vibrates in contact settles in about that time, s; eq. (18.11) */
-  size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
+  size_t platform, platform_end; /* first and last station of the platform, or the right end: elements between them do
+                                    not push */
   ZpLevelEnds level;             /* elements with a level end */
-  double flat_length;            /* of its faces, at the gap of each of these, m */
-  bool free_end;                 /* the last element ends free: its end may touch alone, as a point */
+  double flat_length;            /* of its faces, at the gap of each of these, m; of a free end eq. (9.8) */
 } ZpFacesParams;
 
 /* Range of contact of insulators that are so thick together, m: 0.5 um for 260 um, at least a nanometre. */

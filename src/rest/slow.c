@@ -378,7 +378,7 @@ ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
   if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost as the voltage fell");
   if (end == ZP_SLOW_IMPOSSIBLE)
-    zp_limit_lost(release, "as the voltage fell, faces of the closed state came to lie inside each other");
+    zp_limit_none(release, "as the voltage fell, faces of the closed state came to lie inside each other");
   if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;
   return end;
 }

@@ -314,10 +314,12 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
-/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m. */
+/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m, or the edge of
+ * a free end onto the other face. */
 static double pressed_by_load(const ZpModel *model) {
   const ZpFacesParams *faces = &model->faces;
-  return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + 0.5 * faces->l) : 0;
+  double beside = zp_ends_free(&model->topology) ? 0 : 0.5 * faces->l;
+  return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + beside) : 0;
 }
 
 /* The largest overlap that a state may have, m. By (9.1) the attraction at the breakdown of the insulators causes the

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "actuator/topology.h"
 #include "base/fail.h"
 
 enum { MESHES = 5, FEWEST_ELEMENTS = 3 };
@@ -31,6 +32,7 @@ enum { COUNT = sizeof estimated / sizeof estimated[0] };
 /* What the meshes give for each row above; NAN where they give none. */
 typedef struct Findings {
   double elements[MESHES], f[COUNT][MESHES];
+  bool free_end; /* a ribbon has one: where it leaves as a point, errors are of order two */
 } Findings;
 
 static bool is_estimated(ZpStudy study) {
@@ -159,7 +161,8 @@ static bool shows_order(const Findings *findings, int k, int near, double order)
 static double of_ripple(const Findings *findings, int k) {
   const Estimated *e = &estimated[k];
   int nearest = e->meshes > 2 ? 3 : 1;
-  bool small = on_one_side(findings, k, e->meshes) && !shows_order(findings, k, nearest, e->order);
+  bool small =
+      findings->free_end || (on_one_side(findings, k, e->meshes) && !shows_order(findings, k, nearest, e->order));
   return largest(findings, k, e->meshes, small ? 2 : e->order);
 }
 
@@ -233,7 +236,8 @@ static Meshes choose_meshes(const ZpActuatorDef *def, const Findings *findings, 
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err) {
   ZpStudy study = result->study;
   if (!task->def->output.errors || !is_estimated(study) || !has_others(task->def, moves)) return ZP_OK;
-  Findings findings;
+  const ZpTopology topology = zp_topology_of(task->def);
+  Findings findings = {.free_end = zp_ends_free(&topology)};
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
   ZpStatus status = ZP_OK;
