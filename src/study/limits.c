@@ -151,11 +151,16 @@ static bool find_closed(Finder *f) {
   return limits->closes;
 }
 
+/* May closed faces slide along each other? Then only the way down tells whether they do before they open. */
+static bool faces_slide(const ZpModel *model) {
+  return zp_is_pair(&model->topology) && zp_ends_free(&model->topology);
+}
+
 /* From closed at drive.voltage down to 0. */
 static void lower_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
   bool closes = find_closed(f);
-  if (from_neighbour(f, ZP_LIMIT_RELEASE)) return;
+  if (!faces_slide(f->model) && from_neighbour(f, ZP_LIMIT_RELEASE)) return;
   zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
   if (!closes) return;
   zp_slow_go_to(&f->slow, f->limits->closed);
