@@ -240,6 +240,29 @@ START_TEST(test_laws_keep_their_own_numbers) {
 }
 END_TEST
 
+/* A run that has taken over without a controller can be saved and goes on from there; one with a controller, too. */
+START_TEST(test_taken_over_is_saved_and_restored) {
+  const ZpActuatorDef alone = DEF({"mesh.nodes", 21}),
+                      controlled =
+                          DEF({"mesh.nodes", 21}, {"control.kind", ZP_CONTROL_PI}, {"control.proportional", 1e5},
+                              {"control.period", 1e-3}, {"setpoint.value", 0.01});
+  Run first = begin(_i & 1 ? controlled : alone), next = begin(_i & 2 ? controlled : alone), again = begin(next.def);
+  ZpError err = {ZP_OK, ""};
+  const size_t size = zp_sim_state_size(next.sim);
+  void *snapshot = malloc(size);
+  zp_sim_run(first.sim, 0.01, false, NULL, NULL);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(next.sim, 0.012, false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_save(next.sim, snapshot);
+  ck_assert_msg(zp_sim_restore(again.sim, snapshot, size, &err) == ZP_OK, "%s", err.message);
+  free(snapshot);
+  expect_signals(&again, &next, 1);
+  end(&first);
+  end(&next);
+  end(&again);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("take over");
   TCase *all = tcase_create("take over");
@@ -254,6 +277,7 @@ int main(void) {
   tcase_add_test(all, test_antagonists_keep_their_lengths);
   tcase_add_test(all, test_other_ends_are_refused);
   tcase_add_loop_test(all, test_laws_keep_their_own_numbers, 0, 6);
+  tcase_add_loop_test(all, test_taken_over_is_saved_and_restored, 0, 4);
   suite_add_tcase(suite, all);
   return run_suite(suite);
 }
