@@ -52,8 +52,8 @@ static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
   one->mount.tilt = fabs(def->mount.tilt) < 0.5 * upside_down ? upside_down : 0;
   one->load.mass = one->load.force = 0;
   one->drive.offset *= def->stack.voltage_ratio;
+  if (!isnan(def->stack.lower_voltage)) one->drive = zp_actuator_def_default().drive; /* a step, which stays constant */
   one->drive.voltage = zp_def_lower_voltage(def, def->drive.voltage);
-  if (!isnan(def->stack.lower_voltage)) one->drive.waveform = ZP_WAVEFORM_STEP;
 }
 
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
