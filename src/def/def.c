@@ -983,6 +983,15 @@ static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
+ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def) {
+  ZpActuatorDef bare = *def;
+  bare.load = zp_actuator_def_default().load;
+  bare.load.mass = 0;
+  bare.load.share = def->load.share;
+  bare.load.offset = def->load.offset;
+  return bare;
+}
+
 /* The halves are mirror images only if gravity is vertical. */
 static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
   static const double half_turn = 3.14159265358979323846;
