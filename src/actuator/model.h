@@ -8,6 +8,8 @@
 #ifndef ZP_ACTUATOR_MODEL_H
 #define ZP_ACTUATOR_MODEL_H
 
+#include <math.h>
+
 #include <zipact/model.h>
 
 #include "actuator/topology.h"
@@ -304,6 +306,12 @@ static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   double shift = zp_straight_x(model, platform->last) - q[right];
   for (size_t j = right; j < model->stride; j++)
     q[j] += shift;
+}
+
+/* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or the depth of contact if that is
+ * more. */
+static inline double zp_closed_opening(const ZpModel *model, double hanging) {
+  return fmax(0.01 * hanging, model->faces.depth);
 }
 
 /* Length of faces that face each other in the whole actuator, platform's electrode included, m. */

@@ -473,7 +473,6 @@ ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err) {
                  def->insulator.thickness, thinnest);
 }
 
-/* Conditions of electro.model field on other keys. */
 /* Is the two-dimensional field in this build? */
 #ifdef ZP_WITHOUT_FIELD
 static const bool knows_field = false;
@@ -481,6 +480,7 @@ static const bool knows_field = false;
 static const bool knows_field = true;
 #endif
 
+/* Conditions of electro.model field on other keys. */
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   if (!knows_field)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -716,7 +716,7 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   const ZpActuatorDef *of[] = {def, &lower};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
   for (int k = 0; k < 2; k++)
-    if (of[k]->ribbon.density == 0 && of[k]->insulator.density == 0)
+    if (of[k]->ribbon.density == 0 && of[k]->insulator.density * of[k]->insulator.thickness == 0)
       return zp_fail(err, ZP_BAD_INPUT, "%s = 0 kg/m3: a moving ribbon needs a mass", key[k]);
   return ZP_OK;
 }
@@ -981,6 +981,15 @@ static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: cannot drop more than load.mass = %g kg",
                    def->load.change_mass, def->load.mass);
   return ZP_OK;
+}
+
+ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def) {
+  ZpActuatorDef bare = *def;
+  bare.load = zp_actuator_def_default().load;
+  bare.load.mass = 0;
+  bare.load.share = def->load.share;
+  bare.load.offset = def->load.offset;
+  return bare;
 }
 
 /* The halves are mirror images only if gravity is vertical. */

@@ -19,6 +19,12 @@ enum { POLISH_MOST = 30, HALVINGS = 12 };
  * curvature. */
 static const double difference = 1e-4;
 
+/* What changes of a key are compared with, in multiples of its start: it may be negative, or pass 0. */
+static double size_of(double z) {
+  static const double least = 1e-3;
+  return fmax(fabs(z), least);
+}
+
 static double measure(ZpFit *fit, ZpFitKind kind, const ZpModel *model, double voltage) {
   ZpRest *rest;
   double value = NAN;
@@ -272,7 +278,8 @@ static bool difference_set(ZpFit *fit, const ZpFitSet *of, const double *z, doub
   for (int k = 0; k < fit->n && good; k++) {
     double at[ZP_FIT_MOST];
     memcpy(at, z, sizeof at);
-    double high = fmin(z[k] * (1 + difference), fit->upper[k]), low = fmax(z[k] * (1 - difference), fit->lower[k]);
+    double step = difference * size_of(z[k]);
+    double high = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
     at[k] = high;
     good = predict_set(fit, of, at, up);
     at[k] = low;
@@ -360,7 +367,7 @@ static double take_step(ZpFit *fit, double *z, double *fitted, const double *ste
     double at[ZP_FIT_MOST] = {0}, moved = 0;
     for (int k = 0; k < fit->n; k++) {
       at[k] = fmin(fmax(z[k] + fraction * step[k], fit->lower[k]), fit->upper[k]);
-      moved = fmax(moved, fabs(at[k] - z[k]) / z[k]);
+      moved = fmax(moved, fabs(at[k] - z[k]) / size_of(z[k]));
     }
     if (!predict_all(fit, at, trial) || squares(fit, trial) >= before) continue;
     memcpy(z, at, (size_t)fit->n * sizeof *z);

@@ -104,10 +104,18 @@ static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
   s->excluded = NAN;
   s->old = calloc(s->room, sizeof *s->old);
   s->point = calloc(s->room, sizeof *s->point);
-  if (!s->old || !s->point || pthread_mutex_init(&s->lock, NULL) != 0) return zp_fail_memory(err);
+  if (!s->old || !s->point) return zp_fail_memory(err);
   status = zp_campaign_hash(s->study, &s->def, &s->start, err);
   if (status == ZP_OK) status = zp_journal_open(directory, s->study, s->options->resume, s->room, &s->journal, err);
   return status == ZP_OK ? zp_journal_visit(s->journal, take_old_row, s, err) : status;
+}
+
+/* An optimization that can be destroyed; NULL if there is no memory. */
+static ZpOptimization *create(void) {
+  ZpOptimization *o = calloc(1, sizeof *o);
+  if (o && pthread_mutex_init(&o->search.lock, NULL) == 0) return o;
+  free(o);
+  return NULL;
 }
 
 /* A quarter of the cases explores the whole box, the others descend from the best of these. */
@@ -303,7 +311,7 @@ static ZpStatus optimize(ZpOptimization *o, const char *directory, ZpError *err)
 
 ZpStatus zp_optimize(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,
                      ZpOptimization **out, ZpError *err) {
-  ZpOptimization *o = *out = calloc(1, sizeof *o);
+  ZpOptimization *o = *out = create();
   if (!o) return zp_fail_memory(err);
   o->search.scenario = scenario;
   o->search.options = options;

@@ -34,7 +34,7 @@ void zp_slow_carve(ZpSlow *f, ZpRest *rest, ZpCarver *carver) {
 }
 
 void zp_slow_start(ZpSlow *f, double hanging) {
-  f->closed = zp_closing_limit(f->statics, hanging);
+  f->closed = zp_closed_opening(f->statics->model, hanging);
   f->march.limit = f->closed;
   f->march.fold.tolerance = zp_statics_tolerance(f->statics);
 }
@@ -50,7 +50,7 @@ double zp_slow_closed_by_load(ZpSlow *f) {
   fold->system = &f->load;
   if (!zp_fold_tangent(fold)) return NAN;
   double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->assembly.n, fold->x, fold->along);
-  double change = zp_closing_limit(s, (1 + step) * gap) - zp_closing_limit(s, (1 - step) * gap);
+  double change = zp_closed_opening(s->model, (1 + step) * gap) - zp_closed_opening(s->model, (1 - step) * gap);
   return by_load * change / (2 * step * gap);
 }
 

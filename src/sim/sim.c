@@ -337,18 +337,12 @@ static double opening(const ZpModel *model, const ZpState *state) {
   return zp_opening(&model->topology, zp_state_motion(model, state).y);
 }
 
-/* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or where faces touch if that is
- * more. */
-static double closed_opening(const ZpModel *model, const ZpState *state) {
-  return fmax(ZP_CLOSED_PART * state->opening0, model->faces.range);
-}
-
 static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > closed_opening(model, state);
+  return opening(model, state) > zp_closed_opening(model, state->opening0);
 }
 
 static bool started_open(const ZpSim *sim) {
-  return sim->step_start.opening > closed_opening(sim->model, sim->state);
+  return sim->step_start.opening > zp_closed_opening(sim->model, sim->state->opening0);
 }
 
 /* Is it closed, after it was open? An actuator that starts closed, as straight ribbons do, has to open first. */
@@ -404,7 +398,7 @@ bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
 /* Distance of bare electrodes from a touch, m; INFINITY where none matters. */
 static double left_to_short(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return INFINITY;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.range;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.depth;
 }
 
 /* Do electrodes without an insulator touch under a voltage? */
@@ -426,7 +420,8 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
 /* When the actuator closes: on the parabola of the midpoint rule, which has the opening and its rate at the start and
  * the opening at the end. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - closed_opening(model, state), taken = state->t - start.t;
+  double now = opening(model, state), left = start.opening - zp_closed_opening(model, state->opening0),
+         taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
@@ -437,7 +432,7 @@ double zp_sim_crossing(const ZpSim *sim) {
 
 /* Was that instant within the last step? */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  return start.opening > closed_opening(model, state) && !is_open(model, state);
+  return start.opening > zp_closed_opening(model, state->opening0) && !is_open(model, state);
 }
 
 /* Has the opening left the bounds within which it counts as still? Then new ones begin here. */
@@ -507,7 +502,7 @@ void zp_sim_arrive(ZpSim *sim) {
 /* -- where a run ends within a step --------------------------------------------------------------- */
 
 static double left_to_close(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) - closed_opening(model, state);
+  return opening(model, state) - zp_closed_opening(model, state->opening0);
 }
 
 double zp_sim_left(const ZpSim *sim, ZpLanding landing) {

@@ -309,7 +309,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 
-/* With a meter: its readings, if the run began at t = 0. */
+/* With a meter: its readings. */
 static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
   ZpTable *trace = zp_sense_trace();
   if (!trace) return zp_fail_memory(err);

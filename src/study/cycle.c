@@ -332,7 +332,7 @@ static void write_state(Cycles *c, const double *x) {
 static bool stays(const Cycles *c) {
   double hanging = c->sim->state->opening0;
   Range opening = range_of(c, "opening_m");
-  return opening.least > 0.1 * hanging || opening.most < fmax(ZP_CLOSED_PART * hanging, c->sim->model->faces.range);
+  return opening.least > 0.1 * hanging || opening.most < zp_closed_opening(c->sim->model, hanging);
 }
 
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
@@ -490,7 +490,7 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   add_periodic(c, result, "opening_max_m", "m", opening.most);
   add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
   add_periodic(c, result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
+  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, c->sim->state->opening0));
 }
 
 /* Energy lost in a cycle of the periodic motion, which the source gives, J; jumps of the voltage take a part of it. */

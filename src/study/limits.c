@@ -233,7 +233,7 @@ static bool find(Finder *f) {
   if (!f->model->field || f->model->def.drive.voltage == 0) return true;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_none(&f->limits->limit[k], "it hangs closed");
-  if (f->limits->hanging <= zp_closing_limit(&f->rest.statics, 0)) return true;
+  if (f->limits->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return true;
   ZpSlowEnd up = raise_voltage(f);
   bool shorts = zp_insulation(&f->model->def) == 0;
   if (shorts) none_closed(f, "when closed, it is a short circuit");

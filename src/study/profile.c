@@ -569,8 +569,7 @@ ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
 /* As in study isometric, the load does not count. The model is that of plates: the shape has no voltage, and the field
  * is solved here. */
 ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = *task->def;
-  bare.load.mass = bare.load.force = 0;
+  ZpActuatorDef bare = zp_def_unloaded(task->def);
   bare.electro.model = ZP_ELECTRO_PLATES;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
