@@ -57,7 +57,7 @@ typedef struct Meshes {
  * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
  * that four meshes must show also need four fifths and seven tenths. */
 static Meshes coarser_meshes(int elements, int others) {
-  static const int tenths[MESHES] = {10, 6, 4, 8, 7};
+  static const int tenths[MESHES] = {10, 5, 4, 8, 7};
   Meshes meshes = {.others = others};
   for (int mesh = 0; mesh < MESHES; mesh++)
     meshes.elements[mesh] = (tenths[mesh] * elements + 5) / 10;
@@ -81,7 +81,6 @@ static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
   if (!moves) return def;
-  def.solver.stop_when_zipped = ZP_WHEN_TRUE;         /* its zip time is requested */
   def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
   def.solver.time_step *= longer;                     /* NAN, auto, stays */
   return def;
@@ -100,7 +99,7 @@ static ZpStatus solve(const ZpTask *task, ZpStudyRun run, ZpStudy study, int mes
   ZpError reason;
   ZpResult *result = zp_result_create(study);
   if (!result) return zp_fail_memory(err);
-  ZpStatus status = run(&again, result, &reason);
+  ZpStatus status = (study == ZP_STUDY_ACTUATE ? zp_study_zip_time : run)(&again, result, &reason);
   if (status == ZP_OK && zp_outcome_good(result->outcome)) take(result, study, mesh, def, findings);
   zp_result_destroy(result);
   return status == ZP_MACHINE ? zp_fail(err, status, "%s", reason.message) : ZP_OK;
