@@ -455,10 +455,11 @@ static double energy_of_cavity(double thickness) {
   return thickness * (zp_film_tension + 0.5 * thickness / give);
 }
 
-double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
+double zp_film_energy_among(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state,
+                            size_t first, size_t end) {
   double sum = 0;
-  ZpFilmPiece left = none;
-  for (size_t i = 0; i < p->nodes; i++) {
+  ZpFilmPiece left = first > 0 ? piece_of(p, cover, first - 1) : none;
+  for (size_t i = first; i < end; i++) {
     ZpFilmPiece piece = piece_of(p, cover, i);
     double H = zp_film_thickness(p, gap[i]), E = zp_film_depth(p, H), next = 0;
     double length = length_between(&left, &piece, flat(p, cover, i));
@@ -472,6 +473,10 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
     left = piece;
   }
   return sum * p->w;
+}
+
+double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
+  return zp_film_energy_among(p, cover, gap, state, 0, p->nodes);
 }
 
 /* Loss of one momentum over the step, per length and width, J/m^2: by drag, and by theta beyond the mean. */
