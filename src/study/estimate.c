@@ -72,18 +72,19 @@ static Meshes finer_meshes(int elements, double resolution) {
   return (Meshes){true, 2, {elements, resolved, (6 * resolved + 5) / 10}};
 }
 
-/* In motion, steps lengthen by the same factor as elements; they do not shorten with them, because the finer mesh is
- * for its elements alone. Only numbers of the summary are requested. */
+/* In motion, steps change by the same factor as elements, so that a mesh shows the error of both; but those of a finer
+ * mesh need not be shorter than with a tolerance of `finest`. Only numbers of the summary are requested. */
 static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
-  double longer = fmax(1, (def.mesh.nodes - 1) / (double)elements);
-  const double tolerance = zp_def_tolerance(&def);
+  static const double finest = 1e-4;
+  const double longer = (def.mesh.nodes - 1) / (double)elements, tolerance = zp_def_tolerance(&def);
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
   if (!moves) return def;
-  def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
-  def.solver.time_step *= longer;                     /* NAN, auto, stays */
+  /* It is proportional to the square of the steps, eq. (18.12). */
+  def.solver.tolerance = fmax(tolerance * longer * longer, fmin(tolerance, finest));
+  def.solver.time_step *= longer; /* NAN, auto, stays */
   return def;
 }
 

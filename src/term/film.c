@@ -89,12 +89,8 @@ static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly 
  * convection, which would have one sign there and the other here, are omitted. */
 static void by_gaps(const ZpModel *model, const ZpAssembly *assembly, const ZpFilmEval *e, size_t i, ZpBand *K) {
   for (int k = 0; k < ZP_FILM_MODES; k++)
-    for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++) {
-      double by_gap = zp_film_by_gap(&model->film, e, i, j, k);
-      size_t p = zp_film_mode_at(i, k);
-      zp_assemble_own_by(assembly, p, 2 * zp_upper(&model->topology, j) + 1, -by_gap, K);
-      zp_assemble_own_by(assembly, p, 2 * zp_lower(&model->topology, j) + 1, by_gap, K);
-    }
+    for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++)
+      zp_assemble_own_by_gap(assembly, zp_film_mode_at(i, k), j, -zp_film_by_gap(&model->film, e, i, j, k), K);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
