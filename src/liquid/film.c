@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#include "base/kernel.h"
+
 static const double give = 1e-6;                    /* m/Pa: a cavity as thick as a millimetre takes 1 % more */
 static const double shortest = 1e-3;                /* of an element: what flows past a meniscus is led so far */
 static const double isolated = 2.35619449019234493; /* 3 pi / 4: r / (H / w) of strips far from each other */
@@ -40,13 +42,21 @@ void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
 /* -- geometry -------------------------------------------------------------------------------------- */
 
 /* A smooth transition from g, far above the roughness, to nothing, far below 0. */
+ZP_INLINE double root_of(double roughness, double gap) {
+  return sqrt(gap * gap + 4 * roughness * roughness);
+}
+
+ZP_INLINE double thickness_of(double roughness, double gap) {
+  double S = root_of(roughness, gap), below = 2 * roughness * roughness / (S - gap);
+  return gap > 0 ? 0.5 * (gap + S) : S > gap ? below : 0;
+}
+
 static double root(const ZpFilmParams *p, double gap) {
-  return sqrt(gap * gap + 4 * p->roughness * p->roughness);
+  return root_of(p->roughness, gap);
 }
 
 double zp_film_thickness(const ZpFilmParams *p, double gap) {
-  double S = root(p, gap);
-  return gap > 0 ? 0.5 * (gap + S) : S > gap ? 2 * p->roughness * p->roughness / (S - gap) : 0;
+  return thickness_of(p->roughness, gap);
 }
 
 double zp_film_rise(const ZpFilmParams *p, double gap) {
@@ -59,15 +69,13 @@ double zp_film_bend(const ZpFilmParams *p, double gap) {
   return S > 0 ? 2 * p->roughness * p->roughness / (S * S * S) : 0;
 }
 
-double zp_film_depth(const ZpFilmParams *p, double H) {
-  double q = H / p->w;
+ZP_INLINE double depth_of(double width, double H) {
+  double q = H / width;
   return H / (isolated * q + 1 / (1 + 1.066 * q * sqrt(q)));
 }
 
-/* The predicted thickness in the middle: it changes as in the last step, but is at least half of that at the start. */
-static double middle(const ZpFilmParams *p, double gap, double rate, double h) {
-  double H = zp_film_thickness(p, gap), foreseen = zp_film_thickness(p, gap + 0.5 * h * rate);
-  return fmax(foreseen, 0.5 * H);
+double zp_film_depth(const ZpFilmParams *p, double H) {
+  return depth_of(p->w, H);
 }
 
 /* Length of the element from station i on, m: the platform's counts at its stations. */
@@ -312,18 +320,31 @@ static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i,
 
 /* -- a step ---------------------------------------------------------------------------------------- */
 
+/* The thickness foreseen in the middle of the step changes as in the last one, but is at least half of that at the
+ * start. */
+ZP_KERNEL static void thicknesses(size_t nodes, double roughness, double width, const double *restrict g0,
+                                  const double *restrict g1, const double *restrict rate, double h,
+                                  const ZpFilmEval *e) {
+  double *restrict middle = e->middle, *restrict H0 = e->H0, *restrict H1 = e->H1;
+  double *restrict depth0 = e->depth0, *restrict depth1 = e->depth1, *restrict secant = e->secant;
+  ZP_SIMD
+  for (size_t i = 0; i < nodes; i++) {
+    double start = thickness_of(roughness, g0[i]), end = thickness_of(roughness, g1[i]);
+    double foreseen = thickness_of(roughness, g0[i] + 0.5 * h * rate[i]), half = 0.5 * start;
+    double both = root_of(roughness, g0[i]) + root_of(roughness, g1[i]), mean = 0.5 * (1 + (g0[i] + g1[i]) / both);
+    H0[i] = start;
+    H1[i] = end;
+    middle[i] = foreseen > half ? foreseen : half;
+    depth0[i] = depth_of(width, start);
+    depth1[i] = depth_of(width, end);
+    secant[i] = both > 0 ? mean : 0.5;
+  }
+}
+
 static void geometry(const ZpFilmParams *p, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
                      const ZpFilmEval *e) {
   lay_pieces(p, ends, e);
-  for (size_t i = 0; i < p->nodes; i++) {
-    double both = root(p, g0[i]) + root(p, g1[i]);
-    e->middle[i] = middle(p, g0[i], e->rate[i], h);
-    e->H0[i] = zp_film_thickness(p, g0[i]);
-    e->H1[i] = zp_film_thickness(p, g1[i]);
-    e->depth0[i] = zp_film_depth(p, e->H0[i]);
-    e->depth1[i] = zp_film_depth(p, e->H1[i]);
-    e->secant[i] = both > 0 ? 0.5 * (1 + (g0[i] + g1[i]) / both) : 0.5;
-  }
+  thicknesses(p->nodes, p->roughness, p->w, g0, g1, e->rate, h, e);
 }
 
 static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
@@ -455,10 +476,11 @@ static double energy_of_cavity(double thickness) {
   return thickness * (zp_film_tension + 0.5 * thickness / give);
 }
 
-double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
+double zp_film_energy_among(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state,
+                            size_t first, size_t end) {
   double sum = 0;
-  ZpFilmPiece left = none;
-  for (size_t i = 0; i < p->nodes; i++) {
+  ZpFilmPiece left = first > 0 ? piece_of(p, cover, first - 1) : none;
+  for (size_t i = first; i < end; i++) {
     ZpFilmPiece piece = piece_of(p, cover, i);
     double H = zp_film_thickness(p, gap[i]), E = zp_film_depth(p, H), next = 0;
     double length = length_between(&left, &piece, flat(p, cover, i));
@@ -472,6 +494,10 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
     left = piece;
   }
   return sum * p->w;
+}
+
+double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
+  return zp_film_energy_among(p, cover, gap, state, 0, p->nodes);
 }
 
 /* Loss of one momentum over the step, per length and width, J/m^2: by drag, and by theta beyond the mean. */

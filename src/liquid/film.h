@@ -127,6 +127,10 @@ double zp_film_inertia(const ZpFilmParams *params, double h, const ZpFilmEval *e
 /* Kinetic energy of the film at gaps [N] and a state, as far as it is covered, and what its cavities hold, J. */
 double zp_film_energy(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state);
 
+/* The part of it that belongs to the stations from `first` on before `end`. */
+double zp_film_energy_among(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state,
+                            size_t first, size_t end);
+
 /* Length of the faces at station i, m. */
 double zp_film_length(const ZpFilmParams *params, size_t i);
 

@@ -75,6 +75,7 @@ typedef struct ZpImplicit {
   const ZpImplicitSystem *system;
   double accuracy; /* required local error, root mean square over all but algebraic unknowns in their scales, m */
   double balance;  /* work that the iteration may leave unbalanced in a step, as a fraction of the energy there */
+  double share;    /* of the accuracy: the error that the iteration may leave */
   double fixed;    /* length of all steps, s; 0: by the local error */
   double energy;   /* at the start of the present step, J */
   double reach;    /* largest unknown of the first part there, in its scale: all are rounded to its last digits */
@@ -87,6 +88,9 @@ typedef struct ZpImplicit {
 
 /* Take the arrays from `carver`. */
 void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCarver *carver);
+
+/* From now on the iteration leaves more of the error and of the energy: for runs of which only times are asked. */
+void zp_implicit_hasten(ZpImplicit *stepper);
 
 /* Take one step of at most `longest`: (q, v, history) at its start => at its end. v and history.a are 0 for algebraic
  * unknowns; v is also 0 for unknowns of first order. Returns its length; 0 if no step succeeded (see `end`), and then

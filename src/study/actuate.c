@@ -359,3 +359,19 @@ ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {
   zp_model_destroy(model);
   return status;
 }
+
+ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err) {
+  ZpModel *model;
+  ZpSim *sim;
+  ZpStatus status = zp_model_create_driven(task->def, task->input.table, &model, err);
+  if (status != ZP_OK) return status;
+  status = zp_sim_create(model, task->hooks, &sim, err);
+  if (status == ZP_OK) {
+    zp_implicit_hasten(&sim->dynamics.stepper);
+    result->outcome = zp_sim_run(sim, task->def->solver.end_time, true, task->hooks, NULL);
+    zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
+    zp_sim_destroy(sim);
+  }
+  zp_model_destroy(model);
+  return status;
+}
