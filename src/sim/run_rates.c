@@ -309,8 +309,7 @@ static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   bool moves = sim->dynamics.stepper.counts.steps > rates->taken, lands = sim->landing != ZP_LANDS_NOWHERE;
-  bool rests = sim->stop == ZP_STOP_HELD && zp_sim_stops(sim, sim->stop); /* as much later as it has closed later */
-  of->late = rests ? of->rate->closed_from : 0;
+  of->late = 0;
   if (lands ? !follow_landing(rates, of) : !follow_step(rates, of, moves)) return false;
   if (moves && zp_sim_is_fed(sim)) follow_currents(rates, of);
   return true;

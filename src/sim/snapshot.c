@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 8
+ *   8 .. 11         version of the format, 9
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -34,7 +34,7 @@
 #include "def/check.h"
 #include "sim/feed.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 8, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 9, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -56,6 +56,7 @@ typedef struct Number {
 
 #define NUMBER(kind, name)                                                                                             \
   { #name, kind, offsetof(ZpState, name) }
+#define BOUNDS(cell) NUMBER(REAL, still.least[cell]), NUMBER(REAL, still.most[cell])
 static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, U),
                                 NUMBER(FLAG, by_hand),
@@ -66,9 +67,23 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(MODE, supply_mode),
                                 NUMBER(REAL, zip_time),
                                 NUMBER(REAL, closed_from),
-                                NUMBER(REAL, still.from),
-                                NUMBER(REAL, still.least),
-                                NUMBER(REAL, still.most),
+                                BOUNDS(0),
+                                BOUNDS(1),
+                                BOUNDS(2),
+                                BOUNDS(3),
+                                BOUNDS(4),
+                                BOUNDS(5),
+                                BOUNDS(6),
+                                BOUNDS(7),
+                                BOUNDS(8),
+                                BOUNDS(9),
+                                BOUNDS(10),
+                                BOUNDS(11),
+                                BOUNDS(12),
+                                BOUNDS(13),
+                                BOUNDS(14),
+                                BOUNDS(15),
+                                BOUNDS(16),
                                 NUMBER(REAL, opening0),
                                 NUMBER(REAL, base_U),
                                 NUMBER(REAL, base_charge),
@@ -144,6 +159,7 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, setpoint_input.rate),
                                 NUMBER(REAL, setpoint_input.since),
                                 NUMBER(REAL, setpoint_input.until)};
+#undef BOUNDS
 #undef NUMBER
 
 static const char *const array[] = {"position",      "velocity",    "held force", "held at",
