@@ -193,7 +193,6 @@ static bool move(ZpRunRates *rates, ZpKeyRates *of) {
     double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
     if (!zp_sim_prepare(near)) return false;
-    if (zp_sim_is_fed(near)) zp_feed_begin(near);
     zp_dynamics_begin(d, near->states, latest);
     steps.near[steps.count++] =
         (ZpNearStep){&d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
