@@ -54,7 +54,7 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
   const ZpState *state = sim->state;
   double V = state->supply.voltage, rate = zp_supply_rate(&sim->model->supply, &command, state->t, state->supply);
   double inner = zp_ramp_resolution(fmax(least, fabs(V)), rate);
-  return fmin(inner, zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate));
+  return fmax(fmin(inner, zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate)), shortest);
 }
 
 /* -- the law of the current ------------------------------------------------------------------------ */
