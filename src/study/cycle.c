@@ -338,17 +338,16 @@ static bool stays(const Cycles *c) {
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
  * next cycle starts at that point. */
 static int shoot(Cycles *c) {
-  static const double farthest = 0.5; /* hanging openings; a farther point is not used */
-  size_t n = 2 * c->model->stride;
-  double ahead = 0, faster = 0;
+  static const double farthest = 0.5; /* of the units of what decides; a farther point is not used */
+  double ahead = 0, other = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
-  for (size_t k = 0; k < n; k++) {
-    ahead = fmax(ahead, fabs(c->next[k] - c->start[k]));
-    faster = fmax(faster, fabs(c->next[n + k] - c->start[n + k]));
+  for (size_t k = 0; k < deciding(c->model); k++) {
+    double *most = k < 2 * c->model->stride ? &ahead : &other;
+    *most = fmax(*most, fabs(c->next[k] - c->start[k]));
   }
   double away = ahead * c->far / size_of_response(c);
   if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
-  if (fmax(ahead, faster) < farthest) write_state(c, c->next);
+  if (fmax(ahead, other) < farthest) write_state(c, c->next);
   return 0;
 }
 
