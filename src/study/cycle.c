@@ -56,6 +56,8 @@ typedef struct Cycles {
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
   ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open or closed */
   double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
+  ZpState *way_back;          /* the state at a cycle's end, if the next one starts elsewhere: */
+  bool foreseen;              /* at a fixed point that the search foresees */
   int64_t steps_of[PHASES];   /* in each row of a cycle */
   bool refills;               /* each cycle starts with the same liquid at the edges */
   double frozen_at;           /* size of the response for which cycles have those steps, m; 0: steps are free */
@@ -347,8 +349,23 @@ static int shoot(Cycles *c) {
   }
   double away = ahead * c->far / size_of_response(c);
   if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
-  if (fmax(ahead, other) < farthest) write_state(c, c->next);
+  c->foreseen = fmax(ahead, other) < farthest;
+  if (!c->foreseen) return 0;
+  memcpy(c->way_back, c->sim->state, zp_state_size(c->model));
+  write_state(c, c->next);
   return 0;
+}
+
+/* From a state that is none of an actuator, where the search has led, back to where the cycle before has ended. */
+static bool go_back(Cycles *c) {
+  if (!c->foreseen || c->info.outcome != ZP_DIVERGED) return false;
+  memcpy(c->sim->state, c->way_back, zp_state_size(c->model));
+  zp_sim_resume(c->sim);
+  zp_fixed_point_forget(&c->shooting);
+  c->foreseen = false;
+  if (c->frozen_at > 0) c->frozen_at = c->sim->dynamics.stepper.fixed = 0;
+  read_state(c, c->start);
+  return true;
 }
 
 /* Steps that the local error chooses differ a little from cycle to cycle, and the search sees that as noise. From the
@@ -374,6 +391,7 @@ static int look(Cycles *c) {
   bool refills = smooth && c->model->has_bead && 2 * c->done > c->model->def.cycle.most_cycles;
   if (!smooth || refills != c->refills) zp_fixed_point_forget(&c->shooting);
   c->refills = refills;
+  c->foreseen = false;
   int waiting = repeats_in(c), repeats = smooth ? shoot(c) : waiting;
   read_state(c, c->start);
   return repeats;
@@ -398,7 +416,10 @@ static void settle(Cycles *c) {
   read_state(c, c->start);
   c->least[0] = c->least[1] = INFINITY;
   while (c->done < c->model->def.cycle.most_cycles) {
-    if (!run_cycle(c)) return;
+    if (!run_cycle(c)) {
+      if (go_back(c)) continue;
+      return;
+    }
     take_mark(c);
     c->response = response_of(c);
     int repeats = look(c);
@@ -576,9 +597,10 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
     c->heaviest = fmax(c->heaviest, model->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
+  c->way_back = zp_calloc(1, zp_state_size(model));
   c->memory = zp_calloc(1, carve(c, NULL));
   if (c->memory) carve(c, c->memory);
-  return c->rows && c->memory;
+  return c->rows && c->way_back && c->memory;
 }
 
 /* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
@@ -623,6 +645,7 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
       status = zp_fail_memory(err);
     zp_linear_cycle_close(&c->small);
     zp_free(c->memory);
+    zp_free(c->way_back);
     zp_sim_destroy(c->sim);
   }
   zp_free(c);
