@@ -117,10 +117,11 @@ struct ZpModel {
   double ratio, bias; /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
 };
 
-/* Since when an opening has hardly changed, and its bounds since then. */
+/* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
+ * ZP_STILL_CELLS: as many are kept as the last 0.1 s can meet (sim/still.h). */
+enum { ZP_STILL_CELLS = 17 };
 typedef struct ZpStill {
-  double from;        /* s */
-  double least, most; /* m */
+  double least[ZP_STILL_CELLS], most[ZP_STILL_CELLS];
 } ZpStill;
 
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it

@@ -4,7 +4,6 @@
 #include "sim/feed.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "math/elementary.h"
 #include "sim/sim_internal.h"
@@ -55,7 +54,7 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
   const ZpState *state = sim->state;
   double V = state->supply.voltage, rate = zp_supply_rate(&sim->model->supply, &command, state->t, state->supply);
   double inner = zp_ramp_resolution(fmax(least, fabs(V)), rate);
-  return fmin(inner, zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate));
+  return fmax(fmin(inner, zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate)), shortest);
 }
 
 /* -- the law of the current ------------------------------------------------------------------------ */
@@ -267,10 +266,6 @@ void zp_feed_arrive(ZpSim *sim) {
   if (supply->resistance * capacitance_now(sim) < instant) jump(sim, state->supply.voltage);
 }
 
-void zp_feed_begin(ZpSim *sim) {
-  memcpy(sim->before, sim->state, zp_state_size(sim->model));
-}
-
 void zp_feed_end(ZpSim *sim) {
   sim->state->supply = followed(sim, sim->before, sim->state->t);
   sim->state->supply_mode = sim->feed.mode;
@@ -284,7 +279,6 @@ bool zp_feed_step(ZpSim *sim, double latest) {
     state->t = latest;
     return true;
   }
-  zp_feed_begin(sim);
   if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return false;
   zp_feed_end(sim);
   return true;

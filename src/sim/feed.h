@@ -39,11 +39,10 @@ double zp_feed_event(const ZpSim *sim, double latest);
 /* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
 double zp_feed_resolution(const ZpSim *sim, double least);
 
-/* One step that ends at `latest` or before. False if none was found. */
+/* One step that ends at `latest` or before. False if none was found. Its start is in sim->before. */
 bool zp_feed_step(ZpSim *sim, double latest);
 
-/* Before and after a step of the dynamics that is found otherwise, without a limit in it. */
-void zp_feed_begin(ZpSim *sim);
+/* After a step of the dynamics that is found otherwise, without a limit in it. */
 void zp_feed_end(ZpSim *sim);
 
 /* A mean current has flowed for a time h behind an ideal source. */

@@ -193,7 +193,6 @@ static bool move(ZpRunRates *rates, ZpKeyRates *of) {
     double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
     if (!zp_sim_prepare(near)) return false;
-    if (zp_sim_is_fed(near)) zp_feed_begin(near);
     zp_dynamics_begin(d, near->states, latest);
     steps.near[steps.count++] =
         (ZpNearStep){&d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
@@ -309,8 +308,7 @@ static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   bool moves = sim->dynamics.stepper.counts.steps > rates->taken, lands = sim->landing != ZP_LANDS_NOWHERE;
-  bool rests = sim->stop == ZP_STOP_HELD && zp_sim_stops(sim, sim->stop); /* as much later as it has closed later */
-  of->late = rests ? of->rate->closed_from : 0;
+  of->late = 0;
   if (lands ? !follow_landing(rates, of) : !follow_step(rates, of, moves)) return false;
   if (moves && zp_sim_is_fed(sim)) follow_currents(rates, of);
   return true;

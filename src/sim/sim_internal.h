@@ -83,7 +83,7 @@ typedef enum ZpStop {
 } ZpStop;
 
 /* Instants within a step at which a run ends. */
-typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_SHORTED } ZpLanding;
+typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_RESTED, ZP_LANDS_SHORTED } ZpLanding;
 
 struct ZpSim {
   const ZpModel *model;
