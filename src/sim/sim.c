@@ -453,7 +453,7 @@ static void note_closing(ZpSim *sim) {
   const ZpOpeningAt now = {state->t, opening(model, state)};
   ZpOpeningAt start = {sim->step_start.t, sim->step_start.opening};
   if (begins) {
-    start = within ? (ZpOpeningAt){since, closed_opening(model, state)} : now;
+    start = within ? (ZpOpeningAt){since, zp_closed_opening(model, state->opening0)} : now;
     state->closed_from = since;
     zp_still_begin(&state->still, start.opening);
   }
