@@ -8,9 +8,12 @@
 #include "rest/slope.h"
 #include "sim/snapshot.h"
 
-/* Steps of a key. They are so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
- * the points of a difference, but they are above rounding. */
-static const double part = 1e-7;
+/* Step of a key, over its value. Rounding of positions over it is noise in each step, which adds up. In a film it is
+ * larger; without one it is so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
+ * the points of a difference. */
+static double part_of(const ZpModel *model) {
+  return model->has_film ? 1e-6 : 1e-7;
+}
 
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
@@ -55,7 +58,7 @@ static ZpStatus open_key(ZpRunRates *rates, ZpRest *rest, int key, ZpKeyRates *o
   of->last[0].t = of->last[1].t = NAN;
   of->rate = zp_calloc(1, zp_state_size(model));
   if (!of->rate) return zp_fail_memory(err);
-  ZpStatus status = zp_near_open(&of->by, model, key, part, err);
+  ZpStatus status = zp_near_open(&of->by, model, key, part_of(model), err);
   if (status == ZP_OK && hangs) status = rate_of_hanging(rest, key, of->rate, err);
   if (status == ZP_OK) status = create_near(rates, of, err);
   if (status == ZP_OK) take_rate(rates, of);
@@ -112,12 +115,21 @@ static double corner_of(ZpSim *sim, double end_time) {
   return fmin(zp_sim_next_corner(sim), end_time);
 }
 
+/* Under a given voltage, exactly that one: a rounding would be a jump, at which the account is closed. The neighbours'
+ * accounts close where the run's does. */
+static void set_voltage(const ZpSim *sim, ZpSim *near) {
+  if (zp_sim_is_fed(sim)) return;
+  near->state->U = zp_waveform_voltage(&near->model->waveform, near->state->t);
+  if (sim->state->U == sim->state->base_U) near->state->base_U = near->state->U;
+}
+
 static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_corner, double end_time) {
   const ZpSim *sim = rates->sim;
   ZpSim *near = of->near[k];
   double t = time_of(rates, of, k, sim->state->t);
   zp_state_along(sim->model, sim->state, of->rate, of->by.offset[k], near->state);
   near->state->t = t;
+  set_voltage(sim, near);
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
   if (zp_sim_is_fed(near)) zp_feed_arrive(near);
   memcpy(near->before, near->state, zp_state_size(near->model));
@@ -147,12 +159,12 @@ static void lose(const ZpRunRates *rates, ZpKeyRates *of, const char *cause) {
   of->cause = cause;
 }
 
-/* Has the bead filled a station in this step that it did not fill in the step before, or the reverse? */
+/* Has the bead covered a station in this step that it did not cover in the step before, or the reverse? */
 static bool meniscus_passes(ZpRunRates *rates) {
   const ZpDynamics *d = &rates->sim->dynamics;
   bool passes = false;
   for (size_t i = 1; i < d->model->nodes && d->model->has_bead; i++) {
-    bool wet = zp_film_fills(&d->model->film, &d->eval.film, i);
+    bool wet = zp_film_covers(&d->model->film, &d->eval.film, i);
     passes |= wet != rates->wet[i] && rates->before->t > 0;
     rates->wet[i] = wet;
   }
