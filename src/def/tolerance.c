@@ -4,7 +4,7 @@
 
 static const double usual = 1e-4;
 
-/* Of runs with derivatives, whose errors in parts of them are ten and more times those of the numbers, eq. (20.11). */
+/* Errors of derivatives are ten and more times those of the numbers, eq. (20.11). */
 static const double of_derivatives = 2.5e-5;
 
 /* Tolerance of the steps that the mesh is worth, eq. (18.13): dry zips are off by about 1.2 tolerances, those in a

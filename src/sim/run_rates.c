@@ -8,12 +8,9 @@
 #include "rest/slope.h"
 #include "sim/snapshot.h"
 
-/* Step of a key, over its value. Rounding of positions over it is noise in each step, which adds up. In a film it is
- * larger; without one it is so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
- * the points of a difference. */
-static double part_of(const ZpModel *model) {
-  return model->has_film ? 1e-6 : 1e-7;
-}
+/* Steps of a key. They are so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
+ * the points of a difference, but they are above rounding. */
+static const double part = 1e-7;
 
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
@@ -58,7 +55,7 @@ static ZpStatus open_key(ZpRunRates *rates, ZpRest *rest, int key, ZpKeyRates *o
   of->last[0].t = of->last[1].t = NAN;
   of->rate = zp_calloc(1, zp_state_size(model));
   if (!of->rate) return zp_fail_memory(err);
-  ZpStatus status = zp_near_open(&of->by, model, key, part_of(model), err);
+  ZpStatus status = zp_near_open(&of->by, model, key, part, err);
   if (status == ZP_OK && hangs) status = rate_of_hanging(rest, key, of->rate, err);
   if (status == ZP_OK) status = create_near(rates, of, err);
   if (status == ZP_OK) take_rate(rates, of);
