@@ -65,16 +65,17 @@ static ZpActuatorDef dry_zip(int nodes, double tolerance) {
   return def;
 }
 
-/* Through all landings of faces, with the same steps; with and without the cap of the field. */
+/* Through all landings of faces, with the same steps; with and without the cap of the field. Wider differences of zip
+ * times cross corners of landings, narrower ones have rounding. */
 START_TEST(zip_without_liquid) {
   ZpActuatorDef def = dry_zip(21, 1e-7);
   def.solver.time_step = 5e-5;
   def.electro.breakdown_cap = _i;
-  check(&def, "zip_time_s", "drive.voltage", 1e-6, 1e-5);
-  check(&def, "zip_time_s", "ribbon.thickness", 1e-6, 1e-5);
+  check(&def, "zip_time_s", "drive.voltage", 3e-7, 2e-6);
+  check(&def, "zip_time_s", "ribbon.thickness", 3e-7, 2e-6);
   def.solver.end_time = 0.04;
-  check(&def, "stroke_m", "load.mass", 1e-5, 1e-5);
-  check(&def, "stroke_m", "insulator.thickness", 1e-5, 1e-5);
+  check(&def, "stroke_m", "load.mass", 1e-5, 2e-6);
+  check(&def, "stroke_m", "insulator.thickness", 1e-5, 2e-6);
 }
 END_TEST
 
