@@ -66,6 +66,19 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
   return set;
 }
 
+static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
+  char *text = def->sensitivity.by;
+  size_t size = sizeof def->sensitivity.by, used = 0;
+  for (int k = 0; k < fit->n && used < size; k++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
+}
+
+/* Of runs with derivatives, so that those are of the values. */
+static double tolerance_of(const ZpFit *fit, ZpActuatorDef def) {
+  name_keys(fit, &def);
+  return zp_def_tolerance(&def);
+}
+
 /* The result of the study whose number is measured; NULL if it cannot be run. */
 static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   ZpResult *result = NULL;
@@ -73,6 +86,7 @@ static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   def->output.shapes = 2;
   def->output.errors = false;
   def->solver.stop_when_zipped = ZP_WHEN_TRUE; /* of a motion only the zip time */
+  if (kind == ZP_FIT_TIME && fit->n > 0) def->solver.tolerance = tolerance_of(fit, *def);
   ZpStatus status = zp_study_run(zp_fit_number[kind].study, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   return result;
@@ -227,13 +241,6 @@ static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def,
   zp_rest_destroy(rest);
   zp_model_destroy(model);
   return good;
-}
-
-static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
-  char *text = def->sensitivity.by;
-  size_t size = sizeof def->sensitivity.by, used = 0;
-  for (int k = 0; k < fit->n && used < size; k++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
 }
 
 /* The same for the number of a study. */

@@ -575,8 +575,18 @@ double zp_film_open_flow(const ZpFilmParams *p, const ZpFilmEval *e, const doubl
   return p->w * zp_film_wet(e, i) * sum;
 }
 
+/* Not by its wet length, which is a sum and rounded. */
+static bool is_full(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return e->piece[i].length >= element(p, i);
+}
+
+bool zp_film_covers(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  double flat_length = is_platform(p, i) ? p->flat_length : 0;
+  return (i == 0 || is_full(p, e, i - 1)) && is_full(p, e, i) && e->flat[i] >= flat_length;
+}
+
 bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
-  return zp_film_wet(e, i) >= zp_film_length(p, i) && !(e->end[cavity_at(i)] > 0);
+  return zp_film_covers(p, e, i) && !(e->end[cavity_at(i)] > 0);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */

@@ -49,6 +49,12 @@ static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
   return false;
 }
 
+/* Runs of a search by derivatives have the tolerance of `with`, which has these, from the first case on. */
+static void share_tolerance(ZpSearch *s, const ZpActuatorDef *with, const ZpResult *result) {
+  bool runs = isfinite(zp_result_get(result, "mean_time_step_s"));
+  if (runs && s->problem.method == ZP_OPTIMIZER_SLSQP) s->def.solver.tolerance = zp_def_tolerance(with);
+}
+
 /* Run the centre of the box to find out which outputs exist, before anything is written. */
 static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
   ZpProblem *p = &s->problem;
@@ -65,6 +71,7 @@ static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
     p->method = p->objectives > 1            ? ZP_OPTIMIZER_NSGA2
                 : has_derivatives(p, result) ? ZP_OPTIMIZER_SLSQP
                                              : ZP_OPTIMIZER_COBYLA;
+  if (status == ZP_OK) share_tolerance(s, &def, result);
   zp_result_destroy(result);
   return status;
 }
