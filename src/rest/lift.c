@@ -74,7 +74,7 @@ static bool closes_under(ZpLift *l, double load) {
 
 ZpSlowEnd zp_lift_hang_at_top(ZpLift *l, double load) {
   if (!zp_lift_hang(l, load)) return ZP_SLOW_LOST;
-  ZpSlowEnd end = zp_slow_close_at(l->slow, l->top, l->top, &l->at);
+  ZpSlowEnd end = zp_slow_close_at(l->slow, l->top, INFINITY, &l->at);
   zp_lift_narrow(l, load, end == ZP_SLOW_CHANGED, NAN);
   return end;
 }

@@ -252,6 +252,13 @@ static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
 
 /* -- a slow change -------------------------------------------------------------------------------- */
 
+/* From a crest beyond `target` back to the stable state before it. A lower crest of the same ripple comes before the
+ * target, and the actuator falls from there into that state. */
+static ZpSlowEnd stop_before(ZpSlow *f, double target) {
+  f->march.fold.system->set(f->statics, target);
+  return zp_newton_good(zp_statics_fall_until(f->statics, NULL, NULL, f->newton).end) ? ZP_SLOW_ARRIVED : ZP_SLOW_LOST;
+}
+
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
  * point on the way that is not a ripple is `first` (NULL: not requested). A limit point further than `enough` ends the
  * search. */
@@ -269,6 +276,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
+    if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
     bool found = fall(f, sign), impossible = zp_statics_fault(f->statics) != NULL;
     bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
