@@ -183,16 +183,17 @@ START_TEST(test_points_in_passing) {
   ToyMarch f;
   open_toy(&f, &t, true);
   int tries = 0;
-  double worst = 0;
+  double worst = 0, worst_slope = 0;
   for (int k = 0; k <= 30; k++) {
-    double here = -0.3 + k * step, m = 0;
+    double here = -0.3 + k * step, m = 0, slope = 0;
     ZpPass end = ZP_PASS_AGAIN;
     for (; end == ZP_PASS_AGAIN && tries < 100; tries++)
-      end = zp_fold_pass(&f.march.fold, toy_event, here, here + step, &m);
+      end = zp_fold_pass(&f.march.fold, toy_event, here, here + step, &m, &slope);
     ck_assert_int_eq(end, ZP_PASS_ON);
     worst = fmax(worst, fabs(m - toy_branch(here)));
+    worst_slope = fmax(worst_slope, fabs(slope - (2 + (3 - 0.54) * here) * here));
   }
-  printf("%d points in %d steps: m off by %.1e\n", 31, tries, worst);
+  printf("%d points in %d steps: m off by %.1e, its slope by %.1e\n", 31, tries, worst, worst_slope);
   ck_assert_int_eq(tries, exact ? 61 : 31);
   ck_below(worst, 1e-12);
   zp_free(f.memory);

@@ -45,7 +45,7 @@ bool zp_lift_hang(ZpLift *l, double load) {
 /* A limit point is at the voltage, as accurately as it was solved: if the actuator falls closed from there, this is
  * where it closes. Else the next limit is above. */
 static ZpSlowEnd fall_at_top(ZpLift *l) {
-  bool closes = zp_slow_falls_closed(l->slow);
+  bool closes = zp_slow_falls_closed(l->slow, &l->at);
   if (closes) l->slow->square.save(l->slow->statics, l->lifted);
   if (closes) return ZP_SLOW_CHANGED;
   if (zp_slow_is_closed(l->slow)) return ZP_SLOW_LOST;

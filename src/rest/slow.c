@@ -96,6 +96,12 @@ static double parameter(ZpSlow *f) {
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
 
+/* The step of the gap for a search along the branch. */
+static double look_step(const ZpSlow *f) {
+  static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
+  return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
+}
+
 /* An actuator that was closed has opened once it is clear of the limit, because motion with resistance does not come
  * back. (This does not hold for one that closes: its faces overlap for a moment on the way.) */
 static bool has_opened(void *user) {
@@ -107,7 +113,7 @@ static bool has_opened(void *user) {
 /* Fall from the limit point at which the march ended to the state beyond it. A fall that does not converge is tried
  * again from further on. */
 static bool fall(ZpSlow *f, double sign) {
-  static const double beyond[] = {1e-4, 3e-4, 1e-3}; /* of the voltage or the load: a higher crest is still met */
+  static const double beyond[] = {1e-6, 1e-4, 1e-3}; /* of the voltage or the load: a higher crest is still met */
   ZpStatics *s = f->statics;
   double m = parameter(f);
   bool found = false;
@@ -119,6 +125,13 @@ static bool fall(ZpSlow *f, double sign) {
     found = zp_newton_good(zp_statics_fall_until(s, has_opened, f, f->newton).end);
   }
   return found;
+}
+
+/* The same from a limit point at the present point, of which a first small step is known: along its null vector. */
+static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
+  static const double part = 0.25; /* of a step along the branch */
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
+  return fall(f, sign);
 }
 
 /* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
@@ -173,20 +186,67 @@ static void go_below(const ZpSlow *f, Side *side, ZpLimit *limit, double m) {
   side->deepest = fmax(side->deepest, below);
 }
 
-/* Pass the point after k steps. => parameter there; NAN: it was not found */
-static double pass(ZpSlow *f, const Side *side, int k) {
+/* A point of the branch: the parameter, its derivative by the steps of the gap. */
+typedef struct Place {
+  double m, slope;
+} Place;
+
+/* Pass the point after k steps; m is NAN if it was not found. */
+static Place pass(ZpSlow *f, const Side *side, int k) {
   enum { MOST = 6 };
-  double here = side->gap + k * side->step, m = NAN;
+  double here = side->gap + k * side->step, m, slope;
   ZpPass end = ZP_PASS_AGAIN;
   for (int tries = 0; tries < MOST && end == ZP_PASS_AGAIN; tries++)
-    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + side->step, &m);
-  return end == ZP_PASS_ON ? m : (double)NAN;
+    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + side->step, &m, &slope);
+  return end == ZP_PASS_ON ? (Place){m, slope * side->step} : (Place){NAN, NAN};
+}
+
+/* The crest of the cubic through two points, a step apart: its distance from the first one, in steps; NAN: it has no
+ * crest between them. */
+static double crest_between(Place from, Place to, double sign) {
+  double rise = to.m - from.m, bend = 3 * rise - 2 * from.slope - to.slope, turn = from.slope + to.slope - 2 * rise;
+  double root = sqrt(bend * bend - 3 * turn * from.slope);
+  double at = from.slope / (sign * root - bend); /* where the slope falls through 0 */
+  return at > 0 && at < 1 ? at : (double)NAN;
+}
+
+static double cubic(Place from, Place to, double at) {
+  double rise = to.m - from.m, bend = 3 * rise - 2 * from.slope - to.slope, turn = from.slope + to.slope - 2 * rise;
+  return from.m + at * (from.slope + at * (bend + at * turn));
+}
+
+/* From the present point, next to the crest after so many steps, to it, and if it is not higher on to the point
+ * `next`. */
+static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double steps, int next) {
+  ZpFold *fold = &f->march.fold;
+  bool found = zp_fold_event(fold, zp_closing_gap, side->gap + steps * side->step, ZP_FOLD_ROUGH);
+  if (found) zp_fold_guess(fold);
+  found = found && zp_fold_solve(fold);
+  if (!found) return ZP_OUT_OF_SIGHT;
+  if (is_higher(side, parameter(f)) && fold->negative == 0) return ZP_CREST_HIGHER;
+  limit->room = fmin(limit->room, fmax(depth_of(f, side, parameter(f)), 0));
+  double on = side->gap + next * side->step - zp_closing_gap(f->statics, NULL);
+  zp_fold_leave(fold, fold->null, zp_closing_gap, on);
+  return ZP_NOTHING_HIGHER;
+}
+
+/* Is there a crest between two points that may be higher than the limit? => its distance from the first one, in steps;
+ * NAN: none */
+static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Place from, Place to) {
+  static const double part = 0.3; /* of the depth between them: a cubic through two points is that accurate */
+  double at = crest_between(from, to, side->sign);
+  if (isnan(at)) return NAN;
+  double lowest = fmax(side->deepest, fmax(depth_of(f, side, from.m), depth_of(f, side, to.m)));
+  double below = depth_of(f, side, cubic(from, to, at));
+  limit->room = fmin(limit->room, fmax(below, 0));
+  return below < part * lowest ? at : (double)NAN;
 }
 
 /* Go point by point to the equilibrium after k steps, which seems to be higher. */
 static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, int k) {
   bool found = true;
   zp_slow_go_to(f, limit->state);
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, side->step);
   for (int i = 1; i <= k && found; i++)
     found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * side->step, ZP_FOLD_ROUGH);
   return found;
@@ -196,20 +256,19 @@ static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, int k
 static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double step) {
   enum { MOST = 12 };
   Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, step, 0};
-  for (int k = 0; k <= MOST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
-    double m = pass(f, &side, k);
-    if (isnan(m)) return ZP_OUT_OF_SIGHT;
-    if (k == 0) continue;
-    if (is_higher(&side, m)) return go_to_point(f, limit, &side, k) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
-    go_below(f, &side, limit, m);
+  Place before = {side.m, 0};
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, step);
+  for (int k = 1; k <= MOST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
+    Place here = pass(f, &side, k);
+    if (isnan(here.m)) return ZP_OUT_OF_SIGHT;
+    double crest = seek_crest(f, &side, limit, before, here);
+    ZpAround around = isnan(crest) ? ZP_NOTHING_HIGHER : visit_crest(f, limit, &side, k - 1 + crest, k + 1);
+    if (around != ZP_NOTHING_HIGHER) return around;
+    if (is_higher(&side, here.m)) return go_to_point(f, limit, &side, k) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
+    go_below(f, &side, limit, here.m);
+    before = here;
   }
   return ZP_NOTHING_HIGHER;
-}
-
-/* The step of the gap for a search along the branch. */
-static double look_step(const ZpSlow *f) {
-  static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
-  return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
 }
 
 ZpAround zp_slow_look_around(ZpSlow *f, ZpLimit *limit, double sign) {
@@ -278,7 +337,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
-    bool found = fall(f, sign), impossible = zp_statics_fault(f->statics) != NULL;
+    bool found = fall_from(f, at, sign), impossible = zp_statics_fault(f->statics) != NULL;
     bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
@@ -327,8 +386,8 @@ ZpSlowEnd zp_slow_close_at(ZpSlow *f, double top, double enough, ZpLimit *at) {
   return change(f, top * top, enough * enough, at, NULL);
 }
 
-bool zp_slow_falls_closed(ZpSlow *f) {
-  return fall(f, 1) && zp_slow_is_closed(f);
+bool zp_slow_falls_closed(ZpSlow *f, const ZpLimit *limit) {
+  return fall_from(f, limit, 1) && zp_slow_is_closed(f);
 }
 
 /* It has closed gradually: is there a limit point further up? */

@@ -224,7 +224,18 @@ bool zp_fold_event(ZpFold *f, ZpEvent event, double value, ZpFoldTo to) {
   return solve(f, (Goal){TO_EVENT, event, value, to});
 }
 
-ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *m) {
+void zp_fold_leave(ZpFold *f, const double *null, ZpEvent event, double change) {
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  rest->residual(rest->self, f->newton->r, NULL); /* a move turns the edges of the last residual */
+  event(rest->self, f->x);
+  double way = change / zp_dot(rest->n, f->x, null);
+  for (size_t i = 0; i < rest->n; i++)
+    f->b[i] = way * null[i];
+  double length = rest->length(rest->self, f->b);
+  rest->move(rest->self, f->b, length > 1 ? 1 / length : 1);
+}
+
+ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *m, double *slope) {
   static const double near = 1e3; /* times the required accuracy: the remaining error is squared */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -237,6 +248,7 @@ ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *
     f->a[i] += dm * f->along[i];
   bool passes = rest->change(rest->self, f->a) < near;
   *m = sys->get(rest->self) + dm;
+  *slope = 1 / along;
   step(f, passes ? on : 0, passes ? dm + on : dm);
   return passes ? ZP_PASS_ON : ZP_PASS_AGAIN;
 }

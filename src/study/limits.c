@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "actuator/resolution.h"
 #include "base/fail.h"
 #include "def/check.h"
 #include "study/notes.h"
@@ -190,7 +191,7 @@ static bool falls_as_neighbour(Finder *f) {
 /* From a neighbour: only if the voltage meets no other limit point before, and the mesh is too fine to hold a front
  * between nodes, to which the actuator might fall. */
 static bool lift_as_neighbour(Finder *f) {
-  static const double fine = 2; /* elements */
+  static const double fine = 3; /* elements */
   bool trusted = f->near && f->near->first && zp_mesh_resolution(f->model, f->model->def.drive.voltage) > fine;
   bool found = trusted && from_neighbour(f, ZP_LIMIT_LOAD);
   f->limits->first = found && falls_as_neighbour(f);
