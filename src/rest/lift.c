@@ -197,7 +197,8 @@ static bool closes_above(ZpLift *l, double load, bool *first) {
 
 bool zp_lift_settle(ZpLift *l, ZpLimit *limit) {
   enum { MOST = 10 };
-  bool candidate = limit->end != ZP_MARCH_ARRIVED && limit->value > l->least && limit->value < l->most, first = false;
+  double least = (1 - same) * l->least; /* the load known to close may itself be the largest */
+  bool candidate = limit->end != ZP_MARCH_ARRIVED && limit->value > least && limit->value < l->most, first = false;
   double load = candidate ? limit->value : middle(l);
   zp_limit_none(limit, "it does not close at drive.voltage even without load");
   if (!candidate && l->least == 0 && !closes_under(l, 0)) return false;

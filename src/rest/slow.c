@@ -186,87 +186,108 @@ static void go_below(const ZpSlow *f, Side *side, ZpLimit *limit, double m) {
   side->deepest = fmax(side->deepest, below);
 }
 
-/* A point of the branch: the parameter, its derivative by the steps of the gap. */
+/* A point of the branch, `at` steps from the limit: the parameter and its derivative by the steps. */
 typedef struct Place {
-  double m, slope;
+  double at, m, slope;
 } Place;
 
-/* Pass the point after k steps; m is NAN if it was not found. */
-static Place pass(ZpSlow *f, const Side *side, int k) {
+/* Pass the point that is `step` steps after another one; m is NAN if it was not found. */
+static Place pass(ZpSlow *f, const Side *side, Place from, double step) {
   enum { MOST = 6 };
-  double here = side->gap + k * side->step, m, slope;
+  double at = from.at + step, here = side->gap + at * side->step, m, slope;
   ZpPass end = ZP_PASS_AGAIN;
   for (int tries = 0; tries < MOST && end == ZP_PASS_AGAIN; tries++)
-    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + side->step, &m, &slope);
-  return end == ZP_PASS_ON ? (Place){m, slope * side->step} : (Place){NAN, NAN};
+    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + step * side->step, &m, &slope);
+  return end == ZP_PASS_ON ? (Place){at, m, slope * side->step} : (Place){at, NAN, NAN};
 }
 
-/* The crest of the cubic through two points, a step apart: its distance from the first one, in steps; NAN: it has no
- * crest between them. */
-static double crest_between(Place from, Place to, double sign) {
-  double rise = to.m - from.m, bend = 3 * rise - 2 * from.slope - to.slope, turn = from.slope + to.slope - 2 * rise;
-  double root = sqrt(bend * bend - 3 * turn * from.slope);
-  double at = from.slope / (sign * root - bend); /* where the slope falls through 0 */
-  return at > 0 && at < 1 ? at : (double)NAN;
+/* The cubic through two points: rise + (slope + (bend + turn t) t) t with t from 0 to 1. For a parabola turn is 0. */
+typedef struct Cubic {
+  double slope, end_slope, rise, bend, turn;
+} Cubic;
+
+static Cubic cubic_through(Place from, Place to) {
+  double length = to.at - from.at, a = from.slope * length, b = to.slope * length, rise = to.m - from.m;
+  return (Cubic){a, b, rise, 3 * rise - 2 * a - b, a + b - 2 * rise};
 }
 
-static double cubic(Place from, Place to, double at) {
-  double rise = to.m - from.m, bend = 3 * rise - 2 * from.slope - to.slope, turn = from.slope + to.slope - 2 * rise;
-  return from.m + at * (from.slope + at * (bend + at * turn));
+/* How far is the highest crest of a cubic above its first point? Where: *at, from 0 to 1. NAN: there is none. */
+static double crest_of(const Cubic *c, double sign, double *at) {
+  double t = c->slope / (sign * sqrt(c->bend * c->bend - 3 * c->turn * c->slope) - c->bend);
+  *at = t;
+  return t > 0 && t < 1 ? t * (c->slope + t * (c->bend + t * c->turn)) : (double)NAN;
 }
 
-/* From the present point, next to the crest after so many steps, to it, and if it is not higher on to the point
- * `next`. */
-static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double steps, int next) {
+/* May a crest above the limit be hidden between two points? Where the stiffness jumps the branch has corners, which are
+ * valleys: the cubic then is no parabola. With the slopes at its ends it could rise above the limit. */
+static bool may_hide_crest(const Side *side, Place from, Place to) {
+  static const double part = 0.25;
+  Cubic c = cubic_through(from, to);
+  double before = side->sign * (from.m - side->m) + fmax(side->sign * c.slope, 0),
+         after = side->sign * (to.m - side->m) + fmax(-side->sign * c.end_slope, 0);
+  bool rises = is_higher(side, side->m + side->sign * fmax(before, after));
+  return rises && fabs(c.turn) > part * fmax(fabs(c.slope), fabs(c.end_slope));
+}
+
+/* Is there a crest between two points that may be higher than the limit? => where, in steps from the limit; NAN: none */
+static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Place from, Place to) {
+  static const double part = 0.3; /* of the depth there: a cubic through two points is that accurate */
+  Cubic c = cubic_through(from, to);
+  double at, above = crest_of(&c, side->sign, &at);
+  if (isnan(above)) return NAN;
+  double lowest = fmax(side->deepest, fmax(depth_of(f, side, from.m), depth_of(f, side, to.m)));
+  double below = depth_of(f, side, from.m + above);
+  limit->room = fmin(limit->room, fmax(below, 0));
+  return below < part * lowest ? from.at + at * (to.at - from.at) : (double)NAN;
+}
+
+/* To the crest near a point, and if it is not higher than the limit from there on to the point `next`. */
+static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double at, double next) {
   ZpFold *fold = &f->march.fold;
-  bool found = zp_fold_event(fold, zp_closing_gap, side->gap + steps * side->step, ZP_FOLD_ROUGH);
+  bool found = zp_fold_event(fold, zp_closing_gap, side->gap + at * side->step, ZP_FOLD_ROUGH);
   if (found) zp_fold_guess(fold);
-  found = found && zp_fold_solve(fold);
-  if (!found) return ZP_OUT_OF_SIGHT;
+  if (!found || !zp_fold_solve(fold)) return ZP_OUT_OF_SIGHT;
   if (is_higher(side, parameter(f)) && fold->negative == 0) return ZP_CREST_HIGHER;
   limit->room = fmin(limit->room, fmax(depth_of(f, side, parameter(f)), 0));
-  double on = side->gap + next * side->step - zp_closing_gap(f->statics, NULL);
-  zp_fold_leave(fold, fold->null, zp_closing_gap, on);
+  double left = side->gap + next * side->step - zp_closing_gap(f->statics, NULL);
+  zp_fold_leave(fold, fold->null, zp_closing_gap, left);
   return ZP_NOTHING_HIGHER;
 }
 
-/* Is there a crest between two points that may be higher than the limit? => its distance from the first one, in steps;
- * NAN: none */
-static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Place from, Place to) {
-  static const double part = 0.3; /* of the depth between them: a cubic through two points is that accurate */
-  double at = crest_between(from, to, side->sign);
-  if (isnan(at)) return NAN;
-  double lowest = fmax(side->deepest, fmax(depth_of(f, side, from.m), depth_of(f, side, to.m)));
-  double below = depth_of(f, side, cubic(from, to, at));
-  limit->room = fmin(limit->room, fmax(below, 0));
-  return below < part * lowest ? at : (double)NAN;
-}
-
-/* Go point by point to the equilibrium after k steps, which seems to be higher. */
-static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, int k) {
+/* Go step by step to the equilibrium at a point, which seems to be higher. */
+static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, double at) {
+  int steps = (int)ceil(at);
+  double step = at / steps * side->step;
   bool found = true;
   zp_slow_go_to(f, limit->state);
-  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, side->step);
-  for (int i = 1; i <= k && found; i++)
-    found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * side->step, ZP_FOLD_ROUGH);
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, step);
+  for (int i = 1; i <= steps && found; i++)
+    found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * step, ZP_FOLD_ROUGH);
   return found;
 }
 
 /* From the limit on. */
-static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double step) {
-  enum { MOST = 12 };
-  Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, step, 0};
-  Place before = {side.m, 0};
-  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, step);
-  for (int k = 1; k <= MOST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
-    Place here = pass(f, &side, k);
+static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double whole) {
+  enum { FARTHEST = 12, MOST = 40 };
+  static const double shortest = 0.1;
+  Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, whole, 0};
+  Place last = {0, side.m, 0};
+  double step = 1;
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, whole);
+  for (int k = 0; k < MOST && last.at < FARTHEST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
+    Place here = pass(f, &side, last, step);
     if (isnan(here.m)) return ZP_OUT_OF_SIGHT;
-    double crest = seek_crest(f, &side, limit, before, here);
-    ZpAround around = isnan(crest) ? ZP_NOTHING_HIGHER : visit_crest(f, limit, &side, k - 1 + crest, k + 1);
+    bool halve = step > shortest && may_hide_crest(&side, last, here);
+    if (halve) step *= 0.5;
+    if (halve) continue;
+    double crest = seek_crest(f, &side, limit, last, here), next = here.at + step;
+    ZpAround around = isnan(crest) ? ZP_NOTHING_HIGHER : visit_crest(f, limit, &side, crest, next);
     if (around != ZP_NOTHING_HIGHER) return around;
-    if (is_higher(&side, here.m)) return go_to_point(f, limit, &side, k) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
+    if (is_higher(&side, here.m))
+      return go_to_point(f, limit, &side, here.at) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
     go_below(f, &side, limit, here.m);
-    before = here;
+    step = fmin(2 * step, 1);
+    last = here;
   }
   return ZP_NOTHING_HIGHER;
 }
