@@ -97,9 +97,10 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   bool within = load ? value > 0 : value <= f->model->def.drive.voltage;
   if (f->slow.march.fold.negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
   ZpLimit *limit = &f->limits->limit[kind];
-  double sign = load || kind == ZP_LIMIT_RELEASE ? -1 : 1;
+  double sign = kind == ZP_LIMIT_RELEASE ? -1 : 1;
   zp_slow_note(&f->slow, limit, near->end);
   limit->room = zp_slow_room_left(&f->slow, near, near_gap);
+  solver->system = &f->slow.square; /* crests under this load */
   bool highest = !fold || limit->room > 0 || zp_slow_look_around(&f->slow, limit, sign) == ZP_NOTHING_HIGHER;
   if (!highest) return false;
   f->limits->warm++;
