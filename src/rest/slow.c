@@ -110,28 +110,31 @@ static bool has_opened(void *user) {
   return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
 }
 
-/* Fall from the limit point at which the march ended to the state beyond it. A fall that does not converge is tried
- * again from further on. */
-static bool fall(ZpSlow *f, double sign) {
-  static const double beyond[] = {1e-6, 1e-4, 1e-3}; /* of the voltage or the load: a higher crest is still met */
-  ZpStatics *s = f->statics;
+/* Fall to the state this share of the voltage or of the load further. */
+static bool fall_beyond(ZpSlow *f, double m, double share) {
+  f->march.fold.system->set(f->statics, changed(f, m, share));
+  return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
+}
+
+/* The same from the present point; a fall that does not converge is tried again from further on. */
+static bool fall(ZpSlow *f, double sign, double least) {
+  static const double beyond[] = {1e-4, 3e-4, 1e-3};
   double m = parameter(f);
-  bool found = false;
-  f->was_closed = zp_slow_is_closed(f);
-  f->square.save(s, f->held);
+  f->square.save(f->statics, f->held);
+  bool found = fall_beyond(f, m, sign * least);
   for (size_t k = 0; k < sizeof beyond / sizeof beyond[0] && !found; k++) {
-    if (k > 0) zp_slow_go_to(f, f->held);
-    f->march.fold.system->set(s, changed(f, m, sign * beyond[k]));
-    found = zp_newton_good(zp_statics_fall_until(s, has_opened, f, f->newton).end);
+    zp_slow_go_to(f, f->held);
+    found = fall_beyond(f, m, sign * beyond[k]);
   }
   return found;
 }
 
-/* The same from a limit point at the present point, of which a first small step is known: along its null vector. */
+/* The same from a limit point at the present point. It begins with a small step along the null vector, without which it
+ * would be slow at first. A crest that is higher by more than a millionth is still met. */
 static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
-  static const double part = 0.25; /* of a step along the branch */
+  static const double part = 0.25, least = 1e-6; /* of a step along the branch; of the voltage */
   zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
-  return fall(f, sign);
+  return fall(f, sign, least);
 }
 
 /* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
@@ -221,15 +224,15 @@ static double crest_of(const Cubic *c, double sign, double *at) {
 /* May a crest above the limit be hidden between two points? Where the stiffness jumps the branch has corners, which are
  * valleys: the cubic then is no parabola. With the slopes at its ends it could rise above the limit. */
 static bool may_hide_crest(const Side *side, Place from, Place to) {
-  static const double part = 0.25;
+  static const double part = 1.0 / 3;
   Cubic c = cubic_through(from, to);
   double before = side->sign * (from.m - side->m) + fmax(side->sign * c.slope, 0),
          after = side->sign * (to.m - side->m) + fmax(-side->sign * c.end_slope, 0);
   bool rises = is_higher(side, side->m + side->sign * fmax(before, after));
-  return rises && fabs(c.turn) > part * fmax(fabs(c.slope), fabs(c.end_slope));
+  return rises && !is_higher(side, to.m) && fabs(c.turn) > part * fmax(fabs(c.slope), fabs(c.end_slope));
 }
 
-/* Is there a crest between two points that may be higher than the limit? => where, in steps from the limit; NAN: none */
+/* Is there a crest between two points that may be higher than the limit? => where, in steps from it; NAN: none */
 static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Place from, Place to) {
   static const double part = 0.3; /* of the depth there: a cubic through two points is that accurate */
   Cubic c = cubic_through(from, to);
@@ -326,8 +329,9 @@ static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
 
 /* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
  * open the actuator, because no limit point was found there. */
-static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
-  return fall(f, sign) && zp_slow_is_closed(f) == was_closed;
+static bool go_on_from_lost(ZpSlow *f, double sign) {
+  static const double least = 1e-4;
+  return fall(f, sign, least) && zp_slow_is_closed(f) == f->was_closed;
 }
 
 /* -- a slow change -------------------------------------------------------------------------------- */
@@ -345,12 +349,12 @@ static ZpSlowEnd stop_before(ZpSlow *f, double target) {
 static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, ZpLimit *first) {
   enum { MOST = 1000 }; /* limit points; there are many ripples where a front passes node by node */
   double sign = target > parameter(f) ? 1 : -1;
-  bool was_closed = zp_slow_is_closed(f);
+  f->was_closed = zp_slow_is_closed(f);
   for (int k = 0; k < MOST; k++) {
     if (zp_statics_asked_to_stop(f->statics)) return ZP_SLOW_STOPPED;
     ZpMarchEnd end = zp_march(&f->march, target);
     if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
-    if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;
+    if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign)) return ZP_SLOW_LOST;
     if (end == ZP_MARCH_LOST) continue;
     zp_slow_note(f, at, end);
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
@@ -359,7 +363,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
     bool found = fall_from(f, at, sign), impossible = zp_statics_fault(f->statics) != NULL;
-    bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
+    bool jumped = zp_slow_is_closed(f) != f->was_closed || (f->was_closed && impossible);
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
     if (!found) return ZP_SLOW_LOST;

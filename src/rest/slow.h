@@ -33,7 +33,7 @@ typedef struct ZpSlow {
   ZpMarch march;
   double closed;   /* gap at which it counts as closed, m */
   void *held;      /* a state to return to */
-  bool was_closed; /* at the limit point from which it falls */
+  bool was_closed; /* when the slow change began */
 } ZpSlow;
 
 typedef enum ZpSlowEnd {
