@@ -126,16 +126,14 @@ void zp_lift_drop(ZpLift *l, ZpLimit *limit) {
 
 /* -- by definition ---------------------------------------------------------------------------------- */
 
-/* From where a higher or lower voltage closes it to the load under which this one does => limit */
-static bool follow(ZpLift *l, ZpLimit *limit) {
+/* From where a higher or lower voltage closes it to the load under which this one does, kg; NAN: not found */
+static double follow(ZpLift *l) {
   ZpSlow *slow = l->slow;
   zp_slow_go_to(slow, l->at.state);
   slow->statics->U = l->top;
   bool found = l->at.end == ZP_MARCH_FOLD ? zp_slow_fold_of_load(slow, l->at.null) : zp_lift_event(l, slow->closed);
   double load = slow->statics->load;
-  if (!found || !(load > l->least && load < l->most)) return false;
-  zp_slow_note(slow, limit, l->at.end);
-  return true;
+  return found && load > l->least && load < l->most ? load : (double)NAN;
 }
 
 /* Between the loads that are known, by the voltages that close it under them if these are known, too. */
@@ -170,7 +168,8 @@ static bool find_below_most(ZpLift *l, double load, ZpLimit *limit) {
       return true;
     }
     bool follows = k % 2 == 0 && fabs(l->at.value / l->top - 1) < near;
-    load = follows && follow(l, limit) ? limit->value : middle(l);
+    load = follows ? follow(l) : (double)NAN;
+    if (isnan(load)) load = middle(l);
   }
   return false;
 }
