@@ -108,6 +108,10 @@ bool zp_lift_event(ZpLift *l, double closed) {
   return false;
 }
 
+bool zp_lift_closes_gradually(ZpLift *l, double load) {
+  return zp_lift_hang(l, load) && zp_slow_first(l->slow, (1 + same) * l->top, &l->at) == ZP_MARCH_EVENT;
+}
+
 /* The load falls on until the gap is what counts as closed under the load itself; under a larger one it is larger. */
 void zp_lift_drop(ZpLift *l, ZpLimit *limit) {
   enum { MOST = 30 };

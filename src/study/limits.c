@@ -178,10 +178,11 @@ static bool hang_heavy(Finder *f) {
   return false;
 }
 
-/* Is the state to which the neighbour falls from its limit point closed here, too? */
+/* Is the state to which the neighbour falls from its limit point closed here, too? If it closes gradually, does it
+ * without a jump before? */
 static bool falls_as_neighbour(Finder *f) {
   const ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
-  if (limit->end != ZP_MARCH_FOLD) return true;
+  if (limit->end == ZP_MARCH_EVENT) return zp_lift_closes_gradually(&f->lift, limit->value);
   if (!zp_lift_hang(&f->lift, limit->value)) return false;
   take(f, f->near->lifted);
   bool closed = zp_slow_close(&f->slow, f->lift.top);
