@@ -555,7 +555,23 @@ bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
-double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+/* What a cavity gives way by the mean head, m^2/Pa. */
+static double given_way(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return e->end[cavity_at(i)] > 0 && zp_film_is_free(p, e, i, 0) ? zp_film_wet(e, i) * give : 0;
+}
+
+double zp_film_mix(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return given_way(p, e, i) > 0 ? p->share[1] / p->share[0] : 0;
+}
+
+double zp_film_turned(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, const double *r) {
+  const double *own = &e->r[zp_film_mode_at(i, 0)];
+  double mix = zp_film_mix(p, e, i), apart = p->share[1] * p->w * h * (outflow(e, i, 1) - outflow(e, i, 0));
+  return mix > 0 ? apart + (r[1] - own[1]) - mix * (r[0] - own[0]) : r[1];
+}
+
+/* By heads, of mode k by mode m at the same station, without what a cavity does. */
+static double by_heads(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i, m)) return k == m ? 1 : 0;
   double length = zp_film_wet(e, i), leak = p->share[k] * e->leak_conductance[zp_film_mode_at(i, k)], sum = 0;
   if (k == m) {
@@ -563,16 +579,31 @@ double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t 
     if (i > 0) sum += p->share[k] * e->conductance[zp_film_mode_at(i - 1, k)];
   }
   sum -= length * e->coupling[i] * leak * p->share[m] * e->leak_conductance[zp_film_mode_at(i, m)];
-  double grows = e->end[cavity_at(i)] > 0 ? length * give * p->share[k] * p->share[m] : 0;
-  return -p->w * (h * sum + grows);
+  return -p->w * (h * sum);
 }
 
-double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
+double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+  double mix = zp_film_mix(p, e, i), sum = by_heads(p, h, e, i, k, m);
+  if (k == 0 && m == 0) return sum - p->w * p->share[0] * p->share[0] * given_way(p, e, i);
+  if (mix == 0) return sum;
+  if (k != m) return sum - mix * by_heads(p, h, e, i, 0, 0);
+  return sum - 2 * mix * by_heads(p, h, e, i, 0, 1) + mix * mix * by_heads(p, h, e, i, 0, 0);
+}
+
+/* By the same mode's head at the next station. */
+static double by_next_head(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i + 1, k)) return 0;
   return p->share[k] * h * p->w * e->conductance[zp_film_mode_at(i, k)];
 }
 
+double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+  double here = k == 1 ? -zp_film_mix(p, e, i) : 1, there = m == 1 ? -zp_film_mix(p, e, i + 1) : 1;
+  double own = k == m && k == 1 ? by_next_head(p, h, e, i, 1) : 0;
+  return own + here * there * by_next_head(p, h, e, i, 0);
+}
+
 double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
+  if (k == 1 && zp_film_mix(p, e, i) > 0) return 0;
   return zp_film_is_free(p, e, i, k) ? p->share[k] * p->w * cell_share(e, i, j) * e->secant[j] : 0;
 }
 

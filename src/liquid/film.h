@@ -136,12 +136,21 @@ double zp_film_edge_flow(const ZpFilmParams *params, const ZpFilmEval *eval, siz
 /* Flow out over the long edges at the heads of the step if these were open and inertia did not count, m^3/s. */
 double zp_film_open_flow(const ZpFilmParams *params, const ZpFilmEval *eval, const double *heads, size_t i);
 
-/* Derivative of r of mode k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
+/* A cavity gives way to the mean of the heads so much that, in short steps, what else the heads do would be rounding in
+ * its rows of a matrix. So the matrix has other unknowns x at a station with a cavity, and rows that go with them:
+ * p_0 = x_0 - mix x_1 and p_1 = x_1, such that x_1 does not change the mean. Elsewhere mix is 0. */
+double zp_film_mix(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
+
+/* Row 1 of that step for these unknowns, r_1 - mix r_0, without the rounding of the cavity, which is in r [2] of both
+ * modes alike; r may differ from the step's own. */
+double zp_film_turned(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, const double *r);
+
+/* Derivative of r of unknown k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
  * the head's force; m^2. */
 double zp_film_by_gap(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, size_t j, int k);
 
-/* Derivatives of -r of mode k at station i: by the head of mode m there, and by its own at the next one, m^3/Pa. */
+/* Derivatives of -r of unknown k at station i: by unknown m there, and by m at the next one, m^3/Pa. */
 double zp_film_own(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k, int m);
-double zp_film_next(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k);
+double zp_film_next(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k, int m);
 
 #endif

@@ -258,6 +258,24 @@ static void tangent(void *self, ZpBordered *J) {
   if (joined) border_of_links(d, J);
 }
 
+/* Heads of stations with a cavity are unknowns in another form. */
+static void turn(void *self, double *r) {
+  for (ZpDynamics *m = self; m; m = m->below)
+    for (size_t i = 0; i < m->model->nodes; i++) {
+      const int *row = &m->assembly.own_equation[zp_film_mode_at(i, 0)];
+      double *first = &r[m->at + (size_t)row[0]], *second = &r[m->at + (size_t)row[1]];
+      *second = zp_film_turned(&m->model->film, m->h, &m->eval.film, i, (const double[]){*first, *second});
+    }
+}
+
+static void turn_back(void *self, double *x) {
+  for (ZpDynamics *m = self; m; m = m->below)
+    for (size_t i = 0; i < m->model->nodes; i++) {
+      const int *row = &m->assembly.own_equation[zp_film_mode_at(i, 0)];
+      x[m->at + (size_t)row[0]] -= zp_film_mix(&m->model->film, &m->eval.film, i) * x[m->at + (size_t)row[1]];
+    }
+}
+
 /* -- faces that meet ------------------------------------------------------------------------------ */
 
 static bool is_platform(const ZpDynamics *d, size_t i) {
@@ -599,6 +617,8 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .begin = begin,
                             .residual = force,
                             .tangent = tangent,
+                            .turn = d->model->has_film ? turn : NULL,
+                            .turn_back = d->model->has_film ? turn_back : NULL,
                             .inertia = d->model->has_film ? inertia : NULL,
                             .attempt = attempt,
                             .resolved = resolved,

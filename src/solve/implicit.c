@@ -128,6 +128,14 @@ static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v
   return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
+/* Residual => correction, by the factored Jacobian. */
+static void solve(ZpImplicit *s, double *r) {
+  const ZpImplicitSystem *system = s->system;
+  if (system->turn) system->turn(system->self, r);
+  zp_bordered_solve(&s->A, r);
+  if (system->turn_back) system->turn_back(system->self, r);
+}
+
 /* Has the end been found, if a correction of `size` (in units of the accuracy) followed one of `before`, 0 for the
  * first? Both give an estimate of the remaining distance and imbalance. Far below the accuracy, a distance that no
  * longer shrinks is rounding, but only if energy balances: while faces meet, it shrinks as slowly. */
@@ -159,7 +167,7 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
   for (int k = 0; k < MOST_ITERATIONS; k++) {
     ZpEnd end = linearise(s, h, q, v, &imbalance);
     if (end != ZP_END_FOUND) return end;
-    zp_bordered_solve(&s->A, s->r);
+    solve(s, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
@@ -487,7 +495,7 @@ static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   double *left = steps->work, before = INFINITY, rounding = rate_rounding(steps) * s->reach;
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     if (!look(steps, r, left) || (pass == 0 && !factor(&steps->near[0]))) return false;
-    zp_bordered_solve(&s->A, left);
+    solve(s, left);
     correct(steps, r, pass == 0);
     double size = size_of(s->system, left), all = size_of(s->system, r->dq1);
     if (!isfinite(size)) return false;

@@ -43,6 +43,10 @@ typedef struct ZpImplicitSystem {
   ZpEnd (*residual)(void *self, const double *y1, double h, double *r);
   /* -dr/dy1 at the last residual, or a cheaper approximation => J. */
   void (*tangent)(void *self, ZpBordered *J);
+  /* The matrix J of `tangent` may be T' (-dr/dy1) T, of unknowns x with changes y = T x, in which it is not nearly
+   * singular: r [n] => T' r before a solution, x [n] => T x after. NULL: T is 1. */
+  void (*turn)(void *self, double *r);
+  void (*turn_back)(void *self, double *x);
   /* Exact -dr/dy1 at the last residual => J, with `bandwidth` diagonals on both sides. May be NULL. */
   void (*exact)(void *self, ZpBordered *J);
   /* f [n] += inertia beyond `mass` times a [n]. NULL: there is none. */
