@@ -713,10 +713,19 @@ static void book_work(ZpDynamics *d, ZpState *state) {
 
 /* Reference length of errors, m: a part of the flexible length, or of the hanging opening if that is small, because
  * closing is then a small motion. It is at least the depth of contact. */
+static const double of_length = 0.08;
+
 static double far(const ZpModel *model, const ZpState *state) {
-  static const double of_length = 0.08, of_opening = 0.2;
+  static const double of_opening = 0.2;
   double length = of_length * model->L;
   return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
+}
+
+/* What is required of lengths and of the voltage: the same share of each one's scale. */
+static void set_accuracy(ZpDynamics *d, const ZpState *state) {
+  double reference = far(d->model, state);
+  d->stepper.accuracy = error_of_step(&d->model->def) * reference;
+  if (d->source) d->scale[d->assembly.n] = d->source->scale * of_length / reference;
 }
 
 /* The state at the start of the step => q, v and what else evolves. */
@@ -878,7 +887,7 @@ void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
 
 double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   zp_dynamics_begin(d, state, latest);
-  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
+  set_accuracy(d, state[0]);
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
   if (taken > 0) zp_dynamics_end(d, state);
   return taken;

@@ -503,7 +503,8 @@ static bool is_possible(size_t k, double value, const ZpActuatorDef *def) {
   case NODE:
     return value >= 0 && value < def->mesh.nodes && value == floor(value);
   case MODE:
-    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST;
+    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST ||
+           value == ZP_FEED_SPILLS;
   default:
     return k > VOLTAGE || (isfinite(value) && (k != TIME || value >= 0));
   }
