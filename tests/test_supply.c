@@ -365,9 +365,8 @@ END_TEST
 START_TEST(test_charge_that_cannot_leave) {
   static const double wire[] = {0, 1e-15, 10e-12};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"source.model", ZP_SOURCE_AMPLIFIER},
-                          {"source.sink_limit", 0}, {"source.current_limit", 0.3e-3},
-                          {"source.capacitance", wire[_i]}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
-                          {"drive.frequency", 4});
+                          {"source.sink_limit", 0}, {"source.current_limit", 0.3e-3}, {"source.capacitance", wire[_i]},
+                          {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 4});
   const double off = 0.125;
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -391,13 +390,13 @@ END_TEST
  * current, then the voltage falls on as the charge leaves. Regression: whether the charge could leave depended on the
  * iterate, and no step converged. */
 START_TEST(test_full_faces_discharge) {
-  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 10.57e-3},
-                          {"platform.length", 1.057e-3}, {"ribbon.width", 4.96e-3}, {"ribbon.thickness", 339e-6},
-                          {"ribbon.young_modulus", 4.5e9}, {"ribbon.density", 1390}, {"insulator.thickness", 43e-6},
-                          {"load.mass", 0}, {"drive.voltage", 7848}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
-                          {"drive.frequency", 336}, {"source.model", ZP_SOURCE_AMPLIFIER},
-                          {"source.sink_limit", 65e-6}, {"source.capacitance", 28e-15}, {"solver.end_time", 1.6e-3},
-                          {"solver.tolerance", 1e-5}, {"output.errors", 0});
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 10.57e-3},
+          {"platform.length", 1.057e-3}, {"ribbon.width", 4.96e-3}, {"ribbon.thickness", 339e-6},
+          {"ribbon.young_modulus", 4.5e9}, {"ribbon.density", 1390}, {"insulator.thickness", 43e-6}, {"load.mass", 0},
+          {"drive.voltage", 7848}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 336},
+          {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.sink_limit", 65e-6}, {"source.capacitance", 28e-15},
+          {"solver.end_time", 1.6e-3}, {"solver.tolerance", 1e-5}, {"output.errors", 0});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_assert(zp_outcome_good(result->outcome));
   zp_result_destroy(result);
@@ -407,14 +406,14 @@ END_TEST
 /* Faces that are wholly capped beside a bleeder have no capacitance, so the bleeder's voltage is that of the step's
  * end. Regression: with the mean of both ends it alternated from step to step, and 51,000 steps did not end. */
 START_TEST(test_bleeder_beside_full_faces) {
-  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"ribbon.length", 43.5e-3}, {"platform.length", 4.35e-3},
-                          {"ribbon.width", 14.08e-3}, {"ribbon.thickness", 225.4e-6}, {"ribbon.young_modulus", 4.5e9},
-                          {"ribbon.density", 1390}, {"insulator.thickness", 78.6e-6}, {"bead.volume", 151.3e-9},
-                          {"bead.suction", 0.65}, {"medium.kinematic_viscosity", 1.06e-3}, {"load.mass", 0},
-                          {"drive.voltage", 7172}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 24.28},
-                          {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.current_limit", 232e-6},
-                          {"source.sink_limit", 3.3e-6}, {"source.bleeder", 15.28e6}, {"solver.end_time", 30e-3},
-                          {"solver.tolerance", 5.6e-4}, {"output.errors", 0});
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 21}, {"ribbon.length", 43.5e-3}, {"platform.length", 4.35e-3}, {"ribbon.width", 14.08e-3},
+          {"ribbon.thickness", 225.4e-6}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.density", 1390},
+          {"insulator.thickness", 78.6e-6}, {"bead.volume", 151.3e-9}, {"bead.suction", 0.65},
+          {"medium.kinematic_viscosity", 1.06e-3}, {"load.mass", 0}, {"drive.voltage", 7172},
+          {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 24.28}, {"source.model", ZP_SOURCE_AMPLIFIER},
+          {"source.current_limit", 232e-6}, {"source.sink_limit", 3.3e-6}, {"source.bleeder", 15.28e6},
+          {"solver.end_time", 30e-3}, {"solver.tolerance", 5.6e-4}, {"output.errors", 0});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   printf("beside a bleeder: %g steps\n", zp_result_get(result, "steps"));
   ck_below(zp_result_get(result, "steps"), 5000);
