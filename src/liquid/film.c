@@ -25,8 +25,8 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
 
 void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
   enum { DOUBLES = sizeof(ZpFilmPiece) / sizeof(double) };
-  double **stations[] = {&e->rate, &e->middle,   &e->H0,   &e->H1,    &e->secant, &e->depth0, &e->depth1,
-                         &e->jet,  &e->coupling, &e->head, &e->force, &e->flat,   &e->given};
+  double **stations[] = {&e->rate,     &e->middle, &e->H0,    &e->H1,   &e->secant, &e->depth0, &e->depth1, &e->jet,
+                         &e->coupling, &e->head,   &e->grows, &e->held, &e->force,  &e->flat,   &e->given};
   double **modes[] = {&e->flow, &e->conductance, &e->leak, &e->leak_conductance, &e->r};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(carver, p->nodes);
@@ -331,23 +331,58 @@ static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
 }
 
 /* Below minus zp_film_tension a cavity grows, so that its head hardly falls further. */
-static double cavity_of(double head) {
-  return give * fmax(0, -zp_film_tension - head);
+static bool cavitates(double head) {
+  return head < -zp_film_tension;
+}
+
+static double cavity_of(double head, bool grows) {
+  return grows ? give * (-zp_film_tension - head) : 0;
+}
+
+/* Was there a cavity? */
+static bool grows(const ZpFilmEval *e, size_t i) {
+  return e->grows[i] > 0;
 }
 
 static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
     e->head[i] = mean_head(p, heads, i);
-    e->end[cavity_at(i)] = cavity_of(e->head[i]);
+    e->grows[i] = e->held[i] == 0 ? cavitates(e->head[i]) : e->held[i] > 0;
+    e->end[cavity_at(i)] = cavity_of(e->head[i], grows(e, i));
   }
+}
+
+void zp_film_release(const ZpFilmParams *p, const ZpFilmEval *e) {
+  for (size_t i = 0; i < p->nodes; i++)
+    e->held[i] = 0;
+}
+
+static bool contradicts(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e, size_t i) {
+  return zp_film_wet(e, i) > 0 && cavitates(mean_head(p, heads, i)) != grows(e, i);
+}
+
+size_t zp_film_contradictions(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  size_t count = 0;
+  for (size_t i = 0; i < p->nodes; i++)
+    count += contradicts(p, heads, e, i);
+  return count;
+}
+
+void zp_film_turn_one(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  double *last = NULL;
+  for (size_t i = 0; i < p->nodes; i++) {
+    bool holds = contradicts(p, heads, e, i);
+    e->held[i] = !holds ? 0 : grows(e, i) ? 1 : -1;
+    if (holds) last = &e->held[i];
+  }
+  if (last) *last = 0;
 }
 
 double zp_film_unforeseen(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   double work = 0;
   for (size_t i = 0; i < p->nodes; i++) {
-    double head = mean_head(p, heads, i), foreseen = e->end[cavity_at(i)];
-    if (foreseen > 0) foreseen -= give * (head - e->head[i]);
-    work += p->w * zp_film_wet(e, i) * fabs((cavity_of(head) - foreseen) * head);
+    double head = mean_head(p, heads, i), missed = cavity_of(head, cavitates(head)) - cavity_of(head, grows(e, i));
+    work += p->w * zp_film_wet(e, i) * fabs(missed * head);
   }
   return work;
 }
@@ -557,7 +592,7 @@ bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
 
 /* What a cavity gives way by the mean head, m^2/Pa. */
 static double given_way(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
-  return e->end[cavity_at(i)] > 0 && zp_film_is_free(p, e, i, 0) ? zp_film_wet(e, i) * give : 0;
+  return grows(e, i) && zp_film_is_free(p, e, i, 0) ? zp_film_wet(e, i) * give : 0;
 }
 
 double zp_film_mix(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {

@@ -72,6 +72,8 @@ typedef struct ZpFilmEval {
   double *jet;                     /* [N] speed of the jets, outwards, m/s */
   double *coupling;                /* [N] how D couples the modes, Pa s/m */
   double *head;                    /* [N] mean head across the width, Pa */
+  double *grows;                   /* [N] 1: there is a cavity, which grows as the head falls; 0: there is none */
+  double *held;                    /* [N] 1 or -1: there is one or none, whatever the head; 0: the head decides */
   double *force;                   /* [N] on each station, N, positive opens */
   ZpFilmPiece *piece;              /* [N] of the element from i to i + 1 */
   double *flat;                    /* [N] length of wet flat faces at a station, m */
@@ -99,6 +101,15 @@ void zp_film_step(const ZpFilmParams *params, const ZpFilmEnds *ends, const doub
 
 /* Length of the film in the cell of station i, where it is laid, m. */
 double zp_film_wet(const ZpFilmEval *eval, size_t i);
+
+/* The heads decide at all stations whether there is a cavity. */
+void zp_film_release(const ZpFilmParams *params, const ZpFilmEval *eval);
+
+/* At how many stations do heads contradict what that step had there, a cavity or none? */
+size_t zp_film_contradictions(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
+
+/* Hold it where heads contradict it, but for the last of these stations. */
+void zp_film_turn_one(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
 
 /* The last correction has led from the heads of that step to these: |work|, J, of cavities that it has opened or closed
  * beyond what its matrix foresaw. */

@@ -356,7 +356,16 @@ static void keep_apart(const ZpDynamics *d, double *q1) {
   }
 }
 
+/* Heads decide on cavities again. */
+static void release_cavities(ZpDynamics *d) {
+  for (ZpDynamics *m = d; m; m = m->below)
+    if (m->model->has_film) zp_film_release(&m->model->film, &m->eval.film);
+}
+
 static void attempt(void *self, double *q1) {
+  ZpDynamics *d = self;
+  d->fewest = SIZE_MAX;
+  release_cavities(d);
   for (ZpDynamics *m = self; m; m = m->below) {
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
     if (m->model->field) keep_apart(m, q1 + m->at);
@@ -393,6 +402,28 @@ static double unforeseen(void *self, const double *q1) {
   for (ZpDynamics *m = self; m; m = m->below)
     work += unforeseen_of_one(m, q1 + m->at);
   return work;
+}
+
+/* Cavities open and close by the last heads, all at once. That may lead to and fro for ever: if those whose heads
+ * contradict what they did do not become fewer within some iterations, they change one by one, which ends. */
+static bool choose(void *self, const double *q1) {
+  enum { TRIALS = 4 };
+  ZpDynamics *d = self;
+  size_t contradict = 0;
+  for (ZpDynamics *m = d; m; m = m->below) {
+    gather_own(m, q1 + m->at);
+    contradict += zp_film_contradictions(&m->model->film, m->own, &m->eval.film);
+  }
+  bool fewer = contradict < d->fewest;
+  d->trials = fewer ? TRIALS : d->trials - 1;
+  d->fewest = contradict == 0 ? SIZE_MAX : fewer ? contradict : d->fewest;
+  if (contradict == 0 || d->trials > 0) {
+    release_cavities(d);
+    return true;
+  }
+  for (ZpDynamics *m = d; m; m = m->below)
+    zp_film_turn_one(&m->model->film, m->own, &m->eval.film);
+  return false;
 }
 
 static double kinetic_energy(const ZpDynamics *d) {
@@ -622,6 +653,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .inertia = d->model->has_film ? inertia : NULL,
                             .attempt = attempt,
                             .resolved = resolved,
+                            .choose = d->model->has_film ? choose : NULL,
                             .unforeseen = unforeseen};
 }
 
@@ -873,6 +905,7 @@ static void book_links(const ZpDynamics *d, ZpState *const state[]) {
 
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   size_t k = 0;
+  release_cavities(d);
   for (ZpDynamics *m = d; m; m = m->below, k++) {
     m->history.last = d->history.last;
     m->history.next = d->history.next;

@@ -15,7 +15,7 @@ static const double fast_share = 0.1; /* of the work that a linear rate foresees
                                        * not of a film, whose tangent leaves out convection */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 static const double start_growth = 4, far_below = 1e-3; /* where the error is far below the limit, as at first */
-enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
+enum { MOST_ITERATIONS = 16, MOST_CHOICES = 60, PATIENCE = 8, EASY = 5, HARD = 8 };
 
 void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
   s->system = system;
@@ -164,7 +164,7 @@ static void forgive_momentary(ZpImplicit *s, double h) {
 static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v, int *iterations) {
   double least = INFINITY, before = 0;
   Imbalance imbalance;
-  for (int k = 0; k < MOST_ITERATIONS; k++) {
+  for (int k = 0, most = MOST_ITERATIONS; k < most; k++) {
     ZpEnd end = linearise(s, h, q, v, &imbalance);
     if (end != ZP_END_FOUND) return end;
     solve(s, s->r);
@@ -172,9 +172,11 @@ static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v,
       s->q[i] += s->r[i];
     s->counts.iterations++;
     *iterations = k + 1;
+    bool chosen = !s->system->choose || s->system->choose(s->system->self, s->q);
+    if (!chosen) most = k + MOST_ITERATIONS < MOST_CHOICES ? k + MOST_ITERATIONS : MOST_CHOICES;
     forgive_momentary(s, h);
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
-    if (!isfinite(size) || (k >= PATIENCE && size > least)) return ZP_END_SHORTER;
+    if (!isfinite(size) || (chosen && k >= PATIENCE && size > least)) return ZP_END_SHORTER;
     if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;
     least = fmin(least, size);
     before = size;

@@ -57,6 +57,9 @@ typedef struct ZpImplicitSystem {
   /* The share of the error (18.9) of first-order unknown i that counts, 0 to 1, at the last residual: less than 1 for
    * what decays within the step, if the equations have this decay exactly. NULL: all. */
   double (*resolved)(void *self, size_t i);
+  /* Called after each correction, which has led to y1: chooses the branches of kinked laws for the next residual. False
+   * while they change one by one, which may take many iterations. May be NULL. */
+  bool (*choose)(void *self, const double *y1);
   /* Called after the last correction has led to y1. Returns |work|, J, of the forces that the last tangent did not
    * predict there: those of contacts that have closed or opened since. An accepted step ends at the last y1 of these
    * calls. May be NULL. */
