@@ -336,6 +336,37 @@ START_TEST(test_cavity_in_a_short_step) {
 }
 END_TEST
 
+static int cavities(Film *f) {
+  zp_film_step(&f->params, &everywhere, f->g0, f->g1, f->h, f->start, f->p, &f->eval);
+  int count = 0;
+  for (size_t i = 0; i < f->params.nodes; i++)
+    count += f->eval.grows[i] > 0;
+  return count;
+}
+
+/* Heads fall at three stations. All of them tear the liquid there, or one after the other does. */
+START_TEST(test_cavities_change_one_by_one) {
+  static const size_t torn[] = {5, 9, 12};
+  Film *f = make_film(21, 0.04, 12.7e-3, true);
+  plates(f, 1e-5, 0);
+  ck_assert_int_eq(cavities(f), 0);
+  for (size_t k = 0; k < LENGTH_OF(torn); k++)
+    f->p[ZP_FILM_MODES * torn[k]] = -1e6;
+  for (int open = 1; open <= 3; open++) {
+    ck_assert_uint_eq(zp_film_contradictions(&f->params, f->p, &f->eval), (size_t)(4 - open));
+    zp_film_turn_one(&f->params, f->p, &f->eval);
+    ck_assert_int_eq(cavities(f), open);
+  }
+  ck_assert_uint_eq(zp_film_contradictions(&f->params, f->p, &f->eval), 0);
+  memset(f->p, 0, sizeof f->p);
+  zp_film_turn_one(&f->params, f->p, &f->eval);
+  ck_assert_int_eq(cavities(f), 2);
+  zp_film_release(&f->params, &f->eval);
+  ck_assert_int_eq(cavities(f), 0);
+  free_film(f);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("film");
   TCase *forms = tcase_create("closed forms");
@@ -351,6 +382,7 @@ int main(void) {
   tcase_add_loop_test(ledger, test_work_is_energy_and_loss, 0, 4);
   tcase_add_test(ledger, test_cavity);
   tcase_add_loop_test(ledger, test_cavity_in_a_short_step, 0, 4);
+  tcase_add_test(ledger, test_cavities_change_one_by_one);
   suite_add_tcase(suite, ledger);
   return run_suite(suite);
 }
