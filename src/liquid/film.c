@@ -335,6 +335,14 @@ static bool cavitates(double head) {
   return head < -zp_film_tension;
 }
 
+/* With what was there before: a cavity so thin that it is below the rounding of the heads stays. */
+static bool cavitates_on(const ZpFilmParams *p, const double *heads, size_t i, bool before) {
+  static const double digits = 16 * 2.2e-16;
+  double sizes = zp_film_tension + p->share[0] * fabs(heads[zp_film_mode_at(i, 0)]) +
+                 p->share[1] * fabs(heads[zp_film_mode_at(i, 1)]);
+  return cavitates(mean_head(p, heads, i) - (before ? digits * sizes : 0));
+}
+
 static double cavity_of(double head, bool grows) {
   return grows ? give * (-zp_film_tension - head) : 0;
 }
@@ -347,8 +355,8 @@ static bool grows(const ZpFilmEval *e, size_t i) {
 static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
     e->head[i] = mean_head(p, heads, i);
-    e->grows[i] = e->held[i] == 0 ? cavitates(e->head[i]) : e->held[i] > 0;
-    e->end[cavity_at(i)] = cavity_of(e->head[i], grows(e, i));
+    e->grows[i] = e->held[i] == 0 ? cavitates_on(p, heads, i, grows(e, i)) : e->held[i] > 0;
+    e->end[cavity_at(i)] = fmax(cavity_of(e->head[i], grows(e, i)), e->held[i] == 0 ? 0 : -INFINITY);
   }
 }
 
@@ -358,7 +366,7 @@ void zp_film_release(const ZpFilmParams *p, const ZpFilmEval *e) {
 }
 
 static bool contradicts(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e, size_t i) {
-  return zp_film_wet(e, i) > 0 && cavitates(mean_head(p, heads, i)) != grows(e, i);
+  return zp_film_wet(e, i) > 0 && cavitates_on(p, heads, i, grows(e, i)) != grows(e, i);
 }
 
 size_t zp_film_contradictions(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
