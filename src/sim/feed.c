@@ -55,7 +55,8 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
   const ZpState *state = sim->state;
   double V = state->supply.voltage, rate = zp_supply_rate(&sim->model->supply, &command, state->t, state->supply);
   double inner = zp_ramp_resolution(fmax(least, fabs(V)), rate);
-  return fmin(inner, zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate));
+  double outer = zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate);
+  return fmax(fmin(inner, outer), instant); /* the last step's rate may be that of a jump */
 }
 
 /* -- the law of the current ------------------------------------------------------------------------ */
