@@ -315,7 +315,6 @@ static void draw_supply(uint64_t *state, ZpActuatorDef *def) {
   def->source.slew_rate = none_or(state, 0.6, NAN, 1e4, 1e10);
   def->source.bandwidth = none_or(state, 0.6, NAN, 1, 1e5);
   def->source.bleeder = none_or(state, 0.7, NAN, 1e6, 1e12);
-  if (def->source.sink_limit == 0) def->source.capacitance += 0.1e-12; /* without one it is refused beside the cap */
 }
 
 static void draw_waveform(uint64_t *state, ZpActuatorDef *def) {

@@ -653,20 +653,6 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* While the breakdown cap acts, closed faces hold the same charge at any voltage. If this charge cannot flow back, the
- * voltage is determined only by a capacitance or a resistance in parallel. */
-static ZpStatus check_undecided(const ZpActuatorDef *def, ZpError *err) {
-  static const double least = 0.1e-12; /* F: a few millimetres of wire */
-  double sinks = isnan(def->source.sink_limit) ? def->source.current_limit : def->source.sink_limit;
-  bool leaks = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity);
-  if (sinks != 0 || !def->electro.breakdown_cap || leaks || def->source.capacitance >= least) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "source.sink_limit = 0 A: with electro.breakdown_cap closed faces hold the same charge at any "
-                 "voltage, so their voltage is undetermined; give source.capacitance of output and cable (about 10 pF, "
-                 "at least %g F), source.bleeder or insulator.resistivity",
-                 least);
-}
-
 /* Values with which an amplifier would never charge the electrodes, or faster than time steps resolve. */
 static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
   static const double fastest = 1e9; /* Hz: a time constant has a thousand of the shortest steps */
@@ -686,7 +672,7 @@ static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "source.model = amplifier: requires electrodes, which actuator.kind ribbon does not have");
-  return check_undecided(def, err);
+  return ZP_OK;
 }
 
 static ZpStatus check_source(const ZpActuatorDef *def, ZpError *err) {

@@ -27,8 +27,8 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
 
 void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
   enum { DOUBLES = sizeof(ZpFilmPiece) / sizeof(double) };
-  double **stations[] = {&e->rate, &e->middle,   &e->H0,   &e->H1,    &e->secant, &e->depth0, &e->depth1,
-                         &e->jet,  &e->coupling, &e->head, &e->force, &e->flat,   &e->given};
+  double **stations[] = {&e->rate,     &e->middle, &e->H0,    &e->H1,   &e->secant, &e->depth0, &e->depth1, &e->jet,
+                         &e->coupling, &e->head,   &e->grows, &e->held, &e->force,  &e->flat,   &e->given};
   double **modes[] = {&e->flow, &e->conductance, &e->leak, &e->leak_conductance, &e->r};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(carver, p->nodes);
@@ -352,23 +352,66 @@ static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
 }
 
 /* Below minus zp_film_tension a cavity grows, so that its head hardly falls further. */
-static double cavity_of(double head) {
-  return give * fmax(0, -zp_film_tension - head);
+static bool cavitates(double head) {
+  return head < -zp_film_tension;
+}
+
+/* With what was there before: a cavity so thin that it is below the rounding of the heads stays. */
+static bool cavitates_on(const ZpFilmParams *p, const double *heads, size_t i, bool before) {
+  static const double digits = 16 * 2.2e-16;
+  double sizes = zp_film_tension + p->share[0] * fabs(heads[zp_film_mode_at(i, 0)]) +
+                 p->share[1] * fabs(heads[zp_film_mode_at(i, 1)]);
+  return cavitates(mean_head(p, heads, i) - (before ? digits * sizes : 0));
+}
+
+static double cavity_of(double head, bool grows) {
+  return grows ? give * (-zp_film_tension - head) : 0;
+}
+
+/* Was there a cavity? */
+static bool grows(const ZpFilmEval *e, size_t i) {
+  return e->grows[i] > 0;
 }
 
 static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
     e->head[i] = mean_head(p, heads, i);
-    e->end[cavity_at(i)] = cavity_of(e->head[i]);
+    e->grows[i] = e->held[i] == 0 ? cavitates_on(p, heads, i, grows(e, i)) : e->held[i] > 0;
+    e->end[cavity_at(i)] = fmax(cavity_of(e->head[i], grows(e, i)), e->held[i] == 0 ? 0 : -INFINITY);
   }
+}
+
+void zp_film_release(const ZpFilmParams *p, const ZpFilmEval *e) {
+  for (size_t i = 0; i < p->nodes; i++)
+    e->held[i] = 0;
+}
+
+static bool contradicts(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e, size_t i) {
+  return zp_film_wet(e, i) > 0 && cavitates_on(p, heads, i, grows(e, i)) != grows(e, i);
+}
+
+size_t zp_film_contradictions(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  size_t count = 0;
+  for (size_t i = 0; i < p->nodes; i++)
+    count += contradicts(p, heads, e, i);
+  return count;
+}
+
+void zp_film_turn_one(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  double *last = NULL;
+  for (size_t i = 0; i < p->nodes; i++) {
+    bool holds = contradicts(p, heads, e, i);
+    e->held[i] = !holds ? 0 : grows(e, i) ? 1 : -1;
+    if (holds) last = &e->held[i];
+  }
+  if (last) *last = 0;
 }
 
 double zp_film_unforeseen(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   double work = 0;
   for (size_t i = 0; i < p->nodes; i++) {
-    double head = mean_head(p, heads, i), foreseen = e->end[cavity_at(i)];
-    if (foreseen > 0) foreseen -= give * (head - e->head[i]);
-    work += p->w * zp_film_wet(e, i) * fabs((cavity_of(head) - foreseen) * head);
+    double head = mean_head(p, heads, i), missed = cavity_of(head, cavitates(head)) - cavity_of(head, grows(e, i));
+    work += p->w * zp_film_wet(e, i) * fabs(missed * head);
   }
   return work;
 }
@@ -591,7 +634,23 @@ bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
-double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+/* What a cavity gives way by the mean head, m^2/Pa. */
+static double given_way(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return grows(e, i) && zp_film_is_free(p, e, i, 0) ? zp_film_wet(e, i) * give : 0;
+}
+
+double zp_film_mix(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return given_way(p, e, i) > 0 ? p->share[1] / p->share[0] : 0;
+}
+
+double zp_film_turned(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, const double *r) {
+  const double *own = &e->r[zp_film_mode_at(i, 0)];
+  double mix = zp_film_mix(p, e, i), apart = p->share[1] * p->w * h * (outflow(e, i, 1) - outflow(e, i, 0));
+  return mix > 0 ? apart + (r[1] - own[1]) - mix * (r[0] - own[0]) : r[1];
+}
+
+/* By heads, of mode k by mode m at the same station, without what a cavity does. */
+static double by_heads(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i, m)) return k == m ? 1 : 0;
   double length = zp_film_wet(e, i), leak = p->share[k] * e->leak_conductance[zp_film_mode_at(i, k)], sum = 0;
   if (k == m) {
@@ -599,16 +658,31 @@ double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t 
     if (i > 0) sum += p->share[k] * e->conductance[zp_film_mode_at(i - 1, k)];
   }
   sum -= length * e->coupling[i] * leak * p->share[m] * e->leak_conductance[zp_film_mode_at(i, m)];
-  double grows = e->end[cavity_at(i)] > 0 ? length * give * p->share[k] * p->share[m] : 0;
-  return -p->w * (h * sum + grows);
+  return -p->w * (h * sum);
 }
 
-double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
+double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+  double mix = zp_film_mix(p, e, i), sum = by_heads(p, h, e, i, k, m);
+  if (k == 0 && m == 0) return sum - p->w * p->share[0] * p->share[0] * given_way(p, e, i);
+  if (mix == 0) return sum;
+  if (k != m) return sum - mix * by_heads(p, h, e, i, 0, 0);
+  return sum - 2 * mix * by_heads(p, h, e, i, 0, 1) + mix * mix * by_heads(p, h, e, i, 0, 0);
+}
+
+/* By the same mode's head at the next station. */
+static double by_next_head(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i + 1, k)) return 0;
   return p->share[k] * h * p->w * e->conductance[zp_film_mode_at(i, k)];
 }
 
+double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+  double here = k == 1 ? -zp_film_mix(p, e, i) : 1, there = m == 1 ? -zp_film_mix(p, e, i + 1) : 1;
+  double own = k == m && k == 1 ? by_next_head(p, h, e, i, 1) : 0;
+  return own + here * there * by_next_head(p, h, e, i, 0);
+}
+
 double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
+  if (k == 1 && zp_film_mix(p, e, i) > 0) return 0;
   return zp_film_is_free(p, e, i, k) ? p->share[k] * p->w * cell_share(e, i, j) * e->secant[j] : 0;
 }
 

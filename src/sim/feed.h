@@ -7,7 +7,12 @@
 #include "term/source.h"
 
 /* Which limit of the supply acts. */
-typedef enum ZpFeedMode { ZP_FEED_FREE, ZP_FEED_GIVES_MOST, ZP_FEED_SINKS_MOST } ZpFeedMode;
+typedef enum ZpFeedMode {
+  ZP_FEED_FREE,
+  ZP_FEED_GIVES_MOST,
+  ZP_FEED_SINKS_MOST,
+  ZP_FEED_SPILLS /* capped faces have to give more charge than the limit takes: the breakdown takes the rest */
+} ZpFeedMode;
 
 /* Currents of a step that may be the largest one. */
 typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT_END, ZP_FEED_CURRENTS } ZpFeedCurrent;
@@ -15,7 +20,8 @@ typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT
 typedef struct ZpFeed {
   ZpSource source;     /* what the dynamics ask */
   double scale;        /* V */
-  ZpFeedMode mode;     /* of the step at the last residual */
+  ZpFeedMode mode;     /* of the step at the last residual, */
+  double bleeds;       /* and the weight of the voltage at its end in that at the bleeder */
   double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
   double current[ZP_FEED_CURRENTS]; /* of the last step, A */
   int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */

@@ -539,7 +539,8 @@ static bool is_possible(size_t k, double value, double t, const ZpActuatorDef *d
   case NODE:
     return value >= 0 && value < def->mesh.nodes && value == floor(value);
   case MODE:
-    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST;
+    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST ||
+           value == ZP_FEED_SPILLS;
   case VOLTAGE:
     return is_voltage(value, 1);
   case RATE:

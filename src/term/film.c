@@ -81,7 +81,8 @@ static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly 
     size_t p = zp_film_mode_at(i, k);
     for (int m = k; m < ZP_FILM_MODES; m++)
       zp_assemble_own(assembly, p, zp_film_mode_at(i, m), zp_film_own(film, span->h, e, i, k, m), K);
-    if (i + 1 < model->nodes) zp_assemble_own(assembly, p, p + ZP_FILM_MODES, zp_film_next(film, span->h, e, i, k), K);
+    for (int m = 0; m < ZP_FILM_MODES && i + 1 < model->nodes; m++)
+      zp_assemble_own(assembly, p, zp_film_mode_at(i + 1, m), zp_film_next(film, span->h, e, i, k, m), K);
   }
 }
 
