@@ -130,10 +130,11 @@ static bool fall(ZpSlow *f, double sign, double least) {
 }
 
 /* The same from a limit point at the present point. It begins with a small step along the null vector, without which it
- * would be slow at first. A crest that is higher by more than a millionth is still met. */
+ * would be slow at first; not where it is closed, since a front that gives way hardly moves the opening, by which steps
+ * are measured. A crest that is higher by more than a millionth is still met. */
 static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
   static const double part = 0.25, least = 1e-6; /* of a step along the branch; of the voltage */
-  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
+  if (!f->was_closed) zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
   return fall(f, sign, least);
 }
 
