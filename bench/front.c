@@ -78,7 +78,8 @@ static void film_at(Front *f, size_t i) {
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     for (int m = k; m < ZP_FILM_MODES; m++)
       *entry(f, i, 1 + k, i, 1 + m) = zp_film_own(&f->film, f->h, &f->eval, i, k, m);
-    if (i + 1 < STATIONS) *entry(f, i, 1 + k, i + 1, 1 + k) = zp_film_next(&f->film, f->h, &f->eval, i, k);
+    for (int m = 0; m < ZP_FILM_MODES && i + 1 < STATIONS; m++)
+      *entry(f, i, 1 + k, i + 1, 1 + m) = zp_film_next(&f->film, f->h, &f->eval, i, k, m);
     for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < STATIONS; j++) {
       size_t row = UNKNOWNS * j, column = UNKNOWNS * i + 1 + (size_t)k;
       *zp_band_at(&f->J, row < column ? row : column, row < column ? column : row) -=
@@ -106,16 +107,19 @@ static void evaluate(Front *f) {
 static double correct(Front *f) {
   double largest = 0;
   for (size_t i = 0; i < STATIONS; i++) {
-    f->r[UNKNOWNS * i] = f->force[i];
-    memcpy(f->r + UNKNOWNS * i + 1, f->eval.r + ZP_FILM_MODES * i, ZP_FILM_MODES * sizeof *f->r);
+    double *r = f->r + UNKNOWNS * i;
+    r[0] = f->force[i];
+    r[1] = f->eval.r[ZP_FILM_MODES * i];
+    r[2] = zp_film_turned(&f->film, f->h, &f->eval, i, f->eval.r + ZP_FILM_MODES * i);
   }
   if (!zp_band_factor(&f->J)) return 1;
   zp_band_solve(&f->J, f->r);
   for (size_t i = 0; i < STATIONS; i++) {
-    f->g1[i] += f->r[UNKNOWNS * i];
-    for (size_t k = 0; k < ZP_FILM_MODES; k++)
-      f->heads[ZP_FILM_MODES * i + k] += f->r[UNKNOWNS * i + 1 + k];
-    largest = fmax(largest, fabs(f->r[UNKNOWNS * i]) / (f->g0[i] + f->film.l * 1e-6));
+    const double *r = f->r + UNKNOWNS * i;
+    f->g1[i] += r[0];
+    f->heads[ZP_FILM_MODES * i] += r[1] - zp_film_mix(&f->film, &f->eval, i) * r[2];
+    f->heads[ZP_FILM_MODES * i + 1] += r[2];
+    largest = fmax(largest, fabs(r[0]) / (f->g0[i] + f->film.l * 1e-6));
   }
   return largest;
 }

@@ -9,7 +9,7 @@ function zipact_plot(result)
   if ~isstruct(result) || isempty(result) || ~isfield(result, 'series') || numel(unique({result.study})) > 1
     error('zipact:input', 'zipact_plot: takes a result of zipact, or several of one study');
   end
-  [x, y, labels, style] = axes_of(result(1).study);
+  [x, y, labels, style] = axes_of(result(1));
   held = ishold();
   for i = 1:numel(result)
     plot(x(result(i).series), y(result(i).series), style);
@@ -21,13 +21,16 @@ function zipact_plot(result)
   grid('on');
 end
 
-function [x, y, labels, style] = axes_of(study)
+function [x, y, labels, style] = axes_of(result)
   style = '-';
-  switch study
+  switch result.study
     case {'actuate', 'cycle'}
       x = @(s) 1e3 * s.time_s;     y = @(s) 1e3 * s.stroke_m;     labels = {'time / ms', 'stroke / mm'};
     case 'equilibrium'
       x = @(s) 1e-3 * s.voltage_V; y = @(s) 1e3 * s.opening_m;    labels = {'voltage / kV', 'opening / mm'};
+      if all(isnan(result.series.opening_m)) % a single ribbon has none
+        y = @(s) 1e3 * s.stroke_m; labels{2} = 'stroke / mm';
+      end
     case 'limits'
       x = @(s) 1e-3 * s.voltage_V; y = @(s) 1e3 * s.load_kg;      labels = {'voltage / kV', 'load / g'}; style = 'o';
     case 'isometric'
@@ -39,6 +42,6 @@ function [x, y, labels, style] = axes_of(study)
     case 'stationary'
       x = @(s) 1e3 * s.x_m;        y = @(s) 1e3 * s.y_m;          labels = {'x / mm', 'y / mm'};
     otherwise
-      error('zipact:input', 'zipact_plot: there is no picture for study %s', study);
+      error('zipact:input', 'zipact_plot: there is no picture for study %s', result.study);
   end
 end

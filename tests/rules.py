@@ -38,7 +38,7 @@ MAY_INCLUDE = {
     "io": ["sample", "base"],
     "fmupack": ["io", "fmu", "fmu/export", "base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
-    "campaign": ["fit", "io", "sample", "base"],
+    "campaign": ["fit", "io", "sample", "def", "base"],
     "optimize": ["campaign", "fit", "io", "sample", "base"],
     "reproduce": ["fit", "io", "base"],
     "cli": [],

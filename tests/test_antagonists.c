@@ -372,6 +372,24 @@ START_TEST(constant_voltage_is_that_ratio) {
 }
 END_TEST
 
+/* The lower one stays at its constant voltage under any waveform of the upper one, whose keys are not its own. */
+START_TEST(constant_voltage_under_any_waveform) {
+  static const Setting of[][4] = {
+      {{"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 5}},
+      {{"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 5}, {"drive.duty", 0.3}, {"drive.rise_time", 1e-3}},
+      {{"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 1e-2}, {"drive.offset", 1e3}}};
+  ZpActuatorDef def = DEF(BOTH, {"drive.voltage", 5e3}, {"stack.lower_voltage", 2e3}, {"solver.end_time", 1e-3});
+  ZpError err = {ZP_OK, ""};
+  for (size_t k = 0; k < LENGTH_OF(of[_i]) && of[_i][k].key; k++)
+    ck_assert_int_eq(zp_def_set(&def, zp_key_find(of[_i][k].key), of[_i][k].value, NULL), ZP_OK);
+  ck_assert_msg(zp_study_check(ZP_STUDY_ACTUATE, &def, &err) == ZP_OK, "%s", err.message);
+  ZpModel *model = model_of(&def);
+  ck_assert_double_eq(zp_waveform_largest(&model->below->waveform), 2e3);
+  ck_assert_double_eq(zp_waveform_voltage(&model->below->waveform, 0.13), 2e3);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* -- in motion ------------------------------------------------------------------------------------- */
 
 /* Without voltage what is at rest stays. */
@@ -496,6 +514,7 @@ int main(void) {
   tcase_add_test(rest, pull_in_is_where_slopes_cancel);
   tcase_add_test(rest, limits_have_their_states);
   tcase_add_loop_test(rest, one_closes_gradually, 0, 2);
+  tcase_add_loop_test(rest, constant_voltage_under_any_waveform, 0, 3);
   tcase_add_loop_test(rest, two_swing_as_one_with_half_the_load, 0, 2);
   tcase_add_test(rest, heavy_load_swings_on_both_stiffnesses);
   tcase_add_test(rest, voltage_softens_both);

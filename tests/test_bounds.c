@@ -234,7 +234,6 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     implicit = true;
     def->source.model = ZP_SOURCE_AMPLIFIER;
   }
-  if (strcmp(key, "source.sink_limit") == 0) def->source.capacitance = 10e-12;
   if (strcmp(key, "source.voltage_limit") == 0) def->drive.voltage = fmin(value, def->drive.voltage);
   if (strncmp(key, "sense.", 6) == 0) make_meter(def, key, value);
   if (strncmp(key, "control.", 8) == 0 || strncmp(key, "setpoint.", 9) == 0) make_controller(def, key, value);

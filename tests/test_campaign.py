@@ -334,6 +334,8 @@ def check_batch(zipact):
         ok("batch: answers before the next line comes", timeless(json.loads(dialog.stdout.readline())) == answer)
     dialog.stdin.close()
     ok("batch: ends with its input", dialog.wait() == 0)
+    bare = subprocess.run([zipact.program, "batch", "--set", "drive.voltage=6000"], input='{"load.mass": "1 m"}\n' * 3, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    ok("batch: a number without a unit is told once, not for each line", bare.stderr.count("drive.voltage: 6000 taken as 6000 V") == 1)
     ok("batch: wrong common input is status 2", subprocess.run([zipact.program, "batch", "--set", "load.mas=1"], stdin=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 2)
     with open("/dev/full", "w") as full:
         broken = subprocess.run(command, input="\n".join(lines), stdout=full, stderr=subprocess.PIPE, text=True)

@@ -116,6 +116,30 @@ START_TEST(a_run_ends_early_where_it_stays_closed) {
 }
 END_TEST
 
+static double end_with(double thickness) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.end_time", 10},
+                          {"medium.kinematic_viscosity", 5e-6}, {"output.errors", false});
+  def.ribbon.thickness = thickness;
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  double end = zp_result_get(result, "simulated_time_s");
+  ck_assert_double_lt(end, 10);
+  zp_result_destroy(result);
+  return end;
+}
+
+/* The actuator creeps towards rest, so the end of the run is a smooth function of a key: between six neighbouring
+ * thicknesses it grows by nearly equal amounts. */
+START_TEST(the_early_end_is_continuous_in_a_key) {
+  enum { RUNS = 6 };
+  double end[RUNS];
+  for (int k = 0; k < RUNS; k++)
+    end[k] = end_with(100e-6 + 0.01e-6 * k);
+  double mean = (end[RUNS - 1] - end[0]) / (RUNS - 1);
+  for (int k = 1; k < RUNS; k++)
+    ck_assert_double_eq_tol(end[k] - end[k - 1], mean, 0.1 * fabs(mean));
+}
+END_TEST
+
 /* An oscillation of more than 1e-4 about a closed state, or a film that still drains, ends at solver.end_time. */
 START_TEST(a_run_that_creeps_ends_at_its_end_time) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.end_time", 0.35});
@@ -230,6 +254,7 @@ int main(void) {
   suite_add_tcase(suite, since);
   TCase *ends = tcase_create("end");
   tcase_add_test(ends, a_run_ends_early_where_it_stays_closed);
+  tcase_add_test(ends, the_early_end_is_continuous_in_a_key);
   tcase_add_test(ends, a_run_that_creeps_ends_at_its_end_time);
   tcase_add_test(ends, a_run_may_end_at_the_first_closing);
   tcase_add_test(ends, sequential_contact_ends_where_it_closes);

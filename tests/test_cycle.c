@@ -259,6 +259,23 @@ START_TEST(test_shooting_with_a_bead) {
 }
 END_TEST
 
+/* Charges that collect within 170 cycles, at each place at another rate, in an actuator whose swing hardly decays: to
+ * the interface voltage that a motion of 200 s reaches. The search foresees impossible states on its way and goes back.
+ */
+START_TEST(test_shooting_with_slow_charges) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"insulator.resistivity", 1e12},
+                          {"medium.resistivity", 1e10}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 4e3},
+                          {"drive.frequency", 9}, {"cycle.most_cycles", 100});
+  ZpResult *result = cycle_of(&def);
+  double least = 0;
+  ck_assert(zp_result_get(result, "periodic") == 1);
+  for (size_t row = 0; row < result->series->rows; row++)
+    least = fmin(least, zp_table_get(result->series, row, "interface_voltage_V"));
+  ck_near(least, -1458.94, 1e-3);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* From far below to far above the swing all cycles are periodic, with positive energies, for little and much oil. */
 START_TEST(test_bode_plot_below_contact) {
   static const double liquid[] = {ZP_LIQUID_BEAD, ZP_LIQUID_BEAD, ZP_LIQUID_SUBMERGED},
@@ -340,6 +357,7 @@ int main(void) {
   tcase_add_loop_test(cycles, test_linear_answer_is_small_motion, 0, 6);
   tcase_add_test(cycles, test_method_by_itself);
   tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
+  tcase_add_test(cycles, test_shooting_with_slow_charges);
   tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 3);
   tcase_add_test(cycles, test_impacts_are_not_periodic);
   tcase_add_test(cycles, test_closing_frequency);

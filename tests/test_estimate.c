@@ -51,13 +51,13 @@ static const Number numbers[] = {
     {ZP_STUDY_STATIONARY, "opening_m", "opening_error_m", 2.5, 1.75, POWERS, 2, 2},
     {ZP_STUDY_ISOMETRIC, "force_N", "force_error_N", 12, 2, RIPPLE, 2, 2},
     {ZP_STUDY_MODES, "frequency_3_Hz", "frequency_3_error_Hz", 2.5, 1.75, POWERS, 2, 2},
-    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 20, 1.75, POWERS, 2, 2},
+    {ZP_STUDY_ACTUATE, "zip_time_s", "zip_time_error_s", 20, 2.25, POWERS, 2, 2},
     {ZP_STUDY_LIMITS, "max_load_kg", "max_load_error_kg", 12, 2, RIPPLE, 3, 4},
 };
 
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
  * covers the error. Measured: 1.9 times (opening, frequency), 14 times (pull-in, closing), 9 times (release), 8 times
- * (held force), 7 times (zip time), whose errors depend on where among the nodes the front is. */
+ * (held force), 5 times (zip time), whose errors depend on where among the nodes the front is. */
 START_TEST(estimate_covers_the_error) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});
@@ -168,6 +168,31 @@ START_TEST(estimate_is_that_of_the_meshes) {
 }
 END_TEST
 
+/* Zip times come from half and two fifths of the elements, with 4 and 6.25 times the tolerance. The estimate's own runs
+ * solve their steps less exactly, which moves their times by up to an eighth of their tolerance. Measured: the estimate
+ * differs by 13 % without liquid, by 0.6 % in a bath and with beads. */
+START_TEST(zip_time_is_estimated_by_half_and_two_fifths) {
+  static const double liquids[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
+  static const double share[] = {1, 0.5, 0.4};
+  const double elements = 40;
+  ZpActuatorDef def = DEF({"output.errors", 1}, {"liquid.model", liquids[_i]}, {"mesh.nodes", elements + 1},
+                          {"solver.stop_when_zipped", ZP_WHEN_TRUE});
+  double told = value_of(ZP_STUDY_ACTUATE, &def, "zip_time_error_s"), tolerance = zp_def_tolerance(&def);
+  Meshes t = {.coarser = 2};
+  def.output.errors = false;
+  for (int k = 0; k < 3; k++) {
+    t.n[k] = share[k] * elements;
+    def.mesh.nodes = (int)t.n[k] + 1;
+    def.solver.tolerance = tolerance / (share[k] * share[k]);
+    t.f[k] = value_of(ZP_STUDY_ACTUATE, &def, "zip_time_s");
+  }
+  double expected = 2.25 * fmax(largest(&t, 2), fabs(by_powers(&t)));
+  printf("zip time %.6g, %.6g, %.6g s, error estimated as %.3g, expected %.3g\n", t.f[0], t.f[1], t.f[2], told,
+         expected);
+  ck_near(told, expected, 0.25);
+}
+END_TEST
+
 /* The curve's limits have the same estimates as the limits themselves. */
 START_TEST(equilibrium_has_the_estimates_of_limits) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 31});
@@ -218,6 +243,27 @@ START_TEST(unresolved_bending_is_estimated_by_finer_meshes) {
 }
 END_TEST
 
+/* In motion, a mesh that does not resolve the bend has long steps, too. Those of the finer meshes are shorter, so that
+ * the estimate tells the error of both. 126 mm of aluminium of 29 um that closes in 5 ms; measured: 1.2 times the
+ * error. */
+START_TEST(finer_meshes_tell_the_error_of_steps) {
+  ZpActuatorDef def = DEF({"output.errors", 1}, {"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 126.4e-3},
+                          {"ribbon.width", 13.6e-3}, {"ribbon.thickness", 28.6e-6}, {"ribbon.young_modulus", 70e9},
+                          {"ribbon.poisson_ratio", 0.33}, {"ribbon.density", 2700}, {"platform.length", 12.6e-3},
+                          {"insulator.thickness", 201e-6}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
+                          {"drive.voltage", 7535}, {"mesh.nodes", 37}, {"solver.stop_when_zipped", ZP_WHEN_TRUE});
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  double told = zp_result_get(result, "zip_time_error_s"), time = zp_result_get(result, "zip_time_s");
+  zp_result_destroy(result);
+  def.output.errors = false;
+  def.mesh.nodes = 181;
+  def.solver.tolerance = 2e-5;
+  double error = fabs(time - value_of(ZP_STUDY_ACTUATE, &def, "zip_time_s"));
+  printf("zip time %.6g s, error %.3g, estimated %.3g\n", time, error, told);
+  ck_assert_msg(told >= error && told < 2 * error, "told %g, true %g", told, error);
+}
+END_TEST
+
 /* Meshes that would need thousands of elements are not tried: a note says so. */
 START_TEST(hopeless_mesh_has_no_estimate) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 11}, {"ribbon.thickness", 2e-6}, {"load.mass", 1});
@@ -247,9 +293,11 @@ int main(void) {
   tcase_add_loop_test(c, cantilever_in_closed_form, 0, 3);
   if (!SANITIZED) tcase_add_loop_test(c, estimate_covers_the_error, 0, LENGTH_OF(numbers));
   tcase_add_loop_test(c, estimate_is_that_of_the_meshes, 0, 12);
+  tcase_add_loop_test(c, zip_time_is_estimated_by_half_and_two_fifths, 0, 3);
   tcase_add_test(c, equilibrium_has_the_estimates_of_limits);
   tcase_add_loop_test(c, estimates_leave_the_numbers_alone, 0, LENGTH_OF(numbers));
   tcase_add_test(c, unresolved_bending_is_estimated_by_finer_meshes);
+  tcase_add_test(c, finer_meshes_tell_the_error_of_steps);
   tcase_add_test(c, hopeless_mesh_has_no_estimate);
   tcase_add_test(c, estimate_may_be_missing);
   suite_add_tcase(suite, c);

@@ -133,7 +133,11 @@ START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
 }
 END_TEST
 
-/* Energy of the layers of two elements, p_c delta / 4 (-g / delta)^4 per length, J. */
+/* Two elements; the edge of their free end presses as so much of their length. */
+#define WITH_FREE_END(length)                                                                                          \
+  { .nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 2, .platform_end = 2, .flat_length = (length) }
+
+/* Energy of the layers of two elements and of a free end, p_c delta / 4 (-g / delta)^4 per length, J. */
 static double layers_energy(const ZpFacesParams *faces, const double *gap) {
   enum { CELLS = 4000 };
   double sum = 0;
@@ -142,7 +146,8 @@ static double layers_energy(const ZpFacesParams *faces, const double *gap) {
       double r = (c + 0.5) / CELLS, s = fmax(-((1 - r) * gap[i] + r * gap[i + 1]) / faces->depth, 0);
       sum += faces->l / CELLS * faces->push * faces->depth / 4 * s * s * s * s;
     }
-  return sum;
+  double s = fmax(-gap[faces->nodes - 1] / faces->depth, 0);
+  return sum + faces->flat_length * faces->push * faces->depth / 4 * s * s * s * s;
 }
 
 static double work_of_push(const ZpFacesParams *faces, const double *from, const double *to, const ZpFacesEval *eval) {
@@ -154,13 +159,13 @@ static double work_of_push(const ZpFacesParams *faces, const double *from, const
 }
 
 /* Over a step faces push with the mean that does the work by which the energy of their layers changes: where they stay
- * closed, meet, part, or both within an element. */
+ * closed, meet, part, or both within an element; with a free end that presses as a point or without. */
 START_TEST(push_over_a_step_does_the_work_of_the_layers) {
   static const double way[][2][3] = {{{-1e-7, -2e-7, -1e-7}, {-2e-7, -1e-7, -1e-7}},
                                      {{5e-8, 5e-8, 5e-8}, {-1e-7, -1e-7, -1e-7}},
                                      {{-1e-7, -1e-7, -1e-7}, {2e-7, 2e-7, 2e-7}},
                                      {{1e-7, 1e-7, 1e-7}, {2e-7, 2e-7, 2e-7}}};
-  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
+  ZpFacesParams faces = WITH_FREE_END(3e-4 * _i);
   double push[3], own[3], next[3], stiffness[3];
   double none[3] = {0};
   ZpFacesEval eval = {push, own, next, stiffness, none};
@@ -178,7 +183,7 @@ END_TEST
 START_TEST(push_over_a_step_has_this_derivative) {
   static const double from[][3] = {{-1e-7, -2e-7, -1e-7}, {5e-8, 5e-8, 5e-8}, {-3e-7, 1e-7, 2e-7}};
   const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
-  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 3};
+  ZpFacesParams faces = WITH_FREE_END(3e-4 * _i);
   double push[3], own[3], next[3], stiffness[3], more[3], other[3][3];
   double damper[3] = {0};
   ZpFacesEval eval = {push, own, next, stiffness, damper}, at_more = {more, other[0], other[1], other[2], damper};
@@ -294,8 +299,8 @@ int main(void) {
   tcase_add_test(c, closed_faces_lie_on_each_other);
   tcase_add_test(c, damper_takes_what_the_loss_factor_says);
   tcase_add_test(c, damper_in_a_step_is_that_of_the_loss_factor);
-  tcase_add_test(c, push_over_a_step_does_the_work_of_the_layers);
-  tcase_add_test(c, push_over_a_step_has_this_derivative);
+  tcase_add_loop_test(c, push_over_a_step_does_the_work_of_the_layers, 0, 2);
+  tcase_add_loop_test(c, push_over_a_step_has_this_derivative, 0, 2);
   tcase_add_test(c, pull_in_does_not_depend_on_the_largest_voltage);
   tcase_add_test(c, floppy_ribbon_hangs_straight_down);
   tcase_add_test(c, other_states_are_counted);

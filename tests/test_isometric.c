@@ -136,12 +136,16 @@ START_TEST(test_elastica) {
 }
 END_TEST
 
-/* What hangs there makes no difference at all. */
+/* What hangs there makes no difference at all, nor do a stop and a mass that a motion would drop. */
 START_TEST(test_load_does_not_matter) {
   static const char *const names[] = {"force_N", "force_unpowered_N", "zipped_length_m", "charge_C", "capacitance_F"};
   ZpActuatorDef a = held_def(MM(2), KV(1), true, 61), b = a;
   b.load.mass = 3;
   b.load.share = 0.25;
+  b.load.change_mass = -1;
+  b.load.change_time = 0.1;
+  b.load.stop_opening = MM(15);
+  b.load.stop_stiffness = 5e3;
   ZpResult *ra = converged_of(ZP_STUDY_ISOMETRIC, &a), *rb = converged_of(ZP_STUDY_ISOMETRIC, &b);
   for (size_t i = 0; i < LENGTH_OF(names); i++)
     ck_assert_double_eq(zp_result_get(ra, names[i]), zp_result_get(rb, names[i]));

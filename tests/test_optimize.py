@@ -206,6 +206,21 @@ def check_end_of_runs(zipact, scratch):
         ok(objective + ": where runs end", run.returncode == 0 and all((line.split(",")[place] != "") == stays for line in lines[1:]))
 
 
+def check_one_tolerance(zipact, scratch):
+    """Cases of a search by derivatives have the tolerance of these from the first one on, which has none."""
+    bath = ["study=actuate", "mesh.nodes=9", "output.errors=false", "liquid.model=submerged", "solver.end_time=0.4 s"]
+    run = zipact.run([*bath, "optimize.variables=medium.kinematic_viscosity = 20 mm2/s .. 80 mm2/s", "optimize.objective=min zip_time_s", "optimize.method=slsqp",
+                      "optimize.evaluations=10"], scratch / "tolerance")
+    lines = [line.split(",") for line in (scratch / "tolerance" / "table.csv").read_text().splitlines()]
+    case = dict(zip(lines[0], lines[1]))
+    key = next(name for name in lines[0] if name.startswith("medium.kinematic_viscosity"))
+    sets = [*bath, "medium.kinematic_viscosity=" + case[key], "solver.stop_when_zipped=true", "solver.tolerance=2.5e-5"]
+    alone = subprocess.run([zipact.program, "actuate", *(word for item in sets for word in ("--set", item)), "--no-plots", "--json", "-o", str(scratch / "alone")],
+                           stdout=subprocess.PIPE, text=True)
+    time_alone = json.loads(alone.stdout)["zip_time_s"]
+    ok("values and derivatives of one tolerance", run.returncode == 0 and abs(float(case["zip_time_s"]) / time_alone - 1) < 1e-9)
+
+
 def main():
     program, scratch = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
     shutil.rmtree(scratch, ignore_errors=True)
@@ -220,6 +235,7 @@ def main():
     check_empty_box(zipact, scratch)
     check_steep_corner(zipact, scratch)
     check_end_of_runs(zipact, scratch)
+    check_one_tolerance(zipact, scratch)
     check_search_after_exclusion(zipact, scratch)
     check_refusals(zipact, scratch)
     return finish()

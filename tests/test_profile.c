@@ -360,7 +360,8 @@ END_TEST
 
 /* The held platform carries no load, whatever load.mass is. */
 START_TEST(test_load_does_not_count) {
-  ZpActuatorDef light = DEF(HELD), heavy = DEF(HELD, {"load.mass", 0.1});
+  ZpActuatorDef light = DEF(HELD),
+                heavy = DEF(HELD, {"load.mass", 0.1}, {"load.change_mass", -0.05}, {"load.change_time", 0.1});
   ck_near(scalar(heavy, "force_N"), scalar(light, "force_N"), 1e-12);
 }
 END_TEST

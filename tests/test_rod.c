@@ -6,6 +6,7 @@
 #include "base/kernel.h"
 #include "math/band.h"
 #include "math/eigen.h"
+#include "math/eigen_general.h"
 #include "math/vector.h"
 #include "paper/massspring.h"
 #include "ribbon/rod_step.h"
@@ -442,8 +443,9 @@ START_TEST(test_band_symmetric_limits) {
 }
 END_TEST
 
-/* A symmetric band with `rank` random terms u v' on top, and the same dense. */
-static void *random_top(ZpBand *K, Dense a, size_t rank, double shift, uint64_t seed) {
+/* A symmetric band with `rank` random terms u v' on top, and the same dense. If they are symmetric, v is u with a
+ * random factor of either sign. */
+static void *random_top(ZpBand *K, Dense a, size_t rank, bool symmetric, double shift, uint64_t seed) {
   ZpBand band;
   ZpCarver carver = {NULL, 0};
   const ZpBandForm form = {.bandwidth = 4, .symmetric = true, .rank = rank};
@@ -457,6 +459,11 @@ static void *random_top(ZpBand *K, Dense a, size_t rank, double shift, uint64_t 
       *zp_band_at(K, i, j) = a[i][j];
   for (size_t k = 0; k < rank * EQUATIONS; k++)
     K->u[k] = noise(&seed), K->v[k] = noise(&seed);
+  for (size_t k = 0; symmetric && k < rank * EQUATIONS; k += EQUATIONS) {
+    const double factor = noise(&seed);
+    for (size_t i = k; i < k + EQUATIONS; i++)
+      K->v[i] = factor * K->u[i];
+  }
   for (size_t k = 0; k < rank * EQUATIONS * EQUATIONS; k++) {
     size_t term = k / (EQUATIONS * EQUATIONS), i = k / EQUATIONS % EQUATIONS, j = k % EQUATIONS;
     a[i][j] += K->u[term * EQUATIONS + i] * K->v[term * EQUATIONS + j];
@@ -473,7 +480,7 @@ START_TEST(test_terms_on_top_of_a_band) {
     for (uint64_t seed = 1; seed <= 20; seed++) {
       ZpBand K;
       Dense a;
-      void *memory = random_top(&K, a, rank, 6, seed);
+      void *memory = random_top(&K, a, rank, false, 6, seed);
       double b[EQUATIONS], expected[EQUATIONS], product[EQUATIONS];
       for (size_t i = 0; i < EQUATIONS; i++)
         b[i] = expected[i] = sin(1 + (double)i);
@@ -502,11 +509,59 @@ START_TEST(test_negative_eigenvalues_with_a_term) {
   static const double weights[][3] = {{-3, 1, 1}, {-0.5, 1, 0}, {3, -1, 0}, {0.5, -1, 1}}; /* u v, first pivot, which */
   for (size_t c = 0; c < LENGTH_OF(weights); c++) {
     ZpBand K;
-    double a[32] = {weights[c][1], 0, 0, 0, 0, 0, 0, 0, 0, 1}, u[2] = {weights[c][0], 0}, v[2] = {1, 0}, w[2], s[1];
+    double a[32] = {weights[c][1], 0, 0, 0, 0, 0, 0, 0, 0, 1}, u[2] = {weights[c][0], 0}, v[2] = {1, 0}, w[4], s[1];
     K = (ZpBand){.n = 2, .stride = 8, .entries = 32, .a = a, .rank = 1, .u = u, .v = v, .w = w, .s = s};
     ck_assert(zp_band_factor(&K));
     ck_assert_uint_eq(zp_band_negative(&K), (size_t)weights[c][2]);
   }
+}
+END_TEST
+
+/* Several symmetric terms of either sign on bands that are definite or not: as many negative eigenvalues as the dense
+ * matrix has. */
+START_TEST(test_negative_eigenvalues_with_several_terms) {
+  static const double shifts[] = {-6, 0.5, 6};
+  static Dense vectors;
+  int seen[EQUATIONS + 1] = {0};
+  for (size_t c = 0; c < 3 * LENGTH_OF(shifts); c++)
+    for (uint64_t seed = 1; seed <= 20; seed++) {
+      ZpBand K;
+      Dense a;
+      size_t negative = 0, rank = 1 + c / LENGTH_OF(shifts) * 2;
+      void *memory = random_top(&K, a, rank, true, shifts[c % LENGTH_OF(shifts)], seed);
+      zp_eigen_symmetric(EQUATIONS, &a[0][0], &vectors[0][0]);
+      for (size_t i = 0; i < EQUATIONS; i++)
+        negative += a[i][i] < 0;
+      ck_assert(zp_band_factor(&K));
+      ck_assert_uint_eq(zp_band_negative(&K), negative);
+      seen[negative] = 1;
+      zp_free(memory);
+    }
+  ck_assert(seen[0] && seen[1] && seen[2] && seen[3]);
+}
+END_TEST
+
+/* Two parts without a common unknown, each with a term u v' that is not symmetric. Each part has a negative
+ * eigenvalue. */
+START_TEST(test_negative_eigenvalues_of_two_parts) {
+  double a[32] = {0}, u[8] = {-3, -1, 0, 0, 0, 0, -5, 0.5}, v[8] = {1, 0.2, 0, 0, 0, 0, 1, -0.3}, w[12], s[2];
+  ZpBand K = {.n = 4, .upper = 3, .stride = 8, .entries = 32, .a = a, .rank = 2, .u = u, .v = v, .w = w, .s = s};
+  for (size_t i = 0; i < 4; i++)
+    *zp_band_at(&K, i, i) = 1 + (double)(i % 2);
+  double dense[16] = {0}, work[4];
+  ZpEigenvalue value[4];
+  for (size_t i = 0; i < 4; i++) {
+    dense[5 * i] = 1 + (double)(i % 2);
+    for (size_t j = 0; j < 4; j++)
+      dense[4 * i + j] += u[i] * v[j] + u[4 + i] * v[4 + j];
+  }
+  ck_assert(zp_eigenvalues(4, dense, work, value));
+  size_t negative = 0;
+  for (size_t i = 0; i < 4; i++)
+    negative += value[i].re < 0 && value[i].im == 0;
+  ck_assert_uint_eq(negative, 2);
+  ck_assert(zp_band_factor(&K));
+  ck_assert_uint_eq(zp_band_negative(&K), negative);
 }
 END_TEST
 
@@ -601,6 +656,8 @@ int main(void) {
   tcase_add_test(algebra, test_band_symmetric_limits);
   tcase_add_test(algebra, test_terms_on_top_of_a_band);
   tcase_add_test(algebra, test_negative_eigenvalues_with_a_term);
+  tcase_add_test(algebra, test_negative_eigenvalues_with_several_terms);
+  tcase_add_test(algebra, test_negative_eigenvalues_of_two_parts);
   tcase_add_test(algebra, test_negative_pivots);
   tcase_add_test(algebra, test_eigen_chain);
   tcase_add_test(algebra, test_eigen_limits);

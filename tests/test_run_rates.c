@@ -65,16 +65,17 @@ static ZpActuatorDef dry_zip(int nodes, double tolerance) {
   return def;
 }
 
-/* Through all landings of faces, with the same steps; with and without the cap of the field. */
+/* Through all landings of faces, with the same steps; with and without the cap of the field. Wider differences of zip
+ * times cross corners of landings, narrower ones have rounding. */
 START_TEST(zip_without_liquid) {
   ZpActuatorDef def = dry_zip(21, 1e-7);
   def.solver.time_step = 5e-5;
   def.electro.breakdown_cap = _i;
-  check(&def, "zip_time_s", "drive.voltage", 1e-6, 1e-5);
-  check(&def, "zip_time_s", "ribbon.thickness", 1e-6, 1e-5);
+  check(&def, "zip_time_s", "drive.voltage", 3e-7, 3e-6);
+  check(&def, "zip_time_s", "ribbon.thickness", 3e-7, 3e-6);
   def.solver.end_time = 0.04;
-  check(&def, "stroke_m", "load.mass", 1e-5, 1e-5);
-  check(&def, "stroke_m", "insulator.thickness", 1e-5, 1e-5);
+  check(&def, "stroke_m", "load.mass", 1e-5, 3e-6);
+  check(&def, "stroke_m", "insulator.thickness", 1e-5, 3e-6);
 }
 END_TEST
 
@@ -167,6 +168,18 @@ START_TEST(steps_go_with_their_corners) {
 }
 END_TEST
 
+/* Regression: at this voltage the neighbours' voltages were rounded, which counted as jumps, so their accounts of the
+ * source's work closed in steps in which the run's did not. The difference grew by two thirds in each of them. */
+START_TEST(work_of_a_constant_source) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_SUBMERGED;
+  def.drive.voltage = 9007.5154259162337;
+  def.solver.time_step = 5e-4;
+  def.solver.end_time = 0.1;
+  check(&def, "source_energy_J", "drive.voltage", 1e-4, 1e-6);
+}
+END_TEST
+
 /* -- where a run ends by its state --------------------------------------------------------------------- */
 
 static ZpActuatorDef until_zipped(ZpLiquidModel liquid, int nodes, double time_step) {
@@ -210,28 +223,17 @@ START_TEST(numbers_at_the_closing_agree_with_differences) {
 }
 END_TEST
 
-/* A run that ends once the actuator has rested for 0.1 s ends as much later as it closes later. */
-START_TEST(numbers_at_rest_move_with_the_closing) {
+/* A run that ends where the actuator has hardly moved for 0.1 s: the instant moves with the key. */
+START_TEST(numbers_at_rest_move_with_the_end) {
   ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 11, 5e-4);
   def.solver.stop_when_zipped = ZP_WHEN_AUTO;
   def.solver.end_time = 10;
-  ZpResult *result = run_by(&def, "drive.voltage");
-  double T = zp_result_get(result, "simulated_time_s"), loss = zp_result_get(result, "viscous_loss_J");
-  double later = slope_in(result, "closed_from_s", "drive.voltage"),
-         rate = slope_in(result, "viscous_loss_J", "drive.voltage");
+  ZpResult *result = run(&def);
+  ck_assert_double_lt(zp_result_get(result, "simulated_time_s"), 10);
   zp_result_destroy(result);
-  ck_assert_double_lt(T, 10);
   check(&def, "closed_from_s", "drive.voltage", 1e-6, 1e-6);
-  def.solver.stop_when_zipped = ZP_WHEN_FALSE;
-  def.solver.end_time = T;
-  result = run_by(&def, "drive.voltage");
-  double fixed = slope_in(result, "viscous_loss_J", "drive.voltage");
-  zp_result_destroy(result);
-  def.solver.end_time = T + 1e-4;
-  result = run(&def);
-  double power = (zp_result_get(result, "viscous_loss_J") - loss) / 1e-4;
-  zp_result_destroy(result);
-  ck_near(rate - fixed, power * later, 1e-3);
+  check(&def, "viscous_loss_J", "drive.voltage", 1e-5, 1e-6);
+  check(&def, "jet_loss_J", "drive.voltage", 1e-5, 1e-6);
 }
 END_TEST
 
@@ -248,19 +250,20 @@ START_TEST(numbers_at_a_short_circuit_move_with_it) {
 }
 END_TEST
 
-/* With derivatives the default tolerance is 1e-4: with that number given, the same ones are settled, with the same
- * values. */
+/* With derivatives the default tolerance is 2.5e-5: with that number given, the same ones are settled, with nearly the
+ * same values. They start from equilibria of another tolerance. */
 START_TEST(default_tolerance_settles_as_its_number) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"output.errors", false},
                           {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   ZpResult *by_default = run_by(&def, "drive.voltage");
-  def.solver.tolerance = 1e-4;
+  def.solver.tolerance = 2.5e-5;
   ZpResult *given = run_by(&def, "drive.voltage");
   ck_assert_uint_eq(by_default->sensitivities, given->sensitivities);
   size_t settled = 0;
   for (size_t i = 0; i < given->sensitivities; i++) {
     double a = by_default->sensitivity[i].value, b = given->sensitivity[i].value;
-    ck_assert_msg(a == b || (isnan(a) && isnan(b)), "%s: %g and %g", given->sensitivity[i].output, a, b);
+    ck_assert_msg(fabs(a - b) <= 1e-3 * fabs(b) || (isnan(a) && isnan(b)), "%s: %g and %g",
+                  given->sensitivity[i].output, a, b);
     if (!isnan(b)) settled++;
   }
   ck_assert_uint_gt(settled, 0);
@@ -283,7 +286,7 @@ START_TEST(peak_and_rms_current) {
   def.source.resistance = 1e8;
   def.source.capacitance = 1e-10;
   def.solver.end_time = 0.11;
-  def.solver.tolerance = 3e-5;
+  def.solver.tolerance = 1e-5;
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_near(slope_in(result, "peak_current_A", "ribbon.thickness"),
           difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 1e-2);
@@ -362,6 +365,19 @@ START_TEST(limits_of_a_supply_end_them) {
   ZpResult *result = run_by(&def, "drive.voltage");
   ck_assert(isnan(slope_in(result, "charge_C", "drive.voltage")));
   ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: a limit of the supply's current begins or ends"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Regression: whether the bead had covered a station was a sum of lengths, which for this ribbon was below the whole by
+ * rounding. */
+START_TEST(bead_at_a_station_ends_them) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 300e-9},
+                          {"ribbon.length", 0.13607344753018508}, {"ribbon.thickness", 60e-6}, {"drive.voltage", 9e3},
+                          {"output.errors", false}, {"solver.end_time", 0.15});
+  ZpResult *result = run_by(&def, "drive.voltage");
+  ck_assert(isnan(slope_in(result, "wet_length_m", "drive.voltage")));
+  ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: the meniscus of a bead passes a station"));
   zp_result_destroy(result);
 }
 END_TEST
@@ -456,6 +472,7 @@ int main(void) {
   tcase_add_test(tests, start_of_a_swing);
   tcase_add_test(tests, corners_move_with_their_key);
   tcase_add_test(tests, steps_go_with_their_corners);
+  tcase_add_test(tests, work_of_a_constant_source);
   tcase_add_test(tests, swing_scales);
   tcase_add_test(tests, charging_through_a_resistor);
   tcase_add_test(tests, refusals);
@@ -464,11 +481,12 @@ int main(void) {
   tcase_add_loop_test(ends, run_ends_at_its_closing, 0, 2);
   tcase_add_test(ends, numbers_at_the_closing_move_with_it);
   tcase_add_test(ends, numbers_at_the_closing_agree_with_differences);
-  tcase_add_test(ends, numbers_at_rest_move_with_the_closing);
+  tcase_add_test(ends, numbers_at_rest_move_with_the_end);
   tcase_add_test(ends, numbers_at_a_short_circuit_move_with_it);
   tcase_add_test(ends, default_tolerance_settles_as_its_number);
   tcase_add_test(ends, peak_and_rms_current);
   tcase_add_test(ends, limits_of_a_supply_end_them);
+  tcase_add_test(ends, bead_at_a_station_ends_them);
   tcase_add_test(ends, what_the_steps_do_not_settle_is_null);
   tcase_add_test(ends, run_without_its_end_has_none);
   tcase_add_test(ends, key_at_an_end_of_its_range);

@@ -18,7 +18,7 @@ static void read_line(const ZpMeter *meter, const double charge[2], const double
                       double *reading) {
   double time[] = {0, 1};
   ZpMeterTrace trace = {2, time, charge, C};
-  zp_meter_read(meter, &trace, windows, reading);
+  zp_meter_read(meter, &trace, 0, windows, reading);
 }
 
 /* A constant capacitance is read to rounding, for any constant current beside it. One that grows evenly is read in the
@@ -159,6 +159,41 @@ START_TEST(test_field_and_meter_are_quick) {
 }
 END_TEST
 
+static ZpResult *sensed(double end_time, const ZpCheckpoint *start) {
+  ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"drive.voltage", 5e3}, {"drive.waveform", ZP_WAVEFORM_RAMP},
+                          {"drive.rise_time", 0.1}, {"sense.noise", 1e-9}, {"solver.end_time", end_time},
+                          {"initial.state", start ? ZP_INITIAL_CHECKPOINT : ZP_INITIAL_EQUILIBRIUM});
+  ZpStudyInput input = {.start = start};
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, &input, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  return result;
+}
+
+/* A run that resumes at 40 ms has the readings of the windows of 22 ms that begin afterwards, and they are those of the
+ * whole run: the third ends at 66 ms. Errors are those of these windows: their squares are a part of the sum of all
+ * four. */
+START_TEST(test_resumed_run_reads_its_own_windows) {
+  ZpResult *part = sensed(0.04, NULL), *whole = sensed(0.1, NULL), *rest = sensed(0.1, part->checkpoint);
+  for (size_t k = 0; k < rest->series->rows; k++) {
+    double t = zp_table_get(rest->series, k, "time_s"), C = zp_table_get(rest->series, k, "sensed_capacitance_F");
+    ck_assert_msg(isnan(C) == (t < 0.066), "%g s: %g F", t, C);
+  }
+  const size_t last[] = {rest->series->rows - 1, whole->series->rows - 1};
+  ck_near(zp_table_get(rest->series, last[0], "sensed_capacitance_F"),
+          zp_table_get(whole->series, last[1], "sensed_capacitance_F"), 1e-6);
+  static const char *const errors[] = {"sense_capacitance_error_F", "sense_stroke_error_m"};
+  for (size_t k = 0; k < LENGTH_OF(errors); k++)
+    ck_below(zp_result_get(rest, errors[k]), sqrt(4 / 2) * zp_result_get(whole, errors[k]) * (1 + 1e-6));
+  ZpResult *none = sensed(0.06, part->checkpoint); /* no window begins and ends in it */
+  ck_assert(isnan(zp_result_get(none, "sense_capacitance_error_F")));
+  zp_result_destroy(part);
+  zp_result_destroy(whole);
+  zp_result_destroy(rest);
+  zp_result_destroy(none);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("sense");
   TCase *tcase = tcase_create("sense");
@@ -167,6 +202,7 @@ int main(void) {
   tcase_add_test(tcase, test_noise);
   tcase_add_test(tcase, test_resolution);
   tcase_add_test(tcase, test_stroke_along_the_states_of_rest);
+  tcase_add_test(tcase, test_resumed_run_reads_its_own_windows);
   tcase_add_test(tcase, test_stroke_by_the_field);
   tcase_add_test(tcase, test_field_and_meter_are_quick);
   tcase_add_loop_test(tcase, test_refused, 0, 7);

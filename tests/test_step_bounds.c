@@ -57,12 +57,15 @@ static double length_of(const double *v, size_t n) {
   return sqrt(sum);
 }
 
-/* Highest angular frequency of small vibrations, by iteration: a = -M^-1 K u grows by omega^2 a round. */
+/* Highest angular frequency of small vibrations, by iteration: a = -M^-1 K u grows by omega^2 a round. They are small
+ * for elements and for the depth of contact, whose force is curved: vibrations of 6 % of the depth shifted the share by
+ * 0.3 %. */
 static double fastest(Rest *r) {
   enum { ROUNDS = 3000 };
   const ZpModel *model = r->model;
   size_t n = 2 * model->stride;
-  double *at_rest = zp_state_q(model, r->state), small = 1e-6 * model->l, growth = 0;
+  double *at_rest = zp_state_q(model, r->state), growth = 0;
+  const double small = r->faces_press ? fmin(1e-6 * model->l, 1e-3 * model->faces.depth) : 1e-6 * model->l;
   uint64_t seed = 7;
   for (size_t i = 1; r->faces_press && i < model->nodes; i++)
     at_rest[model->stride + 2 * i + 1] += 5 * model->faces.depth;
@@ -116,8 +119,7 @@ static const Vibration vibrations[] = {
          {"mass_spring.axial", ZP_AXIAL_CODE}, {"mass_spring.shear_coefficient", 1e6}),
     CASE(false, 0.775, 0.8, PAIR, {"mesh.nodes", 21}, {"contact.model", ZP_CONTACT_SEQUENTIAL}),
     CASE(true, 0.35, 0.5, PAIR, {"mesh.nodes", 21}),
-    /* measured 0.50016 */
-    CASE(true, 0.49, 0.5002, PAIR, {"mesh.nodes", 21}, {"ribbon.young_modulus", 1e6}, {"ribbon.thickness", 5e-6},
+    CASE(true, 0.49, 0.5, PAIR, {"mesh.nodes", 21}, {"ribbon.young_modulus", 1e6}, {"ribbon.thickness", 5e-6},
          {"insulator.thickness", 10e-6}, {"platform.length", 0}, {"load.mass", 1}),
     CASE(true, 0.49, 0.5, PAIR, {"mesh.nodes", 21}, {"ribbon.young_modulus", 1e6}, {"ribbon.thickness", 5e-6},
          {"insulator.thickness", 10e-6}, {"platform.length", 20e-3}, {"load.mass", 0}),

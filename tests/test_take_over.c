@@ -1,6 +1,8 @@
 /* A simulation that continues where one of another model was: the page changes its actuator so while it runs. */
 #include "actuator/model.h"
 #include "check_util.h"
+#include "ribbon/rod_plastic.h"
+#include "sim/sim_internal.h"
 
 typedef struct Run {
   ZpActuatorDef def;
@@ -196,6 +198,71 @@ START_TEST(test_another_supply) {
 }
 END_TEST
 
+/* Kinds of the laws' own numbers that an actuator has. */
+typedef struct Own {
+  ZpLiquidModel liquid;
+  bool leaks, yields;
+} Own;
+
+static ZpActuatorDef with_own(Own own) {
+  return DEF({"mesh.nodes", 21}, {"bead.volume", 50e-9}, {"liquid.model", own.liquid},
+             {"insulator.resistivity", own.leaks ? 1e12 : NAN}, {"ribbon.plasticity", own.yields});
+}
+
+/* Each kind goes on where both models have it, wherever it stands in their states, and begins at 0 where it comes: a
+ * strip that has yielded stays bent when a liquid comes or insulators conduct. */
+START_TEST(test_laws_keep_their_own_numbers) {
+  static const Own pairs[][2] = {{{ZP_LIQUID_NONE, false, true}, {ZP_LIQUID_BEAD, false, true}},
+                                 {{ZP_LIQUID_BEAD, false, true}, {ZP_LIQUID_NONE, false, true}},
+                                 {{ZP_LIQUID_NONE, false, true}, {ZP_LIQUID_NONE, true, true}},
+                                 {{ZP_LIQUID_NONE, true, true}, {ZP_LIQUID_NONE, false, true}},
+                                 {{ZP_LIQUID_NONE, true, true}, {ZP_LIQUID_SUBMERGED, true, true}},
+                                 {{ZP_LIQUID_SUBMERGED, true, true}, {ZP_LIQUID_NONE, true, false}}};
+  const Own *old = &pairs[_i][0], *new = &pairs[_i][1];
+  Run first = begin(with_own(*old)), next = begin(with_own(*new));
+  ZpState *from = first.sim->state, *to = next.sim->state;
+  const size_t faces = ZP_PLATES_PLACES * next.model->nodes, film = zp_own_unknowns(next.model) + next.model->leak_at;
+  const size_t strains = zp_rod_plastic_count(&first.model->rod);
+  for (size_t i = 0; i < strains; i++)
+    zp_state_strain(first.model, from)[i] = 1e-5 * (double)(1 + i % 7);
+  for (size_t i = 0; old->leaks && i < faces; i++)
+    zp_state_own(first.model, from)[zp_own_unknowns(first.model) + first.model->leak_at + i] = 1 + (double)(i % 5);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  for (size_t i = 0; new->yields &&i < strains; i++)
+    ck_assert_double_eq(zp_state_strain(next.model, to)[i], 1e-5 * (double)(1 + i % 7));
+  const double *Z = zp_leak_memory(next.model, zp_state_memory(next.model, to));
+  for (size_t i = 0; new->leaks &&i < faces; i++)
+    ck_assert_double_eq(Z[i], old->leaks ? 1 + (double)(i % 5) : 0);
+  for (size_t i = 0; i < film; i++)
+    ck_assert_double_eq(zp_state_own(next.model, to)[i], 0);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* A run that has taken over without a controller can be saved and goes on from there; one with a controller, too. */
+START_TEST(test_taken_over_is_saved_and_restored) {
+  const ZpActuatorDef alone = DEF({"mesh.nodes", 21}),
+                      controlled =
+                          DEF({"mesh.nodes", 21}, {"control.kind", ZP_CONTROL_PI}, {"control.proportional", 1e5},
+                              {"control.period", 1e-3}, {"setpoint.value", 0.01});
+  Run first = begin(_i & 1 ? controlled : alone), next = begin(_i & 2 ? controlled : alone), again = begin(next.def);
+  ZpError err = {ZP_OK, ""};
+  const size_t size = zp_sim_state_size(next.sim);
+  void *snapshot = malloc(size);
+  zp_sim_run(first.sim, 0.01, false, NULL, NULL);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(next.sim, 0.012, false, NULL, NULL), ZP_REACHED_END);
+  zp_sim_save(next.sim, snapshot);
+  ck_assert_msg(zp_sim_restore(again.sim, snapshot, size, &err) == ZP_OK, "%s", err.message);
+  free(snapshot);
+  expect_signals(&again, &next, 1);
+  end(&first);
+  end(&next);
+  end(&again);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("take over");
   TCase *all = tcase_create("take over");
@@ -209,6 +276,8 @@ int main(void) {
   tcase_add_loop_test(all, test_other_members_are_refused, 0, 3);
   tcase_add_test(all, test_antagonists_keep_their_lengths);
   tcase_add_test(all, test_other_ends_are_refused);
+  tcase_add_loop_test(all, test_laws_keep_their_own_numbers, 0, 6);
+  tcase_add_loop_test(all, test_taken_over_is_saved_and_restored, 0, 4);
   suite_add_tcase(suite, all);
   return run_suite(suite);
 }

@@ -93,6 +93,9 @@ for study = {'stationary', 'equilibrium', 'isometric', 'profile', 'modes', 'actu
   lines = findobj(gca(), 'type', 'line');
   check(numel(lines) >= 1 && numel(get(lines(1), 'xdata')) > 3, 'picture of %s', study{1});
 end
+clf();
+zipact_plot(zipact('equilibrium', 'actuator.kind', 'ribbon', 'mesh.nodes', 21));
+check(all(isfinite(get(findobj(gca(), 'type', 'line')(1), 'ydata'))), 'picture of a ribbon, by its stroke');
 close('all');
 
 disp('test_simulation: passed');

@@ -8,6 +8,7 @@ import threading
 import numpy as np
 import pytest
 import zipact
+from zipact.batch import column_name
 
 VOLTAGES = np.linspace(3e3, 9e3, 13)
 
@@ -56,6 +57,16 @@ def test_saves_the_table_of_the_command(tmp_path):
     assert (tmp_path / "mine" / "table.csv").read_text() == (tmp_path / "command" / "table.csv").read_text()
     assert (tmp_path / "mine" / "run-3" / "scenario.yaml").exists()
     assert zipact.read_scenario(tmp_path / "mine" / "run-1" / "scenario.yaml") == batch.actuators[1]
+
+
+def test_headings_of_all_keys(tmp_path):
+    keys = [key for key in zipact.KEYS.values() if key.kind in ("real", "real or auto") and key.unit != "1"]
+    settings = [word for key in keys for word in ("--set", f"{key.name}=[{key.default}]")]
+    command = [os.environ["ZIPACT_COMMAND"], "stationary", *settings, "--set", "mesh.nodes=11"]
+    subprocess.run([*command, "--no-plots", "--quiet", "-o", tmp_path], check=True)
+    heading = (tmp_path / "table.csv").read_text().splitlines()[0].split(",")
+    assert heading[: heading.index("outcome")] == [column_name(key.name) for key in keys]
+    assert len(keys) > 60
 
 
 def test_saves_errors(tmp_path):

@@ -32,6 +32,13 @@ def test_draws_several_kinds():
     assert [len(line.get_xdata()) for line in axes.lines[:4]] == [7, 4, 4, 3]
 
 
+def test_draws_one_kind_with_standard_deviations():
+    """The fit as without them, not residuals of a kind called "m"."""
+    one = zipact.Actuator(mesh__nodes=21, **CASES["calibrate"], calibrate__sigma="stroke = 20 um").run("calibrate").plot()
+    assert [text.get_text() for text in one.get_legend().get_texts()] == ["model", "measured"]
+    assert one.get_ylabel().startswith("stroke / ")
+
+
 def test_draws_into_given_axes():
     _, axes = pyplot.subplots()
     assert zipact.Actuator(mesh__nodes=21).run("stationary").plot(axes) is axes

@@ -108,8 +108,8 @@ class Batch(Sequence[Result]):
 
 
 def column_name(key: str) -> str:
-    """load.mass => load.mass_kg"""
-    unit = KEYS[key].unit
+    """load.mass => load.mass_kg, ribbon.density => ribbon.density_kg_per_m3, as the command writes it"""
+    unit = KEYS[key].unit.replace("/", "_per_").replace(" ", "_")
     return key if unit == "1" else f"{key}_{unit}"
 
 

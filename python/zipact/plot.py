@@ -116,14 +116,16 @@ def profile(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     return ax
 
 
-def residuals(table: "Table", ax: Axes | None) -> Axes:
-    """Residuals of several kinds of measurement, kind by kind, divided by the standard deviations."""
-    ax = new_axes(ax, "row of data", "residual / standard deviation")
-    for name in (name for name in table if name.startswith("residual_")):
+def residuals(table: "Table", what: str, ax: Axes | None) -> Axes:
+    """Residuals, kind by kind of measurement, where they are known divided by the standard deviations; `what`: the only kind."""
+    names = [name for name in table if name.startswith("residual_")]
+    weighted = any(name.startswith("sigma_") for name in table)
+    ax = new_axes(ax, "row of data", "residual / standard deviation" if weighted else f"residual / {table.units[names[0]]}")
+    for name in names:
         kind = name.removeprefix("residual_")
-        label = kind.removesuffix("_" + table.units[name]).replace("_", " ")
+        label = what if kind == table.units[name] else kind.removesuffix("_" + table.units[name]).replace("_", " ")
         there = np.flatnonzero(np.isfinite(table[name]))
-        sigma = table["sigma_" + kind] if "sigma_" + kind in table else 1
+        sigma = table["sigma_" + kind] if weighted else 1
         ax.plot(there + 1, (table[name] / sigma)[there], "o", label=label)
     ax.axhline(0, color=GREY, linewidth=1)
     ax.legend()
@@ -131,11 +133,12 @@ def residuals(table: "Table", ax: Axes | None) -> Axes:
 
 
 def calibrate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
-    if len(table) > 4:
-        return residuals(table, ax)
-    x, measured, fitted, _ = table
-    (by_x, unit_x), (by_y, unit_y) = (shown_unit(table.units[name], table[name]) for name in (x, measured))
+    """One kind of measurement against one quantity that was set, or residuals of more."""
     what = result.actuator["calibrate.y"].rpartition("_")[0] or "measured"
+    x, measured, fitted, *_ = table
+    if not measured.startswith("measured_") or sum(name.startswith("measured_") for name in table) > 1:
+        return residuals(table, what, ax)
+    (by_x, unit_x), (by_y, unit_y) = (shown_unit(table.units[name], table[name]) for name in (x, measured))
     ax = new_axes(ax, axis_label(x.removesuffix("_" + table.units[x]), unit_x), axis_label(what, unit_y))
     order = np.argsort(table[x])
     ax.plot(by_x * table[x][order], by_y * table[fitted][order], color=BLUE, label="model")

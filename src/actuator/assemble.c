@@ -360,11 +360,15 @@ void zp_assemble_own(const ZpAssembly *a, size_t c, size_t d, double value, ZpBa
   *zp_band_at(K, (size_t)a->own_equation[c], (size_t)a->own_equation[d]) += value;
 }
 
-void zp_assemble_own_by(const ZpAssembly *a, size_t c, size_t k, double value, ZpBand *K) {
-  int own = a->own_equation[c], other = a->equation[k];
+static inline void add_own_by(int own, int other, double value, ZpBand *K) {
   if (other < 0) return;
-  size_t row = (size_t)(own < other ? own : other), column = (size_t)(own < other ? other : own);
-  *zp_band_at(K, row, column) += value;
+  *zp_band_at(K, (size_t)(own < other ? own : other), (size_t)(own < other ? other : own)) += value;
+}
+
+void zp_assemble_own_by_gap(const ZpAssembly *a, size_t c, size_t station, double value, ZpBand *K) {
+  const int own = a->own_equation[c], *height = a->equation + 2 * a->s * station + 1;
+  add_own_by(own, height[0], value, K);
+  add_own_by(own, height[2 * (a->s - 1)], -value, K);
 }
 
 void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {

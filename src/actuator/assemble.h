@@ -42,10 +42,11 @@ void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
-/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and at c and coordinate
- * k, of a symmetric matrix. One that keeps both triangles takes c and d in any order. */
+/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and, of a symmetric
+ * matrix, at c and the gap of a station: at its upper height, and the opposite at its lower one. A matrix that keeps
+ * both triangles takes c and d in any order. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
-void zp_assemble_own_by(const ZpAssembly *assembly, size_t c, size_t k, double value, ZpBand *K);
+void zp_assemble_own_by_gap(const ZpAssembly *assembly, size_t c, size_t station, double value, ZpBand *K);
 
 /* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);

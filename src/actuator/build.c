@@ -530,6 +530,12 @@ static double settling_time(const ZpModel *model) {
   return part * model->L * model->L * sqrt(section.mu / section.EI);
 }
 
+/* Length of the faces at the gap of each end of the platform, m. A free end may touch alone, as a point, eq. (9.8): its
+ * edge presses the layers together over as long a part of them as they are thick. */
+static double point_length(const ZpModel *model) {
+  return zp_ends_free(&model->topology) ? zp_insulation(&model->def) : platform_length(model);
+}
+
 /* Eq. (9.2). */
 static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
   static const double part = 1.0 / 150; /* of the liquid thickness that stands for the insulators */
@@ -549,7 +555,7 @@ static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) 
                          .platform = model->topology.platform.first,
                          .platform_end = model->topology.platform.last,
                          .level = level_faces(model),
-                         .flat_length = platform_length(model)};
+                         .flat_length = point_length(model)};
 }
 
 /* Air beyond a bead. Eq. (8) of the paper caps its attraction even if that of the liquid is not capped. */

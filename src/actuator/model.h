@@ -8,6 +8,8 @@
 #ifndef ZP_ACTUATOR_MODEL_H
 #define ZP_ACTUATOR_MODEL_H
 
+#include <math.h>
+
 #include <zipact/model.h>
 
 #include "actuator/topology.h"
@@ -115,10 +117,11 @@ struct ZpModel {
   double ratio, bias; /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
 };
 
-/* Since when an opening has hardly changed, and its bounds since then. */
+/* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
+ * ZP_STILL_CELLS: as many are kept as the last 0.1 s can meet (sim/still.h). */
+enum { ZP_STILL_CELLS = 17 };
 typedef struct ZpStill {
-  double from;        /* s */
-  double least, most; /* m */
+  double least[ZP_STILL_CELLS], most[ZP_STILL_CELLS];
 } ZpStill;
 
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
@@ -304,6 +307,12 @@ static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   double shift = zp_straight_x(model, platform->last) - q[right];
   for (size_t j = right; j < model->stride; j++)
     q[j] += shift;
+}
+
+/* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or the depth of contact if that is
+ * more. */
+static inline double zp_closed_opening(const ZpModel *model, double hanging) {
+  return fmax(0.01 * hanging, model->faces.depth);
 }
 
 /* Length of faces that face each other in the whole actuator, platform's electrode included, m. */

@@ -86,6 +86,11 @@ static inline bool zp_is_hinge(const ZpTopology *t) {
   return t->joint[0].kind == ZP_JOINT_HINGE;
 }
 
+/* Has a ribbon a free end? It is the right one. */
+static inline bool zp_ends_free(const ZpTopology *t) {
+  return t->platform.kind == ZP_JOINT_FREE;
+}
+
 /* May the lower platform turn? Then its two ends are nodes of their own. */
 static inline bool zp_platform_turns(const ZpTopology *t) {
   return t->platform.kind == ZP_JOINT_TURNING;

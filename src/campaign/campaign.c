@@ -436,12 +436,19 @@ static bool open_rows(void *user, ZpRows *own) {
 
 /* -- open and close --------------------------------------------------------------------------------- */
 
-static ZpStatus init_locks(ZpCampaign *c, ZpError *err) {
+static bool init_locks(ZpCampaign *c) {
   pthread_condattr_t attributes;
-  bool done = pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
-              pthread_condattr_init(&attributes) == 0 && pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
-              pthread_cond_init(&c->more, &attributes) == 0;
-  return done ? ZP_OK : zp_fail_memory(err);
+  return pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
+         pthread_condattr_init(&attributes) == 0 && pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
+         pthread_cond_init(&c->more, &attributes) == 0;
+}
+
+/* A campaign that can be closed; NULL if there is no memory. */
+static ZpCampaign *create(void) {
+  ZpCampaign *c = calloc(1, sizeof *c);
+  if (c && init_locks(c)) return c;
+  free(c);
+  return NULL;
 }
 
 static ZpStatus open_campaign(ZpCampaign *c, const char *directory, ZpError *err) {
@@ -454,7 +461,7 @@ static ZpStatus open_campaign(ZpCampaign *c, const char *directory, ZpError *err
 
 ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,
                           ZpCampaign **out, ZpError *err) {
-  ZpCampaign *c = *out = calloc(1, sizeof *c);
+  ZpCampaign *c = *out = create();
   if (!c) return zp_fail_memory(err);
   c->scenario = scenario;
   c->options = *options;
@@ -465,8 +472,7 @@ ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, con
   c->keeps_series = zp_scenario_keeps_series(scenario);
   c->hash = calloc(c->cases, sizeof *c->hash);
   c->mark = calloc(c->cases, sizeof *c->mark);
-  ZpStatus status = c->hash && c->mark ? init_locks(c, err) : zp_fail_memory(err);
-  if (status == ZP_OK) status = open_campaign(c, directory, err);
+  ZpStatus status = c->hash && c->mark ? open_campaign(c, directory, err) : zp_fail_memory(err);
   if (status == ZP_OK) return ZP_OK;
   zp_campaign_close(c);
   *out = NULL;

@@ -9,6 +9,7 @@
 #include <zipact/version.h>
 
 #include "base/fail.h"
+#include "def/purpose.h"
 
 static const uint64_t fnv_prime = 0x100000001b3;
 
@@ -59,25 +60,12 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
   return status;
 }
 
-/* Pictures and a time limit are not part of a result, and the values of a case include how it was chosen. Called for
- * all keys of every case: no names are compared. */
-static bool is_no_part(const ZpKey *key) {
-#define PART(field)                                                                                                    \
-  { offsetof(ZpActuatorDef, field), sizeof(((ZpActuatorDef *)0)->field) }
-  static const struct {
-    size_t first, size;
-  } no_part[] = {PART(output.plots), PART(output.animation), PART(sampling), PART(optimize), PART(solver.max_cpu_time)};
-#undef PART
-  for (size_t i = 0; i < sizeof no_part / sizeof no_part[0]; i++)
-    if (key->offset >= no_part[i].first && key->offset - no_part[i].first < no_part[i].size) return true;
-  return false;
-}
-
+/* Pictures and a time limit are not part of a result, and the values of a case include how it was chosen. */
 uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {
   uint64_t hash = before;
   for (int i = 0; i < zp_key_count(); i++) {
     const char *text = zp_def_text(def, i);
-    if (is_no_part(zp_key(i))) continue;
+    if (zp_key_purposes(i) & ZP_NO_RESULT) continue;
     hash = text ? add_text(hash, text) : add_number(hash, zp_def_get(def, i));
   }
   return hash ? hash : 1;

@@ -72,7 +72,7 @@ static bool touches(const double *gap, size_t i) {
   return gap[i] < 0 || gap[i + 1] < 0;
 }
 
-/* -- at rest ----------------------------------------------------------------------------------------- */
+/* -- several elements at once -------------------------------------------------------------------------- */
 
 /* Contributions of some elements to their left and right stations. */
 typedef struct Block {
@@ -99,6 +99,36 @@ ZP_KERNEL static void block_at_rest(const ZpFacesParams *p, const double *restri
   }
 }
 
+/* As mean_of, without branches. */
+ZP_KERNEL static void block_over_span(const ZpFacesParams *p, const ZpFacesSpan *span, size_t first, size_t count,
+                                      Block *restrict of) {
+  const double *start = span->start + first, *end = span->end + first;
+  double per_depth = 1 / p->depth, l = p->l * p->push, late = span->late;
+  ZP_SIMD
+  for (size_t k = 0; k < count; k++) {
+    double push0 = 0, push1 = 0, own0 = 0, own1 = 0, next = 0, all0 = 0, all1 = 0;
+    for (int q = 0; q < GAUSS; q++) {
+      double right = gauss_at[q], left = 1 - right;
+      double x0 = -(left * start[k] + right * start[k + 1]) * per_depth,
+             x1 = -(left * end[k] + right * end[k + 1]) * per_depth;
+      double s0 = x0 > 0 ? x0 : 0, s1 = x1 > 0 ? x1 : 0, q1 = s1 * s1, way = x1 - x0;
+      double mean = 0.25 * (s0 + s1) * (s0 * s0 + q1), rise = 0.25 * (s0 * s0 + 2 * s0 * s1 + 3 * q1);
+      bool crosses = x0 * x1 < 0;
+      double inverse = 1 / (crosses ? way : 1), share = (s1 - s0) * inverse;
+      double steep = x1 > 0 ? 0.25 * q1 * share * (4 - share) : -mean * share * inverse;
+      rise = crosses ? steep : rise;
+      mean = crosses ? mean * share : mean;
+      double weight = gauss_weight[q] * l, f = weight * (mean + late * (q1 * s1 - mean));
+      double c = weight * (rise + late * (3 * q1 - rise)) * per_depth;
+      push0 += left * f, push1 += right * f;
+      own0 += left * left * c, own1 += right * right * c, next += left * right * c;
+      all0 += 2 * left * c, all1 += 2 * right * c;
+    }
+    of->push[0][k] = push0, of->push[1][k] = push1, of->own[0][k] = own0, of->own[1][k] = own1;
+    of->next[k] = next, of->stiffness[0][k] = all0, of->stiffness[1][k] = all1;
+  }
+}
+
 static void add_of_block(const Block *of, size_t k, size_t i, const ZpFacesEval *e) {
   for (size_t end = 0; end < 2; end++) {
     e->push[i + end] += of->push[end][k];
@@ -114,19 +144,27 @@ static bool is_level(const ZpFacesParams *p, size_t i) {
   return false;
 }
 
-static void elements_at_rest(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
+static bool is_at_rest(const ZpFacesSpan *span) {
+  return span->start == span->end;
+}
+
+static bool meet(const ZpFacesSpan *span, size_t i) {
+  return touches(span->end, i) || touches(span->start, i);
+}
+
+static void add_elements(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
   size_t elements = p->nodes - 1;
-  const double *gap = span->end;
   for (size_t first = 0; first < elements; first += ZP_LANES) {
     size_t count = elements - first < ZP_LANES ? elements - first : ZP_LANES;
     Block block;
     bool any = false;
     for (size_t k = 0; k < count; k++)
-      any = any || touches(gap, first + k);
-    if (any) block_at_rest(p, gap + first, count, &block);
+      any = any || meet(span, first + k);
+    if (any && is_at_rest(span)) block_at_rest(p, span->end + first, count, &block);
+    if (any && !is_at_rest(span)) block_over_span(p, span, first, count, &block);
     for (size_t k = 0; any && k < count; k++) {
       size_t i = first + k;
-      if (!touches(gap, i) || is_rigid(p, i)) continue;
+      if (!meet(span, i) || is_rigid(p, i)) continue;
       if (is_level(p, i))
         add_element(p, span, i, e);
       else
@@ -136,11 +174,6 @@ static void elements_at_rest(const ZpFacesParams *p, const ZpFacesSpan *span, co
 }
 
 /* -- all -------------------------------------------------------------------------------------------- */
-
-static void elements_over_span(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
-  for (size_t i = 0; i + 1 < p->nodes; i++)
-    if ((touches(span->start, i) || touches(span->end, i)) && !is_rigid(p, i)) add_element(p, span, i, e);
-}
 
 /* Eq. (9.6), and its derivative. */
 static void add_damper(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
@@ -176,10 +209,7 @@ void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFace
   memset(e->own, 0, p->nodes * sizeof *e->own);
   memset(e->next, 0, p->nodes * sizeof *e->next);
   memset(e->stiffness, 0, p->nodes * sizeof *e->stiffness);
-  if (span->start == span->end)
-    elements_at_rest(p, span, e);
-  else
-    elements_over_span(p, span, e);
+  add_elements(p, span, e);
   for (size_t i = p->platform; i <= p->platform_end; i++)
     add_platform(p, span, i, e);
   for (size_t i = 0; i < p->nodes && span->rate > 0; i++)

@@ -20,9 +20,10 @@ typedef struct ZpFacesParams {
   double depth;                  /* delta: overlap at which the push is p_c, m */
   double push;                   /* p_c, N/m */
   double settling;               /* tau_c: what vibrates in contact settles in about that time, s; eq. (18.11) */
-  size_t platform, platform_end; /* first and last station of the platform: elements between them do not push */
+  size_t platform, platform_end; /* first and last station of the platform, or the right end: elements between them do
+                                    not push */
   ZpLevelEnds level;             /* elements with a level end */
-  double flat_length;            /* of its faces, at the gap of each of these, m */
+  double flat_length;            /* of its faces, at the gap of each of these, m; of a free end eq. (9.8) */
 } ZpFacesParams;
 
 /* Range of contact of insulators that are so thick together, m: 0.5 um for 260 um, at least a nanometre. */

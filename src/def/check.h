@@ -56,6 +56,9 @@ bool zp_def_has_two(const ZpActuatorDef *def);
 /* The Def of the lower ribbon: that of the upper one with the keys that lower.* gives. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 
+/* The actuator without its load: neither mass, force, spring, stop nor impact. load.share and load.offset stay. */
+ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def);
+
 /* Is this a stack of unequal parallel members, because a key of member_K is given? */
 bool zp_def_abreast(const ZpActuatorDef *def);
 

@@ -473,7 +473,6 @@ ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err) {
                  def->insulator.thickness, thinnest);
 }
 
-/* Conditions of electro.model field on other keys. */
 /* Is the two-dimensional field in this build? */
 #ifdef ZP_WITHOUT_FIELD
 static const bool knows_field = false;
@@ -481,6 +480,7 @@ static const bool knows_field = false;
 static const bool knows_field = true;
 #endif
 
+/* Conditions of electro.model field on other keys. */
 static ZpStatus check_field(const ZpActuatorDef *def, ZpError *err) {
   if (!knows_field)
     return zp_fail(err, ZP_BAD_INPUT,
@@ -653,20 +653,6 @@ static ZpStatus check_unused_source(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* While the breakdown cap acts, closed faces hold the same charge at any voltage. If this charge cannot flow back, the
- * voltage is determined only by a capacitance or a resistance in parallel. */
-static ZpStatus check_undecided(const ZpActuatorDef *def, ZpError *err) {
-  static const double least = 0.1e-12; /* F: a few millimetres of wire */
-  double sinks = isnan(def->source.sink_limit) ? def->source.current_limit : def->source.sink_limit;
-  bool leaks = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity);
-  if (sinks != 0 || !def->electro.breakdown_cap || leaks || def->source.capacitance >= least) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "source.sink_limit = 0 A: with electro.breakdown_cap closed faces hold the same charge at any "
-                 "voltage, so their voltage is undetermined; give source.capacitance of output and cable (about 10 pF, "
-                 "at least %g F), source.bleeder or insulator.resistivity",
-                 least);
-}
-
 /* Values with which an amplifier would never charge the electrodes, or faster than time steps resolve. */
 static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
   static const double fastest = 1e9; /* Hz: a time constant has a thousand of the shortest steps */
@@ -686,7 +672,7 @@ static ZpStatus check_amplifier(const ZpActuatorDef *def, ZpError *err) {
   if (def->actuator.kind == ZP_KIND_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT,
                    "source.model = amplifier: requires electrodes, which actuator.kind ribbon does not have");
-  return check_undecided(def, err);
+  return ZP_OK;
 }
 
 static ZpStatus check_source(const ZpActuatorDef *def, ZpError *err) {
@@ -716,7 +702,7 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   const ZpActuatorDef *of[] = {def, &lower};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
   for (int k = 0; k < 2; k++)
-    if (of[k]->ribbon.density == 0 && of[k]->insulator.density == 0)
+    if (of[k]->ribbon.density == 0 && of[k]->insulator.density * of[k]->insulator.thickness == 0)
       return zp_fail(err, ZP_BAD_INPUT, "%s = 0 kg/m3: a moving ribbon needs a mass", key[k]);
   return ZP_OK;
 }
@@ -981,6 +967,15 @@ static ZpStatus check_change(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "load.change_mass = %g kg: cannot drop more than load.mass = %g kg",
                    def->load.change_mass, def->load.mass);
   return ZP_OK;
+}
+
+ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def) {
+  ZpActuatorDef bare = *def;
+  bare.load = zp_actuator_def_default().load;
+  bare.load.mass = 0;
+  bare.load.share = def->load.share;
+  bare.load.offset = def->load.offset;
+  return bare;
 }
 
 /* The halves are mirror images only if gravity is vertical. */

@@ -50,10 +50,10 @@ double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage) {
 static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
   double upside_down = zp_key(zp_key_find("mount.tilt"))->max;
   one->mount.tilt = fabs(def->mount.tilt) < 0.5 * upside_down ? upside_down : 0;
-  one->load.mass = one->load.force = 0;
+  one->load = zp_def_unloaded(def).load;
   one->drive.offset *= def->stack.voltage_ratio;
+  if (!isnan(def->stack.lower_voltage)) one->drive = zp_actuator_def_default().drive; /* a step, which stays constant */
   one->drive.voltage = zp_def_lower_voltage(def, def->drive.voltage);
-  if (!isnan(def->stack.lower_voltage)) one->drive.waveform = ZP_WAVEFORM_STEP;
 }
 
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {

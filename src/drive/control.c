@@ -31,7 +31,10 @@ ZpControlState zp_control_start(void) {
 }
 
 void zp_control_restart(const ZpControl *c, double t, ZpControlState *state) {
-  state->taken = state->given = fmax(0, ceil(t / c->period - rounding));
+  if (c->kind == ZP_CONTROL_NONE)
+    *state = zp_control_start();
+  else
+    state->taken = state->given = fmax(0, ceil(t / c->period - rounding));
 }
 
 bool zp_control_fits(const ZpControl *c, double t, const ZpControlState *state) {

@@ -32,7 +32,7 @@ typedef struct ZpControlState {
 ZpControl zp_control_of(const ZpActuatorDef *def);
 
 /* Before the first sample; and the same from time t on, whatever was before: what is pending is dropped, the integral
- * stays. */
+ * stays. Without a controller nothing of an earlier one is left. */
 ZpControlState zp_control_start(void);
 void zp_control_restart(const ZpControl *c, double t, ZpControlState *state);
 

@@ -42,14 +42,16 @@ static double current_at(const ZpMeter *meter, const ZpMeterTrace *trace, double
   return (Q[1] - Q[0]) * by + (C[1] - C[0]) * by * sine + here * rate;
 }
 
-void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t windows, double *capacitance) {
+void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t first, size_t windows, double *capacitance) {
   size_t per = meter->per_period, count = per * meter->periods, at = 0;
   double rate = meter->frequency * (double)per, gain = 2 * zp_pi * meter->frequency * meter->amplitude;
   uint64_t seed = (uint64_t)meter->seed;
+  for (size_t k = 0; meter->noise > 0 && k < first * count; k++)
+    zp_unit_noise(&seed);
   for (size_t w = 0; w < windows; w++) {
     double sum = 0;
     for (size_t k = 0; k < count; k++) {
-      double turns = (double)(k % per) / (double)per, t = (double)(w * count + k) / rate;
+      double turns = (double)(k % per) / (double)per, t = (double)((first + w) * count + k) / rate;
       double noise = meter->noise > 0 ? meter->noise * zp_unit_noise(&seed) : 0;
       sum += readable(meter, current_at(meter, trace, t, turns, &at) + noise) * zp_cosine_of(turns);
     }

@@ -24,15 +24,14 @@ ZpMeter zp_meter_of(const ZpActuatorDef *def, double capacitance);
 /* Length of a window, s. */
 double zp_meter_window(const ZpMeter *meter);
 
-/* What is measured: charge without the sine and capacitance over time, straight between `count` instants, the first at
- * or before 0. */
+/* What is measured: charge without the sine and capacitance over time, straight between `count` instants. */
 typedef struct ZpMeterTrace {
   size_t count;
   const double *time, *charge, *capacitance; /* s, C, F */
 } ZpMeterTrace;
 
-/* Readings of the windows that follow each other from time 0 on => capacitance [windows], F. The trace must reach as
- * far. */
-void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t windows, double *capacitance);
+/* Windows follow each other from time 0 on: readings of `windows` of them from number `first` on => capacitance
+ * [windows], F. The trace must contain them. A window has the same noise whatever the first one is. */
+void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t first, size_t windows, double *capacitance);
 
 #endif

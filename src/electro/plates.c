@@ -201,8 +201,9 @@ static void add_part(const ZpPlatesParams *law, double U, double gap, double len
   totals->inverse_gap += law->relative * part.inverse_gap;
 }
 
-static void add_covered(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesTotals *totals) {
-  for (size_t i = 0; i + 1 < p->nodes; i++) {
+static void add_covered(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, size_t first, size_t end,
+                        ZpPlatesTotals *totals) {
+  for (size_t i = first; i < end; i++) {
     ZpPlatesPiece piece[2];
     int pieces = zp_plates_pieces(p, zp_cover_part(e->cover, i), i, piece);
     for (int k = 0; k < pieces; k++)
@@ -225,11 +226,19 @@ static void add_platform(const ZpPlatesParams *p, const ZpPlatesEval *e, double 
 ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *p, const ZpPlatesEval *e, double U) {
   ZpPlatesTotals totals = {0, 0, 0, 0};
   if (e->cover)
-    add_covered(p, e, U, &totals);
+    add_covered(p, e, U, 0, p->nodes - 1, &totals);
   else if (p->edges)
     add_elements_with_edges(p, e, U, &totals);
   else
     add_elements(p, e, U, zp_plates_least_h(p, U), &totals);
+  add_platform(p, e, U, &totals);
+  return totals;
+}
+
+ZpPlatesTotals zp_plates_totals_among(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, size_t first,
+                                      size_t end) {
+  ZpPlatesTotals totals = {0, 0, 0, 0};
+  add_covered(p, e, U, first, end, &totals);
   add_platform(p, e, U, &totals);
   return totals;
 }

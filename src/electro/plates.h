@@ -98,4 +98,8 @@ typedef struct ZpPlatesTotals {
 } ZpPlatesTotals;
 ZpPlatesTotals zp_plates_totals(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage);
 
+/* With a cover: over the elements from `first` on before `end`, and the platform. */
+ZpPlatesTotals zp_plates_totals_among(const ZpPlatesParams *params, const ZpPlatesEval *eval, double voltage,
+                                      size_t first, size_t end);
+
 #endif

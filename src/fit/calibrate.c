@@ -106,7 +106,9 @@ static bool covariance(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][
 }
 
 static bool at_bound(const ZpFit *fit, const double *z, int k) {
-  return z[k] <= fit->lower[k] * (1 + 1e-6) || z[k] >= fit->upper[k] * (1 - 1e-6);
+  static const double near = 1e-6;
+  double low = fit->lower[k], high = fit->upper[k];
+  return z[k] <= low + near * fabs(low) || z[k] >= high - near * fabs(high);
 }
 
 /* The first key that lies at its bound, or NULL. */

@@ -19,6 +19,12 @@ enum { POLISH_MOST = 30, HALVINGS = 12 };
  * curvature. */
 static const double difference = 1e-4;
 
+/* What changes of a key are compared with, in multiples of its start: it may be negative, or pass 0. */
+static double size_of(double z) {
+  static const double least = 1e-3;
+  return fmax(fabs(z), least);
+}
+
 static double measure(ZpFit *fit, ZpFitKind kind, const ZpModel *model, double voltage) {
   ZpRest *rest;
   double value = NAN;
@@ -60,6 +66,19 @@ bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *de
   return set;
 }
 
+static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
+  char *text = def->sensitivity.by;
+  size_t size = sizeof def->sensitivity.by, used = 0;
+  for (int k = 0; k < fit->n && used < size; k++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
+}
+
+/* Of runs with derivatives, so that those are of the values. */
+static double tolerance_of(const ZpFit *fit, ZpActuatorDef def) {
+  name_keys(fit, &def);
+  return zp_def_tolerance(&def);
+}
+
 /* The result of the study whose number is measured; NULL if it cannot be run. */
 static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   ZpResult *result = NULL;
@@ -67,6 +86,7 @@ static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   def->output.shapes = 2;
   def->output.errors = false;
   def->solver.stop_when_zipped = ZP_WHEN_TRUE; /* of a motion only the zip time */
+  if (kind == ZP_FIT_TIME && fit->n > 0) def->solver.tolerance = tolerance_of(fit, *def);
   ZpStatus status = zp_study_run(zp_fit_number[kind].study, def, NULL, NULL, &result, NULL);
   if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
   return result;
@@ -223,13 +243,6 @@ static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def,
   return good;
 }
 
-static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
-  char *text = def->sensitivity.by;
-  size_t size = sizeof def->sensitivity.by, used = 0;
-  for (int k = 0; k < fit->n && used < size; k++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
-}
-
 /* The same for the number of a study. */
 static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *row) {
   int found = 0;
@@ -272,7 +285,8 @@ static bool difference_set(ZpFit *fit, const ZpFitSet *of, const double *z, doub
   for (int k = 0; k < fit->n && good; k++) {
     double at[ZP_FIT_MOST];
     memcpy(at, z, sizeof at);
-    double high = fmin(z[k] * (1 + difference), fit->upper[k]), low = fmax(z[k] * (1 - difference), fit->lower[k]);
+    double step = difference * size_of(z[k]);
+    double high = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
     at[k] = high;
     good = predict_set(fit, of, at, up);
     at[k] = low;
@@ -360,7 +374,7 @@ static double take_step(ZpFit *fit, double *z, double *fitted, const double *ste
     double at[ZP_FIT_MOST] = {0}, moved = 0;
     for (int k = 0; k < fit->n; k++) {
       at[k] = fmin(fmax(z[k] + fraction * step[k], fit->lower[k]), fit->upper[k]);
-      moved = fmax(moved, fabs(at[k] - z[k]) / z[k]);
+      moved = fmax(moved, fabs(at[k] - z[k]) / size_of(z[k]));
     }
     if (!predict_all(fit, at, trial) || squares(fit, trial) >= before) continue;
     memcpy(z, at, (size_t)fit->n * sizeof *z);

@@ -6,6 +6,7 @@
 
 #include <zipact/checkpoint.h>
 
+#include "def/purpose.h"
 #include "fmu/start.h"
 
 /* First value references: far enough apart for all tables. */
@@ -18,11 +19,8 @@ static const char *const signals[] = {
 #undef ZP_SIGNAL
 
 static bool is_one_of(const char *name, const char *const *list, size_t count) {
-  for (size_t k = 0; k < count; k++) {
-    size_t length = strlen(list[k]);
-    bool group = list[k][length - 1] == '.';
-    if (group ? strncmp(name, list[k], length) == 0 : strcmp(name, list[k]) == 0) return true;
-  }
+  for (size_t k = 0; k < count; k++)
+    if (strcmp(name, list[k]) == 0) return true;
   return false;
 }
 
@@ -43,28 +41,8 @@ bool zp_fmu_follows(int index, ZpInput input) {
 }
 
 bool zp_fmu_is_parameter(int index, double value) {
-  static const char *const others[] = {"preset",
-                                       "drive.",
-                                       "sense.",
-                                       "solver.end_time",
-                                       "solver.stop_when_zipped",
-                                       "solver.max_cpu_time",
-                                       "control.kind",
-                                       "control.signal",
-                                       "setpoint.",
-                                       "initial.",
-                                       "data.",
-                                       "calibrate.",
-                                       "modes.",
-                                       "isometric.",
-                                       "profile.",
-                                       "cycle.",
-                                       "sensitivity.",
-                                       "sampling.",
-                                       "optimize.",
-                                       "output."};
   if (!zp_fmu_has_number(index) || zp_key_is_material(index) || isnan(value)) return false;
-  return !is_one_of(zp_key(index)->name, others, sizeof others / sizeof others[0]);
+  return !(zp_key_purposes(index) & ZP_NO_PARAMETER);
 }
 
 bool zp_fmu_is_tunable(int index) {

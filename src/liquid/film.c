@@ -8,6 +8,8 @@
 
 #include <math.h>
 
+#include "base/kernel.h"
+
 static const double give = 1e-6;                    /* m/Pa: a cavity as thick as a millimetre takes 1 % more */
 static const double shortest = 1e-3;                /* of an element: what flows past a meniscus is led so far */
 static const double isolated = 2.35619449019234493; /* 3 pi / 4: r / (H / w) of strips far from each other */
@@ -25,8 +27,8 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
 
 void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
   enum { DOUBLES = sizeof(ZpFilmPiece) / sizeof(double) };
-  double **stations[] = {&e->rate, &e->middle,   &e->H0,   &e->H1,    &e->secant, &e->depth0, &e->depth1,
-                         &e->jet,  &e->coupling, &e->head, &e->force, &e->flat,   &e->given};
+  double **stations[] = {&e->rate,     &e->middle, &e->H0,    &e->H1,   &e->secant, &e->depth0, &e->depth1, &e->jet,
+                         &e->coupling, &e->head,   &e->grows, &e->held, &e->force,  &e->flat,   &e->given};
   double **modes[] = {&e->flow, &e->conductance, &e->leak, &e->leak_conductance, &e->r};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_carve(carver, p->nodes);
@@ -40,13 +42,21 @@ void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
 /* -- geometry -------------------------------------------------------------------------------------- */
 
 /* A smooth transition from g, far above the roughness, to nothing, far below 0. */
+ZP_INLINE double root_of(double roughness, double gap) {
+  return sqrt(gap * gap + 4 * roughness * roughness);
+}
+
+ZP_INLINE double thickness_of(double roughness, double gap) {
+  double S = root_of(roughness, gap), below = 2 * roughness * roughness / (S - gap);
+  return gap > 0 ? 0.5 * (gap + S) : S > gap ? below : 0;
+}
+
 static double root(const ZpFilmParams *p, double gap) {
-  return sqrt(gap * gap + 4 * p->roughness * p->roughness);
+  return root_of(p->roughness, gap);
 }
 
 double zp_film_thickness(const ZpFilmParams *p, double gap) {
-  double S = root(p, gap);
-  return gap > 0 ? 0.5 * (gap + S) : S > gap ? 2 * p->roughness * p->roughness / (S - gap) : 0;
+  return thickness_of(p->roughness, gap);
 }
 
 double zp_film_rise(const ZpFilmParams *p, double gap) {
@@ -59,15 +69,13 @@ double zp_film_bend(const ZpFilmParams *p, double gap) {
   return S > 0 ? 2 * p->roughness * p->roughness / (S * S * S) : 0;
 }
 
-double zp_film_depth(const ZpFilmParams *p, double H) {
-  double q = H / p->w;
+ZP_INLINE double depth_of(double width, double H) {
+  double q = H / width;
   return H / (isolated * q + 1 / (1 + 1.066 * q * sqrt(q)));
 }
 
-/* The predicted thickness in the middle: it changes as in the last step, but is at least half of that at the start. */
-static double middle(const ZpFilmParams *p, double gap, double rate, double h) {
-  double H = zp_film_thickness(p, gap), foreseen = zp_film_thickness(p, gap + 0.5 * h * rate);
-  return fmax(foreseen, 0.5 * H);
+double zp_film_depth(const ZpFilmParams *p, double H) {
+  return depth_of(p->w, H);
 }
 
 /* Length of the element from station i on, m: the platform's counts at its stations. */
@@ -312,18 +320,31 @@ static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i,
 
 /* -- a step ---------------------------------------------------------------------------------------- */
 
+/* The thickness foreseen in the middle of the step changes as in the last one, but is at least half of that at the
+ * start. */
+ZP_KERNEL static void thicknesses(size_t nodes, double roughness, double width, const double *restrict g0,
+                                  const double *restrict g1, const double *restrict rate, double h,
+                                  const ZpFilmEval *e) {
+  double *restrict middle = e->middle, *restrict H0 = e->H0, *restrict H1 = e->H1;
+  double *restrict depth0 = e->depth0, *restrict depth1 = e->depth1, *restrict secant = e->secant;
+  ZP_SIMD
+  for (size_t i = 0; i < nodes; i++) {
+    double start = thickness_of(roughness, g0[i]), end = thickness_of(roughness, g1[i]);
+    double foreseen = thickness_of(roughness, g0[i] + 0.5 * h * rate[i]), half = 0.5 * start;
+    double both = root_of(roughness, g0[i]) + root_of(roughness, g1[i]), mean = 0.5 * (1 + (g0[i] + g1[i]) / both);
+    H0[i] = start;
+    H1[i] = end;
+    middle[i] = foreseen > half ? foreseen : half;
+    depth0[i] = depth_of(width, start);
+    depth1[i] = depth_of(width, end);
+    secant[i] = both > 0 ? mean : 0.5;
+  }
+}
+
 static void geometry(const ZpFilmParams *p, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
                      const ZpFilmEval *e) {
   lay_pieces(p, ends, e);
-  for (size_t i = 0; i < p->nodes; i++) {
-    double both = root(p, g0[i]) + root(p, g1[i]);
-    e->middle[i] = middle(p, g0[i], e->rate[i], h);
-    e->H0[i] = zp_film_thickness(p, g0[i]);
-    e->H1[i] = zp_film_thickness(p, g1[i]);
-    e->depth0[i] = zp_film_depth(p, e->H0[i]);
-    e->depth1[i] = zp_film_depth(p, e->H1[i]);
-    e->secant[i] = both > 0 ? 0.5 * (1 + (g0[i] + g1[i]) / both) : 0.5;
-  }
+  thicknesses(p->nodes, p->roughness, p->w, g0, g1, e->rate, h, e);
 }
 
 static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
@@ -331,23 +352,66 @@ static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
 }
 
 /* Below minus zp_film_tension a cavity grows, so that its head hardly falls further. */
-static double cavity_of(double head) {
-  return give * fmax(0, -zp_film_tension - head);
+static bool cavitates(double head) {
+  return head < -zp_film_tension;
+}
+
+/* With what was there before: a cavity so thin that it is below the rounding of the heads stays. */
+static bool cavitates_on(const ZpFilmParams *p, const double *heads, size_t i, bool before) {
+  static const double digits = 16 * 2.2e-16;
+  double sizes = zp_film_tension + p->share[0] * fabs(heads[zp_film_mode_at(i, 0)]) +
+                 p->share[1] * fabs(heads[zp_film_mode_at(i, 1)]);
+  return cavitates(mean_head(p, heads, i) - (before ? digits * sizes : 0));
+}
+
+static double cavity_of(double head, bool grows) {
+  return grows ? give * (-zp_film_tension - head) : 0;
+}
+
+/* Was there a cavity? */
+static bool grows(const ZpFilmEval *e, size_t i) {
+  return e->grows[i] > 0;
 }
 
 static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   for (size_t i = 0; i < p->nodes; i++) {
     e->head[i] = mean_head(p, heads, i);
-    e->end[cavity_at(i)] = cavity_of(e->head[i]);
+    e->grows[i] = e->held[i] == 0 ? cavitates_on(p, heads, i, grows(e, i)) : e->held[i] > 0;
+    e->end[cavity_at(i)] = fmax(cavity_of(e->head[i], grows(e, i)), e->held[i] == 0 ? 0 : -INFINITY);
   }
+}
+
+void zp_film_release(const ZpFilmParams *p, const ZpFilmEval *e) {
+  for (size_t i = 0; i < p->nodes; i++)
+    e->held[i] = 0;
+}
+
+static bool contradicts(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e, size_t i) {
+  return zp_film_wet(e, i) > 0 && cavitates_on(p, heads, i, grows(e, i)) != grows(e, i);
+}
+
+size_t zp_film_contradictions(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  size_t count = 0;
+  for (size_t i = 0; i < p->nodes; i++)
+    count += contradicts(p, heads, e, i);
+  return count;
+}
+
+void zp_film_turn_one(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
+  double *last = NULL;
+  for (size_t i = 0; i < p->nodes; i++) {
+    bool holds = contradicts(p, heads, e, i);
+    e->held[i] = !holds ? 0 : grows(e, i) ? 1 : -1;
+    if (holds) last = &e->held[i];
+  }
+  if (last) *last = 0;
 }
 
 double zp_film_unforeseen(const ZpFilmParams *p, const double *heads, const ZpFilmEval *e) {
   double work = 0;
   for (size_t i = 0; i < p->nodes; i++) {
-    double head = mean_head(p, heads, i), foreseen = e->end[cavity_at(i)];
-    if (foreseen > 0) foreseen -= give * (head - e->head[i]);
-    work += p->w * zp_film_wet(e, i) * fabs((cavity_of(head) - foreseen) * head);
+    double head = mean_head(p, heads, i), missed = cavity_of(head, cavitates(head)) - cavity_of(head, grows(e, i));
+    work += p->w * zp_film_wet(e, i) * fabs(missed * head);
   }
   return work;
 }
@@ -455,10 +519,11 @@ static double energy_of_cavity(double thickness) {
   return thickness * (zp_film_tension + 0.5 * thickness / give);
 }
 
-double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
+double zp_film_energy_among(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state,
+                            size_t first, size_t end) {
   double sum = 0;
-  ZpFilmPiece left = none;
-  for (size_t i = 0; i < p->nodes; i++) {
+  ZpFilmPiece left = first > 0 ? piece_of(p, cover, first - 1) : none;
+  for (size_t i = first; i < end; i++) {
     ZpFilmPiece piece = piece_of(p, cover, i);
     double H = zp_film_thickness(p, gap[i]), E = zp_film_depth(p, H), next = 0;
     double length = length_between(&left, &piece, flat(p, cover, i));
@@ -472,6 +537,10 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
     left = piece;
   }
   return sum * p->w;
+}
+
+double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double *gap, const double *state) {
+  return zp_film_energy_among(p, cover, gap, state, 0, p->nodes);
 }
 
 /* Loss of one momentum over the step, per length and width, J/m^2: by drag, and by theta beyond the mean. */
@@ -549,13 +618,39 @@ double zp_film_open_flow(const ZpFilmParams *p, const ZpFilmEval *e, const doubl
   return p->w * zp_film_wet(e, i) * sum;
 }
 
+/* Not by its wet length, which is a sum and rounded. */
+static bool is_full(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return e->piece[i].length >= element(p, i);
+}
+
+bool zp_film_covers(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  double flat_length = is_platform(p, i) ? p->flat_length : 0;
+  return (i == 0 || is_full(p, e, i - 1)) && is_full(p, e, i) && e->flat[i] >= flat_length;
+}
+
 bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
-  return zp_film_wet(e, i) >= zp_film_length(p, i) && !(e->end[cavity_at(i)] > 0);
+  return zp_film_covers(p, e, i) && !(e->end[cavity_at(i)] > 0);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
-double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+/* What a cavity gives way by the mean head, m^2/Pa. */
+static double given_way(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return grows(e, i) && zp_film_is_free(p, e, i, 0) ? zp_film_wet(e, i) * give : 0;
+}
+
+double zp_film_mix(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
+  return given_way(p, e, i) > 0 ? p->share[1] / p->share[0] : 0;
+}
+
+double zp_film_turned(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, const double *r) {
+  const double *own = &e->r[zp_film_mode_at(i, 0)];
+  double mix = zp_film_mix(p, e, i), apart = p->share[1] * p->w * h * (outflow(e, i, 1) - outflow(e, i, 0));
+  return mix > 0 ? apart + (r[1] - own[1]) - mix * (r[0] - own[0]) : r[1];
+}
+
+/* By heads, of mode k by mode m at the same station, without what a cavity does. */
+static double by_heads(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i, m)) return k == m ? 1 : 0;
   double length = zp_film_wet(e, i), leak = p->share[k] * e->leak_conductance[zp_film_mode_at(i, k)], sum = 0;
   if (k == m) {
@@ -563,16 +658,31 @@ double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t 
     if (i > 0) sum += p->share[k] * e->conductance[zp_film_mode_at(i - 1, k)];
   }
   sum -= length * e->coupling[i] * leak * p->share[m] * e->leak_conductance[zp_film_mode_at(i, m)];
-  double grows = e->end[cavity_at(i)] > 0 ? length * give * p->share[k] * p->share[m] : 0;
-  return -p->w * (h * sum + grows);
+  return -p->w * (h * sum);
 }
 
-double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
+double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+  double mix = zp_film_mix(p, e, i), sum = by_heads(p, h, e, i, k, m);
+  if (k == 0 && m == 0) return sum - p->w * p->share[0] * p->share[0] * given_way(p, e, i);
+  if (mix == 0) return sum;
+  if (k != m) return sum - mix * by_heads(p, h, e, i, 0, 0);
+  return sum - 2 * mix * by_heads(p, h, e, i, 0, 1) + mix * mix * by_heads(p, h, e, i, 0, 0);
+}
+
+/* By the same mode's head at the next station. */
+static double by_next_head(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i + 1, k)) return 0;
   return p->share[k] * h * p->w * e->conductance[zp_film_mode_at(i, k)];
 }
 
+double zp_film_next(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
+  double here = k == 1 ? -zp_film_mix(p, e, i) : 1, there = m == 1 ? -zp_film_mix(p, e, i + 1) : 1;
+  double own = k == m && k == 1 ? by_next_head(p, h, e, i, 1) : 0;
+  return own + here * there * by_next_head(p, h, e, i, 0);
+}
+
 double zp_film_by_gap(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, size_t j, int k) {
+  if (k == 1 && zp_film_mix(p, e, i) > 0) return 0;
   return zp_film_is_free(p, e, i, k) ? p->share[k] * p->w * cell_share(e, i, j) * e->secant[j] : 0;
 }
 

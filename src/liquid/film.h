@@ -72,6 +72,8 @@ typedef struct ZpFilmEval {
   double *jet;                     /* [N] speed of the jets, outwards, m/s */
   double *coupling;                /* [N] how D couples the modes, Pa s/m */
   double *head;                    /* [N] mean head across the width, Pa */
+  double *grows;                   /* [N] 1: there is a cavity, which grows as the head falls; 0: there is none */
+  double *held;                    /* [N] 1 or -1: there is one or none, whatever the head; 0: the head decides */
   double *force;                   /* [N] on each station, N, positive opens */
   ZpFilmPiece *piece;              /* [N] of the element from i to i + 1 */
   double *flat;                    /* [N] length of wet flat faces at a station, m */
@@ -100,6 +102,15 @@ void zp_film_step(const ZpFilmParams *params, const ZpFilmEnds *ends, const doub
 /* Length of the film in the cell of station i, where it is laid, m. */
 double zp_film_wet(const ZpFilmEval *eval, size_t i);
 
+/* The heads decide at all stations whether there is a cavity. */
+void zp_film_release(const ZpFilmParams *params, const ZpFilmEval *eval);
+
+/* At how many stations do heads contradict what that step had there, a cavity or none? */
+size_t zp_film_contradictions(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
+
+/* Hold it where heads contradict it, but for the last of these stations. */
+void zp_film_turn_one(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
+
 /* The last correction has led from the heads of that step to these: |work|, J, of cavities that it has opened or closed
  * beyond what its matrix foresaw. */
 double zp_film_unforeseen(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
@@ -117,7 +128,10 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *params, const ZpFilmEnds *ends, doub
 /* Is the head of mode k at station i an unknown, or is the mode none or its head given? */
 bool zp_film_is_free(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, int k);
 
-/* Does the film fill all between the faces at station i at the step's end: is it wet, without a cavity? */
+/* Does the liquid reach beyond all of station i's length, as that of a bead may or may not? */
+bool zp_film_covers(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
+
+/* Does the film fill all between the faces at station i at the step's end: is it covered, without a cavity? */
 bool zp_film_fills(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
 /* Mass by which the film at station i resists to a change of its gap over a step of h, inertia and viscosity together,
@@ -126,6 +140,10 @@ double zp_film_inertia(const ZpFilmParams *params, double h, const ZpFilmEval *e
 
 /* Kinetic energy of the film at gaps [N] and a state, as far as it is covered, and what its cavities hold, J. */
 double zp_film_energy(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state);
+
+/* The part of it that belongs to the stations from `first` on before `end`. */
+double zp_film_energy_among(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state,
+                            size_t first, size_t end);
 
 /* Length of the faces at station i, m. */
 double zp_film_length(const ZpFilmParams *params, size_t i);
@@ -136,12 +154,21 @@ double zp_film_edge_flow(const ZpFilmParams *params, const ZpFilmEval *eval, siz
 /* Flow out over the long edges at the heads of the step if these were open and inertia did not count, m^3/s. */
 double zp_film_open_flow(const ZpFilmParams *params, const ZpFilmEval *eval, const double *heads, size_t i);
 
-/* Derivative of r of mode k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
+/* A cavity gives way to the mean of the heads so much that, in short steps, what else the heads do would be rounding in
+ * its rows of a matrix. So the matrix has other unknowns x at a station with a cavity, and rows that go with them:
+ * p_0 = x_0 - mix x_1 and p_1 = x_1, such that x_1 does not change the mean. Elsewhere mix is 0. */
+double zp_film_mix(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
+
+/* Row 1 of that step for these unknowns, r_1 - mix r_0, without the rounding of the cavity, which is in r [2] of both
+ * modes alike; r may differ from the step's own. */
+double zp_film_turned(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, const double *r);
+
+/* Derivative of r of unknown k at station i by the gap of station j, i - 1 .. i + 1, at the end, as far as it goes with
  * the head's force; m^2. */
 double zp_film_by_gap(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, size_t j, int k);
 
-/* Derivatives of -r of mode k at station i: by the head of mode m there, and by its own at the next one, m^3/Pa. */
+/* Derivatives of -r of unknown k at station i: by unknown m there, and by m at the next one, m^3/Pa. */
 double zp_film_own(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k, int m);
-double zp_film_next(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k);
+double zp_film_next(const ZpFilmParams *params, double h, const ZpFilmEval *eval, size_t i, int k, int m);
 
 #endif

@@ -31,7 +31,7 @@ void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carve
   band->rank = form.rank;
   band->u = zp_carve(carver, form.rank * n);
   band->v = zp_carve(carver, form.rank * n);
-  band->w = zp_carve(carver, form.rank * n);
+  band->w = zp_carve(carver, form.rank ? (form.rank + 1) * n : 0);
   band->s = zp_carve(carver, form.rank);
 }
 
@@ -437,16 +437,35 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
   }
 }
 
-static size_t negative_of_band(const ZpBand *band) {
+static size_t negative_pivots(const ZpBand *band) {
   size_t negative = 0;
   for (size_t i = 0; i < band->n; i++)
     negative += *zp_band_at(band, i, i) < 0;
-  return band->lower == 0 ? negative : (negative + band->odd) % 2;
+  return negative;
+}
+
+/* While term k grows from 0 to its size, an eigenvalue passes 0 where 1 + v' w does. With B, the matrix before, its
+ * vectors there are w = B^-1 u and B^-T v, so its rate has the sign of v' B^-2 u. Does it rise? */
+static bool raises_eigenvalue(const ZpBand *band, size_t k) {
+  size_t n = band->n;
+  double *twice = band->w + band->rank * n;
+  memcpy(twice, band->w + k * n, n * sizeof *twice);
+  solve_band(band, twice);
+  solve_top(band, k, twice);
+  return zp_dot(n, band->v + k * n, twice) > 0;
+}
+
+static bool has_negative_determinant(const ZpBand *band) {
+  size_t changes = negative_pivots(band) + band->odd;
+  for (size_t k = 0; k < band->rank; k++)
+    changes += band->s[k] < 0;
+  return changes % 2 == 1;
 }
 
 size_t zp_band_negative(const ZpBand *band) {
-  size_t negative = negative_of_band(band);
+  if (band->lower > 0) return has_negative_determinant(band);
+  size_t negative = negative_pivots(band);
   for (size_t k = 0; k < band->rank; k++)
-    if (band->s[k] < 0) negative = negative > 0 ? negative - 1 : 1;
+    if (band->s[k] < 0) negative = negative > 0 && raises_eigenvalue(band, k) ? negative - 1 : negative + 1;
   return negative;
 }

@@ -31,7 +31,7 @@ typedef struct ZpBand {
   bool odd;            /* an odd number of rows was exchanged */
   size_t rank;         /* of what is on top: */
   double *u, *v;       /* [rank * n] its terms u v' */
-  double *w;           /* [rank * n] factored: u solved with the band and the terms before it */
+  double *w;           /* [rank * n] factored: u solved with the band and the terms before it; then n for work */
   double *s;           /* [rank] factored: 1 + v' w, by which a term changes the determinant */
 } ZpBand;
 
@@ -86,9 +86,9 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y);
 /* Solve with the factors: b => x, in place. */
 void zp_band_solve(const ZpBand *band, double *b);
 
-/* Of a factored symmetric matrix: how many of its eigenvalues are negative (Sylvester's law of inertia). Of another: 1
- * if its determinant is negative, else 0. Each term on top that changes the sign of the determinant takes one of them
- * away, or adds one where there is none. */
+/* Of a factored symmetric band: how many eigenvalues are negative (Sylvester's law of inertia), with the terms on top
+ * if they are symmetric, v = d u (Haynsworth's inertia of the matrix bordered by u and -1/d), or while none of the real
+ * eigenvalues of the sum turns complex. Of another band: 1 if the determinant is negative, else 0. */
 size_t zp_band_negative(const ZpBand *band);
 
 #endif

@@ -49,6 +49,12 @@ static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
   return false;
 }
 
+/* Runs of a search by derivatives have the tolerance of `with`, which has these, from the first case on. */
+static void share_tolerance(ZpSearch *s, const ZpActuatorDef *with, const ZpResult *result) {
+  bool runs = isfinite(zp_result_get(result, "mean_time_step_s"));
+  if (runs && s->problem.method == ZP_OPTIMIZER_SLSQP) s->def.solver.tolerance = zp_def_tolerance(with);
+}
+
 /* Run the centre of the box to find out which outputs exist, before anything is written. */
 static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
   ZpProblem *p = &s->problem;
@@ -65,6 +71,7 @@ static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
     p->method = p->objectives > 1            ? ZP_OPTIMIZER_NSGA2
                 : has_derivatives(p, result) ? ZP_OPTIMIZER_SLSQP
                                              : ZP_OPTIMIZER_COBYLA;
+  if (status == ZP_OK) share_tolerance(s, &def, result);
   zp_result_destroy(result);
   return status;
 }
@@ -104,10 +111,18 @@ static ZpStatus open_search(ZpSearch *s, const char *directory, ZpError *err) {
   s->excluded = NAN;
   s->old = calloc(s->room, sizeof *s->old);
   s->point = calloc(s->room, sizeof *s->point);
-  if (!s->old || !s->point || pthread_mutex_init(&s->lock, NULL) != 0) return zp_fail_memory(err);
+  if (!s->old || !s->point) return zp_fail_memory(err);
   status = zp_campaign_hash(s->study, &s->def, &s->start, err);
   if (status == ZP_OK) status = zp_journal_open(directory, s->study, s->options->resume, s->room, &s->journal, err);
   return status == ZP_OK ? zp_journal_visit(s->journal, take_old_row, s, err) : status;
+}
+
+/* An optimization that can be destroyed; NULL if there is no memory. */
+static ZpOptimization *create(void) {
+  ZpOptimization *o = calloc(1, sizeof *o);
+  if (o && pthread_mutex_init(&o->search.lock, NULL) == 0) return o;
+  free(o);
+  return NULL;
 }
 
 /* A quarter of the cases explores the whole box, the others descend from the best of these. */
@@ -303,7 +318,7 @@ static ZpStatus optimize(ZpOptimization *o, const char *directory, ZpError *err)
 
 ZpStatus zp_optimize(const ZpScenario *scenario, const char *directory, const ZpCampaignOptions *options,
                      ZpOptimization **out, ZpError *err) {
-  ZpOptimization *o = *out = calloc(1, sizeof *o);
+  ZpOptimization *o = *out = create();
   if (!o) return zp_fail_memory(err);
   o->search.scenario = scenario;
   o->search.options = options;

@@ -29,11 +29,6 @@ double zp_closing_gap(void *self, double *row) {
   return 0.5 * (s->eval.plates.gap[last.station[0]] + s->eval.plates.gap[last.station[1]]);
 }
 
-double zp_closing_limit(const ZpStatics *s, double hanging) {
-  static const double closed_part = 0.01;
-  return fmax(closed_part * hanging, s->model->faces.depth);
-}
-
 /* -- along the square of the voltage ---------------------------------------------------------------- */
 
 static double get_square(void *self) {

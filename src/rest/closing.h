@@ -10,9 +10,6 @@
  * the last residual. `self` is a ZpStatics; row [n] gets the derivative by the coordinates (NULL: not needed). */
 double zp_closing_gap(void *self, double *row);
 
-/* The gap at which it counts as closed, m: 1 % of the hanging one, or where faces touch. */
-double zp_closing_limit(const ZpStatics *statics, double hanging);
-
 /* The static system along the square of the voltage (V^2), because forces are proportional to it: along the voltage
  * itself nothing moves at first. */
 ZpBranchSystem zp_closing_by_square(ZpStatics *statics);

@@ -258,6 +258,24 @@ static void tangent(void *self, ZpBordered *J) {
   if (joined) border_of_links(d, J);
 }
 
+/* Heads of stations with a cavity are unknowns in another form. */
+static void turn(void *self, double *r) {
+  for (ZpDynamics *m = self; m; m = m->below)
+    for (size_t i = 0; i < m->model->nodes; i++) {
+      const int *row = &m->assembly.own_equation[zp_film_mode_at(i, 0)];
+      double *first = &r[m->at + (size_t)row[0]], *second = &r[m->at + (size_t)row[1]];
+      *second = zp_film_turned(&m->model->film, m->h, &m->eval.film, i, (const double[]){*first, *second});
+    }
+}
+
+static void turn_back(void *self, double *x) {
+  for (ZpDynamics *m = self; m; m = m->below)
+    for (size_t i = 0; i < m->model->nodes; i++) {
+      const int *row = &m->assembly.own_equation[zp_film_mode_at(i, 0)];
+      x[m->at + (size_t)row[0]] -= zp_film_mix(&m->model->film, &m->eval.film, i) * x[m->at + (size_t)row[1]];
+    }
+}
+
 /* -- faces that meet ------------------------------------------------------------------------------ */
 
 static bool is_platform(const ZpDynamics *d, size_t i) {
@@ -338,7 +356,16 @@ static void keep_apart(const ZpDynamics *d, double *q1) {
   }
 }
 
+/* Heads decide on cavities again. */
+static void release_cavities(ZpDynamics *d) {
+  for (ZpDynamics *m = d; m; m = m->below)
+    if (m->model->has_film) zp_film_release(&m->model->film, &m->eval.film);
+}
+
 static void attempt(void *self, double *q1) {
+  ZpDynamics *d = self;
+  d->fewest = SIZE_MAX;
+  release_cavities(d);
   for (ZpDynamics *m = self; m; m = m->below) {
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
     if (m->model->field) keep_apart(m, q1 + m->at);
@@ -375,6 +402,28 @@ static double unforeseen(void *self, const double *q1) {
   for (ZpDynamics *m = self; m; m = m->below)
     work += unforeseen_of_one(m, q1 + m->at);
   return work;
+}
+
+/* Cavities open and close by the last heads, all at once. That may lead to and fro for ever: if those whose heads
+ * contradict what they did do not become fewer within some iterations, they change one by one, which ends. */
+static bool choose(void *self, const double *q1) {
+  enum { TRIALS = 4 };
+  ZpDynamics *d = self;
+  size_t contradict = 0;
+  for (ZpDynamics *m = d; m; m = m->below) {
+    gather_own(m, q1 + m->at);
+    contradict += zp_film_contradictions(&m->model->film, m->own, &m->eval.film);
+  }
+  bool fewer = contradict < d->fewest;
+  d->trials = fewer ? TRIALS : d->trials - 1;
+  d->fewest = contradict == 0 ? SIZE_MAX : fewer ? contradict : d->fewest;
+  if (contradict == 0 || d->trials > 0) {
+    release_cavities(d);
+    return true;
+  }
+  for (ZpDynamics *m = d; m; m = m->below)
+    zp_film_turn_one(&m->model->film, m->own, &m->eval.film);
+  return false;
 }
 
 static double kinetic_energy(const ZpDynamics *d) {
@@ -599,9 +648,12 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .begin = begin,
                             .residual = force,
                             .tangent = tangent,
+                            .turn = d->model->has_film ? turn : NULL,
+                            .turn_back = d->model->has_film ? turn_back : NULL,
                             .inertia = d->model->has_film ? inertia : NULL,
                             .attempt = attempt,
                             .resolved = resolved,
+                            .choose = d->model->has_film ? choose : NULL,
                             .unforeseen = unforeseen};
 }
 
@@ -693,10 +745,19 @@ static void book_work(ZpDynamics *d, ZpState *state) {
 
 /* Reference length of errors, m: a part of the flexible length, or of the hanging opening if that is small, because
  * closing is then a small motion. It is at least the depth of contact. */
+static const double of_length = 0.08;
+
 static double far(const ZpModel *model, const ZpState *state) {
-  static const double of_length = 0.08, of_opening = 0.2;
+  static const double of_opening = 0.2;
   double length = of_length * model->L;
   return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
+}
+
+/* What is required of lengths and of the voltage: the same share of each one's scale. */
+static void set_accuracy(ZpDynamics *d, const ZpState *state) {
+  double reference = far(d->model, state);
+  d->stepper.accuracy = error_of_step(&d->model->def) * reference;
+  if (d->source) d->scale[d->assembly.n] = d->source->scale * of_length / reference;
 }
 
 /* The state at the start of the step => q, v and what else evolves. */
@@ -844,6 +905,7 @@ static void book_links(const ZpDynamics *d, ZpState *const state[]) {
 
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   size_t k = 0;
+  release_cavities(d);
   for (ZpDynamics *m = d; m; m = m->below, k++) {
     m->history.last = d->history.last;
     m->history.next = d->history.next;
@@ -858,7 +920,7 @@ void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
 
 double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   zp_dynamics_begin(d, state, latest);
-  d->stepper.accuracy = error_of_step(&d->model->def) * far(d->model, state[0]);
+  set_accuracy(d, state[0]);
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
   if (taken > 0) zp_dynamics_end(d, state);
   return taken;

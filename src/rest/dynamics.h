@@ -20,6 +20,8 @@ typedef struct ZpDynamics {
   ZpAssembly assembly;
   double *moved;          /* [2 stride] work space */
   double *own;            /* [own N] the laws' own unknowns in the present step */
+  size_t fewest;          /* cavities that contradict their heads, at least, in the iteration under way, */
+  int trials;             /* and the corrections left to make them fewer */
   const double *mean_v;   /* [2 stride] mean velocity over the last step, m/s */
   const ZpSource *source; /* NULL: the voltage is given */
   ZpUnknown *kind;        /* [n] with a source: the last is the voltage */

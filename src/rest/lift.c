@@ -45,7 +45,7 @@ bool zp_lift_hang(ZpLift *l, double load) {
 /* A limit point is at the voltage, as accurately as it was solved: if the actuator falls closed from there, this is
  * where it closes. Else the next limit is above. */
 static ZpSlowEnd fall_at_top(ZpLift *l) {
-  bool closes = zp_slow_falls_closed(l->slow);
+  bool closes = zp_slow_falls_closed(l->slow, &l->at);
   if (closes) l->slow->square.save(l->slow->statics, l->lifted);
   if (closes) return ZP_SLOW_CHANGED;
   if (zp_slow_is_closed(l->slow)) return ZP_SLOW_LOST;
@@ -74,7 +74,7 @@ static bool closes_under(ZpLift *l, double load) {
 
 ZpSlowEnd zp_lift_hang_at_top(ZpLift *l, double load) {
   if (!zp_lift_hang(l, load)) return ZP_SLOW_LOST;
-  ZpSlowEnd end = zp_slow_close_at(l->slow, l->top, l->top, &l->at);
+  ZpSlowEnd end = zp_slow_close_at(l->slow, l->top, INFINITY, &l->at);
   zp_lift_narrow(l, load, end == ZP_SLOW_CHANGED, NAN);
   return end;
 }
@@ -108,6 +108,10 @@ bool zp_lift_event(ZpLift *l, double closed) {
   return false;
 }
 
+bool zp_lift_closes_gradually(ZpLift *l, double load) {
+  return zp_lift_hang(l, load) && zp_slow_first(l->slow, (1 + same) * l->top, &l->at) == ZP_MARCH_EVENT;
+}
+
 /* The load falls on until the gap is what counts as closed under the load itself; under a larger one it is larger. */
 void zp_lift_drop(ZpLift *l, ZpLimit *limit) {
   enum { MOST = 30 };
@@ -126,16 +130,14 @@ void zp_lift_drop(ZpLift *l, ZpLimit *limit) {
 
 /* -- by definition ---------------------------------------------------------------------------------- */
 
-/* From where a higher or lower voltage closes it to the load under which this one does => limit */
-static bool follow(ZpLift *l, ZpLimit *limit) {
+/* From where a higher or lower voltage closes it to the load under which this one does, kg; NAN: not found */
+static double follow(ZpLift *l) {
   ZpSlow *slow = l->slow;
   zp_slow_go_to(slow, l->at.state);
   slow->statics->U = l->top;
   bool found = l->at.end == ZP_MARCH_FOLD ? zp_slow_fold_of_load(slow, l->at.null) : zp_lift_event(l, slow->closed);
   double load = slow->statics->load;
-  if (!found || !(load > l->least && load < l->most)) return false;
-  zp_slow_note(slow, limit, l->at.end);
-  return true;
+  return found && load > l->least && load < l->most ? load : (double)NAN;
 }
 
 /* Between the loads that are known, by the voltages that close it under them if these are known, too. */
@@ -170,7 +172,8 @@ static bool find_below_most(ZpLift *l, double load, ZpLimit *limit) {
       return true;
     }
     bool follows = k % 2 == 0 && fabs(l->at.value / l->top - 1) < near;
-    load = follows && follow(l, limit) ? limit->value : middle(l);
+    load = follows ? follow(l) : (double)NAN;
+    if (isnan(load)) load = middle(l);
   }
   return false;
 }
@@ -197,7 +200,8 @@ static bool closes_above(ZpLift *l, double load, bool *first) {
 
 bool zp_lift_settle(ZpLift *l, ZpLimit *limit) {
   enum { MOST = 10 };
-  bool candidate = limit->end != ZP_MARCH_ARRIVED && limit->value > l->least && limit->value < l->most, first = false;
+  double least = (1 - same) * l->least; /* the load known to close may itself be the largest */
+  bool candidate = limit->end != ZP_MARCH_ARRIVED && limit->value > least && limit->value < l->most, first = false;
   double load = candidate ? limit->value : middle(l);
   zp_limit_none(limit, "it does not close at drive.voltage even without load");
   if (!candidate && l->least == 0 && !closes_under(l, 0)) return false;

@@ -37,6 +37,9 @@ ZpSlowEnd zp_lift_hang_at_top(ZpLift *lift, double load);
  * counts as closed under this load, about `closed`, m. False if there is none nearby. */
 bool zp_lift_event(ZpLift *lift, double closed);
 
+/* Does the voltage close the actuator gradually under this load, without a limit point before? */
+bool zp_lift_closes_gradually(ZpLift *lift, double load);
+
 /* From the present point, at the voltage under a large load, lower the load => its first limit, a candidate, if there
  * is one */
 void zp_lift_drop(ZpLift *lift, ZpLimit *limit);

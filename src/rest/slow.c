@@ -34,7 +34,7 @@ void zp_slow_carve(ZpSlow *f, ZpRest *rest, ZpCarver *carver) {
 }
 
 void zp_slow_start(ZpSlow *f, double hanging) {
-  f->closed = zp_closing_limit(f->statics, hanging);
+  f->closed = zp_closed_opening(f->statics->model, hanging);
   f->march.limit = f->closed;
   f->march.fold.tolerance = zp_statics_tolerance(f->statics);
 }
@@ -50,7 +50,7 @@ double zp_slow_closed_by_load(ZpSlow *f) {
   fold->system = &f->load;
   if (!zp_fold_tangent(fold)) return NAN;
   double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->assembly.n, fold->x, fold->along);
-  double change = zp_closing_limit(s, (1 + step) * gap) - zp_closing_limit(s, (1 - step) * gap);
+  double change = zp_closed_opening(s->model, (1 + step) * gap) - zp_closed_opening(s->model, (1 - step) * gap);
   return by_load * change / (2 * step * gap);
 }
 
@@ -96,6 +96,12 @@ static double parameter(ZpSlow *f) {
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
 
+/* The step of the gap for a search along the branch. */
+static double look_step(const ZpSlow *f) {
+  static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
+  return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
+}
+
 /* An actuator that was closed has opened once it is clear of the limit, because motion with resistance does not come
  * back. (This does not hold for one that closes: its faces overlap for a moment on the way.) */
 static bool has_opened(void *user) {
@@ -104,21 +110,32 @@ static bool has_opened(void *user) {
   return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
 }
 
-/* Fall from the limit point at which the march ended to the state beyond it. A fall that does not converge is tried
- * again from further on. */
-static bool fall(ZpSlow *f, double sign) {
-  static const double beyond[] = {1e-4, 3e-4, 1e-3}; /* of the voltage or the load: a higher crest is still met */
-  ZpStatics *s = f->statics;
+/* Fall to the state this share of the voltage or of the load further. */
+static bool fall_beyond(ZpSlow *f, double m, double share) {
+  f->march.fold.system->set(f->statics, changed(f, m, share));
+  return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
+}
+
+/* The same from the present point; a fall that does not converge is tried again from further on. */
+static bool fall(ZpSlow *f, double sign, double least) {
+  static const double beyond[] = {1e-4, 3e-4, 1e-3};
   double m = parameter(f);
-  bool found = false;
-  f->was_closed = zp_slow_is_closed(f);
-  f->square.save(s, f->held);
+  f->square.save(f->statics, f->held);
+  bool found = fall_beyond(f, m, sign * least);
   for (size_t k = 0; k < sizeof beyond / sizeof beyond[0] && !found; k++) {
-    if (k > 0) zp_slow_go_to(f, f->held);
-    f->march.fold.system->set(s, changed(f, m, sign * beyond[k]));
-    found = zp_newton_good(zp_statics_fall_until(s, has_opened, f, f->newton).end);
+    zp_slow_go_to(f, f->held);
+    found = fall_beyond(f, m, sign * beyond[k]);
   }
   return found;
+}
+
+/* The same from a limit point at the present point. It begins with a small step along the null vector, without which it
+ * would be slow at first; not where it is closed, since a front that gives way hardly moves the opening, by which steps
+ * are measured. A crest that is higher by more than a millionth is still met. */
+static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
+  static const double part = 0.25, least = 1e-6; /* of a step along the branch; of the voltage */
+  if (!f->was_closed) zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
+  return fall(f, sign, least);
 }
 
 /* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
@@ -173,43 +190,110 @@ static void go_below(const ZpSlow *f, Side *side, ZpLimit *limit, double m) {
   side->deepest = fmax(side->deepest, below);
 }
 
-/* Pass the point after k steps. => parameter there; NAN: it was not found */
-static double pass(ZpSlow *f, const Side *side, int k) {
+/* A point of the branch, `at` steps from the limit: the parameter and its derivative by the steps. */
+typedef struct Place {
+  double at, m, slope;
+} Place;
+
+/* Pass the point that is `step` steps after another one; m is NAN if it was not found. */
+static Place pass(ZpSlow *f, const Side *side, Place from, double step) {
   enum { MOST = 6 };
-  double here = side->gap + k * side->step, m = NAN;
+  double at = from.at + step, here = side->gap + at * side->step, m, slope;
   ZpPass end = ZP_PASS_AGAIN;
   for (int tries = 0; tries < MOST && end == ZP_PASS_AGAIN; tries++)
-    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + side->step, &m);
-  return end == ZP_PASS_ON ? m : (double)NAN;
+    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + step * side->step, &m, &slope);
+  return end == ZP_PASS_ON ? (Place){at, m, slope * side->step} : (Place){at, NAN, NAN};
 }
 
-/* Go point by point to the equilibrium after k steps, which seems to be higher. */
-static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, int k) {
+/* The cubic through two points: rise + (slope + (bend + turn t) t) t with t from 0 to 1. For a parabola turn is 0. */
+typedef struct Cubic {
+  double slope, end_slope, rise, bend, turn;
+} Cubic;
+
+static Cubic cubic_through(Place from, Place to) {
+  double length = to.at - from.at, a = from.slope * length, b = to.slope * length, rise = to.m - from.m;
+  return (Cubic){a, b, rise, 3 * rise - 2 * a - b, a + b - 2 * rise};
+}
+
+/* How far is the highest crest of a cubic above its first point? Where: *at, from 0 to 1. NAN: there is none. */
+static double crest_of(const Cubic *c, double sign, double *at) {
+  double t = c->slope / (sign * sqrt(c->bend * c->bend - 3 * c->turn * c->slope) - c->bend);
+  *at = t;
+  return t > 0 && t < 1 ? t * (c->slope + t * (c->bend + t * c->turn)) : (double)NAN;
+}
+
+/* May a crest above the limit be hidden between two points? Where the stiffness jumps the branch has corners, which are
+ * valleys: the cubic then is no parabola. With the slopes at its ends it could rise above the limit. */
+static bool may_hide_crest(const Side *side, Place from, Place to) {
+  static const double part = 1.0 / 3;
+  Cubic c = cubic_through(from, to);
+  double before = side->sign * (from.m - side->m) + fmax(side->sign * c.slope, 0),
+         after = side->sign * (to.m - side->m) + fmax(-side->sign * c.end_slope, 0);
+  bool rises = is_higher(side, side->m + side->sign * fmax(before, after));
+  return rises && !is_higher(side, to.m) && fabs(c.turn) > part * fmax(fabs(c.slope), fabs(c.end_slope));
+}
+
+/* Is there a crest between two points that may be higher than the limit? => where, in steps from it; NAN: none */
+static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Place from, Place to) {
+  static const double part = 0.3; /* of the depth there: a cubic through two points is that accurate */
+  Cubic c = cubic_through(from, to);
+  double at, above = crest_of(&c, side->sign, &at);
+  if (isnan(above)) return NAN;
+  double lowest = fmax(side->deepest, fmax(depth_of(f, side, from.m), depth_of(f, side, to.m)));
+  double below = depth_of(f, side, from.m + above);
+  limit->room = fmin(limit->room, fmax(below, 0));
+  return below < part * lowest ? from.at + at * (to.at - from.at) : (double)NAN;
+}
+
+/* To the crest near a point, and if it is not higher than the limit from there on to the point `next`. */
+static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double at, double next) {
+  ZpFold *fold = &f->march.fold;
+  bool found = zp_fold_event(fold, zp_closing_gap, side->gap + at * side->step, ZP_FOLD_ROUGH);
+  if (found) zp_fold_guess(fold);
+  if (!found || !zp_fold_solve(fold)) return ZP_OUT_OF_SIGHT;
+  if (is_higher(side, parameter(f)) && fold->negative == 0) return ZP_CREST_HIGHER;
+  limit->room = fmin(limit->room, fmax(depth_of(f, side, parameter(f)), 0));
+  double left = side->gap + next * side->step - zp_closing_gap(f->statics, NULL);
+  zp_fold_leave(fold, fold->null, zp_closing_gap, left);
+  return ZP_NOTHING_HIGHER;
+}
+
+/* Go step by step to the equilibrium at a point, which seems to be higher. */
+static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, double at) {
+  int steps = (int)ceil(at);
+  double step = at / steps * side->step;
   bool found = true;
   zp_slow_go_to(f, limit->state);
-  for (int i = 1; i <= k && found; i++)
-    found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * side->step, ZP_FOLD_ROUGH);
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, step);
+  for (int i = 1; i <= steps && found; i++)
+    found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * step, ZP_FOLD_ROUGH);
   return found;
 }
 
 /* From the limit on. */
-static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double step) {
-  enum { MOST = 12 };
-  Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, step, 0};
-  for (int k = 0; k <= MOST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
-    double m = pass(f, &side, k);
-    if (isnan(m)) return ZP_OUT_OF_SIGHT;
-    if (k == 0) continue;
-    if (is_higher(&side, m)) return go_to_point(f, limit, &side, k) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
-    go_below(f, &side, limit, m);
+static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double whole) {
+  enum { FARTHEST = 12, MOST = 40 };
+  static const double shortest = 0.1;
+  Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, whole, 0};
+  Place last = {0, side.m, 0};
+  double step = 1;
+  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, whole);
+  for (int k = 0; k < MOST && last.at < FARTHEST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
+    Place here = pass(f, &side, last, step);
+    if (isnan(here.m)) return ZP_OUT_OF_SIGHT;
+    bool halve = step > shortest && may_hide_crest(&side, last, here);
+    if (halve) step *= 0.5;
+    if (halve) continue;
+    double crest = seek_crest(f, &side, limit, last, here), next = here.at + step;
+    ZpAround around = isnan(crest) ? ZP_NOTHING_HIGHER : visit_crest(f, limit, &side, crest, next);
+    if (around != ZP_NOTHING_HIGHER) return around;
+    if (is_higher(&side, here.m))
+      return go_to_point(f, limit, &side, here.at) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
+    go_below(f, &side, limit, here.m);
+    step = fmin(2 * step, 1);
+    last = here;
   }
   return ZP_NOTHING_HIGHER;
-}
-
-/* The step of the gap for a search along the branch. */
-static double look_step(const ZpSlow *f) {
-  static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
-  return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
 }
 
 ZpAround zp_slow_look_around(ZpSlow *f, ZpLimit *limit, double sign) {
@@ -246,11 +330,24 @@ static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
 
 /* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
  * open the actuator, because no limit point was found there. */
-static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
-  return fall(f, sign) && zp_slow_is_closed(f) == was_closed;
+static bool go_on_from_lost(ZpSlow *f, double sign) {
+  static const double least = 1e-4;
+  return fall(f, sign, least) && zp_slow_is_closed(f) == f->was_closed;
 }
 
 /* -- a slow change -------------------------------------------------------------------------------- */
+
+/* Is the present point a closed state that cannot be? From there on it is not known when the actuator opens. */
+static bool has_become_impossible(const ZpSlow *f) {
+  return f->was_closed && zp_slow_is_closed(f) && zp_statics_fault(f->statics);
+}
+
+/* From a crest beyond `target` back to the stable state before it. A lower crest of the same ripple comes before the
+ * target, and the actuator falls from there into that state. */
+static ZpSlowEnd stop_before(ZpSlow *f, double target) {
+  f->march.fold.system->set(f->statics, target);
+  return zp_newton_good(zp_statics_fall_until(f->statics, NULL, NULL, f->newton).end) ? ZP_SLOW_ARRIVED : ZP_SLOW_LOST;
+}
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
  * point on the way that is not a ripple is `first` (NULL: not requested). A limit point further than `enough` ends the
@@ -258,24 +355,26 @@ static bool go_on_from_lost(ZpSlow *f, double sign, bool was_closed) {
 static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, ZpLimit *first) {
   enum { MOST = 1000 }; /* limit points; there are many ripples where a front passes node by node */
   double sign = target > parameter(f) ? 1 : -1;
-  bool was_closed = zp_slow_is_closed(f);
+  f->was_closed = zp_slow_is_closed(f);
   for (int k = 0; k < MOST; k++) {
     if (zp_statics_asked_to_stop(f->statics)) return ZP_SLOW_STOPPED;
     ZpMarchEnd end = zp_march(&f->march, target);
     if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
-    if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign, was_closed)) return ZP_SLOW_LOST;
+    if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign)) return ZP_SLOW_LOST;
     if (end == ZP_MARCH_LOST) continue;
     zp_slow_note(f, at, end);
+    if (has_become_impossible(f)) return ZP_SLOW_IMPOSSIBLE;
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
+    if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
     double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
-    bool found = fall(f, sign), impossible = zp_statics_fault(f->statics) != NULL;
-    bool jumped = zp_slow_is_closed(f) != was_closed || (was_closed && impossible);
+    bool found = fall_from(f, at, sign), jumped = zp_slow_is_closed(f) != f->was_closed;
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
     if (!found) return ZP_SLOW_LOST;
     if (jumped) return ZP_SLOW_CHANGED;
+    if (has_become_impossible(f)) return ZP_SLOW_IMPOSSIBLE;
   }
   return ZP_SLOW_LOST;
 }
@@ -319,8 +418,8 @@ ZpSlowEnd zp_slow_close_at(ZpSlow *f, double top, double enough, ZpLimit *at) {
   return change(f, top * top, enough * enough, at, NULL);
 }
 
-bool zp_slow_falls_closed(ZpSlow *f) {
-  return fall(f, 1) && zp_slow_is_closed(f);
+bool zp_slow_falls_closed(ZpSlow *f, const ZpLimit *limit) {
+  return fall_from(f, limit, 1) && zp_slow_is_closed(f);
 }
 
 /* It has closed gradually: is there a limit point further up? */
@@ -371,6 +470,8 @@ ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
   ZpSlowEnd end = change(f, 0, -INFINITY, release, NULL);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
   if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost as the voltage fell");
+  if (end == ZP_SLOW_IMPOSSIBLE)
+    zp_limit_none(release, "as the voltage fell, faces of the closed state came to lie inside each other");
   if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;
   return end;
 }

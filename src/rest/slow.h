@@ -33,7 +33,7 @@ typedef struct ZpSlow {
   ZpMarch march;
   double closed;   /* gap at which it counts as closed, m */
   void *held;      /* a state to return to */
-  bool was_closed; /* at the limit point from which it falls */
+  bool was_closed; /* when the slow change began */
 } ZpSlow;
 
 typedef enum ZpSlowEnd {
@@ -41,6 +41,7 @@ typedef enum ZpSlowEnd {
   ZP_SLOW_CHANGED, /* it has closed or opened */
   ZP_SLOW_BEYOND,  /* a limit point is further than was asked */
   ZP_SLOW_LOST,
+  ZP_SLOW_IMPOSSIBLE, /* still closed, in a state that cannot be */
   ZP_SLOW_STOPPED
 } ZpSlowEnd;
 
@@ -85,8 +86,8 @@ ZpMarchEnd zp_slow_first(ZpSlow *slow, double top, ZpLimit *at);
  * not below `enough`, V, from which it does not fall: this limit is `at`. */
 ZpSlowEnd zp_slow_close_at(ZpSlow *slow, double top, double enough, ZpLimit *at);
 
-/* Does the actuator close when it falls from this limit point of the voltage? */
-bool zp_slow_falls_closed(ZpSlow *slow);
+/* Does the actuator close when it falls from this limit point of the voltage, at which it is? */
+bool zp_slow_falls_closed(ZpSlow *slow, const ZpLimit *limit);
 
 /* From the hanging state without voltage, raise the voltage to `top`, V, or until the actuator closes => pull_in, the
  * first limit point that is no ripple of the mesh, and closing. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "actuator/resolution.h"
 #include "base/kernel.h"
 #include "def/check.h"
 #include "def/tolerance.h"
@@ -314,10 +315,12 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
-/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m. */
+/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m, or the edge of
+ * a free end onto the other face. */
 static double pressed_by_load(const ZpModel *model) {
   const ZpFacesParams *faces = &model->faces;
-  return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + 0.5 * faces->l) : 0;
+  double beside = zp_ends_free(&model->topology) ? 0 : 0.5 * faces->l;
+  return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + beside) : 0;
 }
 
 /* The largest overlap that a state may have, m. By (9.1) the attraction at the breakdown of the insulators causes the
@@ -779,12 +782,19 @@ static double fall_length(void *self, const double *step) {
   static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
   const ZpStatics *s = self;
   bool meets = s->model->field && (s->U != 0 || s->contact_acts);
-  return fmax(length(self, step) / longest, meets ? gap_share(s, step) / share : 0);
+  return s->careful * fmax(length(self, step) / longest, meets ? gap_share(s, step) / share : 0);
+}
+
+/* A mesh with few elements on the zip front may hold it between any two nodes, which a long step passes over. */
+static double care(const ZpStatics *s) {
+  static const double few = 3, shorter = 4;
+  return zp_front_length(s->model, s->U) < few * s->model->l ? shorter : 1;
 }
 
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
   enum { MOST = 20000 };
   ZpStaticSystem system = zp_statics_system(s);
+  s->careful = care(s);
   system.length = fall_length;
   return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, work);
 }

@@ -436,7 +436,7 @@ bool zp_together_follow(ZpTogether *all) {
 
 void zp_together_start(ZpTogether *all) {
   for (size_t which = 0; which < all->count; which++)
-    all->closed[which] = zp_closing_limit(member(all, which), zp_statics_opening(member(all, which)));
+    all->closed[which] = zp_closed_opening(member(all, which)->model, zp_statics_opening(member(all, which)));
 }
 
 /* The member whose closing counts => how far it is from closed. */

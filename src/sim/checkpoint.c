@@ -6,6 +6,7 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "def/check.h"
+#include "def/purpose.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
@@ -41,37 +42,8 @@ double zp_checkpoint_time(const ZpCheckpoint *checkpoint) {
 /* -- what it fits ---------------------------------------------------------------------------------- */
 
 bool zp_checkpoint_holds(int index) {
-  static const char *const may_change[] = {"preset",
-                                           "drive.",
-                                           "solver.end_time",
-                                           "solver.tolerance",
-                                           "solver.time_step",
-                                           "setpoint.",
-                                           "control.proportional",
-                                           "control.integral",
-                                           "control.noise",
-                                           "control.seed",
-                                           "control.boost_voltage",
-                                           "control.boost_band",
-                                           "solver.max_steps",
-                                           "solver.max_cpu_time",
-                                           "initial.",
-                                           "data.",
-                                           "calibrate.",
-                                           "modes.",
-                                           "isometric.",
-                                           "profile.",
-                                           "output.",
-                                           "sampling.",
-                                           "optimize."};
-  const char *name = zp_key(index)->name;
   if (zp_key(index)->offset == ZP_NO_FIELD || zp_key_is_material(index)) return false;
-  for (size_t k = 0; k < sizeof may_change / sizeof may_change[0]; k++) {
-    size_t length = strlen(may_change[k]);
-    bool group = may_change[k][length - 1] == '.';
-    if (group ? strncmp(name, may_change[k], length) == 0 : strcmp(name, may_change[k]) == 0) return false;
-  }
-  return true;
+  return !(zp_key_purposes(index) & ZP_MAY_CHANGE);
 }
 
 static ZpStatus check_time(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {

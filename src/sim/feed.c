@@ -4,7 +4,6 @@
 #include "sim/feed.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "math/elementary.h"
 #include "sim/sim_internal.h"
@@ -55,7 +54,8 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
   const ZpState *state = sim->state;
   double V = state->supply.voltage, rate = zp_supply_rate(&sim->model->supply, &command, state->t, state->supply);
   double inner = zp_ramp_resolution(fmax(least, fabs(V)), rate);
-  return fmin(inner, zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate));
+  double outer = zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate);
+  return fmax(fmin(inner, outer), instant); /* the last step's rate may be that of a jump */
 }
 
 /* -- the law of the current ------------------------------------------------------------------------ */
@@ -64,40 +64,50 @@ double zp_feed_cable_energy(const ZpSim *sim, double U) {
   return 0.5 * sim->model->supply.capacitance * U * U;
 }
 
-/* A cable and a bleeder are parallel to the electrodes: the charge that all take over a step, C, if the voltage ends at
- * U; its derivative by the voltage beside that of the electrodes, F. */
-static double taken_by_all(const ZpSupply *supply, const ZpSourceStep *s, double electrodes, double U) {
-  return electrodes + supply->capacitance * (U - s->U0) + 0.5 * s->h * (s->U0 + U) * supply->conductance;
-}
-
-static double parallel(const ZpSupply *supply, double h) {
-  return supply->capacitance + 0.5 * h * supply->conductance;
-}
-
 /* Share of an error of the voltage that lasts so long, s, in what it does to the motion. */
 static double share_of(double lasts) {
   return fmax(lasts - instant, 0) / (lasts + mechanical);
 }
 
-/* A step behind the resistance R. The voltage V - U over it has the weight `end` at the step's end: a constant
- * capacitance then charges exactly, whatever the step, eq. (23.5). */
+/* A step behind the resistance R and beside the bleeder. The voltages V - U over the one and U over the other have the
+ * weights `end` and `bleeds` at the step's end: a constant capacitance then charges, or discharges, exactly, whatever
+ * the step, eq. (23.5). */
 typedef struct Drop {
   double tau;       /* R C, s */
   double end;       /* theta */
+  double bleeds;    /* that of the bleeder */
   double start, V1; /* V - U at the start; V at the end, V */
 } Drop;
 
+/* Weight of a decay within tau at the end of a step. */
+static double weight_of(double h, double tau) {
+  return zp_decay_weight(tau > 0 ? h / tau : INFINITY);
+}
+
 static Drop drop_over(const ZpSim *sim, const ZpSourceStep *s) {
   const ZpSupply *supply = &sim->model->supply;
-  double tau = supply->resistance * (s->C + supply->capacitance), x = tau > 0 ? s->h / tau : INFINITY;
-  return (Drop){tau, zp_decay_weight(x), sim->state->supply.voltage - s->U0, inner_after(sim, s->h)};
+  double C = s->C + supply->capacitance, tau = supply->resistance * C;
+  double bleeds = supply->conductance > 0 ? weight_of(s->h, C / supply->conductance) : 0.5;
+  return (Drop){tau, weight_of(s->h, tau), bleeds, sim->state->supply.voltage - s->U0, inner_after(sim, s->h)};
+}
+
+/* A cable and a bleeder are parallel to the electrodes: the charge that all take over a step, C, if the voltage ends at
+ * U; its derivative by the voltage beside that of the electrodes, F. */
+static double taken_by_all(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double electrodes,
+                           double U) {
+  double mean = (1 - drop->bleeds) * s->U0 + drop->bleeds * U;
+  return electrodes + supply->capacitance * (U - s->U0) + s->h * mean * supply->conductance;
+}
+
+static double parallel(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
+  return supply->capacitance + drop->bleeds * s->h * supply->conductance;
 }
 
 /* The law without limits of the current: the mean of V - U is R I. As a charge that falls with U1 like that of the
  * electrodes. */
 static ZpSourceLaw follows_voltage(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
-  double R = supply->resistance, beside = parallel(supply, s->h), C = fmax(s->C + beside, least_capacitance);
-  double scale = C / (drop->end + R * C / s->h), taken = taken_by_all(supply, s, s->taken, s->U1);
+  double R = supply->resistance, beside = parallel(supply, s, drop), C = fmax(s->C + beside, least_capacitance);
+  double scale = C / (drop->end + R * C / s->h), taken = taken_by_all(supply, s, drop, s->taken, s->U1);
   double mean = (1 - drop->end) * drop->start + drop->end * (drop->V1 - s->U1);
   return (ZpSourceLaw){.lacks = scale * (mean - R * taken / s->h),
                        .by_voltage = -scale * (drop->end + R * beside / s->h),
@@ -111,45 +121,114 @@ static double behind(const ZpSupply *supply, const Drop *drop, double current) {
   return drop->V1 - (supply->resistance * current - (1 - drop->end) * drop->start) / drop->end;
 }
 
-/* Charge that a current brings over the step less the charge taken at the voltage that it leaves, C. */
-static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
-  double U = behind(supply, drop, current);
-  return s->h * current - taken_by_all(supply, s, s->taken_at(s->electrodes, U), U);
+/* Charge that a current brings over the step less the charge taken if the voltage ends at U, C. */
+static double left_at(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current, double U) {
+  return s->h * current - taken_by_all(supply, s, drop, s->taken_at(s->electrodes, U), U);
 }
 
-/* Does charge that the supply cannot take back raise a voltage without capacitance? The cap, which holds this charge,
- * is a breakdown, so the charge is lost there. */
-static bool is_undecided(const ZpSupply *supply, const ZpSourceStep *s, double current) {
-  double lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1);
-  return current * s->U1 < 0 && lacks * s->U1 > 0 && s->C + parallel(supply, s->h) < undecided;
+/* At the voltage that it leaves. */
+static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
+  return left_at(supply, s, drop, current, behind(supply, drop, current));
+}
+
+/* Faces that the cap holds wholly: whatever the voltage beyond some one, they have the same charge. */
+typedef struct Full {
+  double far;    /* V: a voltage at which faces are full if they ever are, that the current would lower */
+  double charge; /* taken there, C */
+  double apart;  /* from there to the opposite voltage, C */
+} Full;
+
+static Full full_for(const ZpSim *sim, const ZpSourceStep *s, double current) {
+  static const double far = 1e3; /* times the scale */
+  Full full = {.far = -copysign(far * sim->feed.scale, current)};
+  full.charge = s->taken_at(s->electrodes, full.far);
+  full.apart = fabs(full.charge - s->taken_at(s->electrodes, -full.far));
+  return full;
+}
+
+static bool is_full(const ZpSourceStep *s, const Full *full, double U) {
+  static const double rounding = 1e-9;
+  return fabs(full->charge - s->taken_at(s->electrodes, U)) <= rounding * full->apart;
+}
+
+/* Does a current leave charge, or almost, that faces cannot hold? */
+static bool is_too_much(const Full *full, double left) {
+  static const double rounding = 1e-14;
+  return left * copysign(1, full->far) >= -rounding * full->apart;
+}
+
+/* The least voltage at which faces are full: that of the start, or if they are not full there, one beyond. */
+static double full_from(const ZpSourceStep *s, const Full *full) {
+  enum { HALVINGS = 60 };
+  double least = s->U0, most = full->far;
+  if (is_full(s, full, least)) return least;
+  for (int k = 0; k < HALVINGS; k++) {
+    double middle = 0.5 * (least + most);
+    if (is_full(s, full, middle))
+      most = middle;
+    else
+      least = middle;
+  }
+  return most;
+}
+
+/* What acts in a step. */
+typedef struct Limit {
+  ZpFeedMode mode;
+  double current; /* A */
+  double voltage; /* of faces that spill charge, V */
+} Limit;
+
+/* A current at its limit. The charge that faces can hold at most may fall faster, as they move, than the current takes
+ * it. Without a capacitance beside them this charge would raise any voltage. So the breakdown takes it and the voltage
+ * stays; or it follows, if faces are full at the voltage that follows, too. */
+static Limit limit_of(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop, double current, ZpFeedMode mode) {
+  const ZpSupply *supply = &sim->model->supply;
+  Limit limit = {.mode = mode, .current = current};
+  if (supply->capacitance >= undecided) return limit;
+  Full full = full_for(sim, s, current);
+  if (!is_too_much(&full, s->h * current - full.charge)) return limit;
+  limit.voltage = full_from(s, &full);
+  if (!is_too_much(&full, left_at(supply, s, drop, current, limit.voltage))) return limit;
+  limit.mode = is_full(s, &full, behind(supply, drop, current)) ? ZP_FEED_FREE : ZP_FEED_SPILLS;
+  return limit;
 }
 
 /* Charges grow with the voltage. So the current is the largest if the electrodes take more at the voltage that it
  * leaves, and the smallest if they take less; otherwise the voltage follows, eq. (23.3). */
-static ZpFeedMode mode_of(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
+static Limit limit_over(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop) {
+  const ZpSupply *supply = &sim->model->supply;
   if (isfinite(supply->most) && left_by(supply, s, drop, supply->most) < 0)
-    return is_undecided(supply, s, supply->most) ? ZP_FEED_FREE : ZP_FEED_GIVES_MOST;
+    return limit_of(sim, s, drop, supply->most, ZP_FEED_GIVES_MOST);
   if (isfinite(supply->sinks) && left_by(supply, s, drop, -supply->sinks) > 0)
-    return is_undecided(supply, s, -supply->sinks) ? ZP_FEED_FREE : ZP_FEED_SINKS_MOST;
-  return ZP_FEED_FREE;
+    return limit_of(sim, s, drop, -supply->sinks, ZP_FEED_SINKS_MOST);
+  return (Limit){.mode = ZP_FEED_FREE};
 }
 
 /* The charge is exact: errors are those of the voltage's path within the step. */
 static ZpSourceLaw has_current(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
-  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(supply, s, s->taken, s->U1),
-                       .by_voltage = -parallel(supply, s->h),
+  return (ZpSourceLaw){.lacks = s->h * current - taken_by_all(supply, s, drop, s->taken, s->U1),
+                       .by_voltage = -parallel(supply, s, drop),
                        .by_taken = -1,
                        .bound = behind(supply, drop, current),
                        .resolved = share_of(s->h)};
+}
+
+/* As a charge, too. */
+static ZpSourceLaw has_voltage(const ZpSourceStep *s, double voltage) {
+  double C = fmax(s->C, least_capacitance);
+  return (ZpSourceLaw){.lacks = C * (voltage - s->U1), .by_voltage = -C, .bound = NAN, .resolved = share_of(s->h)};
 }
 
 static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
   ZpSim *sim = (ZpSim *)self;
   const ZpSupply *supply = &sim->model->supply;
   Drop drop = drop_over(sim, s);
-  sim->feed.mode = mode_of(supply, s, &drop);
-  if (sim->feed.mode == ZP_FEED_GIVES_MOST) return has_current(supply, s, &drop, supply->most);
-  if (sim->feed.mode == ZP_FEED_SINKS_MOST) return has_current(supply, s, &drop, -supply->sinks);
+  Limit limit = limit_over(sim, s, &drop);
+  sim->feed.mode = limit.mode;
+  sim->feed.bleeds = drop.bleeds;
+  if (limit.mode == ZP_FEED_SPILLS) return has_voltage(s, limit.voltage);
+  if (limit.mode != ZP_FEED_FREE) return has_current(supply, s, &drop, limit.current);
   ZpSourceLaw follows = follows_voltage(supply, s, &drop);
   bool corner = sim->state->supply_mode != ZP_FEED_FREE; /* where a limit ends */
   if (corner) follows.resolved = fmax(follows.resolved, share_of(s->h));
@@ -195,12 +274,20 @@ static void jump(ZpSim *sim, double V) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);
 }
 
+/* Mean voltage at the bleeder over the last step, V. */
+static double at_bleeder(const ZpSim *sim) {
+  return sim->before->U + sim->feed.bleeds * (sim->state->U - sim->before->U);
+}
+
 /* Charge that the supply has delivered over the last step, C. */
 static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
+  const ZpSupply *supply = &sim->model->supply;
+  double h = state->t - before->t;
   double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
-  double bled = (state->t - before->t) * sim->model->supply.conductance * 0.5 * (before->U + state->U);
-  return taken + sim->model->supply.capacitance * (state->U - before->U) + bled;
+  double bled = h * supply->conductance * at_bleeder(sim);
+  double given = taken + supply->capacitance * (state->U - before->U) + bled;
+  return state->supply_mode == ZP_FEED_SPILLS ? fmin(fmax(given, -supply->sinks * h), supply->most * h) : given;
 }
 
 void zp_feed_note_current(ZpSim *sim, double current, double h) {
@@ -235,7 +322,7 @@ static void book(ZpSim *sim) {
   const ZpDynamics *d = &sim->dynamics;
   const double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
   double electrodes = sim->model->parts * (given(state, d->charge1) - given(before, d->charge0));
-  double bled = h * sim->model->supply.conductance * U * U;
+  double bled = h * sim->model->supply.conductance * at_bleeder(sim) * at_bleeder(sim);
   double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
   bool ideal = state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance == 0;
   double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
@@ -267,10 +354,6 @@ void zp_feed_arrive(ZpSim *sim) {
   if (supply->resistance * capacitance_now(sim) < instant) jump(sim, state->supply.voltage);
 }
 
-void zp_feed_begin(ZpSim *sim) {
-  memcpy(sim->before, sim->state, zp_state_size(sim->model));
-}
-
 void zp_feed_end(ZpSim *sim) {
   sim->state->supply = followed(sim, sim->before, sim->state->t);
   sim->state->supply_mode = sim->feed.mode;
@@ -284,7 +367,6 @@ bool zp_feed_step(ZpSim *sim, double latest) {
     state->t = latest;
     return true;
   }
-  zp_feed_begin(sim);
   if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return false;
   zp_feed_end(sim);
   return true;

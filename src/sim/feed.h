@@ -7,7 +7,12 @@
 #include "term/source.h"
 
 /* Which limit of the supply acts. */
-typedef enum ZpFeedMode { ZP_FEED_FREE, ZP_FEED_GIVES_MOST, ZP_FEED_SINKS_MOST } ZpFeedMode;
+typedef enum ZpFeedMode {
+  ZP_FEED_FREE,
+  ZP_FEED_GIVES_MOST,
+  ZP_FEED_SINKS_MOST,
+  ZP_FEED_SPILLS /* capped faces have to give more charge than the limit takes: the breakdown takes the rest */
+} ZpFeedMode;
 
 /* Currents of a step that may be the largest one. */
 typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT_END, ZP_FEED_CURRENTS } ZpFeedCurrent;
@@ -15,7 +20,8 @@ typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT
 typedef struct ZpFeed {
   ZpSource source;     /* what the dynamics ask */
   double scale;        /* V */
-  ZpFeedMode mode;     /* of the step at the last residual */
+  ZpFeedMode mode;     /* of the step at the last residual, */
+  double bleeds;       /* and the weight of the voltage at its end in that at the bleeder */
   double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
   double current[ZP_FEED_CURRENTS]; /* of the last step, A */
   int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
@@ -39,11 +45,10 @@ double zp_feed_event(const ZpSim *sim, double latest);
 /* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
 double zp_feed_resolution(const ZpSim *sim, double least);
 
-/* One step that ends at `latest` or before. False if none was found. */
+/* One step that ends at `latest` or before. False if none was found. Its start is in sim->before. */
 bool zp_feed_step(ZpSim *sim, double latest);
 
-/* Before and after a step of the dynamics that is found otherwise, without a limit in it. */
-void zp_feed_begin(ZpSim *sim);
+/* After a step of the dynamics that is found otherwise, without a limit in it. */
 void zp_feed_end(ZpSim *sim);
 
 /* A mean current has flowed for a time h behind an ideal source. */

@@ -112,12 +112,21 @@ static double corner_of(ZpSim *sim, double end_time) {
   return fmin(zp_sim_next_corner(sim), end_time);
 }
 
+/* Under a given voltage, exactly that one: a rounding would be a jump, at which the account is closed. The neighbours'
+ * accounts close where the run's does. */
+static void set_voltage(const ZpSim *sim, ZpSim *near) {
+  if (zp_sim_is_fed(sim)) return;
+  near->state->U = zp_waveform_voltage(&near->model->waveform, near->state->t);
+  if (sim->state->U == sim->state->base_U) near->state->base_U = near->state->U;
+}
+
 static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_corner, double end_time) {
   const ZpSim *sim = rates->sim;
   ZpSim *near = of->near[k];
   double t = time_of(rates, of, k, sim->state->t);
   zp_state_along(sim->model, sim->state, of->rate, of->by.offset[k], near->state);
   near->state->t = t;
+  set_voltage(sim, near);
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
   if (zp_sim_is_fed(near)) zp_feed_arrive(near);
   memcpy(near->before, near->state, zp_state_size(near->model));
@@ -147,12 +156,12 @@ static void lose(const ZpRunRates *rates, ZpKeyRates *of, const char *cause) {
   of->cause = cause;
 }
 
-/* Has the bead filled a station in this step that it did not fill in the step before, or the reverse? */
+/* Has the bead covered a station in this step that it did not cover in the step before, or the reverse? */
 static bool meniscus_passes(ZpRunRates *rates) {
   const ZpDynamics *d = &rates->sim->dynamics;
   bool passes = false;
   for (size_t i = 1; i < d->model->nodes && d->model->has_bead; i++) {
-    bool wet = zp_film_fills(&d->model->film, &d->eval.film, i);
+    bool wet = zp_film_covers(&d->model->film, &d->eval.film, i);
     passes |= wet != rates->wet[i] && rates->before->t > 0;
     rates->wet[i] = wet;
   }
@@ -193,7 +202,6 @@ static bool move(ZpRunRates *rates, ZpKeyRates *of) {
     double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
     if (!zp_sim_prepare(near)) return false;
-    if (zp_sim_is_fed(near)) zp_feed_begin(near);
     zp_dynamics_begin(d, near->states, latest);
     steps.near[steps.count++] =
         (ZpNearStep){&d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
@@ -309,8 +317,7 @@ static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
 static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   bool moves = sim->dynamics.stepper.counts.steps > rates->taken, lands = sim->landing != ZP_LANDS_NOWHERE;
-  bool rests = sim->stop == ZP_STOP_HELD && zp_sim_stops(sim, sim->stop); /* as much later as it has closed later */
-  of->late = rests ? of->rate->closed_from : 0;
+  of->late = 0;
   if (lands ? !follow_landing(rates, of) : !follow_step(rates, of, moves)) return false;
   if (moves && zp_sim_is_fed(sim)) follow_currents(rates, of);
   return true;

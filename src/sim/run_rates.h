@@ -34,7 +34,7 @@ typedef struct ZpRunRates {
   ZpState *before; /* the run's state where the step under way begins */
   int64_t taken;   /* its steps until then */
   double from, to; /* its last corner and its next one, s */
-  bool *wet;       /* [N] stations that the liquid of a bead fills */
+  bool *wet;       /* [N] stations that the liquid of a bead covers */
   double *work;    /* [6 n] */
   double *motion;  /* [n] */
 } ZpRunRates;

@@ -13,6 +13,7 @@
 #include "sim/run_rates.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
+#include "sim/still.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
@@ -337,18 +338,12 @@ static double opening(const ZpModel *model, const ZpState *state) {
   return zp_opening(&model->topology, zp_state_motion(model, state).y);
 }
 
-/* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or where faces touch if that is
- * more. */
-static double closed_opening(const ZpModel *model, const ZpState *state) {
-  return fmax(ZP_CLOSED_PART * state->opening0, model->faces.range);
-}
-
 static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > closed_opening(model, state);
+  return opening(model, state) > zp_closed_opening(model, state->opening0);
 }
 
 static bool started_open(const ZpSim *sim) {
-  return sim->step_start.opening > closed_opening(sim->model, sim->state);
+  return sim->step_start.opening > zp_closed_opening(sim->model, sim->state->opening0);
 }
 
 /* Is it closed, after it was open? An actuator that starts closed, as straight ribbons do, has to open first. */
@@ -367,16 +362,19 @@ static bool has_closed(const ZpModel *model, const ZpState *state) {
   return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
 }
 
-/* When it will have hardly moved for a while, s, if it goes on so; INFINITY: it is open. */
-static double due_to_rest(const ZpState *state) {
-  static const double while_still = 0.1; /* s */
-  return isnan(state->closed_from) ? INFINITY : state->still.from + while_still;
+/* What is left until it has stayed closed, and hardly moved, for a while, as a distance, m; INFINITY: it is open. */
+static double left_to_rest(const ZpState *state) {
+  static const double at_rest = 1e-4; /* of the contraction */
+  const double least = at_rest * state->opening0, due = state->closed_from + ZP_STILL_TIME;
+  if (isnan(state->closed_from)) return INFINITY;
+  double range = zp_still_range(&state->still, state->closed_from, state->t);
+  return fmax(range - least, least * (due - state->t) / ZP_STILL_TIME);
 }
 
-/* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
+/* Is nothing left? Sequential contact never opens, so there closing is enough. */
 static bool stays_closed(const ZpModel *model, const ZpState *state) {
   if (model->def.contact.model == ZP_CONTACT_SEQUENTIAL) return has_closed(model, state);
-  return state->t >= due_to_rest(state);
+  return left_to_rest(state) <= 0;
 }
 
 /* A series has closed when all its members have; antagonists have when one has. */
@@ -404,7 +402,7 @@ bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
 /* Distance of bare electrodes from a touch, m; INFINITY where none matters. */
 static double left_to_short(const ZpModel *model, const ZpState *state) {
   if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return INFINITY;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.range;
+  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.depth;
 }
 
 /* Do electrodes without an insulator touch under a voltage? */
@@ -426,7 +424,8 @@ static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
 /* When the actuator closes: on the parabola of the midpoint rule, which has the opening and its rate at the start and
  * the opening at the end. */
 static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - closed_opening(model, state), taken = state->t - start.t;
+  double now = opening(model, state), left = start.opening - zp_closed_opening(model, state->opening0),
+         taken = state->t - start.t;
   double bend = ((now - start.opening) / taken - start.rate) / taken;
   return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
 }
@@ -437,16 +436,7 @@ double zp_sim_crossing(const ZpSim *sim) {
 
 /* Was that instant within the last step? */
 static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  return start.opening > closed_opening(model, state) && !is_open(model, state);
-}
-
-/* Has the opening left the bounds within which it counts as still? Then new ones begin here. */
-static void note_still(ZpState *state, double opening) {
-  static const double range = 1e-4; /* of the contraction */
-  ZpStill *still = &state->still;
-  still->least = fmin(still->least, opening);
-  still->most = fmax(still->most, opening);
-  if (still->most - still->least >= range * state->opening0) *still = (ZpStill){state->t, opening, opening};
+  return start.opening > zp_closed_opening(model, state->opening0) && !is_open(model, state);
 }
 
 /* Has the last step closed the actuator, or opened it again? */
@@ -460,9 +450,14 @@ static void note_closing(ZpSim *sim) {
   double since = within ? zp_sim_crossing(sim) : state->t;
   if (zipped && isnan(state->zip_time) && state->U != 0) state->zip_time = since;
   if (!zipped || isnan(state->zip_time)) return;
-  double now = opening(model, state);
-  if (begins) state->closed_from = since, state->still = (ZpStill){state->t, now, now};
-  note_still(state, now);
+  const ZpOpeningAt now = {state->t, opening(model, state)};
+  ZpOpeningAt start = {sim->step_start.t, sim->step_start.opening};
+  if (begins) {
+    start = within ? (ZpOpeningAt){since, zp_closed_opening(model, state->opening0)} : now;
+    state->closed_from = since;
+    zp_still_begin(&state->still, start.opening);
+  }
+  zp_still_follow(&state->still, state->closed_from, start, now);
 }
 
 /* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the
@@ -507,18 +502,23 @@ void zp_sim_arrive(ZpSim *sim) {
 /* -- where a run ends within a step --------------------------------------------------------------- */
 
 static double left_to_close(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) - closed_opening(model, state);
+  return opening(model, state) - zp_closed_opening(model, state->opening0);
+}
+
+static double left_of(const ZpSim *m, ZpLanding landing) {
+  if (landing == ZP_LANDS_SHORTED) return left_to_short(m->model, m->state);
+  if (landing == ZP_LANDS_RESTED) return left_to_rest(m->state);
+  return left_to_close(m->model, m->state);
 }
 
 double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
-  const bool shorts = landing == ZP_LANDS_SHORTED, first = shorts || zp_is_opposed(sim->model);
+  const bool first = landing == ZP_LANDS_SHORTED || zp_is_opposed(sim->model);
   double left = first ? INFINITY : -INFINITY;
   for (const ZpSim *m = sim; m; m = m->below) {
-    double own = shorts ? left_to_short(m->model, m->state) : left_to_close(m->model, m->state);
     if (first)
-      left = fmin(left, own);
-    else if (isnan(m->before->zip_time)) /* members that have closed before may have opened again */
-      left = fmax(left, own);
+      left = fmin(left, left_of(m, landing));
+    else if (landing == ZP_LANDS_RESTED || isnan(m->before->zip_time)) /* after closing it may have opened again */
+      left = fmax(left, left_of(m, landing));
   }
   return left;
 }
@@ -526,8 +526,10 @@ double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
 /* The instant within the last step at which the run ends. Where pairs join one by one it is the step's end. */
 static ZpLanding landing_of(const ZpSim *sim) {
   if (shorted(sim)) return ZP_LANDS_SHORTED;
-  bool closes = sim->stop == ZP_STOP_CLOSED && zp_sim_stops(sim, sim->stop);
-  return closes && sim->model->def.contact.complete_margin == 0 ? ZP_LANDS_CLOSED : ZP_LANDS_NOWHERE;
+  if (!zp_sim_stops(sim, sim->stop)) return ZP_LANDS_NOWHERE;
+  const ZpActuatorDef *def = &sim->model->def;
+  if (sim->stop == ZP_STOP_CLOSED) return def->contact.complete_margin == 0 ? ZP_LANDS_CLOSED : ZP_LANDS_NOWHERE;
+  return def->contact.model == ZP_CONTACT_SEQUENTIAL ? ZP_LANDS_NOWHERE : ZP_LANDS_RESTED;
 }
 
 static void return_to_start(ZpSim *sim, const ZpFeed *feed) {
@@ -587,7 +589,6 @@ static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
   if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
   double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
   const bool fine = sim->stepping->fine;
-  if (!fine && sim->stop == ZP_STOP_HELD) latest = fmin(latest, time_of(sim, due_to_rest));
   if (!fine) latest = fmin(latest, state->t + resolution(sim));
   if (zp_sim_is_fed(sim)) {
     corner = fmin(corner, zp_feed_event(sim, latest));

@@ -63,9 +63,6 @@ const ZpStepping *zp_stepping_of(const ZpModel *model);
  * implicit steps; from now on it determines the voltage. False if there is no memory. */
 bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 
-/* An actuator is closed below this part of its hanging opening. */
-#define ZP_CLOSED_PART 0.01
-
 /* Arrays for the liquid of all members, in the uppermost simulation. */
 typedef struct ZpLiquidRoom {
   double *thickness, *pressure; /* [members nodes] */
@@ -86,7 +83,7 @@ typedef enum ZpStop {
 } ZpStop;
 
 /* Instants within a step at which a run ends. */
-typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_SHORTED } ZpLanding;
+typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_RESTED, ZP_LANDS_SHORTED } ZpLanding;
 
 struct ZpSim {
   const ZpModel *model;

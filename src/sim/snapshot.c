@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 8
+ *   8 .. 11         version of the format, 9
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -34,14 +34,21 @@
 #include "def/check.h"
 #include "sim/feed.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 8, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 9, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
 /* -- the numbers of a state ------------------------------------------------------------------------ */
 
 typedef enum Kind {
-  REAL,
+  REAL,    /* finite, as all the following reals unless another is said */
+  VOLTAGE, /* within what electrodes can have */
+  RATE,    /* of such a voltage */
+  INPUT,   /* what a program may set, or its rate */
+  READING, /* NAN: none yet */
+  PAST,    /* an instant not after the present; NAN: not yet */
+  UNTIL,   /* an instant; INFINITY: for ever */
+  STEP,    /* of time, s; 0: none */
   FLAG,
   NODE,  /* a number of one, in a size_t */
   MODE,  /* a ZpFeedMode, in a size_t */
@@ -56,21 +63,36 @@ typedef struct Number {
 
 #define NUMBER(kind, name)                                                                                             \
   { #name, kind, offsetof(ZpState, name) }
+#define BOUNDS(cell) NUMBER(REAL, still.least[cell]), NUMBER(REAL, still.most[cell])
 static const Number number[] = {NUMBER(REAL, t),
-                                NUMBER(REAL, U),
+                                NUMBER(VOLTAGE, U),
                                 NUMBER(FLAG, by_hand),
                                 NUMBER(NODE, zip.front),
                                 NUMBER(FLAG, zip.platform),
                                 NUMBER(FLAG, was_open),
                                 NUMBER(FLAG, load_changed),
                                 NUMBER(MODE, supply_mode),
-                                NUMBER(REAL, zip_time),
-                                NUMBER(REAL, closed_from),
-                                NUMBER(REAL, still.from),
-                                NUMBER(REAL, still.least),
-                                NUMBER(REAL, still.most),
+                                NUMBER(PAST, zip_time),
+                                NUMBER(PAST, closed_from),
+                                BOUNDS(0),
+                                BOUNDS(1),
+                                BOUNDS(2),
+                                BOUNDS(3),
+                                BOUNDS(4),
+                                BOUNDS(5),
+                                BOUNDS(6),
+                                BOUNDS(7),
+                                BOUNDS(8),
+                                BOUNDS(9),
+                                BOUNDS(10),
+                                BOUNDS(11),
+                                BOUNDS(12),
+                                BOUNDS(13),
+                                BOUNDS(14),
+                                BOUNDS(15),
+                                BOUNDS(16),
                                 NUMBER(REAL, opening0),
-                                NUMBER(REAL, base_U),
+                                NUMBER(VOLTAGE, base_U),
                                 NUMBER(REAL, base_charge),
                                 NUMBER(REAL, base_energy),
                                 NUMBER(REAL, base_field),
@@ -101,35 +123,35 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, bead[1].lost),
                                 NUMBER(REAL, bead[1].supply),
                                 NUMBER(REAL, link_force),
-                                NUMBER(REAL, starved_time),
-                                NUMBER(REAL, last_step),
-                                NUMBER(REAL, next_step),
-                                NUMBER(REAL, refreshed),
-                                NUMBER(REAL, held_U),
+                                NUMBER(PAST, starved_time),
+                                NUMBER(STEP, last_step),
+                                NUMBER(STEP, next_step),
+                                NUMBER(PAST, refreshed),
+                                NUMBER(VOLTAGE, held_U),
                                 NUMBER(REAL, held_energy),
                                 NUMBER(REAL, held_charge),
                                 NUMBER(REAL, held_capacitance),
-                                NUMBER(REAL, supply.lagged),
-                                NUMBER(REAL, supply.voltage),
+                                NUMBER(VOLTAGE, supply.lagged),
+                                NUMBER(VOLTAGE, supply.voltage),
                                 NUMBER(REAL, source_charge),
                                 NUMBER(REAL, source_energy),
                                 NUMBER(REAL, source_loss),
                                 NUMBER(REAL, bleeder_loss),
-                                NUMBER(REAL, U_rate),
+                                NUMBER(RATE, U_rate),
                                 NUMBER(REAL, U_change),
-                                NUMBER(REAL, voltage_input.value),
-                                NUMBER(REAL, voltage_input.rate),
+                                NUMBER(VOLTAGE, voltage_input.value),
+                                NUMBER(INPUT, voltage_input.rate),
                                 NUMBER(REAL, voltage_input.since),
-                                NUMBER(REAL, voltage_input.until),
-                                NUMBER(REAL, load_input.value),
-                                NUMBER(REAL, load_input.rate),
+                                NUMBER(UNTIL, voltage_input.until),
+                                NUMBER(INPUT, load_input.value),
+                                NUMBER(INPUT, load_input.rate),
                                 NUMBER(REAL, load_input.since),
-                                NUMBER(REAL, load_input.until),
+                                NUMBER(UNTIL, load_input.until),
                                 NUMBER(REAL, load_work),
                                 NUMBER(SAMPLE, control.taken),
                                 NUMBER(SAMPLE, control.given),
                                 NUMBER(REAL, control.integral),
-                                NUMBER(REAL, control.measured),
+                                NUMBER(READING, control.measured),
                                 NUMBER(REAL, control.pending[0]),
                                 NUMBER(REAL, control.pending[1]),
                                 NUMBER(REAL, control.pending[2]),
@@ -140,16 +162,17 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, control.pending[7]),
                                 NUMBER(REAL, control.pending[8]),
                                 NUMBER(FLAG, setpoint_by_hand),
-                                NUMBER(REAL, setpoint_input.value),
-                                NUMBER(REAL, setpoint_input.rate),
+                                NUMBER(INPUT, setpoint_input.value),
+                                NUMBER(INPUT, setpoint_input.rate),
                                 NUMBER(REAL, setpoint_input.since),
-                                NUMBER(REAL, setpoint_input.until)};
+                                NUMBER(UNTIL, setpoint_input.until)};
+#undef BOUNDS
 #undef NUMBER
 
 static const char *const array[] = {"position",      "velocity",    "held force", "held at",
                                     "mean velocity", "mean accel.", "laws"};
 
-enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0, VOLTAGE = 1 };
+enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0 };
 
 _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == NUMBERS * sizeof(double), "a snapshot holds all of a state");
 
@@ -160,6 +183,11 @@ static size_t length_of(const ZpModel *model, size_t k) {
 
 static bool is_size(size_t k) {
   return number[k].kind == NODE || number[k].kind == MODE;
+}
+
+/* Does the number change in proportion where the state changes a little? */
+static bool is_real(size_t k) {
+  return number[k].kind < FLAG;
 }
 
 static double number_of(const ZpState *state, size_t k) {
@@ -189,7 +217,7 @@ static size_t data_of(const ZpModel *model) {
 void zp_state_along(const ZpModel *model, const ZpState *at, const ZpState *rate, double offset, ZpState *near) {
   memcpy(near, at, zp_state_size(model));
   for (size_t k = 0; k < NUMBERS; k++)
-    if (number[k].kind == REAL) set_number(near, k, number_of(at, k) + offset * number_of(rate, k));
+    if (is_real(k)) set_number(near, k, number_of(at, k) + offset * number_of(rate, k));
   for (size_t i = 0; i < data_of(model); i++)
     near->data[i] = at->data[i] + offset * rate->data[i];
 }
@@ -200,8 +228,7 @@ static double beyond(double near, double at) {
 
 void zp_state_add_rate(const ZpModel *model, const ZpState *at, const ZpState *near, double weight, ZpState *rate) {
   for (size_t k = 0; k < NUMBERS; k++)
-    if (number[k].kind == REAL)
-      set_number(rate, k, number_of(rate, k) + weight * beyond(number_of(near, k), number_of(at, k)));
+    if (is_real(k)) set_number(rate, k, number_of(rate, k) + weight * beyond(number_of(near, k), number_of(at, k)));
   for (size_t i = 0; i < data_of(model); i++)
     rate->data[i] += weight * beyond(near->data[i], at->data[i]);
 }
@@ -495,17 +522,41 @@ static ZpStatus check_keys(const Parts *parts, const ZpActuatorDef *def, ZpError
   return all ? ZP_OK : fail_version(&parts->program, "keys", err);
 }
 
-/* Can item k be this number? Others would index beyond arrays, or no run has them. */
-static bool is_possible(size_t k, double value, const ZpActuatorDef *def) {
+/* A charge that is kept while its faces part raises the voltage of a drive by the capacitances' ratio. */
+static bool is_voltage(double value, double per_time) {
+  static const double raised = 1e3;
+  return fabs(value) <= raised * zp_key(zp_key_find("drive.voltage"))->max * per_time;
+}
+
+/* Can item k be this number, in a state of time t? Others would index beyond arrays, stop the clock, or no run has
+ * them. */
+static bool is_possible(size_t k, double value, double t, const ZpActuatorDef *def) {
+  static const double most_input = 1e15;                 /* SI: larger than every range of an input and its rate */
+  static const double rounding = 1e-9, shortest = 1e-10; /* s: in shorter steps only time advances */
   switch (number[k].kind) {
   case FLAG:
     return value == 0 || value == 1;
   case NODE:
     return value >= 0 && value < def->mesh.nodes && value == floor(value);
   case MODE:
-    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST;
+    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST ||
+           value == ZP_FEED_SPILLS;
+  case VOLTAGE:
+    return is_voltage(value, 1);
+  case RATE:
+    return is_voltage(value, 1 / shortest);
+  case INPUT:
+    return fabs(value) <= most_input;
+  case READING:
+    return !isinf(value);
+  case PAST:
+    return isnan(value) || (value >= 0 && value <= t * (1 + rounding));
+  case UNTIL:
+    return !isnan(value);
+  case STEP:
+    return value >= 0 && isfinite(value);
   default:
-    return k > VOLTAGE || (isfinite(value) && (k != TIME || value >= 0));
+    return isfinite(value) && (k != TIME || value >= 0);
   }
 }
 
@@ -516,13 +567,11 @@ static double value_of(const Parts *parts, const char *name) {
   return real_at(parts->number.item, k);
 }
 
-/* Are all numbers possible, and have a controller's samples and outputs come in time? */
-static bool is_sound(const Parts *parts, const ZpActuatorDef *def) {
+static ZpStatus check_control(const Parts *parts, const ZpActuatorDef *def, ZpError *err) {
   const ZpControl control = zp_control_of(def);
   const ZpControlState samples = {.taken = value_of(parts, "control.taken"), .given = value_of(parts, "control.given")};
-  for (size_t k = 0; k < NUMBERS; k++)
-    if (!is_possible(k, real_at(parts->number.item, k), def)) return false;
-  return zp_control_fits(&control, real_at(parts->number.item, TIME), &samples);
+  bool fits = zp_control_fits(&control, value_of(parts, "t"), &samples);
+  return fits ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "samples of its controller do not fit its time");
 }
 
 static ZpStatus check_numbers(const Parts *parts, const ZpActuatorDef *def, ZpError *err) {
@@ -531,7 +580,12 @@ static ZpStatus check_numbers(const Parts *parts, const ZpActuatorDef *def, ZpEr
   for (size_t k = 0; k < NUMBERS; k++)
     if (!take_line(&text, line) || strcmp(line, number[k].name) != 0)
       return fail_version(&parts->program, "numbers", err);
-  return is_sound(parts, def) ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator");
+  for (size_t k = 0; k < NUMBERS; k++) {
+    const double value = real_at(parts->number.item, k);
+    if (!is_possible(k, value, value_of(parts, "t"), def))
+      return zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator: %s = %g", number[k].name, value);
+  }
+  return check_control(parts, def, err);
 }
 
 static ZpStatus take_fitting(const ZpActuatorDef *def, const void *bytes, size_t size, Parts *parts, ZpError *err) {

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "ribbon/rod_plastic.h"
 #include "sim/sim_internal.h"
 
 /* Ends, halves and platforms of the same kinds? */
@@ -41,19 +40,42 @@ static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   return ZP_OK;
 }
 
+/* Kinds of the laws' own numbers, in their order in a state: heads and flows of the film, what it keeps between steps,
+ * interface voltages, plastic strains. */
+enum { KINDS = 4 };
+
+/* Where each of them begins, and the last one ends. */
+static void find_kinds(const ZpModel *model, size_t at[KINDS + 1]) {
+  const size_t own = zp_own_unknowns(model);
+  const size_t from[] = {0, own, own + model->leak_at, own + model->plastic_at, own + model->kept};
+  memcpy(at, from, sizeof from);
+}
+
+/* A kind that both models have goes on; one that comes begins at 0: a liquid at rest, faces without charge, a strip
+ * that has not yielded. */
+static void take_own(ZpSim *sim, const ZpSim *from) {
+  size_t at[KINDS + 1], known[KINDS + 1];
+  double *to = zp_state_own(sim->model, sim->state);
+  const double *old = zp_state_own(from->model, from->state);
+  find_kinds(sim->model, at);
+  find_kinds(from->model, known);
+  for (int k = 0; k < KINDS; k++) {
+    const size_t count = at[k + 1] - at[k];
+    if (count == known[k + 1] - known[k])
+      memcpy(to + at[k], old + known[k], count * sizeof *to);
+    else
+      memset(to + at[k], 0, count * sizeof *to);
+  }
+}
+
 /* The state of one member, scaled to its length. */
 static void take_state(ZpSim *sim, const ZpSim *from) {
-  const ZpModel *model = sim->model, *other = from->model;
+  const ZpModel *model = sim->model;
   ZpState *state = sim->state;
-  double opening0 = state->opening0, stretch = model->L / other->L;
-  size_t size = zp_state_size(model), known = zp_state_size(other);
-  memcpy(state, from->state, size < known ? size : known);
-  if (known < size) memset((char *)state + known, 0, size - known); /* a liquid that comes is at rest */
+  double opening0 = state->opening0, stretch = model->L / from->model->L;
+  memcpy(state, from->state, sizeof *state + (size_t)(zp_state_own(model, state) - state->data) * sizeof(double));
+  take_own(sim, from);
   double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
-  if (model->own != other->own)
-    memset(zp_state_own(model, state), 0, (zp_own_unknowns(model) + model->kept) * sizeof(double));
-  if (model->plastic_at != other->plastic_at || model->kept != other->kept)
-    memset(zp_state_strain(model, state), 0, zp_rod_plastic_count(&model->rod) * sizeof(double));
   zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
     for (size_t j = 0; j < 2 * model->stride; j++)

@@ -183,17 +183,18 @@ static bool step_to(ZpFold *f, const Goal *goal) {
 }
 
 /* Was the last step so small that the point is accurate enough? The change by the next step, extrapolated from the last
- * two, is below the accuracy. For a limit point the last step is the one to where the test function is 0, not to where
- * the stiffness along the null vector, close to 0, is least. For an equilibrium under a given parameter m says nothing:
- * the step itself is small, and its start was in balance. */
+ * two, is below the accuracy; the slower fall counts, of the change or of the test function. For a limit point the last
+ * step is the one to where the test function is 0, not to where the stiffness along the null vector, close to 0, is
+ * least. For an equilibrium under a given parameter m says nothing: the step itself is small, and its start was in
+ * balance. */
 static bool is_there(const ZpFold *f, const Goal *goal, double change_before, double test_before) {
   static const double exact = 1e-9, falls = 0.3, moved = 100, left = 1e-3;
   if (goal->kind == TO_REST) return f->moved < moved && f->left < left && !isinf(change_before);
   if (goal->to == ZP_FOLD_ROUGH) return f->moved < moved && !isinf(change_before);
   double rate = isinf(change_before) ? 1 : fmin(f->change / change_before, 1);
   bool still = f->change < exact && change_before < exact; /* it began there: the rest is rounding */
-  bool fallen = goal->kind != TO_FOLD || still || fabs(f->test) < falls * fabs(test_before);
-  return f->change * rate < exact && fallen;
+  double test_rate = goal->kind != TO_FOLD || still ? 0 : fabs(f->test / test_before);
+  return f->change * fmax(rate, test_rate) < exact && test_rate < falls;
 }
 
 static bool solve(ZpFold *f, Goal goal) {
@@ -224,7 +225,18 @@ bool zp_fold_event(ZpFold *f, ZpEvent event, double value, ZpFoldTo to) {
   return solve(f, (Goal){TO_EVENT, event, value, to});
 }
 
-ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *m) {
+void zp_fold_leave(ZpFold *f, const double *null, ZpEvent event, double change) {
+  const ZpStaticSystem *rest = &f->system->at_rest;
+  rest->residual(rest->self, f->newton->r, NULL); /* a move turns the edges of the last residual */
+  event(rest->self, f->x);
+  double way = change / zp_dot(rest->n, f->x, null);
+  for (size_t i = 0; i < rest->n; i++)
+    f->b[i] = way * null[i];
+  double length = rest->length(rest->self, f->b);
+  rest->move(rest->self, f->b, length > 1 ? 1 / length : 1);
+}
+
+ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *m, double *slope) {
   static const double near = 1e3; /* times the required accuracy: the remaining error is squared */
   const ZpBranchSystem *sys = f->system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -237,6 +249,7 @@ ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *
     f->a[i] += dm * f->along[i];
   bool passes = rest->change(rest->self, f->a) < near;
   *m = sys->get(rest->self) + dm;
+  *slope = 1 / along;
   step(f, passes ? on : 0, passes ? dm + on : dm);
   return passes ? ZP_PASS_ON : ZP_PASS_AGAIN;
 }

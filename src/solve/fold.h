@@ -50,11 +50,15 @@ bool zp_fold_solve(ZpFold *fold);
 /* The same to the equilibrium where `event` has this value; it may pass limit points. */
 bool zp_fold_event(ZpFold *fold, ZpEvent event, double value, ZpFoldTo to);
 
+/* From a limit point at the present point, with this null vector, along it until `event` has changed by `change`. */
+void zp_fold_leave(ZpFold *fold, const double *null, ZpEvent event, double change);
+
 /* Continue along the branch with about one factorisation per point: from close to the equilibrium where `event` has the
- * value `here`, one Newton step to it, with parameter m, and then along the tangent to the value `next`. If the Newton
- * step was too long for this, it ends at `here`, to be tried again. */
+ * value `here`, one Newton step to it, where the parameter is m, with the derivative `slope` by the event's value, and
+ * then along the tangent to the value `next`. If the Newton step was too long for this, it ends at `here`, to be tried
+ * again. */
 typedef enum ZpPass { ZP_PASS_ON, ZP_PASS_AGAIN, ZP_PASS_LOST } ZpPass;
-ZpPass zp_fold_pass(ZpFold *fold, ZpEvent event, double here, double next, double *m);
+ZpPass zp_fold_pass(ZpFold *fold, ZpEvent event, double here, double next, double *m, double *slope);
 
 /* The same to the equilibrium at the present parameter, roughly. */
 bool zp_fold_rest(ZpFold *fold);

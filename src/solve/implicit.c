@@ -9,16 +9,18 @@
 
 static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
-static const double newton_share = 1e-4;   /* of the accuracy: the largest error that the iteration may leave */
-static const double rounding_share = 1e-2; /* the largest if rounding stops it */
+static const double newton_share = 1e-4;   /* of the accuracy: the largest error that the iteration may leave, */
+static const double fast_left = 1e-2, fast_balance = 1e3; /* in a quick run: the same; times the imbalance */
+static const double rounding_share = 1e-2;                /* the largest if rounding stops it */
 static const double fast_share = 0.1; /* of the work that a linear rate foresees: convergence is mostly quadratic, but
                                        * not of a film, whose tangent leaves out convection */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 static const double start_growth = 4, far_below = 1e-3; /* where the error is far below the limit, as at first */
-enum { MOST_ITERATIONS = 16, PATIENCE = 8, EASY = 5, HARD = 8 };
+enum { MOST_ITERATIONS = 16, MOST_CHOICES = 60, PATIENCE = 8, EASY = 5, HARD = 8 };
 
 void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
   s->system = system;
+  s->share = newton_share;
   s->q = zp_carve(carver, system->n);
   s->r = zp_carve(carver, system->n);
   s->x = zp_carve(carver, system->n);
@@ -128,14 +130,22 @@ static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v
   return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
+/* Residual => correction, by the factored Jacobian. */
+static void solve(ZpImplicit *s, double *r) {
+  const ZpImplicitSystem *system = s->system;
+  if (system->turn) system->turn(system->self, r);
+  zp_bordered_solve(&s->A, r);
+  if (system->turn_back) system->turn_back(system->self, r);
+}
+
 /* Has the end been found, if a correction of `size` (in units of the accuracy) followed one of `before`, 0 for the
  * first? Both give an estimate of the remaining distance and imbalance. Far below the accuracy, a distance that no
  * longer shrinks is rounding, but only if energy balances: while faces meet, it shrinks as slowly. */
-static bool is_found(double size, double before, Imbalance imbalance) {
+static bool is_found(const ZpImplicit *s, double size, double before, Imbalance imbalance) {
   if (before == 0) return size == 0;
   double rate = size / before, left = rate < 0.5 ? 2 * rate : 1, foreseen = rate < 0.5 ? fast_share * left : 1;
   if (foreseen * imbalance.work > imbalance.allowed) return false;
-  return left * size < newton_share || (rate > 0.5 && size < rounding_share);
+  return left * size < s->share || (rate > 0.5 && size < rounding_share);
 }
 
 static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
@@ -156,18 +166,20 @@ static void forgive_momentary(ZpImplicit *s, double h) {
 static ZpEnd converge(ZpImplicit *s, double h, const double *q, const double *v, int *iterations) {
   double least = INFINITY, before = 0;
   Imbalance imbalance;
-  for (int k = 0; k < MOST_ITERATIONS; k++) {
+  for (int k = 0, most = MOST_ITERATIONS; k < most; k++) {
     ZpEnd end = linearise(s, h, q, v, &imbalance);
     if (end != ZP_END_FOUND) return end;
-    zp_bordered_solve(&s->A, s->r);
+    solve(s, s->r);
     for (size_t i = 0; i < s->system->n; i++)
       s->q[i] += s->r[i];
     s->counts.iterations++;
     *iterations = k + 1;
+    bool chosen = !s->system->choose || s->system->choose(s->system->self, s->q);
+    if (!chosen) most = k + MOST_ITERATIONS < MOST_CHOICES ? k + MOST_ITERATIONS : MOST_CHOICES;
     forgive_momentary(s, h);
     double size = rms(s->system, s->r, s->system->n) / s->accuracy;
-    if (!isfinite(size) || (k >= PATIENCE && size > least)) return ZP_END_SHORTER;
-    if (is_found(size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;
+    if (!isfinite(size) || (chosen && k >= PATIENCE && size > least)) return ZP_END_SHORTER;
+    if (is_found(s, size, before, imbalance) && is_foreseen(s, imbalance)) return ZP_END_FOUND;
     least = fmin(least, size);
     before = size;
   }
@@ -297,6 +309,11 @@ void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
   smooth(s, h, false, 3, v);
   for (size_t i = 0; i < s->system->n; i++)
     v[i] += w[i];
+}
+
+void zp_implicit_hasten(ZpImplicit *s) {
+  s->share = fast_left;
+  s->balance *= fast_balance;
 }
 
 static void begin(ZpImplicit *s, const double *q, const double *v) {
@@ -487,7 +504,7 @@ static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
   double *left = steps->work, before = INFINITY, rounding = rate_rounding(steps) * s->reach;
   for (int pass = 0; pass < MOST_PASSES; pass++) {
     if (!look(steps, r, left) || (pass == 0 && !factor(&steps->near[0]))) return false;
-    zp_bordered_solve(&s->A, left);
+    solve(s, left);
     correct(steps, r, pass == 0);
     double size = size_of(s->system, left), all = size_of(s->system, r->dq1);
     if (!isfinite(size)) return false;

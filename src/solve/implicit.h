@@ -43,6 +43,10 @@ typedef struct ZpImplicitSystem {
   ZpEnd (*residual)(void *self, const double *y1, double h, double *r);
   /* -dr/dy1 at the last residual, or a cheaper approximation => J. */
   void (*tangent)(void *self, ZpBordered *J);
+  /* The matrix J of `tangent` may be T' (-dr/dy1) T, of unknowns x with changes y = T x, in which it is not nearly
+   * singular: r [n] => T' r before a solution, x [n] => T x after. NULL: T is 1. */
+  void (*turn)(void *self, double *r);
+  void (*turn_back)(void *self, double *x);
   /* Exact -dr/dy1 at the last residual => J, with `bandwidth` diagonals on both sides. May be NULL. */
   void (*exact)(void *self, ZpBordered *J);
   /* f [n] += inertia beyond `mass` times a [n]. NULL: there is none. */
@@ -53,6 +57,9 @@ typedef struct ZpImplicitSystem {
   /* The share of the error (18.9) of first-order unknown i that counts, 0 to 1, at the last residual: less than 1 for
    * what decays within the step, if the equations have this decay exactly. NULL: all. */
   double (*resolved)(void *self, size_t i);
+  /* Called after each correction, which has led to y1: chooses the branches of kinked laws for the next residual. False
+   * while they change one by one, which may take many iterations. May be NULL. */
+  bool (*choose)(void *self, const double *y1);
   /* Called after the last correction has led to y1. Returns |work|, J, of the forces that the last tangent did not
    * predict there: those of contacts that have closed or opened since. An accepted step ends at the last y1 of these
    * calls. May be NULL. */
@@ -75,6 +82,7 @@ typedef struct ZpImplicit {
   const ZpImplicitSystem *system;
   double accuracy; /* required local error, root mean square over all but algebraic unknowns in their scales, m */
   double balance;  /* work that the iteration may leave unbalanced in a step, as a fraction of the energy there */
+  double share;    /* of the accuracy: the error that the iteration may leave */
   double fixed;    /* length of all steps, s; 0: by the local error */
   double energy;   /* at the start of the present step, J */
   double reach;    /* largest unknown of the first part there, in its scale: all are rounded to its last digits */
@@ -87,6 +95,9 @@ typedef struct ZpImplicit {
 
 /* Take the arrays from `carver`. */
 void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCarver *carver);
+
+/* From now on the iteration leaves more of the error and of the energy: for runs of which only times are asked. */
+void zp_implicit_hasten(ZpImplicit *stepper);
 
 /* Take one step of at most `longest`: (q, v, history) at its start => at its end. v and history.a are 0 for algebraic
  * unknowns; v is also 0 for unknowns of first order. Returns its length; 0 if no step succeeded (see `end`), and then

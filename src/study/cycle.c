@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "math/elementary.h"
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
@@ -29,10 +30,9 @@ typedef struct Mark {
 
 /* How large the motion of a cycle is. */
 typedef struct Response {
-  double size, rate; /* half of the range of the opening, m, and of its rate, m/s */
-  double spent,
-      kept;     /* what the source has given in the cycle: energy that was lost, and the rest, which is stored, J */
-  double drawn; /* sum of all that it has given before it took some back, J */
+  double size, rate;  /* half of the range of the opening, m, and of its rate, m/s */
+  double spent, kept; /* energy that the source has given in the cycle: lost, and stored at its end, J */
+  double drawn;       /* all that it has given before it took some back, J */
 } Response;
 
 /* Liquid at the edges of a bead in a cycle, m^3: at its start, least and most. */
@@ -47,7 +47,7 @@ typedef struct Cycles {
   ZpTable *rows;              /* of the last cycle */
   double period;              /* s */
   double highest;             /* size of the command, V */
-  double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with */
+  double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with: */
   double heaviest;            /* the largest mass, kg */
   Response response;          /* of the last cycle */
   Edge edge[ZP_BEADS];        /* likewise */
@@ -56,6 +56,8 @@ typedef struct Cycles {
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
   ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open or closed */
   double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
+  ZpState *way_back;          /* the state at a cycle's end, if the next one starts elsewhere: */
+  bool foreseen;              /* at a fixed point that the search foresees */
   int64_t steps_of[PHASES];   /* in each row of a cycle */
   bool refills;               /* each cycle starts with the same liquid at the edges */
   double frozen_at;           /* size of the response for which cycles have those steps, m; 0: steps are free */
@@ -332,24 +334,38 @@ static void write_state(Cycles *c, const double *x) {
 static bool stays(const Cycles *c) {
   double hanging = c->sim->state->opening0;
   Range opening = range_of(c, "opening_m");
-  return opening.least > 0.1 * hanging || opening.most < fmax(ZP_CLOSED_PART * hanging, c->sim->model->faces.range);
+  return opening.least > 0.1 * hanging || opening.most < zp_closed_opening(c->sim->model, hanging);
 }
 
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
  * next cycle starts at that point. */
 static int shoot(Cycles *c) {
-  static const double farthest = 0.5; /* hanging openings; a farther point is not used */
-  size_t n = 2 * c->model->stride;
-  double ahead = 0, faster = 0;
+  static const double farthest = 0.5; /* of the units of what decides; a farther point is not used */
+  double ahead = 0, other = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
-  for (size_t k = 0; k < n; k++) {
-    ahead = fmax(ahead, fabs(c->next[k] - c->start[k]));
-    faster = fmax(faster, fabs(c->next[n + k] - c->start[n + k]));
+  for (size_t k = 0; k < deciding(c->model); k++) {
+    double *most = k < 2 * c->model->stride ? &ahead : &other;
+    *most = fmax(*most, fabs(c->next[k] - c->start[k]));
   }
   double away = ahead * c->far / size_of_response(c);
   if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
-  if (fmax(ahead, faster) < farthest) write_state(c, c->next);
+  c->foreseen = fmax(ahead, other) < farthest;
+  if (!c->foreseen) return 0;
+  memcpy(c->way_back, c->sim->state, zp_state_size(c->model));
+  write_state(c, c->next);
   return 0;
+}
+
+/* From a state that is none of an actuator, where the search has led, back to where the cycle before has ended. */
+static bool go_back(Cycles *c) {
+  if (!c->foreseen || c->info.outcome != ZP_DIVERGED) return false;
+  memcpy(c->sim->state, c->way_back, zp_state_size(c->model));
+  zp_sim_resume(c->sim);
+  zp_fixed_point_forget(&c->shooting);
+  c->foreseen = false;
+  if (c->frozen_at > 0) c->frozen_at = c->sim->dynamics.stepper.fixed = 0;
+  read_state(c, c->start);
+  return true;
 }
 
 /* Steps that the local error chooses differ a little from cycle to cycle, and the search sees that as noise. From the
@@ -375,6 +391,7 @@ static int look(Cycles *c) {
   bool refills = smooth && c->model->has_bead && 2 * c->done > c->model->def.cycle.most_cycles;
   if (!smooth || refills != c->refills) zp_fixed_point_forget(&c->shooting);
   c->refills = refills;
+  c->foreseen = false;
   int waiting = repeats_in(c), repeats = smooth ? shoot(c) : waiting;
   read_state(c, c->start);
   return repeats;
@@ -394,22 +411,24 @@ static bool leads_nowhere(Cycles *c) {
   return nowhere;
 }
 
-/* Until the motion is periodic, a few times in a row where that takes several cycles. */
-static bool settle(Cycles *c) {
+/* Until the motion is periodic, a few times in a row where that takes several cycles, or until the run ends. */
+static void settle(Cycles *c) {
   read_state(c, c->start);
   c->least[0] = c->least[1] = INFINITY;
   while (c->done < c->model->def.cycle.most_cycles) {
-    if (!run_cycle(c)) return false;
+    if (!run_cycle(c)) {
+      if (go_back(c)) continue;
+      return;
+    }
     take_mark(c);
     c->response = response_of(c);
     int repeats = look(c);
     c->alike = repeats > 0 && repeats == c->repeats ? c->alike + 1 : repeats > 0;
     c->repeats = repeats;
-    if (repeats == 1 || c->alike > 2 * HISTORY) return true;
+    if (repeats == 1 || c->alike > 2 * HISTORY) return;
     if (leads_nowhere(c)) break;
   }
   c->repeats = 0;
-  return true;
 }
 
 /* -- the results of a cycle ------------------------------------------------------------------------ */
@@ -434,20 +453,6 @@ static double size_of(Harmonic h) {
   return sqrt(h.cosine * h.cosine + h.sine * h.sine);
 }
 
-/* The angle of a direction, rad, -pi to pi: by halving the interval in which the tangent of its half is. */
-static double angle_of(double cosine, double sine) {
-  enum { HALVINGS = 60 };
-  double low = 0, high = 0.5 * zp_pi, opposite = fabs(sine), along = 1 + cosine;
-  for (int k = 0; k < HALVINGS; k++) {
-    double middle = 0.5 * (low + high);
-    if (middle == 0.5 * zp_pi || zp_tangent(middle) * along > opposite)
-      high = middle;
-    else
-      low = middle;
-  }
-  return copysign(2 * low, sine);
-}
-
 /* Lag of closing behind the squared command, rad, -pi / 2 to 3 pi / 2: of the harmonic that is larger in the
  * command. */
 static double phase_of(const Cycles *c) {
@@ -456,9 +461,9 @@ static double phase_of(const Cycles *c) {
   Harmonic drive = n == 1 ? first : second, moves = harmonic(c, "opening_m", false, n);
   double product = size_of(drive) * size_of(moves);
   if (!(product > 0)) return NAN;
-  double cosine = (drive.cosine * moves.cosine + drive.sine * moves.sine) / product,
-         sine = (drive.cosine * moves.sine - drive.sine * moves.cosine) / product;
-  double phase = angle_of(cosine, sine);
+  double cosine = drive.cosine * moves.cosine + drive.sine * moves.sine,
+         sine = drive.cosine * moves.sine - drive.sine * moves.cosine;
+  double phase = zp_angle(sine, cosine);
   return phase < -0.5 * zp_pi ? phase + 2 * zp_pi : phase; /* a lag above its resonance is near pi */
 }
 
@@ -490,7 +495,7 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   add_periodic(c, result, "opening_max_m", "m", opening.most);
   add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
   add_periodic(c, result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", opening.least < ZP_CLOSED_PART * c->sim->state->opening0);
+  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, c->sim->state->opening0));
 }
 
 /* Energy lost in a cycle of the periodic motion, which the source gives, J; jumps of the voltage take a part of it. */
@@ -592,9 +597,10 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
     c->heaviest = fmax(c->heaviest, model->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
+  c->way_back = zp_calloc(1, zp_state_size(model));
   c->memory = zp_calloc(1, carve(c, NULL));
   if (c->memory) carve(c, c->memory);
-  return c->rows && c->memory;
+  return c->rows && c->way_back && c->memory;
 }
 
 /* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
@@ -615,8 +621,7 @@ static bool choose(Cycles *c) {
 }
 
 static void answer(Cycles *c) {
-  static const double near =
-      0.3; /* motion of second order, relative to the first, with which the search begins there */
+  static const double near = 0.3; /* motion of second order, relative to the first: the search begins at the latter */
   if (c->info.outcome == ZP_PULLED_IN) return;
   if (c->linear) {
     ride(c);
@@ -640,6 +645,7 @@ static ZpStatus run(const ZpModel *model, const ZpHooks *hooks, ZpResult *result
       status = zp_fail_memory(err);
     zp_linear_cycle_close(&c->small);
     zp_free(c->memory);
+    zp_free(c->way_back);
     zp_sim_destroy(c->sim);
   }
   zp_free(c);
@@ -701,7 +707,7 @@ static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpE
 }
 
 /* A step is repeated as a sine. */
-static ZpActuatorDef periodic(ZpActuatorDef def) {
+static ZpActuatorDef with_periodic_drive(ZpActuatorDef def) {
   if (def.drive.waveform == ZP_WAVEFORM_STEP) def.drive.waveform = ZP_WAVEFORM_SINE;
   return def;
 }
@@ -712,11 +718,11 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "control.kind = %s: study cycle requires none, because it finds the periodic motion under a "
                    "periodic voltage; for a controller use study actuate with a periodic setpoint",
-                   zp_key(zp_key_find("control.kind"))->choices[def->control.kind].word);
+                   zp_word_of("control.kind", (int)def->control.kind));
   if (kind == ZP_WAVEFORM_RAMP || kind == ZP_WAVEFORM_TABLE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",
-                   zp_key(zp_key_find("drive.waveform"))->choices[kind].word);
+                   zp_word_of("drive.waveform", (int)kind));
   if (def->load.change_mass != 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
@@ -732,14 +738,14 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef def = periodic(*task->def);
-  ZpTask repeated = {.def = &def, .hooks = task->hooks};
+  ZpActuatorDef def = with_periodic_drive(*task->def);
+  const ZpTask driven = {.def = &def, .hooks = task->hooks};
   ZpModel *model;
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   status = run(model, task->hooks, result, err);
   bool ended = status == ZP_OK && result->outcome == ZP_REACHED_END;
-  if (ended && def.cycle.closing_frequency) status = find_closing_frequency(&repeated, result, err);
+  if (ended && def.cycle.closing_frequency) status = find_closing_frequency(&driven, result, err);
   zp_note_no_sensitivity(result, task->def);
   zp_model_destroy(model);
   return status;

@@ -177,7 +177,7 @@ static bool find_voltages(Follower *f) {
   none(f, "without a voltage there is none");
   if (!f->model->field || top == 0) return false;
   none(f, "it hangs closed");
-  if (f->hanging <= zp_closing_limit(&f->rest.statics, 0)) return false;
+  if (f->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return false;
   ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
   zp_limit_none(&f->release, "when closed, it is a short circuit");
   if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "when closed, it is a short circuit");

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "actuator/topology.h"
 #include "base/fail.h"
 
 enum { MESHES = 5, FEWEST_ELEMENTS = 3 };
@@ -31,6 +32,7 @@ enum { COUNT = sizeof estimated / sizeof estimated[0] };
 /* What the meshes give for each row above; NAN where they give none. */
 typedef struct Findings {
   double elements[MESHES], f[COUNT][MESHES];
+  bool free_end; /* a ribbon has one: where it leaves as a point, errors are of order two */
 } Findings;
 
 static bool is_estimated(ZpStudy study) {
@@ -55,12 +57,13 @@ typedef struct Meshes {
 
 /* Three fifths and two fifths of the elements. Together they cost as much as the study itself. They are so near to it
  * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
- * that four meshes must show also need four fifths and seven tenths. */
-static Meshes coarser_meshes(int elements, int others) {
-  static const int tenths[MESHES] = {10, 6, 4, 8, 7};
+ * that four meshes must show also need four fifths and seven tenths. In motion, half of the elements in place of three
+ * fifths: the cost is that of half of the steps, too. */
+static Meshes coarser_meshes(int elements, int others, bool moves) {
+  static const int at_rest[MESHES] = {10, 6, 4, 8, 7}, in_motion[MESHES] = {10, 5, 4, 8, 7};
   Meshes meshes = {.others = others};
   for (int mesh = 0; mesh < MESHES; mesh++)
-    meshes.elements[mesh] = (tenths[mesh] * elements + 5) / 10;
+    meshes.elements[mesh] = ((moves ? in_motion : at_rest)[mesh] * elements + 5) / 10;
   if (meshes.elements[2] < FEWEST_ELEMENTS) meshes.others = 0;
   return meshes;
 }
@@ -71,19 +74,19 @@ static Meshes finer_meshes(int elements, double resolution) {
   return (Meshes){true, 2, {elements, resolved, (6 * resolved + 5) / 10}};
 }
 
-/* In motion, steps lengthen by the same factor as elements; they do not shorten with them, because the finer mesh is
- * for its elements alone. Only numbers of the summary are requested. */
+/* In motion, steps change by the same factor as elements, so that a mesh shows the error of both; but those of a finer
+ * mesh need not be shorter than with a tolerance of `finest`. Only numbers of the summary are requested. */
 static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
-  double longer = fmax(1, (def.mesh.nodes - 1) / (double)elements);
-  const double tolerance = zp_def_tolerance(&def);
+  static const double finest = 1e-4;
+  const double longer = (def.mesh.nodes - 1) / (double)elements, tolerance = zp_def_tolerance(&def);
   def.mesh.nodes = elements + 1;
   def.output.samples = 10;
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
   if (!moves) return def;
-  def.solver.stop_when_zipped = ZP_WHEN_TRUE;         /* its zip time is requested */
-  def.solver.tolerance = tolerance * longer * longer; /* it is proportional to the square of the steps, eq. (18.12) */
-  def.solver.time_step *= longer;                     /* NAN, auto, stays */
+  /* It is proportional to the square of the steps, eq. (18.12). */
+  def.solver.tolerance = fmax(tolerance * longer * longer, fmin(tolerance, finest));
+  def.solver.time_step *= longer; /* NAN, auto, stays */
   return def;
 }
 
@@ -159,7 +162,8 @@ static bool shows_order(const Findings *findings, int k, int near, double order)
 static double of_ripple(const Findings *findings, int k) {
   const Estimated *e = &estimated[k];
   int nearest = e->meshes > 2 ? 3 : 1;
-  bool small = on_one_side(findings, k, e->meshes) && !shows_order(findings, k, nearest, e->order);
+  bool small =
+      findings->free_end || (on_one_side(findings, k, e->meshes) && !shows_order(findings, k, nearest, e->order));
   return largest(findings, k, e->meshes, small ? 2 : e->order);
 }
 
@@ -222,9 +226,9 @@ static int meshes_of(const Findings *findings) {
 }
 
 /* The meshes on which the study is solved again. */
-static Meshes choose_meshes(const ZpActuatorDef *def, const Findings *findings, ZpResult *result) {
+static Meshes choose_meshes(const ZpActuatorDef *def, const Findings *findings, bool moves, ZpResult *result) {
   int others = zp_outcome_good(result->outcome) ? meshes_of(findings) : 0, elements = def->mesh.nodes - 1;
-  if (others == 0 || result->resolution >= 1) return coarser_meshes(elements, others);
+  if (others == 0 || result->resolution >= 1) return coarser_meshes(elements, others, moves);
   Meshes meshes = finer_meshes(elements, result->resolution);
   if (!is_affordable(def, meshes, result)) meshes.others = 0;
   return meshes;
@@ -233,14 +237,15 @@ static Meshes choose_meshes(const ZpActuatorDef *def, const Findings *findings, 
 ZpStatus zp_estimate_errors(const ZpTask *task, ZpStudyRun run, bool moves, ZpResult *result, ZpError *err) {
   ZpStudy study = result->study;
   if (!task->def->output.errors || !is_estimated(study) || !has_others(task->def, moves)) return ZP_OK;
-  Findings findings;
+  const ZpTopology topology = zp_topology_of(task->def);
+  Findings findings = {.free_end = zp_ends_free(&topology)};
   forget_all(&findings);
   take(result, study, 0, task->def, &findings);
   ZpStatus status = ZP_OK;
-  const Meshes meshes = choose_meshes(task->def, &findings, result);
+  const Meshes meshes = choose_meshes(task->def, &findings, moves, result);
   for (int mesh = 1; mesh <= meshes.others && status == ZP_OK; mesh++) {
     const ZpActuatorDef def = on_mesh(*task->def, meshes.elements[mesh], moves);
-    status = solve(task, run, study, mesh, &def, &findings, err);
+    status = solve(task, moves ? zp_study_zip_time : run, study, mesh, &def, &findings, err);
   }
   for (int k = 0; k < COUNT && status == ZP_OK; k++)
     if (estimated[k].study == study && zp_result_has(result, estimated[k].value))

@@ -430,9 +430,7 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
 
 /* The load does not count: it is removed before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = *task->def;
-  bare.load.mass = bare.load.force = bare.load.stiffness = 0;
-  bare.load.rest_opening = bare.load.stop_opening = NAN;
+  ZpActuatorDef bare = zp_def_unloaded(task->def);
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;

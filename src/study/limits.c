@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "actuator/resolution.h"
 #include "base/fail.h"
 #include "def/check.h"
 #include "study/notes.h"
@@ -96,9 +97,10 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   bool within = load ? value > 0 : value <= f->model->def.drive.voltage;
   if (f->slow.march.fold.negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
   ZpLimit *limit = &f->limits->limit[kind];
-  double sign = load || kind == ZP_LIMIT_RELEASE ? -1 : 1;
+  double sign = kind == ZP_LIMIT_RELEASE ? -1 : 1;
   zp_slow_note(&f->slow, limit, near->end);
   limit->room = zp_slow_room_left(&f->slow, near, near_gap);
+  solver->system = &f->slow.square; /* crests under this load */
   bool highest = !fold || limit->room > 0 || zp_slow_look_around(&f->slow, limit, sign) == ZP_NOTHING_HIGHER;
   if (!highest) return false;
   f->limits->warm++;
@@ -151,11 +153,16 @@ static bool find_closed(Finder *f) {
   return limits->closes;
 }
 
+/* May closed faces slide along each other? Then only the way down tells whether they do before they open. */
+static bool faces_slide(const ZpModel *model) {
+  return zp_is_pair(&model->topology) && zp_ends_free(&model->topology);
+}
+
 /* From closed at drive.voltage down to 0. */
 static void lower_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
   bool closes = find_closed(f);
-  if (from_neighbour(f, ZP_LIMIT_RELEASE)) return;
+  if (!faces_slide(f->model) && from_neighbour(f, ZP_LIMIT_RELEASE)) return;
   zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
   if (!closes) return;
   zp_slow_go_to(&f->slow, f->limits->closed);
@@ -176,10 +183,11 @@ static bool hang_heavy(Finder *f) {
   return false;
 }
 
-/* Is the state to which the neighbour falls from its limit point closed here, too? */
+/* Is the state to which the neighbour falls from its limit point closed here, too? If it closes gradually, does it
+ * without a jump before? */
 static bool falls_as_neighbour(Finder *f) {
   const ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
-  if (limit->end != ZP_MARCH_FOLD) return true;
+  if (limit->end == ZP_MARCH_EVENT) return zp_lift_closes_gradually(&f->lift, limit->value);
   if (!zp_lift_hang(&f->lift, limit->value)) return false;
   take(f, f->near->lifted);
   bool closed = zp_slow_close(&f->slow, f->lift.top);
@@ -190,7 +198,7 @@ static bool falls_as_neighbour(Finder *f) {
 /* From a neighbour: only if the voltage meets no other limit point before, and the mesh is too fine to hold a front
  * between nodes, to which the actuator might fall. */
 static bool lift_as_neighbour(Finder *f) {
-  static const double fine = 2; /* elements */
+  static const double fine = 3; /* elements */
   bool trusted = f->near && f->near->first && zp_mesh_resolution(f->model, f->model->def.drive.voltage) > fine;
   bool found = trusted && from_neighbour(f, ZP_LIMIT_LOAD);
   f->limits->first = found && falls_as_neighbour(f);
@@ -228,7 +236,7 @@ static bool find(Finder *f) {
   if (!f->model->field || f->model->def.drive.voltage == 0) return true;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_none(&f->limits->limit[k], "it hangs closed");
-  if (f->limits->hanging <= zp_closing_limit(&f->rest.statics, 0)) return true;
+  if (f->limits->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return true;
   ZpSlowEnd up = raise_voltage(f);
   bool shorts = zp_insulation(&f->model->def) == 0;
   if (shorts) none_closed(f, "when closed, it is a short circuit");

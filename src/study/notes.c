@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "actuator/model.h"
+#include "actuator/resolution.h"
 #include "def/check.h"
 #include "study/studies.h"
 
@@ -50,33 +51,9 @@ void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *see
 
 /* -- the mesh -------------------------------------------------------------------------------------- */
 
-/* Length over which closed faces separate by the range of their attraction, m, eq. (9.4). INFINITY if none zip. */
-static double front_length(const ZpModel *model, double voltage) {
-  const ZpActuatorDef *def = &model->def;
-  bool pair = zp_is_pair(&model->topology), zips = pair || (model->flat && def->electro.gap_offset == 0);
-  if (!zips || voltage == 0 || def->electro.surface != ZP_SURFACE_POLYLINE) return INFINITY;
-  ZpPlatesLaw closed = zp_plates_law(&model->plates, voltage, 0);
-  double upper = zp_ribbon_section(model, 0).EI, lower = zp_ribbon_section(model, 1).EI;
-  double bend = pair ? 2 / (1 / upper + 1 / lower) : 2 * upper; /* twice that of what parts */
-  return closed.W > 0 ? sqrt(sqrt(bend * -closed.P)) / sqrt(closed.W) : INFINITY;
-}
-
-/* Length over which a ribbon turns from a clamp into the direction in which it hangs, m, eq. (9.5). */
-static double hanging_length(const ZpModel *model) {
-  double hangs = 0;
-  for (size_t j = 0; j < model->count; j++)
-    hangs += model->weight[j];
-  double EI = fmin(zp_ribbon_section(model, 0).EI, zp_ribbon_section(model, 1).EI);
-  return hangs > 0 ? sqrt(EI * (double)model->topology.halves / hangs) : INFINITY;
-}
-
-double zp_mesh_resolution(const ZpModel *model, double voltage) {
-  return fmin(front_length(model, voltage), hanging_length(model)) / model->l;
-}
-
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   static const double fewest = 6; /* elements: docs/theory.md, section 9, has what this and the other bound leave */
-  double front = front_length(model, voltage), elements = model->L / model->l;
+  double front = zp_front_length(model, voltage), elements = model->L / model->l;
   result->resolution = zp_mesh_resolution(model, voltage);
   if (elements < fewest)
     zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements the error of a shape at rest may reach 8 %%",

@@ -21,10 +21,6 @@ void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen
 /* The same, and what the insulators see, with a note where they or, without cap, the liquid break down. */
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
-/* Number of elements on the shortest length over which a ribbon bends at `voltage`, V. INFINITY: there is no such
- * length. */
-double zp_mesh_resolution(const ZpModel *model, double voltage);
-
 /* The mesh for `voltage`, the highest (V), 0 for none => result->resolution, with a note where it is too coarse. */
 void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);
 

@@ -267,12 +267,26 @@ static void fill_row(const Profiler *p, size_t k, double *row) {
   row[FORCE] = p->by_field && !capped ? p->model->field_scale * row[FIELD] : at_row(p, &p->set, U, k);
 }
 
-/* Simpson's rule over rows from .. to, an even number of intervals. */
+/* Simpson's rule over two intervals of this length together: values at their ends and between them. */
+static double simpson(double length, double start, double middle, double end) {
+  return length / 6 * (start + 4 * middle + end);
+}
+
+/* Over rows from .. to, an even number of intervals. */
 static double integrate(const Profiler *p, int column, size_t from, size_t to) {
   double sum = 0;
   for (size_t k = from; k + 2 <= to; k += 2) {
     const Row *r = p->row + k;
-    sum += (r[2][X] - r[0][X]) / 6 * (r[0][column] + 4 * r[1][column] + r[2][column]);
+    sum += simpson(r[2][X] - r[0][X], r[0][column], r[1][column], r[2][column]);
+  }
+  return sum;
+}
+
+static double integrate_law(const Profiler *p, const Law *law, double U, size_t from, size_t to) {
+  double sum = 0;
+  for (size_t k = from; k + 2 <= to; k += 2) {
+    const ZpFieldProfile *at = p->field.profile + k;
+    sum += simpson(at[2].x - at[0].x, at_row(p, law, U, k), at_row(p, law, U, k + 1), at_row(p, law, U, k + 2));
   }
   return sum;
 }
@@ -296,12 +310,13 @@ static double gap_within(const Row *r, double part) {
 /* Mean of the law as set along the parabola through the three rows from k on, N/m. */
 static double fine_mean(const Profiler *p, size_t k) {
   double sum = 0;
-  for (int i = 0; i <= FINER; i++)
-    sum += (i % 2                  ? 4
-            : i == 0 || i == FINER ? 1
-                                   : 2) *
-           within(p, &p->set, p->U, k, gap_within(p->row + k, (double)i / FINER));
-  return sum / (3 * FINER);
+  for (int i = 0; i < FINER; i += 2) {
+    double W[3];
+    for (int m = 0; m < 3; m++)
+      W[m] = within(p, &p->set, p->U, k, gap_within(p->row + k, (i + m) / (double)FINER));
+    sum += simpson(2.0 / FINER, W[0], W[1], W[2]);
+  }
+  return sum;
 }
 
 /* Does the law have a kink in the intervals from row k on, or a jump at an end of them? */
@@ -314,15 +329,10 @@ static bool is_rough(const Profiler *p, size_t k) {
 /* Integral of FORCE over rows from .. to. Where it is rough: the integral of the law in fine steps, plus that of the
  * difference of the model from the law, which is smooth. */
 static double limited_force(const Profiler *p, size_t from, size_t to) {
-  double sum = 0;
+  double sum = integrate(p, FORCE, from, to);
   for (size_t k = from; k + 2 <= to; k += 2) {
     const Row *r = p->row + k;
-    double part = r[0][FORCE] + 4 * r[1][FORCE] + r[2][FORCE];
-    if (is_rough(p, k)) {
-      part += 6 * fine_mean(p, k);
-      part -= at_row(p, &p->set, p->U, k) + 4 * at_row(p, &p->set, p->U, k + 1) + at_row(p, &p->set, p->U, k + 2);
-    }
-    sum += (r[2][X] - r[0][X]) / 6 * part;
+    if (is_rough(p, k)) sum += (r[2][X] - r[0][X]) * fine_mean(p, k) - integrate_law(p, &p->set, p->U, k, k + 2);
   }
   return sum;
 }
@@ -372,12 +382,7 @@ static double difference(const Profiler *p) {
 
 /* Total force on the flexible part, field over a plates law without cap; the voltage cancels. */
 static double field_over(const Profiler *p, const Law *law) {
-  double plates = 0;
-  for (size_t k = 0; k + 2 <= p->last; k += 2) {
-    const ZpFieldProfile *at = p->field.profile + k;
-    plates +=
-        (at[2].x - at[0].x) / 6 * (at_row(p, law, 1, k) + 4 * at_row(p, law, 1, k + 1) + at_row(p, law, 1, k + 2));
-  }
+  double plates = integrate_law(p, law, 1, 0, p->last);
   return plates > 0 ? 0.5 * (p->totals.upper + p->totals.lower) / plates : (double)NAN;
 }
 
@@ -569,8 +574,7 @@ ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
 /* As in study isometric, the load does not count. The model is that of plates: the shape has no voltage, and the field
  * is solved here. */
 ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = *task->def;
-  bare.load.mass = bare.load.force = 0;
+  ZpActuatorDef bare = zp_def_unloaded(task->def);
   bare.electro.model = ZP_ELECTRO_PLATES;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);

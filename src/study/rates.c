@@ -199,11 +199,12 @@ typedef struct Other {
   double error;
 } Other;
 
-/* Errors are proportional to the tolerance, eq. (20.11), so a third of the change; three quarters are counted on. */
-static Other with_tolerance(const ZpActuatorDef *def) {
+/* Errors are proportional to the tolerance, eq. (20.11): with four and sixteen times the tolerance, a third and a
+ * fifteenth of the change. More of it is counted on. */
+static Other with_tolerance(const ZpActuatorDef *def, double times, double error) {
   static const double largest = 0.1;
-  Other c = {*def, 0.75};
-  c.def.solver.tolerance = fmin(4 * zp_def_tolerance(def), largest);
+  Other c = {*def, error};
+  c.def.solver.tolerance = fmin(times * zp_def_tolerance(def), largest);
   return c;
 }
 
@@ -275,8 +276,10 @@ ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, Z
   if (!before) return zp_fail_memory(err);
   memcpy(before, result->sensitivity, result->sensitivities * sizeof *before);
   double share;
-  Other c = with_tolerance(task->def);
+  Other c = with_tolerance(task->def, 16, 0.2);
   ZpStatus status = settle(task, run, &c, result, &share, err);
+  c = with_tolerance(task->def, 4, 0.75);
+  if (status == ZP_OK) status = settle(task, run, &c, result, &share, err);
   c = with_steps(task->def, result);
   if (status == ZP_OK && share > same) status = settle(task, run, &c, result, &share, err);
   note_unsettled(before, result);

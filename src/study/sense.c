@@ -59,12 +59,14 @@ static double largest(const ZpTable *table, size_t column) {
   return most;
 }
 
-/* The readings of all windows of the run. */
+/* The readings of all windows that the run contains, which may have begun after 0. */
 static bool read_all(Sensing *s) {
+  static const double rounding = 1e-12;
   const ZpTable *trace = s->trace;
   size_t rows = trace->rows, n = trace->columns;
-  double window = zp_meter_window(&s->meter), end = trace->value[(rows - 1) * n];
-  size_t windows = (size_t)floor(end / window * (1 + 1e-12));
+  double window = zp_meter_window(&s->meter), start = trace->value[0], end = trace->value[(rows - 1) * n];
+  size_t first = (size_t)ceil(start / window * (1 - rounding)), last = (size_t)floor(end / window * (1 + rounding));
+  size_t windows = last > first ? last - first : 0;
   double *block = zp_calloc(3 * rows + windows + 1, sizeof *block);
   s->readings = zp_table_create(columns, COLUMNS, windows > 2 ? windows : 2);
   if (!block || !s->readings) {
@@ -78,10 +80,10 @@ static bool read_all(Sensing *s) {
     block[2 * rows + k] = trace->value[k * n + ZP_TRACE_CAPACITANCE];
   }
   ZpMeterTrace of = {rows, block, block + rows, block + 2 * rows};
-  zp_meter_read(&s->meter, &of, windows, capacitance);
+  zp_meter_read(&s->meter, &of, first, windows, capacitance);
   for (size_t w = 0; w < windows; w++) {
-    double middle = ((double)w + 0.5) * window;
-    zp_table_offer(s->readings, (double[COLUMNS]){[TIME] = ((double)w + 1) * window,
+    double from = (double)(first + w) * window, middle = from + 0.5 * window;
+    zp_table_offer(s->readings, (double[COLUMNS]){[TIME] = from + window,
                                                   [CAPACITANCE] = capacitance[w],
                                                   [TRUE_CAPACITANCE] = value_at(trace, middle, ZP_TRACE_CAPACITANCE),
                                                   [TRUE_STROKE] = value_at(trace, middle, ZP_TRACE_STROKE)});

@@ -84,7 +84,7 @@ static void add_member(Walk *w, size_t k, double *row, ZpShape *shape) {
     row[1 + c] += sums[c];
   row[8] = fmax(row[8], margins.insulator);
   row[9] = fmax(row[9], margins.stress);
-  row[10] += zp_closing_gap(s, NULL) <= zp_closing_limit(s, w->hanging[k]);
+  row[10] += zp_closing_gap(s, NULL) <= zp_closed_opening(s->model, w->hanging[k]);
   zp_many_put(&w->shapes, k, &one);
   zp_many_hang(&w->shapes, k, s->model->s);
   if (k == 0) *shape = one;

@@ -26,6 +26,9 @@ bool zp_result_has(const ZpResult *result, const char *name);
 /* What fills a result: a zp_study_WORD. */
 typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);
 
+/* The zip time of study actuate and nothing else, in less time: no rows and no shapes, and energy does not balance. */
+ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err);
+
 #define ZP_STUDY(enumerator, word, shows, files, help)                                                                 \
   ZpStatus zp_check_##word(const ZpActuatorDef *def, ZpError *err);                                                    \
   ZpStatus zp_study_##word(const ZpTask *task, ZpResult *result, ZpError *err);

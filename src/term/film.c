@@ -81,7 +81,8 @@ static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly 
     size_t p = zp_film_mode_at(i, k);
     for (int m = k; m < ZP_FILM_MODES; m++)
       zp_assemble_own(assembly, p, zp_film_mode_at(i, m), zp_film_own(film, span->h, e, i, k, m), K);
-    if (i + 1 < model->nodes) zp_assemble_own(assembly, p, p + ZP_FILM_MODES, zp_film_next(film, span->h, e, i, k), K);
+    for (int m = 0; m < ZP_FILM_MODES && i + 1 < model->nodes; m++)
+      zp_assemble_own(assembly, p, zp_film_mode_at(i + 1, m), zp_film_next(film, span->h, e, i, k, m), K);
   }
 }
 
@@ -89,12 +90,8 @@ static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly 
  * convection, which would have one sign there and the other here, are omitted. */
 static void by_gaps(const ZpModel *model, const ZpAssembly *assembly, const ZpFilmEval *e, size_t i, ZpBand *K) {
   for (int k = 0; k < ZP_FILM_MODES; k++)
-    for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++) {
-      double by_gap = zp_film_by_gap(&model->film, e, i, j, k);
-      size_t p = zp_film_mode_at(i, k);
-      zp_assemble_own_by(assembly, p, 2 * zp_upper(&model->topology, j) + 1, -by_gap, K);
-      zp_assemble_own_by(assembly, p, 2 * zp_lower(&model->topology, j) + 1, by_gap, K);
-    }
+    for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < model->nodes; j++)
+      zp_assemble_own_by_gap(assembly, zp_film_mode_at(i, k), j, -zp_film_by_gap(&model->film, e, i, j, k), K);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
@@ -137,13 +134,28 @@ static void find_end(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
         zp_bead_after(&model->bead, &model->film, e->plates.gap, half, span->bead[half], edges[half], span->h);
 }
 
-/* Energy of the gap at one end of the step, with liquid up to `reach`: the field's potential and the film's energy,
- * J. */
+/* Stations from `first` on before `end`: those around which the liquid of a step moves. */
+typedef struct Shore {
+  size_t first, end;
+} Shore;
+
+static void reaches(const ZpFilmParams *film, const double reach[ZP_BEADS], Shore *shore) {
+  for (int half = 0; half < zp_beads(film); half++) {
+    ZpBeadPlace at = zp_bead_place(film, half, reach[half]);
+    size_t left = at.near < at.far ? at.near : at.far, right = at.near < at.far ? at.far : at.near;
+    if (left < shore->first) shore->first = left;
+    if (right + 1 > shore->end) shore->end = right + 1;
+  }
+}
+
+/* Energy of the gap around the shore at one end of the step, with liquid up to `reach`: the field's potential and the
+ * film's energy, J. */
 static double stored(const ZpModel *model, const ZpPlatesEval *gaps, double U, const double *memory,
-                     const double reach[ZP_BEADS], ZpEval *e) {
+                     const double reach[ZP_BEADS], Shore shore, ZpEval *e) {
   zp_eval_cover(model, reach, e);
-  return zp_plates_totals(&model->plates, gaps, U).potential +
-         zp_film_energy(&model->film, &e->cover, gaps->gap, memory) + surface_energy(model, reach);
+  return zp_plates_totals_among(&model->plates, gaps, U, shore.first, shore.end - 1).potential +
+         zp_film_energy_among(&model->film, &e->cover, gaps->gap, memory, shore.first, shore.end) +
+         surface_energy(model, reach);
 }
 
 /* The liquid moves to its place in the middle with all else fixed, and from there to that of the end. The energy
@@ -152,10 +164,14 @@ static double lost_at_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *
   const ZpPlatesEval *start = &e->plates_start, *end = &e->plates;
   const double before[ZP_BEADS] = {span->bead[0].reach, span->bead[1].reach},
                after[ZP_BEADS] = {e->bead_end[0].reach, e->bead_end[1].reach};
-  double released = stored(model, start, span->U0, span->memory, before, e) -
-                    stored(model, start, span->U0, span->memory, e->reach, e);
-  released +=
-      stored(model, end, span->U1, e->film.end, e->reach, e) - stored(model, end, span->U1, e->film.end, after, e);
+  Shore shore = {model->nodes, 0};
+  reaches(&model->film, before, &shore);
+  reaches(&model->film, e->reach, &shore);
+  reaches(&model->film, after, &shore);
+  double released = stored(model, start, span->U0, span->memory, before, shore, e) -
+                    stored(model, start, span->U0, span->memory, e->reach, shore, e);
+  released += stored(model, end, span->U1, e->film.end, e->reach, shore, e) -
+              stored(model, end, span->U1, e->film.end, after, shore, e);
   return released + film->given + film->carried;
 }
 

@@ -73,7 +73,7 @@ export function supplyWords(core) {
                  `current ${shown('source.current_limit').replace('none', 'unlimited')}`, `sink ${sink}`];
   const told = ['source.model', 'source.supply', 'source.slew_rate', 'source.current_limit', 'source.sink_limit', 'source.resistance'];
   const others = changed(core).filter(([key]) => key.startsWith('source.') && !told.includes(key));
-  return [...three, ...others.map(([key, text]) => `${key.slice('source.'.length).replace('_', ' ')} ${pretty(text)}`)].join(', ');
+  return [...three, ...others.map(([key, text]) => `${key.slice('source.'.length).replaceAll('_', ' ')} ${pretty(text)}`)].join(', ');
 }
 
 /** The same actuator for studies of equilibria, which apply drive.voltage to the electrodes without a supply. */
