@@ -37,6 +37,9 @@ WANTED, WANTED_IN_A_ROOM = 0.95, 0.90
 # The header is included by each file with a fault: reaching a fault marks it in a file that all processes of a test share.
 RUNTIME_H = """#ifndef ZP_MUTANT_H
 #define ZP_MUTANT_H
+#include <math.h>
+#include <stdbool.h>
+
 __attribute__((visibility("hidden"))) extern int zp_mutant_chosen;
 __attribute__((visibility("hidden"))) extern unsigned char *zp_mutant_reached;
 #define ZP_MUTANT(k) (zp_mutant_reached[k] = 1, zp_mutant_chosen == (k))
@@ -81,15 +84,15 @@ class Mutant:
     def find(self, text):
         """Where it begins and ends in the text, and what replaces it."""
         old, new = "\n".join(self.old), "\n".join(self.new)
-        inner = re.search(r"\[\[(.*?)\]\]", old, re.S)
-        whole = old if not inner else old[:inner.start()] + inner[1] + old[inner.end():]
+        inner = marked(old)
+        whole = old if not inner else inner[0] + inner[1] + inner[2]
         pattern = r"\s+".join(re.escape(word) for word in whole.split())
         places = list(re.finditer(pattern, text))
         if len(places) != 1:
             raise SystemExit(f"{self.place}: {self.file} has this text {len(places)} times, not once: {whole}")
         begin, end = places[0].span()
         if inner:
-            before = r"\s+".join(re.escape(word) for word in old[:inner.start()].split())
+            before = r"\s+".join(re.escape(word) for word in inner[0].split())
             part = r"\s+".join(re.escape(word) for word in inner[1].split())
             found = re.compile(before + r"\s*(" + part + ")").match(text, begin)
             begin, end = found.span(1)
@@ -97,9 +100,19 @@ class Mutant:
 
     def choice(self, old, new):
         """Both texts, of which the program takes one."""
-        if re.search(r"[;}]$", old):
+        if re.search(r"[;}]$", old) and not re.match(r"\(\w+\){", old):  # statements, but no compound literal
             return f"if (ZP_MUTANT({self.number})) {{ {new} }} else {{ {old} }}"
         return f"(ZP_MUTANT({self.number}) ? ({new}) : ({old}))"
+
+
+def marked(text):
+    """What stands before, between and after double brackets; None where there are none. Brackets between are in pairs."""
+    for begin in re.finditer(r"\[\[(?!\[)", text):
+        for end in re.finditer(r"(?=\]\])", text[begin.end():]):
+            part = text[begin.end():begin.end() + end.start()]
+            if part.count("[") == part.count("]"):
+                return text[:begin.start()], part, text[begin.end() + end.start() + 2:]
+    return None
 
 
 def read_tables():
