@@ -27,6 +27,7 @@
 
 #include "math/skyline.h"
 #include "sanitized.h"
+#include "suite.h"
 
 /* -- the wrappers ---------------------------------------------------------------------------------- */
 
@@ -856,14 +857,11 @@ int main(void) {
   tcase_add_test(files, table_survives_every_failure);
   tcase_add_test(files, checkpoint_survives_every_failure);
   tcase_add_test(files, scenarios_survive_every_failure);
-  tcase_add_test(files, writers_survive_every_failure);
-  tcase_add_test(files, reports_survive_every_failure);
-  tcase_add_test(files, keys_survive_failures_of_jansson);
   suite_add_tcase(suite, core);
   suite_add_tcase(suite, files);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  TCase *nightly = nightly_case(suite);
+  tcase_add_test(nightly, keys_survive_failures_of_jansson);
+  tcase_add_test(nightly, writers_survive_every_failure);
+  tcase_add_test(nightly, reports_survive_every_failure);
+  return run_suite(suite);
 }

@@ -12,6 +12,8 @@
 
 #include <zipact/io.h>
 
+#include "suite.h"
+
 /* A coarse actuator that settles in some milliseconds of wall time. */
 static ZpActuatorDef coarse_def(void) {
   ZpActuatorDef def = zp_actuator_def_default();
@@ -526,9 +528,5 @@ int main(void) {
   tcase_add_test(c, no_motion_without_the_checkpoint);
   tcase_add_test(c, three_ways_to_fill_a_def);
   suite_add_tcase(suite, c);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  return run_suite(suite);
 }

@@ -578,7 +578,6 @@ int main(void) {
   tcase_add_test(c, test_full_bead_without_a_platform);
   tcase_add_loop_test(c, test_volume_is_kept, 0, FULL_OR(4, 2));
   tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, FULL_OR(6, 2));
-  tcase_add_loop_test(c, test_energy_of_50_cycles, 0, 3);
   tcase_add_test(c, test_much_liquid_is_a_bath);
   tcase_add_test(c, test_suction_takes_what_menisci_lose);
   tcase_add_loop_test(c, test_suction_drives_no_flow_at_rest, 0, 2);
@@ -590,5 +589,7 @@ int main(void) {
   tcase_add_test(c, test_liquid_of_a_series);
   tcase_add_loop_test(c, test_what_is_refused, 0, 6);
   suite_add_tcase(suite, c);
+  TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, test_energy_of_50_cycles, 0, 3);
   return run_suite(suite);
 }

@@ -17,6 +17,7 @@
 #include <zipact/zipact.h>
 
 #include "sanitized.h"
+#include "suite.h"
 
 static const double most_seconds = FULL_OR(5.0, 100.0); /* a run of these few steps is a hang beyond */
 
@@ -704,20 +705,17 @@ int main(void) {
   Suite *suite = suite_create("bounds");
   TCase *c = tcase_create("bounds");
   int keys = zp_key_count();
-  tcase_add_loop_test(c, study_ends_at_the_bounds, 0, keys);
   tcase_add_loop_test(c, beyond_the_bounds_is_refused, 0, keys);
   tcase_add_loop_test(c, bad_fields_are_refused, 0, keys);
   tcase_add_loop_test(c, wrong_words_are_refused, 0, keys);
   tcase_add_loop_test(c, text_beyond_the_bounds_is_refused, 0, keys);
-  tcase_add_loop_test(c, study_ends_in_combinations, 0, LENGTH_OF(combinations));
   tcase_add_loop_test(c, contradictions_are_refused, 0, LENGTH_OF(contradictions));
   tcase_add_test(c, straight_without_voltage_opens);
   tcase_add_test(c, presets_end_at_every_size);
   tcase_add_test(c, presets_ask_for_what_they_lack);
   suite_add_tcase(suite, c);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, study_ends_at_the_bounds, 0, keys);
+  tcase_add_loop_test(nightly, study_ends_in_combinations, 0, LENGTH_OF(combinations));
+  return run_suite(suite);
 }

@@ -16,6 +16,7 @@
 #include "fit/fit.h"
 #include "fit/reference.h"
 #include "sanitized.h"
+#include "suite.h"
 
 static void write_file(const char *path, const char *text) {
   FILE *file = fopen(path, "w");
@@ -1087,7 +1088,6 @@ int main(void) {
   tcase_add_test(fits, zip_times_have_derivatives);
   tcase_add_test(fits, zip_times_are_of_runs_with_derivatives);
   tcase_add_test(fits, voltage_data);
-  add_long_test(fits, zip_times_show_the_pull_in);
   tcase_add_test(fits, columns_without_units_are_told);
   tcase_add_test(fits, columns_that_are_not_used_are_told);
   tcase_add_test(fits, headings_with_a_slash_an_in_a_hyphen_or_newtons);
@@ -1119,9 +1119,7 @@ int main(void) {
   suite_add_tcase(suite, fits);
   suite_add_tcase(suite, kinds);
   suite_add_tcase(suite, areas);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, zip_times_show_the_pull_in);
+  return run_suite(suite);
 }

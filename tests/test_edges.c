@@ -536,7 +536,6 @@ int main(void) {
   tcase_add_test(section, test_capacitance_table);
   tcase_add_test(section, test_thin_strips);
   tcase_add_test(section, test_wide_strips);
-  if (!SANITIZED) tcase_add_test(section, test_fit_error);
   tcase_add_test(section, test_value_derivatives);
   tcase_add_test(section, test_extremes);
   suite_add_tcase(suite, section);
@@ -554,5 +553,7 @@ int main(void) {
   tcase_add_test(whole, test_run_balances);
   tcase_add_test(whole, test_refused);
   suite_add_tcase(suite, whole);
+  TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, test_fit_error);
   return run_suite(suite);
 }

@@ -592,15 +592,12 @@ int main(void) {
   tcase_add_test(grid, test_surplus_makes_plates_the_field);
   tcase_add_test(grid, test_what_does_not_go_with_field);
   if (!SANITIZED) { /* test_combinations and test_dynamics run the same code */
-    tcase_add_test(grid, test_studies_by_field_and_by_plates);
     tcase_add_test(grid, test_bead_by_field_and_by_plates);
-    tcase_add_test(grid, test_held_without_cap);
-    tcase_add_test(grid, test_refresh_in_motion);
   }
   suite_add_tcase(suite, grid);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_ENV);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed > 0;
+  TCase *nightly = nightly_case(suite);
+  tcase_add_test(nightly, test_studies_by_field_and_by_plates);
+  tcase_add_test(nightly, test_refresh_in_motion);
+  tcase_add_test(nightly, test_held_without_cap);
+  return run_suite(suite);
 }

@@ -1056,13 +1056,13 @@ int main(void) {
   add(suite, short_circuit_terminates, "short_circuit_terminates", true);
   add(suite, stacks, "stacks", true);
   add(suite, resets, "resets", true);
-  add(suite, instances, "instances", true);
   add(suite, threads, "threads", true);
   add(suite, wrong_calls, "wrong_calls", true);
   add(suite, refused_instances_say_why, "refused_instances_say_why", true);
   add(suite, ends_at_the_stop_time, "ends_at_the_stop_time", true);
   add(suite, parameters_that_do_not_fit, "parameters_that_do_not_fit", true);
   add(suite, wrong_commands, "wrong_commands", false);
+  tcase_add_loop_test(nightly_case(suite), instances, 2, 4);
   char tidy[64];
   snprintf(scratch, sizeof scratch, "fmu-%d", (int)getpid());
   snprintf(tidy, sizeof tidy, "rm -rf %s", scratch);

@@ -489,10 +489,11 @@ int main(void) {
   tcase_add_test(force, test_impossible_states_are_told);
   tcase_add_test(force, insulators_beyond_their_breakdown_are_pressed_not_passed);
   tcase_add_test(force, small_force_is_not_rounded_away);
-  tcase_add_test(force, coarse_mesh_is_refined);
   add_long_test(force, coarse_mesh_is_refined_twice);
-  add_long_test(force, resolved_mesh_is_refined);
   tcase_add_test(force, test_refused);
   suite_add_tcase(suite, force);
+  TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, resolved_mesh_is_refined);
+  tcase_add_test(nightly, coarse_mesh_is_refined);
   return run_suite(suite);
 }

@@ -198,8 +198,9 @@ int main(void) {
   tcase_add_test(branch, a_sagging_ribbon_is_held);
   tcase_add_test(branch, folded_ribbons_do_not_hang);
   add_long_test(branch, folded_ribbons_are_not_held);
-  add_long_test(branch, a_limit_point_may_be_just_below_the_voltage);
   tcase_add_test(branch, a_front_may_pass_many_nodes);
   suite_add_tcase(suite, branch);
+  TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, a_limit_point_may_be_just_below_the_voltage);
   return run_suite(suite);
 }

@@ -649,7 +649,6 @@ int main(void) {
   tcase_add_test(energy, test_energy_of_bezier);
   tcase_add_test(energy, test_energy_below_pull_in);
   tcase_add_test(energy, test_energy_with_drag);
-  tcase_add_loop_test(energy, test_balance_of_every_combination, 0, LENGTH_OF(combinations));
   tcase_add_test(energy, test_solved_field_in_motion);
   tcase_add_test(energy, test_imbalance_is_told);
   tcase_add_test(energy, test_no_voltage_no_field);
@@ -673,5 +672,7 @@ int main(void) {
   tcase_add_test(ends, test_diverged);
   tcase_add_test(ends, test_set_voltage);
   suite_add_tcase(suite, ends);
+  TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, test_balance_of_every_combination, 0, LENGTH_OF(combinations));
   return run_suite(suite);
 }

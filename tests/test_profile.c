@@ -529,7 +529,8 @@ int main(void) {
   tcase_add_test(tests, test_map);
   tcase_add_test(tests, test_refusals);
   tcase_add_test(tests, test_shape_that_runs_back);
-  tcase_add_loop_test(tests, test_ends_at_the_bounds, 0, zp_key_count());
   suite_add_tcase(suite, tests);
+  TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, test_ends_at_the_bounds, 0, zp_key_count());
   return run_suite(suite);
 }

@@ -117,9 +117,5 @@ int main(void) {
   tcase_add_test(part, all_processes_lost_is_an_error);
   tcase_add_test(part, garbled_results_are_an_error);
   suite_add_tcase(suite, part);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed > 0;
+  return run_suite(suite);
 }

@@ -27,6 +27,7 @@
 #include "io/number.h"
 #include "io/plot.h"
 #include "sanitized.h"
+#include "suite.h"
 
 #define NODES    61
 #define HALF     45e-3
@@ -1381,8 +1382,7 @@ static TCase *numbers_and_files(void) {
 }
 
 static TCase *pictures(void) {
-  const TTest *const test[] = {files_of_rest,
-                               sweeps_of_rest,
+  const TTest *const test[] = {sweeps_of_rest,
                                design_chart,
                                shades_of_three_keys,
                                maps_have_one_scale,
@@ -1394,11 +1394,9 @@ static TCase *pictures(void) {
                                distribution_with_indices,
                                axes_of_a_fit,
                                error_bars_of_a_fit,
-                               rest_is_the_same_each_time,
                                field_of_a_profile,
                                field_of_equal_permittivities,
-                               frequencies_are_an_array,
-                               no_pull_in_is_null};
+                               frequencies_are_an_array};
   return case_of("pictures", test, sizeof test / sizeof test[0]);
 }
 
@@ -1426,13 +1424,13 @@ static Suite *suite_of_report(void) {
   suite_add_tcase(suite, numbers_and_files());
   suite_add_tcase(suite, pictures());
   suite_add_tcase(suite, failures());
+  TCase *nightly = nightly_case(suite);
+  tcase_add_test(nightly, files_of_rest);
+  tcase_add_test(nightly, rest_is_the_same_each_time);
+  tcase_add_test(nightly, no_pull_in_is_null);
   return suite;
 }
 
 int main(void) {
-  SRunner *runner = srunner_create(suite_of_report());
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  return run_suite(suite_of_report());
 }

@@ -466,7 +466,6 @@ int main(void) {
   TCase *tests = tcase_create("run rates");
   tcase_add_test(tests, zip_in_a_bath);
   tcase_add_loop_test(tests, zip_without_liquid, 0, FULL_OR(2, 1));
-  add_long_test(tests, zip_without_liquid_with_its_own_steps);
   tcase_add_test(tests, derivative_of_every_landing_is_found);
   tcase_add_test(tests, zip_at_the_end_of_a_step);
   tcase_add_test(tests, start_of_a_swing);
@@ -492,9 +491,7 @@ int main(void) {
   tcase_add_test(ends, key_at_an_end_of_its_range);
   tcase_add_test(ends, derivative_by_a_load_that_is_not_there);
   suite_add_tcase(suite, ends);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed > 0;
+  TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, zip_without_liquid_with_its_own_steps);
+  return run_suite(suite);
 }

@@ -264,9 +264,5 @@ int main(void) {
   tcase_add_test(numbers, indices_without_some_values);
   suite_add_tcase(suite, points);
   suite_add_tcase(suite, numbers);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed > 0;
+  return run_suite(suite);
 }

@@ -13,6 +13,7 @@
 #include <zipact/io.h>
 
 #include "io/cases.h"
+#include "suite.h"
 
 #define LENGTH_OF(array) (sizeof(array) / sizeof(array)[0])
 
@@ -1082,9 +1083,5 @@ int main(void) {
   tcase_add_test(keys, test_keys_text);
   tcase_add_test(keys, test_full_disk);
   suite_add_tcase(suite, keys);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
+  return run_suite(suite);
 }
