@@ -112,8 +112,8 @@ static double corner_of(ZpSim *sim, double end_time) {
   return fmin(zp_sim_next_corner(sim), end_time);
 }
 
-/* Under a given voltage, exactly that one: a rounding would be a jump, at which the account is closed. The neighbours'
- * accounts close where the run's does. */
+/* An ideal source gives a neighbour exactly the voltage of its own waveform: a rounding would be a jump, at which the
+ * account of the work closes. Neighbours' accounts close where the run's does. */
 static void set_voltage(const ZpSim *sim, ZpSim *near) {
   if (zp_sim_is_fed(sim)) return;
   near->state->U = zp_waveform_voltage(&near->model->waveform, near->state->t);

@@ -362,7 +362,8 @@ static bool has_closed(const ZpModel *model, const ZpState *state) {
   return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
 }
 
-/* What is left until it has stayed closed, and hardly moved, for a while, as a distance, m; INFINITY: it is open. */
+/* A run ends once its actuator has stayed closed, and hardly moved, for a while => how far it is from that, m;
+ * INFINITY: it is open. */
 static double left_to_rest(const ZpState *state) {
   static const double at_rest = 1e-4; /* of the contraction */
   const double least = at_rest * state->opening0, due = state->closed_from + ZP_STILL_TIME;
@@ -371,7 +372,7 @@ static double left_to_rest(const ZpState *state) {
   return fmax(range - least, least * (due - state->t) / ZP_STILL_TIME);
 }
 
-/* Is nothing left? Sequential contact never opens, so there closing is enough. */
+/* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
 static bool stays_closed(const ZpModel *model, const ZpState *state) {
   if (model->def.contact.model == ZP_CONTACT_SEQUENTIAL) return has_closed(model, state);
   return left_to_rest(state) <= 0;

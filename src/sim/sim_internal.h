@@ -79,7 +79,7 @@ typedef struct ZpStepStart {
 typedef enum ZpStop {
   ZP_STOP_AT_END, /* nowhere */
   ZP_STOP_CLOSED, /* where the actuator has closed for the first time */
-  ZP_STOP_HELD    /* where it has stayed closed for 0.1 s and its contraction has changed by less than 1e-4 in them */
+  ZP_STOP_HELD    /* where it has stayed closed and hardly moved for a while */
 } ZpStop;
 
 /* Instants within a step at which a run ends. */
