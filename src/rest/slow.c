@@ -245,7 +245,7 @@ static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Plac
   return below < part * lowest ? from.at + at * (to.at - from.at) : (double)NAN;
 }
 
-/* Go to the crest near a point. If it is not higher than the limit, go on to the point `next`. */
+/* Go to the crest near a point. If it is not higher than the limit, continue to the point `next`. */
 static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double at, double next) {
   ZpFold *fold = &f->march.fold;
   bool found = zp_fold_event(fold, zp_closing_gap, side->gap + at * side->step, ZP_FOLD_ROUGH);

@@ -8,6 +8,7 @@
 #include "paper/motion/motion.h"
 #include "rest/dynamics.h"
 #include "sim/feed.h"
+#include "sim/still.h"
 #include "system/held.h"
 
 /* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
@@ -165,6 +166,9 @@ void zp_sim_arrive(ZpSim *sim);
 /* Time at which the path of the last step, of two ribbons, passes the opening that counts as closed, s; this may be
  * slightly before or after the step. */
 double zp_sim_crossing(const ZpSim *sim);
+
+/* The actuator has closed at this instant, about the last step. */
+void zp_sim_close(ZpSim *sim, ZpOpeningAt start);
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */

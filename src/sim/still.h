@@ -15,7 +15,8 @@ typedef struct ZpOpeningAt {
 /* The actuator closes, with this opening. */
 void zp_still_begin(ZpStill *still, double opening);
 
-/* The opening has gone along a straight line from one instant to a later one. */
+/* The opening has gone along a straight line from one instant to a later one. Of a line that begins before the closing,
+ * that part counts as the instant of the closing. */
 void zp_still_follow(ZpStill *still, double closed_from, ZpOpeningAt start, ZpOpeningAt end);
 
 /* => by how much the opening has changed within the window before t, m. While the window leaves a cell, that cell's
