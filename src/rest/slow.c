@@ -204,14 +204,15 @@ static Place pass(ZpSlow *f, const Side *side, Place from, double step) {
   return end == ZP_PASS_ON ? (Place){at, m, slope * side->step} : (Place){at, NAN, NAN};
 }
 
-/* The cubic through two points: rise + (slope + (bend + turn t) t) t with t from 0 to 1. For a parabola turn is 0. */
+/* The cubic through two points: above the first one it is (slope + (bend + turn t) t) t, with t from 0 to 1. For a
+ * parabola turn is 0. */
 typedef struct Cubic {
-  double slope, end_slope, rise, bend, turn;
+  double slope, end_slope, bend, turn;
 } Cubic;
 
 static Cubic cubic_through(Place from, Place to) {
   double length = to.at - from.at, a = from.slope * length, b = to.slope * length, rise = to.m - from.m;
-  return (Cubic){a, b, rise, 3 * rise - 2 * a - b, a + b - 2 * rise};
+  return (Cubic){a, b, 3 * rise - 2 * a - b, a + b - 2 * rise};
 }
 
 /* => how far the highest crest of a cubic is above its first point, and where it is: at, from 0 to 1. NAN: there is
