@@ -131,7 +131,7 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *params, const ZpFilmEnds *ends, doub
 /* Is the head of mode k at station i an unknown, or is the mode none or its head given? */
 bool zp_film_is_free(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, int k);
 
-/* Does the liquid reach beyond all of station i's length, as that of a bead may or may not? */
+/* Does liquid cover all of station i's length? That of a bead may end within it. */
 bool zp_film_covers(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
 /* Does the film fill all between the faces at station i at the step's end: is it covered, without a cavity? */

@@ -167,7 +167,7 @@ void zp_sim_arrive(ZpSim *sim);
  * slightly before or after the step. */
 double zp_sim_crossing(const ZpSim *sim);
 
-/* The actuator has closed at this instant, about the last step. */
+/* The actuator has closed at `start`, in the last step or close to it: what is known of its rest begins there. */
 void zp_sim_close(ZpSim *sim, ZpOpeningAt start);
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
