@@ -371,13 +371,13 @@ END_TEST
 
 /* Regression: whether the bead had covered a station was a sum of lengths, which for this ribbon was below the whole by
  * rounding. */
-START_TEST(bead_at_a_station_ends_them) {
+START_TEST(bead_at_a_node_ends_them) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 300e-9},
                           {"ribbon.length", 0.13607344753018508}, {"ribbon.thickness", 60e-6}, {"drive.voltage", 9e3},
                           {"output.errors", false}, {"solver.end_time", 0.15});
   ZpResult *result = run_by(&def, "drive.voltage");
   ck_assert(isnan(slope_in(result, "wet_length_m", "drive.voltage")));
-  ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: the meniscus of a bead passes a station"));
+  ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: the meniscus of a bead passes a node"));
   zp_result_destroy(result);
 }
 END_TEST
@@ -486,7 +486,7 @@ int main(void) {
   tcase_add_test(ends, default_tolerance_settles_as_its_number);
   tcase_add_test(ends, peak_and_rms_current);
   tcase_add_test(ends, limits_of_a_supply_end_them);
-  tcase_add_test(ends, bead_at_a_station_ends_them);
+  tcase_add_test(ends, bead_at_a_node_ends_them);
   tcase_add_test(ends, what_the_steps_do_not_settle_is_null);
   tcase_add_test(ends, run_without_its_end_has_none);
   tcase_add_test(ends, key_at_an_end_of_its_range);

@@ -179,7 +179,8 @@ static const char *cause_of_loss(ZpRunRates *rates) {
   if (rates->sim->state->supply_mode != rates->before->supply_mode)
     return "a limit of the supply's current begins or ends";
   if (ends_late(rates->sim)) return "the run ends at the end of a step, not at the instant that ends it";
-  return meniscus_passes(rates) ? "the meniscus of a bead passes a station" : NULL;
+  return meniscus_passes(rates) ? "the meniscus of a bead passes a node; liquid.model none or submerged has them"
+                                : NULL;
 }
 
 /* Does the step's matrix filter velocities, because of faces or menisci? */
