@@ -193,7 +193,7 @@ int cli_batch(const Options *o) {
   const size_t jobs = (size_t)(o->jobs > 0 ? o->jobs : zp_processors());
   pthread_t *thread = calloc(jobs, sizeof *thread);
   size_t started = 0;
-  Options quiet = *o; /* of the common part check_common has said what is to be said */
+  Options quiet = *o; /* messages about the common part are out: by check_common */
   quiet.quiet = true;
   batch.options = &quiet;
   while (thread && started < jobs && pthread_create(&thread[started], NULL, work, &batch) == 0)

@@ -6,6 +6,8 @@
 #include <zipact/checkpoint.h>
 #include <zipact/sim.h>
 
+#include "sim/still.h"
+
 /* The default actuator, coarse, with all samples. `settings` as in DEF. */
 #define COARSE                                                                                                         \
   {"mesh.nodes", 31}, {                                                                                                \
@@ -113,6 +115,25 @@ START_TEST(a_run_ends_early_where_it_stays_closed) {
     }
   ck_assert(least >= 0.99 && most - least < 1e-4);
   zp_result_destroy(result);
+}
+END_TEST
+
+/* An opening that falls evenly changes by as much as it falls within the window, or since the closing. A line that
+ * begins before the closing, as those of neighbours in derivatives may, counts from there on. */
+START_TEST(the_window_slides) {
+  static const double from = 0.3, late = 1e-6, slope = -2e-3;
+  ZpStill still;
+  ZpOpeningAt last = {from - late, 1e-3};
+  zp_still_begin(&still, 1e-3);
+  ck_assert_double_eq(zp_still_range(&still, from, from), 0);
+  for (int k = 1; k <= 100; k++) {
+    double t = from + 0.3 * (k + 0.4 * sin(k)) / 100;
+    ZpOpeningAt now = {t, 1e-3 + slope * (t - from)};
+    zp_still_follow(&still, from, last, now);
+    double within = fmin(t - from, ZP_STILL_TIME);
+    ck_near(zp_still_range(&still, from, t), -slope * within, 1e-9);
+    last = now;
+  }
 }
 END_TEST
 
@@ -254,6 +275,7 @@ int main(void) {
   suite_add_tcase(suite, since);
   TCase *ends = tcase_create("end");
   tcase_add_test(ends, a_run_ends_early_where_it_stays_closed);
+  tcase_add_test(ends, the_window_slides);
   tcase_add_test(ends, the_early_end_is_continuous_in_a_key);
   tcase_add_test(ends, a_run_that_creeps_ends_at_its_end_time);
   tcase_add_test(ends, a_run_may_end_at_the_first_closing);

@@ -1,5 +1,4 @@
-/* States that cannot be: faces that pass through each other, a negative capacitance. No study gives them as an answer.
- */
+/* No study gives a state as an answer that cannot be: faces that pass through each other, a negative capacitance. */
 #include "check_util.h"
 
 #include "rest/crossing.h"

@@ -57,6 +57,7 @@ typedef struct ZpFit {
   char idle[200]; /* columns that are not used: "monday.csv: Date, Remark; tuesday.csv: Date" */
   double *sigma;  /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
   int evaluations;
+  bool searches;   /* values need no derivatives yet */
   bool stopped;    /* the progress hook asked to stop */
   ZpStatus status; /* of the machine */
   ZpError *err;

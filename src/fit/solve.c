@@ -73,9 +73,9 @@ static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
     used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
 }
 
-/* Of runs with derivatives, so that those are of the values. */
+/* Of runs with derivatives, so that those are of the values; a search before them has coarser steps. */
 static double tolerance_of(const ZpFit *fit, ZpActuatorDef def) {
-  name_keys(fit, &def);
+  if (!fit->searches) name_keys(fit, &def);
   return zp_def_tolerance(&def);
 }
 
@@ -218,7 +218,9 @@ static bool search_within_bounds(ZpFit *fit, double *z, double *fitted) {
   nlopt_set_xtol_rel(search.opt, near_enough(fit));
   nlopt_set_maxeval(search.opt, 60 * fit->n);
   nlopt_set_initial_step1(search.opt, 0.1);
+  fit->searches = true;
   nlopt_result end = nlopt_optimize(search.opt, z, &best);
+  fit->searches = false;
   nlopt_destroy(search.opt);
   return end != NLOPT_OUT_OF_MEMORY && end != NLOPT_INVALID_ARGS;
 }

@@ -41,11 +41,11 @@ void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
 
 /* -- geometry -------------------------------------------------------------------------------------- */
 
-/* A smooth transition from g, far above the roughness, to nothing, far below 0. */
 ZP_INLINE double root_of(double roughness, double gap) {
   return sqrt(gap * gap + 4 * roughness * roughness);
 }
 
+/* A smooth transition from g, far above the roughness, to nothing, far below 0. */
 ZP_INLINE double thickness_of(double roughness, double gap) {
   double S = root_of(roughness, gap), below = 2 * roughness * roughness / (S - gap);
   return gap > 0 ? 0.5 * (gap + S) : S > gap ? below : 0;
@@ -356,7 +356,7 @@ static bool cavitates(double head) {
   return head < -zp_film_tension;
 }
 
-/* With what was there before: a cavity so thin that it is below the rounding of the heads stays. */
+/* Is there a cavity after `before`, one or none? One so thin that it is below the rounding of the heads stays. */
 static bool cavitates_on(const ZpFilmParams *p, const double *heads, size_t i, bool before) {
   static const double digits = 16 * 2.2e-16;
   double sizes = zp_film_tension + p->share[0] * fabs(heads[zp_film_mode_at(i, 0)]) +
@@ -368,7 +368,7 @@ static double cavity_of(double head, bool grows) {
   return grows ? give * (-zp_film_tension - head) : 0;
 }
 
-/* Was there a cavity? */
+/* Is there a cavity at the last residual? */
 static bool grows(const ZpFilmEval *e, size_t i) {
   return e->grows[i] > 0;
 }
@@ -379,6 +379,11 @@ static void cavities(const ZpFilmParams *p, const double *heads, const ZpFilmEva
     e->grows[i] = e->held[i] == 0 ? cavitates_on(p, heads, i, grows(e, i)) : e->held[i] > 0;
     e->end[cavity_at(i)] = fmax(cavity_of(e->head[i], grows(e, i)), e->held[i] == 0 ? 0 : -INFINITY);
   }
+}
+
+void zp_film_begin(const ZpFilmParams *p, const double *start, const ZpFilmEval *e) {
+  for (size_t i = 0; i < p->nodes; i++)
+    e->grows[i] = start[cavity_at(i)] > 0;
 }
 
 void zp_film_release(const ZpFilmParams *p, const ZpFilmEval *e) {
@@ -618,7 +623,7 @@ double zp_film_open_flow(const ZpFilmParams *p, const ZpFilmEval *e, const doubl
   return p->w * zp_film_wet(e, i) * sum;
 }
 
-/* Not by its wet length, which is a sum and rounded. */
+/* Is an element wet from end to end? A station's wet length does not tell, because it is a rounded sum. */
 static bool is_full(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
   return e->piece[i].length >= element(p, i);
 }
@@ -634,7 +639,7 @@ bool zp_film_fills(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
-/* What a cavity gives way by the mean head, m^2/Pa. */
+/* Derivative of a cavity's volume per width by minus the mean head, m^2/Pa. */
 static double given_way(const ZpFilmParams *p, const ZpFilmEval *e, size_t i) {
   return grows(e, i) && zp_film_is_free(p, e, i, 0) ? zp_film_wet(e, i) * give : 0;
 }
@@ -649,7 +654,7 @@ double zp_film_turned(const ZpFilmParams *p, double h, const ZpFilmEval *e, size
   return mix > 0 ? apart + (r[1] - own[1]) - mix * (r[0] - own[0]) : r[1];
 }
 
-/* By heads, of mode k by mode m at the same station, without what a cavity does. */
+/* Derivative of -r of mode k by the head of mode m at the same station, without the cavity's. */
 static double by_heads(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k, int m) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i, m)) return k == m ? 1 : 0;
   double length = zp_film_wet(e, i), leak = p->share[k] * e->leak_conductance[zp_film_mode_at(i, k)], sum = 0;
@@ -669,7 +674,7 @@ double zp_film_own(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t 
   return sum - 2 * mix * by_heads(p, h, e, i, 0, 1) + mix * mix * by_heads(p, h, e, i, 0, 0);
 }
 
-/* By the same mode's head at the next station. */
+/* Derivative of -r of mode k by its head at the next station. */
 static double by_next_head(const ZpFilmParams *p, double h, const ZpFilmEval *e, size_t i, int k) {
   if (!zp_film_is_free(p, e, i, k) || !zp_film_is_free(p, e, i + 1, k)) return 0;
   return p->share[k] * h * p->w * e->conductance[zp_film_mode_at(i, k)];

@@ -102,13 +102,16 @@ void zp_film_step(const ZpFilmParams *params, const ZpFilmEnds *ends, const doub
 /* Length of the film in the cell of station i, where it is laid, m. */
 double zp_film_wet(const ZpFilmEval *eval, size_t i);
 
+/* A step begins: there are the cavities of the state at its start. */
+void zp_film_begin(const ZpFilmParams *params, const double *start, const ZpFilmEval *eval);
+
 /* The heads decide at all stations whether there is a cavity. */
 void zp_film_release(const ZpFilmParams *params, const ZpFilmEval *eval);
 
 /* At how many stations do heads contradict what that step had there, a cavity or none? */
 size_t zp_film_contradictions(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
 
-/* Hold it where heads contradict it, but for the last of these stations. */
+/* Hold what that step had wherever heads contradict it, but for the last of these stations, which changes. */
 void zp_film_turn_one(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
 
 /* The last correction has led from the heads of that step to these: |work|, J, of cavities that it has opened or closed
@@ -128,7 +131,7 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *params, const ZpFilmEnds *ends, doub
 /* Is the head of mode k at station i an unknown, or is the mode none or its head given? */
 bool zp_film_is_free(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i, int k);
 
-/* Does the liquid reach beyond all of station i's length, as that of a bead may or may not? */
+/* Does liquid cover all of station i's length? That of a bead may end within it. */
 bool zp_film_covers(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
 /* Does the film fill all between the faces at station i at the step's end: is it covered, without a cavity? */
@@ -141,7 +144,7 @@ double zp_film_inertia(const ZpFilmParams *params, double h, const ZpFilmEval *e
 /* Kinetic energy of the film at gaps [N] and a state, as far as it is covered, and what its cavities hold, J. */
 double zp_film_energy(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state);
 
-/* The part of it that belongs to the stations from `first` on before `end`. */
+/* The part of this energy that belongs to the stations from `first` on before `end`. */
 double zp_film_energy_among(const ZpFilmParams *params, const ZpCover *cover, const double *gap, const double *state,
                             size_t first, size_t end);
 

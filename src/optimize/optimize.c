@@ -49,7 +49,7 @@ static bool has_derivatives(const ZpProblem *problem, const ZpResult *result) {
   return false;
 }
 
-/* Runs of a search by derivatives have the tolerance of `with`, which has these, from the first case on. */
+/* All runs of a search by derivatives have the tolerance of those with derivatives, such as `with`. */
 static void share_tolerance(ZpSearch *s, const ZpActuatorDef *with, const ZpResult *result) {
   bool runs = isfinite(zp_result_get(result, "mean_time_step_s"));
   if (runs && s->problem.method == ZP_OPTIMIZER_SLSQP) s->def.solver.tolerance = zp_def_tolerance(with);

@@ -1,5 +1,5 @@
-/* When an actuator at rest counts as closed, as an event for solve/march.h; and the
- * actuator along the square of the voltage. */
+/* The gap by which an actuator at rest counts as closed, as an event for solve/march.h; and the actuator along the
+ * square of the voltage. */
 #ifndef ZP_REST_CLOSING_H
 #define ZP_REST_CLOSING_H
 

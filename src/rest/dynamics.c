@@ -258,7 +258,7 @@ static void tangent(void *self, ZpBordered *J) {
   if (joined) border_of_links(d, J);
 }
 
-/* Heads of stations with a cavity are unknowns in another form. */
+/* The matrix has other unknowns than the heads at stations with a cavity (zp_film_mix). */
 static void turn(void *self, double *r) {
   for (ZpDynamics *m = self; m; m = m->below)
     for (size_t i = 0; i < m->model->nodes; i++) {
@@ -404,8 +404,8 @@ static double unforeseen(void *self, const double *q1) {
   return work;
 }
 
-/* Cavities open and close by the last heads, all at once. That may lead to and fro for ever: if those whose heads
- * contradict what they did do not become fewer within some iterations, they change one by one, which ends. */
+/* Cavities open and close by the last heads, all at once. This may lead to and fro for ever. So they change one by one,
+ * which ends, if those that their heads contradict do not become fewer within some iterations. */
 static bool choose(void *self, const double *q1) {
   enum { TRIALS = 4 };
   ZpDynamics *d = self;
@@ -743,17 +743,18 @@ static void book_work(ZpDynamics *d, ZpState *state) {
   state->base_U = state->U = U1;
 }
 
+static const double of_length = 0.08; /* the reference length of errors as a part of the flexible length */
+
 /* Reference length of errors, m: a part of the flexible length, or of the hanging opening if that is small, because
  * closing is then a small motion. It is at least the depth of contact. */
-static const double of_length = 0.08;
-
 static double far(const ZpModel *model, const ZpState *state) {
   static const double of_opening = 0.2;
   double length = of_length * model->L;
   return zp_is_pair(&model->topology) ? fmin(length, of_opening * fmax(state->opening0, model->faces.depth)) : length;
 }
 
-/* What is required of lengths and of the voltage: the same share of each one's scale. */
+/* An error of the voltage counts relative to its scale as one of a position does relative to the reference length. For
+ * the usual reference length, a part of the flexible length, it has the source's scale. */
 static void set_accuracy(ZpDynamics *d, const ZpState *state) {
   double reference = far(d->model, state);
   d->stepper.accuracy = error_of_step(&d->model->def) * reference;
@@ -814,7 +815,7 @@ static void book_losses(ZpDynamics *d, ZpState *state) {
   state->meniscus_loss += losses.meniscus;
 }
 
-/* And where it has ended, back. */
+/* Motion and the laws' own numbers at the end of the step => state. */
 static void store(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
   zp_assembly_scatter(&d->assembly, d->q, zp_state_q(model, state));

@@ -53,9 +53,8 @@ static ZpSlowEnd fall_at_top(ZpLift *l) {
   return zp_slow_close_at(l->slow, far * l->top, l->top, &l->at);
 }
 
-/* Raise the voltage under this load until it closes, or to the first limit that is not below the voltage asked for =>
- * at
- */
+/* Raise the voltage under this load until it closes, or to the first limit that is not below the voltage asked for.
+ * That limit is `at`. */
 static ZpSlowEnd raise(ZpLift *l, double load) {
   zp_limit_none(&l->at, NULL);
   if (!zp_lift_hang(l, load)) return ZP_SLOW_LOST;
@@ -130,7 +129,7 @@ void zp_lift_drop(ZpLift *l, ZpLimit *limit) {
 
 /* -- by definition ---------------------------------------------------------------------------------- */
 
-/* From where a higher or lower voltage closes it to the load under which this one does, kg; NAN: not found */
+/* From the limit at a higher or lower voltage => the load with a limit at this voltage, kg; NAN: it was not found. */
 static double follow(ZpLift *l) {
   ZpSlow *slow = l->slow;
   zp_slow_go_to(slow, l->at.state);

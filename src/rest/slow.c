@@ -110,32 +110,31 @@ static bool has_opened(void *user) {
   return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
 }
 
-/* Fall to the state this share of the voltage or of the load further. */
-static bool fall_beyond(ZpSlow *f, double m, double share) {
-  f->march.fold.system->set(f->statics, changed(f, m, share));
-  return zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
-}
+/* Shares of the voltage or of the load by which a fall goes beyond the present point. The first is for limit points: a
+ * crest that is higher by more than it is still met. */
+static const double beyond[] = {1e-6, 1e-4, 3e-4, 1e-3};
+enum { FROM_LIMIT, FROM_LOST, SHARES = sizeof beyond / sizeof beyond[0] };
 
-/* The same from the present point; a fall that does not converge is tried again from further on. */
-static bool fall(ZpSlow *f, double sign, double least) {
-  static const double beyond[] = {1e-4, 3e-4, 1e-3};
+/* Fall from the present point to the state beyond it. A fall that does not converge is tried again from further on. */
+static bool fall(ZpSlow *f, double sign, size_t first) {
   double m = parameter(f);
+  bool found = false;
   f->square.save(f->statics, f->held);
-  bool found = fall_beyond(f, m, sign * least);
-  for (size_t k = 0; k < sizeof beyond / sizeof beyond[0] && !found; k++) {
-    zp_slow_go_to(f, f->held);
-    found = fall_beyond(f, m, sign * beyond[k]);
+  for (size_t k = first; k < SHARES && !found; k++) {
+    if (k > first) zp_slow_go_to(f, f->held);
+    f->march.fold.system->set(f->statics, changed(f, m, sign * beyond[k]));
+    found = zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
   }
   return found;
 }
 
-/* The same from a limit point at the present point. It begins with a small step along the null vector, without which it
- * would be slow at first; not where it is closed, since a front that gives way hardly moves the opening, by which steps
- * are measured. A crest that is higher by more than a millionth is still met. */
+/* Fall from a limit point at the present point. An open actuator begins with a small step along the null vector,
+ * without which it would be slow at first. A closed one does not: a front that gives way hardly moves the opening, by
+ * which this step is measured. */
 static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
-  static const double part = 0.25, least = 1e-6; /* of a step along the branch; of the voltage */
+  static const double part = 0.25; /* of a step along the branch */
   if (!f->was_closed) zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
-  return fall(f, sign, least);
+  return fall(f, sign, FROM_LIMIT);
 }
 
 /* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
@@ -195,7 +194,7 @@ typedef struct Place {
   double at, m, slope;
 } Place;
 
-/* Pass the point that is `step` steps after another one; m is NAN if it was not found. */
+/* Pass the point that is `step` steps after another one. Its m is NAN if it was not found. */
 static Place pass(ZpSlow *f, const Side *side, Place from, double step) {
   enum { MOST = 6 };
   double at = from.at + step, here = side->gap + at * side->step, m, slope;
@@ -205,17 +204,19 @@ static Place pass(ZpSlow *f, const Side *side, Place from, double step) {
   return end == ZP_PASS_ON ? (Place){at, m, slope * side->step} : (Place){at, NAN, NAN};
 }
 
-/* The cubic through two points: rise + (slope + (bend + turn t) t) t with t from 0 to 1. For a parabola turn is 0. */
+/* The cubic through two points: above the first one it is (slope + (bend + turn t) t) t, with t from 0 to 1. For a
+ * parabola turn is 0. */
 typedef struct Cubic {
-  double slope, end_slope, rise, bend, turn;
+  double slope, end_slope, bend, turn;
 } Cubic;
 
 static Cubic cubic_through(Place from, Place to) {
   double length = to.at - from.at, a = from.slope * length, b = to.slope * length, rise = to.m - from.m;
-  return (Cubic){a, b, rise, 3 * rise - 2 * a - b, a + b - 2 * rise};
+  return (Cubic){a, b, 3 * rise - 2 * a - b, a + b - 2 * rise};
 }
 
-/* How far is the highest crest of a cubic above its first point? Where: *at, from 0 to 1. NAN: there is none. */
+/* => how far the highest crest of a cubic is above its first point, and where it is: at, from 0 to 1. NAN: there is
+ * none. */
 static double crest_of(const Cubic *c, double sign, double *at) {
   double t = c->slope / (sign * sqrt(c->bend * c->bend - 3 * c->turn * c->slope) - c->bend);
   *at = t;
@@ -245,7 +246,7 @@ static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Plac
   return below < part * lowest ? from.at + at * (to.at - from.at) : (double)NAN;
 }
 
-/* To the crest near a point, and if it is not higher than the limit from there on to the point `next`. */
+/* Go to the crest near a point. If it is not higher than the limit, continue to the point `next`. */
 static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double at, double next) {
   ZpFold *fold = &f->march.fold;
   bool found = zp_fold_event(fold, zp_closing_gap, side->gap + at * side->step, ZP_FOLD_ROUGH);
@@ -331,13 +332,12 @@ static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
 /* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
  * open the actuator, because no limit point was found there. */
 static bool go_on_from_lost(ZpSlow *f, double sign) {
-  static const double least = 1e-4;
-  return fall(f, sign, least) && zp_slow_is_closed(f) == f->was_closed;
+  return fall(f, sign, FROM_LOST) && zp_slow_is_closed(f) == f->was_closed;
 }
 
 /* -- a slow change -------------------------------------------------------------------------------- */
 
-/* Is the present point a closed state that cannot be? From there on it is not known when the actuator opens. */
+/* Is the present point a closed state that cannot be? Beyond it nothing tells when the actuator opens. */
 static bool has_become_impossible(const ZpSlow *f) {
   return f->was_closed && zp_slow_is_closed(f) && zp_statics_fault(f->statics);
 }

@@ -315,8 +315,8 @@ static double closed_capacitance(const ZpStatics *s) {
   return per_length * zp_faces_length(s->model);
 }
 
-/* Force per length with which a load that falls upwards presses the faces of the platform together, N/m, or the edge of
- * a free end onto the other face. */
+/* Force per length of faces, N/m, with which a load that falls upwards presses those of the platform together, or the
+ * edge of a free end onto the other face. */
 static double pressed_by_load(const ZpModel *model) {
   const ZpFacesParams *faces = &model->faces;
   double beside = zp_ends_free(&model->topology) ? 0 : 0.5 * faces->l;

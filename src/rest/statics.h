@@ -20,7 +20,7 @@ typedef struct ZpStatics {
   double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
   double held_at;    /* final value of this opening while it is approached, m */
   double reaction;   /* force that holds it there, N, one part, positive downwards; of the last residual */
-  double careful;    /* steps of a fall are shorter by this factor */
+  double careful;    /* factor by which steps of a fall are shorter */
   bool contact_acts; /* faces push on each other; if false they may pass through each other (to find a start) */
   ZpAssembly assembly;
   ZpBandForm form;            /* of the stiffness; with a bead also terms of low rank, because all forces depend on its

@@ -11,7 +11,6 @@
 static const double least_capacitance = 1e-15; /* F: a capped charge has none, and a law needs a scale */
 static const double undecided = 1e-13;         /* F: with less, charge that cannot leave would raise any voltage */
 static const double past_limit = 1e-6;         /* of the scale: a limit is passed */
-static const double shortest = 1e-10;          /* s: in shorter ones, before a corner, only time advances */
 static const double instant = 1e-8;            /* s: what voltages do in less time happens at once, */
 static const double mechanical = 1e-3;         /* and in less than this it hardly moves an actuator */
 
@@ -55,7 +54,7 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
   double V = state->supply.voltage, rate = zp_supply_rate(&sim->model->supply, &command, state->t, state->supply);
   double inner = zp_ramp_resolution(fmax(least, fabs(V)), rate);
   double outer = zp_ramp_resolution(fmax(least, fabs(state->U)), state->U_rate);
-  return fmax(fmin(inner, outer), instant); /* the last step's rate may be that of a jump */
+  return fmax(fmin(inner, outer), instant); /* U_rate may be that of a jump in the last step */
 }
 
 /* -- the law of the current ------------------------------------------------------------------------ */
@@ -126,12 +125,13 @@ static double left_at(const ZpSupply *supply, const ZpSourceStep *s, const Drop 
   return s->h * current - taken_by_all(supply, s, drop, s->taken_at(s->electrodes, U), U);
 }
 
-/* At the voltage that it leaves. */
+/* Charge that a current brings over the step less the charge taken if the voltage ends where the current leaves it, C.
+ */
 static double left_by(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double current) {
   return left_at(supply, s, drop, current, behind(supply, drop, current));
 }
 
-/* Faces that the cap holds wholly: whatever the voltage beyond some one, they have the same charge. */
+/* Full faces: the cap holds their whole charge, which is the same at all voltages beyond some one. */
 typedef struct Full {
   double far;    /* V: a voltage at which faces are full if they ever are, that the current would lower */
   double charge; /* taken there, C */
@@ -151,13 +151,13 @@ static bool is_full(const ZpSourceStep *s, const Full *full, double U) {
   return fabs(full->charge - s->taken_at(s->electrodes, U)) <= rounding * full->apart;
 }
 
-/* Does a current leave charge, or almost, that faces cannot hold? */
+/* Is the charge that a current leaves, exactly or almost, more than faces can hold? */
 static bool is_too_much(const Full *full, double left) {
   static const double rounding = 1e-14;
   return left * copysign(1, full->far) >= -rounding * full->apart;
 }
 
-/* The least voltage at which faces are full: that of the start, or if they are not full there, one beyond. */
+/* The least voltage at which faces are full, from that of the step's start on. */
 static double full_from(const ZpSourceStep *s, const Full *full) {
   enum { HALVINGS = 60 };
   double least = s->U0, most = full->far;
@@ -172,7 +172,7 @@ static double full_from(const ZpSourceStep *s, const Full *full) {
   return most;
 }
 
-/* What acts in a step. */
+/* The limit that acts in a step, if one does. */
 typedef struct Limit {
   ZpFeedMode mode;
   double current; /* A */
@@ -214,7 +214,7 @@ static ZpSourceLaw has_current(const ZpSupply *supply, const ZpSourceStep *s, co
                        .resolved = share_of(s->h)};
 }
 
-/* As a charge, too. */
+/* The voltage stays. The law is that of a charge, as the others are. */
 static ZpSourceLaw has_voltage(const ZpSourceStep *s, double voltage) {
   double C = fmax(s->C, least_capacitance);
   return (ZpSourceLaw){.lacks = C * (voltage - s->U1), .by_voltage = -C, .bound = NAN, .resolved = share_of(s->h)};
@@ -362,7 +362,7 @@ void zp_feed_end(ZpSim *sim) {
 
 bool zp_feed_step(ZpSim *sim, double latest) {
   ZpState *state = sim->state;
-  if (latest - state->t < shortest) {
+  if (latest - state->t < ZP_FEED_SHORTEST) {
     state->supply = followed(sim, state, latest);
     state->t = latest;
     return true;

@@ -17,6 +17,9 @@ typedef enum ZpFeedMode {
 /* Currents of a step that may be the largest one. */
 typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT_END, ZP_FEED_CURRENTS } ZpFeedCurrent;
 
+/* Shortest step, s. In a shorter one, before a corner, only time advances. */
+#define ZP_FEED_SHORTEST 1e-10
+
 typedef struct ZpFeed {
   ZpSource source;     /* what the dynamics ask */
   double scale;        /* V */
@@ -27,8 +30,8 @@ typedef struct ZpFeed {
   int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
 } ZpFeed;
 
-/* Is there a supply that acts? Else zp_feed_create to zp_feed_cable_energy, zp_sim_command
- * excepted, are not to be called. */
+/* Is there a supply that acts? Else zp_feed_create to zp_feed_cable_energy, zp_sim_command excepted, are not to be
+ * called. */
 bool zp_sim_is_fed(const ZpSim *sim);
 
 void zp_feed_create(ZpSim *sim);

@@ -112,8 +112,8 @@ static double corner_of(ZpSim *sim, double end_time) {
   return fmin(zp_sim_next_corner(sim), end_time);
 }
 
-/* Under a given voltage, exactly that one: a rounding would be a jump, at which the account is closed. The neighbours'
- * accounts close where the run's does. */
+/* An ideal source gives a neighbour exactly the voltage of its own waveform: a rounding would be a jump, at which the
+ * account of the work closes. Neighbours' accounts close where the run's does. */
 static void set_voltage(const ZpSim *sim, ZpSim *near) {
   if (zp_sim_is_fed(sim)) return;
   near->state->U = zp_waveform_voltage(&near->model->waveform, near->state->t);
@@ -168,9 +168,9 @@ static bool meniscus_passes(ZpRunRates *rates) {
   return passes;
 }
 
-/* Does the run end in this step without being known where in it? */
-static bool ends_somewhere(const ZpSim *sim) {
-  return sim->stop == ZP_STOP_CLOSED && sim->landing == ZP_LANDS_NOWHERE && zp_sim_stops(sim, sim->stop);
+/* Does the run end at the end of this step, although its state ended it before? */
+static bool ends_late(const ZpSim *sim) {
+  return sim->landing == ZP_LANDS_NOWHERE && zp_sim_stops(sim, sim->stop);
 }
 
 /* An event in the run's step that has no derivative. What a meniscus leaves at a station that it passes, and how long a
@@ -178,8 +178,9 @@ static bool ends_somewhere(const ZpSim *sim) {
 static const char *cause_of_loss(ZpRunRates *rates) {
   if (rates->sim->state->supply_mode != rates->before->supply_mode)
     return "a limit of the supply's current begins or ends";
-  if (ends_somewhere(rates->sim)) return "the run ends at the end of a step, in which a pair joins";
-  return meniscus_passes(rates) ? "the meniscus of a bead passes a station" : NULL;
+  if (ends_late(rates->sim)) return "the run ends at the end of a step, not at the instant that ends it";
+  return meniscus_passes(rates) ? "the meniscus of a bead passes a node; liquid.model none or submerged has them"
+                                : NULL;
 }
 
 /* Does the step's matrix filter velocities, because of faces or menisci? */
@@ -242,7 +243,10 @@ static bool follow_step(ZpRunRates *rates, ZpKeyRates *of, bool moves) {
     ZpState *state = near->state;
     const ZpState *start = near->before;
     state->zip_time = closing_near(rates, near, before->zip_time, now->zip_time, start->zip_time);
-    state->closed_from = closing_near(rates, near, before->closed_from, now->closed_from, start->closed_from);
+    double closed = closing_near(rates, near, before->closed_from, now->closed_from, start->closed_from);
+    if (now->closed_from != before->closed_from && !isnan(closed))
+      zp_sim_close(near, (ZpOpeningAt){closed, zp_closed_opening(near->model, state->opening0)});
+    state->closed_from = closed;
   }
   take_rate(rates, of);
   return true;

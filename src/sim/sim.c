@@ -13,7 +13,6 @@
 #include "sim/run_rates.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
-#include "sim/still.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
@@ -362,7 +361,8 @@ static bool has_closed(const ZpModel *model, const ZpState *state) {
   return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
 }
 
-/* What is left until it has stayed closed, and hardly moved, for a while, as a distance, m; INFINITY: it is open. */
+/* A run ends once its actuator has stayed closed, and hardly moved, for a while => how far it is from that, m;
+ * INFINITY: it is open. */
 static double left_to_rest(const ZpState *state) {
   static const double at_rest = 1e-4; /* of the contraction */
   const double least = at_rest * state->opening0, due = state->closed_from + ZP_STILL_TIME;
@@ -371,7 +371,7 @@ static double left_to_rest(const ZpState *state) {
   return fmax(range - least, least * (due - state->t) / ZP_STILL_TIME);
 }
 
-/* Is nothing left? Sequential contact never opens, so there closing is enough. */
+/* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
 static bool stays_closed(const ZpModel *model, const ZpState *state) {
   if (model->def.contact.model == ZP_CONTACT_SEQUENTIAL) return has_closed(model, state);
   return left_to_rest(state) <= 0;
@@ -439,6 +439,13 @@ static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart star
   return start.opening > zp_closed_opening(model, state->opening0) && !is_open(model, state);
 }
 
+void zp_sim_close(ZpSim *sim, ZpOpeningAt start) {
+  ZpState *state = sim->state;
+  state->closed_from = start.t;
+  zp_still_begin(&state->still, start.opening);
+  zp_still_follow(&state->still, start.t, start, (ZpOpeningAt){state->t, opening(sim->model, state)});
+}
+
 /* Has the last step closed the actuator, or opened it again? */
 static void note_closing(ZpSim *sim) {
   const ZpModel *model = sim->model;
@@ -450,14 +457,11 @@ static void note_closing(ZpSim *sim) {
   double since = within ? zp_sim_crossing(sim) : state->t;
   if (zipped && isnan(state->zip_time) && state->U != 0) state->zip_time = since;
   if (!zipped || isnan(state->zip_time)) return;
-  const ZpOpeningAt now = {state->t, opening(model, state)};
-  ZpOpeningAt start = {sim->step_start.t, sim->step_start.opening};
-  if (begins) {
-    start = within ? (ZpOpeningAt){since, zp_closed_opening(model, state->opening0)} : now;
-    state->closed_from = since;
-    zp_still_begin(&state->still, start.opening);
-  }
-  zp_still_follow(&state->still, state->closed_from, start, now);
+  const ZpOpeningAt start = {sim->step_start.t, sim->step_start.opening}, now = {state->t, opening(model, state)};
+  if (begins)
+    zp_sim_close(sim, within ? (ZpOpeningAt){since, zp_closed_opening(model, state->opening0)} : now);
+  else
+    zp_still_follow(&state->still, state->closed_from, start, now);
 }
 
 /* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the

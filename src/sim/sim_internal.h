@@ -8,6 +8,7 @@
 #include "paper/motion/motion.h"
 #include "rest/dynamics.h"
 #include "sim/feed.h"
+#include "sim/still.h"
 #include "system/held.h"
 
 /* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
@@ -79,7 +80,7 @@ typedef struct ZpStepStart {
 typedef enum ZpStop {
   ZP_STOP_AT_END, /* nowhere */
   ZP_STOP_CLOSED, /* where the actuator has closed for the first time */
-  ZP_STOP_HELD    /* where it has stayed closed for 0.1 s and its contraction has changed by less than 1e-4 in them */
+  ZP_STOP_HELD    /* where it has stayed closed and hardly moved for a while */
 } ZpStop;
 
 /* Instants within a step at which a run ends. */
@@ -165,6 +166,9 @@ void zp_sim_arrive(ZpSim *sim);
 /* Time at which the path of the last step, of two ribbons, passes the opening that counts as closed, s; this may be
  * slightly before or after the step. */
 double zp_sim_crossing(const ZpSim *sim);
+
+/* The actuator has closed at `start`, in the last step or close to it: what is known of its rest begins there. */
+void zp_sim_close(ZpSim *sim, ZpOpeningAt start);
 
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */

@@ -41,10 +41,10 @@ static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A
 /* -- the numbers of a state ------------------------------------------------------------------------ */
 
 typedef enum Kind {
-  REAL,    /* finite, as all the following reals unless another is said */
-  VOLTAGE, /* within what electrodes can have */
+  REAL,    /* finite */
+  VOLTAGE, /* that electrodes can have */
   RATE,    /* of such a voltage */
-  INPUT,   /* what a program may set, or its rate */
+  INPUT,   /* that a program may set, or its rate */
   READING, /* NAN: none yet */
   PAST,    /* an instant not after the present; NAN: not yet */
   UNTIL,   /* an instant; INFINITY: for ever */
@@ -522,17 +522,18 @@ static ZpStatus check_keys(const Parts *parts, const ZpActuatorDef *def, ZpError
   return all ? ZP_OK : fail_version(&parts->program, "keys", err);
 }
 
-/* A charge that is kept while its faces part raises the voltage of a drive by the capacitances' ratio. */
+/* Can it be a voltage, or a rate of `per_time` such voltages per second? A charge that is kept while its faces part
+ * raises the voltage of a drive by the ratio of the capacitances. */
 static bool is_voltage(double value, double per_time) {
   static const double raised = 1e3;
   return fabs(value) <= raised * zp_key(zp_key_find("drive.voltage"))->max * per_time;
 }
 
-/* Can item k be this number, in a state of time t? Others would index beyond arrays, stop the clock, or no run has
- * them. */
+/* Can item k be this number, in a state of time t? Other numbers would index beyond arrays or stop the clock, or no run
+ * has them. */
 static bool is_possible(size_t k, double value, double t, const ZpActuatorDef *def) {
-  static const double most_input = 1e15;                 /* SI: larger than every range of an input and its rate */
-  static const double rounding = 1e-9, shortest = 1e-10; /* s: in shorter steps only time advances */
+  static const double most_input = 1e15; /* SI: larger than every range of an input and its rate */
+  static const double rounding = 1e-9;   /* of the time */
   switch (number[k].kind) {
   case FLAG:
     return value == 0 || value == 1;
@@ -544,7 +545,7 @@ static bool is_possible(size_t k, double value, double t, const ZpActuatorDef *d
   case VOLTAGE:
     return is_voltage(value, 1);
   case RATE:
-    return is_voltage(value, 1 / shortest);
+    return is_voltage(value, 1 / ZP_FEED_SHORTEST);
   case INPUT:
     return fabs(value) <= most_input;
   case READING:
@@ -580,9 +581,10 @@ static ZpStatus check_numbers(const Parts *parts, const ZpActuatorDef *def, ZpEr
   for (size_t k = 0; k < NUMBERS; k++)
     if (!take_line(&text, line) || strcmp(line, number[k].name) != 0)
       return fail_version(&parts->program, "numbers", err);
+  const double t = real_at(parts->number.item, TIME);
   for (size_t k = 0; k < NUMBERS; k++) {
     const double value = real_at(parts->number.item, k);
-    if (!is_possible(k, value, value_of(parts, "t"), def))
+    if (!is_possible(k, value, t, def))
       return zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator: %s = %g", number[k].name, value);
   }
   return check_control(parts, def, err);

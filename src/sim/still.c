@@ -5,8 +5,9 @@
 /* The window is half a cell longer than a whole number of cells: when one begins, none ends at its other end. */
 #define WINDOW (ZP_STILL_CELLS - 1.5)
 
+/* Instants before the closing count as it. */
 static double cells_since(double closed_from, double t) {
-  return (t - closed_from) * (WINDOW / ZP_STILL_TIME);
+  return fmax(t - closed_from, 0) * (WINDOW / ZP_STILL_TIME);
 }
 
 static size_t place_of(double cell) {
@@ -39,8 +40,9 @@ void zp_still_follow(ZpStill *still, double closed_from, ZpOpeningAt start, ZpOp
 
 double zp_still_range(const ZpStill *still, double closed_from, double t) {
   const double now = cells_since(closed_from, t), back = fmax(now - WINDOW, 0), oldest = floor(back);
-  double least = INFINITY, most = -INFINITY;
-  for (double cell = floor(now); cell > oldest; cell--) {
+  const size_t newest = place_of(now);
+  double least = still->least[newest], most = still->most[newest];
+  for (double cell = floor(now) - 1; cell > oldest; cell--) {
     least = fmin(least, still->least[place_of(cell)]);
     most = fmax(most, still->most[place_of(cell)]);
   }

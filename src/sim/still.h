@@ -12,14 +12,15 @@ typedef struct ZpOpeningAt {
   double t, opening; /* s, m */
 } ZpOpeningAt;
 
-/* Begin with this instant, at which the actuator closes. */
+/* The actuator closes, with this opening. */
 void zp_still_begin(ZpStill *still, double opening);
 
-/* Go on along a straight line from one instant to a later one. */
+/* The opening has gone along a straight line from one instant to a later one. Of a line that begins before the closing,
+ * that part counts as the instant of the closing. */
 void zp_still_follow(ZpStill *still, double closed_from, ZpOpeningAt start, ZpOpeningAt end);
 
-/* => by how much the opening has changed within the window before t, m. The extremes of the cell that the window is
- * leaving fade in proportion to the part of it that has left. */
+/* => by how much the opening has changed within the window before t, m. While the window leaves a cell, that cell's
+ * extremes fade: they count by the part of it that is still in the window. */
 double zp_still_range(const ZpStill *still, double closed_from, double t);
 
 #endif

@@ -47,10 +47,11 @@ void zp_fold_guess(ZpFold *fold);
  * is none nearby; the present point is then undefined. */
 bool zp_fold_solve(ZpFold *fold);
 
-/* The same to the equilibrium where `event` has this value; it may pass limit points. */
+/* Solve for the equilibrium where `event` has this value. The way there may pass limit points. */
 bool zp_fold_event(ZpFold *fold, ZpEvent event, double value, ZpFoldTo to);
 
-/* From a limit point at the present point, with this null vector, along it until `event` has changed by `change`. */
+/* Leave the limit point at the present point along its null vector, so far that `event` changes by `change`, but by one
+ * move at most. */
 void zp_fold_leave(ZpFold *fold, const double *null, ZpEvent event, double change);
 
 /* Continue along the branch with about one factorisation per point: from close to the equilibrium where `event` has the
@@ -60,7 +61,7 @@ void zp_fold_leave(ZpFold *fold, const double *null, ZpEvent event, double chang
 typedef enum ZpPass { ZP_PASS_ON, ZP_PASS_AGAIN, ZP_PASS_LOST } ZpPass;
 ZpPass zp_fold_pass(ZpFold *fold, ZpEvent event, double here, double next, double *m, double *slope);
 
-/* The same to the equilibrium at the present parameter, roughly. */
+/* Solve roughly for the equilibrium at the present parameter. */
 bool zp_fold_rest(ZpFold *fold);
 
 #endif

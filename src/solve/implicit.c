@@ -9,9 +9,10 @@
 
 static const double first_step = 1e-6;     /* s */
 static const double shortest_step = 1e-13; /* s */
-static const double newton_share = 1e-4;   /* of the accuracy: the largest error that the iteration may leave, */
-static const double fast_left = 1e-2, fast_balance = 1e3; /* in a quick run: the same; times the imbalance */
-static const double rounding_share = 1e-2;                /* the largest if rounding stops it */
+static const double newton_share = 1e-4;   /* of the accuracy: the largest error that the iteration may leave */
+static const double rounding_share = 1e-2; /* the largest if rounding stops it */
+static const double hasty_share = 1e-2;    /* the largest in a hasty run */
+static const double hasty_balance = 1e3;   /* times the imbalance that another run may leave */
 static const double fast_share = 0.1; /* of the work that a linear rate foresees: convergence is mostly quadratic, but
                                        * not of a film, whose tangent leaves out convection */
 static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
@@ -312,8 +313,8 @@ void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
 }
 
 void zp_implicit_hasten(ZpImplicit *s) {
-  s->share = fast_left;
-  s->balance *= fast_balance;
+  s->share = hasty_share;
+  s->balance *= hasty_balance;
 }
 
 static void begin(ZpImplicit *s, const double *q, const double *v) {

@@ -57,8 +57,8 @@ typedef struct Meshes {
 
 /* Three fifths and two fifths of the elements. Together they cost as much as the study itself. They are so near to it
  * that the order matters little, and so far from each other that the front is elsewhere between their nodes. Ripples
- * that four meshes must show also need four fifths and seven tenths. In motion, half of the elements in place of three
- * fifths: the cost is that of half of the steps, too. */
+ * that four meshes must show also need four fifths and seven tenths. In motion half of the elements, which also take
+ * half of the steps, cost less than three fifths. */
 static Meshes coarser_meshes(int elements, int others, bool moves) {
   static const int at_rest[MESHES] = {10, 6, 4, 8, 7}, in_motion[MESHES] = {10, 5, 4, 8, 7};
   Meshes meshes = {.others = others};

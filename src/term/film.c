@@ -20,10 +20,11 @@ static double open_share(const ZpModel *model, const ZpSpan *span, size_t i) {
   return bead->supply;
 }
 
-/* Prediction: gaps change as over the last step. */
+/* Prediction: gaps change as over the last step. Cavities are those of its end, whatever was evaluated since. */
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   for (size_t i = 0; i < model->nodes; i++)
     e->open[i] = open_share(model, span, i);
+  zp_film_begin(&model->film, span->memory, &e->film);
   for (size_t i = 0; i < model->nodes; i++) {
     const double *w = span->w ? span->w + model->stride : NULL;
     e->film.rate[i] = w ? w[zp_upper(&model->topology, i)] - w[zp_lower(&model->topology, i)] : 0;
