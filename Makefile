@@ -1,5 +1,7 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
+# make nightly  everything that takes too long for every change, in at most two hours; a second call goes on
+# make mutants  do the tests notice faults?
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested
 # make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
@@ -18,7 +20,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check fmu python octave web check-web check-report deps bench bench-tables format check-format docs html check-docs validity verification install uninstall deb windows clean
+.PHONY: all demo check nightly mutants fmu python octave web check-web check-report deps bench bench-tables format check-format docs html check-docs validity verification install uninstall deb windows clean
 all: $(BUILD)/zipact
 
 deps:
@@ -39,6 +41,12 @@ demo: $(BUILD)/zipact
 check: deps $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) -j $(JOBS) -- --no-print-directory
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS) -LE nightly
+
+nightly:
+	.ci/nightly
+
+mutants: deps
+	scripts/mutants.py $(BUILD)
 
 python: $(BUILD)/zipact
 	scripts/test-python.sh $(BUILD)

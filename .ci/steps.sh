@@ -27,6 +27,7 @@ build() { # build DIR [OPTIONS...]
 # of processes, of which none outlives the script, however that ends.
 beside=$(mktemp -d)
 declare -A group=()
+# shellcheck disable=SC2154
 trap 'for name in "${!group[@]}"; do kill -- "-${group[$name]}" 2>/dev/null || true; done; rm -rf "$beside"' EXIT
 
 begin() {
