@@ -258,22 +258,24 @@ static void tangent(void *self, ZpBordered *J) {
   if (joined) border_of_links(d, J);
 }
 
+/* What a vector of unknowns has for the head of mode k at station i. */
+static double *head_in(const ZpDynamics *m, size_t i, int k, double *x) {
+  return &x[m->at + (size_t)m->assembly.own_equation[zp_film_mode_at(i, k)]];
+}
+
 /* The matrix has other unknowns than the heads at stations with a cavity (zp_film_mix). */
 static void turn(void *self, double *r) {
   for (ZpDynamics *m = self; m; m = m->below)
     for (size_t i = 0; i < m->model->nodes; i++) {
-      const int *row = &m->assembly.own_equation[zp_film_mode_at(i, 0)];
-      double *first = &r[m->at + (size_t)row[0]], *second = &r[m->at + (size_t)row[1]];
+      double *first = head_in(m, i, 0, r), *second = head_in(m, i, 1, r);
       *second = zp_film_turned(&m->model->film, m->h, &m->eval.film, i, (const double[]){*first, *second});
     }
 }
 
 static void turn_back(void *self, double *x) {
   for (ZpDynamics *m = self; m; m = m->below)
-    for (size_t i = 0; i < m->model->nodes; i++) {
-      const int *row = &m->assembly.own_equation[zp_film_mode_at(i, 0)];
-      x[m->at + (size_t)row[0]] -= zp_film_mix(&m->model->film, &m->eval.film, i) * x[m->at + (size_t)row[1]];
-    }
+    for (size_t i = 0; i < m->model->nodes; i++)
+      *head_in(m, i, 0, x) -= zp_film_mix(&m->model->film, &m->eval.film, i) * *head_in(m, i, 1, x);
 }
 
 /* -- faces that meet ------------------------------------------------------------------------------ */
