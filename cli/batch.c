@@ -24,7 +24,7 @@ typedef struct Line {
 } Line;
 
 typedef struct Batch {
-  const Options *options;
+  Options options;
   pthread_mutex_t lock; /* guards the members below */
   pthread_cond_t more, room;
   Line ring[RING];
@@ -139,7 +139,7 @@ static void *work(void *user) {
   for (Line *line; (line = take(batch));) {
     ZpStatus status;
     pthread_mutex_unlock(&batch->lock);
-    char *answer = answer_of(batch->options, line, &status);
+    char *answer = answer_of(&batch->options, line, &status);
     pthread_mutex_lock(&batch->lock);
     if (status == ZP_MACHINE) batch->status = ZP_MACHINE;
     line->answer = answer ? answer : strdup("{\"error\": \"no memory\"}\n");
@@ -193,9 +193,8 @@ int cli_batch(const Options *o) {
   const size_t jobs = (size_t)(o->jobs > 0 ? o->jobs : zp_processors());
   pthread_t *thread = calloc(jobs, sizeof *thread);
   size_t started = 0;
-  Options quiet = *o; /* messages about the common part are out: by check_common */
-  quiet.quiet = true;
-  batch.options = &quiet;
+  batch.options = *o;
+  batch.options.quiet = true; /* messages about the common part are out: by check_common */
   while (thread && started < jobs && pthread_create(&thread[started], NULL, work, &batch) == 0)
     started++;
   if (started > 0) read_lines(&batch);

@@ -411,14 +411,14 @@ static double unforeseen(void *self, const double *q1) {
 static bool choose(void *self, const double *q1) {
   enum { TRIALS = 4 };
   ZpDynamics *d = self;
-  size_t contradict = 0;
+  size_t contradict = 0, fewest = d->fewest;
   for (ZpDynamics *m = d; m; m = m->below) {
     gather_own(m, q1 + m->at);
     contradict += zp_film_contradictions(&m->model->film, m->own, &m->eval.film);
   }
-  bool fewer = contradict < d->fewest;
+  bool fewer = contradict < fewest;
   d->trials = fewer ? TRIALS : d->trials - 1;
-  d->fewest = contradict == 0 ? SIZE_MAX : fewer ? contradict : d->fewest;
+  d->fewest = contradict == 0 ? SIZE_MAX : fewer ? contradict : fewest;
   if (contradict == 0 || d->trials > 0) {
     release_cavities(d);
     return true;

@@ -30,7 +30,9 @@ void zp_still_begin(ZpStill *still, double opening) {
 
 void zp_still_follow(ZpStill *still, double closed_from, ZpOpeningAt start, ZpOpeningAt end) {
   const double from = cells_since(closed_from, start.t), to = cells_since(closed_from, end.t), last = floor(to);
-  for (double cell = fmax(floor(from), last - ZP_STILL_CELLS) + 1; cell <= last; cell++) {
+  const int begun = (int)fmin(last - floor(from), ZP_STILL_CELLS);
+  for (int k = begun - 1; k >= 0; k--) {
+    const double cell = last - k;
     double between = start.opening + (end.opening - start.opening) * ((cell - from) / (to - from));
     widen(still, cell - 1, between);
     set(still, cell, between);
@@ -42,9 +44,10 @@ double zp_still_range(const ZpStill *still, double closed_from, double t) {
   const double now = cells_since(closed_from, t), back = fmax(now - WINDOW, 0), oldest = floor(back);
   const size_t newest = place_of(now);
   double least = still->least[newest], most = still->most[newest];
-  for (double cell = floor(now) - 1; cell > oldest; cell--) {
-    least = fmin(least, still->least[place_of(cell)]);
-    most = fmax(most, still->most[place_of(cell)]);
+  const int cells = (int)(floor(now) - oldest);
+  for (int k = 1; k < cells; k++) {
+    least = fmin(least, still->least[place_of(floor(now) - k)]);
+    most = fmax(most, still->most[place_of(floor(now) - k)]);
   }
   const double stays = 1 - (back - oldest);
   const double below = least - still->least[place_of(oldest)], above = still->most[place_of(oldest)] - most;

@@ -141,7 +141,7 @@ typedef struct Shore {
 } Shore;
 
 static void reaches(const ZpFilmParams *film, const double reach[ZP_BEADS], Shore *shore) {
-  for (int half = 0; half < zp_beads(film); half++) {
+  for (int half = 0; half < ZP_BEADS && half < zp_beads(film); half++) {
     ZpBeadPlace at = zp_bead_place(film, half, reach[half]);
     size_t left = at.near < at.far ? at.near : at.far, right = at.near < at.far ? at.far : at.near;
     if (left < shore->first) shore->first = left;
