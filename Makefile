@@ -1,6 +1,6 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
-# make nightly  everything that takes too long for every change, in at most two hours; a second call goes on
+# make nightly  everything that takes too long for every change; a second call continues where the first one ended
 # make mutants  do the tests notice faults?
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested

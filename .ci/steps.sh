@@ -1,4 +1,4 @@
-# Sourced by run, nightly and weekly: steps with their times, builds, and steps beside others.
+# Sourced by the other scripts of this folder: steps with their times, builds, and steps beside others.
 # shellcheck shell=bash
 jobs=$(nproc)
 

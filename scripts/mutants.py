@@ -12,9 +12,9 @@ expression or whole statements. All faults of C are compiled at once, into a cop
 is chosen when a program starts (ZP_MUTANT=NUMBER). A file that is not C, and one marked `compiled`, is changed and
 compiled for its fault alone. A line `? WHY` says why a fault changes nothing that could be tested: it is not counted.
 
-Each test runs once without a fault, which shows the lines that it reaches and what it costs. Then each fault meets the
+Each test of `make check` runs once without a fault, which shows the lines that it reaches and what it costs. Then each fault meets the
 tests that reach it, the quickest first, until one fails. Pages that are made from the program's numbers are no tests.
-Results are kept in BUILD/mutants/results.json: a second call goes on where the first one ended (--again begins anew).
+BUILD/mutants/results.json keeps the results, so that a second call continues where the first one ended. --again starts over.
 Status 1 if less than 95 % of the faults are noticed, or less than 90 % in one room.
 """
 import argparse
@@ -31,7 +31,8 @@ import subprocess
 import sys
 
 HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
-PAGES = re.compile(r"_current$|^(links|rules|deps|examples|bits|bench|embedded|test_install|binaries)$")
+# What looks at texts and packages, not at what the program does.
+PAGES = re.compile(r"_current$|^(links|rules|deps|embedded|test_install|binaries)$")
 WANTED, WANTED_IN_A_ROOM = 0.95, 0.90
 
 # The header is included by each file with a fault: reaching a fault marks it in a file that all processes of a test share.
@@ -183,10 +184,9 @@ def copy_sources(mutants, tree):
     write(os.path.join(tree, "src/base/mutant.c"), RUNTIME_C.replace("SIZE", str(len(mutants) + 1)).encode())
 
 
-def build(folder, *targets):
+def build(folder):
     command = ["cmake", "--build", os.path.join(folder, "build"), "-j", str(os.cpu_count() or 2)]
-    done = subprocess.run(command + [word for target in targets for word in ("--target", target)],
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode == 0, done.stdout
 
 
@@ -229,7 +229,7 @@ class Test:
 
 
 def tests_of(folder):
-    listed = subprocess.run(["ctest", "--test-dir", os.path.join(folder, "build"), "--show-only=json-v1"], check=True,
+    listed = subprocess.run(["ctest", "--test-dir", os.path.join(folder, "build"), "-LE", "nightly", "--show-only=json-v1"], check=True,
                             stdout=subprocess.PIPE, text=True)
     return [Test(entry) for entry in json.loads(listed.stdout)["tests"] if not PAGES.search(entry["name"])]
 
@@ -272,7 +272,7 @@ def notice_compiled(folder, mutant, tests):
         write(path, before)
 
 
-def fingerprint(folder):
+def fingerprint():
     """Of all that the results depend on."""
     digest = hashlib.sha256()
     for file in sources():
@@ -321,7 +321,7 @@ def main():
     parser.add_argument("build", nargs="?", help="build folder; without one, only whether each text stands once in its file")
     parser.add_argument("--only", default="", help="faults whose file and name have this text")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
-    parser.add_argument("--again", action="store_true", help="begin anew")
+    parser.add_argument("--again", action="store_true", help="start over")
     arguments = parser.parse_args()
     mutants = read_tables()
     if not arguments.build:
@@ -337,7 +337,7 @@ def main():
     if not built:
         raise SystemExit(printed[-4000:])
     tests = tests_of(folder)
-    results = Results(os.path.join(folder, "results.json"), fingerprint(folder), arguments.again)
+    results = Results(os.path.join(folder, "results.json"), fingerprint(), arguments.again)
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
         missing = [(folder, test, len(mutants)) for test in tests if test.name not in results.known["tests"]]
         for name, passes, cost, reached in pool.map(baseline, missing):

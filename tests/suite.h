@@ -15,7 +15,7 @@ static inline TCase *nightly_case(Suite *suite) {
 
 /* => the status of the program */
 static inline int run_suite(Suite *suite) {
-  setvbuf(stdout, NULL, _IOLBF, 0); /* what was measured stands there even if the test then fails */
+  setvbuf(stdout, NULL, _IOLBF, 0); /* measured values are printed before a test fails */
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);
   int failed = srunner_ntests_failed(runner);

@@ -413,10 +413,9 @@ START_TEST(test_jump_of_full_faces_does_not_last) {
           {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6}, {"load.mass", 1.28e-3}, {"drive.voltage", 8016},
           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 317}, {"source.supply", ZP_SUPPLY_CONVERTER_10KV},
           {"solver.end_time", 4e-3}, {"solver.tolerance", 3.9e-6}, {"output.errors", 0});
-  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-  printf("after a jump: %g steps\n", zp_result_get(result, "steps"));
-  ck_below(zp_result_get(result, "steps"), 5000);
-  zp_result_destroy(result);
+  double steps = answered_value(ZP_STUDY_ACTUATE, &def, "steps");
+  printf("after a jump: %g steps\n", steps);
+  ck_below(steps, 5000);
 }
 END_TEST
 
@@ -431,10 +430,9 @@ START_TEST(test_bleeder_beside_full_faces) {
           {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 24.28}, {"source.model", ZP_SOURCE_AMPLIFIER},
           {"source.current_limit", 232e-6}, {"source.sink_limit", 3.3e-6}, {"source.bleeder", 15.28e6},
           {"solver.end_time", 30e-3}, {"solver.tolerance", 5.6e-4}, {"output.errors", 0});
-  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-  printf("beside a bleeder: %g steps\n", zp_result_get(result, "steps"));
-  ck_below(zp_result_get(result, "steps"), 3000);
-  zp_result_destroy(result);
+  double steps = answered_value(ZP_STUDY_ACTUATE, &def, "steps");
+  printf("beside a bleeder: %g steps\n", steps);
+  ck_below(steps, 3000);
 }
 END_TEST
 

@@ -240,7 +240,7 @@ START_TEST(test_laws_keep_their_own_numbers) {
 }
 END_TEST
 
-/* A run that has taken over without a controller can be saved and goes on from there; one with a controller, too. */
+/* After a take-over a run can be saved and restored, with a controller and without one. */
 START_TEST(test_taken_over_is_saved_and_restored) {
   const ZpActuatorDef alone = DEF({"mesh.nodes", 21}),
                       controlled =

@@ -1,4 +1,4 @@
-/* What keys are for, beside the actuator itself. */
+/* Purposes of keys beyond the description of an actuator. */
 #ifndef ZP_DEF_PURPOSE_H
 #define ZP_DEF_PURPOSE_H
 

@@ -24,7 +24,7 @@ ZpMeter zp_meter_of(const ZpActuatorDef *def, double capacitance);
 /* Length of a window, s. */
 double zp_meter_window(const ZpMeter *meter);
 
-/* What is measured: charge without the sine and capacitance over time, straight between `count` instants. */
+/* Charge without the sine, and capacitance, at `count` instants; both are straight lines between them. */
 typedef struct ZpMeterTrace {
   size_t count;
   const double *time, *charge, *capacitance; /* s, C, F */

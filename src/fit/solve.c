@@ -19,7 +19,7 @@ enum { POLISH_MOST = 30, HALVINGS = 12 };
  * curvature. */
 static const double difference = 1e-4;
 
-/* What changes of a key are compared with, in multiples of its start: it may be negative, or pass 0. */
+/* Size of a key with which its changes are compared, in multiples of its start. The key may be negative or pass 0. */
 static double size_of(double z) {
   static const double least = 1e-3;
   return fmax(fabs(z), least);

@@ -47,7 +47,7 @@ static ZpStatus make_folders(const char *directory, ZpError *err) {
 
 /* -- open and close -------------------------------------------------------------------------------- */
 
-/* Files that are written in place, and do not replace what stands there, must not be links that lead elsewhere. */
+/* A file or folder that is written in place must not be a symbolic link, which could lead out of the folder. */
 static ZpStatus check_places(const char *directory, ZpError *err) {
   static const char *const name[] = {
       "shapes", "plots", "runs", "journal.sqlite", "journal.sqlite-wal", "journal.sqlite-shm"};

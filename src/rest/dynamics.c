@@ -258,7 +258,7 @@ static void tangent(void *self, ZpBordered *J) {
   if (joined) border_of_links(d, J);
 }
 
-/* What a vector of unknowns has for the head of mode k at station i. */
+/* Entry of a vector of unknowns for the head of mode k at station i. */
 static double *head_in(const ZpDynamics *m, size_t i, int k, double *x) {
   return &x[m->at + (size_t)m->assembly.own_equation[zp_film_mode_at(i, k)]];
 }

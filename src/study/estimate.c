@@ -84,7 +84,7 @@ static ZpActuatorDef on_mesh(ZpActuatorDef def, int elements, bool moves) {
   def.output.shapes = 2;
   def.sensitivity.by[0] = 0;
   if (!moves) return def;
-  /* It is proportional to the square of the steps, eq. (18.12). */
+  /* The tolerance is proportional to the square of the lengths of steps, eq. (18.12). */
   def.solver.tolerance = fmax(tolerance * longer * longer, fmin(tolerance, finest));
   def.solver.time_step *= longer; /* NAN, auto, stays */
   return def;
