@@ -3,10 +3,10 @@
 #   scripts/test-python.sh BUILD [--all] [--build | --built] [PYTEST OPTIONS...]
 # BUILD is the build folder that has the command; its libraries are in the wheel. Wheel and environment go to BUILD/python. If
 # it was built with sanitizers, the tests run under the same.
-#   --all    also the tests marked nightly, which compute at length or draw every picture
+#   --all    also the tests marked nightly, which compute at length
 #   --build  builds and installs only
 #   --built  tests what is installed there
-# A test file among the options runs alone.
+# A test file among the options, with its whole path, runs alone.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 build=$(cd "$1" && pwd)

@@ -75,6 +75,11 @@ def test_wrong_actuator(keys):
     assert len(str(caught.value)) > 10
 
 
+def test_wrong_rows_of_a_drive_are_counted_from_one():
+    with pytest.raises(zipact.InputError, match="^drive: row 3: "):
+        zipact.Actuator(drive=([0, 1, 0.5], [0, 1, 2])).run()
+
+
 @pytest.fixture
 def simulation():
     made = zipact.Simulation(zipact.Actuator(mesh__nodes=21))

@@ -5,11 +5,11 @@ import {mkdtempSync, readdirSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
-import {address, launch} from '../browser.mjs';
-import {digits} from '../page/numbers.js';
-import * as scenario from '../page/scenario.js';
+import {address, launch} from '../../browser.mjs';
+import {digits} from '../../page/numbers.js';
+import * as scenario from '../../page/scenario.js';
 
-const command = process.env.ZIPACT ?? new URL('../../build/zipact', import.meta.url).pathname;
+const command = process.env.ZIPACT ?? new URL('../../../build/zipact', import.meta.url).pathname;
 const folder = mkdtempSync(join(tmpdir(), 'zipact-page-'));
 let browser;
 
@@ -59,7 +59,7 @@ const answered = (page, note) => page.waitForFunction((id) => {
 }, note);
 
 test('the page is one file', () => {
-  assert.deepEqual(readdirSync(new URL('../dist', import.meta.url)), ['index.html']);
+  assert.deepEqual(readdirSync(new URL('../../dist', import.meta.url)), ['index.html']);
 });
 
 pageTest('zips by itself, holds, releases, zips again', {hash: '#liquid.model=none&slow=5'}, async (page) => {
