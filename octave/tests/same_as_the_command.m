@@ -25,7 +25,7 @@ end
 % jsondecode of Octave 7 loses last bits of numbers, so these are read from the text.
 function [summary, names, rows] = command(arguments)
   folder = fullfile(pwd, 'out');
-  [~, text] = system(sprintf('"%s" %s -o "%s" --json --quiet', getenv('ZIPACT_COMMAND'), arguments, folder));
+  [~, text] = system(sprintf('"%s" %s -o "%s" --json --quiet --no-plots', getenv('ZIPACT_COMMAND'), arguments, folder));
   summary = jsondecode(text);
   for number = regexp(text, '"([\w.]+)": (-?[\d.][\d.e+-]*)', 'tokens')
     name = strrep(number{1}{1}, '.', '_'); % as jsondecode names a key
