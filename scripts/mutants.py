@@ -313,8 +313,8 @@ def tests_of_rooms(folder, mutants):
     for room in sorted({mutant.room() for mutant in mutants} & set(ROOMS)):
         prepare, pattern, command = ROOMS[room]
         subprocess.run(prepare.replace("{}", folder).split(), check=True, stdout=subprocess.DEVNULL)
-        for path in sorted(glob.glob(os.path.join(folder, pattern))):
-            file = os.path.relpath(path, folder)
+        for path in sorted(glob.glob(os.path.join(HOME, pattern))):  # the copy may have old ones
+            file = os.path.relpath(path, HOME)
             words = (command.replace("{}", folder) + file).split()
             tests.append(Test({"name": file, "command": words, "properties": [{"name": "WORKING_DIRECTORY", "value": folder}]}, room))
     return tests

@@ -14,7 +14,7 @@ while :; do
   case "${1:-}" in
   --all) all=yes ;;
   --build) steps=build ;;
-  --built) steps=test ;;
+  --built) steps="test" ;;
   *) break ;;
   esac
   shift

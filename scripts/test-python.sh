@@ -16,7 +16,7 @@ while :; do
   case "${1:-}" in
   --all) marked="" ;;
   --build) steps=build ;;
-  --built) steps=test ;;
+  --built) steps="test" ;;
   *) break ;;
   esac
   shift

@@ -97,7 +97,7 @@ inside = all(all(diff(field.x_m, 1, 2) > 0));
 check(inside && isequal(size(field.strength_V_per_m), size(field.x_m) - 1), 'the map of the field');
 same_as_the_command('profile', ' --set electro.model=field', 'electro.model', 'field');
 file = fullfile(pwd, 'out', 'field.vts');
-for pairs = {'potential', 'potential_V'; 'strength', 'strength_V_per_m'; 'permittivity', 'permittivity'}'
+for pairs = {'potential', 'potential_V'; 'field_strength', 'strength_V_per_m'; 'permittivity', 'permittivity'}'
   check(isequal(from_vtk(file, pairs{1}), field.(pairs{2})(:)), '%s of the field', pairs{1});
 end
 points = reshape(from_vtk(file, 'Points'), 3, []);
@@ -112,10 +112,10 @@ check(any(strcmp(study.choices, 'modes')) && strcmp(study.default, 'actuate'), '
 [~, listed] = system(sprintf('"%s" keys --json', getenv('ZIPACT_COMMAND')));
 listed = jsondecode(listed);
 for i = 1:numel(keys)
-  theirs = listed{i};
+  theirs = listed(i);
   check(strcmp(keys(i).name, theirs.key), 'key %d', i);
-  if isfield(theirs, 'choices'), check(isequal(keys(i).choices(:)', {theirs.choices.word}), 'words of %s', theirs.key); end
-  if isfield(theirs, 'min') && isnumeric(theirs.min)
+  if ~isempty(theirs.choices), check(isequal(keys(i).choices(:)', {theirs.choices.word}), 'words of %s', theirs.key); end
+  if ~isempty(theirs.min)
     check(all(abs([keys(i).min keys(i).max] - [theirs.min theirs.max]) <= 1e-14 * abs([theirs.min theirs.max])), 'range of %s', theirs.key);
   end
 end
