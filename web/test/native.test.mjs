@@ -147,6 +147,13 @@ for (const [key, text] of refused) {
   });
 }
 
+test('a study is refused in the command’s words', () => {
+  const values = new Map([['ribbon.plasticity', 'true'], ['mesh.nodes', '9']]), core = new Core(module);
+  const {stderr} = spawnSync(command, ['equilibrium', ...settings(values), '-o', folder, '--quiet'], {encoding: 'utf8'});
+  core.resolve(values);
+  assert.throws(() => core.study('equilibrium', []), (error) => error instanceof Refused && stderr.trim() === `zipact: ${error.message}` && error.message !== '');
+});
+
 test('after a refusal the scenario is what it was', () => {
   const core = new Core(module);
   core.resolve(new Map([['load.mass', '20 g']]));
@@ -171,6 +178,8 @@ for (const values of leftOut) {
 test('the page has the keys of the command, with their ranges', () => {
   const list = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'})), core = new Core(module);
   assert.deepEqual([...core.keys.keys()], list.map(({key}) => key));
+  const words = (choices) => (choices ?? []).map(({word}) => word).filter((word) => word !== 'profile'); // a study that the page leaves out
+  for (const {key, choices} of list) assert.deepEqual(words(core.keys.get(key).choices), words(choices), key);
   for (const {key, unit, min, max} of list.filter(({min}) => typeof min === 'number')) {
     assert.equal(core.keys.get(key).min, min, `${key} in ${unit}`);
     assert.equal(core.keys.get(key).max, max, `${key} in ${unit}`);
