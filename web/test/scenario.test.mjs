@@ -185,6 +185,8 @@ test('a whole actuator: its right half is not the mirror image; a platform that 
   near(left.y[1].at(-1), right.y[1].at(-1));
   near(load.x - (a.x + b.x) / 2, (2 / 10) * (b.x - a.x));
   assert.ok(left.x[0][0] < left.x[0][1] && right.x[0][0] > right.x[0][1]);
+  assert.ok(right.x[0][1] > 45e-3 && left.x[0][1] < -45e-3, 'each begins at its clip');
+  assert.ok(right.y[1].at(-2) < left.y[1].at(-2) - 1e-4, 'its end of the platform is lower');
   assert.equal(left.gap.length, 21);
 });
 
@@ -234,6 +236,10 @@ test('undo and redo; a drag is one change', () => {
   history.add('e');
   assert.equal(history.canRedo, false);
   assert.equal(history.undo(), 'c');
+  assert.equal(history.undo(), 'a');
+  history.add('f'); // what was undone is gone
+  assert.equal(history.canRedo, false);
+  assert.equal(history.undo(), 'a');
 });
 
 test('numbers as people read them', () => {
