@@ -4,7 +4,7 @@
 # make mutants  do the tests notice faults?
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested
-# make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it
+# make web     the page web/dist/index.html: the actuator live in a browser; make check-web tests it, once in a browser
 # make check-report  looks at the page of `zipact reproduce` in a browser
 # make fmu     the actuator of examples/fmu.yaml as an FMU in out/, with a binary for Windows if mingw-w64 is there
 # make install; make uninstall removes what it installed

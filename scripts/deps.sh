@@ -14,7 +14,7 @@ set -eu
 packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev libopenmpi-dev openmpi-bin libzip-dev libxml2-dev libxml2-utils check liblapack-dev gnuplot-nox
  fonts-dejavu-core python3 python3-yaml python3-jsonschema ca-certificates"
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
- python3-matplotlib python3-pandas python3-pytest python3-distributed python3-nbclient python3-nbformat python3-ipykernel python3-mpi4py openmpi-bin"
+ python3-h5py python3-matplotlib python3-pandas python3-pytest python3-distributed python3-nbclient python3-nbformat python3-ipykernel python3-mpi4py openmpi-bin"
 [ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind ngspice zsh fish groff debhelper lintian gcc-mingw-w64-x86-64-posix wine64"
 [ "${1:-}" = --windows ] && packages="$packages gcc-mingw-w64-x86-64-posix wine64 tcl"

@@ -12,6 +12,9 @@ expression or whole statements. All faults of C are compiled at once, into a cop
 is chosen when a program starts (ZP_MUTANT=NUMBER). A file that is not C, and one marked `compiled`, is changed and
 compiled for its fault alone. A line `? WHY` says why a fault changes nothing that could be tested: it is not counted.
 
+Faults of python/, octave/ and web/ meet the tests of `make python`, `make octave` and `make check-web`, the others those of
+`make check`.
+
 Each test function of `make check` runs once without a fault, which shows the faults that it reaches and what it costs. Then
 each fault meets the tests that reach it, the quickest first, until one fails or all have taken --limit seconds. Pages that
 are made from the program's numbers are no tests. BUILD/mutants/results.json keeps the results, so that a second call continues
@@ -50,16 +53,19 @@ __attribute__((visibility("hidden"))) extern unsigned char *zp_mutant_reached;
 #define ZP_MUTANT(k) (zp_mutant_reached[k] = 1, zp_mutant_chosen == (k))
 #endif
 """
-RUNTIME_C = """#include <fcntl.h>
+RUNTIME_C = """#include <zipact/mutant.h>
+#ifndef __wasi__
+#include <fcntl.h>
 #include <stdlib.h>
 #include <sys/mman.h>
 #include <unistd.h>
-#include <zipact/mutant.h>
+#endif
 
 static unsigned char nowhere[SIZE];
 int zp_mutant_chosen;
 unsigned char *zp_mutant_reached = nowhere;
 
+#ifndef __wasi__ /* the core of the page has all faults, and none is chosen */
 __attribute__((constructor)) static void choose(void) {
   const char *number = getenv("ZP_MUTANT"), *path = getenv("ZP_MUTANTS_REACHED");
   zp_mutant_chosen = number ? atoi(number) : 0;
@@ -69,6 +75,7 @@ __attribute__((constructor)) static void choose(void) {
   if (map != MAP_FAILED) zp_mutant_reached = map;
   close(file);
 }
+#endif
 """
 
 
@@ -197,7 +204,9 @@ def build(folder):
 class Test:
     """A test of ctest, or one function of a test program."""
 
-    def __init__(self, entry, function=None):
+    def __init__(self, entry, function=None, room=None):
+        """`room`: whose faults it meets; None for a test of make check, which meets those of all rooms without tests of their own."""
+        self.room = room
         self.name, self.command = entry["name"] + (f"/{function}" if function else ""), entry.get("command", [])
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.environment = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
@@ -287,18 +296,64 @@ def notice(folder, mutant, tests, noticed, limit):
     return None, spent
 
 
+def placed(folder, mutant):
+    """The file that a fault which is not chosen at run time is put in: packages are installed without compiling."""
+    directory, name = os.path.split(mutant.file)
+    if directory == "python/zipact":
+        return glob.glob(os.path.join(folder, "build/python/venv/lib/python3*/site-packages/zipact", name))[0]
+    if directory == "octave":
+        return os.path.join(folder, "build/octave", name)
+    return os.path.join(folder, mutant.file)
+
+
+def build_alone(folder, mutant):
+    """Builds what a fault in its file makes anew."""
+    if mutant.room() == "web":
+        done = subprocess.run([os.path.join(folder, "scripts/web.sh")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        return done.returncode == 0
+    return placed(folder, mutant) != os.path.join(folder, mutant.file) or build(folder)[0]
+
+
 def notice_compiled(folder, mutant, tests, noticed, limit):
-    """As notice(), for a fault that is compiled alone; the copy is as it was after it."""
-    path = os.path.join(folder, mutant.file)
+    """As notice(), for a fault that is alone in its file; the copy is as it was after it."""
+    path = placed(folder, mutant)
     before = read(path)
-    text = before.decode()
+    text = read(os.path.join(HOME, mutant.file)).decode()
     begin, end, new = mutant.find(text)
     write(path, (text[:begin] + new + text[end:]).encode())
     try:
-        built, _ = build(folder)
-        return ("the compiler", 0) if not built else notice(folder, mutant, tests, noticed, limit)
+        return notice(folder, mutant, tests, noticed, limit) if build_alone(folder, mutant) else ("the compiler", 0)
     finally:
         write(path, before)
+
+
+# Rooms with tests of their own: how these are built, which files they are, and how one of them runs. {} is the copy of the sources.
+ROOMS = {
+    "python": ("{}/scripts/test-python.sh {}/build --build", "python/tests/test_*.py",
+               "{}/scripts/test-python.sh {}/build --built -x {}/"),
+    "octave": ("{}/scripts/test-octave.sh {}/build --build", "octave/tests/test_*.m",
+               "{}/scripts/test-octave.sh {}/build --built {}/"),
+    "web": ("{}/scripts/web.sh", "web/test/*.test.mjs", "env ZIPACT={}/build/zipact node --test {}/"),
+}
+
+
+def tests_of_rooms(folder, mutants):
+    """Builds and lists the tests of the rooms that have their own and a fault among these."""
+    tests = []
+    for room in sorted({mutant.room() for mutant in mutants} & set(ROOMS)):
+        prepare, pattern, command = ROOMS[room]
+        subprocess.run(prepare.replace("{}", folder).split(), check=True, stdout=subprocess.DEVNULL)
+        for path in sorted(glob.glob(os.path.join(HOME, pattern))):  # the copy may have old ones
+            file = os.path.relpath(path, HOME)
+            words = (command.replace("{}", folder) + file).split()
+            tests.append(Test({"name": file, "command": words, "properties": [{"name": "WORKING_DIRECTORY", "value": folder}]}, room=room))
+    return tests
+
+
+def tests_for(mutant, tests):
+    """Those that may notice a fault: they are of its room, and reach it, if that is known."""
+    own = mutant.room() if mutant.room() in ROOMS else None
+    return [test for test in tests if test.room == own and (mutant.compiled or mutant.number in test.reached)]
 
 
 def fingerprint():
@@ -355,9 +410,9 @@ def report(mutants, faults):
     return enough
 
 
-def known_tests(folder, mutants, results, pool):
+def known_tests(folder, mutants, results, pool, wanted):
     """Those that pass without a fault, with what they cost and reach."""
-    tests = tests_of(folder)
+    tests = tests_of(folder) + tests_of_rooms(folder, wanted)
 
     def know(test):
         if test.name not in results.known["tests"]:
@@ -376,14 +431,13 @@ def try_all(folder, mutants, results, arguments):
     def attempt(mutant, one):
         if time.monotonic() - began > arguments.seconds:
             return
-        test, spent = one(folder, mutant, [test for test in tests if mutant.compiled or mutant.number in test.reached], noticed,
-                          arguments.limit)
+        test, spent = one(folder, mutant, tests_for(mutant, tests), noticed, arguments.limit)
         results.keep("faults", mutant.key(), test)
         print(f"{mutant.key()}: {test or 'NOT NOTICED'} ({spent:.1f} s)", flush=True)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs, "worker") as pool:
-        tests = known_tests(folder, mutants, results, pool)
         wanted = [mutant for mutant in mutants if arguments.only in mutant.key() and not mutant.why
                   and mutant.key() not in results.known["faults"]]
+        tests = known_tests(folder, mutants, results, pool, wanted)
         random.Random(results.known["of"]).shuffle(wanted)
         list(pool.map(lambda mutant: attempt(mutant, notice), [mutant for mutant in wanted if not mutant.compiled]))
     for mutant in wanted:

@@ -44,6 +44,8 @@ for k = 0:4
   zipact('step', by_hand, (k + 1) * 1e-3 - k * 1e-3, law(k * 1e-3, zipact('read', by_hand).opening_m));
 end
 check(abs(zipact('read', steered).opening_m / zipact('read', by_hand).opening_m - 1) < 1e-9, 'as step by step');
+zipact('step', steered, 1e-3, 2e3);
+check(zipact('read', steered).voltage_V == 2e3, 'without the controller again');
 zipact('control', steered, @(time, u) u, 'voltage', 1e-4, 0.02); % warm
 started = cputime();
 zipact('control', steered, @(time, u) u, 'voltage', 1e-6, 0.04);
@@ -84,6 +86,11 @@ catch problem
   check(strcmp(problem.identifier, 'zipact:interrupted'), '%s', problem.message);
 end
 
+% after a call Ctrl-C belongs to Octave again
+[~, printed] = system(sprintf('"%s" --no-init-file --path "%s" --eval "zipact(''stationary''); disp(''called''); kill(getpid(), SIG().INT); pause(2); disp(''went on'')"', ...
+                              fullfile(OCTAVE_HOME, 'bin', 'octave-cli'), fileparts(which('zipact'))));
+check(~isempty(strfind(printed, 'called')) && isempty(strfind(printed, 'went on')), '%s', printed);
+
 % pictures of every study that has one
 graphics_toolkit('gnuplot');
 figure('visible', 'off');
@@ -93,6 +100,11 @@ for study = {'stationary', 'equilibrium', 'isometric', 'profile', 'modes', 'actu
   lines = findobj(gca(), 'type', 'line');
   check(numel(lines) >= 1 && numel(get(lines(1), 'xdata')) > 3, 'picture of %s', study{1});
 end
+clf();
+limits = zipact('limits', 'mesh.nodes', 21);
+zipact_plot(limits);
+drawn = arrayfun(@(line) any(get(line, 'xdata')(:) == 1e-3 * limits.series.voltage_V(end)), findobj(gca(), 'type', 'line'));
+check(any(drawn), 'voltages of the limits, in kV');
 clf();
 zipact_plot(zipact('equilibrium', 'actuator.kind', 'ribbon', 'mesh.nodes', 21));
 check(all(isfinite(get(findobj(gca(), 'type', 'line')(1), 'ydata'))), 'picture of a ribbon, by its stroke');

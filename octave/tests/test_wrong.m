@@ -57,7 +57,7 @@ n = refused(n, 'load.mass: no value; keys and values come in pairs', 'stationary
 n = refused(n, 'none.yaml: cannot be opened', 'stationary', 'none.yaml', 'load.mass', 1);
 
 % values: units, ranges, types, shapes
-n = refused(n, 'not a mass', 'stationary', 'load.mass', '3 V');
+n = refused(n, '^(zipact_mex: )?load\.mass=.*: not a mass', 'stationary', 'load.mass', '3 V');
 n = refused(n, 'not a number', 'stationary', 'load.mass', 'much');
 n = refused(n, 'load.mass', 'stationary', 'load.mass', '1 parsec5');
 n = refused(n, 'load.mass', 'stationary', 'load.mass', '8 g; rm');

@@ -1,6 +1,9 @@
 """Keywords, units, and what an actuator is as a Python object."""
 
+import json
+import os
 import pickle
+import subprocess
 
 import numpy as np
 import pytest
@@ -13,6 +16,18 @@ def test_keywords_are_those_of_the_library():
     for key in zipact.KEYS.values():
         if key.kind == "word":
             assert Keywords.__annotations__[key.name.replace(".", "__")].__args__ == tuple(key.choices)
+
+
+def test_keys_are_those_of_the_command():
+    """Names, units, ranges, defaults and words."""
+    listed = subprocess.run([os.environ["ZIPACT_COMMAND"], "keys", "--json"], check=True, capture_output=True, text=True)
+    for ours, theirs in zip(zipact.KEYS.values(), json.loads(listed.stdout), strict=True):
+        assert ours.name == theirs["key"] and ours.unit == theirs.get("unit", ours.unit)
+        if isinstance(theirs.get("min"), (int, float)):
+            assert (ours.min, ours.max) == (theirs["min"], theirs["max"])
+        assert list(ours.choices) == [choice["word"] for choice in theirs.get("choices", [])]
+        if isinstance(theirs["default"], (int, float)) and ours.kind != "bool":
+            assert zipact.Actuator()[ours.name] == theirs["default"], ours.name
 
 
 @pytest.mark.parametrize("mass", ["20 g", "0.02 kg", "2e-2", 0.02, np.float64(0.02), np.array(0.02)])
@@ -130,3 +145,5 @@ def test_files_are_kept_absolute(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert zipact.Actuator(data__file="some.csv")["data.file"] == str(tmp_path / "some.csv")
     assert zipact.Actuator(data__file=tmp_path / "some.csv")["data.file"] == str(tmp_path / "some.csv")
+    started = zipact.Actuator(initial__state="checkpoint", initial__file="some.zps")
+    assert started["initial.file"] == str(tmp_path / "some.zps")

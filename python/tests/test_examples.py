@@ -29,6 +29,7 @@ def test_hold(tmp_path):
     assert os.path.getsize(tmp_path / "hold.svg") > 5000
 
 
+@pytest.mark.nightly
 def test_notebooks():
     """They print what is committed."""
     pytest.importorskip("nbclient")

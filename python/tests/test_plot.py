@@ -24,6 +24,7 @@ def test_draws(study, tmp_path):
     assert os.path.getsize(tmp_path / "picture.svg") > 5000
 
 
+@pytest.mark.nightly
 def test_draws_several_kinds():
     scenario = os.path.join(DATA, "..", "calibrate-bench.yaml")
     axes = zipact.read_scenario(scenario).replace(mesh__nodes=15).run("calibrate").plot()
@@ -37,6 +38,14 @@ def test_draws_one_kind_with_standard_deviations():
     one = zipact.Actuator(mesh__nodes=21, **CASES["calibrate"], calibrate__sigma="stroke = 20 um").run("calibrate").plot()
     assert [text.get_text() for text in one.get_legend().get_texts()] == ["model", "measured"]
     assert one.get_ylabel().startswith("stroke / ")
+
+
+def test_zip_time_is_drawn_where_it_is():
+    """In the unit of the axis."""
+    result = zipact.Actuator(mesh__nodes=11, liquid__model="none", solver__end_time="100 ms").run("actuate")
+    axes = result.plot()
+    lines = [line.get_xdata() for line in axes.lines if len(line.get_xdata()) == 2]
+    assert axes.get_xlabel().endswith("/ ms") and [1e3 * result["zip_time_s"]] * 2 in [list(x) for x in lines]
 
 
 def test_draws_into_given_axes():

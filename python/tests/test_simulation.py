@@ -8,6 +8,7 @@ import threading
 import numpy as np
 import pytest
 import zipact
+from zipact import _zipact
 
 EXPLICIT = dict(solver__integrator="explicit", contact__model="sequential")
 IMPLICIT = dict(solver__integrator="implicit", contact__model="unilateral")
@@ -159,6 +160,9 @@ def test_control_asks_every_period():
         by_hand.step(1e-3 if k < 4 else 0.5e-3, voltage=1e3 * (k + 1))
     assert controlled.time == pytest.approx(4.5e-3, abs=1e-15)
     assert controlled["opening"] == pytest.approx(by_hand["opening"], rel=1e-12)
+    times.clear()
+    make(**IMPLICIT).control(controller, 1e-3, 2e-3 * (1 + 1e-13))  # what rounding leaves is no period
+    assert len(times) == 2
     for period, end in ((0, 1), (-1, 1), (np.nan, 1), (1e-3, np.inf), (1e-3, 0)):
         with pytest.raises(zipact.InputError):
             controlled.control(controller, period, end)
@@ -246,6 +250,58 @@ def test_inputs_with_a_rate(integrator):
         assert simulation["voltage"] == 1e3
         assert simulation["load_work"] == pytest.approx(0.05 * (simulation["opening"] - opening), rel=1e-9)
     np.testing.assert_array_equal(without_current(hand.read()), without_current(twin.read()))
+
+
+def test_a_voltage_after_another_state_or_input_is_set():
+    """A step with the voltage of the step before sets nothing, unless something else has changed it."""
+    simulation = make()
+    simulation.step(1e-4, 5e3)
+    state = simulation.save()
+    simulation.step(1e-4, 8e3)
+    simulation.restore(state)
+    assert simulation["voltage"] == 5e3
+    simulation.step(1e-4, 8e3)
+    assert simulation["voltage"] == 8e3
+    simulation.set_input("voltage", 2e3)
+    simulation.step(1e-4, 8e3)
+    assert simulation["voltage"] == 8e3
+
+
+def test_steps_of_all_calls_are_counted():
+    simulation = make(solver__time_step="100 us")
+    for calls in (1, 2, 3):
+        simulation.step(1e-3)
+        assert simulation.steps == 10 * calls
+
+
+def test_frame_of_the_library():
+    """One frame: the arrays of pairs of nodes have one row, the others one column per ribbon, and all are of this instant."""
+    simulation = make()
+    simulation.step(5e-3, 8e3)
+    frame, shape = _zipact.Simulation.shape(simulation), simulation.shape()
+    assert [np.asarray(view).shape for view in frame[1:]] == [(21, 2), (21, 2), (1, 21), (1, 21), (1, 21), (21, 2)]
+    np.testing.assert_allclose(shape.y[:, 0] - shape.y[:, 1], shape.gap, rtol=0, atol=1e-15)
+    assert shape.stress.max() == simulation["max_stress"] and shape.insulator_field.max() == simulation["insulator_field"]
+
+
+def test_shape_is_the_last_of_the_study():
+    keys = dict(mesh__nodes=11, drive__voltage=4e3, solver__time_step="100 us", solver__end_time="5 ms")
+    shapes = zipact.Actuator(**keys).run("actuate").shapes
+    simulation = zipact.Simulation(zipact.Actuator(**keys))
+    simulation.step(5e-3)
+    assert simulation.steps == 50 and shapes.time[-1] == simulation.time == 5e-3
+    for name in ("zipped", "x", "y", "gap", "line_force", "insulator_field", "stress"):
+        np.testing.assert_array_equal(getattr(simulation.shape(), name), getattr(shapes, name)[-1], name)
+
+
+def test_diverged_simulation_is_used_up():
+    wild = make(**EXPLICIT, electro__breakdown_cap=False, electro__force_scale=1000)
+    state = wild.save()
+    for words in ("diverged", "has diverged; restore a state"):
+        with pytest.raises(zipact.NumericsError, match=words):
+            wild.step(0.1, 1e6)
+    wild.restore(state)
+    wild.step(1e-6, 0.0)
 
 
 @pytest.mark.parametrize(

@@ -44,11 +44,13 @@ CASES = {
 def command(actuator, study, folder):
     scenario = folder / "in.yaml"
     scenario.write_text(actuator.replace(study=study).scenario())
-    done = subprocess.run([COMMAND, "run", scenario, "-o", folder / "out", "--json", "--quiet"], capture_output=True)
+    words = [COMMAND, "run", scenario, "-o", folder / "out", "--json", "--quiet", "--no-plots"]
+    done = subprocess.run(words, capture_output=True)
     with open(folder / "out" / "table.csv", newline="") as file:
         return json.loads(done.stdout), list(csv.reader(file))
 
 
+@pytest.mark.nightly
 def test_several_kinds_of_measurement_in_one_fit():
     """The three keys that the files were made with are found within three standard errors."""
     files = "; ".join(os.path.join(DATA, f"bench-{what}.csv") for what in ("strokes", "limits", "frequencies"))
@@ -98,6 +100,60 @@ def test_shapes_and_field():
     np.testing.assert_allclose(film.y[:, :, 0] - film.y[:, :, 1], film.gap, atol=1e-12)
     single = zipact.Actuator(mesh__nodes=21, actuator__kind="ribbon").run("stationary").shapes
     assert single.x.shape == (1, 21, 1) and single.gap is None
+
+
+SHAPED = {
+    "motion": ("actuate", dict(MOTION, solver__end_time="10 ms")),
+    "map of the field": ("profile", dict(electro__model="field", drive__voltage="2 kV")),
+    "one ribbon alone": ("stationary", dict(actuator__kind="ribbon")),
+    "series": ("modes", dict(stack__series=2)),
+}
+
+
+def rows(array):
+    """[frames, nodes, ribbons] as results.h5 has it: [frame][ribbon][node]."""
+    return np.moveaxis(array, 2, 1)
+
+
+@pytest.mark.parametrize("case", SHAPED)
+def test_arrays_are_those_of_the_command(case, tmp_path):
+    """Every array of a result, and its numbers, as another program reads them from the file of the command."""
+    h5py = pytest.importorskip("h5py")
+    study, keys = SHAPED[case]
+    actuator = zipact.Actuator(mesh__nodes=11, output__shapes=5, **keys)
+    command(actuator, study, tmp_path)
+    result = actuator.run(study)
+    with h5py.File(tmp_path / "out" / "results.h5") as file:
+        for name in result.series:
+            np.testing.assert_array_equal(result.series[name], file["series"][name])
+        there = {name: np.array(file["shapes"][name]) for name in file["shapes"]}
+        ours = {name: value for name, value in result.shapes._asdict().items() if value is not None}
+        assert ours.keys() == there.keys() and ("gap" in ours) == (case != "one ribbon alone")
+        for name, value in ours.items():
+            np.testing.assert_array_equal(rows(value) if value.ndim == 3 else value, there[name], name)
+        assert (result.field is not None) == ("field" in file) == (case == "map of the field")
+        for name, value in result.field._asdict().items() if result.field else ():
+            np.testing.assert_array_equal(value, file["field"][name], name)
+        for name, value in result.items():
+            if name not in result.timings:
+                np.testing.assert_equal(value, file["summary"][name][()], name)
+
+
+def test_members_come_back_from_a_pickle(tmp_path):
+    """A frame of a series has two polylines for each member."""
+    result = zipact.Actuator(mesh__nodes=11, stack__series=2, stack__distance="20 mm").run("stationary")
+    files = saved(pickle.loads(pickle.dumps(result)), tmp_path / "again")
+    assert files == saved(result, tmp_path / "first") and b'NumberOfLines="4"' in files["shapes/shape_0000.vtp"]
+
+
+def test_templates_of_ones_own(tmp_path):
+    """A template in the folder that is given replaces the one that is built in."""
+    with open(os.path.join(os.path.dirname(__file__), "..", "..", "plots", "shape.gp"), encoding="utf-8") as file:
+        (tmp_path / "shape.gp").write_text(file.read().replace("Shape at rest", "How it hangs"))
+    result = zipact.Actuator(mesh__nodes=11).run("stationary")
+    for folder, templates, title in (("built in", "", "Shape at rest"), ("mine", tmp_path, "How it hangs")):
+        result.save(tmp_path / folder, templates=templates)
+        assert title in (tmp_path / folder / "plots" / "shape.svg").read_text()
 
 
 def test_save_writes_what_the_command_writes(tmp_path):

@@ -75,6 +75,16 @@ def test_wrong_actuator(keys):
     assert len(str(caught.value)) > 10
 
 
+def test_wrong_rows_of_a_drive_are_counted_from_one():
+    with pytest.raises(zipact.InputError, match="^drive: row 3: "):
+        zipact.Actuator(drive=([0, 1, 0.5], [0, 1, 2])).run()
+
+
+def test_arrays_do_not_go_on_from_a_checkpoint():
+    with pytest.raises(zipact.InputError, match="^initial.state = checkpoint: requires drive.table or drive.file instead of arrays"):
+        zipact.Actuator(drive=([0, 1], [1, 2]), initial__state="checkpoint", initial__file="some.zps").run()
+
+
 @pytest.fixture
 def simulation():
     made = zipact.Simulation(zipact.Actuator(mesh__nodes=21))

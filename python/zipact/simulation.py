@@ -87,8 +87,7 @@ class Simulation(_zipact.Simulation):
         if not (math.isfinite(end_time) and end_time >= self.time):
             raise _zipact.InputError(f"end_time = {end_time} s: must be finite and at least the current time, {self.time} s")
         step, since = self.step, self.time
-        whole = int((end_time - since) / period * (1 + 1e-12))
-        for k in range(whole):
+        for k in range(int((end_time - since) / period)):
             step(since + (k + 1) * period - self.time, voltage=controller(self))
         if self.time < end_time - 1e-9 * period:
             step(end_time - self.time, voltage=controller(self))

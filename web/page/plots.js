@@ -98,7 +98,7 @@ export function timePlot(place, data) {
 }
 
 /** Consecutive points of one branch with the same stability; each piece includes the first point of the next one. */
-function pieces({branch, stable}) {
+export function pieces({branch, stable}) {
   const found = [];
   for (let k = 0, start = 0; k < branch.length; k++) {
     const ends = k + 1 === branch.length || branch[k + 1] !== branch[k];

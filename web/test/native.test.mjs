@@ -1,7 +1,7 @@
 // The core as WebAssembly beside the native command: the same numbers, the same words.
 import assert from 'node:assert/strict';
 import {execFileSync, spawnSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {mkdtempSync, readdirSync, readFileSync, rmSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, test} from 'node:test';
@@ -18,13 +18,24 @@ function settings(values) {
 }
 
 function native(study, values) {
-  const all = [study, ...settings(values), '-o', folder, '--json', '--quiet'];
+  const all = [study, ...settings(values), '-o', folder, '--json', '--quiet', '--no-plots'];
   return JSON.parse(execFileSync(command, all, {encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}));
 }
 
 function table() {
   const [head, ...rows] = readFileSync(join(folder, 'table.csv'), 'utf8').trim().split('\n').map((line) => line.split(','));
   return Object.fromEntries(head.map((name, k) => [name, rows.map((row) => (row[k] === '' ? NaN : Number(row[k])))]));
+}
+
+/** Arrays of doubles of the last shape that the command has written, by their name. */
+function lastShape() {
+  const shapes = join(folder, 'shapes'), file = readFileSync(join(shapes, readdirSync(shapes).sort().at(-1)));
+  const start = file.indexOf('_', file.indexOf('<AppendedData')) + 1;
+  const declared = file.subarray(0, start).toString('latin1').matchAll(/type="Float64" Name="(\w+)" .*offset="(\d+)"/g);
+  return Object.fromEntries([...declared].map(([, name, offset]) => {
+    const at = start + Number(offset), length = Number(file.readBigUInt64LE(at)) / 8;
+    return [name, Array.from({length}, (_, k) => file.readDoubleLE(at + 8 + 8 * k))];
+  }));
 }
 
 /** The largest difference of two columns, over the largest value. */
@@ -99,6 +110,13 @@ test('the simulation that runs along ends where the study does, with fixed steps
     const k = columns.indexOf(name);
     assert.ok(Math.abs(row[k] - last[k]) <= 1e-9 * Math.abs(last[k]), `${name}: ${row[k]}, ${last[k]}`);
   }
+  const {x, y, gap, lineForce} = core.shape(), written = lastShape(), nodes = core.nodes;
+  const ribbon = (values, r) => Array.from({length: nodes}, (_, i) => values[2 * i + r]);
+  const points = (axis) => written.Points.filter((_, k) => k % 3 === axis);
+  for (const [ours, theirs] of [[x, points(0)], [y, points(1)]])
+    assert.ok(difference([...ribbon(ours, 0), ...ribbon(ours, 1)], theirs) < 1e-9);
+  for (const [ours, theirs] of [[gap, written.gap], [lineForce, written.line_force]])
+    assert.ok(difference([...ours, ...ours], theirs) < 1e-9);
 });
 
 test('pull-in and release are those of the command', () => {
@@ -129,6 +147,13 @@ for (const [key, text] of refused) {
   });
 }
 
+test('a study is refused in the command’s words', () => {
+  const values = new Map([['ribbon.plasticity', 'true'], ['mesh.nodes', '9']]), core = new Core(module);
+  const {stderr} = spawnSync(command, ['equilibrium', ...settings(values), '-o', folder, '--quiet'], {encoding: 'utf8'});
+  core.resolve(values);
+  assert.throws(() => core.study('equilibrium', []), (error) => error instanceof Refused && stderr.trim() === `zipact: ${error.message}` && error.message !== '');
+});
+
 test('after a refusal the scenario is what it was', () => {
   const core = new Core(module);
   core.resolve(new Map([['load.mass', '20 g']]));
@@ -146,12 +171,15 @@ for (const values of leftOut) {
   test(`what the page leaves out is refused: ${Object.keys(values)}`, () => {
     const core = new Core(module);
     assert.throws(() => core.resolve(new Map(Object.entries(values))), /this page|this build/);
+    core.resolve(new Map()); // nothing of it stays
   });
 }
 
 test('the page has the keys of the command, with their ranges', () => {
   const list = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'})), core = new Core(module);
   assert.deepEqual([...core.keys.keys()], list.map(({key}) => key));
+  const words = (choices) => (choices ?? []).map(({word}) => word).filter((word) => word !== 'profile'); // a study that the page leaves out
+  for (const {key, choices} of list) assert.deepEqual(words(core.keys.get(key).choices), words(choices), key);
   for (const {key, unit, min, max} of list.filter(({min}) => typeof min === 'number')) {
     assert.equal(core.keys.get(key).min, min, `${key} in ${unit}`);
     assert.equal(core.keys.get(key).max, max, `${key} in ${unit}`);

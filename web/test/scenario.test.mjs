@@ -86,6 +86,49 @@ test('one drives an actuator through a supply, with and without liquid, from one
   assert.ok(bath.member(0).film.every((thickness) => thickness > 0));
 });
 
+/** Volume of the bead of a half of member k from the thickness of its film, m3. */
+function volumeOf(frame, k, right) {
+  const {gap, wetLength} = frame.member(k), n = gap.length, last = (frame.get('halves') === 2 ? n / 2 : n) - 1;
+  const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / last, reach = wetLength[Number(right)] / l;
+  const film = (i) => gap[right ? n - 1 - i : i] + 2e-6; // the roughness
+  let area = 0;
+  for (let i = 0; i < reach; i++) {
+    const part = Math.min(1, reach - i), end = film(i) + part * (film(i + 1) - film(i));
+    area += ((film(i) + end) / 2) * part * l;
+  }
+  return area * 12.7e-3;
+}
+
+test('each member and each half has its own bead, which has its volume', () => {
+  const bead = {'liquid.model': 'bead', 'mesh.nodes': '21'}, filled = (frame, k, right) => {
+    const volume = volumeOf(frame, k, right); // the ribbon is 0.1 % longer than its straight half
+    assert.ok(Math.abs(volume / 300e-9 - 1) < 2e-3, `member ${k}: ${volume}`);
+  };
+  const {frame: series} = geometryAt({...bead, 'stack.series': '2'}), {frame: whole} = geometryAt({...bead, 'actuator.symmetry': 'none'});
+  for (const k of [0, 1]) filled(series, k, false);
+  assert.ok(series.member(0).wetLength[0] < 0.98 * series.member(1).wetLength[0], 'the upper one is wider open');
+  for (const side of [false, true]) filled(whole, 0, side);
+});
+
+test('the field in a bead is that of liquid on insulators, beyond it that of air', () => {
+  const {engine} = geometryAt({'liquid.model': 'bead', 'mesh.nodes': '21'}), frame = new Frame(engine.answer({voltage: 3e3, pressed: true, span: 1e-4}).frame);
+  const [{field, gap, wetStations}] = geometryOf(frame, true).members[0].halves;
+  assert.ok(wetStations > 4 && wetStations < 10, String(wetStations));
+  field.forEach((E, i) => {
+    const insulators = 2 * 130e-6 * (i <= wetStations ? 2.75 : 1) / 4.62; // as thick as so much liquid, or air
+    assert.ok(Math.abs(E * (gap[i] + insulators) / 3e3 - 1) < 1e-12, `station ${i}: ${E} V/m`);
+  });
+});
+
+test('at rest the liquid has no pressure; in a closing gap it has one; the film is that of the signal', () => {
+  const values = {'liquid.model': 'submerged', 'mesh.nodes': '9'}, {engine, frame} = geometryAt(values), {film, pressure} = frame.member(0);
+  near(film[0], 2e-6); // the roughness, at the clip
+  near(film[2], frame.get('film_thickness')); // a quarter of the length
+  assert.ok(pressure.every((p) => Math.abs(p) < 1e-6), pressure.join());
+  const closing = new Frame(engine.answer({voltage: 10e3, pressed: true, span: 5e-3}).frame).member(0).pressure;
+  assert.ok(Math.max(...closing) > 10, closing.join());
+});
+
 test('a jump of an ideal source has no current to show, a supply’s has', () => {
   const engine = new Engine(module, {study: Infinity, start: Infinity, frame: Infinity});
   const currents = (values) => {
@@ -123,10 +166,11 @@ test('a series: each member hangs on the one above, and the load on the lowest',
 });
 
 test('antagonists: the lower one is upside down on its mount, and the load is between both', () => {
-  const {members: [upper, lower], frame, load, mounts} = geometryAt({...dry, 'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g'});
+  const {members: [upper, lower], frame, load, mounts, focus} = geometryAt({...dry, 'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g'});
   near(lower.platforms[0][0].y, -20e-3);
   near(lower.platforms[1][0].y, upper.platforms[1][0].y);
   near(load.y, upper.platforms[1][0].y);
+  assert.equal(focus, upper, 'lens and profiles show the one that carries it');
   assert.ok(lower.turned && !upper.turned);
   assert.deepEqual(mounts, [0, -20e-3]);
   assert.equal(frame.member(1).voltage, 2e3);
@@ -141,6 +185,8 @@ test('a whole actuator: its right half is not the mirror image; a platform that 
   near(left.y[1].at(-1), right.y[1].at(-1));
   near(load.x - (a.x + b.x) / 2, (2 / 10) * (b.x - a.x));
   assert.ok(left.x[0][0] < left.x[0][1] && right.x[0][0] > right.x[0][1]);
+  assert.ok(right.x[0][1] > 45e-3 && left.x[0][1] < -45e-3, 'each begins at its clip');
+  assert.ok(right.y[1].at(-2) < left.y[1].at(-2) - 1e-4, 'its end of the platform is lower');
   assert.equal(left.gap.length, 21);
 });
 
@@ -190,6 +236,10 @@ test('undo and redo; a drag is one change', () => {
   history.add('e');
   assert.equal(history.canRedo, false);
   assert.equal(history.undo(), 'c');
+  assert.equal(history.undo(), 'a');
+  history.add('f'); // what was undone is gone
+  assert.equal(history.canRedo, false);
+  assert.equal(history.undo(), 'a');
 });
 
 test('numbers as people read them', () => {
@@ -200,6 +250,14 @@ test('numbers as people read them', () => {
   assert.equal(fixed(-1e-9, 2), '0.00');
   assert.equal(fixed(-1.234, 1), '−1.2');
   assert.equal(pretty('50 um'), '50 µm');
+});
+
+test('the curve of equilibria in pieces: of a branch each reaches the first point of the next, and none the next branch', async () => {
+  Object.assign(globalThis, {document: {}, getComputedStyle: () => ({getPropertyValue: () => ''}), matchMedia: () => ({addEventListener() {}})}); // of a browser
+  const {pieces} = await import('../page/plots.js');
+  assert.deepEqual(pieces({branch: [0, 0, 0, 0, 1, 1], stable: [1, 1, 0, 0, 1, 1]}), [
+    {from: 0, to: 3, stable: true}, {from: 2, to: 4, stable: false}, {from: 4, to: 6, stable: true},
+  ]);
 });
 
 test('an axis shows values below 0, too: a stroke has a sign', () => {

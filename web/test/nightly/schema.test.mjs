@@ -6,7 +6,7 @@ import {readdirSync, readFileSync} from 'node:fs';
 import {after, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 
-const server = spawn(process.execPath, [fileURLToPath(new URL('../node_modules/yaml-language-server/bin/yaml-language-server', import.meta.url)), '--stdio'],
+const server = spawn(process.execPath, [fileURLToPath(new URL('../../node_modules/yaml-language-server/bin/yaml-language-server', import.meta.url)), '--stdio'],
   {stdio: ['pipe', 'pipe', 'ignore']});
 const waiting = new Map(); // number of a request, or address of a document => what takes the answer
 let received = Buffer.alloc(0), requests = 0;
@@ -54,7 +54,7 @@ async function mistakes(uri, text) {
   return (await answer).map((each) => each.message);
 }
 
-const examples = new URL('../../examples/', import.meta.url);
+const examples = new URL('../../../examples/', import.meta.url);
 const modeline = '# yaml-language-server: $schema=../docs/scenario.schema.json\n';
 
 test('an editor has nothing against any example', async () => {

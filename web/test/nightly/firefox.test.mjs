@@ -6,8 +6,8 @@ import {createServer} from 'node:net';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {test} from 'node:test';
-import {WebSocket} from '../websocket.mjs';
-import {address} from '../browser.mjs';
+import {WebSocket} from '../../websocket.mjs';
+import {address} from '../../browser.mjs';
 
 const firefox = process.env.FIREFOX ?? '/usr/bin/firefox-esr';
 const wait = (ms) => new Promise((resolve) => setTimeout(resolve, ms));

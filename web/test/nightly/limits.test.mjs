@@ -4,15 +4,15 @@ import {execFileSync} from 'node:child_process';
 import {createHash} from 'node:crypto';
 import {readFileSync} from 'node:fs';
 import {after, before, test} from 'node:test';
-import {address, launch} from '../browser.mjs';
-import {Core, Refused} from '../page/core.js';
-import {Engine} from '../page/engine.js';
-import {Frame} from '../page/frame.js';
-import * as scenario from '../page/scenario.js';
+import {address, launch} from '../../browser.mjs';
+import {Core, Refused} from '../../page/core.js';
+import {Engine} from '../../page/engine.js';
+import {Frame} from '../../page/frame.js';
+import * as scenario from '../../page/scenario.js';
 
-const command = process.env.ZIPACT ?? new URL('../../build/zipact', import.meta.url).pathname;
+const command = process.env.ZIPACT ?? new URL('../../../build/zipact', import.meta.url).pathname;
 const keys = JSON.parse(execFileSync(command, ['keys', '--json'], {encoding: 'utf8'}));
-const module = new WebAssembly.Module(readFileSync(new URL('../build/zipact.wasm', import.meta.url)));
+const module = new WebAssembly.Module(readFileSync(new URL('../../build/zipact.wasm', import.meta.url)));
 const longest = 200; // ms of CPU of one task of the page's main thread
 let browser;
 
@@ -296,7 +296,7 @@ test('without workers a hostile link ends with a message, too', {timeout: 180e3}
 
 // -- the policy
 
-const built = readFileSync(new URL('../dist/index.html', import.meta.url), 'utf8');
+const built = readFileSync(new URL('../../dist/index.html', import.meta.url), 'utf8');
 
 test('the policy names what the page holds, and nothing unsafe', () => {
   const policy = /http-equiv="Content-Security-Policy" content="([^"]*)"/.exec(built)[1];
