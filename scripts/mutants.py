@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Faults that a maintainer could make, and whether a test notices: mutants.py [BUILD] [--only TEXT] [--jobs N] [--again]
+"""Faults that a maintainer could make, and whether a test notices: mutants.py [BUILD] [OPTIONS]
 
 tests/mutants/*.txt has the faults: a file, a name, the text and what replaces it.
 
@@ -12,23 +12,27 @@ expression or whole statements. All faults of C are compiled at once, into a cop
 is chosen when a program starts (ZP_MUTANT=NUMBER). A file that is not C, and one marked `compiled`, is changed and
 compiled for its fault alone. A line `? WHY` says why a fault changes nothing that could be tested: it is not counted.
 
-Each test of `make check` runs once without a fault, which shows the lines that it reaches and what it costs. Then each fault meets the
-tests that reach it, the quickest first, until one fails. Pages that are made from the program's numbers are no tests.
-BUILD/mutants/results.json keeps the results, so that a second call continues where the first one ended. --again starts over.
+Each test function of `make check` runs once without a fault, which shows the faults that it reaches and what it costs. Then
+each fault meets the tests that reach it, the quickest first, until one fails or all have taken --limit seconds. Pages that
+are made from the program's numbers are no tests. BUILD/mutants/results.json keeps the results, so that a second call continues
+where the first one ended.
 Status 1 if less than 95 % of the faults are noticed, or less than 90 % in one room.
 """
 import argparse
+import collections
 import concurrent.futures
 import glob
 import hashlib
-import itertools
 import json
+import math
 import os
 import re
-import resource
+import random
 import shutil
 import subprocess
 import sys
+import threading
+import time
 
 HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # What looks at texts and packages, not at what the program does.
@@ -191,74 +195,99 @@ def build(folder):
 
 
 class Test:
-    def __init__(self, entry):
-        self.name, self.command = entry["name"], entry.get("command", [])
+    """A test of ctest, or one function of a test program."""
+
+    def __init__(self, entry, function=None):
+        self.name, self.command = entry["name"] + (f"/{function}" if function else ""), entry.get("command", [])
         properties = {p["name"]: p["value"] for p in entry.get("properties", [])}
         self.environment = dict(pair.split("=", 1) for pair in properties.get("ENVIRONMENT", []))
+        if function:
+            self.environment["ZP_TEST"] = function
         self.folder = properties["WORKING_DIRECTORY"]
         self.skipped = properties.get("SKIP_RETURN_CODE")
         self.cost, self.reached = None, frozenset()
 
-    def run(self, folder, worker, number, reached=None):
+    def run(self, folder, number, reached=None):
         """Does it pass? And the CPU time that it takes, s."""
         scratch = os.path.join(folder, "build/tests/scratch")
-        own = f"{scratch}-{worker}"
+        own = f"{scratch}-{threading.current_thread().name}"
         os.makedirs(own, exist_ok=True)
         environment = dict(os.environ, **self.environment, ZP_MUTANT=str(number))
         if reached:
             environment["ZP_MUTANTS_REACHED"] = reached
-        limit = None if self.cost is None else int(3 * self.cost + 10)
-        began = resource.getrusage(resource.RUSAGE_CHILDREN)
-        process = subprocess.Popen([word.replace(scratch, own) for word in self.command],
+        limit = int(3 * self.cost + 10) if self.cost is not None else 3600
+        process = subprocess.Popen(["prlimit", f"--cpu={limit}"] + [word.replace(scratch, own) for word in self.command],
                                    cwd=self.folder.replace(scratch, own), env=environment, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True,
-                                   preexec_fn=lambda: limit and resource.setrlimit(resource.RLIMIT_CPU, (limit, limit)))
-        try:
-            # a process that waits for ever uses no CPU time
-            code = process.wait(timeout=None if limit is None else 60 + 20 * limit)
-        except subprocess.TimeoutExpired:
-            code = 1
-        finally:
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
+
+        def end():
             try:
                 os.killpg(process.pid, 9)
             except ProcessLookupError:
                 pass
-        process.wait()
-        ended = resource.getrusage(resource.RUSAGE_CHILDREN)
-        return code == 0 or code == self.skipped, ended.ru_utime + ended.ru_stime - began.ru_utime - began.ru_stime
+        alarm = threading.Timer(60 + 20 * limit, end)  # a process that waits for ever uses no CPU time
+        alarm.start()
+        _, status, used = os.wait4(process.pid, 0)
+        alarm.cancel()
+        end()  # and what it has left
+        code = process.returncode = os.waitstatus_to_exitcode(status)
+        return code == 0 or code == self.skipped, used.ru_utime + used.ru_stime
+
+
+def functions_of(entry):
+    """The test functions of a program of check's; None for another test."""
+    source = os.path.join(HOME, "tests", entry["name"] + ".c")
+    if not os.path.exists(source):
+        return [None]
+    return sorted(set(re.findall(r"^START_TEST\((\w+)\)", read(source).decode(), re.MULTILINE))) or [None]
 
 
 def tests_of(folder):
     listed = subprocess.run(["ctest", "--test-dir", os.path.join(folder, "build"), "-LE", "nightly", "--show-only=json-v1"], check=True,
                             stdout=subprocess.PIPE, text=True)
-    return [Test(entry) for entry in json.loads(listed.stdout)["tests"] if not PAGES.search(entry["name"])]
+    return [Test(entry, function) for entry in json.loads(listed.stdout)["tests"] if not PAGES.search(entry["name"])
+            for function in functions_of(entry)]
 
 
-def baseline(job):
+def baseline(folder, test, count):
     """A test without a fault: whether it passes, its CPU time, the faults that it reaches."""
-    folder, test, count = job
-    path = os.path.join(folder, f"reached-{os.getpid()}")
-    with open(path, "wb") as file:
-        file.write(bytes(count + 1))
-    passes, cost = test.run(folder, os.getpid(), 0, path)
+    path = os.path.join(folder, f"reached-{threading.current_thread().name}")
+    write(path, bytes(count + 1))
+    passes, cost = test.run(folder, 0, path)
     marks = read(path)
     os.remove(path)
-    return test.name, passes, cost, [k for k in range(1, count + 1) if marks[k]]
+    return passes, cost, [k for k in range(1, count + 1) if marks[k]]
 
 
-def notice(job):
+class Noticed:
+    """How often each test has noticed a fault, by the fault's file and room: what has noticed others like it goes first."""
+
+    def __init__(self):
+        self.counts = collections.Counter()
+
+    def add(self, mutant, test):
+        self.counts.update([(test, mutant.file), (test, mutant.room())])
+
+    def order(self, mutant, tests):
+        return sorted(tests, key=lambda test: (test.cost + 0.02) / (1 + 4 * self.counts[test.name, mutant.file] +
+                                                                     self.counts[test.name, mutant.room()]))
+
+
+def notice(folder, mutant, tests, noticed, limit):
     """The first test that fails with a fault, or None; and what the tests took together, s."""
-    folder, mutant, tests = job
     spent = 0
-    for test in tests:
-        passes, cost = test.run(folder, os.getpid(), mutant.number)
+    for test in noticed.order(mutant, tests):
+        if spent + test.cost > limit:
+            continue
+        passes, cost = test.run(folder, mutant.number)
         spent += cost
         if not passes:
-            return mutant.key(), test.name, spent
-    return mutant.key(), None, spent
+            noticed.add(mutant, test.name)
+            return test.name, spent
+    return None, spent
 
 
-def notice_compiled(folder, mutant, tests):
+def notice_compiled(folder, mutant, tests, noticed, limit):
     """As notice(), for a fault that is compiled alone; the copy is as it was after it."""
     path = os.path.join(folder, mutant.file)
     before = read(path)
@@ -267,7 +296,7 @@ def notice_compiled(folder, mutant, tests):
     write(path, (text[:begin] + new + text[end:]).encode())
     try:
         built, _ = build(folder)
-        return (mutant.key(), "the compiler", 0) if not built else notice((folder, mutant, tests))
+        return ("the compiler", 0) if not built else notice(folder, mutant, tests, noticed, limit)
     finally:
         write(path, before)
 
@@ -284,36 +313,82 @@ def fingerprint():
 class Results:
     """What is known so far, in a file that a second call reads."""
 
-    def __init__(self, path, key, again):
-        self.path, self.known = path, {"of": key, "tests": {}, "faults": {}}
-        if os.path.exists(path) and not again:
+    def __init__(self, path, arguments):
+        self.path, self.known = path, {"tests": {}, "faults": {}}
+        key = fingerprint()
+        if os.path.exists(path) and not arguments.again:
             with open(path, encoding="utf-8") as file:
                 kept = json.load(file)
-            if kept["of"] == key:
+            if kept["of"] == key or arguments.unnoticed:
                 self.known = kept
+            if arguments.unnoticed and kept["of"] != key:
+                self.known["tests"] = {}
+                self.known["faults"] = {fault: test for fault, test in kept["faults"].items() if test}
+        self.known["of"] = key
+        self.lock = threading.Lock()
 
-    def keep(self):
-        with open(self.path + ".new", "w", encoding="utf-8") as file:
-            json.dump(self.known, file, indent=1)
-        os.replace(self.path + ".new", self.path)
+    def keep(self, part, name, value):
+        with self.lock:
+            self.known[part][name] = value
+            with open(self.path + ".new", "w", encoding="utf-8") as file:
+                json.dump(self.known, file, indent=1)
+            os.replace(self.path + ".new", self.path)
 
 
 def report(mutants, faults):
     """Prints what no test notices, and the shares by room; are these as wanted?"""
-    counted = [mutant for mutant in mutants if not mutant.why]
+    counted = [mutant for mutant in mutants if not mutant.why and mutant.key() in faults]
     for mutant in counted:
-        if faults.get(mutant.key()) is None:
+        if faults[mutant.key()] is None:
             print(f"not noticed: {mutant.key()} ({mutant.place})")
     rooms = sorted({mutant.room() for mutant in counted})
     enough = True
     print(f"\n{'room':<16} {'faults':>6} {'noticed':>8}")
     for room in rooms + ["all"]:
         of_room = [mutant for mutant in counted if room in (mutant.room(), "all")]
-        noticed = sum(faults.get(mutant.key()) is not None for mutant in of_room)
+        noticed = sum(faults[mutant.key()] is not None for mutant in of_room)
         print(f"{room:<16} {len(of_room):>6} {noticed:>8}")
         enough &= noticed >= (WANTED if room == "all" else WANTED_IN_A_ROOM) * len(of_room)
-    print(f"{len(mutants) - len(counted)} more change nothing that could be tested, each for a reason in the table")
+    reasons = sum(bool(mutant.why) for mutant in mutants)
+    print(f"{reasons} more change nothing that could be tested, each for a reason in the table; "
+          f"{len(mutants) - reasons - len(counted)} were not tried")
     return enough
+
+
+def known_tests(folder, mutants, results, pool):
+    """Those that pass without a fault, with what they cost and reach."""
+    tests = tests_of(folder)
+
+    def know(test):
+        if test.name not in results.known["tests"]:
+            results.keep("tests", test.name, baseline(folder, test, len(mutants)))
+        passes, test.cost, reached = results.known["tests"][test.name]
+        test.reached = frozenset(reached)
+        if not passes:
+            print(f"fails without a fault: {test.name}", flush=True)
+        return passes
+    return [test for test, passes in zip(tests, pool.map(know, tests)) if passes]
+
+
+def try_all(folder, mutants, results, arguments):
+    noticed, began = Noticed(), time.monotonic()
+
+    def attempt(mutant, one):
+        if time.monotonic() - began > arguments.seconds:
+            return
+        test, spent = one(folder, mutant, [test for test in tests if mutant.compiled or mutant.number in test.reached], noticed,
+                          arguments.limit)
+        results.keep("faults", mutant.key(), test)
+        print(f"{mutant.key()}: {test or 'NOT NOTICED'} ({spent:.1f} s)", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(arguments.jobs, "worker") as pool:
+        tests = known_tests(folder, mutants, results, pool)
+        wanted = [mutant for mutant in mutants if arguments.only in mutant.key() and not mutant.why
+                  and mutant.key() not in results.known["faults"]]
+        random.Random(results.known["of"]).shuffle(wanted)
+        list(pool.map(lambda mutant: attempt(mutant, notice), [mutant for mutant in wanted if not mutant.compiled]))
+    for mutant in wanted:
+        if mutant.compiled:
+            attempt(mutant, notice_compiled)
 
 
 def main():
@@ -322,6 +397,9 @@ def main():
     parser.add_argument("--only", default="", help="faults whose file and name have this text")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
     parser.add_argument("--again", action="store_true", help="start over")
+    parser.add_argument("--unnoticed", action="store_true", help="only what the last call did not notice, though sources have changed since")
+    parser.add_argument("--limit", type=float, default=60, help="CPU time of the tests for one fault, s")
+    parser.add_argument("--seconds", type=float, default=math.inf, help="no new fault after this time; the order is random")
     arguments = parser.parse_args()
     mutants = read_tables()
     if not arguments.build:
@@ -336,29 +414,8 @@ def main():
     built, printed = build(folder)
     if not built:
         raise SystemExit(printed[-4000:])
-    tests = tests_of(folder)
-    results = Results(os.path.join(folder, "results.json"), fingerprint(), arguments.again)
-    with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
-        missing = [(folder, test, len(mutants)) for test in tests if test.name not in results.known["tests"]]
-        for name, passes, cost, reached in pool.map(baseline, missing):
-            results.known["tests"][name] = {"passes": passes, "cost": cost, "reached": reached}
-            results.keep()
-            if not passes:
-                print(f"fails without a fault: {name}", flush=True)
-        for test in tests:
-            known = results.known["tests"][test.name]
-            test.cost, test.reached = known["cost"], frozenset(known["reached"])
-        tests = sorted((test for test in tests if results.known["tests"][test.name]["passes"]), key=lambda test: test.cost)
-        wanted = [mutant for mutant in mutants if arguments.only in mutant.key() and not mutant.why
-                  and mutant.key() not in results.known["faults"]]
-        jobs = [(folder, mutant, [test for test in tests if mutant.number in test.reached])
-                for mutant in wanted if not mutant.compiled]
-        done = itertools.chain((finished.result() for finished in concurrent.futures.as_completed([pool.submit(notice, job) for job in jobs])),
-                               (notice_compiled(folder, mutant, tests) for mutant in wanted if mutant.compiled))
-        for key, test, spent in done:
-            results.known["faults"][key] = test
-            results.keep()
-            print(f"{key}: {test or 'NOT NOTICED'} ({spent:.1f} s)", flush=True)
+    results = Results(os.path.join(folder, "results.json"), arguments)
+    try_all(folder, mutants, results, arguments)
     return 0 if report([m for m in mutants if arguments.only in m.key()], results.known["faults"]) else 1
 
 
