@@ -2,7 +2,8 @@
 """Builds and runs those tests of `make check` that reach what has changed (.ci/changed).   check-near.py BUILD [--list]
 
 tests/reach.txt says which these are: of a file, or of its folder where it has no line of its own. A header has those of
-the source of its name. All tests run for what every file depends on: headers for all, the tables of keys, the build.
+the source of its name. Tests that the table does not know run, too. All run for what every file depends on: public headers,
+the tables of keys, the build.
 --list only says which.
 """
 import os
@@ -58,7 +59,8 @@ def main():
     known = set(re.findall(r"^ *Test +#\d+: (\S+)", listed.stdout, re.M))
     reach = read_reach()
     near = [tests_near(path, reach, known) for path in changed]
-    chosen = known if None in near else ALWAYS.union(*near)
+    new = {name for name in known if name.startswith("test_") and not any(name in tests for tests in reach.values())}
+    chosen = known if None in near else ALWAYS.union(*near, new if any(path.startswith(("src/", "cli/")) for path in changed) else ())
     print("%d of %d tests: %s" % (len(chosen), len(known), "all" if chosen == known else " ".join(sorted(chosen))), flush=True)
     for place, command in BESIDE.items():
         if any(path.startswith(place) for path in changed):
