@@ -1,6 +1,8 @@
 # make demo    the paper's actuator lifting 8 g at 10 kV, with pictures, in out/demo
 # make check   the test suite
+# make check-near  those tests that reach what has changed
 # make nightly  everything that takes too long for every change; a second call continues where the first one ended
+# make weekly   what takes some hours: many random designs, the tests under load, another processor
 # make mutants  do the tests notice faults?
 # make python  the Python package: a wheel in build/python, installed there in an environment of its own, and tested
 # make octave  the function zipact for Octave in build/octave, tested
@@ -20,7 +22,7 @@ JOBS  ?= $(shell nproc 2>/dev/null || echo 2)
 # e.g. -DZIPACT_WERROR=ON
 CMAKE_OPTIONS ?=
 
-.PHONY: all demo check nightly mutants fmu python octave web check-web check-report deps bench bench-tables format check-format docs html check-docs validity verification install uninstall deb windows clean
+.PHONY: all demo check check-near nightly weekly mutants fmu python octave web check-web check-report deps bench bench-tables format check-format docs html check-docs validity verification install uninstall deb windows clean
 all: $(BUILD)/zipact
 
 deps:
@@ -42,8 +44,14 @@ check: deps $(BUILD)/CMakeCache.txt
 	@cmake --build $(BUILD) -j $(JOBS) -- --no-print-directory
 	cd $(BUILD) && ctest --output-on-failure -j $(JOBS) -LE nightly
 
+check-near: deps $(BUILD)/CMakeCache.txt
+	scripts/check-near.py $(BUILD)
+
 nightly:
 	.ci/nightly
+
+weekly:
+	.ci/weekly
 
 mutants: deps
 	scripts/mutants.py $(BUILD)

@@ -2,6 +2,7 @@
  *
  *   designs STUDY|all [COUNT [SEED]]     each study: how many designs end with an answer that violates no bound; every
  *                                        other one as a command that can be pasted. Status 1 if there is one
+ *   designs kept FILE                    those commands of a file, one a line
  *   designs agree [COUNT [SEED [PART]]]  do `limits`, which finds its limits as such, and `equilibrium`, which follows
  *                                        the curve, agree to PART (1e-3)?
  *   designs errors [COUNT [SEED [STUDY]]]   the estimated errors of limits, stationary, modes and isometric beside the
@@ -254,6 +255,62 @@ static int check_study(ZpStudy study, int designs, uint64_t seed) {
   }
   printf("%s: %d of %d designs answered, %.2f s of CPU\n", zp_study_name(study), designs - bad, designs,
          cpu_s() - start);
+  return bad;
+}
+
+/* Everything but calibrate, which asks for measurements. */
+static const ZpStudy every[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,  ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES,
+                                ZP_STUDY_STATIONARY,  ZP_STUDY_PROFILE, ZP_STUDY_ACTUATE};
+
+/* "--set KEY=VALUE", as print_design() writes it. */
+static bool take_option(ZpActuatorDef *def, char *option, ZpError *err) {
+  char *value = strchr(option, '=');
+  if (!value) return false;
+  *value++ = '\0';
+  int key = zp_key_find(option);
+  if (key < 0) return false;
+  const ZpKey *about = zp_key(key);
+  double number = strcmp(value, "true") == 0 ? 1 : strtod(value, NULL);
+  for (int k = 0; about->type == ZP_KEY_ENUM && k <= (int)about->max; k++)
+    if (strcmp(about->choices[k].word, value) == 0) number = k;
+  return zp_def_set(def, key, number, err) == ZP_OK;
+}
+
+/* "zipact STUDY --set KEY=VALUE ..." */
+static bool take_command(char *line, ZpStudy *study, ZpActuatorDef *def, ZpError *err) {
+  char *rest, *word = strtok_r(line, " \n", &rest);
+  if (!word || strcmp(word, "zipact") != 0 || !(word = strtok_r(NULL, " \n", &rest))) return false;
+  size_t k = 0, studies = sizeof every / sizeof every[0];
+  while (k < studies && strcmp(zp_study_name(every[k]), word) != 0)
+    k++;
+  if (k == studies) return false;
+  *study = every[k];
+  *def = zp_actuator_def_default();
+  while ((word = strtok_r(NULL, " \n", &rest)) != NULL)
+    if (strcmp(word, "--set") != 0 && !take_option(def, word, err)) return false;
+  return true;
+}
+
+/* => how many of the commands of a file have no answer */
+static int check_kept(const char *path) {
+  char line[8192], copy[8192], text[512];
+  int bad = 0, looked = 0;
+  FILE *file = fopen(path, "r");
+  if (!file) return perror(path), 1;
+  while (fgets(line, sizeof line, file)) {
+    ZpStudy study;
+    ZpActuatorDef def;
+    ZpError err = {ZP_OK, "no command of a study"};
+    if (line[0] == '#') continue;
+    strcpy(copy, line);
+    looked++;
+    bool taken = take_command(copy, &study, &def, &err);
+    if (taken && is_answered(study, &def, text)) continue;
+    bad++;
+    printf("%s  %s\n", line, taken ? text : err.message);
+  }
+  fclose(file);
+  printf("%s: %d of %d designs answered\n", path, looked - bad, looked);
   return bad;
 }
 
@@ -865,16 +922,13 @@ static int check_ramp(int designs, uint64_t state) {
 
 /* -- the command -------------------------------------------------------------------------------------- */
 
-/* Everything but calibrate, which asks for measurements. */
-static const ZpStudy every[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,  ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES,
-                                ZP_STUDY_STATIONARY,  ZP_STUDY_PROFILE, ZP_STUDY_ACTUATE};
-
 int main(int argc, char **argv) {
   const char *word = argc > 1 ? argv[1] : "all";
   int designs = argc > 2 ? atoi(argv[2]) : 100, first = argc > 4 ? atoi(argv[4]) : 0, bad = 0, known = 0;
   uint64_t seed = argc > 3 ? strtoull(argv[3], NULL, 10) : 1;
   static const ZpStudy still[] = {ZP_STUDY_LIMITS, ZP_STUDY_STATIONARY, ZP_STUDY_MODES, ZP_STUDY_ISOMETRIC};
   static const ZpStudy moving[] = {ZP_STUDY_ACTUATE};
+  if (strcmp(word, "kept") == 0 && argc > 2) return check_kept(argv[2]) > 0;
   if (strcmp(word, "errors") == 0 && argc > 4) return check_errors_of(argv[4], still, 4, designs, seed) > 0;
   if (strcmp(word, "errors") == 0) return check_errors(still, 4, designs, seed, MOST_NODES) > 0;
   if (strcmp(word, "times") == 0) return check_errors(moving, 1, designs, seed, 61) > 0;
@@ -895,7 +949,7 @@ int main(int argc, char **argv) {
     known++;
   }
   if (known == 0)
-    fprintf(stderr, "%s: no study; also all, agree, errors, times, tolerance, tilt, loads, ramp, liquid, supply\n",
-            word);
+    fprintf(stderr,
+            "%s: no study; also all, kept, agree, errors, times, tolerance, tilt, loads, ramp, liquid, supply\n", word);
   return known == 0 ? 2 : bad > 0;
 }

@@ -6,6 +6,7 @@
 #   scripts/deps.sh --python what the Python package, its tests and pictures need
 #   scripts/deps.sh --octave what the MEX function, its tests and pictures need
 #   scripts/deps.sh --ci     also clang, the sanitizers' runtimes and the checkers that .ci/run uses, and what builds and tries FMUs for Windows
+#   scripts/deps.sh --weekly also what compiles for another processor and runs that
 #   scripts/deps.sh --windows also what builds the command for Windows and tries it
 #   scripts/deps.sh --docs   also what makes the manual's HTML
 #   scripts/deps.sh --browser    also the browser that scripts/check-report.sh looks at pages with
@@ -17,6 +18,7 @@ packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev
  python3-h5py python3-matplotlib python3-pandas python3-pytest python3-distributed python3-nbclient python3-nbformat python3-ipykernel python3-mpi4py openmpi-bin"
 [ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
 [ "${1:-}" = --ci ] && packages="$packages clang clang-format clang-tidy cppcheck libclang-rt-14-dev valgrind ngspice zsh fish groff debhelper lintian gcc-mingw-w64-x86-64-posix wine64"
+[ "${1:-}" = --weekly ] && packages="$packages gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user"
 [ "${1:-}" = --windows ] && packages="$packages gcc-mingw-w64-x86-64-posix wine64 tcl"
 [ "${1:-}" = --docs ] && packages="$packages pandoc doxygen fonts-dejavu-extra"
 [ "${1:-}" = --browser ] && packages="$packages chromium"

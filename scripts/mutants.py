@@ -220,7 +220,7 @@ class Test:
         """Does it pass? And the CPU time that it takes, s."""
         scratch = os.path.join(folder, "build/tests/scratch")
         own = f"{scratch}-{threading.current_thread().name}"
-        os.makedirs(own, exist_ok=True)
+        os.makedirs(self.folder.replace(scratch, own), exist_ok=True)
         environment = dict(os.environ, **self.environment, ZP_MUTANT=str(number))
         if reached:
             environment["ZP_MUTANTS_REACHED"] = reached

@@ -3,7 +3,8 @@
 #
 # Builds the core and tests/bits.c with each compiler at -O0 and -O3 in a temporary folder, runs all, and compares what
 # they print. The last line is "N passed, N failed"; exit status 1 if any differs. Unless compilers are named they are gcc
-# and, where it is there, clang, this at -O3 only: it evaluates in the same order at -O0.
+# and, where it is there, clang, this at -O3 only: it evaluates in the same order at -O0. gcc also compiles for each width of
+# vectors that this processor has; without that, it picks the widest when the program starts.
 #   sh tests/bits.sh --built gcc LIBRARY     takes that library, which gcc has made at -O3, instead of making it again
 # What a compiler for another processor makes runs in qemu-user:
 #   sh tests/bits.sh gcc aarch64-linux-gnu-gcc
@@ -28,6 +29,10 @@ trap 'rm -rf "$folder"' EXIT
 flags="-std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off"
 sources=$(find "$repo/src" -name '*.c' ! -path '*/src/io/*' ! -path '*/src/fit/*' ! -path '*/src/campaign/*' ! -path '*/src/sample/*' ! -path '*/src/optimize/*' ! -path '*/src/fmu/*' ! -path '*/src/fmupack/*' ! -path '*/src/reproduce/*' | sort)
 
+widths="v2"
+! grep -q -w avx2 /proc/cpuinfo || widths="$widths v3"
+! grep -q -w avx512vl /proc/cpuinfo || widths="$widths v4"
+
 passed=0
 failed=0
 here=$(uname -m)
@@ -37,8 +42,15 @@ for cc in "$@"; do
   [ "$target" = "$here" ] || { run=qemu-$target static=-static; }
   levels="-O0 -O3"
   [ "$cc" != clang ] || levels=$levels_of_clang
+  [ "$cc$target" != gccx86_64 ] || levels="$levels $widths"
   for level in $levels; do
     name=$(basename "$cc")$level
+    case $level in
+    v*)
+      name="$cc for x86-64-$level"
+      level="-O3 -march=x86-64-$level -DZP_KERNEL="
+      ;;
+    esac
     core=$sources
     [ "$cc$level" != "$built-O3" ] || core="-fno-lto $library"
     # shellcheck disable=SC2086

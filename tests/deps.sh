@@ -28,7 +28,11 @@ case "$*" in
 update) exit ;;
 esac
 echo "Get:1 gcc"
-/bin/sleep 0.5
+# until that is said, for a minute at most
+for _ in $(seq 600); do
+  ! grep -q "^  Get:1 gcc" "$SCRATCH/out" || break
+  /bin/sleep 0.1
+done
 if [ "$1" = install ] && [ -e "$SCRATCH/gone" ]; then
   echo "E: Unable to locate package gcc" && exit 100
 fi

@@ -369,29 +369,39 @@ fi
 
 # -- Ctrl-C -----------------------------------------------------------------------------------------------------
 
-interrupt() { # SECONDS ARGUMENT...: Ctrl-C that long after the start
+cpu_of() { # PID: CPU time so far, in 1/100 s; very long if it has ended
+  awk '{ print $3 == "Z" ? 999999 : $14 + $15 }' "/proc/$1/stat" 2>/dev/null || echo 999999
+}
+
+has_computed() { # PID TIME: wait until it has computed for that long, in 1/100 s, or has ended
+  while [ "$(cpu_of "$1")" -lt "$2" ]; do
+    sleep 0.05
+  done
+}
+
+interrupt() { # TIME ARGUMENT...: Ctrl-C after that much CPU time, in 1/100 s
   wait_for=$1
   shift
   PATH=/nowhere "$zipact" "$@" >stdout 2>stderr &
   pid=$!
-  sleep "$wait_for"
+  has_computed $pid "$wait_for"
   kill -INT $pid
   wait $pid
   status=$?
 }
 
 long="--set mesh.nodes=5 --set solver.time_step=1us --set solver.tolerance=0.1 --set drive.voltage=0 --set solver.end_time=10000"
-interrupt 1 actuate $long --json -o interrupted
+interrupt 50 actuate $long --json -o interrupted
 ok "130: Ctrl-C while it moves" status_is 130
 ok "130: --json" json stdout 'd["outcome"] == "interrupted" and d["simulated_time_s"] > 0'
 ok "130: what was done is kept" complete interrupted
 ok "130: where it stood is kept" is_file interrupted/checkpoint.zps
 ok "130: rows are kept" [ "$(wc -l <interrupted/table.csv)" -gt 2 ]
-interrupt 1 actuate --set mesh.nodes=2001 --json -o interrupted-early
+interrupt 50 actuate --set mesh.nodes=2001 --json -o interrupted-early
 ok "130: Ctrl-C while it settles" status_is 130
 ok "130: --json, too" json stdout 'd["outcome"] == "interrupted"'
 ok "130: files, too" complete interrupted-early
-interrupt 4 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
+interrupt 150 actuate $long --set 'solver.end_time=[1 ms, 10000 s, 1 ms]' --json -o interrupted-sweep
 ok "130: Ctrl-C in a sweep" status_is 130
 ok "130: the rows until then" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time"] and d["outcome"] == "interrupted"'
 ok "130: and their files" complete interrupted-sweep
@@ -434,7 +444,7 @@ ok "130: no gnuplot is left" [ -z "$(ps -eo stat=,pgid= | awk -v group="$(cat ha
 PATH=$PWD/hanging-bin:$PATH "$zipact" actuate $long --json -o hanging-twice >stdout 2>stderr &
 pid=$!
 wait_for_file hanging-twice/.zipact-lock
-sleep 1
+has_computed $pid 50
 kill -INT $pid
 wait_for_file hanging-twice/plots/started
 ok "what an interrupted run did is kept before gnuplot hangs" json hanging-twice/summary.json 'd["outcome"] == "interrupted"'

@@ -352,17 +352,20 @@ int main(void) {
   tcase_add_test(cycles, test_energy_of_a_cycle);
   tcase_add_test(cycles, test_current_of_a_capacitor);
   tcase_add_test(cycles, test_shooting_finds_what_waiting_leads_to);
-  tcase_add_loop_test(cycles, test_liquid_is_waited_for, 0, 2);
+  tcase_add_loop_test(cycles, test_liquid_is_waited_for, 1, 2);
   tcase_add_loop_test(cycles, test_small_motion_is_that_of_the_modes, 0, 4);
   tcase_add_loop_test(cycles, test_linear_answer_is_small_motion, 0, 6);
   tcase_add_test(cycles, test_method_by_itself);
   tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
   tcase_add_test(cycles, test_shooting_with_slow_charges);
-  tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 3);
+  tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 1);
   tcase_add_test(cycles, test_impacts_are_not_periodic);
   tcase_add_test(cycles, test_closing_frequency);
   tcase_add_loop_test(cycles, test_refusals, 0, 4);
   suite_add_tcase(suite, points);
   suite_add_tcase(suite, cycles);
+  TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, test_bode_plot_below_contact, 1, 3);
+  tcase_add_loop_test(nightly, test_liquid_is_waited_for, 0, 1);
   return run_suite(suite);
 }

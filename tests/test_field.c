@@ -580,7 +580,6 @@ int main(void) {
   tcase_add_test(grid, test_node_forces_are_the_gradient);
   tcase_add_test(grid, test_folded_grid_is_refused);
   tcase_add_test(grid, test_wedges_against_the_plates_law);
-  if (!SANITIZED) tcase_add_test(grid, test_wedge_converges_with_the_mesh);
   tcase_add_test(grid, test_thin_strips_with_fringing);
   tcase_add_test(grid, test_station_forces_are_the_gradient);
   tcase_add_test(grid, test_energy_goes_with_the_wet_length);
@@ -596,6 +595,7 @@ int main(void) {
   }
   suite_add_tcase(suite, grid);
   TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, test_wedge_converges_with_the_mesh);
   tcase_add_test(nightly, test_studies_by_field_and_by_plates);
   tcase_add_test(nightly, test_refresh_in_motion);
   tcase_add_test(nightly, test_held_without_cap);

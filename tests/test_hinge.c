@@ -181,8 +181,8 @@ END_TEST
 START_TEST(zips_and_keeps_the_books) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.1e-3},
-          {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2}, {"mesh.nodes", FULL_OR(31, 15)},
-          {"electro.edges", _i}, {"solver.end_time", _i ? FULL_OR(0.4, 0.3) : 0.06}, {"solver.tolerance", 1e-4});
+          {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2}, {"mesh.nodes", 15},
+          {"electro.edges", _i}, {"solver.end_time", _i ? 0.3 : 0.06}, {"solver.tolerance", 1e-4});
   if (_i) def.drive.waveform = ZP_WAVEFORM_SQUARE, def.drive.frequency = 4;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_below(zp_result_get(result, "energy_error"), 1e-6);

@@ -770,10 +770,13 @@ int main(void) {
   tcase_add_loop_test(study, load_slightly_above_the_largest, 0, 2);
   tcase_add_loop_test(study, mass_in_closed_form, 0, 2);
   tcase_add_test(study, travel_and_its_derivatives);
-  tcase_add_loop_test(study, test_limits_from_a_neighbour, 0, 4);
+  tcase_add_loop_test(study, test_limits_from_a_neighbour, 1, 2);
   tcase_add_test(study, largest_load_from_gradual_neighbours);
   tcase_add_test(study, test_no_neighbour);
   tcase_add_test(study, test_no_limit);
   suite_add_tcase(suite, study);
+  TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, test_limits_from_a_neighbour, 0, 1);
+  tcase_add_loop_test(nightly, test_limits_from_a_neighbour, 2, 4);
   return run_suite(suite);
 }

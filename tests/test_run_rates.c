@@ -21,18 +21,36 @@ static ZpResult *run_by(const ZpActuatorDef *given, const char *by) {
   return run(&def);
 }
 
-/* Of fourth order, of runs with the same steps. */
-static double difference(const ZpActuatorDef *def, const char *output, const char *name, double part) {
-  int key = zp_key_find(name);
-  double value = zp_def_get(def, key), step = part * value, at[5] = {0};
+/* Runs around a value of a key, from two steps below to two above, none in the middle: kept, since several outputs are
+ * asked for. */
+static struct {
+  ZpActuatorDef def;
+  int key;
+  double step;
+  ZpResult *run[5];
+} around;
+
+static void go_around(const ZpActuatorDef *def, int key, double step) {
+  if (around.run[0] && around.key == key && around.step == step && memcmp(&around.def, def, sizeof *def) == 0) return;
+  memcpy(&around.def, def, sizeof *def);
+  around.key = key;
+  around.step = step;
   for (int k = -2; k <= 2; k++) {
     ZpActuatorDef near = *def;
     if (k == 0) continue;
-    ck_assert_int_eq(zp_def_set(&near, key, value + k * step, NULL), ZP_OK);
-    ZpResult *result = run(&near);
-    at[k + 2] = zp_result_get(result, output);
-    zp_result_destroy(result);
+    ck_assert_int_eq(zp_def_set(&near, key, zp_def_get(def, key) + k * step, NULL), ZP_OK);
+    zp_result_destroy(around.run[k + 2]);
+    around.run[k + 2] = run(&near);
   }
+}
+
+/* Of fourth order, of runs with the same steps. */
+static double difference(const ZpActuatorDef *def, const char *output, const char *name, double part) {
+  int key = zp_key_find(name);
+  double step = part * zp_def_get(def, key), at[5] = {0};
+  go_around(def, key, step);
+  for (int k = 0; k < 5; k++)
+    if (k != 2) at[k] = zp_result_get(around.run[k], output);
   return (at[0] - 8 * at[1] + 8 * at[3] - at[4]) / (12 * step);
 }
 
@@ -465,7 +483,7 @@ int main(void) {
   Suite *suite = suite_create("run rates");
   TCase *tests = tcase_create("run rates");
   tcase_add_test(tests, zip_in_a_bath);
-  tcase_add_loop_test(tests, zip_without_liquid, 0, FULL_OR(2, 1));
+  tcase_add_loop_test(tests, zip_without_liquid, 0, 1);
   tcase_add_test(tests, derivative_of_every_landing_is_found);
   tcase_add_test(tests, zip_at_the_end_of_a_step);
   tcase_add_test(tests, start_of_a_swing);
@@ -492,6 +510,7 @@ int main(void) {
   tcase_add_test(ends, derivative_by_a_load_that_is_not_there);
   suite_add_tcase(suite, ends);
   TCase *nightly = nightly_case(suite);
+  tcase_add_loop_test(nightly, zip_without_liquid, 1, 2);
   add_long_test(nightly, zip_without_liquid_with_its_own_steps);
   return run_suite(suite);
 }
