@@ -69,8 +69,7 @@ static void walk_square(double frequency, double duty, double rise_time) {
     else
       expected += (place / 2) * duty / frequency + (place % 2) * rise_time;
     ck_assert_msg(next > t, "corner %d of %g Hz: %.17g after %.17g", k, frequency, next, t);
-    ck_assert_msg(fabs(next - expected) <= 1e-13 * (expected + 1 / frequency), "corner %d: %.17g, not %.17g", k, next,
-                  expected);
+    ck_assert_double_eq_tol(next, expected, 1e-13 * (expected + 1 / frequency));
     bool up = corners == 2 ? place == 0 : place == 1 || place == 2;
     ck_assert(zp_waveform_voltage(&w, next) == (up ? w.voltage : w.offset));
     bool was_up = corners == 2 ? place == 1 : up;

@@ -12,10 +12,8 @@
 
 #include <zipact/io.h>
 
+#include "check_util.h"
 #include "io/cases.h"
-#include "suite.h"
-
-#define LENGTH_OF(array) (sizeof(array) / sizeof(array)[0])
 
 static ZpStatus parse(ZpScenario *s, const char *text, ZpError *err) {
   return zp_scenario_parse(s, text, strlen(text), "test.yaml", err);
