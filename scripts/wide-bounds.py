@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Bounds of tests that are far wider than what is measured: wide-bounds.py RECORD... [--times N] [--all]
 
-The tests write a RECORD where ZIPACT_CHECKS names it (tests/check_util.h): ZIPACT_CHECKS=/tmp/record ctest. Of each place in the sources, and of each
+The tests write a RECORD where ZIPACT_CHECKS names it (tests/check_util.h): ZIPACT_CHECKS=$PWD/record ctest. Of each place in the sources, and of each
 bound there, the worst comparison counts. A bound of 1e-9 and more that is over N times (10) what was measured is listed, and makes the status 1;
 smaller ones hold rounding, which differs from compiler to compiler. --all lists every place, the widest first.
 """
