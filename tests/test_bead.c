@@ -477,7 +477,7 @@ START_TEST(test_whole_is_two_halves) {
   static const char *const signals[] = {"opening", "film_across_loss", "wet_length", "meniscus_loss", "bead_outside"};
   for (int k = 0; k < 2; k++)
     ck_assert_int_eq(zp_sim_run(sims[k], 0.28, false, NULL, NULL), ZP_REACHED_END);
-  ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1e-8);
+  ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1e-9); /* 1.8e-10 measured */
 }
 END_TEST
 

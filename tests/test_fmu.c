@@ -472,7 +472,7 @@ START_TEST(variable_steps) {
     must_step(&other, t, size);
     t += size;
   }
-  ck_near(fmu_get(&other, "opening"), fmu_get(&one, "opening"), 1e-4);
+  ck_near(fmu_get(&other, "opening"), fmu_get(&one, "opening"), 2e-7); /* 3.5e-8 measured */
   fmu_free(&one);
   fmu_free(&other);
   fmu_close(&fmu);
@@ -746,7 +746,7 @@ START_TEST(early_return_at_closing) {
   ck_assert(!end.event && !end.early && end.reached == 0.2);
   Ended other = step_3(&whole, 0, 0.2);
   ck_assert(!other.event && !other.early && other.reached == 0.2);
-  ck_near(fmu_get(&instance, "charge"), fmu_get(&whole, "charge"), 1e-6);
+  ck_near(fmu_get(&instance, "charge"), fmu_get(&whole, "charge"), 1e-12); /* 0 measured */
   fmu_free(&instance);
   fmu_free(&whole);
   fmu_close(&fmu);
@@ -762,8 +762,8 @@ START_TEST(early_return_at_limits) {
   ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(&fmu, "EnterStepMode"))(instance.handle), OK);
   Ended end = step_3(&instance, 0, 0.2);
   ck_assert(end.event && end.early);
-  ck_below(fmu_get(&instance, "contraction"), 0.9);
-  ck_near(fmu_get(&instance, "charge"), 0.1e-3 * end.reached, 1e-3);
+  ck_assert_double_lt(fmu_get(&instance, "contraction"), 0.9);
+  ck_near(fmu_get(&instance, "charge"), 0.1e-3 * end.reached, 3e-12); /* 4.2e-13 measured */
   fmu_free(&instance);
   fmu_close(&fmu);
 }
