@@ -208,7 +208,8 @@ START_TEST(numbers_at_the_closing_move_with_it) {
   check(&def, "viscous_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-6);
   check(&def, "source_energy_J", "medium.kinematic_viscosity", 1e-5, 1e-5);
   def = until_zipped(ZP_LIQUID_NONE, 21, 5e-5);
-  check(&def, "source_energy_J", "ribbon.thickness", 1e-7, 3e-3); /* rounding of differences; 1e-6 is too wide */
+  check(&def, "source_energy_J", "ribbon.thickness", 1e-7,
+        1e-4); /* rounding of differences, 1.9e-5 measured; 1e-6 is too wide */
 }
 END_TEST
 
@@ -291,7 +292,7 @@ START_TEST(peak_and_rms_current) {
   def.solver.tolerance = 1e-5;
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_near(slope_in(result, "peak_current_A", "ribbon.thickness"),
-          difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 1e-2);
+          difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 5e-5); /* 1.4e-5 measured */
   double rms = slope_in(result, "rms_current_A", "ribbon.thickness");
   ck_assert(isnan(rms) || fabs(rms / difference(&def, "rms_current_A", "ribbon.thickness", 1e-3) - 1) < 1e-2);
   zp_result_destroy(result);
@@ -321,7 +322,7 @@ START_TEST(swing_scales) {
   size_t last = result->series->rows - 1;
   double v = -zp_table_get(result->series, last, "end_velocity_m_per_s");
   double half = 0.5 * def.solver.end_time * v;
-  ck_near(by_E + by_g, half, 2e-4);
+  ck_near(by_E + by_g, half, 1e-7); /* 2.3e-8 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -344,10 +345,10 @@ START_TEST(charging_through_a_resistor) {
   double V = def.drive.voltage, R = def.source.resistance;
   double by_R = slope_in(result, "peak_current_A", "source.resistance");
   double by_V = slope_in(result, "peak_current_A", "drive.voltage");
-  ck_near(by_R, -V / (R * R), 1e-6);
-  ck_near(by_V, 1 / R, 1e-6);
+  ck_near(by_R, -V / (R * R), 2e-9); /* 2.4e-10 measured */
+  ck_near(by_V, 1 / R, 1e-9);        /* 1.7e-10 measured */
   double lost = zp_result_get(result, "source_loss_J");
-  ck_below(fabs(slope_in(result, "source_loss_J", "source.resistance")) * R, 1e-5 * lost);
+  ck_below(fabs(slope_in(result, "source_loss_J", "source.resistance")) * R, 2e-6 * lost); /* 3.5e-7 measured */
   ck_below(fabs(slope_in(result, "source_loss_J", "drive.voltage") * V / lost - 2), 1e-4);
   zp_result_destroy(result);
 }
@@ -436,7 +437,7 @@ START_TEST(derivative_by_a_load_that_is_not_there) {
   zp_result_destroy(result);
   def.load.mass = 1e-7;
   result = run(&def);
-  ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 1e-3);
+  ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 5e-5); /* 1.5e-5 measured */
   zp_result_destroy(result);
 }
 END_TEST
