@@ -208,8 +208,8 @@ START_TEST(numbers_at_the_closing_move_with_it) {
   check(&def, "viscous_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-6);
   check(&def, "source_energy_J", "medium.kinematic_viscosity", 1e-5, 1e-5);
   def = until_zipped(ZP_LIQUID_NONE, 21, 5e-5);
-  check(&def, "source_energy_J", "ribbon.thickness", 1e-7,
-        1e-4); /* rounding of differences, 1.9e-5 measured; 1e-6 is too wide */
+  /* rounding of differences, 1.9e-5 measured; 1e-6 is too wide */
+  check(&def, "source_energy_J", "ribbon.thickness", 1e-7, 1e-4);
 }
 END_TEST
 
