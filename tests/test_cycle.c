@@ -218,7 +218,7 @@ START_TEST(test_linear_answer_is_small_motion) {
   printf("amplitude %.4g and %.4g um, energy %.4g and %.4g J\n", 1e6 * amplitude[0], 1e6 * amplitude[1], energy[0],
          energy[1]);
   ck_near(amplitude[0], amplitude[1], 4e-3);
-  ck_below(fabs(phase[0] - phase[1]), 2e-3);
+  ck_below(fabs(phase[0] - phase[1]), 1e-3); /* 1.7e-4 measured */
   ck_near(energy[0], energy[1], row[_i].lost);
   ck_near(current[0], current[1], 2e-5); /* 4.7e-6 measured */
 }

@@ -467,7 +467,7 @@ START_TEST(alternating_voltage_keeps_energy) {
   ck_assert_int_eq(result->outcome, ZP_REACHED_END);
   printf("%s of 50 Hz, 1 s: energy error %.1e in %g steps\n", _i ? "square" : "sine",
          zp_result_get(result, "energy_error"), zp_result_get(result, "steps"));
-  ck_below(zp_result_get(result, "energy_error"), 1e-7);
+  ck_below(zp_result_get(result, "energy_error"), 5e-8); /* 9.7e-9 measured */
   zp_result_destroy(result);
 }
 END_TEST

@@ -67,7 +67,7 @@ START_TEST(test_cap_is_continuous) {
     ZpPlatesLaw below = zp_plates_law(&p, U, at - h), above = zp_plates_law(&p, U, at + h);
     ck_near(below.W, above.W, 1e-7);
     ck_near(below.P, above.P, 1e-7);
-    ck_near(below.q, above.q, 1e-7);
+    ck_near(below.q, above.q, 3e-8); /* 6.3e-9 measured */
     ck_near(zp_plates_law(&p, U, at).W, 61.8, 1e-3);
     ck_near(zp_plates_law(&p, U, at / 2).W, zp_plates_law(&p, U, 0).W, 1e-15);  /* constant to contact */
     ck_near(zp_plates_law(&p, U, at / 2).q, ZP_EPS0 * eps_m * w * 20e6, 1e-13); /* so is the charge */
@@ -94,7 +94,7 @@ START_TEST(test_law_derivatives) {
       }
   }
   printf("W against dP/dg %.1e, q against -dP/dU %.1e\n", worst_W, worst_q);
-  ck_below(worst_W, 1e-8);
+  ck_below(worst_W, 5e-9);  /* 7.8e-10 measured */
   ck_below(worst_q, 1e-11); /* 1.2e-12 measured */
 }
 END_TEST
@@ -234,7 +234,7 @@ START_TEST(test_polyline_force_is_gradient) {
       printf("polyline force against -dE/dq, cap %d, platform %d: x %.1e, y %.1e of the largest\n", cap, platform,
              worst_x, worst_y);
       ck_below(worst_x, 1e-8);
-      ck_below(worst_y, 1e-8);
+      ck_below(worst_y, 5e-9); /* 8.4e-10 measured */
     }
 }
 END_TEST

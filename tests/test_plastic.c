@@ -123,7 +123,7 @@ START_TEST(work_is_stored_or_heat) {
     at = to;
   }
   double stored = 0.5 * plastic.EI * at * at - zp_plastic_relief(&plastic, p0, at);
-  ck_below(fabs(work - stored - heat), 1e-13 * scale);
+  ck_below(fabs(work - stored - heat) / scale, 1e-13);
   ck_assert_double_gt(heat, 0.1 * work);
 }
 END_TEST
@@ -171,7 +171,7 @@ START_TEST(cantilever_beyond_its_yield) {
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   double found = -zp_table_get(result->series, result->series->rows - 1, "y_m");
   zp_result_destroy(result);
-  ck_near(found, sag, 2e-3);
+  ck_near(found, sag, 1e-3); /* 2e-4 measured */
   def.ribbon.plasticity = false;
   result = answer_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_double_gt(found, -1.02 * zp_table_get(result->series, result->series->rows - 1, "y_m"));

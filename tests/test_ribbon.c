@@ -146,7 +146,7 @@ START_TEST(test_axial_force_is_gradient) {
       largest = fmax(largest, fabs(f[k]));
     }
     printf("axial force against -dU/dq, %zu ribbons: %.1e of the largest\n", ribbons, worst / largest);
-    ck_below(worst / largest, 1e-9);
+    ck_below(worst / largest, 5e-10); /* 8.5e-11 measured */
     free_ribbon(&r);
   }
 }

@@ -106,7 +106,7 @@ START_TEST(test_force_is_gradient) {
         at[m] = energy_of(&r);
       }
       *coordinate(&r, k) = kept;
-      ck_assert_double_eq_tol(force[k], -difference(at, h), 1e-9);
+      ck_assert_double_eq_tol(force[k], -difference(at, h), 5e-10); /* 9.1e-11 measured */
     }
     zp_free(r.memory);
   }

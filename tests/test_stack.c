@@ -198,7 +198,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   const ZpTable *table = result->series;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-  ck_below(zp_result_get(result, "energy_error"), 1e-7);
+  ck_below(zp_result_get(result, "energy_error"), 3e-8); /* 5.4e-9 measured */
   double work = 0, speed = 0, start = zp_table_get(table, 0, "opening_m"), opening = start;
   for (size_t row = 1; row < table->rows && zp_table_get(table, row, "opening_m") > 0.1 * start; row++) {
     double fell = opening - zp_table_get(table, row, "opening_m");
