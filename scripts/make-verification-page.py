@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """docs/verification.md from what the tests measure: make-verification-page.py BUILD
 
-Runs every test of BUILD/tests that holds a tolerance (ck_near, ck_below of tests/check_util.h), each with ZIPACT_CHECKS
+Runs every test of BUILD/tests that holds a tolerance (ck_near, ck_below and their like in tests/check_util.h), each with ZIPACT_CHECKS
 naming a file of its own. What a test is about is the comment above it; tests/telling.csv names the most telling comparisons.
 """
 import csv
@@ -39,7 +39,7 @@ def checks_of(room, program, folder):
         sys.exit(f"{program} failed:\n{done.stdout}")
     with open(record, encoding="utf-8") as lines:
         for line in lines:
-            test, value, against, measured, allowed = line.rstrip("\n").split("\t")
+            _, test, value, against, measured, allowed = line.rstrip("\n").split("\t")
             error = float(measured)
             yield Check(room, test.removesuffix("_fn"), value, against, 0 if math.isnan(error) else error, float(allowed))
 
@@ -121,7 +121,7 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         for room in rooms:
             with open(os.path.join(HOME, "tests", f"test_{room}.c"), encoding="utf-8") as file:
-                if re.search(r"\bck_(near|below)\(", file.read()):
+                if re.search(r"\bck_(near|below|assert_double_eq_tol)\(", file.read()):
                     checks += checks_of(room, os.path.join(tests, "test_" + room), folder)
     text = page(checks)
     with open(os.path.join(HOME, "docs", "verification.md"), "w", encoding="utf-8") as file:

@@ -127,7 +127,8 @@ START_TEST(test_another_voltage) {
   ck_assert_double_eq(zp_table_get(free_fall->series, 0, "voltage_V"), 0);
   ck_assert_int_eq(free_fall->outcome, ZP_REOPENED);
   ck_assert_double_lt(value_at_end(free_fall, "contraction"), 0.9);
-  ck_assert_double_lt(fabs(value_at_end(free_fall, "energy_imbalance_J")), 1e-3 * value_at_end(zip, "electric_work_J"));
+  /* 6.8e-10 measured */
+  ck_below(fabs(value_at_end(free_fall, "energy_imbalance_J")), 5e-9 * value_at_end(zip, "electric_work_J"));
   zp_result_destroy(zip);
   zp_result_destroy(held);
   zp_result_destroy(free_fall);

@@ -113,7 +113,8 @@ START_TEST(a_run_ends_early_where_it_stays_closed) {
       least = fmin(least, contraction(result, row));
       most = fmax(most, contraction(result, row));
     }
-  ck_assert(least >= 0.99 && most - least < 1e-4);
+  ck_assert_double_ge(least, 0.99);
+  ck_below(most - least, 1e-5); /* 2.1e-6 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -131,7 +132,7 @@ START_TEST(the_window_slides) {
     ZpOpeningAt now = {t, 1e-3 + slope * (t - from)};
     zp_still_follow(&still, from, last, now);
     double within = fmin(t - from, ZP_STILL_TIME);
-    ck_near(zp_still_range(&still, from, t), -slope * within, 1e-9);
+    ck_near(zp_still_range(&still, from, t), -slope * within, 1e-12); /* 1.1e-14 measured */
     last = now;
   }
 }
@@ -257,7 +258,7 @@ START_TEST(a_resumed_run_ends_where_the_whole_one_ends) {
   input.start = all->checkpoint;
   rest.solver.end_time = zp_checkpoint_time(all->checkpoint) + 0.05;
   ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &rest, &input, NULL, &end, NULL), ZP_OK);
-  ck_near(zp_result_get(end, "simulated_time_s"), 0.05, 1e-9);
+  ck_near(zp_result_get(end, "simulated_time_s"), 0.05, 1e-12); /* 2.2e-16 measured */
   ck_assert_int_eq(end->outcome, ZP_ZIPPED);
   zp_result_destroy(all);
   zp_result_destroy(part);

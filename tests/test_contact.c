@@ -67,7 +67,8 @@ static void check_meeting(ZpZipState state, size_t i, Motion m) {
     return;
   }
   ck_assert_msg(pair == i, "g %g w %g c %g: no meeting", m.g, m.w, m.c);
-  ck_assert_double_eq_tol(s, m.meets, 1e-6 * m.meets + 1e-15); /* tangential: root of rounding, 1e-8 */
+  /* tangential: root of rounding, 1.5e-8; 5e-10 measured */
+  ck_assert_double_eq_tol(s, m.meets, 2e-8 * m.meets + 1e-15);
 }
 
 START_TEST(test_meeting_time) {
@@ -129,7 +130,7 @@ START_TEST(test_meeting_is_where_the_step_goes) {
     ck_assert_double_ge(lowest, -1e-15);
     if (pair == 77) continue;
     met++;
-    ck_assert_double_le(fabs(gap), 1e-15);
+    ck_below(fabs(gap), 1e-15);
     ck_assert_double_le(m.w + m.c * s, 1e-9);
   }
   ck_assert_int_gt(met, 1000);
@@ -276,7 +277,7 @@ static double overlap(bool powered) {
 static void check_joined(Run *run, const ZpState *state, const ZpShape *shape, size_t i, bool was_joined) {
   ZpMotion m = zp_state_motion(run->model, state);
   ck_assert(m.vx[2 * i] == m.vx[2 * i + 1] && m.vy[2 * i] == m.vy[2 * i + 1]);
-  ck_assert_double_le(shape->gap[i], 1e-12);
+  ck_below(shape->gap[i], 1e-12);
   ck_assert_double_ge(shape->gap[i], -overlap(state->U != 0));
   double offset = shape->x[2 * i] - shape->x[2 * i + 1];
   if (was_joined) ck_assert_double_le(fabs(offset - run->offset[i]), 1e-12);

@@ -20,7 +20,7 @@ START_TEST(depth_is_that_of_two_lines) {
       q[model->stride + j] = j % 2 ? sign * slope * (q[j] - x0 - at) : 0;
     }
     double beyond = sign > 0 ? 1.65 : 1.35;
-    ck_near(zp_crossing_depth(model, q), slope * beyond * l, 1e-9);
+    ck_near(zp_crossing_depth(model, q), slope * beyond * l, 1e-12); /* 8.9e-16 measured */
   }
   for (size_t j = 1; j < model->count; j += 2)
     q[model->stride + j] = -1e-6 * fabs(q[j] - x0 - at);
@@ -41,7 +41,7 @@ START_TEST(depth_of_one_node_is_its_own) {
     q[j] = zp_straight_x(model, j / 2);
     q[model->stride + j] = j % 2 ? (j / 2 == AT ? 1e-6 : j / 2 < AT ? -2e-7 : -4e-4) : 0;
   }
-  ck_near(zp_crossing_depth(model, q), 1e-6, 1e-6);
+  ck_near(zp_crossing_depth(model, q), 1e-6, 1e-12); /* 0 measured */
   zp_free(q);
   zp_model_destroy(model);
 }

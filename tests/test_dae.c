@@ -131,7 +131,7 @@ START_TEST(test_bordered_singular_band) {
         if (is_kept(s, 0, j)) *zp_bordered_at(&m, 0, j) = dense[0][j];
         if (is_kept(s, j, 0)) *zp_bordered_at(&m, j, 0) = dense[0][j];
       }
-      ck_below(solve_error(s, &m, dense), 1e-11);
+      ck_below(solve_error(s, &m, dense), 1e-12); /* 4.4e-15 measured */
       zp_free(memory);
     }
   }
@@ -309,7 +309,7 @@ START_TEST(test_charge_order_two) {
     zp_free(m.memory);
   }
   for (int k = 0; k < 3; k++)
-    ck_near(error[k] / error[k + 1], 4, 0.02);
+    ck_near(error[k] / error[k + 1], 4, 2e-3); /* 5e-4 measured */
 }
 END_TEST
 
@@ -333,7 +333,7 @@ START_TEST(test_charge_error_control) {
     steps[k] = m.stepper.counts.steps;
     printf("charge, accuracy %.1e: error %.2e in %lld steps, %lld rejected\n", m.stepper.accuracy, error[k],
            (long long)steps[k], (long long)m.stepper.counts.rejected);
-    ck_below(error[k], 100 * m.stepper.accuracy);
+    ck_below(error[k], 100 * m.stepper.accuracy); /* 7.5 to 33 measured */
     zp_free(m.memory);
   }
   for (int k = 0; k < 2; k++) {
@@ -415,7 +415,7 @@ START_TEST(test_plate_balance) {
     ck_assert_double_lt(lowest, 0.95 * gap0); /* it does move */
     printf("plate behind a resistor: %lld steps, balance within %.1e of %.2e J\n", (long long)m.stepper.counts.steps,
            worst, work);
-    ck_below(worst / work, 1e-9);
+    ck_below(worst / work, 5e-11); /* 9.1e-12 measured */
     zp_free(m.memory);
   }
 }
@@ -542,7 +542,7 @@ START_TEST(test_volume_stays) {
     ck_assert(m.v[CELLS] == 0 && m.w[CELLS] == 0 && m.a[CELLS] == 0);
     printf("volume that stays: energy within %.1e, volume within %.1e, pressures up to %.3g\n", worst, spread,
            pressure);
-    ck_below(worst, 1e-11);
+    ck_below(worst, 1e-12); /* 9.3e-14 measured */
     ck_below(spread, 1e-13);
     ck_assert_double_gt(pressure, 1);
     zp_free(m.memory);
@@ -590,11 +590,11 @@ START_TEST(test_pendulum) {
     make_pendulum(&m);
     run_fixed(&m, quarter, 40 << k);
     error[k] = fabs(m.y[0]);
-    ck_near(m.y[2], -3, 0.05); /* three weights pull at it there */
+    ck_near(m.y[2], -3, 2e-3); /* three weights pull at it there; 3.8e-4 measured */
     zp_free(m.memory);
   }
   for (int k = 0; k < 2; k++)
-    ck_near(error[k] / error[k + 1], 4, 0.02);
+    ck_near(error[k] / error[k + 1], 4, 2e-3); /* 4.6e-4 measured */
   Motion m;
   make_pendulum(&m);
   m.stepper.fixed = 0.1;
@@ -605,7 +605,7 @@ START_TEST(test_pendulum) {
     stretch = fmax(stretch, fabs(m.y[0] * m.y[0] + m.y[1] * m.y[1] - 1));
   }
   printf("pendulum: energy within %.1e, length within %.1e\n", worst, stretch);
-  ck_below(worst, 1e-11);
+  ck_below(worst, 3e-12); /* 4e-13 measured */
   ck_below(stretch, 1e-13);
   zp_free(m.memory);
 }
@@ -623,7 +623,7 @@ START_TEST(test_pendulum_in_the_band) {
   run_fixed(&border, 10, 200);
   run_fixed(&band, 10, 200);
   for (size_t i = 0; i < 3; i++)
-    ck_near(band.y[i], border.y[i], 1e-10);
+    ck_near(band.y[i], border.y[i], 1e-12); /* 0 measured */
   zp_free(border.memory);
   zp_free(band.memory);
 }
@@ -695,7 +695,7 @@ START_TEST(test_pair_order_two) {
     zp_free(m.memory);
   }
   for (int k = 0; k < 3; k++)
-    ck_near(error[k] / error[k + 1], 4, 0.02);
+    ck_near(error[k] / error[k + 1], 4, 3e-3); /* 9.8e-4 measured */
 }
 END_TEST
 
@@ -742,8 +742,8 @@ START_TEST(test_pair_steps_as_one_mass) {
   start(&one);
   pair.stepper.accuracy = one.stepper.accuracy = 1e-6;
   for (int k = 0; k < 100; k++)
-    ck_near(step(&pair, 1), step(&one, 1), 1e-9);
-  ck_near(pair.y[0], one.y[0], 1e-9);
+    ck_near(step(&pair, 1), step(&one, 1), 1e-10); /* 1.3e-11 measured */
+  ck_near(pair.y[0], one.y[0], 1e-12);             /* 9.2e-14 measured */
   zp_free(pair.memory);
   zp_free(one.memory);
 }
@@ -766,7 +766,7 @@ START_TEST(test_pair_error_control) {
     zp_free(m.memory);
   }
   for (int k = 0; k < 2; k++)
-    ck_near(error[k] / error[k + 1], 4, 0.15);
+    ck_near(error[k] / error[k + 1], 4, 0.05); /* 0.011 measured */
 }
 END_TEST
 
@@ -814,7 +814,7 @@ START_TEST(test_exact_tangent) {
     }
     double error = exact_error(&m, y0, v0, y1, 0.05);
     printf("exact tangent of system %zu: within %.1e\n", k, error);
-    ck_below(error, 1e-6);
+    ck_below(error, 5e-8); /* 5.3e-9 measured */
     zp_free(m.memory);
   }
 }
@@ -843,7 +843,7 @@ START_TEST(test_newton_by_exact) {
   run_fixed(&by_symmetric, 0.05, 50);
   run_fixed(&by_exact, 0.05, 50);
   for (size_t i = 0; i < 2; i++)
-    ck_near(by_exact.y[i], by_symmetric.y[i], 1e-7);
+    ck_near(by_exact.y[i], by_symmetric.y[i], 3e-11); /* 4.4e-12 measured */
   ck_assert_int_lt(by_exact.stepper.counts.iterations, by_symmetric.stepper.counts.iterations);
   zp_free(by_symmetric.memory);
   zp_free(by_exact.memory);

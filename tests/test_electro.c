@@ -53,7 +53,7 @@ START_TEST(test_zipping_line_force) {
       double U = 1e3 * kV[i];
       double front = zp_plates_law(&p, U, 1e6).P - zp_plates_law(&p, U, 0).P;
       ck_assert_double_eq_tol(1e3 * front, cap ? capped_mN[i] : free_mN[i], 0.05 + 1e-9);
-      if (!cap) ck_near(front, 0.5 * zp_plates_law(&p, U, 0).q * U, 1e-7); /* 1/2 C' U^2 */
+      if (!cap) ck_near(front, 0.5 * zp_plates_law(&p, U, 0).q * U, 1e-9); /* 1/2 C' U^2; 1.5e-10 measured */
     }
 }
 END_TEST
@@ -67,7 +67,7 @@ START_TEST(test_cap_is_continuous) {
     ZpPlatesLaw below = zp_plates_law(&p, U, at - h), above = zp_plates_law(&p, U, at + h);
     ck_near(below.W, above.W, 1e-7);
     ck_near(below.P, above.P, 1e-7);
-    ck_near(below.q, above.q, 1e-7);
+    ck_near(below.q, above.q, 3e-8); /* 6.3e-9 measured */
     ck_near(zp_plates_law(&p, U, at).W, 61.8, 1e-3);
     ck_near(zp_plates_law(&p, U, at / 2).W, zp_plates_law(&p, U, 0).W, 1e-15);  /* constant to contact */
     ck_near(zp_plates_law(&p, U, at / 2).q, ZP_EPS0 * eps_m * w * 20e6, 1e-13); /* so is the charge */
@@ -94,8 +94,8 @@ START_TEST(test_law_derivatives) {
       }
   }
   printf("W against dP/dg %.1e, q against -dP/dU %.1e\n", worst_W, worst_q);
-  ck_below(worst_W, 1e-8);
-  ck_below(worst_q, 1e-10);
+  ck_below(worst_W, 5e-9);  /* 7.8e-10 measured */
+  ck_below(worst_q, 1e-11); /* 1.2e-12 measured */
 }
 END_TEST
 
@@ -234,7 +234,7 @@ START_TEST(test_polyline_force_is_gradient) {
       printf("polyline force against -dE/dq, cap %d, platform %d: x %.1e, y %.1e of the largest\n", cap, platform,
              worst_x, worst_y);
       ck_below(worst_x, 1e-8);
-      ck_below(worst_y, 1e-8);
+      ck_below(worst_y, 5e-9); /* 8.4e-10 measured */
     }
 }
 END_TEST
@@ -251,7 +251,7 @@ static void check_opposite(const Pair *pair, double total) {
     scale += fabs(e->Fx[2 * i]) + fabs(e->Fy[2 * i]);
   }
   ck_assert_double_eq(upper, -lower);
-  ck_assert_double_le(fabs(x), 1e-14 * scale);
+  ck_below(fabs(x), 1e-14 * scale);
   ck_near(lower, total, 1e-12);
   for (size_t j = pair->model->count; j < pair->model->stride; j++)
     ck_assert(e->Fx[j] == 0 && e->Fy[j] == 0);
@@ -289,7 +289,7 @@ static double fine_force(const Pair *pair, double U) {
  * of the cap inside an element 2.7e-3, 7.4e-4, 3.3e-5. */
 START_TEST(test_quadrature) {
   static const int nodes[] = {21, 61, 130};
-  static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, limit[2][3] = {{8e-4, 1e-6, 1e-7}, {5e-3, 1.5e-3, 1e-4}};
+  static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, limit[2][3] = {{8e-4, 1e-6, 5e-8}, {5e-3, 1.5e-3, 1e-4}};
   for (int cap = 0; cap < 2; cap++)
     for (size_t n = 0; n < LENGTH_OF(nodes); n++) {
       double worst = 0;
@@ -498,7 +498,7 @@ START_TEST(test_platform_electrode) {
     double flat = 5e-3 * zp_plates_law(&pair.model->plates, 6e3, 1e-3).W;
     if (platform)
       for (int k = 0; k < 2; k++)
-        ck_near(last[k][1] - last[k][0], flat, 1e-10);
+        ck_near(last[k][1] - last[k][0], flat, 1e-12); /* 2.2e-16 measured */
     free_pair(&pair);
   }
 }

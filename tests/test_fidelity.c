@@ -25,7 +25,7 @@ START_TEST(test_settled_stroke) {
                           {"mass_spring.shear_coefficient", s->shear}, {"load.mass", 1e-3 * s->grams});
   double mm = 1e3 * settled_value(&def, "stroke");
   printf("N = %d, %g g: stroke %.4f mm, theirs %.3f\n", s->nodes, s->grams, mm, s->mm);
-  ck_assert_double_eq_tol(mm, s->mm, 0.02);
+  ck_assert_double_eq_tol(mm, s->mm, 3e-3); /* 7.6e-4 measured */
 }
 END_TEST
 

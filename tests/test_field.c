@@ -42,7 +42,7 @@ START_TEST(test_ring_converges_with_the_fourth_power) {
   printf("ring: energy off by %.2g %.2g %.2g\n", error[0], error[1], error[2]);
   ck_assert_double_gt(error[0] / error[1], 12);
   ck_assert_double_gt(error[1] / error[2], 12);
-  ck_assert_double_lt(error[2], 1e-5);
+  ck_below(error[2], 5e-8); /* 6.9e-9 measured */
 }
 END_TEST
 
@@ -169,9 +169,9 @@ START_TEST(test_wedges_against_the_plates_law) {
       if (straight)
         ck_assert(ratio > 1 && ratio < 1.004);
       else
-        ck_assert_double_eq_tol(ratio, theirs[k], apart[k]); /* measured: 2e-5, 1e-5, 6e-5, 3e-4 */
-      ck_near(work, 1, 2e-4);                                /* 1e-5 to 1.7e-4; asked for: 1e-3 */
-      ck_near(totals.upper, totals.lower, straight ? 1e-4 : 1e-9);
+        ck_assert_double_eq_tol(ratio, theirs[k], apart[k]);        /* measured: 2e-5, 1e-5, 6e-5, 3e-4 */
+      ck_near(work, 1, 2e-4);                                       /* 1e-5 to 1.7e-4; asked for: 1e-3 */
+      ck_near(totals.upper, totals.lower, straight ? 1e-4 : 1e-12); /* 7.7e-5 and 2e-15 measured */
     }
   zp_field_destroy(&f);
 }
@@ -200,7 +200,7 @@ START_TEST(test_wedge_converges_with_the_mesh) {
   }
   printf("2 mm wedge, mesh halved: force changes by %.1e, %.1e, traction by %.1e, %.1e\n", force[1] / force[0] - 1,
          force[2] / force[1] - 1, traction[1] / traction[0] - 1, traction[2] / traction[1] - 1);
-  ck_near(force[1], force[2], 1e-6);
+  ck_near(force[1], force[2], 1e-7); /* 2.5e-8 measured */
   ck_assert_double_gt(fabs((force[1] - force[0]) / (force[2] - force[1])), 8);
   ck_assert_double_gt(fabs((traction[1] - traction[0]) / (traction[2] - traction[1])), 3);
 }
@@ -300,7 +300,8 @@ START_TEST(test_energy_goes_with_the_wet_length) {
     ck_assert_int_eq(zp_field_solve(&f, &(ZpFaces){x, up, x, low, 1}), ZP_FIELD_SOLVED);
     energy[k] = f.energy;
   }
-  ck_near(energy[1] - energy[0], 0.5 * ZP_EPS0 * (eps_m - 1) * p.w * (21.0 / (N - 1)) * L / gap, 1e-6);
+  /* 3e-11 measured */
+  ck_near(energy[1] - energy[0], 0.5 * ZP_EPS0 * (eps_m - 1) * p.w * (21.0 / (N - 1)) * L / gap, 3e-10);
   zp_field_destroy(&f);
 }
 END_TEST
@@ -365,7 +366,7 @@ START_TEST(test_surplus_is_the_gradient) {
     ck_assert_int_eq(zp_surplus_solve(&s, moved, at, cover), ZP_FIELD_SOLVED);
     co_energy[side] = s.energy * at * at;
   }
-  ck_near((co_energy[1] - co_energy[0]) / (2 * dU), charge, 1e-6);
+  ck_near((co_energy[1] - co_energy[0]) / (2 * dU), charge, 5e-8); /* 1.3e-8 measured */
   free(moved);
   zp_surplus_destroy(&s);
   zp_model_destroy(model);
@@ -463,7 +464,7 @@ START_TEST(test_surplus_makes_plates_the_field) {
     beyond += eval.surplus.F[model->stride + 2 * i + 1];
   printf("beyond plates: %.1e of the force on the 2 mm wedge\n",
          beyond / plates_force(&model->cross_section, 2e-3, false));
-  ck_assert_double_lt(fabs(beyond), 1e-4 * plates_force(&model->cross_section, 2e-3, false));
+  ck_below(fabs(beyond), 1e-4 * plates_force(&model->cross_section, 2e-3, false));
   free(q);
   zp_system_destroy(&eval);
   zp_model_destroy(model);
@@ -517,7 +518,7 @@ START_TEST(test_bead_by_field_and_by_plates) {
   printf("bead: zip %.2f, by the field %.2f ms; held with %.6f, %.6f N\n", closing[0] * 1e3, closing[1] * 1e3, held[0],
          held[1]);
   ck_near(closing[1], closing[0], 0.01); /* 0.3 % */
-  ck_near(held[1], held[0], 1e-3);       /* 0.01 % */
+  ck_near(held[1], held[0], 3e-4);       /* 8.6e-5 measured */
   ck_assert_double_ne(held[1], held[0]);
 }
 END_TEST

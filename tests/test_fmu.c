@@ -383,7 +383,7 @@ static void expect_actuate(int version, const Input *input, bool straight, const
     if (!isnan(charge[k + 1]) && straight)
       largest = fmax(largest, fabs(fmu_get(&instance, "charge") - charge[k + 1]) / 1e-6);
   }
-  ck_below(largest, 1e-9);
+  ck_below(largest, 5e-10); /* 8.7e-11 measured */
   fmu_free(&instance);
   fmu_close(&fmu);
 }
@@ -472,7 +472,7 @@ START_TEST(variable_steps) {
     must_step(&other, t, size);
     t += size;
   }
-  ck_near(fmu_get(&other, "opening"), fmu_get(&one, "opening"), 1e-4);
+  ck_near(fmu_get(&other, "opening"), fmu_get(&one, "opening"), 2e-7); /* 3.5e-8 measured */
   fmu_free(&one);
   fmu_free(&other);
   fmu_close(&fmu);
@@ -650,6 +650,8 @@ static void expect_derivatives(Instance *instance, const char *input, double val
     ck_assert_int_eq(fmu_derivative(instance, unknown, known, &slope), OK);
     bool balance = strcmp(unknown->name, "energy_imbalance") == 0; /* it has nothing but rounding */
     double scale = fabs(slope) + 1e-3 * fabs(value_of[1][output] / value);
+    if (!balance && isfinite(value_of[1][output]))
+      note_check(__func__, unknown->name, input, fabs(slope - difference) / scale, 1e-6);
     ck_assert_msg(fabs(slope - difference) <= 1e-6 * scale || balance || !isfinite(value_of[1][output]),
                   "%s by %s: %.12g, differences %.12g", unknown->name, input, slope, difference);
     if (!follows)
@@ -744,7 +746,7 @@ START_TEST(early_return_at_closing) {
   ck_assert(!end.event && !end.early && end.reached == 0.2);
   Ended other = step_3(&whole, 0, 0.2);
   ck_assert(!other.event && !other.early && other.reached == 0.2);
-  ck_near(fmu_get(&instance, "charge"), fmu_get(&whole, "charge"), 1e-6);
+  ck_near(fmu_get(&instance, "charge"), fmu_get(&whole, "charge"), 1e-12); /* 0 measured */
   fmu_free(&instance);
   fmu_free(&whole);
   fmu_close(&fmu);
@@ -760,8 +762,8 @@ START_TEST(early_return_at_limits) {
   ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(&fmu, "EnterStepMode"))(instance.handle), OK);
   Ended end = step_3(&instance, 0, 0.2);
   ck_assert(end.event && end.early);
-  ck_below(fmu_get(&instance, "contraction"), 0.9);
-  ck_near(fmu_get(&instance, "charge"), 0.1e-3 * end.reached, 1e-3);
+  ck_assert_double_lt(fmu_get(&instance, "contraction"), 0.9);
+  ck_near(fmu_get(&instance, "charge"), 0.1e-3 * end.reached, 3e-12); /* 4.2e-13 measured */
   fmu_free(&instance);
   fmu_close(&fmu);
 }

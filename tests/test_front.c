@@ -30,7 +30,7 @@ START_TEST(test_peeling) {
   printf("film of %g um: speed %.4f of the law, thinnest %.4f of the film\n", 1e6 * depth, found / speed,
          thinnest / depth);
   ck_near(found, speed, 0.01);
-  ck_near(thinnest, 0.785 * depth, 0.01);
+  ck_near(thinnest, 0.785 * depth, 2e-3); /* 3.9e-4 measured */
   front_destroy(f);
 }
 END_TEST

@@ -25,10 +25,10 @@ START_TEST(square_wave_rises_within_its_shorter_part) {
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_def_check(&def, &err) == ZP_OK, "%s", err.message);
   ZpWaveform wave = zp_waveform_of(&def, NULL);
-  ck_near(zp_waveform_voltage(&wave, shorter), 5e3, 1e-9);
-  ck_near(zp_waveform_voltage(&wave, 0.05 - 1e-12), 1e3, 1e-6);
+  ck_near(zp_waveform_voltage(&wave, shorter), 5e3, 1e-12);     /* 0 measured */
+  ck_near(zp_waveform_voltage(&wave, 0.05 - 1e-12), 1e3, 3e-9); /* 4e-10 measured */
   for (double t = 0; t < 0.2; t = zp_waveform_next_corner(&wave, t))
-    ck_near(zp_waveform_voltage_before(&wave, t), zp_waveform_voltage(&wave, t), 1e-9);
+    ck_near(zp_waveform_voltage_before(&wave, t), zp_waveform_voltage(&wave, t), 1e-12); /* 0 measured */
   for (double factor = 1.001; factor < 5; factor *= 1.5) {
     def = square_wave(duty, factor * shorter);
     ck_assert_msg(zp_def_check(&def, &err) == ZP_BAD_INPUT, "%g times what fits was taken", factor);
@@ -104,8 +104,8 @@ START_TEST(damper_takes_what_the_loss_factor_says) {
   ZpFacesEval eval = {push, own, next, stiffness, none};
   const double closed[] = {-1e-7, -1e-7, -1e-7}, open[] = {0, 1e-9, 0};
   zp_faces_eval(&faces, &(ZpFacesSpan){closed, closed, 0, 0}, &eval);
-  ck_near((1 - zp_faces_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-4);
-  ck_near((1 - zp_faces_kept_at(&faces, closed[1], 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-4);
+  ck_near((1 - zp_faces_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-6);                /* 2.1e-7 measured */
+  ck_near((1 - zp_faces_kept_at(&faces, closed[1], 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-6); /* 2.1e-7 measured */
   zp_faces_eval(&faces, &(ZpFacesSpan){open, open, 0, 0}, &eval);
   ck_assert_double_eq(zp_faces_kept(&eval, 1, m, 1), 1);
   ck_assert_double_eq(zp_faces_kept_at(&faces, open[1], 1, m, 1), 1);
@@ -128,7 +128,7 @@ START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
     double layers = push[1];
     zp_faces_damp(&faces, 1, m, &eval);
     zp_faces_eval(&faces, &(ZpFacesSpan){from, to, 0, 1 / h}, &eval);
-    ck_near(push[1] - layers, depths[j] * 0.5 * sqrt(k * m) * touching[j] / h, 1e-6);
+    ck_near(push[1] - layers, depths[j] * 0.5 * sqrt(k * m) * touching[j] / h, 3e-12); /* 3.9e-13 measured */
   }
 }
 END_TEST
@@ -173,7 +173,7 @@ START_TEST(push_over_a_step_does_the_work_of_the_layers) {
     double work = work_of_push(&faces, way[k][0], way[k][1], &eval);
     double lost = layers_energy(&faces, way[k][0]) - layers_energy(&faces, way[k][1]);
     printf("work %.6g J, energy %.6g J\n", work, lost);
-    ck_assert_double_le(fabs(work - lost), 1e-6 * 60 * 1e-7 * 1e-3);
+    ck_below(fabs(work - lost), 1e-6 * 60 * 1e-7 * 1e-3);
   }
 }
 END_TEST
@@ -201,7 +201,7 @@ START_TEST(push_over_a_step_has_this_derivative) {
   zp_faces_eval(&faces, &(ZpFacesSpan){to, to, 0, 0}, &eval);
   double both[] = {to[0], to[1] + d, to[2]};
   zp_faces_eval(&faces, &(ZpFacesSpan){both, both, 0, 0}, &at_more);
-  ck_near((push[1] - more[1]) / d, 2 * own[1], 1e-4);
+  ck_near((push[1] - more[1]) / d, 2 * own[1], 3e-5); /* 7.7e-6 measured */
 }
 END_TEST
 
@@ -217,8 +217,8 @@ START_TEST(pull_in_does_not_depend_on_the_largest_voltage) {
     zp_result_destroy(result);
   }
   printf("pull-in without cap: %.9g, %.9g, %.9g V up to 5.2, 10, 50 kV\n", pull_in[0], pull_in[1], pull_in[2]);
-  ck_near(pull_in[1], pull_in[0], 1e-6);
-  ck_near(pull_in[2], pull_in[0], 1e-6);
+  ck_near(pull_in[1], pull_in[0], 1e-12); /* 0 measured */
+  ck_near(pull_in[2], pull_in[0], 1e-12); /* 0 measured */
 }
 END_TEST
 
@@ -233,7 +233,7 @@ START_TEST(floppy_ribbon_hangs_straight_down) {
   ZpResult *result;
   ck_assert_int_eq(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, NULL), ZP_OK);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
-  ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-10);
+  ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-12); /* 5.1e-15 measured */
   zp_result_destroy(result);
 }
 END_TEST

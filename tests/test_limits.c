@@ -139,7 +139,7 @@ START_TEST(test_extended_system_converges_quadratically) {
   for (int k = 0; k < t.visits; k++)
     printf(" %.1e", t.seen[k]);
   printf("\n");
-  ck_below(fabs(t.m - 1), 1e-9);
+  ck_below(fabs(t.m - 1), 1e-12); /* 0 measured */
   ck_assert_int_ge(t.visits, 4);
   for (int k = 0; k + 1 < t.visits; k++)
     if (t.seen[k] < 0.1 && t.seen[k] > 1e-6) ck_below(t.seen[k + 1], 2 * t.seen[k] * t.seen[k]); /* measured 1.5 */
@@ -196,7 +196,7 @@ START_TEST(test_points_in_passing) {
   printf("%d points in %d steps: m off by %.1e, its slope by %.1e\n", 31, tries, worst, worst_slope);
   ck_assert_int_eq(tries, exact ? 61 : 31);
   ck_below(worst, 1e-12);
-  ck_below(worst_slope, exact ? 1e-6 : 1e-2);
+  ck_below(worst_slope, exact ? 1e-12 : 3e-4); /* 1e-16 and 7.2e-5 measured */
   zp_free(f.memory);
 }
 END_TEST
@@ -212,8 +212,8 @@ START_TEST(test_march) {
   ck_assert_double_eq(t.m, 1.2);
   t = start;
   ck_assert_int_eq(zp_march(&f.march, 0.5), ZP_MARCH_FOLD);
-  ck_assert_double_eq_tol(t.m, 1, 1e-9);
-  ck_assert_double_eq_tol(fabs(f.march.fold.null[0]), 1, 1e-6);
+  ck_assert_double_eq_tol(t.m, 1, 1e-12);                        /* 0 measured */
+  ck_assert_double_eq_tol(fabs(f.march.fold.null[0]), 1, 1e-12); /* 0 measured */
   zp_free(f.memory);
 }
 END_TEST
@@ -240,7 +240,7 @@ static void same(const ZpResult *a, const ZpResult *b, const char *name, double 
   double x = zp_result_get(a, name), y = zp_result_get(b, name);
   printf("  %s: %.10g, %.10g\n", name, x, y);
   if (isnan(x) && isnan(y)) return;
-  ck_near(x, y, tolerance);
+  ck_near(x, y, tolerance); /* 1.3e-11 and, of two meshes, 2.8e-4 measured */
 }
 
 /* -- against the curve ------------------------------------------------------------------------------- */
@@ -291,7 +291,7 @@ static double agrees_with_the_curve(const ZpActuatorDef *def) {
   double pull_in = zp_result_get(direct, names[0]);
   printf("%s\n  %s\n", direct->message, followed->message);
   for (int k = 0; k < 3; k++)
-    same(direct, followed, names[k], 1e-6);
+    same(direct, followed, names[k], 1e-10);
   turns_at(followed, pull_in);
   zp_result_destroy(direct);
   zp_result_destroy(followed);
@@ -322,7 +322,7 @@ END_TEST
 START_TEST(snap_of_a_few_nodes_is_the_pull_in) {
   ZpActuatorDef def =
       DEF({"ribbon.thickness", 25e-6}, {"ribbon.length", 150e-3}, {"load.mass", 5e-3}, {"drive.voltage", 12e3});
-  ck_near(agrees_with_the_curve(&def), 9922, 1e-3);
+  ck_near(agrees_with_the_curve(&def), 9922, 2e-4); /* 4.5e-5 measured */
 }
 END_TEST
 
@@ -331,7 +331,7 @@ END_TEST
 START_TEST(curve_meets_both_limit_points_of_a_small_snap) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"electro.gap_offset", 0.3e-3});
-  ck_near(agrees_with_the_curve(&def), 257.6, 1e-3);
+  ck_near(agrees_with_the_curve(&def), 257.6, 3e-4); /* 9.8e-5 measured */
 }
 END_TEST
 
@@ -382,7 +382,7 @@ START_TEST(closing_is_that_of_a_staircase) {
   ZpResult *result = limits_of(&def);
   double closing = zp_result_get(result, "closing_voltage_V"), found = by_stairs(&def, 0.5 * closing, true);
   printf("closes at %.6g V, on the stair of %.6g V\n", closing, found);
-  ck_near(found, closing, 2 * stair);
+  ck_near(found, closing, 0.1 * stair); /* of the same stair: 0.024 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -422,7 +422,7 @@ START_TEST(test_classical_pull_in) {
   ZpResult *result = limits_of(&def);
   double found = zp_result_get(result, "pull_in_voltage_V");
   printf("%s; %+.1e off in b\n", result->message, found * found / (V * V) - 1);
-  ck_near(found * found / (V * V), 1, 2e-3);
+  ck_near(found * found / (V * V), 1, 3e-4);                        /* 8e-5 measured */
   ck_assert_double_nan(zp_result_get(result, "closing_voltage_V")); /* closed, bare electrodes touch */
   ck_assert_ptr_nonnull(strstr(result->message, "short circuit"));
   zp_result_destroy(result);
@@ -444,8 +444,9 @@ START_TEST(test_scaling) {
   large.drive.voltage *= c;
   ZpResult *one = limits_of(&def), *other = limits_of(&large);
   for (int k = 0; k < 3; k++)
-    ck_near(zp_result_get(other, names[k]), c * zp_result_get(one, names[k]), 1e-9);
-  ck_near(zp_result_get(other, "max_load_kg"), c * c * c * zp_result_get(one, "max_load_kg"), 2e-3);
+    ck_near(zp_result_get(other, names[k]), c * zp_result_get(one, names[k]), 1e-12); /* 4.5e-14 measured */
+  /* 2.2e-16 measured */
+  ck_near(zp_result_get(other, "max_load_kg"), c * c * c * zp_result_get(one, "max_load_kg"), 1e-12);
   zp_result_destroy(one);
   zp_result_destroy(other);
 }
@@ -461,7 +462,7 @@ START_TEST(test_largest_load) {
     ZpActuatorDef def = DEF({"load.mass", masses[k]});
     ZpResult *result = limits_of(&def);
     largest[k] = zp_result_get(result, "max_load_kg");
-    ck_near(largest[k], largest[0], 1e-10);
+    ck_near(largest[k], largest[0], 1e-12); /* 4e-15 measured */
     zp_result_destroy(result);
   }
   ZpActuatorDef def = DEF({"load.mass", largest[0]});
@@ -469,7 +470,7 @@ START_TEST(test_largest_load) {
   def.drive.voltage *= 1.01;
   ZpResult *result = limits_of(&def);
   printf("%g kg: closes at %.9g V\n", largest[0], zp_result_get(result, "closing_voltage_V"));
-  ck_near(zp_result_get(result, "closing_voltage_V"), voltage, 1e-6);
+  ck_near(zp_result_get(result, "closing_voltage_V"), voltage, 1e-12); /* 4.4e-16 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -479,7 +480,7 @@ START_TEST(largest_load_does_not_depend_on_the_load) {
   ZpActuatorDef light = DEF({"electro.breakdown_cap", false}), heavy = light;
   heavy.load.mass = 1000;
   ZpResult *of_light = limits_of(&light), *of_heavy = limits_of(&heavy);
-  same(of_heavy, of_light, "max_load_kg", 1e-6);
+  same(of_heavy, of_light, "max_load_kg", 1e-10);
   zp_result_destroy(of_light);
   zp_result_destroy(of_heavy);
 }
@@ -547,11 +548,11 @@ START_TEST(largest_load_is_the_largest_that_closes) {
   ZpResult *before = limits_of(&slower), *cold = limits_of(&def), *warm = run(ZP_STUDY_LIMITS, &def, before);
   double largest = zp_result_get(cold, "max_load_kg");
   printf("largest load %.9g kg\n", largest);
-  same(warm, cold, "max_load_kg", 1e-6);
+  same(warm, cold, "max_load_kg", 1e-10);
   check_definition(def, largest);
   loaded.load.mass = largest;
   ZpResult *of_loaded = limits_of(&loaded);
-  same(of_loaded, cold, "max_load_kg", 1e-6);
+  same(of_loaded, cold, "max_load_kg", 1e-10);
   zp_result_destroy(of_loaded);
   zp_result_destroy(before);
   zp_result_destroy(cold);
@@ -593,7 +594,7 @@ START_TEST(gradual_largest_load_does_not_depend_on_the_load) {
   heavy.load.mass = 1;
   ZpResult *of_light = limits_of(&light), *of_heavy = limits_of(&heavy);
   printf("%g kg\n", zp_result_get(of_light, "max_load_kg"));
-  same(of_heavy, of_light, "max_load_kg", 1e-6);
+  same(of_heavy, of_light, "max_load_kg", 1e-10);
   zp_result_destroy(of_light);
   zp_result_destroy(of_heavy);
 }
@@ -610,7 +611,7 @@ START_TEST(load_slightly_above_the_largest) {
   ZpResult *of_heavy = limits_of(&heavy), *of_light = limits_of(&light);
   ck_assert_double_nan(zp_result_get(of_heavy, "closing_voltage_V"));
   ck_assert_double_lt(zp_result_get(of_heavy, "max_load_kg"), heavy.load.mass);
-  same(of_heavy, of_light, "max_load_kg", 1e-6);
+  same(of_heavy, of_light, "max_load_kg", 1e-10);
   zp_result_destroy(of_heavy);
   zp_result_destroy(of_light);
 }
@@ -676,7 +677,7 @@ START_TEST(test_limits_from_a_neighbour) {
     ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
     starts += zp_result_get(warm, "warm_starts");
     for (size_t i = 0; i < LENGTH_OF(names); i++)
-      same(warm, cold, names[i], 1e-6);
+      same(warm, cold, names[i], 1e-10);
     zp_result_destroy(near);
     zp_result_destroy(cold);
     near = warm;
@@ -700,7 +701,7 @@ START_TEST(largest_load_from_gradual_neighbours) {
   for (int k = 0; k < STEPS; k++) {
     def.drive.voltage = 2329.301621870031 * (0.55 + 0.05 * k);
     ZpResult *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
-    same(warm, cold, "max_load_kg", 1e-6);
+    same(warm, cold, "max_load_kg", 1e-10);
     zp_result_destroy(near);
     zp_result_destroy(cold);
     near = warm;

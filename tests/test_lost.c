@@ -103,7 +103,7 @@ START_TEST(a_floppy_ribbon_hangs) {
   /* nearly a plumb line, longer by what the load stretches it */
   double EA = def.ribbon.young_modulus / (1 - 0.38 * 0.38) * def.ribbon.width * def.ribbon.thickness;
   double length = def.ribbon.length - def.platform.length, pull = 0.5 * def.load.mass * def.gravity;
-  ck_near(zp_result_get(result, "opening_m"), length * (1 + pull / EA), 0.01);
+  ck_near(zp_result_get(result, "opening_m"), length * (1 + pull / EA), 1e-3); /* 1.7e-4 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -116,7 +116,7 @@ START_TEST(a_sagging_ribbon_is_held) {
                           {"drive.voltage", 0}, {"isometric.separation", MM(6.984)});
   ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
-  ck_near(zp_result_get(result, "opening_m"), MM(6.984), 1e-9);
+  ck_near(zp_result_get(result, "opening_m"), MM(6.984), 1e-12); /* 6.6e-15 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -147,7 +147,7 @@ START_TEST(folded_ribbons_are_not_held) {
           {"mesh.nodes", 104}, {"drive.voltage", 6556.4542054961239}, {"isometric.separation", MM(36.737034318392078)});
   ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
-  ck_assert_double_lt(fabs(zp_result_get(result, "force_unpowered_N")), 1e-3);
+  ck_below(fabs(zp_result_get(result, "force_unpowered_N")), 3e-4); /* 9e-5 measured */
   zp_result_destroy(result);
 }
 END_TEST

@@ -27,7 +27,7 @@ START_TEST(bowed_ribbons_open) {
   static const double k = 0.2, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k});
   if (_i) def.actuator.symmetry = ZP_SYMMETRY_NONE;
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-5);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-6); /* 1.7e-7 measured */
 }
 END_TEST
 
@@ -37,7 +37,7 @@ START_TEST(segments_follow_each_other) {
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a / 3}, {"segment_1.curvature", k}, {"segment_2.length", a / 3},
                           {"segment_2.curvature", k}, {"segment_3.length", a / 3}, {"segment_3.curvature", k},
                           {"segment_2.thickness", 500e-6}, {"segment_3.thickness", 500e-6});
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-5);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-6); /* 1.7e-7 measured */
 }
 END_TEST
 
@@ -48,7 +48,7 @@ START_TEST(each_ribbon_has_its_own_curvature) {
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4);
   def.lower.segment_1.curvature = -k;
-  ck_below(fabs(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-9);
+  ck_below(fabs(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-12); /* 2e-19 measured */
 }
 END_TEST
 
@@ -66,7 +66,7 @@ START_TEST(ribbons_can_be_exchanged) {
   for (size_t k = 0; k < LENGTH_OF(names); k++) {
     double value = answered_value(ZP_STUDY_LIMITS, &def, names[k]);
     ck_assert_double_gt(value, 0);
-    ck_near(answered_value(ZP_STUDY_LIMITS, &other, names[k]), value, 1e-6);
+    ck_near(answered_value(ZP_STUDY_LIMITS, &other, names[k]), value, 5e-11); /* 9.8e-12 measured */
   }
 }
 END_TEST
@@ -93,7 +93,9 @@ START_TEST(weaker_insulator_breaks_down_first) {
                           {"insulator.breakdown_field", 100e6}, {"lower.insulator.thickness", 200e-6},
                           {"lower.insulator.permittivity", 5}, {"lower.insulator.breakdown_field", 40e6});
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 40e6 * 5 * (100e-6 / 3 + 200e-6 / 5), 1e-12);
-  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "insulator_field_V_per_m"), 10e3 / 5 / (100e-6 / 3 + 200e-6 / 5), 1e-9);
+  /* 0 measured */
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "insulator_field_V_per_m"), 10e3 / 5 / (100e-6 / 3 + 200e-6 / 5),
+          1e-12);
   def.lower.insulator.thickness = 0;
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 100e6 * 100e-6, 1e-12);
 }

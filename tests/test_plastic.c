@@ -101,7 +101,7 @@ START_TEST(tape_shifts_the_axis) {
     ZpPlastic plastic = plastic_of(20e9 * k, t, E_t);
     double curvature = x * first_curvature(&plastic);
     zp_plastic_bend(&plastic, NULL, curvature, p);
-    ck_near(moment(&plastic, curvature, p), by_bisection(&plastic, curvature, t, E_t), 2e-3);
+    ck_near(moment(&plastic, curvature, p), by_bisection(&plastic, curvature, t, E_t), 5e-4); /* 1.5e-4 measured */
   }
 }
 END_TEST
@@ -123,7 +123,7 @@ START_TEST(work_is_stored_or_heat) {
     at = to;
   }
   double stored = 0.5 * plastic.EI * at * at - zp_plastic_relief(&plastic, p0, at);
-  ck_below(fabs(work - stored - heat), 1e-13 * scale);
+  ck_below(fabs(work - stored - heat) / scale, 1e-13);
   ck_assert_double_gt(heat, 0.1 * work);
 }
 END_TEST
@@ -137,7 +137,7 @@ START_TEST(stiffness_is_the_derivative) {
     double slope =
         (zp_plastic_bend(&plastic, p0, x * first + h, p).M - zp_plastic_bend(&plastic, p0, x * first - h, p).M) /
         (2 * h);
-    ck_below(fabs(zp_plastic_bend(&plastic, p0, x * first, p).K - slope), 1e-6 * plastic.EI);
+    ck_below(fabs(zp_plastic_bend(&plastic, p0, x * first, p).K - slope), 5e-8 * plastic.EI); /* 1.1e-8 measured */
   }
 }
 END_TEST
@@ -171,7 +171,7 @@ START_TEST(cantilever_beyond_its_yield) {
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   double found = -zp_table_get(result->series, result->series->rows - 1, "y_m");
   zp_result_destroy(result);
-  ck_near(found, sag, 2e-3);
+  ck_near(found, sag, 1e-3); /* 2e-4 measured */
   def.ribbon.plasticity = false;
   result = answer_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_double_gt(found, -1.02 * zp_table_get(result->series, result->series->rows - 1, "y_m"));
@@ -208,7 +208,7 @@ START_TEST(energy_in_motion) {
                           fabs(zp_table_get(result->series, row, "electric_work_J")));
     worst = fmax(worst, fabs(zp_table_get(result->series, row, "energy_imbalance_J")));
   }
-  ck_below(worst, 1e-6 * most);
+  ck_below(worst, 1e-7 * most); /* 3.3e-8 measured */
   ck_assert_double_gt(before, 1e-3 * most);
   zp_result_destroy(result);
 }
@@ -221,9 +221,9 @@ START_TEST(what_hangs_stays) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   double first = zp_table_get(result->series, 0, "opening_m");
   ck_assert_double_gt(zp_table_get(result->series, 0, "permanent_curvature_per_m"), 1);
-  ck_near(zp_result_get(result, "opening_m"), first, 1e-6);
+  ck_near(zp_result_get(result, "opening_m"), first, 1e-12); /* 1.9e-13 measured */
   ck_near(first, answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-12);
-  ck_below(zp_result_get(result, "plastic_loss_J"), 1e-9);
+  ck_below(zp_result_get(result, "plastic_loss_J"), 1e-12); /* 8.1e-15 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -251,7 +251,7 @@ START_TEST(ratchet_over_cycles) {
     grown = set - before;
     before = set;
   }
-  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  ck_below(zp_result_get(result, "energy_error"), 5e-9); /* 5.6e-10 measured */
   zp_result_destroy(result);
   def.ribbon.yield_stress = 1.1e9;
   result = answer_of(ZP_STUDY_ACTUATE, &def);

@@ -94,7 +94,7 @@ START_TEST(load_in_the_middle_does_not_tilt) {
   }
   ck_below(fabs(off[2]), 4e-4);
   ck_near(off[0] / off[1], 4, 5e-3);
-  ck_near(off[1] / off[2], 4, 5e-3);
+  ck_near(off[1] / off[2], 4, 2e-4); /* 6.1e-5 measured */
 }
 END_TEST
 
@@ -145,7 +145,7 @@ START_TEST(rest_stays_at_rest) {
   ZpSim *sim = sim_of(model);
   ZpRunInfo info;
   ck_assert_int_eq(zp_sim_run(sim, 0.02, false, NULL, &info), ZP_REACHED_END);
-  ck_near(zp_sim_get(sim, "angle"), angle_of(def), 1e-11);
+  ck_near(zp_sim_get(sim, "angle"), angle_of(def), 1e-12); /* 1.3e-13 measured */
   ck_below(zp_sim_get(sim, "kinetic_energy"), 1e-24);
   zp_sim_destroy(sim);
   zp_model_destroy(model);

@@ -57,6 +57,7 @@ static double difference(const ZpActuatorDef *def, const char *output, const cha
 static void check(const ZpActuatorDef *def, const char *output, const char *key, double part, double allowed) {
   ZpResult *result = run_by(def, key);
   double rate = slope_in(result, output, key), by_runs = difference(def, output, key, part);
+  note_check(__func__, output, key, fabs(rate / by_runs - 1), allowed);
   ck_assert_msg(fabs(rate - by_runs) <= allowed * fabs(by_runs), "%s by %s: %.9g, by differences %.9g", output, key,
                 rate, by_runs);
   zp_result_destroy(result);
@@ -129,7 +130,7 @@ START_TEST(zip_at_the_end_of_a_step) {
     result = run_by(&def, "drive.voltage");
     time = zp_result_get(result, "zip_time_s");
   }
-  ck_assert_double_lt(fabs(time - steps * def.solver.time_step), 1e-12);
+  ck_below(fabs(time - steps * def.solver.time_step), 1e-12);
   ck_near(slope_in(result, "zip_time_s", "drive.voltage"), usual, 1e-3);
   zp_result_destroy(result);
 }
@@ -225,7 +226,8 @@ START_TEST(numbers_at_the_closing_move_with_it) {
   check(&def, "viscous_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-6);
   check(&def, "source_energy_J", "medium.kinematic_viscosity", 1e-5, 1e-5);
   def = until_zipped(ZP_LIQUID_NONE, 21, 5e-5);
-  check(&def, "source_energy_J", "ribbon.thickness", 1e-7, 3e-3); /* rounding of differences; 1e-6 is too wide */
+  /* rounding of differences, 1.9e-5 measured; 1e-6 is too wide */
+  check(&def, "source_energy_J", "ribbon.thickness", 1e-7, 1e-4);
 }
 END_TEST
 
@@ -280,9 +282,10 @@ START_TEST(default_tolerance_settles_as_its_number) {
   size_t settled = 0;
   for (size_t i = 0; i < given->sensitivities; i++) {
     double a = by_default->sensitivity[i].value, b = given->sensitivity[i].value;
-    ck_assert_msg(fabs(a - b) <= 1e-6 * fabs(b) || (isnan(a) && isnan(b)), "%s: %g and %g",
-                  given->sensitivity[i].output, a, b);
-    if (!isnan(b)) settled++;
+    ck_assert_msg(isnan(a) == isnan(b), "%s: %g and %g", given->sensitivity[i].output, a, b);
+    if (isnan(b)) continue;
+    ck_assert_double_eq_tol(a, b, 1e-6 * fabs(b));
+    settled++;
   }
   ck_assert_uint_gt(settled, 0);
   zp_result_destroy(by_default);
@@ -307,7 +310,7 @@ START_TEST(peak_and_rms_current) {
   def.solver.tolerance = 1e-5;
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_near(slope_in(result, "peak_current_A", "ribbon.thickness"),
-          difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 1e-2);
+          difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 5e-5); /* 1.4e-5 measured */
   double rms = slope_in(result, "rms_current_A", "ribbon.thickness");
   ck_assert(isnan(rms) || fabs(rms / difference(&def, "rms_current_A", "ribbon.thickness", 1e-3) - 1) < 1e-2);
   zp_result_destroy(result);
@@ -337,7 +340,7 @@ START_TEST(swing_scales) {
   size_t last = result->series->rows - 1;
   double v = -zp_table_get(result->series, last, "end_velocity_m_per_s");
   double half = 0.5 * def.solver.end_time * v;
-  ck_assert_msg(fabs(by_E + by_g - half) < 2e-4 * fabs(half), "%.9g, scaling %.9g", by_E + by_g, half);
+  ck_near(by_E + by_g, half, 1e-7); /* 2.3e-8 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -360,11 +363,11 @@ START_TEST(charging_through_a_resistor) {
   double V = def.drive.voltage, R = def.source.resistance;
   double by_R = slope_in(result, "peak_current_A", "source.resistance");
   double by_V = slope_in(result, "peak_current_A", "drive.voltage");
-  ck_assert_msg(fabs(by_R * R * R / V + 1) < 1e-6, "%.12g", by_R * R * R / V);
-  ck_assert_msg(fabs(by_V * R - 1) < 1e-6, "%.12g", by_V * R);
+  ck_near(by_R, -V / (R * R), 2e-9); /* 2.4e-10 measured */
+  ck_near(by_V, 1 / R, 1e-9);        /* 1.7e-10 measured */
   double lost = zp_result_get(result, "source_loss_J");
-  ck_assert_double_lt(fabs(slope_in(result, "source_loss_J", "source.resistance")) * R, 1e-5 * lost);
-  ck_assert_double_lt(fabs(slope_in(result, "source_loss_J", "drive.voltage") * V / lost - 2), 1e-4);
+  ck_below(fabs(slope_in(result, "source_loss_J", "source.resistance")) * R, 2e-6 * lost); /* 3.5e-7 measured */
+  ck_below(fabs(slope_in(result, "source_loss_J", "drive.voltage") * V / lost - 2), 1e-4);
   zp_result_destroy(result);
 }
 END_TEST
@@ -452,7 +455,7 @@ START_TEST(derivative_by_a_load_that_is_not_there) {
   zp_result_destroy(result);
   def.load.mass = 1e-7;
   result = run(&def);
-  ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 1e-3);
+  ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 5e-5); /* 1.5e-5 measured */
   zp_result_destroy(result);
 }
 END_TEST

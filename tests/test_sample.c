@@ -180,7 +180,7 @@ START_TEST(indices_of_ishigami) {
   const ZpStatistics s = zp_statistics(&design, value, work);
   ck_assert_uint_eq(s.count, 2 * POINTS);
   ck_near(s.mean, 3.5, 1e-3);
-  ck_near(s.deviation, sqrt(V), 5e-3);
+  ck_near(s.deviation, sqrt(V), 3e-4); /* 9.9e-5 measured */
   for (int j = 0; j < 3; j++) {
     const ZpIndices indices = zp_sobol_indices(&design, value, j);
     ck_below(fabs(indices.first.value - first[j]), 0.01);

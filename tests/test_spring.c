@@ -13,7 +13,7 @@ START_TEST(spring_and_weight_share_what_gives_way) {
   def.load.stiffness = k, def.load.rest_opening = r;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * (W + k * r) / (1 + c * k), 2e-5);
   def.load.rest_opening = 0.5 * c * W; /* it hangs further open than that: nothing pushes, and nothing pulls */
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * W, 1e-9);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * W, 1e-12); /* 0 measured */
 }
 END_TEST
 
@@ -42,9 +42,10 @@ START_TEST(stop_holds_the_platforms) {
   double W = def.load.mass * def.gravity, c = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m") / W;
   def.load.stop_stiffness = k, def.load.stop_opening = r;
   ck_assert_double_gt(c * W, r);
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * (W + k * r) / (1 + c * k), 2e-4);
-  def.load.stop_opening = 1.5 * c * W; /* it is not reached */
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * W, 1e-9);
+  /* 1e-6 measured */
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * (W + k * r) / (1 + c * k), 5e-6);
+  def.load.stop_opening = 1.5 * c * W;                                           /* it is not reached */
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * W, 1e-12); /* 0 measured */
 }
 END_TEST
 
@@ -60,11 +61,11 @@ START_TEST(energy_with_a_stop) {
   for (size_t row = 0; row < result->series->rows; row++) {
     double s = fmax(zp_table_get(result->series, row, "opening_m") - def.load.stop_opening, 0);
     double energy = zp_table_get(result->series, row, "spring_energy_J");
-    ck_below(fabs(energy - 0.5 * def.load.stop_stiffness * s * s), 1e-12 + 1e-9 * energy);
+    ck_below(fabs(energy - 0.5 * def.load.stop_stiffness * s * s), 1e-18 + 1e-12 * energy); /* 0 measured */
     most = fmax(most, energy);
   }
   ck_assert_double_gt(most, 1e-6);
-  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  ck_below(zp_result_get(result, "energy_error"), 5e-9); /* 7.2e-10 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -92,12 +93,12 @@ START_TEST(energy_with_a_spring) {
   for (size_t row = 0; row < result->series->rows; row++) {
     double s = fmax(def.load.rest_opening - zp_table_get(result->series, row, "opening_m"), 0);
     double energy = zp_table_get(result->series, row, "spring_energy_J");
-    ck_below(fabs(energy - 0.5 * def.load.stiffness * s * s), 1e-12 + 1e-9 * energy);
+    ck_below(fabs(energy - 0.5 * def.load.stiffness * s * s), 1e-18 + 1e-12 * energy); /* 0 measured */
     most = fmax(most, energy), least = fmin(least, energy);
   }
   ck_assert_double_gt(most, 0.9 * 0.5 * def.load.stiffness * 18e-3 * 18e-3);
   ck_assert(least == 0);
-  ck_below(zp_result_get(result, "energy_error"), _i == 2 ? 1e-4 : 5e-7);
+  ck_below(zp_result_get(result, "energy_error"), _i == 2 ? 1e-4 : 5e-8); /* 4.6e-5 and 1.1e-8 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -139,7 +140,7 @@ START_TEST(force_does_the_work_of_the_spring) {
   q1[stride + node] = -o[1];
   spring->stiffness(model, &(ZpSpan){.start = q0, .end = q1, .h = 1e-3, .share = 1}, &assembly, &e, &K);
   size_t row = (size_t)assembly.equation[2 * node + 1];
-  ck_below(fabs(*zp_band_at(&K, row, row) + (F[1] - F[0]) / 2e-8), 1e-10 * k);
+  ck_below(fabs(*zp_band_at(&K, row, row) + (F[1] - F[0]) / 2e-8), 5e-11 * k); /* 5.9e-12 measured */
   free(block), free(q0), free(q1), free(force);
   zp_assembly_destroy(&assembly);
   zp_system_destroy(&e);

@@ -13,12 +13,12 @@ START_TEST(weightless_series_pulls_in_as_one) {
   static const char *const same[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg"};
   ZpResult *alone = answer_of(ZP_STUDY_LIMITS, &one), *all = answer_of(ZP_STUDY_LIMITS, &five);
   for (size_t k = 0; k < LENGTH_OF(same); k++)
-    ck_near(zp_result_get(all, same[k]), zp_result_get(alone, same[k]), 1e-9);
-  ck_near(zp_result_get(all, "travel_m"), 5 * zp_result_get(alone, "travel_m"), 1e-9);
+    ck_near(zp_result_get(all, same[k]), zp_result_get(alone, same[k]), 1e-12);         /* 0 measured */
+  ck_near(zp_result_get(all, "travel_m"), 5 * zp_result_get(alone, "travel_m"), 1e-12); /* 0 measured */
   zp_result_destroy(alone);
   zp_result_destroy(all);
   ck_near(answered_value(ZP_STUDY_STATIONARY, &five, "opening_m"),
-          5 * answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-9);
+          5 * answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-12); /* 0 measured */
 }
 END_TEST
 
@@ -29,7 +29,8 @@ START_TEST(members_carry_those_below) {
   one.stack.link_mass = 0;
   double own = answered_value(ZP_STUDY_LIMITS, &one, "mass_kg"), openings = 0;
   const ZpActuatorDef *def = &one;
-  ck_near(answered_value(ZP_STUDY_LIMITS, &series, "mass_kg"), 3 * own + 2 * series.stack.link_mass, 1e-9);
+  /* 2e-14 measured */
+  ck_near(answered_value(ZP_STUDY_LIMITS, &series, "mass_kg"), 3 * own + 2 * series.stack.link_mass, 1e-12);
   /* the platforms' strips are in the mass, but without weight */
   own -= 2 * def->ribbon.density * def->ribbon.width * def->ribbon.thickness * def->platform.length;
   own -= 2 * def->insulator.density * def->ribbon.width * def->insulator.thickness * def->platform.length;
@@ -37,10 +38,10 @@ START_TEST(members_carry_those_below) {
   for (size_t k = 0; k < 3; k++) {
     one.load.mass = series.load.mass + (double)(2 - k) * (own + series.stack.link_mass);
     double opening = answered_value(ZP_STUDY_STATIONARY, &one, "opening_m");
-    ck_near(zp_table_get(all->series, k, "opening_m"), opening, 1e-9);
+    ck_near(zp_table_get(all->series, k, "opening_m"), opening, 1e-12); /* 8.9e-16 measured */
     openings += opening;
   }
-  ck_near(zp_result_get(all, "opening_m"), openings, 1e-9);
+  ck_near(zp_result_get(all, "opening_m"), openings, 1e-12); /* 4.4e-16 measured */
   zp_result_destroy(all);
 }
 END_TEST
@@ -65,7 +66,7 @@ START_TEST(parallel_shares_the_load) {
                   {ZP_STUDY_ACTUATE, "source_energy_J", 3}};
   for (size_t k = 0; k < LENGTH_OF(expected); k++)
     ck_near(answered_value(expected[k].study, &three, expected[k].name),
-            expected[k].times * answered_value(expected[k].study, &one, expected[k].name), 1e-6);
+            expected[k].times * answered_value(expected[k].study, &one, expected[k].name), 1e-12); /* 1e-15 measured */
 }
 END_TEST
 
@@ -121,7 +122,8 @@ START_TEST(two_equal_ones_are_twice_one_on_coarse_meshes) {
   ZpActuatorDef equal = all;
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(name); k++)
-    ck_near(answered_value(ZP_STUDY_LIMITS, &all, name[k]), answered_value(ZP_STUDY_LIMITS, &equal, name[k]), 1e-8);
+    /* 8e-11 measured */
+    ck_near(answered_value(ZP_STUDY_LIMITS, &all, name[k]), answered_value(ZP_STUDY_LIMITS, &equal, name[k]), 5e-10);
 }
 END_TEST
 
@@ -146,7 +148,8 @@ START_TEST(forces_carry_the_load) {
   def.load.force = 20e-3;
   ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   for (size_t row = 0; row < result->series->rows; row++)
-    ck_near(sum_of(result->series, row, "force_N", 3), def.load.mass * def.gravity + def.load.force, 1e-6);
+    /* 2.2e-8 measured */
+    ck_near(sum_of(result->series, row, "force_N", 3), def.load.mass * def.gravity + def.load.force, 1e-7);
   zp_result_destroy(result);
 }
 END_TEST
@@ -160,7 +163,8 @@ START_TEST(force_of_each_is_as_alone) {
     ZpActuatorDef one = zp_def_member(&def, k + 1);
     one.load.mass = 0;
     one.load.force = zp_result_get(result, force[k]);
-    ck_near(answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), zp_result_get(result, "opening_m"), 1e-8);
+    /* 7e-11 measured */
+    ck_near(answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), zp_result_get(result, "opening_m"), 5e-10);
   }
   zp_result_destroy(result);
 }
@@ -174,7 +178,8 @@ START_TEST(stiffness_side_by_side_is_the_slope) {
   less.load.force = -little;
   double moved =
       answered_value(ZP_STUDY_STATIONARY, &more, "opening_m") - answered_value(ZP_STUDY_STATIONARY, &less, "opening_m");
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "stiffness_N_per_m"), 2 * little / moved, 1e-5);
+  /* 1e-10 measured */
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "stiffness_N_per_m"), 2 * little / moved, 1e-9);
 }
 END_TEST
 
@@ -193,7 +198,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   const ZpTable *table = result->series;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-  ck_below(zp_result_get(result, "energy_error"), 1e-7);
+  ck_below(zp_result_get(result, "energy_error"), 3e-8); /* 5.4e-9 measured */
   double work = 0, speed = 0, start = zp_table_get(table, 0, "opening_m"), opening = start;
   for (size_t row = 1; row < table->rows && zp_table_get(table, row, "opening_m") > 0.1 * start; row++) {
     double fell = opening - zp_table_get(table, row, "opening_m");
@@ -203,7 +208,8 @@ START_TEST(energy_and_forces_of_unlike_ones) {
     opening -= fell;
   }
   double risen = start - opening;
-  ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed), _i == 0 ? 1e-2 : 3e-5);
+  ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed),
+          _i == 0 ? 3e-3 : 3e-5); /* 7.6e-4 and 1.1e-5 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -215,11 +221,11 @@ START_TEST(unlike_ones_at_rest_stay) {
   def.solver.end_time = 0.1;
   ZpResult *moved = answer_of(ZP_STUDY_ACTUATE, &def), *rest = answer_of(ZP_STUDY_STATIONARY, &def);
   size_t last = moved->series->rows - 1;
-  ck_near(zp_result_get(moved, "opening_m"), zp_result_get(rest, "opening_m"), 1e-6);
+  ck_near(zp_result_get(moved, "opening_m"), zp_result_get(rest, "opening_m"), 2e-11); /* 2.1e-12 measured */
   static const char *const force[] = {"member_1_force_N", "member_2_force_N", "member_3_force_N"};
   for (size_t k = 0; k < 3; k++) {
-    ck_near(zp_table_get(moved->series, 0, force[k]), zp_result_get(rest, force[k]), 1e-9);
-    ck_near(zp_table_get(moved->series, last, force[k]), zp_result_get(rest, force[k]), 1e-5);
+    ck_near(zp_table_get(moved->series, 0, force[k]), zp_result_get(rest, force[k]), 1e-12);    /* 0 measured */
+    ck_near(zp_table_get(moved->series, last, force[k]), zp_result_get(rest, force[k]), 5e-10); /* 8.4e-11 measured */
   }
   zp_result_destroy(moved);
   zp_result_destroy(rest);
@@ -257,12 +263,12 @@ START_TEST(any_member_hits_as_hard) {
     *thickness[k] = 80e-6;
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &one);
     lost[k] = zp_table_get(result->series, result->series->rows - 1, "contact_loss_J");
-    ck_below(zp_result_get(result, "energy_error"), 1e-6);
+    ck_below(zp_result_get(result, "energy_error"), 5e-8); /* 6.4e-9 measured */
     zp_result_destroy(result);
   }
   ck_assert_double_gt(lost[0], 0);
-  ck_near(lost[1], lost[0], 1e-6);
-  ck_near(lost[2], lost[0], 1e-6);
+  ck_near(lost[1], lost[0], 1e-9); /* 2e-10 measured */
+  ck_near(lost[2], lost[0], 1e-8); /* 1.3e-9 measured */
 }
 END_TEST
 
@@ -297,7 +303,7 @@ START_TEST(series_at_rest_stays) {
                           {"member_2.ribbon.thickness", 60e-6}, {"stack.link_mass", 1e-3},
                           {"liquid.model", _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-  ck_near(zp_result_get(result, "opening_m"), zp_result_get(result, "start_opening_m"), 1e-6);
+  ck_near(zp_result_get(result, "opening_m"), zp_result_get(result, "start_opening_m"), 1e-12); /* 4.6e-15 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -331,12 +337,12 @@ START_TEST(energy_and_links_of_a_zip) {
   const ZpShapes *film = result->shapes;
   size_t count = film->ribbons * film->nodes / film->members;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-  ck_assert_double_lt(zp_result_get(result, "energy_error"), 1e-6);
+  ck_below(zp_result_get(result, "energy_error"), 1e-6);
   ck_assert_uint_eq(film->members, 3);
   for (size_t frame = 0; frame < film->frames; frame++)
     for (size_t k = 1; k < film->members; k++) {
       ZpShape shape = zp_shapes_get(film, frame);
-      ck_assert_double_eq_tol(shape.y[(k + 1) * count - 2], shape.y[k * count - 1], 1e-11);
+      ck_assert_double_eq_tol(shape.y[(k + 1) * count - 2], shape.y[k * count - 1], 1e-12); /* 0 measured */
     }
   for (size_t row = 0; row < result->series->rows; row++) {
     double sum = 0;
@@ -391,10 +397,12 @@ START_TEST(members_rest_together_as_alone) {
     top++;
   static const char *const sums[] = {"stroke_m", "opening_m", "charge_C", "capacitance_F"};
   for (size_t k = 0; k < LENGTH_OF(sums); k++)
-    ck_near(zp_table_get(both->series, top, sums[k]), 2 * zp_table_get(alone->series, last, sums[k]), 1e-6);
+    /* 5.7e-14 measured */
+    ck_near(zp_table_get(both->series, top, sums[k]), 2 * zp_table_get(alone->series, last, sums[k]), 1e-12);
   size_t end = both->series->rows - 1;
   ck_assert_double_eq(zp_table_get(both->series, end, "voltage_V"), 0);
-  ck_near(zp_table_get(both->series, end, "opening_m"), zp_table_get(both->series, 0, "opening_m"), 1e-9);
+  /* 2.2e-16 measured */
+  ck_near(zp_table_get(both->series, end, "opening_m"), zp_table_get(both->series, 0, "opening_m"), 1e-12);
   zp_result_destroy(alone);
   zp_result_destroy(both);
 }
@@ -414,7 +422,7 @@ static int count_of(const ZpResult *limits, const char *name, double voltage, bo
 START_TEST(members_close_and_open_one_by_one) {
   ZpActuatorDef def = DEF({"stack.series", 3}, {"load.mass", 6e-3}, {"mesh.nodes", 31}, {"drive.voltage", 8e3});
   ZpResult *path = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(path, "pull_in_voltage_V"), zp_result_get(limits, "pull_in_voltage_V"), 1e-9);
+  ck_near(zp_result_get(path, "pull_in_voltage_V"), zp_result_get(limits, "pull_in_voltage_V"), 1e-12); /* 0 measured */
   for (size_t row = 0; row < path->series->rows; row++) {
     double voltage = zp_table_get(path->series, row, "voltage_V");
     bool falls = zp_table_get(path->series, row, "branch") > 0;
@@ -440,11 +448,11 @@ START_TEST(chain_of_springs_and_masses) {
   one.stack.series = 1;
   one.stack.link_mass = 0;
   double alone = answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz");
-  ck_near(alone, sqrt(12 * EI / (L * L * L) / def.load.mass) / (2 * pi), 1e-3);
+  ck_near(alone, sqrt(12 * EI / (L * L * L) / def.load.mass) / (2 * pi), 1e-5); /* 2e-6 measured */
   ZpResult *all = answer_of(ZP_STUDY_MODES, &def);
   static const char *const name[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
   for (int j = 0; j < 3; j++)
-    ck_near(zp_result_get(all, name[j]), 2 * alone * sin((2 * j + 1) * pi / 14), 1e-4);
+    ck_near(zp_result_get(all, name[j]), 2 * alone * sin((2 * j + 1) * pi / 14), 1e-5); /* 2e-6 measured */
   zp_result_destroy(all);
 }
 END_TEST
@@ -461,7 +469,7 @@ START_TEST(limits_of_unlike_ones_are_at_their_states) {
   for (size_t k = 0; k < LENGTH_OF(names); k++)
     ck_assert_double_eq(zp_table_get(limits->series, k, "voltage_V"), zp_result_get(limits, names[k]));
   double hanging = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
-  if (_i) ck_near(zp_table_get(limits->series, 1, "opening_m"), 0.01 * hanging, 1e-9);
+  if (_i) ck_near(zp_table_get(limits->series, 1, "opening_m"), 0.01 * hanging, 1e-12); /* 8.8e-15 measured */
   zp_result_destroy(limits);
 }
 END_TEST
@@ -527,7 +535,7 @@ START_TEST(large_changes_stay_on_their_branch) {
       hanging[i] = zp_statics_opening(&chain.of[i].statics);
     ck_assert(zp_chain_hang(&chain) && zp_chain_change(&chain, share[k] * pull_in));
     for (size_t i = 0; i < 2; i++)
-      ck_near(zp_statics_opening(&chain.of[i].statics), hanging[i], 1e-6);
+      ck_near(zp_statics_opening(&chain.of[i].statics), hanging[i], 3e-10); /* 4.9e-11 measured */
     ck_assert(zp_chain_change(&chain, 8e3) && zp_chain_change(&chain, release / share[k]));
     for (size_t i = 0; i < 2; i++)
       ck_assert_double_lt(zp_statics_opening(&chain.of[i].statics), 0.3e-3);
@@ -564,7 +572,7 @@ START_TEST(one_change_leads_to_where_many_do) {
     opening[k] = zp_statics_opening(&chain.of[k].statics);
   change_in(1, cases[_i].from, cases[_i].to, &chain);
   for (size_t k = 0; k < LENGTH_OF(opening); k++)
-    ck_below(fabs(zp_statics_opening(&chain.of[k].statics) - opening[k]), 1e-8);
+    ck_below(fabs(zp_statics_opening(&chain.of[k].statics) - opening[k]), 1e-12); /* 3.1e-14 measured */
   zp_chain_close(&chain);
   zp_model_destroy(model);
 }
@@ -606,12 +614,12 @@ START_TEST(members_yield) {
                 two = one;
   two.stack.series = 2;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &two, "opening_m"),
-          2 * answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-9);
+          2 * answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-12); /* 0 measured */
   two.ribbon.density = 7850;
   two.load.mass = 5e-3;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &two);
   ck_assert_double_gt(zp_result_get(result, "plastic_loss_J"), 1e-6);
-  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  ck_below(zp_result_get(result, "energy_error"), 2e-8); /* 2.2e-9 measured */
   zp_result_destroy(result);
   two.drive.voltage = 0;
   two.solver.end_time = 1e-4;
@@ -619,7 +627,7 @@ START_TEST(members_yield) {
   ZpActuatorDef upper = zp_member_at_rest(model);
   zp_model_destroy(model);
   ck_near(answered_value(ZP_STUDY_ACTUATE, &two, "permanent_curvature_per_m"),
-          answered_value(ZP_STUDY_ACTUATE, &upper, "permanent_curvature_per_m"), 1e-6);
+          answered_value(ZP_STUDY_ACTUATE, &upper, "permanent_curvature_per_m"), 1e-12); /* 7.1e-15 measured */
 }
 END_TEST
 
@@ -682,8 +690,9 @@ START_TEST(inputs_of_several_do_work) {
   ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, 5e-3, 1, &err), ZP_OK);
   opening_after(sim, 20e-3);
   ck_assert_double_gt(fabs(zp_sim_get(sim, "load_work")), 1e-9);
-  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 1e-6);
-  ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-9);
+  /* 3.6e-10 measured */
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 3e-9);
+  ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-12); /* 0 measured */
   /* a voltage that is set to what the drive has changes nothing */
   ck_assert_int_eq(zp_sim_set_input(waved, ZP_INPUT_VOLTAGE, def.drive.voltage, 0, &err), ZP_OK);
   ZpSim *driven = sim_of(model);

@@ -188,7 +188,7 @@ static void check_bounds(const ZpActuatorDef *def) {
   ZpStepBounds bounds = zp_eval_step_bounds(model, r.state, &r.eval);
   ck_near(bounds.drag, least.drag, 1e-12);
   ck_near(bounds.axial, least.axial, 1e-12);
-  ck_near(bounds.shear, least.shear, 1e-9);
+  ck_near(bounds.shear, least.shear, 1e-12); /* 2.2e-16 measured */
   ck_near(r.eval.drag_power, power, 1e-12);
   free_rest(&r);
 }
@@ -235,13 +235,13 @@ START_TEST(drag_bounds_the_steps) {
   void *state = malloc(size);
   run_to(start, time);
   ZpRunInfo info = run_to(start, 2 * time);
-  ck_near(info.smallest_bound[0], 2 * m / (c * v_t), 1e-4);
-  ck_near(info.smallest_bound[1], 2 * model->l / v_t, 1e-9);
-  ck_assert_double_eq(info.smallest_bound[2], 0); /* straight */
+  ck_near(info.smallest_bound[0], 2 * m / (c * v_t), 1e-12);  /* 4.5e-14 measured */
+  ck_near(info.smallest_bound[1], 2 * model->l / v_t, 1e-12); /* 4.6e-14 measured */
+  ck_assert_double_eq(info.smallest_bound[2], 0);             /* straight */
   zp_sim_save(start, state);
   ck_assert_int_eq(zp_sim_restore(sim, state, size, NULL), ZP_OK);
   info = run_to(sim, 3 * time);
-  ck_near((double)info.steps, ceil(time * c * v_t / m), 2e-2);
+  ck_assert_double_le(fabs((double)info.steps - ceil(time * c * v_t / m)), 1); /* step */
   ck_assert_int_ge(info.limited[ZP_LIMIT_DRAG], info.steps - 1);
   free(state);
   zp_sim_destroy(sim);
@@ -269,7 +269,7 @@ START_TEST(bounds_are_the_least_of_all_rows) {
     fastest = fmax(fastest, fabs(zp_table_get(series, i, "end_velocity_m_per_s")));
   double last = fabs(zp_table_get(series, series->rows - 1, "end_velocity_m_per_s"));
   ck_below(last, 0.3 * fastest);
-  ck_near(info.smallest_bound[0], 2 * m / (c * fastest), 1e-3);
+  ck_near(info.smallest_bound[0], 2 * m / (c * fastest), 2e-4);  /* 5e-5 measured */
   ck_near(info.smallest_bound[1], 2 * model->l / fastest, 2e-2); /* by the node before the end */
   zp_table_destroy(series);
   zp_sim_destroy(sim);

@@ -135,7 +135,7 @@ START_TEST(stiffness_is_the_derivative_of_the_forces) {
   system.stiffness(s, &work->K, NULL);
   double worst = worst_entry(s, &system, &work->K, 1e-4 * (c->gap > 0 ? c->gap : 0.01 * model->l));
   printf("%s: stiffness off by %.1e\n", c->name, worst);
-  ck_below(worst, 1e-6);
+  ck_below(worst, 5e-8); /* 1.4e-8 measured */
   zp_rest_close(&rest);
   zp_model_destroy(model);
 }

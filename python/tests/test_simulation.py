@@ -59,8 +59,8 @@ def test_many_short_explicit_steps_are_one_long(dt):
         simulation.step(dt)
     once = make(**EXPLICIT)
     once.step(simulation.time)
-    assert simulation["stroke"] == pytest.approx(once["stroke"], rel=1e-6)
-    assert simulation["kinetic_energy"] == pytest.approx(once["kinetic_energy"], rel=0.05)
+    assert simulation["stroke"] == pytest.approx(once["stroke"], rel=5e-8)  # 8.5e-9 measured
+    assert simulation["kinetic_energy"] == pytest.approx(once["kinetic_energy"], rel=5e-5)  # 1.6e-5 measured
 
 
 @both
@@ -101,7 +101,7 @@ def test_pickle_and_copy_go_on_alike():
 def test_voltage_holds_and_waveform_drives_until_one_is_given():
     simulation = make(drive__waveform="ramp", drive__voltage=8e3, drive__rise_time="10 ms")
     simulation.step(5e-3)
-    assert simulation["voltage"] == pytest.approx(4e3)
+    assert simulation["voltage"] == pytest.approx(4e3, rel=1e-12)  # 0 measured
     simulation.step(1e-3, 2e3)
     simulation.step(1e-3)
     assert simulation["voltage"] == 2e3
@@ -112,7 +112,7 @@ def test_driven_by_a_table(by):
     table = dict(drive__waveform="table", drive__table="0 ms = 0 kV, 10 ms = 8 kV")
     simulation = make(**(table if by == "text" else dict(drive=([0, 0.01], [0, 8e3]))))
     simulation.step(5e-3)
-    assert simulation["voltage"] == pytest.approx(4e3)
+    assert simulation["voltage"] == pytest.approx(4e3, rel=1e-12)  # 0 measured
 
 
 def test_read_fills_what_it_is_given():
@@ -131,7 +131,7 @@ def test_current_is_the_mean_since_the_reading_before():
     simulation.step(5e-3)
     after = simulation.read()
     charged = after[place["charge"]] - before[place["charge"]]
-    assert after[place["current"]] == pytest.approx(charged / 5e-3)
+    assert after[place["current"]] == pytest.approx(charged / 5e-3, rel=1e-12)  # 1.3e-16 measured
 
 
 def test_shape_is_a_copy():
@@ -143,7 +143,7 @@ def test_shape_is_a_copy():
     assert shape.x.shape == (21, 2) and shape.gap.shape == shape.line_force.shape == (21,)
     assert shape.insulator_field.shape == (21,) and shape.stress.shape == (21, 2)
     assert shape.stress.max() == make()["max_stress"]
-    assert shape.gap[-1] == pytest.approx(make()["opening"])
+    assert shape.gap[-1] == pytest.approx(make()["opening"], rel=1e-12)  # 0 measured
 
 
 def test_control_asks_every_period():
@@ -239,7 +239,7 @@ def test_inputs_with_a_rate(integrator):
     for simulation in (wave, hand):
         simulation.step(3e-3)
     for signal in ("voltage", "electric_work", "stroke"):
-        assert hand[signal] == pytest.approx(wave[signal], rel=1e-9)
+        assert hand[signal] == pytest.approx(wave[signal], rel=1e-12)  # 1.2e-14 measured
     opening = hand["opening"]
     hand.set_input("load", value=0.05)
     assert hand["load_work"] == 0
@@ -248,7 +248,7 @@ def test_inputs_with_a_rate(integrator):
         simulation.step(2e-3, voltage=1e3)  # ends the ramp
         simulation.step(1e-3)
         assert simulation["voltage"] == 1e3
-        assert simulation["load_work"] == pytest.approx(0.05 * (simulation["opening"] - opening), rel=1e-9)
+        assert simulation["load_work"] == pytest.approx(0.05 * (simulation["opening"] - opening), rel=1e-12)  # 7.2e-16 measured
     np.testing.assert_array_equal(without_current(hand.read()), without_current(twin.read()))
 
 
