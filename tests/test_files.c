@@ -1,6 +1,6 @@
 /* Numbers in files as another program reads them (tests/read_back.py), against the result in memory: each value at its
- * place, with its name, unit and shape. The results are made up of numbers that are all different, so that no two can be
- * exchanged unnoticed; one is of an actual series. */
+ * place, with its name, unit and shape. The results are made up of numbers that are all different, so that no two can
+ * be exchanged unnoticed; one is of an actual series. */
 #include "check_util.h"
 
 #include <jansson.h>
@@ -466,8 +466,7 @@ static void check_column(const json_t *rows, size_t place) {
 
 START_TEST(sweep_of_1025_cases_reads_back) {
   static ZpResult *result[CASES];
-  ZpScenario *scenario =
-      SCENARIO("ribbon.density=7000 kg/m3 .. 7400 kg/m3 : 41", "drive.voltage=1 kV .. 3.4 kV : 25");
+  ZpScenario *scenario = SCENARIO("ribbon.density=7000 kg/m3 .. 7400 kg/m3 : 41", "drive.voltage=1 kV .. 3.4 kV : 25");
   ck_assert_uint_eq(zp_scenario_count(scenario), CASES);
   for (size_t run = 0; run < CASES; run++)
     result[run] = result_of_case(run);
