@@ -1,30 +1,14 @@
 /* Numbers in files as another program reads them (tests/read_back.py), against the result in memory: each value at its
  * place, with its name, unit and shape. The results are made up of numbers that are all different, so that no two can
  * be exchanged unnoticed; one is of an actual series. */
-#include "check_util.h"
+#include "files_util.h"
 
 #include <jansson.h>
-#include <unistd.h>
-
-#include <zipact/io.h>
 
 /* -- what was read ---------------------------------------------------------------------------------- */
 
-static char folder[64];
 static const json_t *datasets; /* of results.h5, by path */
 static size_t looked_at;
-
-static void set_up(void) {
-  snprintf(folder, sizeof folder, "files-XXXXXX");
-  ck_assert_ptr_nonnull(mkdtemp(folder));
-  looked_at = 0;
-}
-
-static void tear_down(void) {
-  char command[128];
-  snprintf(command, sizeof command, "rm -r %s", folder);
-  ck_assert_int_eq(system(command), 0); // NOLINT: the command is the test's own
-}
 
 /* What the other program finds in the files. */
 static json_t *read_back(void) {
@@ -37,6 +21,7 @@ static json_t *read_back(void) {
   ck_assert_int_eq(pclose(pipe), 0);
   ck_assert_msg(found != NULL, "%s", error.text);
   datasets = json_object_get(found, "results.h5");
+  looked_at = 0;
   return found;
 }
 
@@ -335,24 +320,6 @@ static ZpResult *made_up_result(size_t number) {
   return result;
 }
 
-static ZpScenario *scenario_of(const char *const *assignment, size_t count) {
-  ZpScenario *scenario = zp_scenario_create();
-  ZpError err = {ZP_OK, ""};
-  ck_assert_ptr_nonnull(scenario);
-  for (size_t i = 0; i < count; i++)
-    ck_assert_msg(zp_scenario_set(scenario, assignment[i], &err) == ZP_OK, "%s", err.message);
-  return scenario;
-}
-#define SCENARIO(...)                                                                                                  \
-  scenario_of((const char *const[]){"output.plots=false", __VA_ARGS__},                                                \
-              LENGTH_OF(((const char *const[]){"", __VA_ARGS__})))
-
-static void write_files(const ZpScenario *scenario, ZpResult *const *result, size_t count) {
-  ZpError err = {ZP_OK, ""};
-  const ZpReport report = {.directory = folder, .scenario = scenario, .result = result, .count = count};
-  ck_assert_msg(zp_report_write(&report, NULL, &err) == ZP_OK, "%s", err.message);
-}
-
 /* -- tests ---------------------------------------------------------------------------------------- */
 
 START_TEST(run_reads_back) {
@@ -514,7 +481,7 @@ int main(void) {
   Suite *suite = suite_create("files");
   TCase *tcase = tcase_create("files");
   suite_add_tcase(suite, tcase);
-  tcase_add_checked_fixture(tcase, set_up, tear_down);
+  tcase_add_checked_fixture(tcase, make_folder, remove_folder);
   tcase_add_test(tcase, run_reads_back);
   tcase_add_test(tcase, series_at_rest_reads_back);
   tcase_add_test(tcase, sweep_of_1025_cases_reads_back);
