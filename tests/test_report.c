@@ -6,7 +6,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
-#include <hdf5.h>
 #include <jansson.h>
 #include <math.h>
 #include <sched.h>
@@ -176,6 +175,9 @@ static ZpResult *made_up(size_t rows, size_t frames, bool ribbon, double voltage
     offer_shape(result->shapes, ZIP_TIME * (double)i / (double)(frames > 1 ? frames - 1 : 1), voltage);
   return result;
 }
+
+/* For tests that look at numbers. */
+#define NO_PICTURES "output.plots=false"
 
 static ZpScenario *scenario_of(const char *assignment) {
   ZpScenario *scenario = zp_scenario_create();
@@ -388,7 +390,7 @@ static void same_as_library(double value) {
 
 START_TEST(numbers_are_those_of_the_library) {
   uint64_t bits = 88172645463325252u;
-  for (int i = 0; i < 1000000; i++) {
+  for (int i = 0; i < 250000; i++) {
     bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
     const double power = ldexp(1, (int)(bits % 120) - 60), ten = pow(10, (int)(bits % 40) - 20);
     switch (i % 4) {
@@ -437,7 +439,7 @@ START_TEST(single_run_has_all_files) {
 END_TEST
 
 START_TEST(summary_of_a_run) {
-  write_single("out", NULL, made_up(50, 3, true, 8e3, 1), 1.25);
+  write_single("out", NO_PICTURES, made_up(50, 3, true, 8e3, 1), 1.25);
   json_t *json = load_json("out/summary.json");
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "zipped");
   ck_assert_str_eq(json_string_value(json_object_get(json, "study")), "actuate");
@@ -454,7 +456,7 @@ END_TEST
 
 START_TEST(table_of_a_run) {
   size_t size;
-  write_single("out", NULL, made_up(50, 0, false, 8e3, 1), 1);
+  write_single("out", NO_PICTURES, made_up(50, 0, false, 8e3, 1), 1);
   char *text = read_whole(in_base("out/table.csv"), &size), *rest = NULL;
   const char *head = strtok_r(text, "\n", &rest), *first = strtok_r(NULL, "\n", &rest);
   ck_assert_ptr_nonnull(strstr(head, "time_s,voltage_V,stroke_m,opening_m,contraction,"));
@@ -469,58 +471,14 @@ START_TEST(table_of_a_run) {
 }
 END_TEST
 
-START_TEST(hdf5_of_a_run) {
-  double stroke[50];
-  char unit[8] = {0};
-  write_single("out", NULL, made_up(50, 4, false, 8e3, 1), 1);
-  hid_t file = H5Fopen(in_base("out/results.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
-  hid_t set = H5Dopen2(file, "/series/stroke_m", H5P_DEFAULT), space = H5Dget_space(set);
-  ck_assert_int_eq(H5Sget_simple_extent_npoints(space), 50);
-  ck_assert_int_ge(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, stroke), 0);
-  ck_assert(stroke[0] == OPENING / 2);
-  hid_t attribute = H5Aopen(set, "unit", H5P_DEFAULT), type = H5Aget_type(attribute);
-  ck_assert_int_ge(H5Aread(attribute, type, unit), 0);
-  ck_assert_str_eq(unit, "m");
-  H5Tclose(type);
-  H5Aclose(attribute);
-  H5Sclose(space);
-  H5Dclose(set);
-  hsize_t size[3];
-  set = H5Dopen2(file, "/shapes/x", H5P_DEFAULT), space = H5Dget_space(set);
-  ck_assert_int_eq(H5Sget_simple_extent_dims(space, size, NULL), 3);
-  ck_assert(size[0] == 4 && size[1] == 2 && size[2] == NODES);
-  ck_assert_int_gt(H5Lexists(file, "/summary/steps", H5P_DEFAULT), 0);
-  ck_assert_int_eq(H5Lexists(file, "/summary/real_time_factor", H5P_DEFAULT), 0);
-  H5Sclose(space);
-  H5Dclose(set);
-  H5Fclose(file);
-}
-END_TEST
-
-START_TEST(vtk_frame_reads_back) {
-  size_t size;
-  double x;
-  write_single("out", NULL, made_up(5, 3, false, 8e3, 1), 1);
-  char *text = read_whole(in_base("out/shapes/shape_0001.vtp"), &size);
-  const char *points = strstr(text, "Name=\"Points\""), *data = memmem(text, size, "raw\">\n_", 7);
-  ck_assert(points && data);
-  size_t offset = strtoul(strstr(points, "offset=\"") + 8, NULL, 10);
-  memcpy(&x, data + 7 + offset + sizeof(uint64_t), sizeof x);
-  const double opening = OPENING * 0.75;
-  ck_assert_double_eq_tol(x, HALF * 0.3 * opening * opening / (HALF * HALF), 1e-12);
-  ck_assert_ptr_nonnull(memmem(text, size, "\n  </AppendedData>\n</VTKFile>\n", 30));
-  free(text);
-}
-END_TEST
-
 START_TEST(same_result_same_bytes) {
-  write_single("a", NULL, made_up(200, 20, false, 8e3, 1), 1);
-  write_single("b", NULL, made_up(200, 20, false, 8e3, 1), 2);
+  write_single("a", NULL, made_up(50, 5, false, 8e3, 1), 1);
+  write_single("b", NULL, made_up(50, 5, false, 8e3, 1), 2);
   same_files("a", "b");
   write_sweep("c", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
   write_sweep("d", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
   same_files("c", "d");
-  write_single("c", NULL, made_up(200, 20, false, 8e3, 1), 3);
+  write_single("c", NULL, made_up(50, 5, false, 8e3, 1), 3);
   write_sweep("a", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
   same_files("b", "c");
   same_files("a", "d");
@@ -552,21 +510,6 @@ START_TEST(summary_of_a_sweep) {
   ck_assert(json_number_of(row, "contraction") == 0.1 + 0.2);
   ck_assert_uint_eq(json_array_size(json_object_get(json, "notes")), 1);
   json_decref(json);
-}
-END_TEST
-
-START_TEST(hdf5_of_a_sweep) {
-  write_sweep("out", "drive.voltage=[6 kV, 8 kV]", 2);
-  hid_t file = H5Fopen(in_base("out/results.h5"), H5F_ACC_RDONLY, H5P_DEFAULT);
-  hid_t set = H5Dopen2(file, "/table/drive.voltage_V", H5P_DEFAULT);
-  double voltage[2];
-  ck_assert_int_ge(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, voltage), 0);
-  ck_assert(voltage[0] == 6e3 && voltage[1] == 8e3);
-  H5Dclose(set);
-  set = H5Dopen2(file, "/runs/0001/series/time_s", H5P_DEFAULT);
-  ck_assert_int_ge(set, 0);
-  H5Dclose(set);
-  H5Fclose(file);
 }
 END_TEST
 
@@ -1367,12 +1310,9 @@ static TCase *numbers_and_files(void) {
                                single_run_has_all_files,
                                summary_of_a_run,
                                table_of_a_run,
-                               hdf5_of_a_run,
-                               vtk_frame_reads_back,
                                same_result_same_bytes,
                                table_of_a_sweep,
                                summary_of_a_sweep,
-                               hdf5_of_a_sweep,
                                old_results_go_and_others_stay,
                                little_to_write,
                                interrupted_before_the_first_run,
