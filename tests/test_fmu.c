@@ -539,7 +539,8 @@ END_TEST
 
 /* Every example with a waveform exports; what is refused is a sweep or has several members. */
 START_TEST(examples_export) {
-  run_command("mkdir -p %1$s && cd %1$s && for one in $(grep -l 'waveform' " ZP_SOURCE_DIR "/examples/*.yaml); do " ZP_COMMAND
+  run_command("mkdir -p %1$s && cd %1$s && for one in $(grep -l 'waveform' " ZP_SOURCE_DIR
+              "/examples/*.yaml); do " ZP_COMMAND
               " fmu $one --set output.errors=false --set solver.end_time=1ms --quiet -o example.fmu 2>said.txt || grep "
               "-qE 'an FMU "
               "contains a single actuator' said.txt || { cat said.txt >&2; exit 1; }; done",
