@@ -169,6 +169,10 @@ START_TEST(cases_follow_their_lists) {
     ck_near(value[3], 1e3 * (double)(i % 2 + 1), 1e-12);
   }
   zp_scenario_destroy(scenario);
+  scenario = SCENARIO("load.mass=[1 g, 2 g]", "drive.voltage=[1 kV, 2 kV, 3 kV]",
+                      "sampling.together=load.mass, drive.voltage"); /* a later assignment may make them alike */
+  ck_assert_uint_eq(zp_scenario_count(scenario), 2);
+  zp_scenario_destroy(scenario);
   scenario = SCENARIO("ribbon.thickness=uniform(40 um, 60 um)", "load.mass=[1 g, 2 g]", "sampling.count=8",
                       "sampling.method=random");
   ZpScenario *seeded = SCENARIO("ribbon.thickness=uniform(40 um, 60 um)", "load.mass=[1 g, 2 g]", "sampling.count=8",

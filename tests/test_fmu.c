@@ -1346,6 +1346,8 @@ START_TEST(wrong_commands) {
   for (size_t k = 0; k < LENGTH_OF(wrong); k++)
     run_command(ZP_COMMAND " %s >/dev/null 2>&1; test $? = %d && test ! -e no.fmu", wrong[k].arguments,
                 wrong[k].status);
+  run_command(ZP_COMMAND " fmu --set drive.waveform=sine --set drive.offset=-2kV -o no.fmu 2>&1 | grep -q "
+                         "'drive.offset: the voltage is -2000 V at t = 0'");
 }
 END_TEST
 
