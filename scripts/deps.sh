@@ -35,7 +35,7 @@ if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>
   done
   [ -z "$missing" ] && exit 0
   echo "zipact needs, and this system has no apt-get to install:$missing" >&2
-  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, SQLite, libzip, libxml2, Check, gnuplot, python3)" >&2
+  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, SQLite, libzip, libxml2, Check, gnuplot, python3 with h5py)" >&2
   exit 1
 fi
 
