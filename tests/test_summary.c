@@ -2,6 +2,7 @@
 #include "files_util.h"
 
 #include <jansson.h>
+#include <sys/stat.h>
 
 #include "io/cases.h"
 #include "io/report.h"
@@ -225,21 +226,95 @@ START_TEST(statistics_are_of_their_samples) {
 }
 END_TEST
 
-/* -- files that go ------------------------------------------------------------------------------------ */
+/* The first case that failed speaks for all; keys of whole numbers are whole; a note of several cases stands once. */
+START_TEST(failed_case_speaks_for_the_sweep) {
+  ZpScenario *scenario = SCENARIO("mesh.nodes=[21, 61]");
+  ZpResult *result[] = {result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1),
+                        result_of(ZP_STUDY_ACTUATE, ZP_DIVERGED, "contraction", 0)};
+  for (size_t i = 0; i < 2; i++)
+    zp_result_note(result[i], "the mesh is coarse");
+  json_t *summary = summary_of_cases(scenario, result, 2);
+  ck_assert_str_eq(word_in(summary, "outcome"), "diverged");
+  ck_assert_uint_eq(json_array_size(json_object_get(summary, "notes")), 1);
+  const json_t *nodes = json_object_get(json_array_get(json_object_get(summary, "rows"), 1), "mesh.nodes");
+  ck_assert(json_is_integer(nodes) && json_integer_value(nodes) == 61);
+  json_decref(summary);
+  free_results(result, 2, scenario);
+}
+END_TEST
 
-START_TEST(table_goes_with_its_series) {
+/* -- files that go, and one that stays ----------------------------------------------------------------- */
+
+static bool is_there(const char *name) {
+  char *path = path_of(name);
+  const bool there = access(path, F_OK) == 0;
+  free(path);
+  return there;
+}
+
+static ZpShapes *shapes_of(size_t frames) {
+  const double x[2] = {0, 1}, y[2] = {0, 0};
+  ZpShapes *shapes = zp_shapes_create(1, 2, 4);
+  ck_assert_ptr_nonnull(shapes);
+  for (size_t i = 0; i < frames; i++)
+    zp_shapes_offer(shapes, &(ZpShape){.time = (double)i, .x = x, .y = y});
+  return shapes;
+}
+
+/* A result over one that had more: its table, its field and its later frames go. */
+START_TEST(files_go_with_their_results) {
   const ZpColumn column = {"time_s", "s", "time"};
-  char *path = path_of("table.csv");
   ZpScenario *scenario = SCENARIO("mesh.nodes=9");
   ZpResult *result = result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1);
   result->series = zp_table_create(&column, 1, 2);
+  result->shapes = shapes_of(4);
+  result->map = zp_field_map_create(2, 2);
   write_files(scenario, &result, 1);
-  ck_assert_int_eq(access(path, F_OK), 0);
+  ck_assert(is_there("table.csv") && is_there("field.vts") && is_there("shapes/shape_0003.vtp"));
   zp_table_destroy(result->series);
+  zp_shapes_destroy(result->shapes);
+  zp_field_map_destroy(result->map);
   result->series = NULL;
+  result->map = NULL;
+  result->shapes = shapes_of(2);
   write_files(scenario, &result, 1);
-  ck_assert_int_ne(access(path, F_OK), 0);
+  ck_assert(!is_there("table.csv") && !is_there("field.vts"));
+  ck_assert(is_there("shapes/shape_0001.vtp") && !is_there("shapes/shape_0002.vtp"));
+  free_results(&result, 1, scenario);
+}
+END_TEST
+
+/* A summary says that all files are complete: an old one goes first, and none comes where another file fails. */
+START_TEST(summary_goes_before_files_are_written) {
+  ZpScenario *scenario = SCENARIO("mesh.nodes=9");
+  ZpResult *result = result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1);
+  ZpError err;
+  const ZpReport report = {.directory = folder, .scenario = scenario, .result = &result, .count = 1};
+  char *path = path_of("results.h5");
+  write_files(scenario, &result, 1);
+  ck_assert(is_there("summary.json"));
+  ck_assert(remove(path) == 0 && mkdir(path, 0777) == 0);
+  ck_assert_int_eq(zp_report_write(&report, NULL, &err), ZP_MACHINE);
+  ck_assert(!is_there("summary.json"));
   free(path);
+  free_results(&result, 1, scenario);
+}
+END_TEST
+
+/* The state at the end of a run in time is a file from which that model can continue. */
+START_TEST(state_at_the_end_is_a_file) {
+  ZpScenario *scenario = SCENARIO("mesh.nodes=9", "liquid.model=none", "output.errors=false", "solver.end_time=1 ms");
+  ZpActuatorDef def;
+  ZpCheckpoint *read = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  char *path = path_of("checkpoint.zps");
+  write_files(scenario, &result, 1);
+  ck_assert_msg(zp_checkpoint_read(path, &read, &err) == ZP_OK, "%s", err.message);
+  ck_assert_msg(zp_checkpoint_check(read, &def, &err) == ZP_OK, "%s", err.message);
+  free(path);
+  zp_checkpoint_destroy(read);
   free_results(&result, 1, scenario);
 }
 END_TEST
@@ -376,8 +451,10 @@ int main(void) {
   const TTest *const test[] = {interrupted_sweep_counts_its_cases, rows_say_which_values_are_automatic,
                                errors_of_frequencies_are_an_array, derivatives_stand_by_output_and_key,
                                optimum_shows_its_own_cases,        largest_is_of_the_cases_where_it_holds,
-                               statistics_are_of_their_samples,    table_goes_with_its_series,
-                               maps_show_panels_from_end_to_end,   lines_of_cases_and_of_the_front};
+                               statistics_are_of_their_samples,    failed_case_speaks_for_the_sweep,
+                               files_go_with_their_results,        summary_goes_before_files_are_written,
+                               state_at_the_end_is_a_file,         maps_show_panels_from_end_to_end,
+                               lines_of_cases_and_of_the_front};
   Suite *suite = suite_create("summary");
   TCase *tcase = tcase_create("summary");
   suite_add_tcase(suite, tcase);
