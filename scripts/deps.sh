@@ -13,7 +13,7 @@
 #   scripts/deps.sh --web    also what scripts/web.sh needs: clang for WebAssembly, node, two browsers for its tests
 set -eu
 packages="gcc g++ make cmake pkg-config libhdf5-dev libfyaml-dev libudunits2-dev libjansson-dev libnlopt-dev libsqlite3-dev libopenmpi-dev openmpi-bin libzip-dev libxml2-dev libxml2-utils check liblapack-dev gnuplot-nox
- fonts-dejavu-core python3 python3-yaml python3-jsonschema ca-certificates"
+ fonts-dejavu-core python3 python3-h5py python3-yaml python3-jsonschema ca-certificates"
 [ "${1:-}" = --python ] && packages="$packages python3-dev python3-pip python3-setuptools python3-wheel python3-venv python3-numpy
  python3-h5py python3-matplotlib python3-pandas python3-pytest python3-distributed python3-nbclient python3-nbformat python3-ipykernel python3-mpi4py openmpi-bin"
 [ "${1:-}" = --octave ] && packages="$packages octave octave-dev fonts-freefont-otf"
@@ -37,7 +37,7 @@ if ! command -v apt-get >/dev/null 2>&1 || ! command -v dpkg-query >/dev/null 2>
   done
   [ -z "$missing" ] && exit 0
   echo "zipact needs, and this system has no apt-get to install:$missing" >&2
-  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, SQLite, libzip, libxml2, Check, gnuplot, python3)" >&2
+  echo "(a C17 compiler, cmake 3.22, make, pkg-config, HDF5, libfyaml, UDUNITS-2, jansson, NLopt, SQLite, libzip, libxml2, Check, gnuplot, python3 with h5py)" >&2
   exit 1
 fi
 

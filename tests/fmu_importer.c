@@ -2,6 +2,7 @@
 #include "fmu_importer.h"
 
 #include <dlfcn.h>
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -107,8 +108,10 @@ static Variable variable_of(xmlNodePtr outer, xmlNodePtr inner) {
   Variable v = {.kind = kind_of(inner)};
   text_of(outer, "name", v.name, sizeof v.name);
   text_of(outer, "causality", v.causality, sizeof v.causality);
+  text_of(outer, "variability", v.variability, sizeof v.variability);
   text_of(outer, "description", text, sizeof text);
   text_of(inner, "unit", v.unit, sizeof v.unit);
+  text_of(inner, "displayUnit", v.display, sizeof v.display);
   text_of(inner, "declaredType", v.declared, sizeof v.declared);
   v.description = strlen(text);
   ck_assert(number_of(outer, "valueReference", &reference));
@@ -126,6 +129,33 @@ static void read_variables(Fmu *fmu, xmlNodePtr root) {
   }
 }
 
+static Unit unit_of(xmlNodePtr node) {
+  static const char *const base[BASES] = {"kg", "m", "s", "A"};
+  Unit unit = {.shown = 0};
+  text_of(node, "name", unit.name, sizeof unit.name);
+  for (xmlNodePtr k = node->children; k; k = k->next) {
+    if (k->type != XML_ELEMENT_NODE) continue;
+    if (strcmp((const char *)k->name, "BaseUnit") == 0) {
+      unit.has_base = true;
+      for (int b = 0; b < BASES; b++)
+        number_of(k, base[b], &unit.power[b]);
+    } else {
+      ck_assert_uint_lt(unit.shown, SHOWN_MOST);
+      text_of(k, "name", unit.display[unit.shown].name, sizeof unit.display->name);
+      ck_assert(number_of(k, "factor", &unit.display[unit.shown++].factor));
+    }
+  }
+  return unit;
+}
+
+static void read_units(Fmu *fmu, xmlNodePtr root) {
+  for (xmlNodePtr k = child(root, "UnitDefinitions")->children; k; k = k->next) {
+    if (k->type != XML_ELEMENT_NODE) continue;
+    fmu->unit = realloc(fmu->unit, (fmu->units + 1) * sizeof *fmu->unit);
+    fmu->unit[fmu->units++] = unit_of(k);
+  }
+}
+
 static Variable *variable_at(Fmu *fmu, unsigned place) {
   if (fmu->version == 2) return &fmu->variable[place - 1];
   for (size_t k = 0; k < fmu->variables; k++)
@@ -140,7 +170,7 @@ static void read_dependencies(Fmu *fmu, xmlNodePtr node) {
   text_of(node, "dependencies", text, sizeof text);
   for (unsigned long input; (input = strtoul(end, &end, 10)) > 0;) {
     const char *name = variable_at(fmu, (unsigned)input)->name;
-    variable_at(fmu, (unsigned)place)->follows[strcmp(name, "voltage") == 0 ? 0 : 1] = true;
+    variable_at(fmu, (unsigned)place)->follows[strcmp(name, "load") == 0 ? 1 : 0] = true;
   }
 }
 
@@ -163,6 +193,7 @@ static void read_description(Fmu *fmu, char identifier[64]) {
   text_of(root, fmu->version == 2 ? "guid" : "instantiationToken", fmu->token, sizeof fmu->token);
   text_of(child(root, "CoSimulation"), "modelIdentifier", identifier, 64);
   ck_assert(number_of(experiment, "stopTime", &fmu->stop) && number_of(experiment, "stepSize", &fmu->step));
+  read_units(fmu, root);
   read_variables(fmu, root);
   read_structure(fmu, root);
   xmlFreeDoc(document);
@@ -182,6 +213,7 @@ Fmu fmu_open(const char *folder) {
 
 void fmu_close(Fmu *fmu) {
   free(fmu->variable);
+  free(fmu->unit);
   dlclose(fmu->library);
 }
 
@@ -269,11 +301,18 @@ void fmu_free(Instance *instance) {
   instance->handle = NULL;
 }
 
-int fmu_enter_until(Instance *instance, double start, double stop) {
-  bool stops = isfinite(stop);
-  if (!is_two(instance)) return CALL3(EnterInitializationMode, false, 0, start, stops, stop);
-  int status = CALL2(SetupExperiment, fmi2False, 0, start, stops, stop);
+/* A time or a tolerance that is not defined has any value. */
+int fmu_enter_with(Instance *instance, double start, double tolerance, double stop) {
+  bool stops = isfinite(stop), tolerates = !isnan(tolerance);
+  if (!stops) stop = start - 1;
+  if (!tolerates) tolerance = -1;
+  if (!is_two(instance)) return CALL3(EnterInitializationMode, tolerates, tolerance, start, stops, stop);
+  int status = CALL2(SetupExperiment, tolerates, tolerance, start, stops, stop);
   return status == fmi2OK ? CALL2(EnterInitializationMode) : status;
+}
+
+int fmu_enter_until(Instance *instance, double start, double stop) {
+  return fmu_enter_with(instance, start, NAN, stop);
 }
 
 int fmu_enter(Instance *instance, double start) {

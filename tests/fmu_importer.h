@@ -14,13 +14,26 @@ typedef enum Kind { KIND_REAL, KIND_INTEGER, KIND_BOOLEAN, KIND_ENUMERATION } Ki
 
 /* A row of ModelVariables. */
 typedef struct Variable {
-  char name[64], unit[24], causality[16], declared[64];
+  char name[64], unit[24], display[24], causality[16], variability[16], declared[64];
   Kind kind;
   uint32_t reference;
-  bool has_start, has_range, follows[2]; /* inputs by their place */
+  bool has_start, has_range, follows[2]; /* the voltage or setpoint; the load */
   double start, min, max;
   size_t description; /* its length */
 } Variable;
+
+/* A unit, as powers of kg, m, s, A; the units in which its values are shown, each a factor times them. */
+enum { BASES = 4, SHOWN_MOST = 4 };
+typedef struct Unit {
+  char name[24];
+  bool has_base;
+  double power[BASES];
+  size_t shown;
+  struct {
+    char name[24];
+    double factor;
+  } display[SHOWN_MOST];
+} Unit;
 
 typedef struct Fmu {
   int version;
@@ -28,6 +41,8 @@ typedef struct Fmu {
   double stop, step; /* of the default experiment */
   Variable *variable;
   size_t variables;
+  Unit *unit;
+  size_t units;
   void *library;
 } Fmu;
 
@@ -63,6 +78,7 @@ void fmu_free(Instance *instance);
 /* Each gives the status, which is numbered alike in both versions. */
 int fmu_enter(Instance *instance, double start);
 int fmu_enter_until(Instance *instance, double start, double stop);
+int fmu_enter_with(Instance *instance, double start, double tolerance, double stop);
 int fmu_set_time(Instance *instance, double time); /* of model exchange */
 int fmu_exit(Instance *instance);
 int fmu_terminate(Instance *instance);

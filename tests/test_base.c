@@ -10,6 +10,8 @@
 #include "base/fail.h"
 #include "base/kernel.h"
 #include "base/memory.h"
+#include "def/check.h"
+#include "def/tolerance.h"
 
 /* -- tables and films ------------------------------------------------------------------------------ */
 
@@ -74,6 +76,7 @@ START_TEST(test_table_keeps_last) {
   ck_assert_double_eq(zp_table_get(table, 9, "time_s"), 16);
   ck_assert_double_eq(zp_table_get(table, 0, "time_s"), 0);
   ck_assert_double_nan(zp_table_get(table, 0, "no such column"));
+  ck_assert_double_nan(zp_table_get(table, 0, "time")); /* not by the beginning of time_s */
   ck_assert_double_nan(zp_table_get(table, 10, "time_s"));
   zp_table_destroy(table);
   zp_table_destroy(NULL);
@@ -587,7 +590,7 @@ END_TEST
 
 /* Settings that are each right and together wrong, and the key that the message must name. */
 typedef struct Cross {
-  Setting setting[4];
+  Setting setting[8];
   const char *named;
   bool right; /* the counterpart that is allowed */
   ZpStudy study;
@@ -650,6 +653,55 @@ static const Cross crosses[] = {
      "",
      true,
      ZP_STUDY_ACTUATE},
+    {{{"lower.segment_1.length", 0.06}}, "lower.segment_1.length", false, ZP_STUDY_ACTUATE},
+    {{{"lower.ribbon.density", 0}, {"insulator.density", 0}}, "lower.ribbon.density = 0", false, ZP_STUDY_ACTUATE},
+    {{{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}},
+     "member_3.ribbon.thickness: requires stack.series of at least 3",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"stack.series", 3}, {"member_3.ribbon.thickness", 60e-6}}, "", true, ZP_STUDY_STATIONARY},
+    /* two antagonists span the lengths of both */
+    {{{"stack.series", 2}, {"stack.distance", 0.12}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"stack.series", 2}, {"stack.distance", 0.2}}, "stack.distance = 0.2 m", false, ZP_STUDY_ACTUATE},
+    /* a square wave of 1 s falls in its shorter part, whichever that is */
+    {{{"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.duty", 0.9}, {"drive.rise_time", 0.2}},
+     "shorter part of the square wave, 0.1 s",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.duty", 0.1}, {"drive.rise_time", 0.2}},
+     "shorter part of the square wave, 0.1 s",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.duty", 0.75}, {"drive.rise_time", 0.2}},
+     "",
+     true,
+     ZP_STUDY_ACTUATE},
+    {{{"control.kind", ZP_CONTROL_PI},
+      {"control.signal", ZP_CONTROL_CONTRACTION},
+      {"setpoint.value", 0.5},
+      {"setpoint.waveform", ZP_WAVEFORM_SINE},
+      {"setpoint.offset", 1.2}},
+     "a contraction is at most 1",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"sense.frequency", 100}, {"sense.sampling_rate", 1000}, {"sense.amplitude", 1}, {"sense.bandwidth", 50}},
+     "",
+     true,
+     ZP_STUDY_ACTUATE},
+    {{{"sense.frequency", 100}, {"sense.sampling_rate", 1000}, {"sense.amplitude", 1}, {"sense.bandwidth", 51}},
+     "at most half of sense.frequency",
+     false,
+     ZP_STUDY_ACTUATE},
+    /* the whole load may fall off, but no more */
+    {{{"load.mass", 8e-3}, {"load.change_mass", -8e-3}, {"load.change_time", 0.1}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"load.mass", 8e-3}, {"load.change_mass", -9e-3}, {"load.change_time", 0.1}},
+     "cannot drop more than load.mass",
+     false,
+     ZP_STUDY_ACTUATE},
+    {{{"mount.tilt", 3.14159265358979323846}}, "", true, ZP_STUDY_ACTUATE},
+    {{{"mount.tilt", 3.1}}, "mount.tilt", false, ZP_STUDY_ACTUATE},
+    {{TURNS, {"platform.length", 0.01}, {"load.offset", 5e-3}}, "", true, ZP_STUDY_STATIONARY},
+    {{TURNS, {"platform.length", 0.01}, {"load.offset", 6e-3}}, "load.offset = 0.006 m", false, ZP_STUDY_STATIONARY},
 };
 
 START_TEST(test_check_crosses) {
@@ -661,6 +713,82 @@ START_TEST(test_check_crosses) {
   ZpError err = {ZP_OK, ""};
   ck_assert_int_eq(zp_study_check(cross->study, &def, &err), cross->right ? ZP_OK : ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, cross->named) != NULL, "no '%s' in: %s", cross->named, err.message);
+}
+END_TEST
+
+/* A limit holds for both signs of the voltage, and for that of each antagonist. */
+START_TEST(test_check_voltages) {
+  ZpError err;
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.voltage_limit", 5e3}, {"drive.voltage", 4e3});
+  ck_assert_int_eq(zp_def_check_voltage(&def, -5e3, &err), ZP_OK);
+  ck_assert_int_eq(zp_def_check_voltage(&def, -6e3, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_def_check_voltage(&def, 6e3, &err), ZP_BAD_INPUT);
+  def = DEF({"insulator.thickness", 0}, {"drive.voltage", 0}, {"stack.series", 2}, {"stack.distance", 0.03},
+            {"stack.lower_voltage", 5e3});
+  ck_assert_int_eq(zp_def_check_voltage(&def, 0, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(
+      strstr(err.message, "member 2 of the stack: insulator.thickness = 0 m: 5000 V is a short circuit"));
+}
+END_TEST
+
+/* The load of a series hangs from its last member; members abreast share it; the lower antagonist is the upper one
+ * turned over, with its own voltage and without the load. */
+START_TEST(test_members_share_the_load) {
+  ZpActuatorDef def = DEF({"stack.series", 3}, {"load.force", 2}, {"stack.link_mass", 1e-3});
+  for (int k = 1; k <= 3; k++) {
+    ZpActuatorDef one = zp_def_member(&def, k);
+    ck_assert_double_eq(one.load.force, k == 3 ? 2 : 0);
+    ck_assert_double_eq(one.load.mass, k == 3 ? def.load.mass : 1e-3);
+  }
+  def = DEF({"stack.parallel", 4}, {"load.force", 2}, {"load.mass", 8e-3}, {"member_2.ribbon.thickness", 60e-6});
+  for (int k = 1; k <= 4; k++) {
+    ZpActuatorDef one = zp_def_member(&def, k);
+    ck_assert_double_eq(one.load.force, 0.5);
+    ck_assert_double_eq(one.load.mass, 2e-3);
+    ck_assert_double_eq(one.ribbon.thickness, k == 2 ? 60e-6 : def.ribbon.thickness);
+  }
+  static const double pi = 3.14159265358979323846;
+  def = DEF({"stack.series", 2}, {"stack.distance", 0.03}, {"stack.voltage_ratio", 2}, {"drive.voltage", 3e3},
+            {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.offset", 1e3});
+  for (int turned = 0; turned < 2; turned++) {
+    def.mount.tilt = turned ? pi : 0;
+    ZpActuatorDef lower = zp_def_member(&def, 2);
+    ck_assert_double_eq(zp_def_member(&def, 1).mount.tilt, def.mount.tilt);
+    ck_near(lower.mount.tilt + (turned ? pi : 0), pi, 1e-15);
+    ck_assert(lower.drive.voltage == 6e3 && lower.drive.offset == 2e3 && lower.load.mass == 0);
+  }
+}
+END_TEST
+
+/* Both insulators lie between the metals. */
+START_TEST(test_insulation_is_of_both) {
+  ZpActuatorDef def = DEF({"insulator.thickness", 100e-6});
+  ck_assert_double_eq(zp_insulation(&def), 200e-6);
+  def.lower.insulator.thickness = 160e-6;
+  ck_near(zp_insulation(&def), 260e-6, 1e-15);
+  def.lower.insulator.thickness = 0;
+  ck_assert_double_eq(zp_insulation(&def), 100e-6);
+}
+END_TEST
+
+/* auto: of motion what the mesh is worth, eq. (18.13), between 1e-4 and an upper bound; of derivatives less; at rest a
+ * thousandth of what is given, or of 1e-4. */
+START_TEST(test_tolerances) {
+  ZpActuatorDef dry = DEF({"mesh.nodes", 201}), wet = DEF({"mesh.nodes", 201}, {"liquid.model", ZP_LIQUID_SUBMERGED});
+  ck_near(zp_def_tolerance(&dry), 5. / (200 * 200), 1e-12);
+  ck_assert_double_eq(zp_def_tolerance(&wet), 1e-4);
+  dry.mesh.nodes = wet.mesh.nodes = 101;
+  ck_near(zp_def_tolerance(&dry), 5. / (100 * 100), 1e-12);
+  ck_near(zp_def_tolerance(&wet), 1.5 / (100 * 100), 1e-12);
+  dry.mesh.nodes = wet.mesh.nodes = 9;
+  ck_assert_double_eq(zp_def_tolerance(&dry), 1.5e-3);
+  ck_assert_double_eq(zp_def_tolerance(&wet), 1e-3);
+  ck_near(zp_tolerance_at_rest(&dry), 1e-7, 1e-12);
+  strcpy(dry.sensitivity.by, "load.mass");
+  ck_assert_double_eq(zp_def_tolerance(&dry), 2.5e-5);
+  dry.solver.tolerance = 3e-5;
+  ck_assert_double_eq(zp_def_tolerance(&dry), 3e-5);
+  ck_near(zp_tolerance_at_rest(&dry), 3e-8, 1e-12);
 }
 END_TEST
 
@@ -796,6 +924,10 @@ int main(void) {
   tcase_add_test(keys, test_set_message);
   tcase_add_test(keys, test_check_ranges);
   tcase_add_loop_test(keys, test_check_crosses, 0, LENGTH_OF(crosses));
+  tcase_add_test(keys, test_check_voltages);
+  tcase_add_test(keys, test_members_share_the_load);
+  tcase_add_test(keys, test_insulation_is_of_both);
+  tcase_add_test(keys, test_tolerances);
   suite_add_tcase(suite, keys);
   TCase *state = tcase_create("state");
   tcase_add_loop_test(state, test_restore_goes_on_bit_for_bit, 0, 2);

@@ -1041,20 +1041,30 @@ START_TEST(test_locale) {
 }
 END_TEST
 
+/* The database of units, read once for all tests of a case, each of which is a process. */
+static void read_units(void) {
+  double value;
+  ck_assert_int_eq(zp_value_parse(zp_key_find("load.mass"), "8 g", &value, NULL), ZP_OK);
+}
+
 int main(void) {
   Suite *suite = suite_create("scenario");
+  TCase *first = tcase_create("first");
+  tcase_add_test(first, test_no_database);
+  tcase_add_test(first, test_threads);
+  tcase_add_test(first, test_locale);
+  suite_add_tcase(suite, first);
   TCase *values = tcase_create("values");
-  tcase_add_test(values, test_no_database);
+  tcase_add_unchecked_fixture(values, read_units, NULL);
   tcase_add_loop_test(values, test_good_value, 0, LENGTH_OF(good_values));
   tcase_add_loop_test(values, test_bad_value, 0, LENGTH_OF(bad_values));
   tcase_add_test(values, test_no_break_space);
   tcase_add_test(values, test_long_value);
   tcase_add_loop_test(values, test_value_round_trip, 0, zp_key_count());
   tcase_add_test(values, test_print);
-  tcase_add_test(values, test_threads);
-  tcase_add_test(values, test_locale);
   suite_add_tcase(suite, values);
   TCase *scenarios = tcase_create("scenarios");
+  tcase_add_unchecked_fixture(scenarios, read_units, NULL);
   tcase_add_loop_test(scenarios, test_good_text, 0, LENGTH_OF(good_texts));
   tcase_add_loop_test(scenarios, test_bad_text, 0, LENGTH_OF(bad_texts));
   tcase_add_loop_test(scenarios, test_bad_argument, 0, LENGTH_OF(bad_arguments));

@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "sim/sim_internal.h"
 
 /* -- life ------------------------------------------------------------------------------------------ */
 
@@ -127,6 +128,12 @@ ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err) {
   read_row_again(fmu);
   fmu->prepared = true;
   return ZP_OK;
+}
+
+ZpStatus zp_fmu_begin(ZpFmu *fmu, ZpError *err) {
+  ZpStatus status = zp_fmu_prepare(fmu, err);
+  if (status == ZP_OK) zp_sim_start_row(fmu->sim);
+  return status;
 }
 
 /* -- variables ------------------------------------------------------------------------------------- */

@@ -68,20 +68,11 @@ static void put_attribute(Store *store, hid_t object, const char *name, const ch
   H5Tclose(type);
 }
 
-/* A name for HDF5, in which a slash separates paths: the slash of a unit such as kg/m3 becomes "_per_". */
-static void spell(const char *name, size_t size, char *to) {
-  size_t used = 0;
-  for (; *name && used + sizeof "_per_" < size; name++)
-    used += (size_t)snprintf(to + used, size - used, "%.*s", *name == '/' ? 5 : 1, *name == '/' ? "_per_" : name);
-}
-
 /* A dataset of `rank` dimensions (0: a single value) without values, to be closed. */
 static hid_t open_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, int rank, const hsize_t *size) {
   if (store->bad) return -1;
-  char name[2 * ZP_TEXT_SIZE] = "";
-  spell(meaning->name, sizeof name, name);
   hid_t space = rank ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
-  hid_t set = H5Dcreate2(group, name, disk, space, H5P_DEFAULT, store->plain, H5P_DEFAULT);
+  hid_t set = H5Dcreate2(group, meaning->name, disk, space, H5P_DEFAULT, store->plain, H5P_DEFAULT);
   is_bad(store, set);
   put_attribute(store, set, "unit", meaning->unit);
   put_attribute(store, set, "help", meaning->help);

@@ -98,8 +98,7 @@ static ZpUnitScale scale_of_factor(double factor) {
 static bool is_proportional(const cv_converter *converter, double *factor) {
   *factor = cv_convert_double(converter, 1);
   double twice = cv_convert_double(converter, 2);
-  return cv_convert_double(converter, 0) == 0 && isnormal(*factor) && *factor > 0 &&
-         fabs(twice - 2 * *factor) <= 1e-12 * twice;
+  return isnormal(*factor) && *factor > 0 && fabs(twice - 2 * *factor) <= 1e-12 * twice;
 }
 
 static ZpStatus scale_between(const ut_unit *from, const ut_unit *to, const char *to_text, ZpUnitScale *scale,

@@ -87,7 +87,7 @@ ZpSlaveStatus zp_slave_setup(ZpSlave *slave, double start, double tolerance, dou
 
 ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave, ZpFmuPhase next) {
   ZpError err;
-  slave->fmu->phase = zp_fmu_prepare(slave->fmu, &err) == ZP_OK ? next : ZP_FMU_FAILED;
+  slave->fmu->phase = zp_fmu_begin(slave->fmu, &err) == ZP_OK ? next : ZP_FMU_FAILED;
   return slave->fmu->phase == next ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
 }
 

@@ -1,0 +1,51 @@
+/* What tests of files share: a folder of their own, scenarios from assignments, reports of results. */
+#ifndef ZP_TESTS_FILES_UTIL_H
+#define ZP_TESTS_FILES_UTIL_H
+
+#include "check_util.h"
+
+#include <unistd.h>
+
+#include <zipact/io.h>
+
+static char folder[64]; /* of the test that runs */
+
+static inline void make_folder(void) {
+  snprintf(folder, sizeof folder, "files-XXXXXX");
+  ck_assert_ptr_nonnull(mkdtemp(folder));
+}
+
+static inline void remove_folder(void) {
+  char command[128];
+  snprintf(command, sizeof command, "rm -r %s", folder);
+  ck_assert_int_eq(system(command), 0); // NOLINT: the command is the test's own
+}
+
+/* "FOLDER/name", to be freed. */
+static inline char *path_of(const char *name) {
+  char *path = malloc(strlen(folder) + strlen(name) + 2);
+  ck_assert_ptr_nonnull(path);
+  sprintf(path, "%s/%s", folder, name);
+  return path;
+}
+
+static inline ZpScenario *scenario_of(const char *const *assignment, size_t count) {
+  ZpScenario *scenario = zp_scenario_create();
+  ZpError err = {ZP_OK, ""};
+  ck_assert_ptr_nonnull(scenario);
+  for (size_t i = 0; i < count; i++)
+    ck_assert_msg(zp_scenario_set(scenario, assignment[i], &err) == ZP_OK, "%s", err.message);
+  return scenario;
+}
+/* A scenario without pictures. */
+#define SCENARIO(...)                                                                                                  \
+  scenario_of((const char *const[]){"output.plots=false", __VA_ARGS__},                                                \
+              LENGTH_OF(((const char *const[]){"", __VA_ARGS__})))
+
+static inline void write_files(const ZpScenario *scenario, ZpResult *const *result, size_t count) {
+  ZpError err = {ZP_OK, ""};
+  const ZpReport report = {.directory = folder, .scenario = scenario, .result = result, .count = count};
+  ck_assert_msg(zp_report_write(&report, NULL, &err) == ZP_OK, "%s", err.message);
+}
+
+#endif

@@ -1,0 +1,115 @@
+/* Numbers as text: short, exact, and those of the C library, which prints all digits and reads them. */
+#include "check_util.h"
+
+#include "io/number.h"
+
+START_TEST(numbers_are_short_and_exact) {
+  const struct {
+    double value;
+    const char *text;
+  } known[] = {{0.1, "0.1"},
+               {0, "0"},
+               {-0.0, "-0"},
+               {75e-3, "0.075"},
+               {130e-6, "0.00013"},
+               {1e-6, "1e-06"},
+               {10e3, "10000"},
+               {1e16, "1e+16"},
+               {200e9, "200000000000"},
+               {-12.5, "-12.5"},
+               {1.5e-9, "1.5e-09"},
+               {5e-324, "5e-324"},
+               {0.1 + 0.2, "0.30000000000000004"},
+               {NAN, "nan"},
+               {-INFINITY, "-inf"},
+               {1e15, "1000000000000000"}};
+  for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+    char text[ZP_NUMBER_SIZE];
+    zp_number_print(known[i].value, text, sizeof text);
+    ck_assert_str_eq(text, known[i].text);
+  }
+}
+END_TEST
+
+START_TEST(numbers_read_back) {
+  uint64_t bits = 88172645463325252u;
+  for (int i = 0; i < 200000; i++) {
+    char text[ZP_NUMBER_SIZE];
+    double value, again;
+    bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+    memcpy(&value, &bits, sizeof value);
+    if (!isfinite(value)) continue;
+    if (i % 2) value = (double)(int64_t)bits * 1e-12;
+    zp_number_print(value, text, sizeof text);
+    again = strtod(text, NULL);
+    ck_assert_msg(memcmp(&value, &again, sizeof value) == 0, "%.17g became %s", value, text);
+  }
+}
+END_TEST
+
+/* The digits and the exponent of what the C library prints with the fewest of 15, 16, 17 digits that read back, zeros
+ * at the end left out; of 0.00123 and 1.23e-03 alike. */
+static void digits_of(const char *text, char *digits, size_t size, int *exponent) {
+  size_t used = 0, point = strcspn(text, ".e");
+  const char *e = strchr(text, 'e'), *end = e ? e : text + strlen(text);
+  *exponent = e ? (int)strtol(e + 1, NULL, 10) : 0;
+  *exponent += (int)point - 1;
+  bool begun = false;
+  for (const char *c = text; c < end; c++) {
+    if (*c == '.') continue;
+    begun |= *c != '0';
+    if (!begun) *exponent -= 1;
+    if (begun && used + 1 < size) digits[used++] = *c;
+  }
+  while (used > 1 && digits[used - 1] == '0')
+    used--;
+  digits[used] = 0;
+}
+
+static void same_as_library(double value) {
+  char text[ZP_NUMBER_SIZE], library[ZP_NUMBER_SIZE], ours[ZP_NUMBER_SIZE], theirs[ZP_NUMBER_SIZE];
+  int digits = 15, our_exponent, their_exponent;
+  do {
+    snprintf(library, sizeof library, "%.*e", digits - 1, value);
+  } while (digits++ < 17 && strtod(library, NULL) != value);
+  zp_number_print(value, text, sizeof text);
+  digits_of(text, ours, sizeof ours, &our_exponent);
+  digits_of(library, theirs, sizeof theirs, &their_exponent);
+  ck_assert_msg(strcmp(ours, theirs) == 0 && our_exponent == their_exponent, "%s, but the C library: %s", text,
+                library);
+}
+
+START_TEST(numbers_are_those_of_the_library) {
+  for (int e = -1021; e < 1024; e++) /* about powers of two, below which doubles are denser */
+    for (int side = -1; side < 2; side++)
+      same_as_library(nextafter(ldexp(1, e), side < 0 ? 0 : side > 0 ? INFINITY : ldexp(1, e)));
+  uint64_t bits = 88172645463325252u;
+  for (int i = 0; i < 250000; i++) {
+    bits ^= bits << 13, bits ^= bits >> 7, bits ^= bits << 17;
+    const double power = ldexp(1, (int)(bits % 120) - 60), ten = pow(10, (int)(bits % 40) - 20);
+    switch (i % 4) {
+    case 0: /* any digits, sizes 1e-11 .. 1e11 */
+      same_as_library(ldexp((double)(bits >> 11), -53 - 36 + (int)(bits % 73)));
+      break;
+    case 1: /* short decimals */
+      same_as_library((double)(bits >> 44) / pow(10, (double)(bits % 14)));
+      break;
+    case 2: /* many end in 5, a half of some digit */
+      same_as_library((double)(bits >> 38) * power);
+      break;
+    default: /* about powers of ten, which 9.99... is rounded to */
+      same_as_library(bits % 3 == 0 ? ten : nextafter(ten, bits % 3 == 1 ? 0 : INFINITY));
+    }
+  }
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("number");
+  TCase *tcase = tcase_create("number");
+  suite_add_tcase(suite, tcase);
+  tcase_add_test(tcase, numbers_are_short_and_exact);
+  tcase_add_test(tcase, numbers_read_back);
+  tcase_add_test(tcase, numbers_are_those_of_the_library);
+  return run_suite(suite);
+}
