@@ -666,6 +666,42 @@ START_TEST(shades_of_three_keys) {
 }
 END_TEST
 
+/* Twelve of the 20 panels of a map, evenly from the first to the last: each has the rows of table.csv in which the
+ * third key has its value, in their order. */
+static void check_panels(void) {
+  enum { PANELS = 20, DRAWN = 12, ROWS = 9, COLUMNS = 4 };
+  size_t size;
+  double row[PANELS * ROWS][COLUMNS], at[3];
+  char *table = read_whole(in_base("n/table.csv"), &size), *line = strchr(table, '\n') + 1;
+  ck_assert_int_eq(strncmp(table, "ribbon.length_m,ribbon.thickness_m,load.mass_kg,outcome,stroke_m", 64), 0);
+  for (int i = 0; i < PANELS * ROWS; i++, line = strchr(line, '\n') + 1)
+    ck_assert_int_eq(sscanf(line, "%lf,%lf,%lf,%*[^,],%lf", &row[i][0], &row[i][1], &row[i][2], &row[i][3]), COLUMNS);
+  char *data = read_whole(in_base("n/plots/maps.dat"), &size), *script = read_whole(in_base("n/plots/maps.gp"), &size);
+  char *point = strchr(data, '\n') + 1;
+  for (int k = 0; k < DRAWN; k++) {
+    char name[32];
+    double value;
+    const int panel = k * (PANELS - 1) / (DRAWN - 1);
+    snprintf(name, sizeof name, "panel_at[%d] = ", k + 1);
+    const char *found = strstr(script, name);
+    ck_assert(found && sscanf(found + strlen(name), "%lf", &value) == 1);
+    ck_assert_double_eq_tol(value, row[panel * ROWS][0], 1e-12);
+    for (int i = 0; i < ROWS; i++) {
+      const double *of = row[panel * ROWS + i];
+      int length;
+      ck_assert_int_eq(sscanf(point, "%lf %lf %lf%n", &at[0], &at[1], &at[2], &length), 3);
+      ck_assert(fabs(at[0] - of[2]) < 1e-9 * of[2] && fabs(at[1] - of[1]) < 1e-9 * of[1]);
+      ck_assert_double_eq_tol(at[2], of[3], 1e-6 * of[3]);
+      point += length;
+    }
+  }
+  double more;
+  ck_assert_int_ne(sscanf(point, "%lf", &more), 1);
+  free(table);
+  free(data);
+  free(script);
+}
+
 /* Ten maps in one picture: none is left out, and all have contours of the same levels. */
 START_TEST(maps_have_one_scale) {
   write_rest("m", "stationary",
@@ -678,6 +714,7 @@ START_TEST(maps_have_one_scale) {
              (const char *const[]){"ribbon.length=80 mm .. 130 mm : 20", "ribbon.thickness=40 um .. 100 um : 3",
                                    "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
   ck_assert(file_says("n/plots/maps.svg", "; 12 of 20 panels<"));
+  check_panels();
 }
 END_TEST
 

@@ -12,9 +12,12 @@ import csv
 import html.parser
 import json
 import os
+import pty
 import re
+import select
 import shutil
 import signal
+import statistics
 import subprocess
 import sys
 import time
@@ -191,40 +194,173 @@ def check_runs(folder):
         check(summary["outcome"] in ("converged", "zipped", "end_time", "followed"), name + ": " + summary["outcome"])
 
 
+def check_close(value, expected, what, tolerance=1e-12):
+    check(abs(value - expected) <= tolerance * abs(expected), "%s: %g, not %g" % (what, value, expected))
+
+
+def check_derived(folder, rows):
+    """Numbers of the comparison that follow from others, or from the table of a run."""
+    def ours(place, quantity):
+        return {(r["nodes"], r["load_g"]): r for r in rows if (r["place"], r["quantity"]) == (place, quantity)}
+
+    for quantity in ("stroke", "shear coefficient from theory", "axial spring K_D", "mean time step", "factor by the paper's method"):
+        for r in (r for r in rows if r["quantity"] == quantity and r["tolerance"]):
+            digits, _, exponent = r["paper"].partition("e")
+            last = 10.0 ** (int(exponent or 0) - len(digits.partition(".")[2]))
+            check_close(float(r["tolerance"]), max(0.005 * float(r["paper"]), last), "tolerance of %s, %s" % (quantity, r["paper"]), 1e-9)
+    strokes, errors = ours("Table II", "stroke"), ours("Table II", "stroke error")
+    for case, r in ours("Table II", "relative error").items():
+        check_close(float(r["ours"]), 100 * float(errors[case]["ours"]) / float(strokes[case]["ours"]), "relative error %s %s" % case)
+    factors = [float(r["paper_factor"]) for r in csv.DictReader(open(folder + "/runs/factor/table.csv", encoding="utf-8"))]
+    deviation, = ours("Factor", "its standard deviation").values()
+    check_close(float(deviation["ours"]), statistics.pstdev(factors), "standard deviation of %d factors" % len(factors), 1e-9)
+    costs, steps = ours("Section III", "cost of a simulated second"), ours("Section III", "mean time step")
+    for r in csv.DictReader(open(folder + "/runs/cost/table.csv", encoding="utf-8")):
+        cost, = (row for case, row in costs.items() if case[0] == r["mesh.nodes"])
+        step, = (row for case, row in steps.items() if case[0] == r["mesh.nodes"])
+        more_steps = 1e6 * float(r["mean_time_step_s"]) / float(step["paper"])
+        seconds = json_row(folder + "/runs/cost", r["mesh.nodes"])["real_time_factor"]
+        check_close(float(cost["ours"]), more_steps / seconds / 60, "cost with N = " + r["mesh.nodes"], 1e-9)
+    for r, row in zip(rows, json.load(open(folder + "/summary.json", encoding="utf-8"))["rows"]):
+        check((r["place"], r["quantity"], int(r["nodes"]), float(r["load_g"])) == (row["place"], row["quantity"], row["nodes"], row["load_g"]), "summary.json has another row than comparison.csv: %s" % row)
+
+
+def json_row(folder, nodes):
+    return next(row for row in json.load(open(folder + "/summary.json", encoding="utf-8"))["rows"] if row["mesh.nodes"] == int(nodes))
+
+
+def curves(path):
+    """Indices of a .dat file => of each the rows."""
+    text = open(path, encoding="utf-8").read().split("\n", 1)[1]
+    return [[[float(x) for x in line.split()] for line in part.splitlines()] for part in text.split("\n\n\n") if part.strip()]
+
+
+def check_figures(folder):
+    """The data of the pictures are those of the runs."""
+    def table(run):
+        return list(csv.DictReader(open(folder + "/runs/%s/table.csv" % run, encoding="utf-8")))
+
+    def column(run, name, rows=slice(None)):
+        return [float(r[name]) for r in table(run)[rows]]
+
+    shapes = curves(folder + "/plots/fig-6.dat")
+    for k, load in enumerate((0.04, 0.06, 0.08, 0.1, 0.15, 0.2)):
+        for run, shape in (("finite-elements", shapes[2 * k]), ("table-2-n61", shapes[2 * k + 1])):
+            stroke, = (float(r["stroke_m"]) for r in table(run) if abs(float(r["load.mass_kg"]) / load - 1) < 1e-9)
+            check_close(max(abs(y) for _, y in shape), stroke, "end of the curve of %s at %g kg" % (run, load), 1e-6)
+    for got, (run, name) in zip(curves(folder + "/plots/fig-7.dat"), (("fig-7", "field_N_per_m"), ("fig-7", "plates_N_per_m"), ("fig-7-paper", "plates_N_per_m"))):
+        wanted = column(run, name)
+        check(len(got) == len(wanted) and all(abs(y - force) <= 1e-6 * abs(force) for (_, y), force in zip(got, wanted)), "fig. 7: %s of %s" % (name, run))
+    half = len(table("fig-8")) // 2
+    for got, (run, part) in zip(curves(folder + "/plots/fig-8.dat"), (("fig-8", slice(half)), ("fig-8", slice(half, None)), ("fig-8-paper", slice(half)))):
+        wanted = column(run, "force_N", part)
+        check(len(got) == len(wanted) and all(abs(y - force) <= 1e-6 * abs(force) for (_, y), force in zip(got, wanted)), "fig. 8: %s, %s" % (run, part))
+    check(column("fig-8", "force_N", slice(half)) != column("fig-8", "force_N", slice(half, None)), "breakdown does not matter")
+
+
+def check_cells(folder, rows, page):
+    """Factors, openings and reasons as the page shows them."""
+    cells, text = [cell.strip() for cell in page.text], " ".join(page.text)
+    small = ["÷ %.0f" % (float(r["paper"]) / float(r["ours"])) for r in rows if 1e-3 < float(r["ours"]) / float(r["paper"]) < 0.1]
+    check(small and sorted(small) == sorted(cell for cell in cells if cell.startswith("÷")), "small numbers: %s" % small)
+    for run in ("fig-10", "fig-10-code"):
+        summary = json.load(open(folder + "/runs/%s/summary.json" % run, encoding="utf-8"))
+        for name in ("start_opening_m", "widest_opening_m"):
+            check("%.3f" % (1e3 * summary[name]) in cells, "%s of %s" % (name, run))
+    check_reasons(rows, text)
+
+
+def check_reasons(rows, text):
+    """The reasons that are listed are those of the comparisons, with their number."""
+    counts = collections.Counter(r["why"] for r in rows if r["why"])
+    listed = [int(n) for n in re.findall(r"docs/theory.md, section [^;]*; (\d+) numbers?\)", text)]
+    check(sorted(listed) == sorted(counts.values()), "reasons of %s numbers, not %s" % (listed, sorted(counts.values())))
+
+
+def stop_while_it_is_timed(child, folder):
+    """A second in which the program is stopped while its cost is measured => the longest that it may have measured, s."""
+    before = time.monotonic()
+    while child.poll() is None and not os.path.exists(folder + "/runs/cost"):
+        before = time.monotonic()
+        time.sleep(0.005)
+    child.send_signal(signal.SIGSTOP)
+    time.sleep(1)
+    child.send_signal(signal.SIGCONT)
+    while child.poll() is None and not os.path.exists(folder + "/runs/cost/summary.json"):
+        time.sleep(0.005)
+    return time.monotonic() - before - 1
+
+
 def whole(zipact, folder):
     start = time.monotonic()
-    done = subprocess.run([zipact, "reproduce", "-o", folder, "--json"], capture_output=True, text=True)
+    with open(folder + ".json", "w+", encoding="utf-8") as shown, open(folder + ".log", "w+", encoding="utf-8") as said:
+        child = subprocess.Popen([zipact, "reproduce", "-o", folder, "--json"], stdout=shown, stderr=said)
+        longest = stop_while_it_is_timed(child, folder)
+        check(child.wait() == 0, "exit status %d" % child.returncode)
+        shown.seek(0)
+        check(json.load(shown)["study"] == "reproduce", "--json prints the summary")
     print("reproduce: %.1f s" % (time.monotonic() - start))
-    check(done.returncode == 0, "exit status %d: %s" % (done.returncode, done.stderr[:300]))
-    check(json.loads(done.stdout)["study"] == "reproduce", "--json prints the summary")
+    measured = sum(row["simulated_time_s"] / row["real_time_factor"] for row in json.load(open(folder + "/runs/cost/summary.json", encoding="utf-8"))["rows"])
+    check(measured < longest, "the cost is CPU time: %.2f s in %.2f s" % (measured, longest))
     sections = {"table-1", "table-2", "fig-6", "fig-7", "fig-8", "fig-9", "fig-10", "factor", "cost", "why", "files"}
     rows = check_numbers(folder)
     page = check_page(folder, sections)
     check_shown(rows, page)
     check_guesses_read_so(folder)
+    check_derived(folder, rows)
+    check_figures(folder)
+    check_cells(folder, rows, page)
+    check_overview(rows, page)
     check_runs(folder)
     if shutil.which("gnuplot"):
         check(page.pictures == 10, "%d pictures" % page.pictures)
 
 
 def interrupted(zipact, folder):
-    """Stop it when the first runs are there."""
-    child = subprocess.Popen([zipact, "reproduce", "-o", folder, "--quiet"])
+    """Stop it when the first runs are there. On a terminal its progress never goes back."""
+    master, slave = pty.openpty()
+    child = subprocess.Popen([zipact, "reproduce", "-o", folder], stdout=subprocess.DEVNULL, stderr=slave)
+    os.close(slave)
+    shown = b""
     while child.poll() is None and not os.path.exists(folder + "/runs/table-2-text/summary.json"):
-        time.sleep(0.05)
+        if select.select([master], [], [], 0.05)[0]:
+            shown += os.read(master, 4096)
     child.send_signal(signal.SIGINT)
+    try:
+        while piece := os.read(master, 4096):
+            shown += piece
+    except OSError:
+        pass  # it has ended
+    os.close(master)
+    progress = [int(percent) for percent in re.findall(rb"\] +(\d+) %", shown)]
+    check(progress == sorted(progress) and len(set(progress)) > 1, "progress goes back: %s" % progress)
     check(child.wait() == 130, "exit status %d after Ctrl-C" % child.returncode)
     summary = json.load(open(folder + "/summary.json", encoding="utf-8"))
-    check(summary["outcome"] == "interrupted", "outcome " + summary["outcome"])
+    check(summary["outcome"] == "interrupted" and summary["message"] == "interrupted; the results so far are kept", "outcome " + summary["outcome"])
     check(0 < summary["verdicts"]["not_run"] < 30, "%d not run" % summary["verdicts"]["not_run"])
     page = check_page(folder, {"table-1", "fig-10", "why"})
     check("not run" in " ".join(page.text), "the page does not say what was not run")
+    lines = list(csv.reader(open(folder + "/comparison.csv", encoding="utf-8")))
+    check(all(len(line) == len(lines[0]) for line in lines), "a row of comparison.csv has a cell too few")
+    rows = [dict(zip(lines[0], line)) for line in lines[1:]]
+    check_reasons(rows, " ".join(page.text))
+    check_overview(rows, page)
+
+
+def check_overview(rows, page):
+    """Of the numbers that were run, how many agree."""
+    text = "|".join(cell.strip() for cell in page.text)
+    for place, quantity in {(r["place"], r["quantity"]): 0 for r in rows if r["tolerance"]}:
+        verdicts = [r["verdict"] for r in rows if (r["place"], r["quantity"]) == (place, quantity)]
+        wanted = "|%s|%s|%d of %d|" % (place, quantity, verdicts.count("agrees"), len(verdicts) - verdicts.count("not_run"))
+        check(wanted in text, "the overview does not have " + wanted)
 
 
 def main():
     only_interrupted = "--interrupted" in sys.argv
     zipact, scratch = [a for a in sys.argv[1:] if a != "--interrupted"]
     shutil.rmtree(scratch, ignore_errors=True)
+    os.makedirs(scratch)
     if not only_interrupted:
         whole(zipact, scratch + "/whole")
     interrupted(zipact, scratch + "/interrupted")

@@ -103,6 +103,50 @@ START_TEST(latin_hypercube_has_a_point_in_each_stratum) {
 }
 END_TEST
 
+/* Is a chi-square with this freedom between what 1 and what 999 of 1000 are below, by Wilson and Hilferty? */
+static void assert_chi_square(const char *of, double sum, double freedom) {
+  const double mean = 1 - 2 / (9 * freedom), spread = 3.29 * sqrt(2 / (9 * freedom));
+  const double low = freedom * pow(mean - spread, 3), high = freedom * pow(mean + spread, 3);
+  printf("%s: %.1f of %.0f, from %.1f to %.1f\n", of, sum, freedom, low, high);
+  ck_assert_msg(sum > low && sum < high, "%s: %.1f, not from %.1f to %.1f", of, sum, low, high);
+}
+
+/* Pearson's chi-square of how many points lie in each of 8 by 8 parts: place y by place x, by their number for x < 0.
+ */
+static double pearson(const ZpDesign *design, int x, int y) {
+  enum { PARTS = 8 };
+  double count[PARTS][PARTS] = {{0}}, sum = 0;
+  const double n = (double)design->count, expected = n / (PARTS * PARTS);
+  for (size_t i = 0; i < design->count; i++) {
+    const double across = x < 0 ? ((double)i + 0.5) / n : zp_design_share(design, i, x);
+    count[(int)(PARTS * across)][(int)(PARTS * zp_design_share(design, i, y))]++;
+  }
+  for (int a = 0; a < PARTS; a++)
+    for (int b = 0; b < PARTS; b++)
+      sum += (count[a][b] - expected) * (count[a][b] - expected) / expected;
+  return sum * (n - 1) / n; /* whose mean is the number of degrees of freedom, 7 x 7 */
+}
+
+/* The place of a point does not depend on its number, nor on its place in another column, nor does the point's position
+ * inside its stratum depend on either: as chance has it, not more and not less. */
+START_TEST(latin_hypercube_places_are_random) {
+  enum { SEEDS = 40, POINTS = 256, TENTHS = 10 };
+  double by_number = 0, by_column = 0, inside = 0, tenth[TENTHS] = {0};
+  for (uint32_t seed = 1; seed <= SEEDS; seed++) {
+    const ZpDesign design = {ZP_SAMPLING_LATIN_HYPERCUBE, POINTS, seed, 3, false};
+    by_number += pearson(&design, -1, 1);
+    by_column += pearson(&design, 0, 1) + pearson(&design, 1, 2);
+    for (size_t i = 0; i < POINTS; i++)
+      tenth[(int)(TENTHS * fmod(POINTS * zp_design_share(&design, i, 2), 1))]++;
+  }
+  for (int k = 0; k < TENTHS; k++)
+    inside += pow(tenth[k] - POINTS * SEEDS / TENTHS, 2) / (POINTS * SEEDS / TENTHS);
+  assert_chi_square("places by numbers", by_number, SEEDS * 49);
+  assert_chi_square("places by places of another column", by_column, 2 * SEEDS * 49);
+  assert_chi_square("positions inside a stratum", inside, TENTHS - 1);
+}
+END_TEST
+
 START_TEST(designs_depend_on_the_seed_only) {
   for (int method = 0; method < ZpSampling_COUNT; method++) {
     ZpDesign design = design_of((ZpSampling)method, 64, 3, false), other = design;
@@ -254,6 +298,7 @@ int main(void) {
   tcase_add_test(points, scrambled_points_are_a_net);
   tcase_add_test(points, errors_fall_as_theory_says);
   tcase_add_test(points, latin_hypercube_has_a_point_in_each_stratum);
+  tcase_add_test(points, latin_hypercube_places_are_random);
   tcase_add_test(points, designs_depend_on_the_seed_only);
   tcase_add_test(numbers, normal_quantile_inverts_erfc);
   tcase_add_test(numbers, quantiles_of_distributions);

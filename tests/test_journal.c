@@ -1,0 +1,326 @@
+/* The journal of a campaign: a result comes back from its bytes as it was, rows are found by their numbers, hashes of
+ * cases say what a row belongs to; what a campaign counts, and where a case begins. */
+#include "check_util.h"
+
+#include <sys/stat.h>
+
+#include <zipact/batch.h>
+#include <zipact/campaign.h>
+#include <zipact/version.h>
+
+#include "campaign/case_hash.h"
+#include "campaign/journal.h"
+#include "campaign/record.h"
+#include "campaign/remote.h"
+#include "fit/case.h"
+
+static ZpScenario *scenario_with(const char *const *sets) {
+  ZpError err;
+  ZpScenario *scenario = zp_scenario_create();
+  for (; *sets; sets++)
+    ck_assert_msg(zp_scenario_set(scenario, *sets, &err) == ZP_OK, "%s", err.message);
+  return scenario;
+}
+#define SCENARIO(...) scenario_with((const char *const[]){__VA_ARGS__, NULL})
+
+/* A result with all that a row keeps; the number's name is that of the column, which has a help. */
+static ZpResult *result_of(double value) {
+  static const ZpColumn columns[] = {{"stroke_m", "m", "of the first"}, {"stroke_m", "m", "of the second"}};
+  ZpResult *result = zp_result_create(ZP_STUDY_STATIONARY);
+  result->outcome = ZP_ZIPPED;
+  snprintf(result->message, sizeof result->message, "made by hand");
+  zp_result_add(result, "stroke_m", "m", value);
+  zp_result_add(result, "real_time_factor", "1", 7);
+  result->scalar[1].timing = true;
+  zp_result_add_sensitivity(result, "stroke_m", zp_key_find("load.mass"), 3);
+  zp_result_note(result, "a note");
+  result->series = zp_table_create(columns, 2, 2);
+  zp_table_offer(result->series, (double[]){value + 1, value + 2});
+  ck_assert_uint_eq(result->series->rows, 1);
+  return result;
+}
+
+static void assert_is(const ZpResult *row, double value) {
+  ck_assert(row->scalars == 2 && row->sensitivities == 1 && row->notes == 1);
+  ck_assert(strcmp(row->scalar[0].name, "stroke_m") == 0 && strcmp(row->scalar[0].unit, "m") == 0);
+  ck_assert(row->scalar[0].value == value && !row->scalar[0].timing);
+  ck_assert(row->scalar[1].value == 7 && row->scalar[1].timing);
+  ck_assert_str_eq(row->note[0], "a note");
+  ck_assert_str_eq(row->sensitivity[0].output, "stroke_m");
+  ck_assert(row->sensitivity[0].key == zp_key_find("load.mass") && row->sensitivity[0].value == 3);
+  ck_assert(row->series->rows == 1 && row->series->columns == 2);
+  ck_assert_str_eq(row->series->column[0].help, "of the first");
+  ck_assert_str_eq(row->series->column[1].help, "of the second");
+  ck_assert(row->series->value[0] == value + 1 && row->series->value[1] == value + 2);
+}
+
+START_TEST(result_comes_back_from_its_bytes) {
+  ZpRecord record = {0};
+  ZpNames names = {0};
+  ZpResult *result = result_of(0.25), row = {.study = ZP_STUDY_STATIONARY};
+  ck_assert(zp_record_write(&record, &names, result));
+  ck_assert(zp_record_read(record.byte, record.used, &names, &row));
+  assert_is(&row, 0.25);
+  zp_record_clear(&row);
+  ck_assert(!zp_record_read(record.byte, record.used - 1, &names, &row));
+  zp_record_clear(&row);
+  zp_names_free(&names);
+  free(record.byte);
+  zp_result_destroy(result);
+}
+END_TEST
+
+static void put(ZpJournal *journal, size_t number, double value) {
+  ZpResult *result = result_of(value);
+  ZpPacked *packed = zp_journal_pack(journal, result);
+  ck_assert_int_eq(zp_journal_put(journal, number, 1000 + number, packed, NULL), ZP_OK);
+  free(packed);
+  zp_result_destroy(result);
+}
+
+static ZpJournal *journal_in(const char *folder, bool keep, size_t cases) {
+  ZpJournal *journal;
+  ZpError err;
+  mkdir(folder, 0777);
+  ck_assert_msg(zp_journal_open(folder, ZP_STUDY_STATIONARY, keep, cases, &journal, &err) == ZP_OK, "%s", err.message);
+  return journal;
+}
+
+static void count_row(void *user, size_t number, uint64_t hash, bool good) {
+  ck_assert(good && hash == 1000 + number);
+  *(size_t *)user += 1;
+}
+
+static size_t rows_in(ZpJournal *journal) {
+  size_t rows = 0;
+  ck_assert_int_eq(zp_journal_visit(journal, count_row, &rows, NULL), ZP_OK);
+  return rows;
+}
+
+/* In any order; also by a second process, and after the list of cases has become shorter and longer again. */
+START_TEST(rows_are_found_by_their_numbers) {
+  static const size_t order[] = {0, 1, 4, 6, 5, 0, 6};
+  remove("journal/journal.sqlite");
+  ZpJournal *journal = journal_in("journal", true, 8);
+  for (size_t i = 0; i < 7; i++)
+    if (i != 3) put(journal, i, (double)i);
+  ck_assert_int_eq(zp_journal_commit(journal, NULL), ZP_OK);
+  for (int second = 0; second < 2; second++) {
+    for (size_t k = 0; k < LENGTH_OF(order); k++) {
+      const ZpResult *row = zp_journal_get(journal, order[k]);
+      assert_is(row, (double)order[k]);
+      ck_assert(row->outcome == ZP_ZIPPED && strcmp(row->message, "made by hand") == 0);
+    }
+    ck_assert_int_eq(zp_journal_status(journal, NULL), ZP_OK);
+    zp_journal_close(journal);
+    journal = journal_in("journal", true, 8);
+  }
+  ck_assert_uint_eq(zp_journal_get(journal, 3)->scalars, 0); /* which is not there */
+  ck_assert_int_eq(zp_journal_status(journal, NULL), ZP_MACHINE);
+  zp_journal_close(journal);
+  journal = journal_in("journal", true, 4);
+  ck_assert_uint_eq(rows_in(journal), 3);
+  zp_journal_close(journal);
+  journal = journal_in("journal", true, 8);
+  ck_assert_uint_eq(rows_in(journal), 3);
+  zp_journal_close(journal);
+}
+END_TEST
+
+/* -- hashes ------------------------------------------------------------------------------------------ */
+
+static uint64_t fnv(uint64_t hash, const char *text) {
+  do
+    hash = (hash ^ (unsigned char)*text) * 0x100000001b3;
+  while (*text++);
+  return hash;
+}
+
+static uint64_t campaign_hash(const ZpActuatorDef *def) {
+  uint64_t hash;
+  ck_assert_int_eq(zp_campaign_hash(ZP_STUDY_CALIBRATE, def, &hash, NULL), ZP_OK);
+  return hash;
+}
+
+static void write_file(const char *path, const char *text) {
+  FILE *file = fopen(path, "w");
+  fputs(text, file);
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+/* Version and study, by the definition of the hash; then the bytes of files, whatever their name is. */
+START_TEST(campaigns_are_known_by_version_study_and_files) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  const uint64_t bare = fnv(fnv(0xcbf29ce484222325, ZP_VERSION), "calibrate");
+  ck_assert_uint_eq(campaign_hash(&def), bare);
+  snprintf(def.data.file, sizeof def.data.file, "hashed.csv");
+  write_file("hashed.csv", "load_g,stroke_mm\n8,10\n");
+  const uint64_t first = campaign_hash(&def);
+  write_file("hashed.csv", "load_g,stroke_mm\n8,11\n");
+  ck_assert(first != bare && campaign_hash(&def) != first && campaign_hash(&def) != bare);
+  write_file("hashed.csv", "load_g,stroke_mm\n8,10\n");
+  ck_assert_uint_eq(campaign_hash(&def), first);
+}
+END_TEST
+
+/* A case is known by all its keys but those without a result, and by the case before it. */
+START_TEST(cases_are_known_by_their_keys_and_neighbour) {
+  const ZpActuatorDef def = zp_actuator_def_default();
+  const uint64_t hash = zp_case_hash(5, &def);
+  for (int k = 0; k < 5; k++) {
+    ZpActuatorDef other = def;
+    if (k == 0) other.load.mass *= 2;
+    if (k == 1) snprintf(other.calibrate.fit, sizeof other.calibrate.fit, "load.share");
+    if (k == 2) snprintf(other.sensitivity.by, sizeof other.sensitivity.by, "load.share");
+    if (k == 3) other.output.plots = !other.output.plots;
+    if (k == 4) other.solver.max_cpu_time = 3;
+    ck_assert_int_eq(zp_case_hash(5, &other) == hash, k > 2);
+  }
+  ck_assert(zp_case_hash(6, &def) != hash && zp_case_hash(5, &def) == hash);
+}
+END_TEST
+
+/* -- campaigns --------------------------------------------------------------------------------------- */
+
+static double one_second_each(void *user) {
+  return *(double *)user += 1;
+}
+
+/* Runs of a campaign have a clock; its rows keep no series unless a key asks for them; those of the same cases are
+ * counted when it is resumed, once they are known to belong to them. */
+START_TEST(campaign_counts_what_it_computes) {
+  ZpScenario *scenario = SCENARIO("study=actuate", "drive.voltage=[0, 6 kV, 8 kV]", "mesh.nodes=5", "liquid.model=none",
+                                  "solver.end_time=1 ms", "output.errors=false", "output.series=false");
+  double seconds = 0;
+  const ZpCampaignOptions options = {.jobs = 2, .resume = true, .clock = one_second_each, .user = &seconds};
+  ZpError err;
+  mkdir("counted", 0777);
+  remove("counted/journal.sqlite");
+  for (int again = 0; again < 2; again++) {
+    ZpCampaign *c;
+    ck_assert_msg(zp_campaign_open(scenario, "counted", &options, &c, &err) == ZP_OK, "%s", err.message);
+    ck_assert_uint_eq(zp_campaign_count(c), 0);
+    ck_assert_msg(zp_campaign_run(c, &err) == ZP_OK, "%s", err.message);
+    const ZpCampaignState state = zp_campaign_state(c);
+    ck_assert(state.done == 3 && state.failed == 0 && state.resumed == (again ? 3 : 0));
+    ck_assert_uint_eq(zp_campaign_count(c), 3);
+    for (size_t i = 0; i < 3; i++) {
+      const ZpResult *row = zp_campaign_rows(c)->get(zp_campaign_rows(c)->user, i);
+      ck_assert_double_gt(zp_result_get(row, "real_time_factor"), 0);
+      ck_assert_ptr_null(row->series);
+    }
+    zp_campaign_close(c);
+  }
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* A failed case that the journal has is a failed one. */
+START_TEST(known_failures_are_failures) {
+  ZpScenario *scenario = SCENARIO("study=actuate", "solver.max_steps=[3, 1000000]", "mesh.nodes=5", "liquid.model=none",
+                                  "solver.end_time=1 ms", "output.errors=false");
+  const ZpCampaignOptions options = {.jobs = 1, .resume = true};
+  mkdir("failures", 0777);
+  remove("failures/journal.sqlite");
+  for (int again = 0; again < 2; again++) {
+    ZpCampaign *c;
+    ck_assert_int_eq(zp_campaign_open(scenario, "failures", &options, &c, NULL), ZP_OK);
+    ck_assert_int_eq(zp_campaign_run(c, NULL), ZP_OK);
+    ck_assert(zp_campaign_state(c).failed == 1 && zp_campaign_state(c).done == 2);
+    zp_campaign_close(c);
+  }
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* What another process sends: outcomes, and which numbers are times. */
+START_TEST(results_of_another_process_are_whole) {
+  ZpScenario *scenario = SCENARIO("study=actuate", "solver.max_steps=[3, 1000000]", "mesh.nodes=5", "liquid.model=none",
+                                  "solver.end_time=1 ms", "output.errors=false");
+  ZpRemote remote = {0};
+  ZpResult *result[2];
+  unsigned char *byte;
+  size_t size;
+  ck_assert_int_eq(zp_campaign_compute(scenario, 0, 2, NULL, &byte, &size, NULL), ZP_OK);
+  ck_assert(zp_remote_read(&remote, byte, size, ZP_STUDY_ACTUATE, 2, result));
+  ck_assert(result[0]->outcome == ZP_STEP_LIMIT && result[1]->outcome == ZP_REACHED_END);
+  for (int k = 0; k < 2; k++) {
+    size_t times = 0;
+    for (size_t i = 0; i < result[k]->scalars; i++) {
+      const ZpScalar *s = &result[k]->scalar[i];
+      const bool is_time = strcmp(s->name, "real_time_factor") == 0;
+      ck_assert_msg(s->timing == is_time, "%s", s->name);
+      times += is_time;
+    }
+    ck_assert_uint_eq(times, 1);
+    zp_result_destroy(result[k]);
+  }
+  free(byte);
+  zp_remote_free(&remote);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* A batch follows its neighbours within a chunk only, as a campaign does: the first case of each chunk is that of a run
+ * of its own, to the last bit. */
+START_TEST(chunks_of_a_batch_begin_afresh) {
+  ZpScenario *scenario = SCENARIO("study=limits", "liquid.model=none", "load.mass=2 g .. 20 g : 16", "mesh.nodes=9",
+                                  "output.errors=false");
+  ZpBatch batch;
+  ZpError err;
+  const size_t chunk = zp_case_chunk(scenario);
+  ck_assert_uint_eq(chunk, 2);
+  ck_assert_int_eq(zp_batch_create(scenario, &batch, &err), ZP_OK);
+  size_t followed = 0;
+  while (zp_batch_open(&batch)) {
+    const size_t i = batch.done;
+    ZpResult *alone;
+    ck_assert_int_eq(zp_batch_next(&batch, NULL, &err), ZP_OK);
+    ck_assert_int_eq(zp_case_run(scenario, i, NULL, NULL, &alone, &err), ZP_OK);
+    const double steps = zp_result_get(alone, "warm_starts"), own = zp_result_get(batch.result[i], "warm_starts");
+    ck_assert_double_eq(steps, 0);
+    if (i % chunk == 0) ck_assert_double_eq(own, 0);
+    followed += own > 0;
+    zp_result_destroy(alone);
+  }
+  ck_assert_uint_gt(followed, 0);
+  zp_batch_free(&batch);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+/* Of 700 cases two are wrong: the first is named, for any number of threads. */
+START_TEST(first_wrong_case_is_named) {
+  char list[16000] = "platform.length=[";
+  for (int i = 0; i < 700; i++)
+    snprintf(list + strlen(list), sizeof list - strlen(list), "%s%g mm", i ? ", " : "",
+             i == 300   ? 95.5
+             : i == 650 ? 96.5
+                        : 1 + 1e-3 * i);
+  strcat(list, "]");
+  ZpScenario *scenario = SCENARIO("study=stationary", "mesh.nodes=5", "output.errors=false", list);
+  for (int jobs = 1; jobs <= 3; jobs++) {
+    ZpError err;
+    ck_assert_int_eq(zp_batch_check_jobs(scenario, jobs, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, "95.5") || strstr(err.message, "0.0955"), "%s", err.message);
+  }
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("journal");
+  TCase *rows = tcase_create("rows"), *campaigns = tcase_create("campaigns");
+  tcase_add_test(rows, result_comes_back_from_its_bytes);
+  tcase_add_test(rows, rows_are_found_by_their_numbers);
+  tcase_add_test(rows, campaigns_are_known_by_version_study_and_files);
+  tcase_add_test(rows, cases_are_known_by_their_keys_and_neighbour);
+  tcase_add_test(campaigns, campaign_counts_what_it_computes);
+  tcase_add_test(campaigns, known_failures_are_failures);
+  tcase_add_test(campaigns, results_of_another_process_are_whole);
+  tcase_add_test(campaigns, chunks_of_a_batch_begin_afresh);
+  tcase_add_test(campaigns, first_wrong_case_is_named);
+  suite_add_tcase(suite, rows);
+  suite_add_tcase(suite, campaigns);
+  return run_suite(suite);
+}
