@@ -225,6 +225,67 @@ START_TEST(test_discharge_through_the_bleeder) {
 }
 END_TEST
 
+static double falls_by; /* A */
+
+static double falling(double t, const Charging *c) {
+  return fmax(0, V - falls_by * t / c->C);
+}
+
+/* A flank falls by I / C with the current that the supply sinks at most: as much as it gives, or its own limit. */
+START_TEST(test_falling_flank) {
+  static const double most[] = {LIMIT, LIMIT, INFINITY}, sinks[] = {NAN, 0.5 * LIMIT, LIMIT};
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.current_limit", isinf(most[_i]) ? NAN : most[_i]},
+                            {"source.sink_limit", sinks[_i]}, {"source.capacitance", _i == 2 ? 0 : CABLE}));
+  falls_by = fmin(most[_i], isnan(sinks[_i]) ? INFINITY : sinks[_i]);
+  ck_assert(zp_outcome_good(zp_sim_run(c.sim, 2 * V * c.C / LIMIT, false, NULL, NULL)));
+  ck_near(zp_sim_get(c.sim, "voltage"), V, 1e-12);
+  ck_assert(zp_sim_set_voltage(c.sim, 0, NULL) == ZP_OK);
+  ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, falling), 6e-5); /* measured 1.8e-5 */
+  end_charging(&c);
+}
+END_TEST
+
+/* The supply jumps to V into its cable and the electrodes: C V^2 leave it, half of which is stored. Behind a resistance
+ * too small to last, which takes the other half, the mean of the squared current is that of this heat. Measured 2e-10:
+ * the layers give way. */
+START_TEST(test_jump_into_the_cable) {
+  const double R = _i ? 1 : 0, T = 1e-6;
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.resistance", R}, {"source.capacitance", CABLE}));
+  const double electrodes = c.C - CABLE;
+  ck_assert(zp_outcome_good(zp_sim_step(c.sim, T, NULL, NULL)));
+  ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
+  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-9);
+  ck_near(zp_sim_get(c.sim, "cable_energy"), 0.5 * CABLE * V * V, 1e-12);
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * (R > 0 ? c.C : CABLE) * V * V, 1e-9);
+  ck_assert_double_eq_tol(zp_sim_get(c.sim, "charging_loss"), R > 0 ? 0 : 0.5 * electrodes * V * V,
+                          1e-9 * electrodes * V * V);
+  ZpCurrents currents = zp_sim_currents(c.sim, T);
+  if (R > 0) {
+    ck_near(currents.peak, V / R, 1e-12);
+    ck_near(currents.rms, sqrt(0.5 * c.C * V * V / (R * T)), 1e-9);
+  } else {
+    ck_assert(isnan(currents.peak) && isnan(currents.rms));
+  }
+  end_charging(&c);
+}
+END_TEST
+
+/* A jump to U and a ramp on from there: U dQ is C U^2 for the jump and C (V^2 - U^2) / 2 for the ramp. So it is for an
+ * ideal source, and for a supply with its cable. Measured 2e-10. */
+START_TEST(test_jump_and_ramp) {
+  const double U = 0.4 * V, cable = _i ? CABLE : 0, T = 1e-6;
+  ZpActuatorDef def = DEF(CLOSED_ACTUATOR, {"source.capacitance", cable});
+  def.drive.voltage = 0;
+  Charging c = charging(def);
+  ck_assert(zp_sim_set_input(c.sim, ZP_INPUT_VOLTAGE, U, (V - U) / T, NULL) == ZP_OK);
+  ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
+  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * (U * U + 0.5 * (V * V - U * U)), 1e-9);
+  ck_near(zp_sim_get(c.sim, "charging_loss"), 0.5 * (c.C - cable) * U * U, 1e-9);
+  ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
+  end_charging(&c);
+}
+END_TEST
+
 /* -- motion ----------------------------------------------------------------------------------------- */
 
 /* After 20 ms from hanging: opening; the balance is checked on the way. */
@@ -619,6 +680,9 @@ int main(void) {
   tcase_add_test(charges, test_limit_without_resistance);
   tcase_add_test(charges, test_slew_rate_alone);
   tcase_add_test(charges, test_discharge_through_the_bleeder);
+  tcase_add_loop_test(charges, test_falling_flank, 0, 3);
+  tcase_add_loop_test(charges, test_jump_into_the_cable, 0, 2);
+  tcase_add_loop_test(charges, test_jump_and_ramp, 0, 2);
   tcase_add_test(motion, test_without_limits_it_is_ideal);
   tcase_add_test(motion, test_voltage_of_capped_faces);
   tcase_add_loop_test(motion, test_zips_at_the_cap, 0, 5);
