@@ -853,7 +853,8 @@ double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {
 
 static void resume_one(ZpSim *sim) {
   ZpState *state = sim->state;
-  double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
+  double voltage = state->by_hand ? zp_ramp_value(&state->voltage_input, state->t)
+                                  : zp_waveform_voltage(&sim->model->waveform, state->t);
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
