@@ -5,6 +5,7 @@
 #include "liquid/film_small.h"
 #include "math/elementary.h"
 #include "math/exponential.h"
+#include "math/gauss.h"
 #include "rest/plant.h"
 
 enum { MOST = 256 };
@@ -131,6 +132,15 @@ START_TEST(exponential_of_known_matrices) {
   ck_near(E[1], exp(a) * sin(w), 1e-12);
   ck_near(E[3], -exp(a) * sin(w), 1e-12);
   ck_below(fabs(E[8]), 1e-12);
+}
+END_TEST
+
+/* A line that ends level within an element has the same shares at Gauss's points as one that ends at a station. */
+START_TEST(level_ends_within_an_element) {
+  const ZpLevelEnds ends = {.count = 2, .of = {{.element = 3, .right = false}, {.element = 8, .right = true}}};
+  for (size_t element = 2; element < 10; element++)
+    for (int k = 0; k < GAUSS; k++)
+      ck_assert_double_eq_tol(zp_gauss_share(&ends, element, gauss_at[k]), zp_gauss_shares(&ends, element)[k], 1e-15);
 }
 END_TEST
 
@@ -519,6 +529,7 @@ int main(void) {
   tcase_add_test(parts, logarithm_and_angle);
   tcase_add_test(parts, eigenvalues_of_known_matrices);
   tcase_add_test(parts, exponential_of_known_matrices);
+  tcase_add_test(parts, level_ends_within_an_element);
   tcase_add_loop_test(parts, loop_around_an_integrator, 0, 4);
   tcase_add_test(parts, loop_at_its_limit);
   tcase_add_test(parts, film_between_parallel_faces);

@@ -326,7 +326,7 @@ START_TEST(test_insulator_sees_the_charge) {
 END_TEST
 
 /* Of both halves of an actuator that moves, the currents of all rows add up to what the leakage currents and the charge
- * of the last row say; a trace has their sum. */
+ * of the last row say, the powers to the energy; a trace has the sum of the currents. */
 START_TEST(test_recorded_charge_that_is_given) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 3e3}, {"insulator.resistivity", 1e10},
                           {"output.samples", 200}, {"solver.end_time", 0.02});
@@ -342,13 +342,15 @@ START_TEST(test_recorded_charge_that_is_given) {
   zp_sim_trace(sim, trace);
   ck_assert_int_eq(zp_sim_run(sim, 0.02, false, NULL, NULL), ZP_REACHED_END);
   const double start = zp_table_get(series, 0, "charge_C"), end = zp_table_get(series, series->rows - 1, "charge_C");
-  double given = start, passed = 0;
+  double given = start, passed = 0, energy = zp_table_get(series, 0, "source_energy_J");
   for (size_t k = 1; k < series->rows; k++) {
     const double h = zp_table_get(series, k, "time_s") - zp_table_get(series, k - 1, "time_s");
     given += h * zp_table_get(series, k, "current_A");
+    energy += h * zp_table_get(series, k, "power_W");
     passed += 0.5 * h * (zp_table_get(series, k, "leak_current_A") + zp_table_get(series, k - 1, "leak_current_A"));
   }
   ck_assert_double_gt(passed, 0.04 * end);
+  ck_near(energy, zp_table_get(series, series->rows - 1, "source_energy_J"), 1e-12);
   ck_near(given, end + passed, 1e-6); /* of trapezoids; measured 2.4e-7 */
   ck_near(zp_table_get(trace, trace->rows - 1, "charge_C"), given, 1e-12);
   zp_table_destroy(series);

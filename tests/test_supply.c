@@ -84,6 +84,17 @@ START_TEST(test_slew_ends_at_the_right_instant) {
 }
 END_TEST
 
+/* A fall that the slew rate limits ends at the right instant as well. */
+START_TEST(test_falling_slew_ends_at_the_right_instant) {
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5}, {"drive.voltage", 1e3},
+                          {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 10}, {"drive.duty", 0.5});
+  Follower f = follower_of(&def);
+  ck_near(follow(&f, 0.051, 1e-3), 1e3 - 1e5 * 1e-3, 1e-12);
+  ck_near(zp_supply_event(&f.supply, &(ZpCommand){&f.waveform, NULL}, f.t, 0.099, f.at), 0.06, 1e-12);
+  ck_assert_double_eq(follow(&f, 0.099, 1), 0);
+}
+END_TEST
+
 /* A sine faster than the slew rate becomes a triangle of that rate; it finally becomes periodic. */
 START_TEST(test_slewed_sine_is_a_triangle) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5}, {"drive.frequency", 100},
@@ -266,6 +277,17 @@ START_TEST(test_jump_into_the_cable) {
   } else {
     ck_assert(isnan(currents.peak) && isnan(currents.rms));
   }
+  end_charging(&c);
+}
+END_TEST
+
+/* The supply gives what the bleeder takes, V / R, beside the charge of a closed actuator. */
+START_TEST(test_current_of_the_bleeder) {
+  const double R = 5e8, T = 0.1;
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.bleeder", R}));
+  ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
+  ck_near(zp_sim_get(c.sim, "current") * T, zp_sim_get(c.sim, "charge") + V * T / R, 1e-12);
+  ck_near(zp_sim_get(c.sim, "bleeder_loss"), V * V * T / R, 1e-9);
   end_charging(&c);
 }
 END_TEST
@@ -674,6 +696,7 @@ int main(void) {
   tcase_add_test(inner, test_lag_of_a_step);
   tcase_add_test(inner, test_lag_of_a_sine);
   tcase_add_test(inner, test_slew_ends_at_the_right_instant);
+  tcase_add_test(inner, test_falling_slew_ends_at_the_right_instant);
   tcase_add_test(inner, test_slewed_sine_is_a_triangle);
   tcase_add_test(charges, test_charging_behind_a_resistance);
   tcase_add_test(charges, test_limit_of_the_current);
@@ -682,6 +705,7 @@ int main(void) {
   tcase_add_test(charges, test_discharge_through_the_bleeder);
   tcase_add_loop_test(charges, test_falling_flank, 0, 3);
   tcase_add_loop_test(charges, test_jump_into_the_cable, 0, 2);
+  tcase_add_test(charges, test_current_of_the_bleeder);
   tcase_add_loop_test(charges, test_jump_and_ramp, 0, 2);
   tcase_add_test(motion, test_without_limits_it_is_ideal);
   tcase_add_test(motion, test_voltage_of_capped_faces);
