@@ -137,6 +137,34 @@ def check_resume(zipact, scratch):
     ok("--resume of a single case is refused", single.returncode == 2 and "list" in single.stderr and not (scratch / "single").exists())
 
 
+def check_changed_files(zipact, scratch):
+    """Files that a key names are part of a case: a campaign that is resumed after their contents have changed is a fresh one."""
+    folder = scratch / "files"
+    folder.mkdir()
+    quick = ["--set", "mesh.nodes=5", "--set", "liquid.model=none", "--set", "output.errors=false", "--no-plots", "--quiet", "-o"]
+    fit = ["calibrate", "--set", "data.file=%s; %s" % (folder / "light.csv", folder / "heavy.csv"), "--set", "calibrate.fit=ribbon.young_modulus", "--set", "ribbon.thickness=[50 um, 60 um]", *quick]
+    run = ["actuate", "--set", "drive.waveform=table", "--set", "drive.file=%s" % (folder / "drive.csv"), "--set", "load.mass=[8 g, 9 g]", "--set", "solver.end_time=1 ms", *quick]
+
+    def write(light, heavy, volts):
+        (folder / "light.csv").write_text("load_g,stroke_mm\n2,%g\n4,9.9\n" % light)
+        (folder / "heavy.csv").write_text("load_g,stroke_mm\n6,9.95\n9,%g\n" % heavy)
+        (folder / "drive.csv").write_text("time_ms,voltage_V\n0,0\n1,%g\n" % volts)
+
+    def resumed_is_fresh(name, words, stays):
+        resumed = subprocess.run([zipact.program, *words, str(folder / name), "--resume"])
+        fresh = subprocess.run([zipact.program, *words, str(folder / (name + "-fresh"))])
+        ok("changed files, %s: done" % name, resumed.returncode == 0 and fresh.returncode == 0)
+        ok("changed files, %s: resumed as fresh" % name, results(folder / name) == results(folder / (name + "-fresh")))
+        ok("changed files, %s: the results %s" % (name, "stay" if stays else "change"), ((folder / name / "table.csv").read_bytes() == before.get(name)) == stays)
+        before[name] = (folder / name / "table.csv").read_bytes()
+
+    before = {}
+    for change, (light, heavy, volts) in enumerate(((9.8, 10.1, 5000), (9.8, 10.2, 6000), (9.7, 10.2, 6000))):
+        write(light, heavy, volts)
+        resumed_is_fresh("fit", fit, False)
+        resumed_is_fresh("drive", run, change == 2)
+
+
 def check_flipped_bits(zipact, scratch, flips):
     """A bit that the disk has lost: the results of a resumed campaign are those of an uninterrupted one, or it says that
     the journal is damaged. Without checksums 8 of 40 flipped bits gave a wrong number and status 0."""
@@ -395,6 +423,7 @@ def main():
     check_workers(zipact, scratch)
     check_kills(zipact, scratch, kills)
     check_resume(zipact, scratch)
+    check_changed_files(zipact, scratch)
     check_flipped_bits(zipact, scratch, flips)
     check_damaged_rows(zipact, scratch)
     check_second_interrupt(zipact, scratch)

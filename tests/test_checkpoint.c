@@ -541,6 +541,24 @@ START_TEST(test_copy_and_snapshot_are_the_same) {
 }
 END_TEST
 
+/* A run that ends where the checkpoint is would be none. */
+START_TEST(test_no_time_left) {
+  ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
+  size_t size;
+  ZpError err = {ZP_OK, ""};
+  ZpCheckpoint *checkpoint;
+  unsigned char *byte = short_run(&size);
+  ck_assert_int_eq(zp_checkpoint_from(byte, size, &checkpoint, NULL), ZP_OK);
+  def.solver.end_time = zp_checkpoint_time(checkpoint);
+  ck_assert_int_eq(zp_checkpoint_check(checkpoint, &def, &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, "must be larger than") != NULL, "%s", err.message);
+  def.solver.end_time = nextafter(def.solver.end_time, 1);
+  ck_assert_int_eq(zp_checkpoint_check(checkpoint, &def, NULL), ZP_OK);
+  free(byte);
+  zp_checkpoint_destroy(checkpoint);
+}
+END_TEST
+
 /* What an earlier program wrote says so. */
 START_TEST(test_earlier_file) {
   unsigned char old[64] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n', 2};
@@ -594,6 +612,7 @@ int main(void) {
   tcase_add_loop_test(refusals, test_forged_numbers, 0, 5);
   tcase_add_test(refusals, test_forged_samples);
   tcase_add_test(refusals, test_damaged_state_changes_nothing);
+  tcase_add_test(refusals, test_no_time_left);
   tcase_add_test(refusals, test_earlier_file);
   tcase_add_loop_test(refusals, test_keys, 0, 5);
   suite_add_tcase(suite, refusals);

@@ -5,6 +5,7 @@
 #include "liquid/film_small.h"
 #include "math/elementary.h"
 #include "math/exponential.h"
+#include "math/gauss.h"
 #include "rest/plant.h"
 
 enum { MOST = 256 };
@@ -131,6 +132,15 @@ START_TEST(exponential_of_known_matrices) {
   ck_near(E[1], exp(a) * sin(w), 1e-12);
   ck_near(E[3], -exp(a) * sin(w), 1e-12);
   ck_below(fabs(E[8]), 1e-12);
+}
+END_TEST
+
+/* A line that ends level within an element has the same shares at Gauss's points as one that ends at a station. */
+START_TEST(level_ends_within_an_element) {
+  const ZpLevelEnds ends = {.count = 2, .of = {{.element = 3, .right = false}, {.element = 8, .right = true}}};
+  for (size_t element = 2; element < 10; element++)
+    for (int k = 0; k < GAUSS; k++)
+      ck_assert_double_eq_tol(zp_gauss_share(&ends, element, gauss_at[k]), zp_gauss_shares(&ends, element)[k], 1e-15);
 }
 END_TEST
 
@@ -445,9 +455,16 @@ START_TEST(study_says_what_is_held) {
   ZpResult *lost = study_of(ZP_STUDY_MODES, &def);
   ck_assert_double_eq(zp_result_get(lost, "held"), 0);
   ck_assert_double_gt(zp_result_get(lost, "loop_growth_1_per_s"), 0);
-  def.drive.voltage = 4000;
+  def.control.integral = 6e4;
+  const double U = zp_result_get(held, "held_voltage_V");
+  def.drive.voltage = 1.001 * U;
+  ZpResult *enough = study_of(ZP_STUDY_MODES, &def);
+  ck_assert_double_eq(zp_result_get(enough, "held"), 1);
+  def.drive.voltage = 0.999 * U;
   ZpResult *weak = study_of(ZP_STUDY_MODES, &def);
   ck_assert_double_eq(zp_result_get(weak, "held"), 0);
+  ck_assert_double_lt(zp_result_get(weak, "loop_growth_1_per_s"), 0);
+  ck_assert_ptr_nonnull(note_of(weak, "above drive.voltage"));
   def.drive.voltage = 10e3;
   def.setpoint.value = -0.5;
   ZpResult *nowhere = study_of(ZP_STUDY_MODES, &def);
@@ -458,9 +475,35 @@ START_TEST(study_says_what_is_held) {
   ZpResult *unknown = study_of(ZP_STUDY_MODES, &def);
   ck_assert_double_nan(zp_result_get(unknown, "held"));
   ck_assert_ptr_nonnull(note_of(unknown, "is not known"));
-  ZpResult *const all[] = {held, lost, weak, nowhere, unknown};
+  ZpResult *const all[] = {held, lost, enough, weak, nowhere, unknown};
   for (size_t k = 0; k < LENGTH_OF(all); k++)
     zp_result_destroy(all[k]);
+}
+END_TEST
+
+/* While the actuator should close further, a boost of B within a band b of the setpoint s acts as the gain B / (b |s|)
+ * beside the proportional one, eq. (28.3): the loop has the eigenvalues of a PI controller with one of both gains, the
+ * one that decays less. A small boost damps more, a large one too much. */
+START_TEST(boost_is_a_gain_on_one_side) {
+  static const char *const names[] = {"loop_growth_1_per_s", "loop_frequency_1_Hz", "loop_growth_2_per_s",
+                                      "loop_frequency_2_Hz", "loop_factor_3",       "loop_factor_4"};
+  const double B[] = {750, 2e5}, band = 0.2, setpoint = 0.5;
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_BEAD}, {"control.kind", ZP_CONTROL_BOOST_PI},
+          {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", setpoint}, {"control.proportional", 500},
+          {"control.integral", 2e4}, {"control.boost_voltage", B[_i]}, {"control.boost_band", band});
+  ZpResult *boosted = study_of(ZP_STUDY_MODES, &def);
+  def.control.kind = ZP_CONTROL_PI;
+  ZpResult *plain = study_of(ZP_STUDY_MODES, &def);
+  def.control.proportional += B[_i] / (band * setpoint);
+  ZpResult *steeper = study_of(ZP_STUDY_MODES, &def);
+  bool steeper_is_worse = zp_result_get(steeper, names[0]) > zp_result_get(plain, names[0]);
+  ck_assert_int_eq(steeper_is_worse, _i);
+  for (size_t k = 0; k < LENGTH_OF(names); k++)
+    ck_near(zp_result_get(boosted, names[k]), zp_result_get(steeper_is_worse ? steeper : plain, names[k]), 1e-12);
+  zp_result_destroy(boosted);
+  zp_result_destroy(plain);
+  zp_result_destroy(steeper);
 }
 END_TEST
 
@@ -486,6 +529,7 @@ int main(void) {
   tcase_add_test(parts, logarithm_and_angle);
   tcase_add_test(parts, eigenvalues_of_known_matrices);
   tcase_add_test(parts, exponential_of_known_matrices);
+  tcase_add_test(parts, level_ends_within_an_element);
   tcase_add_loop_test(parts, loop_around_an_integrator, 0, 4);
   tcase_add_test(parts, loop_at_its_limit);
   tcase_add_test(parts, film_between_parallel_faces);
@@ -495,6 +539,7 @@ int main(void) {
   tcase_add_loop_test(loops, undamped_no_gains_hold, 0, 1);
   tcase_add_loop_test(loops, swings_as_its_eigenvalue_says, 0, 3);
   tcase_add_test(loops, study_says_what_is_held);
+  tcase_add_loop_test(loops, boost_is_a_gain_on_one_side, 0, 2);
   tcase_add_test(loops, what_the_study_refuses);
   TCase *nightly = nightly_case(suite);
   tcase_add_loop_test(nightly, undamped_no_gains_hold, 1, 5);

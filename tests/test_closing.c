@@ -86,6 +86,20 @@ START_TEST(the_default_actuator_stays_closed) {
 }
 END_TEST
 
+/* Without a voltage nothing zips: a load that pushes the platform up closes the faces as well. */
+START_TEST(pushing_is_not_zipping) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 0}, {"damping.drag", 1});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, -3 * def.load.mass * def.gravity, 0, NULL), ZP_OK);
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 0.5, false, NULL, NULL)));
+  ck_assert_double_gt(zp_sim_get(sim, "contraction"), 0.99);
+  ck_assert(isnan(zp_sim_zip_time(sim)));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* All members of a series are closed from the time of the last one. */
 START_TEST(a_series_is_closed_with_its_last_member) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"solver.end_time", 0.5}, {"load.mass", 5e-3});
@@ -273,6 +287,7 @@ int main(void) {
   tcase_add_test(since, a_small_bead_reopens);
   tcase_add_loop_test(since, the_default_actuator_stays_closed, 0, FULL_OR(4, 2));
   tcase_add_test(since, a_series_is_closed_with_its_last_member);
+  tcase_add_test(since, pushing_is_not_zipping);
   suite_add_tcase(suite, since);
   TCase *ends = tcase_create("end");
   tcase_add_test(ends, a_run_ends_early_where_it_stays_closed);

@@ -371,6 +371,21 @@ START_TEST(test_opens_from_closed) {
 }
 END_TEST
 
+/* A run ends when the pair joins that is so many places before the last one. */
+START_TEST(test_margin_of_pairs) {
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 11}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
+          {"contact.model", ZP_CONTACT_SEQUENTIAL}, {"electro.breakdown_cap", 0}, {"drive.voltage", 15e3},
+          {"contact.complete_margin", 4}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.end_time", 0.3});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ck_assert_int_eq(zp_sim_run(sim, 0.3, true, NULL, NULL), ZP_ZIPPED);
+  ck_assert_uint_eq(sim->state->zip.front, model->topology.platform.first - 4);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* Joining within a run loses the relative motion along both axes: m / 2 (dvx^2 + dvy^2) / 2 for two equal masses.
  * Within 1 %, as springs act on the way; one axis alone would be half. */
 START_TEST(test_loss_of_joining) {
@@ -412,6 +427,7 @@ int main(void) {
   suite_add_tcase(suite, machine);
   TCase *runs = tcase_create("runs");
   tcase_add_test(runs, test_loss_of_joining);
+  tcase_add_test(runs, test_margin_of_pairs);
   tcase_add_test(runs, test_invariants_while_zipping);
   tcase_add_test(runs, test_opens_without_voltage);
   tcase_add_test(runs, test_opens_from_closed);

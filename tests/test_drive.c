@@ -112,6 +112,20 @@ START_TEST(table_values) {
 }
 END_TEST
 
+/* Of a wave of both signs, which jumps: its largest magnitude, both values at a jump, how often it repeats. */
+START_TEST(square_between_two_signs) {
+  ZpWaveform w = {.kind = ZP_WAVEFORM_SQUARE, .voltage = 4e3, .offset = -10e3, .frequency = 50, .duty = 0.25};
+  ck_assert_double_eq(zp_waveform_largest(&w), 10e3);
+  ck_assert_double_eq(zp_waveform_voltage_before(&w, 5e-3), 4e3);
+  ck_assert_double_eq(zp_waveform_voltage(&w, 5e-3), -10e3);
+  ck_assert_double_eq(zp_waveform_period(&w), 0.02);
+  w.kind = ZP_WAVEFORM_SINE;
+  ck_assert_double_eq(zp_waveform_period(&w), 0.02);
+  w.kind = ZP_WAVEFORM_RAMP;
+  ck_assert(isinf(zp_waveform_period(&w)));
+}
+END_TEST
+
 START_TEST(table_faults) {
   const struct {
     size_t rows, row;
@@ -1012,6 +1026,7 @@ int main(void) {
   tcase_add_test(waveforms, square_corners);
   tcase_add_test(waveforms, table_values);
   tcase_add_test(waveforms, table_faults);
+  tcase_add_test(waveforms, square_between_two_signs);
   tcase_add_test(runs, steps_end_at_corners);
   tcase_add_test(runs, no_pulse_is_missed);
   tcase_add_test(runs, corners_within_no_time);

@@ -3,8 +3,14 @@
  * without a row here fails. */
 #include "check_util.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <zipact/calibrate.h>
+#include <zipact/campaign.h>
 #include <zipact/io.h>
+
+#include "campaign/case_hash.h"
 
 /* -- scenes ---------------------------------------------------------------------------------------- */
 
@@ -870,20 +876,32 @@ static void set_all(ZpScenario *scenario, const char *settings) {
     ck_assert_msg(zp_scenario_set(scenario, word, &err) == ZP_OK, "%s: %s", word, err.message);
 }
 
-/* The study of a scene with key = value; without liquid unless the scene has one. */
-static ZpResult *run_scene(const char *scene, const char *key, const char *value) {
+/* A scene with key = value; without liquid unless the scene has one. */
+static ZpScenario *scenario_of(const char *scene, const char *key, const char *value) {
   ZpScenario *scenario = zp_scenario_create();
-  ZpActuatorDef def;
-  ZpResult *result;
-  ZpError err = {ZP_OK, ""};
   char setting[256];
   snprintf(setting, sizeof setting, "%s=%s", key, value);
   set_all(scenario, "liquid.model=none");
   set_all(scenario, scene);
   set_all(scenario, setting);
-  ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s %s: %s", scene, setting, err.message);
-  ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result, &err) == ZP_OK, "%s %s: %s", scene,
-                setting, err.message);
+  return scenario;
+}
+
+static ZpActuatorDef def_of(const ZpScenario *scenario) {
+  ZpActuatorDef def;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s", err.message);
+  return def;
+}
+
+/* The study of a scene. */
+static ZpResult *run_scene(const char *scene, const char *key, const char *value) {
+  ZpScenario *scenario = scenario_of(scene, key, value);
+  ZpActuatorDef def = def_of(scenario);
+  ZpResult *result;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result, &err) == ZP_OK, "%s %s=%s: %s",
+                scene, key, value, err.message);
   zp_scenario_destroy(scenario);
   return result;
 }
@@ -929,6 +947,60 @@ START_TEST(key_acts) {
   }
   zp_result_destroy(from);
   zp_result_destroy(to);
+}
+END_TEST
+
+/* -- a campaign computes a case again if a key of it has changed ----------------------------------- */
+
+static uint64_t hash_of(const Row *row, const char *value) {
+  ZpScenario *scenario = scenario_of(row->scene, row->key, value);
+  ZpActuatorDef def = def_of(scenario);
+  uint64_t start;
+  ck_assert_int_eq(zp_campaign_hash(zp_scenario_study(scenario), &def, &start, NULL), ZP_OK);
+  zp_scenario_destroy(scenario);
+  return zp_case_hash(start, &def);
+}
+
+/* What acts is part of a case: a row of the journal counts for the same value only. */
+START_TEST(key_is_part_of_a_case) {
+  const Row *row = &rows[_i];
+  ck_assert_msg(hash_of(row, row->from) == hash_of(row, row->from), "%s: two hashes of one case", row->key);
+  ck_assert_msg(hash_of(row, row->from) != hash_of(row, row->to), "%s: one hash of two cases", row->key);
+}
+END_TEST
+
+/* The only case of a campaign in the present folder, which may have a journal of another. */
+static void compute(const Row *row, const char *value, const char *folder, double *outputs) {
+  ZpScenario *scenario = scenario_of(row->scene, row->key, value);
+  const ZpCampaignOptions options = {.jobs = 1, .resume = true};
+  ZpCampaign *campaign;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_campaign_open(scenario, folder, &options, &campaign, &err) == ZP_OK, "%s: %s", row->key,
+                err.message);
+  ck_assert_msg(zp_campaign_run(campaign, &err) == ZP_OK, "%s: %s", row->key, err.message);
+  const ZpRows *all = zp_campaign_rows(campaign);
+  ck_assert_uint_eq(zp_campaign_count(campaign), 1);
+  const ZpResult *result = all->get(all->user, 0);
+  for (int k = 0; k < EFFECTS; k++)
+    outputs[k] = row->effect[k].output ? zp_result_get(result, row->effect[k].output) : 0;
+  zp_campaign_close(campaign);
+  zp_scenario_destroy(scenario);
+}
+
+/* A campaign that is resumed after a key has changed has the results of a fresh one. */
+START_TEST(resumed_with_another_value_is_fresh) {
+  static const char *const folders[] = {"resumed", "fresh"};
+  double outputs[2][EFFECTS];
+  for (int k = 0; k < 2; k++) {
+    char journal[64];
+    mkdir(folders[k], 0777);
+    snprintf(journal, sizeof journal, "%s/journal.sqlite", folders[k]);
+    unlink(journal);
+  }
+  compute(&rows[_i], rows[_i].from, folders[0], outputs[0]);
+  for (int k = 0; k < 2; k++)
+    compute(&rows[_i], rows[_i].to, folders[k], outputs[k]);
+  ck_assert_mem_eq(outputs[0], outputs[1], sizeof outputs[0]);
 }
 END_TEST
 
@@ -996,7 +1068,11 @@ int main(void) {
   TCase *c = tcase_create("keys");
   tcase_add_unchecked_fixture(c, write_files, NULL);
   tcase_add_loop_test(c, key_acts, 0, (int)LENGTH_OF(rows));
+  tcase_add_loop_test(c, key_is_part_of_a_case, 0, (int)LENGTH_OF(rows));
   tcase_add_loop_test(c, key_has_a_row, 0, zp_key_count());
   suite_add_tcase(suite, c);
+  TCase *nightly = nightly_case(suite);
+  tcase_add_unchecked_fixture(nightly, write_files, NULL);
+  tcase_add_loop_test(nightly, resumed_with_another_value_is_fresh, 0, (int)LENGTH_OF(rows));
   return run_suite(suite);
 }

@@ -58,6 +58,42 @@ START_TEST(test_step_of_the_voltage) {
 }
 END_TEST
 
+/* A value of the present row, which is kept: mean currents begin anew. */
+static double read(ZpSim *sim, const char *name) {
+  size_t count, k = 0;
+  double row[64];
+  const ZpColumn *column = zp_signal_columns(&count);
+  ck_assert_uint_le(count, LENGTH_OF(row));
+  zp_sim_read(sim, row);
+  while (strcmp(column[k].name, name) != 0)
+    k++;
+  return row[k];
+}
+
+/* The source gives the charge of the electrodes and what the insulators conduct: the integral of the current is that
+ * charge plus the integral of the leakage current, here of exponentials. With an ideal source, and behind a resistance
+ * too small to last. */
+START_TEST(test_charge_that_is_given) {
+  ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M},
+                          {"source.model", _i ? ZP_SOURCE_AMPLIFIER : ZP_SOURCE_IDEAL}, {"source.resistance", _i});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  const double start = zp_sim_get(sim, "charge"), a = 2 * T, area = 0.02 * 12.7e-3;
+  const double tau = ZP_EPS0 * (EPS_I * GAP + EPS_M * a) / (GAP / RHO_I + a / RHO_M);
+  double given = start;
+  for (int i = 1; i <= 10; i++) {
+    ck_assert(zp_outcome_good(zp_sim_step(sim, 0.1, NULL, NULL)));
+    given += 0.1 * read(sim, "current_A");
+    const double t = 0.1 * i, last = field_at(INFINITY),
+                 fields = last * t + (field_at(0) - last) * tau * (1 - exp(-t / tau));
+    const double passed = area / RHO_I * (VOLTS * t - fields * GAP) / a;
+    ck_near(given, zp_sim_get(sim, "charge") + passed, 3e-11); /* measured 9e-12 */
+  }
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* Straight ribbons that stay closed, insulators that do not conduct: there is no voltage across a liquid without
  * thickness, so that its conduction gives no heat, although it takes the attraction away. */
 START_TEST(test_no_heat_between_closed_faces) {
@@ -291,6 +327,41 @@ START_TEST(test_insulator_sees_the_charge) {
 }
 END_TEST
 
+/* Of both halves of an actuator that moves, the currents of all rows add up to what the leakage currents and the charge
+ * of the last row say, the powers to the energy; a trace has the sum of the currents. */
+START_TEST(test_recorded_charge_that_is_given) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 3e3}, {"insulator.resistivity", 1e10},
+                          {"output.samples", 200}, {"solver.end_time", 0.02});
+  enum { ROWS = 1000 };
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpTable *series = zp_table_create(column, columns, ROWS);
+  column = zp_trace_columns(&columns);
+  ZpTable *trace = zp_table_create(column, columns, ROWS);
+  zp_sim_record(sim, series, NULL);
+  zp_sim_trace(sim, trace);
+  ck_assert_int_eq(zp_sim_run(sim, 0.02, false, NULL, NULL), ZP_REACHED_END);
+  const double start = zp_table_get(series, 0, "charge_C"), end = zp_table_get(series, series->rows - 1, "charge_C");
+  double given = start, passed = 0, energy = zp_table_get(series, 0, "source_energy_J");
+  for (size_t k = 1; k < series->rows; k++) {
+    const double h = zp_table_get(series, k, "time_s") - zp_table_get(series, k - 1, "time_s");
+    given += h * zp_table_get(series, k, "current_A");
+    energy += h * zp_table_get(series, k, "power_W");
+    passed += 0.5 * h * (zp_table_get(series, k, "leak_current_A") + zp_table_get(series, k - 1, "leak_current_A"));
+  }
+  ck_assert_double_gt(passed, 0.04 * end);
+  ck_near(energy, zp_table_get(series, series->rows - 1, "source_energy_J"), 1e-12);
+  ck_near(given, end + passed, 1e-6); /* of trapezoids; measured 2.4e-7 */
+  ck_near(zp_table_get(trace, trace->rows - 1, "charge_C"), given, 1e-12);
+  zp_table_destroy(series);
+  zp_table_destroy(trace);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* -- input ----------------------------------------------------------------------------------------- */
 
 /* What the interface charge is not known with is refused, with the key that asks for it. */
@@ -318,6 +389,8 @@ int main(void) {
   TCase *tcase = tcase_create("leak");
   tcase_add_loop_test(tcase, test_no_heat_between_closed_faces, 0, 2);
   tcase_add_loop_test(tcase, test_step_of_the_voltage, 0, 3);
+  tcase_add_loop_test(tcase, test_charge_that_is_given, 0, 2);
+  tcase_add_test(tcase, test_recorded_charge_that_is_given);
   add_long_test(tcase, test_leakage_alone);
   tcase_add_loop_test(tcase, test_derivatives, 0, 2);
   tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 2, 5);

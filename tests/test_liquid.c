@@ -206,6 +206,26 @@ START_TEST(test_whole_is_two_halves) {
 }
 END_TEST
 
+/* What rows say of the film: its thickness at a quarter of the flexible length, between two stations, and what
+ * viscosity takes along and across together. */
+START_TEST(test_rows_of_the_film) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 12}, {"liquid.model", ZP_LIQUID_SUBMERGED});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ck_assert_int_eq(zp_sim_run(sim, 0.05, false, NULL, NULL), ZP_REACHED_END);
+  const double quarter = 0.25 * (double)zp_half_elements(&model->topology);
+  const size_t i = (size_t)quarter;
+  const double *thickness = zp_sim_liquid(sim).thickness, share = quarter - (double)i;
+  ck_assert(share > 0 && thickness[i] != thickness[i + 1]);
+  ck_near(zp_sim_get(sim, "film_thickness"), (1 - share) * thickness[i] + share * thickness[i + 1], 1e-12);
+  const double along = zp_sim_get(sim, "film_along_loss"), across = zp_sim_get(sim, "film_across_loss");
+  ck_assert(along > 0 && across > 0);
+  ck_near(zp_sim_get(sim, "viscous_loss"), along + across, 1e-12);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A run that is saved and restored on the way takes the same steps as one that is not: what the liquid has is a state.
  */
 START_TEST(test_state_of_the_liquid_is_kept) {
@@ -316,6 +336,7 @@ int main(void) {
   tcase_add_loop_test(runs, test_energy_of_zip_hold_and_release, 0, FULL_OR(3, 1));
   tcase_add_test(runs, test_whole_is_two_halves);
   tcase_add_test(runs, test_state_of_the_liquid_is_kept);
+  tcase_add_test(runs, test_rows_of_the_film);
   tcase_add_loop_test(runs, test_liquid_comes_and_goes, 0, 2);
   tcase_add_test(runs, test_random_designs);
   suite_add_tcase(suite, runs);

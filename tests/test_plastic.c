@@ -224,6 +224,8 @@ START_TEST(what_hangs_stays) {
   ck_near(zp_result_get(result, "opening_m"), first, 1e-12); /* 1.9e-13 measured */
   ck_near(first, answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-12);
   ck_below(zp_result_get(result, "plastic_loss_J"), 1e-12); /* 8.1e-15 measured */
+  ck_near(zp_table_get(result->series, 0, "max_stress_Pa"), answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa"),
+          1e-9); /* of what has yielded, too */
   zp_result_destroy(result);
 }
 END_TEST

@@ -145,6 +145,7 @@ START_TEST(start_of_a_swing) {
   def.solver.end_time = 0.01;
   check(&def, "opening_m", "ribbon.thickness", 1e-4, 1e-7);
   check(&def, "stroke_m", "ribbon.length", 1e-4, 1e-7);
+  check(&def, "contraction", "ribbon.thickness", 1e-4, 1e-6); /* of an opening that goes with the key, too */
 }
 END_TEST
 
@@ -320,6 +321,15 @@ START_TEST(peak_and_rms_current) {
   def.solver.end_time = 0.03;
   check(&def, "peak_current_A", "ribbon.thickness", 1e-5, 1e-6);
   check(&def, "rms_current_A", "ribbon.thickness", 1e-5, 1e-6);
+}
+END_TEST
+
+/* Until the closing, whose instant goes with the key, the mean of the squared current is over a time that does, too. */
+START_TEST(rms_current_until_the_closing) {
+  ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 11, 5e-4);
+  def.source.model = ZP_SOURCE_AMPLIFIER;
+  def.source.resistance = 1e8;
+  check(&def, "rms_current_A", "medium.kinematic_viscosity", 1e-5, 1e-5);
 }
 END_TEST
 
@@ -505,6 +515,7 @@ int main(void) {
   tcase_add_test(ends, numbers_at_a_short_circuit_move_with_it);
   tcase_add_test(ends, default_tolerance_settles_as_its_number);
   tcase_add_test(ends, peak_and_rms_current);
+  tcase_add_test(ends, rms_current_until_the_closing);
   tcase_add_test(ends, limits_of_a_supply_end_them);
   tcase_add_test(ends, bead_at_a_node_ends_them);
   tcase_add_test(ends, what_the_steps_do_not_settle_is_null);

@@ -5,6 +5,7 @@
 #include "actuator/model.h"
 #include "def/check.h"
 #include "rest/chain.h"
+#include "sim/sim_internal.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
 START_TEST(weightless_series_pulls_in_as_one) {
@@ -206,6 +207,14 @@ START_TEST(energy_and_forces_of_unlike_ones) {
     work += (_i == 0 ? 0.5 * (before + now) : now) * fell; /* in liquid the mean force of a step is that of its row */
     speed = zp_table_get(table, row, "end_velocity_m_per_s");
     opening -= fell;
+  }
+  for (size_t row = 0; row < table->rows; row++) {
+    const double zipped = fmin(fmin(zp_table_get(table, row, "member_1_zipped_length_m"),
+                                    zp_table_get(table, row, "member_2_zipped_length_m")),
+                               zp_table_get(table, row, "member_3_zipped_length_m"));
+    ck_assert_double_eq(zp_table_get(table, row, "zipped_length_m"), zipped);
+    ck_assert_double_eq_tol(zp_table_get(table, row, "contraction"), 1 - zp_table_get(table, row, "opening_m") / start,
+                            1e-12);
   }
   double risen = start - opening;
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed),
@@ -693,6 +702,7 @@ START_TEST(inputs_of_several_do_work) {
   /* 3.6e-10 measured */
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 3e-9);
   ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-12); /* 0 measured */
+  ck_near(sim->below->state->U, _i ? def.stack.voltage_ratio * 3e3 : 3e3, 1e-9);
   /* a voltage that is set to what the drive has changes nothing */
   ck_assert_int_eq(zp_sim_set_input(waved, ZP_INPUT_VOLTAGE, def.drive.voltage, 0, &err), ZP_OK);
   ZpSim *driven = sim_of(model);

@@ -198,6 +198,132 @@ START_TEST(test_another_supply) {
 }
 END_TEST
 
+/* A supply in the middle of its slew goes on from where it is, with another load. */
+START_TEST(test_slewing_supply_goes_on) {
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 9}, {"drive.voltage", 5e3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5});
+  Run first = begin(def);
+  def.load.mass *= 2;
+  Run next = begin(def);
+  ck_assert_int_eq(zp_sim_run(first.sim, 0.02, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_near(zp_sim_get(next.sim, "command"), 5e3, 1e-15);
+  for (int k = 2; k <= 7; k++) {
+    ck_assert_int_eq(zp_sim_run(next.sim, 0.01 * k, false, NULL, NULL), ZP_REACHED_END);
+    ck_near(zp_sim_get(next.sim, "source_voltage"), fmin(1e3 * k, 5e3), 1e-12);
+    ck_near(zp_sim_get(next.sim, "voltage"), fmin(1e3 * k, 5e3), 1e-12);
+  }
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* An ideal source that replaces it jumps to the command: U dQ, of which C dU^2 / 2 is lost. One that slews and replaces
+ * an ideal source begins where that was. */
+START_TEST(test_slewing_supply_comes_and_goes) {
+  ZpActuatorDef ideal = DEF({"mesh.nodes", 9}, {"drive.voltage", 5e3}, {"electro.breakdown_cap", 0}), slow = ideal;
+  slow.source.model = ZP_SOURCE_AMPLIFIER;
+  slow.source.slew_rate = 1e5;
+  Run first = begin(slow), next = begin(ideal), last = begin(slow);
+  ck_assert_int_eq(zp_sim_run(first.sim, 0.02, false, NULL, NULL), ZP_REACHED_END);
+  const double C = zp_sim_get(first.sim, "charge") / 2e3;
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_near(zp_sim_get(next.sim, "voltage"), 5e3, 1e-15);
+  ck_near(zp_sim_get(next.sim, "electric_work"), 5e3 * C * 3e3, 1e-12);
+  ck_near(zp_sim_get(next.sim, "charging_loss"), 0.5 * C * 3e3 * 3e3, 1e-12);
+  ck_assert_int_eq(zp_sim_run(next.sim, 0.03, false, NULL, NULL), ZP_REACHED_END);
+  ck_below(fabs(zp_sim_get(next.sim, "energy_imbalance")), 1e-8 * zp_sim_get(next.sim, "electric_work"));
+  ck_assert_int_eq(zp_sim_take_over(last.sim, next.sim, NULL), ZP_OK);
+  ck_near(zp_sim_get(last.sim, "source_voltage"), 5e3, 1e-15);
+  ck_assert_int_eq(zp_sim_run(last.sim, 0.031, false, NULL, NULL), ZP_REACHED_END);
+  ck_near(zp_sim_get(last.sim, "voltage"), 5e3, 1e-12);
+  end(&first);
+  end(&next);
+  end(&last);
+}
+END_TEST
+
+/* Energies and losses count from the take-over on, those of the load and of the supply too. */
+START_TEST(test_books_begin_anew) {
+  static const char *const books[] = {"load_work",    "internal_loss", "source_energy", "source_loss",
+                                      "bleeder_loss", "drag_loss",     "leak_loss",     "electric_work",
+                                      "contact_loss", "plastic_loss",  "catch_loss",    "charging_loss"};
+  enum { ALWAYS = 8 }; /* these are not 0 before */
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 9}, {"drive.voltage", 8e3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", 1e7},
+          {"source.bleeder", 1e10}, {"insulator.resistivity", 1e12}, {"damping.drag", 0.1}, {"damping.internal", 1e-4});
+  Run first = begin(def);
+  def.load.mass *= 1.1;
+  Run next = begin(def);
+  ck_assert_int_eq(zp_sim_set_input(first.sim, ZP_INPUT_LOAD, 0.02, 0, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(first.sim, 0.03, false, NULL, NULL), ZP_REACHED_END);
+  for (size_t k = 0; k < ALWAYS; k++)
+    ck_assert_msg(zp_sim_get(first.sim, books[k]) != 0, "%s", books[k]);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  for (size_t k = 0; k < LENGTH_OF(books); k++)
+    ck_assert_double_eq(zp_sim_get(next.sim, books[k]), 0);
+  expect_balance(&next);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* A force that is held over several steps is at once that of the new model: twice as wide, under twice the load, it
+ * moves as the old one. */
+START_TEST(test_held_force_is_that_of_the_new_model) {
+  ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 21}, {"electro.surface", ZP_SURFACE_BEZIER});
+  Run first = begin(def);
+  def.ribbon.width *= 2;
+  def.load.mass *= 2;
+  def.damping.drag *= 2;
+  Run next = begin(def);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  zp_sim_run(first.sim, 1e-5, false, NULL, NULL);
+  zp_sim_run(next.sim, 1e-5, false, NULL, NULL);
+  ck_assert(first.model->def.electro.surface == ZP_SURFACE_BEZIER);
+  ck_near(zp_sim_get(next.sim, "end_velocity"), zp_sim_get(first.sim, "end_velocity"), 1e-12);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* A controller with another period takes its next sample at the first multiple of that at or after the present time. */
+START_TEST(test_samples_at_the_new_period) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"control.kind", ZP_CONTROL_PI}, {"control.proportional", 1e5},
+                          {"control.period", 1e-3}, {"setpoint.value", 0.01});
+  Run first = begin(def);
+  def.control.period = 0.3e-3;
+  Run next = begin(def);
+  zp_sim_run(first.sim, 0.01, false, NULL, NULL);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_near(zp_sim_control_due(next.sim), 34 * 0.3e-3, 1e-12); /* 33 periods are 9.9 ms */
+  const double voltage = zp_sim_get(next.sim, "voltage");
+  zp_sim_run(next.sim, 10.1e-3, false, NULL, NULL);
+  ck_assert_double_eq(zp_sim_get(next.sim, "voltage"), voltage);
+  zp_sim_run(next.sim, 10.3e-3, false, NULL, NULL);
+  ck_assert_double_ne(zp_sim_get(next.sim, "voltage"), voltage);
+  end(&first);
+  end(&next);
+}
+END_TEST
+
+/* A larger bead reaches farther at once: without surface tension it leaves the shape of rest, and is as that of an
+ * actuator that began with it. */
+START_TEST(test_another_bead_reaches_farther) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9},
+                          {"medium.surface_tension", 0}, {"drive.voltage", 0});
+  Run first = begin(def);
+  def.bead.volume = 100e-9;
+  Run next = begin(def), large = begin(def);
+  ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
+  ck_near(zp_sim_get(next.sim, "wet_length"), zp_sim_get(large.sim, "wet_length"), 1e-9);
+  ck_assert_double_gt(zp_sim_get(next.sim, "wet_length"), 1.1 * zp_sim_get(first.sim, "wet_length"));
+  end(&first);
+  end(&next);
+  end(&large);
+}
+END_TEST
+
 /* Kinds of the laws' own numbers that an actuator has. */
 typedef struct Own {
   ZpLiquidModel liquid;
@@ -271,6 +397,12 @@ int main(void) {
   tcase_add_test(all, test_the_same_model_goes_on_as_if_nothing_was);
   tcase_add_test(all, test_another_mesh_is_refused);
   tcase_add_test(all, test_another_supply);
+  tcase_add_test(all, test_slewing_supply_goes_on);
+  tcase_add_test(all, test_slewing_supply_comes_and_goes);
+  tcase_add_test(all, test_books_begin_anew);
+  tcase_add_test(all, test_held_force_is_that_of_the_new_model);
+  tcase_add_test(all, test_samples_at_the_new_period);
+  tcase_add_test(all, test_another_bead_reaches_farther);
   tcase_add_test(all, test_a_stack_continues_with_all_its_members);
   tcase_add_test(all, test_a_stack_of_another_length_stays_joined);
   tcase_add_loop_test(all, test_other_members_are_refused, 0, 3);

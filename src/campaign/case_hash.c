@@ -4,12 +4,14 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <zipact/version.h>
 
 #include "base/fail.h"
 #include "def/purpose.h"
+#include "io/range.h"
 
 static const uint64_t fnv_prime = 0x100000001b3;
 
@@ -45,6 +47,17 @@ static ZpStatus add_file(const char *key, const char *path, uint64_t *hash, ZpEr
   return failed ? zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read", key, path) : ZP_OK;
 }
 
+/* The files of a key: data.file may name several, separated by semicolons. */
+static ZpStatus add_files(const char *key, const char *paths, uint64_t *hash, ZpError *err) {
+  if (strcmp(key, "data.file") != 0) return add_file(key, paths, hash, err);
+  char *copy = strdup(paths), *rest = copy;
+  ZpStatus status = copy ? ZP_OK : zp_fail_memory(err);
+  while (rest && status == ZP_OK)
+    status = add_file(key, zp_trim(strsep(&rest, ";")), hash, err);
+  free(copy);
+  return status;
+}
+
 static bool names_file(const ZpKey *key) {
   const char *last = strrchr(key->name, '.');
   return last && strcmp(last, ".file") == 0;
@@ -55,7 +68,7 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
   *hash = add_text(add_text(ZP_HASH_START, ZP_VERSION), zp_study_name(study));
   for (int i = 0; i < zp_key_count() && status == ZP_OK; i++) {
     const char *path = names_file(zp_key(i)) ? zp_def_text(def, i) : NULL;
-    if (path && *path) status = add_file(zp_key(i)->name, path, hash, err);
+    if (path && *path) status = add_files(zp_key(i)->name, path, hash, err);
   }
   return status;
 }

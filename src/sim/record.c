@@ -362,7 +362,6 @@ static void fill_row(ZpSim *sim, unsigned what) {
     place += put_member(m, place);
     if (!shared) whole += m->state->opening0;
     join_row(sim->model, row, m->row);
-    if (what & MARGINS) zp_margins_join(&sim->now, m->now);
   }
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;
 }

@@ -405,15 +405,10 @@ static double left_to_short(const ZpModel *model, const ZpState *state) {
   return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.depth;
 }
 
-/* Do electrodes without an insulator touch under a voltage? */
-static bool has_short(const ZpModel *model, const ZpState *state) {
-  return left_to_short(model, state) <= 0;
-}
-
+/* Do electrodes without an insulator touch under a voltage? Members of a stack are pairs, which are refused without
+ * one: they touch at the clip. */
 static bool shorted(const ZpSim *sim) {
-  for (const ZpSim *m = sim; m; m = m->below)
-    if (has_short(m->model, m->state)) return true;
-  return false;
+  return left_to_short(sim->model, sim->state) <= 0;
 }
 
 static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
@@ -853,7 +848,8 @@ double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {
 
 static void resume_one(ZpSim *sim) {
   ZpState *state = sim->state;
-  double voltage = state->by_hand ? state->U : zp_waveform_voltage(&sim->model->waveform, state->t);
+  double voltage = state->by_hand ? zp_ramp_value(&state->voltage_input, state->t)
+                                  : zp_waveform_voltage(&sim->model->waveform, state->t);
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
   if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
