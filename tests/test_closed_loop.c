@@ -445,8 +445,10 @@ START_TEST(study_says_what_is_held) {
   ZpResult *lost = study_of(ZP_STUDY_MODES, &def);
   ck_assert_double_eq(zp_result_get(lost, "held"), 0);
   ck_assert_double_gt(zp_result_get(lost, "loop_growth_1_per_s"), 0);
-  def.drive.voltage = 4000;
+  def.control.integral = 6e4;
+  def.drive.voltage = 0.99 * zp_result_get(held, "held_voltage_V"); /* the loop would hold it, the supply cannot */
   ZpResult *weak = study_of(ZP_STUDY_MODES, &def);
+  ck_assert_double_lt(zp_result_get(weak, "loop_growth_1_per_s"), 0);
   ck_assert_double_eq(zp_result_get(weak, "held"), 0);
   def.drive.voltage = 10e3;
   def.setpoint.value = -0.5;

@@ -233,6 +233,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
     opening -= fell;
   }
   double risen = start - opening;
+  ck_near(zp_result_get(result, "mechanical_work_J"), def.load.mass * def.gravity * risen, 1e-9);
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed), _i == 0 ? 1e-2 : 3e-5);
   zp_result_destroy(result);
 }
