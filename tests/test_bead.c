@@ -517,6 +517,30 @@ START_TEST(test_whole_is_two_halves) {
 }
 END_TEST
 
+/* Where the liquid of each half reaches is liquid between the faces, beyond it air: the field of the insulators at
+ * every station is that of the layers in series. */
+START_TEST(test_field_of_each_half) {
+  static const double U = 6e3, reach[ZP_BEADS] = {12e-3, 25e-3};
+  ZpActuatorDef def =
+      DEF(BEAD, SMALL, {"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"drive.voltage", U});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ck_assert(zp_outcome_good(zp_sim_run(sim, 1e-3, false, NULL, NULL)));
+  for (int half = 0; half < ZP_BEADS; half++)
+    sim->state->bead[half].reach = reach[half];
+  ZpShape shape = zp_sim_shape(sim);
+  for (size_t i = 0; i < model->nodes; i++) {
+    bool right = 2 * i > model->nodes;
+    double from_clip = model->l * (double)(right ? model->nodes - 1 - i : i);
+    double eps = from_clip <= reach[right] ? def.medium.permittivity : 1;
+    double layers = 2 * def.insulator.thickness + def.insulator.permittivity / eps * fmax(shape.gap[i], 0);
+    ck_near(shape.insulator_field[i], U / layers, 1e-12);
+  }
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A run that is saved and restored on the way takes the same steps as one that is not. */
 START_TEST(test_bead_is_kept_in_a_snapshot) {
   ZpModel *model;
@@ -619,6 +643,8 @@ int main(void) {
   tcase_add_loop_test(c, test_suction_drives_no_flow_at_rest, 0, 2);
   tcase_add_test(c, test_small_bead_starves);
   tcase_add_test(c, test_time_does_not_depend_on_roughness_and_mesh);
+  tcase_add_test(c, test_whole_is_two_halves);
+  tcase_add_test(c, test_field_of_each_half);
   tcase_add_test(c, test_bead_is_kept_in_a_snapshot);
   tcase_add_test(c, test_attraction_and_film_along_the_ribbon);
   tcase_add_test(c, test_liquid_of_a_series);

@@ -71,6 +71,37 @@ START_TEST(test_phase_of_an_oscillator) {
 }
 END_TEST
 
+/* A supply that follows its drive with a first-order lag adds atan(f / bandwidth) to the lag of an oscillator above its
+ * resonance, pi: the first harmonic of (1 - a cos)^2 lags as its cosine does. */
+START_TEST(test_lag_beyond_half_a_turn) {
+  static const double f = 12, bandwidth[] = {30, 12, 5};
+  for (size_t k = 0; k < LENGTH_OF(bandwidth); k++) {
+    ZpActuatorDef def = DEF(SINE, {"drive.voltage", 1e3}, {"drive.frequency", f}, {"source.model", ZP_SOURCE_AMPLIFIER},
+                            {"source.bandwidth", bandwidth[k]});
+    ZpResult *result = cycle_of(&def);
+    ck_assert_msg(zp_result_get(result, "periodic") == 1, "%s", result->message);
+    ck_near(zp_result_get(result, "phase_rad"), 3.14159265 + atan(f / bandwidth[k]), 2e-4);
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
+/* Without weight and load a spring opens the ribbons. On the way up they compress it from its length at the largest
+ * opening to that at the least; on the way down it opens them again. */
+START_TEST(test_work_on_a_spring) {
+  static const double stiffness = 2, rest = 30e-3;
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 3e3}, {"drive.frequency", 2}, {"damping.internal", 20e-3},
+                          {"gravity", 0}, {"load.mass", 0}, {"load.stiffness", stiffness}, {"load.rest_opening", rest});
+  ZpResult *result = cycle_of(&def);
+  double least = zp_result_get(result, "opening_min_m"), most = zp_result_get(result, "opening_max_m");
+  ck_assert_msg(zp_result_get(result, "periodic") == 1, "%s", result->message);
+  ck_assert(most < rest && least < 0.99 * most);
+  ck_near(zp_result_get(result, "work_per_cycle_J"),
+          0.5 * stiffness * ((rest - least) * (rest - least) - (rest - most) * (rest - most)), 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* The energy from the source per cycle equals the losses per cycle and the area of the loop of charge and voltage. */
 START_TEST(test_energy_of_a_cycle) {
   ZpActuatorDef def =
@@ -309,6 +340,45 @@ START_TEST(test_impacts_are_not_periodic) {
 }
 END_TEST
 
+/* A motion that repeats itself in two cycles, in impacts: in a run it is the same two cycles later, and not after one.
+ */
+START_TEST(test_repeats_in_two_cycles) {
+  static const double f = 5;
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 10e3}, {"drive.frequency", f}, {"damping.internal", 2e-3});
+  ZpResult *result = cycle_of(&def);
+  ck_assert(zp_result_get(result, "periodic") == 0 && zp_result_get(result, "repeats_in_cycles") == 2);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double opening[3];
+  for (int k = 0; k < 3; k++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, (zp_result_get(result, "cycles") + k) / f, false, NULL, NULL)));
+    opening[k] = zp_sim_get(sim, "opening");
+  }
+  ck_near(opening[2], opening[0], 1e-6);
+  ck_assert_double_gt(fabs(opening[1] - opening[0]), 1e-2 * opening[0]);
+  zp_result_destroy(result);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* Charges that collect over many cycles change the motion from cycle to cycle by less than the tolerance, always in the
+ * same direction: it does not repeat itself, neither in one cycle nor in several. */
+START_TEST(test_slow_approach_is_no_repetition) {
+  ZpActuatorDef def = DEF(SINE, {"mesh.nodes", 9}, {"drive.voltage", 15e3}, {"drive.frequency", 0.5},
+                          {"damping.internal", 0.1}, {"insulator.resistivity", 1e13}, {"medium.resistivity", 1e12},
+                          {"cycle.tolerance", 0.03}, {"cycle.most_cycles", 24});
+  ZpResult *result = cycle_of(&def);
+  double before = zp_table_get(result->series, 0, "interface_voltage_V"),
+         after = zp_table_get(result->series, result->series->rows - 1, "interface_voltage_V");
+  ck_assert_msg(after < before && before - after < def.cycle.tolerance * def.drive.voltage, "%g V, %g V", before,
+                after);
+  ck_assert_double_gt(-after, 10 * (before - after));
+  ck_assert(zp_result_get(result, "periodic") == 0 && isnan(zp_result_get(result, "repeats_in_cycles")));
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Where it says that the actuator just closes it does, and 3 % above it does not. */
 START_TEST(test_closing_frequency) {
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 8e3}, {"drive.frequency", 3}, {"damping.internal", 5e-3},
@@ -349,6 +419,8 @@ int main(void) {
   TCase *points = tcase_create("fixed points"), *cycles = tcase_create("cycles");
   tcase_add_test(points, test_fixed_point_of_slow_swings);
   tcase_add_test(cycles, test_phase_of_an_oscillator);
+  tcase_add_test(cycles, test_lag_beyond_half_a_turn);
+  tcase_add_test(cycles, test_work_on_a_spring);
   tcase_add_test(cycles, test_energy_of_a_cycle);
   tcase_add_test(cycles, test_current_of_a_capacitor);
   tcase_add_test(cycles, test_shooting_finds_what_waiting_leads_to);
@@ -360,6 +432,8 @@ int main(void) {
   tcase_add_test(cycles, test_shooting_with_slow_charges);
   tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 1);
   tcase_add_test(cycles, test_impacts_are_not_periodic);
+  tcase_add_test(cycles, test_repeats_in_two_cycles);
+  tcase_add_test(cycles, test_slow_approach_is_no_repetition);
   tcase_add_test(cycles, test_closing_frequency);
   tcase_add_loop_test(cycles, test_refusals, 0, 4);
   suite_add_tcase(suite, points);

@@ -3,7 +3,7 @@
  * Against: plane and coaxial capacitors in closed form (order of convergence), energies' central differences,
  * thin strips with fringing from conformal mapping, the plates law on wedges, traction against virtual work, and the
  * same solution with other meshes. */
-#include "check_util.h"
+#include "state_util.h"
 
 #include "base/kernel.h"
 #include "electro/field.h"
@@ -557,6 +557,50 @@ START_TEST(test_refresh_in_motion) {
 }
 END_TEST
 
+/* What a simulation holds is the solution at the place and voltage where the field was solved last. */
+static void check_held(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  const ZpState *state = sim->state;
+  ZpEval e;
+  ck_assert(zp_system_create(model, true, &e));
+  zp_eval_cover(model, (const double[ZP_BEADS]){state->bead[0].reach, state->bead[1].reach}, &e);
+  ck_assert(zp_system_solve(model, zp_state_held_at(model, sim->state), state->held_U, &e));
+  ck_assert(memcmp(zp_state_held(model, sim->state), e.surplus.F, 2 * model->stride * sizeof(double)) == 0);
+  ck_assert_double_eq(state->held_charge, e.surplus.charge);
+  ck_assert_double_eq(state->held_energy, e.surplus.energy);
+  ck_assert_double_eq(state->held_capacitance, e.surplus.capacitance);
+  zp_system_destroy(&e);
+}
+
+/* A field that is held while the gaps change by a tenth, and one that is solved afresh at every step: the same motion,
+ * dry and with a bead, where it adds more than 2 % to the charge. */
+START_TEST(test_held_field_is_that_of_every_step) {
+  static const struct {
+    const char *name;
+    double within;
+  } signal[] = {{"opening", 2e-6}, {"charge", 7e-4}, {"capacitance", 3e-4}, {"field_energy", 1.5e-3}};
+  double held[LENGTH_OF(signal)];
+  for (int afresh = 0; afresh < 2; afresh++) {
+    ZpActuatorDef def =
+        DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 9}, {"ribbon.length", 40e-3}, {"platform.length", 4e-3},
+            {"ribbon.thickness", 40e-6}, {"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 4e-3},
+            {"drive.voltage", 8e3}, {"liquid.model", _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE}, {"bead.volume", 20e-9},
+            {"electro.refresh_change", afresh ? 1e-6 : 0.1}, {"solver.time_step", 2e-4});
+    ZpModel *model = model_of(&def);
+    ZpSim *sim = sim_of(model);
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 4e-3, false, NULL, NULL)));
+    check_held(sim);
+    for (size_t k = 0; k < LENGTH_OF(signal) && afresh; k++)
+      ck_near(held[k], zp_sim_get(sim, signal[k].name), signal[k].within);
+    for (size_t k = 0; k < LENGTH_OF(signal); k++)
+      held[k] = zp_sim_get(sim, signal[k].name);
+    ck_assert_double_gt(sim->state->U * sim->state->held_charge * model->parts, 0.02 * zp_sim_get(sim, "charge"));
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+}
+END_TEST
+
 START_TEST(test_what_does_not_go_with_field) {
   static const struct {
     Setting bad;
@@ -590,6 +634,7 @@ int main(void) {
   tcase_add_test(grid, test_platform_without_electrode);
   tcase_add_test(grid, test_bad_geometry_has_a_reason);
   tcase_add_test(grid, test_surplus_makes_plates_the_field);
+  tcase_add_loop_test(grid, test_held_field_is_that_of_every_step, 0, 2);
   tcase_add_test(grid, test_what_does_not_go_with_field);
   if (!SANITIZED) { /* test_combinations and test_dynamics run the same code */
     tcase_add_test(grid, test_bead_by_field_and_by_plates);

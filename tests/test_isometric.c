@@ -276,6 +276,38 @@ START_TEST(test_jumps) {
 }
 END_TEST
 
+typedef struct Jumped {
+  double force, jumps; /* N, count */
+} Jumped;
+
+static Jumped jumped_at(ZpActuatorDef def, double voltage) {
+  def.drive.voltage = voltage;
+  ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
+  Jumped at = {zp_result_get(result, "force_N"), zp_result_get(result, "jumps")};
+  zp_result_destroy(result);
+  return at;
+}
+
+/* However near the voltage is to a limit point, it leads to the state before the jump or to the one behind it. Before
+ * it the force falls short of that of the limit by the square root of what is left of the voltage; behind it forces
+ * go smoothly with the voltage. */
+START_TEST(test_voltages_beside_a_limit_point) {
+  ZpActuatorDef def = held_def(MM(20), KV(10), false, 11);
+  double low = 5500, high = 5850;
+  for (int k = 0; k < 45; k++) {
+    double middle = 0.5 * (low + high);
+    *(jumped_at(def, middle).jumps > 0 ? &high : &low) = middle;
+  }
+  static const double near = 0.01; /* V */
+  Jumped before = jumped_at(def, low), behind = jumped_at(def, high);
+  ck_assert(before.jumps == 0 && behind.jumps == 1 && behind.force > 1.5 * before.force);
+  ck_near((before.force - jumped_at(def, low - 4 * near).force) / (before.force - jumped_at(def, low - near).force), 2,
+          3e-3);
+  ck_near((jumped_at(def, high + 4 * near).force - behind.force) / (jumped_at(def, high + near).force - behind.force),
+          4, 3e-5);
+}
+END_TEST
+
 /* The zipped states of a floppy ribbon form an isolated branch: it jumps there, to the same place on any mesh. */
 START_TEST(test_falls) {
   double force[2];
@@ -448,6 +480,30 @@ START_TEST(resolved_mesh_keeps_its_branch) {
 }
 END_TEST
 
+static bool stop_half_way(void *user, const char *stage, double fraction) {
+  (void)user;
+  return strcmp(stage, "raising the voltage") == 0 && fraction > 0.5;
+}
+
+/* What was found before an interrupt is kept, and is that of a whole run. */
+START_TEST(test_interrupted) {
+  ZpActuatorDef def = held_def(MM(20), KV(10), false, 11);
+  ZpResult *whole = converged_of(ZP_STUDY_ISOMETRIC, &def), *cut = NULL;
+  ZpHooks hooks = {.progress = stop_half_way};
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ISOMETRIC, &def, NULL, &hooks, &cut, NULL), ZP_OK);
+  ck_assert_int_eq(cut->outcome, ZP_INTERRUPTED);
+  size_t last = cut->series->rows - 1;
+  double reached = zp_table_get(cut->series, last, "voltage_V");
+  ck_assert_msg(reached > KV(5) && reached < KV(6) && strstr(cut->message, "interrupted at 5"), "%s", cut->message);
+  ck_assert(isnan(zp_result_get(cut, "force_N")));
+  ck_assert_double_eq(zp_result_get(cut, "force_unpowered_N"), zp_result_get(whole, "force_unpowered_N"));
+  ck_assert_double_eq(reached, zp_table_get(whole->series, last, "voltage_V"));
+  ck_assert_double_eq(zp_table_get(cut->series, last, "force_N"), zp_table_get(whole->series, last, "force_N"));
+  zp_result_destroy(whole);
+  zp_result_destroy(cut);
+}
+END_TEST
+
 /* -- what is refused ------------------------------------------------------------------------------- */
 
 static void check_refused(ZpActuatorDef def, const char *first, const char *second) {
@@ -481,6 +537,7 @@ int main(void) {
   if (!SANITIZED) tcase_add_test(force, test_second_order_unpowered);
   if (!SANITIZED) tcase_add_test(force, test_mesh_powered);
   tcase_add_test(force, test_jumps);
+  tcase_add_test(force, test_voltages_beside_a_limit_point);
   tcase_add_test(force, test_falls);
   tcase_add_test(force, test_unpowered_is_stable);
   tcase_add_test(force, test_everywhere);
@@ -491,6 +548,7 @@ int main(void) {
   tcase_add_test(force, insulators_beyond_their_breakdown_are_pressed_not_passed);
   tcase_add_test(force, small_force_is_not_rounded_away);
   add_long_test(force, coarse_mesh_is_refined_twice);
+  tcase_add_test(force, test_interrupted);
   tcase_add_test(force, test_refused);
   suite_add_tcase(suite, force);
   TCase *nightly = nightly_case(suite);

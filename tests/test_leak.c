@@ -190,6 +190,23 @@ static double charge(Faces *f) {
          zp_leak_passed(&f->model->plates, &f->step, &f->leak);
 }
 
+/* What passes per length of the faces counts for their mean length over the step. */
+START_TEST(test_passed_charge_is_of_the_mean_length) {
+  static const double longer = 1.1;
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 8}, {"platform.electrode", 0}, {"insulator.resistivity", 1e10}, {"medium.resistivity", 3e10});
+  Faces f = {0};
+  make_faces(&f, &def);
+  solve(&f);
+  double passed = zp_leak_passed(&f.model->plates, &f.step, &f.leak);
+  for (size_t i = 0; i < f.model->nodes; i++)
+    f.end.dx[i] *= longer;
+  ck_near(zp_leak_passed(&f.model->plates, &f.step, &f.leak), 0.5 * (1 + longer) * passed, 1e-12);
+  zp_free(f.memory);
+  zp_model_destroy(f.model);
+}
+END_TEST
+
 /* Derivatives of force and charge of a step with respect to voltage and gaps at its end, against finite differences,
  * with the cap and without. */
 START_TEST(test_derivatives) {
@@ -392,6 +409,7 @@ int main(void) {
   tcase_add_loop_test(tcase, test_charge_that_is_given, 0, 2);
   tcase_add_test(tcase, test_recorded_charge_that_is_given);
   add_long_test(tcase, test_leakage_alone);
+  tcase_add_test(tcase, test_passed_charge_is_of_the_mean_length);
   tcase_add_loop_test(tcase, test_derivatives, 0, 2);
   tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 2, 5);
   tcase_add_test(tcase, test_charge_that_stays);

@@ -5,6 +5,8 @@
 #include "actuator/model.h"
 #include "rest/rest.h"
 #include "sim/sim_internal.h"
+#include "system/system.h"
+#include "term/term.h"
 
 typedef struct Run {
   ZpOutcome outcome;
@@ -269,6 +271,35 @@ END_TEST
 
 /* -- keys ------------------------------------------------------------------------------------------ */
 
+/* Both ribbons move at one velocity as stiff plates do: each is dragged by c_d rho v^2 / 2 on its face. */
+START_TEST(test_form_drag_of_moving_plates) {
+  static const double v = 0.3, h = 1e-3, drag = 1.7;
+  ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", 9}, {"medium.drag_coefficient", drag});
+  ZpModel *model = model_of(&def);
+  ZpEval e;
+  ck_assert(zp_system_create(model, false, &e));
+  size_t stride = model->stride;
+  double *q0 = calloc(8 * stride, sizeof *q0), *q1 = q0 + 2 * stride, *v0 = q0 + 4 * stride, *F = q0 + 6 * stride;
+  double sum = 0, length = 0;
+  for (size_t j = 0; j < model->count; j++) {
+    q1[stride + j] = v * h;
+    v0[stride + j] = v;
+  }
+  for (size_t i = 0; i < model->nodes; i++) {
+    e.plates_start.gap[i] = e.plates.gap[i] = 1e-3;
+    length += zp_film_length(&model->film, i);
+  }
+  zp_term_outer.force(model, &(ZpSpan){.start = q0, .end = q1, .v0 = v0, .h = h, .share = 1}, &e, F);
+  for (size_t j = 0; j < model->count; j++)
+    sum += F[stride + j];
+  printf("%g %g\n", length, model->L + 0.5 * def.platform.length);
+  ck_near(sum, -2 * 0.5 * drag * def.medium.density * v * v * def.ribbon.width * length, 1e-12);
+  free(q0);
+  zp_system_destroy(&e);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* What the film does not know is refused, by the name of the key. */
 START_TEST(test_what_is_refused) {
   static const struct {
@@ -341,6 +372,7 @@ int main(void) {
   tcase_add_test(runs, test_random_designs);
   suite_add_tcase(suite, runs);
   TCase *keys = tcase_create("keys");
+  tcase_add_test(keys, test_form_drag_of_moving_plates);
   tcase_add_loop_test(keys, test_what_is_refused, 0, 4);
   tcase_add_test(keys, test_modes_are_refused);
   suite_add_tcase(suite, keys);

@@ -2,6 +2,8 @@
  * what the coarse meshes that are noted are really off by, and the finer ones that they advise. */
 #include "check_util.h"
 
+#include "actuator/resolution.h"
+
 static bool notes(ZpStudy study, const ZpActuatorDef *def, const char *words) {
   ZpResult *result = study_of(study, def);
   bool found = note_of(result, words) != NULL;
@@ -197,6 +199,20 @@ START_TEST(front_length_is_that_of_a_peeled_ribbon) {
 }
 END_TEST
 
+/* Two unlike ribbons that part give way in series: their front is that of equal ones with the harmonic mean of both
+ * stiffnesses. */
+START_TEST(front_of_unlike_ribbons_is_of_their_mean) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 8}), mean = def;
+  def.lower.ribbon.thickness = 80e-6;
+  double upper = pow(def.ribbon.thickness, -3), lower = pow(def.lower.ribbon.thickness, -3);
+  mean.ribbon.thickness = pow(0.5 * (upper + lower), -1.0 / 3);
+  ZpModel *unlike = model_of(&def), *alike = model_of(&mean);
+  ck_near(zp_front_length(unlike, 6e3), zp_front_length(alike, 6e3), 1e-12);
+  zp_model_destroy(unlike);
+  zp_model_destroy(alike);
+}
+END_TEST
+
 /* States of rest know neither a supply's limits nor charge that gathers: they left both out without a word. */
 START_TEST(what_rest_leaves_out_is_noted) {
   static const ZpStudy at_rest[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
@@ -300,6 +316,7 @@ int main(void) {
   tcase_add_test(c, efficiency_is_of_the_source_only);
   if (!SANITIZED) tcase_add_loop_test(c, coarse_front_is_noted, 0, 2);
   tcase_add_test(c, front_length_is_that_of_a_peeled_ribbon);
+  tcase_add_test(c, front_of_unlike_ribbons_is_of_their_mean);
   tcase_add_loop_test(c, what_rest_leaves_out_is_noted, 0, 4);
   tcase_add_loop_test(c, few_elements_are_noted_in_every_study, 0, ZpStudy_COUNT);
   tcase_add_loop_test(c, bare_flange_ends_where_it_touches, 0, 2);

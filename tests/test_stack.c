@@ -171,6 +171,36 @@ START_TEST(force_of_each_is_as_alone) {
 }
 END_TEST
 
+/* Each is closed from its clip as far as it is alone where it is held at the common opening and voltage; all of them
+ * together, as far as the one that is closed least. */
+START_TEST(closed_length_is_the_least_of_all) {
+  enum { MEMBERS = 3 };
+  static const char *const closed[MEMBERS] = {"member_1_zipped_length_m", "member_2_zipped_length_m",
+                                              "member_3_zipped_length_m"};
+  ZpActuatorDef def = unlike();
+  ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  const ZpTable *t = result->series;
+  size_t apart = t->rows;
+  for (size_t row = t->rows; row-- > 0;) {
+    double least = INFINITY, most = 0;
+    for (int k = 0; k < MEMBERS; k++) {
+      least = fmin(least, zp_table_get(t, row, closed[k]));
+      most = fmax(most, zp_table_get(t, row, closed[k]));
+    }
+    ck_assert_double_eq(zp_table_get(t, row, "zipped_length_m"), least);
+    if (most > least && zp_table_get(t, row, "stable") == 1) apart = row;
+  }
+  ck_assert_uint_lt(apart, t->rows);
+  for (int k = 0; k < MEMBERS; k++) {
+    ZpActuatorDef one = zp_def_member(&def, k + 1);
+    one.isometric.separation = zp_table_get(t, apart, "opening_m");
+    one.drive.voltage = zp_table_get(t, apart, "voltage_V");
+    ck_near(zp_table_get(t, apart, closed[k]), answered_value(ZP_STUDY_ISOMETRIC, &one, "zipped_length_m"), 1e-12);
+  }
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* The stiffness is how the sum of forces goes with the opening: that is what a little more load says. */
 START_TEST(stiffness_side_by_side_is_the_slope) {
   static const double little = 1e-5; /* N */
@@ -217,6 +247,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
                             1e-12);
   }
   double risen = start - opening;
+  ck_near(zp_result_get(result, "mechanical_work_J"), def.load.mass * def.gravity * risen, 1e-9);
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed),
           _i == 0 ? 3e-3 : 3e-5); /* 7.6e-4 and 1.1e-5 measured */
   zp_result_destroy(result);
@@ -723,6 +754,7 @@ int main(void) {
   tcase_add_test(rest, what_a_stack_lacks_is_said);
   tcase_add_test(rest, forces_carry_the_load);
   tcase_add_test(rest, force_of_each_is_as_alone);
+  tcase_add_test(rest, closed_length_is_the_least_of_all);
   tcase_add_test(rest, stiffness_side_by_side_is_the_slope);
   tcase_add_test(rest, what_unlike_ones_lack_is_said);
   tcase_add_test(rest, members_rest_together_as_alone);

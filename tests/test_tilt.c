@@ -1,6 +1,6 @@
 /* Gravity at an angle and a constant force: closed forms at rest, mirror images, buckling under a strip's own weight,
  * energy in motion; section 27 of docs/theory.md. */
-#include "check_util.h"
+#include "state_util.h"
 
 static const double half_turn = 3.14159265358979323846;
 
@@ -121,6 +121,46 @@ START_TEST(leaning_left_mirrors_leaning_right) {
 }
 END_TEST
 
+/* Largest difference of an array from the mirror image of another, relative to the largest value. */
+static double unlike_image(const double *a, const double *image, size_t n) {
+  double apart = 0, most = 0;
+  for (size_t i = 0; i < n; i++) {
+    apart = fmax(apart, fabs(a[i] - image[n - 1 - i]));
+    most = fmax(most, fabs(a[i]));
+  }
+  return apart / most;
+}
+
+/* In motion as well: gaps, attraction and field along the ribbons; the bead of one half is that of the other half of
+ * the image. */
+START_TEST(motion_mirrors_with_beads_and_fields) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 30e-6},
+                          {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"drive.voltage", 6e3});
+  ZpModel *model[2];
+  ZpSim *sim[2];
+  ZpShape shape[2];
+  for (int k = 0; k < 2; k++) {
+    def.mount.tilt = (k ? -1 : 1) * half_turn / 4;
+    model[k] = model_of(&def);
+    sim[k] = sim_of(model[k]);
+    ck_assert(zp_outcome_good(zp_sim_run(sim[k], 20e-3, false, NULL, NULL)));
+    shape[k] = zp_sim_shape(sim[k]);
+  }
+  size_t n = model[0]->nodes;
+  ck_below(unlike_image(shape[0].gap, shape[1].gap, n), 1e-12);
+  ck_below(unlike_image(shape[0].line_force, shape[1].line_force, n), 1e-12);
+  ck_below(unlike_image(shape[0].insulator_field, shape[1].insulator_field, n), 1e-12);
+  const ZpBead *bead = sim[0]->state->bead, *image = sim[1]->state->bead;
+  for (int half = 0; half < 2; half++)
+    ck_near(bead[half].reach, image[1 - half].reach, 3e-12);
+  ck_assert_double_gt(fabs(bead[1].reach / bead[0].reach - 1), 1e-3); /* the halves do not move alike */
+  for (int k = 0; k < 2; k++) {
+    zp_sim_destroy(sim[k]);
+    zp_model_destroy(model[k]);
+  }
+}
+END_TEST
+
 /* The energy balances while a tilted actuator zips, opens and swings under weight and force, dry and in a bath. */
 START_TEST(energy_at_an_angle) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", half_turn / 4},
@@ -188,6 +228,7 @@ int main(void) {
   tcase_add_test(rest, half_is_vertical);
   suite_add_tcase(suite, rest);
   TCase *motion = tcase_create("motion");
+  tcase_add_test(motion, motion_mirrors_with_beads_and_fields);
   tcase_add_loop_test(motion, energy_at_an_angle, 0, 2);
   suite_add_tcase(suite, motion);
   return run_suite(suite);

@@ -41,13 +41,19 @@ typedef struct Sums {
   double force, moment, by_e, both, by_curvature;
 } Sums;
 
-/* Eq. (2.9): the plastic strains where the axis is strained by e. */
-static Sums strain_fibres(const ZpPlastic *plastic, const double *p0, double curvature, double e, double *p1) {
+/* Eq. (2.9): the plastic strain of a fibre that is strained to s. */
+static double yielded(const ZpPlastic *plastic, double p0, double s) {
   double over = 1 / (1 + plastic->hardening / plastic->E), room = plastic->yields / plastic->E;
+  return fmin(fmax(p0, (s - room) * over), (s + room) * over);
+}
+
+/* The plastic strains where the axis is strained by e. */
+static Sums strain_fibres(const ZpPlastic *plastic, const double *p0, double curvature, double e, double *p1) {
+  double over = 1 / (1 + plastic->hardening / plastic->E);
   Sums sum = {0, 0, 0, 0, 0};
   for (int i = 0; i < ZP_FIBRES; i++) {
     double z = plastic->z[i], a = plastic->part[i], s = z * curvature + e;
-    p1[i] = fmin(fmax(p0[i], (s - room) * over), (s + room) * over);
+    p1[i] = yielded(plastic, p0[i], s);
     sum.force += a * p1[i];
     sum.moment += a * z * p1[i];
     if (p1[i] == p0[i]) continue;
@@ -116,10 +122,9 @@ double zp_plastic_heat(const ZpPlastic *plastic, const double *p0, double curvat
   return sum;
 }
 
-/* At a face: that of the fibre beside it, strained a little more, or what yields there. */
+/* A face has yielded as the fibre beside it, and is strained a little more: from there it yields by itself. */
 static double face_stress(const ZpPlastic *plastic, double p, double s) {
-  double back = plastic->hardening * p, stress = plastic->E * (s - p);
-  return fabs(fmin(fmax(stress, back - plastic->yields), back + plastic->yields));
+  return plastic->E * fabs(s - yielded(plastic, p, s));
 }
 
 double zp_plastic_stress(const ZpPlastic *plastic, const double *p0, double curvature) {
