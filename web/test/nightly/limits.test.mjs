@@ -76,19 +76,6 @@ test('steps too short to move it: stopped, with what was asked and what to chang
   assert.ok(cost < longest, `longest task: ${cost} ms`);
 });
 
-test('a hanging state that is not found in time: stopped, and the next scenario starts', () => {
-  const engine = new Engine(module, {study: 0, start: 0, frame: 8}), core = new Core(module);
-  const values = new Map([['ribbon.model', 'mass_spring'], ['mass_spring.shear_coefficient', '0']]); // straight, it is a mechanism
-  const {stopped, failure, frame} = engine.answer({values, voltage: 0, restart: true, span: 0});
-  assert.deepEqual({stopped, failure}, {stopped: {seconds: 0, moved: 0}, failure: null});
-  core.resolve(values);
-  assert.equal(scenario.tooLong(core, stopped),
-    'Stopped after 0 s of computing. Keys that differ from the defaults: ribbon.model=mass_spring, mass_spring.shear_coefficient=0 N/m. Change one of these, or choose a preset.');
-  assert.deepEqual(engine.answer({span: 1e-3, frame}).stopped, stopped, 'it stays so');
-  assert.equal(engine.answer({values: new Map(), voltage: 0, span: 1e-3, frame}).stopped, null);
-  assert.ok(engine.answer({span: 1e-3, frame}).frame[0] > 0, 'it moves on');
-});
-
 /** mulberry32: numbers 0 .. 1 from a seed. */
 function random(seed) {
   return () => {
