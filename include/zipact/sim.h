@@ -177,6 +177,9 @@ typedef struct ZpRowStart {
 ZP_API ZpRowStart zp_sim_row_start(const ZpSim *sim);
 ZP_API void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start);
 
+/* Start this interval now. */
+ZP_API void zp_sim_start_row(ZpSim *sim);
+
 /* Present shape; its pointers are valid until the simulation continues. */
 ZP_API ZpShape zp_sim_shape(ZpSim *sim);
 

@@ -221,9 +221,6 @@ void zp_sim_jump(ZpSim *sim, double voltage);
 /* Change the voltage without loss while nothing moves. */
 void zp_sim_glide(ZpSim *sim, double voltage);
 
-/* Start the interval of the mean current and power of the next row now. */
-void zp_sim_start_row(ZpSim *sim);
-
 /* A trace of a run, as columns of a table. */
 enum { ZP_TRACE_TIME, ZP_TRACE_VOLTAGE, ZP_TRACE_CHARGE, ZP_TRACE_CAPACITANCE, ZP_TRACE_STROKE, ZP_TRACE_COLUMNS };
 const ZpColumn *zp_trace_columns(size_t *count);
