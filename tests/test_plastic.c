@@ -254,9 +254,43 @@ START_TEST(what_hangs_stays) {
   ck_near(zp_result_get(result, "opening_m"), first, 1e-12); /* 1.9e-13 measured */
   ck_near(first, answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-12);
   ck_below(zp_result_get(result, "plastic_loss_J"), 1e-12); /* 8.1e-15 measured */
-  ck_near(zp_table_get(result->series, 0, "max_stress_Pa"), answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa"),
-          1e-9); /* of what has yielded, too */
   zp_result_destroy(result);
+}
+END_TEST
+
+/* The largest stress of a model in the shape of another simulation, with the strains of that if both yield. */
+static double stress_in(const ZpActuatorDef *def, const ZpSim *shape, const ZpSim *strains) {
+  ZpModel *model = model_of(def);
+  ZpSim *sim = sim_of(model);
+  memcpy(zp_state_q(model, sim->state), zp_state_q(shape->model, shape->state), 2 * model->stride * sizeof(double));
+  if (def->ribbon.plasticity)
+    memcpy(zp_state_strain(model, sim->state), zp_state_strain(strains->model, strains->state),
+           zp_rod_plastic_count(&model->rod) * sizeof(double));
+  double stress = zp_sim_get(sim, "max_stress");
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  return stress;
+}
+
+/* Ribbons that have yielded are laid straight: in the faces remains what an elastic strip would have had in the bent
+ * shape, at the height of the outermost of 16 slices' Gauss points, less what they had there. */
+START_TEST(residual_stress_of_straight_ribbons) {
+  ZpActuatorDef elastic = DEF({"mesh.nodes", 15}, {"drive.voltage", 0}), bent = elastic;
+  bent.ribbon.plasticity = true;
+  bent.ribbon.yield_stress = 0.75 * settled_value(&elastic, "max_stress");
+  ZpActuatorDef straight = bent;
+  straight.initial.state = ZP_INITIAL_STRAIGHT;
+  ZpModel *models[2] = {model_of(&bent), model_of(&straight)};
+  ZpSim *sims[2] = {sim_of(models[0]), sim_of(models[1])};
+  double remains = stress_in(&bent, sims[1], sims[0]);
+  const double outermost = 1 - (1 - 1 / sqrt(3)) / (ZP_FIBRES / 2.0);
+  double expected = outermost * stress_in(&elastic, sims[0], NULL) - zp_sim_get(sims[0], "max_stress");
+  printf("residual stress %.6g MPa, off by %.1e\n", 1e-6 * remains, remains / expected - 1);
+  ck_near(remains, expected, 5e-4);
+  for (int k = 0; k < 2; k++) {
+    zp_sim_destroy(sims[k]);
+    zp_model_destroy(models[k]);
+  }
 }
 END_TEST
 
@@ -363,6 +397,7 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, energy_in_motion, 0, MOVING);
   tcase_add_test(motion, what_hangs_stays);
+  tcase_add_test(motion, residual_stress_of_straight_ribbons);
   tcase_add_test(motion, ratchet_over_cycles);
   tcase_add_test(motion, below_the_yield_stress_it_is_elastic);
   suite_add_tcase(suite, motion);
