@@ -92,6 +92,8 @@ START_TEST(guide_takes_what_is_not_vertical) {
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg"), 2 * most, 1e-4);
   def.mount.tilt = 0.5 * half_turn;
   ck_assert(isnan(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg")));
+  def.mount.tilt = 0.7 * half_turn; /* the load falls towards the upper platform */
+  ck_assert(isnan(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg")));
 }
 END_TEST
 
