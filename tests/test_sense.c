@@ -119,10 +119,9 @@ START_TEST(test_held_until_the_release) {
     ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
     ck_assert_double_lt(zp_result_get(result, "zip_time_s"), 0.2);
     error[k] = zp_result_get(result, "sense_hold_error_m");
-    printf("%g %g\n", error[k], zp_result_get(result, "sense_zip_error_m"));
     zp_result_destroy(result);
   }
-  ck_near(error[1], error[0], 1e-6);
+  ck_near(error[1], error[0], 1e-12);
 }
 END_TEST
 
