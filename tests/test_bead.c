@@ -268,6 +268,16 @@ START_TEST(test_isometric_force_of_stiff_ribbons) {
 }
 END_TEST
 
+/* Without the cap the charge at rest is linear in the voltage, of liquid and of air beyond it. */
+START_TEST(test_charge_is_capacitance_times_voltage) {
+  ZpActuatorDef def = DEF(BEAD, SMALL, {"mesh.nodes", 11}, {"electro.breakdown_cap", 0}, {"drive.voltage", 500},
+                          {"isometric.separation", 5e-3});
+  ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  ck_near(zp_result_get(result, "charge_C"), def.drive.voltage * zp_result_get(result, "capacitance_F"), 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Flexible ribbons: a bead that fills everything equals a liquid everywhere, and suction adds to the force. */
 START_TEST(test_isometric_force) {
   Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
@@ -635,6 +645,7 @@ int main(void) {
   tcase_add_loop_test(c, test_attraction_of_a_wedge, 0, LENGTH_OF(wedges));
   tcase_add_loop_test(c, test_isometric_force_of_stiff_ribbons, 0, LENGTH_OF(wedges));
   tcase_add_loop_test(c, test_isometric_force, 0, LENGTH_OF(wedges));
+  tcase_add_test(c, test_charge_is_capacitance_times_voltage);
   tcase_add_test(c, test_full_bead_without_a_platform);
   tcase_add_loop_test(c, test_volume_is_kept, 0, FULL_OR(4, 2));
   tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, FULL_OR(6, 2));

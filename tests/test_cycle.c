@@ -123,6 +123,9 @@ START_TEST(test_energy_of_a_cycle) {
   ck_assert(work > 0 && zp_result_get(result, "energy_drawn_per_cycle_J") > energy);
   printf("work %.3g J, energy %.3g J\n", work, energy);
   ck_near(zp_result_get(result, "efficiency"), work / energy, 1e-12);
+  ck_near(zp_result_get(result, "power_W"), energy * def.drive.frequency, 1e-12);
+  ck_assert_double_eq(zp_table_get(rows, 0, "time_s"), 0);
+  ck_near(zp_table_get(rows, last, "time_s"), 1 / def.drive.frequency, 1e-12);
   ck_near(zp_result_get(result, "efficiency_without_recovery"),
           work / zp_result_get(result, "energy_drawn_per_cycle_J"), 1e-12);
   zp_result_destroy(result);
@@ -268,6 +271,26 @@ START_TEST(test_method_by_itself) {
     ck_assert((zp_result_get(result, "second_order") < 1e-3) == row[k].linear);
     zp_result_destroy(result);
   }
+}
+END_TEST
+
+/* Velocities of the linear answer are the slopes of its positions. */
+START_TEST(test_velocities_of_the_linear_answer) {
+  static const double f = 8;
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 100}, {"drive.frequency", f}, {"cycle.method", ZP_CYCLE_LINEAR});
+  ZpResult *result = cycle_of(&def);
+  const ZpTable *rows = result->series;
+  size_t cycle = rows->rows - 1;
+  double off = 0, most = 0;
+  for (size_t k = 0; k < cycle; k++) {
+    double moved =
+        zp_table_get(rows, (k + 1) % cycle, "opening_m") - zp_table_get(rows, (k + cycle - 1) % cycle, "opening_m");
+    double rate = 0.5 * moved * f * (double)cycle, velocity = zp_table_get(rows, k, "end_velocity_m_per_s");
+    off = fmax(off, fabs(fabs(velocity) - fabs(rate)));
+    most = fmax(most, fabs(rate));
+  }
+  ck_below(off / most, 3e-3);
+  zp_result_destroy(result);
 }
 END_TEST
 
@@ -428,6 +451,7 @@ int main(void) {
   tcase_add_loop_test(cycles, test_small_motion_is_that_of_the_modes, 0, 4);
   tcase_add_loop_test(cycles, test_linear_answer_is_small_motion, 0, 6);
   tcase_add_test(cycles, test_method_by_itself);
+  tcase_add_test(cycles, test_velocities_of_the_linear_answer);
   tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
   tcase_add_test(cycles, test_shooting_with_slow_charges);
   tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 1);

@@ -569,6 +569,8 @@ static void check_held(ZpSim *sim) {
   ck_assert_double_eq(state->held_charge, e.surplus.charge);
   ck_assert_double_eq(state->held_energy, e.surplus.energy);
   ck_assert_double_eq(state->held_capacitance, e.surplus.capacitance);
+  for (size_t i = 0; i + 1 < model->nodes && model->has_bead; i++) /* liquid by whole elements, then air */
+    ck_assert_double_eq(e.surplus.cover.part[i], (double)i + 0.5 < state->bead[0].reach / model->l);
   zp_system_destroy(&e);
 }
 
@@ -590,6 +592,11 @@ START_TEST(test_held_field_is_that_of_every_step) {
     ZpSim *sim = sim_of(model);
     ck_assert(zp_outcome_good(zp_sim_run(sim, 4e-3, false, NULL, NULL)));
     check_held(sim);
+    ZpEval unaware; /* of where the liquid is */
+    ck_assert(zp_system_create(model, true, &unaware));
+    ck_assert_int_eq(zp_held_refresh(model, sim->state, &unaware), ZP_END_FOUND);
+    zp_system_destroy(&unaware);
+    check_held(sim);
     for (size_t k = 0; k < LENGTH_OF(signal) && afresh; k++)
       ck_near(held[k], zp_sim_get(sim, signal[k].name), signal[k].within);
     for (size_t k = 0; k < LENGTH_OF(signal); k++)
@@ -598,6 +605,18 @@ START_TEST(test_held_field_is_that_of_every_step) {
     zp_sim_destroy(sim);
     zp_model_destroy(model);
   }
+}
+END_TEST
+
+/* At rest without the cap the charge is linear in the voltage: the held surplus of charge is that of the capacitance.
+ */
+START_TEST(test_charge_at_rest_is_capacitance_times_voltage) {
+  ZpActuatorDef def =
+      DEF({"electro.model", ZP_ELECTRO_FIELD}, {"electro.breakdown_cap", 0}, {"mesh.nodes", 9},
+          {"ribbon.length", 40e-3}, {"platform.length", 4e-3}, {"isometric.separation", 4e-3}, {"drive.voltage", 100});
+  ZpResult *result = study(ZP_STUDY_ISOMETRIC, &def);
+  ck_near(zp_result_get(result, "charge_C"), def.drive.voltage * zp_result_get(result, "capacitance_F"), 1e-9);
+  zp_result_destroy(result);
 }
 END_TEST
 
@@ -635,6 +654,7 @@ int main(void) {
   tcase_add_test(grid, test_bad_geometry_has_a_reason);
   tcase_add_test(grid, test_surplus_makes_plates_the_field);
   tcase_add_loop_test(grid, test_held_field_is_that_of_every_step, 0, 2);
+  tcase_add_test(grid, test_charge_at_rest_is_capacitance_times_voltage);
   tcase_add_test(grid, test_what_does_not_go_with_field);
   if (!SANITIZED) { /* test_combinations and test_dynamics run the same code */
     tcase_add_test(grid, test_bead_by_field_and_by_plates);

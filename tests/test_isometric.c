@@ -266,6 +266,8 @@ START_TEST(test_jumps) {
       over += !passed;
     }
     ck_assert_double_eq(highest, KV(10));
+    ck_assert_double_eq(zp_table_get(t, 0, "force_N"), 0);
+    ck_assert_double_eq(zp_table_get(t, t->rows - 1, "force_N"), zp_result_get(result, "force_N"));
     ck_assert((jumps > 0) == (k == 0) && (over > 0) == (k == 0));
     ck_assert((notes_with(result, " as the voltage rises, the largest by ") > 0) == (k == 0));
     force[k] = zp_result_get(result, "force_N");
@@ -277,13 +279,13 @@ START_TEST(test_jumps) {
 END_TEST
 
 typedef struct Jumped {
-  double force, jumps; /* N, count */
+  double force, jumps, others; /* N; counts, of jumps and of other stable states */
 } Jumped;
 
 static Jumped jumped_at(ZpActuatorDef def, double voltage) {
   def.drive.voltage = voltage;
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
-  Jumped at = {zp_result_get(result, "force_N"), zp_result_get(result, "jumps")};
+  Jumped at = {zp_result_get(result, "force_N"), zp_result_get(result, "jumps"), zp_result_get(result, "other_states")};
   zp_result_destroy(result);
   return at;
 }
@@ -301,6 +303,7 @@ START_TEST(test_voltages_beside_a_limit_point) {
   static const double near = 0.01; /* V */
   Jumped before = jumped_at(def, low), behind = jumped_at(def, high);
   ck_assert(before.jumps == 0 && behind.jumps == 1 && behind.force > 1.5 * before.force);
+  ck_assert_double_eq(jumped_at(def, low - 1).others, 1); /* stable; the branch leads there over an unstable one */
   ck_near((before.force - jumped_at(def, low - 4 * near).force) / (before.force - jumped_at(def, low - near).force), 2,
           3e-3);
   ck_near((jumped_at(def, high + 4 * near).force - behind.force) / (jumped_at(def, high + near).force - behind.force),

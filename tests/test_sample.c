@@ -23,6 +23,29 @@ START_TEST(sobol_begins_as_published) {
 }
 END_TEST
 
+/* Keys of a Latin square go up and down independently of each other: ranks of two keys are not related. With 64 points
+ * a correlation of independent ones has a standard deviation of 1/8. */
+START_TEST(latin_columns_are_independent) {
+  enum { POINTS = 64, KEYS = 4 };
+  const ZpDesign design = design_of(ZP_SAMPLING_LATIN_HYPERCUBE, POINTS, KEYS, false);
+  for (int a = 0; a < KEYS; a++)
+    for (int b = 0; b < a; b++) {
+      double sum = 0;
+      for (size_t i = 0; i < POINTS; i++)
+        sum += (zp_design_share(&design, i, a) - 0.5) * (zp_design_share(&design, i, b) - 0.5);
+      ck_below(fabs(12 * sum / POINTS), 0.5);
+    }
+}
+END_TEST
+
+/* With indices a key takes two dimensions of Sobol's points. */
+START_TEST(indices_take_two_dimensions_of_a_key) {
+  const ZpDesign plain = design_of(ZP_SAMPLING_SOBOL, 8, 1, false), indices = design_of(ZP_SAMPLING_SOBOL, 8, 1, true);
+  ck_assert_int_eq(zp_design_most(&plain), ZP_SOBOL_DIMENSIONS);
+  ck_assert_int_eq(2 * zp_design_most(&indices), ZP_SOBOL_DIMENSIONS);
+}
+END_TEST
+
 /* How many of the design's first 2^bits points lie in each of 2^bits intervals of a dimension: is it 1? */
 static bool is_stratified(const ZpDesign *design, int bits, int dimension) {
   bool seen[1 << 10] = {false};
@@ -295,6 +318,8 @@ int main(void) {
   TCase *points = tcase_create("points"), *numbers = tcase_create("numbers");
   tcase_add_test(points, sobol_begins_as_published);
   tcase_add_test(points, sobol_has_a_point_in_each_interval);
+  tcase_add_test(points, latin_columns_are_independent);
+  tcase_add_test(points, indices_take_two_dimensions_of_a_key);
   tcase_add_test(points, scrambled_points_are_a_net);
   tcase_add_test(points, errors_fall_as_theory_says);
   tcase_add_test(points, latin_hypercube_has_a_point_in_each_stratum);

@@ -25,7 +25,9 @@ END_TEST
 
 /* Each member carries those below, their links and the load: it hangs as one alone under so much. */
 START_TEST(members_carry_those_below) {
-  ZpActuatorDef series = DEF({"stack.series", 3}, {"stack.link_mass", 0.5e-3}, {"mesh.nodes", 31}), one = series;
+  ZpActuatorDef series =
+                    DEF({"stack.series", 3}, {"stack.link_mass", 0.5e-3}, {"load.force", 0.03}, {"mesh.nodes", 31}),
+                one = series;
   one.stack.series = 1;
   one.stack.link_mass = 0;
   double own = answered_value(ZP_STUDY_LIMITS, &one, "mass_kg"), openings = 0;
@@ -43,6 +45,11 @@ START_TEST(members_carry_those_below) {
     openings += opening;
   }
   ck_near(zp_result_get(all, "opening_m"), openings, 1e-12); /* 4.4e-16 measured */
+  ZpShape shape = zp_shapes_get(all->shapes, all->shapes->frames - 1);
+  double lowest = 0; /* drawn, each hangs on the one above it */
+  for (size_t j = 0; j < all->shapes->nodes * all->shapes->ribbons; j++)
+    lowest = fmin(lowest, shape.y[j]);
+  ck_near(-lowest, openings, 1e-12);
   zp_result_destroy(all);
 }
 END_TEST

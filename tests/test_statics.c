@@ -374,6 +374,21 @@ START_TEST(test_modes) {
 }
 END_TEST
 
+/* A clamped strip swings in its k-th mode with k - 1 nodes: frame k of the shapes. */
+START_TEST(shape_of_a_mode_has_its_nodes) {
+  ZpActuatorDef def = modes_def(ZP_END_FREE);
+  ZpResult *result = rest_of(ZP_STUDY_MODES, &def);
+  for (size_t k = 1; k <= 4; k++) {
+    ZpShape shape = zp_shapes_get(result->shapes, k), rest = zp_shapes_get(result->shapes, 0);
+    size_t crossings = 0;
+    for (size_t i = 2; i < result->shapes->nodes; i++)
+      crossings += (shape.y[i - 1] - rest.y[i - 1]) * (shape.y[i] - rest.y[i]) < 0;
+    ck_assert_uint_eq(crossings, k - 1);
+  }
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Eq. (11.2): an exact squared frequency lies within the bound of the residual. The reference has thirty rounds more,
  * which derivatives ask for; what its residual leaves is rounding. */
 START_TEST(residual_of_a_mode_bounds_its_error) {
@@ -834,6 +849,7 @@ int main(void) {
   tcase_add_test(rest, test_paper_fe);
   tcase_add_loop_test(rest, test_paper_code, 0, 2);
   tcase_add_loop_test(rest, test_modes, 0, 2);
+  tcase_add_test(rest, shape_of_a_mode_has_its_nodes);
   tcase_add_test(rest, test_branch_along_the_load);
   tcase_add_test(rest, test_order_between_clamps);
   tcase_add_test(rest, test_modes_converge);
