@@ -8,14 +8,15 @@
 
 /* A text in which the special characters of troff are escaped. */
 static void write_text(FILE *file, const char *text) {
+  bool bold = false;
   if (*text == '.' || *text == '\'') fputs("\\&", file);
   for (; *text; text++) {
     if (*text == '\\')
       fputs("\\e", file);
     else if (*text == '-')
       fputs("\\-", file);
-    else if (*text == '`') /* a word of the program */
-      fputs(text[1] && strchr(text + 1, '`') ? "\\fB" : "\\fR", file);
+    else if (*text == '`') /* a word of the program begins or ends */
+      fputs((bold = !bold) ? "\\fB" : "\\fR", file);
     else
       fputc(*text, file);
   }

@@ -35,15 +35,13 @@ static const ZpScalar *find_scalar(const ZpResult *result, const char *name) {
 /* The estimated error of a number, NAN if there is none. */
 static double error_of(const ZpResult *result, const char *scalar) {
   static const struct {
-    ZpStudy study;
     const char *scalar, *error;
   } estimated[] = {
-#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order, meshes) {enumerator, scalar, error},
+#define ZP_ESTIMATE(enumerator, scalar, error, unit, safety, law, order, meshes) {scalar, error},
 #include <zipact/studies.def>
   };
   for (size_t i = 0; i < sizeof estimated / sizeof estimated[0]; i++)
-    if (estimated[i].study == result->study && strcmp(estimated[i].scalar, scalar) == 0)
-      return zp_result_get(result, estimated[i].error);
+    if (strcmp(estimated[i].scalar, scalar) == 0) return zp_result_get(result, estimated[i].error);
   return NAN;
 }
 

@@ -9,7 +9,9 @@ wall time. N kills are made (default 6), and N bits of a journal flipped (20). S
 import json
 import os
 import pathlib
+import pty
 import random
+import re
 import resource
 import shutil
 import signal
@@ -216,6 +218,27 @@ def check_second_interrupt(zipact, scratch):
     ok("second interrupt: ends at once, by the signal, and not by the first one", process.poll() == -signal.SIGINT and sent > 1)
     process.kill()
     process.communicate()
+
+
+def check_time_left(zipact, scratch):
+    """Two runs that would take hours: what is left is told in hours, minutes and seconds."""
+    words = [zipact.program, "actuate", "--set", "solver.end_time=[10000 s, 9000 s]", "--set", "mesh.nodes=5", "--set", "drive.voltage=0", "--set", "solver.time_step=1 us", "--set", "solver.tolerance=0.1",
+             "--set", "output.errors=false", "--no-plots", "--jobs", "1", "-o", str(scratch / "left")]
+    master, slave = pty.openpty()
+    process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=slave)
+    os.close(slave)
+    shown = b""
+    while not (left := re.findall(rb"(\d+):(\d+):(\d+) left", shown)) and process.poll() is None:
+        shown += os.read(master, 4096)
+    process.send_signal(signal.SIGINT)
+    try:
+        while os.read(master, 4096):
+            continue
+    except OSError:
+        pass  # it has ended
+    os.close(master)
+    ok("time left: hours, minutes and seconds", left and all(int(h) > 0 and int(m) < 60 and int(s) < 60 for h, m, s in left))
+    ok("time left: interrupted", process.wait() == 130)
 
 
 def check_time_limit(zipact, scratch):
@@ -427,6 +450,7 @@ def main():
     check_flipped_bits(zipact, scratch, flips)
     check_damaged_rows(zipact, scratch)
     check_second_interrupt(zipact, scratch)
+    check_time_left(zipact, scratch)
     check_time_limit(zipact, scratch)
     check_samples(zipact, scratch)
     check_unfinished(zipact, scratch)

@@ -105,6 +105,9 @@ zp keys --help
 ok "keys --help" status_is 0
 ok "keys --help names its options" prints '^zipact keys \[--yaml\] \[--json\]'
 ok "keys --help names no others" [ "$(grep -c -e '--set' stdout)" -eq 0 ]
+zp fmu --help
+ok "fmu --help: a letter for -o and -h only" [ "$(grep -c -E '^  -[a-z], --' stdout)" -eq 2 ]
+ok "fmu --help: --set has none" prints '^  --set KEY=VALUE'
 
 zp keys
 ok "keys" status_is 0
@@ -129,6 +132,8 @@ zp man -o manual
 ok "man" status_is 0
 ok "man: a page for each study and command, and one for all" [ "$(ls manual/*.1 | wc -l)" -eq $((1 + $("$zipact" --help | grep -c -E '^  [a-z]'))) ]
 ok "man: a page has what --help has" grep -q 'print a scenario with all keys' manual/zipact-keys.1
+ok "man: what is bold ends" [ "$(cat manual/*.1 | grep -o '\\fB' | wc -l)" -eq "$(cat manual/*.1 | grep -o '\\fR' | wc -l)" ]
+ok "man: a page refers to the others, not to itself" [ "$(grep -c -F 'zipact\-keys (1)' manual/zipact-keys.1)" -eq 0 -a "$(grep -c -F 'zipact\-keys (1)' manual/zipact-run.1)" -eq 1 ]
 zp man -o a/b/c
 ok "3: man: no such folder" status_is 3
 ok "3: man: says where" says 'a/b/c/zipact\.1'
@@ -168,9 +173,9 @@ zp actuate --set ribbon.model=mass_spring --set mass_spring.shear_coefficient=0 
 ok "1: no equilibrium within max_steps" status_is 1
 ok "1: --json prints all the same" json stdout 'd["outcome"] == "not_settled" and "1000" in d["message"]'
 ok "1: what was reached is kept" complete not-settled
-zp actuate $short --set solver.time_step=1e-9 --set solver.end_time=10 --set solver.max_steps=200000 --json -o limited
+zp actuate $short --set solver.time_step=1e-9 --set solver.end_time=10 --set solver.max_steps=10000 --json -o limited
 ok "1: too many steps" status_is 1
-ok "1: outcome step_limit" json stdout 'd["outcome"] == "step_limit" and d["steps"] == 200000'
+ok "1: outcome step_limit" json stdout 'd["outcome"] == "step_limit" and d["steps"] == 10000'
 ok "1: the rows until then are kept" [ "$(wc -l <limited/table.csv)" -gt 2 ]
 chain="--set ribbon.model=mass_spring --set electro.force_scale=1000 --set electro.breakdown_cap=false"
 zp actuate $short $chain --set drive.voltage=1MV --json -o diverged
@@ -196,7 +201,7 @@ refused() { # DESCRIPTION PATTERN ARGUMENT...: wrong input, said why, nothing wr
 }
 
 refused "no command" 'missing'
-refused "unknown study" 'unknown study.*fly' fly -o refused
+refused "unknown study" 'unknown study.*fly; see zipact --help' fly -o refused
 refused "unknown option" 'frobnicate' actuate --frobnicate -o refused
 refused "--set without a value" 'argument' actuate -o refused --set
 refused "two scenarios" 'defaults' actuate starter.yaml defaults/scenario.yaml -o refused
@@ -536,8 +541,11 @@ ok "without gnuplot: the scripts stay" is_file missing-gnuplot/plots/stroke.gp
 zp plots
 ok "plots without a folder: status 2" status_is 2
 ok "plots without a folder: says what it needs" says 'plots needs a folder to write to: -o FOLDER'
+zp plots -o mine-too --quiet
+ok "plots --quiet prints nothing" is_empty stdout
 zp plots -o mine
 ok "plots: status 0" status_is 0
+ok "plots: says how to draw with them" prints '^zipact STUDY --templates mine draws'
 ok "plots writes the templates" is_file mine/stroke.gp
 zp plots -o mine
 ok "plots does not write over them: status 2" status_is 2
@@ -587,7 +595,7 @@ ok "no progress bar into a file" [ "$(grep -c '\[#' stderr)" -eq 0 ]
 
 numbers() { grep -v note: stdout | grep -c -E '^  [a-z].* +[-0-9.e+]+( |$)'; } # lines "  name   12.3 mm"
 for study in actuate equilibrium limits modes isometric profile stationary; do
-  zp $study --set mesh.nodes=21 -o terminal-summary
+  zp $study --set mesh.nodes=11 -o terminal-summary
   ok "$study prints some numbers, at most ten: $(numbers)" [ "$(numbers)" -ge 3 -a "$(numbers)" -le 10 ]
   ok "$study says nothing of steps and speed" [ "$(grep -c -i -E 'step|real.time|iterations' stdout)" -eq 0 ]
   ok "$study: values end in one column" [ "$(grep -v note: stdout | sed -n 's/^  .\{27\}\( *[-0-9.e+]*\).*/\1/p' | awk '{ print length($0) }' | sort -u | wc -l)" -eq 1 ]
@@ -603,6 +611,25 @@ zp run unitless/scenario.yaml -o unitless-again
 ok "the scenario that a run leaves has units everywhere" [ "$(grep -c 'taken as' stderr)" -eq 0 ]
 zp stationary --set load.mass=0.008 --quiet -o unitless
 ok "--quiet says nothing of it" is_empty stderr
+
+zp actuate $short -o noted
+ok "notes are printed, each" [ "$(grep -c '^  note: ' stdout)" -eq "$("$python" -c 'import json; print(len(json.load(open("noted/summary.json"))["notes"]))')" ]
+ok "there is one" prints '^  note: '
+zp equilibrium --set mesh.nodes=9 --set output.errors=true -o terminal-summary
+error=$("$python" -c 'import json; print("%.2g" % (1e-3 * abs(json.load(open("terminal-summary/summary.json"))["pull_in_voltage_error_V"])))')
+ok "an estimated error has the unit of its number: $error" prints "^  pull-in  *[0-9.]* kV  +- $error\$"
+zp stationary --set mesh.nodes=5 --set 'load.mass=1 g .. 9 g : 103' --no-plots -o rows-shown
+ok "a hundred rows of 103, and how many more" [ "$(grep -c '^  load.mass = ' stdout)" -eq 100 ]
+ok "a hundred rows of 103: three more" prints '^  \.\.\. and 3 more rows in table\.csv'
+zp stationary --set mesh.nodes=5 --jobs 1024 -o most-jobs
+ok "--jobs 1024 is allowed" status_is 0
+printf 'study: limits\nmesh: {nodes: 5}\nload: {mass: 9 g}\n' >a=b.yaml
+zp stationary a=b.yaml --json -o named
+ok "a scenario with = in its name; the word before it says which study" json stdout 'd["study"] == "stationary"'
+ok "its keys are taken" grep -q 'mass: 9 g' named/scenario.yaml
+zp fmu -o default.fmu
+ok "an FMU of FMI 3 unless told" prints 'FMI 3\.0$'
+rm -f default.fmu
 
 # -- preset < file < --set ------------------------------------------------------------------------------------------
 

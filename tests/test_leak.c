@@ -432,6 +432,6 @@ int main(void) {
   tcase_add_loop_test(tcase, test_refused, 0, 6);
   suite_add_tcase(suite, tcase);
   TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_energy_of_zip_hold_and_release, 0, 2);
+  tcase_add_loop_test(nightly, test_energy_of_zip_hold_and_release, 0, 1);
   return run_suite(suite);
 }
