@@ -9,7 +9,7 @@
 #include <stddef.h>
 
 #ifdef ZP_KERNEL /* tests/bits.sh compiles for one processor at a time */
-#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__ELF__) && defined(__OPTIMIZE__) &&    \
+#elif defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__ELF__) && defined(__OPTIMIZE__) &&  \
     (defined(ZP_UNCONTRACTED) || defined(__STRICT_ANSI__)) && !defined(__SANITIZE_ADDRESS__) &&                        \
     !defined(__SANITIZE_THREAD__)
 #define ZP_KERNEL __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
