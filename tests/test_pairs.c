@@ -753,9 +753,9 @@ static void check_derivatives(int a, int b, const char *name) {
   }                                                                                                                    \
   END_TEST
 
-PAIRS(forces_at_rest_of_some_pairs, check_at_rest, 8)
+PAIRS(forces_at_rest_of_some_pairs, check_at_rest, 12)
 PAIRS(forces_at_rest_of_all_pairs, check_at_rest, 1)
-PAIRS(motion_of_some_pairs, check_in_motion, 16)
+PAIRS(motion_of_some_pairs, check_in_motion, 24)
 PAIRS(motion_of_all_pairs, check_in_motion, 1)
 PAIRS(twice_of_each_feature, check_doubled, FEATURES)
 PAIRS(studies_of_each_feature, check_studies, FEATURES)
