@@ -16,15 +16,17 @@ static double run_to(ZpSim *sim, double end_time, const char *signal) {
 }
 
 /* A mass falls on a platform at rest: both continue with the common velocity of equal momentum, and the loss is known.
- * Of a half, of the whole, at the end of one ribbon. */
+ * Of a half, of the whole, at the end of one ribbon, and of three side by side, which share the mass. */
 START_TEST(momentum_is_shared) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0});
   if (_i == 1) def.actuator.symmetry = ZP_SYMMETRY_NONE;
   if (_i == 2) def.actuator.kind = ZP_KIND_RIBBON, def.load.share = 1;
+  if (_i == 3) def.stack.parallel = 3;
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   size_t j = zp_load_node(&model->topology);
-  double m = model->mass[j], comes = def.load.share * def.load.change_mass, after = comes * fallen / (m + comes);
+  double m = model->mass[j], comes = def.load.share * def.load.change_mass / def.stack.parallel,
+         after = comes * fallen / (m + comes);
   double loss = 0.5 * m * comes / (m + comes) * fallen * fallen * model->parts * (double)zp_load_ends(&model->topology);
   ck_below(fabs(run_to(sim, 20e-3, "end_velocity")), 1e-12); /* 1.4e-14 measured */
   zp_sim_change_load(sim);
@@ -102,7 +104,7 @@ END_TEST
 int main(void) {
   Suite *suite = suite_create("catch");
   TCase *c = tcase_create("catch");
-  tcase_add_loop_test(c, momentum_is_shared, 0, 3);
+  tcase_add_loop_test(c, momentum_is_shared, 0, 4);
   tcase_add_loop_test(c, energy_with_a_caught_mass, 0, FULL_OR(6, 3));
   tcase_add_loop_test(c, rests_where_the_sum_hangs, 0, 2);
   tcase_add_test(c, work_counts_the_mass);

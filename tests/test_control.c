@@ -621,12 +621,27 @@ START_TEST(response_that_is_none) {
 }
 END_TEST
 
+/* Without gravity the actuator is closed at rest. Its controller integrated what is no number. */
+START_TEST(no_contraction_is_controlled_without_an_opening) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"gravity", 0}, {"control.kind", ZP_CONTROL_PI},
+                          {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.4});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_null(sim);
+  ck_assert_msg(strstr(err.message, "control.signal = contraction") != NULL, "%s", err.message);
+  zp_model_destroy(model);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("control");
   TCase *own = tcase_create("of the program"), *of_model = tcase_create("of the model");
   suite_add_tcase(suite, own);
   suite_add_tcase(suite, of_model);
   tcase_add_checked_fixture(own, set_up, tear_down);
+  tcase_add_test(own, no_contraction_is_controlled_without_an_opening);
   tcase_add_test(own, samples_at_equal_intervals);
   tcase_add_test(own, runs_in_pieces);
   tcase_add_test(own, voltage_stays);

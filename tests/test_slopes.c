@@ -145,6 +145,12 @@ END_TEST
 START_TEST(frequencies_change_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"modes.voltage", 3e3});
   check_differences(ZP_STUDY_MODES, &def, "ribbon.thickness, load.mass, ribbon.length", 8e-3, 2e-6);
+  ZpActuatorDef sprung = DEF({"mesh.nodes", 9}, {"load.stiffness", 5}, {"load.rest_opening", 25e-3});
+  check_differences(ZP_STUDY_MODES, &sprung, "load.stiffness, load.mass", 8e-3, 1e-6);
+  ZpActuatorDef fold = DEF({"mesh.nodes", 9}, {"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 45e-3},
+                           {"load.mass", 1e-3}, {"hinge.stiffness", 5e-4}, {"hinge.rest_angle", 0.35});
+  /* 2e-5, of rounding: the strips are far stiffer than the hinge */
+  check_differences(ZP_STUDY_MODES, &fold, "hinge.stiffness, load.mass", 8e-3, 1e-4);
 }
 END_TEST
 

@@ -689,6 +689,24 @@ START_TEST(test_supplies_fill_keys) {
 }
 END_TEST
 
+/* Whenever a field is solved anew, it holds another charge than the one that was carried on: the supply gives it. */
+START_TEST(supply_gives_what_a_solved_field_holds) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"electro.model", ZP_ELECTRO_FIELD}, {"source.model", ZP_SOURCE_AMPLIFIER},
+                          {"source.slew_rate", 2e6});
+  if (_i == 1) def.source.slew_rate = NAN, def.source.resistance = 1e7;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpRunInfo info;
+  ck_assert_msg(zp_sim_run(sim, 6e-3, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
+  ck_assert_int_gt(sim->eval.surplus.solutions, 3);
+  double parts = zp_sim_get(sim, "electric_work") + zp_sim_get(sim, "source_loss");
+  ck_near(sim->state->source_charge, zp_sim_get(sim, "charge"), 1e-12);
+  ck_near(zp_sim_get(sim, "source_energy"), parts, 1e-12);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("supply");
   TCase *inner = tcase_create("inner"), *charges = tcase_create("charges"), *motion = tcase_create("motion"),
@@ -703,6 +721,7 @@ int main(void) {
   tcase_add_test(charges, test_limit_of_the_current);
   tcase_add_test(charges, test_limit_without_resistance);
   tcase_add_test(charges, test_slew_rate_alone);
+  tcase_add_loop_test(charges, supply_gives_what_a_solved_field_holds, 0, 2);
   tcase_add_test(charges, test_discharge_through_the_bleeder);
   tcase_add_loop_test(charges, test_falling_flank, 0, 3);
   tcase_add_loop_test(charges, test_jump_into_the_cable, 0, 2);

@@ -85,8 +85,9 @@ typedef struct ZpRunInfo {
  * there is none, the next zp_sim_run returns ZP_NOT_SETTLED and does nothing else. With initial.state checkpoint the
  * simulation moves only after zp_sim_continue, or after another state has been given. `hooks` may be NULL.
  *
- * ZP_BAD_INPUT as zp_def_check_motion; as zp_def_check_voltage at the highest voltage of the waveform; and if
- * drive.waveform is table and the model was made without a table. */
+ * ZP_BAD_INPUT as zp_def_check_motion; as zp_def_check_voltage at the highest voltage of the waveform; if
+ * drive.waveform is table and the model was made without a table; and if a controller measures the contraction of an
+ * actuator that does not open. */
 ZP_API ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
 ZP_API void zp_sim_destroy(ZpSim *sim);
 

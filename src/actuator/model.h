@@ -276,7 +276,7 @@ ZpActuatorDef zp_member_at_rest(const ZpModel *member);
 
 /* Mass that each end which the load hangs on has beyond its share of load.mass, kg. */
 static inline double zp_state_added(const ZpModel *model, const ZpState *state) {
-  return state->load_changed ? model->def.load.share * model->def.load.change_mass : 0;
+  return state->load_changed ? zp_end_share(model) * model->def.load.change_mass : 0;
 }
 
 /* Its weight, of the modelled part, N. */

@@ -840,7 +840,7 @@ static void store(ZpDynamics *d, ZpState *state) {
 void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->model;
   const ZpTopology *t = &model->topology;
-  double each = model->def.load.share * model->def.load.change_mass;
+  double each = zp_end_share(model) * model->def.load.change_mass;
   double fast = sqrt(2 * model->def.gravity * model->def.load.drop_height);
   weigh(d, zp_state_added(model, state));
   zp_assembly_gather(&d->assembly, zp_state_v(model, state), d->v);

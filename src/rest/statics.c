@@ -508,9 +508,8 @@ double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, doub
   residual(s, r, NULL);
   stiffness(s, K, NULL);
   double sum = zp_edges_along(&s->assembly, (const double(*)[4])s->eval.D, u);
-  if (!s->model->field) return sum;
-  zp_band_clear(K);
-  zp_assemble_gaps(&s->assembly, &s->eval.gaps, K);
+  ZpSpan here = span_of(s);
+  zp_system_stiffness_beside_edges(s->model, &here, &s->assembly, &s->eval, K);
   zp_band_multiply(K, u, r);
   for (size_t i = 0; i < s->assembly.n; i++)
     sum += u[i] * r[i];

@@ -60,8 +60,8 @@ void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
  * then factored. */
 bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
 
-/* u' K u at the present point for a direction u [n], edge by edge (zp_edges_along), with the predicted tensions. K and
- * r [n] are work space. */
+/* u' K u at the present point for a direction u [n], of edges one by one (zp_edges_along), with the predicted tensions.
+ * K and r [n] are work space. */
 double zp_statics_stiffness_along(ZpStatics *statics, const double *u, ZpBand *K, double *r);
 
 /* Tolerance of the residual: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */

@@ -274,6 +274,15 @@ static void jump(ZpSim *sim, double V) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);
 }
 
+void zp_feed_renew(ZpSim *sim, double before) {
+  ZpState *state = sim->state;
+  double after = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
+  double charge = sim->model->parts * (after - before), V = state->supply.voltage;
+  state->source_charge += charge;
+  state->source_energy += V * charge;
+  state->source_loss += (V - state->U) * charge;
+}
+
 /* Mean voltage at the bleeder over the last step, V. */
 static double at_bleeder(const ZpSim *sim) {
   return sim->before->U + sim->feed.bleeds * (sim->state->U - sim->before->U);

@@ -42,6 +42,10 @@ double zp_sim_command(const ZpSim *sim);
 /* Before a step: jumps of the command arrive. */
 void zp_feed_arrive(ZpSim *sim);
 
+/* A field that was computed again, or a surface, holds another charge at the same voltage than `before` (of one part,
+ * C): the supply gives the difference. */
+void zp_feed_renew(ZpSim *sim, double before);
+
 /* The next event of the supply before `latest`, s. */
 double zp_feed_event(const ZpSim *sim, double latest);
 

@@ -210,6 +210,17 @@ static void start(ZpSim *sim) {
     zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
 }
 
+/* An actuator that does not open has no contraction, which a controller could measure. */
+static ZpStatus check_controlled(const ZpSim *sim, ZpError *err) {
+  const ZpActuatorDef *def = &sim->model->def;
+  bool measured = def->control.kind != ZP_CONTROL_NONE && def->control.signal == ZP_CONTROL_CONTRACTION;
+  if (!measured || sim->settled != ZP_REACHED_END || sim->state->opening0 > 0) return ZP_OK;
+  return zp_fail(
+      err, ZP_BAD_INPUT,
+      "control.signal = contraction: with this load, gravity and mount.tilt the actuator is closed at rest, so "
+      "it has no contraction; use opening or stroke");
+}
+
 ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = check_creation(model, err);
@@ -218,6 +229,11 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   if (!sim || !create_members(sim, hooks)) {
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
+  }
+  status = check_controlled(sim, err);
+  if (status != ZP_OK) {
+    zp_sim_destroy(sim);
+    return status;
   }
   for (ZpSim *m = sim; m; m = m->below)
     start(m);
@@ -327,8 +343,11 @@ static void follow_voltage(ZpSim *sim) {
 static bool prepare_step(ZpSim *sim) {
   ZpState *state = sim->state;
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  bool due = zp_held_due(sim->model, state);
-  return !due || zp_held_refresh(sim->model, state, &sim->eval) == ZP_END_FOUND;
+  if (!zp_held_due(sim->model, state)) return true;
+  double charge = zp_sim_is_fed(sim) ? zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge : 0;
+  if (zp_held_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND) return false;
+  if (zp_sim_is_fed(sim)) zp_feed_renew(sim, charge);
+  return true;
 }
 
 /* -- one step ------------------------------------------------------------------------------------- */

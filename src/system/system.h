@@ -22,6 +22,10 @@ void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, dou
  * symmetric. */
 void zp_system_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
 
+/* The same without the stiffness of edges. */
+void zp_system_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
+                                      ZpEval *eval, ZpBand *K);
+
 /* The instant of a state, with its voltage, load, held forces and front, at coordinates q and velocities v (its own, or
  * trial values). */
 ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, const double *v);

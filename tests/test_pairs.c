@@ -1,0 +1,789 @@
+/* Every feature of features.def with every other, on a small actuator with a coarse mesh: a pair is refused by a
+ * sentence that names both, and stands in tests/data/refused_pairs.tsv, or it balances. At rest the forces are minus
+ * the gradient of the energy, and the stiffness is the derivative of the forces. In motion energy, charge and power
+ * balance, a restored run continues to the same bits, and a whole or doubled actuator does as its parts do. Two routes
+ * to a number at rest agree. */
+#include "state_util.h"
+
+#include <zipact/calibrate.h>
+#include <zipact/io.h>
+
+#include "actuator/model.h"
+#include "rest/rest.h"
+
+/* -- features and pairs ---------------------------------------------------------------------------- */
+
+typedef struct Feature {
+  const char *name, *settings;
+} Feature;
+
+static const Feature features[] = {
+#define ZP_FEATURE(name, settings) {name, settings},
+#include "features.def"
+};
+enum { FEATURES = LENGTH_OF(features), NONE = -1, MOST_SETTINGS = 24, MOST_WORDS = 128 };
+
+/* A key with its value: a number, or a text. */
+typedef struct Given {
+  int key;
+  double value;
+  char text[MOST_WORDS];
+} Given;
+
+typedef struct Givens {
+  Given given[MOST_SETTINGS];
+  size_t count;
+} Givens;
+
+/* All pairs start from this. */
+static const char base[] = "mesh.nodes=9; liquid.model=none; output.errors=false; solver.end_time=30 ms; "
+                           "output.samples=200; output.shapes=2";
+
+/* What a study needs in addition, unless a feature says otherwise. */
+static const char *needs_of(ZpStudy study) {
+  switch (study) {
+  case ZP_STUDY_CYCLE:
+    return "drive.waveform=sine; drive.frequency=100 Hz; cycle.most_cycles=3";
+  case ZP_STUDY_ISOMETRIC:
+    return "isometric.separation=8 mm; drive.voltage=6 kV";
+  case ZP_STUDY_MODES:
+    return "modes.voltage=1 kV";
+  default:
+    return "";
+  }
+}
+
+static Given *find(Givens *all, int key) {
+  for (size_t i = 0; i < all->count; i++)
+    if (all->given[i].key == key) return &all->given[i];
+  return NULL;
+}
+
+/* Add `key=value; key=value` to `all`, in place of earlier values. */
+static void give(Givens *all, const char *settings) {
+  char copy[512], *rest = copy, *one;
+  ck_assert_uint_lt(strlen(settings), sizeof copy);
+  strcpy(copy, settings);
+  while ((one = strsep(&rest, ";"))) {
+    one += strspn(one, " ");
+    char *equals = strchr(one, '=');
+    if (!equals) continue;
+    *equals = 0;
+    int key = zp_key_find(one);
+    ck_assert_msg(key >= 0, "no key %s", one);
+    Given *to = find(all, key);
+    if (!to) to = &all->given[all->count++];
+    ck_assert_uint_le(all->count, MOST_SETTINGS);
+    to->key = key;
+    ck_assert_uint_lt(strlen(equals + 1), sizeof to->text);
+    strcpy(to->text, equals + 1);
+    ZpError err = {ZP_OK, ""};
+    if (zp_key(key)->type != ZP_KEY_TEXT)
+      ck_assert_msg(zp_value_parse(key, to->text, &to->value, &err) == ZP_OK, "%s", err.message);
+  }
+}
+
+/* Those of each feature, read once: main. */
+static Givens parsed[FEATURES], of_all, of_study[ZpStudy_COUNT];
+
+static void add(Givens *all, const Givens *more) {
+  for (size_t i = 0; i < more->count; i++) {
+    Given *to = find(all, more->given[i].key);
+    if (!to) to = &all->given[all->count++];
+    ck_assert_uint_le(all->count, MOST_SETTINGS);
+    *to = more->given[i];
+  }
+}
+
+/* Do they give a key different values? */
+static bool are_alternatives(int a, int b) {
+  for (size_t i = 0; i < parsed[b].count; i++) {
+    const Given *same = find(&parsed[a], parsed[b].given[i].key);
+    if (same && strcmp(same->text, parsed[b].given[i].text) != 0) return true;
+  }
+  return false;
+}
+
+/* Do so with each pair of feature `a` and a later one, and with the feature alone; of the pairs with one in `thinned`.
+ */
+static void for_pairs(int a, int thinned, void (*check)(int a, int b, const char *name)) {
+  for (int b = a; b < FEATURES; b++) {
+    char name[128];
+    if (are_alternatives(a, b) || (a != b && (a + b) % thinned != 0)) continue;
+    snprintf(name, sizeof name, "%s, %s", features[a].name, features[b].name);
+    check(a, b, name);
+  }
+}
+
+/* (features a and b, or one twice: it alone, or NONE) => a Def for a study, not yet checked. */
+static ZpStatus fill(ZpStudy study, int a, int b, ZpActuatorDef *def, ZpError *err) {
+  Givens all = {.count = 0};
+  add(&all, &of_all);
+  add(&all, &of_study[study]);
+  if (a != NONE) add(&all, &parsed[a]);
+  if (b != NONE) add(&all, &parsed[b]);
+  ZpAssignment list[MOST_SETTINGS];
+  size_t count = 0;
+  for (size_t i = 0; i < all.count; i++)
+    if (zp_key(all.given[i].key)->type != ZP_KEY_TEXT)
+      list[count++] = (ZpAssignment){all.given[i].key, all.given[i].value};
+  def->layout = zp_actuator_def_default().layout;
+  ZpStatus status = zp_def_fill(def, list, count, err);
+  for (size_t i = 0; i < all.count && status == ZP_OK; i++)
+    if (zp_key(all.given[i].key)->type == ZP_KEY_TEXT)
+      status = zp_def_set_text(def, all.given[i].key, all.given[i].text, err);
+  return status;
+}
+
+/* -- refused pairs --------------------------------------------------------------------------------- */
+
+static const ZpStudy studies[] = {ZP_STUDY_ACTUATE, ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,
+                                  ZP_STUDY_MODES,   ZP_STUDY_ISOMETRIC,  ZP_STUDY_CYCLE,       ZP_STUDY_PROFILE};
+enum { STUDIES = LENGTH_OF(studies) };
+
+/* Does this study take the pair? If so `def` is its Def. */
+static bool takes(ZpStudy study, int a, int b, ZpActuatorDef *def, ZpError *err) {
+  return fill(study, a, b, def, err) == ZP_OK && zp_study_check(study, def, err) == ZP_OK;
+}
+
+/* Does a message name a key that the feature changes, also by a preset or a supply? */
+static bool is_named(const char *message, ZpStudy study, int feature) {
+  ZpActuatorDef with, without;
+  fill(study, feature, feature, &with, NULL);
+  fill(study, NONE, NONE, &without, NULL);
+  for (int key = 0; key < zp_key_count(); key++) {
+    const ZpKey *k = zp_key(key);
+    if (k->offset == ZP_NO_FIELD || !strstr(message, k->name)) continue;
+    double value = zp_def_get(&with, key), plain = zp_def_get(&without, key);
+    bool text = k->type == ZP_KEY_TEXT, changed = !text && value != plain && !(isnan(value) && isnan(plain));
+    if (changed || find(&parsed[feature], key)) return true;
+  }
+  return false;
+}
+
+/* Tell the pair (or the feature alone) that some studies refuse, with the first reason. => number of studies */
+static int list_refusal(FILE *file, int a, int b, bool alone[FEATURES][STUDIES]) {
+  char words[128] = "", reason[sizeof((ZpError *)0)->message] = "";
+  int refused = 0;
+  for (size_t k = 0; k < STUDIES; k++) {
+    ZpActuatorDef def;
+    ZpError err = {ZP_OK, ""};
+    if (a != b && !(alone[a][k] && alone[b][k])) continue;
+    if (takes(studies[k], a, b, &def, &err)) continue;
+    ck_assert_int_eq(err.status, ZP_BAD_INPUT);
+    ck_assert_msg(is_named(err.message, studies[k], a) && is_named(err.message, studies[k], b),
+                  "%s with %s is refused by %s without the name of both: %s", features[a].name, features[b].name,
+                  zp_study_name(studies[k]), err.message);
+    if (refused++ == 0) strcpy(reason, err.message);
+    snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", refused > 1 ? " " : "",
+             zp_study_name(studies[k]));
+  }
+  if (refused > 0) fprintf(file, "%s\t%s\t%s\t%s\n", features[a].name, a == b ? "" : features[b].name, words, reason);
+  return refused;
+}
+
+/* Are two files the same? */
+static bool same_files(const char *a, const char *b) {
+  FILE *file[] = {fopen(a, "r"), fopen(b, "r")};
+  int byte[2] = {0, 0};
+  if (!file[0] || !file[1]) return false;
+  do {
+    byte[0] = getc(file[0]);
+    byte[1] = getc(file[1]);
+  } while (byte[0] == byte[1] && byte[0] != EOF);
+  fclose(file[0]);
+  fclose(file[1]);
+  return byte[0] == byte[1];
+}
+
+/* The list is tests/data/refused_pairs.tsv: features that a study refuses, alone or together, the studies, and the
+ * reason of the first of them. */
+START_TEST(refused_pairs_are_listed) {
+  static const char fresh[] = "refused_pairs.tsv", kept[] = ZP_SOURCE_DIR "/tests/data/refused_pairs.tsv";
+  bool alone[FEATURES][STUDIES];
+  FILE *file = fopen(fresh, "w");
+  ck_assert_ptr_nonnull(file);
+  int pairs = 0, refused = 0, cases = 0, refused_cases = 0;
+  for (int a = 0; a < FEATURES; a++)
+    for (size_t k = 0; k < STUDIES; k++) {
+      ZpActuatorDef def;
+      alone[a][k] = takes(studies[k], a, a, &def, NULL);
+    }
+  for (int a = 0; a < FEATURES; a++)
+    for (int b = a; b < FEATURES; b++) {
+      if (are_alternatives(a, b)) continue;
+      int by = list_refusal(file, a, b, alone);
+      for (size_t k = 0; a != b && k < STUDIES; k++)
+        cases += alone[a][k] && alone[b][k];
+      if (a != b) pairs++, refused += by > 0, refused_cases += by;
+    }
+  fprintf(file, "%d features, %d pairs: %d refused by a study that takes both alone; %d of %d pairs with a study\n",
+          FEATURES, pairs, refused, refused_cases, cases);
+  ck_assert_int_eq(fclose(file), 0);
+  printf("%d features, %d pairs, %d refused; %d of %d pairs with a study\n", FEATURES, pairs, refused, refused_cases,
+         cases);
+  ck_assert_msg(same_files(fresh, kept), "refused pairs have changed: compare %s with %s, and replace it", fresh, kept);
+}
+END_TEST
+
+/* -- forces at rest -------------------------------------------------------------------------------- */
+
+/* Laws of the field, whose forces have a common energy; the others have one each. */
+static bool is_electric(const ZpTerm *term) {
+  static const char *const names[] = {"plates", "leak", "bezier", "field", "bead"};
+  for (size_t k = 0; k < LENGTH_OF(names); k++)
+    if (strcmp(term->name, names[k]) == 0) return true;
+  return false;
+}
+
+/* Laws that have an energy in motion only. */
+static bool moves(const ZpTerm *term) {
+  return strcmp(term->name, "film") == 0 || strcmp(term->name, "outer") == 0;
+}
+
+/* The law `which`, or all electric ones if it is the number of terms: energy and forces at the present point. */
+static double energy_and_forces(ZpStatics *s, size_t which, double *F) {
+  const ZpModel *model = s->model;
+  ZpEval *e = &s->eval;
+  ZpSpan now = zp_span_at(s->q);
+  now.U0 = now.U1 = s->U;
+  now.faces_pass = true;
+  now.beyond = zp_eval_beyond(e);
+  zp_system_force(model, &now, e, F); /* finds edges and gaps for the terms */
+  memset(F, 0, 2 * model->stride * sizeof *F);
+  ZpEnergies sum = {0};
+  ZpElectric field = {0};
+  for (size_t k = 0; k < e->terms; k++) {
+    bool electric = is_electric(e->term[k]);
+    if (which == e->terms ? !electric : k != which) continue;
+    e->term[k]->force(model, &now, e, F);
+    if (e->term[k]->energy && !moves(e->term[k])) e->term[k]->energy(model, &now, e, &sum);
+    if (e->term[k]->electric) e->term[k]->electric(model, &now, e, ZP_SPAN_END, s->U, &field);
+  }
+  double surfaces = 0;
+  for (int half = 0; which == e->terms && half < zp_beads(&model->film); half++)
+    surfaces -= 2 * model->bead.suction * model->bead.tension * model->film.w * e->reach[half];
+  return sum.axial + sum.bending + sum.gravity + sum.spring + field.potential + surfaces;
+}
+
+enum { ROOM = 512 };
+
+/* From q0 [2 stride] by a part of a step of the equations. */
+static void move_from(ZpStatics *s, const double *q0, const double *step, double part) {
+  size_t stride = s->model->stride;
+  memcpy(s->q, q0, 2 * stride * sizeof *q0);
+  for (size_t k = 0; k < 2 * s->model->count; k++) {
+    int row = s->assembly.equation[k];
+    if (row >= 0) s->q[k / 2 + (k % 2) * stride] += part * step[row];
+  }
+}
+
+/* A wedge that opens from its clips, noisily. */
+static void open_wedge(ZpStatics *s, double *step) {
+  uint64_t seed = 7;
+  const ZpModel *model = s->model;
+  size_t last = model->topology.stations - 1;
+  memset(step, 0, s->assembly.n * sizeof *step);
+  for (size_t i = 0; i <= last; i++) {
+    double part = (double)i / (double)last;
+    if (model->topology.halves == 2) part = 1 - fabs(2 * part - 1);
+    int row = s->assembly.equation[2 * zp_lower(&model->topology, i) + 1];
+    if (row >= 0) step[row] = -(50e-6 + 500e-6 * part * part) * (1 + 0.1 * noise(&seed));
+  }
+}
+
+/* A direction in which all nodes move up and down, and a little to the sides. */
+static void draw_direction(ZpStatics *s, double *step) {
+  uint64_t seed = 11;
+  for (size_t k = 0; k < 2 * s->model->count; k++) {
+    int row = s->assembly.equation[k];
+    if (row >= 0) step[row] = (k % 2 == 0 ? 1e-3 : 1) * noise(&seed);
+  }
+}
+
+/* The larger of both; NAN if one is. */
+static double larger(double a, double b) {
+  return b <= a ? a : b;
+}
+
+typedef struct AtRest {
+  double gradient, stiffness; /* largest relative differences */
+} AtRest;
+
+/* Force along the step against the difference of the energy, over the sum of the forces' sizes along it. */
+static double gradient_error(ZpStatics *s, size_t which, const double *q0, const double *step, double h) {
+  double F[ROOM], r[ROOM], other[ROOM], energy[2];
+  ZpStaticSystem system = zp_statics_system(s);
+  for (int k = 0; k < 2; k++) {
+    move_from(s, q0, step, k ? h : -h);
+    if (system.refresh) system.refresh(s);
+    energy[k] = energy_and_forces(s, which, other);
+  }
+  move_from(s, q0, step, 0);
+  if (system.refresh) system.refresh(s);
+  energy_and_forces(s, which, F);
+  zp_assembly_sum(&s->assembly, F, r);
+  double along = 0, size = 0;
+  for (size_t i = 0; i < s->assembly.n; i++)
+    along += r[i] * step[i], size += fabs(r[i] * step[i]);
+  return size != 0 ? fabs(along + (energy[1] - energy[0]) / (2 * h)) / size : 0;
+}
+
+/* Stiffness times the step against the difference of the forces, over the largest. The field is held. */
+static double stiffness_error(ZpStatics *s, const double *q0, const double *step, double h) {
+  double product[ROOM], r[2][ROOM], worst = 0, most = 0;
+  ZpStaticSystem system = zp_statics_system(s);
+  ZpBand *K = &((ZpRest *)s)->branch.newton.K;
+  for (int k = 0; k < 2; k++) {
+    move_from(s, q0, step, k ? h : -h);
+    system.residual(s, r[k], NULL);
+  }
+  move_from(s, q0, step, 0);
+  system.residual(s, product, NULL);
+  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+  system.stiffness(s, K, NULL);
+  zp_band_multiply(K, step, product);
+  for (size_t i = 0; i < s->assembly.n; i++) {
+    worst = fmax(worst, fabs(product[i] + (r[1][i] - r[0][i]) / (2 * h)));
+    most = fmax(most, fabs(product[i]));
+  }
+  return worst / most;
+}
+
+static void check_point(ZpStatics *s, AtRest *worst) {
+  double q0[ROOM], step[ROOM];
+  size_t bytes = 2 * s->model->stride * sizeof *q0;
+  ck_assert_uint_le(bytes, sizeof q0);
+  open_wedge(s, step);
+  memcpy(q0, s->q, bytes);
+  move_from(s, q0, step, 1);
+  memcpy(q0, s->q, bytes);
+  s->U = 2e3;
+  draw_direction(s, step);
+  for (size_t k = 0; k <= s->eval.terms; k++) {
+    if (k < s->eval.terms && is_electric(s->eval.term[k])) continue;
+    worst->gradient = larger(worst->gradient, gradient_error(s, k, q0, step, 2e-8));
+  }
+  worst->stiffness = larger(worst->stiffness, stiffness_error(s, q0, step, 1e-8));
+}
+
+/* Of a pair: forces of the shear springs have no energy; three points an element miss a part of the field beside a
+ * meniscus that attracts. */
+static double allowed_gradient(const ZpActuatorDef *def) {
+  if (def->ribbon.model == ZP_RIBBON_MASS_SPRING) return 1e-4;
+  return zp_def_liquid(def) == ZP_LIQUID_BEAD && def->bead.suction > 0 ? 2e-3 : 1e-6;
+}
+
+/* All members of the model. */
+static void check_at_rest(int a, int b, const char *name) {
+  ZpActuatorDef def;
+  if (!takes(ZP_STUDY_STATIONARY, a, b, &def, NULL)) return;
+  ZpModel *model = model_of(&def);
+  AtRest worst = {0, 0};
+  for (const ZpModel *one = model; one; one = one->below) {
+    ZpRest rest;
+    ck_assert(zp_rest_open(&rest, one, NULL, NULL));
+    check_point(&rest.statics, &worst);
+    zp_rest_close(&rest);
+  }
+  printf("at rest, %s: gradient %.1e, stiffness %.1e\n", name, worst.gradient, worst.stiffness);
+  ck_assert_msg(worst.gradient <= allowed_gradient(&def), "%s: force is off -dU/dq by %.1e", name, worst.gradient);
+  ck_assert_msg(worst.stiffness <= 3e-7, "%s: stiffness is off -dF/dq by %.1e", name, worst.stiffness);
+  zp_model_destroy(model);
+}
+
+/* -- in motion ------------------------------------------------------------------------------------- */
+
+static const double middle = 8e-3, end = 14e-3; /* s: faces have met, of most */
+
+static double at(const ZpTable *series, size_t row, const char *column) {
+  return zp_table_get(series, row, column);
+}
+
+static double largest(const ZpTable *series, const char *column) {
+  double most = 0;
+  for (size_t r = 0; r < series->rows; r++)
+    most = fmax(most, fabs(at(series, r, column)));
+  return most;
+}
+
+/* Energy that does not balance over the energy that flows; at least some nJ flow. */
+static double energy_error(const ZpTable *series) {
+  double flow = fmax(largest(series, "electric_work_J"), largest(series, "kinetic_energy_J"));
+  return largest(series, "energy_imbalance_J") / fmax(flow, 1e-9);
+}
+
+/* What integrators without an energy, or with held forces, may miss; all others solve an energy-conserving step to
+ * Newton's tolerance. Two features miss what the worse one does. */
+static double allowed_energy(int a, int b) {
+  static const struct {
+    const char *name;
+    double allowed;
+  } of[] = {{"drag", 4e-6},         {"mass and spring", 1e-4}, {"soft axial springs", 1e-3},
+            {"field", 5e-3},        {"explicit steps", 2e-3},  {"sequential contact", 5e-3},
+            {"Bezier surface", 10}, {"paper-text", 20},        {"paper-code", 2}};
+  double most = 1e-6;
+  for (size_t k = 0; k < LENGTH_OF(of); k++)
+    if (strcmp(features[a].name, of[k].name) == 0 || strcmp(features[b].name, of[k].name) == 0)
+      most = fmax(most, of[k].allowed);
+  return most;
+}
+
+/* Integral of a mean rate over the rows. */
+static double integral(const ZpTable *series, const char *column) {
+  double sum = 0;
+  for (size_t r = 1; r < series->rows; r++)
+    sum += at(series, r, column) * (at(series, r, "time_s") - at(series, r - 1, "time_s"));
+  return sum;
+}
+
+/* Mean current and power against charge and energy, unless charge passes elsewhere; and sums against their parts. */
+static double book_error(const ZpTable *series, const ZpActuatorDef *def) {
+  double worst = 0, drawn = fmax(largest(series, "source_energy_J"), 1e-9), stored[2], energy[2];
+  for (size_t r = 0; r < series->rows; r++) {
+    double supplied = at(series, r, "electric_work_J") + at(series, r, "cable_energy_J") +
+                      at(series, r, "source_loss_J") + at(series, r, "bleeder_loss_J"),
+           film = at(series, r, "film_along_loss_J") + at(series, r, "film_across_loss_J");
+    worst = larger(worst, fabs(supplied - at(series, r, "source_energy_J")) / drawn);
+    worst = larger(worst, fabs(film - at(series, r, "viscous_loss_J")) / drawn);
+  }
+  for (size_t k = 0; k < 2; k++) {
+    size_t row = k * (series->rows - 1);
+    stored[k] = at(series, row, "charge_C") + def->source.capacitance * at(series, row, "voltage_V");
+    energy[k] = at(series, row, "source_energy_J");
+  }
+  worst = larger(worst, fabs(integral(series, "power_W") - energy[1] + energy[0]) / drawn);
+  bool passes = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity);
+  double charge = fmax(largest(series, "charge_C"), 1e-15);
+  return passes ? worst : larger(worst, fabs(integral(series, "current_A") - stored[1] + stored[0]) / charge);
+}
+
+static ZpSim *start(const ZpActuatorDef *def, ZpModel **model, const char *name) {
+  ZpSim *sim = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_data_sim_create(def, NULL, model, &sim, &err) == ZP_OK, "%s: %s", name, err.message);
+  return sim;
+}
+
+/* Is the pair refused where it hangs, by a sentence that names both? */
+static bool is_refused_at_rest(const ZpActuatorDef *def, int a, int b, const char *name) {
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpError err = {ZP_OK, ""};
+  ZpStatus status =
+      def->control.signal == ZP_CONTROL_CONTRACTION ? zp_data_sim_create(def, NULL, &model, &sim, &err) : ZP_OK;
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  if (status == ZP_OK) return false;
+  ck_assert_msg(is_named(err.message, ZP_STUDY_ACTUATE, a) && is_named(err.message, ZP_STUDY_ACTUATE, b),
+                "%s is refused without the name of both: %s", name, err.message);
+  printf("refused at rest, %s\n", name);
+  return true;
+}
+
+/* Run to a time => the state there, which the caller frees. */
+static void *run_to(ZpSim *sim, double time, const char *name) {
+  ZpRunInfo info;
+  ck_assert_msg(zp_sim_run(sim, time, false, NULL, &info) == ZP_REACHED_END, "%s: %s", name, info.message);
+  void *bytes = calloc(1, zp_sim_state_size(sim));
+  zp_sim_save(sim, bytes);
+  return bytes;
+}
+
+/* A second run to the middle, and a third one that continues from the first one's state there: the same bits. */
+static void check_continued(const ZpActuatorDef *def, const void *halfway, const void *finally, const char *name) {
+  ZpModel *model = NULL;
+  ZpSim *sim = start(def, &model, name);
+  size_t size = zp_sim_state_size(sim);
+  void *again = run_to(sim, middle, name);
+  ck_assert_msg(memcmp(again, halfway, size) == 0, "%s: a second run differs", name);
+  ZpModel *same = NULL;
+  ZpSim *other = start(def, &same, name);
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_sim_restore(other, halfway, size, &err) == ZP_OK, "%s: %s", name, err.message);
+  void *continued = run_to(other, end, name);
+  ck_assert_msg(memcmp(continued, finally, size) == 0, "%s: the restored run differs", name);
+  free(again), free(continued);
+  zp_sim_destroy(sim);
+  zp_sim_destroy(other);
+  zp_model_destroy(model);
+  zp_model_destroy(same);
+}
+
+static void check_in_motion(int a, int b, const char *name) {
+  ZpActuatorDef def;
+  if (!takes(ZP_STUDY_ACTUATE, a, b, &def, NULL) || is_refused_at_rest(&def, a, b, name)) return;
+  ZpModel *model = NULL;
+  ZpSim *sim = start(&def, &model, name);
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpTable *series = zp_table_create(column, columns, 200);
+  zp_sim_record(sim, series, NULL);
+  void *halfway = run_to(sim, middle, name), *finally = run_to(sim, end, name);
+  double energy = energy_error(series), books = book_error(series, &def);
+  printf("in motion, %s: energy %.1e, books %.1e, zipped %.1f mm\n", name, energy, books,
+         1e3 * zp_sim_get(sim, "zipped_length"));
+  ck_assert_msg(energy <= allowed_energy(a, b), "%s: energy is off balance by %.1e", name, energy);
+  ck_assert_msg(books <= 1e-12, "%s: a book is off by %.1e", name, books);
+  for (size_t i = 0; i < series->rows * series->columns; i++)
+    ck_assert_msg(!isinf(series->value[i]), "%s: a signal is infinite", name);
+  check_continued(&def, halfway, finally, name);
+  free(halfway), free(finally);
+  zp_table_destroy(series);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+
+/* -- two halves, and two abreast -------------------------------------------------------------------- */
+
+static int feature(const char *name) {
+  for (int k = 0; k < FEATURES; k++)
+    if (strcmp(features[k].name, name) == 0) return k;
+  ck_abort_msg("no feature %s", name);
+  return NONE;
+}
+
+/* Half of an actuator that has all twice: forces, masses and charges are half as large. */
+static void halve(ZpActuatorDef *def) {
+  static const struct {
+    const char *key;
+    double factor;
+  } of[] = {{"load.force", 0.5},        {"load.stiffness", 0.5},     {"load.stop_stiffness", 0.5},
+            {"load.change_mass", 0.5},  {"stack.link_mass", 0.5},    {"source.current_limit", 0.5},
+            {"source.sink_limit", 0.5}, {"source.capacitance", 0.5}, {"source.resistance", 2},
+            {"source.bleeder", 2},      {"sense.noise", 0.5}};
+  for (size_t k = 0; k < LENGTH_OF(of); k++) {
+    int key = zp_key_find(of[k].key);
+    double value = zp_def_get(def, key);
+    if (value != zp_key(key)->def && !isnan(value)) zp_def_set(def, key, of[k].factor * value, NULL);
+  }
+  def->load.mass *= 0.5;
+  if (def->control.kind == ZP_CONTROL_NONE || def->control.signal != ZP_CONTROL_CAPACITANCE) return;
+  def->setpoint.value *= 0.5;
+  def->setpoint.offset *= 0.5;
+  def->control.proportional *= 2;
+  def->control.integral *= 2;
+}
+
+/* Largest relative difference of what both do in time, where the second one has `times` the size of the first. */
+static double motion_difference(const ZpActuatorDef *one, const ZpActuatorDef *many, double times, const char *name) {
+  static const struct {
+    const char *signal;
+    bool grows;
+  } of[] = {{"stroke", false},        {"end_velocity", false}, {"charge", true},        {"electric_work", true},
+            {"kinetic_energy", true}, {"field_energy", true},  {"internal_loss", true}, {"viscous_loss", true}};
+  const ZpActuatorDef *def[] = {one, many};
+  double value[2][LENGTH_OF(of)], worst = 0;
+  for (int k = 0; k < 2; k++) {
+    ZpModel *model = NULL;
+    ZpSim *sim = start(def[k], &model, name);
+    free(run_to(sim, middle, name));
+    for (size_t i = 0; i < LENGTH_OF(of); i++)
+      value[k][i] = zp_sim_get(sim, of[i].signal) / (k && of[i].grows ? times : 1);
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+  for (size_t i = 0; i < LENGTH_OF(of); i++)
+    if (value[0][i] != value[1][i]) worst = larger(worst, fabs(value[1][i] / value[0][i] - 1));
+  return worst;
+}
+
+/* A feature with another one that makes `times` as much of it. */
+static void compare(int a, int other, double times, const char *name) {
+  ZpActuatorDef one, many;
+  if (a == other || are_alternatives(a, other) || find(&parsed[a], zp_key_find("stack.parallel"))) return;
+  if (!takes(ZP_STUDY_ACTUATE, a, a, &one, NULL) || !takes(ZP_STUDY_ACTUATE, a, other, &many, NULL)) return;
+  bool fed = one.source.model == ZP_SOURCE_AMPLIFIER; /* steps differ, because the supply is there once */
+  if (fed) one.solver.tolerance = many.solver.tolerance = 1e-5;
+  if (times > 1) halve(&one);
+  double off = motion_difference(&one, &many, times, name);
+  printf("%s, %s: %.1e\n", features[other].name, features[a].name, off);
+  ck_assert_msg(off <= (fed ? 2e-4 : 5e-8), "%s, %s: off by %.1e", features[other].name, features[a].name, off);
+}
+
+static void check_doubled(int a, int b, const char *name) {
+  if (a != b) return;
+  compare(a, feature("whole"), 1, name);
+  compare(a, feature("equal ones abreast"), 2, name);
+}
+
+/* -- studies --------------------------------------------------------------------------------------- */
+
+static ZpResult *run_study(ZpStudy study, const ZpActuatorDef *def, const char *name) {
+  ZpResult *result = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_data_study_run(study, def, NULL, &result, &err) == ZP_OK, "%s: %s", name, err.message);
+  for (size_t i = 0; i < result->scalars; i++)
+    ck_assert_msg(!isinf(result->scalar[i].value), "%s: %s is infinite", name, result->scalar[i].name);
+  return result;
+}
+
+/* Without weight and spring a hinge turns freely: no equilibrium is the one. */
+static bool is_neutral(const ZpActuatorDef *def) {
+  return def->actuator.kind == ZP_KIND_HINGE && def->hinge.stiffness == 0 && def->gravity == 0;
+}
+
+/* NULL: the study does not take the pair. The answer may be that there is no hanging equilibrium. */
+static ZpResult *answer(ZpStudy study, int a, int b, const char *name) {
+  ZpActuatorDef def;
+  if (!takes(study, a, b, &def, NULL) || is_neutral(&def)) return NULL;
+  ZpResult *result = run_study(study, &def, name);
+  ck_assert_msg(zp_outcome_good(result->outcome) || result->outcome == ZP_PULLED_IN, "%s, %s: %s", zp_study_name(study),
+                name, result->message);
+  return result;
+}
+
+static double difference(const ZpResult *a, const ZpResult *b, const char *name) {
+  double x = zp_result_get(a, name), y = zp_result_get(b, name);
+  return x == y || (isnan(x) && isnan(y)) ? 0 : fabs(x / y - 1);
+}
+
+/* What the load pulls with at this opening, N. */
+static double pull_at(const ZpActuatorDef *def, double opening) {
+  double share = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 * def->load.share : def->load.share,
+         hung = def->load.mass * def->gravity * cos(def->mount.tilt) + def->load.force, spring = 0, stop = 0;
+  if (def->load.stiffness > 0) spring = def->load.stiffness * fmax(def->load.rest_opening - opening, 0);
+  if (!isnan(def->load.stop_opening)) stop = def->load.stop_stiffness * fmax(opening - def->load.stop_opening, 0);
+  return share * hung + spring - stop;
+}
+
+/* An actuator that is held at the opening at which it hangs needs the force of its load. */
+static double hold_error(int a, int b, const ZpResult *hanging, const char *name) {
+  ZpActuatorDef def;
+  if (!takes(ZP_STUDY_ISOMETRIC, a, b, &def, NULL)) return 0;
+  double opening = zp_result_get(hanging, "opening_m");
+  def.isometric.separation = def.actuator.kind == ZP_KIND_HINGE ? zp_result_get(hanging, "stroke_m") : opening;
+  def.drive.voltage = 0;
+  if (!(def.isometric.separation > 1e-5) || zp_study_check(ZP_STUDY_ISOMETRIC, &def, NULL) != ZP_OK) return 0;
+  ZpResult *held = run_study(ZP_STUDY_ISOMETRIC, &def, name);
+  double force = zp_result_get(held, "force_unpowered_N"), pull = pull_at(&def, opening);
+  zp_result_destroy(held);
+  return fabs(force / pull - 1);
+}
+
+static void check_studies(int a, int b, const char *name) {
+  int dear = feature("field"); /* seconds for a branch */
+  if (a != b && (a == dear || b == dear)) return;
+  ZpResult *of[ZpStudy_COUNT] = {NULL};
+  for (size_t k = 1; k < STUDIES; k++)
+    of[studies[k]] = answer(studies[k], a, b, name);
+  const ZpResult *limits = of[ZP_STUDY_LIMITS], *branch = of[ZP_STUDY_EQUILIBRIUM], *cycle = of[ZP_STUDY_CYCLE];
+  static const char *const voltages[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
+  double limit = 0, hold = of[ZP_STUDY_STATIONARY] ? hold_error(a, b, of[ZP_STUDY_STATIONARY], name) : 0;
+  for (size_t k = 0; limits && branch && k < LENGTH_OF(voltages); k++)
+    limit = larger(limit, difference(limits, branch, voltages[k]));
+  double energy = cycle && cycle->series ? energy_error(cycle->series) : 0;
+  double work = of[ZP_STUDY_PROFILE] ? fabs(zp_result_get(of[ZP_STUDY_PROFILE], "virtual_work_difference")) : 0;
+  printf("studies, %s: limits %.1e, held %.1e, cycle %.1e, virtual work %.1e\n", name, limit, hold, energy, work);
+  ck_assert_msg(limit <= 1e-9, "%s: limits are off the branch by %.1e", name, limit);
+  ck_assert_msg(hold <= 1e-7, "%s: the held force is off the load by %.1e", name, hold);
+  ck_assert_msg(energy <= allowed_energy(a, b), "%s: a cycle is off balance by %.1e", name, energy);
+  ck_assert_msg(work <= 1e-3, "%s: the force of the field is off virtual work by %.1e", name, work);
+  for (int k = 0; k < ZpStudy_COUNT; k++)
+    zp_result_destroy(of[k]);
+}
+
+static double study_value(ZpStudy study, const ZpActuatorDef *def, int key, double value, const char *output) {
+  ZpActuatorDef other = *def;
+  *other.sensitivity.by = 0;
+  zp_def_set(&other, key, value, NULL);
+  ZpResult *result = run_study(study, &other, output);
+  double answered = zp_result_get(result, output);
+  zp_result_destroy(result);
+  return answered;
+}
+
+/* Can the key be changed by h either way? Where isometric holds the platform there is no load. */
+static bool varies(ZpStudy study, const ZpActuatorDef *def, int key, double h) {
+  if (study == ZP_STUDY_ISOMETRIC && strncmp(zp_key(key)->name, "load.", 5) == 0) return false;
+  for (int side = -1; side <= 1; side += 2) {
+    ZpActuatorDef other = *def;
+    bool set = zp_def_set(&other, key, zp_def_get(def, key) + side * h, NULL) == ZP_OK;
+    if (!set || zp_study_check(study, &other, NULL) != ZP_OK) return false;
+  }
+  return h > 0;
+}
+
+/* A derivative that a study gives against the difference of its answers. */
+static void check_slope(ZpStudy study, const char *output, int key, const ZpActuatorDef *plain, const char *name) {
+  double step = study == ZP_STUDY_MODES ? 2e-3 : 1e-4; /* frequencies are solved to some 1e-9 */
+  ZpActuatorDef def = *plain;
+  if (zp_def_set_text(&def, zp_key_find("sensitivity.by"), zp_key(key)->name, NULL) != ZP_OK) return;
+  double value = zp_key(key)->type == ZP_KEY_TEXT ? NAN : zp_def_get(&def, key), h = step * fabs(value);
+  if (!varies(study, &def, key, h)) return;
+  ZpResult *result = run_study(study, &def, name);
+  bool answered = result->sensitivities > 0;
+  double slope = answered ? slope_in(result, output, zp_key(key)->name) : NAN, here = zp_result_get(result, output);
+  zp_result_destroy(result);
+  if (isnan(slope)) return;
+  double up = study_value(study, &def, key, value + h, output), down = study_value(study, &def, key, value - h, output);
+  double size = fabs(slope) + 1e-3 * fabs(here / value); /* a derivative that hardly changes the output is rounding */
+  double off = size > 0 ? fabs(slope - (up - down) / (2 * h)) / size : 0;
+  printf("derivative of %s by %s, %s: %.9g, off by %.1e\n", output, zp_key(key)->name, name, slope, off);
+  ck_assert_msg(off <= 2e-4, "%s: derivative of %s by %s, %.9g, is off by %.1e", name, output, zp_key(key)->name, slope,
+                off);
+}
+
+/* The derivatives that studies give with each feature: by the load, and by the feature's own keys. */
+static void check_derivatives(int a, int b, const char *name) {
+  static const struct {
+    ZpStudy study;
+    const char *output;
+  } of[] = {{ZP_STUDY_STATIONARY, "stroke_m"},
+            {ZP_STUDY_LIMITS, "pull_in_voltage_V"},
+            {ZP_STUDY_ISOMETRIC, "force_N"},
+            {ZP_STUDY_MODES, "frequency_1_Hz"}};
+  if (a != b || a == feature("derivatives")) return;
+  for (size_t k = 0; k < LENGTH_OF(of); k++) {
+    ZpActuatorDef def;
+    if (!takes(of[k].study, a, a, &def, NULL) || is_neutral(&def)) continue;
+    Givens keys = parsed[a];
+    give(&keys, "load.mass=8 g");
+    for (size_t i = 0; i < keys.count; i++)
+      check_slope(of[k].study, of[k].output, keys.given[i].key, &def, name);
+  }
+}
+
+/* -- all of it ------------------------------------------------------------------------------------- */
+
+/* A part of the pairs in `make check`, all at night. */
+#define PAIRS(test, check, thinned)                                                                                    \
+  START_TEST(test) {                                                                                                   \
+    for_pairs(_i, thinned, check);                                                                                     \
+  }                                                                                                                    \
+  END_TEST
+
+PAIRS(forces_at_rest_of_some_pairs, check_at_rest, 12)
+PAIRS(forces_at_rest_of_all_pairs, check_at_rest, 1)
+PAIRS(motion_of_some_pairs, check_in_motion, 24)
+PAIRS(motion_of_all_pairs, check_in_motion, 1)
+PAIRS(twice_of_each_feature, check_doubled, FEATURES)
+PAIRS(studies_of_each_feature, check_studies, FEATURES)
+PAIRS(studies_of_all_pairs, check_studies, 1)
+PAIRS(derivatives_of_each_feature, check_derivatives, FEATURES)
+
+static void read_features(void) {
+  give(&of_all, base);
+  for (int k = 0; k < ZpStudy_COUNT; k++)
+    give(&of_study[k], needs_of((ZpStudy)k));
+  for (int k = 0; k < FEATURES; k++)
+    give(&parsed[k], features[k].settings);
+}
+
+int main(void) {
+  Suite *suite = suite_create("pairs");
+  TCase *all = tcase_create("all"), *nightly = nightly_case(suite);
+  suite_add_tcase(suite, all);
+  tcase_add_unchecked_fixture(all, read_features, NULL);
+  tcase_add_unchecked_fixture(nightly, read_features, NULL);
+  tcase_add_test(all, refused_pairs_are_listed);
+  tcase_add_loop_test(all, forces_at_rest_of_some_pairs, 0, FEATURES);
+  tcase_add_loop_test(all, motion_of_some_pairs, 0, FEATURES);
+  tcase_add_loop_test(nightly, twice_of_each_feature, 0, FEATURES);
+  tcase_add_loop_test(nightly, derivatives_of_each_feature, 0, FEATURES);
+  tcase_add_loop_test(nightly, studies_of_each_feature, 0, FEATURES);
+  tcase_add_loop_test(nightly, forces_at_rest_of_all_pairs, 0, FEATURES);
+  tcase_add_loop_test(nightly, motion_of_all_pairs, 0, FEATURES);
+  tcase_add_loop_test(nightly, studies_of_all_pairs, 0, FEATURES);
+  return run_suite(suite);
+}
