@@ -673,7 +673,7 @@ static const Row rows[] = {
     {"control.signal",
      HELD_BY_PI " control.proportional=0.1V/pF",
      "capacitance",
-     "contraction",
+     "opening",
      {{LESS, "voltage_V", 0.1, 0}}},
     {"control.proportional", HELD_BY_PI, "0.1V/pF", "0.2V/pF", {{TIMES, "voltage_V", 2, 1e-4}}},
     {"control.integral", HELD_BY_PI, "10V/pF/s", "20V/pF/s", {{TIMES, "voltage_V", 2, 1e-4}}},
