@@ -392,7 +392,7 @@ ok "130: --json" json stdout 'd["outcome"] == "interrupted" and d["simulated_tim
 ok "130: what was done is kept" complete interrupted
 ok "130: where it stood is kept" is_file interrupted/checkpoint.zps
 ok "130: rows are kept" [ "$(wc -l <interrupted/table.csv)" -gt 2 ]
-interrupt 1 actuate --set mesh.nodes=2001 --json -o interrupted-early
+interrupt 0.5 actuate --set mesh.nodes=2001 --json -o interrupted-early
 ok "130: Ctrl-C while it settles" status_is 130
 ok "130: --json, too" json stdout 'd["outcome"] == "interrupted"'
 ok "130: files, too" complete interrupted-early
