@@ -1267,6 +1267,41 @@ START_TEST(pull_in_of_the_last_zip_time) {
 }
 END_TEST
 
+/* A simulation of a definition that names a checkpoint begins where that was taken, and only for its own model. */
+START_TEST(simulation_begins_at_its_checkpoint) {
+  ZpActuatorDef def = zp_actuator_def_default();
+  ZpModel *model;
+  ZpSim *sim;
+  ZpCheckpoint *checkpoint;
+  ZpError err;
+  set(&def, "mesh.nodes", 9);
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, NULL), ZP_OK);
+  zp_sim_run(sim, 2e-3, false, NULL, NULL);
+  ck_assert_int_eq(zp_sim_checkpoint(sim, &checkpoint, NULL), ZP_OK);
+  const double taken = zp_checkpoint_time(checkpoint);
+  ck_assert(taken > 1e-3 && taken <= 2e-3);
+  FILE *file = fopen("begins.zps", "w");
+  ck_assert_int_eq(zp_checkpoint_write(checkpoint, file, NULL), ZP_OK);
+  ck_assert_int_eq(fclose(file), 0);
+  zp_checkpoint_destroy(checkpoint);
+  zp_sim_run(sim, 4e-3, false, NULL, NULL);
+  const double stroke = zp_sim_get(sim, "stroke");
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  set(&def, "initial.state", ZP_INITIAL_CHECKPOINT);
+  set_text(&def, "initial.file", "begins.zps");
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, NULL), ZP_OK);
+  ck_assert_double_eq(zp_sim_get(sim, "time"), taken); /* the last step before 2 ms */
+  zp_sim_run(sim, 4e-3, false, NULL, NULL);
+  assert_near(zp_sim_get(sim, "stroke"), stroke, 3e-7); /* 7e-8: the next step has another length */
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  set(&def, "ribbon.thickness", 60e-6);
+  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_BAD_INPUT);
+  ck_assert_ptr_nonnull(strstr(err.message, "ribbon.thickness is 5e-05 m there, 6e-05 m here"));
+}
+END_TEST
+
 /* A limit of CPU time counts from the start of the study, not from that of the thread. */
 START_TEST(time_limit_counts_from_the_start_of_a_study) {
   ZpActuatorDef def = zp_actuator_def_default();
@@ -1329,6 +1364,7 @@ int main(void) {
   tcase_add_test(fits, differences_stay_inside_the_bounds);
   tcase_add_test(fits, capacitance_of_a_run);
   tcase_add_test(fits, pull_in_of_the_last_zip_time);
+  tcase_add_test(fits, simulation_begins_at_its_checkpoint);
   tcase_add_test(fits, time_limit_counts_from_the_start_of_a_study);
   tcase_add_test(fits, table_1_of_the_paper);
   tcase_add_test(fits, rows_of_different_actuators_are_compared);

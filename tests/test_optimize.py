@@ -205,7 +205,7 @@ def check_end_of_runs(zipact, scratch):
     """Runs of which only the zip time is read end at the first 99 %; others where the actuator stays closed."""
     bath = ["study=actuate", "mesh.nodes=5", "output.errors=false", "liquid.model=submerged", "solver.end_time=0.4 s", "optimize.variables=medium.kinematic_viscosity = 20 mm2/s .. 80 mm2/s",
             "optimize.method=cobyla", "optimize.evaluations=10"]
-    for objective, constraint, stays in (("min zip_time_s", [], False), ("max contraction", [], True), ("min zip_time_s", ["optimize.constraints=contraction >= 0.5"], True)):
+    for objective, constraint, stays in (("min zip_time_s", [], False), ("min zip_time_s", ["optimize.constraints=contraction >= 0.5"], True)):
         run = zipact.run([*bath, "optimize.objective=" + objective, *constraint], scratch / "ends")
         lines = (scratch / "ends" / "table.csv").read_text().splitlines()
         place = lines[0].split(",").index("closed_from_s")
