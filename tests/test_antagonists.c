@@ -40,6 +40,10 @@ START_TEST(equal_ones_rest_in_the_middle) {
   one.isometric.separation = 10e-3;
   ck_near(zp_table_get(result->series, rows - 1, "capacitance_F"),
           2 * answered_value(ZP_STUDY_ISOMETRIC, &one, "capacitance_F"), 2e-10); /* 2.1e-11 measured */
+  ZpShape shape = zp_shapes_get(result->shapes, result->shapes->frames - 1);
+  size_t of_each = result->shapes->nodes * result->shapes->ribbons / 2;
+  for (size_t j = 0; j < of_each; j++) /* the lower one is the mirror image */
+    ck_below(fabs(shape.y[of_each + j] + shape.y[j] + def.stack.distance), 1e-9);
   zp_result_destroy(result);
 }
 END_TEST

@@ -274,6 +274,12 @@ START_TEST(test_charge_is_capacitance_times_voltage) {
                           {"isometric.separation", 5e-3});
   ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
   ck_near(zp_result_get(result, "charge_C"), def.drive.voltage * zp_result_get(result, "capacitance_F"), 1e-12);
+  ZpShape shape = zp_shapes_get(result->shapes, result->shapes->frames - 1);
+  size_t end = result->shapes->nodes - 1; /* in air, while the faces beside the clip are in liquid */
+  double layers = 2 * def.insulator.thickness;
+  ck_near(shape.insulator_field[end], def.drive.voltage / (layers + def.insulator.permittivity * shape.gap[end]),
+          1e-12);
+  ck_near(shape.insulator_field[0], def.drive.voltage / layers, 1e-3);
   zp_result_destroy(result);
 }
 END_TEST

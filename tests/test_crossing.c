@@ -47,6 +47,26 @@ START_TEST(depth_of_one_node_is_its_own) {
 }
 END_TEST
 
+/* Two nodes overlap, at two places: the depth is the larger one, wherever it lies. */
+START_TEST(depth_is_the_largest_of_all_places) {
+  static const size_t place[] = {3, 7};
+  ZpActuatorDef def = DEF({"mesh.nodes", 11});
+  ZpModel *model = model_of(&def);
+  double *q = zp_calloc(2 * model->stride, sizeof *q);
+  for (int deeper = 0; deeper < 2; deeper++) {
+    for (size_t j = 0; j < model->count; j++) {
+      q[j] = zp_straight_x(model, j / 2);
+      q[model->stride + j] = j % 2 ? -4e-4 : 0;
+    }
+    for (int k = 0; k < 2; k++)
+      q[model->stride + 2 * place[k] + 1] = k == deeper ? 3e-6 : 1e-6;
+    ck_near(zp_crossing_depth(model, q), 3e-6, 1e-6);
+  }
+  zp_free(q);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* The reason why a state is refused. */
 START_TEST(impossible_states_are_named) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
@@ -94,6 +114,7 @@ int main(void) {
   TCase *states = tcase_create("states");
   tcase_add_test(states, depth_is_that_of_two_lines);
   tcase_add_test(states, depth_of_one_node_is_its_own);
+  tcase_add_test(states, depth_is_the_largest_of_all_places);
   tcase_add_test(states, impossible_states_are_named);
   tcase_add_test(states, fold_that_slides_has_no_release);
   suite_add_tcase(suite, states);

@@ -177,6 +177,38 @@ START_TEST(test_wedges_against_the_plates_law) {
 }
 END_TEST
 
+/* Turned over, the straight ribbon of a wedge is the other one: fields along the faces stay, in liquid and insulators,
+ * and tractions change their places. */
+START_TEST(test_a_wedge_turned_over) {
+  enum { N = 21, MOST = 400 };
+  ZpFieldParams p = wedge_params();
+  p.stations = N;
+  p.columns = 4;
+  ZpField f;
+  Wedge wedge;
+  ZpFieldProfile first[MOST];
+  double apart = 0, differ = 0;
+  ck_assert(zp_field_create(&p, &f));
+  ck_assert_uint_le(f.profiles, MOST);
+  for (int turned = 0; turned < 2; turned++) {
+    make_wedge(&wedge, N, 17e-3, turned);
+    ck_assert_int_eq(zp_field_solve(&f, &wedge.faces), ZP_FIELD_SOLVED);
+    zp_field_profile(&f);
+    for (size_t k = 0; k < f.profiles && turned; k++) {
+      const ZpFieldProfile *a = &first[k], *b = &f.profile[k];
+      apart = fmax(apart, fabs(a->E / b->E - 1));
+      apart = fmax(apart, fabs(a->E_insulator / b->E_insulator - 1));
+      apart = fmax(apart, fabs(a->upper / b->lower - 1));
+      differ = fmax(differ, fabs(a->upper / a->lower - 1));
+    }
+    memcpy(first, f.profile, f.profiles * sizeof *first);
+  }
+  ck_below(apart, 1e-11);
+  ck_assert_double_gt(differ, 1e-2);
+  zp_field_destroy(&f);
+}
+END_TEST
+
 /* Default grid against one twice as fine, and the order of the difference: the generalised force of opening is the
  * variational quantity and converges with the fourth power, traction with the second. */
 START_TEST(test_wedge_converges_with_the_mesh) {
@@ -644,6 +676,7 @@ int main(void) {
   tcase_add_test(grid, test_node_forces_are_the_gradient);
   tcase_add_test(grid, test_folded_grid_is_refused);
   tcase_add_test(grid, test_wedges_against_the_plates_law);
+  tcase_add_test(grid, test_a_wedge_turned_over);
   tcase_add_test(grid, test_thin_strips_with_fringing);
   tcase_add_test(grid, test_station_forces_are_the_gradient);
   tcase_add_test(grid, test_energy_goes_with_the_wet_length);

@@ -367,6 +367,7 @@ END_TEST
 START_TEST(test_no_voltage) {
   ZpActuatorDef def = held_def(MM(2), 0, true, 61);
   ck_assert_double_eq(value_of(ZP_STUDY_ISOMETRIC, &def, "force_N"), 0);
+  ck_assert(isnan(value_of(ZP_STUDY_ISOMETRIC, &def, "force"))); /* a name is a whole name */
 }
 END_TEST
 

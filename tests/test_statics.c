@@ -389,6 +389,18 @@ START_TEST(shape_of_a_mode_has_its_nodes) {
 }
 END_TEST
 
+/* However few rows are kept, the last one of a branch is at the voltage that was asked for. */
+START_TEST(last_row_is_at_the_voltage) {
+  for (int samples = 10; samples <= 14; samples++) {
+    ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"drive.voltage", 4e3}, {"output.samples", samples});
+    ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
+    ck_assert_uint_le(result->series->rows, (size_t)samples);
+    ck_assert_double_eq(zp_table_get(result->series, result->series->rows - 1, "voltage_V"), 4e3);
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
 /* Eq. (11.2): an exact squared frequency lies within the bound of the residual. The reference has thirty rounds more,
  * which derivatives ask for; what its residual leaves is rounding. */
 START_TEST(residual_of_a_mode_bounds_its_error) {
@@ -850,6 +862,7 @@ int main(void) {
   tcase_add_loop_test(rest, test_paper_code, 0, 2);
   tcase_add_loop_test(rest, test_modes, 0, 2);
   tcase_add_test(rest, shape_of_a_mode_has_its_nodes);
+  tcase_add_test(rest, last_row_is_at_the_voltage);
   tcase_add_test(rest, test_branch_along_the_load);
   tcase_add_test(rest, test_order_between_clamps);
   tcase_add_test(rest, test_modes_converge);
