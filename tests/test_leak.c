@@ -421,7 +421,6 @@ int main(void) {
   tcase_add_loop_test(tcase, test_step_of_the_voltage, 0, 3);
   tcase_add_loop_test(tcase, test_charge_that_is_given, 0, 2);
   tcase_add_test(tcase, test_recorded_charge_that_is_given);
-  add_long_test(tcase, test_leakage_alone);
   tcase_add_test(tcase, test_passed_charge_is_of_the_mean_length);
   tcase_add_loop_test(tcase, test_derivatives, 0, 2);
   tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 1, 5);
@@ -432,6 +431,7 @@ int main(void) {
   tcase_add_loop_test(tcase, test_refused, 0, 6);
   suite_add_tcase(suite, tcase);
   TCase *nightly = nightly_case(suite);
+  add_long_test(nightly, test_leakage_alone);
   tcase_add_loop_test(nightly, test_energy_of_zip_hold_and_release, 0, 1);
   return run_suite(suite);
 }

@@ -1263,13 +1263,11 @@ static TCase *pictures(void) {
                                contour_label_on_the_edge_of_a_map_is_cut,
                                largest_loads_are_those_of_no_load,
                                small_print_of_a_map,
-                               axes_without_a_unit_say_so,
                                legend_names_what_is_drawn,
                                distribution_with_indices,
                                axes_of_a_fit,
                                error_bars_of_a_fit,
                                field_of_a_profile,
-                               field_of_equal_permittivities,
                                frequencies_are_an_array};
   return case_of("pictures", test, sizeof test / sizeof test[0]);
 }
@@ -1299,6 +1297,8 @@ static Suite *suite_of_report(void) {
   suite_add_tcase(suite, pictures());
   suite_add_tcase(suite, failures());
   TCase *nightly = nightly_case(suite);
+  tcase_add_test(nightly, field_of_equal_permittivities);
+  tcase_add_test(nightly, axes_without_a_unit_say_so);
   tcase_add_test(nightly, files_of_rest);
   tcase_add_test(nightly, rest_is_the_same_each_time);
   tcase_add_test(nightly, no_pull_in_is_null);
