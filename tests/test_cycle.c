@@ -454,7 +454,7 @@ int main(void) {
   tcase_add_test(cycles, test_velocities_of_the_linear_answer);
   tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
   tcase_add_test(cycles, test_shooting_with_slow_charges);
-  tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 3);
+  tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 1);
   tcase_add_test(cycles, test_impacts_are_not_periodic);
   tcase_add_test(cycles, test_repeats_in_two_cycles);
   tcase_add_test(cycles, test_slow_approach_is_no_repetition);
@@ -462,5 +462,6 @@ int main(void) {
   tcase_add_loop_test(cycles, test_refusals, 0, 4);
   suite_add_tcase(suite, points);
   suite_add_tcase(suite, cycles);
+  tcase_add_loop_test(nightly_case(suite), test_bode_plot_below_contact, 1, 3);
   return run_suite(suite);
 }
