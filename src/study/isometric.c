@@ -311,7 +311,7 @@ static void describe(Holder *h) {
 /* From the unpowered state to the one at drive.voltage. */
 static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
   End end = rise(h);
-  if (end != ARRIVED) h->outcome = end == INTERRUPTED ? ZP_INTERRUPTED : ZP_BRANCH_LOST;
+  if (end != ARRIVED) h->outcome = ZP_BRANCH_LOST;
   if (end != ARRIVED) return;
   double taken = h->rest.branch.taken;
   count_others(h);
