@@ -66,18 +66,12 @@ static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
     memset(all[k], 0, model->nodes * sizeof *all[k]);
 }
 
-/* Is its stiffness one of edges, in e->D? */
-static bool is_of_edges(const ZpTerm *term) {
-  return term == &zp_term_rod || term == &zp_term_mass_spring;
-}
-
 static void sum_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, bool edges,
                           ZpBand *K) {
   zp_band_clear(K);
   clear_gaps(model, &e->gaps);
   for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->stiffness && (edges || !is_of_edges(e->term[k])))
-      e->term[k]->stiffness(model, span, assembly, e, K);
+    if (e->term[k]->stiffness && (edges || !e->term[k]->of_edges)) e->term[k]->stiffness(model, span, assembly, e, K);
   if (model->field) zp_assemble_gaps(assembly, &e->gaps, K);
 }
 

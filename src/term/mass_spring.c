@@ -59,6 +59,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
 }
 
 const ZpTerm zp_term_mass_spring = {.name = "mass_spring",
+                                    .of_edges = true,
                                     .acts = acts,
                                     .begin = begin,
                                     .force = force,

@@ -51,6 +51,7 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *
 }
 
 const ZpTerm zp_term_rod = {.name = "rod",
+                            .of_edges = true,
                             .acts = acts,
                             .begin = begin,
                             .force = force,

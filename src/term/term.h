@@ -50,6 +50,7 @@ typedef struct ZpByVoltage {
 
 typedef struct ZpTerm {
   const char *name;
+  bool of_edges; /* its stiffness is one of edges, in eval->D */
   /* Does the model have this term? NULL: every model has it. */
   bool (*acts)(const ZpModel *model);
   /* Allocate the term's own work space, beyond the arrays of an eval; false if there is no memory. destroy frees it,
