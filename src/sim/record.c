@@ -456,7 +456,8 @@ static ZpShape join_shapes(ZpSim *sim) {
 }
 
 ZpShape zp_sim_shape(ZpSim *sim) {
-  for (ZpSim *m = sim; m; m = m->below)
+  sim->shape = shape_of(sim);
+  for (ZpSim *m = sim->below; m; m = m->below)
     m->shape = shape_of(m);
   return join_shapes(sim);
 }
