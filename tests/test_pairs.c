@@ -647,13 +647,13 @@ static double difference(const ZpResult *a, const ZpResult *b, const char *name)
   return x == y || (isnan(x) && isnan(y)) ? 0 : fabs(x / y - 1);
 }
 
-/* What the load pulls with at this opening, N. */
+/* What the load pulls with at this opening, N: load.share applies to all that hangs there. */
 static double pull_at(const ZpActuatorDef *def, double opening) {
   double share = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 * def->load.share : def->load.share,
          hung = def->load.mass * def->gravity * cos(def->mount.tilt) + def->load.force, spring = 0, stop = 0;
   if (def->load.stiffness > 0) spring = def->load.stiffness * fmax(def->load.rest_opening - opening, 0);
   if (!isnan(def->load.stop_opening)) stop = def->load.stop_stiffness * fmax(opening - def->load.stop_opening, 0);
-  return share * hung + spring - stop;
+  return share * (hung + spring - stop);
 }
 
 /* An actuator that is held at the opening at which it hangs needs the force of its load. */
