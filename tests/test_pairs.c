@@ -647,13 +647,13 @@ static double difference(const ZpResult *a, const ZpResult *b, const char *name)
   return x == y || (isnan(x) && isnan(y)) ? 0 : fabs(x / y - 1);
 }
 
-/* What the load pulls with at this opening, N. */
+/* What the load pulls with at this opening, N: load.share applies to all that hangs there. */
 static double pull_at(const ZpActuatorDef *def, double opening) {
   double share = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 * def->load.share : def->load.share,
          hung = def->load.mass * def->gravity * cos(def->mount.tilt) + def->load.force, spring = 0, stop = 0;
   if (def->load.stiffness > 0) spring = def->load.stiffness * fmax(def->load.rest_opening - opening, 0);
   if (!isnan(def->load.stop_opening)) stop = def->load.stop_stiffness * fmax(opening - def->load.stop_opening, 0);
-  return share * hung + spring - stop;
+  return share * (hung + spring - stop);
 }
 
 /* An actuator that is held at the opening at which it hangs needs the force of its load. */
@@ -671,11 +671,11 @@ static double hold_error(int a, int b, const ZpResult *hanging, const char *name
 }
 
 static void check_studies(int a, int b, const char *name) {
-  int dear = feature("field"); /* seconds for a branch */
-  if (a != b && (a == dear || b == dear)) return;
+  int field = feature("field"), errors = feature("estimated errors"); /* seconds for a branch, and several meshes */
+  if (a != b && (a == field || b == field || a == errors || b == errors)) return;
   ZpResult *of[ZpStudy_COUNT] = {NULL};
   for (size_t k = 1; k < STUDIES; k++)
-    of[studies[k]] = answer(studies[k], a, b, name);
+    if (a != field || studies[k] != ZP_STUDY_EQUILIBRIUM) of[studies[k]] = answer(studies[k], a, b, name);
   const ZpResult *limits = of[ZP_STUDY_LIMITS], *branch = of[ZP_STUDY_EQUILIBRIUM], *cycle = of[ZP_STUDY_CYCLE];
   static const char *const voltages[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
   double limit = 0, hold = of[ZP_STUDY_STATIONARY] ? hold_error(a, b, of[ZP_STUDY_STATIONARY], name) : 0;
@@ -767,7 +767,6 @@ PAIRS(forces_at_rest_of_all_pairs, check_at_rest, 1)
 PAIRS(motion_of_some_pairs, check_in_motion, 24)
 PAIRS(motion_of_all_pairs, check_in_motion, 1)
 PAIRS(twice_of_each_feature, check_doubled, FEATURES)
-PAIRS(studies_of_each_feature, check_studies, FEATURES)
 PAIRS(studies_of_all_pairs, check_studies, 1)
 PAIRS(derivatives_of_each_feature, check_derivatives, FEATURES)
 
@@ -790,7 +789,6 @@ int main(void) {
   tcase_add_loop_test(all, motion_of_some_pairs, 0, FEATURES);
   tcase_add_loop_test(nightly, twice_of_each_feature, 0, FEATURES);
   tcase_add_loop_test(nightly, derivatives_of_each_feature, 0, FEATURES);
-  tcase_add_loop_test(nightly, studies_of_each_feature, 0, FEATURES);
   tcase_add_loop_test(nightly, forces_at_rest_of_all_pairs, 0, FEATURES);
   tcase_add_loop_test(nightly, motion_of_all_pairs, 0, FEATURES);
   tcase_add_loop_test(nightly, studies_of_all_pairs, 0, FEATURES);
