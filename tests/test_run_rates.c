@@ -296,17 +296,22 @@ END_TEST
 
 /* -- the current of a supply ----------------------------------------------------------------------------- */
 
-/* The largest current is at the corner of the ramp. Steps at an impact are so short that the current of a neighbour
- * alone would be larger. */
-START_TEST(peak_and_rms_current) {
+static ZpActuatorDef supplied(ZpLiquidModel liquid) {
   ZpActuatorDef def = motion();
-  def.liquid.model = ZP_LIQUID_NONE;
+  def.liquid.model = liquid;
   def.mesh.nodes = 21;
   def.drive.waveform = ZP_WAVEFORM_RAMP;
   def.drive.rise_time = 20e-3;
   def.source.model = ZP_SOURCE_AMPLIFIER;
   def.source.resistance = 1e8;
   def.source.capacitance = 1e-10;
+  return def;
+}
+
+/* The largest current is at the corner of the ramp. Steps at an impact are so short that the current of a neighbour
+ * alone would be larger. */
+START_TEST(peak_and_rms_current_with_impacts) {
+  ZpActuatorDef def = supplied(ZP_LIQUID_NONE);
   def.solver.end_time = 0.11;
   def.solver.tolerance = 1e-5;
   ZpResult *result = run_by(&def, "ribbon.thickness");
@@ -315,7 +320,11 @@ START_TEST(peak_and_rms_current) {
   double rms = slope_in(result, "rms_current_A", "ribbon.thickness");
   ck_assert(isnan(rms) || fabs(rms / difference(&def, "rms_current_A", "ribbon.thickness", 1e-3) - 1) < 1e-2);
   zp_result_destroy(result);
-  def.liquid.model = ZP_LIQUID_SUBMERGED;
+}
+END_TEST
+
+START_TEST(peak_and_rms_current) {
+  ZpActuatorDef def = supplied(ZP_LIQUID_SUBMERGED);
   def.solver.tolerance = 1e-7; /* of the solution of a step, whose length is given: */
   def.solver.time_step = 5e-5; /* so short that the rate of the voltage limits no step */
   def.solver.end_time = 0.03;
@@ -528,5 +537,6 @@ int main(void) {
   TCase *nightly = nightly_case(suite);
   tcase_add_loop_test(nightly, zip_without_liquid, 1, 2);
   add_long_test(nightly, zip_without_liquid_with_its_own_steps);
+  tcase_add_test(nightly, peak_and_rms_current_with_impacts);
   return run_suite(suite);
 }
