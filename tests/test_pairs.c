@@ -670,12 +670,17 @@ static double hold_error(int a, int b, const ZpResult *hanging, const char *name
   return fabs(force - pull) / fmax(fabs(pull), 1e-3);
 }
 
+/* Does it follow equilibria along the voltage? */
+static bool follows_branch(ZpStudy study) {
+  return study == ZP_STUDY_EQUILIBRIUM || study == ZP_STUDY_LIMITS || study == ZP_STUDY_ISOMETRIC;
+}
+
 static void check_studies(int a, int b, const char *name) {
   int field = feature("field"), errors = feature("estimated errors"); /* seconds for a branch, and several meshes */
   if (a != b && (a == field || b == field || a == errors || b == errors)) return;
   ZpResult *of[ZpStudy_COUNT] = {NULL};
   for (size_t k = 1; k < STUDIES; k++)
-    if (a != field || studies[k] != ZP_STUDY_EQUILIBRIUM) of[studies[k]] = answer(studies[k], a, b, name);
+    if (a != field || !follows_branch(studies[k])) of[studies[k]] = answer(studies[k], a, b, name);
   const ZpResult *limits = of[ZP_STUDY_LIMITS], *branch = of[ZP_STUDY_EQUILIBRIUM], *cycle = of[ZP_STUDY_CYCLE];
   static const char *const voltages[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
   double limit = 0, hold = of[ZP_STUDY_STATIONARY] ? hold_error(a, b, of[ZP_STUDY_STATIONARY], name) : 0;
