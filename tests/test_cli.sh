@@ -406,3 +406,331 @@ interrupt 50 actuate --set mesh.nodes=2001 --json -o interrupted-early
 ok "130: Ctrl-C while it settles" status_is 130
 ok "130: --json, too" json stdout 'd["outcome"] == "interrupted"'
 ok "130: files, too" complete interrupted-early
+
+# -- a gnuplot that hangs: it blocked for ever, swallowed the first Ctrl-C, and summary.json never came -----------
+
+wait_for_file() { # FILE: until it is there, five minutes at most
+  tries=3000
+  while [ ! -s "$1" ] && [ $tries -gt 0 ]; do
+    sleep 0.1
+    tries=$((tries - 1))
+  done
+}
+
+mkdir hanging-bin
+cat >hanging-bin/gnuplot <<'END'
+#!/bin/sh
+trap '' INT TERM HUP
+echo $$ >started
+sleep 1000
+sleep 1000
+END
+chmod 755 hanging-bin/gnuplot
+PATH=$PWD/hanging-bin:$PATH "$zipact" actuate $short --json -o hanging >stdout 2>stderr &
+pid=$!
+wait_for_file hanging/plots/started
+for file in scenario.yaml summary.json table.csv results.h5; do
+  ok "a gnuplot that hangs: $file is there" is_file hanging/$file
+done
+ok "and the scripts" is_file hanging/plots/stroke.gp
+kill -INT $pid
+wait $pid
+status=$?
+ok "130: Ctrl-C while gnuplot hangs" status_is 130
+ok "130: says which picture is missing" says 'hanging/plots/.*svg was not drawn: interrupted'
+ok "130: --json prints the numbers" cmp -s stdout hanging/summary.json
+ok "130: the numbers are whole, and nothing is half written" complete hanging
+ok "130: no gnuplot is left" [ -z "$(ps -eo stat=,pgid= | awk -v group="$(cat hanging/plots/started)" '$2 == group && $1 !~ /Z/')" ]
+
+PATH=$PWD/hanging-bin:$PATH "$zipact" actuate $long --json -o hanging-twice >stdout 2>stderr &
+pid=$!
+wait_for_file hanging-twice/.zipact-lock
+has_computed $pid 50
+kill -INT $pid
+wait_for_file hanging-twice/plots/started
+ok "what an interrupted run did is kept before gnuplot hangs" json hanging-twice/summary.json 'd["outcome"] == "interrupted"'
+kill -INT $pid
+wait $pid
+status=$?
+ok "130: a second Ctrl-C ends the drawing" status_is 130
+ok "130: and leaves a whole report" complete hanging-twice
+
+# -- two runs into one folder: they mixed their files without a word ------------------------------------------------
+
+PATH=/nowhere "$zipact" actuate $long --quiet -o held >/dev/null 2>&1 &
+pid=$!
+wait_for_file held/.zipact-lock
+zp actuate $short -o held
+ok "3: another run has the folder" status_is 3
+ok "3: says which process" says "held: process $pid on .* is writing there"
+zp stationary $short -o held
+ok "3: another study, too" status_is 3
+ok "3: nothing was written" is_absent held/scenario.yaml
+zp actuate $short -o beside-held
+ok "another folder is free" status_is 0
+kill -KILL $pid
+wait $pid 2>/dev/null
+echo half >held/.table.csv.zipact-$pid.tmp
+echo mine >held/.mine.csv.12.tmp
+zp actuate $short -o held
+ok "a killed run is not in the way" status_is 0
+ok "what it left is gone" [ -z "$(find held -name '.*zipact*')" ]
+ok "what is not ours stays" grep -q mine held/.mine.csv.12.tmp
+rm held/.mine.csv.12.tmp
+mkdir -p held-report
+PATH=/nowhere "$zipact" reproduce --quiet -o held-report >/dev/null 2>&1 &
+pid=$!
+wait_for_file held-report/.zipact-lock
+zp reproduce -o held-report
+ok "3: another reproduce has the folder" status_is 3
+ok "3: says which process, too" says "held-report: process $pid on"
+kill -INT $pid
+wait $pid
+rm -rf held-report
+
+# -- checkpoints -------------------------------------------------------------------------------------------------
+
+zp actuate $short --set solver.end_time=4ms -o whole
+zp actuate $short -o cut
+ok "a run leaves a checkpoint" is_file cut/checkpoint.zps
+from="--set initial.state=checkpoint --set initial.file=cut/checkpoint.zps"
+zp actuate $short $from --set solver.end_time=4ms -o rest
+ok "resumes from it" status_is 0
+ok "to the same state" cmp whole/checkpoint.zps rest/checkpoint.zps
+ok "and the same last row" [ "$(tail -1 whole/table.csv | cut -d, -f1-8)" = "$(tail -1 rest/table.csv | cut -d, -f1-8)" ]
+ok "scenario.yaml has the file's whole path" grep -q "file: .*/cut/checkpoint.zps" rest/scenario.yaml
+zp run rest/scenario.yaml -o rest-again
+ok "and runs again" cmp rest/checkpoint.zps rest-again/checkpoint.zps
+mkdir -p sub
+printf 'initial: {state: checkpoint, file: ../cut/checkpoint.zps}\n' >sub/on.yaml
+zp actuate sub/on.yaml $short --set solver.end_time=4ms -o rest-again
+ok "a scenario names it from its own folder" cmp rest/checkpoint.zps rest-again/checkpoint.zps
+zp actuate $short $from --set 'solver.end_time=[3 ms, 4 ms]' -o cut
+ok "a sweep from it into its own folder" status_is 0
+ok "leaves it there" is_file cut/checkpoint.zps
+zp actuate $short $from --set ribbon.thickness=60um -o refused
+ok "2: another model" status_is 2
+ok "2: names the key and both values" says 'ribbon.thickness is 5e-05 m there, 6e-05 m here'
+head -c 999 cut/checkpoint.zps >short.zps
+zp actuate $short $from --set initial.file=short.zps -o refused
+ok "2: cut short" status_is 2
+ok "2: says where it ends" says 'short.zps: cut short: 999 of [0-9]* bytes'
+ok "2: nothing was written" is_absent refused
+
+# -- streams ----------------------------------------------------------------------------------------------------
+
+zp actuate $short --quiet -o quiet
+ok "--quiet" status_is 0
+ok "--quiet prints nothing" is_empty stdout
+ok "--quiet says nothing" is_empty stderr
+zp actuate --quiet --set load.mass=x -o quiet
+ok "--quiet says errors" says 'load\.mass'
+zp actuate $short --quiet --json -o quiet
+ok "--quiet --json prints the object" json stdout 'd["outcome"] == "end_time"'
+ok "--quiet --json says nothing" is_empty stderr
+zp actuate $short -o missing-gnuplot
+ok "without gnuplot: a notice" says gnuplot
+ok "without gnuplot: status 0" status_is 0
+ok "without gnuplot: the scripts stay" is_file missing-gnuplot/plots/stroke.gp
+
+# -- templates of pictures ------------------------------------------------------------------------------------------
+zp plots
+ok "plots without a folder: status 2" status_is 2
+ok "plots without a folder: says what it needs" says 'plots needs a folder to write to: -o FOLDER'
+zp plots -o mine-too --quiet
+ok "plots --quiet prints nothing" is_empty stdout
+zp plots -o mine
+ok "plots: status 0" status_is 0
+ok "plots: says how to draw with them" prints '^zipact STUDY --templates mine draws'
+ok "plots writes the templates" is_file mine/stroke.gp
+zp plots -o mine
+ok "plots does not write over them: status 2" status_is 2
+ok "plots does not write over them: says so" says 'mine/.*: exists already'
+echo '# edited' >>mine/stroke.gp
+zp actuate $short --templates mine -o edited
+ok "--templates: status 0" status_is 0
+ok "--templates: the script has what was edited" grep -q '^# edited' edited/plots/stroke.gp
+ok "--templates is not in scenario.yaml, which others may run" [ -z "$(grep templates edited/scenario.yaml)" ]
+mkdir evil
+printf 'system "touch escaped"\n!touch escaped\n' >evil/stroke.gp
+printf 'study: actuate\noutput: {templates: evil}\n' >stranger.yaml
+zp_drawing run stranger.yaml -o stranger
+ok "a scenario names templates: status 2" status_is 2
+ok "a scenario names templates: says where they belong" says '--templates FOLDER'
+ok "a scenario names templates: none of their commands ran" is_absent escaped
+zp actuate $short --templates nowhere -o nothing
+ok "--templates of no folder: status 2" status_is 2
+ok "--templates of no folder: says so" says '--templates: there is no folder nowhere'
+
+cat >terminal.py <<'END'
+"""Run a command with stderr on a terminal => what it wrote there."""
+import os, pty, subprocess, sys
+
+master, slave = pty.openpty()
+child = subprocess.Popen(sys.argv[1:], stdout=subprocess.DEVNULL, stderr=slave, env={"PATH": "/nowhere"})
+os.close(slave)
+text = b""
+try:
+    while piece := os.read(master, 4096):
+        text += piece
+except OSError:
+    pass
+child.wait()
+sys.stdout.write(text.decode())
+END
+if "$python" -c 'import pty; pty.openpty()' 2>/dev/null; then # a bare chroot has no terminals to lend
+  "$python" terminal.py "$zipact" actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
+  ok "a progress bar on a terminal" prints '\[#*\.*\] *[0-9]* %'
+fi
+"$python" terminal.py "$zipact" actuate --quiet --set mesh.nodes=41 --set solver.end_time=1ms -o terminal >stdout 2>stderr
+ok "no progress bar with --quiet" is_empty stdout
+zp actuate --set mesh.nodes=41 --set solver.end_time=1ms -o terminal
+ok "no progress bar into a file" [ "$(grep -c '\[#' stderr)" -eq 0 ]
+
+# -- the summary on the terminal --------------------------------------------------------------------------------------
+
+numbers() { grep -v note: stdout | grep -c -E '^  [a-z].* +[-0-9.e+]+( |$)'; } # lines "  name   12.3 mm"
+for study in actuate equilibrium limits modes isometric profile stationary; do
+  zp $study --set mesh.nodes=11 -o terminal-summary
+  ok "$study prints some numbers, at most ten: $(numbers)" [ "$(numbers)" -ge 3 -a "$(numbers)" -le 10 ]
+  ok "$study says nothing of steps and speed" [ "$(grep -c -i -E 'step|real.time|iterations' stdout)" -eq 0 ]
+  ok "$study: values end in one column" [ "$(grep -v note: stdout | sed -n 's/^  .\{27\}\( *[-0-9.e+]*\).*/\1/p' | awk '{ print length($0) }' | sort -u | wc -l)" -eq 1 ]
+done
+zp equilibrium --set output.errors=true -o terminal-summary
+ok "an estimated error stands behind its number" prints '^  pull-in  *[0-9.]* kV  +- [0-9]'
+zp stationary --set load.mass=0.008 -o unitless
+ok "a number without a unit is noted" says '^zipact: load\.mass: 0\.008 taken as 0\.008 kg$'
+zp stationary --set 'load.mass=[1 g, 0.008]' --set gravity=0 --set mesh.nodes=21 -o unitless
+ok "in a list, too" says 'load\.mass: 0\.001 taken as'
+ok "a zero and a pure number are not" [ "$(wc -l <stderr)" -le 2 ]
+zp run unitless/scenario.yaml -o unitless-again
+ok "the scenario that a run leaves has units everywhere" [ "$(grep -c 'taken as' stderr)" -eq 0 ]
+zp stationary --set load.mass=0.008 --quiet -o unitless
+ok "--quiet says nothing of it" is_empty stderr
+
+zp actuate $short -o noted
+ok "notes are printed, each" [ "$(grep -c '^  note: ' stdout)" -eq "$("$python" -c 'import json; print(len(json.load(open("noted/summary.json"))["notes"]))')" ]
+ok "there is one" prints '^  note: '
+zp equilibrium --set mesh.nodes=9 --set output.errors=true -o terminal-summary
+error=$("$python" -c 'import json; print("%.2g" % (1e-3 * abs(json.load(open("terminal-summary/summary.json"))["pull_in_voltage_error_V"])))')
+ok "an estimated error has the unit of its number: $error" prints "^  pull-in  *[0-9.]* kV  +- $error\$"
+zp stationary --set mesh.nodes=5 --set 'load.mass=1 g .. 9 g : 103' --no-plots -o rows-shown
+ok "a hundred rows of 103, and how many more" [ "$(grep -c '^  load.mass = ' stdout)" -eq 100 ]
+ok "a hundred rows of 103: three more" prints '^  \.\.\. and 3 more rows in table\.csv'
+zp stationary --set mesh.nodes=5 --jobs 1024 -o most-jobs
+ok "--jobs 1024 is allowed" status_is 0
+printf 'study: limits\nmesh: {nodes: 5}\nload: {mass: 9 g}\n' >a=b.yaml
+zp stationary a=b.yaml --json -o named
+ok "a scenario with = in its name; the word before it says which study" json stdout 'd["study"] == "stationary"'
+ok "its keys are taken" grep -q 'mass: 9 g' named/scenario.yaml
+zp fmu -o default.fmu
+ok "an FMU of FMI 3 unless told" prints 'FMI 3\.0$'
+rm -f default.fmu
+
+# -- preset < file < --set ------------------------------------------------------------------------------------------
+
+printf 'mesh: {nodes: 21}\nribbon: {thickness: 80 um}\nsolver: {end_time: 1 ms}\npreset: paper-code\n' >order.yaml
+zp run order.yaml -o order
+ok "a preset runs" status_is 0
+ok "the preset gives what the file does not" grep -q 'force_scale: 6.6' order/scenario.yaml
+ok "the file wins over the preset, wherever it is written" grep -q 'thickness: 80 um' order/scenario.yaml
+zp run order.yaml --set 'ribbon.thickness=70 um' -o order
+ok "--set wins over the file" grep -q 'thickness: 70 um' order/scenario.yaml
+printf 'mesh: {nodes: 21}\nribbon: {thickness: 80 um}\nsolver: {end_time: 1 ms}\n' >order.yaml
+zp run order.yaml --set preset=paper-code -o order
+ok "the file wins over a preset of --set" grep -q 'thickness: 80 um' order/scenario.yaml
+ok "and the preset of --set is taken" grep -q 'force_scale: 6.6' order/scenario.yaml
+zp run order.yaml --set load.mass=1g --set load.mass=2g -o order
+ok "the later --set wins" grep -q 'mass: 2 g' order/scenario.yaml
+
+# -- sweeps ------------------------------------------------------------------------------------------------------------
+
+zp actuate $short --set 'drive.voltage=[0, 1 kV, 2 kV]' --set 'load.mass=[8 g, 20 g]' --json -o sweep
+ok "a sweep" status_is 0
+ok "the product of the lists, the last key fastest" json stdout \
+  '[(r["load.mass"], r["drive.voltage"]) for r in d["rows"]] == [(m, u) for m in (0.008, 0.02) for u in (0, 1000, 2000)]'
+ok "one row of table.csv each" [ "$(wc -l <sweep/table.csv)" -eq 7 ]
+ok "columns for the list keys" grep -q '^load\.mass_kg,drive\.voltage_V,' sweep/table.csv
+ok "its files are whole" complete sweep
+zp actuate $short --set 'load.mass=[8 g]' --json -o sweep-of-one
+ok "a list of one is a sweep" json stdout 'len(d["rows"]) == 1'
+zp cycle --set mesh.nodes=11 --set liquid.model=none --set 'damping.internal=5 ms' --set 'drive.voltage=8 kV' --set drive.waveform=sine --set 'drive.frequency=[2 Hz, 3 Hz, 5 Hz]' -o cycles
+ok "a sweep of cycles says up to which frequency the actuator closes" prints '^closes fully up to 3 Hz, of these$'
+ok "in summary.json, too" json cycles/summary.json 'd["largest_closing_frequency_Hz"] == 3 and [r["closes"] for r in d["rows"]] == [1, 1, 0]'
+
+# -- same input, same bytes ------------------------------------------------------------------------------------------------
+
+cat >without_times.py <<'END'
+"""Print summary.json without what follows from wall time."""
+import json, sys
+
+def strip(d):
+    if isinstance(d, dict):
+        return {k: strip(v) for k, v in d.items() if k not in ("wall_time_s", "real_time_factor")}
+    return [strip(x) for x in d] if isinstance(d, list) else d
+
+print(json.dumps(strip(json.load(open(sys.argv[1])))))
+END
+same_report() { # DIR DIR
+  "$python" without_times.py "$1/summary.json" >first.txt && "$python" without_times.py "$2/summary.json" >second.txt &&
+    cmp first.txt second.txt && diff -r -q -x summary.json -x journal.sqlite "$1" "$2"
+}
+zp_drawing actuate $short --set drive.voltage=5kV -o twice-a
+zp_drawing actuate $short --set drive.voltage=5kV -o twice-b
+ok "same input, same bytes, pictures and all" same_report twice-a twice-b
+zp run twice-a/scenario.yaml -o rerun
+ok "scenario.yaml runs again" status_is 0
+ok "to the same table" cmp twice-a/table.csv rerun/table.csv
+ok "to the same results.h5" cmp twice-a/results.h5 rerun/results.h5
+ok "and to itself" cmp twice-a/scenario.yaml rerun/scenario.yaml
+zp run sweep/scenario.yaml -o rerun-sweep
+ok "a sweep runs again to the same table" cmp sweep/table.csv rerun-sweep/table.csv
+ok "and to the same results.h5" cmp sweep/results.h5 rerun-sweep/results.h5
+ok "in all its bytes" same_report sweep rerun-sweep
+zp run order/scenario.yaml -o rerun-order
+ok "with a preset, too" same_report order rerun-order
+LC_ALL=de_DE.UTF-8 PATH=/nowhere "$zipact" run twice-a/scenario.yaml -o rerun >stdout 2>stderr
+ok "in any locale" cmp twice-a/table.csv rerun/table.csv
+
+# -- what else is in the folder -----------------------------------------------------------------------------------------------
+
+mkdir -p foreign/plots foreign/shapes foreign/own
+for name in notes.txt table.csv.bak plots/mine.svg shapes/mine.vtp own/table.csv .hidden; do
+  echo "mine: $name" >"foreign/$name"
+done
+find foreign -type f -exec cksum {} + | sort >before.txt
+zp actuate $short --set output.shapes=10 -o foreign
+zp actuate $short --set output.shapes=3 -o foreign
+ok "results beside what is there" complete foreign
+find foreign -type f -exec cksum {} + | sort >after.txt
+ok "foreign files are not touched" [ "$(comm -12 before.txt after.txt | wc -l)" -eq 6 ]
+ok "shapes of the run before are gone" [ "$(find foreign/shapes -name 'shape_*' | wc -l)" -eq "$(grep -c '<DataSet' foreign/shapes.pvd)" ]
+zp actuate $short --set 'load.mass=[8 g, 9 g]' -o foreign
+ok "a sweep has no shapes, and none of before" is_absent foreign/shapes.pvd
+ok "and no checkpoint" is_absent foreign/checkpoint.zps
+
+# -- no NaN in any file ----------------------------------------------------------------------------------------------------------
+
+zp actuate --set actuator.kind=ribbon $short -o ribbon
+ok "kind ribbon" status_is 0
+zp actuate $short --set load.mass=0 --set gravity=0 --set drive.voltage=0 -o nothing
+ok "no load, no weight, no voltage" status_is 0
+zp_drawing actuate $short --no-plots -o bare
+ok "--no-plots: 0" status_is 0
+ok "--no-plots: no folder for pictures" is_absent bare/plots
+ok "--no-plots: says nothing of plots/" [ -z "$(grep plots/ stdout)" ]
+zp keys --no-plots
+ok "--no-plots of keys: 2" status_is 2
+for jobs in 0 -1 two 1e3 2000 ''; do
+  zp actuate $short --jobs "$jobs" -o wrong-jobs
+  ok "--jobs '$jobs': 2" status_is 2
+  ok "--jobs '$jobs': says what it takes" says "jobs takes a number from 1 to 1024"
+  ok "--jobs '$jobs': nothing written" is_absent wrong-jobs
+done
+grep -rliE --include='*.csv' --include='*.json' --include='*.yaml' --include='*.pvd' '(^|[^a-z])(nan|inf|infinity)([^a-z]|$)' . \
+  >nan.txt
+ok "no NaN or infinity in any file: $(tr '\n' ' ' <nan.txt)" is_empty nan.txt
+ok "no temporary file is left anywhere" no_temporaries .
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -149,8 +149,8 @@ int main(void) {
   write_data(times, "time_ms,stroke_mm\n0.5,1\n1,2\n");
   Suite *suite = suite_create("combinations");
   TCase *all = tcase_create("all");
-  tcase_add_loop_test(all, every_combination_runs_or_is_refused, 0, KINDS * OTHERS);
   tcase_add_loop_test(all, a_simulation_refuses_what_study_actuate_refuses, 0, KINDS * OTHERS);
   suite_add_tcase(suite, all);
+  tcase_add_loop_test(nightly_case(suite), every_combination_runs_or_is_refused, 0, KINDS * OTHERS);
   return run_suite(suite);
 }

@@ -1012,7 +1012,6 @@ int main(void) {
     tcase_add_loop_test(two, tolerance_keeps_its_word, 1, 2);
     tcase_add_loop_test(two, steps_are_what_the_mesh_is_worth, 0, 3);
     tcase_add_test(two, creep_in_a_bath_takes_few_steps);
-    tcase_add_loop_test(two, test_zip_explicit, 0, 1);
     tcase_add_test(two, faces_that_touch_first_tell_the_zip_time);
     tcase_add_test(two, test_pull_in_in_motion);
     tcase_add_test(two, test_energy_of_a_slow_release);
@@ -1026,7 +1025,7 @@ int main(void) {
   TCase *nightly = nightly_case(suite);
   tcase_add_test(nightly, test_energy_on_a_fine_mesh);
   tcase_add_test(nightly, test_zip_by_field);
-  tcase_add_loop_test(nightly, test_zip_explicit, 1, 2);
+  tcase_add_loop_test(nightly, test_zip_explicit, 0, 2);
   tcase_add_loop_test(nightly, tolerance_keeps_its_word, 0, 1);
   tcase_add_loop_test(nightly, tolerance_keeps_its_word, 2, 3);
   return run_suite(suite);

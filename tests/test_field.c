@@ -689,12 +689,10 @@ int main(void) {
   tcase_add_loop_test(grid, test_held_field_is_that_of_every_step, 0, 2);
   tcase_add_test(grid, test_charge_at_rest_is_capacitance_times_voltage);
   tcase_add_test(grid, test_what_does_not_go_with_field);
-  if (!SANITIZED) { /* test_combinations and test_dynamics run the same code */
-    tcase_add_test(grid, test_bead_by_field_and_by_plates);
-  }
   suite_add_tcase(suite, grid);
   TCase *nightly = nightly_case(suite);
   add_long_test(nightly, test_wedge_converges_with_the_mesh);
+  add_long_test(nightly, test_bead_by_field_and_by_plates);
   tcase_add_test(nightly, test_studies_by_field_and_by_plates);
   tcase_add_test(nightly, test_refresh_in_motion);
   tcase_add_test(nightly, test_held_without_cap);
