@@ -307,7 +307,7 @@ def placed(folder, mutant):
 
 
 def build_alone(folder, mutant):
-    """Builds what a fault in its file makes anew."""
+    """Rebuilds what depends on the file with the fault."""
     if mutant.room() == "web":
         done = subprocess.run([os.path.join(folder, "scripts/web.sh")], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         return done.returncode == 0

@@ -199,4 +199,19 @@ static inline double slope_in(const ZpResult *result, const char *output, const 
   ck_abort_msg("no derivative of %s by %s", output, key);
   return NAN;
 }
+static inline void write_file(const char *path, const char *text) {
+  FILE *file = fopen(path, "w");
+  ck_assert_ptr_nonnull(file);
+  fputs(text, file);
+  ck_assert_int_eq(fclose(file), 0);
+}
+
+/* The largest magnitude in a column. */
+static inline double largest_in(const ZpTable *table, const char *column) {
+  double most = 0;
+  for (size_t r = 0; r < table->rows; r++)
+    most = fmax(most, fabs(zp_table_get(table, r, column)));
+  return most;
+}
+
 #endif

@@ -19,13 +19,6 @@
 #include "fit/reference.h"
 #include "reproduce/area.h"
 
-static void write_file(const char *path, const char *text) {
-  FILE *file = fopen(path, "w");
-  ck_assert_ptr_nonnull(file);
-  fputs(text, file);
-  ck_assert_int_eq(fclose(file), 0);
-}
-
 static void set(ZpActuatorDef *def, const char *key, double value) {
   ZpError err;
   ck_assert_msg(zp_def_set(def, zp_key_find(key), value, &err) == ZP_OK, "%s", err.message);

@@ -11,10 +11,7 @@
 /* FOLDER/name with this text => its path, to be freed. */
 static char *put_file(const char *name, const char *text) {
   char *path = path_of(name);
-  FILE *file = fopen(path, "w");
-  ck_assert_ptr_nonnull(file);
-  fputs(text, file);
-  ck_assert_int_eq(fclose(file), 0);
+  write_file(path, text);
   return path;
 }
 

@@ -883,11 +883,6 @@ static const char *verdict(const char *text, ZpError *err) {
   return err->message;
 }
 
-static void write_text(const char *name, const char *text) {
-  FILE *file = fopen(name, "w");
-  ck_assert(file && fputs(text, file) >= 0 && fclose(file) == 0);
-}
-
 static const struct {
   const char *scenario, *says[3];
 } wrong[] = {
@@ -922,10 +917,10 @@ static const struct {
 
 START_TEST(refused) {
   ZpError err;
-  write_text("back.csv", "time_ms,voltage_kV\n0,1\n5,2\n4,0\n");
-  write_text("word.csv", "time_ms,voltage_kV\n0,1\n5,nan\n");
-  write_text("unit.csv", "time_mm,voltage_kV\n0,1\n5,2\n");
-  write_text("bare.csv", "time_ms,voltage_kV\n");
+  write_file("back.csv", "time_ms,voltage_kV\n0,1\n5,2\n4,0\n");
+  write_file("word.csv", "time_ms,voltage_kV\n0,1\n5,nan\n");
+  write_file("unit.csv", "time_mm,voltage_kV\n0,1\n5,2\n");
+  write_file("bare.csv", "time_ms,voltage_kV\n");
   for (size_t i = 0; i < LENGTH_OF(wrong); i++) {
     verdict(wrong[i].scenario, &err);
     ck_assert_msg(err.status == ZP_BAD_INPUT, "%s: %s", wrong[i].scenario, err.message);
@@ -997,7 +992,7 @@ static ZpResult *run_scenario(const char *text) {
 }
 
 START_TEST(file_as_text) {
-  write_text("drive.csv", "# recorded\ncurrent,time_ms,voltage_kV\n-,0,0.1\n-,0.7,8.3\n-,1.1,8.3\n-,1.1,0\n");
+  write_file("drive.csv", "# recorded\ncurrent,time_ms,voltage_kV\n-,0,0.1\n-,0.7,8.3\n-,1.1,8.3\n-,1.1,0\n");
   ZpResult *text = run_scenario("mesh.nodes: 11\nsolver.end_time: 2 ms\ndrive: {waveform: table, table: "
                                 "'0 s = 100 V, 700 us = 8.3 kV, 1.1 ms = 8300 V, 0.0011 = 0'}");
   ZpResult *file = run_scenario("mesh.nodes: 11\nsolver.end_time: 2 ms\ndrive: {waveform: table, file: drive.csv}");

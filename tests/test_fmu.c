@@ -717,11 +717,25 @@ END_TEST
 
 /* -- states ---------------------------------------------------------------------------------------- */
 
+/* A copy of an instance's state in another one, by way of its bytes. */
+static void copy_state(Instance *from, Instance *to) {
+  void *state = NULL, *copy = NULL;
+  size_t bytes;
+  ck_assert_int_eq(fmu_get_state(from, &state), OK);
+  ck_assert_int_eq(fmu_state_size(from, state, &bytes), OK);
+  char *stored = malloc(bytes);
+  ck_assert_int_eq(fmu_serialize(from, state, stored, bytes), OK);
+  ck_assert_int_eq(fmu_deserialize(to, stored, bytes, &copy), OK);
+  ck_assert_int_eq(fmu_set_state(to, copy), OK);
+  free(stored);
+  fmu_free_state(from, &state);
+  fmu_free_state(to, &copy);
+}
+
 /* From a state, also as bytes and in another instance, everything is the same to the last bit. */
 static void expect_round_trip(Instance *instance, Instance *other, double t, double size) {
-  void *state = NULL, *copy = NULL;
+  void *state = NULL;
   double before[SIGNALS], after[SIGNALS], again[SIGNALS];
-  size_t bytes;
   read_outputs(instance, before);
   ck_assert_int_eq(fmu_get_state(instance, &state), OK);
   must_step(instance, t, size);
@@ -729,20 +743,14 @@ static void expect_round_trip(Instance *instance, Instance *other, double t, dou
   ck_assert_int_eq(fmu_set_state(instance, state), OK);
   read_outputs(instance, again);
   expect_same(before, again);
-  ck_assert_int_eq(fmu_state_size(instance, state, &bytes), OK);
-  char *stored = malloc(bytes);
-  ck_assert_int_eq(fmu_serialize(instance, state, stored, bytes), OK);
-  ck_assert_int_eq(fmu_deserialize(other, stored, bytes, &copy), OK);
-  ck_assert_int_eq(fmu_set_state(other, copy), OK);
+  copy_state(instance, other);
   must_step(other, t, size);
   read_outputs(other, again);
   expect_same(after, again);
   must_step(instance, t, size);
   read_outputs(instance, again);
   expect_same(after, again);
-  free(stored);
   fmu_free_state(instance, &state);
-  fmu_free_state(other, &copy);
 }
 
 START_TEST(states) {
@@ -799,21 +807,6 @@ START_TEST(states_have_parameters) {
   fmu_close(&fmu);
 }
 END_TEST
-
-/* A copy of an instance's state in another one, by way of its bytes. */
-static void copy_state(Instance *from, Instance *to) {
-  void *state = NULL, *copy = NULL;
-  size_t bytes;
-  ck_assert_int_eq(fmu_get_state(from, &state), OK);
-  ck_assert_int_eq(fmu_state_size(from, state, &bytes), OK);
-  char *stored = malloc(bytes);
-  ck_assert_int_eq(fmu_serialize(from, state, stored, bytes), OK);
-  ck_assert_int_eq(fmu_deserialize(to, stored, bytes, &copy), OK);
-  ck_assert_int_eq(fmu_set_state(to, copy), OK);
-  free(stored);
-  fmu_free_state(from, &state);
-  fmu_free_state(to, &copy);
-}
 
 /* The mean current of a step is the charge that has flowed in it, with that of a jump of the voltage before it, over
  * its time. An input that is set does not change it, until the next step. So it is after a return to a state between

@@ -142,12 +142,6 @@ static uint64_t campaign_hash(const ZpActuatorDef *def) {
   return hash;
 }
 
-static void write_file(const char *path, const char *text) {
-  FILE *file = fopen(path, "w");
-  fputs(text, file);
-  ck_assert_int_eq(fclose(file), 0);
-}
-
 /* Version and study, by the definition of the hash; then the bytes of files, whatever their name is. */
 START_TEST(campaigns_are_known_by_version_study_and_files) {
   ZpActuatorDef def = zp_actuator_def_default();

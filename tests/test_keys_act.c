@@ -1027,11 +1027,6 @@ END_TEST
 
 /* -- files ----------------------------------------------------------------------------------------- */
 
-static void write_text(const char *name, const char *text) {
-  FILE *file = fopen(name, "w");
-  ck_assert(file && fputs(text, file) >= 0 && fclose(file) == 0);
-}
-
 /* Where a run stands that began to hang and was cut. */
 static void write_checkpoint(const char *name, const char *end_time) {
   ZpResult *result = run_scene(HANGING, "solver.end_time", end_time);
@@ -1053,10 +1048,10 @@ static void write_strokes(const char *name, double E) {
 }
 
 static void write_files(void) {
-  write_text("fast.csv", "time_ms,voltage_kV\n0,0\n2,2\n");
-  write_text("slow.csv", "time_ms,voltage_kV\n0,0\n4,2\n");
-  write_text("rises.csv", "time_ms,setpoint_pF\n0,300\n18,500\n");
-  write_text("rises_slowly.csv", "time_ms,setpoint_pF\n0,300\n36,500\n");
+  write_file("fast.csv", "time_ms,voltage_kV\n0,0\n2,2\n");
+  write_file("slow.csv", "time_ms,voltage_kV\n0,0\n4,2\n");
+  write_file("rises.csv", "time_ms,setpoint_pF\n0,300\n18,500\n");
+  write_file("rises_slowly.csv", "time_ms,setpoint_pF\n0,300\n36,500\n");
   write_checkpoint("early.zps", "1ms");
   write_checkpoint("late.zps", "2ms");
   write_strokes("soft.csv", 100e9);

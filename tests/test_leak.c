@@ -58,7 +58,7 @@ START_TEST(test_step_of_the_voltage) {
 }
 END_TEST
 
-/* A value of the present row, which is kept: mean currents begin anew. */
+/* A value of the present row. The row is kept, so the next mean current begins here. */
 static double read(ZpSim *sim, const char *name) {
   size_t count, k = 0;
   double row[64];

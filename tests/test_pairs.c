@@ -400,17 +400,10 @@ static double at(const ZpTable *series, size_t row, const char *column) {
   return zp_table_get(series, row, column);
 }
 
-static double largest(const ZpTable *series, const char *column) {
-  double most = 0;
-  for (size_t r = 0; r < series->rows; r++)
-    most = fmax(most, fabs(at(series, r, column)));
-  return most;
-}
-
 /* Energy that does not balance over the energy that flows; at least some nJ flow. */
 static double energy_error(const ZpTable *series) {
-  double flow = fmax(largest(series, "electric_work_J"), largest(series, "kinetic_energy_J"));
-  return largest(series, "energy_imbalance_J") / fmax(flow, 1e-9);
+  double flow = fmax(largest_in(series, "electric_work_J"), largest_in(series, "kinetic_energy_J"));
+  return largest_in(series, "energy_imbalance_J") / fmax(flow, 1e-9);
 }
 
 /* What integrators without an energy, or with held forces, may miss; all others solve an energy-conserving step to
@@ -439,7 +432,7 @@ static double integral(const ZpTable *series, const char *column) {
 
 /* Mean current and power against charge and energy, unless charge passes elsewhere; and sums against their parts. */
 static double book_error(const ZpTable *series, const ZpActuatorDef *def) {
-  double worst = 0, drawn = fmax(largest(series, "source_energy_J"), 1e-9), stored[2], energy[2];
+  double worst = 0, drawn = fmax(largest_in(series, "source_energy_J"), 1e-9), stored[2], energy[2];
   for (size_t r = 0; r < series->rows; r++) {
     double supplied = at(series, r, "electric_work_J") + at(series, r, "cable_energy_J") +
                       at(series, r, "source_loss_J") + at(series, r, "bleeder_loss_J"),
@@ -454,7 +447,7 @@ static double book_error(const ZpTable *series, const ZpActuatorDef *def) {
   }
   worst = larger(worst, fabs(integral(series, "power_W") - energy[1] + energy[0]) / drawn);
   bool passes = !isnan(def->source.bleeder) || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity);
-  double charge = fmax(largest(series, "charge_C"), 1e-15);
+  double charge = fmax(largest_in(series, "charge_C"), 1e-15);
   return passes ? worst : larger(worst, fabs(integral(series, "current_A") - stored[1] + stored[0]) / charge);
 }
 

@@ -18,13 +18,6 @@ static ZpTable *new_series(size_t rows) {
   return zp_table_create(column, columns, rows);
 }
 
-static double largest(const ZpTable *series, const char *column) {
-  double most = 0;
-  for (size_t r = 0; r < series->rows; r++)
-    most = fmax(most, fabs(zp_table_get(series, r, column)));
-  return most;
-}
-
 /* Mechanics, contact and time steps as in the paper. */
 #define PAPER_MOTION                                                                                                   \
   {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"contact.model", ZP_CONTACT_SEQUENTIAL}, {                                 \
@@ -37,12 +30,12 @@ static Balance balance_of(const ZpActuatorDef *def, double end_time) {
   ZpTable *series = new_series(2000);
   zp_sim_record(sim, series, NULL);
   ck_assert_int_eq(zp_sim_run(sim, end_time, false, NULL, NULL), ZP_REACHED_END);
-  Balance b = {.work = largest(series, "electric_work_J"),
+  Balance b = {.work = largest_in(series, "electric_work_J"),
                .contact_loss = zp_sim_get(sim, "contact_loss"),
                .drag_loss = zp_sim_get(sim, "drag_loss"),
                .contraction = zp_sim_get(sim, "contraction"),
-               .largest_field = largest(series, "field_energy_J")};
-  b.error = largest(series, "energy_imbalance_J") / b.work;
+               .largest_field = largest_in(series, "field_energy_J")};
+  b.error = largest_in(series, "energy_imbalance_J") / b.work;
   zp_table_destroy(series);
   zp_sim_destroy(sim);
   zp_model_destroy(model);

@@ -689,7 +689,7 @@ START_TEST(test_supplies_fill_keys) {
 }
 END_TEST
 
-/* Whenever a field is solved anew, it holds another charge than the one that was carried on: the supply gives it. */
+/* A newly solved field holds another charge than the field that was held before it. The supply gives the difference. */
 START_TEST(supply_gives_what_a_solved_field_holds) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"electro.model", ZP_ELECTRO_FIELD}, {"source.model", ZP_SOURCE_AMPLIFIER},
                           {"source.slew_rate", 2e6});

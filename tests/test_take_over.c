@@ -198,7 +198,7 @@ START_TEST(test_another_supply) {
 }
 END_TEST
 
-/* A supply in the middle of its slew goes on from where it is, with another load. */
+/* A supply that is slewing continues from its present voltage after the load has changed. */
 START_TEST(test_slewing_supply_goes_on) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 9}, {"drive.voltage", 5e3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5});

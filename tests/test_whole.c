@@ -123,13 +123,6 @@ START_TEST(modes_that_hold_the_platform) {
 }
 END_TEST
 
-static double largest_in(const ZpTable *table, const char *column) {
-  double largest = 0;
-  for (size_t row = 0; row < table->rows; row++)
-    largest = fmax(largest, fabs(zp_table_get(table, row, column)));
-  return largest;
-}
-
 /* A signal until closing, or during the whole run, within a fraction of a scale. */
 static void check_signal(Both both, const char *column, double scale, bool always, double allowed) {
   double closed = zp_result_get(both.half, "zip_time_s"), most = 0;

@@ -6,7 +6,6 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "sim/sim_internal.h"
 
 /* -- life ------------------------------------------------------------------------------------------ */
 

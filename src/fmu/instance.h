@@ -51,8 +51,8 @@ ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err);
 /* The same, and start a run at the inputs, unless it is done already. ZP_BAD_INPUT also if an input is out of range. */
 ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err);
 
-/* The same where initialization ends: inputs that were set before it are no jumps of the run, and the first mean
- * current is that of the first step alone. */
+/* Prepare the simulation where initialization ends. Inputs that were set before are no jumps of the run, so the first
+ * mean current is that of the first step alone. Errors as zp_fmu_prepare. */
 ZpStatus zp_fmu_begin(ZpFmu *fmu, ZpError *err);
 
 /* The value of a variable, SI. ZP_BAD_INPUT if no variable of that type has that reference. Reading an output prepares

@@ -22,7 +22,7 @@ void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, dou
  * symmetric. */
 void zp_system_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
 
-/* The same without the stiffness of edges. */
+/* K of all terms but those of edges (ZpTerm.of_edges). */
 void zp_system_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
                                       ZpEval *eval, ZpBand *K);
 
