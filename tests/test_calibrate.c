@@ -1300,7 +1300,7 @@ START_TEST(time_limit_counts_from_the_start_of_a_study) {
   set(&def, "mesh.nodes", 9);
   set(&def, "output.errors", 0);
   set(&def, "solver.max_cpu_time", FULL_OR(0.05, 0.5));
-  while (clock() < FULL_OR(0.1, 1) * CLOCKS_PER_SEC)
+  while ((double)clock() < FULL_OR(0.1, 1) * CLOCKS_PER_SEC)
     continue;
   ck_assert_double_gt(scalar_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), 1e3);
 }
