@@ -137,6 +137,40 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
 }
 END_TEST
 
+/* The derivative of the forces at rest by the voltage, of attraction and of suction, against their differences. */
+START_TEST(test_forces_at_rest_by_voltage) {
+  const Case *c = &cases[_i];
+  ZpActuatorDef def = def_of(c, 7);
+  def.electro.breakdown_cap = false; /* no corner of a law within the difference */
+  ZpModel *model = model_of(&def);
+  ZpRest rest;
+  ck_assert(zp_rest_open(&rest, model, NULL, NULL));
+  ZpStatics *s = &rest.statics;
+  ZpStaticSystem system = zp_statics_system(s);
+  size_t n = system.n;
+  double *up = calloc(n, sizeof *up), *down = calloc(n, sizeof *down), *by = calloc(n, sizeof *by);
+  double worst = 0, largest = 0;
+  static const double dU = 10;
+  bend(s, 0.1);
+  s->U = c->U + dU;
+  system.residual(s, up, NULL);
+  s->U = c->U - dU;
+  system.residual(s, down, NULL);
+  s->U = c->U;
+  system.residual(s, by, NULL);
+  zp_statics_by_voltage(s, s->U, by);
+  for (size_t i = 0; i < n; i++) {
+    worst = fmax(worst, fabs(by[i] - (up[i] - down[i]) / (2 * dU)));
+    largest = fmax(largest, fabs(by[i]));
+  }
+  printf("%s: derivative by the voltage off by %.1e\n", c->name, worst / largest);
+  ck_below(worst / largest, 2e-13); /* 3.4e-14 measured: forces are parabolas of the voltage */
+  free(up), free(down), free(by);
+  zp_rest_close(&rest);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A drop with suction has a hanging equilibrium: before, from 1 uL or so, the result was straight ribbons held together
  * by capillarity. */
 START_TEST(test_drop_with_suction_hangs) {
@@ -646,6 +680,7 @@ int main(void) {
   TCase *c = tcase_create("bead");
   tcase_add_test(c, test_reach_in_a_wedge);
   tcase_add_loop_test(c, test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
+  tcase_add_loop_test(c, test_forces_at_rest_by_voltage, 0, 7);
   tcase_add_loop_test(c, test_force_of_a_fixed_volume_has_an_energy, 0, 4);
   tcase_add_loop_test(c, test_drop_with_suction_hangs, 0, 5);
   tcase_add_loop_test(c, test_attraction_of_a_wedge, 0, LENGTH_OF(wedges));
