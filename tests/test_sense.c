@@ -126,9 +126,8 @@ START_TEST(test_stroke_along_the_states_of_rest) {
 }
 END_TEST
 
-/* Ribbons bowed twice, under a spring, rise in steps: partly closed at 2 kV, or closed as a lower voltage falls, they
- * have the same capacitance at strokes that differ by half of the whole. Slow readings give the stroke of the states
- * through which the actuator has come. */
+/* Ribbons bowed twice, under a spring, are partly closed at 2 kV. Equilibria on the way back from closed ones have the
+ * same capacitance at a fifth of the stroke. Readings give the stroke of those through which the actuator has come. */
 START_TEST(test_stroke_of_the_branch_that_it_is_on) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"liquid.model", ZP_LIQUID_NONE}, {"segment_1.length", 21e-3},
                           {"segment_1.curvature", -16}, {"segment_2.length", 10e-3}, {"segment_2.curvature", 15},
