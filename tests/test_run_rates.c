@@ -336,7 +336,8 @@ static ZpActuatorDef supplied(ZpLiquidModel liquid) {
 }
 
 /* The largest current is at the corner of the ramp. Steps at an impact are so short that the current of a neighbour
- * alone would be larger. */
+ * alone would be larger. After the zip, at 105 ms, closed faces bounce: what remains of a small change then differs
+ * with the steps, so the current until then has no derivative. That until 80 ms has one. */
 START_TEST(peak_and_rms_current_with_impacts) {
   ZpActuatorDef def = supplied(ZP_LIQUID_NONE);
   def.solver.end_time = 0.11;
@@ -344,9 +345,11 @@ START_TEST(peak_and_rms_current_with_impacts) {
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_near(slope_in(result, "peak_current_A", "ribbon.thickness"),
           difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 5e-5); /* 1.4e-5 measured */
-  double rms = slope_in(result, "rms_current_A", "ribbon.thickness");
-  ck_assert(isnan(rms) || fabs(rms / difference(&def, "rms_current_A", "ribbon.thickness", 1e-3) - 1) < 1e-2);
+  ck_assert_double_nan(slope_in(result, "rms_current_A", "ribbon.thickness"));
+  ck_assert_uint_eq(notes_with(result, "null because other steps change it by more than 1 %"), 1);
   zp_result_destroy(result);
+  def.solver.end_time = 0.08;
+  check(&def, "rms_current_A", "ribbon.thickness", 1e-3, 2e-3); /* 3.7e-4 measured */
 }
 END_TEST
 
