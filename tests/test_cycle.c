@@ -274,6 +274,16 @@ START_TEST(test_method_by_itself) {
 }
 END_TEST
 
+/* A sine of twice the voltage has four times the force, and so four times the motion of second order per amplitude. */
+START_TEST(second_order_goes_with_the_amplitude) {
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 100}, {"drive.frequency", 8}, {"cycle.method", ZP_CYCLE_LINEAR}),
+                twice = def;
+  twice.drive.voltage = 200;
+  double order = answered_value(ZP_STUDY_CYCLE, &twice, "second_order");
+  ck_near(order, 4 * answered_value(ZP_STUDY_CYCLE, &def, "second_order"), 2e-3);
+}
+END_TEST
+
 /* Velocities of the linear answer are the slopes of its positions. */
 START_TEST(test_velocities_of_the_linear_answer) {
   static const double f = 8;
@@ -451,6 +461,7 @@ int main(void) {
   tcase_add_loop_test(cycles, test_small_motion_is_that_of_the_modes, 0, 4);
   tcase_add_loop_test(cycles, test_linear_answer_is_small_motion, 0, 6);
   tcase_add_test(cycles, test_method_by_itself);
+  tcase_add_test(cycles, second_order_goes_with_the_amplitude);
   tcase_add_test(cycles, test_velocities_of_the_linear_answer);
   tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
   tcase_add_test(cycles, test_shooting_with_slow_charges);
