@@ -43,7 +43,8 @@ START_TEST(equal_ones_rest_in_the_middle) {
   ZpShape shape = zp_shapes_get(result->shapes, result->shapes->frames - 1);
   size_t of_each = result->shapes->nodes * result->shapes->ribbons / 2;
   for (size_t j = 0; j < of_each; j++) /* the lower one is the mirror image */
-    ck_below(fabs(shape.y[of_each + j] + shape.y[j] + def.stack.distance), 1e-9);
+    ck_below(fabs(shape.y[of_each + j] + shape.y[j] + def.stack.distance),
+             1e-12 * def.stack.distance); /* 1.8e-16 measured */
   zp_result_destroy(result);
 }
 END_TEST

@@ -313,7 +313,7 @@ START_TEST(test_charge_is_capacitance_times_voltage) {
   double layers = 2 * def.insulator.thickness;
   ck_near(shape.insulator_field[end], def.drive.voltage / (layers + def.insulator.permittivity * shape.gap[end]),
           1e-12);
-  ck_near(shape.insulator_field[0], def.drive.voltage / layers, 1e-3);
+  ck_near(shape.insulator_field[0], def.drive.voltage / layers, 1e-12); /* 0 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -528,7 +528,7 @@ START_TEST(test_either_half_starves) {
     tilted[k] =
         RUN(BEAD, {"mesh.nodes", 17}, {"bead.volume", 10e-9}, {"bead.suction", 0.5}, {"solver.end_time", 0.2},
             {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", k ? -0.3 : 0.3}, {"solver.time_step", 5e-4});
-  ck_near(tilted[1].starved, tilted[0].starved, 1e-9);
+  ck_near(tilted[1].starved, tilted[0].starved, 1e-12);  /* 0 measured */
   ck_near(tilted[1].meniscus, tilted[0].meniscus, 1e-8); /* measured 2.5e-9, of rounding */
 }
 END_TEST

@@ -268,13 +268,13 @@ START_TEST(test_jump_into_the_cable) {
   ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-9);
   ck_near(zp_sim_get(c.sim, "cable_energy"), 0.5 * CABLE * V * V, 1e-12);
-  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * (R > 0 ? c.C : CABLE) * V * V, 1e-9);
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * (R > 0 ? c.C : CABLE) * V * V, 1e-12); /* 1.1e-16 measured */
   ck_assert_double_eq_tol(zp_sim_get(c.sim, "charging_loss"), R > 0 ? 0 : 0.5 * electrodes * V * V,
-                          1e-9 * electrodes * V * V);
+                          1e-12 * electrodes * V * V); /* 8e-17 measured */
   ZpCurrents currents = zp_sim_currents(c.sim, T);
   if (R > 0) {
     ck_near(currents.peak, V / R, 1e-12);
-    ck_near(currents.rms, sqrt(0.5 * c.C * V * V / (R * T)), 1e-9);
+    ck_near(currents.rms, sqrt(0.5 * c.C * V * V / (R * T)), 1e-12); /* 0 measured */
   } else {
     ck_assert(isnan(currents.peak) && isnan(currents.rms));
   }
@@ -288,7 +288,7 @@ START_TEST(test_current_of_the_bleeder) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.bleeder", R}));
   ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
   ck_near(zp_sim_get(c.sim, "current") * T, zp_sim_get(c.sim, "charge") + V * T / R, 1e-12);
-  ck_near(zp_sim_get(c.sim, "bleeder_loss"), V * V * T / R, 1e-9);
+  ck_near(zp_sim_get(c.sim, "bleeder_loss"), V * V * T / R, 1e-12); /* 4.4e-16 measured */
   end_charging(&c);
 }
 END_TEST
@@ -303,7 +303,7 @@ START_TEST(test_jump_and_ramp) {
   ck_assert(zp_sim_set_input(c.sim, ZP_INPUT_VOLTAGE, U, (V - U) / T, NULL) == ZP_OK);
   ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * (U * U + 0.5 * (V * V - U * U)), 1e-9);
-  ck_near(zp_sim_get(c.sim, "charging_loss"), 0.5 * (c.C - cable) * U * U, 1e-9);
+  ck_near(zp_sim_get(c.sim, "charging_loss"), 0.5 * (c.C - cable) * U * U, 1e-12); /* 1.1e-16 measured */
   ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
   end_charging(&c);
 }
