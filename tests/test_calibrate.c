@@ -125,7 +125,7 @@ START_TEST(two_keys_are_found) {
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 150e9,
           1e-10);                                           /* 1.6e-12, on a coarser mesh 1.8e-11 measured */
   ck_near(zp_result_get(result, "load.share"), 0.4, 1e-10); /* 1.2e-12 measured */
-  ck_near(zp_result_get(result, "load.share_correlation_1"), correlation_of(&truth), 1e-4);
+  ck_near(zp_result_get(result, "load.share_correlation_1"), correlation_of(&truth), 6e-10); /* 1.9e-10 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -638,7 +638,7 @@ START_TEST(row_without_an_equilibrium) {
   ck_assert(isnan(zp_fit_predict(&start, (double[ZP_FIT_MOST]){1}, 2)));
   zp_fit_close(&start);
   ZpResult *result = fit(&def);
-  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-8);
+  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-11); /* 2.2e-16 measured */
   zp_result_destroy(result);
   write_openings(&def, &truth, kilovolts); /* the others alone are best where the last has none */
   result = fit(&def);
@@ -681,7 +681,8 @@ START_TEST(differences_stay_inside_the_bounds) {
     for (int k = 0; k < 3; k++)
       at[k] = zp_fit_predict(&one, (double[ZP_FIT_MOST]){1 + side * k * step}, 0);
     slope = side * (-3 * at[0] + 4 * at[1] - at[2]) / (2 * step);
-    ck_near(J[0], slope, 1e-3);
+    /* 1.2e-6 measured; at a bound 8.2e-5, the error of first order of a step of 1e-4 to one side */
+    ck_near(J[0], slope, i == 0 ? 4e-6 : 2.5e-4);
     zp_fit_close(&one);
   }
 }

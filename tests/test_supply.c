@@ -553,8 +553,9 @@ START_TEST(test_charge_drive_of_plates_has_no_pull_in) {
          half / first, most, 1e3 * at_most, U);
   ck_below(before, 0.1 * hangs);
   ck_below(fastest, 0.05 * hangs);
-  ck_near(half, first, 0.1);                                         /* the ribbons attract, too; measured 1.06 */
-  ck_below(fabs(at_most - (hangs - (hangs + d) / 3)), 0.03 * hangs); /* where a voltage would pull in */
+  ck_near(half, first, 0.1); /* the ribbons attract, too; measured 1.06 */
+  /* where a voltage would pull in; 0.0028 measured */
+  ck_below(fabs(at_most - (hangs - (hangs + d) / 3)), 0.01 * hangs);
   ck_below(U, 0.6 * most);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
