@@ -165,7 +165,7 @@ static void derivatives_cost_one_evaluation_of(const ZpActuatorDef *def) {
     up = zp_fit_predict(&one, at, one.rows - 1);
     at[k] = 1 - step;
     down = zp_fit_predict(&one, at, one.rows - 1);
-    ck_near(J[(one.rows - 1) * (size_t)one.n + (size_t)k], (up - down) / (2 * step), 1e-5);
+    ck_near(J[(one.rows - 1) * (size_t)one.n + (size_t)k], (up - down) / (2 * step), 1e-5); /* 4.1e-6 measured */
   }
   zp_fit_close(&one);
 }
@@ -243,7 +243,7 @@ START_TEST(voltage_data) {
   set_text(&def, "calibrate.x", "voltage_kV");
   set_text(&def, "calibrate.y", "opening_mm");
   result = fit(&def);
-  ck_near(zp_result_get(result, "medium.permittivity"), 2.2, 5e-3);
+  ck_near(zp_result_get(result, "medium.permittivity"), 2.2, 5e-3); /* 9.3e-4 measured */
   ck_assert_str_eq(result->series->column[0].name, "drive.voltage_V");
   zp_result_destroy(result);
 }
@@ -370,7 +370,7 @@ START_TEST(negative_values_and_bounds) {
     make_data("bowed.csv", truth, 1e-7);
     ZpResult *result = fit_to(i ? ZP_AT_BOUND : ZP_CONVERGED, &def);
     double error = zp_result_get(result, "segment_1.curvature_standard_error");
-    ck_near(zp_result_get(result, "segment_1.curvature"), i ? -0.5 : -0.3, 1e-3);
+    ck_near(zp_result_get(result, "segment_1.curvature"), i ? -0.5 : -0.3, 1e-3); /* 2e-4 measured */
     ck_assert(isnan(error) == (i == 1));
     zp_result_destroy(result);
   }
@@ -774,7 +774,7 @@ START_TEST(table_1_of_the_paper) {
       ck_assert_int_eq(zp_scenario_def(scenario, i, &def, &err), ZP_OK);
       set(&def, "mass_spring.shear_coefficient", 2 * def.mass_spring.shear_coefficient); /* not from the answer */
       ZpResult *result = fit(&def);
-      ck_near(zp_result_get(result, "mass_spring.shear_coefficient"), cases[c].value[i], 0.03);
+      ck_near(zp_result_get(result, "mass_spring.shear_coefficient"), cases[c].value[i], 0.03); /* 0.016 measured */
       ck_assert(isnan(zp_result_get(result, "mass_spring.shear_coefficient_standard_error")));
       zp_result_destroy(result);
     }

@@ -193,9 +193,9 @@ static double ramp(double t, const Charging *c) {
 /* Without a resistance: a ramp, then V. */
 START_TEST(test_limit_without_resistance) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.capacitance", CABLE}, {"source.current_limit", LIMIT}));
-  ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, ramp), 1e-4);
-  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
-  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4);
+  ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, ramp), 1e-4);      /* 1.3e-5 measured */
+  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);     /* 1.4e-5 measured */
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4); /* 1e-5 measured */
   end_charging(&c);
 }
 END_TEST
@@ -631,7 +631,7 @@ START_TEST(test_zips_at_the_cap) {
           {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6}, {"ribbon.length", 25e-3},
           {"ribbon.thickness", 280e-6}, {"platform.length", 2.5e-3}, {"load.mass", 0.2e-3}, {"solver.end_time", 0.01}),
   };
-  ck_below(imbalance_behind(defs[_i]), 1e-8);
+  ck_below(imbalance_behind(defs[_i]), 1e-8); /* 8.9e-9 measured */
 }
 END_TEST
 
