@@ -280,7 +280,7 @@ START_TEST(test_attraction_of_a_wedge) {
   ZpActuatorDef def = DEF(BEAD);
   ZpModel *model = model_of(&def);
   double all = attraction(model, U, separation, 1, one);
-  ck_near(attraction(model, U, separation, wedges[_i].volume, one) / all, 0.92, 1e-3);
+  ck_near(attraction(model, U, separation, wedges[_i].volume, one) / all, 0.92, 1e-3); /* 1.9e-4 measured */
   zp_model_destroy(model);
 }
 END_TEST
@@ -313,7 +313,7 @@ START_TEST(test_charge_is_capacitance_times_voltage) {
   double layers = 2 * def.insulator.thickness;
   ck_near(shape.insulator_field[end], def.drive.voltage / (layers + def.insulator.permittivity * shape.gap[end]),
           1e-12);
-  ck_near(shape.insulator_field[0], def.drive.voltage / layers, 1e-3);
+  ck_near(shape.insulator_field[0], def.drive.voltage / layers, 1e-12); /* 0 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -406,7 +406,7 @@ START_TEST(test_energy_of_zip_hold_and_release) {
          "mm\n",
          row[_i].suction, row[_i].share, 1e6 * row[_i].viscosity, worst, 1e9 * most,
          1e9 * zp_sim_get(sim, "bead_outside"), 1e3 * zp_sim_get(sim, "opening"));
-  ck_below(worst, 1e-6);
+  ck_below(worst, 1e-6); /* 1.3e-7 measured */
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
@@ -460,7 +460,7 @@ START_TEST(test_much_liquid_is_a_bath) {
                  {"medium.drag_coefficient", 0}, {"solver.tolerance", 7e-5}),
       bead = RUN(BEAD, {"mesh.nodes", 31}, {"liquid.inertia", 0}, {"bead.volume", 1e-5}, {"solver.tolerance", 7e-5});
   printf("bath: %.3f ms, bead: %.3f ms\n", 1e3 * bath.zip_time, 1e3 * bead.zip_time);
-  ck_near(bead.zip_time, bath.zip_time, 2e-4);
+  ck_near(bead.zip_time, bath.zip_time, 2e-4); /* 2.1e-5 measured */
 }
 END_TEST
 
@@ -558,7 +558,7 @@ START_TEST(test_either_half_starves) {
     tilted[k] =
         RUN(BEAD, {"mesh.nodes", 17}, {"bead.volume", 10e-9}, {"bead.suction", 0.5}, {"solver.end_time", 0.2},
             {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", k ? -0.3 : 0.3}, {"solver.time_step", 5e-4});
-  ck_near(tilted[1].starved, tilted[0].starved, 1e-9);
+  ck_near(tilted[1].starved, tilted[0].starved, 1e-12);  /* 0 measured */
   ck_near(tilted[1].meniscus, tilted[0].meniscus, 1e-8); /* measured 2.5e-9, of rounding */
 }
 END_TEST
@@ -696,7 +696,7 @@ START_TEST(test_attraction_and_film_along_the_ribbon) {
   ck_assert(reach > 5e-3 && reach < 0.04 && most > 100);
   ck_assert_double_eq(liquid.wet_length[0], reach);
   ck_near(liquid.thickness[30], quarter, 1e-12);
-  ck_near(2 * sum, zp_sim_get(sim, "force"), 0.02);
+  ck_near(2 * sum, zp_sim_get(sim, "force"), 0.02); /* 2.6e-3 measured */
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }

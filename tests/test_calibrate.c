@@ -126,7 +126,7 @@ START_TEST(two_keys_are_found) {
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 150e9,
           1e-10);                                           /* 1.6e-12, on a coarser mesh 1.8e-11 measured */
   ck_near(zp_result_get(result, "load.share"), 0.4, 1e-10); /* 1.2e-12 measured */
-  ck_near(zp_result_get(result, "load.share_correlation_1"), correlation_of(&truth), 1e-4);
+  ck_near(zp_result_get(result, "load.share_correlation_1"), correlation_of(&truth), 6e-10); /* 1.9e-10 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -166,7 +166,7 @@ static void derivatives_cost_one_evaluation_of(const ZpActuatorDef *def) {
     up = zp_fit_predict(&one, at, one.rows - 1);
     at[k] = 1 - step;
     down = zp_fit_predict(&one, at, one.rows - 1);
-    ck_near(J[(one.rows - 1) * (size_t)one.n + (size_t)k], (up - down) / (2 * step), 1e-5);
+    ck_near(J[(one.rows - 1) * (size_t)one.n + (size_t)k], (up - down) / (2 * step), 1e-5); /* 4.1e-6 measured */
   }
   zp_fit_close(&one);
 }
@@ -244,7 +244,7 @@ START_TEST(voltage_data) {
   set_text(&def, "calibrate.x", "voltage_kV");
   set_text(&def, "calibrate.y", "opening_mm");
   result = fit(&def);
-  ck_near(zp_result_get(result, "medium.permittivity"), 2.2, 5e-3);
+  ck_near(zp_result_get(result, "medium.permittivity"), 2.2, 5e-3); /* 9.3e-4 measured */
   ck_assert_str_eq(result->series->column[0].name, "drive.voltage_V");
   zp_result_destroy(result);
 }
@@ -371,7 +371,7 @@ START_TEST(negative_values_and_bounds) {
     make_data("bowed.csv", truth, 1e-7);
     ZpResult *result = fit_to(i ? ZP_AT_BOUND : ZP_CONVERGED, &def);
     double error = zp_result_get(result, "segment_1.curvature_standard_error");
-    ck_near(zp_result_get(result, "segment_1.curvature"), i ? -0.5 : -0.3, 1e-3);
+    ck_near(zp_result_get(result, "segment_1.curvature"), i ? -0.5 : -0.3, 1e-3); /* 2e-4 measured */
     ck_assert(isnan(error) == (i == 1));
     zp_result_destroy(result);
   }
@@ -516,9 +516,9 @@ START_TEST(residuals_make_the_standard_error) {
   ZpResult *result = fit(&def);
   stiff.ribbon.young_modulus *= 1 + step;
   const double slope = (stroke(stiff, 8e-3) - y) / (step * def.ribbon.young_modulus);
-  ck_near(zp_result_get(result, "ribbon.young_modulus_standard_error"), d / fabs(slope), 1e-3);
-  ck_near(zp_table_get(result->series, 0, "residual_m"), d, 1e-5);
-  ck_near(zp_table_get(result->series, 1, "residual_m"), -d, 1e-5);
+  ck_near(zp_result_get(result, "ribbon.young_modulus_standard_error"), d / fabs(slope), 3e-4); /* 8.5e-5 measured */
+  ck_near(zp_table_get(result->series, 0, "residual_m"), d, 1e-12);                             /* 4.6e-14 measured */
+  ck_near(zp_table_get(result->series, 1, "residual_m"), -d, 1e-12);                            /* 4.1e-14 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -639,7 +639,7 @@ START_TEST(row_without_an_equilibrium) {
   ck_assert(isnan(zp_fit_predict(&start, (double[ZP_FIT_MOST]){1}, 2)));
   zp_fit_close(&start);
   ZpResult *result = fit(&def);
-  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-8);
+  ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-11); /* 2.2e-16 measured */
   zp_result_destroy(result);
   write_openings(&def, &truth, kilovolts); /* the others alone are best where the last has none */
   result = fit(&def);
@@ -682,7 +682,8 @@ START_TEST(differences_stay_inside_the_bounds) {
     for (int k = 0; k < 3; k++)
       at[k] = zp_fit_predict(&one, (double[ZP_FIT_MOST]){1 + side * k * step}, 0);
     slope = side * (-3 * at[0] + 4 * at[1] - at[2]) / (2 * step);
-    ck_near(J[0], slope, 1e-3);
+    /* 1.2e-6 measured; at a bound 8.2e-5, the error of first order of a step of 1e-4 to one side */
+    ck_near(J[0], slope, i == 0 ? 4e-6 : 2.5e-4);
     zp_fit_close(&one);
   }
 }
@@ -774,7 +775,7 @@ START_TEST(table_1_of_the_paper) {
       ck_assert_int_eq(zp_scenario_def(scenario, i, &def, &err), ZP_OK);
       set(&def, "mass_spring.shear_coefficient", 2 * def.mass_spring.shear_coefficient); /* not from the answer */
       ZpResult *result = fit(&def);
-      ck_near(zp_result_get(result, "mass_spring.shear_coefficient"), cases[c].value[i], 0.03);
+      ck_near(zp_result_get(result, "mass_spring.shear_coefficient"), cases[c].value[i], 0.03); /* 0.016 measured */
       ck_assert(isnan(zp_result_get(result, "mass_spring.shear_coefficient_standard_error")));
       zp_result_destroy(result);
     }
@@ -1116,7 +1117,7 @@ static void find_again(const char *column, const char *key, double truth, ZpStud
   }
   write_file("number.csv", text);
   ZpResult *result = fit(&def);
-  ck_near(zp_result_get(result, key), truth, 1e-9); /* 1.2e-10 measured */
+  ck_near(zp_result_get(result, key), truth, 1e-9); /* 4.7e-10 measured */
   zp_result_destroy(result);
 }
 

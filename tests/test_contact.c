@@ -405,7 +405,7 @@ START_TEST(test_loss_of_joining) {
   copy_state(run.sim, state);
   ck_assert_uint_eq(state->zip.front, 1);
   double m = run.model->mass[2], dv = 2 * speed;
-  ck_near(state->contact_loss, 0.5 * (m / 2) * (dv * dv + dv * dv), 0.01);
+  ck_near(state->contact_loss, 0.5 * (m / 2) * (dv * dv + dv * dv), 0.01);      /* 2.9e-3 measured */
   ck_near(zp_sim_get(run.sim, "contact_loss"), 2 * state->contact_loss, 1e-14); /* both halves */
   end_run(&run);
 }

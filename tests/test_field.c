@@ -423,7 +423,7 @@ START_TEST(test_outside_does_not_matter) {
     force[k] = zp_field_totals(&f).lower;
     zp_field_destroy(&f);
   }
-  ck_near(force[1], force[0], 1e-6);
+  ck_near(force[1], force[0], 1e-6); /* 2.7e-7 measured */
 }
 END_TEST
 
@@ -533,7 +533,7 @@ START_TEST(test_studies_by_field_and_by_plates) {
   zp_result_destroy(by_plates);
   field.drive.voltage = plates.drive.voltage = 6e3;
   double held = value(ZP_STUDY_ISOMETRIC, field, "force_N");
-  ck_near(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"), 1e-3);
+  ck_near(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"), 1e-3); /* 2.4e-4 measured */
   ck_assert_double_ne(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"));
 }
 END_TEST
@@ -564,12 +564,12 @@ START_TEST(test_held_without_cap) {
   double held = value(ZP_STUDY_ISOMETRIC, field, "force_N");
   printf("held at 2 mm, 5 kV, no cap: field %.6f N, plates %.6f N\n", held,
          value(ZP_STUDY_ISOMETRIC, plates, "force_N"));
-  ck_near(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"), 1e-3);
+  ck_near(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"), 1e-3); /* 4.3e-4 measured */
   field.drive.voltage = 1;
   field.isometric.separation = 4e-3;
   double C = value(ZP_STUDY_ISOMETRIC, field, "capacitance_F");
   field.electro.force_scale = 4;
-  ck_near(value(ZP_STUDY_ISOMETRIC, field, "capacitance_F"), C, 1e-6);
+  ck_near(value(ZP_STUDY_ISOMETRIC, field, "capacitance_F"), C, 1e-6); /* 1.8e-7 measured */
 }
 END_TEST
 
@@ -580,12 +580,12 @@ START_TEST(test_refresh_in_motion) {
   double coarse, fine;
   ZpResult *result = study(ZP_STUDY_ACTUATE, &def);
   coarse = zp_result_get(result, "zip_time_s");
-  ck_below(zp_result_get(result, "energy_error"), 1e-3);
+  ck_below(zp_result_get(result, "energy_error"), 1e-3); /* 4.3e-4 measured */
   zp_result_destroy(result);
   def.electro.refresh_change = 0.02;
   fine = value(ZP_STUDY_ACTUATE, def, "zip_time_s");
   printf("zip time: refreshed at changes of 0.1 and 0.02: %.6g, %.6g ms\n", 1e3 * coarse, 1e3 * fine);
-  ck_near(coarse, fine, 1e-3); /* 4e-4 here; at N = 61 4e-5 */
+  ck_near(coarse, fine, 6e-5); /* 2e-5 measured */
 }
 END_TEST
 
@@ -630,7 +630,7 @@ START_TEST(test_held_field_is_that_of_every_step) {
     zp_system_destroy(&unaware);
     check_held(sim);
     for (size_t k = 0; k < LENGTH_OF(signal) && afresh; k++)
-      ck_near(held[k], zp_sim_get(sim, signal[k].name), signal[k].within);
+      ck_near(held[k], zp_sim_get(sim, signal[k].name), signal[k].within); /* 1e-4 measured where 3e-4 is allowed */
     for (size_t k = 0; k < LENGTH_OF(signal); k++)
       held[k] = zp_sim_get(sim, signal[k].name);
     ck_assert_double_gt(sim->state->U * sim->state->held_charge * model->parts, 0.02 * zp_sim_get(sim, "charge"));
@@ -647,7 +647,8 @@ START_TEST(test_charge_at_rest_is_capacitance_times_voltage) {
       DEF({"electro.model", ZP_ELECTRO_FIELD}, {"electro.breakdown_cap", 0}, {"mesh.nodes", 9},
           {"ribbon.length", 40e-3}, {"platform.length", 4e-3}, {"isometric.separation", 4e-3}, {"drive.voltage", 100});
   ZpResult *result = study(ZP_STUDY_ISOMETRIC, &def);
-  ck_near(zp_result_get(result, "charge_C"), def.drive.voltage * zp_result_get(result, "capacitance_F"), 1e-9);
+  ck_near(zp_result_get(result, "charge_C"), def.drive.voltage * zp_result_get(result, "capacitance_F"),
+          1e-12); /* 4.4e-16 measured */
   zp_result_destroy(result);
 }
 END_TEST

@@ -116,7 +116,7 @@ START_TEST(test_plates_of_all_shapes) {
   solve(f);
   double scale = f->params.mu * l * w * w * w * speed / (gap * gap * gap), phi = 2 * force(f) / scale;
   printf("l/w = %g: phi = %.5f\n", shape[_i].ratio, phi);
-  if (shape[_i].ratio > 0.1) ck_near(phi, shape[_i].phi, shape[_i].error);
+  if (shape[_i].ratio > 0.1) ck_near(phi, shape[_i].phi, shape[_i].error); /* 0.02 measured where 0.021 is allowed */
   free_film(f);
 }
 END_TEST
@@ -246,8 +246,9 @@ START_TEST(test_masses_of_two_plates) {
   ZpFilmParams film = {.w = w};
   ZpOuterParams out = {.w = w, .rho = 960};
   for (size_t k = 0; k < LENGTH_OF(q); k++) {
-    ck_near(q[k] * w / zp_film_depth(&film, q[k] * w), inner[k], 0.025);
-    ck_near((zp_outer_side(&out) + 0.5 * zp_outer_pair(&out, q[k] * w)) / (960 * w * w), outer[k], 0.025);
+    ck_near(q[k] * w / zp_film_depth(&film, q[k] * w), inner[k], 0.025); /* 0.022 measured */
+    ck_near((zp_outer_side(&out) + 0.5 * zp_outer_pair(&out, q[k] * w)) / (960 * w * w), outer[k],
+            0.025); /* 0.022 measured */
   }
   double far = 1e4 * w, between = 960 * w * w * w / (12 * zp_film_depth(&film, far));
   ck_near(2 * between, pi / 8 * 960 * w * w, 2e-10); /* half the gap moves: of each plate; 4e-11 measured */
@@ -331,7 +332,7 @@ START_TEST(test_cavity_in_a_short_step) {
   double ratio = f->params.kappa2[1] / f->params.kappa2[0];
   ck_assert_double_gt(f->eval.end[ZP_FILM_STATE * 20 + ZP_FILM_CAVITY], 0);
   ck_near(f->p[ZP_FILM_MODES * 20], ratio * f->p[ZP_FILM_MODES * 20 + 1], 1e-12);
-  ck_near(f->eval.head[20], -1e5, 3e-7);
+  ck_near(f->eval.head[20], -1e5, 3e-7); /* 1e-7 measured */
   free_film(f);
 }
 END_TEST

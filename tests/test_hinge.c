@@ -37,7 +37,7 @@ START_TEST(held_plates_are_a_wedge) {
   def.isometric.separation = def.ribbon.length * sin(angle);
   Wedge wedge = wedge_of(&def, angle);
   ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
-  ck_near(zp_result_get(result, "angle_rad"), angle, 1e-5);
+  ck_near(zp_result_get(result, "angle_rad"), angle, 1e-5); /* 6.6e-6 measured */
   ck_near(zp_result_get(result, "capacitance_F"), wedge.capacitance, 1e-5);
   ck_near(zp_result_get(result, "torque_N_m"), wedge.torque, 3e-5); /* 9.7e-6 measured */
   /* 9.6e-6 measured */
@@ -45,7 +45,8 @@ START_TEST(held_plates_are_a_wedge) {
   zp_result_destroy(result);
   double d = 2 * def.insulator.thickness * def.medium.permittivity / def.insulator.permittivity;
   double eps = eps0 * def.medium.permittivity * def.ribbon.width;
-  if (angle < 0.05) ck_near(wedge.capacitance, eps / angle * log(1 + angle * def.ribbon.length / d), 1e-3);
+  if (angle < 0.05)
+    ck_near(wedge.capacitance, eps / angle * log(1 + angle * def.ribbon.length / d), 1e-3); /* 2.2e-4 measured */
 }
 END_TEST
 
@@ -152,7 +153,7 @@ START_TEST(swings_as_a_rigid_body) {
   double mu = def.ribbon.density * def.ribbon.width * def.ribbon.thickness;
   double inertia = m * L * L + mu * L * L * L / 3, moment = (m + mu * L / 2) * def.gravity * L;
   double expected = sqrt((_i ? moment : k) / inertia) / (2 * pi);
-  ck_near(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), expected, 5e-4);
+  ck_near(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), expected, 5e-4); /* 1.1e-4 measured */
 }
 END_TEST
 
@@ -186,7 +187,7 @@ START_TEST(zips_and_keeps_the_books) {
           {"electro.edges", _i}, {"solver.end_time", _i ? 0.3 : 0.06}, {"solver.tolerance", 1e-4});
   if (_i) def.drive.waveform = ZP_WAVEFORM_SQUARE, def.drive.frequency = 4;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-  ck_below(zp_result_get(result, "energy_error"), 2e-7); /* 4.6e-8 measured */
+  ck_below(zp_result_get(result, "energy_error"), 7e-9); /* 2.3e-9 measured */
   ck_assert_double_gt(zp_table_get(result->series, 0, "angle_rad"), 0.2);
   if (_i == 0) {
     ck_assert_int_eq(result->outcome, ZP_ZIPPED);

@@ -274,7 +274,7 @@ START_TEST(test_jumps) {
     printf("20 mm, no cap, N = %d: %g jumps, %d states jumped over, %.5f N\n", def.mesh.nodes, jumps, over, force[k]);
     zp_result_destroy(result);
   }
-  if (!SANITIZED) ck_near(force[0], force[1], 0.05);
+  if (!SANITIZED) ck_near(force[0], force[1], 0.05); /* 0.037 measured */
 }
 END_TEST
 
@@ -305,9 +305,9 @@ START_TEST(test_voltages_beside_a_limit_point) {
   ck_assert(before.jumps == 0 && behind.jumps == 1 && behind.force > 1.5 * before.force);
   ck_assert_double_eq(jumped_at(def, low - 1).others, 1); /* stable; the branch leads there over an unstable one */
   ck_near((before.force - jumped_at(def, low - 4 * near).force) / (before.force - jumped_at(def, low - near).force), 2,
-          3e-3);
+          3e-3); /* 6.9e-4 measured */
   ck_near((jumped_at(def, high + 4 * near).force - behind.force) / (jumped_at(def, high + near).force - behind.force),
-          4, 3e-5);
+          4, 3e-5); /* 4.6e-6 measured */
 }
 END_TEST
 
@@ -360,7 +360,7 @@ START_TEST(test_mass_spring) {
   chain.ribbon.model = ZP_RIBBON_MASS_SPRING;
   double force = value_of(ZP_STUDY_ISOMETRIC, &rod, "force_N"), other = value_of(ZP_STUDY_ISOMETRIC, &chain, "force_N");
   printf("mass_spring: %.5f N, rod %.5f N\n", other, force);
-  ck_near(other, force, 0.02);
+  ck_near(other, force, 0.02); /* 3.9e-3 measured */
 }
 END_TEST
 

@@ -129,7 +129,7 @@ START_TEST(test_leakage_alone) {
   ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
   for (int i = 1; i <= 20; i++) {
     ck_assert(zp_outcome_good(zp_sim_step(sim, 0.2 * tau, NULL, NULL)));
-    ck_below(fabs(zp_sim_get(sim, "voltage") / 50 - exp(-0.2 * i)), 1e-4);
+    ck_below(fabs(zp_sim_get(sim, "voltage") / 50 - exp(-0.2 * i)), 1e-4); /* 7.2e-5 measured */
   }
   zp_sim_destroy(sim);
   zp_model_destroy(model);

@@ -317,7 +317,7 @@ START_TEST(pull_in_hardly_depends_on_the_mesh) {
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
     ZpActuatorDef def = DEF({"mesh.nodes", nodes[i]}, {"electro.breakdown_cap", _i});
     ZpResult *result = limits_of(&def);
-    ck_near(zp_result_get(result, "pull_in_voltage_V"), continuum[_i], 5e-4);
+    ck_near(zp_result_get(result, "pull_in_voltage_V"), continuum[_i], 5e-4); /* 2.8e-4 measured */
     zp_result_destroy(result);
   }
 }
@@ -353,7 +353,8 @@ START_TEST(small_snap_is_no_pull_in) {
   printf("a snap of %.2e of the voltage\n", fall);
   ck_assert(fall > 1e-4 && fall < ZP_FOLD_RIPPLE);
   ck_assert(isnan(zp_result_get(direct, "pull_in_voltage_V")));
-  ck_near(zp_result_get(direct, "closing_voltage_V"), zp_result_get(followed, "closing_voltage_V"), 1e-9);
+  ck_near(zp_result_get(direct, "closing_voltage_V"), zp_result_get(followed, "closing_voltage_V"),
+          1e-12); /* 0 measured */
   zp_result_destroy(direct);
   zp_result_destroy(followed);
 }
@@ -435,7 +436,7 @@ START_TEST(release_is_that_of_a_staircase) {
   ZpResult *result = limits_of(&def);
   double release = zp_result_get(result, "release_voltage_V"), found = by_stairs(&def, def.drive.voltage, false);
   printf("releases at %.6g V, on the stair of %.6g V\n", release, found);
-  ck_near(found, release, 2 * stair);
+  ck_near(found, release, 2 * stair); /* 4.9e-3 measured */
   zp_result_destroy(result);
 }
 END_TEST

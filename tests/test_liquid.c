@@ -84,15 +84,15 @@ START_TEST(test_time_is_linear_in_viscosity) {
   for (int k = 0; k < 3; k++, nu *= 2)
     time[k] = RUN({"mesh.nodes", 31}, {"medium.kinematic_viscosity", nu}, {"solver.end_time", 10}, FILM_ONLY).zip_time;
   printf("per doubling of the viscosity: %.4f, %.4f\n", time[1] / time[0], time[2] / time[1]);
-  ck_near(time[1] / time[0], 2, 0.02);
-  ck_near(time[2] / time[1], 2, 0.006);
+  ck_near(time[1] / time[0], 2, 0.02);  /* 9.8e-3 measured */
+  ck_near(time[2] / time[1], 2, 0.006); /* 1e-3 measured */
 }
 END_TEST
 
 /* The closing time does not depend on the roughness. */
 START_TEST(test_time_does_not_depend_on_roughness) {
   double fine = RUN({"film.roughness", 0.5e-6}).zip_time, rough = RUN({"film.roughness", 10e-6}).zip_time;
-  ck_near(rough, fine, 0.015);
+  ck_near(rough, fine, 0.015); /* 5.7e-3 measured */
 }
 END_TEST
 
@@ -154,7 +154,7 @@ START_TEST(test_time_close_to_pull_in) {
     time[k] = time_from(def, rest.statics.q, U * (1 + excess));
   double power = -log10((time[2] - time[1]) / (time[1] - time[0]));
   printf("%g, %g, %g s: power %.4f\n", time[0], time[1], time[2], power);
-  ck_below(fabs(power - row[_i].power), 0.01);
+  ck_below(fabs(power - row[_i].power), 0.01); /* 1.4e-3 measured */
   zp_rest_close(&rest);
   zp_model_destroy(model);
   zp_result_destroy(limits);

@@ -46,7 +46,7 @@ END_TEST
 START_TEST(each_ribbon_has_its_own_curvature) {
   static const double k = 0.02, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4); /* 1.5e-5 measured */
   def.lower.segment_1.curvature = -k;
   ck_below(fabs(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-12); /* 2e-19 measured */
 }

@@ -125,7 +125,7 @@ START_TEST(stress_of_a_cantilever) {
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
   double lever = zp_table_get(result->series, 30, "x_m"), M = 2e-6 * 9.81 * lever;
   double stress = 6 * M / (def.ribbon.width * def.ribbon.thickness * def.ribbon.thickness);
-  ck_near(zp_result_get(result, "max_stress_Pa"), stress, 1e-5);
+  ck_near(zp_result_get(result, "max_stress_Pa"), stress, 1e-5); /* 1.1e-6 measured */
   ck_assert_double_eq(zp_result_get(result, "max_stress_place_m"), 0);
   ck_near(zp_result_get(result, "yield_margin"), 1.1e9 / stress, 1e-5);
   ck_near(zp_table_get(result->series, 15, "stress_Pa"), stress / 2, 1e-5); /* half the lever; 1.7e-6 measured */
@@ -185,7 +185,7 @@ START_TEST(stress_of_published_actuators) {
   ZpActuatorDef def = DEF({"ribbon.thickness", thickness[_i]}, {"load.mass", load[_i]}, {"platform.length", 0},
                           {"ribbon.density", 0}, {"ribbon.plane", ZP_PLANE_STRESS}, {"mesh.nodes", 241});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
-  ck_near(zp_result_get(result, "max_stress_Pa"), stress[_i], 2e-3);
+  ck_near(zp_result_get(result, "max_stress_Pa"), stress[_i], 2e-3); /* 1.6e-3 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -221,9 +221,11 @@ START_TEST(every_study_has_its_margins) {
   double U = modes ? 3e3 : 10e3, tolerance = solved ? 1e-4 : 1e-13;
   ZpActuatorDef def = DEF(QUICK, {"modes.voltage", 3e3});
   ZpResult *result = study_of(under_voltage[_i], &def);
-  ck_near(zp_result_get(result, "insulator_field_V_per_m"), U / 260e-6, tolerance);
+  ck_near(zp_result_get(result, "insulator_field_V_per_m"), U / 260e-6,
+          tolerance); /* 1.2e-5 measured where 1e-4 is allowed */
   ck_assert_double_eq(zp_result_get(result, "insulator_field_place_m"), 0);
-  ck_near(zp_result_get(result, "breakdown_margin"), 40e6 * 260e-6 / U, tolerance);
+  ck_near(zp_result_get(result, "breakdown_margin"), 40e6 * 260e-6 / U,
+          tolerance); /* 1.2e-5 measured where 1e-4 is allowed */
   ck_near(zp_result_get(result, "allowed_voltage_V"), 10400, 1e-13);
   double stress = zp_result_get(result, "max_stress_Pa");
   ck_assert(stress > 1e6 && stress < 1e9);

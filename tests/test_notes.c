@@ -203,7 +203,7 @@ START_TEST(coarse_front_is_noted) {
   printf("%g um: N = %d noted, pull-in %+.1f %% off; N = %d advised, %+.1f %%\n", 1e6 * def.ribbon.thickness, noted,
          100 * coarse, advised, 100 * finer);
   ck_assert_double_gt(fabs(coarse), 0.015);
-  ck_below(fabs(finer), 0.01);
+  ck_below(fabs(finer), 0.01); /* 3.2e-3 measured */
   def.mesh.nodes = advised;
   ck_assert(!notes(ZP_STUDY_EQUILIBRIUM, &def, "mesh.nodes"));
 }

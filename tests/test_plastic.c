@@ -39,7 +39,7 @@ START_TEST(moment_is_the_closed_form) {
     double first = first_curvature(&plastic), unit = plastic.EI * first;
     zp_plastic_bend(&plastic, NULL, x * first, p);
     double M = moment(&plastic, x * first, p) / unit, expected = closed_form(fabs(x), hardening, plastic.E);
-    ck_near(M, copysign(expected, x), fabs(x) < 1 ? 1e-14 : 2e-3);
+    ck_near(M, copysign(expected, x), fabs(x) < 1 ? 1e-14 : 2e-3); /* 7.4e-4 measured where 2e-3 is allowed */
   }
 }
 END_TEST
@@ -51,7 +51,8 @@ START_TEST(residual_curvature_is_the_closed_form) {
   ZpPlastic plastic = plastic_of(0, 0, 0);
   double first = first_curvature(&plastic);
   zp_plastic_bend(&plastic, NULL, x * first, p);
-  ck_near(zp_plastic_moment(&plastic, p) / plastic.EI / first, x - closed_form(x, 0, plastic.E), x < 1.5 ? 2e-2 : 5e-3);
+  ck_near(zp_plastic_moment(&plastic, p) / plastic.EI / first, x - closed_form(x, 0, plastic.E),
+          x < 1.5 ? 2e-2 : 5e-3); /* 5.7e-3 measured where 0.02 is allowed */
 }
 END_TEST
 
@@ -82,7 +83,7 @@ START_TEST(loops_are_those_of_masing) {
   for (double x = top; x >= -top; x -= 0.25) {
     zp_plastic_bend(&plastic, p, x * first, back);
     double expected = highest - 2 * closed_form(0.5 * (top - x), hardening, plastic.E);
-    ck_below(fabs(moment(&plastic, x * first, back) / unit - expected), 4e-3);
+    ck_below(fabs(moment(&plastic, x * first, back) / unit - expected), 4e-3); /* 2e-3 measured */
   }
   zp_plastic_bend(&plastic, back, top * first, again);
   for (int i = 0; i < ZP_FIBRES; i++)
@@ -316,7 +317,7 @@ START_TEST(residual_stress_of_straight_ribbons) {
   const double outermost = 1 - (1 - 1 / sqrt(3)) / (ZP_FIBRES / 2.0);
   double expected = outermost * stress_in(&elastic, sims[0], NULL) - zp_sim_get(sims[0], "max_stress");
   printf("residual stress %.6g MPa, off by %.1e\n", 1e-6 * remains, remains / expected - 1);
-  ck_near(remains, expected, 5e-4);
+  ck_near(remains, expected, 5e-4); /* 8.7e-5 measured */
   for (int k = 0; k < 2; k++) {
     zp_sim_destroy(sims[k]);
     zp_model_destroy(models[k]);
@@ -379,8 +380,8 @@ START_TEST(natural_curvature_is_no_strain) {
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   double y = zp_table_get(result->series, result->series->rows - 1, "y_m");
   ck_assert_double_lt(def.ribbon.yield_stress, 0.5 * k * def.ribbon.thickness * def.ribbon.young_modulus);
-  ck_near(fabs(y), (1 - cos(k * L)) / k, 3e-4);
-  ck_below(zp_result_get(result, "max_stress_Pa"), 5e-3);
+  ck_near(fabs(y), (1 - cos(k * L)) / k, 3e-4);           /* 8.7e-5 measured */
+  ck_below(zp_result_get(result, "max_stress_Pa"), 5e-3); /* 5.9e-4 measured */
   zp_result_destroy(result);
 }
 END_TEST

@@ -50,12 +50,12 @@ START_TEST(test_forces_of_wedges) {
       ZpResult *result = run(&def);
       printf("%g mm: %.5f N, without cap %.5f N, capped %.3f mm\n", 1e3 * opening[i], get(result, "force_N"),
              get(result, "force_uncapped_N"), 1e3 * get(result, "capped_length_m"));
-      ck_assert_double_eq_tol(get(result, "force_N"), capped[i], 5.5e-4);
-      ck_assert_double_eq_tol(get(result, "force_uncapped_N"), all[i], 5.5e-4);
-      ck_assert_double_eq_tol(get(result, "capped_length_m"), length[i], 0.55e-4);
+      ck_assert_double_eq_tol(get(result, "force_N"), capped[i], 5.5e-4);          /* 4.2e-4 measured */
+      ck_assert_double_eq_tol(get(result, "force_uncapped_N"), all[i], 5.5e-4);    /* 4.6e-4 measured */
+      ck_assert_double_eq_tol(get(result, "capped_length_m"), length[i], 0.55e-4); /* 4.9e-5 measured */
       zp_result_destroy(result);
       def.electro.breakdown_cap = false;
-      ck_assert_double_eq_tol(scalar(def, "force_N"), all[i], 5.5e-4);
+      ck_assert_double_eq_tol(scalar(def, "force_N"), all[i], 5.5e-4); /* 4.6e-4 measured */
     }
 }
 END_TEST
@@ -84,9 +84,9 @@ START_TEST(test_forces_of_wedges_with_a_bead) {
                             {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9});
     double force = scalar(def, "force_N");
     printf("%g mm, 50 uL: %.5f N, by hand %.5f N\n", 1e3 * opening[i], force, wedge_with_bead(opening[i], 50e-9, 6e3));
-    ck_assert_double_eq_tol(force, known[i], 5.5e-4);
-    ck_near(force, wedge_with_bead(opening[i], 50e-9, 6e3), 1e-4);
-    ck_near(scalar(def, "scale_factor"), 1, 1e-3);
+    ck_assert_double_eq_tol(force, known[i], 5.5e-4);              /* 5e-4 measured */
+    ck_near(force, wedge_with_bead(opening[i], 50e-9, 6e3), 1e-4); /* 6.1e-5 measured */
+    ck_near(scalar(def, "scale_factor"), 1, 1e-3);                 /* 5.2e-4 measured */
     def.electro.model = ZP_ELECTRO_FIELD;
     ck_near(scalar(def, "force_N"), force, 3e-4); /* 9.2e-5 measured */
     def.electro.model = ZP_ELECTRO_PLATES;
@@ -310,7 +310,7 @@ START_TEST(test_cap_on_both_models) {
     bool limited = zp_table_get(b->series, row, "capped") > 0;
     capped += limited;
     ck_assert_int_eq(limited, zp_table_get(a->series, row, "plates_N_per_m") > law * (1 + 1e-12));
-    if (limited) ck_near(law, 61.8, 1e-3);
+    if (limited) ck_near(law, 61.8, 1e-3); /* 7.5e-4 measured */
     ck_assert_double_eq(force, limited ? law : zp_table_get(b->series, row, "field_N_per_m"));
   }
   ck_assert_uint_gt(capped, 10);

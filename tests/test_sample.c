@@ -250,8 +250,8 @@ START_TEST(indices_of_ishigami) {
   ck_near(s.deviation, sqrt(V), 3e-4); /* 9.9e-5 measured */
   for (int j = 0; j < 3; j++) {
     const ZpIndices indices = zp_sobol_indices(&design, value, j);
-    ck_below(fabs(indices.first.value - first[j]), 0.01);
-    ck_below(fabs(indices.total.value - total[j]), 0.01);
+    ck_below(fabs(indices.first.value - first[j]), 0.01); /* 3.8e-3 measured */
+    ck_below(fabs(indices.total.value - total[j]), 0.01); /* 3.9e-3 measured */
   }
 }
 END_TEST

@@ -82,7 +82,9 @@ START_TEST(test_noise) {
   ZpMeter meter = zp_meter_of(&def, 1e-9), other = meter;
   double first, again, different;
   other.seed = 2;
-  ck_near(spread(&meter, &first), 1e-7 * sqrt(2.0 / (22 * 16)) / (2 * PI * 1e3 * 50), 0.2);
+  const double expected = 1e-7 * sqrt(2.0 / (22 * 16)) / (2 * PI * 1e3 * 50);
+  /* 2 % measured: the spread of 40 readings has a standard error of 1 / sqrt(80), of which two are allowed */
+  ck_assert_double_lt(fabs(spread(&meter, &first) / expected - 1), 2 / sqrt(80));
   spread(&meter, &again);
   spread(&other, &different);
   ck_assert(first == again && first != different);
@@ -118,7 +120,7 @@ START_TEST(test_stroke_along_the_states_of_rest) {
     moved = fmax(moved, zp_table_get(result->series, 0, "stroke_m") - zp_table_get(result->series, k, "stroke_m"));
   printf("stroke by capacitance: off by %.2e of the stroke, which changes by %.2g mm\n", off, 1e3 * moved);
   ck_assert(moved > 0.5e-3);
-  ck_below(off, 4e-4);
+  ck_below(off, 4e-4); /* 3.5e-4 measured */
   ck_assert(isnan(zp_table_get(result->series, 0, "sensed_stroke_m")));
   ck_near(zp_table_get(result->series, result->series->rows - 1, "sensed_stroke_m"),
           zp_table_get(result->series, 0, "stroke_m"), 1e-4); /* 2.4e-5 measured */
@@ -191,7 +193,7 @@ START_TEST(test_stroke_by_the_field) {
   double sensed = zp_table_get(result->series, last, "sensed_stroke_m");
   printf("stroke by the field: %.6g mm, true %.6g mm\n", 1e3 * sensed,
          1e3 * zp_table_get(result->series, last, "stroke_m"));
-  ck_near(sensed, 10.1211e-3, 1e-3);
+  ck_near(sensed, 10.1211e-3, 1e-3); /* 2.3e-4 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -238,7 +240,7 @@ START_TEST(test_zip_hold_and_release) {
   }
   printf("stroke of %.3g mm by capacitance: off by %.2g mm while held, %.2g mm when it hangs again\n", 1e3 * hangs,
          1e3 * held, 1e3 * hanging);
-  ck_below(held, 2e-5);
+  ck_below(held, 2e-5);    /* 1.3e-5 measured */
   ck_below(hanging, 2e-4); /* the swing that is left */
   zp_result_destroy(result);
 }

@@ -188,7 +188,7 @@ START_TEST(test_chain_rests) {
   ZpRelaxInfo info = relax_chain(&c, 1e-9, 10000000, q); /* measured 896, 11584, 380672, 896 steps */
   printf("chain, springs %g and %g: %lld steps\n", stiffness[_i][0], stiffness[_i][1], (long long)info.steps);
   ck_assert_int_eq(info.end, ZP_RELAX_AT_REST);
-  ck_below(info.residual, 1e-9);
+  ck_below(info.residual, 1e-9); /* 1e-9 measured */
   double error = 0;
   for (int i = 0; i < CHAIN; i++) {
     rest += (CHAIN - i) / c.k[i];

@@ -71,7 +71,7 @@ START_TEST(uppermost_member_lifts_those_below) {
     three.stack.link_mass = links[k];
     double most = answered_value(ZP_STUDY_LIMITS, &three, "max_load_kg"), below = 2 * (own + links[k]);
     if (alone > below)
-      ck_near(most, alone - below, 1e-9);
+      ck_near(most, alone - below, 1e-12); /* 1.6e-15 measured */
     else
       ck_assert(isnan(most));
   }
@@ -138,7 +138,7 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(same); k++)
     ck_near(answered_value(same[k].study, &all, same[k].name), answered_value(same[k].study, &equal, same[k].name),
-            same[k].within);
+            same[k].within); /* 1.1e-9 measured where 1e-8 is allowed */
 }
 END_TEST
 
@@ -279,7 +279,8 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   }
   double risen = start - opening;
   ck_near(zp_result_get(result, "mechanical_work_J"),
-          def.load.mass * def.gravity * (start - zp_table_get(table, table->rows - 1, "opening_m")), 1e-9);
+          def.load.mass * def.gravity * (start - zp_table_get(table, table->rows - 1, "opening_m")),
+          1e-12); /* 2.2e-16 measured */
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed),
           _i == 0 ? 3e-3 : 3e-5); /* 7.6e-4 and 1.1e-5 measured */
   zp_result_destroy(result);
@@ -315,7 +316,8 @@ START_TEST(unlike_ones_come_to_their_equilibrium) {
   static const char *const same[] = {"opening_m", "charge_C", "member_1_force_N", "member_2_force_N",
                                      "member_3_force_N"};
   for (size_t k = 0; k < LENGTH_OF(same); k++)
-    ck_near(zp_table_get(moved->series, last, same[k]), zp_table_get(rest->series, end, same[k]), 1e-4);
+    ck_near(zp_table_get(moved->series, last, same[k]), zp_table_get(rest->series, end, same[k]),
+            1e-4); /* 3.5e-5 measured */
   zp_result_destroy(moved);
   zp_result_destroy(rest);
 }
@@ -393,7 +395,7 @@ START_TEST(two_in_series_are_half_as_stiff) {
     two.solver.end_time = sqrt(2) * part[k];
     two.stack.series = 2;
     ck_near(answered_value(ZP_STUDY_ACTUATE, &two, "opening_m"),
-            2 * answered_value(ZP_STUDY_ACTUATE, &one, "opening_m"), 1e-3);
+            2 * answered_value(ZP_STUDY_ACTUATE, &one, "opening_m"), 1e-3); /* 2.4e-4 measured */
   }
 }
 END_TEST
@@ -409,7 +411,7 @@ START_TEST(energy_and_links_of_a_zip) {
   const ZpShapes *film = result->shapes;
   size_t count = film->ribbons * film->nodes / film->members;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-  ck_below(zp_result_get(result, "energy_error"), 1e-6);
+  ck_below(zp_result_get(result, "energy_error"), 1e-6); /* 1.8e-7 measured */
   ck_assert_uint_eq(film->members, 3);
   for (size_t frame = 0; frame < film->frames; frame++)
     for (size_t k = 1; k < film->members; k++) {
@@ -566,8 +568,8 @@ START_TEST(limits_of_unlike_ones_are_turns_of_their_branch) {
   ZpActuatorDef def = DEF({"stack.parallel", 2}, {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 11},
                           {"load.mass", mass[_i]}, {"drive.voltage", 8e3}, {"output.samples", 5000});
   ZpResult *branch = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(limits, "pull_in_voltage_V"), first_turn(branch->series, false, 1), 1e-2);
-  ck_near(zp_result_get(limits, "release_voltage_V"), first_turn(branch->series, true, -1), 1e-2);
+  ck_near(zp_result_get(limits, "pull_in_voltage_V"), first_turn(branch->series, false, 1), 1e-2); /* 1.7e-3 measured */
+  ck_near(zp_result_get(limits, "release_voltage_V"), first_turn(branch->series, true, -1), 1e-2); /* 6.4e-3 measured */
   zp_result_destroy(branch);
   zp_result_destroy(limits);
 }
@@ -658,7 +660,7 @@ START_TEST(stiff_member_is_a_mass) {
   one.load.mass += model->carried - series.load.mass;
   zp_model_destroy(model);
   ck_near(answered_value(ZP_STUDY_MODES, &series, "frequency_1_Hz"),
-          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 1e-4);
+          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 1e-4); /* 1.8e-5 measured */
 }
 END_TEST
 
@@ -764,8 +766,8 @@ START_TEST(inputs_of_several_do_work) {
   ck_assert_double_gt(fabs(zp_sim_get(sim, "load_work")), 1e-9);
   /* 3.6e-10 measured */
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 3e-9);
-  ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-12); /* 0 measured */
-  ck_near(sim->below->state->U, _i ? def.stack.voltage_ratio * 3e3 : 3e3, 1e-9);
+  ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-12);                                /* 0 measured */
+  ck_near(sim->below->state->U, _i ? def.stack.voltage_ratio * 3e3 : 3e3, 1e-12); /* 0 measured */
   /* a voltage that is set to what the drive has changes nothing */
   ck_assert_int_eq(zp_sim_set_input(waved, ZP_INPUT_VOLTAGE, def.drive.voltage, 0, &err), ZP_OK);
   ZpSim *driven = sim_of(model);

@@ -59,8 +59,8 @@ START_TEST(test_oracle) {
   const BeamCase *c = &beams[_i];
   Elastica e = elastica(c->p, c->q, c->end == ZP_END_GUIDED);
   ck_assert(e.found);
-  ck_assert_double_eq_tol(e.y, c->y, 6e-6);
-  if (!isnan(c->x)) ck_assert_double_eq_tol(e.x, c->x, 6e-6);
+  ck_assert_double_eq_tol(e.y, c->y, 6e-6);                   /* 1.4e-6 measured */
+  if (!isnan(c->x)) ck_assert_double_eq_tol(e.x, c->x, 6e-6); /* 3.8e-6 measured */
 }
 END_TEST
 
@@ -169,7 +169,7 @@ START_TEST(test_two_segments) {
       P * (L * L * L - b * b * b) / (3 * bending_stiffness(thick)) + P * b * b * b / (3 * bending_stiffness(thickness));
   double y = value_of(ZP_STUDY_STATIONARY, &def, "stroke_m");
   printf("two segments: %+.1e off\n", y / beam_y - 1);
-  ck_near(y, beam_y, 1e-3);
+  ck_near(y, beam_y, 1e-3); /* 1.5e-4 measured */
 }
 END_TEST
 
@@ -344,7 +344,8 @@ START_TEST(test_paper_code) {
   for (size_t i = 0; i < LENGTH_OF(grams); i++) {
     ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", _i ? 61 : 21},
                             {"mass_spring.shear_coefficient", shear[_i]}, {"load.mass", 1e-3 * grams[i]});
-    ck_assert_double_eq_tol(1e3 * value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"), mm[_i][i], 0.005);
+    ck_assert_double_eq_tol(1e3 * value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"), mm[_i][i],
+                            0.005); /* 7.6e-4 measured */
   }
 }
 END_TEST
@@ -534,7 +535,7 @@ START_TEST(test_weightless_flange_converges) {
   }
   printf("weightless flange: %.4f, %.4f, %.4f V, classical %.4f V\n", found[0], found[1], found[2], exact);
   for (int i = 0; i < 3; i++)
-    ck_near(found[i], exact, 3e-5);
+    ck_near(found[i], exact, 3e-5); /* 1.9e-5 measured */
 }
 END_TEST
 
@@ -668,8 +669,8 @@ static ZpActuatorDef long_def(int nodes) {
 START_TEST(test_release_of_a_long_actuator) {
   ZpActuatorDef coarse = long_def(61), fine = long_def(91);
   double release[] = {release_of(ZP_STUDY_EQUILIBRIUM, &coarse), release_of(ZP_STUDY_EQUILIBRIUM, &fine)};
-  ck_near(release[0], release[1], 0.01);
-  ck_near(release[1], 500, 0.015);
+  ck_near(release[0], release[1], 0.01); /* 2.2e-3 measured */
+  ck_near(release[1], 500, 0.015);       /* 1.6e-3 measured */
 }
 END_TEST
 
@@ -732,7 +733,7 @@ START_TEST(test_release_is_that_of_a_slow_ramp) {
   bool flange = defs[_i].actuator.kind == ZP_KIND_FLANGE;
   double ramp = opened_by_ramp(defs[_i], flange ? 300 : 1.05 * release, 1.05 * release, 0.97 * release);
   printf("release %.4g V, by a ramp %+.2e off\n", release, ramp / release - 1);
-  ck_near(ramp, release, 0.01);
+  ck_near(ramp, release, 0.01); /* 2.2e-3 measured */
 }
 END_TEST
 
@@ -787,8 +788,8 @@ START_TEST(test_order_between_clamps) {
     zp_result_destroy(result);
   }
   printf("between clamps: error times (N-1)^3 %.4f, %.4f, %.4f\n", scaled[0], scaled[1], scaled[2]);
-  ck_near(scaled[0], scaled[2], 0.05);
-  ck_near(scaled[1], scaled[2], 0.05);
+  ck_near(scaled[0], scaled[2], 0.05); /* 0.039 measured */
+  ck_near(scaled[1], scaled[2], 0.05); /* 0.035 measured */
 }
 END_TEST
 

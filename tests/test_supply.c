@@ -211,9 +211,9 @@ static double ramp(double t, const Charging *c) {
 /* Without a resistance: a ramp, then V. */
 START_TEST(test_limit_without_resistance) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.capacitance", CABLE}, {"source.current_limit", LIMIT}));
-  ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, ramp), 1e-4);
-  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
-  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4);
+  ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, ramp), 1e-4);      /* 1.3e-5 measured */
+  ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);     /* 1.4e-5 measured */
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4); /* 1e-5 measured */
   end_charging(&c);
 }
 END_TEST
@@ -286,13 +286,13 @@ START_TEST(test_jump_into_the_cable) {
   ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-9);
   ck_near(zp_sim_get(c.sim, "cable_energy"), 0.5 * CABLE * V * V, 1e-12);
-  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * (R > 0 ? c.C : CABLE) * V * V, 1e-9);
+  ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * (R > 0 ? c.C : CABLE) * V * V, 1e-12); /* 1.1e-16 measured */
   ck_assert_double_eq_tol(zp_sim_get(c.sim, "charging_loss"), R > 0 ? 0 : 0.5 * electrodes * V * V,
-                          1e-9 * electrodes * V * V);
+                          1e-12 * electrodes * V * V); /* 8e-17 measured */
   ZpCurrents currents = zp_sim_currents(c.sim, T);
   if (R > 0) {
     ck_near(currents.peak, V / R, 1e-12);
-    ck_near(currents.rms, sqrt(0.5 * c.C * V * V / (R * T)), 1e-9);
+    ck_near(currents.rms, sqrt(0.5 * c.C * V * V / (R * T)), 1e-12); /* 0 measured */
   } else {
     ck_assert(isnan(currents.peak) && isnan(currents.rms));
   }
@@ -306,7 +306,7 @@ START_TEST(test_current_of_the_bleeder) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.bleeder", R}));
   ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
   ck_near(zp_sim_get(c.sim, "current") * T, zp_sim_get(c.sim, "charge") + V * T / R, 1e-12);
-  ck_near(zp_sim_get(c.sim, "bleeder_loss"), V * V * T / R, 1e-9);
+  ck_near(zp_sim_get(c.sim, "bleeder_loss"), V * V * T / R, 1e-12); /* 4.4e-16 measured */
   end_charging(&c);
 }
 END_TEST
@@ -321,7 +321,7 @@ START_TEST(test_jump_and_ramp) {
   ck_assert(zp_sim_set_input(c.sim, ZP_INPUT_VOLTAGE, U, (V - U) / T, NULL) == ZP_OK);
   ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * (U * U + 0.5 * (V * V - U * U)), 1e-9);
-  ck_near(zp_sim_get(c.sim, "charging_loss"), 0.5 * (c.C - cable) * U * U, 1e-9);
+  ck_near(zp_sim_get(c.sim, "charging_loss"), 0.5 * (c.C - cable) * U * U, 1e-12); /* 1.1e-16 measured */
   ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
   end_charging(&c);
 }
@@ -571,8 +571,9 @@ START_TEST(test_charge_drive_of_plates_has_no_pull_in) {
          half / first, most, 1e3 * at_most, U);
   ck_below(before, 0.1 * hangs);
   ck_below(fastest, 0.05 * hangs);
-  ck_near(half, first, 0.1);                                         /* the ribbons attract, too; measured 1.06 */
-  ck_below(fabs(at_most - (hangs - (hangs + d) / 3)), 0.03 * hangs); /* where a voltage would pull in */
+  ck_near(half, first, 0.1); /* the ribbons attract, too; measured 1.06 */
+  /* where a voltage would pull in; 0.0028 measured */
+  ck_below(fabs(at_most - (hangs - (hangs + d) / 3)), 0.01 * hangs);
   ck_below(U, 0.6 * most);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
@@ -648,7 +649,7 @@ START_TEST(test_zips_at_the_cap) {
           {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6}, {"ribbon.length", 25e-3},
           {"ribbon.thickness", 280e-6}, {"platform.length", 2.5e-3}, {"load.mass", 0.2e-3}, {"solver.end_time", 0.01}),
   };
-  ck_below(imbalance_behind(defs[_i]), 1e-8);
+  ck_below(imbalance_behind(defs[_i]), 1e-8); /* 8.9e-9 measured */
 }
 END_TEST
 

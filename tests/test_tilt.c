@@ -58,7 +58,7 @@ START_TEST(standing_strip_buckles) {
     double f = answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz");
     f2[k] = f * f;
   }
-  ck_near(part[1] + (part[1] - part[0]) * f2[1] / (f2[0] - f2[1]), 1, 1e-3);
+  ck_near(part[1] + (part[1] - part[0]) * f2[1] / (f2[0] - f2[1]), 1, 1e-3); /* 1.3e-4 measured */
   def.gravity = 1.01 * critical;
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
   double f = zp_result_get(result, "frequency_1_Hz");
