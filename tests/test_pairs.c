@@ -243,9 +243,9 @@ static bool moves(const ZpTerm *term) {
 
 /* The law `which`, or all electric ones if it is the number of terms: energy and forces at the present point. */
 static double energy_and_forces(ZpStatics *s, size_t which, double *F) {
-  const ZpModel *model = s->model;
-  ZpEval *e = &s->eval;
-  ZpSpan now = zp_span_at(s->q);
+  const ZpModel *model = s->member->model;
+  ZpEval *e = &s->member->eval;
+  ZpSpan now = zp_span_at(s->member->q);
   now.U0 = now.U1 = s->U;
   now.faces_pass = true;
   now.beyond = zp_eval_beyond(e);
@@ -270,24 +270,24 @@ enum { ROOM = 512 };
 
 /* From q0 [2 stride] by a part of a step of the equations. */
 static void move_from(ZpStatics *s, const double *q0, const double *step, double part) {
-  size_t stride = s->model->stride;
-  memcpy(s->q, q0, 2 * stride * sizeof *q0);
-  for (size_t k = 0; k < 2 * s->model->count; k++) {
-    int row = s->assembly.equation[k];
-    if (row >= 0) s->q[k / 2 + (k % 2) * stride] += part * step[row];
+  size_t stride = s->member->model->stride;
+  memcpy(s->member->q, q0, 2 * stride * sizeof *q0);
+  for (size_t k = 0; k < 2 * s->member->model->count; k++) {
+    int row = s->member->assembly.equation[k];
+    if (row >= 0) s->member->q[k / 2 + (k % 2) * stride] += part * step[row];
   }
 }
 
 /* A wedge that opens from its clips, noisily. */
 static void open_wedge(ZpStatics *s, double *step) {
   uint64_t seed = 7;
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   size_t last = model->topology.stations - 1;
-  memset(step, 0, s->assembly.n * sizeof *step);
+  memset(step, 0, s->n * sizeof *step);
   for (size_t i = 0; i <= last; i++) {
     double part = (double)i / (double)last;
     if (model->topology.halves == 2) part = 1 - fabs(2 * part - 1);
-    int row = s->assembly.equation[2 * zp_lower(&model->topology, i) + 1];
+    int row = s->member->assembly.equation[2 * zp_lower(&model->topology, i) + 1];
     if (row >= 0) step[row] = -(50e-6 + 500e-6 * part * part) * (1 + 0.1 * noise(&seed));
   }
 }
@@ -295,8 +295,8 @@ static void open_wedge(ZpStatics *s, double *step) {
 /* A direction in which all nodes move up and down, and a little to the sides. */
 static void draw_direction(ZpStatics *s, double *step) {
   uint64_t seed = 11;
-  for (size_t k = 0; k < 2 * s->model->count; k++) {
-    int row = s->assembly.equation[k];
+  for (size_t k = 0; k < 2 * s->member->model->count; k++) {
+    int row = s->member->assembly.equation[k];
     if (row >= 0) step[row] = (k % 2 == 0 ? 1e-3 : 1) * noise(&seed);
   }
 }
@@ -322,9 +322,9 @@ static double gradient_error(ZpStatics *s, size_t which, const double *q0, const
   move_from(s, q0, step, 0);
   if (system.refresh) system.refresh(s);
   energy_and_forces(s, which, F);
-  zp_assembly_sum(&s->assembly, F, r);
+  zp_assembly_sum(&s->member->assembly, F, r);
   double along = 0, size = 0;
-  for (size_t i = 0; i < s->assembly.n; i++)
+  for (size_t i = 0; i < s->n; i++)
     along += r[i] * step[i], size += fabs(r[i] * step[i]);
   return size != 0 ? fabs(along + (energy[1] - energy[0]) / (2 * h)) / size : 0;
 }
@@ -340,10 +340,10 @@ static double stiffness_error(ZpStatics *s, const double *q0, const double *step
   }
   move_from(s, q0, step, 0);
   system.residual(s, product, NULL);
-  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+  memcpy(s->member->tension, s->member->eval.edges.T, (s->member->model->count - s->member->model->s) * sizeof *s->member->tension);
   system.stiffness(s, K, NULL);
   zp_band_multiply(K, step, product);
-  for (size_t i = 0; i < s->assembly.n; i++) {
+  for (size_t i = 0; i < s->n; i++) {
     worst = fmax(worst, fabs(product[i] + (r[1][i] - r[0][i]) / (2 * h)));
     most = fmax(most, fabs(product[i]));
   }
@@ -352,16 +352,16 @@ static double stiffness_error(ZpStatics *s, const double *q0, const double *step
 
 static void check_point(ZpStatics *s, AtRest *worst) {
   double q0[ROOM], step[ROOM];
-  size_t bytes = 2 * s->model->stride * sizeof *q0;
+  size_t bytes = 2 * s->member->model->stride * sizeof *q0;
   ck_assert_uint_le(bytes, sizeof q0);
   open_wedge(s, step);
-  memcpy(q0, s->q, bytes);
+  memcpy(q0, s->member->q, bytes);
   move_from(s, q0, step, 1);
-  memcpy(q0, s->q, bytes);
+  memcpy(q0, s->member->q, bytes);
   s->U = 2e3;
   draw_direction(s, step);
-  for (size_t k = 0; k <= s->eval.terms; k++) {
-    if (k < s->eval.terms && is_electric(s->eval.term[k])) continue;
+  for (size_t k = 0; k <= s->member->eval.terms; k++) {
+    if (k < s->member->eval.terms && is_electric(s->member->eval.term[k])) continue;
     worst->gradient = larger(worst->gradient, gradient_error(s, k, q0, step, 2e-8));
   }
   worst->stiffness = larger(worst->stiffness, stiffness_error(s, q0, step, 1e-8));

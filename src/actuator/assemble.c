@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "def/check.h"
 
 static size_t least(size_t a, size_t b) {
   return a < b ? a : b;
@@ -98,6 +99,7 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
                     .count = model->count,
                     .stride = model->stride,
                     .own = own,
+                    .turned = -1,
                     .symmetric = symmetric};
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->first = zp_calloc(model->nodes, sizeof *a->first);
@@ -115,6 +117,57 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
   return true;
 }
 
+/* -- several members ------------------------------------------------------------------------------- */
+
+/* Of each member alone: how many equations it has, and which of them is the height of the load. */
+typedef struct Joined {
+  size_t members, count[ZP_MOST_MEMBERS], load[ZP_MOST_MEMBERS];
+} Joined;
+
+/* An equation of one member alone => of all. Of two, those of the second one follow from its platform back to its clip,
+ * so that the matrix stays a narrow band. More than two have the same equations; those of the same number are adjacent.
+ */
+static size_t place_of(const Joined *of, size_t which, size_t i) {
+  size_t load = of->load[which], back = of->count[0] + of->count[1] - 1 - i, members = of->members;
+  if (members == 2 && which == 0) return i;
+  if (members == 2) return i == load ? of->load[0] : i < load ? back - 1 : back;
+  if (i < load) return members * i + which;
+  return i == load ? members * load : members * (i - 1) + 1 + which;
+}
+
+static size_t joined_bandwidth(const Joined *of, size_t own) {
+  size_t beyond = 0;
+  if (of->members > 2) return of->members * own + of->members - 1;
+  for (size_t which = 0; which < of->members; which++)
+    beyond += of->count[which] - 1 - of->load[which];
+  return own + beyond;
+}
+
+/* Number the equations of one member among those of all, `n`. */
+static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n, double factor) {
+  a->n = n;
+  a->parts = (ZpParts){0};
+  a->groups = (ZpBandGroups){0, 0};
+  a->turned = factor < 0 ? (int)place_of(of, which, of->load[which]) : -1;
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
+  for (size_t i = 0; i < a->nodes; i++)
+    a->first[i] = first_of(a, i);
+}
+
+size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const size_t load[], const double factor[]) {
+  Joined of = {.members = members};
+  size_t n = 1;
+  for (size_t which = 0; which < members; which++) {
+    of.count[which] = a[which]->n;
+    of.load[which] = (size_t)a[which]->equation[2 * load[which] + 1];
+    n += a[which]->n - 1;
+  }
+  for (size_t which = 0; which < members; which++)
+    join(a[which], &of, which, n, factor[which]);
+  return joined_bandwidth(&of, a[0]->bandwidth);
+}
+
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
   zp_free(a->first);
@@ -129,14 +182,27 @@ static size_t place(const ZpAssembly *a, size_t k) {
   return k / 2 + (k % 2) * a->stride;
 }
 
+/* `value` of a coordinate as one of the unknown in its equation, or back. */
+static inline double turned(const ZpAssembly *a, int equation, double value) {
+  return equation == a->turned ? -value : value;
+}
+
 void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) equations[a->equation[k]] = nodes[place(a, k)];
+    if (a->equation[k] >= 0) equations[a->equation[k]] = turned(a, a->equation[k], nodes[place(a, k)]);
 }
 
 void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) nodes[place(a, k)] = equations[a->equation[k]];
+    if (a->equation[k] >= 0) nodes[place(a, k)] = turned(a, a->equation[k], equations[a->equation[k]]);
+}
+
+double zp_assembly_change(const ZpAssembly *a, const double *step, size_t k) {
+  return a->equation[k] >= 0 ? turned(a, a->equation[k], step[a->equation[k]]) : 0;
+}
+
+void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
+  if (a->equation[k] >= 0) equations[a->equation[k]] += turned(a, a->equation[k], force);
 }
 
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -144,7 +210,7 @@ void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations
   for (size_t j = 0; j < a->count; j++) {
     int row_x = a->equation[2 * j], row_y = a->equation[2 * j + 1];
     if (row_x >= 0) equations[row_x] += x[j];
-    if (row_y >= 0) equations[row_y] += y[j];
+    if (row_y >= 0) equations[row_y] += turned(a, row_y, y[j]);
   }
 }
 
@@ -153,8 +219,7 @@ void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations
   zp_assembly_add(a, nodes, equations);
 }
 
-void zp_assembly_masses(const ZpAssembly *a, const double *mass, double *equations) {
-  memset(equations, 0, a->n * sizeof *equations);
+void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) equations[a->equation[k]] += mass[k / 2];
 }
@@ -164,7 +229,7 @@ void zp_assembly_masses(const ZpAssembly *a, const double *mass, double *equatio
 static void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
   int i = a->equation[row], j = a->equation[column];
   if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
-  *zp_band_at(K, (size_t)i, (size_t)j) += value;
+  *zp_band_at(K, (size_t)i, (size_t)j) += turned(a, i, turned(a, j, value));
 }
 
 /* A derivative by two different coordinates is in two places of the matrix. */
@@ -260,8 +325,7 @@ void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
 /* How edge j goes with u. */
 static void edge_of(const ZpAssembly *a, const double *u, size_t j, double e[2]) {
   for (size_t c = 0; c < 2; c++) {
-    int left = a->equation[2 * j + c], right = a->equation[2 * (j + a->s) + c];
-    e[c] = (right >= 0 ? u[right] : 0) - (left >= 0 ? u[left] : 0);
+    e[c] = zp_assembly_change(a, u, 2 * (j + a->s) + c) - zp_assembly_change(a, u, 2 * j + c);
   }
 }
 
@@ -381,5 +445,5 @@ void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, doub
   if (column >= 0) *zp_band_at(K, (size_t)column, (size_t)column) += lower;
   if (row < 0 || column < 0) return;
   *zp_band_at(K, (size_t)(row < column ? row : column), (size_t)(row < column ? column : row)) +=
-      row == column ? 2 * both : both;
+      row == column ? 2 * both : turned(a, row, turned(a, column, both));
 }

@@ -11,7 +11,7 @@ typedef struct ZpAssembly {
   size_t s, nodes;     /* ribbons; stations, N */
   size_t count;        /* nodes */
   size_t stride;       /* arrays over nodes: all x, then, so much further, all y */
-  size_t n;            /* equations */
+  size_t n;            /* equations, of all members of a system */
   size_t bandwidth;    /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;      /* only the upper triangle is kept */
   ZpBandGroups groups; /* of a symmetric one: those of a station, or of two of one ribbon, if they fit */
@@ -19,6 +19,8 @@ typedef struct ZpAssembly {
   ZpParts parts;       /* halves, and the equations that both have */
   size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
   int *own_equation;   /* [own N] */
+  int turned; /* the equation whose unknown is minus the coordinate's change: the load's height, of a member upside
+                 down; -1: none */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
                  others following it; else -1 */
 } ZpAssembly;
@@ -27,16 +29,25 @@ typedef struct ZpAssembly {
 bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
+/* Members that share a load: the height of node load[m] of member m, factor[m] (1 or -1) times that of the first one
+ * but for a constant, gets one equation. Number the equations of all as one system => the number of diagonals above the
+ * main one. */
+size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const size_t load[], const double factor[]);
+
 /* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
 
-/* equations [n] += forces on nodes [2 stride], summed over what has the same equation. */
-void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
+/* The change of a coordinate by a step [n]; 0 of what is held. */
+double zp_assembly_change(const ZpAssembly *assembly, const double *step, size_t coordinate);
 
-/* (forces on nodes [2 stride], or masses [count]) => sums over what has the same equation [n]. */
+/* equations [n] += forces on nodes [2 stride], summed over what has the same equation; += a force on one coordinate. */
+void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
+void zp_assembly_add_one(const ZpAssembly *assembly, size_t coordinate, double force, double *equations);
+
+/* Forces on nodes [2 stride] => sums over what has the same equation [n]; equations [n] += masses [count]. */
 void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
-void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *equations);
+void zp_assembly_add_masses(const ZpAssembly *assembly, const double *mass, double *equations);
 
 /* Add the stiffness of the ribbons to K, which is n x n with `bandwidth` diagonals on each kept side: D[3 j + m] [4] =
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */

@@ -13,14 +13,14 @@ static ZpStatus open_member(ZpChain *chain, const ZpModel *member, ZpError *err)
   ZpStatus status = zp_model_create(&def, &chain->alone[k], err);
   if (status != ZP_OK) return status;
   if (!zp_rest_open(&chain->of[k], chain->alone[k], NULL, NULL)) return zp_fail_memory(err);
-  chain->at[k + 1] = chain->at[k] + chain->of[k].statics.assembly.n;
+  chain->at[k + 1] = chain->at[k] + chain->of[k].statics.n;
   return ZP_OK;
 }
 
 static void weigh_member(ZpChain *chain, size_t k, const ZpModel *member) {
-  const ZpAssembly *assembly = &chain->of[k].statics.assembly;
+  const ZpAssembly *assembly = &chain->of[k].statics.member->assembly;
   double *mass = chain->mass + chain->at[k], *vertical = chain->vertical + chain->at[k];
-  zp_assembly_masses(assembly, member->mass, mass);
+  zp_assembly_add_masses(assembly, member->mass, mass);
   for (size_t j = 0; j < member->count; j++) {
     int row = assembly->equation[2 * j + 1];
     if (row >= 0) vertical[row] = mass[row];
@@ -121,7 +121,7 @@ static bool has_stayed(ZpRest *rest, double voltage, double opening) {
   static const double part = 0.02; /* of the length; a small change moves less */
   ZpStatics *s = &rest->statics;
   if (!zp_newton_good(zp_rest_settle(rest, voltage).end)) return false;
-  return fabs(zp_statics_opening(s) - opening) < part * s->model->L && zp_statics_stable(s, &rest->branch.newton);
+  return fabs(zp_statics_opening(s) - opening) < part * s->member->model->L && zp_statics_stable(s, &rest->branch.newton);
 }
 
 static bool change_one(ZpRest *rest, double voltage) {

@@ -57,7 +57,7 @@ static bool make_statics(ZpSlope *p) {
 
 static size_t carve(ZpSlope *p, void *block) {
   ZpCarver carver = {block, 0};
-  size_t stride = p->at->model->stride, n = p->at->assembly.n;
+  size_t stride = p->at->member->model->stride, n = p->at->n;
   p->rate = zp_carve(&carver, 2 * stride);
   p->motion = zp_carve(&carver, 2 * stride);
   p->tension = zp_carve(&carver, stride);
@@ -72,7 +72,7 @@ ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, ZpNewtonWork *work, int key, Z
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   carve(p, p->memory);
-  ZpStatus status = zp_near_open(&p->by, at->model, key, part, err);
+  ZpStatus status = zp_near_open(&p->by, at->member->model, key, part, err);
   if (status == ZP_OK && !make_statics(p)) status = zp_fail_memory(err);
   return status;
 }
@@ -89,24 +89,24 @@ void zp_slope_close(ZpSlope *p) {
 static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
-  memcpy(near->q, at->q, 2 * at->model->stride * sizeof *near->q);
-  if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
+  memcpy(near->member->q, at->member->q, 2 * at->member->model->stride * sizeof *near->member->q);
+  if (near->member->model->L != at->member->model->L) zp_stretch(near->member->model, near->member->model->L / at->member->model->L, near->member->q);
   near->U = at->U;
   near->load = at->load;
   near->opening = at->opening;
   near->contact_acts = at->contact_acts;
-  pose(&near->model->def, near);
+  pose(&near->member->model->def, near);
   return near;
 }
 
 /* Actuator k at the coordinates that the last solution gives. */
 static ZpStatics *place_along(ZpSlope *p, int k, ZpPose pose) {
   ZpStatics *near = place(p, k, pose);
-  size_t stride = p->at->model->stride;
+  size_t stride = p->at->member->model->stride;
   for (size_t i = 0; i < 2 * stride; i++)
-    near->q[i] = p->at->q[i] + p->by.offset[k] * p->rate[i];
+    near->member->q[i] = p->at->member->q[i] + p->by.offset[k] * p->rate[i];
   for (size_t j = 0; j < stride; j++)
-    near->tension[j] = p->at->tension[j] + p->by.offset[k] * p->tension[j];
+    near->member->tension[j] = p->at->member->tension[j] + p->by.offset[k] * p->tension[j];
   return near;
 }
 
@@ -118,7 +118,7 @@ static void residual(ZpStatics *s, double *r) {
  * reaction. */
 static void differentiate(ZpSlope *p, ZpPose pose) {
   ZpStatics *at = p->at;
-  size_t stride = at->model->stride, n = at->assembly.n, edges = at->model->count - at->model->s;
+  size_t stride = at->member->model->stride, n = at->n, edges = at->member->model->count - at->member->model->s;
   memset(p->rate, 0, 2 * stride * sizeof *p->rate);
   memset(p->tension, 0, stride * sizeof *p->tension);
   memset(p->by_key, 0, n * sizeof *p->by_key);
@@ -130,9 +130,9 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
     for (size_t i = 0; i < n; i++)
       p->by_key[i] += p->by.weight[k] * p->row[i];
     for (size_t i = 0; i < 2 * stride; i++)
-      p->rate[i] += p->by.weight[k] * (near->q[i] - at->q[i]);
+      p->rate[i] += p->by.weight[k] * (near->member->q[i] - at->member->q[i]);
     for (size_t j = 0; j < edges; j++)
-      p->tension[j] += p->by.weight[k] * near->eval.edges.T[j];
+      p->tension[j] += p->by.weight[k] * near->member->eval.edges.T[j];
     p->reaction += p->by.weight[k] * near->reaction;
   }
 }
@@ -144,16 +144,16 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
 static void stiffness(ZpSlope *p, double *r) {
   ZpStatics *at = p->at;
   residual(at, p->work->r);
-  memcpy(at->tension, at->eval.edges.T, (at->model->count - at->model->s) * sizeof *at->tension);
+  memcpy(at->member->tension, at->member->eval.edges.T, (at->member->model->count - at->member->model->s) * sizeof *at->member->tension);
   zp_statics_system(at).stiffness(at, &p->work->K, r);
 }
 
 /* dq/dp less the scaling is in by_key. */
 static void add_motion(ZpSlope *p) {
-  const ZpModel *model = p->at->model;
-  const ZpEdges *e = &p->at->eval.edges;
+  const ZpModel *model = p->at->member->model;
+  const ZpEdges *e = &p->at->member->eval.edges;
   const double *x = p->motion, *y = x + model->stride;
-  zp_assembly_scatter(&p->at->assembly, p->by_key, p->motion); /* what is held stays 0 */
+  zp_assembly_scatter(&p->at->member->assembly, p->by_key, p->motion); /* what is held stays 0 */
   for (size_t i = 0; i < 2 * model->stride; i++)
     p->rate[i] += p->motion[i];
   for (size_t j = 0; j < model->count - model->s; j++) {
@@ -199,7 +199,7 @@ double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
 /* dF/dm at the present point => by_parameter. */
 static void differentiate_by_parameter(ZpSlope *p, const ZpBranchSystem *branch) {
   static const double least = 1e-3; /* of the parameter's scale */
-  size_t n = p->at->assembly.n;
+  size_t n = p->at->n;
   double m = branch->get(p->at), step = part * fmax(fabs(m), least * branch->m_scale);
   memset(p->by_parameter, 0, n * sizeof *p->by_parameter);
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
@@ -231,14 +231,14 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 /* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two
  * solutions is a quotient of two products with the left null vector. */
 double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
-  size_t n = p->at->assembly.n;
+  size_t n = p->at->n;
   if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 
 double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate,
                          double by_parameter) {
-  size_t n = p->at->assembly.n;
+  size_t n = p->at->n;
   if (!solve_both(p, pose, branch)) return NAN;
   double direct = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {

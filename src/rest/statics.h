@@ -8,29 +8,40 @@
 #include "solve/continuation.h"
 #include "system/system.h"
 
-typedef struct ZpStatics {
+/* One of the actuators of the system. */
+typedef struct ZpRestMember {
   const ZpModel *model; /* a copy of the given one, with the natural turns that act, and overlapping faces closed */
   ZpEval eval;
-  double *q;         /* [2 stride] the present point */
-  double U;          /* V */
-  double load;       /* mass hung on the actuator, kg; starts as load.mass */
-  double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
-  const double *k0;  /* [stride] natural 2 tan(phi / 2) of joints, for the whole natural curvature */
-  double *k0_now;    /* the same, for the share that acts */
-  double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
-  double held_at;    /* final value of this opening while it is approached, m */
-  double reaction;   /* force that holds it there, N, one part, positive downwards; of the last residual */
-  double careful;    /* factor by which steps of a fall are shorter */
-  bool contact_acts; /* faces push on each other; if false they may pass through each other (to find a start) */
+  double *q; /* [2 stride] the present point */
   ZpAssembly assembly;
-  ZpBandForm form;            /* of the stiffness; with a bead also terms of low rank, because all forces depend on its
-                                 reach */
-  double scale;               /* force that a residual is relative to, N */
+  const double *k0;           /* [stride] natural 2 tan(phi / 2) of joints, for the whole natural curvature */
+  double *k0_now;             /* the same, for the share that acts */
   double *tension;            /* [edges] tension that the last step predicted, N */
   double *moved;              /* [2 stride] work space of a move */
   double *rotation, *stretch; /* [edges] by the last step that was examined, rad, m */
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied */
+  double closed;              /* gap at which it counts as closed, m; zp_mark_closed */
+} ZpRestMember;
+
+typedef struct ZpStatics {
+  size_t members;       /* actuators that share one load; else 1 */
+  ZpRestMember *member; /* [members]; of antagonists the upper one, then the lower one */
+  size_t n;             /* equations of all */
+  ZpBandForm form;      /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
+  ZpParts parts;
+  double U;          /* of the first member, V */
+  double bias;       /* share of the lower antagonist's own voltage that acts */
+  double load;       /* mass hung on all members, kg; starts as load.mass */
+  double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
+  double distance;   /* of antagonists: what their openings sum up to, m; 0: there are none */
+  double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
+  double held_at;    /* final value of this opening while it is approached, m */
+  double reaction;   /* force that holds it there, N, one part, positive downwards; of the last residual */
+  double careful;    /* factor by which steps of a fall are shorter */
+  bool contact_acts; /* faces push on each other; if false they may pass through each other (to find a start) */
+  double scale;      /* force that a residual is relative to, N */
+  double *product;   /* [n] work space */
   bool (*stop)(void *caller); /* called now and then; true stops. NULL: none */
   void *caller;
   int unasked;  /* residuals since `stop` was called */
@@ -80,9 +91,6 @@ bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
 
-/* Put the lower platform of a half at a height; the displacement is distributed along the ribbons. */
-void zp_statics_put_platform(ZpStatics *statics, double height);
-
 /* The equation of the lower platform's height. */
 size_t zp_statics_platform(const ZpStatics *statics);
 
@@ -112,6 +120,18 @@ size_t zp_statics_front(const ZpStatics *statics);
 /* Do electrodes without an insulator touch at the present voltage? */
 bool zp_statics_shorted(const ZpStatics *statics);
 
+/* Moving masses by equations => mass [n], kg. */
+void zp_statics_masses(const ZpStatics *statics, double *mass);
+
+/* Voltage of a member, V; number of its closed stations; force with which it pulls the load up at the present point, N. */
+double zp_statics_member_voltage(const ZpStatics *statics, size_t which);
+size_t zp_statics_member_front(const ZpStatics *statics, size_t which);
+double zp_statics_member_force(ZpStatics *statics, size_t which);
+
+/* Restoring force per displacement of the load at the present point, of the whole actuators, N/m; NAN if the stiffness
+ * is singular. K and r are overwritten. */
+double zp_statics_load_stiffness(ZpStatics *statics, ZpNewtonWork *work);
+
 /* The reason why the last solution of the field failed; NULL if it succeeded or no field was solved. */
 const char *zp_statics_trouble(const ZpStatics *statics);
 
@@ -128,7 +148,7 @@ const char *zp_statics_fault_of_stations(const ZpStatics *statics);
 double zp_statics_charge(const ZpStatics *statics);
 double zp_statics_capacitance(const ZpStatics *statics);
 
-/* The present shape, stored in `room` with any `time`; valid until the point moves. */
-ZpShape zp_statics_shape(const ZpStatics *statics, double time, const ZpShapeRoom *room);
+/* The present shape of a member, stored in `room` with any `time`; valid until the point moves. */
+ZpShape zp_statics_shape(const ZpStatics *statics, size_t which, double time, ZpShapeRoom room);
 
 #endif

@@ -6,7 +6,6 @@
 
 #include "def/tolerance.h"
 #include "rest/rest.h"
-#include "rest/together.h"
 #include "ribbon/rod_plastic.h"
 #include "sim/hooks.h"
 #include "sim/sim_internal.h"
@@ -81,7 +80,7 @@ static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, dou
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (rest.statics.stopped) sim->settled = ZP_INTERRUPTED;
-    memcpy(q, rest.statics.q, 2 * model->stride * sizeof *q);
+    memcpy(q, rest.statics.member->q, 2 * model->stride * sizeof *q);
   }
   zp_rest_close(&rest);
   return opened;
@@ -150,29 +149,29 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
 }
 
 /* One of the members that share a load, at their common equilibrium. */
-static void start_member(ZpSim *sim, ZpTogether *all, size_t which) {
-  const ZpStatics *rest = &all->of[which].statics;
+static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
-  sim->state->opening0 = zp_statics_opening(rest);
+  const double *q = rest->member[which].q;
+  sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
-  start_at(sim, rest->q);
-  if (model->abreast) sim->state->link_force = (zp_load_pull(model) - zp_together_force(all, which)) / model->parts;
+  start_at(sim, q);
+  if (model->abreast) sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
 bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks) {
-  ZpTogether all;
-  bool opened = zp_together_open(&all, sim->model, NULL, NULL);
+  ZpRest rest;
+  bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   if (opened) {
-    zp_together_watch(&all, stop_hanging, (void *)hooks);
-    ZpNewtonInfo info = zp_together_hang(&all);
-    bool stopped = zp_together_stopped(&all);
+    rest.statics.stop = stop_hanging;
+    rest.statics.caller = (void *)hooks;
+    ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
-    if (!zp_newton_good(info.end)) sim->settled = stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+    if (!zp_newton_good(info.end)) sim->settled = rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
     size_t which = 0;
     for (ZpSim *m = sim; m; m = m->below)
-      start_member(m, &all, which++);
+      start_member(m, &rest.statics, which++);
   }
-  zp_together_close(&all);
+  zp_rest_close(&rest);
   return opened;
 }

@@ -11,6 +11,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/slow.h"
+#include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/series.h"
@@ -53,7 +54,7 @@ typedef struct Follower {
 
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
-  size_t save = zp_rest_save_size(&f->rest), equations = f->rest.statics.assembly.n;
+  size_t save = zp_rest_save_size(&f->rest), equations = f->rest.statics.n;
   zp_slow_carve(&f->slow, &f->rest, carver);
   zp_limit_carve(&f->pull_in, save, equations, carver);
   zp_limit_carve(&f->closing, save, equations, carver);
@@ -70,9 +71,9 @@ static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
   ZpStatics *s = &f->rest.statics;
   bool stable = zp_statics_stable(s, &f->rest.branch.newton);
-  ZpShape shape = zp_statics_shape(s, f->points, &f->rest.shape_room);
-  ZpMargins margins = zp_margins_of(model, &shape);
-  double row[COLUMNS] = {s->U,
+  ZpMargins margins;
+  ZpShape shape = zp_rest_shape(&f->rest, f->points, &margins);
+  double row[COLUMNS + ZP_MEMBER_COLUMNS] = {s->U,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
                          (double)zp_statics_front(s) * model->l,
@@ -81,6 +82,7 @@ static void record(Follower *f, int branch) {
                          stable,
                          branch,
                          ZP_MARGIN_VALUES(margins)};
+  zp_members_values(&f->rest, row + COLUMNS);
   bool last = s->U == model->def.drive.voltage && f->points > 0;
   f->points++;
   zp_margins_join(&f->margins, margins);
@@ -160,7 +162,7 @@ static bool hang(Follower *f) {
   f->rest.system.save(&f->rest.statics, f->start);
   f->rest.system.save(&f->rest.statics, f->hung);
   f->hanging = f->model->field ? opening(f) : 0;
-  zp_slow_start(&f->slow, f->hanging);
+  zp_slow_start(&f->slow);
   return zp_newton_good(info.end);
 }
 
@@ -177,7 +179,7 @@ static bool find_voltages(Follower *f) {
   none(f, "without a voltage there is none");
   if (!f->model->field || top == 0) return false;
   none(f, "it hangs closed");
-  if (f->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return false;
+  if (f->hanging <= zp_closed_opening(f->rest.statics.member->model, 0)) return false;
   ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
   zp_limit_none(&f->release, "when closed, it is a short circuit");
   if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "when closed, it is a short circuit");
@@ -295,8 +297,8 @@ static ZpStatus derive(Follower *f, ZpError *err) {
 
 static ZpStatus run(Follower *f, ZpError *err) {
   const ZpActuatorDef *def = &f->model->def;
-  f->result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
-  f->result->shapes = zp_shapes_create(f->model->s, f->model->nodes, (size_t)def->output.shapes);
+  f->result->series = zp_members_table(f->model, columns, COLUMNS, (size_t)def->output.samples);
+  f->result->shapes = zp_model_shapes(f->model, (size_t)def->output.shapes);
   if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, carve, f))
     return zp_fail_memory(err);
   f->rest.statics.stop = asked_to_stop;

@@ -9,6 +9,7 @@
 #include "actuator/resolution.h"
 #include "base/fail.h"
 #include "def/check.h"
+#include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/series.h"
@@ -67,7 +68,7 @@ static void take(Finder *f, const double *state) {
   ZpStatics *s = &f->rest.statics;
   double own = s->load, ratio = f->model->L / f->near->L;
   f->slow.square.restore(s, state);
-  zp_stretch(f->model, ratio, s->q);
+  zp_stretch(f->model, ratio, s->member->q);
   s->load = own;
   zp_statics_stable(s, &f->rest.branch.newton);
 }
@@ -86,7 +87,7 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   double near_gap = zp_closing_gap(s, NULL);
   if (load) s->load = near->value;
   if (load) s->U = f->model->def.drive.voltage;
-  memcpy(f->slow.march.fold.null, near->null, s->assembly.n * sizeof *near->null);
+  memcpy(f->slow.march.fold.null, near->null, s->n * sizeof *near->null);
   ZpFold *solver = &f->slow.march.fold;
   bool found = fold   ? zp_fold_solve(solver)
                : load ? zp_lift_event(&f->lift, near_gap)
@@ -126,7 +127,7 @@ static bool hang(Finder *f) {
   if (!zp_statics_stable(s, work)) return false;
   f->limits->hanging = f->model->field ? zp_closing_gap(s, NULL) : 0;
   f->limits->hangs = true;
-  zp_slow_start(&f->slow, f->limits->hanging);
+  zp_slow_start(&f->slow);
   f->slow.square.save(s, f->limits->start);
   return true;
 }
@@ -236,7 +237,7 @@ static bool find(Finder *f) {
   if (!f->model->field || f->model->def.drive.voltage == 0) return true;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_none(&f->limits->limit[k], "it hangs closed");
-  if (f->limits->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return true;
+  if (f->limits->hanging <= zp_closed_opening(f->rest.statics.member->model, 0)) return true;
   ZpSlowEnd up = raise_voltage(f);
   bool shorts = zp_insulation(&f->model->def) == 0;
   if (shorts) none_closed(f, "when closed, it is a short circuit");
@@ -255,13 +256,20 @@ static bool find(Finder *f) {
 
 /* -- the actuator ----------------------------------------------------------------------------------- */
 
-double zp_limits_mass(const ZpModel *model) {
+static double mass_of_one(const ZpModel *model) {
   double sum = -zp_load_share(model) * model->def.load.mass, platform = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
   for (size_t i = 0; zp_has_platform(&model->topology) && i < model->s; i++)
     platform += zp_ribbon_section(model, i).mu * model->def.platform.length;
   return model->parts * sum + model->def.stack.parallel * platform;
+}
+
+double zp_limits_mass(const ZpModel *model) {
+  double sum = 0;
+  for (; model; model = model->below)
+    sum += mass_of_one(model);
+  return sum;
 }
 
 /* Opening of a state, m. */
@@ -301,9 +309,9 @@ static ZpLimits *create(const Finder *f) {
   if (!limits) return NULL;
   *limits = (ZpLimits){.ribbons = f->model->s, .nodes = f->model->nodes, .L = f->model->L};
   size_t save = zp_rest_save_size(&f->rest);
-  limits->memory = zp_calloc(1, carve_limits(limits, save, s->assembly.n, NULL));
+  limits->memory = zp_calloc(1, carve_limits(limits, save, s->n, NULL));
   if (limits->memory) {
-    carve_limits(limits, save, s->assembly.n, limits->memory);
+    carve_limits(limits, save, s->n, limits->memory);
     return limits;
   }
   zp_free(limits);
@@ -315,8 +323,8 @@ static ZpLimits *create(const Finder *f) {
 /* Go to a state => the fields and stresses there, which count. */
 static ZpMargins look(Finder *f, const double *state) {
   zp_slow_go_to(&f->slow, state);
-  ZpShape shape = zp_statics_shape(&f->rest.statics, 0, &f->rest.shape_room);
-  ZpMargins margins = zp_margins_of(f->model, &shape);
+  ZpMargins margins;
+  zp_rest_shape(&f->rest, 0, &margins);
   zp_margins_join(&f->margins, margins);
   return margins;
 }
@@ -333,7 +341,7 @@ static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
   ZpStatics *s = &f->rest.statics;
   if (isnan(f->limits->limit[kind].value)) return;
   ZpMargins margins = look(f, f->limits->limit[kind].state);
-  double row[COLUMNS] = {kind,
+  double row[COLUMNS + ZP_MEMBER_COLUMNS] = {kind,
                          s->U,
                          s->load,
                          zp_statics_stroke(s),
@@ -342,7 +350,8 @@ static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
                          zp_statics_charge(s),
                          zp_statics_capacitance(s),
                          ZP_MARGIN_VALUES(margins)};
-  ZpShape shape = zp_statics_shape(s, kind, &f->rest.shape_room);
+  zp_members_values(&f->rest, row + COLUMNS);
+  ZpShape shape = zp_rest_shape(&f->rest, kind, NULL);
   zp_table_offer(table, row);
   zp_shapes_offer(shapes, &shape);
 }
@@ -456,8 +465,8 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Finder f = {.model = model, .task = task, .near = neighbour_of(task, model), .margins = zp_margins_none()};
-  result->series = zp_table_create(columns, COLUMNS, ZP_LIMIT_KINDS);
-  result->shapes = zp_shapes_create(model->s, model->nodes, ZP_LIMIT_KINDS);
+  result->series = zp_members_table(model, columns, COLUMNS, ZP_LIMIT_KINDS);
+  result->shapes = zp_model_shapes(model, ZP_LIMIT_KINDS);
   bool open = result->series && result->shapes && zp_rest_open(&f.rest, model, carve, &f);
   if (open) result->limits = f.limits = create(&f);
   if (f.limits)

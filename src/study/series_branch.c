@@ -76,17 +76,17 @@ static void choose(Walk *w, const ZpMembers *members, const char *limit) {
 static void add_member(Walk *w, size_t k, double *row, ZpShape *shape) {
   ZpRest *rest = &w->chain.of[k];
   ZpStatics *s = &rest->statics;
-  ZpShape one = zp_statics_shape(s, (double)w->rows, &rest->shape_room);
-  ZpMargins margins = zp_margins_of(s->model, &one);
-  const double sums[] = {zp_statics_stroke(s), zp_statics_opening(s), (double)zp_statics_front(s) * s->model->l,
+  ZpMargins margins;
+  ZpShape one = zp_rest_shape(rest, (double)w->rows, &margins);
+  const double sums[] = {zp_statics_stroke(s), zp_statics_opening(s), (double)zp_statics_front(s) * s->member->model->l,
                          zp_statics_charge(s), zp_statics_capacitance(s)};
   for (size_t c = 0; c < sizeof sums / sizeof sums[0]; c++)
     row[1 + c] += sums[c];
   row[8] = fmax(row[8], margins.insulator);
   row[9] = fmax(row[9], margins.stress);
-  row[10] += zp_closing_gap(s, NULL) <= zp_closed_opening(s->model, w->hanging[k]);
+  row[10] += zp_closing_gap(s, NULL) <= zp_closed_opening(s->member->model, w->hanging[k]);
   zp_many_put(&w->shapes, k, &one);
-  zp_many_hang(&w->shapes, k, s->model->s);
+  zp_many_hang(&w->shapes, k, s->member->model->s);
   if (k == 0) *shape = one;
 }
 

@@ -14,7 +14,7 @@ typedef struct Problem {
   ZpChain chain;
   ZpVibration vibration;
   ZpManyShapes shapes;
-  double *q[ZP_MOST_MEMBERS]; /* [2 stride] of the equilibrium of each */
+  double *equilibrium[ZP_MOST_MEMBERS]; /* of each */
   ZpMargins margins;          /* of the equilibrium */
   void *memory;
 } Problem;
@@ -24,7 +24,7 @@ static void carve(Problem *p, ZpCarver *carver) {
   zp_vibration_carve(&p->vibration, p->chain.at[p->chain.count], ZP_MODES_SUBSPACE, carver);
   zp_many_carve(&p->shapes, p->chain.count, first->count, first->nodes, carver);
   for (size_t k = 0; k < p->chain.count; k++)
-    p->q[k] = zp_carve(carver, 2 * first->stride);
+    p->equilibrium[k] = zp_carve(carver, zp_rest_save_size(&p->chain.of[k]));
 }
 
 static bool allocate(Problem *p) {
@@ -42,11 +42,12 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
   ZpShape shape = {0};
   for (size_t k = 0; k < p->chain.count; k++) {
     ZpRest *rest = &p->chain.of[k];
-    zp_modes_move(&rest->statics, p->q[k], p->vibration.u + j * p->vibration.n + p->chain.at[k], amplitude);
-    ZpShape one = zp_statics_shape(&rest->statics, frame, &rest->shape_room);
-    if (frame == 0) zp_margins_join(&p->margins, zp_margins_of(rest->statics.model, &one));
+    zp_modes_move(rest, p->equilibrium[k], p->vibration.u + j * p->vibration.n + p->chain.at[k], amplitude);
+    ZpMargins margins;
+    ZpShape one = zp_rest_shape(rest, frame, &margins);
+    if (frame == 0) zp_margins_join(&p->margins, margins);
     zp_many_put(&p->shapes, k, &one);
-    zp_many_hang(&p->shapes, k, rest->statics.model->s);
+    zp_many_hang(&p->shapes, k, rest->statics.member->model->s);
     if (k == 0) shape = one;
   }
   zp_many_give(&p->shapes, &shape);
@@ -56,7 +57,7 @@ static void record_shape(Problem *p, double frame, size_t j, double amplitude, Z
 static void report(Problem *p, ZpResult *result) {
   const ZpModel *first = p->chain.alone[0];
   for (size_t k = 0; k < p->chain.count; k++)
-    memcpy(p->q[k], p->chain.of[k].statics.q, 2 * first->stride * sizeof *p->q[k]);
+    p->chain.of[k].system.save(&p->chain.of[k].statics, p->equilibrium[k]);
   record_shape(p, 0, 0, 0, result->shapes);
   for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
     zp_modes_add(&p->vibration, j, result);

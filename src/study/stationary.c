@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "rest/rest.h"
+#include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/series.h"
@@ -22,16 +23,16 @@ static const ZpColumn columns[] = {
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
 static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   const ZpTopology *t = &model->topology;
-  const double *x = s->q, *y = s->q + model->stride;
+  const double *x = s->member->q, *y = s->member->q + model->stride;
   for (size_t i = 0; i < t->stations; i++) {
     size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
     bool edge = i + 1 < t->stations && (i < t->platform.first || i >= t->platform.last), two = zp_is_pair(t);
     double row[COLUMNS] = {(double)i,
                            x[lower],
                            y[lower],
-                           edge ? s->eval.edges.T[lower] : NAN,
+                           edge ? s->member->eval.edges.T[lower] : NAN,
                            two ? x[upper] : NAN,
                            two ? y[upper] : NAN,
                            shape->stress[lower],
@@ -60,13 +61,13 @@ static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
 
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   (void)user;
-  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->model->topology);
+  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->member->model->topology);
   zp_result_add_sensitivity(result, "stroke_m", slope->key,
                             found ? zp_slope_of(slope, zp_pose_load, zp_output_stroke, NULL) : NAN);
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
-  if (zp_has_angle(&slope->at->model->topology))
+  if (zp_has_angle(&slope->at->member->model->topology))
     zp_result_add_sensitivity(result, "angle_rad", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_angle, NULL) : NAN);
 }
@@ -81,14 +82,16 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
            info.end == ZP_NEWTON_REFUSED ? "the equilibrium found is impossible: " : "",
            s->stopped ? "interrupted" : words_of(s, info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
-  if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
-  if (zp_has_angle(&s->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (zp_is_pair(&s->member->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
+  if (zp_has_angle(&s->member->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (found) zp_members_add(rest, result);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  ZpShape shape = zp_statics_shape(s, 0, &rest->shape_room);
-  ZpMargins margins = found ? zp_margins_of(s->model, &shape) : zp_margins_none();
-  zp_add_stress(result, s->model, &margins);
-  zp_note_mesh(result, s->model, 0);
+  ZpMargins margins;
+  ZpShape shape = zp_rest_shape(rest, 0, &margins);
+  if (!found) margins = zp_margins_none();
+  zp_add_stress(result, s->member->model, &margins);
+  zp_note_mesh(result, s->member->model, 0);
   if (!found) return;
   fill_table(s, &shape, result->series);
   zp_shapes_offer(result->shapes, &shape);
@@ -115,7 +118,7 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   if (status != ZP_OK) return status;
   ZpRest rest = {0};
   result->series = zp_table_create(columns, COLUMNS, model->nodes);
-  result->shapes = zp_shapes_create(model->s, model->nodes, 2);
+  result->shapes = zp_model_shapes(model, 2);
   if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))
     run(&rest, task, result);
   else

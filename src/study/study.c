@@ -5,7 +5,6 @@
 #include "study/estimate.h"
 #include "study/rates.h"
 #include "study/series.h"
-#include "study/together.h"
 
 /* What a study takes from files. */
 enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
