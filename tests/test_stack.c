@@ -288,6 +288,8 @@ START_TEST(unlike_ones_come_to_their_equilibrium) {
   def.solver.end_time = 8;
   ZpResult *moved = answer_of(ZP_STUDY_ACTUATE, &def), *rest = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   size_t last = moved->series->rows - 1, end = rest->series->rows - 1;
+  while (zp_table_get(rest->series, end, "branch") > 0) /* from closed */
+    end--;
   static const char *const same[] = {"opening_m", "charge_C", "member_1_force_N", "member_2_force_N",
                                      "member_3_force_N"};
   for (size_t k = 0; k < LENGTH_OF(same); k++)
@@ -513,7 +515,7 @@ START_TEST(limits_of_unlike_ones_are_at_their_states) {
                           {"drive.voltage", 8e3});
   ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
   static const char *const names[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
-  ck_assert_uint_eq(limits->series->rows, LENGTH_OF(names));
+  ck_assert_uint_eq(limits->series->rows, LENGTH_OF(names) + 1); /* and the largest load */
   for (size_t k = 0; k < LENGTH_OF(names); k++)
     ck_assert_double_eq(zp_table_get(limits->series, k, "voltage_V"), zp_result_get(limits, names[k]));
   double hanging = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
@@ -538,7 +540,7 @@ static double first_turn(const ZpTable *branch, bool back, double sign) {
 /* On coarse meshes, where one limit point follows another, pull-in and release are those of the branch's points, which
  * lie up to a hundredth apart. */
 START_TEST(limits_of_unlike_ones_are_turns_of_their_branch) {
-  static const double mass[] = {4e-3, 8e-3};
+  static const double mass[] = {5e-3, 8e-3};
   ZpActuatorDef def = DEF({"stack.parallel", 2}, {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 11},
                           {"load.mass", mass[_i]}, {"drive.voltage", 8e3}, {"output.samples", 5000});
   ZpResult *branch = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);

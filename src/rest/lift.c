@@ -34,7 +34,8 @@ bool zp_lift_hang(ZpLift *l, double load) {
   ZpStatics *s = l->slow->statics;
   l->slow->square.restore(s, l->hung);
   s->load = load;
-  if (!zp_newton_good(zp_statics_hang(s, l->slow->newton).end) || !zp_statics_stable(s, l->slow->newton)) return false;
+  if (!zp_newton_good(zp_statics_hang(s, l->slow->newton).end) || !zp_statics_bias(s, l->slow->newton)) return false;
+  if (!zp_statics_stable(s, l->slow->newton)) return false;
   l->slow->square.save(s, l->hung);
   zp_slow_start(l->slow);
   return true;

@@ -197,6 +197,10 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   return info;
 }
 
+static double opening_of(const ZpRestMember *m) {
+  return zp_opening(&m->model->topology, m->q + m->model->stride);
+}
+
 /* Has any gap, insulators included, changed since the last good state by so large a share that this is another
  * branch? */
 static bool member_has_jumped(const ZpRestMember *m) {
@@ -210,8 +214,16 @@ static bool member_has_jumped(const ZpRestMember *m) {
   return false;
 }
 
+/* Has the load moved by so much? */
+static bool load_has_jumped(const ZpStatics *s) {
+  static const double part = 0.02; /* of the length, or of what both openings of antagonists sum up to */
+  const ZpRestMember *m = s->member;
+  double before = zp_opening(&m->model->topology, m->good + m->model->stride);
+  return fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
+}
+
 static bool has_jumped(const ZpStatics *s) {
-  bool jumped = false;
+  bool jumped = load_has_jumped(s);
   for (size_t k = 0; k < s->members; k++)
     jumped |= member_has_jumped(&s->member[k]);
   return jumped;
@@ -299,8 +311,7 @@ static void put_bias(ZpStatics *s, double whole, double share) {
   s->bias = whole * sqrt(share);
 }
 
-/* Antagonists without a voltage, from where both are held half way; then with the voltage that the lower one has while
- * the upper one has none. */
+/* Antagonists, from where both are held half way. */
 static ZpNewtonInfo hang_between(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   double load = s->load;
@@ -311,10 +322,17 @@ static ZpNewtonInfo hang_between(ZpStatics *s, ZpNewtonWork *work) {
   if (!zp_newton_good(info.end)) return info;
   info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   if (!is_found(s, info, work)) info = zp_statics_fall(s, 0, work);
-  bool biased = s->member->model->bias == 0 || grow(s, put_bias, 1, 0.05, work);
-  s->bias = 1;
-  if (zp_newton_good(info.end) && !biased) info.end = ZP_NEWTON_REFUSED;
   return info;
+}
+
+bool zp_statics_bias(ZpStatics *s, ZpNewtonWork *work) {
+  bool biased = s->member->model->bias == 0 || grow(s, put_bias, 1, 0.05, work);
+  if (biased) s->bias = 1;
+  return biased;
+}
+
+const char *zp_statics_no_rest(const ZpStatics *s) {
+  return s->bias < 1 ? "the lower one pulls in below stack.lower_voltage" : "no hanging equilibrium found";
 }
 
 ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
@@ -375,10 +393,6 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
   if (zp_newton_good(info.end) && zp_statics_stable(s, work)) return info;
   lay_straight(s);
   return zp_statics_fall(s, voltage, work);
-}
-
-static double opening_of(const ZpRestMember *m) {
-  return zp_opening(&m->model->topology, m->q + m->model->stride);
 }
 
 double zp_statics_stroke(const ZpStatics *s) {
@@ -1097,7 +1111,7 @@ static void position(void *self, double *q) {
     zp_assembly_gather(&s->member[k].assembly, s->member[k].q, q);
 }
 
-/* Of each member q and tensions; voltage, load. */
+/* Of each member q and tensions; voltage, load, bias. */
 static void save(void *self, void *to) {
   const ZpStatics *s = self;
   size_t stride = s->member->model->stride;
@@ -1108,6 +1122,7 @@ static void save(void *self, void *to) {
   }
   place[0] = s->U;
   place[1] = s->load;
+  place[2] = s->bias;
 }
 
 static void restore(void *self, const void *from) {
@@ -1120,6 +1135,7 @@ static void restore(void *self, const void *from) {
   }
   s->U = place[0];
   s->load = place[1];
+  s->bias = place[2];
 }
 
 ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
@@ -1132,7 +1148,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .position = position,
                           .save = save,
                           .restore = restore,
-                          .save_size = (3 * s->members * model->stride + 2) * sizeof(double),
+                          .save_size = (3 * s->members * model->stride + 3) * sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
                           .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(model->def.load.mass, 1e-3)};
 }

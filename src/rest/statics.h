@@ -82,6 +82,12 @@ double zp_statics_tolerance(const ZpStatics *statics);
  * other during the search, but not in the result. */
 ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
 
+/* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before. */
+bool zp_statics_bias(ZpStatics *statics, ZpNewtonWork *work);
+
+/* Why there is no equilibrium at which a voltage could begin to rise. */
+const char *zp_statics_no_rest(const ZpStatics *statics);
+
 /* From the hanging equilibrium up to `voltage` on the hanging branch, to within a millionth of its end. False if the
  * branch ends before, at the pull-in, or if the field cannot be solved (zp_statics_trouble). */
 bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);

@@ -159,6 +159,7 @@ static bool hang(Follower *f) {
   ZpNewtonInfo info = zp_statics_hang(&f->rest.statics, &f->rest.branch.newton);
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", info.residual);
+  if (zp_newton_good(info.end) && !zp_statics_bias(&f->rest.statics, &f->rest.branch.newton)) return false;
   f->rest.system.save(&f->rest.statics, f->start);
   f->rest.system.save(&f->rest.statics, f->hung);
   f->hanging = f->model->field ? opening(f) : 0;
@@ -270,7 +271,7 @@ static void describe(const Follower *f) {
   if (f->rest.statics.stopped) {
     add(f->result, "interrupted at %.4g V; the results so far are kept", fabs(f->rest.statics.U));
   } else if (f->outcome == ZP_NOT_SETTLED) {
-    add(f->result, "no hanging equilibrium found");
+    add(f->result, "%s", zp_statics_no_rest(&f->rest.statics));
   } else {
     describe_way_up(f);
     describe_way_down(f);

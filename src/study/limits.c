@@ -123,7 +123,7 @@ static bool hang(Finder *f) {
   ZpStatics *s = &f->rest.statics;
   ZpNewtonWork *work = &f->rest.branch.newton;
   if (f->near && f->near->hangs) take(f, f->near->start);
-  if (!zp_newton_good(zp_statics_hang(s, work).end)) return false;
+  if (!zp_newton_good(zp_statics_hang(s, work).end) || !zp_statics_bias(s, work)) return false;
   if (!zp_statics_stable(s, work)) return false;
   f->limits->hanging = f->model->field ? zp_closing_gap(s, NULL) : 0;
   f->limits->hangs = true;
@@ -247,7 +247,9 @@ static bool find(Finder *f) {
   if (up == ZP_SLOW_STOPPED || up == ZP_SLOW_LOST) return true;
   lower_voltage(f);
   f->rest.statics.load = f->model->def.load.mass;
-  if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
+  if (zp_is_opposed(f->model))
+    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "a heavy load closes the lower antagonist");
+  else if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
     lift(f, up == ZP_SLOW_CHANGED);
   else
     zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "gravity does not pull the platform down, so a mass is no load");
@@ -434,7 +436,7 @@ static void run(Finder *f, ZpResult *r) {
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
   r->outcome = hangs || f->rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);
-  if (!hangs) snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
+  if (!hangs) snprintf(r->message, sizeof r->message, "%s", zp_statics_no_rest(&f->rest.statics));
   if (f->rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; the results so far are kept");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
     record(f, r->series, r->shapes, k);

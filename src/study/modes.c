@@ -172,6 +172,10 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   snprintf(result->message, sizeof result->message, "%s",
            p->rest.statics.stopped ? "interrupted" : "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return;
+  if (!zp_statics_bias(&p->rest.statics, &p->rest.branch.newton)) {
+    snprintf(result->message, sizeof result->message, "%s", zp_statics_no_rest(&p->rest.statics));
+    return;
+  }
   double voltage = p->rest.statics.member->model->def.modes.voltage;
   if (voltage > 0 && p->rest.statics.member->model->field &&
       !zp_statics_raise(&p->rest.statics, voltage, &p->rest.branch.newton)) {
