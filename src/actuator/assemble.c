@@ -108,7 +108,7 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(&model->topology, a);
+  a->n = a->end = number(&model->topology, a);
   a->bandwidth = bandwidth_of(a);
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
@@ -119,16 +119,19 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
 
 /* -- several members ------------------------------------------------------------------------------- */
 
-/* Of each member alone: how many equations it has, and which of them is the height of the load. */
+/* Of each member alone: how many equations it has, how many the members before it have, and which one is the height of a
+ * shared load. */
 typedef struct Joined {
-  size_t members, count[ZP_MOST_MEMBERS], load[ZP_MOST_MEMBERS];
+  size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS], load[ZP_MOST_MEMBERS];
+  bool shared;
 } Joined;
 
-/* An equation of one member alone => of all. Of two, those of the second one follow from its platform back to its clip,
+/* An equation of one member alone => of all. Of two that share a load, those of the second one follow from its platform back to its clip,
  * so that the matrix stays a narrow band. More than two have the same equations; those of the same number are adjacent.
  */
 static size_t place_of(const Joined *of, size_t which, size_t i) {
   size_t load = of->load[which], back = of->count[0] + of->count[1] - 1 - i, members = of->members;
+  if (!of->shared) return of->before[which] + i;
   if (members == 2 && which == 0) return i;
   if (members == 2) return i == load ? of->load[0] : i < load ? back - 1 : back;
   if (i < load) return members * i + which;
@@ -137,6 +140,7 @@ static size_t place_of(const Joined *of, size_t which, size_t i) {
 
 static size_t joined_bandwidth(const Joined *of, size_t own) {
   size_t beyond = 0;
+  if (!of->shared) return own;
   if (of->members > 2) return of->members * own + of->members - 1;
   for (size_t which = 0; which < of->members; which++)
     beyond += of->count[which] - 1 - of->load[which];
@@ -146,9 +150,11 @@ static size_t joined_bandwidth(const Joined *of, size_t own) {
 /* Number the equations of one member among those of all, `n`. */
 static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n, double factor) {
   a->n = n;
+  a->begin = of->before[which];
+  a->end = a->begin + of->count[which];
   a->parts = (ZpParts){0};
   a->groups = (ZpBandGroups){0, 0};
-  a->turned = factor < 0 ? (int)place_of(of, which, of->load[which]) : -1;
+  a->turned = of->shared && factor < 0 ? (int)place_of(of, which, of->load[which]) : -1;
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
   for (size_t i = 0; i < a->nodes; i++)
@@ -156,12 +162,13 @@ static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n, double
 }
 
 size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const size_t load[], const double factor[]) {
-  Joined of = {.members = members};
-  size_t n = 1;
+  Joined of = {.members = members, .shared = load != NULL};
+  size_t n = of.shared;
   for (size_t which = 0; which < members; which++) {
+    of.before[which] = n;
     of.count[which] = a[which]->n;
-    of.load[which] = (size_t)a[which]->equation[2 * load[which] + 1];
-    n += a[which]->n - 1;
+    of.load[which] = of.shared ? (size_t)a[which]->equation[2 * load[which] + 1] : SIZE_MAX;
+    n += a[which]->n - of.shared;
   }
   for (size_t which = 0; which < members; which++)
     join(a[which], &of, which, n, factor[which]);

@@ -12,6 +12,7 @@ typedef struct ZpAssembly {
   size_t count;        /* nodes */
   size_t stride;       /* arrays over nodes: all x, then, so much further, all y */
   size_t n;            /* equations, of all members of a system */
+  size_t begin, end;   /* its own equations, if it shares none */
   size_t bandwidth;    /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;      /* only the upper triangle is kept */
   ZpBandGroups groups; /* of a symmetric one: those of a station, or of two of one ribbon, if they fit */
@@ -29,9 +30,9 @@ typedef struct ZpAssembly {
 bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
-/* Members that share a load: the height of node load[m] of member m, factor[m] (1 or -1) times that of the first one
- * but for a constant, gets one equation. Number the equations of all as one system => the number of diagonals above the
- * main one. */
+/* Number the equations of members as one system => the number of diagonals above the main one. Of members that share a
+ * load, the height of node load[m] of member m, factor[m] (1 or -1) times that of the first one but for a constant, has
+ * one equation; load = NULL: they have no equation in common. */
 size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const size_t load[], const double factor[]);
 
 /* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */

@@ -57,6 +57,20 @@ double zp_mark_closed(ZpStatics *s) {
   return s->member->closed;
 }
 
+double zp_open_gap(const ZpStatics *s) {
+  double sum = gap_of(s->member);
+  for (size_t k = 1; k < s->members && !s->shared; k++)
+    sum += gap_of(&s->member[k]);
+  return sum;
+}
+
+size_t zp_closed_members(const ZpStatics *s) {
+  size_t closed = 0;
+  for (size_t k = 0; k < s->members; k++)
+    closed += gap_of(&s->member[k]) <= s->member[k].closed;
+  return closed;
+}
+
 /* -- along the square of the voltage ---------------------------------------------------------------- */
 
 static double get_square(void *self) {

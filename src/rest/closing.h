@@ -14,6 +14,12 @@ double zp_closing_gap(void *self, double *row);
  * others are kept in the members. */
 double zp_mark_closed(ZpStatics *statics);
 
+/* The sum of these gaps of members in series, m; else that of the first member. */
+double zp_open_gap(const ZpStatics *statics);
+
+/* How many members count as closed? */
+size_t zp_closed_members(const ZpStatics *statics);
+
 /* The static system along the square of the voltage (V^2), because forces are proportional to it: along the voltage
  * itself nothing moves at first. */
 ZpBranchSystem zp_closing_by_square(ZpStatics *statics);

@@ -46,6 +46,8 @@ ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins) {
     double *y = zp_many_put(&rest->shapes, k, &shape);
     if (k > 0 && s->distance > 0) zp_shape_turn_over(model, y);
   }
+  for (size_t k = 0; k < s->members && !s->shared; k++)
+    zp_many_hang(&rest->shapes, k, s->member->model->s);
   shape.zipped = zp_statics_front(s);
   zp_many_give(&rest->shapes, &shape);
   return shape;

@@ -142,12 +142,12 @@ static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
  * point. */
 static bool is_ripple(ZpSlow *f, double m, double gap, double sign) {
   ZpStatics *s = f->statics;
-  double fallen = zp_closing_gap(s, NULL) - gap;
+  double fallen = zp_open_gap(s) - gap;
   f->square.save(s, f->held);
   ZpEvent event = f->march.event;
   f->march.event = NULL;
   ZpMarchEnd end = zp_march(&f->march, changed(f, m, -sign * ZP_FOLD_RIPPLE));
-  bool ripple = end != ZP_MARCH_ARRIVED || (zp_closing_gap(s, NULL) - gap) * fallen < 0;
+  bool ripple = end != ZP_MARCH_ARRIVED || (zp_open_gap(s) - gap) * fallen < 0;
   f->march.event = event;
   zp_slow_go_to(f, f->held);
   return ripple;
@@ -368,7 +368,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
-    double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
+    double m = parameter(f), gap = zp_open_gap(f->statics);
     bool found = fall_from(f, at, sign), jumped = zp_slow_is_closed(f) != f->was_closed;
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);

@@ -35,9 +35,17 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   return carver.used;
 }
 
+/* Each member is at rest in the frame of the platform that it hangs on. */
+static void hold_upper_platform(ZpTopology *t) {
+  for (size_t k = 0; k < t->joints; k++)
+    if (t->joint[k].kind == ZP_JOINT_LINK) t->joint[k].kind = ZP_JOINT_PLATFORM;
+  if (t->platform.kind == ZP_JOINT_LINK) t->platform.kind = ZP_JOINT_PLATFORM;
+}
+
 static void fill_model(const ZpModel *model, ZpRestMember *m) {
   ZpModel *own = (ZpModel *)m->model;
   *own = *model;
+  hold_upper_platform(&own->topology);
   own->rod.k0 = m->k0_now;
   m->k0 = model->rod.k0;
 }
@@ -94,21 +102,24 @@ static void number(ZpStatics *s) {
     factor[k] = factor_of(s, k);
   }
   if (s->members > 1) {
-    s->form.bandwidth = zp_assembly_join(of, s->members, load, factor);
+    s->form.bandwidth = zp_assembly_join(of, s->members, s->shared ? load : NULL, factor);
     s->form.groups = (ZpBandGroups){0, 0};
   }
   s->n = first->n;
 }
 
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
-  *s = (ZpStatics){.members = zp_shares_load(model) ? zp_members(model) : 1, .distance = model->distance};
+  *s = (ZpStatics){.members = zp_members(model),
+                   .shared = zp_shares_load(model),
+                   .distance = model->distance,
+                   .force = zp_lowest(model)->def.load.force};
   s->memory = zp_calloc(1, carve(model, s, NULL));
   bool made = s->memory != NULL;
   if (made) carve(model, s, s->memory);
   for (size_t k = 0; k < s->members && made; k++, model = model->below) {
     made = create_member(model, &s->member[k]);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model));
-    s->load += model->def.load.mass;
+    s->load = s->shared ? s->load + model->def.load.mass : model->def.load.mass;
   }
   if (!made) {
     zp_statics_destroy(s);
@@ -217,9 +228,13 @@ static bool member_has_jumped(const ZpRestMember *m) {
 /* Has the load moved by so much? */
 static bool load_has_jumped(const ZpStatics *s) {
   static const double part = 0.02; /* of the length, or of what both openings of antagonists sum up to */
-  const ZpRestMember *m = s->member;
-  double before = zp_opening(&m->model->topology, m->good + m->model->stride);
-  return fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
+  bool jumped = false;
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpRestMember *m = &s->member[k];
+    double before = zp_opening(&m->model->topology, m->good + m->model->stride);
+    jumped |= fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
+  }
+  return jumped;
 }
 
 static bool has_jumped(const ZpStatics *s) {
@@ -395,12 +410,24 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
   return zp_statics_fall(s, voltage, work);
 }
 
+static double stroke_of(const ZpRestMember *m) {
+  return zp_stroke(&m->model->topology, m->q + m->model->stride);
+}
+
+/* Of the first member, or of all in series together. */
+static double of_all(const ZpStatics *s, double (*number)(const ZpRestMember *m)) {
+  double sum = number(s->member);
+  for (size_t k = 1; k < s->members && !s->shared; k++)
+    sum += number(&s->member[k]);
+  return sum;
+}
+
 double zp_statics_stroke(const ZpStatics *s) {
-  return zp_stroke(&s->member->model->topology, s->member->q + s->member->model->stride);
+  return of_all(s, stroke_of);
 }
 
 double zp_statics_opening(const ZpStatics *s) {
-  return opening_of(s->member);
+  return of_all(s, opening_of);
 }
 
 double zp_statics_angle(const ZpStatics *s) {
@@ -411,10 +438,6 @@ static size_t front_of(const ZpRestMember *m) {
   return m->model->field ? zp_faces_front(&m->model->faces, m->eval.plates.gap) : 0;
 }
 
-size_t zp_statics_member_front(const ZpStatics *s, size_t which) {
-  return front_of(&s->member[which]);
-}
-
 size_t zp_statics_front(const ZpStatics *s) {
   size_t least = front_of(s->member);
   for (size_t k = 1; k < s->members && !(s->distance > 0); k++)
@@ -422,9 +445,22 @@ size_t zp_statics_front(const ZpStatics *s) {
   return least;
 }
 
+static double closed_length_of(const ZpRestMember *m) {
+  return (double)front_of(m) * m->model->l;
+}
+
+double zp_statics_member_closed(const ZpStatics *s, size_t which) {
+  return closed_length_of(&s->member[which]);
+}
+
+double zp_statics_closed_length(const ZpStatics *s) {
+  if (!s->shared) return of_all(s, closed_length_of);
+  return (double)zp_statics_front(s) * s->member->model->l;
+}
+
 double zp_statics_member_voltage(const ZpStatics *s, size_t which) {
   const ZpModel *first = s->member->model;
-  return which == 0 ? s->U : first->ratio * s->U + s->bias * first->bias;
+  return which == 0 || !s->shared ? s->U : first->ratio * s->U + s->bias * first->bias;
 }
 
 static bool is_shorted(const ZpRestMember *m, double U) {
@@ -600,10 +636,18 @@ static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
 
 /* -- residual ------------------------------------------------------------------------------------- */
 
-/* Mass of the load that hangs on a member, kg: members side by side have equal shares, antagonists one load. */
-static double load_on(const ZpStatics *s, size_t which) {
-  if (s->distance > 0) return which == 0 ? s->load : 0;
-  return s->load / (double)s->members;
+/* The part of the load that hangs on a member: of those side by side an equal share; of antagonists all of it on the
+ * upper one; in series all of it on each. */
+static double load_part(const ZpStatics *s, size_t which) {
+  if (s->distance > 0) return which == 0;
+  return s->shared ? 1 / (double)s->members : 1;
+}
+
+/* Mass that hangs on a member in addition to its own load, kg: in series also what hangs below it. */
+static double hung_on(const ZpStatics *s, size_t which) {
+  const ZpModel *model = s->member[which].model, *last = s->member[s->members - 1].model;
+  if (s->shared) return load_part(s, which) * s->load - model->def.load.mass;
+  return model->carried + s->load - last->def.load.mass;
 }
 
 /* The present point of a member. */
@@ -612,7 +656,8 @@ static ZpSpan span_of(const ZpStatics *s, size_t which) {
   const ZpActuatorDef *def = &m->model->def;
   ZpSpan span = zp_span_at(m->q);
   span.U0 = span.U1 = zp_statics_member_voltage(s, which);
-  span.hung = zp_load_share(m->model) * (load_on(s, which) - def->load.mass) * def->gravity;
+  span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
+  if (!s->shared) span.load = zp_load_share(m->model) * (s->force - def->load.force);
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
   span.beyond = zp_eval_beyond(&m->eval);
@@ -951,7 +996,7 @@ static void meet(ZpStatics *s) {
     missed[k] = first + factor_of(s, k) * opening_of(&s->member[k]) + s->distance;
     mean += missed[k] / (double)s->members;
   }
-  for (size_t k = 0; k < s->members && s->members > 1; k++) {
+  for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
     put_platform(m, factor_of(s, k) * (missed[k] - mean) - opening_of(m));
   }
@@ -971,7 +1016,7 @@ static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   for (size_t k = 0; k < s->members; k++)
     move_member(&s->member[k], step, fraction);
-  meet(s);
+  if (s->shared) meet(s);
 }
 
 /* Where the liquid is at these positions, for the field that is solved there. */
@@ -1074,7 +1119,7 @@ void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
     ZpSpan span = span_of(s, k);
     ZpByVoltage by = {.force = m->force};
     zp_system_by_voltage(m->model, &span, &m->eval, &by);
-    for (size_t j = 0; k > 0 && j < 2 * m->model->stride; j++)
+    for (size_t j = 0; k > 0 && s->shared && j < 2 * m->model->stride; j++)
       m->force[j] *= s->member->model->ratio;
     zp_assembly_add(&m->assembly, m->force, r_m);
   }
@@ -1093,8 +1138,7 @@ static void by_load(void *self, double *r_m) {
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
     const ZpModel *model = m->model;
-    double part = s->distance > 0 ? k == 0 : 1 / (double)s->members;
-    double per_mass = part * zp_load_share(model) * model->def.gravity;
+    double per_mass = load_part(s, k) * zp_load_share(model) * model->def.gravity;
     memset(m->force, 0, 2 * model->stride * sizeof *m->force);
     zp_weight_by_hung(model, m->force);
     for (size_t j = 0; j < 2 * model->stride; j++)

@@ -25,14 +25,16 @@ typedef struct ZpRestMember {
 } ZpRestMember;
 
 typedef struct ZpStatics {
-  size_t members;       /* actuators that share one load; else 1 */
-  ZpRestMember *member; /* [members]; of antagonists the upper one, then the lower one */
+  size_t members;       /* actuators that are one system */
+  ZpRestMember *member; /* [members]; from the uppermost down */
+  bool shared;          /* they have one load: its height is an unknown of all. In series each has its own frame */
   size_t n;             /* equations of all */
   ZpBandForm form;      /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
   double U;          /* of the first member, V */
   double bias;       /* share of the lower antagonist's own voltage that acts */
   double load;       /* mass hung on all members, kg; starts as load.mass */
+  double force;      /* load.force, N */
   double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
   double distance;   /* of antagonists: what their openings sum up to, m; 0: there are none */
   double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
@@ -116,7 +118,7 @@ ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *w
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user, ZpNewtonWork *work);
 
 /* The present point: height of the clip or clamp over the right end of the lower or only ribbon, signed, m; distance
- * between the platforms' faces, m (NAN for one ribbon); angle of a fold, rad (NAN without a hinge); number of closed
+ * between the platforms' faces, m (NAN for one ribbon), both in series of all members together; angle of a fold, rad (NAN without a hinge); number of closed
  * stations from the clip, without the clip. */
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
@@ -129,9 +131,13 @@ bool zp_statics_shorted(const ZpStatics *statics);
 /* Moving masses by equations => mass [n], kg. */
 void zp_statics_masses(const ZpStatics *statics, double *mass);
 
-/* Voltage of a member, V; number of its closed stations; force with which it pulls the load up at the present point, N. */
+/* Closed length of one half, from the clip, m: of members that share a load what is closed in all of them, of antagonists
+ * that of the upper one; in series their sum. */
+double zp_statics_closed_length(const ZpStatics *statics);
+
+/* Of a member: voltage, V; closed length, m; force with which it pulls the load up at the present point, N. */
 double zp_statics_member_voltage(const ZpStatics *statics, size_t which);
-size_t zp_statics_member_front(const ZpStatics *statics, size_t which);
+double zp_statics_member_closed(const ZpStatics *statics, size_t which);
 double zp_statics_member_force(ZpStatics *statics, size_t which);
 
 /* Restoring force per displacement of the load at the present point, of the whole actuators, N/m; NAN if the stiffness

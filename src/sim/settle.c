@@ -69,7 +69,8 @@ static bool stop_hanging(void *hooks) {
 
 /* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when
  * straight). => false if there is no memory. */
-static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, double *q, bool *found) {
+static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
+  const ZpModel *model = sim->model;
   ZpRest rest;
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
@@ -84,21 +85,6 @@ static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, dou
   }
   zp_rest_close(&rest);
   return opened;
-}
-
-/* In a series: the member alone, under the weight of all that hangs on it. */
-static bool solve_member(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
-  ZpActuatorDef def = zp_member_at_rest(sim->model);
-  ZpDriveTable table = sim->model->waveform.table;
-  ZpModel *alone;
-  if (zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &alone, NULL) != ZP_OK) return false;
-  bool solved = solve_at(sim, alone, hooks, q, found);
-  zp_model_destroy(alone);
-  return solved;
-}
-
-static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
-  return zp_in_series(sim->model) ? solve_member(sim, hooks, q, found) : solve_at(sim, sim->model, hooks, q, found);
 }
 
 /* By damped stepping. */
@@ -131,24 +117,19 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   double *q = sim->relax_work;
   bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
-  if (goes_on || zp_shares_load(model)) return true;                /* with all others */
+  if (goes_on || zp_in_series(model)) return true;                  /* with all others */
   /* a single straight ribbon needs neither a start nor a reference */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
   if (!solve(sim, hooks, q, &found)) return false;
-  if (!found && sim->settled == ZP_REACHED_END) {
-    if (zp_in_series(model))
-      sim->settled = ZP_NOT_SETTLED;
-    else
-      relax(sim, hooks, q);
-  }
+  if (!found && sim->settled == ZP_REACHED_END) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);
   return true;
 }
 
-/* One of the members that share a load, at their common equilibrium. */
+/* One of several members, at their common equilibrium. */
 static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
   const double *q = rest->member[which].q;
@@ -158,7 +139,7 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   if (model->abreast) sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
-bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks) {
+bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks) {
   ZpRest rest;
   bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   if (opened) {

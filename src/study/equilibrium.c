@@ -14,7 +14,6 @@
 #include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -76,7 +75,7 @@ static void record(Follower *f, int branch) {
   double row[COLUMNS + ZP_MEMBER_COLUMNS] = {s->U,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
-                         (double)zp_statics_front(s) * model->l,
+                         zp_statics_closed_length(s),
                          zp_statics_charge(s),
                          zp_statics_capacitance(s),
                          stable,
@@ -338,14 +337,5 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   status = run(&f, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_equilibrium, &members, err);
-  if (status == ZP_OK) zp_members_join(&members, result);
-  if (status == ZP_OK) status = zp_members_follow(task, &members, result, err);
-  zp_members_forget(&members);
   return status;
 }

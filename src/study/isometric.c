@@ -85,7 +85,7 @@ static double moment(Holder *h) {
 }
 
 static double zipped_length(const Holder *h) {
-  return (double)zp_statics_front(&h->rest.statics) * h->model->l;
+  return zp_statics_closed_length(&h->rest.statics);
 }
 
 static bool is_stable(Holder *h) {

@@ -12,7 +12,6 @@
 #include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -269,6 +268,8 @@ static double mass_of_one(const ZpModel *model) {
 
 double zp_limits_mass(const ZpModel *model) {
   double sum = 0;
+  for (const ZpModel *m = model; m->below && !zp_shares_load(m); m = m->below)
+    sum += m->def.load.mass; /* of the link on which the next one hangs */
   for (; model; model = model->below)
     sum += mass_of_one(model);
   return sum;
@@ -348,7 +349,7 @@ static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
                          s->load,
                          zp_statics_stroke(s),
                          zp_statics_opening(s),
-                         (double)zp_statics_front(s) * f->model->l,
+                         zp_statics_closed_length(s),
                          zp_statics_charge(s),
                          zp_statics_capacitance(s),
                          ZP_MARGIN_VALUES(margins)};
@@ -478,27 +479,5 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (f.limits && f.limits->hangs) status = derive(&f, result, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
-  static const ZpColumn columns[] = {
-      {"member", "1", "number of the member; 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it in addition to the load"},
-      {"pull_in_voltage_V", "V", "voltage at which it pulls in"},
-      {"closing_voltage_V", "V", "voltage at which it is closed"},
-      {"release_voltage_V", "V", "voltage at which it opens again as the voltage falls"},
-      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, including what it carries"},
-      {"travel_m", "m", "decrease of its opening"},
-  };
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_limits, &members, err);
-  if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome)) {
-    zp_members_say(&members, "pull in", "pull_in_voltage_V", result->message, sizeof result->message);
-    zp_members_say(&members, "close", "closing_voltage_V", result->message, sizeof result->message);
-    zp_members_say(&members, "open", "release_voltage_V", result->message, sizeof result->message);
-  }
-  zp_members_forget(&members);
   return status;
 }

@@ -1,7 +1,8 @@
 #include "study/members.h"
 
-#include <math.h>
 #include <string.h>
+
+#include "rest/closing.h"
 
 static const ZpColumn stiffness = {"stiffness_N_per_m", "N/m", "restoring force per displacement of the load"};
 
@@ -21,12 +22,16 @@ static const ZpColumn of_each[] = {OF_MEMBER(1), OF_MEMBER(2), OF_MEMBER(3), OF_
                                    OF_MEMBER(5), OF_MEMBER(6), OF_MEMBER(7), OF_MEMBER(8)};
 enum { OF_EACH = 2 };
 
+static const ZpColumn closed_members = {"closed_members", "1", "number of closed members"};
+
 /* => how many there are. */
-static size_t columns_of(bool opposed, size_t members, ZpColumn *columns) {
-  size_t count = opposed ? LOWER : OF_EACH * members;
+static size_t columns_of(const ZpModel *model, ZpColumn *columns) {
+  size_t members = zp_members(model);
+  bool opposed = zp_is_opposed(model), shared = zp_shares_load(model);
+  size_t count = opposed ? LOWER : shared ? OF_EACH * members : 0;
   if (members == 1) return 0;
   memcpy(columns, opposed ? lower : of_each, count * sizeof *columns);
-  columns[count] = stiffness;
+  columns[count] = shared ? stiffness : closed_members;
   return count + 1;
 }
 
@@ -34,25 +39,25 @@ ZpTable *zp_members_table(const ZpModel *model, const ZpColumn *columns, size_t 
   enum { MOST = 32 };
   ZpColumn all[MOST];
   memcpy(all, columns, count * sizeof *columns);
-  count += columns_of(zp_is_opposed(model), zp_shares_load(model) ? zp_members(model) : 1, all + count);
+  count += columns_of(model, all + count);
   return zp_table_create(all, count, rows);
-}
-
-static double closed_length(const ZpStatics *s, size_t which) {
-  return (double)zp_statics_member_front(s, which) * s->member[which].model->l;
 }
 
 void zp_members_values(ZpRest *rest, double *values) {
   ZpStatics *s = &rest->statics;
   if (s->members == 1) return;
+  if (!s->shared) {
+    *values = (double)zp_closed_members(s);
+    return;
+  }
   if (s->distance > 0) {
     *values++ = zp_statics_member_voltage(s, 1);
     *values++ = s->distance - zp_statics_opening(s);
-    *values++ = closed_length(s, 1);
+    *values++ = zp_statics_member_closed(s, 1);
   }
   for (size_t k = 0; k < s->members && !(s->distance > 0); k++) {
     *values++ = zp_statics_member_force(s, k);
-    *values++ = closed_length(s, k);
+    *values++ = zp_statics_member_closed(s, k);
   }
   *values = zp_statics_load_stiffness(s, &rest->branch.newton);
 }
@@ -60,7 +65,7 @@ void zp_members_values(ZpRest *rest, double *values) {
 void zp_members_add(ZpRest *rest, ZpResult *result) {
   ZpColumn columns[ZP_MEMBER_COLUMNS];
   double values[ZP_MEMBER_COLUMNS];
-  size_t count = columns_of(rest->statics.distance > 0, rest->statics.members, columns);
+  size_t count = columns_of(rest->statics.member->model, columns);
   zp_members_values(rest, values);
   for (size_t k = 0; k < count; k++)
     zp_result_add(result, columns[k].name, columns[k].unit, values[k]);

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/rest.h"
+#include "rest/series_mass.h"
 #include "rest/vibration.h"
 #include "study/hold.h"
 #include "study/modes.h"
@@ -93,6 +94,7 @@ void zp_modes_move(ZpRest *rest, const double *equilibrium, const double *u, dou
 typedef struct Problem {
   ZpRest rest;
   ZpVibration vibration;
+  ZpSeriesMass series; /* of members in series */
   double *equilibrium;
   ZpMargins margins; /* of the equilibrium */
 } Problem;
@@ -100,6 +102,7 @@ typedef struct Problem {
 static void carve(void *user, ZpCarver *carver) {
   Problem *p = user;
   zp_vibration_carve(&p->vibration, p->rest.statics.n, ZP_MODES_SUBSPACE, carver);
+  zp_series_mass_carve(&p->series, &p->rest.statics, carver);
   p->equilibrium = zp_carve(carver, zp_rest_save_size(&p->rest));
 }
 
@@ -194,6 +197,10 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   }
   ZpVibration *v = &p->vibration;
   v->K = &p->rest.branch.newton.K;
+  if (p->rest.statics.members > 1 && !p->rest.statics.shared) {
+    zp_series_mass_fill(&p->series);
+    v->inertia = &p->series.inertia;
+  }
   zp_statics_masses(&p->rest.statics, v->mass);
   if (!zp_modes_solve(v, result)) return;
   if (*p->rest.statics.member->model->def.sensitivity.by) refine(p);

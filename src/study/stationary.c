@@ -7,7 +7,6 @@
 #include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -126,24 +125,5 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);
   zp_rest_close(&rest);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  static const ZpColumn columns[] = {
-      {"member", "1", "number of the member; 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it in addition to the load"},
-      {"stroke_m", "m", "height of its clip over its lower platform"},
-      {"opening_m", "m", "distance between its platforms' faces"},
-      {"max_stress_Pa", "Pa", "largest stress of its metal"},
-  };
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_stationary, &members, err);
-  if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
-  if (status == ZP_OK && !zp_members_shape(&members, result)) status = zp_fail_memory(err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome))
-    snprintf(result->message, sizeof result->message,
-             "%zu members at rest, each under the load and what hangs below it", members.count);
-  zp_members_forget(&members);
   return status;
 }
