@@ -414,6 +414,10 @@ static double stroke_of(const ZpRestMember *m) {
   return zp_stroke(&m->model->topology, m->q + m->model->stride);
 }
 
+double zp_statics_member_opening(const ZpStatics *s, size_t which) {
+  return opening_of(&s->member[which]);
+}
+
 /* Of the first member, or of all in series together. */
 static double of_all(const ZpStatics *s, double (*number)(const ZpRestMember *m)) {
   double sum = number(s->member);
@@ -725,6 +729,7 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
 
 static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
+  s->K = K;
   add_members(s, false, K);
   if (is_held(s)) hold_equation(s, K, r);
 }
@@ -1182,14 +1187,63 @@ static void restore(void *self, const void *from) {
   s->bias = place[2];
 }
 
+/* -- members that move alike ----------------------------------------------------------------------- */
+
+/* Weight of what a member's platform carries, N. */
+static double carried_weight(const ZpStatics *s, size_t which) {
+  const ZpActuatorDef *def = &s->member[which].model->def;
+  return (def->load.mass + hung_on(s, which)) * def->gravity;
+}
+
+/* Are two members the same actuator, but for their loads? */
+static bool is_same(const ZpActuatorDef *one, const ZpActuatorDef *other) {
+  ZpActuatorDef loaded = *one;
+  loaded.load = other->load;
+  for (int key = 0; key < zp_key_count(); key++) {
+    double a = zp_def_get(&loaded, key), b = zp_def_get(other, key);
+    if (a != b && !(isnan(a) && isnan(b))) return false;
+  }
+  return true;
+}
+
+/* Members in series that are the same and carry the same weight reach their limit points all at once. */
+static bool are_alike(const ZpStatics *s) {
+  if (s->shared) return false;
+  for (size_t k = 1; k < s->members; k++)
+    if (carried_weight(s, k) != carried_weight(s, 0) || !is_same(&s->member[k].model->def, &s->member->model->def))
+      return false;
+  return s->members > 1;
+}
+
+/* Where another branch crosses, rounding would lead to it. */
+static void make_alike(void *self, double *step) {
+  const ZpStatics *s = self;
+  size_t each = s->n / s->members;
+  for (size_t i = 0; i < each; i++) {
+    double mean = 0;
+    for (size_t k = 0; k < s->members; k++)
+      mean += step[k * each + i] / (double)s->members;
+    for (size_t k = 0; k < s->members; k++)
+      step[k * each + i] = mean;
+  }
+}
+
+/* Each has the same. */
+static size_t negative_of_one(void *self) {
+  const ZpStatics *s = self;
+  return zp_band_negative(s->K) / s->members;
+}
+
 ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
   const ZpModel *model = s->member->model;
-  bool voltage = along == ZP_ALONG_VOLTAGE;
+  bool voltage = along == ZP_ALONG_VOLTAGE, alike = are_alike(s);
   return (ZpBranchSystem){.at_rest = zp_statics_system(s),
                           .get = voltage ? get_voltage : get_load,
                           .set = voltage ? set_voltage : set_load,
                           .sensitivity = voltage ? by_voltage : by_load,
                           .position = position,
+                          .make_alike = alike ? make_alike : NULL,
+                          .negative = alike ? negative_of_one : NULL,
                           .save = save,
                           .restore = restore,
                           .save_size = (3 * s->members * model->stride + 3) * sizeof(double),

@@ -31,6 +31,7 @@ typedef struct ZpStatics {
   size_t n;             /* equations of all */
   ZpBandForm form;      /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
+  const ZpBand *K; /* where the last stiffness is, and maybe its factors */
   double U;          /* of the first member, V */
   double bias;       /* share of the lower antagonist's own voltage that acts */
   double load;       /* mass hung on all members, kg; starts as load.mass */
@@ -135,8 +136,9 @@ void zp_statics_masses(const ZpStatics *statics, double *mass);
  * that of the upper one; in series their sum. */
 double zp_statics_closed_length(const ZpStatics *statics);
 
-/* Of a member: voltage, V; closed length, m; force with which it pulls the load up at the present point, N. */
+/* Of a member: voltage, V; opening, closed length, m; force with which it pulls the load up at the present point, N. */
 double zp_statics_member_voltage(const ZpStatics *statics, size_t which);
+double zp_statics_member_opening(const ZpStatics *statics, size_t which);
 double zp_statics_member_closed(const ZpStatics *statics, size_t which);
 double zp_statics_member_force(ZpStatics *statics, size_t which);
 

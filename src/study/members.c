@@ -22,15 +22,19 @@ static const ZpColumn of_each[] = {OF_MEMBER(1), OF_MEMBER(2), OF_MEMBER(3), OF_
                                    OF_MEMBER(5), OF_MEMBER(6), OF_MEMBER(7), OF_MEMBER(8)};
 enum { OF_EACH = 2 };
 
+#define OPENING(k)                                                                                                     \
+  { "member_" #k "_opening_m", "m", "distance between the platforms' faces of member " #k }
+static const ZpColumn openings[] = {OPENING(1), OPENING(2), OPENING(3), OPENING(4),
+                                    OPENING(5), OPENING(6), OPENING(7), OPENING(8)};
 static const ZpColumn closed_members = {"closed_members", "1", "number of closed members"};
 
 /* => how many there are. */
 static size_t columns_of(const ZpModel *model, ZpColumn *columns) {
   size_t members = zp_members(model);
   bool opposed = zp_is_opposed(model), shared = zp_shares_load(model);
-  size_t count = opposed ? LOWER : shared ? OF_EACH * members : 0;
+  size_t count = opposed ? LOWER : shared ? OF_EACH * members : members;
   if (members == 1) return 0;
-  memcpy(columns, opposed ? lower : of_each, count * sizeof *columns);
+  memcpy(columns, opposed ? lower : shared ? of_each : openings, count * sizeof *columns);
   columns[count] = shared ? stiffness : closed_members;
   return count + 1;
 }
@@ -47,12 +51,14 @@ void zp_members_values(ZpRest *rest, double *values) {
   ZpStatics *s = &rest->statics;
   if (s->members == 1) return;
   if (!s->shared) {
+    for (size_t k = 0; k < s->members; k++)
+      *values++ = zp_statics_member_opening(s, k);
     *values = (double)zp_closed_members(s);
     return;
   }
   if (s->distance > 0) {
     *values++ = zp_statics_member_voltage(s, 1);
-    *values++ = s->distance - zp_statics_opening(s);
+    *values++ = zp_statics_member_opening(s, 1);
     *values++ = zp_statics_member_closed(s, 1);
   }
   for (size_t k = 0; k < s->members && !(s->distance > 0); k++) {
