@@ -374,6 +374,14 @@ def check_full_disk(zipact, scratch):
     ok("a full disk: no table", not (folder / "table.csv").exists())
     again = zipact.run("rest", folder, "--resume")
     ok("with room again: the bytes of an uninterrupted run", again.returncode == 0 and results(folder) == results(scratch / "rest-1"))
+    folder = scratch / "filling"
+    words = [zipact.program, "stationary", "--set", "output.errors=false", "--no-plots", "--quiet", "-o", str(folder), "--set"]
+    subprocess.run([*words, "mesh.nodes=[5, 9]"], check=True)
+    before = (folder / "table.csv").read_text().splitlines()
+    (folder / "table.csv").unlink()
+    full = subprocess.run([*words, "mesh.nodes=[5, 9, 2001]", "--resume"], stderr=subprocess.PIPE, text=True, preexec_fn=small_disk, restore_signals=False)
+    ok("a disk that a row fills: status 3, and the journal is named", full.returncode == 3 and "journal.sqlite" in full.stderr)
+    ok("a disk that a row fills: a table of the rows before", (folder / "table.csv").exists() and (folder / "table.csv").read_text().splitlines() == before)
 
 
 def check_outcomes(zipact, scratch):

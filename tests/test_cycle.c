@@ -274,6 +274,45 @@ START_TEST(test_method_by_itself) {
 }
 END_TEST
 
+/* Amplitude of a harmonic of the opening, m. */
+static double harmonic_of_opening(const ZpResult *result, int n) {
+  const size_t cycle = result->series->rows - 1;
+  double cosine = 0, sine = 0;
+  for (size_t k = 0; k < cycle; k++) {
+    double y = zp_table_get(result->series, k, "opening_m"),
+           angle = 2 * 3.14159265358979 * n * (double)k / (double)cycle;
+    cosine += y * cos(angle);
+    sine += y * sin(angle);
+  }
+  return (n > 0 ? 2 : 1) * hypot(cosine, sine) / (double)cycle;
+}
+
+/* Below a resonance, under a sine of both signs, whose square has one harmonic: motion and equilibrium differ in their
+ * mean and in multiples of that harmonic as the linear answer estimates, eq. (24.8). */
+START_TEST(test_second_order_is_that_of_the_motion) {
+  enum { STILL, SMALL, WHOLE, ROUTES };
+  static const double f = 1.7, U = 2e3;
+  ZpResult *result[ROUTES];
+  for (int k = 0; k < ROUTES; k++) {
+    ZpActuatorDef def = DEF(SINE, {"mesh.nodes", 9}, {"damping.internal", 2e-3}, {"drive.voltage", U},
+                            {"drive.offset", -U}, {"drive.frequency", k == STILL ? 1e-3 : f},
+                            {"cycle.method", k == WHOLE ? ZP_CYCLE_MOTION : ZP_CYCLE_LINEAR});
+    result[k] = cycle_of(&def);
+    ck_assert(zp_result_get(result[k], "periodic") == 1);
+  }
+  double first = harmonic_of_opening(result[WHOLE], 2),
+         gain = harmonic_of_opening(result[SMALL], 2) / harmonic_of_opening(result[STILL], 2),
+         mean = fabs(harmonic_of_opening(result[WHOLE], 0) - harmonic_of_opening(result[SMALL], 0)),
+         swings = harmonic_of_opening(result[WHOLE], 4) + harmonic_of_opening(result[WHOLE], 6),
+         whole = (mean + swings) / first;
+  printf("second order: mean %.3g, swings %.3g, gain %.3g\n", mean / first, swings / first, gain);
+  ck_near(zp_result_get(result[SMALL], "second_order"), swings / first + gain * whole * whole,
+          5e-2); /* 1.7e-2 measured */
+  for (int k = 0; k < ROUTES; k++)
+    zp_result_destroy(result[k]);
+}
+END_TEST
+
 /* Velocities of the linear answer are the slopes of its positions. */
 START_TEST(test_velocities_of_the_linear_answer) {
   static const double f = 8;
@@ -451,6 +490,7 @@ int main(void) {
   tcase_add_loop_test(cycles, test_small_motion_is_that_of_the_modes, 0, 4);
   tcase_add_loop_test(cycles, test_linear_answer_is_small_motion, 0, 6);
   tcase_add_test(cycles, test_method_by_itself);
+  tcase_add_test(cycles, test_second_order_is_that_of_the_motion);
   tcase_add_test(cycles, test_velocities_of_the_linear_answer);
   tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
   tcase_add_test(cycles, test_shooting_with_slow_charges);

@@ -365,6 +365,47 @@ START_TEST(test_plates_derivative) {
 }
 END_TEST
 
+/* -- a whole actuator over a step ------------------------------------------------------------------ */
+
+/* Without damping all mean forces over a step, those of ribbons and of the field, are those of the step back, for rods
+ * as for particles: motion does not know the direction of time. */
+START_TEST(test_forces_of_the_step_back) {
+  static const size_t nodes = 11;
+  static const double U[] = {6e3, 10e3};
+  ZpActuatorDef def = DEF({"mesh.nodes", (double)nodes}, {"liquid.model", ZP_LIQUID_NONE}, {"damping.internal", 0},
+                          {"contact.model", ZP_CONTACT_UNILATERAL}, {"ribbon.model", _i});
+  ZpModel *model = model_of(&def);
+  const size_t n = 2 * model->stride;
+  ZpEval eval;
+  uint64_t seed = 3;
+  double *q[2], *F[2], apart = 0, largest = 0;
+  ck_assert(zp_system_create(model, true, &eval));
+  for (int end = 0; end < 2; end++) {
+    q[end] = calloc(n, sizeof *q[end]), F[end] = calloc(n, sizeof *F[end]);
+    for (size_t j = 0; j < 2 * nodes; j++) {
+      double along = (double)(j / 2) * model->l;
+      q[end][j] = along * (1 + 1e-4 * noise(&seed));
+      q[end][model->stride + j] = (j % 2 ? -0.2 : 0.1) * along * (1 + 0.1 * noise(&seed));
+    }
+  }
+  for (int back = 0; back < 2; back++) {
+    ZpSpan span = {.start = q[back], .end = q[1 - back], .h = 1e-4, .U0 = U[back], .U1 = U[1 - back], .share = 1};
+    zp_system_begin(model, &span, &eval);
+    zp_system_force(model, &span, &eval, F[back]);
+  }
+  for (size_t k = 0; k < n; k++) {
+    apart = fmax(apart, fabs(F[1][k] - F[0][k]));
+    largest = fmax(largest, fabs(F[0][k]));
+  }
+  printf("%s: forces of the step back off by %.1e\n", _i == ZP_RIBBON_ROD ? "rod" : "particles", apart / largest);
+  ck_below(apart / largest, 1e-13);
+  for (int end = 0; end < 2; end++)
+    free(q[end]), free(F[end]);
+  zp_system_destroy(&eval);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* -- one ribbon in motion -------------------------------------------------------------------------- */
 
 #define IMPLICIT                                                                                                       \
@@ -660,6 +701,48 @@ START_TEST(creep_in_a_bath_takes_few_steps) {
     zp_model_destroy(model);
   }
   ck_near(opening[0], opening[1], 1e-3); /* 3.1e-4 measured */
+}
+END_TEST
+
+/* Relative velocity of the faces at station i. */
+static double parting_of(const ZpModel *model, const double *vy, size_t i) {
+  return vy[zp_upper(&model->topology, i)] - vy[zp_lower(&model->topology, i)];
+}
+
+/* The midpoint rule turns velocities around the mean of a step: v1 = 2 w - v0. Where faces lie on each other in a film,
+ * it takes a share s^3 of the difference, eq. (18.14), of third order in the step: a film of thickness H takes momentum
+ * in the time H^2 / (12 nu). All other stations keep the whole difference. */
+START_TEST(test_share_of_momentum_that_a_film_takes) {
+  enum { STEPS = 12, NODES_OF_HALF = 21 };
+  const double h = 1e-3, nu = 50e-6, roughness = 1e-3;
+  ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", NODES_OF_HALF},
+                          {"film.roughness", roughness}, {"medium.kinematic_viscosity", nu}, {"drive.voltage", 2e3},
+                          {"drive.waveform", ZP_WAVEFORM_SINE}, {"solver.time_step", h});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double v0[NODES_OF_HALF] = {0}, gap[NODES_OF_HALF] = {0}, worst = 0, largest = 0;
+  size_t thin = 0, thick = 0;
+  for (int k = 0; k <= STEPS; k++) {
+    if (k > 0) ck_assert_int_eq(zp_sim_run(sim, k * h, false, NULL, NULL), ZP_REACHED_END);
+    ZpMotion now = zp_state_motion(model, sim->state);
+    for (size_t i = 1; i < model->nodes; i++) {
+      double before = gap[i], v = parting_of(model, now.vy, i), H, s;
+      gap[i] = parting_of(model, now.y, i);
+      double w = (gap[i] - before) / h, difference = w - v0[i];
+      v0[i] = v;
+      if (k == 0) continue;
+      H = zp_film_thickness(&model->film, gap[i]);
+      s = H > 2 * roughness ? 0 : 6 * nu * h / (6 * nu * h + H * H);
+      *(s > 0 ? &thin : &thick) += 1;
+      worst = fmax(worst, fabs(v - w - (1 - s * s * s) * difference));
+      if (s > 0) largest = fmax(largest, s * s * s * fabs(difference));
+    }
+  }
+  printf("%zu thin films and %zu others: velocities off by %.1e of what films take\n", thin, thick, worst / largest);
+  ck_assert(thin > STEPS && thick > STEPS);
+  ck_below(worst / largest, 1e-6);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
 }
 END_TEST
 
@@ -994,6 +1077,7 @@ int main(void) {
   tcase_add_loop_test(forces, test_rod_exchange, 0, LENGTH_OF(kinds));
   tcase_add_loop_test(forces, test_plates_work, 0, LENGTH_OF(laws));
   tcase_add_loop_test(forces, test_plates_derivative, 0, LENGTH_OF(laws));
+  tcase_add_loop_test(forces, test_forces_of_the_step_back, 0, 2);
   suite_add_tcase(suite, forces);
   TCase *ribbon = tcase_create("ribbon");
   tcase_add_test(ribbon, test_swing_keeps_energy);
@@ -1007,6 +1091,7 @@ int main(void) {
   tcase_add_test(two, test_closing_instant_within_a_step);
   tcase_add_test(two, test_zip_time_is_within_the_run);
   tcase_add_test(two, faces_do_not_fall_through_thin_insulators);
+  tcase_add_test(two, test_share_of_momentum_that_a_film_takes);
   if (!SANITIZED) { /* of code that the others run, too */
     tcase_add_test(two, test_zip_time);
     tcase_add_loop_test(two, tolerance_keeps_its_word, 1, 2);

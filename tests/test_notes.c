@@ -49,6 +49,27 @@ START_TEST(uncapped_liquid_is_noted_in_every_study) {
 }
 END_TEST
 
+/* A bowed strip that is laid straight without tension bears only the stress of bending, E k b / 2 over 1 - nu^2 where
+ * it is elastic. If that is more than the yield stress, its faces have yielded and bear exactly that, up to rounding.
+ */
+START_TEST(yielding_is_noted_where_it_begins) {
+  enum { STRESSES = 40 };
+  static const double k = 30;
+  ZpActuatorDef def =
+      DEF({"actuator.kind", ZP_KIND_RIBBON}, {"initial.state", ZP_INITIAL_STRAIGHT}, {"mesh.nodes", 9},
+          {"ribbon.length", 62.5e-3}, {"segment_1.length", 62.5e-3}, {"segment_1.curvature", k}, {"gravity", 0},
+          {"load.mass", 0}, {"ribbon.plasticity", true}, {"solver.end_time", 1e-6}, {"output.errors", 0});
+  double nu = def.ribbon.poisson_ratio,
+         elastic = 0.5 * def.ribbon.young_modulus / (1 - nu * nu) * k * def.ribbon.thickness;
+  for (int i = 0; i < STRESSES; i++) {
+    def.ribbon.yield_stress = elastic * (0.51 + 0.02 * i);
+    bool yields = def.ribbon.yield_stress < elastic;
+    ck_assert_msg(notes(ZP_STUDY_ACTUATE, &def, "reaches its yield stress") == yields, "%g MPa of %g MPa",
+                  1e-6 * def.ribbon.yield_stress, 1e-6 * elastic);
+  }
+}
+END_TEST
+
 /* No voltage, no note; and the default actuator in a mesh that is fine enough has none but that of its zip time. */
 START_TEST(nothing_to_note) {
   ZpActuatorDef def = DEF(QUICK, {"insulator.breakdown_field", 1e3});
@@ -309,6 +330,7 @@ int main(void) {
   tcase_add_loop_test(c, breakdown_is_noted_in_every_study, 0, LENGTH_OF(under_voltage));
   tcase_add_loop_test(c, uncapped_liquid_is_noted_in_every_study, 0, LENGTH_OF(under_voltage));
   tcase_add_test(c, nothing_to_note);
+  tcase_add_test(c, yielding_is_noted_where_it_begins);
   tcase_add_test(c, flange_is_noted_where_it_touches);
   tcase_add_test(c, nearly_closed_start_is_noted);
   tcase_add_loop_test(c, closed_start_is_no_zip, 0, 4);

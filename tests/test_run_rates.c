@@ -188,6 +188,33 @@ START_TEST(steps_go_with_their_corners) {
 }
 END_TEST
 
+/* Actuators near the run catch or drop their own mass, with their own velocities, at their own time. Where that
+ * changes, the difference is also of other steps: its error is proportional to their square. */
+START_TEST(change_of_the_load_moves_with_its_keys) {
+  static const struct {
+    double mass, height;
+    const char *key;
+    double step, allowed;
+  } row[] = {{5e-3, 10e-3, "load.mass", 1e-4, 1e-6},        {5e-3, 10e-3, "load.change_mass", 1e-4, 1e-6},
+             {5e-3, 10e-3, "load.drop_height", 1e-4, 1e-6}, {5e-3, 10e-3, "ribbon.thickness", 1e-4, 1e-6},
+             {-4e-3, 0, "load.mass", 1e-4, 1e-6},           {-4e-3, 0, "load.change_mass", 1e-4, 1e-6},
+             {5e-3, 10e-3, "load.change_time", 1e-4, 1e-4}, {-4e-3, 0, "load.change_time", 2.5e-5, 2e-3}};
+  for (size_t k = 0; k < LENGTH_OF(row); k++) {
+    ZpActuatorDef def = motion();
+    def.mesh.nodes = 9;
+    def.liquid.model = ZP_LIQUID_NONE;
+    def.drive.voltage = 5e3;
+    def.solver.tolerance = 1e-2;
+    def.solver.time_step = row[k].step;
+    def.solver.end_time = 8e-3;
+    def.load.change_time = 5.05e-3;
+    def.load.change_mass = row[k].mass;
+    def.load.drop_height = row[k].height;
+    check(&def, "opening_m", row[k].key, 1e-3, row[k].allowed);
+  }
+}
+END_TEST
+
 /* Regression: at this voltage the neighbours' voltages were rounded, which counted as jumps, so their accounts of the
  * source's work closed in steps in which the run's did not. The difference grew by two thirds in each of them. */
 START_TEST(work_of_a_constant_source) {
@@ -309,7 +336,8 @@ static ZpActuatorDef supplied(ZpLiquidModel liquid) {
 }
 
 /* The largest current is at the corner of the ramp. Steps at an impact are so short that the current of a neighbour
- * alone would be larger. */
+ * alone would be larger. After the zip, at 105 ms, closed faces bounce: what remains of a small change then differs
+ * with the steps, so the current until then has no derivative. That until 80 ms has one. */
 START_TEST(peak_and_rms_current_with_impacts) {
   ZpActuatorDef def = supplied(ZP_LIQUID_NONE);
   def.solver.end_time = 0.11;
@@ -317,9 +345,11 @@ START_TEST(peak_and_rms_current_with_impacts) {
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_near(slope_in(result, "peak_current_A", "ribbon.thickness"),
           difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 5e-5); /* 1.4e-5 measured */
-  double rms = slope_in(result, "rms_current_A", "ribbon.thickness");
-  ck_assert(isnan(rms) || fabs(rms / difference(&def, "rms_current_A", "ribbon.thickness", 1e-3) - 1) < 1e-2);
+  ck_assert_double_nan(slope_in(result, "rms_current_A", "ribbon.thickness"));
+  ck_assert_uint_eq(notes_with(result, "null because other steps change it by more than 1 %"), 1);
   zp_result_destroy(result);
+  def.solver.end_time = 0.08;
+  check(&def, "rms_current_A", "ribbon.thickness", 1e-3, 2e-3); /* 3.7e-4 measured */
 }
 END_TEST
 
@@ -513,6 +543,7 @@ int main(void) {
   tcase_add_test(tests, start_of_a_swing);
   tcase_add_test(tests, corners_move_with_their_key);
   tcase_add_test(tests, steps_go_with_their_corners);
+  tcase_add_test(tests, change_of_the_load_moves_with_its_keys);
   tcase_add_test(tests, work_of_a_constant_source);
   tcase_add_test(tests, swing_scales);
   tcase_add_test(tests, charging_through_a_resistor);

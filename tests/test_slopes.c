@@ -274,6 +274,7 @@ START_TEST(what_has_no_derivative_is_refused) {
                {"gravity,", "unknown key", ZP_STUDY_LIMITS},
                {"solver.tolerance", "a setting of the computation", ZP_STUDY_EQUILIBRIUM},
                {"electro.insulator_offset", "is auto: give it a number", ZP_STUDY_ISOMETRIC},
+               {"load.change_time", "is none: give it a number", ZP_STUDY_ISOMETRIC},
                {",", "unknown key", ZP_STUDY_ISOMETRIC}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
     ZpActuatorDef def = zp_actuator_def_default();
@@ -285,6 +286,17 @@ START_TEST(what_has_no_derivative_is_refused) {
   ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD});
   zp_def_set_text(&field, zp_key_find("sensitivity.by"), "gravity", NULL);
   ck_refused_by(ZP_STUDY_LIMITS, &field, "requires electro.model plates");
+}
+END_TEST
+
+/* A platform that is held does not notice when the load would change. */
+START_TEST(held_platform_does_not_depend_on_a_change_of_the_load) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"load.change_time", 5e-3}, {"load.change_mass", 4e-3});
+  ZpResult *result = run_by(ZP_STUDY_ISOMETRIC, &def, "load.change_time, gravity");
+  double largest = zp_result_get(result, "force_unpowered_N") / def.load.change_time;
+  ck_below(fabs(slope_in(result, "force_unpowered_N", "load.change_time")), 1e-9 * fabs(largest));
+  ck_assert(fabs(slope_in(result, "force_unpowered_N", "gravity")) > 0);
+  zp_result_destroy(result);
 }
 END_TEST
 
@@ -325,6 +337,7 @@ int main(void) {
   tcase_add_test(tests, gradual_largest_load_changes_as_differences_say);
   tcase_add_test(tests, no_derivative_at_a_corner);
   tcase_add_test(tests, what_has_no_derivative_is_refused);
+  tcase_add_test(tests, held_platform_does_not_depend_on_a_change_of_the_load);
   tcase_add_test(tests, profile_notes_that_it_has_none);
   tcase_add_test(tests, keys_at_their_bounds);
   suite_add_tcase(suite, tests);

@@ -55,6 +55,27 @@ START_TEST(members_carry_those_below) {
 }
 END_TEST
 
+/* The uppermost of equal members sets the largest load: what it lifts alone, less the members and links below it. If
+ * they are heavier than that, the series lifts nothing. */
+START_TEST(uppermost_member_lifts_those_below) {
+  static const double links[] = {0, 0.5e-3, 0.5};
+  ZpActuatorDef one = DEF({"mesh.nodes", 15}, {"platform.length", 0});
+  double alone = answered_value(ZP_STUDY_LIMITS, &one, "max_load_kg"),
+         own = answered_value(ZP_STUDY_LIMITS, &one, "mass_kg");
+  ck_assert(alone > 1.05 * 2 * own && alone < 2 * links[2]);
+  for (size_t k = 0; k < LENGTH_OF(links); k++) {
+    ZpActuatorDef three = one;
+    three.stack.series = 3;
+    three.stack.link_mass = links[k];
+    double most = answered_value(ZP_STUDY_LIMITS, &three, "max_load_kg"), below = 2 * (own + links[k]);
+    if (alone > below)
+      ck_near(most, alone - below, 1e-9);
+    else
+      ck_assert(isnan(most));
+  }
+}
+END_TEST
+
 /* So many in parallel under so many loads are one under one, at rest, in their limits and in motion. */
 START_TEST(parallel_shares_the_load) {
   ZpActuatorDef one = DEF({"mesh.nodes", 21}, {"solver.end_time", 0.1}), three = one;
@@ -704,6 +725,7 @@ int main(void) {
   TCase *rest = tcase_create("rest");
   tcase_add_test(rest, weightless_series_pulls_in_as_one);
   tcase_add_test(rest, members_carry_those_below);
+  tcase_add_test(rest, uppermost_member_lifts_those_below);
   tcase_add_test(rest, parallel_shares_the_load);
   tcase_add_test(rest, what_a_stack_lacks_is_said);
   tcase_add_test(rest, forces_carry_the_load);

@@ -171,6 +171,27 @@ START_TEST(motion_mirrors_with_beads_and_fields) {
 }
 END_TEST
 
+/* Behind a resistance the charge that the electrodes take in each step sets their voltage: with beads that reach unlike
+ * far it is that of the mirror image as well. */
+START_TEST(charging_mirrors_with_beads) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 30e-6},
+                          {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 20e-9}, {"drive.voltage", 6e3},
+                          {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", 1e8});
+  static const char *const signals[] = {"voltage", "charge", "electric_work", "source_loss"};
+  ZpModel *model[2];
+  ZpSim *sim[2];
+  for (int k = 0; k < 2; k++) {
+    def.mount.tilt = (k ? -1 : 1) * half_turn / 4;
+    model[k] = model_of(&def);
+    sim[k] = sim_of(model[k]);
+    ck_assert(zp_outcome_good(zp_sim_run(sim[k], 20e-3, false, NULL, NULL)));
+  }
+  const ZpBead *bead = sim[0]->state->bead;
+  ck_assert_double_gt(fabs(bead[1].reach / bead[0].reach - 1), 1e-3);
+  ck_same_signals(sim, model, signals, LENGTH_OF(signals), 1e-12);
+}
+END_TEST
+
 /* The energy balances while a tilted actuator zips, opens and swings under weight and force, dry and in a bath. */
 START_TEST(energy_at_an_angle) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", half_turn / 4},
@@ -239,6 +260,7 @@ int main(void) {
   suite_add_tcase(suite, rest);
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, motion_mirrors_with_beads_and_fields, 0, 2);
+  tcase_add_test(motion, charging_mirrors_with_beads);
   tcase_add_loop_test(motion, energy_at_an_angle, 0, 2);
   suite_add_tcase(suite, motion);
   return run_suite(suite);

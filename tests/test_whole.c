@@ -82,9 +82,27 @@ START_TEST(held_forces_are_those_of_the_half) {
 }
 END_TEST
 
+/* Both halves of a ribbon have the tension of the half, in mirrored order. The rigid platform between them is no
+ * ribbon. */
+static void check_tensions(Both both) {
+  const ZpTable *half = both.half->series, *whole = both.whole->series;
+  const size_t edges = half->rows - 1, last = whole->rows - 1;
+  double most = 0, off = 0;
+  ck_assert_uint_eq(last, 2 * edges + 1);
+  for (size_t i = 0; i < edges; i++) {
+    double tension = zp_table_get(half, i, "tension_N");
+    most = fmax(most, fabs(tension));
+    off = fmax(off, fabs(zp_table_get(whole, i, "tension_N") - tension));
+    off = fmax(off, fabs(zp_table_get(whole, last - 1 - i, "tension_N") - tension));
+  }
+  ck_below(off / most, 1e-6); /* 3.4e-7 measured */
+  ck_assert(isnan(zp_table_get(whole, edges, "tension_N")) && isnan(zp_table_get(whole, last, "tension_N")));
+}
+
 START_TEST(rest_is_that_of_the_half) {
   Both both = run_both(ZP_STUDY_STATIONARY, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "stroke_m", "opening_m");
+  check_tensions(both);
   destroy(both);
 }
 END_TEST

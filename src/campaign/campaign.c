@@ -14,6 +14,7 @@
 #include <errno.h>
 #include <pthread.h>
 #include <stdatomic.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -66,6 +67,7 @@ struct ZpCampaign {
   uint64_t start;      /* zp_campaign_hash */
   uint64_t *hash;      /* [cases] hashes of the rows of an earlier process; 0: none */
   unsigned char *mark; /* [cases] a Mark; used by the writer only */
+  size_t uncommitted;  /* least number of a row that the journal may still lose; SIZE_MAX: none; the writer's, too */
   ZpCampaignState state;
   atomic_bool stop;
   pthread_mutex_t lock; /* guards the members below */
@@ -312,6 +314,7 @@ static ZpStatus write_row(ZpCampaign *c, const Row *row, ZpError *err) {
   unsigned char *mark = &c->mark[row->number];
   bool good = *mark == MARK_OLD_GOOD;
   if (row->packed) {
+    if (row->number < c->uncommitted) c->uncommitted = row->number;
     ZpStatus status = zp_journal_put(c->journal, row->number, row->hash, row->packed, err);
     if (status != ZP_OK) return status;
     good = zp_outcome_good(row->packed->outcome);
@@ -329,6 +332,12 @@ static ZpStatus write_rows(ZpCampaign *c, const Row *row, size_t count, ZpStatus
     if (status == ZP_OK) status = write_row(c, &row[i], err);
     free(row[i].packed);
   }
+  return status;
+}
+
+static ZpStatus commit(ZpCampaign *c, ZpError *err) {
+  ZpStatus status = zp_journal_commit(c->journal, err);
+  if (status == ZP_OK) c->uncommitted = SIZE_MAX;
   return status;
 }
 
@@ -350,7 +359,7 @@ static ZpStatus write_all(ZpCampaign *c, const Worker *worker, size_t workers, Z
     status = write_rows(c, row, count, status, err);
     const bool due = now() - committed >= COMMIT_AFTER || !open;
     if (due) committed = now();
-    if (due && status == ZP_OK) status = zp_journal_commit(c->journal, err);
+    if (due && status == ZP_OK) status = commit(c, err);
     if (status != ZP_OK) atomic_store(&c->stop, true);
     if (now() - looked < PULSE && open) continue;
     looked = now();
@@ -470,6 +479,7 @@ ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, con
   c->cases = c->state.cases = zp_scenario_count(scenario);
   c->chunk = zp_case_chunk(scenario);
   c->keeps_series = zp_scenario_keeps_series(scenario);
+  c->uncommitted = SIZE_MAX;
   c->hash = calloc(c->cases, sizeof *c->hash);
   c->mark = calloc(c->cases, sizeof *c->mark);
   ZpStatus status = c->hash && c->mark ? open_campaign(c, directory, err) : zp_fail_memory(err);
@@ -484,8 +494,9 @@ ZpCampaignState zp_campaign_state(const ZpCampaign *campaign) {
 }
 
 size_t zp_campaign_count(const ZpCampaign *campaign) {
+  const size_t most = campaign->cases < campaign->uncommitted ? campaign->cases : campaign->uncommitted;
   size_t count = 0;
-  while (count < campaign->cases && campaign->mark[count] >= MARK_FAILED)
+  while (count < most && campaign->mark[count] >= MARK_FAILED)
     count++;
   return count;
 }

@@ -68,8 +68,10 @@ static bool round_cover(ZpSurplus *s, const ZpCover *cover) {
   return moved;
 }
 
+/* Is there liquid before pair i? Only halves have a computed field, and liquid lies from their clip on: if the element
+ * before a pair is dry, all beyond it is. */
 static bool is_wet(const ZpSurplus *s, size_t i) {
-  return s->cover.part[i - 1] > 0 || (i + 1 < s->plates.nodes && s->cover.part[i] > 0);
+  return s->cover.part[i - 1] > 0;
 }
 
 /* The gap below which the cap holds the force in the liquid, m; negative where closed faces are not capped. */

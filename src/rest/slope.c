@@ -29,7 +29,7 @@ ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
                    k->name);
   if (isnan(zp_def_get(def, key)))
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is auto: give it a number", k->name);
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is %s: give it a number", k->name, k->text);
   return ZP_OK;
 }
 

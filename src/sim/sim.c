@@ -291,11 +291,17 @@ ZpSim *zp_sim_loaded(ZpSim *sim) {
   return sim;
 }
 
+/* A change of the load that is due now comes before the next step. */
+static double next_change(const ZpSim *sim) {
+  double due = zp_sim_load_due(sim);
+  return due > sim->state->t ? due : INFINITY;
+}
+
 double zp_sim_next_corner(ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
                                   : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  double load = fmin(zp_sim_load_due(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
+  double load = fmin(next_change(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
   return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
 }
 

@@ -428,9 +428,11 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
-/* The load does not count: it is removed before anything is scaled by it. */
+/* The load does not count: it is removed before anything is scaled by it. The time at which it would change remains,
+ * so that the derivative by it is 0. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = zp_def_unloaded(task->def);
+  bare.load.change_time = task->def->load.change_time;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;

@@ -31,11 +31,17 @@ static void add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *
   note_breakdown(result, model, seen);
 }
 
+/* A strip that yields without hardening bears its yield stress, to rounding. */
+static bool has_yielded(const ZpModel *model, const ZpMargins *seen) {
+  static const double rounding = 1e-12;
+  return model->rod.plastic && seen->stress >= (1 - rounding) * seen->yields;
+}
+
 void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   zp_result_add(result, "max_stress_Pa", "Pa", seen->stress);
   zp_result_add(result, "max_stress_place_m", "m", seen->stress_place);
   zp_result_add(result, "yield_margin", "1", seen->stress > 0 ? seen->yields / seen->stress : NAN);
-  if (model->rod.plastic && seen->stress >= seen->yields)
+  if (has_yielded(model, seen))
     zp_result_note(result, "the metal reaches its yield stress of %.4g MPa: it stays bent", seen->yields / 1e6);
   else if (seen->stress > seen->yields)
     zp_result_note(result,
