@@ -45,7 +45,8 @@ static double contact_energy(const ZpFacesParams *p, const double *gap) {
 static double energy(ZpRest *r) {
   ZpStatics *s = &r->statics;
   const ZpModel *model = s->member->model;
-  double sum = zp_rod_stretching_energy(&model->rod, &s->member->eval.rod) + zp_rod_bending_energy(&model->rod, &s->member->eval.rod);
+  double sum = zp_rod_stretching_energy(&model->rod, &s->member->eval.rod) +
+               zp_rod_bending_energy(&model->rod, &s->member->eval.rod);
   for (size_t j = 0; j < model->count; j++)
     sum += model->weight[j] * s->member->q[model->stride + j];
   return sum + zp_plates_totals(&model->plates, &s->member->eval.plates, s->U).potential +

@@ -119,15 +119,16 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
 
 /* -- several members ------------------------------------------------------------------------------- */
 
-/* Of each member alone: how many equations it has, how many the members before it have, and which one is the height of a
- * shared load. */
+/* Of each member alone: how many equations it has, how many the members before it have, and which one is the height of
+ * a shared load. */
 typedef struct Joined {
   size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS], load[ZP_MOST_MEMBERS];
   bool shared;
 } Joined;
 
-/* An equation of one member alone => of all. Of two that share a load, those of the second one follow from its platform back to its clip,
- * so that the matrix stays a narrow band. More than two have the same equations; those of the same number are adjacent.
+/* An equation of one member alone => of all. Of two that share a load, those of the second one follow from its platform
+ * back to its clip, so that the matrix stays a narrow band. More than two have the same equations; those of the same
+ * number are adjacent.
  */
 static size_t place_of(const Joined *of, size_t which, size_t i) {
   size_t load = of->load[which], back = of->count[0] + of->count[1] - 1 - i, members = of->members;

@@ -10,8 +10,8 @@
  * the last residual. `self` is a ZpStatics; row [n] gets the derivative by the coordinates (NULL: not needed). */
 double zp_closing_gap(void *self, double *row);
 
-/* At the present point all hang without a voltage => the gap at which the first member counts as closed, m; those of the
- * others are kept in the members. */
+/* At the present point all hang without a voltage => the gap at which the first member counts as closed, m; those of
+ * the others are kept in the members. */
 double zp_mark_closed(ZpStatics *statics);
 
 /* The sum of these gaps of members in series, m; else that of the first member. */

@@ -10,8 +10,8 @@
 
 struct ZpRest {
   ZpStatics statics;
-  ZpBranch branch;        /* along the voltage; its `newton` also serves without a branch */
-  ZpBranchSystem system;  /* of the branch */
+  ZpBranch branch;                         /* along the voltage; its `newton` also serves without a branch */
+  ZpBranchSystem system;                   /* of the branch */
   ZpShapeRoom shape_room[ZP_MOST_MEMBERS]; /* for the shapes of the members */
   ZpManyShapes shapes;                     /* of several */
   void *memory;

@@ -90,7 +90,8 @@ static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
   memcpy(near->member->q, at->member->q, 2 * at->member->model->stride * sizeof *near->member->q);
-  if (near->member->model->L != at->member->model->L) zp_stretch(near->member->model, near->member->model->L / at->member->model->L, near->member->q);
+  if (near->member->model->L != at->member->model->L)
+    zp_stretch(near->member->model, near->member->model->L / at->member->model->L, near->member->q);
   near->U = at->U;
   near->load = at->load;
   near->opening = at->opening;
@@ -144,7 +145,8 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
 static void stiffness(ZpSlope *p, double *r) {
   ZpStatics *at = p->at;
   residual(at, p->work->r);
-  memcpy(at->member->tension, at->member->eval.edges.T, (at->member->model->count - at->member->model->s) * sizeof *at->member->tension);
+  memcpy(at->member->tension, at->member->eval.edges.T,
+         (at->member->model->count - at->member->model->s) * sizeof *at->member->tension);
   zp_statics_system(at).stiffness(at, &p->work->K, r);
 }
 

@@ -50,7 +50,8 @@ double zp_slow_closed_by_load(ZpSlow *f) {
   fold->system = &f->load;
   if (!zp_fold_tangent(fold)) return NAN;
   double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
-  double change = zp_closed_opening(s->member->model, (1 + step) * gap) - zp_closed_opening(s->member->model, (1 - step) * gap);
+  double change =
+      zp_closed_opening(s->member->model, (1 + step) * gap) - zp_closed_opening(s->member->model, (1 - step) * gap);
   return by_load * change / (2 * step * gap);
 }
 

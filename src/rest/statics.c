@@ -552,7 +552,8 @@ static const char *fault_of_stations(const ZpRestMember *m, double U, bool conta
     least = fmin(least, m->eval.plates.gap[i]);
   if (contact_acts && least < -deepest_overlap(m->model, U)) return "the insulators' faces overlap";
   if (capacitance < 0) return "the capacitance is negative";
-  if (capacitance > beyond_plates * closed_capacitance(m->model)) return "the capacitance is above that of closed faces";
+  if (capacitance > beyond_plates * closed_capacitance(m->model))
+    return "the capacitance is above that of closed faces";
   return NULL;
 }
 

@@ -29,9 +29,9 @@ typedef struct ZpStatics {
   ZpRestMember *member; /* [members]; from the uppermost down */
   bool shared;          /* they have one load: its height is an unknown of all. In series each has its own frame */
   size_t n;             /* equations of all */
-  ZpBandForm form;      /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
+  ZpBandForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
-  const ZpBand *K; /* where the last stiffness is, and maybe its factors */
+  const ZpBand *K;   /* where the last stiffness is, and maybe its factors */
   double U;          /* of the first member, V */
   double bias;       /* share of the lower antagonist's own voltage that acts */
   double load;       /* mass hung on all members, kg; starts as load.mass */
@@ -85,7 +85,8 @@ double zp_statics_tolerance(const ZpStatics *statics);
  * other during the search, but not in the result. */
 ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
 
-/* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before. */
+/* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before.
+ */
 bool zp_statics_bias(ZpStatics *statics, ZpNewtonWork *work);
 
 /* Why there is no equilibrium at which a voltage could begin to rise. */
@@ -119,8 +120,8 @@ ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *w
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user, ZpNewtonWork *work);
 
 /* The present point: height of the clip or clamp over the right end of the lower or only ribbon, signed, m; distance
- * between the platforms' faces, m (NAN for one ribbon), both in series of all members together; angle of a fold, rad (NAN without a hinge); number of closed
- * stations from the clip, without the clip. */
+ * between the platforms' faces, m (NAN for one ribbon), both in series of all members together; angle of a fold, rad
+ * (NAN without a hinge); number of closed stations from the clip, without the clip. */
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
 double zp_statics_angle(const ZpStatics *statics);
@@ -132,8 +133,8 @@ bool zp_statics_shorted(const ZpStatics *statics);
 /* Moving masses by equations => mass [n], kg. */
 void zp_statics_masses(const ZpStatics *statics, double *mass);
 
-/* Closed length of one half, from the clip, m: of members that share a load what is closed in all of them, of antagonists
- * that of the upper one; in series their sum. */
+/* Closed length of one half, from the clip, m: of members that share a load what is closed in all of them, of
+ * antagonists that of the upper one; in series their sum. */
 double zp_statics_closed_length(const ZpStatics *statics);
 
 /* Of a member: voltage, V; opening, closed length, m; force with which it pulls the load up at the present point, N. */

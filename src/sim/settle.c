@@ -136,7 +136,8 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   start_at(sim, q);
-  if (model->abreast) sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
+  if (model->abreast)
+    sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
 bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks) {

@@ -73,14 +73,14 @@ static void record(Follower *f, int branch) {
   ZpMargins margins;
   ZpShape shape = zp_rest_shape(&f->rest, f->points, &margins);
   double row[COLUMNS + ZP_MEMBER_COLUMNS] = {s->U,
-                         zp_statics_stroke(s),
-                         zp_statics_opening(s),
-                         zp_statics_closed_length(s),
-                         zp_statics_charge(s),
-                         zp_statics_capacitance(s),
-                         stable,
-                         branch,
-                         ZP_MARGIN_VALUES(margins)};
+                                             zp_statics_stroke(s),
+                                             zp_statics_opening(s),
+                                             zp_statics_closed_length(s),
+                                             zp_statics_charge(s),
+                                             zp_statics_capacitance(s),
+                                             stable,
+                                             branch,
+                                             ZP_MARGIN_VALUES(margins)};
   zp_members_values(&f->rest, row + COLUMNS);
   bool last = s->U == model->def.drive.voltage && f->points > 0;
   f->points++;

@@ -345,14 +345,14 @@ static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
   if (isnan(f->limits->limit[kind].value)) return;
   ZpMargins margins = look(f, f->limits->limit[kind].state);
   double row[COLUMNS + ZP_MEMBER_COLUMNS] = {kind,
-                         s->U,
-                         s->load,
-                         zp_statics_stroke(s),
-                         zp_statics_opening(s),
-                         zp_statics_closed_length(s),
-                         zp_statics_charge(s),
-                         zp_statics_capacitance(s),
-                         ZP_MARGIN_VALUES(margins)};
+                                             s->U,
+                                             s->load,
+                                             zp_statics_stroke(s),
+                                             zp_statics_opening(s),
+                                             zp_statics_closed_length(s),
+                                             zp_statics_charge(s),
+                                             zp_statics_capacitance(s),
+                                             ZP_MARGIN_VALUES(margins)};
   zp_members_values(&f->rest, row + COLUMNS);
   ZpShape shape = zp_rest_shape(&f->rest, kind, NULL);
   zp_table_offer(table, row);

@@ -102,7 +102,8 @@ static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope, const doub
   rate = zp_slope_of(slope, pose, closing_gap, NULL);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
     if (slope->by.model[k])
-      sum += slope->by.weight[k] * zp_closed_opening(slope->near[k].member->model, hanging + slope->by.offset[k] * rate);
+      sum +=
+          slope->by.weight[k] * zp_closed_opening(slope->near[k].member->model, hanging + slope->by.offset[k] * rate);
   return sum;
 }
 

@@ -18,26 +18,33 @@ static const ZpColumn columns[] = {
     {"upper_y_m", "m", "height of the upper ribbon"},
     {"stress_Pa", "Pa", "largest stress of the metal in the section of the lower or only ribbon"},
     {"upper_stress_Pa", "Pa", "largest stress of the metal in the section of the upper ribbon"},
+    {"member", "1", "number of the member; 1 is the uppermost"}, /* of several */
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
-  const ZpModel *model = s->member->model;
-  const ZpTopology *t = &model->topology;
-  const double *x = s->member->q, *y = s->member->q + model->stride;
+static void fill_rows(const ZpStatics *s, size_t which, const ZpShape *shape, ZpTable *table) {
+  const ZpRestMember *m = &s->member[which];
+  const ZpTopology *t = &m->model->topology;
+  size_t first = which * m->model->count; /* of its nodes in the shape */
   for (size_t i = 0; i < t->stations; i++) {
-    size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
+    size_t upper = first + zp_upper(t, i), lower = first + zp_lower(t, i);
     bool edge = i + 1 < t->stations && (i < t->platform.first || i >= t->platform.last), two = zp_is_pair(t);
     double row[COLUMNS] = {(double)i,
-                           x[lower],
-                           y[lower],
-                           edge ? s->member->eval.edges.T[lower] : NAN,
-                           two ? x[upper] : NAN,
-                           two ? y[upper] : NAN,
+                           shape->x[lower],
+                           shape->y[lower],
+                           edge ? m->eval.edges.T[zp_lower(t, i)] : NAN,
+                           two ? shape->x[upper] : NAN,
+                           two ? shape->y[upper] : NAN,
                            shape->stress[lower],
-                           two ? shape->stress[upper] : NAN};
+                           two ? shape->stress[upper] : NAN,
+                           (double)(which + 1)};
     zp_table_offer(table, row);
   }
+}
+
+static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
+  for (size_t which = 0; which < s->members; which++)
+    fill_rows(s, which, shape, table);
 }
 
 static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
@@ -81,8 +88,10 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
            info.end == ZP_NEWTON_REFUSED ? "the equilibrium found is impossible: " : "",
            s->stopped ? "interrupted" : words_of(s, info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
-  if (zp_is_pair(&s->member->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
-  if (zp_has_angle(&s->member->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (zp_is_pair(&s->member->model->topology))
+    zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
+  if (zp_has_angle(&s->member->model->topology))
+    zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
   if (found) zp_members_add(rest, result);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
@@ -116,7 +125,8 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   ZpRest rest = {0};
-  result->series = zp_table_create(columns, COLUMNS, model->nodes);
+  size_t members = zp_members(model);
+  result->series = zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * model->nodes);
   result->shapes = zp_model_shapes(model, 2);
   if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))
     run(&rest, task, result);

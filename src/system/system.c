@@ -74,12 +74,13 @@ static void add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAsse
   if (model->field) zp_assemble_gaps(assembly, &e->gaps, K);
 }
 
-void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
+void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e,
+                             ZpBand *K) {
   add_stiffness(model, span, assembly, e, true, K);
 }
 
-void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e,
-                                      ZpBand *K) {
+void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
+                                          ZpEval *e, ZpBand *K) {
   add_stiffness(model, span, assembly, e, false, K);
 }
 

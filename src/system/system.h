@@ -20,11 +20,12 @@ void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, dou
 
 /* K += -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
  * symmetric. */
-void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
+void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval,
+                             ZpBand *K);
 
 /* The same of all terms but those of edges (ZpTerm.of_edges). */
 void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
-                                      ZpEval *eval, ZpBand *K);
+                                          ZpEval *eval, ZpBand *K);
 
 /* The instant of a state, with its voltage, load, held forces and front, at coordinates q and velocities v (its own, or
  * trial values). */
