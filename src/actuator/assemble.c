@@ -190,27 +190,29 @@ static size_t place(const ZpAssembly *a, size_t k) {
   return k / 2 + (k % 2) * a->stride;
 }
 
-/* `value` of a coordinate as one of the unknown in its equation, or back. */
-static inline double turned(const ZpAssembly *a, int equation, double value) {
-  return equation == a->turned ? -value : value;
-}
-
 void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) equations[a->equation[k]] = turned(a, a->equation[k], nodes[place(a, k)]);
+    if (a->equation[k] >= 0) equations[a->equation[k]] = zp_assembly_turned(a, a->equation[k], nodes[place(a, k)]);
 }
 
 void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) nodes[place(a, k)] = turned(a, a->equation[k], equations[a->equation[k]]);
+    if (a->equation[k] >= 0) nodes[place(a, k)] = zp_assembly_turned(a, a->equation[k], equations[a->equation[k]]);
 }
 
-double zp_assembly_change(const ZpAssembly *a, const double *step, size_t k) {
-  return a->equation[k] >= 0 ? turned(a, a->equation[k], step[a->equation[k]]) : 0;
+void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
+  double *x = nodes, *y = nodes + a->stride;
+  for (size_t j = 0; j < a->count; j++) {
+    int of_x = a->equation[2 * j], of_y = a->equation[2 * j + 1];
+    x[j] = of_x >= 0 ? step[of_x] : 0;
+    y[j] = of_y >= 0 ? step[of_y] : 0;
+  }
+  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
+    if (a->equation[2 * j + 1] == a->turned) y[j] = -y[j];
 }
 
 void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
-  if (a->equation[k] >= 0) equations[a->equation[k]] += turned(a, a->equation[k], force);
+  if (a->equation[k] >= 0) equations[a->equation[k]] += zp_assembly_turned(a, a->equation[k], force);
 }
 
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -218,8 +220,10 @@ void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations
   for (size_t j = 0; j < a->count; j++) {
     int row_x = a->equation[2 * j], row_y = a->equation[2 * j + 1];
     if (row_x >= 0) equations[row_x] += x[j];
-    if (row_y >= 0) equations[row_y] += turned(a, row_y, y[j]);
+    if (row_y >= 0) equations[row_y] += y[j];
   }
+  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
+    if (a->equation[2 * j + 1] == a->turned) equations[a->turned] -= 2 * y[j];
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -237,7 +241,7 @@ void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equ
 static void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
   int i = a->equation[row], j = a->equation[column];
   if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
-  *zp_band_at(K, (size_t)i, (size_t)j) += turned(a, i, turned(a, j, value));
+  *zp_band_at(K, (size_t)i, (size_t)j) += value;
 }
 
 /* A derivative by two different coordinates is in two places of the matrix. */
@@ -250,6 +254,19 @@ static void add_both(const ZpAssembly *a, size_t one, size_t other, double value
 static void add_block(const ZpAssembly *a, size_t row, size_t column, const double block[4], ZpBand *K) {
   for (size_t k = 0; k < 4; k++)
     add(a, 2 * row + k / 2, 2 * column + k % 2, block[k], K);
+}
+
+void zp_assembly_turn_over(const ZpAssembly *a, ZpBand *K) {
+  size_t row = (size_t)a->turned, first = row > K->upper ? row - K->upper : 0;
+  for (size_t i = first; a->turned >= 0 && i < zp_band_end(K, row); i++) {
+    double *entry = i < row ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
+    bool inside = i >= row || zp_band_end(K, i) > row;
+    if (inside && i != row) *entry = -*entry;
+  }
+  for (size_t k = 0; a->turned >= 0 && k < K->rank; k++) {
+    K->u[k * K->n + row] *= -1;
+    K->v[k * K->n + row] *= -1;
+  }
 }
 
 /* -- edges ------------------------------------------------------------------------------------------ */
@@ -453,5 +470,5 @@ void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, doub
   if (column >= 0) *zp_band_at(K, (size_t)column, (size_t)column) += lower;
   if (row < 0 || column < 0) return;
   *zp_band_at(K, (size_t)(row < column ? row : column), (size_t)(row < column ? column : row)) +=
-      row == column ? 2 * both : turned(a, row, turned(a, column, both));
+      row == column ? 2 * both : both;
 }

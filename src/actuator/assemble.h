@@ -39,8 +39,19 @@ size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const size
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
 
+/* `value` of a coordinate as one of the unknown in its equation, or back. */
+static inline double zp_assembly_turned(const ZpAssembly *a, int equation, double value) {
+  return equation == a->turned ? -value : value;
+}
+
 /* The change of a coordinate by a step [n]; 0 of what is held. */
-double zp_assembly_change(const ZpAssembly *assembly, const double *step, size_t coordinate);
+static inline double zp_assembly_change(const ZpAssembly *a, const double *step, size_t coordinate) {
+  int equation = a->equation[coordinate];
+  return equation >= 0 ? zp_assembly_turned(a, equation, step[equation]) : 0;
+}
+
+/* The changes of all coordinates of nodes => [2 stride]. */
+void zp_assembly_changes(const ZpAssembly *assembly, const double *step, double *nodes);
 
 /* equations [n] += forces on nodes [2 stride], summed over what has the same equation; += a force on one coordinate. */
 void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
@@ -59,6 +70,10 @@ void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand 
  * both triangles takes c and d in any order. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by_gap(const ZpAssembly *assembly, size_t c, size_t station, double value, ZpBand *K);
+
+/* Of a symmetric matrix, change the signs in row and column of the equation whose unknown is minus the coordinate's
+ * change: before and after a member adds its stiffness, which it does by its coordinates. */
+void zp_assembly_turn_over(const ZpAssembly *assembly, ZpBand *K);
 
 /* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);

@@ -719,10 +719,12 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
     ZpRestMember *m = &s->member[k];
     ZpSpan here = span_of(s, k);
     own.rank = zp_bead_rank(m->model);
+    zp_assembly_turn_over(&m->assembly, &own);
     if (beside_edges)
       zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &own);
     else
       zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &own);
+    zp_assembly_turn_over(&m->assembly, &own);
     own.u += own.rank * K->n;
     own.v += own.rank * K->n;
   }
@@ -789,12 +791,9 @@ ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const doubl
 
 /* Rotation and stretch of all edges of a member under a step => m. */
 static void turn(ZpRestMember *m, const double *step) {
-  double *dx = m->moved, *dy = dx + m->model->stride;
-  for (size_t j = 0; j < m->model->count; j++) {
-    dx[j] = zp_assembly_change(&m->assembly, step, 2 * j);
-    dy[j] = zp_assembly_change(&m->assembly, step, 2 * j + 1);
-  }
-  edges_under_step(edge_count(m), m->model->s, dx, dy, &m->eval.edges, m->rotation, m->stretch);
+  zp_assembly_changes(&m->assembly, step, m->moved);
+  edges_under_step(edge_count(m), m->model->s, m->moved, m->moved + m->model->stride, &m->eval.edges, m->rotation,
+                   m->stretch);
 }
 
 /* The largest rotation of an edge in a step, rad; NAN if any is NAN. */
@@ -814,24 +813,24 @@ static double length(void *self, const double *step) {
   return largest_rotation(self, step) / longest;
 }
 
-/* The largest relative change of a gap of a member, insulators included, in a step. */
-static double gap_share_of(const ZpRestMember *m, double U, const double *step) {
+/* The largest relative change of a gap of a member, insulators included, in the step that has turned its edges. */
+static double gap_share_of(const ZpRestMember *m, double U) {
   const ZpModel *model = m->model;
   const ZpPlatesParams *p = &model->plates;
   const ZpTopology *t = &model->topology;
+  const double *y = m->moved + model->stride;
   double most = 0, least_h = zp_plates_least_h(p, U);
   for (size_t i = 0; i < model->nodes; i++) {
-    double upper = zp_is_pair(t) ? zp_assembly_change(&m->assembly, step, 2 * zp_upper(t, i) + 1) : 0;
-    double dy = zp_assembly_change(&m->assembly, step, 2 * zp_lower(t, i) + 1) - upper;
-    most = fmax(most, fabs(dy) / fmax(m->eval.plates.gap[i] + p->d, least_h));
+    double change = y[zp_lower(t, i)] - (zp_is_pair(t) ? y[zp_upper(t, i)] : 0);
+    most = fmax(most, fabs(change) / fmax(m->eval.plates.gap[i] + p->d, least_h));
   }
   return most;
 }
 
-static double gap_share(const ZpStatics *s, const double *step) {
+static double gap_share(const ZpStatics *s) {
   double most = 0;
   for (size_t k = 0; k < s->members; k++)
-    most = fmax(most, gap_share_of(&s->member[k], zp_statics_member_voltage(s, k), step));
+    most = fmax(most, gap_share_of(&s->member[k], zp_statics_member_voltage(s, k)));
   return most;
 }
 
@@ -845,7 +844,7 @@ static bool attracts(const ZpStatics *s) {
 static double change(void *self, const double *step) {
   ZpStatics *s = self;
   double most = largest_rotation(s, step);
-  if (attracts(s)) most = fmax(most, gap_share(s, step));
+  if (attracts(s)) most = fmax(most, gap_share(s));
   return most / zp_tolerance_at_rest(&s->member->model->def);
 }
 
@@ -1068,7 +1067,7 @@ static double fall_length(void *self, const double *step) {
   static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
   const ZpStatics *s = self;
   bool meets = s->member->model->field && (attracts(s) || s->contact_acts);
-  return s->careful * fmax(length(self, step) / longest, meets ? gap_share(s, step) / share : 0);
+  return s->careful * fmax(length(self, step) / longest, meets ? gap_share(s) / share : 0);
 }
 
 /* A mesh with few elements on the zip front may hold it between any two nodes, which a long step passes over. */
