@@ -173,6 +173,31 @@ START_TEST(forces_of_each_alone_balance) {
 }
 END_TEST
 
+/* Each is closed from its clip as far as it is alone where it is held at its opening and voltage. */
+START_TEST(each_is_closed_as_far_as_alone) {
+  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 4e3}, {"stack.voltage_ratio", 1.4});
+  ZpActuatorDef one[] = {alone(&def, false), alone(&def, true)};
+  static const char *const opening[] = {"opening_m", "lower_opening_m"},
+                           *const voltage[] = {"voltage_V", "lower_voltage_V"},
+                           *const closed[] = {"zipped_length_m", "lower_zipped_length_m"};
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
+  const ZpTable *t = result->series;
+  int compared = 0;
+  for (size_t row = 0; row < t->rows && compared < 3; row++) {
+    if (zp_table_get(t, row, closed[1]) < 5e-3 * compared + 5e-3) continue;
+    for (int k = 0; k < 2; k++) {
+      one[k].isometric.separation = zp_table_get(t, row, opening[k]);
+      one[k].drive.voltage = zp_table_get(t, row, voltage[k]);
+      double length = answered_value(ZP_STUDY_ISOMETRIC, &one[k], "zipped_length_m");
+      ck_assert_double_eq_tol(zp_table_get(t, row, closed[k]), length, 1e-12);
+    }
+    compared++;
+  }
+  ck_assert_int_eq(compared, 3);
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Half the difference of the force of one alone over a small way (m), N/m. */
 static double slope_over(const ZpActuatorDef *one, double opening, double voltage, double way) {
   return (pull_of(*one, opening + way, voltage) - pull_of(*one, opening - way, voltage)) / (2 * way);
@@ -527,6 +552,7 @@ int main(void) {
   tcase_add_test(rest, stiffness_is_the_slope_of_the_force);
   tcase_add_test(rest, voltage_moves_the_residual);
   tcase_add_test(rest, forces_of_each_alone_balance);
+  tcase_add_test(rest, each_is_closed_as_far_as_alone);
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
   tcase_add_test(rest, one_closes_where_the_way_is_highest);
   tcase_add_test(rest, it_opens_as_alone_under_the_pull_of_the_other);

@@ -12,7 +12,7 @@
 
 #include <zipact/io.h>
 
-#include "suite.h"
+#include "check_util.h"
 
 /* A coarse actuator that settles in some milliseconds of wall time. */
 static ZpActuatorDef coarse_def(void) {
@@ -354,19 +354,16 @@ START_TEST(reading_is_a_row) {
 }
 END_TEST
 
-static ZpSim *sim_of(const ZpActuatorDef *def, ZpModel **model) {
-  ZpSim *sim = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_model_create(def, model, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_sim_create(*model, NULL, &sim, &err) == ZP_OK, "%s", err.message);
-  return sim;
+static ZpSim *sim_with_model(const ZpActuatorDef *def, ZpModel **model) {
+  *model = model_of(def);
+  return sim_of(*model);
 }
 
 /* Times that make no sense answered "end_time": now nothing moves, and outcome and message say so. */
 START_TEST(bad_times_move_nothing) {
   ZpActuatorDef def = coarse_def();
   ZpModel *model;
-  ZpSim *sim = sim_of(&def, &model);
+  ZpSim *sim = sim_with_model(&def, &model);
   ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, NULL), ZP_REACHED_END);
   size_t size = zp_sim_state_size(sim);
   char *before = malloc(size), *after = malloc(size);
@@ -430,12 +427,12 @@ END_TEST
 START_TEST(no_motion_without_the_checkpoint) {
   ZpActuatorDef def = coarse_def();
   ZpModel *model, *other;
-  ZpSim *first = sim_of(&def, &model);
+  ZpSim *first = sim_with_model(&def, &model);
   ck_assert_int_eq(zp_sim_run(first, 1e-3, false, NULL, NULL), ZP_REACHED_END);
   ZpCheckpoint *checkpoint;
   ck_assert_int_eq(zp_sim_checkpoint(first, &checkpoint, NULL), ZP_OK);
   def.initial.state = ZP_INITIAL_CHECKPOINT;
-  ZpSim *second = sim_of(&def, &other);
+  ZpSim *second = sim_with_model(&def, &other);
   ZpRunInfo info;
   ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, &info), ZP_BAD_ARGUMENT);
   ck_assert_msg(strstr(info.message, "initial.state = checkpoint"), "%s", info.message);

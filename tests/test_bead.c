@@ -510,6 +510,36 @@ START_TEST(test_suction_drives_no_flow_at_rest) {
 }
 END_TEST
 
+/* The gap where the bead ends, m. */
+static double gap_at_end(ZpSim *sim, const ZpActuatorDef *def) {
+  const double edge = 0.5 * (def->ribbon.length - def->platform.length) / (def->mesh.nodes - 1);
+  double at = zp_sim_get(sim, "wet_length") / edge;
+  size_t k = (size_t)at;
+  ZpShape shape = zp_sim_shape(sim);
+  return shape.gap[k] + (at - (double)k) * (shape.gap[k + 1] - shape.gap[k]);
+}
+
+/* It starves when the front has reached its end: there the gap is then as thin as the insulators are for the field. */
+START_TEST(starved_where_the_front_meets_the_end) {
+  ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 31}, {"bead.volume", 30e-9});
+  const double thin = 2 * def.insulator.thickness * def.medium.permittivity / def.insulator.permittivity;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double before = 0, now = 0;
+  while (isnan(zp_sim_starved_time(sim))) {
+    before = now;
+    ck_assert(zp_outcome_good(zp_sim_step(sim, 5e-4, NULL, NULL)));
+    now = gap_at_end(sim, &def);
+    ck_assert_double_lt(zp_sim_get(sim, "time"), 0.3);
+  }
+  printf("starved at %.4g ms: gap at the end of the bead %.4g um, 0.5 ms before %.4g um, thin: %.4g um\n",
+         1e3 * zp_sim_starved_time(sim), 1e6 * now, 1e6 * before, 1e6 * thin);
+  ck_assert(before >= thin && now < thin);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 /* A small bead is used up by the film that it leaves behind, and the run says so. */
 START_TEST(test_small_bead_starves) {
   Run small = RUN(BEAD, {"mesh.nodes", 31}, {"bead.volume", 30e-9}, {"solver.end_time", 0.3}),
@@ -710,6 +740,7 @@ int main(void) {
   tcase_add_test(c, test_suction_takes_what_menisci_lose_under_a_sine);
   tcase_add_loop_test(c, test_suction_drives_no_flow_at_rest, 0, 2);
   tcase_add_test(c, test_small_bead_starves);
+  tcase_add_test(c, starved_where_the_front_meets_the_end);
   tcase_add_test(c, test_time_does_not_depend_on_roughness_and_mesh);
   tcase_add_test(c, test_whole_is_two_halves);
   tcase_add_test(c, test_field_of_each_half);

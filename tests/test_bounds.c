@@ -16,8 +16,7 @@
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
-#include "sanitized.h"
-#include "suite.h"
+#include "check_util.h"
 
 static const double most_seconds = FULL_OR(5.0, 100.0); /* a run of these few steps is a hang beyond */
 
@@ -481,7 +480,7 @@ END_TEST
 /* -- pairs of extremes ------------------------------------------------------------------------------------ */
 
 /* A list of "key=value" separated by spaces; the Def is small_def with them. */
-static ZpActuatorDef def_with(const char *settings) {
+static ZpActuatorDef def_of_settings(const char *settings) {
   ZpActuatorDef def = small_def();
   char copy[512], *rest = NULL;
   snprintf(copy, sizeof copy, "%s", settings);
@@ -601,7 +600,7 @@ static const char *const combinations[] = {
 };
 
 START_TEST(study_ends_in_combinations) {
-  ZpActuatorDef def = def_with(combinations[_i]);
+  ZpActuatorDef def = def_of_settings(combinations[_i]);
   run_and_check(ZP_STUDY_ACTUATE, &def, combinations[_i]);
 }
 END_TEST
@@ -635,7 +634,7 @@ static const struct {
 };
 
 START_TEST(contradictions_are_refused) {
-  ZpActuatorDef def = def_with(contradictions[_i].settings);
+  ZpActuatorDef def = def_of_settings(contradictions[_i].settings);
   ZpResult *result;
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_study_check(ZP_STUDY_ACTUATE, &def, &err) == ZP_BAD_INPUT, "%s was taken",
@@ -648,7 +647,7 @@ END_TEST
 /* A straight actuator without voltage opens under its load: lying closed at the start is not having zipped. At
  * first it falls: g t^2 / 2 = 1.104 mm in 15 ms (measured the same to 4 digits; the ribbons are soft when flat). */
 START_TEST(straight_without_voltage_opens) {
-  ZpActuatorDef def = def_with("initial.state=straight drive.voltage=0 solver.end_time=15ms liquid.model=none");
+  ZpActuatorDef def = def_of_settings("initial.state=straight drive.voltage=0 solver.end_time=15ms liquid.model=none");
   ZpResult *result;
   ZpError err;
   ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
@@ -698,8 +697,6 @@ START_TEST(presets_ask_for_what_they_lack) {
   }
 }
 END_TEST
-
-#define LENGTH_OF(array) ((int)(sizeof(array) / sizeof(array)[0]))
 
 int main(void) {
   Suite *suite = suite_create("bounds");

@@ -91,6 +91,7 @@ START_TEST(one_key_is_found) {
   ck_below(zp_result_get(result, "ribbon.young_modulus_standard_error") / 137e9, 1e-10); /* 1e-12 measured */
   ck_below(zp_result_get(result, "residual_rms_m"), 1e-12);                              /* 2.2e-14 measured */
   ck_assert_uint_eq(result->series->rows, 7);
+  ck_assert_double_eq(zp_result_get(result, "data_rows"), 7);
   ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
   ck_near(zp_table_get(result->series, 3, "load.mass_kg"), 0.008, 1e-12);
   zp_result_destroy(result);

@@ -323,6 +323,7 @@ START_TEST(open_loop_is_that_of_modes) {
       if (fabs(open[i].frequency - wanted) < fabs(nearest - wanted)) nearest = open[i].frequency;
     ck_near(nearest, wanted, 3e-8); /* 4.9e-9 measured */
   }
+  ck_near(zp_result_get(modes, "held_voltage_V"), h.rest.statics.U, 1e-9);
   zp_result_destroy(modes);
   let_go(&h);
 }
@@ -507,6 +508,26 @@ START_TEST(boost_is_a_gain_on_one_side) {
 }
 END_TEST
 
+/* Without a controller a stable state swings as its slowest mode, which the damping of the ribbons damps least, and in
+ * proportion to it. */
+START_TEST(slowest_mode_decays_least) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"damping.internal", 1e-5}, {"control.kind", ZP_CONTROL_PI},
+                          {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.05});
+  double growth[2];
+  for (int k = 0; k < 2; k++, def.damping.internal *= 2) {
+    def.modes.voltage = 0;
+    def.modes.voltage = answered_value(ZP_STUDY_MODES, &def, "held_voltage_V");
+    ZpResult *result = answer_of(ZP_STUDY_MODES, &def);
+    ck_near(zp_result_get(result, "open_loop_frequency_Hz"), zp_result_get(result, "frequency_1_Hz"),
+            1e-7); /* 2.3e-8 measured */
+    growth[k] = zp_result_get(result, "open_loop_growth_per_s");
+    zp_result_destroy(result);
+  }
+  ck_assert_double_lt(growth[0], 0);
+  ck_near(growth[1], 2 * growth[0], 1e-8); /* 1.7e-9 measured */
+}
+END_TEST
+
 START_TEST(what_the_study_refuses) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.suction", 0.5}, {"control.kind", ZP_CONTROL_PI},
@@ -539,6 +560,7 @@ int main(void) {
   tcase_add_loop_test(loops, undamped_no_gains_hold, 0, 1);
   tcase_add_loop_test(loops, swings_as_its_eigenvalue_says, 0, 3);
   tcase_add_test(loops, study_says_what_is_held);
+  tcase_add_test(loops, slowest_mode_decays_least);
   tcase_add_loop_test(loops, boost_is_a_gain_on_one_side, 0, 2);
   tcase_add_test(loops, what_the_study_refuses);
   TCase *nightly = nightly_case(suite);

@@ -446,6 +446,34 @@ START_TEST(steps_make_no_system_call) {
 }
 END_TEST
 
+/* The first time (s) in the rows at which a column is at `level`, on straight lines. */
+static double time_at(const ZpTable *rows, const char *column, double level) {
+  for (size_t k = 1; k < rows->rows; k++) {
+    double a = zp_table_get(rows, k - 1, column), b = zp_table_get(rows, k, column),
+           t = zp_table_get(rows, k, "time_s");
+    if (b >= level) return t - (b - level) / (b - a) * (t - zp_table_get(rows, k - 1, "time_s"));
+  }
+  return NAN;
+}
+
+/* The response of a run by its rows, which are not the controller's samples. */
+static void check_response(const ZpResult *result, double setpoint) {
+  const ZpTable *rows = result->series;
+  double rise = time_at(rows, "contraction", 0.9 * setpoint) - time_at(rows, "contraction", 0.1 * setpoint);
+  double end = zp_table_get(rows, rows->rows - 1, "time_s"), sum = 0, squares = 0, count = 0, settled = 0;
+  for (size_t k = 0; k < rows->rows; k++) {
+    double off = setpoint - zp_table_get(rows, k, "contraction"), t = zp_table_get(rows, k, "time_s");
+    if (fabs(off) > 0.02 * setpoint) settled = t;
+    if (t >= 0.9 * end) sum += off, squares += off * off, count++;
+  }
+  double mean = sum / count, ripple = sqrt(squares / count - mean * mean), most = largest_in(rows, "contraction");
+  ck_near(zp_result_get(result, "rise_time_s"), rise, 2e-4);                /* 5.4e-5 measured */
+  ck_near(zp_result_get(result, "overshoot"), most / setpoint - 1, 1e-4);   /* 3.1e-5 measured */
+  ck_below(fabs(zp_result_get(result, "steady_state_error") - mean), 6e-4); /* 1.9e-4 measured */
+  ck_near(zp_result_get(result, "steady_state_ripple"), ripple, 5e-2);      /* 1.7e-2 measured */
+  ck_below(fabs(zp_result_get(result, "settling_time_s") - settled), 3e-3); /* 9.7e-4 measured */
+}
+
 /* Held against a spring: the final value is the setpoint, with an ideal source and an amplifier; the summary agrees. */
 START_TEST(holds_its_setpoint) {
   ZpActuatorDef def = controlled(0, 0);
@@ -462,6 +490,7 @@ START_TEST(holds_its_setpoint) {
   ck_below(zp_result_get(result, "settling_time_s"), 1);
   ck_below(zp_result_get(result, "rise_time_s"), zp_result_get(result, "settling_time_s"));
   ck_assert_double_ge(zp_result_get(result, "overshoot"), 0);
+  check_response(result, def.setpoint.value);
   ck_assert_double_eq(zp_table_get(result->series, result->series->rows - 1, "setpoint"), 0.1);
   ck_assert_double_gt(zp_result_get(result, "source_energy_J"), 0);
   zp_result_destroy(result);

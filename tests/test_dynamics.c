@@ -1069,6 +1069,27 @@ START_TEST(test_flange) {
 }
 END_TEST
 
+/* Each step of a run has been as long as one of its limits allowed. */
+START_TEST(each_step_has_one_limit) {
+  static const char *const limited[] = {"steps_limited_by_time_step", "steps_limited_by_stability",
+                                        "steps_limited_by_drag",      "steps_limited_by_event",
+                                        "steps_limited_by_error",     "steps_limited_by_end"};
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"solver.end_time", 20e-3}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
+                          {"drive.frequency", 60}, {"damping.drag", 1});
+  for (int k = 0; k < 3; k++) {
+    if (k == 1) def.solver.integrator = ZP_INTEGRATOR_EXPLICIT, def.solver.end_time = 1e-3;
+    if (k == 2) def.solver.time_step = 1e-7;
+    ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+    double sum = 0, steps = zp_result_get(result, "steps");
+    for (size_t i = 0; i < LENGTH_OF(limited); i++)
+      sum += zp_result_get(result, limited[i]);
+    ck_assert_double_eq(sum, steps);
+    ck_near(zp_result_get(result, "mean_time_step_s"), def.solver.end_time / steps, 1e-12);
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("dynamics");
   TCase *forces = tcase_create("forces");
@@ -1087,6 +1108,7 @@ int main(void) {
   suite_add_tcase(suite, ribbon);
   TCase *two = tcase_create("two ribbons");
   tcase_add_test(two, test_zip_otherwise);
+  tcase_add_test(two, each_step_has_one_limit);
   tcase_add_test(two, test_error_of_a_small_motion);
   tcase_add_test(two, test_closing_instant_within_a_step);
   tcase_add_test(two, test_zip_time_is_within_the_run);

@@ -143,6 +143,7 @@ START_TEST(zip_after_a_fall_from_straight) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
   ck_assert_double_gt(zp_result_get(result, "widest_opening_m"), 1e-3);
+  ck_assert_double_eq(zp_result_get(result, "widest_opening_m"), largest_in(result->series, "opening_m"));
   ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 20e-3);
   ck_assert_ptr_null(note_of(result, "starts"));
   zp_result_destroy(result);

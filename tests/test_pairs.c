@@ -226,6 +226,34 @@ START_TEST(refused_pairs_are_listed) {
 }
 END_TEST
 
+/* Does a simulation of a Def that names no study start? It is refused by a sentence otherwise. */
+static bool starts(const ZpActuatorDef *def, const char *name) {
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpError err = {ZP_OK, ""};
+  ZpStatus status = zp_model_create(def, &model, &err);
+  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, &err);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  if (status == ZP_OK) return true;
+  ck_assert_msg(status == ZP_BAD_INPUT, "%s: status %d, %s", name, (int)status, err.message);
+  ck_assert_msg(strchr(err.message, ' ') && strchr(err.message, '.'), "%s: no sentence: %s", name, err.message);
+  return false;
+}
+
+/* A program may begin motion with a Def that only suits a study at rest: with a pair, and with contact of the paper
+ * beside whatever integrator the pair has. What study actuate refuses does not start. */
+static void check_start(int a, int b, const char *name) {
+  for (int paper = 0; paper <= 1; paper++) {
+    ZpActuatorDef def;
+    if (fill(ZP_STUDY_STATIONARY, a, b, &def, NULL) != ZP_OK) continue;
+    if (paper) def.contact.model = ZP_CONTACT_SEQUENTIAL;
+    *def.sensitivity.by = 0; /* of studies alone */
+    if (zp_study_check(ZP_STUDY_ACTUATE, &def, NULL) == ZP_OK) continue;
+    ck_assert_msg(!starts(&def, name), "%s: study actuate refuses what starts to move", name);
+  }
+}
+
 /* -- forces at rest -------------------------------------------------------------------------------- */
 
 /* Laws of the field, whose forces have a common energy; the others have one each. */
@@ -768,6 +796,54 @@ static void check_derivatives(int a, int b, const char *name) {
   }
 }
 
+/* Two measurements, of columns in g or ms and mm, and what study calibrate says of the difference, m; NAN: refused. */
+static double residual_of(const ZpActuatorDef *plain, const char *columns, const double set[2], const double stroke[2],
+                          const char *name) {
+  char text[256];
+  snprintf(text, sizeof text, "%s\n%.17g,%.17g\n%.17g,%.17g\n", columns, 1e3 * set[0], 1e3 * stroke[0], 1e3 * set[1],
+           1e3 * stroke[1]);
+  write_file("pairs-measured.csv", text);
+  ZpActuatorDef def = *plain;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("data.file"), "pairs-measured.csv", NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("calibrate.fit"), "", NULL), ZP_OK);
+  if (zp_study_check(ZP_STUDY_CALIBRATE, &def, &err) != ZP_OK) {
+    ck_assert_msg(err.status == ZP_BAD_INPUT && strchr(err.message, ' '), "%s: %s", name, err.message);
+    return NAN;
+  }
+  ZpResult *result = NULL;
+  ck_assert_msg(zp_data_study_run(ZP_STUDY_CALIBRATE, &def, NULL, &result, &err) == ZP_OK, "%s: %s", name, err.message);
+  double residual = zp_result_get(result, "residual_rms_m");
+  zp_result_destroy(result);
+  return residual;
+}
+
+/* A fit without keys to fit finds no difference to strokes that study stationary and a run in time have. */
+static void check_measured(int a, int b, const char *name) {
+  ZpActuatorDef def;
+  if (a != b || !takes(ZP_STUDY_STATIONARY, a, a, &def, NULL) || is_neutral(&def)) return;
+  static const double mass[] = {1e-3, 1.2e-3}, time[] = {4e-3, 8e-3};
+  *def.sensitivity.by = 0; /* takes other steps */
+  double stroke[2], hung, moved = NAN;
+  for (int k = 0; k < 2; k++)
+    stroke[k] = study_value(ZP_STUDY_STATIONARY, &def, zp_key_find("load.mass"), mass[k], "stroke_m");
+  hung = residual_of(&def, "load_g,stroke_mm", mass, stroke, name);
+  if (takes(ZP_STUDY_ACTUATE, a, a, &def, NULL) && !is_refused_at_rest(&def, a, a, name)) {
+    ZpModel *model = NULL;
+    *def.sensitivity.by = 0;
+    ZpSim *sim = start(&def, &model, name);
+    for (int k = 0; k < 2; k++) {
+      free(run_to(sim, time[k], name));
+      stroke[k] = zp_sim_get(sim, "stroke");
+    }
+    moved = residual_of(&def, "time_ms,stroke_mm", time, stroke, name);
+    zp_sim_destroy(sim);
+    zp_model_destroy(model);
+  }
+  printf("measured, %s: strokes of loads off by %.1e m, of times by %.1e m\n", name, hung, moved);
+  ck_assert_msg(!(hung > 1e-17) && !(moved > 1e-17), "%s: off by %g and %g m", name, hung, moved);
+}
+
 /* -- all of it ------------------------------------------------------------------------------------- */
 
 /* A part of the pairs in `make check`, all at night. */
@@ -777,6 +853,8 @@ static void check_derivatives(int a, int b, const char *name) {
   }                                                                                                                    \
   END_TEST
 
+PAIRS(some_refused_pairs_do_not_start, check_start, 24)
+PAIRS(refused_pairs_do_not_start, check_start, 1)
 PAIRS(forces_at_rest_of_some_pairs, check_at_rest, 12)
 PAIRS(forces_at_rest_of_all_pairs, check_at_rest, 1)
 PAIRS(motion_of_some_pairs, check_in_motion, 24)
@@ -784,6 +862,7 @@ PAIRS(motion_of_all_pairs, check_in_motion, 1)
 PAIRS(twice_of_each_feature, check_doubled, FEATURES)
 PAIRS(studies_of_all_pairs, check_studies, 1)
 PAIRS(derivatives_of_each_feature, check_derivatives, FEATURES)
+PAIRS(measurements_of_each_feature, check_measured, FEATURES)
 
 static void read_features(void) {
   give(&of_all, base);
@@ -800,10 +879,13 @@ int main(void) {
   tcase_add_unchecked_fixture(all, read_features, NULL);
   tcase_add_unchecked_fixture(nightly, read_features, NULL);
   tcase_add_test(all, refused_pairs_are_listed);
+  tcase_add_loop_test(all, some_refused_pairs_do_not_start, 0, FEATURES);
   tcase_add_loop_test(all, forces_at_rest_of_some_pairs, 0, FEATURES);
   tcase_add_loop_test(all, motion_of_some_pairs, 0, FEATURES);
+  tcase_add_loop_test(nightly, refused_pairs_do_not_start, 0, FEATURES);
   tcase_add_loop_test(nightly, twice_of_each_feature, 0, FEATURES);
   tcase_add_loop_test(nightly, derivatives_of_each_feature, 0, FEATURES);
+  tcase_add_loop_test(nightly, measurements_of_each_feature, 0, FEATURES);
   tcase_add_loop_test(nightly, forces_at_rest_of_all_pairs, 0, FEATURES);
   tcase_add_loop_test(nightly, motion_of_all_pairs, 0, FEATURES);
   tcase_add_loop_test(nightly, studies_of_all_pairs, 0, FEATURES);

@@ -21,11 +21,11 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
+#include "check_util.h"
 #include "io/atomic.h"
 #include "io/gnuplot.h"
 #include "io/plot.h"
 #include "sanitized.h"
-#include "suite.h"
 
 #define NODES    61
 #define HALF     45e-3
@@ -84,10 +84,7 @@ static char *read_whole(const char *path, size_t *size) {
 }
 
 static void put_file(const char *name, const char *text) {
-  FILE *file = fopen(in_base(name), "w");
-  ck_assert_ptr_nonnull(file);
-  fputs(text, file);
-  fclose(file);
+  write_file(in_base(name), text);
 }
 
 /* Fill one frame of made up ribbons at `time`. */

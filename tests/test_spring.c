@@ -101,6 +101,8 @@ START_TEST(energy_with_a_spring) {
   double s0 = fmax(def.load.rest_opening - start, 0), s1 = fmax(def.load.rest_opening - end, 0);
   ck_near(zp_result_get(result, "mechanical_work_J"),
           def.load.mass * def.gravity * (start - end) + 0.5 * def.load.stiffness * (s1 * s1 - s0 * s0), 1e-9);
+  double work = zp_result_get(result, "mechanical_work_J"), source = zp_result_get(result, "source_energy_J");
+  ck_near(zp_result_get(result, "efficiency"), work / source, 1e-12);
   ck_assert(least == 0);
   ck_below(zp_result_get(result, "energy_error"), _i == 2 ? 1e-4 : 5e-8); /* 4.6e-5 and 1.1e-8 measured */
   zp_result_destroy(result);

@@ -843,6 +843,34 @@ START_TEST(test_branch_along_the_load) {
 }
 END_TEST
 
+/* Each half of weightless ribbons carries half of the load straight down, and nothing pulls a clip sideways: along the
+ * lower ribbon that load and a constant force across it make the tension of each edge. The force across is 0 between
+ * equal ribbons; a thicker lower one is pressed together. */
+START_TEST(tension_carries_the_load_along_the_slope) {
+  static const double load = 0.1;
+  ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"gravity", 0}, {"load.force", load});
+  if (_i == 1) def.lower.ribbon.thickness = 2 * def.ribbon.thickness;
+  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+  const ZpTable *t = result->series;
+  int edges = 0;
+  double across = 0, worst = 0;
+  for (size_t k = 0; k + 1 < t->rows; k++) {
+    double tension = zp_table_get(t, k, "tension_N"), dx = zp_table_get(t, k + 1, "x_m") - zp_table_get(t, k, "x_m"),
+           dy = zp_table_get(t, k + 1, "y_m") - zp_table_get(t, k, "y_m");
+    if (_i == 0) ck_near(zp_table_get(t, k, "upper_stress_Pa"), zp_table_get(t, k, "stress_Pa"), 1e-9);
+    if (isnan(tension)) continue; /* the platform is rigid */
+    double force = (tension * hypot(dx, dy) + 0.5 * load * dy) / dx;
+    if (edges++ == 0 && _i == 1) across = force;
+    worst = fmax(worst, fabs(force - across) / load);
+  }
+  printf("%d edges, force across of %.3g mN, apart by %.1e of the load\n", edges, 1e3 * across, worst);
+  ck_assert_int_eq(edges, def.mesh.nodes - 1);
+  ck_assert(_i == 0 || across < -1e-2 * load);
+  ck_below(worst, 1e-8); /* 3.2e-9 measured */
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("statics");
   TCase *rest = tcase_create("rest");
@@ -868,6 +896,7 @@ int main(void) {
   tcase_add_test(rest, test_modes_converge);
   tcase_add_test(rest, residual_of_a_mode_bounds_its_error);
   suite_add_tcase(suite, rest);
+  tcase_add_loop_test(rest, tension_carries_the_load_along_the_slope, 0, 2);
   TCase *voltage = tcase_create("voltage");
   tcase_add_loop_test(voltage, test_pull_in, 0, 2);
   tcase_add_test(voltage, test_weightless_flange_converges);

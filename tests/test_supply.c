@@ -168,6 +168,24 @@ START_TEST(test_charging_behind_a_resistance) {
 }
 END_TEST
 
+/* The summary of a run has the largest current and its root mean square over the run, and how far the supply could
+ * go beyond the largest command. */
+START_TEST(currents_of_a_run) {
+  ZpActuatorDef def = DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.voltage_limit", 4 * V});
+  Charging c = charging(def);
+  double R = def.source.resistance, C = c.C, T = 3 * R * C;
+  end_charging(&c);
+  def.solver.end_time = T;
+  def.solver.stop_when_zipped = ZP_WHEN_FALSE;
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_near(zp_result_get(result, "simulated_time_s"), T, 1e-12);
+  ck_near(zp_result_get(result, "peak_current_A"), V / R, 1e-12);
+  ck_near(zp_result_get(result, "rms_current_A"), V / R * sqrt(R * C / (2 * T) * (1 - exp(-2 * T / (R * C)))), 1e-5);
+  ck_near(zp_result_get(result, "source_voltage_margin"), 4, 1e-12);
+  zp_result_destroy(result);
+}
+END_TEST
+
 static const double LIMIT = 0.03e-6; /* A */
 
 /* I / C until V - U = R I, then the exponential. */
@@ -718,6 +736,7 @@ int main(void) {
   tcase_add_test(inner, test_falling_slew_ends_at_the_right_instant);
   tcase_add_test(inner, test_slewed_sine_is_a_triangle);
   tcase_add_test(charges, test_charging_behind_a_resistance);
+  tcase_add_test(charges, currents_of_a_run);
   tcase_add_test(charges, test_limit_of_the_current);
   tcase_add_test(charges, test_limit_without_resistance);
   tcase_add_test(charges, test_slew_rate_alone);

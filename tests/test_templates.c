@@ -9,6 +9,7 @@
 
 #include <zipact/io.h>
 
+#include "check_util.h"
 #include "io/template.h"
 
 static char base[1024], notices[8192];
@@ -46,10 +47,7 @@ static char *in_base(const char *name) {
 
 static void put_file(const char *name, const char *text) {
   char *path = in_base(name);
-  FILE *file = fopen(path, "w");
-  ck_assert_ptr_nonnull(file);
-  fputs(text, file);
-  fclose(file);
+  write_file(path, text);
   free(path);
 }
 

@@ -3,9 +3,10 @@
 import assert from 'node:assert/strict';
 import {spawn} from 'node:child_process';
 import {readdirSync, readFileSync} from 'node:fs';
-import {after, test} from 'node:test';
+import {after, before, test} from 'node:test';
 import {fileURLToPath} from 'node:url';
 
+const examples = new URL('../../../examples/', import.meta.url);
 const server = spawn(process.execPath, [fileURLToPath(new URL('../../node_modules/yaml-language-server/bin/yaml-language-server', import.meta.url)), '--stdio'],
   {stdio: ['pipe', 'pipe', 'ignore']});
 const waiting = new Map(); // number of a request, or address of a document => what takes the answer
@@ -33,6 +34,10 @@ server.stdout.on('data', (piece) => {
     take(JSON.parse(text));
   }
 });
+before(async () => {
+  await request('initialize', {processId: null, rootUri: examples.href, capabilities: {}});
+  send({method: 'initialized', params: {}});
+});
 after(() => server.kill());
 
 function send(message) {
@@ -54,12 +59,9 @@ async function mistakes(uri, text) {
   return (await answer).map((each) => each.message);
 }
 
-const examples = new URL('../../../examples/', import.meta.url);
 const modeline = '# yaml-language-server: $schema=../docs/scenario.schema.json\n';
 
 test('an editor has nothing against any example', async () => {
-  await request('initialize', {processId: null, rootUri: examples.href, capabilities: {}});
-  send({method: 'initialized', params: {}});
   const names = readdirSync(examples, {recursive: true}).filter((name) => name.endsWith('.yaml'));
   assert.ok(names.length > 40);
   for (const name of names) {
