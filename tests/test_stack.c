@@ -36,11 +36,9 @@ START_TEST(members_carry_those_below) {
   /* the platforms' strips are in the mass, but without weight */
   own -= 2 * def->ribbon.density * def->ribbon.width * def->ribbon.thickness * def->platform.length;
   own -= 2 * def->insulator.density * def->ribbon.width * def->insulator.thickness * def->platform.length;
-  ZpResult *all = answer_of(ZP_STUDY_STATIONARY, &series), *of_limits = answer_of(ZP_STUDY_LIMITS, &series);
+  ZpResult *all = answer_of(ZP_STUDY_STATIONARY, &series);
   for (size_t k = 0; k < 3; k++) {
     one.load.mass = series.load.mass + (double)(2 - k) * (own + series.stack.link_mass);
-    ck_near(zp_table_get(all->series, k, "carried_kg"), one.load.mass - series.load.mass, 1e-12);
-    ck_near(zp_table_get(of_limits->series, k, "carried_kg"), one.load.mass - series.load.mass, 1e-12);
     double opening = answered_value(ZP_STUDY_STATIONARY, &one, "opening_m");
     char name[] = "member_1_opening_m";
     name[7] = (char)('1' + k);
@@ -54,7 +52,6 @@ START_TEST(members_carry_those_below) {
     lowest = fmin(lowest, shape.y[j]);
   ck_near(-lowest, openings, 1e-12);
   zp_result_destroy(all);
-  zp_result_destroy(of_limits);
 }
 END_TEST
 
