@@ -180,7 +180,6 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
       {!isnan(def->medium.resistivity), "medium.resistivity", "none",
        "leakage is modelled in the medium of a single actuator"},
       {!isnan(def->sense.frequency), "sense.frequency", "none", "the meter measures a single actuator"},
-      {*def->sensitivity.by != 0, "sensitivity.by", "empty", "derivatives are computed for a single actuator"},
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
     if (unknown[k].given)

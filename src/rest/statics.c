@@ -119,13 +119,14 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   for (size_t k = 0; k < s->members && made; k++, model = model->below) {
     made = create_member(model, &s->member[k]);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model));
-    s->load = s->shared ? s->load + model->def.load.mass : model->def.load.mass;
+    s->own_load = s->shared ? s->own_load + model->def.load.mass : model->def.load.mass;
   }
   if (!made) {
     zp_statics_destroy(s);
     return false;
   }
   number(s);
+  s->load = s->own_load;
   s->bias = 1;
   put_on(s, 1);
   s->opening = NAN;
@@ -169,8 +170,7 @@ static void slacken(ZpStatics *s) {
     memset(s->member[k].tension, 0, s->member[k].model->stride * sizeof *s->member[k].tension);
 }
 
-/* Tensions of the last residual are those that the next step begins with. */
-static void take_tensions(ZpStatics *s) {
+void zp_statics_take_tensions(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++)
     memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
 }
@@ -249,7 +249,7 @@ static void go_back(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
   go_to_kept(s);
   system.residual(s, work->r, NULL);
-  take_tensions(s);
+  zp_statics_take_tensions(s);
 }
 
 /* Follow the branch from a stable equilibrium while `put(whole, share)` increases a load, in shares of at most
@@ -740,7 +740,7 @@ static void stiffness(void *self, ZpBand *K, double *r) {
 /* The exact stiffness is that with the tensions of the present point. */
 static void exact_residual(ZpStatics *s, double *r) {
   residual(s, r, NULL);
-  take_tensions(s);
+  zp_statics_take_tensions(s);
 }
 
 /* Decrease of the force on the platform in a step, as if it were free. */
@@ -995,7 +995,8 @@ static void put_platform(ZpRestMember *m, double height) {
 }
 
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
-static void meet(ZpStatics *s) {
+void zp_statics_meet(ZpStatics *s) {
+  if (!s->shared) return;
   double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = -opening_of(s->member);
   for (size_t k = 1; k < s->members; k++) {
     missed[k] = first + factor_of(s, k) * opening_of(&s->member[k]) + s->distance;
@@ -1021,7 +1022,7 @@ static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   for (size_t k = 0; k < s->members; k++)
     move_member(&s->member[k], step, fraction);
-  if (s->shared) meet(s);
+  zp_statics_meet(s);
 }
 
 /* Where the liquid is at these positions, for the field that is solved there. */
@@ -1248,7 +1249,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .restore = restore,
                           .save_size = (3 * s->members * model->stride + 3) * sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
-                          .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(model->def.load.mass, 1e-3)};
+                          .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(s->own_load, 1e-3)};
 }
 
 bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {

@@ -34,7 +34,8 @@ typedef struct ZpStatics {
   const ZpBand *K;   /* where the last stiffness is, and maybe its factors */
   double U;          /* of the first member, V */
   double bias;       /* share of the lower antagonist's own voltage that acts */
-  double load;       /* mass hung on all members, kg; starts as load.mass */
+  double own_load;   /* load.mass, kg */
+  double load;       /* mass hung on all members, kg; starts as that */
   double force;      /* load.force, N */
   double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
   double distance;   /* of antagonists: what their openings sum up to, m; 0: there are none */
@@ -68,6 +69,12 @@ ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
 /* Derivative of the forces by the voltage, at voltage U and the last residual => r_m [n], N/V. */
 void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
+
+/* The tensions of the last residual become those with which the next stiffness begins. */
+void zp_statics_take_tensions(ZpStatics *statics);
+
+/* Members that share a load put it at one height: the mean of where each has it. */
+void zp_statics_meet(ZpStatics *statics);
 
 /* Is the present equilibrium stable? For a rod: the stiffness has no negative eigenvalue. For mass_spring, whose shear
  * law makes it unsymmetric: its determinant, which changes its sign at a limit point, is not negative. The stiffness is

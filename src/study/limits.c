@@ -67,7 +67,8 @@ static void take(Finder *f, const double *state) {
   ZpStatics *s = &f->rest.statics;
   double own = s->load, ratio = f->model->L / f->near->L;
   f->slow.square.restore(s, state);
-  zp_stretch(f->model, ratio, s->member->q);
+  for (size_t k = 0; k < s->members; k++)
+    zp_stretch(s->member[k].model, ratio, s->member[k].q);
   s->load = own;
   zp_statics_stable(s, &f->rest.branch.newton);
 }
@@ -174,7 +175,7 @@ static bool hang_heavy(Finder *f) {
   enum { MOST = 12 };
   static const double lightest = 1e-3, heavier = 3; /* kg; than what forces as the voltage's square could lift */
   double top = f->lift.top, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
-  double load = fmax(f->model->def.load.mass, lightest) * heavier * (top / closing) * (top / closing);
+  double load = fmax(f->task->def->load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
     ZpSlowEnd end = zp_lift_hang_at_top(&f->lift, load);
     if (end == ZP_SLOW_ARRIVED) return true;
@@ -212,8 +213,8 @@ static void lift(Finder *f, bool closes) {
   memcpy(f->limits->hung, f->limits->start, f->slow.square.save_size);
   zp_lift_start(&f->lift, f->model->def.drive.voltage, f->limits->hung, f->limits->lifted);
   if (lift_as_neighbour(f)) return;
-  zp_lift_narrow(&f->lift, f->model->def.load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
-  bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->model->def.load.mass);
+  zp_lift_narrow(&f->lift, f->task->def->load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
+  bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->task->def->load.mass);
   zp_limit_none(limit, "no load was found that it cannot lift");
   if (!hangs) return;
   if (!closes) zp_slow_go_to(&f->slow, f->top);
@@ -245,7 +246,7 @@ static bool find(Finder *f) {
   zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it was not searched");
   if (up == ZP_SLOW_STOPPED || up == ZP_SLOW_LOST) return true;
   lower_voltage(f);
-  f->rest.statics.load = f->model->def.load.mass;
+  f->rest.statics.load = f->task->def->load.mass;
   if (zp_is_opposed(f->model))
     zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "a heavy load closes the lower antagonist");
   else if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
@@ -310,7 +311,7 @@ static ZpLimits *create(const Finder *f) {
   const ZpStatics *s = &f->rest.statics;
   ZpLimits *limits = zp_calloc(1, sizeof *limits);
   if (!limits) return NULL;
-  *limits = (ZpLimits){.ribbons = f->model->s, .nodes = f->model->nodes, .L = f->model->L};
+  *limits = (ZpLimits){.ribbons = f->model->s, .nodes = s->members * f->model->nodes, .L = f->model->L};
   size_t save = zp_rest_save_size(&f->rest);
   limits->memory = zp_calloc(1, carve_limits(limits, save, s->n, NULL));
   if (limits->memory) {
@@ -393,7 +394,7 @@ static ZpOutcome outcome_of(const Finder *f) {
 }
 
 static void pose_closed(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = def->load.mass;
+  s->load = s->own_load;
   s->U = def->drive.voltage;
 }
 
@@ -452,7 +453,7 @@ static void run(Finder *f, ZpResult *r) {
 /* A case with another mesh or kind does not count as a neighbour. */
 static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
   const ZpLimits *near = task->input.neighbour ? task->input.neighbour->limits : NULL;
-  return near && near->ribbons == model->s && near->nodes == model->nodes ? near : NULL;
+  return near && near->ribbons == model->s && near->nodes == zp_members(model) * model->nodes ? near : NULL;
 }
 
 ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {

@@ -134,7 +134,7 @@ static void report(Problem *p, ZpResult *result) {
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
 static void pose(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = def->load.mass;
+  s->load = s->own_load;
   s->U = def->modes.voltage;
 }
 
@@ -159,7 +159,9 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   Problem *p = user;
   ZpStatics *s = &p->rest.statics;
   p->rest.system.restore(s, p->equilibrium);
-  bool found = zp_slope_solve(slope, pose);
+  bool found = !p->vibration.inertia && zp_slope_solve(slope, pose); /* of lumped masses */
+  if (p->vibration.inertia)
+    zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
   for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
     Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};

@@ -69,7 +69,7 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
                            ZpResult *result, ZpError *err) {
   KeyList list;
-  ZpStatus status = read_keys(&rest->statics.member->model->def, &list, err);
+  ZpStatus status = read_keys(&rest->statics.member->model->whole, &list, err);
   for (int k = 0; k < list.count && status == ZP_OK; k++) {
     ZpSlope slope;
     status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, list.key[k], err);
