@@ -89,6 +89,7 @@ void zp_slope_close(ZpSlope *p) {
 /* Member k of one in the present state of the other, with its coordinates scaled as its length. */
 static void place_member(const ZpRestMember *at, ZpRestMember *near) {
   memcpy(near->q, at->q, 2 * at->model->stride * sizeof *near->q);
+  near->closed = at->closed;
   if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
 }
 
@@ -98,7 +99,7 @@ static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   ZpStatics *near = &p->near[k];
   for (size_t which = 0; which < at->members; which++)
     place_member(&at->member[which], &near->member[which]);
-  zp_statics_meet(near);
+  zp_statics_rejoin(near);
   near->U = at->U;
   near->bias = at->bias;
   near->load = at->load;
@@ -264,10 +265,13 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 }
 
 /* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two
- * solutions is a quotient of two products with the left null vector. */
+ * solutions is a quotient of two products with the left null vector. Solved twice, other soft motions, as of members
+ * that nearly reach their limit points together, are left out to second order. */
 double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->n;
   if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
+  zp_band_solve(&p->work->K, p->by_key);
+  zp_band_solve(&p->work->K, p->by_parameter);
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 

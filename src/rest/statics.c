@@ -995,7 +995,7 @@ static void put_platform(ZpRestMember *m, double height) {
 }
 
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
-void zp_statics_meet(ZpStatics *s) {
+static void meet(ZpStatics *s) {
   if (!s->shared) return;
   double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = -opening_of(s->member);
   for (size_t k = 1; k < s->members; k++) {
@@ -1005,6 +1005,17 @@ void zp_statics_meet(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
     put_platform(m, factor_of(s, k) * (missed[k] - mean) - opening_of(m));
+  }
+}
+
+void zp_statics_rejoin(ZpStatics *s) {
+  bool opposed = s->distance > 0;
+  for (size_t k = 1; k < s->members && s->shared; k++) {
+    double first = opening_of(s->member), other = opening_of(&s->member[k]);
+    if (opposed && first > other)
+      put_platform(s->member, other - s->distance);
+    else
+      put_platform(&s->member[k], opposed ? first - s->distance : -first);
   }
 }
 
@@ -1022,7 +1033,7 @@ static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   for (size_t k = 0; k < s->members; k++)
     move_member(&s->member[k], step, fraction);
-  zp_statics_meet(s);
+  meet(s);
 }
 
 /* Where the liquid is at these positions, for the field that is solved there. */

@@ -73,8 +73,9 @@ void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
 /* The tensions of the last residual become those with which the next stiffness begins. */
 void zp_statics_take_tensions(ZpStatics *statics);
 
-/* Members that share a load put it at one height: the mean of where each has it. */
-void zp_statics_meet(ZpStatics *statics);
+/* Where members that share a load have it at different heights, put it at that of the first one; of antagonists the one
+ * that is more open follows, since closed faces would be parted. */
+void zp_statics_rejoin(ZpStatics *statics);
 
 /* Is the present equilibrium stable? For a rod: the stiffness has no negative eigenvalue. For mass_spring, whose shear
  * law makes it unsymmetric: its determinant, which changes its sign at a limit point, is not negative. The stiffness is
