@@ -67,7 +67,7 @@ typedef struct PullIn {
 static void carve(void *user, ZpCarver *carver) {
   PullIn *p = user;
   zp_slow_carve(&p->slow, &p->rest, carver);
-  zp_limit_carve(&p->limit, zp_rest_save_size(&p->rest), p->rest.statics.assembly.n, carver);
+  zp_limit_carve(&p->limit, zp_rest_save_size(&p->rest), p->rest.statics.n, carver);
 }
 
 /* From scratch, the model included: hang, go to the first limit point, look for other crests round it. => V */

@@ -10,9 +10,6 @@ xlabel = label('voltage', voltage_unit)
 set xlabel xlabel
 kind_list = 'stable unstable closed_stable closed_unstable'
 kind_titles = 'stable unstable "stable, closed" "unstable, closed"'
-if (has('closed_members')) {
-  kind_titles = '"voltage rises" "" "voltage falls" ""'
-}
 kind_title(k) = word(kind_titles, place(word(kinds, k), kind_list))
 kind_colour(k) = word('#0072b2 #d55e00 #009e73 #b8a800', place(word(kinds, k), kind_list))
 kind_width(k) = word('2.5 1.5 2.5 1.5', place(word(kinds, k), kind_list)) + 0

@@ -61,26 +61,26 @@ static ZpActuatorDef def_of(const Case *c, double nodes) {
 
 /* Gaps from nothing at the clips to millimetres, a little at random: by this share. */
 static void bend(ZpStatics *s, double random) {
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   uint64_t seed = 5;
-  double *x = s->q, *y = s->q + model->stride, half = (double)model->topology.platform.first;
+  double *x = s->member->q, *y = s->member->q + model->stride, half = (double)model->topology.platform.first;
   for (size_t i = 0; i < model->nodes; i++) {
     double along = (double)zp_topology_station_image(&model->topology, i) / half, gap = 4e-3 * along * along;
     y[zp_upper(&model->topology, i)] = 1e-4 * noise(&seed) * along;
     y[zp_lower(&model->topology, i)] = y[zp_upper(&model->topology, i)] - gap * (1 + random * noise(&seed));
     for (size_t j = zp_upper(&model->topology, i); j <= zp_lower(&model->topology, i); j++)
-      if (s->assembly.equation[2 * j] >= 0) x[j] += 0.05 * model->l * noise(&seed);
+      if (s->member->assembly.equation[2 * j] >= 0) x[j] += 0.05 * model->l * noise(&seed);
   }
   for (size_t j = 0; j < model->count; j++) {
     size_t body = zp_topology_leader(&model->topology, 2 * j) / 2;
-    if (s->assembly.equation[2 * j] >= 0) x[j] = x[body];
+    if (s->member->assembly.equation[2 * j] >= 0) x[j] = x[body];
     y[j] = y[body];
   }
 }
 
 static void shift(ZpStatics *s, size_t row, double by) {
-  for (size_t k = 0; k < 2 * s->model->count; k++)
-    if (s->assembly.equation[k] == (int)row) s->q[k / 2 + (k % 2) * s->model->stride] += by;
+  for (size_t k = 0; k < 2 * s->member->model->count; k++)
+    if (s->member->assembly.equation[k] == (int)row) s->member->q[k / 2 + (k % 2) * s->member->model->stride] += by;
 }
 
 /* Which equations are the bead's own. */
@@ -114,7 +114,7 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
   s->U = c->U;
   s->contact_acts = true;
   system.residual(s, up, NULL);
-  memcpy(s->tension, s->eval.edges.T, (model->count - model->s) * sizeof *s->tension);
+  memcpy(s->member->tension, s->member->eval.edges.T, (model->count - model->s) * sizeof *s->member->tension);
   system.stiffness(s, &rest.branch.newton.K, NULL);
   double *A = full_of(&rest.branch.newton.K);
   for (size_t j = 0; j < n; j++) {
@@ -187,12 +187,12 @@ END_TEST
 /* Potential of the field and energy of the wetted surfaces, J: with the whole suction all forces of bead and field are
  * minus their gradient at a fixed volume. */
 static double potential(ZpStatics *s, double *r) {
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   zp_statics_system(s).residual(s, r, NULL);
   double surfaces = 0;
   for (int half = 0; half < zp_beads(&model->film); half++)
-    surfaces -= 2 * model->bead.tension * model->film.w * s->eval.reach[half];
-  return zp_plates_totals(&model->plates, &s->eval.plates, s->U).potential + surfaces;
+    surfaces -= 2 * model->bead.tension * model->film.w * s->member->eval.reach[half];
+  return zp_plates_totals(&model->plates, &s->member->eval.plates, s->U).potential + surfaces;
 }
 
 START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
@@ -207,7 +207,7 @@ START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
   ck_assert(zp_rest_open(&none, without, NULL, NULL));
   ZpStatics *s = &rest.statics;
-  size_t n = s->assembly.n;
+  size_t n = s->n;
   double *r = calloc(n, sizeof *r), *other = calloc(n, sizeof *other), *scratch = calloc(n, sizeof *scratch);
   bend(s, 0);
   bend(&none.statics, 0);

@@ -49,7 +49,7 @@ static ZpSim *start_there(Held *h, double push, double outside) {
   ZpSim *sim = sim_of(h->model);
   ZpState *state = sim->state;
   const double U = h->rest.statics.U;
-  memcpy(zp_state_q(h->model, state), h->rest.statics.q, 2 * h->model->stride * sizeof(double));
+  memcpy(zp_state_q(h->model, state), h->rest.statics.member->q, 2 * h->model->stride * sizeof(double));
   state->control.integral = U + push;
   for (int half = 0; h->model->has_bead && half < ZP_BEADS; half++)
     state->bead[half].outside = outside;

@@ -34,7 +34,7 @@ START_TEST(end_carries_what_presses_it) {
   ZpRest *rest;
   ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
   ck_assert(zp_rest_hang(rest, 0));
-  const ZpEval *eval = &rest->statics.eval;
+  const ZpEval *eval = &rest->statics.member->eval;
   Beam beam = beam_of(model);
   double L = beam.L, carried = mass * def.gravity + 0.375 * beam.weight * L - 3 * beam.EI * gap / (L * L * L);
   size_t end = model->nodes - 1;

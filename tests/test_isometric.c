@@ -44,12 +44,13 @@ static double contact_energy(const ZpFacesParams *p, const double *gap) {
 
 static double energy(ZpRest *r) {
   ZpStatics *s = &r->statics;
-  const ZpModel *model = s->model;
-  double sum = zp_rod_stretching_energy(&model->rod, &s->eval.rod) + zp_rod_bending_energy(&model->rod, &s->eval.rod);
+  const ZpModel *model = s->member->model;
+  double sum = zp_rod_stretching_energy(&model->rod, &s->member->eval.rod) +
+               zp_rod_bending_energy(&model->rod, &s->member->eval.rod);
   for (size_t j = 0; j < model->count; j++)
-    sum += model->weight[j] * s->q[model->stride + j];
-  return sum + zp_plates_totals(&model->plates, &s->eval.plates, s->U).potential +
-         contact_energy(&model->faces, s->eval.plates.gap);
+    sum += model->weight[j] * s->member->q[model->stride + j];
+  return sum + zp_plates_totals(&model->plates, &s->member->eval.plates, s->U).potential +
+         contact_energy(&model->faces, s->member->eval.plates.gap);
 }
 
 static void raise_to(ZpRest *r, double voltage) {
@@ -426,7 +427,7 @@ START_TEST(test_impossible_states_are_told) {
   ck_assert(zp_rest_open(&r, model, NULL, NULL));
   ck_assert(zp_newton_good(zp_statics_hold(&r.statics, MM(2), &r.branch.newton).end));
   ck_assert_ptr_null(zp_statics_fault(&r.statics));
-  r.statics.eval.plates.gap[5] = -6e-6;
+  r.statics.member->eval.plates.gap[5] = -6e-6;
   ck_assert_str_eq(zp_statics_fault(&r.statics), "the insulators' faces overlap");
   zp_rest_close(&r);
   zp_model_destroy(model);

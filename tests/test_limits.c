@@ -390,7 +390,7 @@ static double by_stairs(const ZpActuatorDef *def, double start, bool up) {
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
   ck_assert(zp_newton_good(zp_statics_hang(&rest.statics, &rest.branch.newton).end));
-  double closed = zp_closed_opening(rest.statics.model, zp_closing_gap(&rest.statics, NULL));
+  double closed = zp_closed_opening(rest.statics.member->model, zp_closing_gap(&rest.statics, NULL));
   if (!up) ck_assert(zp_newton_good(zp_statics_close(&rest.statics, start, &rest.branch.newton).end));
   double found = climb_stairs(&rest, start, up, closed);
   zp_rest_close(&rest);

@@ -151,7 +151,7 @@ START_TEST(test_time_close_to_pull_in) {
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
   raise_to(&rest, U);
   for (int k = 0; k < 3; k++, excess *= 0.1)
-    time[k] = time_from(def, rest.statics.q, U * (1 + excess));
+    time[k] = time_from(def, rest.statics.member->q, U * (1 + excess));
   double power = -log10((time[2] - time[1]) / (time[1] - time[0]));
   printf("%g, %g, %g s: power %.4f\n", time[0], time[1], time[2], power);
   ck_below(fabs(power - row[_i].power), 0.01); /* 1.4e-3 measured */

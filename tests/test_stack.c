@@ -4,7 +4,6 @@
 
 #include "actuator/model.h"
 #include "def/check.h"
-#include "rest/chain.h"
 #include "sim/sim_internal.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
@@ -37,13 +36,13 @@ START_TEST(members_carry_those_below) {
   /* the platforms' strips are in the mass, but without weight */
   own -= 2 * def->ribbon.density * def->ribbon.width * def->ribbon.thickness * def->platform.length;
   own -= 2 * def->insulator.density * def->ribbon.width * def->insulator.thickness * def->platform.length;
-  ZpResult *all = answer_of(ZP_STUDY_STATIONARY, &series), *of_limits = answer_of(ZP_STUDY_LIMITS, &series);
+  ZpResult *all = answer_of(ZP_STUDY_STATIONARY, &series);
   for (size_t k = 0; k < 3; k++) {
     one.load.mass = series.load.mass + (double)(2 - k) * (own + series.stack.link_mass);
-    ck_near(zp_table_get(all->series, k, "carried_kg"), one.load.mass - series.load.mass, 1e-12);
-    ck_near(zp_table_get(of_limits->series, k, "carried_kg"), one.load.mass - series.load.mass, 1e-12);
     double opening = answered_value(ZP_STUDY_STATIONARY, &one, "opening_m");
-    ck_near(zp_table_get(all->series, k, "opening_m"), opening, 1e-12); /* 8.9e-16 measured */
+    char name[] = "member_1_opening_m";
+    name[7] = (char)('1' + k);
+    ck_near(zp_result_get(all, name), opening, 1e-12); /* 8.9e-16 measured */
     openings += opening;
   }
   ck_near(zp_result_get(all, "opening_m"), openings, 1e-12); /* 4.4e-16 measured */
@@ -53,7 +52,6 @@ START_TEST(members_carry_those_below) {
     lowest = fmin(lowest, shape.y[j]);
   ck_near(-lowest, openings, 1e-12);
   zp_result_destroy(all);
-  zp_result_destroy(of_limits);
 }
 END_TEST
 
@@ -108,7 +106,7 @@ END_TEST
 static ZpActuatorDef alike(int members, double mass) {
   ZpActuatorDef def = DEF({"stack.parallel", members}, {"load.mass", mass}, {"mesh.nodes", 21}, {"drive.voltage", 5e3},
                           {"solver.tolerance", 1e-4});
-  def.member_1.ribbon.thickness = def.ribbon.thickness;
+  def.member_1.ribbon.thickness = nextafter(def.ribbon.thickness, 1); /* else they are one with a multiplicity */
   return def;
 }
 
@@ -122,11 +120,12 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
     double within;
   } same[] = {{ZP_STUDY_STATIONARY, "opening_m", 1e-12},
               {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", 1e-9},
-              {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", 1e-5}, /* points of the branch lie elsewhere */
-              {ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-8},      /* of equal ones without following the curve */
-              {ZP_STUDY_LIMITS, "closing_voltage_V", 1e-8},
-              {ZP_STUDY_LIMITS, "release_voltage_V", 1e-8},
-              {ZP_STUDY_LIMITS, "travel_m", 1e-8},
+              {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", 1e-9},
+              {ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-9},
+              {ZP_STUDY_LIMITS, "closing_voltage_V", 1e-9},
+              {ZP_STUDY_LIMITS, "release_voltage_V", 1e-9},
+              {ZP_STUDY_LIMITS, "max_load_kg", 1e-9},
+              {ZP_STUDY_LIMITS, "travel_m", 1e-9},
               {ZP_STUDY_LIMITS, "mass_kg", 1e-12},
               {ZP_STUDY_MODES, "frequency_1_Hz", 1e-8}, /* rounding: 1e-9 with 61 nodes, 3e-8 with 241 */
               {ZP_STUDY_ACTUATE, "opening_m", 1e-9}};
@@ -142,15 +141,16 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
 }
 END_TEST
 
-/* With a bead or dry. On the unstable part of the branch two equal members could cease to move alike: the determinant
- * of the stiffness changes its sign there, and the branch was lost on coarse meshes. */
-START_TEST(two_equal_ones_are_twice_one_on_coarse_meshes) {
-  static const int nodes[] = {21, 31};
-  static const char *const name[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
-  ZpActuatorDef all = DEF({"stack.parallel", 2}, {"load.mass", 16e-3}, {"member_1.ribbon.thickness", 50e-6},
-                          {"bead.volume", 50e-9}, {"drive.voltage", 10e3});
-  all.liquid.model = _i / 2 == 0 ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
-  all.mesh.nodes = nodes[_i % 2];
+/* With a bead or dry. Two members that differ by the last digit of a thickness are a system of two; two equal ones are
+ * one with a multiplicity. */
+START_TEST(two_equal_ones_are_twice_one) {
+  static const int nodes[] = {21, 31, 61, 121};
+  static const char *const name[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg"};
+  ZpActuatorDef all =
+      DEF({"stack.parallel", 2}, {"load.mass", 16e-3}, {"member_1.ribbon.thickness", nextafter(50e-6, 1)},
+          {"bead.volume", 50e-9}, {"drive.voltage", 10e3});
+  all.liquid.model = _i / 4 == 0 ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
+  all.mesh.nodes = nodes[_i % 4];
   ZpActuatorDef equal = all;
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(name); k++)
@@ -313,6 +313,8 @@ START_TEST(unlike_ones_come_to_their_equilibrium) {
   def.solver.end_time = 8;
   ZpResult *moved = answer_of(ZP_STUDY_ACTUATE, &def), *rest = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   size_t last = moved->series->rows - 1, end = rest->series->rows - 1;
+  while (zp_table_get(rest->series, end, "branch") > 0) /* from closed */
+    end--;
   static const char *const same[] = {"opening_m", "charge_C", "member_1_force_N", "member_2_force_N",
                                      "member_3_force_N"};
   for (size_t k = 0; k < LENGTH_OF(same); k++)
@@ -473,39 +475,43 @@ START_TEST(members_rest_together_as_alone) {
   for (size_t k = 0; k < LENGTH_OF(sums); k++)
     /* 5.7e-14 measured */
     ck_near(zp_table_get(both->series, top, sums[k]), 2 * zp_table_get(alone->series, last, sums[k]), 1e-12);
-  size_t end = both->series->rows - 1;
-  ck_assert_double_eq(zp_table_get(both->series, end, "voltage_V"), 0);
-  /* 2.2e-16 measured */
-  ck_near(zp_table_get(both->series, end, "opening_m"), zp_table_get(both->series, 0, "opening_m"), 1e-12);
+  ck_assert_uint_eq(both->series->rows, alone->series->rows);
+  for (size_t row = 0; row < alone->series->rows; row++) {
+    ck_near(zp_table_get(both->series, row, "opening_m"), 2 * zp_table_get(alone->series, row, "opening_m"), 1e-9);
+    ck_assert_double_eq(zp_table_get(both->series, row, "branch"), zp_table_get(alone->series, row, "branch"));
+  }
   zp_result_destroy(alone);
   zp_result_destroy(both);
 }
 END_TEST
 
-/* How many of these voltages are at most, or else at least, `voltage`. */
-static int count_of(const ZpResult *limits, const char *name, double voltage, bool at_most) {
-  int found = 0;
-  for (size_t k = 0; k < limits->series->rows; k++) {
-    double value = zp_table_get(limits->series, k, name);
-    found += at_most ? value <= voltage : value >= voltage;
+/* Under a dead load the force on each member is known, so the limits of a series are those of its members, each alone
+ * under all that hangs on it: the first one pulls in, the last one closes, the first one opens, the weakest one lifts
+ * least. */
+START_TEST(limits_of_a_series_are_those_of_its_members) {
+  ZpActuatorDef def = DEF({"stack.series", 3}, {"load.mass", 6e-3}, {"mesh.nodes", 31}, {"drive.voltage", 8e3},
+                          {"member_2.ribbon.thickness", 60e-6}, {"stack.link_mass", 0.5e-3});
+  double pull_in = INFINITY, closing = 0, release = 0, lifted = INFINITY, travel = 0;
+  ZpModel *model = model_of(&def);
+  for (const ZpModel *m = model; m; m = m->below) {
+    ZpActuatorDef one = m->def;
+    one.load.mass += m->carried;
+    ZpResult *alone = answer_of(ZP_STUDY_LIMITS, &one);
+    pull_in = fmin(pull_in, zp_result_get(alone, "pull_in_voltage_V"));
+    closing = fmax(closing, zp_result_get(alone, "closing_voltage_V"));
+    release = fmax(release, zp_result_get(alone, "release_voltage_V"));
+    lifted = fmin(lifted, zp_result_get(alone, "max_load_kg") - (one.load.mass - def.load.mass));
+    travel += zp_result_get(alone, "travel_m");
+    zp_result_destroy(alone);
   }
-  return found;
-}
-
-/* As the voltage rises a member is closed from its own closing voltage on, as it falls until its own release. */
-START_TEST(members_close_and_open_one_by_one) {
-  ZpActuatorDef def = DEF({"stack.series", 3}, {"load.mass", 6e-3}, {"mesh.nodes", 31}, {"drive.voltage", 8e3});
-  ZpResult *path = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(path, "pull_in_voltage_V"), zp_result_get(limits, "pull_in_voltage_V"), 1e-12); /* 0 measured */
-  for (size_t row = 0; row < path->series->rows; row++) {
-    double voltage = zp_table_get(path->series, row, "voltage_V");
-    bool falls = zp_table_get(path->series, row, "branch") > 0;
-    int closed = falls ? 3 - count_of(limits, "release_voltage_V", voltage, false)
-                       : count_of(limits, "closing_voltage_V", voltage, true);
-    ck_assert_msg(zp_table_get(path->series, row, "closed_members") == closed, "at %g V", voltage);
-  }
-  zp_result_destroy(path);
-  zp_result_destroy(limits);
+  zp_model_destroy(model);
+  ZpResult *all = answer_of(ZP_STUDY_LIMITS, &def);
+  ck_near(zp_result_get(all, "pull_in_voltage_V"), pull_in, 1e-9);
+  ck_near(zp_result_get(all, "closing_voltage_V"), closing, 1e-9);
+  ck_near(zp_result_get(all, "release_voltage_V"), release, 1e-9);
+  ck_near(zp_result_get(all, "max_load_kg"), lifted, 1e-9);
+  ck_near(zp_result_get(all, "travel_m"), travel, 1e-9);
+  zp_result_destroy(all);
 }
 END_TEST
 
@@ -539,7 +545,7 @@ START_TEST(limits_of_unlike_ones_are_at_their_states) {
                           {"drive.voltage", 8e3});
   ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
   static const char *const names[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V"};
-  ck_assert_uint_eq(limits->series->rows, LENGTH_OF(names));
+  ck_assert_uint_eq(limits->series->rows, LENGTH_OF(names) + 1); /* and the largest load */
   for (size_t k = 0; k < LENGTH_OF(names); k++)
     ck_assert_double_eq(zp_table_get(limits->series, k, "voltage_V"), zp_result_get(limits, names[k]));
   double hanging = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
@@ -564,7 +570,7 @@ static double first_turn(const ZpTable *branch, bool back, double sign) {
 /* On coarse meshes, where one limit point follows another, pull-in and release are those of the branch's points, which
  * lie up to a hundredth apart. */
 START_TEST(limits_of_unlike_ones_are_turns_of_their_branch) {
-  static const double mass[] = {4e-3, 8e-3};
+  static const double mass[] = {5e-3, 8e-3};
   ZpActuatorDef def = DEF({"stack.parallel", 2}, {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 11},
                           {"load.mass", mass[_i]}, {"drive.voltage", 8e3}, {"output.samples", 5000});
   ZpResult *branch = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
@@ -588,67 +594,6 @@ START_TEST(gaps_of_modes_are_those_of_their_shapes) {
       ck_assert_double_eq_tol(shape.gap[i], shape.y[2 * i] - shape.y[2 * i + 1], 1e-12);
   }
   zp_result_destroy(modes);
-}
-END_TEST
-
-/* However far the voltage goes in one change, a member stays on its branch as long as that lasts: hanging up to its
- * pull-in, closed down to its release. Newton's method alone may end on another branch. */
-START_TEST(large_changes_stay_on_their_branch) {
-  static const double share[] = {0.3, 0.6, 0.9, 0.97, 0.99, 0.999, 0.9999};
-  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 21}, {"load.mass", 6e-3}, {"drive.voltage", 8e3});
-  ZpResult *limits = answer_of(ZP_STUDY_LIMITS, &def);
-  double pull_in = zp_result_get(limits, "pull_in_voltage_V"), release = zp_result_get(limits, "release_voltage_V");
-  zp_result_destroy(limits);
-  ZpModel *model = model_of(&def);
-  ZpChain chain;
-  ck_assert(zp_chain_open(&chain, model, NULL) == ZP_OK);
-  for (size_t k = 0; k < LENGTH_OF(share); k++) {
-    double hanging[2];
-    ck_assert(zp_chain_hang(&chain) && zp_chain_raise(&chain, share[k] * pull_in));
-    for (size_t i = 0; i < 2; i++)
-      hanging[i] = zp_statics_opening(&chain.of[i].statics);
-    ck_assert(zp_chain_hang(&chain) && zp_chain_change(&chain, share[k] * pull_in));
-    for (size_t i = 0; i < 2; i++)
-      ck_near(zp_statics_opening(&chain.of[i].statics), hanging[i], 3e-10); /* 4.9e-11 measured */
-    ck_assert(zp_chain_change(&chain, 8e3) && zp_chain_change(&chain, release / share[k]));
-    for (size_t i = 0; i < 2; i++)
-      ck_assert_double_lt(zp_statics_opening(&chain.of[i].statics), 0.3e-3);
-  }
-  zp_chain_close(&chain);
-  zp_model_destroy(model);
-}
-END_TEST
-
-/* From 0 to one voltage in small changes, then to another in so many. */
-static void change_in(int changes, double from, double to, ZpChain *chain) {
-  enum { SMALL = 100 };
-  ck_assert(zp_chain_hang(chain));
-  for (int k = 1; k <= SMALL; k++)
-    ck_assert(zp_chain_change(chain, from * k / SMALL));
-  for (int k = 1; k <= changes; k++)
-    ck_assert(zp_chain_change(chain, from + (to - from) * k / changes));
-}
-
-/* One change leads to where many small ones do. Newton's method alone ends elsewhere: below a fold at the unstable
- * state near it, else at a stable one that is far away. */
-START_TEST(one_change_leads_to_where_many_do) {
-  static const struct {
-    double thickness, mass, from, to;
-  } cases[] = {{85e-6, 18e-3, 5540, 5625}, {60e-6, 6e-3, 3000, 2500}};
-  ZpActuatorDef def = DEF({"stack.series", 2}, {"mesh.nodes", 11}, {"ribbon.thickness", cases[_i].thickness},
-                          {"load.mass", cases[_i].mass}, {"drive.voltage", 9e3});
-  double opening[2];
-  ZpModel *model = model_of(&def);
-  ZpChain chain;
-  ck_assert(zp_chain_open(&chain, model, NULL) == ZP_OK);
-  change_in(50, cases[_i].from, cases[_i].to, &chain);
-  for (size_t k = 0; k < LENGTH_OF(opening); k++)
-    opening[k] = zp_statics_opening(&chain.of[k].statics);
-  change_in(1, cases[_i].from, cases[_i].to, &chain);
-  for (size_t k = 0; k < LENGTH_OF(opening); k++)
-    ck_below(fabs(zp_statics_opening(&chain.of[k].statics) - opening[k]), 1e-12); /* 3.1e-14 measured */
-  zp_chain_close(&chain);
-  zp_model_destroy(model);
 }
 END_TEST
 
@@ -701,7 +646,7 @@ START_TEST(members_yield) {
   ZpActuatorDef upper = zp_member_at_rest(model);
   zp_model_destroy(model);
   ck_near(answered_value(ZP_STUDY_ACTUATE, &two, "permanent_curvature_per_m"),
-          answered_value(ZP_STUDY_ACTUATE, &upper, "permanent_curvature_per_m"), 1e-12); /* 7.1e-15 measured */
+          answered_value(ZP_STUDY_ACTUATE, &upper, "permanent_curvature_per_m"), 2e-11); /* 7.1e-12 measured */
 }
 END_TEST
 
@@ -793,12 +738,10 @@ int main(void) {
   tcase_add_test(rest, stiffness_side_by_side_is_the_slope);
   tcase_add_test(rest, what_unlike_ones_lack_is_said);
   tcase_add_test(rest, members_rest_together_as_alone);
-  tcase_add_test(rest, members_close_and_open_one_by_one);
+  tcase_add_test(rest, limits_of_a_series_are_those_of_its_members);
   tcase_add_loop_test(rest, limits_of_unlike_ones_are_at_their_states, 0, 2);
   tcase_add_loop_test(rest, limits_of_unlike_ones_are_turns_of_their_branch, 0, 2);
   tcase_add_loop_test(rest, gaps_of_modes_are_those_of_their_shapes, 0, 2);
-  tcase_add_test(rest, large_changes_stay_on_their_branch);
-  tcase_add_loop_test(rest, one_change_leads_to_where_many_do, 0, 2);
   tcase_add_test(rest, chain_of_springs_and_masses);
   tcase_add_test(rest, stiff_member_is_a_mass);
   tcase_add_test(rest, voltage_softens_a_series);
@@ -806,7 +749,8 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, series_at_rest_stays, 0, 2);
   tcase_add_test(motion, two_in_series_are_half_as_stiff);
-  tcase_add_loop_test(motion, two_equal_ones_are_twice_one_on_coarse_meshes, 2, 3);
+  tcase_add_loop_test(motion, two_equal_ones_are_twice_one, 0, 2);
+  tcase_add_loop_test(motion, two_equal_ones_are_twice_one, 4, 6);
   tcase_add_loop_test(motion, energy_and_forces_of_unlike_ones, 0, 3);
   tcase_add_test(motion, unlike_ones_at_rest_stay);
   tcase_add_test(motion, unlike_ones_come_to_their_equilibrium);
@@ -817,8 +761,8 @@ int main(void) {
   tcase_add_loop_test(motion, inputs_of_several_do_work, 0, 2);
   suite_add_tcase(suite, motion);
   TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, two_equal_ones_are_twice_one_on_coarse_meshes, 0, 2);
-  tcase_add_loop_test(nightly, two_equal_ones_are_twice_one_on_coarse_meshes, 3, 4);
+  tcase_add_loop_test(nightly, two_equal_ones_are_twice_one, 2, 4);
+  tcase_add_loop_test(nightly, two_equal_ones_are_twice_one, 6, 8);
   tcase_add_loop_test(nightly, equal_ones_side_by_side_are_as_one, 0, FULL_OR(3, 1));
   return run_suite(suite);
 }

@@ -805,11 +805,11 @@ START_TEST(test_restored_with_load_and_voltage) {
   void *saved = zp_calloc(1, system.save_size);
   statics.U = 123;
   statics.load = 0.02;
-  statics.q[7] = 0.5;
+  statics.member->q[7] = 0.5;
   system.save(&statics, saved);
-  statics.U = statics.load = statics.q[7] = 0;
+  statics.U = statics.load = statics.member->q[7] = 0;
   system.restore(&statics, saved);
-  ck_assert(statics.U == 123 && statics.load == 0.02 && statics.q[7] == 0.5);
+  ck_assert(statics.U == 123 && statics.load == 0.02 && statics.member->q[7] == 0.5);
   zp_free(saved);
   zp_statics_destroy(&statics);
   zp_model_destroy(model);

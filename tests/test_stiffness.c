@@ -75,25 +75,25 @@ static const Case cases[] = {
 
 /* Bent at random, gaps about `gap`: the present point of `s`. */
 static void bend(ZpStatics *s, double gap) {
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   uint64_t seed = 5;
-  double *x = s->q, *y = s->q + model->stride;
+  double *x = s->member->q, *y = s->member->q + model->stride;
   for (size_t j = 0; j < model->count; j++) {
     size_t upper = model->s == 2 ? j - j % 2 : j;
     bool lower = j != upper;
-    if (s->assembly.equation[2 * j] >= 0) x[j] += 0.1 * model->l * noise(&seed);
+    if (s->member->assembly.equation[2 * j] >= 0) x[j] += 0.1 * model->l * noise(&seed);
     double rise = gap > 0 ? 0.3 * gap * noise(&seed) : 0.1 * model->l * noise(&seed);
     y[j] = lower ? y[upper] - gap - rise : rise;
     size_t body = zp_topology_leader(&model->topology, 2 * j) / 2; /* a node of it */
-    if (s->assembly.equation[2 * j] >= 0) x[j] = x[body];
+    if (s->member->assembly.equation[2 * j] >= 0) x[j] = x[body];
     y[j] = y[body];
   }
 }
 
 /* Move what equation `row` stands for. */
 static void shift(ZpStatics *s, size_t row, double by) {
-  for (size_t k = 0; k < 2 * s->model->count; k++)
-    if (s->assembly.equation[k] == (int)row) s->q[k / 2 + (k % 2) * s->model->stride] += by;
+  for (size_t k = 0; k < 2 * s->member->model->count; k++)
+    if (s->member->assembly.equation[k] == (int)row) s->member->q[k / 2 + (k % 2) * s->member->model->stride] += by;
 }
 
 /* Largest difference between the stiffness K and forces r, column by column, over the largest entry. */
@@ -131,7 +131,7 @@ START_TEST(stiffness_is_the_derivative_of_the_forces) {
   s->U = c->U;
   s->contact_acts = c->contact;
   system.residual(s, work->r, NULL);
-  memcpy(s->tension, s->eval.edges.T, (model->count - model->s) * sizeof *s->tension);
+  memcpy(s->member->tension, s->member->eval.edges.T, (model->count - model->s) * sizeof *s->member->tension);
   system.stiffness(s, &work->K, NULL);
   double worst = worst_entry(s, &system, &work->K, 1e-4 * (c->gap > 0 ? c->gap : 0.01 * model->l));
   printf("%s: stiffness off by %.1e\n", c->name, worst);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "def/check.h"
 
 static size_t least(size_t a, size_t b) {
   return a < b ? a : b;
@@ -98,6 +99,7 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
                     .count = model->count,
                     .stride = model->stride,
                     .own = own,
+                    .turned = -1,
                     .symmetric = symmetric};
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->first = zp_calloc(model->nodes, sizeof *a->first);
@@ -106,13 +108,72 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(&model->topology, a);
+  a->n = a->end = number(&model->topology, a);
   a->bandwidth = bandwidth_of(a);
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
     a->first[i] = first_of(a, i);
   a->groups = groups_of(a);
   return true;
+}
+
+/* -- several members ------------------------------------------------------------------------------- */
+
+/* Of each member alone: how many equations it has, how many the members before it have, and which one is the height of
+ * a shared load. */
+typedef struct Joined {
+  size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS], load[ZP_MOST_MEMBERS];
+  bool shared;
+} Joined;
+
+/* An equation of one member alone => of all. Of two that share a load, those of the second one follow from its platform
+ * back to its clip, so that the matrix stays a narrow band. More than two have the same equations; those of the same
+ * number are adjacent.
+ */
+static size_t place_of(const Joined *of, size_t which, size_t i) {
+  size_t load = of->load[which], back = of->count[0] + of->count[1] - 1 - i, members = of->members;
+  if (!of->shared) return of->before[which] + i;
+  if (members == 2 && which == 0) return i;
+  if (members == 2) return i == load ? of->load[0] : i < load ? back - 1 : back;
+  if (i < load) return members * i + which;
+  return i == load ? members * load : members * (i - 1) + 1 + which;
+}
+
+static size_t joined_bandwidth(const Joined *of, size_t own) {
+  size_t beyond = 0;
+  if (!of->shared) return own;
+  if (of->members > 2) return of->members * own + of->members - 1;
+  for (size_t which = 0; which < of->members; which++)
+    beyond += of->count[which] - 1 - of->load[which];
+  return own + beyond;
+}
+
+/* Number the equations of one member among those of all, `n`. */
+static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n, double factor) {
+  a->n = n;
+  a->begin = of->before[which];
+  a->end = a->begin + of->count[which];
+  a->parts = (ZpParts){0};
+  a->groups = (ZpBandGroups){0, 0};
+  a->turned = of->shared && factor < 0 ? (int)place_of(of, which, of->load[which]) : -1;
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
+  for (size_t i = 0; i < a->nodes; i++)
+    a->first[i] = first_of(a, i);
+}
+
+size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const size_t load[], const double factor[]) {
+  Joined of = {.members = members, .shared = load != NULL};
+  size_t n = of.shared;
+  for (size_t which = 0; which < members; which++) {
+    of.before[which] = n;
+    of.count[which] = a[which]->n;
+    of.load[which] = of.shared ? (size_t)a[which]->equation[2 * load[which] + 1] : SIZE_MAX;
+    n += a[which]->n - of.shared;
+  }
+  for (size_t which = 0; which < members; which++)
+    join(a[which], &of, which, n, factor[which]);
+  return joined_bandwidth(&of, a[0]->bandwidth);
 }
 
 void zp_assembly_destroy(ZpAssembly *a) {
@@ -131,12 +192,27 @@ static size_t place(const ZpAssembly *a, size_t k) {
 
 void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) equations[a->equation[k]] = nodes[place(a, k)];
+    if (a->equation[k] >= 0) equations[a->equation[k]] = zp_assembly_turned(a, a->equation[k], nodes[place(a, k)]);
 }
 
 void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) nodes[place(a, k)] = equations[a->equation[k]];
+    if (a->equation[k] >= 0) nodes[place(a, k)] = zp_assembly_turned(a, a->equation[k], equations[a->equation[k]]);
+}
+
+void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
+  double *x = nodes, *y = nodes + a->stride;
+  for (size_t j = 0; j < a->count; j++) {
+    int of_x = a->equation[2 * j], of_y = a->equation[2 * j + 1];
+    x[j] = of_x >= 0 ? step[of_x] : 0;
+    y[j] = of_y >= 0 ? step[of_y] : 0;
+  }
+  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
+    if (a->equation[2 * j + 1] == a->turned) y[j] = -y[j];
+}
+
+void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
+  if (a->equation[k] >= 0) equations[a->equation[k]] += zp_assembly_turned(a, a->equation[k], force);
 }
 
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -146,6 +222,8 @@ void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations
     if (row_x >= 0) equations[row_x] += x[j];
     if (row_y >= 0) equations[row_y] += y[j];
   }
+  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
+    if (a->equation[2 * j + 1] == a->turned) equations[a->turned] -= 2 * y[j];
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -153,8 +231,7 @@ void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations
   zp_assembly_add(a, nodes, equations);
 }
 
-void zp_assembly_masses(const ZpAssembly *a, const double *mass, double *equations) {
-  memset(equations, 0, a->n * sizeof *equations);
+void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) equations[a->equation[k]] += mass[k / 2];
 }
@@ -177,6 +254,19 @@ static void add_both(const ZpAssembly *a, size_t one, size_t other, double value
 static void add_block(const ZpAssembly *a, size_t row, size_t column, const double block[4], ZpBand *K) {
   for (size_t k = 0; k < 4; k++)
     add(a, 2 * row + k / 2, 2 * column + k % 2, block[k], K);
+}
+
+void zp_assembly_turn_over(const ZpAssembly *a, ZpBand *K) {
+  size_t row = (size_t)a->turned, first = row > K->upper ? row - K->upper : 0;
+  for (size_t i = first; a->turned >= 0 && i < zp_band_end(K, row); i++) {
+    double *entry = i < row ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
+    bool inside = i >= row || zp_band_end(K, i) > row;
+    if (inside && i != row) *entry = -*entry;
+  }
+  for (size_t k = 0; a->turned >= 0 && k < K->rank; k++) {
+    K->u[k * K->n + row] *= -1;
+    K->v[k * K->n + row] *= -1;
+  }
 }
 
 /* -- edges ------------------------------------------------------------------------------------------ */
@@ -260,8 +350,7 @@ void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
 /* How edge j goes with u. */
 static void edge_of(const ZpAssembly *a, const double *u, size_t j, double e[2]) {
   for (size_t c = 0; c < 2; c++) {
-    int left = a->equation[2 * j + c], right = a->equation[2 * (j + a->s) + c];
-    e[c] = (right >= 0 ? u[right] : 0) - (left >= 0 ? u[left] : 0);
+    e[c] = zp_assembly_change(a, u, 2 * (j + a->s) + c) - zp_assembly_change(a, u, 2 * j + c);
   }
 }
 

@@ -11,7 +11,8 @@ typedef struct ZpAssembly {
   size_t s, nodes;     /* ribbons; stations, N */
   size_t count;        /* nodes */
   size_t stride;       /* arrays over nodes: all x, then, so much further, all y */
-  size_t n;            /* equations */
+  size_t n;            /* equations, of all members of a system */
+  size_t begin, end;   /* its own equations, if it shares none */
   size_t bandwidth;    /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;      /* only the upper triangle is kept */
   ZpBandGroups groups; /* of a symmetric one: those of a station, or of two of one ribbon, if they fit */
@@ -19,6 +20,8 @@ typedef struct ZpAssembly {
   ZpParts parts;       /* halves, and the equations that both have */
   size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
   int *own_equation;   /* [own N] */
+  int turned; /* the equation whose unknown is minus the coordinate's change: the load's height, of a member upside
+                 down; -1: none */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
                  others following it; else -1 */
 } ZpAssembly;
@@ -27,16 +30,36 @@ typedef struct ZpAssembly {
 bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
+/* Number the equations of members as one system => the number of diagonals above the main one. Of members that share a
+ * load, the height of node load[m] of member m, factor[m] (1 or -1) times that of the first one but for a constant, has
+ * one equation; load = NULL: they have no equation in common. */
+size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const size_t load[], const double factor[]);
+
 /* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
 
-/* equations [n] += forces on nodes [2 stride], summed over what has the same equation. */
-void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
+/* `value` of a coordinate as one of the unknown in its equation, or back. */
+static inline double zp_assembly_turned(const ZpAssembly *a, int equation, double value) {
+  return equation == a->turned ? -value : value;
+}
 
-/* (forces on nodes [2 stride], or masses [count]) => sums over what has the same equation [n]. */
+/* The change of a coordinate by a step [n]; 0 of what is held. */
+static inline double zp_assembly_change(const ZpAssembly *a, const double *step, size_t coordinate) {
+  int equation = a->equation[coordinate];
+  return equation >= 0 ? zp_assembly_turned(a, equation, step[equation]) : 0;
+}
+
+/* The changes of all coordinates of nodes => [2 stride]. */
+void zp_assembly_changes(const ZpAssembly *assembly, const double *step, double *nodes);
+
+/* equations [n] += forces on nodes [2 stride], summed over what has the same equation; += a force on one coordinate. */
+void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
+void zp_assembly_add_one(const ZpAssembly *assembly, size_t coordinate, double force, double *equations);
+
+/* Forces on nodes [2 stride] => sums over what has the same equation [n]; equations [n] += masses [count]. */
 void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
-void zp_assembly_masses(const ZpAssembly *assembly, const double *mass, double *equations);
+void zp_assembly_add_masses(const ZpAssembly *assembly, const double *mass, double *equations);
 
 /* Add the stiffness of the ribbons to K, which is n x n with `bandwidth` diagonals on each kept side: D[3 j + m] [4] =
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
@@ -47,6 +70,10 @@ void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand 
  * both triangles takes c and d in any order. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by_gap(const ZpAssembly *assembly, size_t c, size_t station, double value, ZpBand *K);
+
+/* Of a symmetric matrix, change the signs in row and column of the equation whose unknown is minus the coordinate's
+ * change: before and after a member adds its stiffness, which it does by its coordinates. */
+void zp_assembly_turn_over(const ZpAssembly *assembly, ZpBand *K);
 
 /* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);

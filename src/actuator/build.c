@@ -741,7 +741,7 @@ static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, 
   size_t rows = table ? table->rows : 0;
   ZpModel *model = zp_calloc(1, sizeof *model);
   if (!model) return zp_fail_memory(err);
-  model->def = *def;
+  model->def = model->whole = *def;
   derive(model);
   if (hangs) zp_topology_hang(&model->topology);
   Arrays arrays;
@@ -798,6 +798,7 @@ static ZpStatus create_stack(const ZpActuatorDef *def, const ZpDriveTable *table
       return status;
     }
     model->below = below;
+    model->whole = *def;
     model->abreast = abreast;
     if (abreast) model->ratio = 1;
     if (opposed) {

@@ -61,6 +61,7 @@ typedef struct ZpHingeParams {
 
 struct ZpModel {
   ZpActuatorDef def;
+  ZpActuatorDef whole; /* of the system whose member it is; else `def` */
   ZpTopology topology;
   size_t s, nodes, count; /* of it: ribbons, stations, nodes */
   size_t stride;          /* count, rounded up */

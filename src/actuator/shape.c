@@ -88,7 +88,11 @@ ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
 }
 
 ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
-  return model->s == 2 ? fields_at(model, voltage, 0, 0) : zp_margins_none();
+  ZpMargins worst = zp_margins_none();
+  if (model->s == 2) worst = fields_at(model, voltage, 0, 0);
+  for (const ZpModel *m = model->below; m; m = m->below)
+    zp_margins_join(&worst, fields_at(m, zp_shares_load(m) ? zp_opposed_voltage(m, voltage) : voltage, 0, 0));
+  return worst;
 }
 
 void zp_shape_turn_over(const ZpModel *model, double *y) {
@@ -129,4 +133,11 @@ void zp_many_give(const ZpManyShapes *all, ZpShape *shape) {
   shape->gap = all->array[3];
   shape->line_force = all->array[4];
   shape->insulator_field = all->array[5];
+}
+
+ZpShapes *zp_model_shapes(const ZpModel *model, size_t capacity) {
+  size_t members = zp_members(model);
+  ZpShapes *shapes = zp_shapes_create(model->s, members * model->nodes, capacity);
+  if (shapes && members > 1) shapes->members = members;
+  return shapes;
 }

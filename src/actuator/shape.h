@@ -46,6 +46,9 @@ void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons);
 /* All that were put => the shape's arrays. */
 void zp_many_give(const ZpManyShapes *all, ZpShape *shape);
 
+/* Room for `capacity` shapes of all members; NULL if there is no memory. */
+ZpShapes *zp_model_shapes(const ZpModel *model, size_t capacity);
+
 /* The worst that materials see; places are lengths along the ribbon from the clip or clamp. */
 typedef struct ZpMargins {
   double insulator, insulator_place; /* V/m, m; NAN: there is no insulator between electrodes */

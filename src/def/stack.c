@@ -17,15 +17,22 @@ static int member_of(int key) {
   return 1 + (key - first_member.first) / (first_member.end - first_member.first);
 }
 
-/* Has member 1 .. `members` a key of its own? */
-static bool has_own_key(const ZpActuatorDef *def, int members) {
-  for (int key = first_member.first; key < last_member.end; key++)
-    if (member_of(key) <= members && !isnan(zp_def_get(def, key))) return true;
+/* The key of one actuator that a member's key stands for. */
+static int key_of_one(int key) {
+  return zp_key_find(zp_key(key)->name + PREFIX);
+}
+
+/* Is a member unlike what the other keys say? */
+static bool has_unlike_member(const ZpActuatorDef *def) {
+  for (int key = first_member.first; key < last_member.end; key++) {
+    double value = zp_def_get(def, key);
+    if (!isnan(value) && value != zp_def_get(def, key_of_one(key))) return true;
+  }
   return false;
 }
 
 bool zp_def_abreast(const ZpActuatorDef *def) {
-  return def->stack.series == 1 && def->stack.parallel > 1 && has_own_key(def, ZP_MOST_MEMBERS);
+  return def->stack.series == 1 && def->stack.parallel > 1 && has_unlike_member(def);
 }
 
 int zp_def_members(const ZpActuatorDef *def) {
@@ -61,7 +68,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   bool last = member == def->stack.series, abreast = zp_def_abreast(def);
   for (int key = first_member.first; key < last_member.end; key++) {
     double value = member_of(key) == member ? zp_def_get(def, key) : NAN;
-    if (!isnan(value)) zp_def_set(&one, zp_key_find(zp_key(key)->name + PREFIX), value, NULL);
+    if (!isnan(value)) zp_def_set(&one, key_of_one(key), value, NULL);
     zp_def_set(&one, key, NAN, NULL);
   }
   one.stack.series = 1;
@@ -72,6 +79,8 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
     one.stack.parallel = 1;
     one.load.mass /= def->stack.parallel;
     one.load.force /= def->stack.parallel;
+    one.load.stiffness /= def->stack.parallel;
+    if (!isnan(def->load.stop_opening)) one.load.stop_stiffness /= def->stack.parallel;
     return one;
   }
   if (zp_def_opposed(def)) {
@@ -85,8 +94,8 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
-  bool abreast = zp_def_abreast(def), series = def->stack.series > 1;
-  int members = abreast || series ? zp_def_members(def) : 0;
+  bool abreast = zp_def_abreast(def), series = def->stack.series > 1, parallel = !series && def->stack.parallel > 1;
+  int members = series ? def->stack.series : parallel ? def->stack.parallel : 0;
   if (abreast && members > ZP_MOST_MEMBERS)
     return zp_fail(err, ZP_BAD_INPUT, "stack.parallel = %d: with keys of member_K it is at most %d", members,
                    ZP_MOST_MEMBERS);
@@ -94,7 +103,8 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
     int member = member_of(key);
     if (member > members && !isnan(zp_def_get(def, key)))
       return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", zp_key(key)->name,
-                     stack_of(def), member > 1 ? member : 2, zp_def_members(def));
+                     parallel ? "parallel" : "series", member > 1 ? member : 2,
+                     parallel ? def->stack.parallel : def->stack.series);
   }
   if (!series && def->stack.link_mass > 0)
     return zp_fail(err, ZP_BAD_INPUT, "stack.link_mass = %g kg: requires stack.series of at least 2",
@@ -136,6 +146,7 @@ static ZpStatus check_opposed(const ZpActuatorDef *def, ZpError *err) {
 
 /* What is not known of several members. */
 static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
+  const bool in_series = !zp_def_abreast(def) && !zp_def_opposed(def);
   const struct {
     bool given;
     const char *key, *instead, *why;
@@ -160,15 +171,15 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
       {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unequal members",
        "the members' common equilibrium is found by unloading, and a ribbon that has yielded does not return on the "
        "same path"},
-      {def->load.stiffness > 0, "load.stiffness", "0", "a spring acts between the platforms of a single actuator"},
-      {!isnan(def->load.stop_opening), "load.stop_opening", "none",
+      {def->load.stiffness > 0 && in_series, "load.stiffness", "0",
+       "a spring acts between the platforms of a single actuator"},
+      {!isnan(def->load.stop_opening) && in_series, "load.stop_opening", "none",
        "a stop acts between the platforms of a single actuator"},
       {!isnan(def->insulator.resistivity), "insulator.resistivity", "none",
        "leakage is modelled in the insulators of a single actuator"},
       {!isnan(def->medium.resistivity), "medium.resistivity", "none",
        "leakage is modelled in the medium of a single actuator"},
       {!isnan(def->sense.frequency), "sense.frequency", "none", "the meter measures a single actuator"},
-      {*def->sensitivity.by != 0, "sensitivity.by", "empty", "derivatives are computed for a single actuator"},
   };
   for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
     if (unknown[k].given)

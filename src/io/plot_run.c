@@ -38,7 +38,6 @@ const ZpPicture zp_run_pictures[] = {
     {"plastic", "svg", "plastic.gp", ZP_OF(motion), .needs = "permanent_curvature_per_m", .keys = "ribbon.plasticity"},
     {"members", "svg", "members.gp", ZP_OF(motion), .needs = "member_1_opening_m", .keys = "stack.series"},
     {"members", "svg", "members_forces.gp", ZP_OF(motion), .needs = "member_1_force_N", .keys = "stack.parallel"},
-    {"members", "svg", "members_limits.gp", ZP_OF(limits), .needs = "release_voltage_V", .keys = "stack.series"},
     {"profile", "svg", "profile.gp", ZP_OF(field), .needs = "ratio", .has = has_power},
     {0},
 };

@@ -10,6 +10,16 @@
  * the last residual. `self` is a ZpStatics; row [n] gets the derivative by the coordinates (NULL: not needed). */
 double zp_closing_gap(void *self, double *row);
 
+/* At the present point all hang without a voltage => the gap at which the first member counts as closed, m; those of
+ * the others are kept in the members. */
+double zp_mark_closed(ZpStatics *statics);
+
+/* The sum of these gaps of members in series, m; else that of the first member. */
+double zp_open_gap(const ZpStatics *statics);
+
+/* How many members count as closed? */
+size_t zp_closed_members(const ZpStatics *statics);
+
 /* The static system along the square of the voltage (V^2), because forces are proportional to it: along the voltage
  * itself nothing moves at first. */
 ZpBranchSystem zp_closing_by_square(ZpStatics *statics);

@@ -234,7 +234,8 @@ static void border(ZpDynamics *d, const ZpSpan *span, ZpBordered *J) {
 static void tangent_of_one(ZpDynamics *d, ZpBordered *J) {
   ZpSpan span = span_of(d);
   ZpBand part = zp_band_part(&J->A, d->at, d->assembly.n);
-  zp_system_stiffness(d->model, &span, &d->assembly, &d->eval, &part);
+  zp_band_clear(&part);
+  zp_system_add_stiffness(d->model, &span, &d->assembly, &d->eval, &part);
   if (d->source) border(d, &span, J);
 }
 
@@ -595,7 +596,8 @@ static void set_dampers(ZpDynamics *d) {
 /* Masses of the equations, with `added` on each end that carries the load, kg. */
 static void weigh(ZpDynamics *d, double added) {
   const ZpTopology *t = &d->model->topology;
-  zp_assembly_masses(&d->assembly, d->model->mass, d->mass);
+  memset(d->mass, 0, d->assembly.n * sizeof *d->mass);
+  zp_assembly_add_masses(&d->assembly, d->model->mass, d->mass);
   if (d->model->has_film) weigh_liquid(d);
   d->added = added;
   for (size_t i = t->platform.first; added != 0 && i <= t->platform.last; i++)

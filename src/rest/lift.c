@@ -12,7 +12,7 @@ static bool is_at_top(const ZpLift *l) {
 
 void zp_lift_carve(ZpLift *l, ZpSlow *slow, const ZpRest *rest, ZpCarver *carver) {
   l->slow = slow;
-  zp_limit_carve(&l->at, zp_rest_save_size(rest), rest->statics.assembly.n, carver);
+  zp_limit_carve(&l->at, zp_rest_save_size(rest), rest->statics.n, carver);
 }
 
 void zp_lift_start(ZpLift *l, double top, double *hung, double *lifted) {
@@ -34,9 +34,10 @@ bool zp_lift_hang(ZpLift *l, double load) {
   ZpStatics *s = l->slow->statics;
   l->slow->square.restore(s, l->hung);
   s->load = load;
-  if (!zp_newton_good(zp_statics_hang(s, l->slow->newton).end) || !zp_statics_stable(s, l->slow->newton)) return false;
+  if (!zp_newton_good(zp_statics_hang(s, l->slow->newton).end) || !zp_statics_bias(s, l->slow->newton)) return false;
+  if (!zp_statics_stable(s, l->slow->newton)) return false;
   l->slow->square.save(s, l->hung);
-  zp_slow_start(l->slow, zp_closing_gap(s, NULL));
+  zp_slow_start(l->slow);
   return true;
 }
 

@@ -33,7 +33,7 @@ static ZpStatus build(ZpNear *near, const ZpModel *model, const Stencil *stencil
   ZpDriveTable table = model->waveform.table;
   ZpStatus status = ZP_OK;
   for (int k = 0; k < ZP_NEAR_POINTS && status == ZP_OK; k++) {
-    ZpActuatorDef def = model->def;
+    ZpActuatorDef def = model->whole;
     near->offset[k] = (stencil->first + k) * near->step;
     near->weight[k] = stencil->weight[k] / (12 * near->step);
     if (stencil->weight[k] == 0) continue;
@@ -48,7 +48,7 @@ ZpStatus zp_near_open(ZpNear *near, const ZpModel *model, int key, double part, 
   enum { FARTHEST = 4, PERCENT = 100 };
   *near = (ZpNear){.key = key};
   const ZpKey *row = zp_key(key);
-  double value = zp_def_get(&model->def, key);
+  double value = zp_def_get(&model->whole, key);
   ZpError reason = {ZP_OK, ""};
   ZpStatus status = ZP_BAD_INPUT;
   near->step = step_of(row, value, part);

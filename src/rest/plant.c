@@ -74,7 +74,7 @@ static size_t carve(Work *w, void *block) {
 
 static bool open_work(const ZpRest *rest, Work *w) {
   w->rest = rest;
-  w->model = rest->statics.model;
+  w->model = rest->statics.member->model;
   if (!zp_system_create(w->model, false, &w->eval) || !zp_assembly_create(w->model, 0, true, &w->assembly))
     return false;
   w->memory = zp_calloc(1, carve(w, NULL));
@@ -92,7 +92,7 @@ static void close_work(Work *w) {
 
 /* The present point at voltage U, with liquid up to `bead`. */
 static ZpSpan span_of(const Work *w, double U) {
-  ZpSpan span = zp_span_at(w->rest->statics.q);
+  ZpSpan span = zp_span_at(w->rest->statics.member->q);
   span.U0 = span.U1 = U;
   span.bead = w->bead;
   return span;
@@ -138,11 +138,13 @@ static void find_shapes(Work *w) {
   ZpSpan span = span_of(w, w->rest->statics.U);
   look(w, span.U1);
   span.tension = w->eval.edges.T;
-  zp_system_stiffness(w->model, &span, &w->assembly, &w->eval, &w->K);
+  zp_band_clear(&w->K);
+  zp_system_add_stiffness(w->model, &span, &w->assembly, &w->eval, &w->K);
   memcpy(w->factors.a, w->K.a, w->K.entries * sizeof *w->K.a);
   zp_band_factor(&w->factors);
   v->K = &w->factors;
-  zp_assembly_masses(&w->assembly, w->model->mass, v->mass);
+  memset(v->mass, 0, n * sizeof *v->mass);
+  zp_assembly_add_masses(&w->assembly, w->model->mass, v->mass);
   zp_vibration_start(v);
   zp_vibration_solve(v, v->m - v->m / 3);
   for (size_t j = 0; j < v->m; j++)
@@ -165,7 +167,7 @@ static void project(Work *w, const ZpBand *K, double *reduced, size_t columns) {
 static void find_internal_damping(Work *w) {
   const ZpModel *model = w->model;
   ZpEval *e = &w->eval;
-  const double *q = w->rest->statics.q;
+  const double *q = w->rest->statics.member->q;
   zp_rod_eval(&model->rod, q, q + model->stride, &e->rod_start);
   zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
   zp_rod_damping(&model->rod, &e->rod_start, &e->rod, &e->rod_step, w->spare, e->D);
@@ -502,7 +504,7 @@ static bool fill(Work *w, const ZpSupply *supply, ZpPlant *plant) {
 static void linearize(Work *w, const ZpSetpointSignal *signal) {
   const ZpModel *model = w->model;
   for (int half = 0; half < ZP_BEADS; half++)
-    w->bead[half].reach = w->rest->statics.eval.reach[half];
+    w->bead[half].reach = w->rest->statics.member->eval.reach[half];
   find_shapes(w);
   look(w, w->rest->statics.U);
   w->cover = w->eval.cover;
@@ -539,7 +541,7 @@ static void close_linear(Work *w) {
 }
 
 bool zp_plant_create(const ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
-  const ZpSupply supply = zp_supply_of(&rest->statics.model->def);
+  const ZpSupply supply = zp_supply_of(&rest->statics.member->model->def);
   Work *w;
   *plant = (ZpPlant){0};
   bool done = open_linear(rest, signal, &w) && fill(w, &supply, plant);

@@ -20,7 +20,10 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
       if (!rest->memory) return false;
     }
     zp_branch_carve(&rest->branch, &rest->system, rest->statics.form, &carver);
-    zp_shape_carve(model, &rest->shape_room, &carver);
+    for (size_t k = 0; k < rest->statics.members; k++)
+      zp_shape_carve(model, &rest->shape_room[k], &carver);
+    if (rest->statics.members > 1)
+      zp_many_carve(&rest->shapes, rest->statics.members, model->count, model->nodes, &carver);
     if (carve) carve(user, &carver);
   }
   return true;
@@ -29,6 +32,25 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
 void zp_rest_close(ZpRest *rest) {
   zp_free(rest->memory);
   zp_statics_destroy(&rest->statics);
+}
+
+ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins) {
+  const ZpStatics *s = &rest->statics;
+  ZpShape shape = {0};
+  if (margins) *margins = zp_margins_none();
+  for (size_t k = s->members; k-- > 0;) {
+    const ZpModel *model = s->member[k].model;
+    shape = zp_statics_shape(s, k, time, rest->shape_room[k]);
+    if (margins) zp_margins_join(margins, zp_margins_of(model, &shape));
+    if (s->members == 1) return shape;
+    double *y = zp_many_put(&rest->shapes, k, &shape);
+    if (k > 0 && s->distance > 0) zp_shape_turn_over(model, y);
+  }
+  for (size_t k = 0; k < s->members && !s->shared; k++)
+    zp_many_hang(&rest->shapes, k, s->member->model->s);
+  shape.zipped = zp_statics_front(s);
+  zp_many_give(&rest->shapes, &shape);
+  return shape;
 }
 
 size_t zp_rest_save_size(const ZpRest *rest) {
@@ -69,7 +91,7 @@ bool zp_rest_hang(ZpRest *rest, double voltage) {
   ZpStatics *s = &rest->statics;
   ZpNewtonWork *newton = &rest->branch.newton;
   bool found = zp_newton_good(zp_statics_hang(s, newton).end);
-  if (found && voltage > 0 && s->model->field) found = zp_statics_raise(s, voltage, newton);
+  if (found && voltage > 0 && s->member->model->field) found = zp_statics_raise(s, voltage, newton);
   return found && !zp_statics_shorted(s);
 }
 
@@ -88,7 +110,7 @@ double zp_rest_capacitance(const ZpRest *rest) {
 ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err) {
   ZpSlope slope;
   *stroke = *opening = NAN;
-  ZpStatus status = zp_slope_check(&rest->statics.model->def, key, err);
+  ZpStatus status = zp_slope_check(&rest->statics.member->model->def, key, err);
   if (status != ZP_OK) return status;
   status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, key, err);
   if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {

@@ -5,13 +5,15 @@
 
 #include <zipact/rest.h>
 
+#include "def/check.h"
 #include "rest/statics.h"
 
 struct ZpRest {
   ZpStatics statics;
-  ZpBranch branch;        /* along the voltage; its `newton` also serves without a branch */
-  ZpBranchSystem system;  /* of the branch */
-  ZpShapeRoom shape_room; /* for zp_statics_shape */
+  ZpBranch branch;                         /* along the voltage; its `newton` also serves without a branch */
+  ZpBranchSystem system;                   /* of the branch */
+  ZpShapeRoom shape_room[ZP_MOST_MEMBERS]; /* for the shapes of the members */
+  ZpManyShapes shapes;                     /* of several */
   void *memory;
 };
 
@@ -20,6 +22,10 @@ struct ZpRest {
  * fails. */
 bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user);
 void zp_rest_close(ZpRest *rest);
+
+/* The present shape with any `time`, of several members as if they were one; valid until the point moves. *margins
+ * (may be NULL): what their materials see. */
+ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins);
 
 /* Number of doubles in a copy of the present point. */
 size_t zp_rest_save_size(const ZpRest *rest);

@@ -34,7 +34,8 @@ ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err) {
 }
 
 void zp_pose_load(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = def->load.mass;
+  (void)def;
+  s->load = s->own_load;
 }
 
 /* -- neighbouring actuators ----------------------------------------------------------------------- */
@@ -57,9 +58,9 @@ static bool make_statics(ZpSlope *p) {
 
 static size_t carve(ZpSlope *p, void *block) {
   ZpCarver carver = {block, 0};
-  size_t stride = p->at->model->stride, n = p->at->assembly.n;
+  size_t stride = p->at->members * p->at->member->model->stride, n = p->at->n;
   p->rate = zp_carve(&carver, 2 * stride);
-  p->motion = zp_carve(&carver, 2 * stride);
+  p->motion = zp_carve(&carver, p->at->member->model->stride * 2);
   p->tension = zp_carve(&carver, stride);
   double **vectors[] = {&p->by_key, &p->by_parameter, &p->row};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
@@ -72,7 +73,7 @@ ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, ZpNewtonWork *work, int key, Z
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   carve(p, p->memory);
-  ZpStatus status = zp_near_open(&p->by, at->model, key, part, err);
+  ZpStatus status = zp_near_open(&p->by, at->member->model, key, part, err);
   if (status == ZP_OK && !make_statics(p)) status = zp_fail_memory(err);
   return status;
 }
@@ -85,28 +86,46 @@ void zp_slope_close(ZpSlope *p) {
 
 /* -- states of them ------------------------------------------------------------------------------- */
 
-/* Actuator k in the present state, with its coordinates scaled as its length. */
+/* Member k of one in the present state of the other, with its coordinates scaled as its length. */
+static void place_member(const ZpRestMember *at, ZpRestMember *near) {
+  memcpy(near->q, at->q, 2 * at->model->stride * sizeof *near->q);
+  near->closed = at->closed;
+  if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
+}
+
+/* Actuator k in the present state. */
 static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
-  memcpy(near->q, at->q, 2 * at->model->stride * sizeof *near->q);
-  if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
+  for (size_t which = 0; which < at->members; which++)
+    place_member(&at->member[which], &near->member[which]);
+  zp_statics_rejoin(near);
   near->U = at->U;
+  near->bias = at->bias;
   near->load = at->load;
   near->opening = at->opening;
   near->contact_acts = at->contact_acts;
-  pose(&near->model->def, near);
+  pose(&near->member->model->def, near);
   return near;
+}
+
+/* Where the numbers of a member begin, of `per_node` for each node. */
+static double *of_member(const ZpSlope *p, double *numbers, size_t which, size_t per_node) {
+  return numbers + which * per_node * p->at->member->model->stride;
 }
 
 /* Actuator k at the coordinates that the last solution gives. */
 static ZpStatics *place_along(ZpSlope *p, int k, ZpPose pose) {
   ZpStatics *near = place(p, k, pose);
-  size_t stride = p->at->model->stride;
-  for (size_t i = 0; i < 2 * stride; i++)
-    near->q[i] = p->at->q[i] + p->by.offset[k] * p->rate[i];
-  for (size_t j = 0; j < stride; j++)
-    near->tension[j] = p->at->tension[j] + p->by.offset[k] * p->tension[j];
+  size_t stride = p->at->member->model->stride;
+  for (size_t which = 0; which < near->members; which++) {
+    const ZpRestMember *at = &p->at->member[which];
+    const double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
+    for (size_t i = 0; i < 2 * stride; i++)
+      near->member[which].q[i] = at->q[i] + p->by.offset[k] * rate[i];
+    for (size_t j = 0; j < stride; j++)
+      near->member[which].tension[j] = at->tension[j] + p->by.offset[k] * tension[j];
+  }
   return near;
 }
 
@@ -114,11 +133,22 @@ static void residual(ZpStatics *s, double *r) {
   zp_statics_system(s).residual(s, r, NULL);
 }
 
+/* What a member adds to rate and tension, with so much weight. */
+static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, double weight) {
+  const ZpRestMember *at = &p->at->member[which];
+  size_t stride = at->model->stride, edges = at->model->count - at->model->s;
+  double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
+  for (size_t i = 0; i < 2 * stride; i++)
+    rate[i] += weight * (near->q[i] - at->q[i]);
+  for (size_t j = 0; j < edges; j++)
+    tension[j] += weight * near->eval.edges.T[j];
+}
+
 /* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
  * reaction. */
 static void differentiate(ZpSlope *p, ZpPose pose) {
   ZpStatics *at = p->at;
-  size_t stride = at->model->stride, n = at->assembly.n, edges = at->model->count - at->model->s;
+  size_t stride = at->members * at->member->model->stride, n = at->n;
   memset(p->rate, 0, 2 * stride * sizeof *p->rate);
   memset(p->tension, 0, stride * sizeof *p->tension);
   memset(p->by_key, 0, n * sizeof *p->by_key);
@@ -129,10 +159,8 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
     residual(&p->near[k], p->row);
     for (size_t i = 0; i < n; i++)
       p->by_key[i] += p->by.weight[k] * p->row[i];
-    for (size_t i = 0; i < 2 * stride; i++)
-      p->rate[i] += p->by.weight[k] * (near->q[i] - at->q[i]);
-    for (size_t j = 0; j < edges; j++)
-      p->tension[j] += p->by.weight[k] * near->eval.edges.T[j];
+    for (size_t which = 0; which < at->members; which++)
+      add_scaling(p, which, &near->member[which], p->by.weight[k]);
     p->reaction += p->by.weight[k] * near->reaction;
   }
 }
@@ -144,22 +172,30 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
 static void stiffness(ZpSlope *p, double *r) {
   ZpStatics *at = p->at;
   residual(at, p->work->r);
-  memcpy(at->tension, at->eval.edges.T, (at->model->count - at->model->s) * sizeof *at->tension);
+  zp_statics_take_tensions(at);
   zp_statics_system(at).stiffness(at, &p->work->K, r);
+}
+
+static void add_motion_of(ZpSlope *p, size_t which) {
+  const ZpRestMember *m = &p->at->member[which];
+  const ZpModel *model = m->model;
+  const ZpEdges *e = &m->eval.edges;
+  double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
+  const double *x = p->motion, *y = x + model->stride;
+  memset(p->motion, 0, 2 * model->stride * sizeof *p->motion);
+  zp_assembly_scatter(&m->assembly, p->by_key, p->motion); /* what is held stays 0 */
+  for (size_t i = 0; i < 2 * model->stride; i++)
+    rate[i] += p->motion[i];
+  for (size_t j = 0; j < model->count - model->s; j++) {
+    double dx = x[j + model->s] - x[j], dy = y[j + model->s] - y[j];
+    tension[j] += model->rod.S[j] * (e->ux[j] * dx + e->uy[j] * dy);
+  }
 }
 
 /* dq/dp less the scaling is in by_key. */
 static void add_motion(ZpSlope *p) {
-  const ZpModel *model = p->at->model;
-  const ZpEdges *e = &p->at->eval.edges;
-  const double *x = p->motion, *y = x + model->stride;
-  zp_assembly_scatter(&p->at->assembly, p->by_key, p->motion); /* what is held stays 0 */
-  for (size_t i = 0; i < 2 * model->stride; i++)
-    p->rate[i] += p->motion[i];
-  for (size_t j = 0; j < model->count - model->s; j++) {
-    double dx = x[j + model->s] - x[j], dy = y[j + model->s] - y[j];
-    p->tension[j] += model->rod.S[j] * (e->ux[j] * dx + e->uy[j] * dy);
-  }
+  for (size_t which = 0; which < p->at->members; which++)
+    add_motion_of(p, which);
 }
 
 /* The force that holds the platform changes as the platform's equation would change if it were free. */
@@ -199,7 +235,7 @@ double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
 /* dF/dm at the present point => by_parameter. */
 static void differentiate_by_parameter(ZpSlope *p, const ZpBranchSystem *branch) {
   static const double least = 1e-3; /* of the parameter's scale */
-  size_t n = p->at->assembly.n;
+  size_t n = p->at->n;
   double m = branch->get(p->at), step = part * fmax(fabs(m), least * branch->m_scale);
   memset(p->by_parameter, 0, n * sizeof *p->by_parameter);
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
@@ -229,16 +265,19 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 }
 
 /* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two
- * solutions is a quotient of two products with the left null vector. */
+ * solutions is a quotient of two products with the left null vector. Solved twice, other soft motions, as of members
+ * that nearly reach their limit points together, are left out to second order. */
 double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
-  size_t n = p->at->assembly.n;
+  size_t n = p->at->n;
   if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
+  zp_band_solve(&p->work->K, p->by_key);
+  zp_band_solve(&p->work->K, p->by_parameter);
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 
 double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate,
                          double by_parameter) {
-  size_t n = p->at->assembly.n;
+  size_t n = p->at->n;
   if (!solve_both(p, pose, branch)) return NAN;
   double direct = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {

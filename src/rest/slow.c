@@ -33,8 +33,8 @@ void zp_slow_carve(ZpSlow *f, ZpRest *rest, ZpCarver *carver) {
   f->held = zp_carve(carver, zp_rest_save_size(rest));
 }
 
-void zp_slow_start(ZpSlow *f, double hanging) {
-  f->closed = zp_closed_opening(f->statics->model, hanging);
+void zp_slow_start(ZpSlow *f) {
+  f->closed = zp_mark_closed(f->statics);
   f->march.limit = f->closed;
   f->march.fold.tolerance = zp_statics_tolerance(f->statics);
 }
@@ -49,8 +49,9 @@ double zp_slow_closed_by_load(ZpSlow *f) {
   ZpFold *fold = &f->march.fold;
   fold->system = &f->load;
   if (!zp_fold_tangent(fold)) return NAN;
-  double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->assembly.n, fold->x, fold->along);
-  double change = zp_closed_opening(s->model, (1 + step) * gap) - zp_closed_opening(s->model, (1 - step) * gap);
+  double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
+  double change =
+      zp_closed_opening(s->member->model, (1 + step) * gap) - zp_closed_opening(s->member->model, (1 - step) * gap);
   return by_load * change / (2 * step * gap);
 }
 
@@ -75,12 +76,12 @@ void zp_slow_note(ZpSlow *f, ZpLimit *limit, ZpMarchEnd end) {
   limit->reason = NULL;
   limit->room = 0;
   f->square.save(f->statics, limit->state);
-  memcpy(limit->null, f->march.fold.null, s->assembly.n * sizeof *limit->null);
+  memcpy(limit->null, f->march.fold.null, s->n * sizeof *limit->null);
 }
 
 void zp_slow_copy(const ZpSlow *f, const ZpLimit *from, ZpLimit *to) {
   memcpy(to->state, from->state, f->square.save_size);
-  memcpy(to->null, from->null, f->statics->assembly.n * sizeof *to->null);
+  memcpy(to->null, from->null, f->statics->n * sizeof *to->null);
   *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null, from->room};
 }
 
@@ -142,12 +143,12 @@ static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
  * point. */
 static bool is_ripple(ZpSlow *f, double m, double gap, double sign) {
   ZpStatics *s = f->statics;
-  double fallen = zp_closing_gap(s, NULL) - gap;
+  double fallen = zp_open_gap(s) - gap;
   f->square.save(s, f->held);
   ZpEvent event = f->march.event;
   f->march.event = NULL;
   ZpMarchEnd end = zp_march(&f->march, changed(f, m, -sign * ZP_FOLD_RIPPLE));
-  bool ripple = end != ZP_MARCH_ARRIVED || (zp_closing_gap(s, NULL) - gap) * fallen < 0;
+  bool ripple = end != ZP_MARCH_ARRIVED || (zp_open_gap(s) - gap) * fallen < 0;
   f->march.event = event;
   zp_slow_go_to(f, f->held);
   return ripple;
@@ -368,7 +369,7 @@ static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, Zp
     if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
     if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
-    double m = parameter(f), gap = zp_closing_gap(f->statics, NULL);
+    double m = parameter(f), gap = zp_open_gap(f->statics);
     bool found = fall_from(f, at, sign), jumped = zp_slow_is_closed(f) != f->was_closed;
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
     if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
@@ -386,7 +387,7 @@ static void choose(ZpSlow *f, const ZpBranchSystem *along) {
 
 bool zp_slow_fold_of_load(ZpSlow *f, const double *null) {
   choose(f, &f->load);
-  memcpy(f->march.fold.null, null, f->statics->assembly.n * sizeof *null);
+  memcpy(f->march.fold.null, null, f->statics->n * sizeof *null);
   return zp_fold_solve(&f->march.fold) && f->march.fold.negative == 0;
 }
 

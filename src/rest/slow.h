@@ -47,9 +47,8 @@ typedef enum ZpSlowEnd {
 
 void zp_slow_carve(ZpSlow *slow, ZpRest *rest, ZpCarver *carver);
 
-/* `hanging` is the gap that closes last, m, when the actuator hangs; it determines when the actuator counts as closed.
- */
-void zp_slow_start(ZpSlow *slow, double hanging);
+/* From the present point, at which the actuator hangs without a voltage: this determines when it counts as closed. */
+void zp_slow_start(ZpSlow *slow);
 
 bool zp_slow_is_closed(const ZpSlow *slow);
 

@@ -12,60 +12,122 @@
 #include "rest/crossing.h"
 #include "solve/descend.h"
 
+static void carve_member(ZpRestMember *m, size_t stride, ZpCarver *carver) {
+  m->q = zp_carve(carver, 2 * stride);
+  m->moved = zp_carve(carver, 2 * stride);
+  m->force = zp_carve(carver, 2 * stride);
+  m->good = zp_carve(carver, 2 * stride);
+  m->tension = zp_carve(carver, stride);
+  m->k0_now = zp_carve(carver, stride);
+  m->rotation = zp_carve(carver, stride);
+  m->stretch = zp_carve(carver, stride);
+  m->model = (const ZpModel *)(void *)zp_carve(carver, (sizeof *m->model + sizeof(double) - 1) / sizeof(double));
+}
+
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
-  size_t stride = model->stride;
   ZpCarver carver = {block, 0};
-  s->q = zp_carve(&carver, 2 * stride);
-  s->moved = zp_carve(&carver, 2 * stride);
-  s->force = zp_carve(&carver, 2 * stride);
-  s->good = zp_carve(&carver, 2 * stride);
-  s->tension = zp_carve(&carver, stride);
-  s->k0_now = zp_carve(&carver, stride);
-  s->rotation = zp_carve(&carver, stride);
-  s->stretch = zp_carve(&carver, stride);
-  s->model = (const ZpModel *)(void *)zp_carve(&carver, (sizeof *model + sizeof(double) - 1) / sizeof(double));
+  s->member = (ZpRestMember *)(void *)zp_carve(&carver, s->members * sizeof *s->member / sizeof(double));
+  s->product = zp_carve(&carver, s->members * 2 * model->stride);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember unused, *m = block ? &s->member[k] : &unused;
+    carve_member(m, model->stride, &carver);
+  }
   return carver.used;
 }
 
-static void fill_model(const ZpModel *model, ZpStatics *s) {
-  ZpModel *own = (ZpModel *)s->model;
+/* Each member is at rest in the frame of the platform that it hangs on. */
+static void hold_upper_platform(ZpTopology *t) {
+  for (size_t k = 0; k < t->joints; k++)
+    if (t->joint[k].kind == ZP_JOINT_LINK) t->joint[k].kind = ZP_JOINT_PLATFORM;
+  if (t->platform.kind == ZP_JOINT_LINK) t->platform.kind = ZP_JOINT_PLATFORM;
+}
+
+static void fill_model(const ZpModel *model, ZpRestMember *m) {
+  ZpModel *own = (ZpModel *)m->model;
   *own = *model;
-  own->rod.k0 = s->k0_now;
-  s->k0 = model->rod.k0;
+  hold_upper_platform(&own->topology);
+  own->rod.k0 = m->k0_now;
+  m->k0 = model->rod.k0;
 }
 
 static bool is_held(const ZpStatics *s) {
   return !isnan(s->opening);
 }
 
+static size_t edge_count(const ZpRestMember *m) {
+  return m->model->count - m->model->s;
+}
+
 /* Apply this share of weight and natural curvature. */
 static void put_on(ZpStatics *s, double share) {
   s->share = share;
-  for (size_t j = 0; j < s->model->stride; j++)
-    s->k0_now[j] = share * s->k0[j];
+  for (size_t k = 0; k < s->members; k++)
+    for (size_t j = 0; j < s->member[k].model->stride; j++)
+      s->member[k].k0_now[j] = share * s->member[k].k0[j];
 }
 
 static void lay_straight(ZpStatics *s) {
-  const ZpModel *model = s->model;
-  memset(s->q, 0, 2 * model->stride * sizeof *s->q);
-  memset(s->tension, 0, model->stride * sizeof *s->tension);
-  for (size_t j = 0; j < model->stride; j++)
-    s->q[j] = zp_straight_x(model, j / model->s);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    memset(m->q, 0, 2 * m->model->stride * sizeof *m->q);
+    memset(m->tension, 0, m->model->stride * sizeof *m->tension);
+    for (size_t j = 0; j < m->model->stride; j++)
+      m->q[j] = zp_straight_x(m->model, j / m->model->s);
+  }
+}
+
+/* Upside down, the platform of the lower antagonist falls as the load rises. */
+static double factor_of(const ZpStatics *s, size_t which) {
+  return which > 0 && s->distance > 0 ? -1 : 1;
+}
+
+static bool create_member(const ZpModel *model, ZpRestMember *m) {
+  fill_model(model, m);
+  return zp_system_create(m->model, true, &m->eval) && zp_assembly_create(m->model, 0, model->is_rod, &m->assembly);
+}
+
+/* The equations of all members. */
+static void number(ZpStatics *s) {
+  ZpAssembly *of[ZP_MOST_MEMBERS];
+  size_t load[ZP_MOST_MEMBERS];
+  double factor[ZP_MOST_MEMBERS];
+  const ZpAssembly *first = &s->member->assembly;
+  s->parts = first->parts;
+  s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    s->form.rank += zp_bead_rank(m->model);
+    of[k] = &m->assembly;
+    load[k] = zp_load_node(&m->model->topology);
+    factor[k] = factor_of(s, k);
+  }
+  if (s->members > 1) {
+    s->form.bandwidth = zp_assembly_join(of, s->members, s->shared ? load : NULL, factor);
+    s->form.groups = (ZpBandGroups){0, 0};
+  }
+  s->n = first->n;
 }
 
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
-  memset(s, 0, sizeof *s);
+  *s = (ZpStatics){.members = zp_members(model),
+                   .shared = zp_shares_load(model),
+                   .distance = model->distance,
+                   .force = zp_lowest(model)->def.load.force};
   s->memory = zp_calloc(1, carve(model, s, NULL));
-  if (s->memory) carve(model, s, s->memory);
-  if (s->memory) fill_model(model, s);
-  if (!s->memory || !zp_system_create(s->model, true, &s->eval) ||
-      !zp_assembly_create(s->model, 0, model->is_rod, &s->assembly)) {
+  bool made = s->memory != NULL;
+  if (made) carve(model, s, s->memory);
+  for (size_t k = 0; k < s->members && made; k++, model = model->below) {
+    made = create_member(model, &s->member[k]);
+    s->scale = fmax(s->scale, zp_eval_weight_scale(model));
+    s->own_load = s->shared ? s->own_load + model->def.load.mass : model->def.load.mass;
+  }
+  if (!made) {
     zp_statics_destroy(s);
     return false;
   }
-  s->form = (ZpBandForm){s->assembly.bandwidth, s->assembly.symmetric, zp_bead_rank(model), s->assembly.groups};
-  s->scale = zp_eval_weight_scale(model);
-  s->load = model->def.load.mass;
+  number(s);
+  s->load = s->own_load;
+  s->bias = 1;
   put_on(s, 1);
   s->opening = NAN;
   lay_straight(s);
@@ -73,18 +135,45 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
 }
 
 void zp_statics_destroy(ZpStatics *s) {
-  zp_system_destroy(&s->eval);
-  zp_assembly_destroy(&s->assembly);
+  for (size_t k = 0; k < s->members && s->memory; k++) {
+    zp_system_destroy(&s->member[k].eval);
+    zp_assembly_destroy(&s->member[k].assembly);
+  }
   zp_free(s->memory);
   s->memory = NULL;
 }
 
 double zp_statics_tolerance(const ZpStatics *s) {
-  const ZpModel *model = s->model;
-  return fmax(zp_tolerance_at_rest(&model->def), 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
+  double largest = zp_tolerance_at_rest(&s->member->model->def);
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpModel *model = s->member[k].model;
+    largest = fmax(largest, 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
+  }
+  return largest;
 }
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
+
+/* The present point => good, and back. */
+static void keep(ZpStatics *s) {
+  for (size_t k = 0; k < s->members; k++)
+    memcpy(s->member[k].good, s->member[k].q, 2 * s->member[k].model->stride * sizeof *s->member[k].q);
+}
+
+static void go_to_kept(ZpStatics *s) {
+  for (size_t k = 0; k < s->members; k++)
+    memcpy(s->member[k].q, s->member[k].good, 2 * s->member[k].model->stride * sizeof *s->member[k].q);
+}
+
+static void slacken(ZpStatics *s) {
+  for (size_t k = 0; k < s->members; k++)
+    memset(s->member[k].tension, 0, s->member[k].model->stride * sizeof *s->member[k].tension);
+}
+
+void zp_statics_take_tensions(ZpStatics *s) {
+  for (size_t k = 0; k < s->members; k++)
+    memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
+}
 
 /* Start from the straight shape and let the load that `put` sets grow to `whole`, first by the share `step`, if the
  * equilibrium is too far away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a
@@ -93,12 +182,11 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
                                  ZpNewtonWork *work) {
   static const double shortest = 1e-8;
   ZpStaticSystem system = zp_statics_system(s);
-  size_t bytes = 2 * s->model->stride * sizeof *s->q;
   double reached = 0;
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   int iterations = 0;
   lay_straight(s);
-  memcpy(s->good, s->q, bytes);
+  keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
     put(s, share * whole);
@@ -107,10 +195,10 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
     if (zp_newton_good(info.end)) {
       reached = share;
       step *= 2;
-      memcpy(s->good, s->q, bytes);
+      keep(s);
     } else {
-      memcpy(s->q, s->good, bytes);
-      memset(s->tension, 0, s->model->stride * sizeof *s->tension);
+      go_to_kept(s);
+      slacken(s);
       step *= 0.25;
     }
   }
@@ -120,25 +208,48 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   return info;
 }
 
+static double opening_of(const ZpRestMember *m) {
+  return zp_opening(&m->model->topology, m->q + m->model->stride);
+}
+
 /* Has any gap, insulators included, changed since the last good state by so large a share that this is another
  * branch? */
-static bool has_jumped(const ZpStatics *s) {
+static bool member_has_jumped(const ZpRestMember *m) {
   static const double jump = 0.25;
-  const ZpModel *model = s->model;
-  const double *y = s->good + model->stride;
+  const ZpModel *model = m->model;
+  const double *y = m->good + model->stride;
   for (size_t i = 0; i < model->nodes; i++) {
     double before = zp_plates_gap(&model->plates, y, i);
-    if (!(fabs(s->eval.plates.gap[i] - before) < jump * (fabs(before) + model->plates.d))) return true;
+    if (!(fabs(m->eval.plates.gap[i] - before) < jump * (fabs(before) + model->plates.d))) return true;
   }
   return false;
+}
+
+/* Has the load moved by so much? */
+static bool load_has_jumped(const ZpStatics *s) {
+  static const double part = 0.02; /* of the length, or of what both openings of antagonists sum up to */
+  bool jumped = false;
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpRestMember *m = &s->member[k];
+    double before = zp_opening(&m->model->topology, m->good + m->model->stride);
+    jumped |= fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
+  }
+  return jumped;
+}
+
+static bool has_jumped(const ZpStatics *s) {
+  bool jumped = load_has_jumped(s);
+  for (size_t k = 0; k < s->members; k++)
+    jumped |= member_has_jumped(&s->member[k]);
+  return jumped;
 }
 
 /* Back to the last good state. */
 static void go_back(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
-  memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
+  go_to_kept(s);
   system.residual(s, work->r, NULL);
-  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+  zp_statics_take_tensions(s);
 }
 
 /* Follow the branch from a stable equilibrium while `put(whole, share)` increases a load, in shares of at most
@@ -147,9 +258,8 @@ static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double 
                  ZpNewtonWork *work) {
   static const double shortest = 1e-6;
   ZpStaticSystem system = zp_statics_system(s);
-  size_t bytes = 2 * s->model->stride * sizeof *s->q;
   double reached = 0, step = longest;
-  memcpy(s->good, s->q, bytes);
+  keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
     put(s, whole, share);
@@ -157,7 +267,7 @@ static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double 
     if (zp_newton_good(end) && zp_statics_stable(s, work) && !has_jumped(s)) {
       reached = share;
       step = fmin(2 * step, longest);
-      memcpy(s->good, s->q, bytes);
+      keep(s);
     } else {
       go_back(s, work);
       step *= 0.5;
@@ -172,7 +282,8 @@ static void put_voltage(ZpStatics *s, double whole, double share) {
 }
 
 static void put_suction(ZpStatics *s, double whole, double share) {
-  ((ZpModel *)s->model)->bead.suction = whole * share;
+  for (size_t k = 0; k < s->members; k++)
+    ((ZpModel *)s->member[k].model)->bead.suction = whole * share;
 }
 
 /* Continue from the equilibrium without suction at the menisci to the one with it. Where that branch ends, suction
@@ -195,12 +306,12 @@ static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
  * unless the platform is held open. */
 static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
   s->contact_acts = true;
-  if (!zp_newton_good(info.end) || !s->model->field) return info;
+  if (!zp_newton_good(info.end) || !s->member->model->field) return info;
   ZpStaticSystem system = zp_statics_system(s);
-  memcpy(s->good, s->q, 2 * s->model->stride * sizeof *s->q);
+  keep(s);
   ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   if (!is_found(s, contact, work) || zp_statics_fault(s)) {
-    memcpy(s->q, s->good, 2 * s->model->stride * sizeof *s->q);
+    go_to_kept(s);
     if (is_held(s))
       contact = zp_statics_fall(s, 0, work);
     else
@@ -210,35 +321,67 @@ static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork
   return contact;
 }
 
-ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
+/* Shares of the square of the lower antagonist's own voltage. */
+static void put_bias(ZpStatics *s, double whole, double share) {
+  s->bias = whole * sqrt(share);
+}
+
+/* Antagonists, from where both are held half way. */
+static ZpNewtonInfo hang_between(ZpStatics *s, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
-  double suction = s->model->bead.suction;
+  double load = s->load;
+  s->bias = 0;
+  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * s->distance, work);
+  s->opening = NAN;
+  s->load = load;
+  if (!zp_newton_good(info.end)) return info;
+  info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
+  if (!is_found(s, info, work)) info = zp_statics_fall(s, 0, work);
+  return info;
+}
+
+bool zp_statics_bias(ZpStatics *s, ZpNewtonWork *work) {
+  bool biased = s->member->model->bias == 0 || grow(s, put_bias, 1, 0.05, work);
+  if (biased) s->bias = 1;
+  return biased;
+}
+
+const char *zp_statics_no_rest(const ZpStatics *s) {
+  return s->bias < 1 ? "the lower one pulls in below stack.lower_voltage" : "no hanging equilibrium found";
+}
+
+ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
+  if (s->distance > 0) return hang_between(s, work);
+  ZpStaticSystem system = zp_statics_system(s);
+  double suction = s->member->model->bead.suction;
   s->U = 0;
   s->contact_acts = false;
   put_suction(s, 0, 1);
   ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
   if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
-  if (s->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
+  if (s->member->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
   info = let_faces_push(s, info, work);
   info = let_menisci_draw(s, suction, info, work);
   if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
   return info;
 }
 
+/* Antagonists are held as they would be between mounts so much nearer to each other. */
 static void open_to(ZpStatics *s, double opening) {
   s->opening = opening;
+  s->distance = opening / s->held_at * s->member->model->distance;
 }
 
 /* The same while weight is applied too: ribbons that sag by more than the opening have no straight shape to start
  * from. */
 static void open_and_put_on(ZpStatics *s, double opening) {
-  s->opening = opening;
+  open_to(s, opening);
   put_on(s, opening / s->held_at);
 }
 
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   ZpStaticSystem system = zp_statics_system(s);
-  double suction = s->model->bead.suction;
+  double suction = s->member->model->bead.suction;
   s->U = 0;
   s->load = 0;
   s->opening = s->held_at = opening;
@@ -267,52 +410,112 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) 
   return zp_statics_fall(s, voltage, work);
 }
 
+static double stroke_of(const ZpRestMember *m) {
+  return zp_stroke(&m->model->topology, m->q + m->model->stride);
+}
+
+double zp_statics_member_opening(const ZpStatics *s, size_t which) {
+  return opening_of(&s->member[which]);
+}
+
+/* Of the first member, or of all in series together. */
+static double of_all(const ZpStatics *s, double (*number)(const ZpRestMember *m)) {
+  double sum = number(s->member);
+  for (size_t k = 1; k < s->members && !s->shared; k++)
+    sum += number(&s->member[k]);
+  return sum;
+}
+
 double zp_statics_stroke(const ZpStatics *s) {
-  return zp_stroke(&s->model->topology, s->q + s->model->stride);
+  return of_all(s, stroke_of);
 }
 
 double zp_statics_opening(const ZpStatics *s) {
-  return zp_opening(&s->model->topology, s->q + s->model->stride);
+  return of_all(s, opening_of);
 }
 
 double zp_statics_angle(const ZpStatics *s) {
-  return zp_topology_angle(&s->model->topology, s->q, s->q + s->model->stride);
+  return zp_topology_angle(&s->member->model->topology, s->member->q, s->member->q + s->member->model->stride);
+}
+
+static size_t front_of(const ZpRestMember *m) {
+  return m->model->field ? zp_faces_front(&m->model->faces, m->eval.plates.gap) : 0;
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
-  return s->model->field ? zp_faces_front(&s->model->faces, s->eval.plates.gap) : 0;
+  size_t least = front_of(s->member);
+  for (size_t k = 1; k < s->members && !(s->distance > 0); k++)
+    least = front_of(&s->member[k]) < least ? front_of(&s->member[k]) : least;
+  return least;
+}
+
+static double closed_length_of(const ZpRestMember *m) {
+  return (double)front_of(m) * m->model->l;
+}
+
+double zp_statics_member_closed(const ZpStatics *s, size_t which) {
+  return closed_length_of(&s->member[which]);
+}
+
+double zp_statics_closed_length(const ZpStatics *s) {
+  if (!s->shared) return of_all(s, closed_length_of);
+  return (double)zp_statics_front(s) * s->member->model->l;
+}
+
+double zp_statics_member_voltage(const ZpStatics *s, size_t which) {
+  const ZpModel *first = s->member->model;
+  return which == 0 || !s->shared ? s->U : first->ratio * s->U + s->bias * first->bias;
+}
+
+static bool is_shorted(const ZpRestMember *m, double U) {
+  const ZpModel *model = m->model;
+  if (U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
+  return zp_plates_least_gap(&model->plates, m->q + model->stride) < model->faces.depth;
 }
 
 bool zp_statics_shorted(const ZpStatics *s) {
-  const ZpModel *model = s->model;
-  if (s->U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
-  return zp_plates_least_gap(&model->plates, s->q + model->stride) < s->model->faces.depth;
+  bool shorted = false;
+  for (size_t k = 0; k < s->members; k++)
+    shorted |= is_shorted(&s->member[k], zp_statics_member_voltage(s, k));
+  return shorted;
 }
 
 const char *zp_statics_trouble(const ZpStatics *s) {
-  return s->eval.fault;
+  const char *fault = NULL;
+  for (size_t k = 0; k < s->members && !fault; k++)
+    fault = s->member[k].eval.fault;
+  return fault;
 }
 
-static ZpElectric totals(const ZpStatics *s) {
-  ZpSpan here = zp_span_at(s->q);
-  here.beyond = zp_eval_beyond(&s->eval);
-  return zp_system_electric(s->model, &here, &s->eval, ZP_SPAN_END, s->U);
+static ZpElectric totals(const ZpRestMember *m, double U) {
+  ZpSpan here = zp_span_at(m->q);
+  here.beyond = zp_eval_beyond(&m->eval);
+  return zp_system_electric(m->model, &here, &m->eval, ZP_SPAN_END, U);
 }
 
 double zp_statics_charge(const ZpStatics *s) {
-  return s->model->parts * totals(s).charge;
+  double sum = 0;
+  for (size_t k = 0; k < s->members; k++)
+    sum += s->member[k].model->parts * totals(&s->member[k], zp_statics_member_voltage(s, k)).charge;
+  return sum;
+}
+
+static double capacitance_of(const ZpRestMember *m, double U) {
+  return m->model->parts * totals(m, U).capacitance;
 }
 
 double zp_statics_capacitance(const ZpStatics *s) {
-  return s->model->parts * totals(s).capacitance;
+  double sum = 0;
+  for (size_t k = 0; k < s->members; k++)
+    sum += capacitance_of(&s->member[k], zp_statics_member_voltage(s, k));
+  return sum;
 }
 
 /* Capacitance of closed faces, whole actuator, F. */
-static double closed_capacitance(const ZpStatics *s) {
-  const ZpActuatorDef *def = &s->model->def;
-  double per_length =
-      zp_plates_inverse_gap(&s->model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  return per_length * zp_faces_length(s->model);
+static double closed_capacitance(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double per_length = zp_plates_inverse_gap(&model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
+  return per_length * zp_faces_length(model);
 }
 
 /* Force per length of faces, N/m, with which a load that falls upwards presses those of the platform together, or the
@@ -326,47 +529,62 @@ static double pressed_by_load(const ZpModel *model) {
 /* The largest overlap that a state may have, m. By (9.1) the attraction at the breakdown of the insulators causes the
  * contact depth, and a stronger attraction or a load causes more. At a front the bent ribbons press on closed faces
  * like a lever. */
-static double deepest_overlap(const ZpStatics *s) {
+static double deepest_overlap(const ZpModel *model, double U) {
   static const double ranges = 2, of_insulators = 0.02, lever = 3;
-  const ZpFacesParams *faces = &s->model->faces;
-  double attraction = zp_plates_law(&s->model->plates, s->U, 0).W;
-  double pull = (attraction + pressed_by_load(s->model)) / faces->push;
+  const ZpFacesParams *faces = &model->faces;
+  double attraction = zp_plates_law(&model->plates, U, 0).W;
+  double pull = (attraction + pressed_by_load(model)) / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
-  return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&s->model->def)), lever * balanced);
+  return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&model->def)), lever * balanced);
 }
 
 /* Ribbons that slide along each other by a little are not parted by it, because the gap is that of heights. */
-static double deepest_crossing(const ZpStatics *s) {
+static double deepest_crossing(const ZpModel *model, double U) {
   static const double of_insulators = 0.5;
-  return fmax(deepest_overlap(s), of_insulators * zp_insulation(&s->model->def));
+  return fmax(deepest_overlap(model, U), of_insulators * zp_insulation(&model->def));
 }
 
-const char *zp_statics_fault_of_stations(const ZpStatics *s) {
+static const char *fault_of_stations(const ZpRestMember *m, double U, bool contact_acts) {
   static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
-  if (!s->model->field) return NULL;
-  double least = INFINITY, most = deepest_overlap(s), capacitance = zp_statics_capacitance(s);
-  for (size_t i = 0; i < s->model->nodes; i++)
-    least = fmin(least, s->eval.plates.gap[i]);
-  if (s->contact_acts && least < -most) return "the insulators' faces overlap";
+  if (!m->model->field) return NULL;
+  double least = INFINITY, capacitance = capacitance_of(m, U);
+  for (size_t i = 0; i < m->model->nodes; i++)
+    least = fmin(least, m->eval.plates.gap[i]);
+  if (contact_acts && least < -deepest_overlap(m->model, U)) return "the insulators' faces overlap";
   if (capacitance < 0) return "the capacitance is negative";
-  if (capacitance > beyond_plates * closed_capacitance(s)) return "the capacitance is above that of closed faces";
+  if (capacitance > beyond_plates * closed_capacitance(m->model))
+    return "the capacitance is above that of closed faces";
   return NULL;
 }
 
+const char *zp_statics_fault_of_stations(const ZpStatics *s) {
+  const char *fault = NULL;
+  for (size_t k = 0; k < s->members && !fault; k++)
+    fault = fault_of_stations(&s->member[k], zp_statics_member_voltage(s, k), s->contact_acts);
+  return fault;
+}
+
 const char *zp_statics_fault(const ZpStatics *s) {
-  bool apart = s->model->field && s->contact_acts; /* as contact wants them */
-  if (apart && zp_crossing_depth(s->model, s->q) > deepest_crossing(s)) return "the faces cross each other";
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpRestMember *m = &s->member[k];
+    bool apart = m->model->field && s->contact_acts; /* as contact wants them */
+    if (apart && zp_crossing_depth(m->model, m->q) > deepest_crossing(m->model, zp_statics_member_voltage(s, k)))
+      return "the faces cross each other";
+  }
   return zp_statics_fault_of_stations(s);
 }
 
-ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *room) {
-  ZpShape shape = {
-      .time = time, .voltage = s->U, .zipped = zp_statics_front(s), .x = s->q, .y = s->q + s->model->stride};
-  ZpShapeRoom here = *room;
-  for (int half = 0; s->model->has_bead && half < zp_beads(&s->model->film); half++)
-    here.reach[half] = s->eval.reach[half];
-  if (s->model->field) shape.gap = s->eval.plates.gap;
-  zp_shape_fill(s->model, &here, &shape);
+ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeRoom room) {
+  const ZpRestMember *m = &s->member[which];
+  ZpShape shape = {.time = time,
+                   .voltage = zp_statics_member_voltage(s, which),
+                   .zipped = front_of(m),
+                   .x = m->q,
+                   .y = m->q + m->model->stride};
+  for (int half = 0; m->model->has_bead && half < zp_beads(&m->model->film); half++)
+    room.reach[half] = m->eval.reach[half];
+  if (m->model->field) shape.gap = m->eval.plates.gap;
+  zp_shape_fill(m->model, &room, &shape);
   return shape;
 }
 
@@ -376,21 +594,21 @@ ZpShape zp_statics_shape(const ZpStatics *s, double time, const ZpShapeRoom *roo
  * there while the edges rotate, so there is no closing error to spread along the ribbons. */
 
 size_t zp_statics_platform(const ZpStatics *s) {
-  return (size_t)s->assembly.equation[2 * zp_load_node(&s->model->topology) + 1];
+  return (size_t)s->member->assembly.equation[2 * zp_load_node(&s->member->model->topology) + 1];
 }
 
 /* The equation has the form of a force, so that the tolerance of forces applies: a stiffness, of each half, times the
  * remaining distance. */
 static double holding(const ZpStatics *s) {
   static const double soft = 1e-3; /* of the stiffest, so that the rounding of y does not count */
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   return soft * (double)model->topology.halves * model->axial_stiffness;
 }
 
 static void hold_platform(ZpStatics *s, double *r) {
   size_t row = zp_statics_platform(s);
   s->reaction = r[row];
-  r[row] = holding(s) * (zp_drop(&s->model->topology, s->q + s->model->stride) - s->opening);
+  r[row] = holding(s) * (zp_drop(&s->member->model->topology, s->member->q + s->member->model->stride) - s->opening);
 }
 
 /* The same for the terms on top of the band. */
@@ -423,16 +641,32 @@ static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
 
 /* -- residual ------------------------------------------------------------------------------------- */
 
-/* The present point. */
-static ZpSpan span_of(const ZpStatics *s) {
-  const ZpActuatorDef *def = &s->model->def;
-  ZpSpan span = zp_span_at(s->q);
-  span.U0 = span.U1 = s->U;
-  span.hung = zp_load_share(s->model) * (s->load - def->load.mass) * def->gravity;
+/* The part of the load that hangs on a member: of those side by side an equal share; of antagonists all of it on the
+ * upper one; in series all of it on each. */
+static double load_part(const ZpStatics *s, size_t which) {
+  if (s->distance > 0) return which == 0;
+  return s->shared ? 1 / (double)s->members : 1;
+}
+
+/* Mass that hangs on a member in addition to its own load, kg: in series also what hangs below it. */
+static double hung_on(const ZpStatics *s, size_t which) {
+  const ZpModel *model = s->member[which].model, *last = s->member[s->members - 1].model;
+  if (s->shared) return load_part(s, which) * s->load - model->def.load.mass;
+  return model->carried + s->load - last->def.load.mass;
+}
+
+/* The present point of a member. */
+static ZpSpan span_of(const ZpStatics *s, size_t which) {
+  const ZpRestMember *m = &s->member[which];
+  const ZpActuatorDef *def = &m->model->def;
+  ZpSpan span = zp_span_at(m->q);
+  span.U0 = span.U1 = zp_statics_member_voltage(s, which);
+  span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
+  if (!s->shared) span.load = zp_load_share(m->model) * (s->force - def->load.force);
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
-  span.beyond = zp_eval_beyond(&s->eval);
-  span.tension = s->tension;
+  span.beyond = zp_eval_beyond(&m->eval);
+  span.tension = m->tension;
   return span;
 }
 
@@ -443,12 +677,12 @@ static void scale_common(const ZpParts *parts, double factor, double *r) {
 }
 
 /* The largest residual force on one half, N; NAN if any is NAN. */
-static double largest_of(const ZpAssembly *a, double *r) {
-  double largest = 0, halves = (double)(1 + a->parts.more);
-  scale_common(&a->parts, 1 / halves, r);
-  for (size_t i = 0; i < a->n && !isnan(largest); i++)
+static double largest_of(const ZpStatics *s, double *r) {
+  double largest = 0, halves = (double)(1 + s->parts.more);
+  scale_common(&s->parts, 1 / halves, r);
+  for (size_t i = 0; i < s->n && !isnan(largest); i++)
     if (!(fabs(r[i]) <= largest)) largest = fabs(r[i]);
-  scale_common(&a->parts, halves, r);
+  scale_common(&s->parts, halves, r);
   return largest;
 }
 
@@ -462,28 +696,51 @@ static ZpEnd residual(void *self, double *r, double *size) {
   enum { BETWEEN = 64 }; /* residuals between two calls of `stop`: about a millisecond */
   ZpStatics *s = self;
   if (s->stopped || (++s->unasked >= BETWEEN && zp_statics_asked_to_stop(s))) return ZP_END_STOP;
-  ZpSpan here = span_of(s);
-  zp_system_force(s->model, &here, &s->eval, s->force);
-  zp_assembly_sum(&s->assembly, s->force, r);
+  memset(r, 0, s->n * sizeof *r);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    ZpSpan here = span_of(s, k);
+    zp_system_force(m->model, &here, &m->eval, m->force);
+    zp_assembly_add(&m->assembly, m->force, r);
+  }
   if (is_held(s)) hold_platform(s, r);
-  double largest = largest_of(&s->assembly, r);
+  double largest = largest_of(s, r);
   if (size) *size = largest / s->scale;
   return isfinite(largest) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 /* -- stiffness ------------------------------------------------------------------------------------ */
 
+/* Add the stiffness of each member, or its part beside edges. */
+static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
+  ZpBand own = *K; /* with the terms of one member on top */
+  zp_band_clear(K);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    ZpSpan here = span_of(s, k);
+    own.rank = zp_bead_rank(m->model);
+    zp_assembly_turn_over(&m->assembly, &own);
+    if (beside_edges)
+      zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &own);
+    else
+      zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &own);
+    zp_assembly_turn_over(&m->assembly, &own);
+    own.u += own.rank * K->n;
+    own.v += own.rank * K->n;
+  }
+}
+
 static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
-  ZpSpan here = span_of(s);
-  zp_system_stiffness(s->model, &here, &s->assembly, &s->eval, K);
+  s->K = K;
+  add_members(s, false, K);
   if (is_held(s)) hold_equation(s, K, r);
 }
 
 /* The exact stiffness is that with the tensions of the present point. */
 static void exact_residual(ZpStatics *s, double *r) {
   residual(s, r, NULL);
-  memcpy(s->tension, s->eval.edges.T, (s->model->count - s->model->s) * sizeof *s->tension);
+  zp_statics_take_tensions(s);
 }
 
 /* Decrease of the force on the platform in a step, as if it were free. */
@@ -492,8 +749,8 @@ static double fall_along(ZpStatics *s, const double *step, ZpBand *K) {
   s->opening = NAN;
   stiffness(s, K, NULL);
   s->opening = opening;
-  zp_band_multiply(K, step, s->force);
-  return s->force[zp_statics_platform(s)];
+  zp_band_multiply(K, step, s->product);
+  return s->product[zp_statics_platform(s)];
 }
 
 double zp_statics_holding(ZpStatics *s, ZpNewtonWork *work) {
@@ -505,22 +762,19 @@ double zp_statics_holding(ZpStatics *s, ZpNewtonWork *work) {
 }
 
 double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
+  double sum = 0;
   residual(s, r, NULL);
   stiffness(s, K, NULL);
-  double sum = zp_edges_along(&s->assembly, (const double(*)[4])s->eval.D, u);
-  ZpSpan here = span_of(s);
-  zp_system_stiffness_beside_edges(s->model, &here, &s->assembly, &s->eval, K);
+  for (size_t k = 0; k < s->members; k++)
+    sum += zp_edges_along(&s->member[k].assembly, (const double(*)[4])s->member[k].eval.D, u);
+  add_members(s, true, K);
   zp_band_multiply(K, u, r);
-  for (size_t i = 0; i < s->assembly.n; i++)
+  for (size_t i = 0; i < s->n; i++)
     sum += u[i] * r[i];
   return sum;
 }
 
 /* -- moving --------------------------------------------------------------------------------------- */
-
-static double part(const ZpStatics *s, const double *step, size_t k) {
-  return s->assembly.equation[k] >= 0 ? step[s->assembly.equation[k]] : 0;
-}
 
 ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const double *restrict dx,
                                        const double *restrict dy, const ZpEdges *e, double *restrict rotation,
@@ -535,28 +789,22 @@ ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const doubl
   }
 }
 
-static size_t edge_count(const ZpStatics *s) {
-  return s->model->count - s->model->s;
-}
-
-/* Rotation and stretch of all edges under a step => s. */
-static void turn(ZpStatics *s, const double *step) {
-  const int *equation = s->assembly.equation;
-  double *dx = s->moved, *dy = dx + s->model->stride;
-  for (size_t j = 0; j < s->model->count; j++) {
-    int x = equation[2 * j], y = equation[2 * j + 1];
-    dx[j] = x >= 0 ? step[x] : 0;
-    dy[j] = y >= 0 ? step[y] : 0;
-  }
-  edges_under_step(edge_count(s), s->model->s, dx, dy, &s->eval.edges, s->rotation, s->stretch);
+/* Rotation and stretch of all edges of a member under a step => m. */
+static void turn(ZpRestMember *m, const double *step) {
+  zp_assembly_changes(&m->assembly, step, m->moved);
+  edges_under_step(edge_count(m), m->model->s, m->moved, m->moved + m->model->stride, &m->eval.edges, m->rotation,
+                   m->stretch);
 }
 
 /* The largest rotation of an edge in a step, rad; NAN if any is NAN. */
 static double largest_rotation(ZpStatics *s, const double *step) {
   double most = 0;
-  turn(s, step);
-  for (size_t j = 0; j < edge_count(s) && !isnan(most); j++)
-    if (!(fabs(s->rotation[j]) <= most)) most = fabs(s->rotation[j]);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    turn(m, step);
+    for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
+      if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
+  }
   return most;
 }
 
@@ -565,28 +813,39 @@ static double length(void *self, const double *step) {
   return largest_rotation(self, step) / longest;
 }
 
-/* The largest relative change of a gap, insulators included, in a step. */
-static double gap_share(const ZpStatics *s, const double *step) {
-  const ZpModel *model = s->model;
+/* The largest relative change of a gap of a member, insulators included, in the step that has turned its edges. */
+static double gap_share_of(const ZpRestMember *m, double U) {
+  const ZpModel *model = m->model;
   const ZpPlatesParams *p = &model->plates;
   const ZpTopology *t = &model->topology;
-  double most = 0, least_h = zp_plates_least_h(p, s->U);
+  const double *y = m->moved + model->stride;
+  double most = 0, least_h = zp_plates_least_h(p, U);
   for (size_t i = 0; i < model->nodes; i++) {
-    double upper = zp_is_pair(t) ? part(s, step, 2 * zp_upper(t, i) + 1) : 0;
-    double dy = part(s, step, 2 * zp_lower(t, i) + 1) - upper;
-    most = fmax(most, fabs(dy) / fmax(s->eval.plates.gap[i] + p->d, least_h));
+    double change = y[zp_lower(t, i)] - (zp_is_pair(t) ? y[zp_upper(t, i)] : 0);
+    most = fmax(most, fabs(change) / fmax(m->eval.plates.gap[i] + p->d, least_h));
   }
   return most;
+}
+
+static double gap_share(const ZpStatics *s) {
+  double most = 0;
+  for (size_t k = 0; k < s->members; k++)
+    most = fmax(most, gap_share_of(&s->member[k], zp_statics_member_voltage(s, k)));
+  return most;
+}
+
+/* Does the attraction of faces act? */
+static bool attracts(const ZpStatics *s) {
+  return s->member->model->field && (s->U != 0 || (s->members > 1 && zp_statics_member_voltage(s, 1) != 0));
 }
 
 /* The largest rotation of an edge, rad, and, under a voltage, the largest relative change of a gap, insulators
  * included. */
 static double change(void *self, const double *step) {
   ZpStatics *s = self;
-  const ZpModel *model = s->model;
   double most = largest_rotation(s, step);
-  if (model->field && s->U != 0) most = fmax(most, gap_share(s, step));
-  return most / zp_tolerance_at_rest(&model->def);
+  if (attracts(s)) most = fmax(most, gap_share(s));
+  return most / zp_tolerance_at_rest(&s->member->model->def);
 }
 
 /* The axial stiffness of edge j is S[j], or `all` if S is NULL. => edge vectors in place of the displacements of their
@@ -610,12 +869,12 @@ ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *
 /* Rotate and stretch each edge instead of moving its ends along straight lines. So a rotation does not stretch the
  * ribbon, whose axial stiffness is a million times its bending stiffness. The next stiffness uses the tensions that the
  * step predicts. Those of the rebuilt edges have an error of the square of the rotation times that million. => edge
- * vectors in s->moved. */
-static void turn_edges(ZpStatics *s, const double *step, double fraction) {
-  const ZpModel *model = s->model;
-  turn(s, step);
-  edges_turned(edge_count(s), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &s->eval.edges,
-               s->rotation, s->stretch, s->tension, s->moved, s->moved + model->stride);
+ * vectors in m->moved. */
+static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
+  const ZpModel *model = m->model;
+  turn(m, step);
+  edges_turned(edge_count(m), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &m->eval.edges,
+               m->rotation, m->stretch, m->tension, m->moved, m->moved + model->stride);
 }
 
 /* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the
@@ -628,20 +887,20 @@ static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
 }
 
 /* Lay two ribbons from their hinge. */
-static void lay_fold(ZpStatics *s) {
-  const ZpModel *model = s->model;
+static void lay_fold(ZpRestMember *m) {
+  const ZpModel *model = m->model;
   for (size_t c = 0; c < 2; c++)
     for (size_t ribbon = 0; ribbon < model->s; ribbon++)
-      lay(s->moved + c * model->stride, model->s, ribbon, model->count - model->s + ribbon, s->q + c * model->stride);
+      lay(m->moved + c * model->stride, model->s, ribbon, model->count - model->s + ribbon, m->q + c * model->stride);
 }
 
 /* Place one ribbon from its clamp; the closing error at a clamped right end is spread along it. */
-static void lay_one(ZpStatics *s) {
-  size_t stride = s->model->stride, end = s->model->count - 1;
+static void lay_one(ZpRestMember *m) {
+  size_t stride = m->model->stride, end = m->model->count - 1;
   for (size_t c = 0; c < 2; c++) {
-    double *q = s->q + c * stride, last = q[end];
-    lay(s->moved + c * stride, 1, 0, end, q);
-    if (s->assembly.equation[2 * end + c] >= 0) continue;
+    double *q = m->q + c * stride, last = q[end];
+    lay(m->moved + c * stride, 1, 0, end, q);
+    if (m->assembly.equation[2 * end + c] >= 0) continue;
     double missed = q[end] - last;
     for (size_t j = 1; j <= end; j++)
       q[j] -= missed * (double)j / (double)end;
@@ -691,20 +950,20 @@ static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
 }
 
 /* A platform that turns is placed by its edge; half of the closing error is spread along each loop. */
-static void lay_platform(ZpStatics *s, const Loop loops[2]) {
-  const ZpTopology *t = &s->model->topology;
+static void lay_platform(ZpRestMember *m, const Loop loops[2]) {
+  const ZpTopology *t = &m->model->topology;
   size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
   for (size_t c = 0; c < 2; c++) {
-    double *q = s->q + c * s->model->stride, missed = q[right] - q[left] - s->moved[c * s->model->stride + left];
+    double *q = m->q + c * m->model->stride, missed = q[right] - q[left] - m->moved[c * m->model->stride + left];
     spread(t, loops[0], -0.5 * missed, q);
     spread(t, loops[1], 0.5 * missed, q);
   }
 }
 
 /* A platform that does not turn keeps its x and, where two halves meet there, gets the mean of their y. */
-static void lay_level_platform(ZpStatics *s, const Loop loops[2]) {
-  const ZpTopology *t = &s->model->topology;
-  double *x = s->q, *y = x + s->model->stride, sum = 0;
+static void lay_level_platform(ZpRestMember *m, const Loop loops[2]) {
+  const ZpTopology *t = &m->model->topology;
+  double *x = m->q, *y = x + m->model->stride, sum = 0;
   for (size_t h = 0; h < t->halves; h++) {
     size_t upper = zp_upper(t, loops[h].platform), lower = zp_lower(t, loops[h].platform);
     spread(t, loops[h], x[lower] - x[upper], x);
@@ -716,61 +975,100 @@ static void lay_level_platform(ZpStatics *s, const Loop loops[2]) {
 }
 
 /* Place two ribbons, from the upper platform on. */
-static void lay_two(ZpStatics *s) {
-  const ZpTopology *t = &s->model->topology;
+static void lay_two(ZpRestMember *m) {
+  const ZpTopology *t = &m->model->topology;
   const Loop loops[2] = {loop_to(t, t->platform.first, 0), loop_to(t, t->platform.last, t->stations - 1)};
   for (size_t h = 0; h < t->halves; h++)
     for (size_t c = 0; c < 2; c++)
-      lay_loop(t, loops[h], s->moved + c * s->model->stride, s->q + c * s->model->stride);
+      lay_loop(t, loops[h], m->moved + c * m->model->stride, m->q + c * m->model->stride);
   if (zp_platform_turns(t))
-    lay_platform(s, loops);
+    lay_platform(m, loops);
   else
-    lay_level_platform(s, loops);
+    lay_level_platform(m, loops);
 }
 
-void zp_statics_put_platform(ZpStatics *s, double height) {
-  const ZpTopology *t = &s->model->topology;
-  double *y = s->q + s->model->stride;
+/* Put the lower platform of a half at a height. */
+static void put_platform(ZpRestMember *m, double height) {
+  const ZpTopology *t = &m->model->topology;
+  double *y = m->q + m->model->stride;
   spread(t, loop_to(t, t->platform.first, 0), y[zp_load_node(t)] - height, y);
+}
+
+/* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
+static void meet(ZpStatics *s) {
+  if (!s->shared) return;
+  double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = -opening_of(s->member);
+  for (size_t k = 1; k < s->members; k++) {
+    missed[k] = first + factor_of(s, k) * opening_of(&s->member[k]) + s->distance;
+    mean += missed[k] / (double)s->members;
+  }
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    put_platform(m, factor_of(s, k) * (missed[k] - mean) - opening_of(m));
+  }
+}
+
+void zp_statics_rejoin(ZpStatics *s) {
+  bool opposed = s->distance > 0;
+  for (size_t k = 1; k < s->members && s->shared; k++) {
+    double first = opening_of(s->member), other = opening_of(&s->member[k]);
+    if (opposed && first > other)
+      put_platform(s->member, other - s->distance);
+    else
+      put_platform(&s->member[k], opposed ? first - s->distance : -first);
+  }
+}
+
+static void move_member(ZpRestMember *m, const double *step, double fraction) {
+  turn_edges(m, step, fraction);
+  if (zp_is_hinge(&m->model->topology))
+    lay_fold(m);
+  else if (zp_is_pair(&m->model->topology))
+    lay_two(m);
+  else
+    lay_one(m);
 }
 
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
-  turn_edges(s, step, fraction);
-  if (zp_is_hinge(&s->model->topology))
-    lay_fold(s);
-  else if (zp_is_pair(&s->model->topology))
-    lay_two(s);
-  else
-    lay_one(s);
+  for (size_t k = 0; k < s->members; k++)
+    move_member(&s->member[k], step, fraction);
+  meet(s);
 }
 
 /* Where the liquid is at these positions, for the field that is solved there. */
-static void lay_bead(ZpStatics *s) {
-  const ZpModel *model = s->model;
+static void lay_bead(ZpRestMember *m) {
+  const ZpModel *model = m->model;
   if (!model->has_bead) return;
-  zp_plates_gaps(&model->plates, s->q, s->q + model->stride, &s->eval.plates);
-  zp_eval_reach(model, s->eval.plates.gap, NULL, s->eval.reach);
-  zp_eval_cover(model, s->eval.reach, &s->eval);
+  zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
+  zp_eval_reach(model, m->eval.plates.gap, NULL, m->eval.reach);
+  zp_eval_cover(model, m->eval.reach, &m->eval);
+}
+
+static bool solve_field(ZpRestMember *m, double U) {
+  if (U == 0) return true;
+  lay_bead(m);
+  return zp_system_solve(m->model, m->q, U, &m->eval);
 }
 
 static ZpEnd refresh(void *self) {
   ZpStatics *s = self;
-  if (s->U != 0) lay_bead(s);
-  bool solved = s->U == 0 || zp_system_solve(s->model, s->q, s->U, &s->eval);
+  bool solved = true;
+  for (size_t k = 0; k < s->members && solved; k++)
+    solved = solve_field(&s->member[k], zp_statics_member_voltage(s, k));
   return solved ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 ZpStaticSystem zp_statics_system(ZpStatics *s) {
-  return (ZpStaticSystem){.n = s->assembly.n,
-                          .parts = s->assembly.parts,
+  return (ZpStaticSystem){.n = s->n,
+                          .parts = s->parts,
                           .self = s,
                           .residual = residual,
                           .stiffness = stiffness,
                           .length = length,
                           .change = change,
                           .move = move,
-                          .refresh = s->model->field_solved ? refresh : NULL};
+                          .refresh = s->member->model->field_solved ? refresh : NULL};
 }
 
 /* -- falling -------------------------------------------------------------------------------------- */
@@ -780,14 +1078,17 @@ ZpStaticSystem zp_statics_system(ZpStatics *s) {
 static double fall_length(void *self, const double *step) {
   static const double longest = 0.04, share = 0.25; /* 20 mrad; of a gap with its insulators */
   const ZpStatics *s = self;
-  bool meets = s->model->field && (s->U != 0 || s->contact_acts);
-  return s->careful * fmax(length(self, step) / longest, meets ? gap_share(s, step) / share : 0);
+  bool meets = s->member->model->field && (attracts(s) || s->contact_acts);
+  return s->careful * fmax(length(self, step) / longest, meets ? gap_share(s) / share : 0);
 }
 
 /* A mesh with few elements on the zip front may hold it between any two nodes, which a long step passes over. */
 static double care(const ZpStatics *s) {
   static const double few = 3, shorter = 4;
-  return zp_front_length(s->model, s->U) < few * s->model->l ? shorter : 1;
+  bool is_few = false;
+  for (size_t k = 0; k < s->members; k++)
+    is_few |= zp_front_length(s->member[k].model, zp_statics_member_voltage(s, k)) < few * s->member[k].model->l;
+  return is_few ? shorter : 1;
 }
 
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
@@ -821,18 +1122,26 @@ static void set_load(void *self, double load) {
   ((ZpStatics *)self)->load = load;
 }
 
-/* Forces on nodes per unit of a parameter => r_m. A platform that is held stays where it is. */
-static void sum_by(const ZpStatics *s, const double *force, double *r_m) {
-  zp_assembly_sum(&s->assembly, force, r_m);
+/* A platform that is held stays where it is. */
+static void hold_rate(const ZpStatics *s, double *r_m) {
   if (is_held(s)) r_m[zp_statics_platform(s)] = 0;
 }
 
 void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
-  ZpSpan here = span_of(s);
-  ZpByVoltage by = {.force = s->force};
-  here.U0 = here.U1 = U;
-  zp_system_by_voltage(s->model, &here, &s->eval, &by);
-  sum_by(s, s->force, r_m);
+  const double here = s->U;
+  s->U = U;
+  memset(r_m, 0, s->n * sizeof *r_m);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    ZpSpan span = span_of(s, k);
+    ZpByVoltage by = {.force = m->force};
+    zp_system_by_voltage(m->model, &span, &m->eval, &by);
+    for (size_t j = 0; k > 0 && s->shared && j < 2 * m->model->stride; j++)
+      m->force[j] *= s->member->model->ratio;
+    zp_assembly_add(&m->assembly, m->force, r_m);
+  }
+  s->U = here;
+  hold_rate(s, r_m);
 }
 
 static void by_voltage(void *self, double *r_m) {
@@ -842,58 +1151,148 @@ static void by_voltage(void *self, double *r_m) {
 
 static void by_load(void *self, double *r_m) {
   ZpStatics *s = self;
-  const ZpModel *model = s->model;
-  double per_mass = zp_load_share(model) * model->def.gravity;
-  memset(s->force, 0, 2 * model->stride * sizeof *s->force);
-  zp_weight_by_hung(model, s->force);
-  for (size_t k = 0; k < 2 * model->stride; k++)
-    s->force[k] *= per_mass;
-  sum_by(s, s->force, r_m);
+  memset(r_m, 0, s->n * sizeof *r_m);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    const ZpModel *model = m->model;
+    double per_mass = load_part(s, k) * zp_load_share(model) * model->def.gravity;
+    memset(m->force, 0, 2 * model->stride * sizeof *m->force);
+    zp_weight_by_hung(model, m->force);
+    for (size_t j = 0; j < 2 * model->stride; j++)
+      m->force[j] *= per_mass;
+    zp_assembly_add(&m->assembly, m->force, r_m);
+  }
+  hold_rate(s, r_m);
 }
 
+/* The height of the load is that of the first one. */
 static void position(void *self, double *q) {
   const ZpStatics *s = self;
-  zp_assembly_gather(&s->assembly, s->q, q);
+  for (size_t k = s->members; k-- > 0;)
+    zp_assembly_gather(&s->member[k].assembly, s->member[k].q, q);
 }
 
-/* q, tensions, voltage, load. */
+/* Of each member q and tensions; voltage, load, bias. */
 static void save(void *self, void *to) {
   const ZpStatics *s = self;
-  size_t stride = s->model->stride;
+  size_t stride = s->member->model->stride;
   double *place = to;
-  memcpy(place, s->q, 2 * stride * sizeof *place);
-  memcpy(place + 2 * stride, s->tension, stride * sizeof *place);
-  place[3 * stride] = s->U;
-  place[3 * stride + 1] = s->load;
+  for (size_t k = 0; k < s->members; k++, place += 3 * stride) {
+    memcpy(place, s->member[k].q, 2 * stride * sizeof *place);
+    memcpy(place + 2 * stride, s->member[k].tension, stride * sizeof *place);
+  }
+  place[0] = s->U;
+  place[1] = s->load;
+  place[2] = s->bias;
 }
 
 static void restore(void *self, const void *from) {
   ZpStatics *s = self;
-  size_t stride = s->model->stride;
+  size_t stride = s->member->model->stride;
   const double *place = from;
-  memcpy(s->q, place, 2 * stride * sizeof *place);
-  memcpy(s->tension, place + 2 * stride, stride * sizeof *place);
-  s->U = place[3 * stride];
-  s->load = place[3 * stride + 1];
+  for (size_t k = 0; k < s->members; k++, place += 3 * stride) {
+    memcpy(s->member[k].q, place, 2 * stride * sizeof *place);
+    memcpy(s->member[k].tension, place + 2 * stride, stride * sizeof *place);
+  }
+  s->U = place[0];
+  s->load = place[1];
+  s->bias = place[2];
+}
+
+/* -- members that move alike ----------------------------------------------------------------------- */
+
+/* Weight of what a member's platform carries, N. */
+static double carried_weight(const ZpStatics *s, size_t which) {
+  const ZpActuatorDef *def = &s->member[which].model->def;
+  return (def->load.mass + hung_on(s, which)) * def->gravity;
+}
+
+/* Are two members the same actuator, but for their loads? */
+static bool is_same(const ZpActuatorDef *one, const ZpActuatorDef *other) {
+  ZpActuatorDef loaded = *one;
+  loaded.load = other->load;
+  for (int key = 0; key < zp_key_count(); key++) {
+    double a = zp_def_get(&loaded, key), b = zp_def_get(other, key);
+    if (a != b && !(isnan(a) && isnan(b))) return false;
+  }
+  return true;
+}
+
+/* Members in series that are the same and carry the same weight reach their limit points all at once. */
+static bool are_alike(const ZpStatics *s) {
+  if (s->shared) return false;
+  for (size_t k = 1; k < s->members; k++)
+    if (carried_weight(s, k) != carried_weight(s, 0) || !is_same(&s->member[k].model->def, &s->member->model->def))
+      return false;
+  return s->members > 1;
+}
+
+/* Where another branch crosses, rounding would lead to it. */
+static void make_alike(void *self, double *step) {
+  const ZpStatics *s = self;
+  size_t each = s->n / s->members;
+  for (size_t i = 0; i < each; i++) {
+    double mean = 0;
+    for (size_t k = 0; k < s->members; k++)
+      mean += step[k * each + i] / (double)s->members;
+    for (size_t k = 0; k < s->members; k++)
+      step[k * each + i] = mean;
+  }
+}
+
+/* Each has the same. */
+static size_t negative_of_one(void *self) {
+  const ZpStatics *s = self;
+  return zp_band_negative(s->K) / s->members;
 }
 
 ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
-  const ZpModel *model = s->model;
-  bool voltage = along == ZP_ALONG_VOLTAGE;
+  const ZpModel *model = s->member->model;
+  bool voltage = along == ZP_ALONG_VOLTAGE, alike = are_alike(s);
   return (ZpBranchSystem){.at_rest = zp_statics_system(s),
                           .get = voltage ? get_voltage : get_load,
                           .set = voltage ? set_voltage : set_load,
                           .sensitivity = voltage ? by_voltage : by_load,
                           .position = position,
+                          .make_alike = alike ? make_alike : NULL,
+                          .negative = alike ? negative_of_one : NULL,
                           .save = save,
                           .restore = restore,
-                          .save_size = (3 * model->stride + 2) * sizeof(double),
-                          .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->assembly.parts, s->assembly.n)),
-                          .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(model->def.load.mass, 1e-3)};
+                          .save_size = (3 * s->members * model->stride + 3) * sizeof(double),
+                          .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
+                          .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(s->own_load, 1e-3)};
 }
 
 bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
   exact_residual(s, work->r);
   stiffness(s, &work->K, NULL);
   return zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0;
+}
+
+void zp_statics_masses(const ZpStatics *s, double *mass) {
+  memset(mass, 0, s->n * sizeof *mass);
+  for (size_t k = 0; k < s->members; k++)
+    zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
+}
+
+double zp_statics_member_force(ZpStatics *s, size_t which) {
+  ZpRestMember *m = &s->member[which];
+  const ZpTopology *t = &m->model->topology;
+  ZpSpan here = span_of(s, which);
+  double sum = 0;
+  zp_system_force(m->model, &here, &m->eval, m->force);
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    sum += m->force[m->model->stride + zp_lower(t, i)];
+  return m->model->parts * sum + zp_load_pull(m->model);
+}
+
+double zp_statics_load_stiffness(ZpStatics *s, ZpNewtonWork *work) {
+  size_t load = zp_statics_platform(s);
+  exact_residual(s, work->r);
+  stiffness(s, &work->K, NULL);
+  if (!zp_band_factor(&work->K)) return NAN;
+  memset(work->r, 0, s->n * sizeof *work->r);
+  work->r[load] = 1;
+  zp_band_solve(&work->K, work->r);
+  return s->member->model->parts / work->r[load];
 }

@@ -8,29 +8,44 @@
 #include "solve/continuation.h"
 #include "system/system.h"
 
-typedef struct ZpStatics {
+/* One of the actuators of the system. */
+typedef struct ZpRestMember {
   const ZpModel *model; /* a copy of the given one, with the natural turns that act, and overlapping faces closed */
   ZpEval eval;
-  double *q;         /* [2 stride] the present point */
-  double U;          /* V */
-  double load;       /* mass hung on the actuator, kg; starts as load.mass */
-  double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
-  const double *k0;  /* [stride] natural 2 tan(phi / 2) of joints, for the whole natural curvature */
-  double *k0_now;    /* the same, for the share that acts */
-  double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
-  double held_at;    /* final value of this opening while it is approached, m */
-  double reaction;   /* force that holds it there, N, one part, positive downwards; of the last residual */
-  double careful;    /* factor by which steps of a fall are shorter */
-  bool contact_acts; /* faces push on each other; if false they may pass through each other (to find a start) */
+  double *q; /* [2 stride] the present point */
   ZpAssembly assembly;
-  ZpBandForm form;            /* of the stiffness; with a bead also terms of low rank, because all forces depend on its
-                                 reach */
-  double scale;               /* force that a residual is relative to, N */
+  const double *k0;           /* [stride] natural 2 tan(phi / 2) of joints, for the whole natural curvature */
+  double *k0_now;             /* the same, for the share that acts */
   double *tension;            /* [edges] tension that the last step predicted, N */
   double *moved;              /* [2 stride] work space of a move */
   double *rotation, *stretch; /* [edges] by the last step that was examined, rad, m */
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied */
+  double closed;              /* gap at which it counts as closed, m; zp_mark_closed */
+} ZpRestMember;
+
+typedef struct ZpStatics {
+  size_t members;       /* actuators that are one system */
+  ZpRestMember *member; /* [members]; from the uppermost down */
+  bool shared;          /* they have one load: its height is an unknown of all. In series each has its own frame */
+  size_t n;             /* equations of all */
+  ZpBandForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
+  ZpParts parts;
+  const ZpBand *K;   /* where the last stiffness is, and maybe its factors */
+  double U;          /* of the first member, V */
+  double bias;       /* share of the lower antagonist's own voltage that acts */
+  double own_load;   /* load.mass, kg */
+  double load;       /* mass hung on all members, kg; starts as that */
+  double force;      /* load.force, N */
+  double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
+  double distance;   /* of antagonists: what their openings sum up to, m; 0: there are none */
+  double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
+  double held_at;    /* final value of this opening while it is approached, m */
+  double reaction;   /* force that holds it there, N, one part, positive downwards; of the last residual */
+  double careful;    /* factor by which steps of a fall are shorter */
+  bool contact_acts; /* faces push on each other; if false they may pass through each other (to find a start) */
+  double scale;      /* force that a residual is relative to, N */
+  double *product;   /* [n] work space */
   bool (*stop)(void *caller); /* called now and then; true stops. NULL: none */
   void *caller;
   int unasked;  /* residuals since `stop` was called */
@@ -55,6 +70,13 @@ ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 /* Derivative of the forces by the voltage, at voltage U and the last residual => r_m [n], N/V. */
 void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
 
+/* The tensions of the last residual become those with which the next stiffness begins. */
+void zp_statics_take_tensions(ZpStatics *statics);
+
+/* Where members that share a load have it at different heights, put it at that of the first one; of antagonists the one
+ * that is more open follows, since closed faces would be parted. */
+void zp_statics_rejoin(ZpStatics *statics);
+
 /* Is the present equilibrium stable? For a rod: the stiffness has no negative eigenvalue. For mass_spring, whose shear
  * law makes it unsymmetric: its determinant, which changes its sign at a limit point, is not negative. The stiffness is
  * then factored. */
@@ -71,6 +93,13 @@ double zp_statics_tolerance(const ZpStatics *statics);
  * other during the search, but not in the result. */
 ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
 
+/* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before.
+ */
+bool zp_statics_bias(ZpStatics *statics, ZpNewtonWork *work);
+
+/* Why there is no equilibrium at which a voltage could begin to rise. */
+const char *zp_statics_no_rest(const ZpStatics *statics);
+
 /* From the hanging equilibrium up to `voltage` on the hanging branch, to within a millionth of its end. False if the
  * branch ends before, at the pull-in, or if the field cannot be solved (zp_statics_trouble). */
 bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
@@ -79,9 +108,6 @@ bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
  * ribbon as far below its hinge (below L), without load and voltage. Go from the straight shape to the equilibrium
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
-
-/* Put the lower platform of a half at a height; the displacement is distributed along the ribbons. */
-void zp_statics_put_platform(ZpStatics *statics, double height);
 
 /* The equation of the lower platform's height. */
 size_t zp_statics_platform(const ZpStatics *statics);
@@ -102,8 +128,8 @@ ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *w
 ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user, ZpNewtonWork *work);
 
 /* The present point: height of the clip or clamp over the right end of the lower or only ribbon, signed, m; distance
- * between the platforms' faces, m (NAN for one ribbon); angle of a fold, rad (NAN without a hinge); number of closed
- * stations from the clip, without the clip. */
+ * between the platforms' faces, m (NAN for one ribbon), both in series of all members together; angle of a fold, rad
+ * (NAN without a hinge); number of closed stations from the clip, without the clip. */
 double zp_statics_stroke(const ZpStatics *statics);
 double zp_statics_opening(const ZpStatics *statics);
 double zp_statics_angle(const ZpStatics *statics);
@@ -111,6 +137,23 @@ size_t zp_statics_front(const ZpStatics *statics);
 
 /* Do electrodes without an insulator touch at the present voltage? */
 bool zp_statics_shorted(const ZpStatics *statics);
+
+/* Moving masses by equations => mass [n], kg. */
+void zp_statics_masses(const ZpStatics *statics, double *mass);
+
+/* Closed length of one half, from the clip, m: of members that share a load what is closed in all of them, of
+ * antagonists that of the upper one; in series their sum. */
+double zp_statics_closed_length(const ZpStatics *statics);
+
+/* Of a member: voltage, V; opening, closed length, m; force with which it pulls the load up at the present point, N. */
+double zp_statics_member_voltage(const ZpStatics *statics, size_t which);
+double zp_statics_member_opening(const ZpStatics *statics, size_t which);
+double zp_statics_member_closed(const ZpStatics *statics, size_t which);
+double zp_statics_member_force(ZpStatics *statics, size_t which);
+
+/* Restoring force per displacement of the load at the present point, of the whole actuators, N/m; NAN if the stiffness
+ * is singular. K and r are overwritten. */
+double zp_statics_load_stiffness(ZpStatics *statics, ZpNewtonWork *work);
 
 /* The reason why the last solution of the field failed; NULL if it succeeded or no field was solved. */
 const char *zp_statics_trouble(const ZpStatics *statics);
@@ -128,7 +171,7 @@ const char *zp_statics_fault_of_stations(const ZpStatics *statics);
 double zp_statics_charge(const ZpStatics *statics);
 double zp_statics_capacitance(const ZpStatics *statics);
 
-/* The present shape, stored in `room` with any `time`; valid until the point moves. */
-ZpShape zp_statics_shape(const ZpStatics *statics, double time, const ZpShapeRoom *room);
+/* The present shape of a member, stored in `room` with any `time`; valid until the point moves. */
+ZpShape zp_statics_shape(const ZpStatics *statics, size_t which, double time, ZpShapeRoom room);
 
 #endif

@@ -23,19 +23,21 @@ static double scattered(size_t k) {
   return 2 * (x - floor(x)) - 1;
 }
 
-static double inner_of_many(const ZpVibration *v, const double *a, const double *b) {
-  double sum = 0;
-  v->many->weigh(v->many->self, b, v->weighed);
+/* m u => mu */
+static void weigh(const ZpVibration *v, const double *u, double *mu) {
+  if (v->inertia) {
+    v->inertia->weigh(v->inertia->self, u, mu);
+    return;
+  }
   for (size_t i = 0; i < v->n; i++)
-    sum += a[i] * v->weighed[i];
-  return sum;
+    mu[i] = v->mass[i] * u[i];
 }
 
 double zp_vibration_inner(const ZpVibration *v, const double *a, const double *b) {
-  if (v->many) return inner_of_many(v, a, b);
   double sum = 0;
+  weigh(v, b, v->weighed);
   for (size_t i = 0; i < v->n; i++)
-    sum += a[i] * v->mass[i] * b[i];
+    sum += a[i] * v->weighed[i];
   return sum;
 }
 
@@ -70,13 +72,7 @@ void zp_vibration_start(ZpVibration *v) {
 /* K^-1 m u of vector j => its row of next. */
 static double *deflect(ZpVibration *v, size_t j) {
   double *next = v->next + j * v->n;
-  if (v->many) {
-    v->many->weigh(v->many->self, v->u + j * v->n, next);
-    v->many->solve(v->many->self, next);
-    return next;
-  }
-  for (size_t i = 0; i < v->n; i++)
-    next[i] = v->mass[i] * v->u[j * v->n + i];
+  weigh(v, v->u + j * v->n, next);
   zp_band_solve(v->K, next);
   return next;
 }

@@ -16,7 +16,7 @@ static const double part = 1e-7;
 
 /* Derivative of the hanging equilibrium by a key => rate, of coordinates and opening0. */
 static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *err) {
-  const ZpModel *model = rest->statics.model;
+  const ZpModel *model = rest->statics.member->model;
   ZpSlope slope;
   ZpStatus status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, key, err);
   if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {

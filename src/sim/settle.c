@@ -6,7 +6,6 @@
 
 #include "def/tolerance.h"
 #include "rest/rest.h"
-#include "rest/together.h"
 #include "ribbon/rod_plastic.h"
 #include "sim/hooks.h"
 #include "sim/sim_internal.h"
@@ -70,7 +69,8 @@ static bool stop_hanging(void *hooks) {
 
 /* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when
  * straight). => false if there is no memory. */
-static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, double *q, bool *found) {
+static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
+  const ZpModel *model = sim->model;
   ZpRest rest;
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
@@ -81,25 +81,10 @@ static bool solve_at(ZpSim *sim, const ZpModel *model, const ZpHooks *hooks, dou
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (rest.statics.stopped) sim->settled = ZP_INTERRUPTED;
-    memcpy(q, rest.statics.q, 2 * model->stride * sizeof *q);
+    memcpy(q, rest.statics.member->q, 2 * model->stride * sizeof *q);
   }
   zp_rest_close(&rest);
   return opened;
-}
-
-/* In a series: the member alone, under the weight of all that hangs on it. */
-static bool solve_member(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
-  ZpActuatorDef def = zp_member_at_rest(sim->model);
-  ZpDriveTable table = sim->model->waveform.table;
-  ZpModel *alone;
-  if (zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &alone, NULL) != ZP_OK) return false;
-  bool solved = solve_at(sim, alone, hooks, q, found);
-  zp_model_destroy(alone);
-  return solved;
-}
-
-static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
-  return zp_in_series(sim->model) ? solve_member(sim, hooks, q, found) : solve_at(sim, sim->model, hooks, q, found);
 }
 
 /* By damped stepping. */
@@ -132,47 +117,43 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   double *q = sim->relax_work;
   bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
-  if (goes_on || zp_shares_load(model)) return true;                /* with all others */
+  if (goes_on || zp_in_series(model)) return true;                  /* with all others */
   /* a single straight ribbon needs neither a start nor a reference */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
   if (!solve(sim, hooks, q, &found)) return false;
-  if (!found && sim->settled == ZP_REACHED_END) {
-    if (zp_in_series(model))
-      sim->settled = ZP_NOT_SETTLED;
-    else
-      relax(sim, hooks, q);
-  }
+  if (!found && sim->settled == ZP_REACHED_END) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);
   return true;
 }
 
-/* One of the members that share a load, at their common equilibrium. */
-static void start_member(ZpSim *sim, ZpTogether *all, size_t which) {
-  const ZpStatics *rest = &all->of[which].statics;
+/* One of several members, at their common equilibrium. */
+static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
-  sim->state->opening0 = zp_statics_opening(rest);
+  const double *q = rest->member[which].q;
+  sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
-  start_at(sim, rest->q);
-  if (model->abreast) sim->state->link_force = (zp_load_pull(model) - zp_together_force(all, which)) / model->parts;
+  start_at(sim, q);
+  if (model->abreast)
+    sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
-bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks) {
-  ZpTogether all;
-  bool opened = zp_together_open(&all, sim->model, NULL, NULL);
+bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks) {
+  ZpRest rest;
+  bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   if (opened) {
-    zp_together_watch(&all, stop_hanging, (void *)hooks);
-    ZpNewtonInfo info = zp_together_hang(&all);
-    bool stopped = zp_together_stopped(&all);
+    rest.statics.stop = stop_hanging;
+    rest.statics.caller = (void *)hooks;
+    ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
-    if (!zp_newton_good(info.end)) sim->settled = stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+    if (!zp_newton_good(info.end)) sim->settled = rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
     size_t which = 0;
     for (ZpSim *m = sim; m; m = m->below)
-      start_member(m, &all, which++);
+      start_member(m, &rest.statics, which++);
   }
-  zp_together_close(&all);
+  zp_rest_close(&rest);
   return opened;
 }

@@ -191,12 +191,14 @@ static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
   for (ZpSim *above = sim; above->model->below; above = above->below) {
     above->below = create_one(above->model->below, false, hooks);
     if (!above->below) return false;
-    if (!zp_shares_load(sim->model)) hang_below(above, above->below);
     sim->states[k++] = above->below->state;
-    if (above->below->settled != ZP_REACHED_END) sim->settled = above->below->settled;
   }
   bool goes_on = sim->model->def.initial.state == ZP_INITIAL_CHECKPOINT;
-  return goes_on || !zp_shares_load(sim->model) || zp_sim_settle_together(sim, hooks);
+  if (goes_on || members == 1) return true;
+  if (!zp_sim_settle_members(sim, hooks)) return false;
+  for (ZpSim *above = sim; above->below && !zp_shares_load(sim->model); above = above->below)
+    hang_below(above, above->below);
+  return true;
 }
 
 /* What a simulation starts with. */

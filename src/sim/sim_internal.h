@@ -175,7 +175,7 @@ void zp_sim_close(ZpSim *sim, ZpOpeningAt start);
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
 /* The same for antagonists, which are at rest against each other. */
-bool zp_sim_settle_together(ZpSim *sim, const ZpHooks *hooks);
+bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks);
 
 /* Place the beads of the state by its gaps: at rest, with all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);

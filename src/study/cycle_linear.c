@@ -163,24 +163,24 @@ static double amplitude(const ZpLinearCycle *l, const ZpComplex *x) {
 /* The forces of all laws at rest, `share` of the motion at a phase away from the mean => force [2 stride]. */
 static void find_force(ZpLinearCycle *l, double share, double u) {
   ZpStatics *s = &l->rest.statics;
-  const ZpModel *model = s->model;
+  const ZpModel *model = s->member->model;
   combine(l, l->x, share, l->q);
   for (size_t i = 0; i < 2 * model->stride; i++)
-    l->q[i] += s->q[i];
+    l->q[i] += s->member->q[i];
   ZpBead bead[ZP_BEADS] = {{0}};
   ZpSpan span = zp_span_at(l->q);
   span.U0 = span.U1 = sqrt(fmax(l->mean + share * u, 0));
   if (model->has_bead) {
     double reach[ZP_BEADS];
-    zp_plates_gaps(&model->plates, l->q, l->q + model->stride, &s->eval.plates);
+    zp_plates_gaps(&model->plates, l->q, l->q + model->stride, &s->member->eval.plates);
     for (int half = 0; half < zp_beads(&model->film); half++)
       bead[half].outside = share * outside(l, half, l->x);
-    zp_eval_reach(model, s->eval.plates.gap, bead, reach);
+    zp_eval_reach(model, s->member->eval.plates.gap, bead, reach);
     for (int half = 0; half < ZP_BEADS; half++)
       bead[half].reach = reach[half];
     span.bead = bead;
   }
-  zp_system_force(model, &span, &s->eval, l->force);
+  zp_system_force(model, &span, &s->member->eval, l->force);
 }
 
 static void add_along_shapes(const ZpLinearCycle *l, double weight, double *sum) {
@@ -230,10 +230,10 @@ static double largest_strain(ZpLinearCycle *l) {
   for (int k = 0; k < PHASES; k++) {
     at_phase(l, (double)k / PHASES, false, l->x);
     combine(l, l->x, 1, l->q);
-    zp_plates_gaps(&model->plates, s->q, s->q + model->stride, &s->eval.plates);
+    zp_plates_gaps(&model->plates, s->member->q, s->member->q + model->stride, &s->member->eval.plates);
     for (size_t i = 0; i < model->nodes; i++) {
       double change = y[zp_upper(&model->topology, i)] - y[zp_lower(&model->topology, i)];
-      most = fmax(most, fabs(change) / zp_film_thickness(&model->film, s->eval.plates.gap[i]));
+      most = fmax(most, fabs(change) / zp_film_thickness(&model->film, s->member->eval.plates.gap[i]));
     }
   }
   return most;
@@ -373,6 +373,6 @@ void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
   at_phase(l, turns, false, l->x);
   combine(l, l->x, 1, q);
   for (size_t i = 0; i < nodes; i++)
-    q[i] += l->rest.statics.q[i];
+    q[i] += l->rest.statics.member->q[i];
   zp_sim_lay_beads(sim);
 }

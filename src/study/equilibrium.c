@@ -11,9 +11,9 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/slow.h"
+#include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -53,7 +53,7 @@ typedef struct Follower {
 
 static void carve(void *user, ZpCarver *carver) {
   Follower *f = user;
-  size_t save = zp_rest_save_size(&f->rest), equations = f->rest.statics.assembly.n;
+  size_t save = zp_rest_save_size(&f->rest), equations = f->rest.statics.n;
   zp_slow_carve(&f->slow, &f->rest, carver);
   zp_limit_carve(&f->pull_in, save, equations, carver);
   zp_limit_carve(&f->closing, save, equations, carver);
@@ -70,17 +70,18 @@ static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
   ZpStatics *s = &f->rest.statics;
   bool stable = zp_statics_stable(s, &f->rest.branch.newton);
-  ZpShape shape = zp_statics_shape(s, f->points, &f->rest.shape_room);
-  ZpMargins margins = zp_margins_of(model, &shape);
-  double row[COLUMNS] = {s->U,
-                         zp_statics_stroke(s),
-                         zp_statics_opening(s),
-                         (double)zp_statics_front(s) * model->l,
-                         zp_statics_charge(s),
-                         zp_statics_capacitance(s),
-                         stable,
-                         branch,
-                         ZP_MARGIN_VALUES(margins)};
+  ZpMargins margins;
+  ZpShape shape = zp_rest_shape(&f->rest, f->points, &margins);
+  double row[COLUMNS + ZP_MEMBER_COLUMNS] = {s->U,
+                                             zp_statics_stroke(s),
+                                             zp_statics_opening(s),
+                                             zp_statics_closed_length(s),
+                                             zp_statics_charge(s),
+                                             zp_statics_capacitance(s),
+                                             stable,
+                                             branch,
+                                             ZP_MARGIN_VALUES(margins)};
+  zp_members_values(&f->rest, row + COLUMNS);
   bool last = s->U == model->def.drive.voltage && f->points > 0;
   f->points++;
   zp_margins_join(&f->margins, margins);
@@ -157,10 +158,11 @@ static bool hang(Follower *f) {
   ZpNewtonInfo info = zp_statics_hang(&f->rest.statics, &f->rest.branch.newton);
   zp_result_add(f->result, "iterations", "count", info.iterations);
   zp_result_add(f->result, "residual", "1", info.residual);
+  if (zp_newton_good(info.end) && !zp_statics_bias(&f->rest.statics, &f->rest.branch.newton)) return false;
   f->rest.system.save(&f->rest.statics, f->start);
   f->rest.system.save(&f->rest.statics, f->hung);
   f->hanging = f->model->field ? opening(f) : 0;
-  zp_slow_start(&f->slow, f->hanging);
+  zp_slow_start(&f->slow);
   return zp_newton_good(info.end);
 }
 
@@ -177,7 +179,7 @@ static bool find_voltages(Follower *f) {
   none(f, "without a voltage there is none");
   if (!f->model->field || top == 0) return false;
   none(f, "it hangs closed");
-  if (f->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return false;
+  if (f->hanging <= zp_closed_opening(f->rest.statics.member->model, 0)) return false;
   ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
   zp_limit_none(&f->release, "when closed, it is a short circuit");
   if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "when closed, it is a short circuit");
@@ -268,7 +270,7 @@ static void describe(const Follower *f) {
   if (f->rest.statics.stopped) {
     add(f->result, "interrupted at %.4g V; the results so far are kept", fabs(f->rest.statics.U));
   } else if (f->outcome == ZP_NOT_SETTLED) {
-    add(f->result, "no hanging equilibrium found");
+    add(f->result, "%s", zp_statics_no_rest(&f->rest.statics));
   } else {
     describe_way_up(f);
     describe_way_down(f);
@@ -295,8 +297,8 @@ static ZpStatus derive(Follower *f, ZpError *err) {
 
 static ZpStatus run(Follower *f, ZpError *err) {
   const ZpActuatorDef *def = &f->model->def;
-  f->result->series = zp_table_create(columns, COLUMNS, (size_t)def->output.samples);
-  f->result->shapes = zp_shapes_create(f->model->s, f->model->nodes, (size_t)def->output.shapes);
+  f->result->series = zp_members_table(f->model, columns, COLUMNS, (size_t)def->output.samples);
+  f->result->shapes = zp_model_shapes(f->model, (size_t)def->output.shapes);
   if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, carve, f))
     return zp_fail_memory(err);
   f->rest.statics.stop = asked_to_stop;
@@ -335,14 +337,5 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   status = run(&f, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_equilibrium, &members, err);
-  if (status == ZP_OK) zp_members_join(&members, result);
-  if (status == ZP_OK) status = zp_members_follow(task, &members, result, err);
-  zp_members_forget(&members);
   return status;
 }

@@ -35,7 +35,7 @@ static const char *in_words(const ZpGrowth *worst, char *text, size_t size) {
 }
 
 static void report(const ZpRest *rest, const ZpGrowth *open, const ZpGrowth *closed, size_t count, ZpResult *result) {
-  const double U = rest->statics.U, highest = rest->statics.model->control.highest;
+  const double U = rest->statics.U, highest = rest->statics.member->model->control.highest;
   bool held = closed->rate < 0 && U <= highest;
   char alone[96], looped[96];
   zp_result_add(result, "held", "count", held);
@@ -70,7 +70,7 @@ static void note_unknown(const ZpControl *c, ZpResult *result) {
 
 /* For a loop with a boost, the eigenvalue of the side that decays less. */
 static bool look(const ZpRest *rest, const ZpSetpointSignal *signal, double setpoint, ZpResult *result) {
-  const ZpControl *c = &rest->statics.model->control;
+  const ZpControl *c = &rest->statics.member->model->control;
   ZpPlant plant;
   bool done = zp_plant_create(rest, signal, &plant);
   const ZpLinear system = {plant.n, plant.A, plant.b, plant.c};

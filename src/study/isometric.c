@@ -74,9 +74,9 @@ static double force(const Holder *h) {
 
 /* Distance of the held end of a fold to the right of the hinge, m. */
 static double lever(ZpStatics *s, void *user) {
-  const ZpTopology *t = &s->model->topology;
+  const ZpTopology *t = &s->member->model->topology;
   (void)user;
-  return s->q[zp_load_node(t)] - s->q[zp_lower(t, 0)];
+  return s->member->q[zp_load_node(t)] - s->member->q[zp_lower(t, 0)];
 }
 
 /* Moment of the force on that end about the hinge, N m. */
@@ -85,7 +85,7 @@ static double moment(Holder *h) {
 }
 
 static double zipped_length(const Holder *h) {
-  return (double)zp_statics_front(&h->rest.statics) * h->model->l;
+  return zp_statics_closed_length(&h->rest.statics);
 }
 
 static bool is_stable(Holder *h) {
@@ -95,8 +95,8 @@ static bool is_stable(Holder *h) {
 static void record(Holder *h, bool passed, bool last) {
   ZpStatics *s = &h->rest.statics;
   bool stable = is_stable(h);
-  ZpShape shape = zp_statics_shape(s, h->points++, &h->rest.shape_room);
-  ZpMargins margins = zp_margins_of(h->model, &shape);
+  ZpMargins margins;
+  ZpShape shape = zp_rest_shape(&h->rest, h->points++, &margins);
   double row[COLUMNS] = {
       s->U,   holding(h) - h->unpowered, zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s), stable,
       passed, ZP_MARGIN_VALUES(margins)};
@@ -116,7 +116,7 @@ static bool asked_to_stop(void *holder) {
 /* Is the present state possible, as an answer or as a point on the way? Its force is at most the attraction of closed
  * faces. */
 static bool is_possible(Holder *h, bool answer) {
-  const ZpPlatesParams *plates = &h->rest.statics.model->plates;
+  const ZpPlatesParams *plates = &h->rest.statics.member->model->plates;
   double most = zp_plates_law(plates, h->rest.statics.U, 0).W * zp_faces_length(h->model);
   h->fault = answer ? zp_statics_fault(&h->rest.statics) : zp_statics_fault_of_stations(&h->rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
@@ -438,7 +438,7 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
   if (status != ZP_OK) return status;
   Holder h = {.model = model, .task = task, .result = result, .margins = zp_margins_none(), .outcome = ZP_CONVERGED};
   result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
-  result->shapes = zp_shapes_create(model->s, model->nodes, (size_t)bare.output.shapes);
+  result->shapes = zp_model_shapes(model, (size_t)bare.output.shapes);
   if (result->series && result->shapes && zp_rest_open(&h.rest, model, carve, &h))
     run(&h);
   else

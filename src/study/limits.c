@@ -9,9 +9,9 @@
 #include "actuator/resolution.h"
 #include "base/fail.h"
 #include "def/check.h"
+#include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -67,7 +67,8 @@ static void take(Finder *f, const double *state) {
   ZpStatics *s = &f->rest.statics;
   double own = s->load, ratio = f->model->L / f->near->L;
   f->slow.square.restore(s, state);
-  zp_stretch(f->model, ratio, s->q);
+  for (size_t k = 0; k < s->members; k++)
+    zp_stretch(s->member[k].model, ratio, s->member[k].q);
   s->load = own;
   zp_statics_stable(s, &f->rest.branch.newton);
 }
@@ -86,7 +87,7 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   double near_gap = zp_closing_gap(s, NULL);
   if (load) s->load = near->value;
   if (load) s->U = f->model->def.drive.voltage;
-  memcpy(f->slow.march.fold.null, near->null, s->assembly.n * sizeof *near->null);
+  memcpy(f->slow.march.fold.null, near->null, s->n * sizeof *near->null);
   ZpFold *solver = &f->slow.march.fold;
   bool found = fold   ? zp_fold_solve(solver)
                : load ? zp_lift_event(&f->lift, near_gap)
@@ -122,11 +123,11 @@ static bool hang(Finder *f) {
   ZpStatics *s = &f->rest.statics;
   ZpNewtonWork *work = &f->rest.branch.newton;
   if (f->near && f->near->hangs) take(f, f->near->start);
-  if (!zp_newton_good(zp_statics_hang(s, work).end)) return false;
+  if (!zp_newton_good(zp_statics_hang(s, work).end) || !zp_statics_bias(s, work)) return false;
   if (!zp_statics_stable(s, work)) return false;
   f->limits->hanging = f->model->field ? zp_closing_gap(s, NULL) : 0;
   f->limits->hangs = true;
-  zp_slow_start(&f->slow, f->limits->hanging);
+  zp_slow_start(&f->slow);
   f->slow.square.save(s, f->limits->start);
   return true;
 }
@@ -174,7 +175,7 @@ static bool hang_heavy(Finder *f) {
   enum { MOST = 12 };
   static const double lightest = 1e-3, heavier = 3; /* kg; than what forces as the voltage's square could lift */
   double top = f->lift.top, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
-  double load = fmax(f->model->def.load.mass, lightest) * heavier * (top / closing) * (top / closing);
+  double load = fmax(f->task->def->load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
     ZpSlowEnd end = zp_lift_hang_at_top(&f->lift, load);
     if (end == ZP_SLOW_ARRIVED) return true;
@@ -212,8 +213,8 @@ static void lift(Finder *f, bool closes) {
   memcpy(f->limits->hung, f->limits->start, f->slow.square.save_size);
   zp_lift_start(&f->lift, f->model->def.drive.voltage, f->limits->hung, f->limits->lifted);
   if (lift_as_neighbour(f)) return;
-  zp_lift_narrow(&f->lift, f->model->def.load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
-  bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->model->def.load.mass);
+  zp_lift_narrow(&f->lift, f->task->def->load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
+  bool hangs = closes ? hang_heavy(f) : zp_lift_hang(&f->lift, f->task->def->load.mass);
   zp_limit_none(limit, "no load was found that it cannot lift");
   if (!hangs) return;
   if (!closes) zp_slow_go_to(&f->slow, f->top);
@@ -236,7 +237,7 @@ static bool find(Finder *f) {
   if (!f->model->field || f->model->def.drive.voltage == 0) return true;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
     zp_limit_none(&f->limits->limit[k], "it hangs closed");
-  if (f->limits->hanging <= zp_closed_opening(f->rest.statics.model, 0)) return true;
+  if (f->limits->hanging <= zp_closed_opening(f->rest.statics.member->model, 0)) return true;
   ZpSlowEnd up = raise_voltage(f);
   bool shorts = zp_insulation(&f->model->def) == 0;
   if (shorts) none_closed(f, "when closed, it is a short circuit");
@@ -245,8 +246,10 @@ static bool find(Finder *f) {
   zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "it was not searched");
   if (up == ZP_SLOW_STOPPED || up == ZP_SLOW_LOST) return true;
   lower_voltage(f);
-  f->rest.statics.load = f->model->def.load.mass;
-  if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
+  f->rest.statics.load = f->task->def->load.mass;
+  if (zp_is_opposed(f->model))
+    zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "a heavy load closes the lower antagonist");
+  else if (f->model->def.gravity > 0 && f->model->fall[1] < 0)
     lift(f, up == ZP_SLOW_CHANGED);
   else
     zp_limit_none(&f->limits->limit[ZP_LIMIT_LOAD], "gravity does not pull the platform down, so a mass is no load");
@@ -255,13 +258,22 @@ static bool find(Finder *f) {
 
 /* -- the actuator ----------------------------------------------------------------------------------- */
 
-double zp_limits_mass(const ZpModel *model) {
+static double mass_of_one(const ZpModel *model) {
   double sum = -zp_load_share(model) * model->def.load.mass, platform = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
   for (size_t i = 0; zp_has_platform(&model->topology) && i < model->s; i++)
     platform += zp_ribbon_section(model, i).mu * model->def.platform.length;
   return model->parts * sum + model->def.stack.parallel * platform;
+}
+
+double zp_limits_mass(const ZpModel *model) {
+  double sum = 0;
+  for (const ZpModel *m = model; m->below && !zp_shares_load(m); m = m->below)
+    sum += m->def.load.mass; /* of the link on which the next one hangs */
+  for (; model; model = model->below)
+    sum += mass_of_one(model);
+  return sum;
 }
 
 /* Opening of a state, m. */
@@ -299,11 +311,11 @@ static ZpLimits *create(const Finder *f) {
   const ZpStatics *s = &f->rest.statics;
   ZpLimits *limits = zp_calloc(1, sizeof *limits);
   if (!limits) return NULL;
-  *limits = (ZpLimits){.ribbons = f->model->s, .nodes = f->model->nodes, .L = f->model->L};
+  *limits = (ZpLimits){.ribbons = f->model->s, .nodes = s->members * f->model->nodes, .L = f->model->L};
   size_t save = zp_rest_save_size(&f->rest);
-  limits->memory = zp_calloc(1, carve_limits(limits, save, s->assembly.n, NULL));
+  limits->memory = zp_calloc(1, carve_limits(limits, save, s->n, NULL));
   if (limits->memory) {
-    carve_limits(limits, save, s->assembly.n, limits->memory);
+    carve_limits(limits, save, s->n, limits->memory);
     return limits;
   }
   zp_free(limits);
@@ -315,8 +327,8 @@ static ZpLimits *create(const Finder *f) {
 /* Go to a state => the fields and stresses there, which count. */
 static ZpMargins look(Finder *f, const double *state) {
   zp_slow_go_to(&f->slow, state);
-  ZpShape shape = zp_statics_shape(&f->rest.statics, 0, &f->rest.shape_room);
-  ZpMargins margins = zp_margins_of(f->model, &shape);
+  ZpMargins margins;
+  zp_rest_shape(&f->rest, 0, &margins);
   zp_margins_join(&f->margins, margins);
   return margins;
 }
@@ -333,16 +345,17 @@ static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
   ZpStatics *s = &f->rest.statics;
   if (isnan(f->limits->limit[kind].value)) return;
   ZpMargins margins = look(f, f->limits->limit[kind].state);
-  double row[COLUMNS] = {kind,
-                         s->U,
-                         s->load,
-                         zp_statics_stroke(s),
-                         zp_statics_opening(s),
-                         (double)zp_statics_front(s) * f->model->l,
-                         zp_statics_charge(s),
-                         zp_statics_capacitance(s),
-                         ZP_MARGIN_VALUES(margins)};
-  ZpShape shape = zp_statics_shape(s, kind, &f->rest.shape_room);
+  double row[COLUMNS + ZP_MEMBER_COLUMNS] = {kind,
+                                             s->U,
+                                             s->load,
+                                             zp_statics_stroke(s),
+                                             zp_statics_opening(s),
+                                             zp_statics_closed_length(s),
+                                             zp_statics_charge(s),
+                                             zp_statics_capacitance(s),
+                                             ZP_MARGIN_VALUES(margins)};
+  zp_members_values(&f->rest, row + COLUMNS);
+  ZpShape shape = zp_rest_shape(&f->rest, kind, NULL);
   zp_table_offer(table, row);
   zp_shapes_offer(shapes, &shape);
 }
@@ -381,7 +394,7 @@ static ZpOutcome outcome_of(const Finder *f) {
 }
 
 static void pose_closed(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = def->load.mass;
+  s->load = s->own_load;
   s->U = def->drive.voltage;
 }
 
@@ -425,7 +438,7 @@ static void run(Finder *f, ZpResult *r) {
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
   r->outcome = hangs || f->rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);
-  if (!hangs) snprintf(r->message, sizeof r->message, "no hanging equilibrium found");
+  if (!hangs) snprintf(r->message, sizeof r->message, "%s", zp_statics_no_rest(&f->rest.statics));
   if (f->rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; the results so far are kept");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
     record(f, r->series, r->shapes, k);
@@ -440,7 +453,7 @@ static void run(Finder *f, ZpResult *r) {
 /* A case with another mesh or kind does not count as a neighbour. */
 static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
   const ZpLimits *near = task->input.neighbour ? task->input.neighbour->limits : NULL;
-  return near && near->ribbons == model->s && near->nodes == model->nodes ? near : NULL;
+  return near && near->ribbons == model->s && near->nodes == zp_members(model) * model->nodes ? near : NULL;
 }
 
 ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
@@ -456,8 +469,8 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpStatus status = zp_model_create(task->def, &model, err);
   if (status != ZP_OK) return status;
   Finder f = {.model = model, .task = task, .near = neighbour_of(task, model), .margins = zp_margins_none()};
-  result->series = zp_table_create(columns, COLUMNS, ZP_LIMIT_KINDS);
-  result->shapes = zp_shapes_create(model->s, model->nodes, ZP_LIMIT_KINDS);
+  result->series = zp_members_table(model, columns, COLUMNS, ZP_LIMIT_KINDS);
+  result->shapes = zp_model_shapes(model, ZP_LIMIT_KINDS);
   bool open = result->series && result->shapes && zp_rest_open(&f.rest, model, carve, &f);
   if (open) result->limits = f.limits = create(&f);
   if (f.limits)
@@ -467,27 +480,5 @@ ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (f.limits && f.limits->hangs) status = derive(&f, result, err);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
-  static const ZpColumn columns[] = {
-      {"member", "1", "number of the member; 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it in addition to the load"},
-      {"pull_in_voltage_V", "V", "voltage at which it pulls in"},
-      {"closing_voltage_V", "V", "voltage at which it is closed"},
-      {"release_voltage_V", "V", "voltage at which it opens again as the voltage falls"},
-      {"max_load_kg", "kg", "largest mass that it lifts slowly at drive.voltage, including what it carries"},
-      {"travel_m", "m", "decrease of its opening"},
-  };
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_limits, &members, err);
-  if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome)) {
-    zp_members_say(&members, "pull in", "pull_in_voltage_V", result->message, sizeof result->message);
-    zp_members_say(&members, "close", "closing_voltage_V", result->message, sizeof result->message);
-    zp_members_say(&members, "open", "release_voltage_V", result->message, sizeof result->message);
-  }
-  zp_members_forget(&members);
   return status;
 }

@@ -7,6 +7,7 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/rest.h"
+#include "rest/series_mass.h"
 #include "rest/vibration.h"
 #include "study/hold.h"
 #include "study/modes.h"
@@ -72,13 +73,20 @@ double zp_modes_amplitude(const ZpVibration *v, size_t j, double length) {
   return 0.1 * length / largest;
 }
 
-void zp_modes_move(ZpStatics *s, const double *q, const double *u, double amplitude) {
-  const ZpModel *model = s->model;
-  memset(s->q, 0, 2 * model->stride * sizeof *s->q);
-  zp_assembly_scatter(&s->assembly, u, s->q);
+static void move_member(ZpRestMember *m, const double *u, double amplitude) {
+  const ZpModel *model = m->model;
+  memset(m->moved, 0, 2 * model->stride * sizeof *m->moved);
+  zp_assembly_scatter(&m->assembly, u, m->moved);
   for (size_t i = 0; i < 2 * model->stride; i++)
-    s->q[i] = q[i] + amplitude * s->q[i];
-  if (model->field) zp_plates_gaps(&model->plates, s->q, s->q + model->stride, &s->eval.plates);
+    m->q[i] += amplitude * m->moved[i];
+  if (model->field) zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
+}
+
+void zp_modes_move(ZpRest *rest, const double *equilibrium, const double *u, double amplitude) {
+  ZpStatics *s = &rest->statics;
+  rest->system.restore(s, equilibrium);
+  for (size_t k = 0; k < s->members; k++)
+    move_member(&s->member[k], u, amplitude);
 }
 
 /* -- one actuator ------------------------------------------------------------------------------------ */
@@ -86,14 +94,16 @@ void zp_modes_move(ZpStatics *s, const double *q, const double *u, double amplit
 typedef struct Problem {
   ZpRest rest;
   ZpVibration vibration;
-  double *q;         /* [2 stride] of the equilibrium */
+  ZpSeriesMass series; /* of members in series */
+  double *equilibrium;
   ZpMargins margins; /* of the equilibrium */
 } Problem;
 
 static void carve(void *user, ZpCarver *carver) {
   Problem *p = user;
-  zp_vibration_carve(&p->vibration, p->rest.statics.assembly.n, ZP_MODES_SUBSPACE, carver);
-  p->q = zp_carve(carver, 2 * p->rest.statics.model->stride);
+  zp_vibration_carve(&p->vibration, p->rest.statics.n, ZP_MODES_SUBSPACE, carver);
+  zp_series_mass_carve(&p->series, &p->rest.statics, carver);
+  p->equilibrium = zp_carve(carver, zp_rest_save_size(&p->rest));
 }
 
 /* The error of a vector is the square root of that of its frequency: results that depend on it to first order need more
@@ -106,15 +116,14 @@ static void refine(Problem *p) {
 
 /* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
 static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
-  zp_modes_move(&p->rest.statics, p->q, p->vibration.u + j * p->vibration.n, amplitude);
-  ZpShape shape = zp_statics_shape(&p->rest.statics, frame, &p->rest.shape_room);
-  if (frame == 0) p->margins = zp_margins_of(p->rest.statics.model, &shape);
+  zp_modes_move(&p->rest, p->equilibrium, p->vibration.u + j * p->vibration.n, amplitude);
+  ZpShape shape = zp_rest_shape(&p->rest, frame, frame == 0 ? &p->margins : NULL);
   zp_shapes_offer(shapes, &shape);
 }
 
 static void report(Problem *p, ZpResult *result) {
-  const ZpModel *model = p->rest.statics.model;
-  memcpy(p->q, p->rest.statics.q, 2 * model->stride * sizeof *p->q);
+  const ZpModel *model = p->rest.statics.member->model;
+  p->rest.system.save(&p->rest.statics, p->equilibrium);
   record_shape(p, 0, 0, 0, result->shapes);
   for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
     zp_modes_add(&p->vibration, j, result);
@@ -125,7 +134,7 @@ static void report(Problem *p, ZpResult *result) {
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
 static void pose(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = def->load.mass;
+  s->load = s->own_load;
   s->U = def->modes.voltage;
 }
 
@@ -140,8 +149,8 @@ typedef struct Mode {
 static double stiffness_of_mode(ZpStatics *s, void *user) {
   const Mode *mode = user;
   double sum = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);
-  zp_assembly_masses(&s->assembly, s->model->mass, mode->work);
-  for (size_t i = 0; i < s->assembly.n; i++)
+  zp_statics_masses(s, mode->work);
+  for (size_t i = 0; i < s->n; i++)
     sum -= mode->omega2 * mode->work[i] * mode->u[i] * mode->u[i];
   return sum;
 }
@@ -149,8 +158,10 @@ static double stiffness_of_mode(ZpStatics *s, void *user) {
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   Problem *p = user;
   ZpStatics *s = &p->rest.statics;
-  memcpy(s->q, p->q, 2 * s->model->stride * sizeof *s->q);
-  bool found = zp_slope_solve(slope, pose);
+  p->rest.system.restore(s, p->equilibrium);
+  bool found = !p->vibration.inertia && zp_slope_solve(slope, pose); /* of lumped masses */
+  if (p->vibration.inertia)
+    zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
   for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
     Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
@@ -166,8 +177,12 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   snprintf(result->message, sizeof result->message, "%s",
            p->rest.statics.stopped ? "interrupted" : "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return;
-  double voltage = p->rest.statics.model->def.modes.voltage;
-  if (voltage > 0 && p->rest.statics.model->field &&
+  if (!zp_statics_bias(&p->rest.statics, &p->rest.branch.newton)) {
+    snprintf(result->message, sizeof result->message, "%s", zp_statics_no_rest(&p->rest.statics));
+    return;
+  }
+  double voltage = p->rest.statics.member->model->def.modes.voltage;
+  if (voltage > 0 && p->rest.statics.member->model->field &&
       !zp_statics_raise(&p->rest.statics, voltage, &p->rest.branch.newton)) {
     zp_modes_pulled_in(&p->vibration, voltage, zp_statics_trouble(&p->rest.statics), result);
     return;
@@ -184,9 +199,13 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   }
   ZpVibration *v = &p->vibration;
   v->K = &p->rest.branch.newton.K;
-  zp_assembly_masses(&p->rest.statics.assembly, p->rest.statics.model->mass, v->mass);
+  if (p->rest.statics.members > 1 && !p->rest.statics.shared) {
+    zp_series_mass_fill(&p->series);
+    v->inertia = &p->series.inertia;
+  }
+  zp_statics_masses(&p->rest.statics, v->mass);
   if (!zp_modes_solve(v, result)) return;
-  if (*p->rest.statics.model->def.sensitivity.by) refine(p);
+  if (*p->rest.statics.member->model->def.sensitivity.by) refine(p);
   report(p, result);
 }
 
@@ -228,7 +247,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (status != ZP_OK) return status;
   Problem *p = zp_calloc(1, sizeof *p);
   result->series = zp_modes_table();
-  result->shapes = p ? zp_shapes_create(model->s, model->nodes, ZP_MODES + 1) : NULL;
+  result->shapes = p ? zp_model_shapes(model, ZP_MODES + 1) : NULL;
   if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
     p->margins = zp_margins_none();
     run(p, task, result);

@@ -4,7 +4,7 @@
 
 #include <zipact/study.h>
 
-#include "rest/statics.h"
+#include "rest/rest.h"
 #include "rest/vibration.h"
 
 enum { ZP_MODES = 8, ZP_MODES_SUBSPACE = 16 };
@@ -32,8 +32,8 @@ void zp_modes_add(ZpVibration *vibration, size_t j, ZpResult *result);
 /* There is no hanging equilibrium at `voltage`, V: `trouble` says why, NULL that it pulls in below. */
 void zp_modes_pulled_in(const ZpVibration *vibration, double voltage, const char *trouble, ZpResult *result);
 
-/* From the positions q [2 stride] of rest by `amplitude` times the part u [n] of a mode, gaps included. */
-void zp_modes_move(ZpStatics *s, const double *q, const double *u, double amplitude);
+/* From an equilibrium, saved, by `amplitude` times a mode u [n], gaps included. */
+void zp_modes_move(ZpRest *rest, const double *equilibrium, const double *u, double amplitude);
 
 /* What moves the equation that moves most in mode j by a tenth of `length`, m. */
 double zp_modes_amplitude(const ZpVibration *vibration, size_t j, double length);

@@ -194,9 +194,10 @@ static bool hold(Profiler *p, bool *found) {
   if (opened) {
     ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation, &rest.branch.newton);
     *found = zp_newton_good(info.end) && !zp_statics_fault(&rest.statics);
-    ZpShape shape = zp_statics_shape(&rest.statics, 0, &rest.shape_room);
-    if (*found) p->margins = zp_margins_of(model, &shape);
-    lay(p, rest.statics.q);
+    ZpMargins margins;
+    zp_rest_shape(&rest, 0, &margins);
+    if (*found) p->margins = margins;
+    lay(p, rest.statics.member->q);
   }
   zp_rest_close(&rest);
   return opened;

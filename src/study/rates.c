@@ -16,6 +16,10 @@ static ZpStatus refuse(const char *what, const char *why, ZpError *err) {
 }
 
 static ZpStatus check_model(const ZpActuatorDef *def, ZpError *err) {
+  if (zp_def_members(def) > 1 && def->stack.series > 1)
+    return refuse("stack.series", "the derivatives follow a single actuator", err);
+  if (zp_def_members(def) > 1)
+    return refuse("stack.parallel and unequal members", "the derivatives follow a single actuator", err);
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
     return refuse("solver.integrator explicit", "the derivatives follow implicit steps", err);
   if (def->control.kind != ZP_CONTROL_NONE)

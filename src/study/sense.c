@@ -217,10 +217,10 @@ static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **p
 
 /* The field's capacitance of one shape, F. */
 static double capacitance_of(ZpRest *rest, const ZpShape *shape, double *force) {
-  const ZpModel *model = rest->statics.model;
+  const ZpModel *model = rest->statics.member->model;
   ZpStaticSystem system = zp_statics_system(&rest->statics);
-  memcpy(rest->statics.q, shape->x, model->count * sizeof(double));
-  memcpy(rest->statics.q + model->stride, shape->y, model->count * sizeof(double));
+  memcpy(rest->statics.member->q, shape->x, model->count * sizeof(double));
+  memcpy(rest->statics.member->q + model->stride, shape->y, model->count * sizeof(double));
   rest->statics.U = shape->voltage;
   bool solved = !system.refresh || system.refresh(&rest->statics) == ZP_END_FOUND;
   return solved && system.residual(&rest->statics, force, NULL) == ZP_END_FOUND ? zp_statics_capacitance(&rest->statics)

@@ -69,7 +69,7 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
                            ZpResult *result, ZpError *err) {
   KeyList list;
-  ZpStatus status = read_keys(&rest->statics.model->def, &list, err);
+  ZpStatus status = read_keys(&rest->statics.member->model->whole, &list, err);
   for (int k = 0; k < list.count && status == ZP_OK; k++) {
     ZpSlope slope;
     status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, list.key[k], err);
@@ -102,7 +102,8 @@ static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope, const doub
   rate = zp_slope_of(slope, pose, closing_gap, NULL);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
     if (slope->by.model[k])
-      sum += slope->by.weight[k] * zp_closed_opening(slope->near[k].model, hanging + slope->by.offset[k] * rate);
+      sum +=
+          slope->by.weight[k] * zp_closed_opening(slope->near[k].member->model, hanging + slope->by.offset[k] * rate);
   return sum;
 }
 

@@ -4,9 +4,9 @@
 
 #include "base/fail.h"
 #include "rest/rest.h"
+#include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/series.h"
 #include "study/studies.h"
 
 static const ZpColumn columns[] = {
@@ -18,26 +18,33 @@ static const ZpColumn columns[] = {
     {"upper_y_m", "m", "height of the upper ribbon"},
     {"stress_Pa", "Pa", "largest stress of the metal in the section of the lower or only ribbon"},
     {"upper_stress_Pa", "Pa", "largest stress of the metal in the section of the upper ribbon"},
+    {"member", "1", "number of the member; 1 is the uppermost"}, /* of several */
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
-  const ZpModel *model = s->model;
-  const ZpTopology *t = &model->topology;
-  const double *x = s->q, *y = s->q + model->stride;
+static void fill_rows(const ZpStatics *s, size_t which, const ZpShape *shape, ZpTable *table) {
+  const ZpRestMember *m = &s->member[which];
+  const ZpTopology *t = &m->model->topology;
+  size_t first = which * m->model->count; /* of its nodes in the shape */
   for (size_t i = 0; i < t->stations; i++) {
-    size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
+    size_t upper = first + zp_upper(t, i), lower = first + zp_lower(t, i);
     bool edge = i + 1 < t->stations && (i < t->platform.first || i >= t->platform.last), two = zp_is_pair(t);
     double row[COLUMNS] = {(double)i,
-                           x[lower],
-                           y[lower],
-                           edge ? s->eval.edges.T[lower] : NAN,
-                           two ? x[upper] : NAN,
-                           two ? y[upper] : NAN,
+                           shape->x[lower],
+                           shape->y[lower],
+                           edge ? m->eval.edges.T[zp_lower(t, i)] : NAN,
+                           two ? shape->x[upper] : NAN,
+                           two ? shape->y[upper] : NAN,
                            shape->stress[lower],
-                           two ? shape->stress[upper] : NAN};
+                           two ? shape->stress[upper] : NAN,
+                           (double)(which + 1)};
     zp_table_offer(table, row);
   }
+}
+
+static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
+  for (size_t which = 0; which < s->members; which++)
+    fill_rows(s, which, shape, table);
 }
 
 static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
@@ -60,13 +67,13 @@ static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
 
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   (void)user;
-  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->model->topology);
+  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->member->model->topology);
   zp_result_add_sensitivity(result, "stroke_m", slope->key,
                             found ? zp_slope_of(slope, zp_pose_load, zp_output_stroke, NULL) : NAN);
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
-  if (zp_has_angle(&slope->at->model->topology))
+  if (zp_has_angle(&slope->at->member->model->topology))
     zp_result_add_sensitivity(result, "angle_rad", slope->key,
                               found ? zp_slope_of(slope, zp_pose_load, zp_output_angle, NULL) : NAN);
 }
@@ -81,14 +88,18 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
            info.end == ZP_NEWTON_REFUSED ? "the equilibrium found is impossible: " : "",
            s->stopped ? "interrupted" : words_of(s, info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
-  if (zp_is_pair(&s->model->topology)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
-  if (zp_has_angle(&s->model->topology)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (zp_is_pair(&s->member->model->topology))
+    zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
+  if (zp_has_angle(&s->member->model->topology))
+    zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (found) zp_members_add(rest, result);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  ZpShape shape = zp_statics_shape(s, 0, &rest->shape_room);
-  ZpMargins margins = found ? zp_margins_of(s->model, &shape) : zp_margins_none();
-  zp_add_stress(result, s->model, &margins);
-  zp_note_mesh(result, s->model, 0);
+  ZpMargins margins;
+  ZpShape shape = zp_rest_shape(rest, 0, &margins);
+  if (!found) margins = zp_margins_none();
+  zp_add_stress(result, s->member->model, &margins);
+  zp_note_mesh(result, s->member->model, 0);
   if (!found) return;
   fill_table(s, &shape, result->series);
   zp_shapes_offer(result->shapes, &shape);
@@ -114,8 +125,9 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   ZpRest rest = {0};
-  result->series = zp_table_create(columns, COLUMNS, model->nodes);
-  result->shapes = zp_shapes_create(model->s, model->nodes, 2);
+  size_t members = zp_members(model);
+  result->series = zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * model->nodes);
+  result->shapes = zp_model_shapes(model, 2);
   if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))
     run(&rest, task, result);
   else
@@ -123,24 +135,5 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);
   zp_rest_close(&rest);
   zp_model_destroy(model);
-  return status;
-}
-
-ZpStatus zp_series_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  static const ZpColumn columns[] = {
-      {"member", "1", "number of the member; 1 is the uppermost"},
-      {"carried_kg", "kg", "mass of members and links that hangs on it in addition to the load"},
-      {"stroke_m", "m", "height of its clip over its lower platform"},
-      {"opening_m", "m", "distance between its platforms' faces"},
-      {"max_stress_Pa", "Pa", "largest stress of its metal"},
-  };
-  ZpMembers members;
-  ZpStatus status = zp_members_run(task, result->study, zp_study_stationary, &members, err);
-  if (status == ZP_OK) status = zp_members_report(&members, columns, sizeof columns / sizeof columns[0], result, err);
-  if (status == ZP_OK && !zp_members_shape(&members, result)) status = zp_fail_memory(err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome))
-    snprintf(result->message, sizeof result->message,
-             "%zu members at rest, each under the load and what hangs below it", members.count);
-  zp_members_forget(&members);
   return status;
 }

@@ -4,8 +4,6 @@
 #include "sim/hooks.h"
 #include "study/estimate.h"
 #include "study/rates.h"
-#include "study/series.h"
-#include "study/together.h"
 
 /* What a study takes from files. */
 enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
@@ -40,18 +38,13 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
-/* The function that fills the result of a study of this definition; NULL: the study does not support such members. */
-static ZpStudyRun run_of(ZpStudy study, const ZpActuatorDef *def) {
-  static const ZpStudyRun in_series[ZpStudy_COUNT] = {
-#define ZP_IN_SERIES(enumerator, run) [enumerator] = run,
+/* Does a study support the members of this definition? */
+static bool supports(ZpStudy study, const ZpActuatorDef *def) {
+  static const bool many[ZpStudy_COUNT] = {
+#define ZP_MEMBERS(enumerator) [enumerator] = true,
 #include <zipact/studies.def>
   };
-  static const ZpStudyRun shared[ZpStudy_COUNT] = {
-#define ZP_SHARED(enumerator, run) [enumerator] = run,
-#include <zipact/studies.def>
-  };
-  if (zp_def_opposed(def) || zp_def_abreast(def)) return shared[study];
-  return def->stack.series > 1 ? in_series[study] : table[study].run;
+  return zp_def_members(def) == 1 || many[study];
 }
 
 /* What a message advises in place of a study that supports a single actuator only. */
@@ -88,15 +81,15 @@ ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (status != ZP_OK) return status;
   if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
     return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
-  if (!run_of(study, def) && zp_def_opposed(def))
+  if (!supports(study, def) && zp_def_opposed(def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: study %s does not support antagonists; %s",
                    def->stack.distance, table[study].word, instead_of_shared(study));
-  if (!run_of(study, def) && zp_def_abreast(def))
+  if (!supports(study, def) && zp_def_abreast(def))
     return zp_fail(err, ZP_BAD_INPUT,
                    "stack.parallel = %d with unequal members: study %s does not support them; %s; without keys of "
                    "member_K the members are equal, which all studies support",
                    def->stack.parallel, table[study].word, instead_of_shared(study));
-  if (!run_of(study, def))
+  if (!supports(study, def))
     return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s does not support members in series; %s",
                    def->stack.series, table[study].word, instead_of(study));
   if (def->ribbon.plasticity && is_elastic(study))
@@ -159,7 +152,7 @@ ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInpu
   ZpActuatorDef solved = *def;
   const ZpStudyInput files = input ? *input : (ZpStudyInput){0};
   const ZpTask asked = {def, files, hooks}, task = {&solved, files, hooks};
-  ZpStudyRun run = run_of(study, def);
+  ZpStudyRun run = table[study].run;
   status = solve_resolved(run, study, &asked, &solved, &result, err);
   if (status != ZP_OK) return status;
   bool moves = table[study].files == FILES_course;

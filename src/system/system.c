@@ -66,22 +66,22 @@ static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
     memset(all[k], 0, model->nodes * sizeof *all[k]);
 }
 
-static void sum_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, bool edges,
+static void add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, bool edges,
                           ZpBand *K) {
-  zp_band_clear(K);
   clear_gaps(model, &e->gaps);
   for (size_t k = 0; k < e->terms; k++)
     if (e->term[k]->stiffness && (edges || !e->term[k]->of_edges)) e->term[k]->stiffness(model, span, assembly, e, K);
   if (model->field) zp_assemble_gaps(assembly, &e->gaps, K);
 }
 
-void zp_system_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
-  sum_stiffness(model, span, assembly, e, true, K);
+void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e,
+                             ZpBand *K) {
+  add_stiffness(model, span, assembly, e, true, K);
 }
 
-void zp_system_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e,
-                                      ZpBand *K) {
-  sum_stiffness(model, span, assembly, e, false, K);
+void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
+                                          ZpEval *e, ZpBand *K) {
+  add_stiffness(model, span, assembly, e, false, K);
 }
 
 ZP_KERNEL static void divide(size_t stride, const double *mx, const double *my, double *restrict ax,

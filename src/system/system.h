@@ -18,13 +18,14 @@ void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 /* F [2 stride] = sum of the forces of all terms over the span, N. */
 void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F);
 
-/* K = -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
+/* K += -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
  * symmetric. */
-void zp_system_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
+void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval,
+                             ZpBand *K);
 
-/* K of all terms but those of edges (ZpTerm.of_edges). */
-void zp_system_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
-                                      ZpEval *eval, ZpBand *K);
+/* The same of all terms but those of edges (ZpTerm.of_edges). */
+void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
+                                          ZpEval *eval, ZpBand *K);
 
 /* The instant of a state, with its voltage, load, held forces and front, at coordinates q and velocities v (its own, or
  * trial values). */
