@@ -8,7 +8,7 @@
 #include <zipact/version.h>
 
 #include "io/atomic.h"
-#include "io/html.h"
+#include "reproduce/html.h"
 #include "reproduce/parts.h"
 
 /* A number in the format of printf, with a minus sign and powers of ten. */
