@@ -194,7 +194,7 @@ int cli_batch(const Options *o) {
   pthread_t *thread = calloc(jobs, sizeof *thread);
   size_t started = 0;
   batch.options = *o;
-  batch.options.quiet = true; /* messages about the common part are out: by check_common */
+  batch.options.given |= OPTION_QUIET; /* messages about the common part are out: by check_common */
   while (thread && started < jobs && pthread_create(&thread[started], NULL, work, &batch) == 0)
     started++;
   if (started > 0) read_lines(&batch);

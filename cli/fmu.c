@@ -46,6 +46,6 @@ int cli_fmu(const Options *options) {
   if (status == ZP_OK) status = zp_fmu_write(scenario, version, kit, options->directory, &err);
   zp_scenario_destroy(scenario);
   if (status != ZP_OK) return cli_fail(&err);
-  if (!options->quiet) printf("%s: an FMU for co-simulation, FMI %d.0\n", options->directory, version);
+  if (!(options->given & OPTION_QUIET)) printf("%s: an FMU for co-simulation, FMI %d.0\n", options->directory, version);
   return EXIT_DONE;
 }
