@@ -52,8 +52,9 @@ int cli_main(int argc, char **argv, const Crew *crew);
 /* Print a message to stderr. */
 void cli_notice(const char *message);
 
-/* Read the scenario and the values of the command line. `study` NULL: the study that the scenario names. */
-ZpStatus cli_read_scenario(const char *study, const Options *options, ZpScenario *scenario, ZpError *err);
+/* The scenario with the values of the command line. `study` NULL: the study that the scenario names. To be destroyed
+ * whatever the status is. */
+ZpStatus cli_read_scenario(const char *study, const Options *options, ZpScenario **scenario, ZpError *err);
 
 /* Print the error and return the exit status. */
 int cli_fail(const ZpError *err);

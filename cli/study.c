@@ -29,7 +29,10 @@ static ZpStatus check_templates(const char *folder, ZpError *err) {
   return ZP_BAD_INPUT;
 }
 
-ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
+ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario **made, ZpError *err) {
+  ZpScenario *scenario = *made = zp_scenario_create();
+  *err = (ZpError){ZP_MACHINE, "no memory"};
+  if (!scenario) return ZP_MACHINE;
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
@@ -171,10 +174,9 @@ static int optimize_in_folder(const ZpScenario *scenario, const Options *o, cons
 int cli_optimize(const Options *o) {
   ZpError err;
   ZpFolder *folder;
-  ZpScenario *scenario = zp_scenario_create();
-  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
+  ZpScenario *scenario;
   const char *directory = o->directory ? o->directory : "out/optimize";
-  ZpStatus status = cli_read_scenario(NULL, o, scenario, &err);
+  ZpStatus status = cli_read_scenario(NULL, o, &scenario, &err);
   if (status == ZP_OK) status = zp_folder_open(directory, &folder, &err);
   int code = status == ZP_OK ? optimize_in_folder(scenario, o, directory, folder) : cli_fail(&err);
   if (status == ZP_OK) zp_folder_close(folder);
@@ -203,9 +205,8 @@ static int run_in_folder(const ZpScenario *scenario, const Options *o) {
 
 int cli_study(const char *study, const Options *o) {
   ZpError err;
-  ZpScenario *scenario = zp_scenario_create();
-  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
-  ZpStatus status = cli_read_scenario(study, o, scenario, &err);
+  ZpScenario *scenario;
+  ZpStatus status = cli_read_scenario(study, o, &scenario, &err);
   if (status == ZP_OK) status = zp_batch_check_jobs(scenario, o->jobs, &err);
   int exit_code = status == ZP_OK ? run_in_folder(scenario, o) : cli_fail(&err);
   zp_scenario_destroy(scenario);

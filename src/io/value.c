@@ -74,6 +74,10 @@ static bool is_pure(const ZpKey *key) {
   return strcmp(key->unit, "1") == 0;
 }
 
+bool zp_value_is_number(const ZpKey *key) {
+  return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
+}
+
 void zp_value_range(int index, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
   char least[ZP_VALUE_SIZE], most[ZP_VALUE_SIZE];
