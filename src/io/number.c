@@ -1,4 +1,4 @@
-/* Numbers as text, in the C locale, because files must have a decimal point in the locale of any user.
+/* Numbers as text, with a decimal point, which files must have in the locale of any user.
  *
  * 15 digits are enough for every double that came from a short decimal, 17 for any. So the first of 15, 16, 17 digits
  * that reads back gives the shortest text, once "%g" has dropped its trailing zeros. Subnormal numbers have fewer
@@ -8,33 +8,55 @@
 #include <float.h>
 #include <locale.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Do 15 digits of a number from 1e-7 to 1e15 read back? Decided without printing: the 15 digits as an integer D are
- * exact, a power of ten up to 1e22 is exact, so D / 10^k is the double that reading them gives. */
-static bool has_15_digits(double a) {
-  static const double ten_to[] = {1,    1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
-                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
-  int e;
-  frexp(a, &e);
-  int k = 14 - (int)floor((e - 1) * 0.30102999566398120); /* log10 of 2: D has 15 digits, or 16 */
-  double D = nearbyint(a * ten_to[k]);
-  if (D >= 1e15 && k > 0) D = nearbyint(a * ten_to[--k]);
-  return D / ten_to[k] == a;
+/* Fewest digits that read back of a number from 1e-7 to 1e15, decided without printing, which takes longer. Other
+ * numbers: 0. */
+#ifdef __SIZEOF_INT128__
+__extension__ typedef unsigned __int128 Wide;
+
+/* Is m 2^e, of which 10^f is the leading digit, the nearest double to itself rounded to so many digits? In units of
+ * 2^-s of the last digit it is an integer, m 5^k, and so is the distance to the next double, 5^k. */
+static bool reads_back(uint64_t m, int e, int f, int digits) {
+  const int k = digits - 1 - f, s = -(e + k);
+  uint64_t fives = 1;
+  for (int i = 0; i < k; i++)
+    fives *= 5;
+  const Wide one = (Wide)1 << s, down = (Wide)m * fives & (one - 1), up = one - down;
+  const bool lowest = m == UINT64_C(1) << (DBL_MANT_DIG - 1); /* doubles below a power of two are twice as dense */
+  return down < up ? down * (lowest ? 4 : 2) < fives : up * 2 < fives;
 }
+
+static int fewest_digits(double a) {
+  static const double ten_to[] = {1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1e-1, 1,    1e1,  1e2,  1e3, 1e4,
+                                  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+  int e, f = -7;
+  if (!(a >= 1e-7 && a < 1e15)) return 0;
+  const uint64_t m = (uint64_t)ldexp(frexp(a, &e), DBL_MANT_DIG);
+  while (a >= ten_to[f + 8])
+    f++;
+  e -= DBL_MANT_DIG;
+  return reads_back(m, e, f, 15) ? 15 : reads_back(m, e, f, 16) ? 16 : 17;
+}
+#else
+static int fewest_digits(double a) {
+  (void)a;
+  return 0;
+}
+#endif
 
 /* Print with a decimal point or, below 1e-4 and from 1e16 on, with an exponent. */
 static void print_shortest(double value, char *text) {
   const double a = fabs(value);
-  const bool usual = a >= 1e-7 && a < 1e15;
-  int digits = a < DBL_MIN ? 1 : a < 1e15 || a >= 1e16 ? DBL_DIG : 16; /* "%.15g" would write 1e15 with an exponent */
-  if (usual && has_15_digits(a)) {
-    snprintf(text, ZP_NUMBER_SIZE, "%.15g", value);
+  int digits = fewest_digits(a);
+  if (digits > 0) {
+    snprintf(text, ZP_NUMBER_SIZE, "%.*g", digits, value);
     return;
   }
-  if (usual) digits = 16;
+  digits = a < DBL_MIN ? 1 : a < 1e15 || a >= 1e16 ? DBL_DIG : 16; /* "%.15g" would write 1e15 with an exponent */
   do
     snprintf(text, ZP_NUMBER_SIZE, "%.*g", digits, value);
   while (digits++ < 17 && strtod(text, NULL) != value);
@@ -42,13 +64,27 @@ static void print_shortest(double value, char *text) {
     snprintf(text, ZP_NUMBER_SIZE, "%.16e", value); /* "%.17g" would write none */
 }
 
+/* The decimal sign of the user's locale, which may have several bytes, becomes a point. */
+static void put_point(char *text) {
+  char *sign = text + (*text == '-');
+  while (*sign >= '0' && *sign <= '9')
+    sign++;
+  if (*sign == 0 || *sign == '.' || *sign == 'e') return;
+  const char *fraction = strpbrk(sign, "0123456789");
+  *sign = '.';
+  memmove(sign + 1, fraction, strlen(fraction) + 1);
+}
+
 void zp_number_print(double value, char *text, size_t size) {
-  char whole[ZP_NUMBER_SIZE];
-  const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0), before = uselocale(plain);
-  print_shortest(value, whole);
-  uselocale(before);
-  freelocale(plain);
-  snprintf(text, size, "%s", isnan(value) ? "nan" : whole);
+  char whole[ZP_NUMBER_SIZE] = "nan";
+  if (isinf(value)) snprintf(whole, sizeof whole, "%s", value < 0 ? "-inf" : "inf");
+  if (isfinite(value)) {
+    print_shortest(value, whole);
+    put_point(whole);
+  }
+  const size_t length = strlen(whole), room = length < size ? length : size - 1;
+  memcpy(text, whole, room);
+  text[room] = 0;
 }
 
 bool zp_number_read(const char *text, double *value) {
