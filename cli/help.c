@@ -81,12 +81,6 @@ void help_synopsis(const Command *command, void (*write)(void *user, const char 
   }
 }
 
-static void write_synopsis(const Command *command) {
-  Paragraph p = {8, 0, false};
-  help_synopsis(command, write_word, &p);
-  putchar('\n');
-}
-
 static void write_commands(bool studies) {
   for (const Command *c = word_commands; c->word; c++) {
     char name[64];
@@ -112,9 +106,9 @@ void help_print(void) {
 }
 
 void help_print_command(const Command *command) {
-  Paragraph p = {0, 0, false};
-  write_synopsis(command);
-  putchar('\n');
+  Paragraph synopsis = {8, 0, false}, p = {0, 0, false};
+  help_synopsis(command, write_word, &synopsis);
+  fputs("\n\n", stdout);
   write_text(&p, command->help);
   write_options(command->options);
   if (command->options & OPTION_SET) fputs(values_and_statuses, stdout);
