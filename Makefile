@@ -118,7 +118,7 @@ check-web: $(BUILD)/zipact
 	ZIPACT=$(abspath $(BUILD)/zipact) scripts/web.sh --test
 
 # All sources in C; git's list would miss a new one.
-c_sources = $(shell find bench benchmarks cli examples include octave python src tests web -name node_modules -prune -o -name build -prune -o -name '*.[ch]' -print)
+c_sources = $(shell find bench benchmarks cli examples include octave python reproduce src tests web -name node_modules -prune -o -name build -prune -o -name '*.[ch]' -print)
 
 format:
 	clang-format -i $(c_sources)

@@ -42,20 +42,22 @@ static void drop_place(ZpError *err, const char *name) {
   if (reason) memmove(err->message, reason + 2, strlen(reason + 2) + 1);
 }
 
-static ZpStatus read_case(const Options *o, const Line *line, ZpScenario *scenario, ZpError *err) {
+/* => *scenario, to be destroyed whatever the status is. */
+static ZpStatus read_case(const Options *o, const Line *line, ZpScenario **scenario, ZpError *err) {
   char name[32];
   size_t lists;
   const size_t blank = strspn(line->text, " \t\r\n");
   snprintf(name, sizeof name, "line %zu", line->number);
+  *scenario = NULL;
   *err = (ZpError){ZP_BAD_INPUT, "give one JSON object per line: {\"load.mass\": \"8 g\"}"};
   if (line->text[blank] != '{') return ZP_BAD_INPUT;
   ZpStatus status = cli_read_scenario(NULL, o, scenario, err);
-  if (status == ZP_OK) status = zp_scenario_override(scenario, line->text, strlen(line->text), name, err);
+  if (status == ZP_OK) status = zp_scenario_override(*scenario, line->text, strlen(line->text), name, err);
   if (status != ZP_OK) {
     drop_place(err, name);
     return status;
   }
-  zp_scenario_lists(scenario, &lists);
+  zp_scenario_lists(*scenario, &lists);
   if (lists == 0) return ZP_OK;
   *err = (ZpError){ZP_BAD_INPUT, "a list of values; give one value per key, because a line is one case"};
   return ZP_BAD_INPUT;
@@ -77,10 +79,8 @@ static ZpStatus run_case(const ZpScenario *scenario, FILE *answer, ZpError *err)
 }
 
 static ZpStatus answer_case(const Options *o, const Line *line, FILE *answer, ZpError *err) {
-  ZpScenario *scenario = zp_scenario_create();
-  *err = (ZpError){ZP_MACHINE, "no memory"};
-  if (!scenario) return ZP_MACHINE;
-  ZpStatus status = read_case(o, line, scenario, err);
+  ZpScenario *scenario;
+  ZpStatus status = read_case(o, line, &scenario, err);
   if (status == ZP_OK) status = run_case(scenario, answer, err);
   zp_scenario_destroy(scenario);
   return status;
@@ -175,26 +175,19 @@ static void read_lines(Batch *batch) {
   pthread_mutex_unlock(&batch->lock);
 }
 
-/* Check the common part of all lines before the first line is read. */
-static ZpStatus check_common(const Options *o, ZpError *err) {
-  ZpScenario *scenario = zp_scenario_create();
-  *err = (ZpError){ZP_MACHINE, "no memory"};
-  if (!scenario) return ZP_MACHINE;
-  ZpStatus status = cli_read_scenario(NULL, o, scenario, err);
-  zp_scenario_destroy(scenario);
-  return status;
-}
-
 int cli_batch(const Options *o) {
   static Batch batch = {
       .lock = PTHREAD_MUTEX_INITIALIZER, .more = PTHREAD_COND_INITIALIZER, .room = PTHREAD_COND_INITIALIZER};
   ZpError err;
-  if (check_common(o, &err) != ZP_OK) return cli_fail(&err);
+  ZpScenario *common; /* part of all lines: checked before the first line is read */
+  const ZpStatus status = cli_read_scenario(NULL, o, &common, &err);
+  zp_scenario_destroy(common);
+  if (status != ZP_OK) return cli_fail(&err);
   const size_t jobs = (size_t)(o->jobs > 0 ? o->jobs : zp_processors());
   pthread_t *thread = calloc(jobs, sizeof *thread);
   size_t started = 0;
   batch.options = *o;
-  batch.options.quiet = true; /* messages about the common part are out: by check_common */
+  batch.options.given |= OPTION_QUIET; /* messages about the common part are out */
   while (thread && started < jobs && pthread_create(&thread[started], NULL, work, &batch) == 0)
     started++;
   if (started > 0) read_lines(&batch);

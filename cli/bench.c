@@ -103,7 +103,7 @@ int cli_bench(const Options *options) {
   ZpError err;
   for (int i = 0; i < ROWS; i++)
     if (list[i].make(list[i].nodes, &row[i], &err) != ZP_OK) return cli_fail(&err);
-  if (options->json) return print_json(row);
+  if (options->given & OPTION_JSON) return print_json(row);
   print_table(row);
   return EXIT_DONE;
 }

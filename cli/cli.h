@@ -22,8 +22,20 @@ typedef struct Crew {
   void *user;                        /* of `compute` */
 } Crew;
 
+/* Bits of options, from words.def. */
+enum {
+#define ZP_OPTION(name, word, letter, argument, help) OPTION_PLACE_##name,
+#include "words.def"
+  OPTION_COUNT
+};
+enum {
+#define ZP_OPTION(name, word, letter, argument, help) OPTION_##name = 1 << OPTION_PLACE_##name,
+#include "words.def"
+};
+
 /* The options and arguments of the command line. */
 typedef struct Options {
+  unsigned given;       /* bits of the given options */
   const char *scenario; /* NULL: the defaults; for `completion` the shell */
   const char **set;     /* [sets] values of --set, in order */
   int sets;
@@ -31,8 +43,7 @@ typedef struct Options {
   const char *templates; /* folder of --templates; NULL: not given */
   int jobs;              /* processors to use; 0: all */
   int fmi;               /* requested version of FMI; 0: none */
-  bool resume, no_plots, json, yaml, quiet, help;
-  const Crew *crew; /* NULL: threads of this process compute */
+  const Crew *crew;      /* NULL: threads of this process compute */
 } Options;
 
 /* Run the command line => exit status. `crew` may be NULL. */
@@ -41,8 +52,9 @@ int cli_main(int argc, char **argv, const Crew *crew);
 /* Print a message to stderr. */
 void cli_notice(const char *message);
 
-/* Read the scenario and the values of the command line. `study` NULL: the study that the scenario names. */
-ZpStatus cli_read_scenario(const char *study, const Options *options, ZpScenario *scenario, ZpError *err);
+/* The scenario with the values of the command line. `study` NULL: the study that the scenario names. To be destroyed
+ * whatever the status is. */
+ZpStatus cli_read_scenario(const char *study, const Options *options, ZpScenario **scenario, ZpError *err);
 
 /* Print the error and return the exit status. */
 int cli_fail(const ZpError *err);

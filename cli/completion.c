@@ -7,9 +7,8 @@
 #define SHELLS "bash zsh fish"
 
 static void write_commands(void) {
-  Command command;
-  for (int i = 0; word_command(i, &command); i++)
-    printf("%s%s", i ? " " : "", command.word);
+  for (const Command *c = word_commands; c->word; c++)
+    printf("%s%s", c > word_commands ? " " : "", c->word);
 }
 
 static void write_keys(void) {
@@ -20,15 +19,14 @@ static void write_keys(void) {
 /* "--set --output ..." of the options `taken`. */
 static void write_options(unsigned taken) {
   for (int i = 0; i < OPTION_COUNT; i++)
-    if (taken & 1u << i) printf("%s--%s", 1u << i == OPTION_SET ? "" : " ", word_option(i)->word);
+    if (taken & 1u << i) printf("%s--%s", 1u << i == OPTION_SET ? "" : " ", word_options[i].word);
 }
 
 /* The options of each command as branches of a `case`. */
 static void write_cases(const char *indent) {
-  Command command;
-  for (int i = 0; word_command(i, &command); i++) {
-    printf("%s%s) options='", indent, command.word);
-    write_options(command.options);
+  for (const Command *c = word_commands; c->word; c++) {
+    printf("%s%s) options='", indent, c->word);
+    write_options(c->options);
     printf("' ;;\n");
   }
 }
@@ -134,12 +132,11 @@ static void write_quoted(const char *text) {
 
 static void write_fish_options(void) {
   for (int i = 0; i < OPTION_COUNT; i++) {
-    const Option *option = word_option(i);
-    Command command;
+    const Option *option = &word_options[i];
     if (1u << i == OPTION_SET) continue;
     printf("complete -c zipact -n '__fish_seen_subcommand_from");
-    for (int k = 0; word_command(k, &command); k++)
-      if (command.options & 1u << i) printf(" %s", command.word);
+    for (const Command *c = word_commands; c->word; c++)
+      if (c->options & 1u << i) printf(" %s", c->word);
     printf("' -l %s %s-d ", option->word, option->argument ? "-r " : "");
     write_quoted(option->help);
     putchar('\n');
@@ -147,11 +144,10 @@ static void write_fish_options(void) {
 }
 
 static void write_fish(void) {
-  Command command;
   printf("# fish completion of zipact: zipact completion fish | source\n");
-  for (int i = 0; word_command(i, &command); i++) {
-    printf("complete -c zipact -n __fish_use_subcommand -f -a %s -d ", command.word);
-    write_quoted(command.help);
+  for (const Command *c = word_commands; c->word; c++) {
+    printf("complete -c zipact -n __fish_use_subcommand -f -a %s -d ", c->word);
+    write_quoted(c->help);
     putchar('\n');
   }
   write_fish_options();

@@ -39,13 +39,12 @@ int cli_fmu(const Options *options) {
   ZpError err;
   const int version = options->fmi ? options->fmi : 3;
   if (!options->directory) return cli_fail(&(ZpError){ZP_BAD_INPUT, "fmu needs a file to write: -o FILE.fmu"});
-  ZpScenario *scenario = zp_scenario_create();
-  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
-  ZpStatus status = cli_read_scenario("actuate", options, scenario, &err);
+  ZpScenario *scenario;
+  ZpStatus status = cli_read_scenario("actuate", options, &scenario, &err);
   if (status == ZP_OK) status = find_kit(kit, &err);
   if (status == ZP_OK) status = zp_fmu_write(scenario, version, kit, options->directory, &err);
   zp_scenario_destroy(scenario);
   if (status != ZP_OK) return cli_fail(&err);
-  if (!options->quiet) printf("%s: an FMU for co-simulation, FMI %d.0\n", options->directory, version);
+  if (!(options->given & OPTION_QUIET)) printf("%s: an FMU for co-simulation, FMI %d.0\n", options->directory, version);
   return EXIT_DONE;
 }

@@ -61,8 +61,8 @@ static void write_options(unsigned taken) {
   printf("\nOptions\n");
   for (int i = 0; i < OPTION_COUNT; i++) {
     char name[64];
-    help_option_name(word_option(i), name, sizeof name);
-    if (taken & 1u << i) write_entry(name, word_option(i)->help);
+    help_option_name(&word_options[i], name, sizeof name);
+    if (taken & 1u << i) write_entry(name, word_options[i].help);
   }
 }
 
@@ -71,7 +71,7 @@ void help_synopsis(const Command *command, void (*write)(void *user, const char 
   write(user, command->word);
   if (command->argument != NOTHING) write(user, word_argument(command->argument));
   for (int i = 0; i < OPTION_COUNT; i++) {
-    const Option *option = word_option(i);
+    const Option *option = &word_options[i];
     char name[64];
     if (!(command->options & 1u << i) || 1u << i == OPTION_HELP) continue;
     const char *dashes = option->letter == 'o' ? "-o" : "--", *word = option->letter == 'o' ? "" : option->word;
@@ -81,19 +81,12 @@ void help_synopsis(const Command *command, void (*write)(void *user, const char 
   }
 }
 
-static void write_synopsis(const Command *command) {
-  Paragraph p = {8, 0, false};
-  help_synopsis(command, write_word, &p);
-  putchar('\n');
-}
-
 static void write_commands(bool studies) {
-  Command command;
-  for (int i = 0; word_command(i, &command); i++) {
+  for (const Command *c = word_commands; c->word; c++) {
     char name[64];
-    const char *argument = studies ? "" : word_argument(command.argument);
-    snprintf(name, sizeof name, "%s%s%s", command.word, *argument ? " " : "", argument);
-    if ((command.run == NULL) == studies) write_entry(name, command.help);
+    const char *argument = studies ? "" : word_argument(c->argument);
+    snprintf(name, sizeof name, "%s%s%s", c->word, *argument ? " " : "", argument);
+    if ((c->run == NULL) == studies) write_entry(name, c->help);
   }
 }
 
@@ -113,9 +106,9 @@ void help_print(void) {
 }
 
 void help_print_command(const Command *command) {
-  Paragraph p = {0, 0, false};
-  write_synopsis(command);
-  putchar('\n');
+  Paragraph synopsis = {8, 0, false}, p = {0, 0, false};
+  help_synopsis(command, write_word, &synopsis);
+  fputs("\n\n", stdout);
   write_text(&p, command->help);
   write_options(command->options);
   if (command->options & OPTION_SET) fputs(values_and_statuses, stdout);

@@ -9,9 +9,9 @@ static int print_keys(ZpKeysFormat format) {
 }
 
 int cli_keys(const Options *options) {
-  if (options->json && options->yaml)
-    return cli_fail(&(ZpError){ZP_BAD_INPUT, "keys: give --json or --yaml, not both"});
-  return print_keys(options->json ? ZP_KEYS_JSON : options->yaml ? ZP_KEYS_YAML : ZP_KEYS_TEXT);
+  const bool json = options->given & OPTION_JSON, yaml = options->given & OPTION_YAML;
+  if (json && yaml) return cli_fail(&(ZpError){ZP_BAD_INPUT, "keys: give --json or --yaml, not both"});
+  return print_keys(json ? ZP_KEYS_JSON : yaml ? ZP_KEYS_YAML : ZP_KEYS_TEXT);
 }
 
 int cli_schema(const Options *options) {

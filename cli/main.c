@@ -43,7 +43,7 @@ static bool read_jobs(const char *text, int *jobs) {
   return end > text && *end == 0 && errno == 0 && value >= 1 && value <= JOBS_MOST;
 }
 
-/* Take an option, by the answer of getopt. => EXIT_DONE or EXIT_INPUT. */
+/* Take the argument of an option, by the answer of getopt. => EXIT_DONE or EXIT_INPUT. */
 static int take_option(int letter, const char **set, Options *options) {
   switch (letter) {
   case 's':
@@ -52,14 +52,8 @@ static int take_option(int letter, const char **set, Options *options) {
   case 'o':
     options->directory = optarg;
     break;
-  case 'p':
-    options->no_plots = true;
-    break;
   case 't':
     options->templates = optarg;
-    break;
-  case 'r':
-    options->resume = true;
     break;
   case 'n':
     if (!read_jobs(optarg, &options->jobs)) return fail_usage("--jobs takes a number from 1 to 1024, not ", optarg);
@@ -67,18 +61,6 @@ static int take_option(int letter, const char **set, Options *options) {
   case 'f':
     if (strcmp(optarg, "2") != 0 && strcmp(optarg, "3") != 0) return fail_usage("--fmi takes 2 or 3, not ", optarg);
     options->fmi = *optarg - '0';
-    break;
-  case 'j':
-    options->json = true;
-    break;
-  case 'y':
-    options->yaml = true;
-    break;
-  case 'q':
-    options->quiet = true;
-    break;
-  case 'h':
-    options->help = true;
     break;
   }
   return EXIT_DONE;
@@ -103,7 +85,7 @@ static int fail_option(char **argv, int answer) {
   const char short_option[] = {'-', (char)optopt, 0}, *word = argv[optind - 1];
   if (answer == '?' && strncmp(word, "--", 2) == 0 && names_key(word + 2)) return fail_assignment(word + 2, "");
   if (answer == '?' && optopt && strncmp(word, "--", 2) != 0) word = short_option;
-  const char *nearest = answer == '?' ? word_nearest_option(word + strspn(word, "-")) : NULL;
+  const char *nearest = answer == '?' ? word_nearest(word + strspn(word, "-"), true) : NULL;
   fprintf(stderr, "zipact: %s %s%s%s%s; see zipact %s --help\n",
           answer == ':' ? "missing argument of" : "unknown option", word, nearest ? "; did you mean --" : "",
           nearest ? nearest : "", nearest ? "?" : "", argv[0]);
@@ -125,22 +107,20 @@ static int take_arguments(int argc, char **argv, Options *options) {
   return EXIT_DONE;
 }
 
-/* Read the words after the first one; `set` has room for argc pointers; *given has the bits of the given options. =>
- * EXIT_DONE or EXIT_INPUT. */
-static int read_options(int argc, char **argv, const char **set, Options *options, unsigned *given) {
+/* Read the words after the first one; `set` has room for argc pointers. => EXIT_DONE or EXIT_INPUT. */
+static int read_options(int argc, char **argv, const char **set, Options *options) {
   struct option known[OPTION_COUNT + 1] = {0};
   for (int i = 0; i < OPTION_COUNT; i++)
-    known[i] = (struct option){word_option(i)->word, word_option(i)->argument ? required_argument : no_argument, NULL,
-                               word_option(i)->letter};
+    known[i] = (struct option){word_options[i].word, word_options[i].argument ? required_argument : no_argument, NULL,
+                               word_options[i].letter};
   *options = (Options){.set = set};
-  *given = 0;
   opterr = 0;
   for (int letter; (letter = getopt_long(argc, argv, ":o:h", known, NULL)) != -1;) {
     if (letter == '?' || letter == ':') return fail_option(argv, letter);
     const int status = take_option(letter, set, options);
     if (status != EXIT_DONE) return status;
     for (int i = 0; i < OPTION_COUNT; i++)
-      if (word_option(i)->letter == letter) *given |= 1u << i;
+      if (word_options[i].letter == letter) options->given |= 1u << i;
   }
   return take_arguments(argc, argv, options);
 }
@@ -151,12 +131,12 @@ static int fail_taken(const Command *command, const char *what) {
   return EXIT_INPUT;
 }
 
-static int check_words(const Command *command, const Options *o, unsigned given) {
+static int check_words(const Command *command, const Options *o) {
   for (int i = 0; i < OPTION_COUNT; i++) {
     char word[32];
-    const Option *option = word_option(i);
+    const Option *option = &word_options[i];
     snprintf(word, sizeof word, option->letter == 'o' ? "-o" : "--%s", option->word);
-    if (given & ~command->options & 1u << i) return fail_taken(command, word);
+    if (o->given & ~command->options & 1u << i) return fail_taken(command, word);
   }
   if (command->argument == NOTHING && o->scenario) return fail_taken(command, "a scenario");
   if (command->argument == A_SCENARIO && !o->scenario) return fail_usage(command->word, " needs a scenario file");
@@ -178,22 +158,22 @@ static int fail_word(const char *word) {
     fprintf(stderr, "zipact: %s: to run a scenario write zipact run %s\n", word, word);
     return EXIT_INPUT;
   }
-  const char *nearest = word_nearest(word);
+  const char *nearest = word_nearest(word, false);
   fprintf(stderr, "zipact: unknown study or command: %s%s%s%s\n", word,
           nearest ? "; did you mean " : "; see zipact --help", nearest ? nearest : "", nearest ? "?" : "");
   return EXIT_INPUT;
 }
 
-static int dispatch(const char *word, const Options *o, unsigned given) {
-  Command command;
-  if (!word_find(word, &command)) return fail_word(word);
-  if (o->help) {
-    help_print_command(&command);
+static int dispatch(const char *word, const Options *o) {
+  const Command *command = word_find(word);
+  if (!command) return fail_word(word);
+  if (o->given & OPTION_HELP) {
+    help_print_command(command);
     return EXIT_DONE;
   }
-  const int status = check_words(&command, o, given);
+  const int status = check_words(command, o);
   if (status != EXIT_DONE) return status;
-  return command.run ? command.run(o) : cli_study(word, o);
+  return command->run ? command->run(o) : cli_study(word, o);
 }
 
 int cli_run(const Options *options) {
@@ -230,10 +210,10 @@ int cli_main(int argc, char **argv, const Crew *crew) {
     puts("zipact " ZP_VERSION);
     return cli_flush(EXIT_DONE);
   }
-  Command command;
   if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0 || strcmp(argv[1], "help") == 0) {
-    if (argc > 2 && word_find(argv[2], &command))
-      help_print_command(&command);
+    const Command *command = argc > 2 ? word_find(argv[2]) : NULL;
+    if (command)
+      help_print_command(command);
     else
       help_print();
     return cli_flush(EXIT_DONE);
@@ -242,10 +222,9 @@ int cli_main(int argc, char **argv, const Crew *crew) {
   const char **set = calloc((size_t)argc, sizeof *set);
   if (!set) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
   Options options;
-  unsigned given;
-  int status = read_options(argc - 1, argv + 1, set, &options, &given);
+  int status = read_options(argc - 1, argv + 1, set, &options);
   options.crew = crew;
-  if (status == EXIT_DONE) status = dispatch(argv[1], &options, given);
+  if (status == EXIT_DONE) status = dispatch(argv[1], &options);
   free(set);
   return cli_flush(status);
 }

@@ -50,7 +50,7 @@ static void write_word(void *user, const char *word) {
 static void write_options(FILE *file, unsigned taken) {
   write_section(file, "OPTIONS");
   for (int i = 0; i < OPTION_COUNT; i++) {
-    const Option *option = word_option(i);
+    const Option *option = &word_options[i];
     char term[64];
     help_option_name(option, term, sizeof term);
     if (taken & 1u << i) write_entry(file, term, option->help);
@@ -109,11 +109,10 @@ static const char examples[] = ".SH EXAMPLES\n"
 
 /* "zipact-keys (1), ..." */
 static void write_see_also(FILE *file, const char *own) {
-  Command command;
   write_section(file, "SEE ALSO");
   if (*own) fputs(".BR zipact (1),\n", file);
-  for (int i = 0; word_command(i, &command); i++)
-    if (strcmp(command.word, own) != 0) fprintf(file, ".BR zipact\\-%s (1),\n", command.word);
+  for (const Command *c = word_commands; c->word; c++)
+    if (strcmp(c->word, own) != 0) fprintf(file, ".BR zipact\\-%s (1),\n", c->word);
   fputs(".BR gnuplot (1)\n", file);
 }
 
@@ -136,10 +135,9 @@ static void write_page(FILE *file, const Command *command) {
 
 /* The studies or the commands, in their own section. */
 static void write_commands(FILE *file, const char *section, bool studies) {
-  Command command;
   write_section(file, section);
-  for (int i = 0; word_command(i, &command); i++)
-    if ((command.run == NULL) == studies) write_entry(file, command.word, command.help);
+  for (const Command *c = word_commands; c->word; c++)
+    if ((c->run == NULL) == studies) write_entry(file, c->word, c->help);
 }
 
 static void write_main_page(FILE *file) {
@@ -180,11 +178,10 @@ static int write_file(const char *folder, const Command *command) {
 }
 
 int cli_man(const Options *options) {
-  Command command;
   if (!options->directory) return cli_fail(&(ZpError){ZP_BAD_INPUT, "man needs a folder to write to: -o DIR"});
   mkdir(options->directory, 0777); /* its failure is detected below */
   int status = write_file(options->directory, NULL);
-  for (int i = 0; status == EXIT_DONE && word_command(i, &command); i++)
-    status = write_file(options->directory, &command);
+  for (const Command *c = word_commands; status == EXIT_DONE && c->word; c++)
+    status = write_file(options->directory, c);
   return status;
 }

@@ -29,13 +29,16 @@ static ZpStatus check_templates(const char *folder, ZpError *err) {
   return ZP_BAD_INPUT;
 }
 
-ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario *scenario, ZpError *err) {
+ZpStatus cli_read_scenario(const char *study, const Options *o, ZpScenario **made, ZpError *err) {
+  ZpScenario *scenario = *made = zp_scenario_create();
+  *err = (ZpError){ZP_MACHINE, "no memory"};
+  if (!scenario) return ZP_MACHINE;
   ZpStatus status = o->scenario ? zp_scenario_read(scenario, o->scenario, err) : ZP_OK;
   for (int i = 0; i < o->sets && status == ZP_OK; i++)
     status = zp_scenario_set(scenario, o->set[i], err);
-  if (status == ZP_OK && o->no_plots) status = zp_scenario_set(scenario, "output.plots=false", err);
+  if (status == ZP_OK && (o->given & OPTION_NO_PLOTS)) status = zp_scenario_set(scenario, "output.plots=false", err);
   if (status == ZP_OK && o->templates) status = check_templates(o->templates, err);
-  if (status == ZP_OK && !o->quiet) note_bare_numbers(scenario);
+  if (status == ZP_OK && !(o->given & OPTION_QUIET)) note_bare_numbers(scenario);
   if (!study || status != ZP_OK) return status;
   char assignment[64];
   snprintf(assignment, sizeof assignment, "study=%s", study);
@@ -52,11 +55,11 @@ static int write_report(const ZpReport *what, const Options *o) {
   report.jobs = o->jobs;
   report.templates = o->templates;
   if (cli_interrupted()) cli_watch_interrupts(); /* finished results are still drawn, unless Ctrl-C comes again */
-  if (zp_report_write(&report, o->quiet ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
-  if (o->json) {
+  if (zp_report_write(&report, (o->given & OPTION_QUIET) ? NULL : cli_notice, &err) != ZP_OK) return cli_fail(&err);
+  if (o->given & OPTION_JSON) {
     if (zp_summary_write(&report, stdout, &err) != ZP_OK) return ferror(stdout) ? EXIT_MACHINE : cli_fail(&err);
-  } else if (!o->quiet) {
-    summary_print(&report, !o->no_plots);
+  } else if (!(o->given & OPTION_QUIET)) {
+    summary_print(&report, !(o->given & OPTION_NO_PLOTS));
   }
   return EXIT_DONE;
 }
@@ -70,7 +73,7 @@ static int exit_status(int status, bool interrupted, bool good) {
 
 static Progress begin_progress(const Options *o) {
   cli_watch_interrupts();
-  return (Progress){.shown = !o->quiet && isatty(STDERR_FILENO), .start = cli_wall_clock(NULL)};
+  return (Progress){.shown = !(o->given & OPTION_QUIET) && isatty(STDERR_FILENO), .start = cli_wall_clock(NULL)};
 }
 
 /* -- one case --------------------------------------------------------------------------------------- */
@@ -106,7 +109,7 @@ static bool on_campaign(void *user, const ZpCampaignState *state) {
 
 static ZpCampaignOptions campaign_options(const Options *o, Progress *progress) {
   return (ZpCampaignOptions){.jobs = o->crew ? o->crew->size : o->jobs,
-                             .resume = o->resume,
+                             .resume = o->given & OPTION_RESUME,
                              .user = progress,
                              .progress = on_campaign,
                              .clock = cli_wall_clock,
@@ -124,7 +127,7 @@ static int report_campaign(ZpCampaign *campaign, const ZpScenario *scenario, con
                            .folder = folder,
                            .rows = zp_campaign_rows(campaign)};
   const bool interrupted = cli_interrupted();
-  if (state.resumed > 0 && !o->quiet)
+  if (state.resumed > 0 && !(o->given & OPTION_QUIET))
     fprintf(stderr, "zipact: %zu of %zu cases were done before\n", state.resumed, state.cases);
   return exit_status(write_report(&report, o), interrupted, state.failed == 0);
 }
@@ -171,10 +174,9 @@ static int optimize_in_folder(const ZpScenario *scenario, const Options *o, cons
 int cli_optimize(const Options *o) {
   ZpError err;
   ZpFolder *folder;
-  ZpScenario *scenario = zp_scenario_create();
-  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
+  ZpScenario *scenario;
   const char *directory = o->directory ? o->directory : "out/optimize";
-  ZpStatus status = cli_read_scenario(NULL, o, scenario, &err);
+  ZpStatus status = cli_read_scenario(NULL, o, &scenario, &err);
   if (status == ZP_OK) status = zp_folder_open(directory, &folder, &err);
   int code = status == ZP_OK ? optimize_in_folder(scenario, o, directory, folder) : cli_fail(&err);
   if (status == ZP_OK) zp_folder_close(folder);
@@ -193,7 +195,7 @@ static int run_in_folder(const ZpScenario *scenario, const Options *o) {
   snprintf(own, sizeof own, "out/%s", zp_study_name(zp_scenario_study(scenario)));
   const char *directory = o->directory ? o->directory : own;
   zp_scenario_lists(scenario, &lists);
-  if (o->resume && lists == 0)
+  if ((o->given & OPTION_RESUME) && lists == 0)
     return cli_fail(&(ZpError){ZP_BAD_INPUT, "--resume continues a sweep; the scenario has no list of values"});
   if (zp_folder_open(directory, &folder, &err) != ZP_OK) return cli_fail(&err);
   int code = lists > 0 ? run_many(scenario, o, directory, folder) : run_one(scenario, o, directory, folder);
@@ -203,9 +205,8 @@ static int run_in_folder(const ZpScenario *scenario, const Options *o) {
 
 int cli_study(const char *study, const Options *o) {
   ZpError err;
-  ZpScenario *scenario = zp_scenario_create();
-  if (!scenario) return cli_fail(&(ZpError){ZP_MACHINE, "no memory"});
-  ZpStatus status = cli_read_scenario(study, o, scenario, &err);
+  ZpScenario *scenario;
+  ZpStatus status = cli_read_scenario(study, o, &scenario, &err);
   if (status == ZP_OK) status = zp_batch_check_jobs(scenario, o->jobs, &err);
   int exit_code = status == ZP_OK ? run_in_folder(scenario, o) : cli_fail(&err);
   zp_scenario_destroy(scenario);

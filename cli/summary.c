@@ -82,8 +82,9 @@ static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
   return true;
 }
 
-static void print_numbers(const ZpResult *result) {
+static void print_result(const ZpResult *result) {
   int printed = 0;
+  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
   for (size_t i = 0; i < result->scalars; i++)
     printed += print_fitted(result, &result->scalar[i]);
   for (size_t i = 0; i < SHOWN && printed < MOST_NUMBERS; i++) {
@@ -92,11 +93,6 @@ static void print_numbers(const ZpResult *result) {
     print_number(result, &shown[i], scalar->value);
     printed++;
   }
-}
-
-static void print_result(const ZpResult *result) {
-  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
-  print_numbers(result);
   for (size_t i = 0; i < result->notes; i++)
     printf("  note: %s\n", result->note[i]);
 }

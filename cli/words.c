@@ -3,61 +3,41 @@
 
 #include <string.h>
 
-static const Option options[] = {
+enum {
+  ALL = OPTION_QUIET | OPTION_HELP, /* commands take these */
+  STUDY_OPTIONS =
+      OPTION_SET | OPTION_OUTPUT | OPTION_NO_PLOTS | OPTION_TEMPLATES | OPTION_JOBS | OPTION_RESUME | OPTION_JSON
+};
+
+const Option word_options[OPTION_COUNT] = {
 #define ZP_OPTION(name, word, letter, argument, help) {word, letter, argument, help},
 #include "words.def"
 };
 
-static const Command commands[] = {
-#define ZP_COMMAND(word, argument, options, help)                                                                      \
-  {#word, argument, (options) | OPTION_QUIET | OPTION_HELP, help, cli_##word},
+const Command word_commands[] = {
+#define ZP_STUDY(enumerator, word, shows, files, help) {#word, MAY_SCENARIO, STUDY_OPTIONS | ALL, help, NULL},
+#include <zipact/studies.def>
+#define ZP_COMMAND(word, argument, options, help) {#word, argument, (options) | ALL, help, cli_##word},
 #include "words.def"
+    {0},
 };
-enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
-const Option *word_option(int place) {
-  return &options[place];
+const Command *word_find(const char *word) {
+  const Command *command = word_commands;
+  while (command->word && strcmp(command->word, word) != 0)
+    command++;
+  return command->word ? command : NULL;
 }
 
-bool word_command(int index, Command *command) {
-  const ZpKey *study = zp_key(zp_key_find("study"));
-  const int studies = (int)study->max + 1;
-  if (index >= studies + COMMANDS) return false;
-  if (index < studies)
-    *command = (Command){study->choices[index].word, MAY_SCENARIO, STUDY_OPTIONS | OPTION_QUIET | OPTION_HELP,
-                         study->choices[index].help, NULL};
-  else
-    *command = commands[index - studies];
-  return true;
-}
-
-bool word_find(const char *word, Command *command) {
-  for (int i = 0; word_command(i, command); i++)
-    if (strcmp(command->word, word) == 0) return true;
-  return false;
-}
-
-const char *word_nearest(const char *word) {
-  Command command;
-  const char *nearest = NULL;
+const char *word_nearest(const char *word, bool option) {
+  const char *nearest = NULL, *other;
   int least = (int)strlen(word) / 2 + 1; /* if half of the letters differ it is not a misspelling */
-  for (int i = 0; word_command(i, &command); i++) {
-    const int distance = zp_word_distance(word, command.word);
+  for (int i = 0; !option || i < OPTION_COUNT; i++) {
+    if (!(other = option ? word_options[i].word : word_commands[i].word)) break;
+    const int distance = zp_word_distance(word, other);
     if (distance >= least) continue;
     least = distance;
-    nearest = command.word;
-  }
-  return nearest;
-}
-
-const char *word_nearest_option(const char *word) {
-  const char *nearest = NULL;
-  int least = (int)strlen(word) / 2 + 1;
-  for (int i = 0; i < OPTION_COUNT; i++) {
-    const int distance = zp_word_distance(word, options[i].word);
-    if (distance >= least) continue;
-    least = distance;
-    nearest = options[i].word;
+    nearest = other;
   }
   return nearest;
 }

@@ -3,22 +3,8 @@
 #define ZP_CLI_WORDS_H
 
 #include <stdbool.h>
-#include <stddef.h>
 
 #include "cli.h"
-
-/* Bits of options. */
-enum {
-#define ZP_OPTION(name, word, letter, argument, help) OPTION_PLACE_##name,
-#include "words.def"
-  OPTION_COUNT
-};
-enum {
-#define ZP_OPTION(name, word, letter, argument, help) OPTION_##name = 1 << OPTION_PLACE_##name,
-#include "words.def"
-  STUDY_OPTIONS =
-      OPTION_SET | OPTION_OUTPUT | OPTION_NO_PLOTS | OPTION_TEMPLATES | OPTION_JOBS | OPTION_RESUME | OPTION_JSON
-};
 
 typedef struct Option {
   const char *word;
@@ -38,20 +24,16 @@ typedef struct Command {
   int (*run)(const Options *options); /* NULL: a study */
 } Command;
 
-/* Option `place`, 0 <= place < OPTION_COUNT. */
-const Option *word_option(int place);
+extern const Option word_options[OPTION_COUNT];
 
-/* Command `index`, studies first; false after the last one. */
-bool word_command(int index, Command *command);
+/* Studies first; the last has no word. */
+extern const Command word_commands[];
 
-/* The command or study called `word`; false if there is none. */
-bool word_find(const char *word, Command *command);
+/* The command or study called `word`; NULL if there is none. */
+const Command *word_find(const char *word);
 
-/* The command or study whose name differs least from `word`, NULL if none is like it. */
-const char *word_nearest(const char *word);
-
-/* The option whose name, without its dashes, differs least from `word`, NULL if none is like it. */
-const char *word_nearest_option(const char *word);
+/* The command or study, or the option without its dashes, that differs least from `word`; NULL if none is like it. */
+const char *word_nearest(const char *word, bool option);
 
 /* The argument as help shows it, "[SCENARIO.yaml]"; "" for none. */
 const char *word_argument(Argument argument);

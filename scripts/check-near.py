@@ -60,7 +60,7 @@ def main():
     reach = read_reach()
     near = [tests_near(path, reach, known) for path in changed]
     new = {name for name in known if name.startswith("test_") and not any(name in tests for tests in reach.values())}
-    chosen = known if None in near else ALWAYS.union(*near, new if any(path.startswith(("src/", "cli/")) for path in changed) else ())
+    chosen = known if None in near else ALWAYS.union(*near, new if any(path.startswith(("src/", "cli/", "reproduce/")) for path in changed) else ())
     print("%d of %d tests: %s" % (len(chosen), len(known), "all" if chosen == known else " ".join(sorted(chosen))), flush=True)
     for place, command in BESIDE.items():
         if any(path.startswith(place) for path in changed):

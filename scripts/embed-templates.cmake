@@ -1,5 +1,6 @@
-# The templates of plots/ as C: cmake -D FOLDER=plots -D OUTPUT=templates.c -P scripts/embed-templates.cmake
-file(GLOB files ${FOLDER}/*.gp)
+# The templates of a folder as C:
+#   cmake -D "FILES=plots/*.gp" -D NAME=zp_templates -D OUTPUT=templates.c -P scripts/embed-templates.cmake
+file(GLOB files ${FILES})
 list(SORT files)
 set(texts)
 set(rows)
@@ -13,5 +14,5 @@ foreach(file ${files})
   string(APPEND rows "  {\"${name}\", (const char *)text_${number}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "/* Made from plots/ by scripts/embed-templates.cmake. */\n#include \"io/template.h\"\n\n${texts}\n"
-                     "const ZpTemplate zp_templates[] = {\n${rows}  {0},\n};\n")
+file(WRITE ${OUTPUT} "/* Made by scripts/embed-templates.cmake. */\n#include \"io/template.h\"\n\n${texts}\n"
+                     "extern const ZpTemplate ${NAME}[];\nconst ZpTemplate ${NAME}[] = {\n${rows}  {0},\n};\n")

@@ -27,7 +27,7 @@ folder=$(mktemp -d) || exit 2
 trap 'rm -rf "$folder"' EXIT
 
 flags="-std=c17 -D_GNU_SOURCE -fopenmp-simd -fno-math-errno -ffp-contract=off"
-sources=$(find "$repo/src" -name '*.c' ! -path '*/src/io/*' ! -path '*/src/fit/*' ! -path '*/src/campaign/*' ! -path '*/src/sample/*' ! -path '*/src/optimize/*' ! -path '*/src/fmu/*' ! -path '*/src/fmupack/*' ! -path '*/src/reproduce/*' | sort)
+sources=$(find "$repo/src" -name '*.c' ! -path '*/src/io/*' ! -path '*/src/fit/*' ! -path '*/src/campaign/*' ! -path '*/src/sample/*' ! -path '*/src/optimize/*' ! -path '*/src/fmu/*' ! -path '*/src/fmupack/*' | sort)
 
 widths="v2"
 ! grep -q -w avx2 /proc/cpuinfo || widths="$widths v3"

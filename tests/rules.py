@@ -150,6 +150,8 @@ def folder_of(name):
     parts = name.split("/")
     if parts[0] == "src" and len(parts) > 2:
         return "/".join(parts[1:-1])
+    if parts[0] == "reproduce":  # beside src: part of the command
+        return "reproduce"
     return "cli" if name.startswith(("cli/", "python/src/", "octave/src/")) else None  # the bindings, too, see public headers only
 
 
@@ -388,7 +390,7 @@ def functions_of(code):
 def rule_short_functions(repo, files):
     """No function longer than LONGEST_FUNCTION lines."""
     for name in files:
-        if not name.startswith(("src/", "cli/", "include/", "tests/", "bench/", "python/")) or not name.endswith((".c", ".h", ".cpp")):
+        if not name.startswith(("src/", "cli/", "reproduce/", "include/", "tests/", "bench/", "python/")) or not name.endswith((".c", ".h", ".cpp")):
             continue
         for first, last, function in functions_of(code_of(read(repo, name))):
             length = last - first + 1
@@ -398,7 +400,7 @@ def rule_short_functions(repo, files):
 def rule_head_comment(repo, files):
     """Every header of src/ and every public header begins with what it is for."""
     for name in files:
-        if name.startswith(("src/", "cli/", "include/")) and name.endswith((".h", ".def")):
+        if name.startswith(("src/", "cli/", "reproduce/", "include/")) and name.endswith((".h", ".def")):
             yield read(repo, name).startswith("/*"), name + ":1", "no comment at its head"
 
 
@@ -437,7 +439,7 @@ def rule_a_study_is_known_to_its_own_file(repo, files):
         names = re.compile(r"\b(?:%s|zp_study_%s|zp_check_%s)\b" % (enumerator, word, word))
         for name in files:
             own = os.path.basename(name) == word + ".c" or name == "include/zipact/studies.def"
-            if own or not name.startswith(("src/", "cli/", "include/", "python/src/", "octave/src/")) or not name.endswith((".c", ".h", ".def")):
+            if own or not name.startswith(("src/", "cli/", "reproduce/", "include/", "python/src/", "octave/src/")) or not name.endswith((".c", ".h", ".def")):
                 continue
             code = code_of(read(repo, name))
             for found in names.finditer(code):
@@ -480,7 +482,7 @@ STUMBLING = {
     r"\bno predictions?\b": "not a prediction",
     r"\b(go|goes|going|gone) on (from|where|straight|to|in)\b": "resume, continue",
 }
-READ_BY_USERS = ("README.md", "MAP.md", "docs/", "include/", "src/", "cli/", "web/", "python/", "octave/", "examples/", "bench/")
+READ_BY_USERS = ("README.md", "MAP.md", "docs/", "include/", "src/", "cli/", "reproduce/", "web/", "python/", "octave/", "examples/", "bench/")
 
 
 def rule_plain_words(repo, files):

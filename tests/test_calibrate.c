@@ -17,7 +17,7 @@
 #include "elastica.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
-#include "reproduce/area.h"
+#include "reproduce/parts.h"
 
 static void set(ZpActuatorDef *def, const char *key, double value) {
   ZpError err;

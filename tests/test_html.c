@@ -2,6 +2,7 @@
 #include "check_util.h"
 
 #include "io/html.h"
+#include "reproduce/html.h"
 
 static char written[4096];
 

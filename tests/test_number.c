@@ -1,6 +1,8 @@
 /* Numbers as text: short, exact, and those of the C library, which prints all digits and reads them. */
 #include "check_util.h"
 
+#include <locale.h>
+
 #include "io/number.h"
 
 START_TEST(numbers_are_short_and_exact) {
@@ -104,6 +106,23 @@ START_TEST(numbers_are_those_of_the_library) {
 }
 END_TEST
 
+/* With a decimal comma, where the machine has such a locale. */
+START_TEST(numbers_have_a_point_in_any_locale) {
+  static const char *const names[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
+  char text[ZP_NUMBER_SIZE], own[ZP_NUMBER_SIZE];
+  double value;
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    if (setlocale(LC_ALL, names[i])) break;
+  snprintf(own, sizeof own, "%g", 0.5);
+  zp_number_print(0.1 + 0.2, text, sizeof text);
+  ck_assert_str_eq(text, "0.30000000000000004");
+  ck_assert(zp_number_read(" 2.5 ", &value) && value == 2.5);
+  ck_assert(!zp_number_read("2,5", &value) && !zp_number_read("", &value));
+  snprintf(text, sizeof text, "%g", 0.5); /* the locale of the caller is as before */
+  ck_assert_str_eq(text, own);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("number");
   TCase *tcase = tcase_create("number");
@@ -111,5 +130,6 @@ int main(void) {
   tcase_add_test(tcase, numbers_are_short_and_exact);
   tcase_add_test(tcase, numbers_read_back);
   tcase_add_test(tcase, numbers_are_those_of_the_library);
+  tcase_add_test(tcase, numbers_have_a_point_in_any_locale);
   return run_suite(suite);
 }

@@ -267,6 +267,17 @@ def check_cells(folder, rows, page):
         summary = json.load(open(folder + "/runs/%s/summary.json" % run, encoding="utf-8"))
         for name in ("start_opening_m", "widest_opening_m"):
             check("%.3f" % (1e3 * summary[name]) in cells, "%s of %s" % (name, run))
+    def of(run):
+        return json.load(open(folder + "/runs/%s/summary.json" % run, encoding="utf-8"))["rows"]
+
+    for run in ("fig-8", "fig-8-paper"):
+        for row in of(run):
+            if row["isometric.separation"] in (1e-3, 2e-3, 4e-3):
+                check("%.4f" % row["force_N"] in cells, "force of %s at %g m" % (run, row["isometric.separation"]))
+    elements = {row["load.mass"]: row["stroke_m"] for row in of("finite-elements")}
+    for run in ("table-2-n21", "table-2-n61", "table-2-n130"):
+        for row in of(run):
+            check("%.2f" % (100 * abs(1 - elements[row["load.mass"]] / row["stroke_m"])) in cells, "error of %s" % run)
     check_reasons(rows, text)
 
 

@@ -31,12 +31,6 @@ static ZpStatus fail(ZpError *err, const char *message) {
   return ZP_MACHINE;
 }
 
-static double seconds(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static void pause_shortly(void) {
   const struct timespec pause = {.tv_nsec = 100000};
   nanosleep(&pause, NULL);
@@ -45,12 +39,13 @@ static void pause_shortly(void) {
 /* False if the process does not take the message in SILENT_MOST seconds; MPI may then still read it. */
 // NOLINTBEGIN(clang-analyzer-optin.mpi.MPI-Checker): MPI_Test waits for the request; that of a lost process never ends
 static bool send(const void *byte, size_t size, int rank, int tag) {
-  const double start = seconds();
+  const double start = cli_wall_clock(NULL);
   MPI_Request request;
   int sent = 0;
   if (size > INT_MAX) return false;
   if (MPI_Isend(byte, (int)size, MPI_BYTE, rank, tag, MPI_COMM_WORLD, &request) != MPI_SUCCESS) return false;
-  while (MPI_Test(&request, &sent, MPI_STATUS_IGNORE) == MPI_SUCCESS && !sent && seconds() - start < SILENT_MOST)
+  while (MPI_Test(&request, &sent, MPI_STATUS_IGNORE) == MPI_SUCCESS && !sent &&
+         cli_wall_clock(NULL) - start < SILENT_MOST)
     pause_shortly();
   return sent;
 }
@@ -59,13 +54,13 @@ static bool send(const void *byte, size_t size, int rank, int tag) {
 /* Receive the next message of a process, of any length, to be freed; NULL if that fails or none comes in
  * SILENT_MOST seconds. One byte longer, 0. */
 static char *receive(int rank, int *tag, int *size) {
-  const double start = seconds();
+  const double start = cli_wall_clock(NULL);
   MPI_Status status;
   int there = 0;
   while (!there) {
     if (MPI_Iprobe(rank, MPI_ANY_TAG, MPI_COMM_WORLD, &there, &status) != MPI_SUCCESS) return NULL;
     if (there) break;
-    if (seconds() - start > SILENT_MOST) return NULL;
+    if (cli_wall_clock(NULL) - start > SILENT_MOST) return NULL;
     pause_shortly();
   }
   *tag = status.MPI_TAG;

@@ -4,7 +4,6 @@
 
 #include <ctype.h>
 #include <errno.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +11,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
+#include "io/number.h"
 #include "io/source.h"
 #include "io/units.h"
 
@@ -354,13 +354,9 @@ int zp_data_line(const ZpData *data, size_t row) {
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err) {
   const char *text = data->cell[(row + 1) * data->columns + column];
   ZpSource source = {.name = data->path};
-  char copy[LONGEST_NUMBER], *end = NULL;
+  char copy[LONGEST_NUMBER];
   *value = NAN;
-  locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  if (!c_locale) return zp_fail_memory(err);
-  if (plain_decimal(text, data->separator, copy)) *value = strtod_l(copy, &end, c_locale);
-  freelocale(c_locale);
-  if (end && end > copy && *end == 0 && isfinite(*value)) return ZP_OK;
+  if (plain_decimal(text, data->separator, copy) && zp_number_read(copy, value) && isfinite(*value)) return ZP_OK;
   if (!*text)
     return zp_source_fail(&source, zp_data_line(data, row), err, "column %.60s: an empty cell; remove the row",
                           data->cell[column]);

@@ -1,18 +1,10 @@
-/* Pieces of HTML: escaped text, typeset numbers, embedded pictures. */
+/* Text in HTML and XML. */
 #ifndef ZP_IO_HTML_H
 #define ZP_IO_HTML_H
 
-#include <stdbool.h>
 #include <stdio.h>
 
 /* Write text with the necessary escapes, in an element or in a quoted attribute. */
 void zp_html_text(FILE *file, const char *text);
-
-/* Write the decimal number `text` with a minus sign and powers of ten: "-2.4e4" as −2.4·10⁴. */
-void zp_html_number(FILE *file, const char *text);
-
-/* Copy the SVG picture `path` into the page, with the description `label`. Its ids and their references get `prefix`,
- * so that several pictures do not conflict. False if the picture does not exist. */
-bool zp_html_svg(FILE *file, const char *path, const char *prefix, const char *label);
 
 #endif

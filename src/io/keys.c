@@ -2,26 +2,22 @@
 #include <zipact/io.h>
 
 #include <errno.h>
-#include <math.h>
 #include <string.h>
 
 #include <jansson.h>
 
 #include "base/fail.h"
 #include "io/schema.h"
+#include "io/summary.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
 enum { COMMENT_COLUMN = 34 }; /* column of the comments in the starter scenario */
 
-static bool is_number(const ZpKey *key) {
-  return key->type != ZP_KEY_BOOL && key->type != ZP_KEY_ENUM && key->type != ZP_KEY_TEXT;
-}
-
 /* The allowed values: a range, or words separated by `between`. */
 static void allowed(int index, const char *between, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
-  if (is_number(key)) {
+  if (zp_value_is_number(key)) {
     zp_value_range(index, text, size);
     return;
   }
@@ -101,23 +97,9 @@ static const char *type_word(ZpKeyType type) {
   return words[type];
 }
 
-/* A value of a key in JSON: number, word or bool. */
 static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
-  switch (key->type) {
-  case ZP_KEY_BOOL:
-    return json_boolean(value != 0);
-  case ZP_KEY_ENUM:
-    return json_string(key->choices[(int)value].word);
-  case ZP_KEY_TEXT:
-    return json_string(key->text);
-  case ZP_KEY_INT:
-    return json_integer((json_int_t)value);
-  case ZP_KEY_REAL:
-  case ZP_KEY_REAL_AUTO:
-    break;
-  }
-  return isnan(value) ? json_string(key->text) : json_real(value);
+  return key->type == ZP_KEY_TEXT ? json_string(key->text) : zp_json_key(index, value);
 }
 
 static json_t *json_of_choices(const ZpKey *key) {
@@ -135,8 +117,8 @@ static json_t *json_of_choices(const ZpKey *key) {
 /* One key; NULL if there is no memory. json_pack takes ownership of the values and frees them on failure. */
 static json_t *json_of_key(int index) {
   const ZpKey *key = zp_key(index);
-  json_t *least = is_number(key) ? json_of_value(index, key->min) : json_null();
-  json_t *most = is_number(key) ? json_of_value(index, key->max) : json_null();
+  json_t *least = zp_value_is_number(key) ? json_of_value(index, key->min) : json_null();
+  json_t *most = zp_value_is_number(key) ? json_of_value(index, key->max) : json_null();
   return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s}", "key", key->name, "type", type_word(key->type), "unit",
                    key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices",
                    json_of_choices(key), "help", key->help);

@@ -36,10 +36,6 @@ static const struct {
 #define BLANK   "[ \u00A0\u2007\u2009\u202F]*"
 #define DECIMAL "[-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?"
 
-static bool is_number(const ZpKey *key) {
-  return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
-}
-
 /* The allowed text after the number of a value. */
 static const char *units_of(const ZpKey *key) {
   if (key->type == ZP_KEY_INT) return NULL;
@@ -120,7 +116,7 @@ static json_t *words_schema(const ZpKey *key) {
 
 static json_t *type_schema(int index) {
   const ZpKey *key = zp_key(index);
-  if (is_number(key)) return number_schema(index);
+  if (zp_value_is_number(key)) return number_schema(index);
   if (key->type == ZP_KEY_ENUM) return words_schema(key);
   if (key->type == ZP_KEY_BOOL)
     return json_pack("{s:[{s:s}, {s:s, s:s}]}", "anyOf", "type", "boolean", "type", "string", "pattern",
@@ -133,7 +129,7 @@ static json_t *description(int index) {
   const ZpKey *key = zp_key(index);
   char text[4096], value[ZP_VALUE_SIZE], range[ZP_RANGE_SIZE] = "";
   zp_value_print(index, key->def, value, sizeof value);
-  if (is_number(key)) zp_value_range(index, range, sizeof range);
+  if (zp_value_is_number(key)) zp_value_range(index, range, sizeof range);
   int used = snprintf(text, sizeof text, "%s. %s%s%sDefault: %s.", key->help, *range ? "Range: " : "", range,
                       *range ? ". " : "", value);
   for (int i = 0; key->choices && i <= (int)key->max && used < (int)sizeof text; i++)
@@ -158,7 +154,7 @@ static json_t *key_schema(int index) {
   json_t *type = type_schema(index);
   bool failed = !schema || !type || json_object_update(schema, type);
   json_decref(type);
-  if (!failed && is_number(key)) failed = json_object_set_new(schema, "x-unit", json_string(key->unit)) != 0;
+  if (!failed && zp_value_is_number(key)) failed = json_object_set_new(schema, "x-unit", json_string(key->unit)) != 0;
   if (!failed) return schema;
   json_decref(schema);
   return NULL;

@@ -6,7 +6,6 @@
 #include "io/value.h"
 
 #include <ctype.h>
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,16 +65,17 @@ static bool scan_decimal(const char *text, Decimal *decimal) {
  * the range of doubles, NAN if there is no memory for the locale. */
 static double decimal_value(const char *text, const Decimal *decimal, int shift) {
   char plain[ZP_VALUE_SIZE + 32];
+  double value;
   snprintf(plain, sizeof plain, "%.*se%ld", decimal->mantissa, text, decimal->exponent + shift);
-  locale_t c_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  if (!c_locale) return NAN;
-  double value = strtod_l(plain, NULL, c_locale);
-  freelocale(c_locale);
-  return value + 0.0; /* -0 becomes 0, so that a value has one text */
+  return zp_number_read(plain, &value) ? value + 0.0 : (double)NAN; /* -0 becomes 0, so that a value has one text */
 }
 
 static bool is_pure(const ZpKey *key) {
   return strcmp(key->unit, "1") == 0;
+}
+
+bool zp_value_is_number(const ZpKey *key) {
+  return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
 }
 
 void zp_value_range(int index, char *text, size_t size) {

@@ -22,6 +22,9 @@ ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err)
  * quantities that are not values of the key itself, such as a standard deviation. ZP_BAD_INPUT: as zp_value_read. */
 ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err);
 
+/* Are the values of a key numbers: no words, no text? */
+bool zp_value_is_number(const ZpKey *key);
+
 /* Is `text` a number without a unit, other than 0, for a key that has a unit? */
 bool zp_value_is_bare(int index, const char *text);
 

@@ -1,6 +1,4 @@
 /* The runs behind the page. */
-#include "reproduce/runs.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +7,7 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
-#include "reproduce/reproduce.h"
+#include "reproduce/parts.h"
 
 typedef struct Spec {
   const char *name;
@@ -59,22 +57,13 @@ static ZpStatus saved_chain(ZpScenario *scenario, int nodes, ZpError *err) {
 }
 
 static ZpStatus add_published(ZpRunId id, ZpScenario *scenario, const char *folder, ZpError *err) {
-  switch (id) {
-  case ZP_RUN_TABLE_1_0_G:
-    return calibrate_at(scenario, folder, 0, err);
-  case ZP_RUN_TABLE_1_8_G:
-    return calibrate_at(scenario, folder, 8, err);
-  case ZP_RUN_TABLE_1_61_G:
-    return calibrate_at(scenario, folder, 61, err);
-  case ZP_RUN_TABLE_2_21:
-    return saved_chain(scenario, 21, err);
-  case ZP_RUN_TABLE_2_61:
-    return saved_chain(scenario, 61, err);
-  case ZP_RUN_TABLE_2_130:
-    return saved_chain(scenario, 130, err);
-  default:
-    return ZP_OK;
-  }
+  static const double load[] = {0, 8, 61};  /* g, of the runs of Table I */
+  static const int nodes[] = {21, 61, 130}; /* of those of Table II */
+  if (id >= ZP_RUN_TABLE_1_0_G && id <= ZP_RUN_TABLE_1_61_G)
+    return calibrate_at(scenario, folder, load[id - ZP_RUN_TABLE_1_0_G], err);
+  if (id >= ZP_RUN_TABLE_2_21 && id <= ZP_RUN_TABLE_2_130)
+    return saved_chain(scenario, nodes[id - ZP_RUN_TABLE_2_21], err);
+  return ZP_OK;
 }
 
 /* -- running --------------------------------------------------------------------------------------- */
@@ -209,7 +198,8 @@ static bool fits(const ZpActuatorDef *def, ZpWhich which) {
   return (isnan(which.load) || same(1e3 * def->load.mass, which.load)) &&
          (which.nodes == 0 || def->mesh.nodes == which.nodes) &&
          (which.voltage == 0 || same(def->drive.voltage, which.voltage)) &&
-         (which.separation == 0 || same(def->isometric.separation, which.separation));
+         (which.separation == 0 || same(def->isometric.separation, which.separation)) &&
+         (which.breakdown == 0 || same(def->medium.breakdown_field, which.breakdown));
 }
 
 const ZpResult *zp_runs_find(const ZpRuns *runs, ZpRunId id, ZpWhich which) {

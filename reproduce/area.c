@@ -1,10 +1,9 @@
 /* The area error of the paper. */
-#include "reproduce/area.h"
-
 #include <math.h>
 #include <stdlib.h>
 
 #include "fit/reference.h"
+#include "reproduce/parts.h"
 
 /* Hanging equilibrium of `elements` in gravity `g`, m/s2. => stroke, m, NAN if there is none; the caller frees *result.
  */

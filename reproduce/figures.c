@@ -1,12 +1,11 @@
 /* Pictures of several runs together, drawn like those of any report: NAME.gp and NAME.dat stay beside NAME.svg. */
-#include "reproduce/figures.h"
-
 #include <math.h>
 #include <stdlib.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
 #include "io/plot.h"
+#include "reproduce/parts.h"
 
 static bool has_run(const ZpPlot *plot, ZpRunId id) {
   return plot->runs->run[id].batch.done > 0;
