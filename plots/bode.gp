@@ -1,10 +1,13 @@
+#picture bode.svg many motion stroke_amplitude_m phase_rad :frequencies
 # Amplitude and phase of the stroke against the frequency of a drive.
 title = 'Amplitude and phase of the stroke'
-foot = note
 set datafile separator ','
 set datafile columnheaders
+load 'functions.gp'
 stats '../table.csv' using (column('periodic')) nooutput
+load 'note.gp'
 if (STATS_sum < STATS_records) remark = 'nothing is drawn where the motion is not periodic'
+numbers = 'stroke_amplitude_m'
 load 'over_key.gp'
 set logscale x
 set autoscale x noextend

@@ -1,3 +1,4 @@
+#picture members.svg one limits member release_voltage_V @stack.series
 # Voltages of each of several actuators in series. Closing is a ring, for it is often where pull-in is.
 title = 'Limits of the members'
 remark = 'member 1 is the uppermost'

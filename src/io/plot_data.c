@@ -1,0 +1,184 @@
+/* Data of pictures beside ../table.csv, as plain columns in SI. A row of NaN ends a curve, not an empty row: with an
+ * empty one, gnuplot 5.4 uses a colour that was never set, and the picture varies. */
+#include <math.h>
+#include <stdlib.h>
+
+#include "io/number.h"
+#include "io/plot.h"
+#include "io/sampled.h"
+#include "sample/statistics.h"
+
+static void put(FILE *file, double value, char after) {
+  char text[ZP_NUMBER_SIZE];
+  zp_number_print(value, text, sizeof text);
+  fprintf(file, "%s%c", isfinite(value) ? text : "NaN", after);
+}
+
+/* -- shapes.dat: an index per frame, the members from the uppermost on ------------------------------- */
+
+static bool has_shapes(const ZpPlot *plot) {
+  return plot->shapes != NULL;
+}
+
+static void put_shapes(const void *of, FILE *file) {
+  const ZpShapes *shapes = ((const ZpPlot *)of)->shapes;
+  const size_t ribbons = shapes->ribbons, nodes = shapes->nodes / shapes->members;
+  size_t frame[ZP_PLOT_FRAMES], frames = zp_plot_frames(shapes, frame);
+  fputs("# frame node, then x_m y_m of each ribbon, the upper first\n", file);
+  for (size_t k = 0; k < frames; k++) {
+    const ZpShape shape = zp_shapes_get(shapes, frame[k]);
+    for (size_t i = 0; i < shapes->nodes; i++) {
+      fprintf(file, "%zu %zu ", k, i);
+      for (size_t r = 0; r < ribbons; r++) {
+        put(file, shape.x[i * ribbons + r], ' ');
+        put(file, shape.y[i * ribbons + r], r + 1 < ribbons ? ' ' : '\n');
+      }
+      if ((i + 1) % nodes == 0) fprintf(file, ribbons > 1 ? "%zu NaN NaN NaN NaN NaN\n" : "%zu NaN NaN NaN\n", k);
+    }
+    fputs("\n\n", file);
+  }
+}
+
+/* -- series.dat: the tables of all runs, one below the other ----------------------------------------- */
+
+static bool is_fit(const ZpPlot *plot) {
+  return zp_study_shows(plot->study) == ZP_SHOWS_fit;
+}
+
+static bool has_series(const ZpPlot *plot) {
+  bool has = false;
+  for (size_t run = 0; run < plot->report->count && !has; run++) {
+    const ZpTable *table = zp_report_result(plot->report, run)->series;
+    has = table && table->rows > 1;
+  }
+  return has && (is_fit(plot) || (!plot->single && zp_study_shows(plot->study) == ZP_SHOWS_motion));
+}
+
+/* All columns of a fit; of motions time and one that shows how far they close. */
+static void put_row(const ZpPlot *plot, const ZpTable *table, size_t row, FILE *file) {
+  const char *travel = plot->def.actuator.kind == ZP_KIND_RIBBON ? "stroke_m" : "contraction";
+  for (size_t i = 0; is_fit(plot) && i < table->columns; i++)
+    put(file, table->value[row * table->columns + i], ' ');
+  if (!is_fit(plot)) put(file, zp_table_get(table, row, "time_s"), ' ');
+  if (!is_fit(plot)) put(file, zp_table_get(table, row, travel), ' ');
+}
+
+static void put_series(const void *of, FILE *file) {
+  enum { ROWS_MOST = 200000 }; /* a picture of more is slow to view and shows no more */
+  const ZpPlot *plot = of;
+  fputs(is_fit(plot) ? "# run, then the columns of its table\n" : "# run time_s, then the contraction or stroke_m\n",
+        file);
+  for (size_t run = 0; run < plot->report->count; run++) {
+    const ZpTable *table = zp_report_result(plot->report, run)->series;
+    const size_t rows = table ? table->rows : 0, step = rows * plot->report->count / ROWS_MOST + 1;
+    for (size_t row = 0; row < rows; row++) {
+      if (row % step && row + 1 < rows) continue;
+      fprintf(file, "%zu ", run);
+      put_row(plot, table, row, file);
+      fputc('\n', file);
+    }
+    if (!is_fit(plot)) fprintf(file, "%zu NaN NaN\n", run);
+  }
+}
+
+/* -- field.dat: the grid of the field ---------------------------------------------------------------- */
+
+static bool has_field(const ZpPlot *plot) {
+  return plot->single && plot->single->map;
+}
+
+/* Mean strength in rows `low` to `high` of the cells on both sides of column `i` of nodes. */
+static double mean(const ZpFieldMap *map, size_t i, size_t low, size_t high) {
+  double sum = 0;
+  size_t count = 0;
+  for (size_t k = i > 0 ? i - 1 : 0; k <= i && k + 1 < map->nx; k++)
+    for (size_t j = low; j <= high; j++, count++)
+      sum += map->strength[k * (map->ny - 1) + j];
+  return sum / (double)count;
+}
+
+/* A block per column of nodes. Surface 0 to 5 is on the lower metal's underside and top, the faces of the insulators,
+ * the upper metal's underside and top; there the field jumps. -1 is no surface. */
+static void put_field(const void *of, FILE *file) {
+  const ZpFieldMap *map = ((const ZpPlot *)of)->single->map;
+  const size_t cells = map->ny - 1;
+  fputs("# x_m y_m potential_V, field_V_per_m below and above, relative permittivity above (0 in metal), surface\n",
+        file);
+  for (size_t i = 0; i < map->nx; i++) {
+    for (size_t j = 0; j < map->ny; j++) {
+      const size_t below = j > 0 ? j - 1 : 0, above = j < cells ? j : cells - 1;
+      int surface = 5;
+      while (surface >= 0 && map->surface[surface] != j)
+        surface--;
+      put(file, map->x[i * map->ny + j], ' ');
+      put(file, map->y[i * map->ny + j], ' ');
+      put(file, map->potential[i * map->ny + j], ' ');
+      put(file, mean(map, i, below, surface < 0 ? above : below), ' ');
+      put(file, mean(map, i, surface < 0 ? below : above, above), ' ');
+      put(file, map->permittivity[(i + 1 < map->nx ? i : i - 1) * cells + above], ' ');
+      fprintf(file, "%d\n", surface);
+    }
+    fputc('\n', file);
+  }
+}
+
+/* -- sensitivity.dat and indices.dat ----------------------------------------------------------------- */
+
+static bool has_sensitivity(const ZpPlot *plot) {
+  for (size_t i = 0; plot->single && i < plot->single->sensitivities; i++)
+    if (isfinite(zp_plot_percent(plot, &plot->single->sensitivity[i]))) return true;
+  return false;
+}
+
+static void put_sensitivity(const void *of, FILE *file) {
+  const ZpPlot *plot = of;
+  fputs("# output, key, percent of the output per percent of the key\n", file);
+  for (size_t i = 0; i < plot->single->sensitivities; i++) {
+    const ZpSensitivity *s = &plot->single->sensitivity[i];
+    if (!isfinite(zp_plot_percent(plot, s))) continue;
+    fprintf(file, "%s %s ", s->output, zp_key(s->key)->name);
+    put(file, zp_plot_percent(plot, s), '\n');
+  }
+}
+
+static bool has_indices(const ZpPlot *plot) {
+  const ZpDesign *design = zp_scenario_design(plot->report->scenario);
+  return design && design->indices && zp_design_samples(design) <= plot->report->count;
+}
+
+/* Those of an output, over the samples of the first combination of the lists' values. */
+static void put_output(const ZpPlot *plot, const char *output, double *value, FILE *file) {
+  const ZpDesign *design = zp_scenario_design(plot->report->scenario);
+  size_t keys;
+  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  int dimension = 0;
+  for (size_t i = 0; i < zp_design_samples(design); i++)
+    value[i] = zp_result_get(zp_report_result(plot->report, i), output);
+  for (size_t k = 0; k < keys; k++) {
+    if (!zp_scenario_spread(plot->report->scenario, key[k])) continue;
+    const ZpIndices indices = zp_sobol_indices(design, value, dimension++);
+    const ZpIndex *index[] = {&indices.first, &indices.total};
+    fprintf(file, "%s %s ", output, zp_key(key[k])->name);
+    for (size_t i = 0; i < 2; i++) {
+      put(file, index[i]->value, ' ');
+      put(file, index[i]->low, ' ');
+      put(file, index[i]->high, i ? '\n' : ' ');
+    }
+  }
+}
+
+static void put_indices(const void *of, FILE *file) {
+  const ZpPlot *plot = of;
+  double *value = calloc(zp_design_samples(zp_scenario_design(plot->report->scenario)), sizeof *value);
+  fputs("# output, key, share of the variance and its 95 % interval: by itself, then with interactions\n", file);
+  for (size_t i = 0; value && i < plot->columns; i++)
+    if (plot->column[i].key < 0 && plot->column[i].high > plot->column[i].low)
+      put_output(plot, plot->column[i].name, value, file);
+  free(value);
+}
+
+const ZpPlotData zp_plot_data[] = {
+    {"shapes.dat", has_shapes, put_shapes},    {"series.dat", has_series, put_series},
+    {"field.dat", has_field, put_field},       {"sensitivity.dat", has_sensitivity, put_sensitivity},
+    {"indices.dat", has_indices, put_indices}, {0},
+};
