@@ -35,7 +35,8 @@ _kept(n) = n < 1 ? 1 : kept[n]*_kept(n - 1)
 grows = 1
 while (grows > 0) {
   grows = 0
-  do for [a=1:others] {
+  do for [b=1:others] {
+    a = others + 1 - b
     if (kept[a] < used[a] && _kept(others)/kept[a]*(kept[a] + 1) <= most) {
       if (grows == 0) { grows = a } else { if (kept[a]*used[grows] < kept[grows]*used[a]) { grows = a } }
     }

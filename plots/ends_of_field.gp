@@ -9,8 +9,6 @@ right_x = metal_max
 stats 'field.dat' using ($7 >= 0 && $1 >= left_x && $1 <= right_x ? $2 : NaN) name 'surfaces' nooutput
 bottom_y = surfaces_min
 top_y = surfaces_max
-# rows of a block with the surfaces 0 to 5
+# the blocks of the surfaces 0 to 5
 array surface_at[6]
-row_was = -1
-_row(s) = (row_was = row_was + 1, s >= 0 && s == s ? (surface_at[int(s) + 1] = row_was) : 0, 1)
-stats 'field.dat' every :::0::0 using (_row($7)) nooutput
+stats 'field.dat' using ($7 >= 0 ? (surface_at[int($7) + 1] = column(-1), 1) : 1) nooutput

@@ -5,11 +5,11 @@ title = 'Electric field where the ribbons part'
 load 'ends_of_field.gp'
 closed = NaN
 parted = right_x
+stats 'field.dat' every :::surface_at[2]::surface_at[2] using 1 nooutput
+array low_y[int(STATS_records)]
 _apart(x, gap) = (closed = closed == closed ? closed : gap, parted = gap > 2*closed && x > 0.02*right_x && x < parted ? x : parted, 1)
-_column(s) = s == 1 ? (low_y = $2, low_x = $1, 1) : s == 4 && low_x >= left_x ? _apart(low_x, $2 - low_y) : 1
-low_x = -1e300
-low_y = 0
-stats 'field.dat' using (_column($7)) nooutput
+stats 'field.dat' every :::surface_at[2]::surface_at[2] using (low_y[int(column(0)) + 1] = $2, 1) nooutput
+stats 'field.dat' every :::surface_at[5]::surface_at[5] using ($1 >= left_x ? _apart($1, $2 - low_y[int(column(0)) + 1]) : 1) nooutput
 stats 'field.dat' using ($7 >= 0 && $1 >= left_x && $1 <= parted ? $1 : NaN):2 name 'tip' nooutput
 box_left = max(left_x, -0.15*parted)
 box_right = parted

@@ -53,11 +53,15 @@ digit(i, k) = i/_inside(k) % length_of(k)
 value_name(k, j) = word(of('values_', word(axes, k)), j + 1)
 case_name(i, n) = n < 1 ? '' : case_name(i, n - 1).(n > 1 ? ', ' : '').value_name(n, digit(i, n))
 
+# escaped('ribbon.young_modulus'): as text that is shown as it is.
+escaped(c) = strstrt(c, '_') == 0 ? c : c[1:strstrt(c, '_') - 1].'\_'.escaped(c[strstrt(c, '_') + 1:])
+
 # words_of('pull_in_voltage_V') = 'pull in voltage': an output for people, without its unit; has_unit(c): has it one?
 has_unit(c) = of('si_', c) ne '1' && of('si_', c) ne 'count'
 _end(c) = strstrt(c, '_') == 0 ? 0 : strstrt(c, '_') + _end(c[strstrt(c, '_') + 1:])
 _spaced(c) = strstrt(c, '_') == 0 ? c : _spaced(c[1:strstrt(c, '_') - 1].' '.c[strstrt(c, '_') + 1:])
-words_of(c) = _spaced(has_unit(c) ? c[1:_end(c) - 1] : c)
+_named(c) = c[1:7] eq 'pull in' ? 'pull-in'.c[8:] : c
+words_of(c) = _named(_spaced(has_unit(c) ? c[1:_end(c) - 1] : c))
 si_of(c) = has_unit(c) ? of('si_', c) : ''
 
 # span('stroke_m opening_m'): from the lowest to the highest of all of them.

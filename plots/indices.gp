@@ -15,12 +15,13 @@ _note(o, k) = (keys_of = o eq number[1] ? keys_of.k.' ' : keys_of, 1)
 stats 'indices.dat' using (_note(strcol(1), strcol(2))) nooutput
 array key_name[words(keys_of)]
 do for [k=1:|key_name|] { key_name[k] = word(keys_of, k) }
+share(v) = strcol(1) eq number[1] ? 100*v : NaN
 row(c) = strcol(1) eq number[1] ? |key_name| + 1 - place(strcol(2), keys_of) : NaN
 letters = 17
 load 'of_keys.gp'
 set xlabel 'share of the variance / %'
 set xrange [*<0:100<*]
-plot 'indices.dat' using (0):(row(0)):(0):(100*$3):(row(0)+0.02):(row(0)+0.38) with boxxyerror fc rgb colour(1) fs solid solid(1) border lc rgb colour(1) title 'by itself', \
-     'indices.dat' using (0):(row(0)):(0):(100*$6):(row(0)-0.38):(row(0)-0.02) with boxxyerror fc rgb colour(2) fs solid solid(2) border lc rgb colour(2) title 'with interactions', \
-     'indices.dat' using (100*$3):(row(0)+0.2):(100*$4):(100*$5) with xerrorbars pt 0 ps 0 lw 1.5 lc rgb '#333333' notitle, \
-     'indices.dat' using (100*$6):(row(0)-0.2):(100*$7):(100*$8) with xerrorbars pt 0 ps 0 lw 1.5 lc rgb '#333333' title '95 % interval'
+plot 'indices.dat' using (0):(row(0)):(0):(share($3)):(row(0)+0.02):(row(0)+0.38) with boxxyerror fc rgb colour(1) fs solid solid(1) border lc rgb colour(1) title 'by itself', \
+     'indices.dat' using (0):(row(0)):(0):(share($6)):(row(0)-0.38):(row(0)-0.02) with boxxyerror fc rgb colour(2) fs solid solid(2) border lc rgb colour(2) title 'with interactions', \
+     'indices.dat' using (share($3)):(row(0)+0.2):(share($4)):(share($5)) with xerrorbars pt 0 ps 0 lw 1.5 lc rgb '#333333' notitle, \
+     'indices.dat' using (share($6)):(row(0)-0.2):(share($7)):(share($8)) with xerrorbars pt 0 ps 0 lw 1.5 lc rgb '#333333' title '95 % interval'

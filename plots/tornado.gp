@@ -35,5 +35,5 @@ set autoscale x
 set offsets graph 0.03, graph 0.03, 0, 0
 high = 0.8/|output|
 top(k) = 0.4 - high*(k - 1)
-plot for [k=1:|output|] 'sensitivity.dat' using (0):(row(k)):(0):3:(row(k)+top(k)-0.9*high):(row(k)+top(k)) \
+plot for [k=1:|output|] 'sensitivity.dat' using (0):(row(k)):(0):($3 + 0*row(k)):(row(k)+top(k)-0.9*high):(row(k)+top(k)) \
      with boxxyerror fc rgb colour(k) fs solid solid(k) border lc rgb colour(k) title output[k]

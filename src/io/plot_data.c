@@ -97,19 +97,19 @@ static double mean(const ZpFieldMap *map, size_t i, size_t low, size_t high) {
   return sum / (double)count;
 }
 
-/* A block per column of nodes. Surface 0 to 5 is on the lower metal's underside and top, the faces of the insulators,
- * the upper metal's underside and top; there the field jumps. -1 is no surface. */
+/* A block per row of nodes, from below. Surface 0 to 5 is on the lower metal's underside and top, the faces of the
+ * insulators, the upper metal's underside and top; there the field jumps. -1 is no surface. */
 static void put_field(const void *of, FILE *file) {
   const ZpFieldMap *map = ((const ZpPlot *)of)->single->map;
   const size_t cells = map->ny - 1;
   fputs("# x_m y_m potential_V, field_V_per_m below and above, relative permittivity above (0 in metal), surface\n",
         file);
-  for (size_t i = 0; i < map->nx; i++) {
-    for (size_t j = 0; j < map->ny; j++) {
-      const size_t below = j > 0 ? j - 1 : 0, above = j < cells ? j : cells - 1;
-      int surface = 5;
-      while (surface >= 0 && map->surface[surface] != j)
-        surface--;
+  for (size_t j = 0; j < map->ny; j++) {
+    const size_t below = j > 0 ? j - 1 : 0, above = j < cells ? j : cells - 1;
+    int surface = 5;
+    while (surface >= 0 && map->surface[surface] != j)
+      surface--;
+    for (size_t i = 0; i < map->nx; i++) {
       put(file, map->x[i * map->ny + j], ' ');
       put(file, map->y[i * map->ny + j], ' ');
       put(file, map->potential[i * map->ny + j], ' ');
