@@ -1,10 +1,13 @@
-#picture animation.gif one motion @output.animation :frames
-#picture animation.gif one branch|held_branch @output.animation :frames :powered
+#picture animation.gif one motion time_s @output.animation :shapes.dat
+#picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage
 # The shapes of a run, or of the states of rest along the voltage (`path`), as a film. x counts from the middle of the
 # actuator; frame i is at frame_time[i] and frame_voltage[i], and its load hangs at end_x[i], end_y[i].
 load 'of_box.gp'
 load 'subtitle.gp'
 load 'wet.gp'
+most = 80
+load 'snapshots.gp'
+shown_frames = words(snapshots)
 load 'note.gp'
 note = foot
 path = kind ne 'motion'
@@ -18,9 +21,9 @@ array end_x[frames]
 array end_y[frames]
 array clip_x[frames]
 array clip_y[frames]
-_load(f) = column(2) == load_node ? (end_x[f] = column(x_of(ribbons)), end_y[f] = column(x_of(ribbons) + 1)) : 0
-_clip(f) = column(2) == 0 ? (clip_x[f] = column(3), clip_y[f] = column(4)) : 0
-stats 'shapes.dat' using (_load(int(column(1)) + 1), _clip(int(column(1)) + 1), 1) nooutput
+_load(f) = column(4) == load_node ? (end_x[f] = column(x_of(ribbons)), end_y[f] = column(x_of(ribbons) + 1)) : 0
+_clip(f) = column(4) == 0 ? (clip_x[f] = column(5), clip_y[f] = column(6)) : 0
+stats 'shapes.dat' using (column(1) == column(1) ? (_load(int(column(1)) + 1), _clip(int(column(1)) + 1)) : 0, 1) nooutput
 middle = has_platform ? end_x[1] + platform_length/2 : (box_left + box_right)/2
 reach = max(middle - box_left, box_right - middle)
 clamp = clip_x[1] - middle
@@ -44,7 +47,7 @@ if (!path) {
   }
 }
 hold = 12 # how often the last frame is repeated
-delay = max(2, floor(480.0/frames + 0.5)) # of a frame, hundredths of a second
+delay = max(2, floor(480.0/shown_frames + 0.5)) # of a frame, hundredths of a second
 if (delay > 40) delay = 40
 set encoding utf8
 set terminal gif animate delay delay loop 0 size 640,480 noenhanced font ',13' background '#ffffff'
@@ -97,12 +100,12 @@ parts = (60 + (half ? nodes : nodes/2) - 2)/((half ? nodes : nodes/2) - 1)
 side_x(side, x) = (side == 1 ? middle - x : x - middle)*length
 _is_wet(p) = (half || p <= last_node/2.0 ? p : last_node - p) <= wet_at[i]
 _between(was, now) = was + q*(now - was)
-_bar(j) = (q = j == 0 ? 1.0 : j/(1.0*parts), p = column(2) - 1 + q, xu = _between(xu_was, column(3)), yu = _between(yu_was, column(4)), \
-           xl = _between(xl_was, column(5)), yl = _between(yl_was, column(6)), \
-           xu_was = column(3), yu_was = column(4), xl_was = column(5), yl_was = column(6), \
+_bar(j) = (q = j == 0 ? 1.0 : j/(1.0*parts), p = column(4) - 1 + q, xu = _between(xu_was, column(5)), yu = _between(yu_was, column(6)), \
+           xl = _between(xl_was, column(7)), yl = _between(yl_was, column(8)), \
+           xu_was = column(5), yu_was = column(6), xl_was = column(7), yl_was = column(8), \
            j > 0 && node(0) % nodes == 0 ? NaN : _is_wet(p) ? xu : NaN)
 xu_was = 0; yu_was = 0; xl_was = 0; yl_was = 0
-node(c) = column(2) == column(2) ? int(column(2)) : -1
+node(c) = column(4) == column(4) ? int(column(4)) : -1
 is_clip(k) = k % nodes == 0 || (!half && k % nodes == nodes - 1)
 
 lensed = coloured && has_platform && members == 1
@@ -114,7 +117,7 @@ if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at sc
 open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
-slower = delay/100.0*(frames - 1)/(end - begin)
+slower = delay/100.0*(shown_frames - 1)/(end - begin)
 pace = path ? 'equilibria one after the other, stable or not' : 'still picture'
 if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than real', slower) }
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
@@ -132,8 +135,8 @@ if (has_platform) {
   set object 1 rectangle from clamp*length - 0.35*u,-u to clamp*length,u fc rgb '#555555' fs solid noborder
 }
 
-do for [k=1:frames + hold] {
-  i = k > frames ? frames : k
+do for [k=1:shown_frames + hold] {
+  i = word(snapshots, min(k, shown_frames)) + 0
   # what the caption says
   if (path) {
     caption = sprintf('%.2f %s', frame_voltage[i]*voltage, voltage_unit)
@@ -153,8 +156,8 @@ do for [k=1:frames + hold] {
   if (!held && load_mass > 0) {
     set arrow 2 from h,v to h,v-u nohead lw 2 lc rgb '#555555'
     set object 3 rectangle from h-1.2*u,v-2.6*u to h+1.2*u,v-u fc rgb '#55626d' fs solid noborder
-    if (members == 1) { set label 5 said_load_mass at h,v-1.8*u center front tc rgb '#ffffff' }
-    if (members > 1) { set label 5 said_load_mass at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
+    if (members == 1) { set label 5 said(said_load_mass) at h,v-1.8*u center front tc rgb '#ffffff' }
+    if (members > 1) { set label 5 said(said_load_mass) at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
   }
   # what is between the faces, coloured by the field, then the ribbons over it
   volts = frame_voltage[i]
@@ -167,14 +170,14 @@ do for [k=1:frames + hold] {
          with vectors nohead lw 5 lc rgb variable notitle, \
        for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (side_x(side, column(x_of(r)))):(column(x_of(r) + 1)*length) \
          with lines lw 2 lc rgb metal notitle, \
-       for [side=0:(ribbons > 1 ? half : -1)] 'shapes.dat' index i-1 using (is_clip(node(0)) ? side_x(side, $5) : NaN):($6*length) \
+       for [side=0:(ribbons > 1 ? half : -1)] 'shapes.dat' index i-1 using (is_clip(node(0)) ? side_x(side, $7) : NaN):($8*length) \
          with points pt 5 ps 1.5 lc rgb metal notitle
   if (lensed) {
-    stats 'shapes.dat' index i-1 using (open_at($3 - middle, $4 - $6)) name 'gap' nooutput
+    stats 'shapes.dat' index i-1 using (open_at($5 - middle, $6 - $8)) name 'gap' nooutput
     front = gap_min
     level = end_y[i]/2
     if (front < -platform_length/2 - 1e-9) {
-      stats 'shapes.dat' index i-1 using ($3 - middle == front ? ($4 + $6)/2 : NaN) name 'level' nooutput
+      stats 'shapes.dat' index i-1 using ($5 - middle == front ? ($6 + $8)/2 : NaN) name 'level' nooutput
       level = level_mean
     }
     wide = 2*(reach*length + 1.8*u)*lens_size/magnified
@@ -188,12 +191,12 @@ do for [k=1:frames + hold] {
     unset tics
     set xrange [front*length - wide/2:front*length + wide/2]
     set yrange [level*length - wide/2:level*length + wide/2]
-    lens_x(x) = (half && column(2) == last_node ? middle - x : x - middle)*length
-    plot 'shapes.dat' index i-1 using (_is_wet($2) ? lens_x($3) : NaN):($4*length):($6*length) with filledcurves fc rgb shown(insulator_thickness, volts) notitle, \
-         '' index i-1 using (lens_x($3)):($4*length):(($4 + insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
-         '' index i-1 using (lens_x($3)):(($4 + insulator_thickness)*length):(($4 + thick)*length) with filledcurves fc rgb metal notitle, \
-         '' index i-1 using (lens_x($5)):($6*length):(($6 - insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
-         '' index i-1 using (lens_x($5)):(($6 - insulator_thickness)*length):(($6 - thick)*length) with filledcurves fc rgb metal notitle
+    lens_x(x) = (half && column(4) == last_node ? middle - x : x - middle)*length
+    plot 'shapes.dat' index i-1 using (_is_wet(column(4)) ? lens_x($5) : NaN):($6*length):($8*length) with filledcurves fc rgb shown(insulator_thickness, volts) notitle, \
+         '' index i-1 using (lens_x($5)):($6*length):(($6 + insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
+         '' index i-1 using (lens_x($5)):(($6 + insulator_thickness)*length):(($6 + thick)*length) with filledcurves fc rgb metal notitle, \
+         '' index i-1 using (lens_x($7)):($8*length):(($8 - insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
+         '' index i-1 using (lens_x($7)):(($8 - insulator_thickness)*length):(($8 - thick)*length) with filledcurves fc rgb metal notitle
     unset multiplot
     load 'stage.gp'
   }

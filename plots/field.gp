@@ -1,4 +1,4 @@
-#picture field.svg one field :field.dat :powered
+#picture field.svg one field :field.dat +drive.voltage
 # Electric field around the ribbons.
 title = 'Electric field around the ribbons, left half'
 load 'ends_of_field.gp'

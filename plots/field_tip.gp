@@ -1,4 +1,4 @@
-#picture field_tip.svg one field :field.dat :powered
+#picture field_tip.svg one field :field.dat +drive.voltage
 # Electric field where the ribbons part: from a little left of the clip's edge (x = 0) to where the gap is as wide as both
 # insulators, but a fiftieth of the ribbon at least.
 title = 'Electric field where the ribbons part'

@@ -1,6 +1,7 @@
-#picture film.svg one motion film_thickness_m :frames :liquid
+#picture film.svg one motion >film_thickness_m !member_1_opening_m time_s :shapes.dat
 # Liquid between the faces of the left half, from the clip to where it ends, at some times.
 load 'of_box.gp'
+most = 8
 load 'snapshots.gp'
 load 'wet.gp'
 title = 'Liquid between the faces, left half'
@@ -13,5 +14,5 @@ least = film_roughness # between closed faces
 set logscale y
 set format y '10^{%L}'
 set ylabel 'distance of the faces / µm' offset 0.5
-plot for [f in snapshots] 'shapes.dat' index int(f)-1 using (wet($2, f+0, $3, $4-$6)*length):(gap > least ? gap*1e6 : least*1e6) with lines lw 2 \
+plot for [f in snapshots] 'shapes.dat' index int(f)-1 using (wet($4, f+0, $5, $6-$8)*length):(gap > least ? gap*1e6 : least*1e6) with lines lw 2 \
      lc rgb shade((frame_time[f+0] - begin)/(end - begin)) title sprintf('%.4g %s', frame_time[f+0]*scale(end, 's'), unit(end, 's'))

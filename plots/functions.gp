@@ -1,16 +1,27 @@
 # What templates compute with. zipact has defined in result.gp
 #   study, kind, outcome, liquid        words
-#   drive_voltage, said_drive_voltage   each key in SI or as a word, and as people read it
+#   drive_voltage, said_drive_voltage   each key in SI or as a word, and as people write it
 #   zip_time_s                          each number of the summary of one run
 #   columns, lists, axes                names between spaces: columns of ../table.csv that have two numbers; list keys; of
 #                                       those that vary together only the last
 #   lowest_NAME, highest_NAME, count_NAME, si_NAME    of a column: its range, how many numbers it has, its SI unit
 #   name_NAME, unit_NAME, factor_NAME   of a column that lists a key: what an axis shows
 #   values_NAME                         of axes: what their values are called
-#   half, ribbons, members, nodes, frame_time, frame_voltage    of shapes.dat
 # In the names of variables, a point of a column is an underscore: plain('load.mass_kg') = 'load_mass_kg'.
 plain(c) = strstrt(c, '.') == 0 ? c : plain(c[1:strstrt(c, '.') - 1].'_'.c[strstrt(c, '.') + 1:])
 of(what, c) = value(what.plain(c))
+
+
+# escaped('ribbon.young_modulus'): a text that is shown as it is. shown_unit('um') = 'µm'; said('0.0500001 um') = '0.05 µm'.
+# name_of(c), unit_of(c): of a column that lists a key.
+escaped(c) = strstrt(c, '_') == 0 ? c : c[1:strstrt(c, '_') - 1].'\_'.escaped(c[strstrt(c, '_') + 1:])
+_raised(u) = u eq '' ? '' : (u[1:1] eq '2' ? '²' : u[1:1] eq '3' ? '³' : u[1:1])._raised(u[2:])
+shown_unit(u) = u[1:1] eq 'u' && strlen(u) > 1 ? 'µ'._raised(u[2:]) : _raised(u)
+_digits(w) = sprintf(strlen(w) > 6 ? '%.4g' : '%.6g', w + 0)
+_is_number(s) = strstrt('0123456789-.', s[1:1]) > 0
+said(s) = !_is_number(s) ? escaped(s) : words(s) == 1 ? _digits(s) : _digits(word(s, 1)).' '.shown_unit(s[strlen(word(s, 1)) + 2:])
+name_of(c) = escaped(of('name_', c))
+unit_of(c) = shown_unit(of('unit_', c))
 
 # number('zip_time_s'): the number of the summary; NaN where it has none of this name.
 number(c) = exists(c) ? value(c) : NaN
@@ -44,17 +55,14 @@ label(quantity, u) = quantity.(u eq '' ? ' (dimensionless)' : strstrt(u, '/') ? 
 
 # legend(n): the first n list keys of a sweep, each on a line so that they fit over the legend; letters_of(n): those of
 # the longest. case_name(i, n): the values of the first n in case i, from 0. length_of(k): how many values key k has.
-list_key(k) = of('name_', word(axes, k))
+list_key(k) = name_of(word(axes, k))
 legend(n) = n < 1 ? '' : n == 1 ? list_key(1) : legend(n - 1).",\n".list_key(n)
 letters_of(n) = n < 1 ? 0 : max(letters_of(n - 1), strlen(list_key(n)) - 4)
 length_of(k) = words(of('values_', word(axes, k)))
 _inside(k) = k == words(axes) ? (exists('samples') ? samples : 1) : length_of(k + 1)*_inside(k + 1)
 digit(i, k) = i/_inside(k) % length_of(k)
-value_name(k, j) = word(of('values_', word(axes, k)), j + 1)
+value_name(k, j) = said(word(of('values_', word(axes, k)), j + 1))
 case_name(i, n) = n < 1 ? '' : case_name(i, n - 1).(n > 1 ? ', ' : '').value_name(n, digit(i, n))
-
-# escaped('ribbon.young_modulus'): as text that is shown as it is.
-escaped(c) = strstrt(c, '_') == 0 ? c : c[1:strstrt(c, '_') - 1].'\_'.escaped(c[strstrt(c, '_') + 1:])
 
 # words_of('pull_in_voltage_V') = 'pull in voltage': an output for people, without its unit; has_unit(c): has it one?
 has_unit(c) = of('si_', c) ne '1' && of('si_', c) ne 'count'

@@ -10,7 +10,7 @@
 of_three = 1
 contours = 6
 load 'of_maps.gp'
-subtitle = subtitle.(subtitle eq '' ? '' : ', ').'panels: '.of('name_', z_key)
+subtitle = subtitle.(subtitle eq '' ? '' : ', ').'panels: '.name_of(z_key)
 set label 2 subtitle
 set tics font ',11' scale 0.4
 set label 6 y_label at screen 0.03, (bottom + 0.81)/2 center rotate
@@ -35,7 +35,7 @@ do for [k=1:|panel_at|] {
   set rmargin at screen panel_left + panel_width - 0.02
   set tmargin at screen panel_top - 0.05
   set bmargin at screen map_bottom
-  set label 5 sprintf('%.4g %s', panel_at[k]*of('factor_', z_key), of('unit_', z_key)) at screen panel_left + panel_width/2, panel_top - 0.03 center font ',11'
+  set label 5 sprintf('%.4g %s', panel_at[k]*of('factor_', z_key), unit_of(z_key)) at screen panel_left + panel_width/2, panel_top - 0.03 center font ',11'
   lowest = k + across > |panel_at|
   first = (k - 1) % across == 0
   set format x (lowest ? '%g' : '')

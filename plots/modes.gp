@@ -1,4 +1,4 @@
-#picture modes.svg one modes :frame
+#picture modes.svg one modes :shapes.dat
 # Modes about the loaded equilibrium, in rows of three panels; the first frame may be the shape at rest.
 load 'of_box.gp'
 at_rest = begin == 0

@@ -36,8 +36,8 @@ do for [k=1:|panel_at|] {
   if (k < |panel_at|) { print '' }
 }
 unset print
-x_name = of('name_', x_key); x_unit = of('unit_', x_key); x_factor = of('factor_', x_key)
-y_name = of('name_', y_key); y_unit = of('unit_', y_key); y_factor = of('factor_', y_key)
+x_name = name_of(x_key); x_unit = unit_of(x_key); x_factor = of('factor_', x_key)
+y_name = name_of(y_key); y_unit = unit_of(y_key); y_factor = of('factor_', y_key)
 grows(a, m, b) = min(a, b) > 0 && max(a, b) >= 10*min(a, b) && m <= 0.35*max(a, b)
 x_log = grows(x_row[1], x_row[(across_map - 1)/2 + 1], x_row[across_map])
 y_log = grows(y_row[1], y_row[(up_map - 1)/2*across_map + 1], y_row[up_map*across_map])

@@ -4,8 +4,8 @@
 load 'functions.gp'
 load 'curves_of_table.gp'
 x_column = word(axes, words(axes))
-x_name = of('name_', x_column)
-x_unit = of('unit_', x_column)
+x_name = name_of(x_column)
+x_unit = unit_of(x_column)
 x_factor = of('factor_', x_column)
 many = words(axes) > 1
 if (!exists('letters')) letters = 0

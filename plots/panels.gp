@@ -34,8 +34,8 @@ do for [k=1:panels] {
   si[k] = of('si_', y)
   quantity[k] = _named(words_of(y)[10:])
   is_key = exists('name_'.plain(x))
-  x_name[k] = is_key ? of('name_', x) : 'time'
-  x_unit[k] = is_key ? of('unit_', x) : of('si_', x)
+  x_name[k] = is_key ? name_of(x) : 'time'
+  x_unit[k] = is_key ? unit_of(x) : of('si_', x)
   x_factor[k] = is_key ? of('factor_', x) : 1.0
   if (k == 1) { weighted = word(all_columns, y_in[1] + 2)[1:6] eq 'sigma_' }
 }

@@ -22,8 +22,8 @@ array axis_high[axis_count]
 do for [k=1:axis_count] {
   c = word(shown, k)
   is_key = exists('name_'.plain(c))
-  axis_name[k] = is_key ? of('name_', c) : words_of(c)
-  axis_unit[k] = is_key ? of('unit_', c) : ''
+  axis_name[k] = is_key ? name_of(c) : words_of(c)
+  axis_unit[k] = is_key ? unit_of(c) : ''
   axis_factor[k] = is_key ? of('factor_', c) : 1.0
   axis_si[k] = is_key ? '' : si_of(c)
   axis_low[k] = of('lowest_', c)

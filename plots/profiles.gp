@@ -1,6 +1,7 @@
-#picture profiles.svg one motion :frames
+#picture profiles.svg one motion time_s :shapes.dat
 # Shapes of a run, coloured by their time.
 load 'of_box.gp'
+most = 8
 load 'snapshots.gp'
 title = (ribbons > 1 ? 'Shapes of the ribbons' : 'Shapes of the ribbon').(half ? ', left half' : '')
 load 'note.gp'

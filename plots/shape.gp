@@ -1,4 +1,4 @@
-#picture shape.svg one shape :frame
+#picture shape.svg one shape :shapes.dat
 # The loaded shape at rest.
 load 'of_box.gp'
 title = 'Shape at rest'.(half ? ', left half' : '')
@@ -22,5 +22,5 @@ if (ribbons > 1) {
   plot for [k=1:ribbons] 'shapes.dat' index 0 using (column(x_of(k))*length):(column(x_of(k)+1)*length) with lines lw 2.5 dt dash(k) lc rgb colour(k) \
        title word('upper lower', k)
 } else {
-  plot 'shapes.dat' index 0 using ($3*length):($4*length) with lines lw 2.5 lc rgb colour(1) notitle
+  plot 'shapes.dat' index 0 using ($5*length):($6*length) with lines lw 2.5 lc rgb colour(1) notitle
 }

@@ -1,4 +1,4 @@
-#picture shapes.svg one branch|held_branch voltage_V :powered :frames
+#picture shapes.svg one branch|held_branch voltage_V +drive.voltage :shapes.dat
 # Shapes at rest along the path of states: as many as can be told apart, about equal movements apart, fewer where a jump
 # to another branch is longer. State k is frame at[k].
 load 'of_box.gp'
@@ -12,7 +12,7 @@ _step(f, i, x, y) = (moved[f] = max(moved[f], f > 1 && x == x ? sqrt((x - x_was[
                      x_was[i] = x == x ? x : x_was[i], y_was[i] = y == y ? y : y_was[i])
 _node(i) = i == i ? int(i) + 1 : 1
 do for [r=1:ribbons] {
-  stats 'shapes.dat' using (_step(int(column(1)) + 1, _node(column(2)) + (r - 1)*total, column(x_of(r)), column(x_of(r)+1)), 1) nooutput
+  stats 'shapes.dat' using (_step(column(1) == column(1) ? int(column(1)) + 1 : 1, _node(column(4)) + (r - 1)*total, column(x_of(r)), column(x_of(r)+1)), 1) nooutput
 }
 way = 0
 do for [k=1:frames] { way = way + moved[k] }

@@ -1,7 +1,7 @@
 # Under which load, voltage and so on the results of a study are, but for list keys, which the legend has: `subtitle`.
 if (!exists('single')) single = !exists('lists') || lists eq ''
 _swept(k) = strstrt(' '.lists, ' '.k) > 0
-_told(before, k) = _swept(k) || (k[1:6] eq 'drive.' && actuator_kind eq 'ribbon') ? '' : before.of('said_', k).', '
+_told(before, k) = _swept(k) || (k[1:6] eq 'drive.' && actuator_kind eq 'ribbon') ? '' : before.said(of('said_', k)).', '
 _up_to = single ? 'up to ' : ''
 _drive(w) = w eq 'table' ? 'table of voltages, ' : _told(w eq 'ramp' ? 'ramp to ' : w eq 'sine' ? 'sine to ' : w eq 'square' ? 'square wave to ' : '', 'drive.voltage')
 _under(s) = s eq 'stationary' || s eq 'modes' ? _told('load ', 'load.mass') \

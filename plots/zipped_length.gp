@@ -1,4 +1,4 @@
-#picture zipped_length.svg one motion ~zipped_length_m opening_m
+#picture zipped_length.svg one motion >zipped_length_m opening_m
 # Closed length of one run over time.
 title = 'Closed length from the clip, one half, over time'
 load 'note.gp'

@@ -7,7 +7,6 @@
 
 #include <zipact/io.h>
 
-/* A picture. */
 typedef struct ZpPicture {
   char name[48], extension[8]; /* "stroke", "svg" */
   const char *template;        /* "stroke.gp" */

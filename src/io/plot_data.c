@@ -2,6 +2,7 @@
  * empty one, gnuplot 5.4 uses a colour that was never set, and the picture varies. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "io/number.h"
 #include "io/plot.h"
@@ -17,23 +18,23 @@ static void put(FILE *file, double value, char after) {
 /* -- shapes.dat: an index per frame, the members from the uppermost on ------------------------------- */
 
 static bool has_shapes(const ZpPlot *plot) {
-  return plot->shapes != NULL;
+  const ZpShapes *shapes = plot->single ? plot->single->shapes : NULL;
+  return shapes && shapes->frames > 0 && isfinite(zp_shapes_get(shapes, 0).x[0]);
 }
 
 static void put_shapes(const void *of, FILE *file) {
-  const ZpShapes *shapes = ((const ZpPlot *)of)->shapes;
-  const size_t ribbons = shapes->ribbons, nodes = shapes->nodes / shapes->members;
-  size_t frame[ZP_PLOT_FRAMES], frames = zp_plot_frames(shapes, frame);
-  fputs("# frame node, then x_m y_m of each ribbon, the upper first\n", file);
-  for (size_t k = 0; k < frames; k++) {
-    const ZpShape shape = zp_shapes_get(shapes, frame[k]);
+  const ZpShapes *shapes = ((const ZpPlot *)of)->single->shapes;
+  const size_t nodes = shapes->nodes / shapes->members;
+  fputs("# frame time_s voltage_V node, then x_m y_m of each ribbon, the upper first\n", file);
+  for (size_t k = 0; k < shapes->frames; k++) {
+    const ZpShape shape = zp_shapes_get(shapes, k);
     for (size_t i = 0; i < shapes->nodes; i++) {
-      fprintf(file, "%zu %zu ", k, i);
-      for (size_t r = 0; r < ribbons; r++) {
-        put(file, shape.x[i * ribbons + r], ' ');
-        put(file, shape.y[i * ribbons + r], r + 1 < ribbons ? ' ' : '\n');
-      }
-      if ((i + 1) % nodes == 0) fprintf(file, ribbons > 1 ? "%zu NaN NaN NaN NaN NaN\n" : "%zu NaN NaN NaN\n", k);
+      fprintf(file, "%zu %.9g ", k, shape.time);
+      put(file, shape.voltage, ' ');
+      fprintf(file, "%zu", i);
+      for (size_t at = i * shapes->ribbons; at < (i + 1) * shapes->ribbons; at++)
+        fprintf(file, isfinite(shape.x[at] + shape.y[at]) ? " %.12g %.12g" : " NaN NaN", shape.x[at], shape.y[at]);
+      fprintf(file, "\n%s", (i + 1) % nodes ? "" : "NaN NaN NaN NaN NaN NaN NaN NaN\n");
     }
     fputs("\n\n", file);
   }
@@ -59,15 +60,16 @@ static void put_row(const ZpPlot *plot, const ZpTable *table, size_t row, FILE *
   const char *travel = plot->def.actuator.kind == ZP_KIND_RIBBON ? "stroke_m" : "contraction";
   for (size_t i = 0; is_fit(plot) && i < table->columns; i++)
     put(file, table->value[row * table->columns + i], ' ');
-  if (!is_fit(plot)) put(file, zp_table_get(table, row, "time_s"), ' ');
-  if (!is_fit(plot)) put(file, zp_table_get(table, row, travel), ' ');
+  if (is_fit(plot)) return;
+  put(file, zp_table_get(table, row, "time_s"), ' ');
+  put(file, zp_table_get(table, row, travel), ' ');
 }
 
+/* At most ROWS_MOST rows: a picture of more is slow to view and shows no more. */
 static void put_series(const void *of, FILE *file) {
-  enum { ROWS_MOST = 200000 }; /* a picture of more is slow to view and shows no more */
+  enum { ROWS_MOST = 200000 };
   const ZpPlot *plot = of;
-  fputs(is_fit(plot) ? "# run, then the columns of its table\n" : "# run time_s, then the contraction or stroke_m\n",
-        file);
+  fputs("# run, then the columns of its table, or time_s and the contraction, or stroke_m, of its motion\n", file);
   for (size_t run = 0; run < plot->report->count; run++) {
     const ZpTable *table = zp_report_result(plot->report, run)->series;
     const size_t rows = table ? table->rows : 0, step = rows * plot->report->count / ROWS_MOST + 1;
@@ -124,9 +126,17 @@ static void put_field(const void *of, FILE *file) {
 
 /* -- sensitivity.dat and indices.dat ----------------------------------------------------------------- */
 
+/* Percent of the output per percent of the key; NAN if one of them is 0 or useless: a run that has closed ends where
+ * openings and strokes pass 0. */
+static double percent(const ZpPlot *plot, const ZpSensitivity *s) {
+  const double key = zp_def_get(&plot->def, s->key), output = zp_result_get(plot->single, s->output);
+  const bool passing = plot->single->outcome == ZP_ZIPPED && strcmp(s->output, "zip_time_s") != 0;
+  return key != 0 && output != 0 && !passing ? s->value * key / output : (double)NAN;
+}
+
 static bool has_sensitivity(const ZpPlot *plot) {
   for (size_t i = 0; plot->single && i < plot->single->sensitivities; i++)
-    if (isfinite(zp_plot_percent(plot, &plot->single->sensitivity[i]))) return true;
+    if (isfinite(percent(plot, &plot->single->sensitivity[i]))) return true;
   return false;
 }
 
@@ -135,9 +145,7 @@ static void put_sensitivity(const void *of, FILE *file) {
   fputs("# output, key, percent of the output per percent of the key\n", file);
   for (size_t i = 0; i < plot->single->sensitivities; i++) {
     const ZpSensitivity *s = &plot->single->sensitivity[i];
-    if (!isfinite(zp_plot_percent(plot, s))) continue;
-    fprintf(file, "%s %s ", s->output, zp_key(s->key)->name);
-    put(file, zp_plot_percent(plot, s), '\n');
+    if (isfinite(percent(plot, s))) fprintf(file, "%s %s %.12g\n", s->output, zp_key(s->key)->name, percent(plot, s));
   }
 }
 
@@ -157,13 +165,9 @@ static void put_output(const ZpPlot *plot, const char *output, double *value, FI
   for (size_t k = 0; k < keys; k++) {
     if (!zp_scenario_spread(plot->report->scenario, key[k])) continue;
     const ZpIndices indices = zp_sobol_indices(design, value, dimension++);
-    const ZpIndex *index[] = {&indices.first, &indices.total};
-    fprintf(file, "%s %s ", output, zp_key(key[k])->name);
-    for (size_t i = 0; i < 2; i++) {
-      put(file, index[i]->value, ' ');
-      put(file, index[i]->low, ' ');
-      put(file, index[i]->high, i ? '\n' : ' ');
-    }
+    const ZpIndex first = indices.first, total = indices.total;
+    fprintf(file, "%s %s %g %g %g %g %g %g\n", output, zp_key(key[k])->name, first.value, first.low, first.high,
+            total.value, total.low, total.high);
   }
 }
 

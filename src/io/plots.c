@@ -1,6 +1,6 @@
 /* plots/: the pictures of a report. Templates say which pictures there are, in lines such as
  *
- *   #picture shapes.svg one branch|held_branch voltage_V :frames
+ *   #picture shapes.svg one branch|held_branch voltage_V :shapes.dat
  *
  * This picture is drawn of one run (or of many) of a study whose results are of one of these kinds (studies.def), or
  * that has one of these names, if all conditions hold. A condition has alternatives between |:
@@ -9,8 +9,12 @@
  *   voltage_V*9   it has nine
  *   =zip_time_s   the summary of the run has this number
  *   ~voltage_V    the column varies
+ *   >voltage_V    it has a number above 0
  *   @drive.rate   the key differs from its default
- *   :frames       one of the states in `flag`
+ *   +drive.rate   it is above 0
+ *   :shapes.dat   there is such a file of data
+ *   :axis         one of the facts in `flag`
+ *   !voltage_V    the rest does not hold
  *
  * The numbers matter more than a picture: they are on the disk before gnuplot runs. */
 #include <errno.h>
@@ -31,24 +35,6 @@
 enum { DRAWN_MOST = 10000, PICTURES_MOST = 100, WORDS_SIZE = 512 };
 
 /* -- conditions ------------------------------------------------------------------------------------ */
-
-static bool has_frame(const ZpPlot *plot) {
-  return plot->shapes != NULL;
-}
-
-static bool has_frames(const ZpPlot *plot) {
-  return plot->shapes && plot->shapes->frames > 1;
-}
-
-/* Liquid between two ribbons, not those of a stack. */
-static bool has_liquid(const ZpPlot *plot) {
-  return plot->shapes && plot->shapes->members == 1 && plot->shapes->ribbons == 2 &&
-         zp_def_liquid(&plot->def) != ZP_LIQUID_NONE;
-}
-
-static bool has_voltage(const ZpPlot *plot) {
-  return plot->def.drive.voltage > 0;
-}
 
 static bool has_design(const ZpPlot *plot) {
   return zp_scenario_design(plot->report->scenario) != NULL;
@@ -81,10 +67,6 @@ static bool has_planes(const ZpPlot *plot) {
   return has_grid(plot, 3);
 }
 
-static bool sweeps_frequency(const ZpPlot *plot) {
-  return has_axis(plot) && strcmp(zp_key(plot->axis[plot->axes - 1])->name, "drive.frequency") == 0;
-}
-
 /* Three list keys that vary, or two that are drawn or optimised. */
 static bool has_lines(const ZpPlot *plot) {
   size_t keys = 0;
@@ -98,30 +80,30 @@ static bool has_front(const ZpPlot *plot) {
   return optimum && optimum->objectives > 1 && optimum->count > 1;
 }
 
-/* Columns of measurements, or of what was set for them. */
-static size_t count_columns(const ZpPlot *plot, bool measured) {
-  size_t count = 0, i = 0;
-  for (; i < plot->columns && (measured || strncmp(plot->column[i].name, "measured_", 9) != 0); i++)
-    count += measured ? strncmp(plot->column[i].name, "measured_", 9) == 0 : plot->column[i].count > 0;
-  return count;
+/* Pairs of a column that was set and a column of measurements. */
+static size_t count_panels(const ZpPlot *plot) {
+  size_t set = 0, measured = 0;
+  for (size_t i = 0; i < plot->columns; i++) {
+    const bool is_measured = strncmp(plot->column[i].name, "measured_", 9) == 0;
+    measured += is_measured;
+    set += !is_measured && measured == 0 && plot->column[i].count > 0;
+  }
+  return set * measured;
 }
 
 static bool has_panel(const ZpPlot *plot) {
-  return count_columns(plot, true) == 1 && count_columns(plot, false) == 1;
+  return count_panels(plot) == 1;
 }
 
 static bool has_panels(const ZpPlot *plot) {
-  return count_columns(plot, true) > 0 && !has_panel(plot);
+  return count_panels(plot) > 1;
 }
 
 static const struct {
   const char *name;
   bool (*holds)(const ZpPlot *plot);
-} flag[] = {{"frame", has_frame},     {"frames", has_frames},  {"liquid", has_liquid},
-            {"powered", has_voltage}, {"samples", has_design}, {"axis", has_axis},
-            {"plane", has_plane},     {"planes", has_planes},  {"frequencies", sweeps_frequency},
-            {"lines", has_lines},     {"front", has_front},    {"panel", has_panel},
-            {"panels", has_panels}};
+} flag[] = {{"samples", has_design}, {"axis", has_axis},   {"plane", has_plane}, {"planes", has_planes},
+            {"lines", has_lines},    {"front", has_front}, {"panel", has_panel}, {"panels", has_panels}};
 
 /* Does a data file have rows? */
 static bool has_flag(const ZpPlot *plot, const char *name) {
@@ -132,9 +114,9 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
   return false;
 }
 
+/* Does a key differ from its default? */
 static bool is_changed(const ZpPlot *plot, const char *name) {
-  const int key = zp_key_find(name);
-  const double value = zp_def_get(&plot->def, key), usual = zp_key(key)->def;
+  const double value = zp_def_get(&plot->def, zp_key_find(name)), usual = zp_key(zp_key_find(name))->def;
   return value != usual && !(isnan(value) && isnan(usual));
 }
 
@@ -147,11 +129,26 @@ static bool has_numbers(const ZpPlot *plot, const char *name) {
 }
 
 static bool holds(const ZpPlot *plot, const char *condition) {
-  const ZpPlotColumn *column = *condition == '~' ? zp_plot_column(plot, condition + 1) : NULL;
-  if (*condition == '~') return column && column->high > column->low;
-  if (*condition == '=') return isfinite(zp_result_get(plot->single, condition + 1));
-  if (*condition == '@') return is_changed(plot, condition + 1);
-  return *condition == ':' ? has_flag(plot, condition + 1) : has_numbers(plot, condition);
+  const char *name = condition + 1;
+  const ZpPlotColumn *column = zp_plot_column(plot, name);
+  switch (*condition) {
+  case '!':
+    return !holds(plot, name);
+  case '~':
+    return column && column->high > column->low;
+  case '>':
+    return column && column->high > 0;
+  case '=':
+    return isfinite(zp_result_get(plot->single, name));
+  case '@':
+    return is_changed(plot, name);
+  case '+':
+    return zp_def_get(&plot->def, zp_key_find(name)) > 0;
+  case ':':
+    return has_flag(plot, name);
+  default:
+    return has_numbers(plot, condition);
+  }
 }
 
 static bool is_of_kind(const ZpPlot *plot, const char *kind) {
@@ -217,36 +214,31 @@ static ZpStatus write_all(const ZpDrawing *drawing, const ZpPlot *plot, ZpError 
   return status;
 }
 
-/* The drawing of a report, `plot` if there is something to draw, and whether there is. The folder is to be freed, the
- * plot to be closed. */
-static ZpStatus open_drawing(const ZpReport *report, ZpDrawing *drawing, ZpPlot *plot, bool *drawn, ZpError *err) {
+/* The drawing of a report, and, if there is something to draw, `plot`. Both are to be closed, on failure too. */
+static ZpStatus open_drawing(const ZpReport *report, ZpDrawing *drawing, ZpPlot *plot, ZpError *err) {
   *plot = (ZpPlot){0};
-  *drawn = false;
-  char *folder = zp_path_join(report->directory, "plots");
-  *drawing = (ZpDrawing){.folder = folder,
+  *drawing = (ZpDrawing){.folder = zp_path_join(report->directory, "plots"),
                          .templates = report->templates,
                          .patience = ZP_DRAWING_PATIENCE,
                          .hooks = report->hooks,
                          .jobs = report->jobs};
-  if (!folder) return zp_fail_memory(err);
+  if (!drawing->folder) return zp_fail_memory(err);
   if (report->count == 0 || report->count > DRAWN_MOST) return ZP_OK;
   ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
-  *drawn = status == ZP_OK && plot->def.output.plots;
-  return *drawn ? zp_plot_open(report, plot, err) : status;
+  return status == ZP_OK && plot->def.output.plots ? zp_plot_open(report, plot, err) : status;
 }
 
 static void close_drawing(ZpDrawing *drawing, ZpPlot *plot) {
-  zp_plot_close(plot);
+  free(plot->column);
   free((char *)drawing->folder);
 }
 
 ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {
   ZpPlot plot;
   ZpDrawing drawing;
-  bool drawn;
-  ZpStatus status = open_drawing(report, &drawing, &plot, &drawn, err);
+  ZpStatus status = open_drawing(report, &drawing, &plot, err);
   if (status == ZP_OK) status = remove_all(&drawing, err);
-  if (status == ZP_OK && drawn) status = write_all(&drawing, &plot, err);
+  if (status == ZP_OK && plot.report) status = write_all(&drawing, &plot, err);
   close_drawing(&drawing, &plot);
   return status;
 }
@@ -256,10 +248,9 @@ void zp_plots_write(const ZpReport *report, void (*notice)(const char *message))
   ZpDrawing drawing;
   ZpPicture list[PICTURES_MOST];
   ZpError err;
-  bool drawn;
-  ZpStatus status = open_drawing(report, &drawing, &plot, &drawn, &err);
+  ZpStatus status = open_drawing(report, &drawing, &plot, &err);
   drawing.notice = notice;
-  if (status == ZP_OK && drawn) zp_drawing_draw(&drawing, list, list_pictures(&plot, list));
+  if (status == ZP_OK && plot.report) zp_drawing_draw(&drawing, list, list_pictures(&plot, list));
   if (status != ZP_OK && notice) notice(err.message);
   close_drawing(&drawing, &plot);
 }
