@@ -4,7 +4,8 @@
 #   zip_time_s                          each number of the summary of one run
 #   columns, lists, axes                names between spaces: columns of ../table.csv that have two numbers; list keys; of
 #                                       those that vary together only the last
-#   lowest_NAME, highest_NAME, count_NAME, si_NAME    of a column: its range, how many numbers it has, its SI unit
+#   lowest_NAME, highest_NAME, count_NAME, si_NAME, help_NAME    of a column: its range, how many numbers it has, its SI
+#                                       unit, in a table of one run what it is
 #   name_NAME, unit_NAME, factor_NAME   of a column that lists a key: what an axis shows
 #   values_NAME                         of axes: what their values are called
 # In the names of variables, a point of a column is an underscore: plain('load.mass_kg') = 'load_mass_kg'.

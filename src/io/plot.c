@@ -24,8 +24,8 @@ static void add_number(ZpPlot *plot, size_t i, double value) {
 }
 
 /* Append a column. The key that a column shows is the one whose column has the same name. */
-static void add_column(ZpPlot *plot, const char *name, const char *unit) {
-  ZpPlotColumn column = {.unit = unit, .key = zp_key_count() - 1, .low = NAN, .high = NAN};
+static void add_column(ZpPlot *plot, const char *name, const char *unit, const char *help) {
+  ZpPlotColumn column = {.unit = unit, .help = help, .key = zp_key_count() - 1, .low = NAN, .high = NAN};
   for (; column.key >= 0; column.key--) {
     zp_key_column(column.key, column.name, sizeof column.name);
     if (strcmp(column.name, name) == 0) break;
@@ -38,7 +38,7 @@ static void add_column(ZpPlot *plot, const char *name, const char *unit) {
 static bool add_series(ZpPlot *plot, const ZpTable *table) {
   plot->column = calloc(table->columns + 1, sizeof *plot->column);
   for (size_t i = 0; plot->column && i < table->columns; i++) {
-    add_column(plot, table->column[i].name, table->column[i].unit);
+    add_column(plot, table->column[i].name, table->column[i].unit, table->column[i].help);
     for (size_t row = 0; row < table->rows; row++)
       add_number(plot, i, table->value[row * table->columns + i]);
   }
@@ -58,10 +58,10 @@ static bool add_cases(ZpPlot *plot) {
   for (size_t i = 0; done && i < keys; i++) {
     char name[ZP_KEY_COLUMN_SIZE];
     zp_key_column(key[i], name, sizeof name);
-    add_column(plot, name, zp_key(key[i])->unit);
+    add_column(plot, name, zp_key(key[i])->unit, "");
   }
   for (size_t i = 0; done && i < names.count; i++)
-    add_column(plot, names.item[i].name, names.item[i].unit);
+    add_column(plot, names.item[i].name, names.item[i].unit, "");
   for (size_t run = 0; done && run < report->count; run++) {
     zp_scenario_values(report->scenario, run, value);
     for (size_t i = 0; i < plot->columns; i++)
@@ -163,6 +163,7 @@ static void define_columns(const ZpPlot *plot, FILE *file) {
     define(file, "highest_", column->name, column->high);
     define_count(file, "count_", column->name, column->count);
     define_text(file, "si_", column->name, column->unit);
+    define_text(file, "help_", column->name, column->help);
     if (column->key >= 0) define_shown(column, file);
   }
 }

@@ -14,6 +14,7 @@
 typedef struct ZpPlotColumn {
   char name[ZP_KEY_COLUMN_SIZE];
   const char *unit; /* SI */
+  const char *help; /* of a series: what it is */
   int key;          /* the key that it lists; -1 if it is none */
   double low, high; /* range of its numbers; NAN if there are none */
   size_t count;     /* its numbers */
