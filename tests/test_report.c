@@ -310,6 +310,22 @@ static double json_number_of(const json_t *object, const char *name) {
   return json_number_value(value);
 }
 
+/* What gnuplot prints for an expression after the script NAME.gp in the folder base/plots: `what` is formatted by it as
+ * text. Valid until the next call. */
+static const char *asked(const char *folder, const char *name, const char *what) {
+  static char text[256];
+  char command[4096];
+  snprintf(command, sizeof command,
+           "cd '%s/plots' && gnuplot -e \"out='/dev/null'\" %s.gp -e 'print %s' 2>&1 | tail -1", in_base(folder), name,
+           what);
+  FILE *pipe = popen(command, "r");
+  ck_assert_ptr_nonnull(pipe);
+  text[0] = 0;
+  if (fgets(text, sizeof text, pipe)) text[strcspn(text, "\n")] = 0;
+  pclose(pipe);
+  return text;
+}
+
 START_TEST(single_run_has_all_files) {
   static const char *const name[] = {"scenario.yaml",
                                      "summary.json",
@@ -333,6 +349,7 @@ START_TEST(single_run_has_all_files) {
     snprintf(path, sizeof path, "out/deep/%s", name[i]);
     ck_assert_msg(exists(path), "no %s", name[i]);
   }
+  ck_assert_str_eq(asked("out/deep", "profiles", "frames, frame_time[1] < frame_time[2]"), "10 1");
   ck_assert_str_eq(notices, "");
   count_files("out");
 }
@@ -542,22 +559,6 @@ static void write_chart(const char *voltages) {
   for (size_t i = 0; i < sizeof more / sizeof more[0]; i++)
     ck_assert_int_eq(zp_scenario_set(scenario, more[i], NULL), ZP_OK);
   write_scenario("l", scenario);
-}
-
-/* What gnuplot prints for an expression after the script NAME.gp in the folder base/plots: `what` is formatted by it as
- * text. Valid until the next call. */
-static const char *asked(const char *folder, const char *name, const char *what) {
-  static char text[256];
-  char command[4096];
-  snprintf(command, sizeof command,
-           "cd '%s/plots' && gnuplot -e \"out='/dev/null'\" %s.gp -e 'print %s' 2>&1 | tail -1", in_base(folder), name,
-           what);
-  FILE *pipe = popen(command, "r");
-  ck_assert_ptr_nonnull(pipe);
-  text[0] = 0;
-  if (fgets(text, sizeof text, pipe)) text[strcspn(text, "\n")] = 0;
-  pclose(pipe);
-  return text;
 }
 
 /* The chart of largest loads said "mkg", drew curves of a second key all alike and named none; over two keys there was
