@@ -164,11 +164,11 @@ static bool any_holds(const ZpPlot *plot, char *words, bool (*test)(const ZpPlot
 
 /* "one branch|held_branch voltage_V :frames" */
 static bool is_drawn(const ZpPlot *plot, char *conditions) {
-  char *rest = NULL, *word = strtok_r(conditions, " ", &rest);
+  char *word = strsep(&conditions, " ");
   if (!word || strcmp(word, plot->single ? "one" : "many") != 0) return false;
-  word = strtok_r(NULL, " ", &rest);
+  word = strsep(&conditions, " ");
   bool drawn = word && any_holds(plot, word, is_of_kind);
-  while (drawn && (word = strtok_r(NULL, " ", &rest)) != NULL)
+  while (drawn && (word = strsep(&conditions, " ")) != NULL)
     drawn = any_holds(plot, word, holds);
   return drawn;
 }
