@@ -1,8 +1,53 @@
+#picture animation.gif one motion time_s @output.animation :shapes.dat
+#picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage
 # The shapes of a run, or of the states of rest along the voltage (`path`), as a film. x counts from the middle of the
-# actuator; frame i shows now[i], potential[i], contraction[i], stroke[i], and its load hangs at end_x[i], end_y[i].
-load 'functions.gp'
+# actuator; frame i is at frame_time[i] and frame_voltage[i], and its load hangs at end_x[i], end_y[i].
+load 'of_box.gp'
+load 'subtitle.gp'
+load 'wet.gp'
+most = 80
+load 'snapshots.gp'
+shown_frames = words(snapshots)
+load 'note.gp'
+note = foot
+path = kind ne 'motion'
+held = kind eq 'held_branch'
+has_platform = actuator_kind eq 'electro_ribbon'
+bath = !path && liquid eq 'submerged' && has('film_thickness_m')
+field_known = members == 1 || liquid ne 'bead'
+last_node = nodes*members - 1
+load_node = has_platform && !half ? (last_node + 1)/2 - 1 : last_node
+array end_x[frames]
+array end_y[frames]
+array clip_x[frames]
+array clip_y[frames]
+_load(f) = column(4) == load_node ? (end_x[f] = column(x_of(ribbons)), end_y[f] = column(x_of(ribbons) + 1)) : 0
+_clip(f) = column(4) == 0 ? (clip_x[f] = column(5), clip_y[f] = column(6)) : 0
+stats 'shapes.dat' using (column(1) == column(1) ? (_load(int(column(1)) + 1), _clip(int(column(1)) + 1)) : 0, 1) nooutput
+middle = has_platform ? end_x[1] + platform_length/2 : (box_left + box_right)/2
+reach = max(middle - box_left, box_right - middle)
+clamp = clip_x[1] - middle
+array contraction_at[frames]
+array stroke_at[frames]
+do for [i=1:frames] {
+  contraction_at[i] = NaN
+  stroke_at[i] = clip_y[i] - end_y[i]
+}
+if (!path) {
+  load 'at_frames.gp'
+  array contraction_row[rows]
+  array stroke_row[rows]
+  _said(r) = (contraction_row[r] = has('contraction') ? column('contraction') : NaN, stroke_row[r] = has('stroke_m') ? column('stroke_m') : NaN)
+  stats '../table.csv' using (_said(int(column(0)) + 1), 1) nooutput
+  set datafile separator whitespace
+  unset datafile columnheaders
+  do for [i=1:frames] {
+    contraction_at[i] = contraction_row[row_of[i]]
+    stroke_at[i] = stroke_row[row_of[i]]
+  }
+}
 hold = 12 # how often the last frame is repeated
-delay = max(2, floor(480.0/frames + 0.5)) # of a frame, hundredths of a second
+delay = max(2, floor(480.0/shown_frames + 0.5)) # of a frame, hundredths of a second
 if (delay > 40) delay = 40
 set encoding utf8
 set terminal gif animate delay delay loop 0 size 640,480 noenhanced font ',13' background '#ffffff'
@@ -49,9 +94,19 @@ if (coloured) {
 # insulator.
 magnified = 25
 
-# A block of liquid has its lower face in column `low`, straight below; one of shapes has x and y of the lower station.
-low = bead ? 3 : 4
-aside(x) = bead ? 0 : column(3) - x
+# Bars of liquid, 5 pixels wide, so many for each element that no gaps are left. A row of shapes.dat has x and y of both
+# faces; bar q, from 0 to 1, is on the way from the row before to this one. Side 1 is the mirror image of side 0.
+parts = (60 + (half ? nodes : nodes/2) - 2)/((half ? nodes : nodes/2) - 1)
+side_x(side, x) = (side == 1 ? middle - x : x - middle)*length
+_is_wet(p) = (half || p <= last_node/2.0 ? p : last_node - p) <= wet_at[i]
+_between(was, now) = was + q*(now - was)
+_bar(j) = (q = j == 0 ? 1.0 : j/(1.0*parts), p = column(4) - 1 + q, xu = _between(xu_was, column(5)), yu = _between(yu_was, column(6)), \
+           xl = _between(xl_was, column(7)), yl = _between(yl_was, column(8)), \
+           xu_was = column(5), yu_was = column(6), xl_was = column(7), yl_was = column(8), \
+           j > 0 && node(0) % nodes == 0 ? NaN : _is_wet(p) ? xu : NaN)
+xu_was = 0; yu_was = 0; xl_was = 0; yl_was = 0
+node(c) = column(4) == column(4) ? int(column(4)) : -1
+is_clip(k) = k % nodes == 0 || (!half && k % nodes == nodes - 1)
 
 lensed = coloured && has_platform && members == 1
 lens_size = 0.17
@@ -62,7 +117,7 @@ if (lensed) set label 7 sprintf('zip front, %.0f times larger', magnified) at sc
 open_at(x, gap) = x < 0 && gap > insulator_thickness ? x : -platform_length/2
 
 # how the time of the film goes
-slower = delay/100.0*(frames - 1)/(end - begin)
+slower = delay/100.0*(shown_frames - 1)/(end - begin)
 pace = path ? 'equilibria one after the other, stable or not' : 'still picture'
 if (!path && slower >= 1) { pace = sprintf('slow motion, %.3g times slower than real', slower) }
 if (!path && slower < 1) { pace = sprintf('fast motion, %.3g times faster than real', 1/slower) }
@@ -80,17 +135,17 @@ if (has_platform) {
   set object 1 rectangle from clamp*length - 0.35*u,-u to clamp*length,u fc rgb '#555555' fs solid noborder
 }
 
-do for [k=1:frames + hold] {
-  i = k > frames ? frames : k
+do for [k=1:shown_frames + hold] {
+  i = word(snapshots, min(k, shown_frames)) + 0
   # what the caption says
   if (path) {
-    caption = sprintf('%.2f %s', potential[i]*voltage, voltage_unit)
-    if (!held) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
+    caption = sprintf('%.2f %s', frame_voltage[i]*voltage, voltage_unit)
+    if (!held) { caption = caption.sprintf('    stroke %.2f %s', stroke_at[i]*length, length_unit) }
   } else {
-    caption = sprintf('t = %.1f %s', now[i]*time, time_unit)
-    if (has('contraction') && contraction[i] == contraction[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction[i]) < 0.005 ? 0 : contraction[i]*100) }
-    if (!has('contraction') && has('stroke_m') && stroke[i] == stroke[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke[i]*length, length_unit) }
-    if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', potential[i]/1000.0) }
+    caption = sprintf('t = %.1f %s', frame_time[i]*time, time_unit)
+    if (has('contraction') && contraction_at[i] == contraction_at[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction_at[i]) < 0.005 ? 0 : contraction_at[i]*100) }
+    if (!has('contraction') && has('stroke_m') && stroke_at[i] == stroke_at[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke_at[i]*length, length_unit) }
+    if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', frame_voltage[i]/1000.0) }
   }
   set label 1 caption at screen 0.5,0.965 center
   # the platform, and the string with the load on it
@@ -101,33 +156,28 @@ do for [k=1:frames + hold] {
   if (!held && load_mass > 0) {
     set arrow 2 from h,v to h,v-u nohead lw 2 lc rgb '#555555'
     set object 3 rectangle from h-1.2*u,v-2.6*u to h+1.2*u,v-u fc rgb '#55626d' fs solid noborder
-    if (members == 1) { set label 5 load at h,v-1.8*u center front tc rgb '#ffffff' }
-    if (members > 1) { set label 5 load at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
+    if (members == 1) { set label 5 said(said_load_mass) at h,v-1.8*u center front tc rgb '#ffffff' }
+    if (members > 1) { set label 5 said(said_load_mass) at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
   }
   # what is between the faces, coloured by the field, then the ribbons over it
-  shapes = bead ? 2*i - 2 : i - 1
-  volts = potential[i]
-  liquid = bead ? 2*i - 1 : shapes
+  volts = frame_voltage[i]
   if (coloured && has_platform && members == 1 && !bead) {
     set object 5 rectangle from -platform,v to platform,0 back fc rgb (platform_electrode > 0 ? shown(-end_y[i], volts) : field_colour(0)) fs solid noborder
   }
   if (lensed) { set multiplot }
-  if (ribbons > 1) {
-    plot 'animation.dat' index liquid using ($1*length):($2*length):(aside($1)*length):((column(low) - $2)*length):(coloured ? shown($2 - column(low), volts) : 0xe2f1fa) \
-           with vectors nohead lw 5 lc rgb variable notitle, \
-         '' index shapes using ($1*length):($2*length) with lines lw 2 lc rgb metal notitle, \
-         '' index shapes using ($3*length):($4*length) with lines lw 2 lc rgb metal notitle, \
-         '' index shapes every platform_point using ($3*length):($4*length) with points pt 5 ps 1.5 lc rgb metal notitle
-  }
-  if (ribbons == 1) {
-    plot 'animation.dat' index shapes using ($1*length):($2*length) with lines lw 2 lc rgb metal notitle
-  }
+  plot for [side=0:half] for [j=0:(ribbons > 1 ? parts-1 : -1)] 'shapes.dat' index i-1 \
+         using (side_x(side, _bar(j))):(yu*length):((side == 1 ? xu - xl : xl - xu)*length):((yl - yu)*length):(coloured ? shown(yu - yl, volts) : 0xe2f1fa) \
+         with vectors nohead lw 5 lc rgb variable notitle, \
+       for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (side_x(side, column(x_of(r)))):(column(x_of(r) + 1)*length) \
+         with lines lw 2 lc rgb metal notitle, \
+       for [side=0:(ribbons > 1 ? half : -1)] 'shapes.dat' index i-1 using (is_clip(node(0)) ? side_x(side, $7) : NaN):($8*length) \
+         with points pt 5 ps 1.5 lc rgb metal notitle
   if (lensed) {
-    stats 'animation.dat' index shapes using (open_at($1, $2 - $4)) name 'gap' nooutput
+    stats 'shapes.dat' index i-1 using (open_at($5 - middle, $6 - $8)) name 'gap' nooutput
     front = gap_min
     level = end_y[i]/2
     if (front < -platform_length/2 - 1e-9) {
-      stats 'animation.dat' index shapes using ($1 == front ? ($2 + $4)/2 : NaN) name 'level' nooutput
+      stats 'shapes.dat' index i-1 using ($5 - middle == front ? ($6 + $8)/2 : NaN) name 'level' nooutput
       level = level_mean
     }
     wide = 2*(reach*length + 1.8*u)*lens_size/magnified
@@ -141,11 +191,12 @@ do for [k=1:frames + hold] {
     unset tics
     set xrange [front*length - wide/2:front*length + wide/2]
     set yrange [level*length - wide/2:level*length + wide/2]
-    plot 'animation.dat' index liquid using ($1*length):($2*length):(column(low)*length) with filledcurves fc rgb shown(insulator_thickness, volts) notitle, \
-         '' index shapes using ($1*length):($2*length):(($2 + insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
-         '' index shapes using ($1*length):(($2 + insulator_thickness)*length):(($2 + thick)*length) with filledcurves fc rgb metal notitle, \
-         '' index shapes using ($3*length):($4*length):(($4 - insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
-         '' index shapes using ($3*length):(($4 - insulator_thickness)*length):(($4 - thick)*length) with filledcurves fc rgb metal notitle
+    lens_x(x) = (half && column(4) == last_node ? middle - x : x - middle)*length
+    plot 'shapes.dat' index i-1 using (_is_wet(column(4)) ? lens_x($5) : NaN):($6*length):($8*length) with filledcurves fc rgb shown(insulator_thickness, volts) notitle, \
+         '' index i-1 using (lens_x($5)):($6*length):(($6 + insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
+         '' index i-1 using (lens_x($5)):(($6 + insulator_thickness)*length):(($6 + thick)*length) with filledcurves fc rgb metal notitle, \
+         '' index i-1 using (lens_x($7)):($8*length):(($8 - insulator_thickness)*length) with filledcurves fc rgb tape notitle, \
+         '' index i-1 using (lens_x($7)):(($8 - insulator_thickness)*length):(($8 - thick)*length) with filledcurves fc rgb metal notitle
     unset multiplot
     load 'stage.gp'
   }

@@ -1,3 +1,4 @@
+#picture charge.svg one branch|held_branch voltage_V ~charge_C capacitance_F +drive.voltage
 # Charge and capacitance at rest against voltage.
 title = 'Charge and capacitance at rest against voltage'
 load 'along_voltage.gp'

@@ -1,6 +1,7 @@
+#picture control.svg one motion command_V @control.kind
 # What a controller holds, and the voltage that holds it.
 title = 'What is held, and the voltage that holds it'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
 # control_signal is what is held; of a noisy signal also what was measured is drawn

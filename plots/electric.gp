@@ -1,3 +1,4 @@
+#picture electric.svg one motion charge_C force_N opening_m
 # Charge and electric force of a run.
 title = 'Charge and electric force of the whole actuator over time'
 load 'over_time.gp'

@@ -1,3 +1,4 @@
+#picture energies.svg one motion kinetic_energy_J
 # Where the work on the actuator goes, stacked: rises of stored energies, then all losses. What is negative hangs below 0,
 # so that both parts together are the work. A group too small to be seen has no name in the legend.
 title = 'Where the work goes'

@@ -1,6 +1,11 @@
-# Liquid between the faces of the left half, at times now[k]: an index of the .dat each.
+#picture film.svg one motion >film_thickness_m !member_1_opening_m time_s :shapes.dat
+# Liquid between the faces of the left half, from the clip to where it ends, at some times.
+load 'of_box.gp'
+most = 8
+load 'snapshots.gp'
+load 'wet.gp'
 title = 'Liquid between the faces, left half'
-foot = note
+load 'note.gp'
 if (bead) remark = 'a curve ends where the bead does'
 letters = 8
 load 'style.gp'
@@ -9,5 +14,5 @@ least = film_roughness # between closed faces
 set logscale y
 set format y '10^{%L}'
 set ylabel 'distance of the faces / µm' offset 0.5
-plot for [k=1:|now|] 'film.dat' index k-1 using ($1*length):($2-$3 > least ? ($2-$3)*1e6 : least*1e6) with lines lw 2 \
-     lc rgb shade((now[k] - begin)/(end - begin)) title sprintf('%.4g %s', now[k]*scale(end, 's'), unit(end, 's'))
+plot for [f in snapshots] 'shapes.dat' index int(f)-1 using (wet($4, f+0, $5, $6-$8)*length):(gap > least ? gap*1e6 : least*1e6) with lines lw 2 \
+     lc rgb shade((frame_time[f+0] - begin)/(end - begin)) title sprintf('%.4g %s', frame_time[f+0]*scale(end, 's'), unit(end, 's'))

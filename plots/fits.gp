@@ -1,11 +1,12 @@
+#picture fits.svg one fit :panels
+#picture fits.svg many fit :panels
 # Measurements of several kinds and one fit to all of them: a row each, on the left measured and fitted, on the right the
 # residuals, over their standard deviations where there are any.
+load 'panels.gp'
 title = fitted ? 'Measured and fitted' : 'Measured and computed'
 right = 0.97
-panels = |si|
 height = 100 + 175*panels
 load 'style.gp'
-data = 'fits.dat'
 at(y) = 1 - y/(1.0*height) # y in pixels from above
 set label 1 title at screen 0.025, at(22)
 set label 2 subtitle at screen 0.025, at(44)

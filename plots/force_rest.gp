@@ -1,3 +1,4 @@
+#picture force.svg one held_branch voltage_V force_N +drive.voltage
 # Force on the held platform at rest against voltage.
 title = (actuator_kind eq 'hinge' ? 'Force on the held end' : 'Force on the held platform').' against voltage'
 load 'along_voltage.gp'

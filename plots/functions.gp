@@ -1,6 +1,28 @@
-# What templates compute with. zipact has defined `columns`, the columns of ../table.csv that have numbers, between spaces,
-# and for each column NAME its range, lowest_NAME and highest_NAME, and its largest absolute value, largest_NAME, in SI.
-# It also defines the keys and the numbers of the summary that the text of a template mentions: drive_voltage, zip_time_s.
+# What templates compute with. zipact has defined in result.gp
+#   study, kind, outcome, liquid        words
+#   drive_voltage, said_drive_voltage   each key in SI or as a word, and as people write it
+#   zip_time_s                          each number of the summary of one run
+#   columns, lists, axes                names between spaces: columns of ../table.csv that have two numbers; list keys; of
+#                                       those that vary together only the last
+#   lowest_NAME, highest_NAME, count_NAME, si_NAME, help_NAME    of a column: its range, how many numbers it has, its SI
+#                                       unit, in a table of one run what it is
+#   name_NAME, unit_NAME, factor_NAME   of a column that lists a key: what an axis shows
+#   values_NAME                         of axes: what their values are called
+# In the names of variables, a point of a column is an underscore: plain('load.mass_kg') = 'load_mass_kg'.
+plain(c) = strstrt(c, '.') == 0 ? c : plain(c[1:strstrt(c, '.') - 1].'_'.c[strstrt(c, '.') + 1:])
+of(what, c) = value(what.plain(c))
+
+
+# escaped('ribbon.young_modulus'): a text that is shown as it is. shown_unit('um') = 'µm'; said('0.0500001 um') = '0.05 µm'.
+# name_of(c), unit_of(c): of a column that lists a key.
+escaped(c) = strstrt(c, '_') == 0 ? c : c[1:strstrt(c, '_') - 1].'\_'.escaped(c[strstrt(c, '_') + 1:])
+_raised(u) = u eq '' ? '' : (u[1:1] eq '2' ? '²' : u[1:1] eq '3' ? '³' : u[1:1])._raised(u[2:])
+shown_unit(u) = u[1:1] eq 'u' && strlen(u) > 1 ? 'µ'._raised(u[2:]) : _raised(u)
+_digits(w) = sprintf(strlen(w) > 6 ? '%.4g' : '%.6g', w + 0)
+_is_number(s) = strstrt('0123456789-.', s[1:1]) > 0
+said(s) = !_is_number(s) ? escaped(s) : words(s) == 1 ? _digits(s) : _digits(word(s, 1)).' '.shown_unit(s[strlen(word(s, 1)) + 2:])
+name_of(c) = escaped(of('name_', c))
+unit_of(c) = shown_unit(of('unit_', c))
 
 # number('zip_time_s'): the number of the summary; NaN where it has none of this name.
 number(c) = exists(c) ? value(c) : NaN
@@ -16,7 +38,7 @@ place(c, l) = _place(c, l, 1)
 # largest('stroke_m opening_m'): the largest absolute value of all of them.
 max(a, b) = a > b || b != b ? a : b
 min(a, b) = a < b || b != b ? a : b
-_size(c) = exists('largest_'.c) ? value('largest_'.c) : 0
+_size(c) = exists('lowest_'.plain(c)) ? max(abs(of('lowest_', c)), abs(of('highest_', c))) : 0
 _largest(l, n) = n == 0 ? 0 : max(_largest(l, n - 1), _size(word(l, n)))
 largest(l) = _largest(l, words(l))
 
@@ -33,12 +55,26 @@ scale(x, u) = u eq 'kg' ? 1000 * 10.0**(-3 * power(x * 1000)) : u eq '%' ? 100.0
 label(quantity, u) = quantity.(u eq '' ? ' (dimensionless)' : strstrt(u, '/') ? ' / ('.u.')' : ' / '.u)
 
 # legend(n): the first n list keys of a sweep, each on a line so that they fit over the legend; letters_of(n): those of
-# the longest.
-legend(n) = n < 1 ? '' : n == 1 ? list_key[1] : legend(n - 1).",\n".list_key[n]
-letters_of(n) = n < 1 ? 0 : max(letters_of(n - 1), strlen(list_key[n]) - 4)
+# the longest. case_name(i, n): the values of the first n in case i, from 0. length_of(k): how many values key k has.
+list_key(k) = name_of(word(axes, k))
+legend(n) = n < 1 ? '' : n == 1 ? list_key(1) : legend(n - 1).",\n".list_key(n)
+letters_of(n) = n < 1 ? 0 : max(letters_of(n - 1), strlen(list_key(n)) - 4)
+length_of(k) = words(of('values_', word(axes, k)))
+_inside(k) = k == words(axes) ? (exists('samples') ? samples : 1) : length_of(k + 1)*_inside(k + 1)
+digit(i, k) = i/_inside(k) % length_of(k)
+value_name(k, j) = said(word(of('values_', word(axes, k)), j + 1))
+case_name(i, n) = n < 1 ? '' : case_name(i, n - 1).(n > 1 ? ', ' : '').value_name(n, digit(i, n))
+
+# words_of('pull_in_voltage_V') = 'pull in voltage': an output for people, without its unit; has_unit(c): has it one?
+has_unit(c) = of('si_', c) ne '1' && of('si_', c) ne 'count'
+_end(c) = strstrt(c, '_') == 0 ? 0 : strstrt(c, '_') + _end(c[strstrt(c, '_') + 1:])
+_spaced(c) = strstrt(c, '_') == 0 ? c : _spaced(c[1:strstrt(c, '_') - 1].' '.c[strstrt(c, '_') + 1:])
+_named(c) = c[1:7] eq 'pull in' ? 'pull-in'.c[8:] : c
+words_of(c) = _named(_spaced(has_unit(c) ? c[1:_end(c) - 1] : c))
+si_of(c) = has_unit(c) ? of('si_', c) : ''
 
 # span('stroke_m opening_m'): from the lowest to the highest of all of them.
-_edge(s, l, n) = n == 0 ? NaN : exists(s.word(l, n)) ? value(s.word(l, n)) : NaN
+_edge(s, l, n) = n == 0 ? NaN : exists(s.plain(word(l, n))) ? of(s, word(l, n)) : NaN
 _low(l, n) = n == 0 ? NaN : min(_low(l, n - 1), _edge('lowest_', l, n))
 _high(l, n) = n == 0 ? NaN : max(_high(l, n - 1), _edge('highest_', l, n))
 span(l) = _high(l, words(l)) - _low(l, words(l))

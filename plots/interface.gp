@@ -1,6 +1,7 @@
+#picture interface.svg one motion interface_voltage_V @insulator.resistivity|@medium.resistivity
 # Charge that leaks to the interface of insulators and liquid.
 title = 'Charge between insulators and liquid over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
 list = 'voltage_V interface_voltage_V'

@@ -1,3 +1,4 @@
+#picture loops.svg one motion charge_C =energy_per_cycle_J
 # One cycle: voltage against charge, electric force against opening.
 title = 'A cycle: the area of the left loop is what the source gives'
 right = 0.97

@@ -1,6 +1,7 @@
+#picture members.svg one motion member_1_opening_m @stack.series
 # Openings of actuators in series over time: the order in which they zip.
 title = 'Openings of the members over time'
-foot = note
+load 'note.gp'
 remark = 'member 1 is the uppermost'
 letters = 8
 load 'style.gp'

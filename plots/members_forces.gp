@@ -1,7 +1,8 @@
+#picture members.svg one motion member_1_force_N @stack.parallel
 # Forces of members side by side over time: how they share the load. An impact is many times larger than all else, so
 # its peak may end outside the axes; then a line says so.
 title = 'Forces of the members over time'
-foot = note
+load 'note.gp'
 letters = 8
 load 'functions.gp'
 list = ''

@@ -1,4 +1,14 @@
-# Modes about the loaded equilibrium, in rows of three panels; `frequency` has one entry for each.
+#picture modes.svg one modes :shapes.dat
+# Modes about the loaded equilibrium, in rows of three panels; the first frame may be the shape at rest.
+load 'of_box.gp'
+at_rest = begin == 0
+modes = min(6, frames - at_rest)
+array frequency[modes]
+set datafile separator ','
+set datafile columnheaders
+stats '../table.csv' using (column(0) < modes ? (frequency[int(column(0)) + 1] = column('frequency_Hz'), 1) : 1) nooutput
+set datafile separator whitespace
+unset datafile columnheaders
 title = 'Modes about the loaded equilibrium'.(half ? ', left half' : '')
 right = 0.96
 remark = (at_rest ? 'grey: at rest; the' : 'the').' size of a mode is arbitrary'
@@ -29,11 +39,9 @@ do for [k=1:|frequency|] {
   set format y (first ? '%g' : '')
   if (lowest) { set xlabel label('x', length_unit) } else { unset xlabel }
   if (first) { set ylabel label('y', length_unit) offset 0.5 } else { unset ylabel }
-  if (at_rest) {
-    plot 'modes.dat' index 0 using ($1*length):($2*length) with lines lw 1.5 lc rgb '#999999' notitle, \
-         'modes.dat' index k using ($1*length):($2*length) with lines lw 2 lc rgb colour(1) notitle
-  } else {
-    plot 'modes.dat' index k-1 using ($1*length):($2*length) with lines lw 2 lc rgb colour(1) notitle
-  }
+  plot for [r=1:(at_rest ? ribbons : 0)] 'shapes.dat' index 0 using (column(x_of(r))*length):(column(x_of(r)+1)*length) \
+         with lines lw 1.5 lc rgb '#999999' notitle, \
+       for [r=1:ribbons] 'shapes.dat' index k-1+at_rest using (column(x_of(r))*length):(column(x_of(r)+1)*length) \
+         with lines lw 2 lc rgb colour(1) notitle
 }
 unset multiplot

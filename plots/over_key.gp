@@ -1,12 +1,16 @@
-# Curves of a sweep from its table: against the list key that varies fastest, a curve for each value of the others, curve k
-# in the rows first[k] to last[k]. Shades tell the curves in their order; dashes and marks tell neighbours, in grey, too.
-# Of three keys the first has a style of line, `alike` curves each, the second a shade. Of `curves` in all some may be left
-# out.
+# Curves of a sweep from its table: the columns `numbers` against the list key that varies fastest, a curve for each value
+# of the others. Shades tell the curves in their order; dashes and marks tell neighbours, in grey, too. Of three keys the
+# first has a style of line, the second a shade.
 load 'functions.gp'
-many = |list_key| > 1
+load 'curves_of_table.gp'
+x_column = word(axes, words(axes))
+x_name = name_of(x_column)
+x_unit = unit_of(x_column)
+x_factor = of('factor_', x_column)
+many = words(axes) > 1
 if (!exists('letters')) letters = 0
 do for [k=1:|curve|] { letters = max(letters, strlen(curve[k])) }
-letters = max(letters, letters_of(|list_key| - 1))
+letters = max(letters, letters_of(words(axes) - 1))
 if (!many && letters == 0) right = 0.96
 if (curves > |curve|) {
   if (!exists('remark')) { remark = '' }
@@ -15,7 +19,7 @@ if (curves > |curve|) {
 load 'style.gp'
 set datafile separator ','
 set datafile columnheaders
-if (many) set key spacing 1 title legend(|list_key| - 1) left font ',12'
+if (many) set key spacing 1 title legend(words(axes) - 1) left font ',12'
 set xlabel label(x_name, x_unit)
 x(first) = column(x_column)*x_factor
 shade_of(k) = shade(alike > 1 ? (alike > 2 ? 0.9 : 0.6)*((k - 1) % alike)/(alike - 1.0) : 0.3)

@@ -1,5 +1,34 @@
-# All cases of a sweep: an axis for each key and each answer, a line for each case, coloured by axis `colour_axis`.
-# Names are above, aslant so that they do not meet, the ends of the ranges at both ends.
+#picture parallel.svg many motion|branch|held_branch|shape|modes|field|limits :lines
+# All cases of a sweep: an axis for each list key and each answer, or objective, that varies, twelve at most, and a line for
+# each case, or of very many for some evenly chosen ones, coloured by the first answer. Names are above, aslant so that they
+# do not meet, the ends of the ranges at both ends.
+load 'answers.gp'
+optimised = exists('objectives')
+if (!optimised) { array front[1] = [-1] }
+_varies(c) = exists('lowest_'.plain(c)) && of('highest_', c) > of('lowest_', c)
+_those(l, n) = n == 0 ? '' : _those(l, n - 1).(_varies(word(l, n)) ? word(l, n).' ' : '')
+_first(l) = _those(l, words(l))
+shown = _first(lists)
+colour_axis = words(shown) + 1
+shown = shown._first(optimised ? objectives : number[1].' '.number[2])
+colour_axis = min(colour_axis, words(shown))
+axis_count = min(12, words(shown))
+array axis_name[axis_count]
+array axis_unit[axis_count]
+array axis_si[axis_count]
+array axis_factor[axis_count]
+array axis_low[axis_count]
+array axis_high[axis_count]
+do for [k=1:axis_count] {
+  c = word(shown, k)
+  is_key = exists('name_'.plain(c))
+  axis_name[k] = is_key ? name_of(c) : words_of(c)
+  axis_unit[k] = is_key ? unit_of(c) : ''
+  axis_factor[k] = is_key ? of('factor_', c) : 1.0
+  axis_si[k] = is_key ? '' : si_of(c)
+  axis_low[k] = of('lowest_', c)
+  axis_high[k] = of('highest_', c)
+}
 title = 'All cases: a line for each'
 remark = sprintf('%d cases; those without a value on an axis are left out', cases)
 left = 0.03
@@ -28,9 +57,15 @@ set tmargin at screen 0.65
 set colorbox user origin 0.845, bottom - 0.05 size 0.025, 0.65 - bottom
 set cblabel name(colour_axis) offset 0.5
 set key at screen 0.97, 0.955 right top noreverse Right
-if (objectives > 0) {
-  plot 'parallel.dat' index 0 using 1:2:($3*factor(colour_axis)) with lines lw 0.8 lc palette notitle, \
-       '' index 1 using 1:2 with lines lw (objectives > 1 ? 1.5 : 3) lc rgb '#000000' title (objectives > 1 ? 'front' : 'best')
-} else {
-  plot 'parallel.dat' index 0 using 1:2:($3*factor(colour_axis)) with lines lw 0.8 lc palette notitle
-}
+set datafile separator ','
+set datafile columnheaders
+at_axis(k) = (column(word(shown, k)) - axis_low[k])/(axis_high[k] - axis_low[k])
+_whole(n) = n == 0 ? 0 : _whole(n - 1) + 0*column(word(shown, n)) # NaN where a value is missing
+_best(i) = optimised ? (sum [k=1:|front|] (front[k] == i)) > 0 : 0
+shade_at(c) = column(word(shown, colour_axis))*factor(colour_axis)
+step = (cases + 399)/400
+several = optimised ? words(objectives) > 1 : 0
+plot for [k=1:axis_count - 1] '../table.csv' every step using (k - 1 + _whole(axis_count)):(at_axis(k)):(1):(at_axis(k + 1) - at_axis(k)):(shade_at(0)) \
+       with vectors nohead lw 0.8 lc palette notitle, \
+     for [k=1:(optimised ? axis_count - 1 : 0)] '../table.csv' using (_best(int(column(0))) ? k - 1 + _whole(axis_count) : NaN):(at_axis(k)):(1):(at_axis(k + 1) - at_axis(k)) \
+       with vectors nohead lw (several ? 1.5 : 3) lc rgb '#000000' title (k == 1 ? (several ? 'front' : 'best') : '')

@@ -1,6 +1,7 @@
+#picture plastic.svg one motion permanent_curvature_per_m*2 @ribbon.plasticity
 # What plastic bending leaves.
 title = 'What plastic bending has left over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
 list = has('opening_m') ? 'opening_m' : 'stroke_m'

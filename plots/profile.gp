@@ -1,3 +1,4 @@
+#picture profile.svg one field ratio +drive.voltage
 # Electric force along a ribbon by the plates law and by the solved field, and their difference.
 title = 'Electric force along a ribbon'
 letters = 14

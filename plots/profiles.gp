@@ -1,6 +1,10 @@
+#picture profiles.svg one motion time_s :shapes.dat
 # Shapes of a run, coloured by their time.
+load 'of_box.gp'
+most = 8
+load 'snapshots.gp'
 title = (ribbons > 1 ? 'Shapes of the ribbons' : 'Shapes of the ribbon').(half ? ', left half' : '')
-foot = note
+load 'note.gp'
 if (!same_scale) remark = 'x and y have different scales'
 right = 0.79
 if (same_scale) {
@@ -20,4 +24,5 @@ if (same_scale) {
   set autoscale noextend
   set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 }
-plot 'profiles.dat' using ($1*length):($2*length):($3*time) with lines lw 2 lc palette z notitle
+plot for [f in snapshots] for [k=1:ribbons] 'shapes.dat' index int(f)-1 \
+       using (column(x_of(k))*length):(column(x_of(k)+1)*length):(frame_time[f+0]*time) with lines lw 2 lc palette z notitle

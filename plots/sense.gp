@@ -1,6 +1,7 @@
+#picture sense.svg one motion sensed_stroke_m @sense.frequency
 # What a meter of the capacitance reads.
 title = 'Stroke by its capacitance over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
 list = 'stroke_m sensed_stroke_m'

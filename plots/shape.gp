@@ -1,4 +1,6 @@
+#picture shape.svg one shape :shapes.dat
 # The loaded shape at rest.
+load 'of_box.gp'
 title = 'Shape at rest'.(half ? ', left half' : '')
 if (ribbons > 1) { letters = 6 } else { right = 0.96 }
 if (!same_scale) remark = 'x and y have different scales'
@@ -17,8 +19,8 @@ if (same_scale) {
 stroke = number('stroke_m')
 if (stroke == stroke) set label 5 sprintf('stroke %.4g %s', stroke*length, length_unit) at screen 0.985, 1 - px(39.9) right font ',12' tc rgb '#555555'
 if (ribbons > 1) {
-  plot for [k=1:ribbons] 'shape.dat' using ($1*length):($4 == k-1 ? $2*length : NaN) with lines lw 2.5 dt dash(k) lc rgb colour(k) \
+  plot for [k=1:ribbons] 'shapes.dat' index 0 using (column(x_of(k))*length):(column(x_of(k)+1)*length) with lines lw 2.5 dt dash(k) lc rgb colour(k) \
        title word('upper lower', k)
 } else {
-  plot 'shape.dat' using ($1*length):($2*length) with lines lw 2.5 lc rgb colour(1) notitle
+  plot 'shapes.dat' index 0 using ($5*length):($6*length) with lines lw 2.5 lc rgb colour(1) notitle
 }

@@ -1,6 +1,7 @@
+#picture source.svg one motion current_A @source.model
 # Voltages and current of a source that is not ideal.
 title = 'Voltages and current of the source over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
 list = 'voltage_V command_V source_voltage_V'

@@ -1,6 +1,7 @@
+#picture stress.svg one motion max_stress_Pa*2
 # Largest stress of the metal over time, with the yield stress where it is not far above.
 title = 'Largest stress of the metal over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'zip_mark.gp'
 load 'zip_name.gp'

@@ -1,8 +1,9 @@
+#picture stroke.svg one motion stroke_m
 # Stroke, opening and contraction of one run over time.
 load 'functions.gp'
 opens = has('opening_m')
 title = opens ? 'Stroke and opening over time' : 'Stroke over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 contracts = has('contraction')
 list = 'stroke_m opening_m'

@@ -7,8 +7,9 @@
 #   height         of the picture in pixels, where it is not 420
 #   shapes         if x and y have the same scale: the axes are as high as the shapes need, and at least this many pixels
 #   foot, remark   lines of small print, where there are any
-# and zipact has set `subtitle`: under which load, voltage and so on.
+#   subtitle       under which load, voltage and so on, where subtitle.gp does not say it
 load 'functions.gp'
+load 'subtitle.gp'
 if (!exists('right')) right = beside(letters)
 if (!exists('left')) left = 0.14
 if (!exists('height')) height = 420

@@ -1,9 +1,18 @@
+#picture zip_time.svg many actuate zip_time_s :axis
+#picture strokes.svg many stationary stroke_m :axis
+#picture voltages.svg many equilibrium pull_in_voltage_V|release_voltage_V :axis
+#picture frequencies.svg many modes frequency_1_Hz :axis
+#picture factors.svg many profile scale_factor|paper_factor :axis
+#picture loads.svg many limits max_load_kg :axis
+#picture openings.svg many cycle opening_max_m|opening_min_m :axis
 # One or two numbers of the summary, number[1] and number[2], against the list key that varies fastest. Of several curves
 # shades and dashes tell the curve, full and open marks the number.
-load 'functions.gp'
+load 'answers.gp'
 title = answer
 remark = answers
-if (motion) foot = note
+if (kind eq 'motion') {
+  load 'note.gp'
+}
 drawn = ''
 letters = 0
 do for [j=1:2] {
@@ -12,6 +21,7 @@ do for [j=1:2] {
     letters = max(letters, strlen(number_name[j]))
   }
 }
+numbers = number[1].' '.number[2]
 load 'over_key.gp'
 size = largest(number[1].' '.number[2])
 factor = scale(size, si)

@@ -1,5 +1,7 @@
+#picture torques.svg many held_branch angle_rad torque_N_m :axis
 # Torque of a held fold against its angle.
 title = 'Torque of the held fold'
+numbers = 'torque_N_m'
 load 'held_curves.gp'
 factor = scale(largest('torque_N_m'), 'N m')
 set xlabel 'angle / degree'

@@ -1,6 +1,7 @@
+#picture voltage.svg one motion opening_m ~voltage_V
 # Voltage of a run over time, where it changes, and the opening.
 title = 'Voltage and opening over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 from_zero = 1
 load 'upper_panel.gp'

@@ -1,6 +1,7 @@
+#picture zipped_length.svg one motion >zipped_length_m opening_m
 # Closed length of one run over time.
 title = 'Closed length from the clip, one half, over time'
-foot = note
+load 'note.gp'
 load 'over_time.gp'
 load 'zip_mark.gp'
 load 'zip_name.gp'

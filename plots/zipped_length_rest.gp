@@ -1,3 +1,4 @@
+#picture zipped_length.svg one branch|held_branch voltage_V >zipped_length_m +drive.voltage
 # Closed length at rest against voltage.
 title = actuator_kind eq 'electro_ribbon' ? 'Closed length from the clip, one half, against voltage' \
                                           : 'Closed length at rest against voltage'

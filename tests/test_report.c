@@ -23,8 +23,7 @@
 
 #include "check_util.h"
 #include "io/atomic.h"
-#include "io/gnuplot.h"
-#include "io/plot.h"
+#include "io/drawing.h"
 #include "sanitized.h"
 
 #define NODES    61
@@ -308,6 +307,22 @@ static double json_number_of(const json_t *object, const char *name) {
   return json_number_value(value);
 }
 
+/* What gnuplot prints for an expression after the script NAME.gp in the folder base/plots: `what` is formatted by it as
+ * text. Valid until the next call. */
+static const char *asked(const char *folder, const char *name, const char *what) {
+  static char text[256];
+  char command[4096];
+  snprintf(command, sizeof command,
+           "cd '%s/plots' && gnuplot -e \"out='/dev/null'\" %s.gp -e 'print %s' 2>&1 | tail -1", in_base(folder), name,
+           what);
+  FILE *pipe = popen(command, "r");
+  ck_assert_ptr_nonnull(pipe);
+  text[0] = 0;
+  if (fgets(text, sizeof text, pipe)) text[strcspn(text, "\n")] = 0;
+  pclose(pipe);
+  return text;
+}
+
 START_TEST(single_run_has_all_files) {
   static const char *const name[] = {"scenario.yaml",
                                      "summary.json",
@@ -322,7 +337,8 @@ START_TEST(single_run_has_all_files) {
                                      "plots/electric.svg",
                                      "plots/zipped_length.svg",
                                      "plots/profiles.svg",
-                                     "plots/profiles.dat",
+                                     "plots/shapes.dat",
+                                     "plots/result.gp",
                                      "plots/animation.gif"};
   write_single("out/deep", NULL, made_up(50, 10, false, 8e3, 1), 1.25);
   for (size_t i = 0; i < sizeof name / sizeof name[0]; i++) {
@@ -330,6 +346,7 @@ START_TEST(single_run_has_all_files) {
     snprintf(path, sizeof path, "out/deep/%s", name[i]);
     ck_assert_msg(exists(path), "no %s", name[i]);
   }
+  ck_assert_str_eq(asked("out/deep", "profiles", "frames, frame_time[1] < frame_time[2]"), "10 1");
   ck_assert_str_eq(notices, "");
   count_files("out");
 }
@@ -421,7 +438,7 @@ START_TEST(old_results_go_and_others_stay) {
   ck_assert(!exists("out/shapes/shape_0011.vtp"));
   write_sweep("out", "drive.voltage=[6 kV, 8 kV]", 2);
   ck_assert(!exists("out/shapes.pvd") && !exists("out/shapes/shape_0000.vtp"));
-  ck_assert(!exists("out/plots/animation.gif") && !exists("out/plots/animation.dat"));
+  ck_assert(!exists("out/plots/animation.gif") && !exists("out/plots/shapes.dat"));
   ck_assert(exists("out/notes.txt") && exists("out/plots/mine.gp"));
   ck_assert(exists("out/shapes/shape_best.vtp") && exists("out/shapes/shape_00011.vtp"));
 }
@@ -554,11 +571,9 @@ START_TEST(design_chart) {
   ck_assert(strstr(map, ">drive.voltage / kV<") && strstr(map, ">medium.breakdown_field / (MV/m)<"));
   free(chart);
   free(map);
-  char *data = read_whole(in_base("l/plots/map.dat"), &size);
   double voltage, field, load;
-  ck_assert_int_eq(sscanf(strchr(data, '\n') + 1, "%lf %lf %lf", &voltage, &field, &load), 3);
+  ck_assert_int_eq(sscanf(asked("l", "map", "$map[1]"), "%lf %lf %lf", &voltage, &field, &load), 3);
   ck_assert(voltage == 4e3 && field == 20e6 && load > 5e-3 && load < 8e-3);
-  free(data);
   write_chart("drive.voltage=[4 kV, 8 kV, 6 kV]"); /* values to and fro make no surface */
   ck_assert(exists("l/plots/loads.svg") && !exists("l/plots/map.svg"));
 }
@@ -616,8 +631,8 @@ END_TEST
 /* The chart of largest loads said "load 8 g", on which these do not depend. */
 START_TEST(largest_loads_are_those_of_no_load) {
   write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
-  ck_assert(file_says("l/plots/loads.gp", "\nsubtitle = 'N = 15'\n"));
-  ck_assert(file_says("l/plots/map.gp", "\nsubtitle = 'N = 15'\n"));
+  ck_assert_str_eq(asked("l", "loads", "subtitle"), "N = 15");
+  ck_assert_str_eq(asked("l", "map", "subtitle"), "N = 15");
 }
 END_TEST
 
@@ -649,13 +664,13 @@ START_TEST(shades_of_three_keys) {
   write_rest("s", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 12 mm, 14 mm]", "ribbon.thickness=20 um .. 200 um : 3 log",
                                    "load.mass=[8 g, 20 g]", NULL});
-  ck_assert(file_says("s/plots/strokes.gp", "\nalike = 3\n") && file_says("s/plots/strokes.gp", "array curve[9]\n"));
+  ck_assert_str_eq(asked("s", "strokes", "alike, |curve|"), "3 9");
   ck_assert(file_says("s/plots/strokes.svg", ">12 mm, 63.25 µm<"));
   ck_assert(file_says("s/table.csv", "6.32455532034e-05"));
   write_rest("t", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 11 mm, 12 mm, 14 mm]",
                                    "ribbon.thickness=20 um .. 200 um : 3 log", "load.mass=[8 g, 20 g]", NULL});
-  ck_assert(file_says("t/plots/strokes.gp", "\nalike = 3\n") && file_says("t/plots/strokes.gp", "array curve[9]\n"));
+  ck_assert_str_eq(asked("t", "strokes", "alike, |curve|"), "3 9");
   ck_assert(file_says("t/plots/strokes.svg", "; 9 of 12 curves are drawn<") ||
             file_says("t/plots/strokes.svg", ">9 of 12 curves are drawn<"));
   ck_assert(file_says("t/plots/strokes.svg", ">10 mm, 20 µm<") && file_says("t/plots/strokes.svg", ">14 mm, 200 µm<"));
@@ -673,30 +688,20 @@ static void check_panels(void) {
   ck_assert_int_eq(strncmp(table, "ribbon.length_m,ribbon.thickness_m,load.mass_kg,outcome,stroke_m", 64), 0);
   for (int i = 0; i < PANELS * ROWS; i++, line = strchr(line, '\n') + 1)
     ck_assert_int_eq(sscanf(line, "%lf,%lf,%lf,%*[^,],%lf", &row[i][0], &row[i][1], &row[i][2], &row[i][3]), COLUMNS);
-  char *data = read_whole(in_base("n/plots/maps.dat"), &size), *script = read_whole(in_base("n/plots/maps.gp"), &size);
-  char *point = strchr(data, '\n') + 1;
   for (int k = 0; k < DRAWN; k++) {
-    char name[32];
-    double value;
+    char what[64];
     const int panel = k * (PANELS - 1) / (DRAWN - 1);
-    snprintf(name, sizeof name, "panel_at[%d] = ", k + 1);
-    const char *found = strstr(script, name);
-    ck_assert(found && sscanf(found + strlen(name), "%lf", &value) == 1);
-    ck_assert_double_eq_tol(value, row[panel * ROWS][0], 1e-12);
-    for (int i = 0; i < ROWS; i++) {
+    snprintf(what, sizeof what, "panel_at[%d]", k + 1);
+    ck_assert_double_eq_tol(strtod(asked("n", "maps", what), NULL), row[panel * ROWS][0], 1e-12);
+    for (int i = 0; i < ROWS; i += 4) { /* a blank line after each row of a panel, another one after the panel */
       const double *of = row[panel * ROWS + i];
-      int length;
-      ck_assert_int_eq(sscanf(point, "%lf %lf %lf%n", &at[0], &at[1], &at[2], &length), 3);
+      snprintf(what, sizeof what, "$map[%d]", k * (ROWS + ROWS / 3 + 1) + i + i / 3 + 1);
+      ck_assert_int_eq(sscanf(asked("n", "maps", what), "%lf %lf %lf", &at[0], &at[1], &at[2]), 3);
       ck_assert(fabs(at[0] - of[2]) < 1e-9 * of[2] && fabs(at[1] - of[1]) < 1e-9 * of[1]);
       ck_assert_double_eq_tol(at[2], of[3], 1e-6 * of[3]);
-      point += length;
     }
   }
-  double more;
-  ck_assert_int_ne(sscanf(point, "%lf", &more), 1);
   free(table);
-  free(data);
-  free(script);
 }
 
 /* Ten maps in one picture: none is left out, and all have contours of the same levels. */
@@ -704,7 +709,8 @@ START_TEST(maps_have_one_scale) {
   write_rest("m", "stationary",
              (const char *const[]){"ribbon.length=80 mm .. 130 mm : 10", "ribbon.thickness=40 um .. 100 um : 3",
                                    "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
-  ck_assert(file_says("m/plots/maps.gp", "array panel_at[10]\n") && file_says("m/plots/maps.svg", ">130 mm<"));
+  ck_assert_str_eq(asked("m", "maps", "|panel_at|"), "10");
+  ck_assert(file_says("m/plots/maps.svg", ">130 mm<"));
   ck_assert(file_says("m/plots/maps.gp", "set cntrparam levels incremental"));
   ck_assert(!file_says("m/plots/maps.svg", "panels<"));
   write_rest("n", "stationary",
@@ -715,12 +721,42 @@ START_TEST(maps_have_one_scale) {
 }
 END_TEST
 
+/* An axis for each key and each objective, coloured by the first objective; the front by the rows of its cases. */
+START_TEST(lines_of_cases_and_of_the_front) {
+  static const size_t best[] = {5, 2};
+  static const char *const objective[] = {"stroke_m", "other_m"};
+  const ZpOptimum optimum = {
+      .row = best, .count = 2, .feasible = true, .excluded = NAN, .objective = objective, .objectives = 2};
+  ZpScenario *scenario = scenario_of("ribbon.thickness=[40 um, 60 um, 80 um]");
+  ZpResult *result[6];
+  ZpError err = {0};
+  ck_assert_int_eq(zp_scenario_set(scenario, "study=stationary", NULL), ZP_OK);
+  ck_assert_int_eq(zp_scenario_set(scenario, "load.mass=[2 g, 4 g]", NULL), ZP_OK);
+  for (size_t i = 0; i < 6; i++) {
+    result[i] = zp_result_create(ZP_STUDY_STATIONARY);
+    zp_result_add(result[i], "stroke_m", "m", (double)i + 1);
+    zp_result_add(result[i], "other_m", "m", 99 - (double)i);
+  }
+  const ZpReport report = {
+      .directory = in_base("o"), .scenario = scenario, .result = result, .count = 6, .optimum = &optimum};
+  ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
+  ck_assert_str_eq(notices, "");
+  ck_assert_str_eq(asked("o", "parallel", "shown"), "ribbon.thickness_m load.mass_kg stroke_m other_m ");
+  ck_assert_str_eq(asked("o", "parallel", "colour_axis, axis_low[3], axis_high[3]"), "3 1.0 6.0");
+  ck_assert(file_says("o/plots/parallel.svg", ">front<"));
+  ck_assert_str_eq(asked("o", "pareto", "front[1], front[2]"), "5 2");
+  for (size_t i = 0; i < 6; i++)
+    zp_result_destroy(result[i]);
+  zp_scenario_destroy(scenario);
+}
+END_TEST
+
 /* Under 500 g there is neither pull-in nor release: the legend named a curve that has no point. */
 START_TEST(legend_names_what_is_drawn) {
   write_rest("e", "equilibrium",
              (const char *const[]){"load.mass=[8 g, 500 g]", "drive.voltage=[6.5 kV, 7 kV]", "liquid.model=none",
                                    "output.errors=false", NULL});
-  ck_assert(file_says("e/plots/voltages.gp", "array curve[1]\n"));
+  ck_assert_str_eq(asked("e", "voltages", "|curve|"), "1");
   ck_assert(file_says("e/plots/voltages.svg", ">8 g<") && !file_says("e/plots/voltages.svg", ">500 g<"));
 }
 END_TEST
@@ -878,21 +914,9 @@ END_TEST
 
 /* Where insulator and liquid are alike, the pictures of the field could not be drawn: "cb coord of 0". */
 START_TEST(field_of_equal_permittivities) {
-  char *svg[2];
-  size_t size;
   write_study("equal", "profile", "insulator.permittivity=2.75");
   ck_assert_msg(*notices == 0, "%s", notices);
   ck_assert(exists("equal/plots/field.svg") && exists("equal/plots/field_tip.svg"));
-  write_study("other", "profile", "insulator.permittivity=2.76"); /* the same lines, nearly */
-  for (size_t i = 0; i < 2; i++)
-    svg[i] = read_whole(in_base(i ? "other/plots/field.dat" : "equal/plots/field.dat"), &size);
-  const char *metal[2] = {strstr(svg[0], "\n\n\n"), strstr(svg[1], "\n\n\n")};
-  ck_assert(metal[0] && metal[1]);
-  const char *const end[2] = {strstr(metal[0] + 3, "\n\n\n"), strstr(metal[1] + 3, "\n\n\n")};
-  ck_assert_ptr_nonnull(end[0]);
-  ck_assert_str_eq(end[0], end[1]); /* metals and faces */
-  free(svg[0]);
-  free(svg[1]);
 }
 END_TEST
 
@@ -994,7 +1018,7 @@ END_TEST
 START_TEST(no_gnuplot) {
   ck_assert_int_eq(setenv("PATH", in_base("nowhere"), 1), 0);
   write_single("out", NULL, made_up(50, 10, false, 8e3, 1), 1);
-  ck_assert(exists("out/plots/stroke.gp") && exists("out/plots/profiles.dat") && exists("out/summary.json"));
+  ck_assert(exists("out/plots/stroke.gp") && exists("out/plots/shapes.dat") && exists("out/summary.json"));
   ck_assert(!exists("out/plots/stroke.svg"));
   ck_assert_ptr_nonnull(strstr(notices, "gnuplot was not found"));
   ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
@@ -1041,40 +1065,26 @@ static bool nothing_runs(const char *started) {
   return kill(-group, 0) != 0 && errno == ESRCH;
 }
 
-START_TEST(hanging_gnuplot_is_given_up) {
-  put_hanging_gnuplot();
-  char reason[128];
-  const ZpGnuplotJob job = {base, "a.gp", "a.svg", 8}; /* it has started by then */
-  ZpGnuplotChild child, *const children[] = {&child};
-  ZpGnuplot state = zp_gnuplot_start(&job, &child, reason, sizeof reason);
-  while (state == ZP_GNUPLOT_RUNS) {
-    zp_gnuplot_wait(children, 1);
-    state = zp_gnuplot_look(&child, false, reason, sizeof reason);
-  }
-  ck_assert_int_eq(state, ZP_GNUPLOT_HANGS);
-  ck_assert_str_eq(reason, "gnuplot took longer than 8 s");
-  ck_assert(nothing_runs("started"));
-}
-END_TEST
+static const ZpPicture two[] = {{"a", "svg", "same_scale.gp"}, {"b", "svg", "same_scale.gp"}};
 
-static void no_script(const ZpPlot *plot, FILE *file) {
-  (void)plot;
-  fputs("# nothing\n", file);
+/* Let the gnuplot of the test draw two pictures, `jobs` at once. */
+static void draw_two(int jobs, double patience) {
+  ZpError err;
+  ZpDrawing drawing = {.folder = in_base("plots"), .notice = note, .patience = patience, .jobs = jobs};
+  ck_assert_int_eq(mkdir(drawing.folder, 0777), 0);
+  for (size_t i = 0; i < 2; i++)
+    ck_assert_int_eq(zp_drawing_script(&drawing, &two[i], &err), ZP_OK);
+  zp_drawing_draw(&drawing, two, 2);
 }
 
 START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
-  static const ZpPicture two[] = {{"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
-  static const ZpPicture *const table[] = {two};
-  const ZpPlot plot = {0};
-  ZpError err;
   put_hanging_gnuplot();
-  ZpDrawing drawing = {&plot, in_base("plots"), note, 1, NULL, 1, false};
-  ck_assert_int_eq(zp_drawing_prepare(&drawing, table, 1, &err), ZP_OK);
-  zp_drawing_draw(&drawing, table, 1);
+  draw_two(1, 8); /* it has started by then */
   ck_assert_ptr_nonnull(
-      strstr(notices, "plots/a.svg was not drawn: gnuplot took longer than 1 s; the rest are not drawn either"));
+      strstr(notices, "plots/a.svg was not drawn: gnuplot took longer than 8 s; the rest are not drawn either"));
   ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
   ck_assert(exists("plots/a.gp") && exists("plots/b.gp") && !exists("plots/a.svg"));
+  ck_assert(nothing_runs("plots/started"));
   count_files("plots");
 }
 END_TEST
@@ -1101,15 +1111,9 @@ END_TEST
 
 /* Each gnuplot waits until another one has started: drawn one after the other, they would hang. */
 START_TEST(pictures_are_drawn_at_once) {
-  static const ZpPicture two[] = {{"a", "svg", .define = no_script}, {"b", "svg", .define = no_script}, {0}};
-  static const ZpPicture *const table[] = {two};
-  const ZpPlot plot = {0};
-  ZpError err;
   put_gnuplot("#!/bin/sh\n>started.$$\nwhile [ \"$(ls started.* | wc -l)\" -lt 2 ]; do sleep 0.01; done\n"
               "out=${3#*\\'}\necho '<svg> </svg>' >\"${out%\\'}\"\n");
-  ZpDrawing drawing = {&plot, in_base("plots"), note, 60, NULL, 2, false};
-  ck_assert_int_eq(zp_drawing_prepare(&drawing, table, 1, &err), ZP_OK);
-  zp_drawing_draw(&drawing, table, 1);
+  draw_two(2, 60);
   ck_assert_str_eq(notices, "");
   ck_assert(exists("plots/a.svg") && exists("plots/b.svg"));
 }
@@ -1257,6 +1261,7 @@ static TCase *pictures(void) {
                                design_chart,
                                shades_of_three_keys,
                                maps_have_one_scale,
+                               lines_of_cases_and_of_the_front,
                                contour_label_on_the_edge_of_a_map_is_cut,
                                largest_loads_are_those_of_no_load,
                                small_print_of_a_map,
@@ -1276,7 +1281,6 @@ static TCase *failures(void) {
                                full_disk,
                                no_gnuplot,
                                broken_gnuplot,
-                               hanging_gnuplot_is_given_up,
                                after_a_hanging_gnuplot_no_other_is_started,
                                no_pictures_where_plots_are_off,
                                no_animation_unless_asked,

@@ -1,20 +1,11 @@
 /* Instead of src/io/gnuplot.c: on Windows the command draws no pictures. It leaves each with its .gp file, which a
- * gnuplot there draws. */
-#include "io/gnuplot.h"
+ * gnuplot of the user's draws. */
+#include "io/drawing.h"
 
-#include <stdio.h>
-
-ZpGnuplot zp_gnuplot_start(const ZpGnuplotJob *job, ZpGnuplotChild *child, char *reason, size_t size) {
-  (void)job, (void)child;
-  snprintf(reason, size, "not on Windows");
-  return ZP_GNUPLOT_MISSING;
-}
-
-void zp_gnuplot_wait(ZpGnuplotChild *const *child, size_t count) {
-  (void)child, (void)count;
-}
-
-ZpGnuplot zp_gnuplot_look(ZpGnuplotChild *child, bool stop, char *reason, size_t size) {
-  (void)child, (void)stop, (void)reason, (void)size;
-  return ZP_GNUPLOT_MISSING;
+void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *picture, size_t count) {
+  char message[1024];
+  (void)picture;
+  snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp",
+           drawing->folder);
+  if (count > 0 && drawing->notice) drawing->notice(message);
 }

@@ -1,32 +1,45 @@
-/* Running gnuplot as child processes.
+/* gnuplot for several pictures at once.
  *
- * Arguments are passed as a vector, so no shell interprets file names. The child has its own process group: Ctrl-C at
- * the terminal reaches only this program, which decides whether to continue, and processes that the child has started
- * end with it. It writes to a temporary file only, so it may be killed at any time, by the signal that no program can
- * ignore. Its stderr is read through a pipe; its stdout is discarded, because our stdout may carry JSON. */
-#include "io/gnuplot.h"
-
+ * A gnuplot gets its arguments as a vector, so no shell interprets file names. It has its own process group: Ctrl-C at
+ * the terminal reaches only this program, which decides whether to continue, and processes that it has started end with
+ * it. It writes to a temporary file only, so it may be killed at any time. */
 #include <errno.h>
 #include <fcntl.h>
-#include <poll.h>
 #include <signal.h>
 #include <spawn.h>
-#include <stdbool.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <time.h>
 #include <unistd.h>
 
-/* Longest wait, ms; needed if a child has closed its stderr, so that its end does not wake us. */
-enum { PULSE = 20, SHORT_PULSE = 1 };
+#include "io/atomic.h"
+#include "io/drawing.h"
+#include "io/template.h"
 
-/* => 0 or an errno. stderr of the child goes to `error_pipe`. */
-static int set_files(posix_spawn_file_actions_t *actions, const char *folder, int error_pipe) {
+/* Longest file name and message; largest number of processes at once; pause between looks at them, ns. */
+enum { NAME_SIZE = 64, TEXT_SIZE = 1024, JOBS_MOST = 16, PAUSE = 4000000 };
+
+/* A picture that is being drawn. */
+typedef struct Work {
+  const ZpPicture *picture;
+  ZpAtomic out;
+  FILE *errors; /* what gnuplot prints on stderr */
+  pid_t id;
+  double end; /* wall time at which it counts as hanging, s */
+} Work;
+
+static double wall_clock(void) {
+  struct timespec now;
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* stdout is discarded, because ours may carry JSON. */
+static int set_files(posix_spawn_file_actions_t *actions, const char *folder, int errors) {
   int error = posix_spawn_file_actions_addopen(actions, 0, "/dev/null", O_RDONLY, 0);
   if (!error) error = posix_spawn_file_actions_addopen(actions, 1, "/dev/null", O_WRONLY, 0);
-  if (!error) error = posix_spawn_file_actions_adddup2(actions, error_pipe, 2);
+  if (!error) error = posix_spawn_file_actions_adddup2(actions, errors, 2);
   return error ? error : posix_spawn_file_actions_addchdir_np(actions, folder);
 }
 
@@ -42,119 +55,145 @@ static int set_attributes(posix_spawnattr_t *attributes) {
   return error ? error : posix_spawnattr_setsigmask(attributes, &none);
 }
 
-/* => 0 and the id of the child, or an errno. "-d" ignores the gnuplot settings of the user. */
-static int spawn(pid_t *child, const char *folder, const char *script, char *set_out, int error_pipe) {
-  char *const argument[] = {(char[]){"gnuplot"}, (char[]){"-d"}, (char[]){"-e"}, set_out, (char *)script, NULL};
+/* => 0 or an errno. "-d" ignores the gnuplot settings of the user. */
+static int spawn(const char *folder, Work *work) {
+  char set_out[2 * NAME_SIZE], script[NAME_SIZE];
+  char *const argument[] = {(char[]){"gnuplot"}, (char[]){"-d"}, (char[]){"-e"}, set_out, script, NULL};
   posix_spawn_file_actions_t actions;
   posix_spawnattr_t attributes;
+  snprintf(set_out, sizeof set_out, "out = '%s'", strrchr(work->out.temporary, '/') + 1);
+  snprintf(script, sizeof script, "%s.gp", work->picture->name);
   int error = posix_spawn_file_actions_init(&actions);
   if (error) return error;
   error = posix_spawnattr_init(&attributes);
   if (!error) {
-    error = set_files(&actions, folder, error_pipe);
+    error = set_files(&actions, folder, fileno(work->errors));
     if (!error) error = set_attributes(&attributes);
-    if (!error) error = posix_spawnp(child, "gnuplot", &actions, &attributes, argument, environ);
+    if (!error) error = posix_spawnp(&work->id, "gnuplot", &actions, &attributes, argument, environ);
     posix_spawnattr_destroy(&attributes);
   }
   posix_spawn_file_actions_destroy(&actions);
   return error;
 }
 
-/* Read the available output; keep the first ZP_GNUPLOT_KEPT bytes. */
-static void read_errors(ZpGnuplotChild *child) {
-  char part[1024];
-  for (;;) {
-    ssize_t got = read(child->errors, part, sizeof part);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0 && errno == EAGAIN) return;
-    if (got <= 0) break;
-    size_t room = ZP_GNUPLOT_KEPT - 1 - child->used, take = (size_t)got < room ? (size_t)got : room;
-    memcpy(child->kept + child->used, part, take);
-    child->used += take;
-    child->kept[child->used] = 0;
-  }
-  close(child->errors);
-  child->errors = -1;
-}
-
-void zp_gnuplot_wait(ZpGnuplotChild *const *child, size_t count) {
-  struct pollfd stream[ZP_GNUPLOT_MOST];
-  int pulse = PULSE;
-  for (size_t i = 0; i < count; i++) {
-    stream[i] = (struct pollfd){.fd = child[i]->errors, .events = POLLIN}; /* poll ignores values below 0 */
-    if (child[i]->errors < 0) pulse = SHORT_PULSE;
-  }
-  poll(stream, count, pulse);
-}
-
-static double wall_clock(void) {
-  struct timespec now;
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static void kill_group(const ZpGnuplotChild *child) {
-  kill(-child->id, SIGKILL);
-  while (waitpid(child->id, NULL, 0) < 0 && errno == EINTR)
+static void kill_group(const Work *work) {
+  kill(-work->id, SIGKILL);
+  while (waitpid(work->id, NULL, 0) < 0 && errno == EINTR)
     continue;
 }
 
-/* The state of a child: running, ended, or to be ended now. */
-static ZpGnuplot state_of(const ZpGnuplotChild *child, bool stop) {
-  int status = 0;
-  pid_t ended = waitpid(child->id, &status, WNOHANG);
-  if (ended < 0 && errno != EINTR)
-    return ZP_GNUPLOT_DONE; /* other code has waited for the child; the picture shows the result */
-  if (ended > 0) return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? ZP_GNUPLOT_DONE : ZP_GNUPLOT_FAILED;
-  if (!stop && wall_clock() < child->end) return ZP_GNUPLOT_RUNS;
-  kill_group(child);
-  return stop ? ZP_GNUPLOT_INTERRUPTED : ZP_GNUPLOT_HANGS;
-}
-
 /* The first line with a message: not empty, not the mark under a quoted command, not only a warning. */
-static void first_complaint(char *text, char *reason, size_t size) {
-  char *rest = NULL;
-  for (char *line = strtok_r(text, "\n", &rest); line; line = strtok_r(NULL, "\n", &rest)) {
-    size_t blank = strspn(line, " \t^");
-    if (!line[blank] || strstr(line, "arning:")) continue;
-    snprintf(reason, size, "%s", line + blank);
+static void read_complaint(FILE *errors, char reason[TEXT_SIZE]) {
+  char line[TEXT_SIZE];
+  rewind(errors);
+  snprintf(reason, TEXT_SIZE, "gnuplot gave no reason");
+  while (fgets(line, sizeof line, errors)) {
+    const size_t blank = strspn(line, " \t^\n");
+    line[strcspn(line, "\n")] = 0;
+    if (blank >= strlen(line) || strstr(line, "arning:")) continue;
+    snprintf(reason, TEXT_SIZE, "%s", line + blank);
     if (strstr(line, "line ")) return;
   }
 }
 
-/* => 0 and the child, or an errno. */
-static int start(const ZpGnuplotJob *job, ZpGnuplotChild *child) {
-  char *set_out = NULL;
-  int ends[2];
-  *child = (ZpGnuplotChild){.errors = -1, .patience = job->patience, .end = wall_clock() + job->patience};
-  if (pipe2(ends, O_CLOEXEC) != 0) return errno;
-  int error = asprintf(&set_out, "out = '%s'", job->output) < 0 ? ENOMEM : 0;
-  if (!error) {
-    error = spawn(&child->id, job->folder, job->script, set_out, ends[1]);
-    free(set_out);
+/* gnuplot does not tell of a full disk, so look whether the file has its end: </svg> and blank lines, or ; of a GIF as
+ * its last byte, since any other may be a ; too. */
+static bool is_complete(const Work *work) {
+  const bool is_text = strcmp(work->picture->extension, "svg") == 0;
+  const char *end = is_text ? "</svg>" : ";";
+  char tail[32] = {0};
+  FILE *file = fopen(work->out.temporary, "re");
+  if (!file) return false;
+  const bool found = fseek(file, -(long)strlen(end) - (is_text ? 3 : 0), SEEK_END) == 0;
+  const size_t got = found ? fread(tail, 1, sizeof tail - 1, file) : 0;
+  fclose(file);
+  return memmem(tail, got, end, strlen(end)) != NULL;
+}
+
+/* -- all of them ----------------------------------------------------------------------------------- */
+
+/* Close a picture that was not drawn, and report why, unless `reason` is NULL. */
+static void give_up(const ZpDrawing *drawing, Work *work, const char *reason) {
+  char message[2 * TEXT_SIZE];
+  const char *more = drawing->over ? "; the rest are not drawn either; their scripts are there" : "";
+  snprintf(message, sizeof message, "%s/%s.%s was not drawn: %s%s", drawing->folder, work->picture->name,
+           work->picture->extension, reason ? reason : "", more);
+  if (drawing->notice && reason) drawing->notice(message);
+  zp_atomic_abandon(&work->out);
+  if (work->errors) fclose(work->errors);
+}
+
+/* Begin a picture; false if it could not be begun. */
+static bool begin(ZpDrawing *drawing, const ZpPicture *picture, Work *work) {
+  ZpError err;
+  char name[NAME_SIZE], message[TEXT_SIZE];
+  *work = (Work){.picture = picture, .end = wall_clock() + drawing->patience};
+  snprintf(name, sizeof name, "%s.%s", picture->name, picture->extension);
+  const bool reserved = zp_atomic_reserve(&work->out, drawing->folder, name, &err) == ZP_OK;
+  work->errors = tmpfile();
+  const int error = !reserved ? 0 : work->errors ? spawn(drawing->folder, work) : errno;
+  if (reserved && !error) return true;
+  drawing->over = error == ENOENT;
+  snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp",
+           drawing->folder);
+  if (drawing->over && drawing->notice) drawing->notice(message);
+  give_up(drawing, work, drawing->over ? NULL : reserved ? strerror(error) : err.message);
+  return false;
+}
+
+/* Close a picture whose gnuplot has ended. */
+static void finish(const ZpDrawing *drawing, Work *work, bool done) {
+  ZpError err;
+  char reason[TEXT_SIZE], script[NAME_SIZE];
+  read_complaint(work->errors, reason);
+  snprintf(script, sizeof script, "%s.gp", work->picture->name);
+  if (!done) zp_template_complaint(drawing->folder, script, reason, sizeof reason);
+  if (!done || !is_complete(work))
+    give_up(drawing, work, reason);
+  else if (zp_atomic_commit(&work->out, &err) != ZP_OK)
+    give_up(drawing, work, err.message);
+  else
+    fclose(work->errors);
+}
+
+/* Look after a picture; false if it is no longer being drawn. If gnuplot hangs or is to stop, no more are begun. */
+static bool look(ZpDrawing *drawing, Work *work, bool stop) {
+  int status = 0;
+  char reason[TEXT_SIZE];
+  const pid_t ended = waitpid(work->id, &status, WNOHANG);
+  const bool lost = ended < 0 && errno != EINTR; /* other code has waited for it; the picture shows the result */
+  if (!lost && ended <= 0 && !stop && wall_clock() < work->end) return true;
+  if (lost || ended > 0) {
+    finish(drawing, work, lost || (WIFEXITED(status) && WEXITSTATUS(status) == 0));
+    return false;
   }
-  close(ends[1]);
-  if (!error && fcntl(ends[0], F_SETFL, O_NONBLOCK) == 0) child->errors = ends[0];
-  if (child->errors < 0) close(ends[0]);
-  return error;
+  const bool told = drawing->over && stop; /* of those that were drawn beside it */
+  kill_group(work);
+  drawing->over = true;
+  snprintf(reason, sizeof reason, "gnuplot took longer than %g s", drawing->patience);
+  give_up(drawing, work, told ? NULL : stop ? "interrupted" : reason);
+  return false;
 }
 
-ZpGnuplot zp_gnuplot_start(const ZpGnuplotJob *job, ZpGnuplotChild *child, char *reason, size_t size) {
-  int error = start(job, child);
-  if (!error) return ZP_GNUPLOT_RUNS;
-  snprintf(reason, size, "%s", strerror(error));
-  return error == ENOENT ? ZP_GNUPLOT_MISSING : ZP_GNUPLOT_FAILED;
+/* Wait a little for `busy` pictures and finish those that are done => how many are not. */
+static size_t tend(ZpDrawing *drawing, Work *work, size_t busy) {
+  const ZpHooks *hooks = drawing->hooks;
+  nanosleep(&(struct timespec){.tv_nsec = PAUSE}, NULL);
+  const bool stop = hooks && hooks->progress && hooks->progress(hooks->user, "pictures", 1);
+  for (size_t i = busy; i-- > 0;)
+    if (!look(drawing, &work[i], stop)) work[i] = work[--busy];
+  return busy;
 }
 
-ZpGnuplot zp_gnuplot_look(ZpGnuplotChild *child, bool stop, char *reason, size_t size) {
-  if (child->errors >= 0) read_errors(child);
-  ZpGnuplot end = state_of(child, stop);
-  if (end == ZP_GNUPLOT_RUNS) return end;
-  if (child->errors >= 0) read_errors(child);
-  if (child->errors >= 0) close(child->errors);
-  snprintf(reason, size, "gnuplot gave no reason");
-  first_complaint(child->kept, reason, size);
-  if (end == ZP_GNUPLOT_HANGS) snprintf(reason, size, "gnuplot took longer than %g s", child->patience);
-  if (end == ZP_GNUPLOT_INTERRUPTED) snprintf(reason, size, "interrupted");
-  return end;
+void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *picture, size_t count) {
+  Work work[JOBS_MOST];
+  const int jobs = drawing->jobs > 0 ? drawing->jobs : zp_processors();
+  size_t busy = 0;
+  for (size_t i = 0; i < count; i++) {
+    while (busy == JOBS_MOST || busy >= (size_t)jobs)
+      busy = tend(drawing, work, busy);
+    if (!drawing->over) busy += begin(drawing, &picture[i], &work[busy]);
+  }
+  while (busy > 0)
+    busy = tend(drawing, work, busy);
 }

@@ -1,4 +1,4 @@
-/* What the pictures share: what they ask of results, and how they define it for their templates. */
+/* What there is to draw of a report, and result.gp, which defines it for the templates. */
 #include "io/plot.h"
 
 #include <ctype.h>
@@ -6,290 +6,230 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/fail.h"
+#include "io/cases.h"
 #include "io/number.h"
+#include "io/sampled.h"
 #include "io/units.h"
 
-size_t zp_plot_column(const ZpTable *table, const char *name) {
-  size_t i = 0;
-  while (i < table->columns && strcmp(table->column[i].name, name) != 0)
-    i++;
-  return i;
+/* -- columns --------------------------------------------------------------------------------------- */
+
+/* Add a number to column `i`, if it is one. */
+static void add_number(ZpPlot *plot, size_t i, double value) {
+  ZpPlotColumn *column = &plot->column[i];
+  if (!isfinite(value)) return;
+  column->low = fmin(column->low, value);
+  column->high = fmax(column->high, value);
+  column->count++;
 }
 
-size_t zp_plot_count(const ZpTable *table, const char *name) {
-  size_t numbers = 0, column = table ? zp_plot_column(table, name) : 0;
-  for (size_t row = 0; table && column < table->columns && row < table->rows; row++)
-    numbers += isfinite(table->value[row * table->columns + column]) != 0;
-  return numbers;
-}
-
-bool zp_plot_has(const ZpTable *table, const char *name) {
-  return zp_plot_count(table, name) >= 2;
-}
-
-ZpPlotBox zp_plot_box(const ZpShapes *shapes) {
-  ZpPlotBox box = {INFINITY, -INFINITY, INFINITY, -INFINITY};
-  for (size_t f = 0; f < shapes->frames; f++) {
-    const ZpShape shape = zp_shapes_get(shapes, f);
-    for (size_t i = 0; i < shapes->nodes * shapes->ribbons; i++) {
-      if (!isfinite(shape.x[i]) || !isfinite(shape.y[i])) continue;
-      box.left = fmin(box.left, shape.x[i]);
-      box.right = fmax(box.right, shape.x[i]);
-      box.bottom = fmin(box.bottom, shape.y[i]);
-      box.top = fmax(box.top, shape.y[i]);
-    }
+/* Append a column. The key that a column shows is the one whose column has the same name. */
+static void add_column(ZpPlot *plot, const char *name, const char *unit, const char *help) {
+  ZpPlotColumn column = {.unit = unit, .help = help, .key = zp_key_count() - 1, .low = NAN, .high = NAN};
+  for (; column.key >= 0; column.key--) {
+    zp_key_column(column.key, column.name, sizeof column.name);
+    if (strcmp(column.name, name) == 0) break;
   }
-  return box;
+  snprintf(column.name, sizeof column.name, "%s", name);
+  plot->column[plot->columns++] = column;
 }
 
-void zp_plot_put(FILE *file, double value, char after) {
-  char text[ZP_NUMBER_SIZE];
-  zp_number_print(value, text, sizeof text);
-  fprintf(file, "%s%c", text, after);
-}
-
-/* Write `text` as a gnuplot string that shows it as it is, in enhanced mode, too. */
-static void put_text(FILE *file, const char *text) {
-  fputc('\'', file);
-  for (; *text; text++) {
-    if (strchr("_^@&~{}\\", *text)) fputc('\\', file);
-    if (*text == '\'') fputc('\'', file);
-    fputc(iscntrl((unsigned char)*text) ? ' ' : *text, file); /* a new line would begin a command */
+/* False if there is no memory. */
+static bool add_series(ZpPlot *plot, const ZpTable *table) {
+  plot->column = calloc(table->columns + 1, sizeof *plot->column);
+  for (size_t i = 0; plot->column && i < table->columns; i++) {
+    add_column(plot, table->column[i].name, table->column[i].unit, table->column[i].help);
+    for (size_t row = 0; row < table->rows; row++)
+      add_number(plot, i, table->value[row * table->columns + i]);
   }
-  fputc('\'', file);
+  return plot->column != NULL;
 }
 
-void zp_plot_define(FILE *file, const char *name, double value) {
+/* List keys, then the numbers of the summary, as in table.csv. False if there is no memory. */
+static bool add_cases(ZpPlot *plot) {
+  const ZpReport *report = plot->report;
+  ZpScalarNames names;
+  size_t keys;
+  const int *key = zp_scenario_lists(report->scenario, &keys);
+  if (!zp_report_scalars(report, false, &names)) return false;
+  double *value = calloc(keys + 1, sizeof *value);
+  plot->column = calloc(keys + names.count + 1, sizeof *plot->column);
+  const bool done = value && plot->column;
+  for (size_t i = 0; done && i < keys; i++) {
+    char name[ZP_KEY_COLUMN_SIZE];
+    zp_key_column(key[i], name, sizeof name);
+    add_column(plot, name, zp_key(key[i])->unit, "");
+  }
+  for (size_t i = 0; done && i < names.count; i++)
+    add_column(plot, names.item[i].name, names.item[i].unit, "");
+  for (size_t run = 0; done && run < report->count; run++) {
+    zp_scenario_values(report->scenario, run, value);
+    for (size_t i = 0; i < plot->columns; i++)
+      add_number(plot, i, i < keys ? value[i] : zp_scalar_at(zp_report_result(report, run), &names, i - keys));
+  }
+  free(names.item);
+  free(value);
+  return done;
+}
+
+const ZpPlotColumn *zp_plot_column(const ZpPlot *plot, const char *name) {
+  for (size_t i = 0; i < plot->columns; i++)
+    if (strcmp(plot->column[i].name, name) == 0) return &plot->column[i];
+  return NULL;
+}
+
+/* -- opening --------------------------------------------------------------------------------------- */
+
+ZpStatus zp_plot_open(const ZpReport *report, ZpPlot *plot, ZpError *err) {
+  const ZpResult *first = zp_report_result(report, 0);
+  plot->report = report;
+  plot->single = zp_report_single(report);
+  plot->study = first->study;
+  plot->axis = zp_scenario_axes(report->scenario, &plot->axes);
+  const bool of_cases = !plot->single && zp_study_shows(plot->study) != ZP_SHOWS_fit;
+  const bool done = of_cases ? add_cases(plot) : !first->series || add_series(plot, first->series);
+  return done ? ZP_OK : zp_fail_memory(err);
+}
+
+/* -- result.gp ------------------------------------------------------------------------------------- */
+
+/* A variable named `before` and `name`, which has letters, digits and underscores only. */
+static void put_name(FILE *file, const char *before, const char *name) {
+  fputs(before, file);
+  for (; *name; name++)
+    fputc(isalnum((unsigned char)*name) ? *name : '_', file);
+  fputs(" = ", file);
+}
+
+/* NaN where there is no number. */
+static void define(FILE *file, const char *before, const char *name, double value) {
   char text[ZP_NUMBER_SIZE];
   zp_number_print(value, text, sizeof text);
   const bool whole = text[strspn(text, "-0123456789")] == 0; /* gnuplot would divide it as a whole number */
-  fprintf(file, "%s = %s%s\n", name, isfinite(value) ? text : "NaN", isfinite(value) && whole ? ".0" : "");
+  put_name(file, before, name);
+  fprintf(file, "%s%s\n", isfinite(value) ? text : "NaN", isfinite(value) && whole ? ".0" : "");
 }
 
-void zp_plot_define_count(FILE *file, const char *name, size_t value) {
-  fprintf(file, "%s = %zu\n", name, value);
+static void define_count(FILE *file, const char *before, const char *name, size_t value) {
+  put_name(file, before, name);
+  fprintf(file, "%zu\n", value);
 }
 
-void zp_plot_define_text(FILE *file, const char *name, const char *text) {
-  fprintf(file, "%s = ", name);
-  put_text(file, text);
-  fputc('\n', file);
-}
-
-/* A unit as pictures show it: "um" of the tables is "µm", "m2/s" is "m²/s". */
-static void print_unit(const char *unit, char *text, size_t size) {
-  size_t used = 0;
-  text[0] = 0;
-  for (const char *c = unit; *c && used < size; c++) {
-    const char plain[2] = {*c, 0};
-    const bool micro = *c == 'u' && c == unit && c[1];
-    used += (size_t)snprintf(text + used, size - used, "%s", micro ? "µ" : *c == '2' ? "²" : *c == '3' ? "³" : plain);
+static void define_text(FILE *file, const char *before, const char *name, const char *text) {
+  put_name(file, before, name);
+  fputc('\'', file);
+  for (; *text; text++) {
+    if (*text == '\'') fputc('\'', file);
+    fputc(iscntrl((unsigned char)*text) ? ' ' : *text, file); /* a new line would begin a command */
   }
-}
-
-void zp_plot_print_value(int key, double value, char *text, size_t size) {
-  enum { EXACT_MOST = 6 }; /* letters: what has more is rounded */
-  char exact[64], unit[40], *end;
-  zp_value_print(key, value, exact, sizeof exact);
-  const double number = strtod(exact, &end);
-  const int length = (int)(end - exact), digits = length > EXACT_MOST ? 4 : EXACT_MOST;
-  print_unit(*end == ' ' ? end + 1 : "", unit, sizeof unit);
-  if (length == 0) /* a word */
-    snprintf(text, size, "%s", exact);
-  else
-    snprintf(text, size, "%.*g%s%s", digits, number, *unit ? " " : "", unit);
-}
-
-void zp_plot_define_word(FILE *file, const char *name, const char *word) {
-  fprintf(file, "%s = '%s'\n", name, word);
-}
-
-/* Variables of gnuplot have letters, digits and underscores. */
-static bool is_name(const char *text) {
-  return !text[strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_")];
-}
-
-ZpPlotRange zp_plot_range(const ZpTable *table, const char *name) {
-  ZpPlotRange range = {NAN, NAN};
-  const size_t column = table ? zp_plot_column(table, name) : 0;
-  for (size_t row = 0; table && column < table->columns && row < table->rows; row++) {
-    const double value = table->value[row * table->columns + column];
-    if (!isfinite(value)) continue;
-    range.low = fmin(range.low, value);
-    range.high = fmax(range.high, value);
-  }
-  return range;
-}
-
-/* The names of columns with numbers, `columns`, and the range of each. */
-static void define_table(const ZpTable *table, FILE *file) {
-  fputs("columns = ' ", file);
-  for (size_t i = 0; table && i < table->columns; i++)
-    if (is_name(table->column[i].name) && zp_plot_has(table, table->column[i].name))
-      fprintf(file, "%s ", table->column[i].name);
   fputs("'\n", file);
-  for (size_t i = 0; table && i < table->columns; i++) {
-    static const char *const what[] = {"largest", "lowest", "highest"};
-    const char *name = table->column[i].name;
-    const ZpPlotRange range = zp_plot_range(table, name);
-    const double value[] = {fmax(fabs(range.low), fabs(range.high)), range.low, range.high};
-    char variable[128];
-    for (size_t k = 0; is_name(name) && !isnan(range.low) && k < 3; k++) {
-      snprintf(variable, sizeof variable, "%s_%.80s", what[k], name);
-      zp_plot_define(file, variable, value[k]);
-    }
-  }
 }
 
-/* Whether what is in the box can be seen where x and y have the same scale. */
-static bool fits_same_scale(const ZpPlotBox *box) {
-  const double width = box->right - box->left, height = box->top - box->bottom;
-  return height > 0.25 * width && width > 0.15 * height;
-}
-
-void zp_plot_define_box(FILE *file, const ZpPlotBox *box) {
-  zp_plot_define(file, "box_left", box->left);
-  zp_plot_define(file, "box_right", box->right);
-  zp_plot_define(file, "box_bottom", box->bottom);
-  zp_plot_define(file, "box_top", box->top);
-  zp_plot_define_count(file, "same_scale", fits_same_scale(box));
-}
-
-void zp_plot_define_array(FILE *file, const char *name, size_t count) {
-  fprintf(file, "array %s[%zu]\n", name, count);
-}
-
-ZpPlotEntry zp_plot_entry(const char *name, size_t k) {
-  ZpPlotEntry entry;
-  if (k > 0)
-    snprintf(entry.text, sizeof entry.text, "%s[%zu]", name, k);
-  else
-    snprintf(entry.text, sizeof entry.text, "%s", name);
-  return entry;
-}
-
-double zp_plot_at_time(const ZpTable *table, const char *column, double time) {
-  size_t nearest = 0;
-  double least = INFINITY;
-  for (size_t row = 0; table && row < table->rows; row++) {
-    double distance = fabs(zp_table_get(table, row, "time_s") - time);
-    if (distance < least) {
-      least = distance;
-      nearest = row;
-    }
-  }
-  return table && table->rows > 0 ? zp_table_get(table, nearest, column) : (double)NAN;
-}
-
-size_t zp_plot_frame_at(const ZpShapes *shapes, double part) {
-  double start = zp_shapes_get(shapes, 0).time,
-         wanted = start + part * (zp_shapes_get(shapes, shapes->frames - 1).time - start);
-  size_t nearest = 0;
-  for (size_t i = 1; i < shapes->frames; i++)
-    if (fabs(zp_shapes_get(shapes, i).time - wanted) < fabs(zp_shapes_get(shapes, nearest).time - wanted)) nearest = i;
-  return nearest;
-}
-
-bool zp_plot_is_half(const ZpPlot *plot) {
-  const ZpActuatorDef *def = &plot->def;
-  return plot->single->shapes->ribbons > 1 && def->actuator.kind == ZP_KIND_ELECTRO_RIBBON &&
-         def->actuator.symmetry == ZP_SYMMETRY_HALF;
-}
-
-size_t zp_plot_snapshots(const ZpShapes *shapes, size_t frame[ZP_PLOT_SNAPSHOTS]) {
-  size_t count = 0;
-  for (size_t k = 0; k < ZP_PLOT_SNAPSHOTS; k++) {
-    const size_t next = zp_plot_frame_at(shapes, (double)k / (ZP_PLOT_SNAPSHOTS - 1));
-    if (count == 0 || next != frame[count - 1]) frame[count++] = next;
-  }
-  return count;
-}
-
-bool zp_plot_has_frames(const ZpPlot *plot, size_t frames) {
-  const ZpShapes *shapes = plot->single ? plot->single->shapes : NULL;
-  return shapes && shapes->frames >= frames && isfinite(zp_plot_box(shapes).left);
-}
-
-/* -- what is defined for all ------------------------------------------------------------------------ */
-
-/* The sentence of the small print. */
-static const char *drag_note(const ZpPlot *plot) {
-  if (zp_def_liquid(&plot->def) != ZP_LIQUID_NONE) return "times have not been compared with measured ones";
-  return plot->def.damping.drag > 0
-             ? "the only drag is c |v| v on each particle, not that of the liquid: times are not predictions"
-             : "the drag of the liquid is not modelled: times are not predictions";
-}
-
-/* The shapes of the only run. */
-static void define_shapes(const ZpPlot *plot, FILE *file) {
-  const ZpShapes *shapes = plot->single->shapes;
-  const ZpPlotBox box = zp_plot_box(shapes);
-  zp_plot_define_count(file, "half", zp_plot_is_half(plot));
-  zp_plot_define_count(file, "ribbons", shapes->ribbons);
-  zp_plot_define_count(file, "members", shapes->members);
-  zp_plot_define(file, "begin", zp_shapes_get(shapes, 0).time);
-  zp_plot_define(file, "end", zp_shapes_get(shapes, shapes->frames - 1).time);
-  zp_plot_define_box(file, &box);
-}
-
-/* Has the text this word? */
-static bool mentions(const char *text, const char *word) {
-  const size_t length = strlen(word);
-  for (const char *at = text; (at = strstr(at, word)) != NULL; at += length) {
-    const bool begins = at == text || !(isalnum((unsigned char)at[-1]) || at[-1] == '_');
-    if (begins && !isalnum((unsigned char)at[length]) && at[length] != '_') return true;
-  }
-  return false;
-}
-
-/* "drive.voltage" as drive_voltage. */
-static void define_key(const ZpPlot *plot, int index, const char *text, FILE *file) {
+/* drive_voltage in SI or as a word, and said_drive_voltage in its unit. */
+static void define_key(const ZpPlot *plot, int index, FILE *file) {
   const ZpKey *key = zp_key(index);
-  char name[64];
-  snprintf(name, sizeof name, "%s", key->name);
-  for (char *c = name; *c; c++)
-    if (*c == '.') *c = '_';
-  if (key->type == ZP_KEY_TEXT || key->offset == ZP_NO_FIELD || !mentions(text, name)) return;
-  const char *word = zp_key_word(index, zp_def_get(&plot->def, index));
-  if (word && key->type == ZP_KEY_ENUM)
-    zp_plot_define_word(file, name, word);
+  if (key->offset == ZP_NO_FIELD || key->type == ZP_KEY_TEXT) return;
+  const double value = zp_def_get(&plot->def, index);
+  char said[64];
+  zp_value_print(index, value, said, sizeof said);
+  if (key->type == ZP_KEY_ENUM)
+    define_text(file, "", key->name, zp_key_word(index, value));
   else
-    zp_plot_define(file, name, zp_def_get(&plot->def, index));
+    define(file, "", key->name, value);
+  define_text(file, "said_", key->name, said);
 }
 
-static void define_mentioned(const ZpPlot *plot, const char *text, FILE *file) {
-  for (int key = 0; key < zp_key_count(); key++)
-    define_key(plot, key, text, file);
-  for (size_t i = 0; plot->single && i < plot->single->scalars; i++)
-    if (is_name(plot->single->scalar[i].name) && mentions(text, plot->single->scalar[i].name))
-      zp_plot_define(file, plot->single->scalar[i].name, plot->single->scalar[i].value);
-}
-
-void zp_plot_define_common(const ZpPlot *plot, const char *text, FILE *file) {
-  zp_plot_define_text(file, "subtitle", plot->subtitle);
-  if (!plot->report) return;
-  zp_plot_define_text(file, "note", drag_note(plot));
-  zp_plot_define_count(file, "motion", plot->shows == ZP_SHOWS_motion);
-  zp_plot_define_count(file, "held", plot->shows == ZP_SHOWS_held_branch);
-  define_mentioned(plot, text, file);
-  define_table(plot->table, file);
-  if (zp_plot_has_frames(plot, 1)) define_shapes(plot, file);
-  if (!plot->single) zp_sweep_define(plot, file);
-}
-
-void zp_plot_define_key_axis(FILE *file, const char *name, size_t k, int index) {
-  const ZpKey *key = zp_key(index);
-  ZpUnitScale scale;
-  char part[3][40], unit[40];
+/* The name of a key that is a column, the unit in which it is shown, and the factor to this unit. */
+static void define_shown(const ZpPlotColumn *column, FILE *file) {
+  const ZpKey *key = zp_key(column->key);
+  ZpUnitScale scale = {.factor = 1};
   const bool shown = *key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK;
-  snprintf(part[0], sizeof part[0], "%s_name", name);
-  snprintf(part[1], sizeof part[1], "%s_unit", name);
-  snprintf(part[2], sizeof part[2], "%s_factor", name);
-  zp_plot_define_text(file, zp_plot_entry(part[0], k).text, key->name);
-  print_unit(shown ? key->shown : "", unit, sizeof unit);
-  zp_plot_define_text(file, zp_plot_entry(part[1], k).text, unit);
-  zp_plot_define(file, zp_plot_entry(part[2], k).text,
-                 !shown          ? 1
-                 : scale.decimal ? pow(10, -scale.exponent)
-                                 : 1 / scale.factor);
+  define_text(file, "name_", column->name, key->name);
+  define_text(file, "unit_", column->name, shown ? key->shown : "");
+  define(file, "factor_", column->name, scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor);
+}
+
+/* `all_columns`, and `columns`, those with two numbers at least. */
+static void define_columns(const ZpPlot *plot, FILE *file) {
+  for (size_t least = 0; least <= 2; least += 2) {
+    fputs(least ? "'\ncolumns = ' " : "all_columns = ' ", file);
+    for (size_t i = 0; i < plot->columns; i++)
+      if (plot->column[i].count >= least) fprintf(file, "%s ", plot->column[i].name);
+  }
+  fputs("'\n", file);
+  for (size_t i = 0; i < plot->columns; i++) {
+    const ZpPlotColumn *column = &plot->column[i];
+    define(file, "lowest_", column->name, column->low);
+    define(file, "highest_", column->name, column->high);
+    define_count(file, "count_", column->name, column->count);
+    define_text(file, "si_", column->name, column->unit);
+    define_text(file, "help_", column->name, column->help);
+    if (column->key >= 0) define_shown(column, file);
+  }
+}
+
+/* A list key, whose column is in `lists`, and, of those whose lists are combined, in `axes`, with its values. */
+static void define_lists(const ZpPlot *plot, FILE *file) {
+  char name[ZP_KEY_COLUMN_SIZE], said[64];
+  size_t keys, count;
+  const int *key = zp_scenario_lists(plot->report->scenario, &keys);
+  fputs("lists = ''\naxes = ''\n", file);
+  for (size_t i = 0, axis = 0; i < keys; i++) {
+    zp_key_column(key[i], name, sizeof name);
+    fprintf(file, "lists = lists.'%s '\n", name);
+    if (axis >= plot->axes || plot->axis[axis] != key[i]) continue;
+    const double *value = zp_scenario_axis(plot->report->scenario, plot->axis[axis++], &count);
+    fprintf(file, "axes = axes.'%s '\n", name);
+    put_name(file, "values_", name);
+    for (size_t k = 0; k < count; k++) {
+      zp_value_print(key[i], value[k], said, sizeof said);
+      fprintf(file, "%s\"%s\"", k ? " " : "'", said);
+    }
+    fputs("'\n", file);
+  }
+}
+
+/* Samples of a combination of the lists' values, of which in `blocks` successive rows the first are independent. */
+static void define_samples(const ZpDesign *design, FILE *file) {
+  define_count(file, "", "samples", zp_design_samples(design));
+  define_count(file, "", "blocks", zp_design_blocks(design));
+  define_count(file, "", "independent", design->indices ? ZP_BLOCK_FIRST : 1);
+}
+
+/* `front`: the rows of the best cases, from 0. */
+static void define_optimum(const ZpOptimum *optimum, FILE *file) {
+  fputs("objectives = '", file);
+  for (size_t i = 0; i < optimum->objectives; i++)
+    fprintf(file, "%s ", optimum->objective[i]);
+  fprintf(file, "'\narray front[%zu]\n", optimum->count ? optimum->count : 1);
+  for (size_t i = 0; i < optimum->count; i++)
+    fprintf(file, "front[%zu] = %zu\n", i + 1, optimum->row[i]);
+}
+
+/* The numbers of the summary of one run, and of its table the rows and how many states each stands for. */
+static void define_run(const ZpResult *result, FILE *file) {
+  for (size_t i = 0; i < result->scalars; i++) {
+    define(file, "", result->scalar[i].name, result->scalar[i].value);
+    define_text(file, "si_", result->scalar[i].name, result->scalar[i].unit);
+  }
+  if (result->series) define_count(file, "", "rows", result->series->rows);
+  if (result->series) define_count(file, "", "stride", result->series->stride);
+}
+
+void zp_plot_define(const void *of, FILE *file) {
+  const ZpPlot *plot = of;
+  const ZpDesign *design = zp_scenario_design(plot->report->scenario);
+  fputs("# What the pictures in this folder show, in SI. Data are in the .dat files here and in ../table.csv.\n", file);
+  define_text(file, "", "study", zp_study_name(plot->study));
+  define_text(file, "", "kind", zp_study_kind(plot->study));
+  define_text(file, "", "liquid", zp_key_word(zp_key_find("liquid.model"), zp_def_liquid(&plot->def)));
+  define_count(file, "", "cases", plot->report->count);
+  define_count(file, "", "fitted", plot->def.calibrate.fit[strspn(plot->def.calibrate.fit, " ")] != 0);
+  for (int key = 0; key < zp_key_count(); key++)
+    define_key(plot, key, file);
+  define_columns(plot, file);
+  define_lists(plot, file);
+  if (plot->single) define_run(plot->single, file);
+  if (design) define_samples(design, file);
+  if (plot->report->optimum) define_optimum(plot->report->optimum, file);
 }

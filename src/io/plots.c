@@ -1,277 +1,256 @@
-/* plots/: each picture with the gnuplot script that drew it and its data, so that `gnuplot NAME.gp` there makes the
- * same picture again.
+/* plots/: the pictures of a report. Templates say which pictures there are, in lines such as
  *
- * The numbers matter more than a picture: they are on the disk before gnuplot runs. If gnuplot is missing, fails or
- * hangs, the scripts remain and a notice says so. Pictures of an earlier report are removed first, so none shows what
- * is not in the table. As many are drawn at once as there are processors. */
+ *   #picture shapes.svg one branch|held_branch voltage_V :shapes.dat
+ *
+ * This picture is drawn of one run (or of many) of a study whose results are of one of these kinds (studies.def), or
+ * that has one of these names, if all conditions hold. A condition has alternatives between |:
+ *
+ *   voltage_V     the column of table.csv has two numbers
+ *   voltage_V*9   it has nine
+ *   =zip_time_s   the summary of the run has this number
+ *   ~voltage_V    the column varies
+ *   >voltage_V    it has a number above 0
+ *   @drive.rate   the key differs from its default
+ *   +drive.rate   it is above 0
+ *   :shapes.dat   there is such a file of data
+ *   :axis         one of the facts in `flag`
+ *   !voltage_V    the rest does not hold
+ *
+ * The numbers matter more than a picture: they are on the disk before gnuplot runs. */
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include <zipact/version.h>
-
 #include "base/fail.h"
 #include "io/atomic.h"
-#include "io/gnuplot.h"
+#include "io/drawing.h"
 #include "io/plot.h"
-#include "io/report.h"
+#include "io/sampled.h"
 #include "io/template.h"
 #include "io/writers.h"
 
-/* Longest file name of a picture. */
-#define NAME_SIZE 64
+/* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
+enum { DRAWN_MOST = 10000, PICTURES_MOST = 100, WORDS_SIZE = 512 };
 
-static void say(const ZpDrawing *drawing, const char *name, const char *reason) {
-  char message[1024];
-  const char *more = drawing->over ? "; the rest are not drawn either; their scripts are there" : "";
-  snprintf(message, sizeof message, "%s/%s was not drawn: %s%s", drawing->folder, name, reason, more);
-  if (drawing->notice) drawing->notice(message);
+/* -- conditions ------------------------------------------------------------------------------------ */
+
+static bool has_design(const ZpPlot *plot) {
+  return zp_scenario_design(plot->report->scenario) != NULL;
 }
 
-static void say_missing(const ZpDrawing *drawing) {
-  char message[1024];
-  snprintf(message, sizeof message, "gnuplot was not found: pictures are not drawn; their scripts are %s/*.gp",
-           drawing->folder);
-  if (drawing->notice) drawing->notice(message);
+/* Are there runs to draw against the list key that varies fastest: no samples, no optimisation? */
+static bool has_axis(const ZpPlot *plot) {
+  return plot->axes > 0 && !has_design(plot) && !plot->report->optimum;
 }
 
-/* gnuplot does not tell of a full disk, so look whether the file has its end: </svg> and blank lines, or ; of a GIF as
- * its last byte, since any other may be a ; too. */
-static bool is_complete(const char *path, const char *extension) {
-  const bool is_text = strcmp(extension, "svg") == 0;
-  const char *end = is_text ? "</svg>" : ";";
-  const long length = (long)strlen(end) + (is_text ? 3 : 0);
-  char tail[32] = {0};
-  FILE *file = fopen(path, "re");
-  if (!file) return false;
-  bool found = fseek(file, -length, SEEK_END) == 0;
-  size_t got = found ? fread(tail, 1, sizeof tail - 1, file) : 0;
-  fclose(file);
-  return got > 0 && memmem(tail, got, end, strlen(end)) != NULL;
+/* Do the values of a list key increase or decrease, three at least? A surface needs this. */
+static bool is_surface(const ZpPlot *plot, size_t axis) {
+  size_t count;
+  const double *value = zp_scenario_axis(plot->report->scenario, plot->axis[axis], &count);
+  for (size_t i = 0; i + 1 < count; i++)
+    if (!((value[i + 1] - value[i]) * (value[1] - value[0]) > 0)) return false;
+  return count > 2;
 }
 
-static ZpStatus open_file(const ZpDrawing *drawing, const ZpPicture *picture, const char *extension, ZpAtomic *out,
-                          ZpError *err) {
-  char name[NAME_SIZE];
-  snprintf(name, sizeof name, "%s.%s", picture->name, extension);
-  return zp_atomic_open(out, drawing->folder, name, err);
+static bool has_grid(const ZpPlot *plot, size_t axes) {
+  return has_axis(plot) && plot->axes == axes && plot->report->count == zp_scenario_count(plot->report->scenario) &&
+         is_surface(plot, axes - 2) && is_surface(plot, axes - 1);
 }
 
-/* The text of a picture's template, to be freed. */
-static ZpStatus read_template(const ZpDrawing *drawing, const ZpPicture *picture, char **text, ZpError *err) {
-  size_t size = 0;
-  *text = NULL;
-  FILE *file = open_memstream(text, &size);
-  if (!file) return zp_fail_memory(err);
-  const ZpReport *report = drawing->plot->report;
-  ZpStatus status =
-      zp_template_write(report && report->templates ? report->templates : "", picture->template, file, err);
-  return fclose(file) != 0 && status == ZP_OK ? zp_fail_memory(err) : status;
+static bool has_plane(const ZpPlot *plot) {
+  return has_grid(plot, 2);
 }
 
-/* Definitions, then the template itself: the script needs no file but its data. */
-static ZpStatus write_script(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
-  const ZpPlot *plot = drawing->plot;
-  ZpAtomic out;
-  char *text = NULL;
-  ZpStatus status = picture->template ? read_template(drawing, picture, &text, err) : ZP_OK;
-  if (status == ZP_OK) status = open_file(drawing, picture, "gp", &out, err);
-  if (status == ZP_OK) {
-    if (text) {
-      fprintf(out.file,
-              "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s.gp\n"
-              "if (!exists('out')) out = '%s.%s'\n",
-              picture->name, picture->name, picture->extension);
-      zp_plot_define_common(plot, text, out.file);
+static bool has_planes(const ZpPlot *plot) {
+  return has_grid(plot, 3);
+}
+
+/* Three list keys that vary, or two that are drawn or optimised. */
+static bool has_lines(const ZpPlot *plot) {
+  size_t keys = 0;
+  for (size_t i = 0; i < plot->columns; i++)
+    keys += plot->column[i].key >= 0 && plot->column[i].high > plot->column[i].low;
+  return plot->report->count > 2 && keys >= (has_axis(plot) ? 3 : 2);
+}
+
+static bool has_front(const ZpPlot *plot) {
+  const ZpOptimum *optimum = plot->report->optimum;
+  return optimum && optimum->objectives > 1 && optimum->count > 1;
+}
+
+/* Pairs of a column that was set and a column of measurements. */
+static size_t count_panels(const ZpPlot *plot) {
+  size_t set = 0, measured = 0;
+  for (size_t i = 0; i < plot->columns; i++) {
+    const bool is_measured = strncmp(plot->column[i].name, "measured_", 9) == 0;
+    measured += is_measured;
+    set += !is_measured && measured == 0 && plot->column[i].count > 0;
+  }
+  return set * measured;
+}
+
+static bool has_panel(const ZpPlot *plot) {
+  return count_panels(plot) == 1;
+}
+
+static bool has_panels(const ZpPlot *plot) {
+  return count_panels(plot) > 1;
+}
+
+static const struct {
+  const char *name;
+  bool (*holds)(const ZpPlot *plot);
+} flag[] = {{"samples", has_design}, {"axis", has_axis},   {"plane", has_plane}, {"planes", has_planes},
+            {"lines", has_lines},    {"front", has_front}, {"panel", has_panel}, {"panels", has_panels}};
+
+/* Does a data file have rows? */
+static bool has_flag(const ZpPlot *plot, const char *name) {
+  for (const ZpPlotData *data = zp_plot_data; data->name; data++)
+    if (strcmp(data->name, name) == 0) return data->has(plot);
+  for (size_t i = 0; i < sizeof flag / sizeof flag[0]; i++)
+    if (strcmp(flag[i].name, name) == 0) return flag[i].holds(plot);
+  return false;
+}
+
+/* Does a key differ from its default? */
+static bool is_changed(const ZpPlot *plot, const char *name) {
+  const double value = zp_def_get(&plot->def, zp_key_find(name)), usual = zp_key(zp_key_find(name))->def;
+  return value != usual && !(isnan(value) && isnan(usual));
+}
+
+static bool has_numbers(const ZpPlot *plot, const char *name) {
+  char column[WORDS_SIZE];
+  size_t least = 2;
+  sscanf(name, "%511[^*]*%zu", column, &least);
+  const ZpPlotColumn *found = zp_plot_column(plot, column);
+  return found && found->count >= least;
+}
+
+static bool holds(const ZpPlot *plot, const char *condition) {
+  const char *name = condition + 1;
+  const ZpPlotColumn *column = zp_plot_column(plot, name);
+  switch (*condition) {
+  case '!':
+    return !holds(plot, name);
+  case '~':
+    return column && column->high > column->low;
+  case '>':
+    return column && column->high > 0;
+  case '=':
+    return isfinite(zp_result_get(plot->single, name));
+  case '@':
+    return is_changed(plot, name);
+  case '+':
+    return zp_def_get(&plot->def, zp_key_find(name)) > 0;
+  case ':':
+    return has_flag(plot, name);
+  default:
+    return has_numbers(plot, condition);
+  }
+}
+
+static bool is_of_kind(const ZpPlot *plot, const char *kind) {
+  return strcmp(kind, zp_study_kind(plot->study)) == 0 || strcmp(kind, zp_study_name(plot->study)) == 0;
+}
+
+/* Does one of the alternatives hold? */
+static bool any_holds(const ZpPlot *plot, char *words, bool (*test)(const ZpPlot *plot, const char *word)) {
+  for (char *word = strsep(&words, "|"); word; word = strsep(&words, "|"))
+    if (test(plot, word)) return true;
+  return false;
+}
+
+/* "one branch|held_branch voltage_V :frames" */
+static bool is_drawn(const ZpPlot *plot, char *conditions) {
+  char *word = strsep(&conditions, " ");
+  if (!word || strcmp(word, plot->single ? "one" : "many") != 0) return false;
+  word = strsep(&conditions, " ");
+  bool drawn = word && any_holds(plot, word, is_of_kind);
+  while (drawn && (word = strsep(&conditions, " ")) != NULL)
+    drawn = any_holds(plot, word, holds);
+  return drawn;
+}
+
+/* -- pictures -------------------------------------------------------------------------------------- */
+
+/* All pictures of a report, or of any report if `plot` is NULL => their number. */
+static size_t list_pictures(const ZpPlot *plot, ZpPicture list[PICTURES_MOST]) {
+  size_t count = 0;
+  for (const ZpTemplate *one = zp_templates; one->name; one++)
+    for (const char *at = one->text; strncmp(at, "#picture ", 9) == 0; at = strchr(at, '\n') + 1) {
+      ZpPicture picture = {.template = one->name};
+      char words[WORDS_SIZE];
+      const int read = sscanf(at, "#picture %47[^.].%7s %511[^\n]", picture.name, picture.extension, words);
+      if (read == 3 && count < PICTURES_MOST && (!plot || is_drawn(plot, words))) list[count++] = picture;
     }
-    if (picture->define) picture->define(plot, out.file);
-    if (text) fputs(text, out.file);
-    status = zp_atomic_commit(&out, err);
-  }
-  free(text);
+  return count;
+}
+
+/* Pictures and data of an earlier report. */
+static ZpStatus remove_all(const ZpDrawing *drawing, ZpError *err) {
+  ZpPicture list[PICTURES_MOST];
+  const size_t count = list_pictures(NULL, list);
+  ZpStatus status = zp_remove_file(drawing->folder, "result.gp", err);
+  for (size_t i = 0; i < count && status == ZP_OK; i++)
+    status = zp_drawing_remove(drawing, &list[i], err);
+  for (const ZpPlotData *data = zp_plot_data; data->name && status == ZP_OK; data++)
+    status = zp_remove_file(drawing->folder, data->name, err);
   return status;
 }
 
-static ZpStatus write_data(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
-  ZpAtomic out;
-  if (!picture->data) return ZP_OK;
-  ZpStatus status = open_file(drawing, picture, "dat", &out, err);
-  if (status != ZP_OK) return status;
-  picture->data(drawing->plot, out.file);
-  return zp_atomic_commit(&out, err);
-}
-
-/* A picture that is being drawn. */
-typedef struct Work {
-  const ZpPicture *picture;
-  ZpAtomic out;
-  ZpGnuplotChild child;
-} Work;
-
-static void name_of(const ZpPicture *picture, char *name) {
-  snprintf(name, NAME_SIZE, "%s.%s", picture->name, picture->extension);
-}
-
-/* After this, no more are tried if gnuplot can draw none. */
-static void give_up(ZpDrawing *drawing, Work *work, ZpGnuplot end, const char *reason) {
-  char name[NAME_SIZE];
-  const bool told = drawing->over && end == ZP_GNUPLOT_INTERRUPTED; /* of those that were drawn beside it */
-  name_of(work->picture, name);
-  drawing->over = drawing->over || (end != ZP_GNUPLOT_DONE && end != ZP_GNUPLOT_FAILED);
-  zp_atomic_abandon(&work->out);
-  if (end == ZP_GNUPLOT_MISSING)
-    say_missing(drawing);
-  else if (!told)
-    say(drawing, name, reason);
-}
-
-/* Begin a picture; false if it could not be begun. */
-static bool begin(ZpDrawing *drawing, const ZpPicture *picture, Work *work) {
-  ZpError err;
-  char name[NAME_SIZE], script[NAME_SIZE], reason[256];
-  *work = (Work){.picture = picture};
-  name_of(picture, name);
-  snprintf(script, sizeof script, "%s.gp", picture->name);
-  if (zp_atomic_reserve(&work->out, drawing->folder, name, &err) != ZP_OK) {
-    say(drawing, name, err.message);
-    return false;
-  }
-  const ZpGnuplotJob job = {drawing->folder, script, strrchr(work->out.temporary, '/') + 1, drawing->patience};
-  ZpGnuplot state = zp_gnuplot_start(&job, &work->child, reason, sizeof reason);
-  if (state != ZP_GNUPLOT_RUNS) give_up(drawing, work, state, reason);
-  return state == ZP_GNUPLOT_RUNS;
-}
-
-/* Report which line of which template gnuplot refuses. */
-static void explain(const ZpDrawing *drawing, const Work *work, char *reason, size_t size) {
-  char name[NAME_SIZE];
-  snprintf(name, sizeof name, "%s.gp", work->picture->name);
-  char *script = zp_path_join(drawing->folder, name);
-  if (script) zp_template_complaint(script, reason, size);
-  free(script);
-}
-
-static void finish(ZpDrawing *drawing, Work *work, ZpGnuplot end, char *reason, size_t size) {
-  ZpError err;
-  char name[NAME_SIZE];
-  name_of(work->picture, name);
-  if (end == ZP_GNUPLOT_FAILED) explain(drawing, work, reason, size);
-  if (end != ZP_GNUPLOT_DONE || !is_complete(work->out.temporary, work->picture->extension))
-    give_up(drawing, work, end, reason);
-  else if (zp_atomic_commit(&work->out, &err) != ZP_OK)
-    say(drawing, name, err.message);
-}
-
-static bool asked_to_stop(const ZpHooks *hooks) {
-  return hooks && hooks->progress && hooks->progress(hooks->user, "pictures", 1);
-}
-
-/* Wait a little for `busy` pictures and finish those that are done => how many are not. */
-static size_t tend(ZpDrawing *drawing, Work *work, size_t busy) {
-  ZpGnuplotChild *child[ZP_GNUPLOT_MOST] = {NULL};
-  char reason[1024];
-  for (size_t i = 0; i < busy; i++)
-    child[i] = &work[i].child;
-  zp_gnuplot_wait(child, busy);
-  const bool stop = asked_to_stop(drawing->hooks);
-  for (size_t i = busy; i-- > 0;) {
-    ZpGnuplot state = zp_gnuplot_look(&work[i].child, stop, reason, sizeof reason);
-    if (state == ZP_GNUPLOT_RUNS) continue;
-    finish(drawing, &work[i], state, reason, sizeof reason);
-    work[i] = work[--busy];
-  }
-  return busy;
-}
-
-static ZpStatus remove_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
-  const char *const extension[] = {"gp", "dat", picture->extension};
+static ZpStatus write_all(const ZpDrawing *drawing, const ZpPlot *plot, ZpError *err) {
+  ZpPicture list[PICTURES_MOST];
+  const size_t count = list_pictures(plot, list);
   ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < 3 && status == ZP_OK; i++) {
-    char name[NAME_SIZE];
-    snprintf(name, sizeof name, "%s.%s", picture->name, extension[i]);
-    status = zp_remove_file(drawing->folder, name, err);
-  }
+  if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
+    return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
+  if (count > 0) status = zp_drawing_file(drawing, "result.gp", zp_plot_define, plot, err);
+  for (const ZpPlotData *data = zp_plot_data; data->name && count > 0 && status == ZP_OK; data++)
+    if (data->has(plot)) status = zp_drawing_file(drawing, data->name, data->put, plot, err);
+  for (size_t i = 0; i < count && status == ZP_OK; i++)
+    status = zp_drawing_script(drawing, &list[i], err);
   return status;
 }
 
-static ZpStatus prepare_picture(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err) {
-  if (!zp_picture_is_drawn(picture, drawing->plot)) return ZP_OK;
-  ZpStatus status = write_script(drawing, picture, err);
-  return status == ZP_OK ? write_data(drawing, picture, err) : status;
+/* The drawing of a report, and, if there is something to draw, `plot`. Both are to be closed, on failure too. */
+static ZpStatus open_drawing(const ZpReport *report, ZpDrawing *drawing, ZpPlot *plot, ZpError *err) {
+  *plot = (ZpPlot){0};
+  *drawing = (ZpDrawing){.folder = zp_path_join(report->directory, "plots"),
+                         .templates = report->templates,
+                         .patience = ZP_DRAWING_PATIENCE,
+                         .hooks = report->hooks,
+                         .jobs = report->jobs};
+  if (!drawing->folder) return zp_fail_memory(err);
+  if (report->count == 0 || report->count > DRAWN_MOST) return ZP_OK;
+  ZpStatus status = zp_scenario_def(report->scenario, 0, &plot->def, err);
+  return status == ZP_OK && plot->def.output.plots ? zp_plot_open(report, plot, err) : status;
 }
 
-static ZpStatus for_all(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables,
-                        ZpStatus (*act)(const ZpDrawing *drawing, const ZpPicture *picture, ZpError *err),
-                        ZpError *err) {
-  ZpStatus status = ZP_OK;
-  for (size_t t = 0; t < tables; t++)
-    for (const ZpPicture *picture = table[t]; picture->name && status == ZP_OK; picture++)
-      status = act(drawing, picture, err);
-  return status;
+static void close_drawing(ZpDrawing *drawing, ZpPlot *plot) {
+  free(plot->column);
+  free((char *)drawing->folder);
 }
-
-/* Pictures of different studies may have the same name: all are removed before any is made. */
-ZpStatus zp_drawing_prepare(const ZpDrawing *drawing, const ZpPicture *const *table, size_t tables, ZpError *err) {
-  ZpStatus status = for_all(drawing, table, tables, remove_picture, err);
-  if (status == ZP_OK && mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
-    status = zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
-  if (status == ZP_OK) status = for_all(drawing, table, tables, prepare_picture, err);
-  return status;
-}
-
-static size_t at_once(const ZpDrawing *drawing) {
-  const int jobs = drawing->jobs > 0 ? drawing->jobs : zp_processors();
-  return jobs < ZP_GNUPLOT_MOST ? (size_t)jobs : ZP_GNUPLOT_MOST;
-}
-
-void zp_drawing_draw(ZpDrawing *drawing, const ZpPicture *const *table, size_t tables) {
-  Work work[ZP_GNUPLOT_MOST];
-  const size_t most = at_once(drawing);
-  size_t busy = 0;
-  for (size_t t = 0; t < tables; t++)
-    for (const ZpPicture *picture = table[t]; picture->name; picture++) {
-      while (busy == most)
-        busy = tend(drawing, work, busy);
-      if (!drawing->over && zp_picture_is_drawn(picture, drawing->plot)) busy += begin(drawing, picture, &work[busy]);
-    }
-  while (busy > 0)
-    busy = tend(drawing, work, busy);
-}
-
-/* -- those of a report ----------------------------------------------------------------------------- */
-
-static const ZpPicture *const all[] = {zp_run_pictures,         zp_shape_pictures,  zp_film_pictures, zp_sweep_pictures,
-                                       zp_map_pictures,         zp_path_pictures,   zp_fit_pictures,  zp_field_pictures,
-                                       zp_sensitivity_pictures, zp_sample_pictures, zp_many_pictures};
-
-enum { TABLES = sizeof all / sizeof all[0] };
 
 ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {
   ZpPlot plot;
-  char *folder = zp_path_join(report->directory, "plots");
-  if (!folder) return zp_fail_memory(err);
-  const ZpDrawing drawing = {.plot = &plot, .folder = folder};
-  ZpStatus status = zp_plot_open(report, &plot, err);
-  if (status == ZP_OK && plot.drawn)
-    status = zp_drawing_prepare(&drawing, all, TABLES, err);
-  else if (status == ZP_OK)
-    status = for_all(&drawing, all, TABLES, remove_picture, err);
-  zp_plot_close(&plot);
-  free(folder);
+  ZpDrawing drawing;
+  ZpStatus status = open_drawing(report, &drawing, &plot, err);
+  if (status == ZP_OK) status = remove_all(&drawing, err);
+  if (status == ZP_OK && plot.report) status = write_all(&drawing, &plot, err);
+  close_drawing(&drawing, &plot);
   return status;
 }
 
 void zp_plots_write(const ZpReport *report, void (*notice)(const char *message)) {
   ZpPlot plot;
+  ZpDrawing drawing;
+  ZpPicture list[PICTURES_MOST];
   ZpError err;
-  char *folder = zp_path_join(report->directory, "plots");
-  ZpStatus status = folder ? zp_plot_open(report, &plot, &err) : zp_fail_memory(&err);
-  if (status == ZP_OK && plot.drawn) {
-    ZpDrawing drawing = {&plot, folder, notice, ZP_PLOT_PATIENCE, report->hooks, report->jobs, false};
-    zp_drawing_draw(&drawing, all, TABLES);
-  }
+  ZpStatus status = open_drawing(report, &drawing, &plot, &err);
+  drawing.notice = notice;
+  if (status == ZP_OK && plot.report) zp_drawing_draw(&drawing, list, list_pictures(&plot, list));
   if (status != ZP_OK && notice) notice(err.message);
-  if (folder) zp_plot_close(&plot);
-  free(folder);
+  close_drawing(&drawing, &plot);
 }

@@ -652,6 +652,11 @@ const int *zp_scenario_axes(const ZpScenario *s, size_t *count) {
   return s->plan.axis;
 }
 
+const double *zp_scenario_axis(const ZpScenario *s, int key, size_t *count) {
+  *count = s->plan.tied[key] ? s->plan.together : s->held[key]->count;
+  return s->held[key]->value;
+}
+
 const ZpDesign *zp_scenario_design(const ZpScenario *s) {
   return s->plan.design.dimensions > 0 ? &s->plan.design : NULL;
 }

@@ -1,9 +1,17 @@
 #include "io/shows.h"
 
-ZpShows zp_study_shows(ZpStudy study) {
-  static const ZpShows of[ZpStudy_COUNT] = {
-#define ZP_STUDY(enumerator, word, shows, files, help) [enumerator] = ZP_SHOWS_##shows,
+static const struct {
+  ZpShows shows;
+  const char *word;
+} of[ZpStudy_COUNT] = {
+#define ZP_STUDY(enumerator, word, shows, files, help) [enumerator] = {ZP_SHOWS_##shows, #shows},
 #include <zipact/studies.def>
-  };
-  return of[study];
+};
+
+ZpShows zp_study_shows(ZpStudy study) {
+  return of[study].shows;
+}
+
+const char *zp_study_kind(ZpStudy study) {
+  return of[study].word;
 }

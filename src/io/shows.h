@@ -18,4 +18,7 @@ typedef enum ZpShows {
 
 ZpShows zp_study_shows(ZpStudy study);
 
+/* Its kind as a word: "held_branch". */
+const char *zp_study_kind(ZpStudy study);
+
 #endif

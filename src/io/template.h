@@ -3,7 +3,6 @@
 #ifndef ZP_IO_TEMPLATE_H
 #define ZP_IO_TEMPLATE_H
 
-#include <stdbool.h>
 #include <stdio.h>
 
 #include <zipact/error.h>
@@ -18,11 +17,11 @@ typedef struct ZpTemplate {
 extern const ZpTemplate zp_templates[];
 
 /* Write the template `name` to a script, with what it loads in place of the lines that load it: a script needs no other
- * file. `folder` is looked into first; "" is none. ZP_MACHINE if a file there cannot be read. */
+ * template. `folder` is looked into first; NULL is none. ZP_MACHINE if a file there cannot be read. */
 ZpStatus zp_template_write(const char *folder, const char *name, FILE *script, ZpError *err);
 
-/* What gnuplot says of a script, `"stroke.gp" line 80: ...`, as it is of a template: `template stroke.gp, line 12:
- * ...`. Of a line that no template has, it stays. */
-void zp_template_complaint(const char *script, char *reason, size_t size);
+/* What gnuplot says of a script in `folder`, `"stroke.gp" line 80: ...`, as it is of a template: `template stroke.gp,
+ * line 12: ...`. Of a line that no template has, it stays. */
+void zp_template_complaint(const char *folder, const char *script, char *reason, size_t size);
 
 #endif
