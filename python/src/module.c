@@ -175,8 +175,7 @@ static PyMethodDef methods[] = {
     {"keys", keys, METH_NOARGS, "(name, kind, unit, default, min, max, help, choices) of each key."},
     {"signals", signals, METH_NOARGS, "(name, unit, help) of each signal of a simulation."},
     {"read_scenario", read_scenario, METH_O, "One Definition per run of a scenario file."},
-    {"unpack_result", unpack_result, METH_VARARGS,
-     "unpack_result(packed, message, notes, scalars, sensitivities, columns): the Result that was packed."},
+    {"unpack_result", unpack_result, METH_O, "The Result that was packed."},
     {NULL, NULL, 0, NULL},
 };
 static PyModuleDef_Slot slots[] = {

@@ -4,13 +4,14 @@
 
 #include <stdint.h>
 
-#include <zipact/io.h>
+#include "io/packed.h"
 
 typedef struct ZpJournal ZpJournal;
 
 /* Open or create the journal of a `study` in `directory`. With `keep` the rows of an existing journal stay, except
- * those with numbers from `cases` on; ZP_BAD_INPUT if the file is not a journal of this version. Otherwise it is
- * replaced; ZP_BAD_INPUT if its campaign is unfinished. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ * those with numbers from `cases` on; ZP_BAD_INPUT if the file is not a journal, or names the version of which it is.
+ * Otherwise it is replaced; ZP_BAD_INPUT if its campaign is unfinished. ZP_MACHINE if it cannot be written. *out is
+ * NULL on failure. */
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
 
 /* Another reader of the rows on the disk, for its own thread; it cannot write. NULL if some rows are not on the disk
@@ -23,18 +24,6 @@ void zp_journal_close(ZpJournal *journal);
 /* Call `visit` for every row. */
 ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t number, uint64_t hash, bool good),
                           void *user, ZpError *err);
-
-/* A result in the form of the journal: some hundred bytes. */
-typedef struct ZpPacked {
-  ZpOutcome outcome;
-  char message[sizeof(((ZpResult *)0)->message)];
-  size_t size;
-  unsigned char byte[]; /* record.h */
-} ZpPacked;
-
-/* Pack a result => to be freed; NULL if there is no memory. Any thread may call it while another puts rows, but not
- * while one reads them. */
-ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result);
 
 /* Put a row, replacing one of the same number. It is on the disk after the next zp_journal_commit. */
 ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpPacked *row, ZpError *err);
