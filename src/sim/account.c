@@ -31,18 +31,14 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
   ZpMotion m = zp_state_motion(model, state);
   zp_plates_gaps(&model->plates, m.x, m.y, &sim->eval.plates);
   return zp_leak_now(&model->leak, &model->plates, &sim->eval.plates, state->U,
-                     zp_leak_memory(model, zp_state_memory(model, state)));
+                     zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }
 
 void zp_sim_start_account(ZpSim *sim) {
   ZpState *state = sim->state;
-  ZpEnergies energies = zp_system_energies(sim->model, state, &sim->eval);
+  zp_system_energies(sim->model, state, &sim->eval, zp_state_ledger(sim->model, state));
   ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
-  state->work = state->charging_loss = state->drag_loss = state->contact_loss = state->internal_loss = 0;
-  state->along_loss = state->across_loss = state->jet_loss = state->outer_drag_loss = state->meniscus_loss = 0;
-  state->load_work = state->leak_loss = state->plastic_loss = state->catch_loss = 0;
-  state->source_energy = state->source_loss = state->bleeder_loss = 0;
-  state->base_energy = zp_energy_without_field(&energies);
+  state->work = state->charging_loss = state->load_work = state->source_energy = 0;
   state->base_field = zp_field_energy(now, state->U);
   state->base_charge = now.charge;
   state->base_U = state->U;

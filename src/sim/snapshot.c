@@ -1,7 +1,7 @@
 /* State <=> bytes that mean the same on every machine. All numbers are little-endian.
  *
  *   bytes 0 .. 7    89 5a 50 53 0d 0a 1a 0a: no text, and a transfer as text would spoil it
- *   8 .. 11         version of the format, 9
+ *   8 .. 11         version of the format, 10
  *   12 .. 15        CRC-32 (as zlib's) of all that follows
  *   16 .. 23        length of the whole snapshot, bytes
  *
@@ -14,9 +14,10 @@
  *   state.names     the numbers of the state, one a line
  *   state.values    these numbers
  *   position ...    its arrays, each all x, then all y
- *   laws            what laws have beyond positions: heads of the liquid, its flows and cavities, each station by
- *                   station, then interface voltages, place by place, then plastic strains, fibre by fibre; empty
- *                   without liquid, leak and plasticity
+ *   laws            what laws have beyond positions: heads of the liquid, station by station, then the state of each
+ *                   law; empty without any
+ *   ledger.names    the rows of its ledger, one a line
+ *   ledger          their values: what they held when the ledger was opened, or have lost since, J
  *
  * Of several actuators there is one after the other for each, from the uppermost on.
  *
@@ -34,7 +35,7 @@
 #include "def/check.h"
 #include "sim/feed.h"
 
-enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 9, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
+enum { MAGIC = 8, SUM = 12, SUMMED = 16, HEADER = 24, VERSION = 10, NAME = 16, BLOCK = NAME + 16, LINE = 128 };
 
 static const unsigned char magic[MAGIC] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n'};
 
@@ -94,24 +95,12 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(REAL, opening0),
                                 NUMBER(VOLTAGE, base_U),
                                 NUMBER(REAL, base_charge),
-                                NUMBER(REAL, base_energy),
                                 NUMBER(REAL, base_field),
                                 NUMBER(REAL, work),
                                 NUMBER(REAL, charging_loss),
-                                NUMBER(REAL, drag_loss),
-                                NUMBER(REAL, contact_loss),
-                                NUMBER(REAL, internal_loss),
                                 NUMBER(REAL, changed_x),
                                 NUMBER(REAL, changed_y),
-                                NUMBER(REAL, catch_loss),
-                                NUMBER(REAL, plastic_loss),
-                                NUMBER(REAL, along_loss),
-                                NUMBER(REAL, across_loss),
-                                NUMBER(REAL, jet_loss),
-                                NUMBER(REAL, outer_drag_loss),
-                                NUMBER(REAL, leak_loss),
                                 NUMBER(REAL, leaked),
-                                NUMBER(REAL, meniscus_loss),
                                 NUMBER(REAL, bead[0].reach),
                                 NUMBER(REAL, bead[0].rate),
                                 NUMBER(REAL, bead[0].outside),
@@ -135,8 +124,6 @@ static const Number number[] = {NUMBER(REAL, t),
                                 NUMBER(VOLTAGE, supply.voltage),
                                 NUMBER(REAL, source_charge),
                                 NUMBER(REAL, source_energy),
-                                NUMBER(REAL, source_loss),
-                                NUMBER(REAL, bleeder_loss),
                                 NUMBER(RATE, U_rate),
                                 NUMBER(REAL, U_change),
                                 NUMBER(VOLTAGE, voltage_input.value),
@@ -170,15 +157,27 @@ static const Number number[] = {NUMBER(REAL, t),
 #undef NUMBER
 
 static const char *const array[] = {"position",      "velocity",    "held force", "held at",
-                                    "mean velocity", "mean accel.", "laws"};
+                                    "mean velocity", "mean accel.", "laws",       "ledger"};
 
-enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0 };
+enum {
+  NUMBERS = sizeof number / sizeof number[0],
+  ARRAYS = sizeof array / sizeof array[0],
+  LEDGER = ARRAYS - 1,
+  LAWS = LEDGER - 1,
+  TIME = 0
+};
 
 _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == NUMBERS * sizeof(double), "a snapshot holds all of a state");
 
-/* Of array k, of nodes all but the last. */
+/* Of array k, of nodes all but the last two. */
 static size_t length_of(const ZpModel *model, size_t k) {
-  return k + 1 < ARRAYS ? 2 * model->stride : zp_own_unknowns(model) + model->kept;
+  if (k == LEDGER) return model->ledger.rows;
+  return k == LAWS ? zp_own_unknowns(model) + model->kept : 2 * model->stride;
+}
+
+/* Where array k begins in the data of a state. */
+static size_t place_of(const ZpModel *model, size_t k) {
+  return k == LEDGER ? place_of(model, LAWS) + length_of(model, LAWS) : 2 * k * model->stride;
 }
 
 static bool is_size(size_t k) {
@@ -355,6 +354,13 @@ static void write_model(Writer *writer, const ZpActuatorDef *def) {
   close_block(writer, values, 8);
 }
 
+static void write_rows(Writer *writer, const ZpLedger *ledger) {
+  size_t names = open_block(writer, "ledger.names", 1);
+  for (size_t k = 0; k < ledger->rows; k++)
+    write_line(writer, ledger->row[k]->name);
+  close_block(writer, names, 1);
+}
+
 static void write_state(Writer *writer, const ZpModel *model, const ZpState *state) {
   size_t names = open_block(writer, "state.names", 1);
   for (size_t k = 0; k < NUMBERS; k++)
@@ -364,8 +370,10 @@ static void write_state(Writer *writer, const ZpModel *model, const ZpState *sta
   for (size_t k = 0; k < NUMBERS; k++)
     write_real(writer, number_of(state, k));
   close_block(writer, values, 8);
-  for (size_t k = 0; k < ARRAYS; k++)
-    write_array(writer, array[k], state->data + 2 * k * model->stride, length_of(model, k));
+  for (size_t k = 0; k < ARRAYS; k++) {
+    if (k == LEDGER) write_rows(writer, &model->ledger);
+    write_array(writer, array[k], state->data + place_of(model, k), length_of(model, k));
+  }
 }
 
 static size_t head_size(const ZpModel *model) {
@@ -376,7 +384,9 @@ static size_t head_size(const ZpModel *model) {
 }
 
 static size_t size_of(const ZpModel *model) {
-  size_t size = head_size(model) + 2 * (size_t)BLOCK;
+  size_t size = head_size(model) + 3 * (size_t)BLOCK;
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    size += strlen(model->ledger.row[k]->name) + 1;
   for (size_t k = 0; k < NUMBERS; k++)
     size += strlen(number[k].name) + 1 + sizeof(double);
   for (size_t k = 0; k < ARRAYS; k++)
@@ -405,7 +415,7 @@ typedef struct Block {
 
 /* A whole snapshot, taken apart. */
 typedef struct Parts {
-  Block program, key, value, name, number, array[ARRAYS];
+  Block program, key, value, name, number, array[ARRAYS], row;
 } Parts;
 
 static ZpStatus check_frame(const unsigned char *byte, size_t size, ZpError *err) {
@@ -449,8 +459,10 @@ static ZpStatus take_apart(const void *bytes, size_t size, Parts *parts, ZpError
                take_block(byte, size, &used, "model.values", 8, &parts->value) &&
                take_block(byte, size, &used, "state.names", 1, &parts->name) &&
                take_block(byte, size, &used, "state.values", 8, &parts->number);
-  for (size_t k = 0; k < ARRAYS; k++)
+  for (size_t k = 0; k < ARRAYS; k++) {
+    if (k == LEDGER) whole = whole && take_block(byte, size, &used, "ledger.names", 1, &parts->row);
     whole = whole && take_block(byte, size, &used, array[k], 8, &parts->array[k]);
+  }
   whole = whole && used == size && parts->number.count == NUMBERS;
   return whole ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "damaged: its blocks are not those of a snapshot");
 }
@@ -666,20 +678,31 @@ double zp_snapshot_time(const void *bytes, size_t size) {
   return take_apart(bytes, first_of(bytes, size), &parts, NULL) == ZP_OK ? real_at(parts.number.item, TIME) : NAN;
 }
 
+/* Are the rows of its ledger those of the model? */
+static ZpStatus check_rows(const Parts *parts, const ZpLedger *ledger, ZpError *err) {
+  Block text = parts->row;
+  char line[LINE];
+  for (size_t k = 0; k < ledger->rows; k++)
+    if (!take_line(&text, line) || strcmp(line, ledger->row[k]->name) != 0)
+      return fail_version(&parts->program, "rows", err);
+  return text.count == 0 ? ZP_OK : fail_version(&parts->program, "rows", err);
+}
+
 static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err) {
   Parts parts;
-  size_t stride = model->stride;
   ZpStatus status = take_fitting(&model->def, bytes, size, &parts, err);
   if (status != ZP_OK) return status;
   for (size_t k = 0; k < ARRAYS; k++)
     if (parts.array[k].count != length_of(model, k))
       return zp_fail(err, ZP_BAD_INPUT, "%zu numbers for %s: a state of this model has %zu", parts.array[k].count,
                      array[k], length_of(model, k));
+  status = check_rows(&parts, &model->ledger, err);
+  if (status != ZP_OK) return status;
   for (size_t k = 0; k < NUMBERS; k++)
     set_number(state, k, real_at(parts.number.item, k));
   for (size_t k = 0; k < ARRAYS; k++)
     for (size_t j = 0; j < length_of(model, k); j++)
-      state->data[2 * k * stride + j] = real_at(parts.array[k].item, j);
+      state->data[place_of(model, k) + j] = real_at(parts.array[k].item, j);
   return ZP_OK;
 }
 

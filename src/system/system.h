@@ -4,8 +4,10 @@
 
 #include "term/term.h"
 
-/* Allocate the arrays of `eval` (with `solves` also those for held forces) and find the terms that the model has; false
- * if there is no memory. */
+/* Add a law of a program's own to a model, before states and evals of it are created. False if there is no room. */
+bool zp_model_add_term(ZpModel *model, const ZpTerm *term);
+
+/* Allocate the arrays of `eval`, with `solves` also those for held forces; false if there is no memory. */
 bool zp_system_create(const ZpModel *model, bool solves, ZpEval *eval);
 void zp_system_destroy(ZpEval *eval);
 
@@ -34,11 +36,17 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
  * drag_rate of eval. */
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
 
-/* Energies of a state without the field. */
-ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *eval);
+/* ledger [rows] = energies of a state without the field in their rows, J; 0 in all others. */
+void zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *eval, double *ledger);
 
-/* Energy that the terms have lost over a span, at its last force. */
-ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
+/* Sum of a ledger's rows of one kind. */
+double zp_system_sum(const ZpModel *model, ZpRowKind kind, const double *ledger);
+
+/* Add what the terms have lost over a span, at its last force, to the ledger of the state. */
+void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpState *state);
+
+/* Put the present values of all signals of terms into their rows of a ledger. */
+void zp_system_show(const ZpModel *model, const ZpState *state, double *ledger);
 
 /* F [2 stride] = inertia of all terms beyond the masses of nodes, at accelerations a [2 stride], N. */
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
