@@ -38,7 +38,9 @@ void zp_sim_start_account(ZpSim *sim) {
   ZpState *state = sim->state;
   zp_system_energies(sim->model, state, &sim->eval, zp_state_ledger(sim->model, state));
   ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
-  state->work = state->charging_loss = state->load_work = state->source_energy = 0;
+  state->work = state->charging_loss = 0;
+  state->load_work = 0;
+  state->source_energy = 0;
   state->base_field = zp_field_energy(now, state->U);
   state->base_charge = now.charge;
   state->base_U = state->U;

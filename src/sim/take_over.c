@@ -40,13 +40,13 @@ static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   return ZP_OK;
 }
 
-/* `count` numbers go on from `known` ones of the same kind, or begin at 0. */
+/* Copy numbers of one kind if both models have as many; else they begin at 0. */
 static void take_numbers(double *to, size_t count, const double *old, size_t known) {
   for (size_t i = 0; i < count; i++)
     to[i] = count == known ? old[i] : 0;
 }
 
-/* The numbers of a law that both models have go on; those of one that comes begin at 0: a liquid at rest, faces without
+/* A law that both models have keeps its numbers; those of one that comes begin at 0: a liquid at rest, faces without
  * charge, a strip that has not yielded. */
 static void take_own(ZpSim *sim, const ZpSim *from) {
   const ZpModel *model = sim->model;
