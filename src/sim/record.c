@@ -448,19 +448,27 @@ ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *
   return ZP_OK;
 }
 
+/* A row of the ledger that is no signal: of several members the sum, or the largest; NAN: none has it. */
+static double unlisted(ZpSim *sim, const char *name) {
+  double found = NAN;
+  for (ZpSim *m = sim; m; m = m->below)
+    for (size_t k = 0; k < m->model->ledger.rows; k++) {
+      const ZpRow *row = m->model->ledger.row[k];
+      if (strcmp(row->name, name) != 0) continue;
+      fill_own_row(m, taken_by(row));
+      double value = m->row[m->row_at[k]];
+      found = isnan(found) ? value : row->kind == ZP_ROW_SIGNAL ? fmax(found, value) : found + value;
+    }
+  return found;
+}
+
 double zp_sim_get(ZpSim *sim, const char *name) {
   for (size_t k = 0; k < SIGNAL_COUNT; k++)
     if (strcmp(names[k], name) == 0) {
       fill_row(sim, row_of[k] ? taken_by(row_of[k]) : takes[k]);
       return sim->row[k];
     }
-  const ZpLedger *ledger = &sim->model->ledger;
-  for (size_t k = 0; k < ledger->rows; k++)
-    if (strcmp(ledger->row[k]->name, name) == 0) {
-      fill_row(sim, taken_by(ledger->row[k]));
-      return sim->row[sim->row_at[k]];
-    }
-  return NAN;
+  return unlisted(sim, name);
 }
 
 void zp_sim_read(ZpSim *sim, double *row) {
