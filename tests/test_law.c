@@ -4,6 +4,8 @@
  * Against: the integral of c v^2 over samples of a run; the balance of energy; runs without it. */
 #include "state_util.h"
 
+#include "sim/run_rates.h"
+
 static const double cold = 0.3;  /* N s/m, on the load of the whole actuator */
 static const double grows = 1e3; /* coefficient per (m/s)^2 s, over the cold one */
 
@@ -208,12 +210,49 @@ START_TEST(continues_from_a_snapshot) {
 }
 END_TEST
 
+static double signal_of(ZpSim *sim, void *name) {
+  return zp_sim_get(sim, name);
+}
+
+/* A loss of the damper in a run of 20 ms, with another mass of the load. */
+static double lost_with(double mass, const char *signal) {
+  ZpActuatorDef def = def_of(false, ZP_SYMMETRY_HALF);
+  def.load.mass = mass;
+  Run run = begin(&def, true);
+  go_to(&run, 20e-3);
+  double value = zp_sim_get(run.sim, signal);
+  end(&run);
+  return value;
+}
+
+/* Derivatives of a run follow the row and the state of the damper, too. */
+START_TEST(derivatives_know_the_row) {
+  static char signals[][24] = {"damper_loss", "damper_coefficient"};
+  const int key = zp_key_find("load.mass");
+  const double part = 1e-3;
+  ZpActuatorDef def = def_of(false, ZP_SYMMETRY_HALF);
+  Run run = begin(&def, true);
+  ZpRunRates rates;
+  ck_assert_int_eq(zp_run_rates_open(&rates, run.sim, &key, 1, NULL), ZP_OK);
+  go_to(&run, 20e-3);
+  for (size_t k = 0; k < LENGTH_OF(signals); k++) {
+    double more = lost_with((1 + part) * def.load.mass, signals[k]),
+           less = lost_with((1 - part) * def.load.mass, signals[k]);
+    double rate = zp_run_rate_of(&rates, 0, signal_of, signals[k]);
+    ck_near(rate, (more - less) / (2 * part * def.load.mass), 1e-4);
+  }
+  zp_run_rates_close(&rates);
+  end(&run);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("law");
   TCase *c = tcase_create("damper");
   tcase_add_loop_test(c, row_is_the_integral, 0, (int)LENGTH_OF(cases));
   tcase_add_test(c, imbalance_is_of_first_order);
   tcase_add_loop_test(c, continues_from_a_snapshot, 0, 2);
+  tcase_add_test(c, derivatives_know_the_row);
   suite_add_tcase(suite, c);
   return run_suite(suite);
 }

@@ -60,8 +60,9 @@ typedef struct ZpHingeParams {
   double rest;      /* angle without a moment, positive downwards, rad */
 } ZpHingeParams;
 
-/* The rows of all laws of a model, each with a number. */
-enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 32, ZP_ROWS_OF_TERM = 6 };
+/* Rows, each with a number. Models of one program have the same rows, whichever laws they have, so that a state of one
+ * is a state of a neighbour; laws of a program's own add rows. */
+enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 40, ZP_ROWS_OF_TERM = 6 };
 typedef struct ZpLedger {
   const ZpRow *row[ZP_MOST_ROWS]; /* the first one is the kinetic energy of nodes */
   size_t rows;

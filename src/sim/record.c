@@ -193,12 +193,11 @@ static void fill_rows(const ZpSim *sim, ZpRowKind kind, const double *ledger, do
 static void fill_books(const ZpSim *sim, double *row) {
   const ZpModel *model = sim->model;
   const double *ledger = zp_state_ledger(model, sim->state);
-  double shown[ZP_MOST_ROWS];
+  double shown[ZP_MOST_ROWS] = {0};
   zp_system_show(model, sim->state, shown);
   fill_rows(sim, ZP_ROW_LOST, ledger, row);
   fill_rows(sim, ZP_ROW_SOURCE, ledger, row);
   fill_rows(sim, ZP_ROW_SIGNAL, shown, row);
-  if (!model->has_film) return;
   double viscous = *zp_state_row(model, sim->state, &zp_row_film_along_loss) +
                    *zp_state_row(model, sim->state, &zp_row_film_across_loss);
   row[SIGNAL_viscous_loss] = model->parts * viscous;
@@ -303,8 +302,8 @@ static unsigned taken_by(const ZpRow *row) {
 static void fill_own_row(ZpSim *sim, unsigned what) {
   const ZpModel *model = sim->model;
   double *row = sim->row, stored = 0, kept = 0;
-  memset(row, 0, zp_sim_row_size() * sizeof *row); /* those of a meter are added by studies */
   fill_state(sim, row);
+  row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
   fill_books(sim, row);
   if (what & MECHANICS) stored = fill_mechanics(sim, row);
   if (what & ELECTRIC) kept = fill_electric(sim, row);

@@ -93,6 +93,7 @@ static bool solve_member(ZpSim *sim, const ZpHooks *hooks, double *q, bool *foun
   ZpDriveTable table = sim->model->waveform.table;
   ZpModel *alone;
   if (zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &alone, NULL) != ZP_OK) return false;
+  zp_model_take_laws(alone, sim->model);
   bool solved = solve_at(sim, alone, hooks, q, found);
   zp_model_destroy(alone);
   return solved;

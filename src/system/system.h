@@ -7,6 +7,9 @@
 /* Add a law of a program's own to a model, before states and evals of it are created. False if there is no room. */
 bool zp_model_add_term(ZpModel *model, const ZpTerm *term);
 
+/* Add to a model and its members those laws of another that a program has added. */
+void zp_model_take_laws(ZpModel *model, const ZpModel *from);
+
 /* Allocate the arrays of `eval`, with `solves` also those for held forces; false if there is no memory. */
 bool zp_system_create(const ZpModel *model, bool solves, ZpEval *eval);
 void zp_system_destroy(ZpEval *eval);
