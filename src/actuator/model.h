@@ -151,19 +151,17 @@ typedef struct ZpState {
   double U;     /* potential difference, V */
   bool by_hand; /* the user has set it: the waveform does not count any more */
   ZpZipState zip;
-  bool was_open;        /* has the opening been above 1 % of the hanging one? */
-  double zip_time;      /* s; NAN until zipped */
-  double closed_from;   /* since when it has been closed, after zip_time, s; NAN: it is open */
-  ZpStill still;        /* while it is closed */
-  double opening0;      /* of the hanging equilibrium, m */
-  double base_U;        /* voltage since the account of work was last closed, V; where U is another, it has jumped
-                           there now */
-  double base_charge;   /* per part, when it was closed, C */
-  double base_field;    /* per part: field energy at the start, J */
-  double work;          /* per part: of the source until the account was closed, J */
-  double charging_loss; /* per part: what the field did not keep of jumps of the voltage until then, J */
-  bool load_changed;    /* load.change_mass has been caught or dropped, */
-  double changed_x;     /* where its node was then, m */
+  bool was_open;      /* has the opening been above 1 % of the hanging one? */
+  double zip_time;    /* s; NAN until zipped */
+  double closed_from; /* since when it has been closed, after zip_time, s; NAN: it is open */
+  ZpStill still;      /* while it is closed */
+  double opening0;    /* of the hanging equilibrium, m */
+  double base_U;      /* voltage since the account of work was last closed, V; where U is another, it has jumped
+                         there now */
+  double base_charge; /* per part, when it was closed, C */
+  double work;        /* per part: of the source until the account was closed, J */
+  bool load_changed;  /* load.change_mass has been caught or dropped, */
+  double changed_x;   /* where its node was then, m */
   double changed_y;
   double last_step;        /* implicit: length of the last step, s; 0: there is none */
   double next_step;        /* and of the next one to try */
@@ -384,11 +382,15 @@ static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride + zp_own_unknowns(model) + model->kept;
 }
 
-/* The entry of a row in the ledger of a state; NULL: the model does not have the row. */
-static inline double *zp_state_row(const ZpModel *model, ZpState *state, const ZpRow *row) {
+/* The entry of a row in a ledger [rows]; NULL: the model does not have the row. */
+static inline double *zp_ledger_at(const ZpModel *model, double *ledger, const ZpRow *row) {
   for (size_t k = 0; k < model->ledger.rows; k++)
-    if (model->ledger.row[k] == row) return zp_state_ledger(model, state) + k;
+    if (model->ledger.row[k] == row) return ledger + k;
   return NULL;
+}
+
+static inline double *zp_state_row(const ZpModel *model, ZpState *state, const ZpRow *row) {
+  return zp_ledger_at(model, zp_state_ledger(model, state), row);
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */

@@ -27,7 +27,7 @@ void zp_sim_change_load(ZpSim *sim) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   size_t j = zp_load_node(&model->topology);
-  double before[ZP_MOST_ROWS], after[ZP_MOST_ROWS];
+  double before[ZP_MOST_ROWS] = {0}, after[ZP_MOST_ROWS] = {0};
   zp_system_energies(model, state, &sim->eval, before);
   double brought = energy_of_mass(model, state);
   zp_dynamics_change_load(&sim->dynamics, state);
@@ -36,6 +36,6 @@ void zp_sim_change_load(ZpSim *sim) {
   state->changed_y = zp_state_motion(model, state).y[j];
   zp_system_energies(model, state, &sim->eval, after);
   *zp_state_row(model, state, &zp_row_catch_loss) +=
-      zp_system_sum(model, ZP_ROW_STORED, before) + brought - zp_system_sum(model, ZP_ROW_STORED, after);
+      zp_system_stored(model, before) + brought - zp_system_stored(model, after);
   *zp_state_row(model, state, &zp_row_kinetic_energy) += brought;
 }

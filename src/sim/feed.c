@@ -260,10 +260,10 @@ static void jump(ZpSim *sim, double V) {
   double parts = sim->model->parts, C = sim->model->supply.capacitance, R = sim->model->supply.resistance,
          U0 = state->U;
   double charge0 = zp_system_electric_now(sim->model, state, U0, &sim->eval).charge, work0 = given(state, charge0);
-  double loss0 = state->charging_loss;
+  double *charging = zp_state_row(sim->model, state, &zp_row_charging_loss), loss0 = *charging;
   zp_sim_jump(sim, V);
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  double work = parts * (given(state, state->base_charge) - work0), lost = state->charging_loss - loss0;
+  double work = parts * (given(state, state->base_charge) - work0), lost = *charging - loss0;
   state->source_charge += parts * (state->base_charge - charge0) + C * (V - U0);
   state->source_energy += work + C * V * (V - U0);
   *lost_in_source(sim) += 0.5 * C * (V - U0) * (V - U0);
@@ -272,7 +272,7 @@ static void jump(ZpSim *sim, double V) {
     return;
   }
   state->work -= lost;
-  state->charging_loss -= lost;
+  *charging -= lost;
   *lost_in_source(sim) += parts * lost;
   sim->feed.square += (parts * lost + 0.5 * C * (V - U0) * (V - U0)) / R;
   sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);

@@ -181,36 +181,18 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_load_work] = parts * state->load_work;
 }
 
-/* Values of the rows of one kind => their places. */
-static void fill_rows(const ZpSim *sim, ZpRowKind kind, const double *ledger, double *row) {
+/* Values of all rows => their places. */
+static void fill_books(const ZpSim *sim, double *now, double *row) {
   const ZpModel *model = sim->model;
-  double times = kind == ZP_ROW_STORED || kind == ZP_ROW_LOST ? model->parts : 1;
-  for (size_t k = 0; k < model->ledger.rows; k++)
-    if (model->ledger.row[k]->kind == kind) row[sim->row_at[k]] = times * ledger[k];
-}
-
-/* Rows that follow from the state alone. */
-static void fill_books(const ZpSim *sim, double *row) {
-  const ZpModel *model = sim->model;
-  const double *ledger = zp_state_ledger(model, sim->state);
-  double shown[ZP_MOST_ROWS] = {0};
-  zp_system_show(model, sim->state, shown);
-  fill_rows(sim, ZP_ROW_LOST, ledger, row);
-  fill_rows(sim, ZP_ROW_SOURCE, ledger, row);
-  fill_rows(sim, ZP_ROW_SIGNAL, shown, row);
-  double viscous = *zp_state_row(model, sim->state, &zp_row_film_along_loss) +
-                   *zp_state_row(model, sim->state, &zp_row_film_across_loss);
+  double viscous =
+      *zp_ledger_at(model, now, &zp_row_film_along_loss) + *zp_ledger_at(model, now, &zp_row_film_across_loss);
+  for (size_t k = 0; k < model->ledger.rows; k++) {
+    ZpRowKind kind = model->ledger.row[k]->kind;
+    row[sim->row_at[k]] = (kind == ZP_ROW_STORED || kind == ZP_ROW_LOST ? model->parts : 1) * now[k];
+  }
   row[SIGNAL_viscous_loss] = model->parts * viscous;
-}
-
-/* => increase of kinetic and stored energy without the field since the account was opened, of one part, J. */
-static double fill_mechanics(ZpSim *sim, double *row) {
-  const ZpModel *model = sim->model;
-  double now[ZP_MOST_ROWS];
-  zp_system_energies(model, sim->state, &sim->eval, now);
-  fill_rows(sim, ZP_ROW_STORED, now, row);
-  return zp_system_sum(model, ZP_ROW_STORED, now) -
-         zp_system_sum(model, ZP_ROW_STORED, zp_state_ledger(model, sim->state));
+  row[SIGNAL_energy_imbalance] = row[SIGNAL_electric_work] + row[SIGNAL_load_work] -
+                                 model->parts * zp_system_taken(model, zp_state_ledger(model, sim->state), now);
 }
 
 /* What the insulators conduct, and the charge on their faces. */
@@ -221,13 +203,13 @@ static void fill_leak(ZpSim *sim, double *row) {
   row[SIGNAL_interface_voltage] = now.mean;
 }
 
-/* => energy that the source has delivered less what the field has kept and jumps have lost, of one part, J. */
-static double fill_electric(ZpSim *sim, double *row) {
+/* Also the rows that the account of the source fills. */
+static void fill_electric(ZpSim *sim, double *now, double *row) {
   const ZpState *state = sim->state;
   ZpElectric e = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   ZpAccount account = zp_sim_account(sim, e);
   bool fed = zp_sim_is_fed(sim);
-  double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
+  double parts = sim->model->parts, passed = state->t - sim->row_time;
   double given = fed ? state->source_charge / parts : e.charge + state->leaked;
   sim->own_charge = e.charge;
   fill_leak(sim, row);
@@ -239,9 +221,8 @@ static double fill_electric(ZpSim *sim, double *row) {
   row[SIGNAL_electric_work] = parts * account.work;
   row[SIGNAL_source_energy] = sim->own_energy = fed ? state->source_energy : row[SIGNAL_electric_work];
   row[SIGNAL_power] = passed > 0 ? (row[SIGNAL_source_energy] - sim->row_energy) / passed : 0;
-  row[SIGNAL_charging_loss] = parts * account.charging_loss;
-  row[SIGNAL_field_energy] = parts * field;
-  return account.work - (field - state->base_field) - account.charging_loss;
+  *zp_ledger_at(sim->model, now, &zp_row_charging_loss) = account.charging_loss;
+  *zp_ledger_at(sim->model, now, &zp_row_field_energy) = zp_field_energy(e, state->U);
 }
 
 /* Of one member. */
@@ -278,38 +259,30 @@ static void fill_margins(ZpSim *sim, double *row) {
 
 /* The computations that a signal needs; they cost far more than reading the state. */
 enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, MARGINS = 4, ENERGY = MECHANICS | ELECTRIC, ALL = ENERGY | MARGINS };
-static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
-                                                  [SIGNAL_charge] = ELECTRIC,
-                                                  [SIGNAL_capacitance] = ELECTRIC,
-                                                  [SIGNAL_current] = ELECTRIC,
-                                                  [SIGNAL_electric_work] = ELECTRIC,
-                                                  [SIGNAL_charging_loss] = ELECTRIC,
-                                                  [SIGNAL_field_energy] = ELECTRIC,
-                                                  [SIGNAL_source_energy] = ELECTRIC,
-                                                  [SIGNAL_power] = ELECTRIC,
-                                                  [SIGNAL_leak_current] = ELECTRIC,
-                                                  [SIGNAL_interface_voltage] = ELECTRIC,
-                                                  [SIGNAL_energy_imbalance] = ENERGY,
-                                                  [SIGNAL_insulator_field] = MARGINS,
-                                                  [SIGNAL_max_stress] = MARGINS};
+static const unsigned char takes[SIGNAL_COUNT] = {
+    [SIGNAL_force] = ELECTRIC,          [SIGNAL_charge] = ELECTRIC,         [SIGNAL_capacitance] = ELECTRIC,
+    [SIGNAL_current] = ELECTRIC,        [SIGNAL_electric_work] = ELECTRIC,  [SIGNAL_source_energy] = ELECTRIC,
+    [SIGNAL_power] = ELECTRIC,          [SIGNAL_leak_current] = ELECTRIC,   [SIGNAL_interface_voltage] = ELECTRIC,
+    [SIGNAL_energy_imbalance] = ENERGY, [SIGNAL_insulator_field] = MARGINS, [SIGNAL_max_stress] = MARGINS};
 
 /* The computations that a row of the ledger needs. */
 static unsigned taken_by(const ZpRow *row) {
+  if (row == &zp_row_field_energy || row == &zp_row_charging_loss) return ELECTRIC;
   return row->kind == ZP_ROW_STORED ? MECHANICS : STATE;
 }
 
 /* Signals that need no more than `what` => sim->row, of one member alone. */
 static void fill_own_row(ZpSim *sim, unsigned what) {
   const ZpModel *model = sim->model;
-  double *row = sim->row, stored = 0, kept = 0;
+  double *row = sim->row, now[ZP_MOST_ROWS];
+  memcpy(now, zp_state_ledger(model, sim->state), model->ledger.rows * sizeof *now);
+  zp_system_show(model, sim->state, now);
   fill_state(sim, row);
   row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
-  fill_books(sim, row);
-  if (what & MECHANICS) stored = fill_mechanics(sim, row);
-  if (what & ELECTRIC) kept = fill_electric(sim, row);
+  if (what & MECHANICS) zp_system_energies(model, sim->state, &sim->eval, now);
+  if (what & ELECTRIC) fill_electric(sim, now, row);
   if (what & MARGINS) fill_margins(sim, row);
-  double lost = zp_system_sum(model, ZP_ROW_LOST, zp_state_ledger(model, sim->state));
-  row[SIGNAL_energy_imbalance] = model->parts * (kept + sim->state->load_work - stored - lost);
+  fill_books(sim, now, row);
 }
 
 /* How a signal of a series follows from those of its members, the uppermost first: most are sums. */

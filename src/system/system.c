@@ -120,16 +120,27 @@ static double kinetic_energy(const ZpModel *model, const ZpState *state) {
 void zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *e, double *ledger) {
   ZpMotion m = zp_state_motion(model, state);
   ZpSpan now = zp_span_of(model, state, m.x, m.vx);
-  memset(ledger, 0, model->ledger.rows * sizeof *ledger);
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    if (model->ledger.row[k]->kind == ZP_ROW_STORED) ledger[k] = 0;
   ledger[0] = kinetic_energy(model, state);
   for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
     if (law->term->energy) add_rows(model, law, law->term->energy, &now, e, ledger);
 }
 
-double zp_system_sum(const ZpModel *model, ZpRowKind kind, const double *ledger) {
+double zp_system_stored(const ZpModel *model, const double *ledger) {
   double sum = 0;
   for (size_t k = 0; k < model->ledger.rows; k++)
-    if (model->ledger.row[k]->kind == kind) sum += ledger[k];
+    if (model->ledger.row[k]->kind == ZP_ROW_STORED) sum += ledger[k];
+  return sum;
+}
+
+double zp_system_taken(const ZpModel *model, const double *start, const double *now) {
+  double sum = 0;
+  for (size_t k = 0; k < model->ledger.rows; k++) {
+    ZpRowKind kind = model->ledger.row[k]->kind;
+    if (kind == ZP_ROW_STORED) sum += now[k] - start[k];
+    if (kind == ZP_ROW_LOST) sum += now[k];
+  }
   return sum;
 }
 

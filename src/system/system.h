@@ -39,11 +39,15 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
  * drag_rate of eval. */
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
 
-/* ledger [rows] = energies of a state without the field in their rows, J; 0 in all others. */
+/* ledger [rows] = energies of a state in their rows, J, 0 in that of the field; other rows stay. */
 void zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *eval, double *ledger);
 
-/* Sum of a ledger's rows of one kind. */
-double zp_system_sum(const ZpModel *model, ZpRowKind kind, const double *ledger);
+/* Sum of all energies in a ledger, J. */
+double zp_system_stored(const ZpModel *model, const double *ledger);
+
+/* What one part has taken since its ledger was opened, J: the rise of all energies, and all losses. It is the work of
+ * source and load if the energy balances. */
+double zp_system_taken(const ZpModel *model, const double *start, const double *now);
 
 /* Add what the terms have lost over a span, at its last force, to the ledger of the state. */
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpState *state);
