@@ -236,7 +236,7 @@ START_TEST(mean_force_does_the_work) {
   q[3] = 0.8 * model->l, q[model->stride + 3] = -0.6 * model->l;
   q1[3] = 0.5 * model->l, q1[model->stride + 3] = 0.9 * model->l * noise(&seed);
   ZpSpan span = zp_span_at(q), end = zp_span_at(q1);
-  ZpEnergies before = {0}, after = {0};
+  double before = 0, after = 0;
   zp_term_hinge.energy(model, &span, &eval, &before);
   zp_term_hinge.energy(model, &end, &eval, &after);
   span.end = q1, span.h = 1;
@@ -245,7 +245,7 @@ START_TEST(mean_force_does_the_work) {
   zp_term_hinge.force(model, &span, &eval, F);
   double work = F[3] * (q1[3] - q[3]) + F[model->stride + 3] * (q1[model->stride + 3] - q[model->stride + 3]);
   ck_assert_double_gt(fabs(work), 1e-5);
-  ck_near(work, before.spring - after.spring, 1e-12);
+  ck_near(work, before - after, 1e-12);
   zp_free(q);
   zp_system_destroy(&eval);
   zp_model_destroy(model);

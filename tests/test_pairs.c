@@ -251,19 +251,21 @@ static double energy_and_forces(ZpStatics *s, size_t which, double *F) {
   now.beyond = zp_eval_beyond(e);
   zp_system_force(model, &now, e, F); /* finds edges and gaps for the terms */
   memset(F, 0, 2 * model->stride * sizeof *F);
-  ZpEnergies sum = {0};
+  double row[ZP_ROWS_OF_TERM] = {0}, stored = 0;
   ZpElectric field = {0};
-  for (size_t k = 0; k < e->terms; k++) {
-    bool electric = is_electric(e->term[k]);
-    if (which == e->terms ? !electric : k != which) continue;
-    e->term[k]->force(model, &now, e, F);
-    if (e->term[k]->energy && !moves(e->term[k])) e->term[k]->energy(model, &now, e, &sum);
-    if (e->term[k]->electric) e->term[k]->electric(model, &now, e, ZP_SPAN_END, s->U, &field);
+  for (size_t k = 0; k < model->laws; k++) {
+    const ZpTerm *term = model->law[k].term;
+    if (which == model->laws ? !is_electric(term) : k != which) continue;
+    term->force(model, &now, e, F);
+    if (term->energy && !moves(term)) term->energy(model, &now, e, row);
+    if (term->electric) term->electric(model, &now, e, ZP_SPAN_END, s->U, &field);
   }
+  for (size_t k = 0; k < ZP_ROWS_OF_TERM; k++)
+    stored += row[k];
   double surfaces = 0;
-  for (int half = 0; which == e->terms && half < zp_beads(&model->film); half++)
+  for (int half = 0; which == model->laws && half < zp_beads(&model->film); half++)
     surfaces -= 2 * model->bead.suction * model->bead.tension * model->film.w * e->reach[half];
-  return sum.axial + sum.bending + sum.gravity + sum.spring + field.potential + surfaces;
+  return stored + field.potential + surfaces;
 }
 
 enum { ROOM = 512 };
@@ -360,8 +362,8 @@ static void check_point(ZpStatics *s, AtRest *worst) {
   memcpy(q0, s->q, bytes);
   s->U = 2e3;
   draw_direction(s, step);
-  for (size_t k = 0; k <= s->eval.terms; k++) {
-    if (k < s->eval.terms && is_electric(s->eval.term[k])) continue;
+  for (size_t k = 0; k <= s->model->laws; k++) {
+    if (k < s->model->laws && is_electric(s->model->law[k].term)) continue;
     worst->gradient = larger(worst->gradient, gradient_error(s, k, q0, step, 2e-8));
   }
   worst->stiffness = larger(worst->stiffness, stiffness_error(s, q0, step, 1e-8));

@@ -12,6 +12,7 @@ static ZpStatus open_member(ZpChain *chain, const ZpModel *member, ZpError *err)
   ZpActuatorDef def = zp_member_at_rest(member);
   ZpStatus status = zp_model_create(&def, &chain->alone[k], err);
   if (status != ZP_OK) return status;
+  zp_model_take_laws(chain->alone[k], member);
   if (!zp_rest_open(&chain->of[k], chain->alone[k], NULL, NULL)) return zp_fail_memory(err);
   chain->at[k + 1] = chain->at[k] + chain->of[k].statics.assembly.n;
   return ZP_OK;

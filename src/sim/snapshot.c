@@ -1,7 +1,7 @@
-/* State <=> bytes: a record (base/pack.h) of its numbers, the keys that make the model (a choice as its word), and its
- * arrays, each all x, then all y. The array of the laws has heads of the liquid, its flows and cavities, each station
- * by station, then interface voltages, place by place, then plastic strains, fibre by fibre; it is empty without
- * liquid, leak and plasticity. Each of several actuators has a record of its own, from the uppermost on.
+/* State <=> bytes: a record (base/pack.h) of its numbers, the keys that make the model (a choice as its word), its
+ * arrays, each all x, then all y, and the rows of its ledger by their names. The array of the laws has heads of the
+ * liquid, station by station, then the state of each law. Each of several actuators has a record of its own, from the
+ * uppermost on.
  *
  * Another meaning of a number raises the version; a field that is added or removed need not. */
 #include "sim/snapshot.h"
@@ -63,24 +63,10 @@ typedef struct Number {
   X(REAL, opening0)                                                                                                    \
   X(VOLTAGE, base_U)                                                                                                   \
   X(REAL, base_charge)                                                                                                 \
-  X(REAL, base_energy)                                                                                                 \
-  X(REAL, base_field)                                                                                                  \
   X(REAL, work)                                                                                                        \
-  X(REAL, charging_loss)                                                                                               \
-  X(REAL, drag_loss)                                                                                                   \
-  X(REAL, contact_loss)                                                                                                \
-  X(REAL, internal_loss)                                                                                               \
   X(REAL, changed_x)                                                                                                   \
   X(REAL, changed_y)                                                                                                   \
-  X(REAL, catch_loss)                                                                                                  \
-  X(REAL, plastic_loss)                                                                                                \
-  X(REAL, along_loss)                                                                                                  \
-  X(REAL, across_loss)                                                                                                 \
-  X(REAL, jet_loss)                                                                                                    \
-  X(REAL, outer_drag_loss)                                                                                             \
-  X(REAL, leak_loss)                                                                                                   \
   X(REAL, leaked)                                                                                                      \
-  X(REAL, meniscus_loss)                                                                                               \
   BEAD(X, bead[0])                                                                                                     \
   BEAD(X, bead[1])                                                                                                     \
   X(REAL, link_force)                                                                                                  \
@@ -96,8 +82,6 @@ typedef struct Number {
   X(VOLTAGE, supply.voltage)                                                                                           \
   X(REAL, source_charge)                                                                                               \
   X(REAL, source_energy)                                                                                               \
-  X(REAL, source_loss)                                                                                                 \
-  X(REAL, bleeder_loss)                                                                                                \
   X(RATE, U_rate)                                                                                                      \
   X(REAL, U_change)                                                                                                    \
   RAMP(X, voltage_input, VOLTAGE)                                                                                      \
@@ -182,6 +166,13 @@ static void walk_arrays(ZpPack *p, const ZpModel *model, double *data) {
   for (size_t k = 0; k < ARRAYS; k++)
     zp_pack_field(p, array[k], ZP_REAL, data ? data + 2 * k * model->stride : NULL,
                   k + 1 < ARRAYS ? 2 * model->stride : zp_own_unknowns(model) + model->kept);
+}
+
+/* The rows of the ledger, behind the arrays. */
+static void walk_rows(ZpPack *p, const ZpModel *model, double *data) {
+  double *row = data ? data + 2 * (ARRAYS - 1) * model->stride + zp_own_unknowns(model) + model->kept : NULL;
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    zp_pack_field(p, model->ledger.row[k]->name, ZP_REAL, row ? row + k : NULL, 1);
 }
 
 static void print_value(const ZpKey *key, double value, char text[64]) {
@@ -310,6 +301,7 @@ static void walk(ZpPack *p, const ZpModel *model, ZpState *numbers, double *data
   walk_numbers(p, numbers);
   walk_keys(p, &model->def, NULL);
   walk_arrays(p, model, data);
+  walk_rows(p, model, data);
 }
 
 size_t zp_snapshot_size(const ZpModel *model) {
@@ -368,6 +360,7 @@ static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, Z
   if (status != ZP_OK) return status;
   memcpy(state, &numbers, offsetof(ZpState, data));
   walk_arrays(&p, model, state->data);
+  walk_rows(&p, model, state->data);
   return zp_pack_end(&p, err);
 }
 
