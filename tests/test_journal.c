@@ -182,11 +182,13 @@ START_TEST(rows_are_found_by_their_numbers) {
     if (i != 3) put(journal, i, (double)i);
   ck_assert_int_eq(zp_journal_commit(journal, NULL), ZP_OK);
   for (int second = 0; second < 2; second++) {
+    const char *kept = zp_journal_get(journal, 0)->scalar[1].name;
     for (size_t k = 0; k < LENGTH_OF(order); k++) {
       const ZpResult *row = zp_journal_get(journal, order[k]);
       assert_is(row, (double)order[k]);
       ck_assert(row->outcome == ZP_ZIPPED && strcmp(row->message, "made by hand") == 0);
     }
+    ck_assert_str_eq(kept, other_name(0)); /* names outlive their row */
     ck_assert_int_eq(zp_journal_status(journal, NULL), ZP_OK);
     zp_journal_close(journal);
     journal = journal_in("journal", true, 8);

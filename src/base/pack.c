@@ -80,7 +80,8 @@ ZpPack zp_pack_write(const ZpPackKind *kind, void *bytes) {
   memcpy(byte, mark, sizeof mark);
   byte[KIND] = (unsigned char)kind->letter;
   put4(byte + VERSION, (uint64_t)kind->version);
-  memcpy(byte + PROGRAM, ZP_VERSION, strnlen(ZP_VERSION, HEADER - PROGRAM));
+  _Static_assert(sizeof ZP_VERSION - 1 <= HEADER - PROGRAM, "the header has room for the version");
+  memcpy(byte + PROGRAM, ZP_VERSION, sizeof ZP_VERSION - 1);
   return (ZpPack){.out = byte, .used = HEADER};
 }
 

@@ -27,6 +27,13 @@ static const int open_flags = SQLITE_OPEN_NOMUTEX;
 
 static const char file_name[] = "journal.sqlite";
 
+/* A record of names, and what it says. */
+typedef struct Names {
+  sqlite3_int64 id;
+  void *record;
+  ZpNames names;
+} Names;
+
 struct ZpJournal {
   char *path;
   sqlite3 *base;
@@ -34,10 +41,9 @@ struct ZpJournal {
   bool open;             /* a transaction */
   bool reading;          /* `get` is at row `at`: one step leads to the next one */
   sqlite3_int64 written; /* id of the names that were written last; 0: none */
-  sqlite3_int64 id;      /* of the names of the last row that was read; 0: none */
-  void *record;          /* their record, */
-  ZpNames names;         /* and what it says */
-  ZpResult *row;         /* row `at`, if has_row; otherwise empty */
+  Names *names;          /* [known] of the rows that have been read; results point to them */
+  size_t known;
+  ZpResult *row; /* row `at`, if has_row; otherwise empty */
   size_t at;
   bool has_row, bad;
 };
@@ -78,22 +84,28 @@ static sqlite3_int64 id_of(const void *record, size_t size) {
   return (sqlite3_int64)((uint64_t)zp_pack_sum(record) << 24 | size);
 }
 
-/* The names of a row of `get`; they are mostly those of the row before. NULL if they are damaged, or there is no
- * memory. */
+/* Append a record of names, copied. False if it is damaged, or there is no memory. */
+static bool add_names(ZpJournal *journal, sqlite3_int64 id, const void *record, size_t size) {
+  Names *names = realloc(journal->names, (journal->known + 1) * sizeof *names);
+  if (names) journal->names = names;
+  Names added = {.id = id, .record = names && record ? malloc(size) : NULL};
+  if (added.record) memcpy(added.record, record, size);
+  if (added.record && zp_names_read(added.record, size, &added.names, NULL) == ZP_OK) {
+    names[journal->known++] = added;
+    return true;
+  }
+  free(added.record);
+  return false;
+}
+
+/* The names of a row of `get`; NULL if they are damaged, or there is no memory. */
 static const ZpNames *need_names(ZpJournal *journal) {
   const sqlite3_int64 id = sqlite3_column_int64(journal->get, NAMES_ID);
-  if (id == journal->id) return &journal->names;
+  for (size_t i = 0; i < journal->known; i++)
+    if (journal->names[i].id == id) return &journal->names[i].names;
   const void *record = sqlite3_column_blob(journal->get, NAMES);
   const size_t size = (size_t)sqlite3_column_bytes(journal->get, NAMES);
-  zp_numbers_clear(journal->row); /* it has the old ones */
-  free(journal->record);
-  journal->record = record ? malloc(size) : NULL;
-  journal->id = 0;
-  if (!journal->record) return NULL;
-  memcpy(journal->record, record, size);
-  if (zp_names_read(journal->record, size, &journal->names, NULL) != ZP_OK) return NULL;
-  journal->id = id;
-  return &journal->names;
+  return add_names(journal, id, record, size) ? &journal->names[journal->known - 1].names : NULL;
 }
 
 /* Read the row of `get` => journal->row. False if it is damaged, or there is no memory. */
@@ -251,7 +263,9 @@ void zp_journal_close(ZpJournal *journal) {
   sqlite3_finalize(journal->put_names);
   sqlite3_close(journal->base);
   zp_result_destroy(journal->row);
-  free(journal->record);
+  for (size_t i = 0; i < journal->known; i++)
+    free(journal->names[i].record);
+  free(journal->names);
   free(journal->path);
   free(journal);
 }

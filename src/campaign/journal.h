@@ -34,8 +34,8 @@ ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err);
 /* Mark the campaign as finished: the journal may be replaced. */
 ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err);
 
-/* Row `number`, valid until the next call. If it cannot be read the result is empty, and zp_journal_status reports the
- * error from then on. */
+/* Row `number`, valid until the next call; its names stay until the journal is closed. If it cannot be read the result
+ * is empty, and zp_journal_status reports the error from then on. */
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number);
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err);
 
