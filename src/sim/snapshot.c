@@ -11,13 +11,11 @@
  *   zipact          the version of the program that wrote it
  *   model.names     the keys that make the model, one a line, with the word of a choice: electro.model = plates
  *   model.values    their values, SI; auto is NAN
- *   state.names     the numbers of the state, one a line
+ *   state.names     the numbers of the state, then the rows of its ledger, one a line
  *   state.values    these numbers
  *   position ...    its arrays, each all x, then all y
  *   laws            what laws have beyond positions: heads of the liquid, station by station, then the state of each
  *                   law; empty without any
- *   ledger.names    the rows of its ledger, one a line
- *   ledger          their values: what they held when the ledger was opened, or have lost since, J
  *
  * Of several actuators there is one after the other for each, from the uppermost on.
  *
@@ -155,27 +153,15 @@ static const Number number[] = {NUMBER(REAL, t),
 #undef NUMBER
 
 static const char *const array[] = {"position",      "velocity",    "held force", "held at",
-                                    "mean velocity", "mean accel.", "laws",       "ledger"};
+                                    "mean velocity", "mean accel.", "laws"};
 
-enum {
-  NUMBERS = sizeof number / sizeof number[0],
-  ARRAYS = sizeof array / sizeof array[0],
-  LEDGER = ARRAYS - 1,
-  LAWS = LEDGER - 1,
-  TIME = 0
-};
+enum { NUMBERS = sizeof number / sizeof number[0], ARRAYS = sizeof array / sizeof array[0], TIME = 0 };
 
 _Static_assert(sizeof(void *) != 8 || sizeof(ZpState) == NUMBERS * sizeof(double), "a snapshot holds all of a state");
 
-/* Of array k, of nodes all but the last two. */
+/* Of array k, of nodes all but the last. */
 static size_t length_of(const ZpModel *model, size_t k) {
-  if (k == LEDGER) return model->ledger.rows;
-  return k == LAWS ? zp_own_unknowns(model) + model->kept : 2 * model->stride;
-}
-
-/* Where array k begins in the data of a state. */
-static size_t place_of(const ZpModel *model, size_t k) {
-  return k == LEDGER ? place_of(model, LAWS) + length_of(model, LAWS) : 2 * k * model->stride;
+  return k + 1 < ARRAYS ? 2 * model->stride : zp_own_unknowns(model) + model->kept;
 }
 
 static bool is_size(size_t k) {
@@ -352,26 +338,22 @@ static void write_model(Writer *writer, const ZpActuatorDef *def) {
   close_block(writer, values, 8);
 }
 
-static void write_rows(Writer *writer, const ZpLedger *ledger) {
-  size_t names = open_block(writer, "ledger.names", 1);
-  for (size_t k = 0; k < ledger->rows; k++)
-    write_line(writer, ledger->row[k]->name);
-  close_block(writer, names, 1);
-}
-
 static void write_state(Writer *writer, const ZpModel *model, const ZpState *state) {
   size_t names = open_block(writer, "state.names", 1);
   for (size_t k = 0; k < NUMBERS; k++)
     write_line(writer, number[k].name);
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    write_line(writer, model->ledger.row[k]->name);
   close_block(writer, names, 1);
+  const double *ledger = zp_state_memory(model, state) + model->kept;
   size_t values = open_block(writer, "state.values", 8);
   for (size_t k = 0; k < NUMBERS; k++)
     write_real(writer, number_of(state, k));
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    write_real(writer, ledger[k]);
   close_block(writer, values, 8);
-  for (size_t k = 0; k < ARRAYS; k++) {
-    if (k == LEDGER) write_rows(writer, &model->ledger);
-    write_array(writer, array[k], state->data + place_of(model, k), length_of(model, k));
-  }
+  for (size_t k = 0; k < ARRAYS; k++)
+    write_array(writer, array[k], state->data + 2 * k * model->stride, length_of(model, k));
 }
 
 static size_t head_size(const ZpModel *model) {
@@ -382,9 +364,9 @@ static size_t head_size(const ZpModel *model) {
 }
 
 static size_t size_of(const ZpModel *model) {
-  size_t size = head_size(model) + 3 * (size_t)BLOCK;
+  size_t size = head_size(model) + 2 * (size_t)BLOCK;
   for (size_t k = 0; k < model->ledger.rows; k++)
-    size += strlen(model->ledger.row[k]->name) + 1;
+    size += strlen(model->ledger.row[k]->name) + 1 + sizeof(double);
   for (size_t k = 0; k < NUMBERS; k++)
     size += strlen(number[k].name) + 1 + sizeof(double);
   for (size_t k = 0; k < ARRAYS; k++)
@@ -413,7 +395,7 @@ typedef struct Block {
 
 /* A whole snapshot, taken apart. */
 typedef struct Parts {
-  Block program, key, value, name, number, array[ARRAYS], row;
+  Block program, key, value, name, number, array[ARRAYS];
 } Parts;
 
 static ZpStatus check_frame(const unsigned char *byte, size_t size, ZpError *err) {
@@ -457,11 +439,9 @@ static ZpStatus take_apart(const void *bytes, size_t size, Parts *parts, ZpError
                take_block(byte, size, &used, "model.values", 8, &parts->value) &&
                take_block(byte, size, &used, "state.names", 1, &parts->name) &&
                take_block(byte, size, &used, "state.values", 8, &parts->number);
-  for (size_t k = 0; k < ARRAYS; k++) {
-    if (k == LEDGER) whole = whole && take_block(byte, size, &used, "ledger.names", 1, &parts->row);
+  for (size_t k = 0; k < ARRAYS; k++)
     whole = whole && take_block(byte, size, &used, array[k], 8, &parts->array[k]);
-  }
-  whole = whole && used == size && parts->number.count == NUMBERS;
+  whole = whole && used == size && parts->number.count >= NUMBERS;
   return whole ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "damaged: its blocks are not those of a snapshot");
 }
 
@@ -676,14 +656,17 @@ double zp_snapshot_time(const void *bytes, size_t size) {
   return take_apart(bytes, first_of(bytes, size), &parts, NULL) == ZP_OK ? real_at(parts.number.item, TIME) : NAN;
 }
 
-/* Are the rows of its ledger those of the model? */
+/* Behind the numbers: are there the rows of the model's ledger? */
 static ZpStatus check_rows(const Parts *parts, const ZpLedger *ledger, ZpError *err) {
-  Block text = parts->row;
+  Block text = parts->name;
   char line[LINE];
-  for (size_t k = 0; k < ledger->rows; k++)
-    if (!take_line(&text, line) || strcmp(line, ledger->row[k]->name) != 0)
-      return fail_version(&parts->program, "rows", err);
-  return text.count == 0 ? ZP_OK : fail_version(&parts->program, "rows", err);
+  bool same = parts->number.count == NUMBERS + ledger->rows;
+  for (size_t k = 0; same && k < parts->number.count; k++) {
+    same = take_line(&text, line) && (k < NUMBERS || strcmp(line, ledger->row[k - NUMBERS]->name) == 0);
+    if (same && !isfinite(real_at(parts->number.item, k)) && k >= NUMBERS)
+      return zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator: %s is not finite", line);
+  }
+  return same ? ZP_OK : fail_version(&parts->program, "rows", err);
 }
 
 static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err) {
@@ -700,7 +683,9 @@ static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, Z
     set_number(state, k, real_at(parts.number.item, k));
   for (size_t k = 0; k < ARRAYS; k++)
     for (size_t j = 0; j < length_of(model, k); j++)
-      state->data[place_of(model, k) + j] = real_at(parts.array[k].item, j);
+      state->data[2 * k * model->stride + j] = real_at(parts.array[k].item, j);
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    zp_state_ledger(model, state)[k] = real_at(parts.number.item, NUMBERS + k);
   return ZP_OK;
 }
 
