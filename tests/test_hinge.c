@@ -237,8 +237,8 @@ START_TEST(mean_force_does_the_work) {
   q1[3] = 0.5 * model->l, q1[model->stride + 3] = 0.9 * model->l * noise(&seed);
   ZpSpan span = zp_span_at(q), end = zp_span_at(q1);
   double before = 0, after = 0;
-  zp_term_hinge.energy(model, &span, &eval, &before);
-  zp_term_hinge.energy(model, &end, &eval, &after);
+  zp_term_hinge.now(model, &span, &eval, &before);
+  zp_term_hinge.now(model, &end, &eval, &after);
   span.end = q1, span.h = 1;
   zp_system_begin(model, &span, &eval);
   zp_term_rod.force(model, &span, &eval, bare);

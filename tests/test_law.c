@@ -64,8 +64,9 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double 
   eval->memory_end[zp_law(model, &damper)->at] = gained(model, span) + span->h * grows * v * v;
 }
 
-static void show(const ZpModel *model, const ZpSpan *now, double *row) {
-  row[COEFFICIENT] = cold * (1 + gained(model, now));
+static void show(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double *row) {
+  (void)eval;
+  row[COEFFICIENT] += cold * (1 + gained(model, now));
 }
 
 static const ZpTerm damper = {.name = "damper",
@@ -74,7 +75,7 @@ static const ZpTerm damper = {.name = "damper",
                               .force = force,
                               .stiffness = stiffness,
                               .loss = loss,
-                              .show = show};
+                              .now = show};
 
 /* -- runs ------------------------------------------------------------------------------------------ */
 

@@ -241,6 +241,14 @@ static bool moves(const ZpTerm *term) {
   return strcmp(term->name, "film") == 0 || strcmp(term->name, "outer") == 0;
 }
 
+static double energy_of(const ZpModel *model, const ZpTerm *term, const ZpSpan *now, ZpEval *e) {
+  double row[ZP_ROWS_OF_TERM] = {0}, stored = 0;
+  term->now(model, now, e, row);
+  for (size_t k = 0; k < ZP_ROWS_OF_TERM && term->row[k]; k++)
+    if (term->row[k]->kind == ZP_ROW_STORED) stored += row[k];
+  return stored;
+}
+
 /* The law `which`, or all electric ones if it is the number of terms: energy and forces at the present point. */
 static double energy_and_forces(ZpStatics *s, size_t which, double *F) {
   const ZpModel *model = s->model;
@@ -251,17 +259,15 @@ static double energy_and_forces(ZpStatics *s, size_t which, double *F) {
   now.beyond = zp_eval_beyond(e);
   zp_system_force(model, &now, e, F); /* finds edges and gaps for the terms */
   memset(F, 0, 2 * model->stride * sizeof *F);
-  double row[ZP_ROWS_OF_TERM] = {0}, stored = 0;
+  double stored = 0;
   ZpElectric field = {0};
   for (size_t k = 0; k < model->laws; k++) {
     const ZpTerm *term = model->law[k].term;
     if (which == model->laws ? !is_electric(term) : k != which) continue;
     term->force(model, &now, e, F);
-    if (term->energy && !moves(term)) term->energy(model, &now, e, row);
+    if (term->now && !moves(term)) stored += energy_of(model, term, &now, e);
     if (term->electric) term->electric(model, &now, e, ZP_SPAN_END, s->U, &field);
   }
-  for (size_t k = 0; k < ZP_ROWS_OF_TERM; k++)
-    stored += row[k];
   double surfaces = 0;
   for (int half = 0; which == model->laws && half < zp_beads(&model->film); half++)
     surfaces -= 2 * model->bead.suction * model->bead.tension * model->film.w * e->reach[half];

@@ -41,7 +41,7 @@ void zp_sim_start_account(ZpSim *sim) {
   ZpState *state = sim->state;
   double *ledger = zp_state_ledger(sim->model, state);
   memset(ledger, 0, sim->model->ledger.rows * sizeof *ledger);
-  zp_system_energies(sim->model, state, &sim->eval, ledger);
+  zp_system_now(sim->model, state, &sim->eval, ledger);
   ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   state->work = state->load_work = 0;
   state->source_energy = 0;

@@ -28,13 +28,13 @@ void zp_sim_change_load(ZpSim *sim) {
   ZpState *state = sim->state;
   size_t j = zp_load_node(&model->topology);
   double before[ZP_MOST_ROWS] = {0}, after[ZP_MOST_ROWS] = {0};
-  zp_system_energies(model, state, &sim->eval, before);
+  zp_system_now(model, state, &sim->eval, before);
   double brought = energy_of_mass(model, state);
   zp_dynamics_change_load(&sim->dynamics, state);
   state->load_changed = true;
   state->changed_x = zp_state_motion(model, state).x[j];
   state->changed_y = zp_state_motion(model, state).y[j];
-  zp_system_energies(model, state, &sim->eval, after);
+  zp_system_now(model, state, &sim->eval, after);
   *zp_state_row(model, state, &zp_row_catch_loss) +=
       zp_system_stored(model, before) + brought - zp_system_stored(model, after);
   *zp_state_row(model, state, &zp_row_kinetic_energy) += brought;

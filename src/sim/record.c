@@ -268,7 +268,7 @@ static const unsigned char takes[SIGNAL_COUNT] = {
 /* The computations that a row of the ledger needs. */
 static unsigned taken_by(const ZpRow *row) {
   if (row == &zp_row_field_energy || row == &zp_row_charging_loss) return ELECTRIC;
-  return row->kind == ZP_ROW_STORED ? MECHANICS : STATE;
+  return row->kind == ZP_ROW_STORED || row->kind == ZP_ROW_SIGNAL ? MECHANICS : STATE;
 }
 
 /* Signals that need no more than `what` => sim->row, of one member alone. */
@@ -276,10 +276,9 @@ static void fill_own_row(ZpSim *sim, unsigned what) {
   const ZpModel *model = sim->model;
   double *row = sim->row, now[ZP_MOST_ROWS];
   memcpy(now, zp_state_ledger(model, sim->state), model->ledger.rows * sizeof *now);
-  zp_system_show(model, sim->state, now);
   fill_state(sim, row);
   row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
-  if (what & MECHANICS) zp_system_energies(model, sim->state, &sim->eval, now);
+  if (what & MECHANICS) zp_system_now(model, sim->state, &sim->eval, now);
   if (what & ELECTRIC) fill_electric(sim, now, row);
   if (what & MARGINS) fill_margins(sim, row);
   fill_books(sim, now, row);

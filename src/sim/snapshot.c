@@ -361,7 +361,12 @@ static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, Z
   memcpy(state, &numbers, offsetof(ZpState, data));
   walk_arrays(&p, model, state->data);
   walk_rows(&p, model, state->data);
-  return zp_pack_end(&p, err);
+  status = zp_pack_end(&p, err);
+  for (size_t k = 0; k < model->ledger.rows && status == ZP_OK; k++)
+    if (!isfinite(zp_state_ledger(model, state)[k]))
+      status = zp_fail(err, ZP_BAD_INPUT, "its numbers are not a state of an actuator: %s is not finite",
+                       model->ledger.row[k]->name);
+  return status;
 }
 
 ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *const state[], ZpError *err) {

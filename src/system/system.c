@@ -92,7 +92,7 @@ void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpM
   divide(model->stride, masses->x.inverse, masses->y.inverse, a, a + model->stride);
 }
 
-/* What terms add to their rows: their energy, or their loss. */
+/* What terms add to their rows: what they hold now, or their loss. */
 typedef void (*Book)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row);
 
 static void add_rows(const ZpModel *model, const ZpLaw *law, Book book, const ZpSpan *span, ZpEval *e, double *ledger) {
@@ -117,14 +117,14 @@ static double kinetic_energy(const ZpModel *model, const ZpState *state) {
   return sum;
 }
 
-void zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *e, double *ledger) {
+void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *e, double *ledger) {
   ZpMotion m = zp_state_motion(model, state);
   ZpSpan now = zp_span_of(model, state, m.x, m.vx);
   for (size_t k = 0; k < model->ledger.rows; k++)
-    if (model->ledger.row[k]->kind == ZP_ROW_STORED) ledger[k] = 0;
+    if (model->ledger.row[k]->kind == ZP_ROW_STORED || model->ledger.row[k]->kind == ZP_ROW_SIGNAL) ledger[k] = 0;
   ledger[0] = kinetic_energy(model, state);
   for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
-    if (law->term->energy) add_rows(model, law, law->term->energy, &now, e, ledger);
+    if (law->term->now) add_rows(model, law, law->term->now, &now, e, ledger);
 }
 
 double zp_system_stored(const ZpModel *model, const double *ledger) {
@@ -150,18 +150,6 @@ void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpState
     if (law->term->loss) add_rows(model, law, law->term->loss, span, e, lost);
   for (size_t k = 0; k < model->ledger.rows; k++)
     if (model->ledger.row[k]->kind == ZP_ROW_LOST) ledger[k] += lost[k];
-}
-
-void zp_system_show(const ZpModel *model, const ZpState *state, double *ledger) {
-  ZpMotion m = zp_state_motion(model, state);
-  ZpSpan now = zp_span_of(model, state, m.x, m.vx);
-  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++) {
-    double row[ZP_ROWS_OF_TERM];
-    if (!law->term->show) continue;
-    law->term->show(model, &now, row);
-    for (size_t k = 0; k < law->rows; k++)
-      if (law->term->row[k]->kind == ZP_ROW_SIGNAL) ledger[law->row[k]] = row[k];
-  }
 }
 
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {

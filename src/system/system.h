@@ -39,8 +39,8 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
  * drag_rate of eval. */
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
 
-/* ledger [rows] = energies of a state in their rows, J, 0 in that of the field; other rows stay. */
-void zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *eval, double *ledger);
+/* ledger [rows] = energies of a state in their rows, J, 0 in that of the field, and signals; losses stay. */
+void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *eval, double *ledger);
 
 /* Sum of all energies in a ledger, J. */
 double zp_system_stored(const ZpModel *model, const double *ledger);
@@ -51,9 +51,6 @@ double zp_system_taken(const ZpModel *model, const double *start, const double *
 
 /* Add what the terms have lost over a span, at its last force, to the ledger of the state. */
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpState *state);
-
-/* Put the present values of all signals of terms into their rows of a ledger. */
-void zp_system_show(const ZpModel *model, const ZpState *state, double *ledger);
 
 /* F [2 stride] = inertia of all terms beyond the masses of nodes, at accelerations a [2 stride], N. */
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);

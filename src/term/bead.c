@@ -287,10 +287,11 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   }
 }
 
-static void show(const ZpModel *model, const ZpSpan *now, double *row) {
-  (void)model;
-  row[0] = now->bead[0].outside;
-  row[1] = now->bead[0].lost;
+static void volumes(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
+  (void)model, (void)e;
+  if (!now->bead) return;
+  row[0] += now->bead[0].outside;
+  row[1] += now->bead[0].lost;
 }
 
 const ZpTerm zp_term_bead = {.name = "bead",
@@ -298,5 +299,5 @@ const ZpTerm zp_term_bead = {.name = "bead",
                              .acts = acts,
                              .force = force,
                              .stiffness = stiffness,
-                             .show = show,
+                             .now = volumes,
                              .by_voltage = by_voltage};

@@ -241,5 +241,5 @@ const ZpTerm zp_term_film = {.name = "film",
                              .force = force,
                              .stiffness = stiffness,
                              .inertia = inertia,
-                             .energy = energy,
+                             .now = energy,
                              .loss = loss};

@@ -68,4 +68,4 @@ const ZpTerm zp_term_hinge = {.name = "hinge",
                               .acts = acts,
                               .force = force,
                               .stiffness = stiffness,
-                              .energy = energy};
+                              .now = energy};

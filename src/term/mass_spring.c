@@ -72,5 +72,5 @@ const ZpTerm zp_term_mass_spring = {
     .begin = begin,
     .force = force,
     .stiffness = stiffness,
-    .energy = energy,
+    .now = energy,
     .loss = loss};

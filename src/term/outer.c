@@ -105,5 +105,5 @@ const ZpTerm zp_term_outer = {.name = "outer",
                               .force = force,
                               .stiffness = stiffness,
                               .inertia = inertia,
-                              .energy = energy,
+                              .now = energy,
                               .loss = loss};

@@ -58,11 +58,12 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
+static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_rod_eval(&model->rod, now->end, now->end + model->stride, &e->rod);
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
   row[BENDING] +=
       zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
+  row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
 }
 
 /* The edges are those at the end of the span, one correction after the last force. */
@@ -71,10 +72,6 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
   row[INTERNAL] += zp_term_edges_loss(model, span, e);
   e->rod_step.strain_start = strain_of(model, span);
   row[PLASTIC] += zp_rod_plastic_heat(&model->rod, &e->rod_start, &e->rod, &e->rod_step);
-}
-
-static void show(const ZpModel *model, const ZpSpan *now, double *row) {
-  row[PERMANENT] = zp_rod_plastic_set(&model->rod, strain_of(model, now));
 }
 
 const ZpTerm zp_term_rod = {.name = "rod",
@@ -90,6 +87,5 @@ const ZpTerm zp_term_rod = {.name = "rod",
                             .begin = begin,
                             .force = force,
                             .stiffness = stiffness,
-                            .energy = energy,
-                            .loss = loss,
-                            .show = show};
+                            .now = hold,
+                            .loss = loss};

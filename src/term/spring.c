@@ -104,4 +104,4 @@ const ZpTerm zp_term_spring = {.name = "spring",
                                .acts = acts,
                                .force = force,
                                .stiffness = stiffness,
-                               .energy = energy};
+                               .now = energy};

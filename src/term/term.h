@@ -54,8 +54,8 @@ typedef struct ZpTerm {
   const char *name;
   bool of_edges;                     /* its stiffness is one of edges, in eval->D */
   const ZpRow *row[ZP_ROWS_OF_TERM]; /* its rows of the ledger, NULL beyond them; several terms may have the same */
-  /* How many numbers of state does the term have, which begin at 0? Its force over a step, or its loss, finds them at
-   * the end: at zp_law_memory of eval->memory_end. NULL: none. */
+  /* How many numbers of state does the term have? They begin at 0. Its force over a step, or its loss, writes those at
+   * the end into its part of eval->memory_end. NULL: none. */
   size_t (*state)(const ZpModel *model);
   /* Does the model have this term? NULL: every model has it. */
   bool (*acts)(const ZpModel *model);
@@ -74,13 +74,11 @@ typedef struct ZpTerm {
   /* F [2 stride] += inertia at the end of the span, beyond the masses of nodes, times accelerations a [2 stride].
    * NULL: none. */
   void (*inertia)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
-  /* row[k] += energy that the term stores at an instant in its row k, J. NULL: none. */
-  void (*energy)(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double *row);
+  /* row[k] += what the term has at an instant in its row k: energy stored, J, or the value of a signal. NULL: none. */
+  void (*now)(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double *row);
   /* row[k] += energy lost in its row k over a span, at the last force, J: over a step, or over an explicit step of
    * length span->h, which has no end of its own and mean velocities span->v. NULL: none. */
   void (*loss)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row);
-  /* row[k] = present value of its row k, a signal. NULL: it has none. */
-  void (*show)(const ZpModel *model, const ZpSpan *now, double *row);
   /* sum += electric totals at the start or the end of the span, with the gaps found last, at voltage U. NULL: none. */
   void (*electric)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U,
                    ZpElectric *sum);

@@ -54,4 +54,4 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
 
 /* The impact is booked where it happens, sim/catch.c. */
 const ZpTerm zp_term_weight = {
-    .name = "weight", .row = {&zp_row_gravity_energy, &zp_row_catch_loss}, .force = force, .energy = energy};
+    .name = "weight", .row = {&zp_row_gravity_energy, &zp_row_catch_loss}, .force = force, .now = energy};
