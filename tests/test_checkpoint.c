@@ -5,6 +5,7 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
+#include "base/pack.h"
 #include "sim/snapshot.h"
 
 #define IMPLICIT                                                                                                       \
@@ -587,6 +588,30 @@ START_TEST(test_earlier_file) {
 }
 END_TEST
 
+/* A record with other fields than those that are read: what differs is named, and numbers stay as they were. */
+START_TEST(test_other_fields) {
+  static const ZpPackKind kind = {"record", 'X', 10};
+  static const struct {
+    const char *name;
+    ZpFieldType type;
+    size_t count;
+    const char *says;
+  } read[] = {{"a", ZP_REAL, 2, NULL},         {"a", ZP_REAL, 3, "without a;"},   {"a", ZP_REAL, 1, "without a;"},
+              {"a", ZP_SIZE, 2, "without a;"}, {"ab", ZP_REAL, 2, "without ab;"}, {NULL, ZP_REAL, 0, "with more;"}};
+  double written[2] = {1, NAN}, value[3] = {7, 7, 7};
+  unsigned char byte[64];
+  ZpError err;
+  ZpPack p = zp_pack_write(&kind, byte);
+  zp_pack_field(&p, "a", ZP_REAL, written, 2);
+  zp_pack_seal(&p);
+  ck_assert_int_eq(zp_pack_read(&kind, byte, p.used, &p, NULL), ZP_OK);
+  if (read[_i].name) zp_pack_field(&p, read[_i].name, read[_i].type, value, read[_i].count);
+  ck_assert_int_eq(zp_pack_end(&p, &err), read[_i].says ? ZP_BAD_INPUT : ZP_OK);
+  ck_assert_msg(!read[_i].says || strstr(err.message, read[_i].says), "%s", err.message);
+  ck_assert(read[_i].says ? value[0] == 7 && value[1] == 7 : value[0] == 1 && isnan(value[1]));
+}
+END_TEST
+
 START_TEST(test_keys) {
   static const struct {
     const char *file;
@@ -635,6 +660,7 @@ int main(void) {
   tcase_add_test(refusals, test_damaged_state_changes_nothing);
   tcase_add_test(refusals, test_no_time_left);
   tcase_add_test(refusals, test_earlier_file);
+  tcase_add_loop_test(refusals, test_other_fields, 0, 6);
   tcase_add_loop_test(refusals, test_keys, 0, 5);
   suite_add_tcase(suite, refusals);
   return run_suite(suite);
