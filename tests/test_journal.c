@@ -111,6 +111,7 @@ START_TEST(everything_comes_back) {
   ck_assert(back->shapes->facing == (_i != 1) && back->shapes->members == (_i == 2 ? 2 : 1));
   ck_assert(back->shapes->stressed == result->shapes->stressed && back->shapes->stressed == (_i != 0));
   ck_assert(!back->map || memcmp(back->map->surface, result->map->surface, sizeof back->map->surface) == 0);
+  ck_assert(!back->map || memcmp(back->map->y, result->map->y, 8 * back->map->nx * back->map->ny) == 0);
   ck_assert_uint_eq(zp_result_save(back, NULL), size);
   zp_result_save(back, again);
   ck_assert_mem_eq(byte, again, size);
