@@ -26,12 +26,21 @@ for key in json.load(sys.stdin):
     allowed = "text" if key["type"] == "text" else ", ".join(words) or ("true, false" if key["type"] == "bool" else "%g to %g%s" % (key["min"], key["max"], unit))
     print("| `%s` | %s | %s | %s |" % (key["key"], cell(shown), cell(allowed), cell(key["help"])))
 ' >"$made"
-python3 - "$(dirname "$0")/../include/zipact/signals.def" >>"$made" <<'PYTHON'
-import re, sys
+python3 - "$(dirname "$0")/.." >>"$made" <<'PYTHON'
+import glob, re, sys
+signals = open(sys.argv[1] + "/include/zipact/signals.def").read()
+laws = " ".join(" ".join(open(name).read().split()) for name in sorted(glob.glob(sys.argv[1] + "/src/**/*.c", recursive=True)))
+rows = {name: ("J", "_J", text) for name, text in re.findall(r'ZP_(?:STORED|LOST|LOST_BY_SOURCE)\( ?(\w+), "([^"]*)"\)', laws)}
+rows.update((name, (unit, suffix, text)) for name, unit, suffix, text in
+            re.findall(r'ZP_SHOWN\( ?(\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', laws))
 print("\n# Columns of table.csv\n\n| column | unit | meaning |\n|---|---|---|")
-for name, unit, suffix, text in re.findall(r'^ZP_SIGNAL\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', open(sys.argv[1]).read(), re.M):
-    print(f"| `{name}{suffix}` | {unit} | {text} |")
-for name, text in re.findall(r'^ZP_CONTROLLED\((\w+), "([^"]*)"\)', open(sys.argv[1]).read(), re.M):
+for line in signals.splitlines():
+    row = re.match(r"ZP_ROW\((\w+)\)", line)
+    found = re.match(r'ZP_SIGNAL\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', line)
+    if row or found:
+        name, unit, suffix, text = (row.group(1), *rows[row.group(1)]) if row else found.groups()
+        print(f"| `{name}{suffix}` | {unit} | {text} |")
+for name, text in re.findall(r'^ZP_CONTROLLED\((\w+), "([^"]*)"\)', signals, re.M):
     print(f"| `{name}`, with a controller `{name}_m`, `{name}` or `{name}_F` | that of control.signal | {text} |")
 PYTHON
 if $check; then

@@ -157,8 +157,9 @@ static void print_accelerations(const char *name, const ZpActuatorDef *def, int 
     zp_system_accelerations(model, &now, &model->masses, &eval, a);
     put_array(name, a, model->count);
     put_array(name, a + model->stride, model->count);
-    ZpEnergies e = zp_system_energies(model, state, &eval);
-    put_array("energies", (double[]){e.kinetic, e.axial, e.bending, e.gravity}, 4);
+    double ledger[ZP_MOST_ROWS];
+    zp_system_now(model, state, &eval, ledger);
+    put_array("energies", ledger, model->ledger.rows);
     ZpElectric electric = zp_system_electric_now(model, state, state->U, &eval);
     put_array("electric", (double[]){electric.force, electric.charge, electric.potential, electric.capacitance}, 4);
     ZpStepBounds bounds = zp_eval_step_bounds(model, state, &eval);

@@ -63,7 +63,7 @@ PUBLIC = {
     "rest.h": "rest",
     "sim.h": "sim",
     "checkpoint.h": "sim",
-    "signals.def": "sim",
+    "signals.def": "base",
     "study.h": "study",
     "zipact.h": "study",
     "io.h": "io",
@@ -223,11 +223,33 @@ def rule_keys_documented(repo, files):
         yield bool(found), "include/zipact/keys.def:%d" % line, "key %s is not in docs/keys.md" % key
 
 
+def rows_of(repo, files):
+    """The rows of laws in src/: name => (unit, suffix, file)."""
+    rows = {}
+    for name in files:
+        if not (name.startswith("src/") and name.endswith(".c")):
+            continue
+        text = read(repo, name)
+        for row in re.findall(r"= ?ZP_(?:STORED|LOST|LOST_BY_SOURCE)\(\s*(\w+),", re.sub(r"\s+", " ", text)):
+            rows[row] = ("J", "_J", name)
+        for row in re.findall(r'= ?ZP_SHOWN\(\s*(\w+), "([^"]*)", "([^"]*)"', re.sub(r"\s+", " ", text)):
+            rows[row[0]] = (row[1], row[2], name)
+    return rows
+
+
 def rule_signals_documented(repo, files):
     """Every signal stands somewhere in docs/, as in a table: with the unit in its name."""
     pages = "\n".join(read(repo, name) for name in files if name.startswith("docs/") and name.endswith(".md"))
     text = read(repo, "include/zipact/signals.def")
+    rows = rows_of(repo, files)
     signals = list(re.finditer(r'^ZP_SIGNAL\((\w+),\s*"[^"]*",\s*"([^"]*)"', text, re.M))
+    for found in re.finditer(r"^ZP_ROW\((\w+)\)", text, re.M):
+        column = found.group(1) + rows.get(found.group(1), ("", "", ""))[1]
+        ok = re.search(r"(?<!\w)%s(?!\w)" % re.escape(column), pages)
+        yield bool(ok), "include/zipact/signals.def:%d" % line_at(text, found.start()), "%s is not in docs/" % column
+    listed = set(re.findall(r"^ZP_ROW\((\w+)\)", text, re.M))
+    for row, (_, _, name) in rows.items():
+        yield row in listed, name + ":1", "row %s has no place in signals.def: no column would show it" % row
     signals += list(re.finditer(r"^ZP_CONTROLLED\((\w+)()", text, re.M))
     yield len(signals) > 10, "include/zipact/signals.def:1", "only %d signals found" % len(signals)
     for found in signals:

@@ -107,7 +107,7 @@ def check_kills(zipact, scratch, kills):
 def blobs_of(folder):
     """Results as the journal has them, with their wall times: those of a case that is computed again differ."""
     base = sqlite3.connect("file:%s?mode=ro" % (folder / "journal.sqlite"), uri=True)
-    rows = dict(base.execute("SELECT number, result FROM row"))
+    rows = dict(base.execute("SELECT number, record FROM row"))
     base.close()
     return rows
 
@@ -197,9 +197,9 @@ def check_damaged_rows(zipact, scratch):
     whole, torn = scratch / "flip-1", scratch / "damaged"
     words = [zipact.program, "stationary", "--set", "load.mass=1 g .. 9 g : 24", "--set", "mesh.nodes=5", "--set", "output.errors=false", "--no-plots", "--quiet", "--resume", "-o", str(torn)]
     shutil.copytree(whole, torn)
-    spoil(torn, "UPDATE row SET outcome = 'not_settled' WHERE number = 1; ")
-    spoil(torn, "UPDATE row SET message = 'another' WHERE number = 2")
-    spoil(torn, "UPDATE row SET result = (SELECT result FROM row WHERE number = 7) WHERE number = 3")
+    spoil(torn, "UPDATE row SET hash = hash + 1 WHERE number = 1")
+    spoil(torn, "UPDATE row SET names = 99 WHERE number = 2")
+    spoil(torn, "UPDATE row SET record = (SELECT record FROM row WHERE number = 7) WHERE number = 3")
     spoil(torn, "UPDATE row SET sum = sum + 1 WHERE number = 4")
     ok("damaged rows: computed again", subprocess.run(words).returncode == 0 and results(torn) == results(whole))
 

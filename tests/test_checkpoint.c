@@ -5,6 +5,7 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
+#include "base/pack.h"
 #include "sim/snapshot.h"
 
 #define IMPLICIT                                                                                                       \
@@ -299,49 +300,78 @@ static void forge(unsigned char *byte, size_t size) {
     byte[12 + k] = (unsigned char)(sum >> (8 * k));
 }
 
-/* Where the items of a block begin. */
-static unsigned char *block(unsigned char *byte, size_t size, const char *name) {
-  for (size_t i = 24; i + 32 < size; i++)
-    if (memcmp(byte + i, name, strlen(name) + 1) == 0) return byte + i + 32;
-  ck_abort_msg("no block %s", name);
+/* The items of field number `k`, and its name; NULL if there are fewer. */
+static unsigned char *nth_field(unsigned char *byte, size_t size, size_t k, char name[256]) {
+  for (size_t i = 32; i < size; k--) {
+    const size_t length = byte[i], width = strchr("NR", byte[i + 1 + length]) ? 8 : 1;
+    unsigned char *item = byte + i + 10 + length;
+    if (k == 0) snprintf(name, 256, "%.*s", (int)length, (const char *)byte + i + 1);
+    if (k == 0) return item;
+    i += 10 + length + width * (item[-8] + 256u * item[-7]);
+  }
+  return NULL;
+}
+
+static unsigned char *field_called(unsigned char *byte, size_t size, const char *wanted) {
+  char name[256];
+  unsigned char *item;
+  for (size_t k = 0; (item = nth_field(byte, size, k, name)); k++)
+    if (strcmp(name, wanted) == 0) return item;
+  ck_abort_msg("no field %s", wanted);
   return NULL;
 }
 
 /* Numbers that no run leaves: by hand, the file is whole. */
 START_TEST(test_no_state) {
-  static const double wrong[] = {1e300, NAN, -1, 0.5};
-  enum {
-    NUMBERS = 60,
-    TIME = 0,
-    VOLTAGE = 1,
-    BY_HAND = 2,
-    SUPPLY_MODE = 7,
-    ZIP_TIME = 8,
-    CLOSED_FROM = 9,
-    BASE_VOLTAGE = 45
+  static const struct {
+    const char *field;
+    double value;
+    bool refused;
+  } wrong[] = {
+      {"t", NAN, true},
+      {"t", -1, true},
+      {"t", 1e300, true},
+      {"U", 1e300, true},
+      {"U", NAN, true},
+      {"U", -1, false},
+      {"zip.front", 1e300, true},
+      {"supply_mode", 0.5, true},
+      {"zip_time", 0.5, true},
+      {"zip_time", NAN, false},
+      {"closed_from", -1, true},
+      {"closed_from", 1e300, true},
+      {"still.least", NAN, true},
+      {"still.most", 0.5, false},
+      {"work", INFINITY, true},
+      {"work", -1, false},
+      {"last_step", -1, true},
+      {"last_step", 0.5, false},
+      {"U_rate", 1e300, true},
+      {"load_input.until", NAN, true},
+      {"load_input.until", INFINITY, false},
+      {"control.measured", NAN, false},
+      {"control.taken", -1, true},
+      {"held_U", 1e300, true},
   };
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
   size_t size;
-  unsigned char *byte = short_run(&size), *number = block(byte, size, "state.values");
+  unsigned char *byte = short_run(&size);
   start_from(&def, path);
   def.solver.end_time = 2e-3;
-  for (size_t k = 0; k < NUMBERS; k++)
-    for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
-      ZpError err = {ZP_OK, ""};
-      ZpCheckpoint *checkpoint;
-      unsigned char kept[8];
-      memcpy(kept, number + 8 * k, 8);
-      memcpy(number + 8 * k, &wrong[w], 8); /* the tests' machines are little-endian */
-      forge(byte, size);
-      ck_assert_int_eq(zp_checkpoint_from(byte, size, &checkpoint, NULL), ZP_OK);
-      memcpy(number + 8 * k, kept, 8);
-      bool never = k == ZIP_TIME || k == CLOSED_FROM; /* may be NAN, and is not in the future */
-      bool refuses = k == TIME || (k >= BY_HAND && k <= SUPPLY_MODE) || never != isnan(wrong[w]) ||
-                     ((k == VOLTAGE || k == BASE_VOLTAGE) && wrong[w] == 1e300);
-      ZpStatus status = zp_checkpoint_check(checkpoint, &def, &err);
-      ck_assert_msg(status == (refuses ? ZP_BAD_INPUT : ZP_OK), "%zu = %g: %s", k, wrong[w], err.message);
-      zp_checkpoint_destroy(checkpoint);
-    }
+  for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
+    ZpError err = {ZP_OK, ""};
+    ZpCheckpoint *checkpoint;
+    unsigned char kept[8], *number = field_called(byte, size, wrong[k].field);
+    memcpy(kept, number, 8);
+    memcpy(number, &wrong[k].value, 8); /* the tests' machines are little-endian */
+    forge(byte, size);
+    ck_assert_int_eq(zp_checkpoint_from(byte, size, &checkpoint, NULL), ZP_OK);
+    memcpy(number, kept, 8);
+    ZpStatus status = zp_checkpoint_check(checkpoint, &def, &err);
+    ck_assert_msg(status == (wrong[k].refused ? ZP_BAD_INPUT : ZP_OK), "%s = %g: %s", wrong[k].field, wrong[k].value,
+                  err.message);
+    zp_checkpoint_destroy(checkpoint);
+  }
   free(byte);
 }
 END_TEST
@@ -398,33 +428,25 @@ START_TEST(test_forged_numbers) {
   size_t size = zp_sim_state_size(sim), own = size / zp_members(model);
   unsigned char *byte = malloc(size);
   zp_sim_save(sim, byte);
-  unsigned char *item = block(byte, own, "state.values");
-  size_t numbers = item[-8] + 256u * item[-7];
-  for (size_t k = 0; k < numbers; k++)
+  unsigned char *item;
+  char name[256];
+  for (size_t k = 0; (item = nth_field(byte, own, k, name)) && zp_key_find(name) < 0; k++)
     for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
       unsigned char kept[8];
-      memcpy(kept, item + 8 * k, 8);
-      memcpy(item + 8 * k, &wrong[w], 8); /* the tests' machines are little-endian */
+      const size_t width = strchr("NR", item[-9]) ? 8 : 1;
+      memcpy(kept, item, width);
+      memcpy(item, &wrong[w], width); /* the tests' machines are little-endian */
       forge(byte, own);
       if (zp_sim_restore(sim, byte, size, NULL) == ZP_OK)
         for (int step = 0; step < 2; step++)
-          ck_assert_msg(zp_sim_step(sim, 2e-5, NULL, NULL) != ZP_STEP_LIMIT, "number %zu = %g", k, wrong[w]);
-      memcpy(item + 8 * k, kept, 8);
+          ck_assert_msg(zp_sim_step(sim, 2e-5, NULL, NULL) != ZP_STEP_LIMIT, "%s = %g", name, wrong[w]);
+      memcpy(item, kept, width);
     }
   free(byte);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
 END_TEST
-
-/* The place of a number among those of a state. */
-static unsigned char *number_in(unsigned char *byte, size_t size, const char *name) {
-  const char *names = (const char *)block(byte, size, "state.names");
-  size_t k = 0;
-  for (; strncmp(names, name, strlen(name)) != 0; k++)
-    names = strchr(names, '\n') + 1;
-  return block(byte, size, "state.values") + 8 * k;
-}
 
 /* A controller's samples and outputs so far index the outputs that are pending: -1, and what does not fit the time. */
 START_TEST(test_forged_samples) {
@@ -440,7 +462,7 @@ START_TEST(test_forged_samples) {
     for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
       ZpError err;
       zp_sim_save(sim, byte);
-      memcpy(number_in(byte, size, name[k]), &wrong[w], 8);
+      memcpy(field_called(byte, size, name[k]), &wrong[w], 8);
       forge(byte, size);
       bool fits = k == 1 && wrong[w] >= 0 && wrong[w] <= 3 && wrong[w] == floor(wrong[w]);
       ck_assert_msg(zp_sim_restore(sim, byte, size, &err) == (fits ? ZP_OK : ZP_BAD_INPUT), "%s = %g", name[k],
@@ -562,7 +584,31 @@ END_TEST
 /* What an earlier program wrote says so. */
 START_TEST(test_earlier_file) {
   unsigned char old[64] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n', 2};
-  refused(old, sizeof old, 0, "of version 2 of the format; zipact " ZP_VERSION " reads version 9");
+  refused(old, sizeof old, 0, "of version 2 of the format, by zipact 0.1.0; zipact " ZP_VERSION " reads version 10");
+}
+END_TEST
+
+/* A record with other fields than those that are read: what differs is named, and numbers stay as they were. */
+START_TEST(test_other_fields) {
+  static const ZpPackKind kind = {"record", 'X', 10};
+  static const struct {
+    const char *name;
+    ZpFieldType type;
+    size_t count;
+    const char *says;
+  } read[] = {{"a", ZP_REAL, 2, NULL},         {"a", ZP_REAL, 3, "without a;"},   {"a", ZP_REAL, 1, "without a;"},
+              {"a", ZP_SIZE, 2, "without a;"}, {"ab", ZP_REAL, 2, "without ab;"}, {NULL, ZP_REAL, 0, "with more;"}};
+  double written[2] = {1, NAN}, value[3] = {7, 7, 7};
+  unsigned char byte[64];
+  ZpError err;
+  ZpPack p = zp_pack_write(&kind, byte);
+  zp_pack_field(&p, "a", ZP_REAL, written, 2);
+  zp_pack_seal(&p);
+  ck_assert_int_eq(zp_pack_read(&kind, byte, p.used, &p, NULL), ZP_OK);
+  if (read[_i].name) zp_pack_field(&p, read[_i].name, read[_i].type, value, read[_i].count);
+  ck_assert_int_eq(zp_pack_end(&p, &err), read[_i].says ? ZP_BAD_INPUT : ZP_OK);
+  ck_assert_msg(!read[_i].says || strstr(err.message, read[_i].says), "%s", err.message);
+  ck_assert(read[_i].says ? value[0] == 7 && value[1] == 7 : value[0] == 1 && isnan(value[1]));
 }
 END_TEST
 
@@ -614,6 +660,7 @@ int main(void) {
   tcase_add_test(refusals, test_damaged_state_changes_nothing);
   tcase_add_test(refusals, test_no_time_left);
   tcase_add_test(refusals, test_earlier_file);
+  tcase_add_loop_test(refusals, test_other_fields, 0, 6);
   tcase_add_loop_test(refusals, test_keys, 0, 5);
   suite_add_tcase(suite, refusals);
   return run_suite(suite);

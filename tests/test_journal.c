@@ -8,9 +8,9 @@
 #include <zipact/campaign.h>
 #include <zipact/version.h>
 
+#include "base/pack.h"
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
-#include "campaign/record.h"
 #include "campaign/remote.h"
 #include "fit/case.h"
 
@@ -23,6 +23,11 @@ static ZpScenario *scenario_with(const char *const *sets) {
 }
 #define SCENARIO(...) scenario_with((const char *const[]){__VA_ARGS__, NULL})
 
+/* So that rows have names of their own. */
+static const char *other_name(double value) {
+  return value < 4 ? "real_time_factor" : "steps_per_second";
+}
+
 /* A result with all that a row keeps; the number's name is that of the column, which has a help. */
 static ZpResult *result_of(double value) {
   static const ZpColumn columns[] = {{"stroke_m", "m", "of the first"}, {"stroke_m", "m", "of the second"}};
@@ -30,7 +35,7 @@ static ZpResult *result_of(double value) {
   result->outcome = ZP_ZIPPED;
   snprintf(result->message, sizeof result->message, "made by hand");
   zp_result_add(result, "stroke_m", "m", value);
-  zp_result_add(result, "real_time_factor", "1", 7);
+  zp_result_add(result, other_name(value), "1", 7);
   result->scalar[1].timing = true;
   zp_result_add_sensitivity(result, "stroke_m", zp_key_find("load.mass"), 3);
   zp_result_note(result, "a note");
@@ -45,6 +50,7 @@ static void assert_is(const ZpResult *row, double value) {
   ck_assert(strcmp(row->scalar[0].name, "stroke_m") == 0 && strcmp(row->scalar[0].unit, "m") == 0);
   ck_assert(row->scalar[0].value == value && !row->scalar[0].timing);
   ck_assert(row->scalar[1].value == 7 && row->scalar[1].timing);
+  ck_assert_str_eq(row->scalar[1].name, other_name(value));
   ck_assert_str_eq(row->note[0], "a note");
   ck_assert_str_eq(row->sensitivity[0].output, "stroke_m");
   ck_assert(row->sensitivity[0].key == zp_key_find("load.mass") && row->sensitivity[0].value == 3);
@@ -55,24 +61,95 @@ static void assert_is(const ZpResult *row, double value) {
 }
 
 START_TEST(result_comes_back_from_its_bytes) {
-  ZpRecord record = {0};
-  ZpNames names = {0};
-  ZpResult *result = result_of(0.25), row = {.study = ZP_STUDY_STATIONARY};
-  ck_assert(zp_record_write(&record, &names, result));
-  ck_assert(zp_record_read(record.byte, record.used, &names, &row));
-  assert_is(&row, 0.25);
-  zp_record_clear(&row);
-  ck_assert(!zp_record_read(record.byte, record.used - 1, &names, &row));
-  zp_record_clear(&row);
-  zp_names_free(&names);
-  free(record.byte);
+  ZpResult *result = result_of(0.25), *back;
+  const size_t size = zp_result_save(result, NULL);
+  unsigned char *byte = malloc(size);
+  ck_assert_uint_eq(zp_result_save(result, byte), size);
+  ck_assert_int_eq(zp_result_load(byte, size, &back, NULL), ZP_OK);
+  assert_is(back, 0.25);
+  ck_assert(back->study == ZP_STUDY_STATIONARY && back->outcome == ZP_ZIPPED);
+  ck_assert_ptr_null(back->shapes);
+  zp_result_destroy(back);
+  for (size_t i = 0; i < size; i++) {
+    ZpError err;
+    unsigned char *cut = malloc(i + 1); /* of its own size, so that reading beyond it is found */
+    memcpy(cut, byte, i);
+    const bool whole = zp_result_load(cut, i, &back, &err) == ZP_OK; /* without shapes, as in the journal */
+    ck_assert_msg(!whole || i == zp_pack_first(byte, size) + zp_pack_first(byte + zp_pack_first(byte, size), size),
+                  "%zu of %zu bytes", i, size);
+    if (whole) zp_result_destroy(back);
+    free(cut);
+    byte[i] ^= (unsigned char)(1 << i % 8);
+    ck_assert_int_eq(zp_result_load(byte, size, &back, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strncmp(err.message, "result: ", 8) == 0, "%s", err.message);
+    byte[i] ^= (unsigned char)(1 << i % 8);
+  }
+  free(byte);
   zp_result_destroy(result);
+}
+END_TEST
+
+/* Shapes, the map of a field and checkpoints, too: what comes back has the same bytes, of which none may be damaged. */
+START_TEST(everything_comes_back) {
+  const struct {
+    ZpStudy study;
+    ZpActuatorDef def;
+  } of[] = {
+      {ZP_STUDY_PROFILE, DEF({"mesh.nodes", 5}, {"drive.voltage", 3e3})},
+      {ZP_STUDY_STATIONARY, DEF({"mesh.nodes", 5}, {"actuator.kind", ZP_KIND_RIBBON})},
+      {ZP_STUDY_STATIONARY, DEF({"mesh.nodes", 5}, {"stack.series", 2}, {"stack.distance", 20e-3})},
+      {ZP_STUDY_ACTUATE, DEF({"mesh.nodes", 5}, {"liquid.model", ZP_LIQUID_NONE}, {"solver.end_time", 1e-4})},
+  };
+  ZpError err = {ZP_OK, ""};
+  ZpResult *result, *back = NULL;
+  ck_assert_msg(zp_study_run(of[_i].study, &of[_i].def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  const size_t size = zp_result_save(result, NULL);
+  unsigned char *byte = malloc(size), *again = malloc(size);
+  zp_result_save(result, byte);
+  ck_assert_msg(zp_result_load(byte, size, &back, &err) == ZP_OK, "%s", err.message);
+  ck_assert(back->shapes && (back->map != NULL) == (_i == 0) && (back->checkpoint != NULL) == (_i == 3));
+  ck_assert(back->shapes->facing == (_i != 1) && back->shapes->members == (_i == 2 ? 2 : 1));
+  ck_assert(back->shapes->stressed == result->shapes->stressed && back->shapes->stressed == (_i != 0));
+  ck_assert(!back->map || memcmp(back->map->surface, result->map->surface, sizeof back->map->surface) == 0);
+  ck_assert(!back->map || memcmp(back->map->y, result->map->y, 8 * back->map->nx * back->map->ny) == 0);
+  ck_assert_uint_eq(zp_result_save(back, NULL), size);
+  zp_result_save(back, again);
+  ck_assert_mem_eq(byte, again, size);
+  zp_result_destroy(back);
+  for (size_t i = 0; i < size; i += 1 + size / 500) {
+    byte[i] ^= (unsigned char)(1 << i % 8);
+    ck_assert_int_eq(zp_result_load(byte, size, &back, &err), ZP_BAD_INPUT);
+    byte[i] ^= (unsigned char)(1 << i % 8);
+  }
+  free(byte);
+  free(again);
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Each record is whole, but the numbers are those of a result with other names. */
+START_TEST(numbers_belong_to_their_names) {
+  ZpResult *one = result_of(1), *other = result_of(1), *back = zp_result_create(ZP_STUDY_LIMITS);
+  other->scalar[0].name = "opening_m";
+  ZpPacked *a = zp_packed_of(one), *b = zp_packed_of(other);
+  ZpNames names;
+  ck_assert_int_eq(zp_names_read(a->byte, a->names, &names, NULL), ZP_OK);
+  ck_assert_int_eq(zp_numbers_read(&names, a->byte + a->names, a->size - a->names, back, NULL), ZP_OK);
+  assert_is(back, 1);
+  ck_assert_int_eq(back->study, ZP_STUDY_STATIONARY);
+  ck_assert_int_eq(zp_numbers_read(&names, b->byte + b->names, b->size - b->names, back, NULL), ZP_BAD_INPUT);
+  ck_assert(back->scalars == 0 && back->series == NULL);
+  free(a);
+  free(b);
+  zp_result_destroy(one);
+  zp_result_destroy(other);
+  zp_result_destroy(back);
 }
 END_TEST
 
 static void put(ZpJournal *journal, size_t number, double value) {
   ZpResult *result = result_of(value);
-  ZpPacked *packed = zp_journal_pack(journal, result);
+  ZpPacked *packed = zp_packed_of(result);
   ck_assert_int_eq(zp_journal_put(journal, number, 1000 + number, packed, NULL), ZP_OK);
   free(packed);
   zp_result_destroy(result);
@@ -106,11 +183,13 @@ START_TEST(rows_are_found_by_their_numbers) {
     if (i != 3) put(journal, i, (double)i);
   ck_assert_int_eq(zp_journal_commit(journal, NULL), ZP_OK);
   for (int second = 0; second < 2; second++) {
+    const char *kept = zp_journal_get(journal, 0)->scalar[1].name;
     for (size_t k = 0; k < LENGTH_OF(order); k++) {
       const ZpResult *row = zp_journal_get(journal, order[k]);
       assert_is(row, (double)order[k]);
       ck_assert(row->outcome == ZP_ZIPPED && strcmp(row->message, "made by hand") == 0);
     }
+    ck_assert_str_eq(kept, other_name(0)); /* names outlive their row */
     ck_assert_int_eq(zp_journal_status(journal, NULL), ZP_OK);
     zp_journal_close(journal);
     journal = journal_in("journal", true, 8);
@@ -231,12 +310,11 @@ END_TEST
 START_TEST(results_of_another_process_are_whole) {
   ZpScenario *scenario = SCENARIO("study=actuate", "solver.max_steps=[3, 1000000]", "mesh.nodes=5", "liquid.model=none",
                                   "solver.end_time=1 ms", "output.errors=false");
-  ZpRemote remote = {0};
   ZpResult *result[2];
   unsigned char *byte;
   size_t size;
   ck_assert_int_eq(zp_campaign_compute(scenario, 0, 2, NULL, &byte, &size, NULL), ZP_OK);
-  ck_assert(zp_remote_read(&remote, byte, size, ZP_STUDY_ACTUATE, 2, result));
+  ck_assert(zp_remote_read(byte, size, ZP_STUDY_ACTUATE, 2, result));
   ck_assert(result[0]->outcome == ZP_STEP_LIMIT && result[1]->outcome == ZP_REACHED_END);
   for (int k = 0; k < 2; k++) {
     size_t times = 0;
@@ -250,7 +328,6 @@ START_TEST(results_of_another_process_are_whole) {
     zp_result_destroy(result[k]);
   }
   free(byte);
-  zp_remote_free(&remote);
   zp_scenario_destroy(scenario);
 }
 END_TEST
@@ -306,6 +383,8 @@ int main(void) {
   Suite *suite = suite_create("journal");
   TCase *rows = tcase_create("rows"), *campaigns = tcase_create("campaigns");
   tcase_add_test(rows, result_comes_back_from_its_bytes);
+  tcase_add_loop_test(rows, everything_comes_back, 0, 4);
+  tcase_add_test(rows, numbers_belong_to_their_names);
   tcase_add_test(rows, rows_are_found_by_their_numbers);
   tcase_add_test(rows, campaigns_are_known_by_version_study_and_files);
   tcase_add_test(rows, cases_are_known_by_their_keys_and_neighbour);

@@ -269,6 +269,14 @@ static bool moves(const ZpTerm *term) {
   return strcmp(term->name, "film") == 0 || strcmp(term->name, "outer") == 0;
 }
 
+static double energy_of(const ZpModel *model, const ZpTerm *term, const ZpSpan *now, ZpEval *e) {
+  double row[ZP_ROWS_OF_TERM] = {0}, stored = 0;
+  term->now(model, now, e, row);
+  for (size_t k = 0; k < ZP_ROWS_OF_TERM && term->row[k]; k++)
+    if (term->row[k]->kind == ZP_ROW_STORED) stored += row[k];
+  return stored;
+}
+
 /* The law `which` of one member, or all electric ones if it is the number of terms: energy and forces F at the present
  * point. */
 static double energy_and_forces(ZpStatics *s, size_t member, size_t which, double *F) {
@@ -280,19 +288,19 @@ static double energy_and_forces(ZpStatics *s, size_t member, size_t which, doubl
   now.beyond = zp_eval_beyond(e);
   zp_system_force(model, &now, e, F); /* finds edges and gaps for the terms */
   memset(F, 0, 2 * model->stride * sizeof *F);
-  ZpEnergies sum = {0};
+  double stored = 0;
   ZpElectric field = {0};
-  for (size_t k = 0; k < e->terms; k++) {
-    bool electric = is_electric(e->term[k]);
-    if (which == e->terms ? !electric : k != which) continue;
-    e->term[k]->force(model, &now, e, F);
-    if (e->term[k]->energy && !moves(e->term[k])) e->term[k]->energy(model, &now, e, &sum);
-    if (e->term[k]->electric) e->term[k]->electric(model, &now, e, ZP_SPAN_END, now.U1, &field);
+  for (size_t k = 0; k < model->laws; k++) {
+    const ZpTerm *term = model->law[k].term;
+    if (which == model->laws ? !is_electric(term) : k != which) continue;
+    term->force(model, &now, e, F);
+    if (term->now && !moves(term)) stored += energy_of(model, term, &now, e);
+    if (term->electric) term->electric(model, &now, e, ZP_SPAN_END, now.U1, &field);
   }
   double surfaces = 0;
-  for (int half = 0; which == e->terms && half < zp_beads(&model->film); half++)
+  for (int half = 0; which == model->laws && half < zp_beads(&model->film); half++)
     surfaces -= 2 * model->bead.suction * model->bead.tension * model->film.w * e->reach[half];
-  return sum.axial + sum.bending + sum.gravity + sum.spring + field.potential + surfaces;
+  return stored + field.potential + surfaces;
 }
 
 enum { ROOM = 2048 };
@@ -405,8 +413,9 @@ static void check_point(ZpStatics *s, AtRest *worst) {
   s->U = 2e3;
   system.save(s, saved);
   draw_direction(s, step);
-  for (size_t k = 0; k <= s->member->eval.terms; k++) {
-    if (k < s->member->eval.terms && is_electric(s->member->eval.term[k])) continue;
+  const ZpModel *model = s->member->model;
+  for (size_t k = 0; k <= model->laws; k++) {
+    if (k < model->laws && is_electric(model->law[k].term)) continue;
     worst->gradient = larger(worst->gradient, gradient_error(s, k, saved, step, 2e-8));
   }
   worst->stiffness = larger(worst->stiffness, stiffness_error(s, saved, step, 1e-8));

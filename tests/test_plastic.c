@@ -295,7 +295,7 @@ static double stress_in(const ZpActuatorDef *def, const ZpSim *shape, const ZpSi
   ZpSim *sim = sim_of(model);
   memcpy(zp_state_q(model, sim->state), zp_state_q(shape->model, shape->state), 2 * model->stride * sizeof(double));
   if (def->ribbon.plasticity)
-    memcpy(zp_state_strain(model, sim->state), zp_state_strain(strains->model, strains->state),
+    memcpy(zp_law_state(model, &zp_term_rod, sim->state), zp_law_state(strains->model, &zp_term_rod, strains->state),
            zp_rod_plastic_count(&model->rod) * sizeof(double));
   double stress = zp_sim_get(sim, "max_stress");
   zp_sim_destroy(sim);

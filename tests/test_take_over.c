@@ -374,20 +374,23 @@ START_TEST(test_laws_keep_their_own_numbers) {
   const Own *old = &pairs[_i][0], *new = &pairs[_i][1];
   Run first = begin(with_own(*old)), next = begin(with_own(*new));
   ZpState *from = first.sim->state, *to = next.sim->state;
-  const size_t faces = ZP_PLATES_PLACES * next.model->nodes, film = zp_own_unknowns(next.model) + next.model->leak_at;
+  const size_t faces = ZP_PLATES_PLACES * next.model->nodes;
+  const ZpLaw *film = zp_law(next.model, &zp_term_film);
   const size_t strains = zp_rod_plastic_count(&first.model->rod);
   for (size_t i = 0; i < strains; i++)
-    zp_state_strain(first.model, from)[i] = 1e-5 * (double)(1 + i % 7);
+    zp_law_state(first.model, &zp_term_rod, from)[i] = 1e-5 * (double)(1 + i % 7);
   for (size_t i = 0; old->leaks && i < faces; i++)
-    zp_state_own(first.model, from)[zp_own_unknowns(first.model) + first.model->leak_at + i] = 1 + (double)(i % 5);
+    zp_law_state(first.model, &zp_term_leak, from)[i] = 1 + (double)(i % 5);
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
   for (size_t i = 0; new->yields &&i < strains; i++)
-    ck_assert_double_eq(zp_state_strain(next.model, to)[i], 1e-5 * (double)(1 + i % 7));
-  const double *Z = zp_leak_memory(next.model, zp_state_memory(next.model, to));
+    ck_assert_double_eq(zp_law_state(next.model, &zp_term_rod, to)[i], 1e-5 * (double)(1 + i % 7));
+  const double *Z = zp_law_state(next.model, &zp_term_leak, to), *flows = zp_law_state(next.model, &zp_term_film, to);
   for (size_t i = 0; new->leaks &&i < faces; i++)
     ck_assert_double_eq(Z[i], old->leaks ? 1 + (double)(i % 5) : 0);
-  for (size_t i = 0; i < film; i++)
+  for (size_t i = 0; i < zp_own_unknowns(next.model); i++)
     ck_assert_double_eq(zp_state_own(next.model, to)[i], 0);
+  for (size_t i = 0; film && i < film->state; i++)
+    ck_assert_double_eq(flows[i], 0);
   end(&first);
   end(&next);
 }

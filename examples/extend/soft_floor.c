@@ -1,7 +1,7 @@
 /* A law of one's own as a term: a steel strip on a soft floor, pressed down at its free end by its load.
  *
  * A term says what its force is over a span, and its derivative; it does not know what else acts. In the library it
- * would be a file of src/term/ and a line of terms.def; a program appends it to the terms of a model. Built against the
+ * would be a file of src/term/ and a line of terms.def; a program adds it to a model of its own. Built against the
  * rooms of src/, not against an installed zipact. Checked: a long beam on such a floor sinks at its end by
  * 2 P lambda / k + q / k, lambda^4 = k / (4 EI) (Winkler and Hetenyi), as long as its weight keeps it on the floor. */
 #include <math.h>
@@ -69,9 +69,7 @@ int main(void) {
   ZpRest rest;
   ZpError err;
   if (zp_model_create(&def, &model, &err) != ZP_OK) return fprintf(stderr, "%s\n", err.message), 1;
-  if (!zp_rest_open(&rest, model, NULL, NULL)) return 1;
-  ZpEval *eval = &rest.statics.member->eval;
-  eval->term[eval->terms++] = &soft_floor;
+  if (!zp_model_add_term(model, &soft_floor) || !zp_rest_open(&rest, model, NULL, NULL)) return 1;
   ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
   double lambda = pow(k / (4 * zp_ribbon_section(model, 0).EI), 0.25), P = def.load.share * def.load.mass * def.gravity;
   double expected = 2 * P * lambda / k + zp_ribbon_section(model, 0).mu * def.gravity / k,

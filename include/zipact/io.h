@@ -74,6 +74,14 @@ ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
  * SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
 ZP_API ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
+/* A result as bytes that mean the same on every machine, with all that is in it but the states of study limits. =>
+ * their number; `bytes` NULL: they are only counted. */
+ZP_API size_t zp_result_save(const ZpResult *result, void *bytes);
+
+/* A result from `size` such bytes, which must outlive it: they hold its names => *result, which belongs to the caller.
+ * ZP_BAD_INPUT, and NULL, names what is wrong: damaged, of another version; ZP_MACHINE if there is no memory. */
+ZP_API ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **result, ZpError *err);
+
 /* Write the templates of all pictures to `folder`, which is created if needed, for editing; ZpReport.templates names
  * the folder. ZP_BAD_INPUT if a file of that name exists already, ZP_MACHINE if one cannot be written. */
 ZP_API ZpStatus zp_templates_write(const char *folder, ZpError *err);

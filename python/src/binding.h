@@ -75,22 +75,8 @@ PyObject *read_scenario(PyObject *module, PyObject *path);
 /* Takes `result` over. */
 PyObject *result_new(State *state, ZpResult *result);
 
-/* An unpickled result, and the memory of its names. */
-typedef struct Unpacked {
-  ZpResult *result;
-  ZpColumn *column; /* columns of its series; malloc; NULL without a series */
-  PyObject *words;  /* owns the texts */
-} Unpacked;
-
-/* The parts of a result that its getters do not return, as plain values. */
-PyObject *result_pack(const ZpResult *result);
-
-/* (what result_pack gave, message, notes, scalars, sensitivities, columns or None) => a result; false with an
- * exception. */
-bool result_unpack(const State *state, PyObject *args, Unpacked *unpacked);
-
-/* (as result_unpack) => Result. */
-PyObject *unpack_result(PyObject *module, PyObject *args);
+/* (what Result.pack gave) => Result. */
+PyObject *unpack_result(PyObject *module, PyObject *bytes);
 
 /* `count` doubles of `owner` as a read-only buffer of `ndim` <= 3 dimensions, without copying. */
 PyObject *view_new(State *state, PyObject *owner, const double *data, int ndim, const Py_ssize_t *shape,

@@ -92,8 +92,8 @@ static PyObject *keys(PyObject *module, PyObject *unused) {
   return list;
 }
 
-#define ZP_SIGNAL(name, unit, suffix, help) {#name, unit, help},
-static const ZpColumn signal_table[] = {
+#define ZP_SIGNAL(name, unit, suffix, help) #name,
+static const char *const signal_names[] = {
 #include <zipact/signals.def>
 };
 #undef ZP_SIGNAL
@@ -101,11 +101,12 @@ static const ZpColumn signal_table[] = {
 /* (name, unit, help) of each signal. */
 static PyObject *signals(PyObject *module, PyObject *unused) {
   (void)module, (void)unused;
-  Py_ssize_t count = sizeof signal_table / sizeof signal_table[0];
+  size_t columns;
+  const ZpColumn *signal = zp_signal_columns(&columns);
+  Py_ssize_t count = (Py_ssize_t)columns;
   PyObject *list = PyTuple_New(count);
   for (Py_ssize_t i = 0; list && i < count; i++) {
-    const ZpColumn *signal = &signal_table[i];
-    PyObject *item = Py_BuildValue("(sss)", signal->name, signal->unit, signal->help);
+    PyObject *item = Py_BuildValue("(sss)", signal_names[i], signal[i].unit, signal[i].help);
     if (!item || PyTuple_SetItem(list, i, item)) Py_CLEAR(list);
   }
   return list;
@@ -175,8 +176,7 @@ static PyMethodDef methods[] = {
     {"keys", keys, METH_NOARGS, "(name, kind, unit, default, min, max, help, choices) of each key."},
     {"signals", signals, METH_NOARGS, "(name, unit, help) of each signal of a simulation."},
     {"read_scenario", read_scenario, METH_O, "One Definition per run of a scenario file."},
-    {"unpack_result", unpack_result, METH_VARARGS,
-     "unpack_result(packed, message, notes, scalars, sensitivities, columns): the Result that was packed."},
+    {"unpack_result", unpack_result, METH_O, "The Result that was packed."},
     {NULL, NULL, 0, NULL},
 };
 static PyModuleDef_Slot slots[] = {

@@ -1,14 +1,12 @@
 /* A result of a study, as plain Python values and buffers. */
 #include "binding.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct Result {
   PyObject_HEAD State *state;
   ZpResult *result;
-  ZpColumn *column; /* of an unpickled result: its columns, */
-  PyObject *words;  /* and the texts of all names; otherwise NULL */
+  PyObject *names; /* bytes that hold the names of an unpacked result; otherwise NULL */
 } Result;
 
 PyObject *result_new(State *state, ZpResult *found) {
@@ -19,31 +17,28 @@ PyObject *result_new(State *state, ZpResult *found) {
   }
   self->state = state;
   self->result = found;
-  self->column = NULL;
-  self->words = NULL;
+  self->names = NULL;
   return (PyObject *)self;
 }
 
-PyObject *unpack_result(PyObject *module, PyObject *args) {
+PyObject *unpack_result(PyObject *module, PyObject *bytes) {
   State *state = PyModule_GetState(module);
-  Unpacked unpacked;
-  if (!result_unpack(state, args, &unpacked)) return NULL;
-  Result *self = (Result *)result_new(state, unpacked.result);
-  if (!self) {
-    free(unpacked.column);
-    Py_DECREF(unpacked.words);
-    return NULL;
-  }
-  self->column = unpacked.column;
-  self->words = unpacked.words;
+  char *data;
+  Py_ssize_t size;
+  ZpResult *result;
+  ZpError err;
+  if (!PyBytes_Check(bytes)) return raise_input(state, "result: takes the bytes that pack() returned");
+  if (PyBytes_AsStringAndSize(bytes, &data, &size)) return NULL;
+  if (zp_result_load(data, (size_t)size, &result, &err) != ZP_OK) return raise_error(state, &err);
+  Result *self = (Result *)result_new(state, result);
+  if (self) self->names = Py_NewRef(bytes);
   return (PyObject *)self;
 }
 
 static void result_dealloc(PyObject *object) {
   Result *self = (Result *)object;
   zp_result_destroy(self->result);
-  free(self->column);
-  Py_XDECREF(self->words);
+  Py_XDECREF(self->names);
   free_object(object);
 }
 
@@ -210,9 +205,11 @@ static PyObject *result_save(PyObject *object, PyObject *args) {
   Py_RETURN_NONE;
 }
 
-static PyObject *result_pack_method(PyObject *self, PyObject *unused) {
+static PyObject *result_pack(PyObject *self, PyObject *unused) {
   (void)unused;
-  return result_pack(of(self));
+  PyObject *bytes = PyBytes_FromStringAndSize(NULL, (Py_ssize_t)zp_result_save(of(self), NULL));
+  if (bytes) zp_result_save(of(self), PyBytes_AsString(bytes));
+  return bytes;
 }
 
 static PyGetSetDef getters[] = {
@@ -231,7 +228,7 @@ static PyGetSetDef getters[] = {
 };
 static PyMethodDef methods[] = {
     {"save", result_save, METH_VARARGS, "save(directory, scenario, templates): write the files of the command."},
-    {"pack", result_pack_method, METH_NOARGS, "Everything that unpack_result needs."},
+    {"pack", result_pack, METH_NOARGS, "Everything as bytes, for unpack_result."},
     {NULL, NULL, 0, NULL},
 };
 static PyType_Slot slots[] = {

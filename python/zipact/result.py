@@ -116,7 +116,7 @@ def shapes_of(parts: Mapping[str, Any]) -> Shapes:
 
 class Result(Mapping[str, float]):
     """The result of a study. As a mapping it contains the numbers: result["zip_time_s"]; nan if a number does not exist.
-    It can be pickled and copied within one version of zipact."""
+    It can be pickled and copied."""
 
     def __init__(self, found: _zipact.Result, actuator: "Actuator") -> None:
         self._found = found
@@ -184,8 +184,7 @@ class Result(Mapping[str, float]):
         self._found.save(folder, self.actuator.drive_from(os.path.join(folder, "drive.csv")).scenario(), os.fspath(templates))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        columns = None if self.series is None else self._found.series[0]
-        return _unpickle, (self.actuator, (self._found.pack(), self.message, self.notes, self._found.scalars, self._found.sensitivities, columns))
+        return _unpickle, (self.actuator, self._found.pack())
 
     def __repr__(self) -> str:
         lines = [f"{self.study}: {self.outcome}; {self.message}"]
@@ -195,5 +194,7 @@ class Result(Mapping[str, float]):
         return "\n".join(lines + [f"  note: {note}" for note in self.notes])
 
 
-def _unpickle(actuator: "Actuator", parts: tuple[Any, ...]) -> Result:
-    return Result(_zipact.unpack_result(*parts), actuator)
+def _unpickle(actuator: "Actuator", packed: Any) -> Result:
+    if isinstance(packed, tuple):  # as zipact 0.1.0 did
+        raise _zipact.InputError(f"result: pickled by zipact {packed[0][0]} in another form; run the study again")
+    return Result(_zipact.unpack_result(packed), actuator)

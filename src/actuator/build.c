@@ -441,13 +441,11 @@ static ZpHingeParams hinge_of(const ZpModel *model) {
 
 /* Its joints may yield. */
 static void fill_plastic(ZpModel *model) {
-  model->plastic_at = model->kept;
   if (!model->def.ribbon.plasticity) return;
   ZpActuatorDef lower = zp_def_lower(&model->def);
   model->plastic[0] = plastic_of(&model->def);
   model->plastic[1] = plastic_of(&lower);
   model->rod.plastic = model->plastic;
-  model->kept += zp_rod_plastic_count(&model->rod);
 }
 
 /* All pieces within half an edge of node j count: the largest stress per moment and per force of any of them. */
@@ -676,9 +674,6 @@ static void derive(ZpModel *model) {
   model->own = model->has_film ? ZP_FILM_MODES : 0;
   model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));
   if (model->leaks) model->leak = leak_of(model);
-  model->leak_at = model->has_film ? ZP_FILM_STATE * model->nodes : 0;
-  model->kept = model->leak_at;
-  if (model->leaks) model->kept += ZP_PLATES_PLACES * model->nodes;
   model->internal_damping = internal_damping_of(def);
   model->field_scale = def->electro.force_scale * def->electro.voltage_share * def->electro.voltage_share;
   /* 0.8 of the limit of the linear problem: large rotations and squeezed links stay below it. Pairs that join and part
@@ -730,10 +725,6 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
   return zp_edges_make(&params, halves * model->L, &model->edge_law, err);
 }
 #endif
-
-ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
-  return zp_model_create_driven(def, NULL, out, err);
-}
 
 /* One actuator. If it `hangs`, it does so on the platform of another. */
 static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, bool hangs, ZpModel **out,
@@ -817,7 +808,7 @@ static ZpStatus create_stack(const ZpActuatorDef *def, const ZpDriveTable *table
   return status;
 }
 
-ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
+ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
   *out = NULL;
   ZpStatus status = zp_def_check(def, err);
   if (status == ZP_OK) status = check_table(def, table, err);
@@ -862,5 +853,6 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) + (12 * model->stride + zp_own_unknowns(model) + model->kept) * sizeof(double);
+  return sizeof(ZpState) +
+         (12 * model->stride + zp_own_unknowns(model) + model->kept + model->ledger.rows) * sizeof(double);
 }

@@ -17,11 +17,6 @@ static void carve_mechanics(const ZpModel *model, ZpEval *e, ZpCarver *carver) {
       (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
 }
 
-/* Part of an array that begins at `offset`; NULL while sizes are added up. */
-static double *part_of(double *array, size_t offset) {
-  return array ? array + offset : NULL;
-}
-
 static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   ZpCarver carver = {block, 0};
   carve_mechanics(model, e, &carver);
@@ -35,9 +30,6 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
   e->own_residual = e->film.r;
   zp_leak_carve(&model->plates, &e->leak, &carver);
   e->memory_end = zp_carve(&carver, model->kept);
-  e->film.end = model->has_film ? e->memory_end : NULL;
-  e->rod_step.strain_end = model->rod.plastic ? part_of(e->memory_end, model->plastic_at) : NULL;
-  e->leak.Z = model->leaks ? part_of(e->memory_end, model->leak_at) : NULL;
   zp_faces_carve(&model->faces, &e->faces, &carver);
   zp_surface_carve(model->nodes, &e->surface, &carver);
   double **stations[] = {&e->gaps.own, &e->gaps.next, &e->gaps.along0, &e->gaps.along1};
@@ -51,6 +43,7 @@ static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
 
 bool zp_eval_create(const ZpModel *model, ZpEval *e) {
   memset(e, 0, sizeof *e);
+  e->model = model;
   e->memory = zp_calloc(1, carve(model, e, NULL));
   if (!e->memory) return false;
   carve(model, e, e->memory);

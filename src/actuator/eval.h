@@ -12,8 +12,6 @@ typedef struct ZpEdges {
   const double *dpx, *dpy, *ux, *uy, *T, *Rx, *Ry;
 } ZpEdges;
 
-enum { ZP_MOST_TERMS = 16 };
-
 /* What a solved field has beyond plates, found last at some coordinates; it goes with U^2. */
 typedef struct ZpHeld {
   const double *F;                    /* [2 stride] force, N/V^2; NULL: there is none */
@@ -26,8 +24,7 @@ ZpHeld zp_state_beyond(const ZpModel *model, const ZpState *state);
 
 /* Work space of the terms, of the start and the end of a span; at rest and at an instant only of its end. */
 typedef struct ZpEval {
-  const struct ZpTerm *term[ZP_MOST_TERMS]; /* those that the model has; a program may append its own */
-  size_t terms;
+  const ZpModel *model;
   ZpMassSpringEval spring_start, spring; /* mass_spring */
   ZpRodEval rod_start, rod;
   ZpRodStep rod_step;
@@ -58,7 +55,7 @@ typedef struct ZpEval {
   void *memory;
 } ZpEval;
 
-/* Allocate the arrays of `eval`, without terms; false if there is no memory. */
+/* Allocate the arrays of `eval`, without those of single terms; false if there is no memory. */
 bool zp_eval_create(const ZpModel *model, ZpEval *eval);
 void zp_eval_destroy(ZpEval *eval);
 
@@ -89,24 +86,6 @@ double zp_eval_weight_scale(const ZpModel *model);
 
 /* (accelerations under model->pseudo) => largest force left over zp_eval_weight_scale; NAN if any is. */
 double zp_eval_imbalance(const ZpModel *model, const double *a);
-
-/* Energies of one modelled part without the field. */
-typedef struct ZpEnergies {
-  double kinetic, axial, bending, gravity; /* J */
-  double spring;                           /* of the spring beside the load, J */
-  double liquid;                           /* kinetic energy of the liquid, and what its cavities hold, J */
-} ZpEnergies;
-
-/* Lost by one modelled part over a span. */
-typedef struct ZpLosses {
-  double drag, internal;      /* J */
-  double plastic;             /* heat of plastic bending, J */
-  double along, across, jets; /* in the film of liquid, J */
-  double outer;               /* to the form drag of the liquid outside, J */
-  double leak;                /* heat of conduction through insulators and liquid, J */
-  double contact;             /* to the contact of faces whose overlap the field changes, J */
-  double meniscus;            /* by menisci that move, J, of any sign */
-} ZpLosses;
 
 /* Electric totals of one modelled part at some voltage U; all 0 without electrodes. */
 typedef struct ZpElectric {

@@ -13,6 +13,7 @@
 #include <zipact/model.h>
 
 #include "actuator/topology.h"
+#include "base/row.h"
 #include "contact/faces.h"
 #include "drive/control.h"
 #include "drive/supply.h"
@@ -59,9 +60,30 @@ typedef struct ZpHingeParams {
   double rest;      /* angle without a moment, positive downwards, rad */
 } ZpHingeParams;
 
+/* Rows, each with a number. Models of one program have the same rows, whichever laws they have, so that a state of one
+ * is a state of a neighbour; laws of a program's own add rows. */
+enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 40, ZP_ROWS_OF_TERM = 6 };
+typedef struct ZpLedger {
+  const ZpRow *row[ZP_MOST_ROWS]; /* the first one is the kinetic energy of nodes */
+  size_t rows;
+} ZpLedger;
+
+struct ZpTerm;
+
+/* A law of a model (term/term.h), and where its numbers stand. */
+typedef struct ZpLaw {
+  const struct ZpTerm *term;
+  size_t row[ZP_ROWS_OF_TERM]; /* numbers of its rows in the ledger */
+  size_t rows;
+  size_t at, state; /* its state: place of the first number in the state of all laws, and how many */
+} ZpLaw;
+
 struct ZpModel {
   ZpActuatorDef def;
   ZpActuatorDef whole; /* of the system whose member it is; else `def` */
+  ZpLaw law[ZP_MOST_TERMS]; /* in the order in which they are added */
+  size_t laws;
+  ZpLedger ledger;
   ZpTopology topology;
   size_t s, nodes, count; /* of it: ribbons, stations, nodes */
   size_t stride;          /* count, rounded up */
@@ -78,7 +100,6 @@ struct ZpModel {
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
   ZpPlastic plastic[2];     /* of each ribbon, where ribbon.plasticity */
-  size_t plastic_at;        /* where plastic strains begin in the laws' state */
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
@@ -87,13 +108,12 @@ struct ZpModel {
   ZpFilmParams film;
   bool leaks; /* insulators or liquid conduct */
   ZpLeakParams leak;
-  size_t leak_at; /* where its interface voltages begin in the laws' state */
-  bool has_bead;  /* the film ends, and beyond it is air */
+  bool has_bead; /* the film ends, and beyond it is air */
   ZpBeadParams bead;
   ZpPlatesParams air;      /* the law there */
   ZpOuterParams outer;     /* of liquid outside */
   size_t own;              /* unknowns of the laws at each station, in motion */
-  size_t kept;             /* numbers of state of the laws, in motion */
+  size_t kept;             /* numbers of state of all laws, in motion */
   double internal_damping; /* s */
   ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
   ZpFieldParams cross_section;
@@ -132,26 +152,18 @@ typedef struct ZpState {
   double U;     /* potential difference, V */
   bool by_hand; /* the user has set it: the waveform does not count any more */
   ZpZipState zip;
-  bool was_open;        /* has the opening been above 1 % of the hanging one? */
-  double zip_time;      /* s; NAN until zipped */
-  double closed_from;   /* since when it has been closed, after zip_time, s; NAN: it is open */
-  ZpStill still;        /* while it is closed */
-  double opening0;      /* of the hanging equilibrium, m */
-  double base_U;        /* voltage since the account of work was last closed, V; where U is another, it has jumped
-                           there now */
-  double base_charge;   /* per part, when it was closed, C */
-  double base_energy;   /* per part: kinetic + stored without field at the start, J */
-  double base_field;    /* per part: field energy at the start, J */
-  double work;          /* per part: of the source until the account was closed, J */
-  double charging_loss; /* per part: what the field did not keep of jumps of the voltage until then, J */
-  double drag_loss;     /* per part, J */
-  double contact_loss;  /* per part, J */
-  double internal_loss; /* per part: of internal damping, J */
-  bool load_changed;    /* load.change_mass has been caught or dropped, */
-  double changed_x;     /* where its node was then, m */
+  bool was_open;      /* has the opening been above 1 % of the hanging one? */
+  double zip_time;    /* s; NAN until zipped */
+  double closed_from; /* since when it has been closed, after zip_time, s; NAN: it is open */
+  ZpStill still;      /* while it is closed */
+  double opening0;    /* of the hanging equilibrium, m */
+  double base_U;      /* voltage since the account of work was last closed, V; where U is another, it has jumped
+                         there now */
+  double base_charge; /* per part, when it was closed, C */
+  double work;        /* per part: of the source until the account was closed, J */
+  bool load_changed;  /* load.change_mass has been caught or dropped, */
+  double changed_x;   /* where its node was then, m */
   double changed_y;
-  double catch_loss;       /* per part: of the impact of what was caught, J */
-  double plastic_loss;     /* per part: heat of plastic bending, J */
   double last_step;        /* implicit: length of the last step, s; 0: there is none */
   double next_step;        /* and of the next one to try */
   double refreshed;        /* time of the last refresh of a held electric force, s; NAN: due now */
@@ -168,16 +180,8 @@ typedef struct ZpState {
   ZpSupplyState supply;    /* behind a supply: what of it evolves, */
   size_t supply_mode;      /* which of its limits acts (sim/feed.c), */
   double source_charge;    /* and of the whole actuator: charge that it has given, C, */
-  double source_energy;    /* energy, J, */
-  double source_loss;      /* what was lost in its resistance and at its limits, J, */
-  double bleeder_loss;     /* and in the bleeder, J */
-  double along_loss;       /* per part: to viscosity, along the film, J, */
-  double across_loss;      /* and across it */
-  double jet_loss;         /* per part: to jets from the film and its cavities, J */
-  double outer_drag_loss;  /* per part: to the form drag of the liquid outside, J */
-  double leak_loss;        /* per part: heat of conduction through insulators and liquid, J, */
-  double leaked;           /* and charge that has passed through the insulators, C */
-  double meniscus_loss;    /* per part: by menisci that move, J */
+  double source_energy;    /* and energy, J */
+  double leaked;           /* per part: charge that has passed through the insulators, C */
   ZpBead bead[ZP_BEADS];   /* of each half */
   double link_force;       /* one of those side by side: what links push its platform up with, the mean over the last
                               step, N per part */
@@ -186,7 +190,7 @@ typedef struct ZpState {
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
                     mean velocity and acceleration of the last implicit step [4 stride], the laws' own unknowns [own N]
-                    and state [kept] */
+                    and state [kept], the ledger [rows] */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -351,19 +355,43 @@ static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride;
 }
 
-/* State of the laws, [kept]: of the film, then of what leaks, each station by station, then plastic strains. */
+/* State of the laws, [kept], law by law. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
   return state->data + 12 * model->stride + zp_own_unknowns(model);
 }
 
-/* Interface voltages [ZP_PLATES_PLACES N] in a state of the laws; NULL of none. */
-static inline const double *zp_leak_memory(const ZpModel *model, const double *memory) {
-  return memory ? memory + model->leak_at : NULL;
+/* The law of a term in a model; NULL: it has none. */
+static inline const ZpLaw *zp_law(const ZpModel *model, const struct ZpTerm *term) {
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
+    if (law->term == term) return law;
+  return NULL;
 }
 
-/* Plastic strains of ribbons that may yield (ribbon/rod_plastic.h). */
-static inline double *zp_state_strain(const ZpModel *model, ZpState *state) {
-  return state->data + 12 * model->stride + zp_own_unknowns(model) + model->plastic_at;
+/* The numbers of one law in a state of all laws [kept]; NULL of a law without any. */
+static inline const double *zp_law_memory(const ZpModel *model, const struct ZpTerm *term, const double *memory) {
+  const ZpLaw *law = zp_law(model, term);
+  return memory && law && law->state > 0 ? memory + law->at : NULL;
+}
+
+static inline double *zp_law_state(const ZpModel *model, const struct ZpTerm *term, ZpState *state) {
+  const ZpLaw *law = zp_law(model, term);
+  return law && law->state > 0 ? zp_state_own(model, state) + zp_own_unknowns(model) + law->at : NULL;
+}
+
+/* The ledger, [rows]: what rows of losses have lost since it was opened, and what rows of energies held then, J. */
+static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
+  return state->data + 12 * model->stride + zp_own_unknowns(model) + model->kept;
+}
+
+/* The entry of a row in a ledger [rows]; NULL: the model does not have the row. */
+static inline double *zp_ledger_at(const ZpModel *model, double *ledger, const ZpRow *row) {
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    if (model->ledger.row[k] == row) return ledger + k;
+  return NULL;
+}
+
+static inline double *zp_state_row(const ZpModel *model, ZpState *state, const ZpRow *row) {
+  return zp_ledger_at(model, zp_state_ledger(model, state), row);
 }
 
 /* Mean velocity and mean acceleration over the last implicit step. */
@@ -376,5 +404,8 @@ static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
 }
 
 size_t zp_state_size(const ZpModel *model);
+
+/* As zp_model_create_driven, but without laws. */
+ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err);
 
 #endif

@@ -78,11 +78,10 @@ struct ZpCampaign {
   struct {
     Span *span; /* [workers] */
     size_t count;
-    size_t busy;   /* spans that other processes compute */
-  } lost;          /* cases of lost processes */
-  ZpRemote remote; /* names to which the results of other processes point */
-  size_t workers;  /* number of running workers */
-  ZpError err;     /* error of the first worker that failed */
+    size_t busy;  /* spans that other processes compute */
+  } lost;         /* cases of lost processes */
+  size_t workers; /* number of running workers */
+  ZpError err;    /* error of the first worker that failed */
 };
 
 /* -- workers ---------------------------------------------------------------------------------------- */
@@ -156,7 +155,7 @@ static void fail(ZpCampaign *c, const ZpError *err) {
 
 /* A result is sent to the journal as bytes: there are many results, and no thread has to free the memory of another. */
 static void hand_over_result(ZpCampaign *c, size_t number, uint64_t hash, ZpResult *result) {
-  ZpPacked *packed = zp_journal_pack(c->journal, result);
+  ZpPacked *packed = zp_packed_of(result);
   zp_result_destroy(result);
   if (packed)
     hand_over(c, number, hash, packed);
@@ -229,14 +228,6 @@ static bool hash_span(const ZpCampaign *c, size_t from, size_t to, uint64_t hash
   return known;
 }
 
-/* Read the results of a span; the campaign owns the names to which they point. */
-static bool read_span(ZpCampaign *c, const unsigned char *byte, size_t size, size_t count, ZpResult **result) {
-  pthread_mutex_lock(&c->lock);
-  const bool read = zp_remote_read(&c->remote, byte, size, c->study, count, result);
-  pthread_mutex_unlock(&c->lock);
-  return read;
-}
-
 /* Send the results of a span that another process has computed to the writer. False if the campaign ends. */
 static bool run_span(Worker *worker, size_t from, size_t to) {
   ZpCampaign *c = worker->campaign;
@@ -249,14 +240,14 @@ static bool run_span(Worker *worker, size_t from, size_t to) {
   ZpStatus status =
       known ? ZP_OK : c->options.remote(c->options.remote_user, worker->number, from, to, &byte, &size, &err);
   const bool lost = status == ZP_OK && !known && !byte;
-  if (status == ZP_OK && byte && !read_span(c, byte, size, to - from, result)) status = ZP_MACHINE;
-  free(byte);
+  if (status == ZP_OK && byte && !zp_remote_read(byte, size, c->study, to - from, result)) status = ZP_MACHINE;
   if (status != ZP_OK) fail(c, &err);
   for (size_t i = from; i < to && status == ZP_OK && !lost; i++)
     if (known)
       hand_over(c, i, hash[i - from], NULL);
     else
       hand_over_result(c, i, hash[i - from], result[i - from]);
+  free(byte); /* which has the names of the results */
   end_span(c, from, to, lost);
   return status == ZP_OK && !lost;
 }
@@ -511,7 +502,6 @@ void zp_campaign_close(ZpCampaign *c) {
   pthread_mutex_destroy(&c->lock);
   pthread_cond_destroy(&c->more);
   pthread_cond_destroy(&c->room);
-  zp_remote_free(&c->remote);
   free(c->lost.span);
   free(c->hash);
   free(c->mark);

@@ -13,9 +13,9 @@
 #include "def/purpose.h"
 #include "io/range.h"
 
-static const uint64_t fnv_prime = 0x100000001b3;
+static const uint64_t fnv_start = 0xcbf29ce484222325, fnv_prime = 0x100000001b3;
 
-uint64_t zp_hash_bytes(uint64_t hash, const void *data, size_t size) {
+static uint64_t add_bytes(uint64_t hash, const void *data, size_t size) {
   const unsigned char *byte = data;
   for (size_t i = 0; i < size; i++)
     hash = (hash ^ byte[i]) * fnv_prime;
@@ -24,7 +24,7 @@ uint64_t zp_hash_bytes(uint64_t hash, const void *data, size_t size) {
 
 /* Including the final 0, so that "a", "b" differs from "ab". */
 static uint64_t add_text(uint64_t hash, const char *text) {
-  return zp_hash_bytes(hash, text, strlen(text) + 1);
+  return add_bytes(hash, text, strlen(text) + 1);
 }
 
 /* All eight bytes at once; the high half is folded into the low one, which the product does not reach. */
@@ -41,7 +41,7 @@ static ZpStatus add_file(const char *key, const char *path, uint64_t *hash, ZpEr
   FILE *file = fopen(path, "rbe");
   if (!file) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be opened: %s", key, path, strerror(errno));
   for (size_t got; (got = fread(part, 1, sizeof part, file)) > 0;)
-    *hash = zp_hash_bytes(*hash, part, got);
+    *hash = add_bytes(*hash, part, got);
   const bool failed = ferror(file) != 0;
   fclose(file); /* nothing was written */
   return failed ? zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read", key, path) : ZP_OK;
@@ -65,7 +65,7 @@ static bool names_file(const ZpKey *key) {
 
 ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *hash, ZpError *err) {
   ZpStatus status = ZP_OK;
-  *hash = add_text(add_text(ZP_HASH_START, ZP_VERSION), zp_study_name(study));
+  *hash = add_text(add_text(fnv_start, ZP_VERSION), zp_study_name(study));
   for (int i = 0; i < zp_key_count() && status == ZP_OK; i++) {
     const char *path = names_file(zp_key(i)) ? zp_def_text(def, i) : NULL;
     if (path && *path) status = add_files(zp_key(i)->name, path, hash, err);

@@ -14,9 +14,4 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
  * 0. */
 uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def);
 
-/* The hash of bytes that follow those of the hash `before`; the first follow ZP_HASH_START. Two texts that differ in
- * one byte have different hashes. */
-#define ZP_HASH_START UINT64_C(0xcbf29ce484222325)
-uint64_t zp_hash_bytes(uint64_t before, const void *data, size_t size);
-
 #endif

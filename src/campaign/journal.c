@@ -1,46 +1,49 @@
 /* The journal is an SQLite database in WAL mode: a process may be killed at any instant without losing committed rows.
  * With synchronous = FULL each commit is on the disk, so it also survives a loss of power.
  *
- * about(name, value)                                 version of the program, study, number of cases: for people
- * name(id, name, unit, help, timing, sum)            names of scalars and columns, once for all rows
- * row(number, hash, outcome, message, result, sum)   a finished case; result: record.c
+ * about(name, value)                                version of the program, number of cases: for people
+ * names(id, record)                                 names of numbers, once for all rows with the same (io/packed.h)
+ * row(number, hash, outcome, names, record, sum)    a finished case; its record says the outcome, too
  *
- * sum: checksum of the other columns. SQLite has none: it would take a bit that a disk has lost for a number. A damaged
- * row does not count and is computed again.
+ * Records have checksums; `sum` says to which case a record belongs. SQLite has none and would take a bit that a disk
+ * has lost for a number. A damaged row does not count and is computed again.
  *
- * Names are written in the transaction of the first row that uses them. The threads that compute the rows also pack
- * them, so the ids of names depend on their order; the results that are read do not. */
+ * Names are written in the transaction of the first row that uses them. */
 #include "campaign/journal.h"
 
-#include <pthread.h>
 #include <sqlite3.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "campaign/case_hash.h"
-#include "campaign/record.h"
+#include "base/pack.h"
 #include "io/atomic.h"
 
 /* "zipa", and the number of this layout. */
-enum { APPLICATION = 0x7a697061, LAYOUT = 2 };
+enum { APPLICATION = 0x7a697061, LAYOUT = 3 };
 
 /* One thread at a time uses a journal. */
 static const int open_flags = SQLITE_OPEN_NOMUTEX;
 
 static const char file_name[] = "journal.sqlite";
 
+/* A record of names, and what it says. */
+typedef struct Names {
+  sqlite3_int64 id;
+  void *record;
+  ZpNames names;
+} Names;
+
 struct ZpJournal {
   char *path;
   sqlite3 *base;
-  sqlite3_stmt *put, *get, *put_name;
-  bool open;            /* a transaction */
-  bool reading;         /* `get` is at row `at`: one step leads to the next one */
-  pthread_mutex_t lock; /* guards names and record while rows are packed */
-  ZpNames names;
-  size_t names_written;
-  ZpRecord record;
-  ZpResult row; /* result of zp_journal_get: row `at` */
+  sqlite3_stmt *put, *get, *put_names;
+  bool open;             /* a transaction */
+  bool reading;          /* `get` is at row `at`: one step leads to the next one */
+  sqlite3_int64 written; /* id of the names that were written last; 0: none */
+  Names *names;          /* [known] of the rows that have been read; results point to them */
+  size_t known;
+  ZpResult *row; /* row `at`, if has_row; otherwise empty */
   size_t at;
   bool has_row, bad;
 };
@@ -63,41 +66,57 @@ static sqlite3_int64 ask(ZpJournal *journal, const char *sql) {
   return answer;
 }
 
-/* -- checksums -------------------------------------------------------------------------------------- */
+/* -- rows ------------------------------------------------------------------------------------------- */
 
-static uint64_t sum_text(uint64_t sum, const char *text) {
-  return text ? zp_hash_bytes(sum, text, strlen(text) + 1) : sum;
+#define SELECT_ROWS                                                                                                    \
+  "SELECT number, hash, row.record, sum, names.id, names.record FROM row JOIN names ON names.id = row.names "          \
+  "WHERE number >= ? ORDER BY number"
+enum { NUMBER, HASH, RECORD, SUM, NAMES_ID, NAMES };
+
+/* Another number, hash or record has another sum. */
+static sqlite3_int64 sum_of(uint64_t number, uint64_t hash, const void *record) {
+  static const uint64_t odd = 0x9E3779B97F4A7C15;
+  return (sqlite3_int64)((number * odd ^ hash) * odd ^ zp_pack_sum(record));
 }
 
-static uint64_t sum_number(uint64_t sum, uint64_t number) {
-  return zp_hash_bytes(sum, &number, sizeof number);
+/* The id of names: checksum and size of their record. */
+static sqlite3_int64 id_of(const void *record, size_t size) {
+  return (sqlite3_int64)((uint64_t)zp_pack_sum(record) << 24 | size);
 }
 
-static sqlite3_int64 sum_of_name(size_t id, const ZpName *name) {
-  const uint64_t texts = sum_text(sum_text(sum_text(ZP_HASH_START, name->name), name->unit), name->help);
-  return (sqlite3_int64)sum_number(sum_number(texts, id), name->timing);
+/* Append a record of names, copied. False if it is damaged, or there is no memory. */
+static bool add_names(ZpJournal *journal, sqlite3_int64 id, const void *record, size_t size) {
+  Names *names = realloc(journal->names, (journal->known + 1) * sizeof *names);
+  if (names) journal->names = names;
+  Names added = {.id = id, .record = names && record ? malloc(size) : NULL};
+  if (added.record) memcpy(added.record, record, size);
+  if (added.record && zp_names_read(added.record, size, &added.names, NULL) == ZP_OK) {
+    names[journal->known++] = added;
+    return true;
+  }
+  free(added.record);
+  return false;
 }
 
-/* `about`: number and hash of the case. */
-static sqlite3_int64 sum_of_row(const uint64_t about[2], const char *outcome, const char *message, const void *byte,
-                                size_t size) {
-  const uint64_t numbers = sum_number(sum_number(ZP_HASH_START, about[0]), about[1]);
-  return (sqlite3_int64)zp_hash_bytes(sum_text(sum_text(numbers, outcome), message), byte, size);
+/* The names of a row of `get`; NULL if they are damaged, or there is no memory. */
+static const ZpNames *need_names(ZpJournal *journal) {
+  const sqlite3_int64 id = sqlite3_column_int64(journal->get, NAMES_ID);
+  for (size_t i = 0; i < journal->known; i++)
+    if (journal->names[i].id == id) return &journal->names[i].names;
+  const void *record = sqlite3_column_blob(journal->get, NAMES);
+  const size_t size = (size_t)sqlite3_column_bytes(journal->get, NAMES);
+  return add_names(journal, id, record, size) ? &journal->names[journal->known - 1].names : NULL;
 }
 
-/* The columns of a row from a query. */
-#define ROW_COLUMNS "number, hash, outcome, message, result, sum"
-enum { NUMBER, HASH, OUTCOME, MESSAGE, RESULT, SUM };
-
-static bool is_whole(sqlite3_stmt *query) {
-  const uint64_t about[2] = {(uint64_t)sqlite3_column_int64(query, NUMBER),
-                             (uint64_t)sqlite3_column_int64(query, HASH)};
-  const char *outcome = (const char *)sqlite3_column_text(query, OUTCOME),
-             *message = (const char *)sqlite3_column_text(query, MESSAGE);
-  const void *byte = sqlite3_column_blob(query, RESULT);
-  const size_t size = (size_t)sqlite3_column_bytes(query, RESULT);
-  return outcome && message && byte &&
-         sqlite3_column_int64(query, SUM) == sum_of_row(about, outcome, message, byte, size);
+/* Read the row of `get` => journal->row. False if it is damaged, or there is no memory. */
+static bool read_row(ZpJournal *journal) {
+  const uint64_t number = (uint64_t)sqlite3_column_int64(journal->get, NUMBER),
+                 hash = (uint64_t)sqlite3_column_int64(journal->get, HASH);
+  const ZpNames *names = need_names(journal);
+  const void *record = sqlite3_column_blob(journal->get, RECORD);
+  const size_t size = (size_t)sqlite3_column_bytes(journal->get, RECORD);
+  return names && zp_numbers_read(names, record, size, journal->row, NULL) == ZP_OK &&
+         sqlite3_column_int64(journal->get, SUM) == sum_of(number, hash, record);
 }
 
 /* -- open and close --------------------------------------------------------------------------------- */
@@ -115,22 +134,37 @@ static ZpStatus make_tables(ZpJournal *journal, ZpError *err) {
   snprintf(sql, sizeof sql,
            "BEGIN; PRAGMA application_id = %d; PRAGMA user_version = %d;"
            "CREATE TABLE about(name TEXT PRIMARY KEY, value TEXT) WITHOUT ROWID;"
-           "CREATE TABLE name(id INTEGER PRIMARY KEY, name TEXT, unit TEXT, help TEXT, timing INTEGER, sum INTEGER);"
-           "CREATE TABLE row(number INTEGER PRIMARY KEY, hash INTEGER, outcome TEXT, message TEXT, result BLOB, "
+           "CREATE TABLE names(id INTEGER PRIMARY KEY, record BLOB);"
+           "CREATE TABLE row(number INTEGER PRIMARY KEY, hash INTEGER, outcome TEXT, names INTEGER, record BLOB, "
            "sum INTEGER);"
            "INSERT INTO about VALUES('version', '%s'); COMMIT;",
            APPLICATION, LAYOUT, zp_version());
   return run(journal, sql, err);
 }
 
-static bool is_ours(ZpJournal *journal) {
-  return ask(journal, "PRAGMA application_id") == APPLICATION && ask(journal, "PRAGMA user_version") == LAYOUT;
+static bool is_journal(ZpJournal *journal) {
+  return ask(journal, "PRAGMA application_id") == APPLICATION;
+}
+
+/* Of another version: refuse with its name. */
+static ZpStatus check_layout(ZpJournal *journal, ZpError *err) {
+  sqlite3_stmt *query = NULL;
+  if (ask(journal, "PRAGMA user_version") == LAYOUT) return ZP_OK;
+  const bool named = sqlite3_prepare_v2(journal->base, "SELECT value FROM about WHERE name = 'version'", -1, &query,
+                                        NULL) == SQLITE_OK &&
+                     sqlite3_step(query) == SQLITE_ROW;
+  ZpStatus status = zp_fail(err, ZP_BAD_INPUT,
+                            "%.300s: a journal of zipact %.20s with another layout; start without "
+                            "--resume, or continue it with that version",
+                            journal->path, named ? (const char *)sqlite3_column_text(query, 0) : "of unknown version");
+  sqlite3_finalize(query);
+  return status;
 }
 
 /* The rows of an unfinished campaign took time to compute: only the user may discard them. */
 static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
   if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
-      !is_ours(journal))
+      !is_journal(journal))
     return ZP_OK;
   const sqlite3_int64 done = ask(journal, "SELECT count(*) FROM row");
   const sqlite3_int64 cases = ask(journal, "SELECT value FROM about WHERE name = 'cases'");
@@ -153,33 +187,8 @@ static ZpStatus replace_old(ZpJournal *journal, const char *directory, ZpError *
 static ZpStatus need_tables(ZpJournal *journal, ZpError *err) {
   const sqlite3_int64 tables = ask(journal, "SELECT count(*) FROM sqlite_master");
   if (tables == 0) return make_tables(journal, err);
-  if (tables > 0 && is_ours(journal)) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "%.300s: not a journal of this version of zipact; start without --resume",
-                 journal->path);
-}
-
-static ZpStatus read_names(ZpJournal *journal, ZpError *err) {
-  sqlite3_stmt *query = NULL;
-  int step = SQLITE_ROW;
-  bool added = true, whole = true;
-  if (sqlite3_prepare_v2(journal->base, "SELECT name, unit, help, timing, id, sum FROM name ORDER BY id", -1, &query,
-                         NULL))
-    return fail_base(journal, err);
-  while (added && whole && (step = sqlite3_step(query)) == SQLITE_ROW) {
-    const ZpName name = {(char *)sqlite3_column_text(query, 0), (char *)sqlite3_column_text(query, 1),
-                         (char *)sqlite3_column_text(query, 2), sqlite3_column_int(query, 3) != 0};
-    const size_t id = journal->names.count;
-    whole = name.name && name.unit && sqlite3_column_int64(query, 4) == (sqlite3_int64)id &&
-            sqlite3_column_int64(query, 5) == sum_of_name(id, &name);
-    added = !whole || zp_names_add(&journal->names, &name);
-  }
-  ZpStatus status = step == SQLITE_DONE ? ZP_OK : added && whole ? fail_base(journal, err) : zp_fail_memory(err);
-  if (!whole)
-    status = zp_fail(err, ZP_MACHINE, "%.300s: damaged: a name differs from its checksum; start without --resume",
-                     journal->path);
-  journal->names_written = journal->names.count;
-  sqlite3_finalize(query);
-  return status;
+  if (tables > 0 && is_journal(journal)) return check_layout(journal, err);
+  return zp_fail(err, ZP_BAD_INPUT, "%.300s: not a journal of zipact; start without --resume", journal->path);
 }
 
 static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **statement, ZpError *err) {
@@ -188,14 +197,14 @@ static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **stat
 }
 
 static ZpStatus prepare_get(ZpJournal *journal, ZpError *err) {
-  return prepare(journal, "SELECT " ROW_COLUMNS " FROM row WHERE number >= ? ORDER BY number", &journal->get, err);
+  return prepare(journal, SELECT_ROWS, &journal->get, err);
 }
 
 static ZpStatus prepare_all(ZpJournal *journal, ZpError *err) {
   ZpStatus status = prepare_get(journal, err);
   if (status == ZP_OK)
     status = prepare(journal, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?, ?)", &journal->put, err);
-  return status == ZP_OK ? prepare(journal, "INSERT INTO name VALUES(?, ?, ?, ?, ?, ?)", &journal->put_name, err)
+  return status == ZP_OK ? prepare(journal, "INSERT OR REPLACE INTO names VALUES(?, ?)", &journal->put_names, err)
                          : status;
 }
 
@@ -208,21 +217,24 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   ZpStatus status = need_tables(journal, err);
   if (status == ZP_OK) status = run(journal, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL", err);
   if (status == ZP_OK) status = run(journal, sql, err);
-  if (status == ZP_OK) status = read_names(journal, err);
   return status == ZP_OK ? prepare_all(journal, err) : status;
 }
 
-static ZpJournal *create(void) {
+static ZpJournal *create(const char *path, ZpStudy study) {
   ZpJournal *journal = calloc(1, sizeof *journal);
-  if (journal && pthread_mutex_init(&journal->lock, NULL) == 0) return journal;
-  free(journal);
+  if (!journal) return NULL;
+  journal->path = path ? strdup(path) : NULL;
+  journal->row = zp_result_create(study);
+  if (journal->path && journal->row) return journal;
+  zp_journal_close(journal);
   return NULL;
 }
 
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err) {
-  ZpJournal *journal = *out = create();
-  ZpStatus status = journal && (journal->path = zp_path_join(directory, file_name)) ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK) journal->row.study = study;
+  char *path = zp_path_join(directory, file_name);
+  ZpJournal *journal = *out = create(path, study);
+  free(path);
+  ZpStatus status = journal ? ZP_OK : zp_fail_memory(err);
   if (status == ZP_OK && !keep) status = replace_old(journal, directory, err);
   if (status == ZP_OK) status = open_base(journal, cases, err);
   if (status == ZP_OK) return ZP_OK;
@@ -231,18 +243,14 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
   return status;
 }
 
-/* (journal with its path and study) => true if it is open for reading */
 static bool open_reader(ZpJournal *journal) {
   return sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
-         read_names(journal, NULL) == ZP_OK && prepare_get(journal, NULL) == ZP_OK;
+         prepare_get(journal, NULL) == ZP_OK;
 }
 
 ZpJournal *zp_journal_reader(const ZpJournal *journal) {
-  ZpJournal *reader = journal->open ? NULL : create();
-  if (!reader) return NULL;
-  reader->row.study = journal->row.study;
-  reader->path = strdup(journal->path);
-  if (reader->path && open_reader(reader)) return reader;
+  ZpJournal *reader = journal->open ? NULL : create(journal->path, journal->row->study);
+  if (reader && open_reader(reader)) return reader;
   zp_journal_close(reader);
   return NULL;
 }
@@ -252,39 +260,38 @@ void zp_journal_close(ZpJournal *journal) {
   if (journal->open) zp_journal_commit(journal, NULL);
   sqlite3_finalize(journal->put);
   sqlite3_finalize(journal->get);
-  sqlite3_finalize(journal->put_name);
+  sqlite3_finalize(journal->put_names);
   sqlite3_close(journal->base);
-  zp_record_clear(&journal->row);
-  zp_names_free(&journal->names);
-  free(journal->record.byte);
+  zp_result_destroy(journal->row);
+  for (size_t i = 0; i < journal->known; i++)
+    free(journal->names[i].record);
+  free(journal->names);
   free(journal->path);
-  pthread_mutex_destroy(&journal->lock);
   free(journal);
 }
 
-/* -- rows ------------------------------------------------------------------------------------------- */
+/* -- use -------------------------------------------------------------------------------------------- */
 
-/* The outcome with this word; ZP_BAD_ARGUMENT for any other word. */
-static ZpOutcome outcome_of(const char *word) {
-  for (int i = 0; word && strcmp(zp_outcome_name((ZpOutcome)i), "unknown") != 0; i++)
-    if (strcmp(zp_outcome_name((ZpOutcome)i), word) == 0) return (ZpOutcome)i;
-  return ZP_BAD_ARGUMENT;
+static void end_reading(ZpJournal *journal) {
+  sqlite3_reset(journal->get);
+  journal->reading = false;
 }
 
 ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t number, uint64_t hash, bool good),
                           void *user, ZpError *err) {
-  sqlite3_stmt *query = NULL;
   int step;
-  if (sqlite3_prepare_v2(journal->base, "SELECT " ROW_COLUMNS " FROM row ORDER BY number", -1, &query, NULL))
-    return fail_base(journal, err);
-  while ((step = sqlite3_step(query)) == SQLITE_ROW) {
-    const ZpOutcome outcome = outcome_of((const char *)sqlite3_column_text(query, OUTCOME));
-    if (outcome != ZP_TIME_LIMIT && is_whole(query)) /* more time, or another machine, may be enough */
-      visit(user, (size_t)sqlite3_column_int64(query, NUMBER), (uint64_t)sqlite3_column_int64(query, HASH),
-            zp_outcome_good(outcome));
+  end_reading(journal);
+  journal->has_row = false;
+  sqlite3_bind_int64(journal->get, 1, 0);
+  while ((step = sqlite3_step(journal->get)) == SQLITE_ROW) {
+    const ZpOutcome *outcome = read_row(journal) ? &journal->row->outcome : NULL;
+    if (outcome && *outcome != ZP_TIME_LIMIT) /* more time, or another machine, may be enough */
+      visit(user, (size_t)sqlite3_column_int64(journal->get, NUMBER),
+            (uint64_t)sqlite3_column_int64(journal->get, HASH), zp_outcome_good(*outcome));
   }
-  sqlite3_finalize(query);
-  return step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
+  ZpStatus status = step == SQLITE_DONE ? ZP_OK : fail_base(journal, err);
+  end_reading(journal);
+  return status;
 }
 
 /* Run a statement with bound values. */
@@ -295,64 +302,28 @@ static ZpStatus finish(ZpJournal *journal, sqlite3_stmt *statement, ZpError *err
   return status;
 }
 
-static ZpStatus write_name(ZpJournal *journal, size_t number, ZpError *err) {
-  const ZpName *name = &journal->names.item[number];
-  sqlite3_bind_int64(journal->put_name, 1, (sqlite3_int64)number);
-  sqlite3_bind_text(journal->put_name, 2, name->name, -1, SQLITE_STATIC);
-  sqlite3_bind_text(journal->put_name, 3, name->unit, -1, SQLITE_STATIC);
-  sqlite3_bind_text(journal->put_name, 4, name->help, -1, SQLITE_STATIC);
-  sqlite3_bind_int(journal->put_name, 5, name->timing);
-  sqlite3_bind_int64(journal->put_name, 6, sum_of_name(number, name));
-  return finish(journal, journal->put_name, err);
-}
-
-static ZpStatus write_names(ZpJournal *journal, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  pthread_mutex_lock(&journal->lock);
-  for (; journal->names_written < journal->names.count && status == ZP_OK; journal->names_written++)
-    status = write_name(journal, journal->names_written, err);
-  pthread_mutex_unlock(&journal->lock);
-  return status;
-}
-
-static void end_reading(ZpJournal *journal) {
-  sqlite3_reset(journal->get);
-  journal->reading = false;
-}
-
-/* Requires the lock. */
-static ZpPacked *pack(ZpJournal *journal, const ZpResult *result) {
-  if (!zp_record_write(&journal->record, &journal->names, result)) return NULL;
-  ZpPacked *row = malloc(sizeof *row + journal->record.used);
-  if (!row) return NULL;
-  row->outcome = result->outcome;
-  memcpy(row->message, result->message, sizeof row->message);
-  row->size = journal->record.used;
-  memcpy(row->byte, journal->record.byte, row->size);
-  return row;
-}
-
-ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result) {
-  pthread_mutex_lock(&journal->lock);
-  ZpPacked *row = pack(journal, result);
-  pthread_mutex_unlock(&journal->lock);
-  return row;
+static ZpStatus write_names(ZpJournal *journal, sqlite3_int64 id, const void *record, size_t size, ZpError *err) {
+  if (id == journal->written) return ZP_OK;
+  sqlite3_bind_int64(journal->put_names, 1, id);
+  sqlite3_bind_blob64(journal->put_names, 2, record, size, SQLITE_STATIC);
+  journal->written = id;
+  return finish(journal, journal->put_names, err);
 }
 
 ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpPacked *row, ZpError *err) {
+  const unsigned char *record = row->byte + row->names;
+  const sqlite3_int64 id = id_of(row->byte, row->names);
   end_reading(journal);
   ZpStatus status = journal->open ? ZP_OK : run(journal, "BEGIN", err);
   journal->open = status == ZP_OK;
-  if (status == ZP_OK) status = write_names(journal, err);
+  if (status == ZP_OK) status = write_names(journal, id, row->byte, row->names, err);
   if (status != ZP_OK) return status;
-  const char *outcome = zp_outcome_name(row->outcome);
-  const sqlite3_int64 sum = sum_of_row((uint64_t[]){number, hash}, outcome, row->message, row->byte, row->size);
   sqlite3_bind_int64(journal->put, 1, (sqlite3_int64)number);
   sqlite3_bind_int64(journal->put, 2, (sqlite3_int64)hash);
-  sqlite3_bind_text(journal->put, 3, outcome, -1, SQLITE_STATIC);
-  sqlite3_bind_text(journal->put, 4, row->message, -1, SQLITE_STATIC);
-  sqlite3_bind_blob64(journal->put, 5, row->byte, row->size, SQLITE_STATIC);
-  sqlite3_bind_int64(journal->put, 6, sum);
+  sqlite3_bind_text(journal->put, 3, zp_outcome_name(row->outcome), -1, SQLITE_STATIC);
+  sqlite3_bind_int64(journal->put, 4, id);
+  sqlite3_bind_blob64(journal->put, 5, record, row->size - row->names, SQLITE_STATIC);
+  sqlite3_bind_int64(journal->put, 6, sum_of(number, hash, record));
   return finish(journal, journal->put, err);
 }
 
@@ -380,23 +351,12 @@ static bool find_row(ZpJournal *journal, size_t number) {
   return journal->reading;
 }
 
-/* False if there is no such row, or it is damaged. */
-static bool read_row(ZpJournal *journal, size_t number) {
-  sqlite3_stmt *query = journal->get;
-  ZpResult *result = &journal->row;
-  if (!find_row(journal, number) || !is_whole(query)) return false;
-  const unsigned char *byte = sqlite3_column_blob(query, RESULT);
-  result->outcome = outcome_of((const char *)sqlite3_column_text(query, OUTCOME));
-  snprintf(result->message, sizeof result->message, "%s", (const char *)sqlite3_column_text(query, MESSAGE));
-  return zp_record_read(byte, (size_t)sqlite3_column_bytes(query, RESULT), &journal->names, result);
-}
-
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
-  if (journal->has_row && journal->at == number) return &journal->row;
-  journal->has_row = read_row(journal, number);
-  if (!journal->has_row) zp_record_clear(&journal->row);
+  if (journal->has_row && journal->at == number) return journal->row;
+  journal->has_row = find_row(journal, number) && read_row(journal);
   journal->bad = journal->bad || !journal->has_row;
-  return &journal->row;
+  if (!journal->has_row) zp_numbers_clear(journal->row);
+  return journal->row;
 }
 
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err) {

@@ -4,13 +4,14 @@
 
 #include <stdint.h>
 
-#include <zipact/io.h>
+#include "io/packed.h"
 
 typedef struct ZpJournal ZpJournal;
 
 /* Open or create the journal of a `study` in `directory`. With `keep` the rows of an existing journal stay, except
- * those with numbers from `cases` on; ZP_BAD_INPUT if the file is not a journal of this version. Otherwise it is
- * replaced; ZP_BAD_INPUT if its campaign is unfinished. ZP_MACHINE if it cannot be written. *out is NULL on failure. */
+ * those with numbers from `cases` on; ZP_BAD_INPUT if the file is not a journal, or names the version of which it is.
+ * Otherwise it is replaced; ZP_BAD_INPUT if its campaign is unfinished. ZP_MACHINE if it cannot be written. *out is
+ * NULL on failure. */
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
 
 /* Another reader of the rows on the disk, for its own thread; it cannot write. NULL if some rows are not on the disk
@@ -24,18 +25,6 @@ void zp_journal_close(ZpJournal *journal);
 ZpStatus zp_journal_visit(ZpJournal *journal, void (*visit)(void *user, size_t number, uint64_t hash, bool good),
                           void *user, ZpError *err);
 
-/* A result in the form of the journal: some hundred bytes. */
-typedef struct ZpPacked {
-  ZpOutcome outcome;
-  char message[sizeof(((ZpResult *)0)->message)];
-  size_t size;
-  unsigned char byte[]; /* record.h */
-} ZpPacked;
-
-/* Pack a result => to be freed; NULL if there is no memory. Any thread may call it while another puts rows, but not
- * while one reads them. */
-ZpPacked *zp_journal_pack(ZpJournal *journal, const ZpResult *result);
-
 /* Put a row, replacing one of the same number. It is on the disk after the next zp_journal_commit. */
 ZpStatus zp_journal_put(ZpJournal *journal, size_t number, uint64_t hash, const ZpPacked *row, ZpError *err);
 
@@ -45,8 +34,8 @@ ZpStatus zp_journal_commit(ZpJournal *journal, ZpError *err);
 /* Mark the campaign as finished: the journal may be replaced. */
 ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err);
 
-/* Row `number`, valid until the next call. If it cannot be read the result is empty, and zp_journal_status reports the
- * error from then on. */
+/* Row `number`, valid until the next call; its names stay until the journal is closed. If it cannot be read the result
+ * is empty, and zp_journal_status reports the error from then on. */
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number);
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err);
 

@@ -5,6 +5,11 @@
 
 #include "math/elementary.h"
 
+const ZpRow zp_row_source_loss =
+    ZP_LOST_BY_SOURCE(source_loss, "energy lost so far in the resistance of the source and at its current limits");
+const ZpRow zp_row_bleeder_loss = ZP_LOST_BY_SOURCE(bleeder_loss, "energy lost so far in the bleeder");
+const ZpRow *const zp_supply_rows[] = {&zp_row_source_loss, &zp_row_bleeder_loss, NULL};
+
 static const double same = 1e-6; /* V: y and V are one */
 
 /* Infinite if the key is none. */

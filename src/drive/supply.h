@@ -4,7 +4,11 @@
 #ifndef ZP_DRIVE_SUPPLY_H
 #define ZP_DRIVE_SUPPLY_H
 
+#include "base/row.h"
 #include "drive/waveform.h"
+
+/* Its rows of the ledger, then NULL. */
+extern const ZpRow *const zp_supply_rows[];
 
 typedef struct ZpSupply {
   bool acts;          /* else the electrodes have the voltage of the command, whatever current flows */

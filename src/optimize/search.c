@@ -119,8 +119,8 @@ static bool take_row(ZpSearch *s, size_t number, uint64_t hash, ZpPoint *point) 
 
 static ZpStatus put_row(ZpSearch *s, size_t number, uint64_t hash, const ZpResult *result, ZpPoint *point,
                         ZpError *err) {
-  pthread_mutex_lock(&s->lock); /* before it is packed: meanwhile other threads may read rows of an earlier process */
-  ZpPacked *packed = zp_journal_pack(s->journal, result);
+  ZpPacked *packed = zp_packed_of(result);
+  pthread_mutex_lock(&s->lock);
   ZpStatus status = packed ? zp_journal_put(s->journal, number, hash, packed, err) : zp_fail_memory(err);
   if (status == ZP_OK) status = commit_if_due(s, err);
   if (status == ZP_OK) look(s, result, point);

@@ -806,17 +806,7 @@ static void book_conduction(ZpDynamics *d, ZpState *state) {
 static void book_losses(ZpDynamics *d, ZpState *state) {
   gather_own(d, d->q);
   ZpSpan span = span_of(d);
-  ZpLosses losses = zp_system_losses(d->model, &span, &d->eval);
-  state->drag_loss += losses.drag;
-  state->internal_loss += losses.internal;
-  state->plastic_loss += losses.plastic;
-  state->along_loss += losses.along;
-  state->across_loss += losses.across;
-  state->jet_loss += losses.jets;
-  state->outer_drag_loss += losses.outer;
-  state->leak_loss += losses.leak;
-  state->contact_loss += losses.contact;
-  state->meniscus_loss += losses.meniscus;
+  zp_system_book(d->model, &span, &d->eval, state);
 }
 
 /* Motion and the laws' own numbers at the end of the step => state. */
@@ -870,11 +860,9 @@ static void book(ZpDynamics *d, ZpState *state) {
 /* Impacts and menisci change the velocities of all members; their losses are booked with the uppermost one. */
 static void book_impacts(ZpDynamics *d, ZpState *state) {
   if (!d->model->field) return;
-  state->contact_loss += impact(d);
-  if (d->model->has_bead)
-    state->across_loss += calm(d);
-  else if (d->model->has_film)
-    state->across_loss += settle_films(d);
+  *zp_state_row(d->model, state, &zp_row_contact_loss) += impact(d);
+  if (d->model->has_film)
+    *zp_state_row(d->model, state, &zp_row_film_across_loss) += d->model->has_bead ? calm(d) : settle_films(d);
 }
 
 /* Store the state at the step's end, and book the work of the load input. */

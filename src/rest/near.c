@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/fail.h"
+#include "system/system.h"
 
 /* Of the range, where value and default are 0. */
 static const double part_of_range = 1e-6;
@@ -39,6 +40,7 @@ static ZpStatus build(ZpNear *near, const ZpModel *model, const Stencil *stencil
     if (stencil->weight[k] == 0) continue;
     status = zp_def_set(&def, near->key, zp_def_get(&def, near->key) + near->offset[k], err);
     if (status == ZP_OK) status = zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &near->model[k], err);
+    if (status == ZP_OK) zp_model_take_laws(near->model[k], model);
   }
   if (status != ZP_OK) zp_near_close(near);
   return status;

@@ -6,22 +6,25 @@
  * no time, does not count, and reading the account changes nothing. The account is closed at once only if what is held
  * over several steps must be computed again for the new voltage. */
 #include <math.h>
+#include <string.h>
 
 #include "sim/sim_internal.h"
 
 /* Work of ideal sources at U0 during the motion and of their jump to U1, between the states `before` and `after` the
  * jump. */
-static ZpAccount charged(const ZpState *state, ZpElectric before, ZpElectric after) {
+static ZpAccount charged(const ZpSim *sim, ZpElectric before, ZpElectric after) {
+  const ZpState *state = sim->state;
+  double lost = *zp_state_row(sim->model, sim->state, &zp_row_charging_loss);
   double U0 = state->base_U, U1 = state->U, given = U1 * (after.charge - before.charge);
   double kept = zp_field_energy(after, U1) - zp_field_energy(before, U0);
   return (ZpAccount){state->work + U0 * (before.charge - state->base_charge) + given,
-                     state->charging_loss + (U1 == U0 ? 0 : given - kept)};
+                     lost + (U1 == U0 ? 0 : given - kept)};
 }
 
 ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now) {
   const ZpState *state = sim->state;
-  if (state->U == state->base_U) return charged(state, now, now);
-  return charged(state, zp_system_electric_now(sim->model, state, state->base_U, &sim->eval), now);
+  if (state->U == state->base_U) return charged(sim, now, now);
+  return charged(sim, zp_system_electric_now(sim->model, state, state->base_U, &sim->eval), now);
 }
 
 ZpLeakNow zp_sim_leak(ZpSim *sim) {
@@ -31,19 +34,18 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
   ZpMotion m = zp_state_motion(model, state);
   zp_plates_gaps(&model->plates, m.x, m.y, &sim->eval.plates);
   return zp_leak_now(&model->leak, &model->plates, &sim->eval.plates, state->U,
-                     zp_leak_memory(model, zp_state_memory(model, state)));
+                     zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }
 
 void zp_sim_start_account(ZpSim *sim) {
   ZpState *state = sim->state;
-  ZpEnergies energies = zp_system_energies(sim->model, state, &sim->eval);
+  double *ledger = zp_state_ledger(sim->model, state);
+  memset(ledger, 0, sim->model->ledger.rows * sizeof *ledger);
+  zp_system_now(sim->model, state, &sim->eval, ledger);
   ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
-  state->work = state->charging_loss = state->drag_loss = state->contact_loss = state->internal_loss = 0;
-  state->along_loss = state->across_loss = state->jet_loss = state->outer_drag_loss = state->meniscus_loss = 0;
-  state->load_work = state->leak_loss = state->plastic_loss = state->catch_loss = 0;
-  state->source_energy = state->source_loss = state->bleeder_loss = 0;
-  state->base_energy = zp_energy_without_field(&energies);
-  state->base_field = zp_field_energy(now, state->U);
+  state->work = state->load_work = 0;
+  state->source_energy = 0;
+  *zp_ledger_at(sim->model, ledger, &zp_row_field_energy) = zp_field_energy(now, state->U);
   state->base_charge = now.charge;
   state->base_U = state->U;
 }
@@ -54,9 +56,9 @@ void zp_sim_close_account(ZpSim *sim) {
   ZpElectric before = zp_system_electric_now(sim->model, state, state->base_U, &sim->eval);
   if (zp_held_due(sim->model, state)) zp_held_refresh(sim->model, state, &sim->eval);
   ZpElectric after = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
-  ZpAccount account = charged(state, before, after);
+  ZpAccount account = charged(sim, before, after);
   state->work = account.work;
-  state->charging_loss = account.charging_loss;
+  *zp_state_row(sim->model, state, &zp_row_charging_loss) = account.charging_loss;
   state->base_charge = after.charge;
   state->base_U = state->U;
 }

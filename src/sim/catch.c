@@ -27,13 +27,15 @@ void zp_sim_change_load(ZpSim *sim) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   size_t j = zp_load_node(&model->topology);
-  ZpEnergies before = zp_system_energies(model, state, &sim->eval);
+  double before[ZP_MOST_ROWS] = {0}, after[ZP_MOST_ROWS] = {0};
+  zp_system_now(model, state, &sim->eval, before);
   double brought = energy_of_mass(model, state);
   zp_dynamics_change_load(&sim->dynamics, state);
   state->load_changed = true;
   state->changed_x = zp_state_motion(model, state).x[j];
   state->changed_y = zp_state_motion(model, state).y[j];
-  ZpEnergies after = zp_system_energies(model, state, &sim->eval);
-  state->catch_loss += zp_energy_without_field(&before) + brought - zp_energy_without_field(&after);
-  state->base_energy += brought;
+  zp_system_now(model, state, &sim->eval, after);
+  *zp_state_row(model, state, &zp_row_catch_loss) +=
+      zp_system_stored(model, before) + brought - zp_system_stored(model, after);
+  *zp_state_row(model, state, &zp_row_kinetic_energy) += brought;
 }

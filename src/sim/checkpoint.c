@@ -21,7 +21,7 @@ static ZpCheckpoint *create(size_t size) {
 
 ZpStatus zp_checkpoint_from(const void *bytes, size_t size, ZpCheckpoint **out, ZpError *err) {
   *out = NULL;
-  ZpStatus status = zp_snapshot_check(bytes, size, err);
+  ZpStatus status = zp_snapshot_check(NULL, bytes, size, err);
   if (status != ZP_OK) return status;
   *out = create(size);
   if (!*out) return zp_fail_memory(err);
@@ -54,7 +54,7 @@ static ZpStatus check_time(const ZpCheckpoint *checkpoint, const ZpActuatorDef *
 }
 
 ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = zp_snapshot_fits(def, checkpoint->byte, checkpoint->size, err);
+  ZpStatus status = zp_snapshot_check(def, checkpoint->byte, checkpoint->size, err);
   return status == ZP_OK ? check_time(checkpoint, def, err) : status;
 }
 

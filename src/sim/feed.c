@@ -244,6 +244,10 @@ void zp_feed_create(ZpSim *sim) {
 
 /* -- books ----------------------------------------------------------------------------------------- */
 
+static double *lost_in_source(ZpSim *sim) {
+  return zp_state_row(sim->model, sim->state, &zp_row_source_loss);
+}
+
 /* Work on the electrodes until now, including the part that is not yet in state->work; of one part. */
 static double given(const ZpState *state, double charge) {
   return state->work + state->U * (charge - state->base_charge);
@@ -256,20 +260,20 @@ static void jump(ZpSim *sim, double V) {
   double parts = sim->model->parts, C = sim->model->supply.capacitance, R = sim->model->supply.resistance,
          U0 = state->U;
   double charge0 = zp_system_electric_now(sim->model, state, U0, &sim->eval).charge, work0 = given(state, charge0);
-  double loss0 = state->charging_loss;
+  double *charging = zp_state_row(sim->model, state, &zp_row_charging_loss), loss0 = *charging;
   zp_sim_jump(sim, V);
   if (state->U != state->base_U) zp_sim_close_account(sim);
-  double work = parts * (given(state, state->base_charge) - work0), lost = state->charging_loss - loss0;
+  double work = parts * (given(state, state->base_charge) - work0), lost = *charging - loss0;
   state->source_charge += parts * (state->base_charge - charge0) + C * (V - U0);
   state->source_energy += work + C * V * (V - U0);
-  state->source_loss += 0.5 * C * (V - U0) * (V - U0);
+  *lost_in_source(sim) += 0.5 * C * (V - U0) * (V - U0);
   if (!(R > 0)) {
     sim->feed.peak = sim->feed.square = INFINITY;
     return;
   }
   state->work -= lost;
-  state->charging_loss -= lost;
-  state->source_loss += parts * lost;
+  *charging -= lost;
+  *lost_in_source(sim) += parts * lost;
   sim->feed.square += (parts * lost + 0.5 * C * (V - U0) * (V - U0)) / R;
   sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);
 }
@@ -280,7 +284,7 @@ void zp_feed_renew(ZpSim *sim, double before) {
   double charge = sim->model->parts * (after - before), V = state->supply.voltage;
   state->source_charge += charge;
   state->source_energy += V * charge;
-  state->source_loss += (V - state->U) * charge;
+  *lost_in_source(sim) += (V - state->U) * charge;
 }
 
 /* Mean voltage at the bleeder over the last step, V. */
@@ -337,8 +341,8 @@ static void book(ZpSim *sim) {
   double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
   state->source_charge += charge;
   state->source_energy += energy;
-  state->source_loss += energy - taken;
-  state->bleeder_loss += bled;
+  *lost_in_source(sim) += energy - taken;
+  *zp_state_row(sim->model, state, &zp_row_bleeder_loss) += bled;
   note_currents(sim, charge / h, h);
 }
 

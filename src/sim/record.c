@@ -10,11 +10,22 @@
 
 /* Places of the signals in a row. */
 #define ZP_SIGNAL(name, unit, suffix, help) SIGNAL_##name,
+#define ZP_ROW(name)                        SIGNAL_##name,
 enum {
 #include <zipact/signals.def>
   SIGNAL_COUNT
 };
 #undef ZP_SIGNAL
+#undef ZP_ROW
+
+/* The row of the ledger that is a signal; NULL: it is none. */
+#define ZP_SIGNAL(name, unit, suffix, help) NULL,
+#define ZP_ROW(name)                        &zp_row_##name,
+static const ZpRow *const row_of[] = {
+#include <zipact/signals.def>
+};
+#undef ZP_SIGNAL
+#undef ZP_ROW
 
 /* Columns after the signals, of a series: the opening of each member. */
 #define OPENING_OF(member)                                                                                             \
@@ -33,6 +44,7 @@ enum { NUMBERS_ABREAST = 2 };
   ABREAST_OF(1), ABREAST_OF(2), ABREAST_OF(3), ABREAST_OF(4), ABREAST_OF(5), ABREAST_OF(6), ABREAST_OF(7), ABREAST_OF(8)
 
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
+#define ZP_ROW(name)                        {zp_row_##name.column, zp_row_##name.unit, zp_row_##name.help},
 static const ZpColumn columns[] = {
 #include <zipact/signals.def>
     OPENINGS};
@@ -52,6 +64,7 @@ static const ZpColumn columns_of_capacitance[] = {
 #include <zipact/signals.def>
 };
 #undef ZP_SIGNAL
+#undef ZP_ROW
 
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
 static const char *const names[] = {
@@ -75,8 +88,21 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
   return def->control.kind == ZP_CONTROL_NONE ? columns : of[def->control.signal];
 }
 
+/* Rows of the ledger that are no signals have their places behind all columns. */
+enum { COLUMNS = sizeof columns_abreast / sizeof columns_abreast[0] }; /* the most of all */
+
 size_t zp_sim_row_size(void) {
-  return sizeof columns_abreast / sizeof columns_abreast[0]; /* the most of all */
+  return COLUMNS + ZP_MOST_ROWS;
+}
+
+void zp_sim_place_rows(ZpSim *sim) {
+  const ZpLedger *ledger = &sim->model->ledger;
+  for (size_t k = 0; k < ledger->rows; k++) {
+    size_t signal = 0;
+    while (signal < SIGNAL_COUNT && row_of[signal] != ledger->row[k])
+      signal++;
+    sim->row_at[k] = signal < SIGNAL_COUNT ? signal : COLUMNS + k;
+  }
 }
 
 const char *zp_control_unit(const ZpActuatorDef *def) {
@@ -92,10 +118,6 @@ const ZpColumn *zp_trace_columns(size_t *count) {
                                                    {"stroke_m", "m", "stroke"}};
   *count = ZP_TRACE_COLUMNS;
   return trace;
-}
-
-double zp_energy_without_field(const ZpEnergies *e) {
-  return e->kinetic + e->axial + e->bending + e->gravity + e->spring + e->liquid;
 }
 
 /* Number of closed stations from the clip on: their faces touch, or their film is thinner than the liquid equivalent to
@@ -153,40 +175,24 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_voltage] = state->U;
   row[SIGNAL_command] = zp_sim_is_fed(sim) ? zp_sim_command(sim) : state->U;
   row[SIGNAL_source_voltage] = zp_sim_is_fed(sim) ? state->supply.voltage : state->U;
-  row[SIGNAL_source_loss] = state->source_loss;
-  row[SIGNAL_bleeder_loss] = state->bleeder_loss;
   row[SIGNAL_cable_energy] = zp_sim_is_fed(sim) ? zp_feed_cable_energy(sim, state->U) : 0;
   row[SIGNAL_setpoint] = zp_sim_setpoint(sim);
   row[SIGNAL_measured] = sim->model->control.kind == ZP_CONTROL_NONE ? 0 : state->control.measured;
   row[SIGNAL_load_work] = parts * state->load_work;
-  row[SIGNAL_drag_loss] = parts * state->drag_loss;
-  row[SIGNAL_internal_loss] = parts * state->internal_loss;
-  row[SIGNAL_catch_loss] = parts * state->catch_loss;
-  row[SIGNAL_plastic_loss] = parts * state->plastic_loss;
-  row[SIGNAL_film_along_loss] = parts * state->along_loss;
-  row[SIGNAL_film_across_loss] = parts * state->across_loss;
-  row[SIGNAL_viscous_loss] = parts * (state->along_loss + state->across_loss);
-  row[SIGNAL_jet_loss] = parts * state->jet_loss;
-  row[SIGNAL_outer_drag_loss] = parts * state->outer_drag_loss;
-  row[SIGNAL_leak_loss] = parts * state->leak_loss;
-  row[SIGNAL_meniscus_loss] = parts * state->meniscus_loss;
-  row[SIGNAL_bead_outside] = state->bead[0].outside;
-  row[SIGNAL_bead_lost] = state->bead[0].lost;
-  row[SIGNAL_contact_loss] = parts * state->contact_loss;
-  row[SIGNAL_permanent_curvature] = zp_rod_plastic_set(&sim->model->rod, zp_state_strain(sim->model, sim->state));
 }
 
-/* => increase of kinetic and stored energy without the field since the account was opened, of one part, J. */
-static double fill_mechanics(ZpSim *sim, double *row) {
-  double parts = sim->model->parts;
-  ZpEnergies e = zp_system_energies(sim->model, sim->state, &sim->eval);
-  row[SIGNAL_kinetic_energy] = parts * e.kinetic;
-  row[SIGNAL_liquid_energy] = parts * e.liquid;
-  row[SIGNAL_axial_energy] = parts * e.axial;
-  row[SIGNAL_bending_energy] = parts * e.bending;
-  row[SIGNAL_gravity_energy] = parts * e.gravity;
-  row[SIGNAL_spring_energy] = parts * e.spring;
-  return zp_energy_without_field(&e) - sim->state->base_energy;
+/* Values of all rows => their places. */
+static void fill_books(const ZpSim *sim, double *now, double *row) {
+  const ZpModel *model = sim->model;
+  double viscous =
+      *zp_ledger_at(model, now, &zp_row_film_along_loss) + *zp_ledger_at(model, now, &zp_row_film_across_loss);
+  for (size_t k = 0; k < model->ledger.rows; k++) {
+    ZpRowKind kind = model->ledger.row[k]->kind;
+    row[sim->row_at[k]] = (kind == ZP_ROW_STORED || kind == ZP_ROW_LOST ? model->parts : 1) * now[k];
+  }
+  row[SIGNAL_viscous_loss] = model->parts * viscous;
+  row[SIGNAL_energy_imbalance] = row[SIGNAL_electric_work] + row[SIGNAL_load_work] -
+                                 model->parts * zp_system_taken(model, zp_state_ledger(model, sim->state), now);
 }
 
 /* What the insulators conduct, and the charge on their faces. */
@@ -197,13 +203,13 @@ static void fill_leak(ZpSim *sim, double *row) {
   row[SIGNAL_interface_voltage] = now.mean;
 }
 
-/* => energy that the source has delivered less what the field has kept and jumps have lost, of one part, J. */
-static double fill_electric(ZpSim *sim, double *row) {
+/* Also the rows that the account of the source fills. */
+static void fill_electric(ZpSim *sim, double *now, double *row) {
   const ZpState *state = sim->state;
   ZpElectric e = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   ZpAccount account = zp_sim_account(sim, e);
   bool fed = zp_sim_is_fed(sim);
-  double parts = sim->model->parts, field = zp_field_energy(e, state->U), passed = state->t - sim->row_time;
+  double parts = sim->model->parts, passed = state->t - sim->row_time;
   double given = fed ? state->source_charge / parts : e.charge + state->leaked;
   sim->own_charge = e.charge;
   fill_leak(sim, row);
@@ -215,9 +221,8 @@ static double fill_electric(ZpSim *sim, double *row) {
   row[SIGNAL_electric_work] = parts * account.work;
   row[SIGNAL_source_energy] = sim->own_energy = fed ? state->source_energy : row[SIGNAL_electric_work];
   row[SIGNAL_power] = passed > 0 ? (row[SIGNAL_source_energy] - sim->row_energy) / passed : 0;
-  row[SIGNAL_charging_loss] = parts * account.charging_loss;
-  row[SIGNAL_field_energy] = parts * field;
-  return account.work - (field - state->base_field) - account.charging_loss;
+  *zp_ledger_at(sim->model, now, &zp_row_charging_loss) = account.charging_loss;
+  *zp_ledger_at(sim->model, now, &zp_row_field_energy) = zp_field_energy(e, state->U);
 }
 
 /* Of one member. */
@@ -230,8 +235,8 @@ static ZpShape shape_of(ZpSim *sim) {
     zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);
     shape.gap = sim->eval.plates.gap;
   }
-  if (model->leaks) sim->shape_room.interface = zp_leak_memory(model, zp_state_memory(model, state));
-  if (model->rod.plastic) sim->shape_room.strain = zp_state_strain(model, sim->state);
+  if (model->leaks) sim->shape_room.interface = zp_law_state(model, &zp_term_leak, sim->state);
+  if (model->rod.plastic) sim->shape_room.strain = zp_law_state(model, &zp_term_rod, sim->state);
   for (int half = 0; model->has_bead && half < ZP_BEADS; half++)
     sim->shape_room.reach[half] = state->bead[half].reach;
   zp_shape_fill(model, &sim->shape_room, &shape);
@@ -254,41 +259,29 @@ static void fill_margins(ZpSim *sim, double *row) {
 
 /* The computations that a signal needs; they cost far more than reading the state. */
 enum { STATE = 0, MECHANICS = 1, ELECTRIC = 2, MARGINS = 4, ENERGY = MECHANICS | ELECTRIC, ALL = ENERGY | MARGINS };
-static const unsigned char takes[SIGNAL_COUNT] = {[SIGNAL_force] = ELECTRIC,
-                                                  [SIGNAL_charge] = ELECTRIC,
-                                                  [SIGNAL_capacitance] = ELECTRIC,
-                                                  [SIGNAL_current] = ELECTRIC,
-                                                  [SIGNAL_electric_work] = ELECTRIC,
-                                                  [SIGNAL_charging_loss] = ELECTRIC,
-                                                  [SIGNAL_field_energy] = ELECTRIC,
-                                                  [SIGNAL_source_energy] = ELECTRIC,
-                                                  [SIGNAL_power] = ELECTRIC,
-                                                  [SIGNAL_leak_current] = ELECTRIC,
-                                                  [SIGNAL_interface_voltage] = ELECTRIC,
-                                                  [SIGNAL_kinetic_energy] = MECHANICS,
-                                                  [SIGNAL_axial_energy] = MECHANICS,
-                                                  [SIGNAL_bending_energy] = MECHANICS,
-                                                  [SIGNAL_gravity_energy] = MECHANICS,
-                                                  [SIGNAL_spring_energy] = MECHANICS,
-                                                  [SIGNAL_energy_imbalance] = ENERGY,
-                                                  [SIGNAL_insulator_field] = MARGINS,
-                                                  [SIGNAL_liquid_energy] = MECHANICS,
-                                                  [SIGNAL_max_stress] = MARGINS};
+static const unsigned char takes[SIGNAL_COUNT] = {
+    [SIGNAL_force] = ELECTRIC,          [SIGNAL_charge] = ELECTRIC,         [SIGNAL_capacitance] = ELECTRIC,
+    [SIGNAL_current] = ELECTRIC,        [SIGNAL_electric_work] = ELECTRIC,  [SIGNAL_source_energy] = ELECTRIC,
+    [SIGNAL_power] = ELECTRIC,          [SIGNAL_leak_current] = ELECTRIC,   [SIGNAL_interface_voltage] = ELECTRIC,
+    [SIGNAL_energy_imbalance] = ENERGY, [SIGNAL_insulator_field] = MARGINS, [SIGNAL_max_stress] = MARGINS};
+
+/* The computations that a row of the ledger needs. */
+static unsigned taken_by(const ZpRow *row) {
+  if (row == &zp_row_field_energy || row == &zp_row_charging_loss) return ELECTRIC;
+  return row->kind == ZP_ROW_STORED || row->kind == ZP_ROW_SIGNAL ? MECHANICS : STATE;
+}
 
 /* Signals that need no more than `what` => sim->row, of one member alone. */
 static void fill_own_row(ZpSim *sim, unsigned what) {
-  const ZpState *state = sim->state;
-  double *row = sim->row, stored = 0, kept = 0;
+  const ZpModel *model = sim->model;
+  double *row = sim->row, now[ZP_MOST_ROWS];
+  memcpy(now, zp_state_ledger(model, sim->state), model->ledger.rows * sizeof *now);
   fill_state(sim, row);
   row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
-  if (what & MECHANICS) stored = fill_mechanics(sim, row);
-  if (what & ELECTRIC) kept = fill_electric(sim, row);
+  if (what & MECHANICS) zp_system_now(model, sim->state, &sim->eval, now);
+  if (what & ELECTRIC) fill_electric(sim, now, row);
   if (what & MARGINS) fill_margins(sim, row);
-  double in_liquid = state->along_loss + state->across_loss + state->jet_loss + state->outer_drag_loss;
-  in_liquid += state->meniscus_loss;
-  double lost = state->drag_loss + state->internal_loss + state->plastic_loss + state->catch_loss +
-                state->contact_loss + in_liquid + state->leak_loss;
-  row[SIGNAL_energy_imbalance] = sim->model->parts * (kept + state->load_work - stored - lost);
+  fill_books(sim, now, row);
 }
 
 /* How a signal of a series follows from those of its members, the uppermost first: most are sums. */
@@ -303,10 +296,7 @@ static const unsigned char of_series[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
                                                       [SIGNAL_end_velocity] = LAST,
                                                       [SIGNAL_film_thickness] = LEAST,
                                                       [SIGNAL_wet_length] = LEAST,
-                                                      [SIGNAL_bead_outside] = LARGEST,
-                                                      [SIGNAL_bead_lost] = LARGEST,
                                                       [SIGNAL_insulator_field] = LARGEST,
-                                                      [SIGNAL_permanent_curvature] = LARGEST,
                                                       [SIGNAL_max_stress] = LARGEST};
 
 /* Antagonists have one load: its position, and the shape, are those of the upper member. */
@@ -317,6 +307,7 @@ static bool is_of_upper(size_t signal) {
 
 /* The closed length of members side by side is that of the member that has closed least. */
 static int rule_of(const ZpModel *model, size_t signal) {
+  if (row_of[signal]) return row_of[signal]->kind == ZP_ROW_SIGNAL ? LARGEST : SUM;
   if (!zp_shares_load(model) || !is_of_upper(signal)) return of_series[signal];
   return model->abreast && signal == SIGNAL_zipped_length ? LEAST : FIRST;
 }
@@ -428,13 +419,27 @@ ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *
   return ZP_OK;
 }
 
+/* A row of the ledger that is no signal: of several members the sum, or the largest; NAN: none has it. */
+static double unlisted(ZpSim *sim, const char *name) {
+  double found = NAN;
+  for (ZpSim *m = sim; m; m = m->below)
+    for (size_t k = 0; k < m->model->ledger.rows; k++) {
+      const ZpRow *row = m->model->ledger.row[k];
+      if (strcmp(row->name, name) != 0) continue;
+      fill_own_row(m, taken_by(row));
+      double value = m->row[m->row_at[k]];
+      found = isnan(found) ? value : row->kind == ZP_ROW_SIGNAL ? fmax(found, value) : found + value;
+    }
+  return found;
+}
+
 double zp_sim_get(ZpSim *sim, const char *name) {
   for (size_t k = 0; k < SIGNAL_COUNT; k++)
     if (strcmp(names[k], name) == 0) {
-      fill_row(sim, takes[k]);
+      fill_row(sim, row_of[k] ? taken_by(row_of[k]) : takes[k]);
       return sim->row[k];
     }
-  return NAN;
+  return unlisted(sim, name);
 }
 
 void zp_sim_read(ZpSim *sim, double *row) {

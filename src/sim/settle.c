@@ -108,8 +108,8 @@ static void start_at(ZpSim *sim, const double *q) {
   ZpSpan there = zp_span_at(q);
   memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
   zp_system_force(model, &there, &sim->eval, sim->relax_work + 2 * model->stride);
-  memcpy(zp_state_strain(model, sim->state), sim->eval.memory_end + model->plastic_at,
-         zp_rod_plastic_count(&model->rod) * sizeof *q);
+  double *strain = zp_law_state(model, &zp_term_rod, sim->state);
+  if (strain) memcpy(strain, sim->eval.rod_step.strain_end, zp_rod_plastic_count(&model->rod) * sizeof *q);
 }
 
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {

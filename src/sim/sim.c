@@ -70,6 +70,7 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   sim->before = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
+  zp_sim_place_rows(sim);
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
   bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&

@@ -102,7 +102,8 @@ struct ZpSim {
   ZpShapes *shapes;              /* belongs to the caller; NULL: no record */
   ZpTable *trace;                /* likewise */
   ZpTable *samples;              /* likewise, of a controller */
-  double *row;                   /* one value per signal */
+  double *row;                   /* one value per signal, then rows of the ledger that are no signals */
+  size_t row_at[ZP_MOST_ROWS];   /* places of rows of the ledger in it */
   ZpShapeRoom shape_room;        /* of the shape that zp_sim_shape returns */
   void *shape_memory;            /* memory of shape_room */
   ZpShape shape;                 /* this member at the last row with margins */
@@ -194,9 +195,6 @@ void zp_sim_resume(ZpSim *sim);
 /* The last valid states through which a longer run would also pass => state [members]. */
 void zp_sim_passed(const ZpSim *sim, ZpState *state[]);
 
-/* Sum of kinetic and stored energy without the field, of one part, J. */
-double zp_energy_without_field(const ZpEnergies *energies);
-
 /* Work of the source so far, and the part of it at jumps that the field did not store, of one part, J (account.c). */
 typedef struct ZpAccount {
   double work, charging_loss;
@@ -237,6 +235,9 @@ double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
 
 /* Number of values in a row, including the openings of the members of a series. */
 size_t zp_sim_row_size(void);
+
+/* Find the places of the ledger's rows in a row. */
+void zp_sim_place_rows(ZpSim *sim);
 
 /* Offer the present row and shape to the records; at the end make them the last. */
 void zp_sim_offer_record(ZpSim *sim);

@@ -12,16 +12,13 @@ size_t zp_snapshot_size(const ZpModel *model);
 /* (model, its states [members]) => bytes. Equal states give equal bytes, on every machine. */
 void zp_snapshot_write(const ZpModel *model, ZpState *const state[], void *bytes);
 
-/* (bytes) => states. ZP_BAD_INPUT as zp_snapshot_fits; the state of one actuator is then as it was. */
+/* (bytes) => states. ZP_BAD_INPUT as zp_snapshot_check, and if arrays differ; some states may then have changed. */
 ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *const state[], ZpError *err);
 
-/* Are these bytes a whole snapshot? ZP_BAD_INPUT says what is wrong: none at all, cut short, damaged, of another
- * version of the format. */
-ZpStatus zp_snapshot_check(const void *bytes, size_t size, ZpError *err);
-
-/* And one of a model with these keys? ZP_BAD_INPUT names the first key that differs, or says that its numbers are no
- * state. */
-ZpStatus zp_snapshot_fits(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err);
+/* Are these bytes a whole snapshot, and one of a model with the keys of `def` (NULL: of any)? ZP_BAD_INPUT says what is
+ * wrong: none at all, cut short, damaged, of another version of the format; or names the first key that differs, or
+ * says that its numbers are no state. */
+ZpStatus zp_snapshot_check(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err);
 
 /* The time of a snapshot that zp_snapshot_check has passed, s. */
 double zp_snapshot_time(const void *bytes, size_t size);

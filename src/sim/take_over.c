@@ -40,31 +40,22 @@ static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   return ZP_OK;
 }
 
-/* Kinds of the laws' own numbers, in their order in a state: heads and flows of the film, what it keeps between steps,
- * interface voltages, plastic strains. */
-enum { KINDS = 4 };
-
-/* Where each of them begins, and the last one ends. */
-static void find_kinds(const ZpModel *model, size_t at[KINDS + 1]) {
-  const size_t own = zp_own_unknowns(model);
-  const size_t from[] = {0, own, own + model->leak_at, own + model->plastic_at, own + model->kept};
-  memcpy(at, from, sizeof from);
+/* Copy numbers of one kind if both models have as many; else they begin at 0. */
+static void take_numbers(double *to, size_t count, const double *old, size_t known) {
+  for (size_t i = 0; i < count; i++)
+    to[i] = count == known ? old[i] : 0;
 }
 
-/* A kind that both models have goes on; one that comes begins at 0: a liquid at rest, faces without charge, a strip
- * that has not yielded. */
+/* A law that both models have keeps its numbers; those of one that comes begin at 0: a liquid at rest, faces without
+ * charge, a strip that has not yielded. */
 static void take_own(ZpSim *sim, const ZpSim *from) {
-  size_t at[KINDS + 1], known[KINDS + 1];
-  double *to = zp_state_own(sim->model, sim->state);
-  const double *old = zp_state_own(from->model, from->state);
-  find_kinds(sim->model, at);
-  find_kinds(from->model, known);
-  for (int k = 0; k < KINDS; k++) {
-    const size_t count = at[k + 1] - at[k];
-    if (count == known[k + 1] - known[k])
-      memcpy(to + at[k], old + known[k], count * sizeof *to);
-    else
-      memset(to + at[k], 0, count * sizeof *to);
+  const ZpModel *model = sim->model;
+  take_numbers(zp_state_own(model, sim->state), zp_own_unknowns(model), zp_state_own(from->model, from->state),
+               zp_own_unknowns(from->model));
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++) {
+    const ZpLaw *known = zp_law(from->model, law->term);
+    take_numbers(zp_law_state(model, law->term, sim->state), law->state,
+                 zp_law_state(from->model, law->term, from->state), known ? known->state : 0);
   }
 }
 

@@ -268,7 +268,7 @@ static int repeats_in(Cycles *c) {
 /* A state as a vector: what decides, in units of its own (positions, velocities, interface voltages), then what is
  * carried along: rates of the last step, and what the laws know beyond positions. */
 static size_t deciding(const ZpModel *model) {
-  return 4 * model->stride + (model->leaks ? model->kept - model->leak_at : 0);
+  return 4 * model->stride + (model->leaks ? zp_law(model, &zp_term_leak)->state : 0);
 }
 
 static size_t carried(const ZpModel *model) {
@@ -280,7 +280,7 @@ static double *carried_of(const Cycles *c) {
 }
 
 static double *leaked_of(const Cycles *c) {
-  return carried_of(c) + 4 * c->model->stride + zp_own_unknowns(c->model) + c->model->leak_at;
+  return zp_law_state(c->model, &zp_term_leak, c->sim->state);
 }
 
 /* Unit of a velocity, larger for a small mass, so that squares are like energies. */

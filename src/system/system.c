@@ -4,27 +4,19 @@
 
 #include "base/kernel.h"
 
-static const ZpTerm *const table[] = {
-#define ZP_TERM(name) &zp_term_##name,
-#include "term/terms.def"
-#undef ZP_TERM
-};
-_Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "an eval has room for all terms, and one of a program");
-
 bool zp_system_create(const ZpModel *model, bool solves, ZpEval *e) {
   if (!zp_eval_create(model, e)) return false;
   e->solves = solves;
-  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
-    if (table[k]->acts && !table[k]->acts(model)) continue;
-    e->term[e->terms++] = table[k];
-    if (table[k]->create && !table[k]->create(model, e)) return false;
+  for (size_t k = 0; k < model->laws; k++) {
+    const ZpTerm *term = model->law[k].term;
+    if (term->create && !term->create(model, e)) return false;
   }
   return true;
 }
 
 void zp_system_destroy(ZpEval *e) {
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->destroy) e->term[k]->destroy(e);
+  for (size_t k = 0; e->model && k < e->model->laws; k++)
+    if (e->model->law[k].term->destroy) e->model->law[k].term->destroy(e);
   zp_eval_destroy(e);
 }
 
@@ -50,14 +42,14 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
 }
 
 void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->begin) e->term[k]->begin(model, span, e);
+  for (size_t k = 0; k < model->laws; k++)
+    if (model->law[k].term->begin) model->law[k].term->begin(model, span, e);
 }
 
 void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   memset(F, 0, 2 * model->stride * sizeof *F);
-  for (size_t k = 0; k < e->terms; k++)
-    e->term[k]->force(model, span, e, F);
+  for (size_t k = 0; k < model->laws; k++)
+    model->law[k].term->force(model, span, e, F);
 }
 
 static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
@@ -69,8 +61,9 @@ static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
 static void add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, bool edges,
                           ZpBand *K) {
   clear_gaps(model, &e->gaps);
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->stiffness && (edges || !e->term[k]->of_edges)) e->term[k]->stiffness(model, span, assembly, e, K);
+  for (size_t k = 0; k < model->laws; k++)
+    if (model->law[k].term->stiffness && (edges || !model->law[k].term->of_edges))
+      model->law[k].term->stiffness(model, span, assembly, e, K);
   if (model->field) zp_assemble_gaps(assembly, &e->gaps, K);
 }
 
@@ -99,39 +92,76 @@ void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpM
   divide(model->stride, masses->x.inverse, masses->y.inverse, a, a + model->stride);
 }
 
-ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *e) {
+/* What terms add to their rows: what they hold now, or their loss. */
+typedef void (*Book)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row);
+
+static void add_rows(const ZpModel *model, const ZpLaw *law, Book book, const ZpSpan *span, ZpEval *e, double *ledger) {
+  double row[ZP_ROWS_OF_TERM];
+  for (size_t k = 0; k < law->rows; k++)
+    row[k] = ledger[law->row[k]];
+  book(model, span, e, row);
+  for (size_t k = 0; k < law->rows; k++)
+    ledger[law->row[k]] = row[k];
+}
+
+static double kinetic_energy(const ZpModel *model, const ZpState *state) {
   ZpMotion m = zp_state_motion(model, state);
-  ZpSpan now = zp_span_of(model, state, m.x, m.vx);
-  ZpEnergies sum = {0};
+  double sum = 0;
   for (size_t j = 0; j < model->count; j++)
-    sum.kinetic += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
+    sum += 0.5 * model->mass[j] * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
   double added = zp_state_added(model, state);
   for (size_t i = model->topology.platform.first; added != 0 && i <= model->topology.platform.last; i++) {
     size_t j = zp_lower(&model->topology, i);
-    sum.kinetic += 0.5 * added * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
+    sum += 0.5 * added * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
   }
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->energy) e->term[k]->energy(model, &now, e, &sum);
   return sum;
 }
 
-ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  ZpLosses sum = {0};
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->loss) e->term[k]->loss(model, span, e, &sum);
+void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *e, double *ledger) {
+  ZpMotion m = zp_state_motion(model, state);
+  ZpSpan now = zp_span_of(model, state, m.x, m.vx);
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    if (model->ledger.row[k]->kind == ZP_ROW_STORED || model->ledger.row[k]->kind == ZP_ROW_SIGNAL) ledger[k] = 0;
+  ledger[0] = kinetic_energy(model, state);
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
+    if (law->term->now) add_rows(model, law, law->term->now, &now, e, ledger);
+}
+
+double zp_system_stored(const ZpModel *model, const double *ledger) {
+  double sum = 0;
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    if (model->ledger.row[k]->kind == ZP_ROW_STORED) sum += ledger[k];
   return sum;
+}
+
+double zp_system_taken(const ZpModel *model, const double *start, const double *now) {
+  double sum = 0;
+  for (size_t k = 0; k < model->ledger.rows; k++) {
+    ZpRowKind kind = model->ledger.row[k]->kind;
+    if (kind == ZP_ROW_STORED) sum += now[k] - start[k];
+    if (kind == ZP_ROW_LOST) sum += now[k];
+  }
+  return sum;
+}
+
+void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpState *state) {
+  double lost[ZP_MOST_ROWS] = {0}, *ledger = zp_state_ledger(model, state);
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
+    if (law->term->loss) add_rows(model, law, law->term->loss, span, e, lost);
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    if (model->ledger.row[k]->kind == ZP_ROW_LOST) ledger[k] += lost[k];
 }
 
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
   memset(F, 0, 2 * model->stride * sizeof *F);
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->inertia) e->term[k]->inertia(model, span, e, a, F);
+  for (size_t k = 0; k < model->laws; k++)
+    if (model->law[k].term->inertia) model->law[k].term->inertia(model, span, e, a, F);
 }
 
 ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U) {
   ZpElectric sum = {0};
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->electric) e->term[k]->electric(model, span, e, at, U, &sum);
+  for (size_t k = 0; k < model->laws; k++)
+    if (model->law[k].term->electric) model->law[k].term->electric(model, span, e, at, U, &sum);
   return sum;
 }
 
@@ -143,8 +173,8 @@ ZpElectric zp_system_electric_now(const ZpModel *model, const ZpState *state, do
 }
 
 bool zp_system_solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->solve && !e->term[k]->solve(model, q, U, e)) return false;
+  for (size_t k = 0; k < model->laws; k++)
+    if (model->law[k].term->solve && !model->law[k].term->solve(model, q, U, e)) return false;
   return true;
 }
 
@@ -152,6 +182,6 @@ void zp_system_by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, Z
   memset(sum->force, 0, 2 * model->stride * sizeof *sum->force);
   if (sum->charge) memset(sum->charge, 0, 2 * model->stride * sizeof *sum->charge);
   sum->capacitance = 0;
-  for (size_t k = 0; k < e->terms; k++)
-    if (e->term[k]->by_voltage) e->term[k]->by_voltage(model, span, e, sum);
+  for (size_t k = 0; k < model->laws; k++)
+    if (model->law[k].term->by_voltage) model->law[k].term->by_voltage(model, span, e, sum);
 }

@@ -4,8 +4,13 @@
 
 #include "term/term.h"
 
-/* Allocate the arrays of `eval` (with `solves` also those for held forces) and find the terms that the model has; false
- * if there is no memory. */
+/* Add a law of a program's own to a model, before states and evals of it are created. False if there is no room. */
+bool zp_model_add_term(ZpModel *model, const ZpTerm *term);
+
+/* Add to a model and its members those laws of another that a program has added. */
+void zp_model_take_laws(ZpModel *model, const ZpModel *from);
+
+/* Allocate the arrays of `eval`, with `solves` also those for held forces; false if there is no memory. */
 bool zp_system_create(const ZpModel *model, bool solves, ZpEval *eval);
 void zp_system_destroy(ZpEval *eval);
 
@@ -35,11 +40,18 @@ ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, c
  * drag_rate of eval. */
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
 
-/* Energies of a state without the field. */
-ZpEnergies zp_system_energies(const ZpModel *model, const ZpState *state, ZpEval *eval);
+/* ledger [rows] = energies of a state in their rows, J, 0 in that of the field, and signals; losses stay. */
+void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *eval, double *ledger);
 
-/* Energy that the terms have lost over a span, at its last force. */
-ZpLosses zp_system_losses(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
+/* Sum of all energies in a ledger, J. */
+double zp_system_stored(const ZpModel *model, const double *ledger);
+
+/* What one part has taken since its ledger was opened, J: the rise of all energies, and all losses. It is the work of
+ * source and load if the energy balances. */
+double zp_system_taken(const ZpModel *model, const double *start, const double *now);
+
+/* Add what the terms have lost over a span, at its last force, to the ledger of the state. */
+void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpState *state);
 
 /* F [2 stride] = inertia of all terms beyond the masses of nodes, at accelerations a [2 stride], N. */
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);

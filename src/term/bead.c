@@ -6,6 +6,11 @@
 
 #include "term/term.h"
 
+const ZpRow zp_row_bead_outside =
+    ZP_SHOWN(bead_outside, "m3", "_m3", "volume of one bead that is outside the long edges and can still flow back");
+const ZpRow zp_row_bead_lost =
+    ZP_SHOWN(bead_lost, "m3", "_m3", "volume of one bead that has been lost at the long edges");
+
 static bool acts(const ZpModel *model) {
   return model->has_bead;
 }
@@ -282,5 +287,17 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   }
 }
 
-const ZpTerm zp_term_bead = {
-    .name = "bead", .acts = acts, .force = force, .stiffness = stiffness, .by_voltage = by_voltage};
+static void volumes(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
+  (void)model, (void)e;
+  if (!now->bead) return;
+  row[0] += now->bead[0].outside;
+  row[1] += now->bead[0].lost;
+}
+
+const ZpTerm zp_term_bead = {.name = "bead",
+                             .row = {&zp_row_bead_outside, &zp_row_bead_lost},
+                             .acts = acts,
+                             .force = force,
+                             .stiffness = stiffness,
+                             .now = volumes,
+                             .by_voltage = by_voltage};

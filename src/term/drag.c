@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+const ZpRow zp_row_drag_loss = ZP_LOST(drag_loss, "energy lost so far to drag");
+
 static bool acts(const ZpModel *model) {
   return model->def.damping.drag > 0;
 }
@@ -48,9 +50,10 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
   (void)model;
-  sum->drag += e->drag_power * span->h;
+  row[0] += e->drag_power * span->h;
 }
 
-const ZpTerm zp_term_drag = {.name = "drag", .acts = acts, .force = force, .stiffness = stiffness, .loss = loss};
+const ZpTerm zp_term_drag = {
+    .name = "drag", .row = {&zp_row_drag_loss}, .acts = acts, .force = force, .stiffness = stiffness, .loss = loss};

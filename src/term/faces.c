@@ -1,6 +1,8 @@
 /* Faces that overlap repel each other. Eqs. (9.1) and (18.11). */
 #include "term/term.h"
 
+const ZpRow zp_row_contact_loss = ZP_LOST(contact_loss, "energy lost so far in contact");
+
 static bool acts(const ZpModel *model) {
   return model->field;
 }
@@ -28,4 +30,6 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-const ZpTerm zp_term_faces = {.name = "faces", .acts = acts, .force = force, .stiffness = stiffness};
+/* What impacts lose is booked by those who make the steps. */
+const ZpTerm zp_term_faces = {
+    .name = "faces", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness};

@@ -1,8 +1,34 @@
 /* The film of liquid between the faces, whose heads are unknowns of the step. Eqs. (22.1) to (22.11). */
 #include "term/term.h"
 
+const ZpRow zp_row_liquid_energy =
+    ZP_STORED(liquid_energy, "kinetic energy of the liquid between and around the ribbons, and the energy of cavities");
+const ZpRow zp_row_film_along_loss =
+    ZP_LOST(film_along_loss, "energy lost so far to viscosity in the flow along the film between the faces");
+const ZpRow zp_row_film_across_loss =
+    ZP_LOST(film_across_loss, "energy lost so far to viscosity in the flow across the film, to its long edges");
+const ZpRow zp_row_jet_loss =
+    ZP_LOST(jet_loss, "energy lost so far in jets from the long edges of the film and in collapsing cavities");
+const ZpRow zp_row_meniscus_loss =
+    ZP_LOST(meniscus_loss, "net energy lost so far at moving menisci of a bead; may be negative");
+
+enum { STORED, ALONG, ACROSS, JETS, MENISCI };
+
 static bool acts(const ZpModel *model) {
   return model->has_film;
+}
+
+static size_t state(const ZpModel *model) {
+  return ZP_FILM_STATE * model->nodes;
+}
+
+static const double *memory_of(const ZpModel *model, const double *memory) {
+  return zp_law_memory(model, &zp_term_film, memory);
+}
+
+static bool create(const ZpModel *model, ZpEval *e) {
+  e->film.end = e->memory_end + zp_law(model, &zp_term_film)->at;
+  return true;
 }
 
 /* Which half a station is of. */
@@ -24,7 +50,7 @@ static double open_share(const ZpModel *model, const ZpSpan *span, size_t i) {
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   for (size_t i = 0; i < model->nodes; i++)
     e->open[i] = open_share(model, span, i);
-  zp_film_begin(&model->film, span->memory, &e->film);
+  zp_film_begin(&model->film, memory_of(model, span->memory), &e->film);
   for (size_t i = 0; i < model->nodes; i++) {
     const double *w = span->w ? span->w + model->stride : NULL;
     e->film.rate[i] = w ? w[zp_upper(&model->topology, i)] - w[zp_lower(&model->topology, i)] : 0;
@@ -62,7 +88,8 @@ static void solve_step(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   find_menisci(model, span, e);
   ends.head[0] = e->meniscus[0];
   ends.head[1] = e->meniscus[1];
-  zp_film_step(&model->film, &ends, e->plates_start.gap, e->plates.gap, span->h, span->memory, span->own, &e->film);
+  zp_film_step(&model->film, &ends, e->plates_start.gap, e->plates.gap, span->h, memory_of(model, span->memory),
+               span->own, &e->film);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -110,10 +137,11 @@ static double surface_energy(const ZpModel *model, const double reach[ZP_BEADS])
   return -2 * model->bead.suction * model->bead.tension * model->film.w * length;
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_term_gaps(model, now, e);
   ZpFilmEnds ends = ends_of(model, e);
-  sum->liquid += zp_film_energy(&model->film, ends.cover, e->plates.gap, now->memory) + surface_energy(model, e->reach);
+  row[STORED] += zp_film_energy(&model->film, ends.cover, e->plates.gap, memory_of(model, now->memory)) +
+                 surface_energy(model, e->reach);
 }
 
 static void past_edges(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpBeadEdges edges[ZP_BEADS]) {
@@ -169,24 +197,25 @@ static double lost_at_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *
   reaches(&model->film, before, &shore);
   reaches(&model->film, e->reach, &shore);
   reaches(&model->film, after, &shore);
-  double released = stored(model, start, span->U0, span->memory, before, shore, e) -
-                    stored(model, start, span->U0, span->memory, e->reach, shore, e);
+  const double *memory = memory_of(model, span->memory);
+  double released = stored(model, start, span->U0, memory, before, shore, e) -
+                    stored(model, start, span->U0, memory, e->reach, shore, e);
   released += stored(model, end, span->U1, e->film.end, e->reach, shore, e) -
               stored(model, end, span->U1, e->film.end, after, shore, e);
   return released + film->given + film->carried;
 }
 
 /* The heads have been corrected since the last force. */
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
   solve_step(model, span, e);
   ZpFilmEnds ends = ends_of(model, e);
-  ZpFilmLoss lost = zp_film_loss(&model->film, &ends, span->h, span->memory, &e->film);
-  sum->along += lost.along;
-  sum->across += lost.across;
-  sum->jets += lost.jets;
+  ZpFilmLoss lost = zp_film_loss(&model->film, &ends, span->h, memory_of(model, span->memory), &e->film);
+  row[ALONG] += lost.along;
+  row[ACROSS] += lost.across;
+  row[JETS] += lost.jets;
   if (!model->has_bead) return;
   find_end(model, span, e);
-  sum->meniscus += lost_at_menisci(model, span, e, &lost);
+  row[MENISCI] += lost_at_menisci(model, span, e, &lost);
 }
 
 /* Resistance to a change of the gap, at most as if all liquid flowed across. */
@@ -200,10 +229,17 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
 }
 
 const ZpTerm zp_term_film = {.name = "film",
+                             .row = {[STORED] = &zp_row_liquid_energy,
+                                     [ALONG] = &zp_row_film_along_loss,
+                                     [ACROSS] = &zp_row_film_across_loss,
+                                     [JETS] = &zp_row_jet_loss,
+                                     [MENISCI] = &zp_row_meniscus_loss},
+                             .state = state,
                              .acts = acts,
+                             .create = create,
                              .begin = begin,
                              .force = force,
                              .stiffness = stiffness,
                              .inertia = inertia,
-                             .energy = energy,
+                             .now = energy,
                              .loss = loss};

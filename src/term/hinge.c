@@ -57,10 +57,15 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
     zp_assemble_entry(assembly, 2 * next + k / 2, 2 * next + k % 2, D[k], K);
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   (void)e;
   double turned = angle_of(model, now->end) - model->hinge.rest;
-  sum->spring += 0.5 * model->hinge.stiffness * turned * turned;
+  row[0] += 0.5 * model->hinge.stiffness * turned * turned;
 }
 
-const ZpTerm zp_term_hinge = {.name = "hinge", .acts = acts, .force = force, .stiffness = stiffness, .energy = energy};
+const ZpTerm zp_term_hinge = {.name = "hinge",
+                              .row = {&zp_row_spring_energy},
+                              .acts = acts,
+                              .force = force,
+                              .stiffness = stiffness,
+                              .now = energy};

@@ -3,8 +3,22 @@
  * none. */
 #include "term/term.h"
 
+const ZpRow zp_row_leak_loss = ZP_LOST(leak_loss, "energy lost so far to conduction through insulators and liquid");
+
+enum { CONDUCTION, OVERLAP };
+
 static bool acts(const ZpModel *model) {
   return model->leaks;
+}
+
+/* Interface voltages, place by place. */
+static size_t state(const ZpModel *model) {
+  return ZP_PLATES_PLACES * model->nodes;
+}
+
+static bool create(const ZpModel *model, ZpEval *e) {
+  e->leak.Z = e->memory_end + zp_law(model, &zp_term_leak)->at;
+  return true;
 }
 
 static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
@@ -12,7 +26,8 @@ static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
 }
 
 static ZpLeakStep step_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e) {
-  return (ZpLeakStep){start_of(span, e), &e->plates, span->U0, span->U1, span->h, zp_leak_memory(model, span->memory)};
+  const double *Z = zp_law_memory(model, &zp_term_leak, span->memory);
+  return (ZpLeakStep){start_of(span, e), &e->plates, span->U0, span->U1, span->h, Z};
 }
 
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
@@ -36,12 +51,12 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 }
 
 /* Faces have been corrected since the last force. */
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
   ZpLeakStep step = step_of(model, span, e);
   zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
   ZpLeakHeat heat = zp_leak_heat(&model->leak, &model->plates, &step, &e->leak);
-  sum->leak += heat.conduction;
-  sum->contact += heat.overlap;
+  row[CONDUCTION] += heat.conduction;
+  row[OVERLAP] += heat.overlap;
 }
 
 static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
@@ -76,7 +91,10 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
 }
 
 const ZpTerm zp_term_leak = {.name = "leak",
+                             .row = {[CONDUCTION] = &zp_row_leak_loss, [OVERLAP] = &zp_row_contact_loss},
+                             .state = state,
                              .acts = acts,
+                             .create = create,
                              .begin = begin,
                              .force = force,
                              .stiffness = stiffness,

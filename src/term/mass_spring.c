@@ -2,6 +2,8 @@
  * change of their energy. Shear springs have no energy, so their force is the mean of both ends. */
 #include "term/term.h"
 
+enum { AXIAL, SHEAR, INTERNAL };
+
 static bool acts(const ZpModel *model) {
   return !model->is_rod;
 }
@@ -52,17 +54,23 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   add_shear_stiffness(model, assembly, e, K);
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_massspring_eval(&model->spring, now->end, now->end + model->stride, &e->spring);
-  sum->axial += zp_massspring_axial_energy(&model->spring, &e->spring);
-  sum->bending += zp_massspring_shear_energy(&model->spring, &e->spring);
+  row[AXIAL] += zp_massspring_axial_energy(&model->spring, &e->spring);
+  row[SHEAR] += zp_massspring_shear_energy(&model->spring, &e->spring);
 }
 
-const ZpTerm zp_term_mass_spring = {.name = "mass_spring",
-                                    .of_edges = true,
-                                    .acts = acts,
-                                    .begin = begin,
-                                    .force = force,
-                                    .stiffness = stiffness,
-                                    .energy = energy,
-                                    .loss = zp_term_edges_loss};
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
+  if (!span->v) row[INTERNAL] += zp_term_edges_loss(model, span, e);
+}
+
+const ZpTerm zp_term_mass_spring = {
+    .name = "mass_spring",
+    .of_edges = true,
+    .row = {[AXIAL] = &zp_row_axial_energy, [SHEAR] = &zp_row_bending_energy, [INTERNAL] = &zp_row_internal_loss},
+    .acts = acts,
+    .begin = begin,
+    .force = force,
+    .stiffness = stiffness,
+    .now = energy,
+    .loss = loss};

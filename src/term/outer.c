@@ -5,6 +5,11 @@
 
 #include "term/term.h"
 
+const ZpRow zp_row_outer_drag_loss =
+    ZP_LOST(outer_drag_loss, "energy lost so far to the form drag of the liquid outside the gap");
+
+enum { STORED, DRAG };
+
 static bool acts(const ZpModel *model) {
   return model->has_film && (model->outer.rho > 0 || model->outer.drag > 0);
 }
@@ -74,30 +79,31 @@ void zp_term_add_outside(const ZpModel *model, const ZpEval *e, const double *a,
         zp_outer_side(&model->outer) * zp_film_length(&model->film, j / model->s) * a[model->stride + j];
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_plates_gaps(&model->plates, now->end, now->end + model->stride, &e->plates);
   for (size_t i = 0; i < model->nodes; i++) {
     double upper = now->v[model->stride + zp_upper(&model->topology, i)],
            lower = now->v[model->stride + zp_lower(&model->topology, i)], Y = 0.5 * (upper + lower);
     double sides = zp_outer_side(&model->outer) * (upper * upper + lower * lower);
-    sum->liquid +=
+    row[STORED] +=
         0.5 * zp_film_length(&model->film, i) * (sides + zp_outer_pair(&model->outer, e->plates.gap[i]) * Y * Y);
   }
 }
 
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
   (void)e;
   for (size_t i = 0; i < model->nodes; i++) {
     Pair pair = pair_of(model, span, i);
     for (int k = 0; k < 2; k++)
-      sum->outer -= span->h * pair.rate[k] * drag(model, pair.length, pair.rate[k]);
+      row[DRAG] -= span->h * pair.rate[k] * drag(model, pair.length, pair.rate[k]);
   }
 }
 
 const ZpTerm zp_term_outer = {.name = "outer",
+                              .row = {[STORED] = &zp_row_liquid_energy, [DRAG] = &zp_row_outer_drag_loss},
                               .acts = acts,
                               .force = force,
                               .stiffness = stiffness,
                               .inertia = inertia,
-                              .energy = energy,
+                              .now = energy,
                               .loss = loss};

@@ -1,6 +1,11 @@
 /* Attraction by the plates law on the polyline of the stations, lateral edges included. Eqs. (4.7) and (18.3). */
 #include "term/term.h"
 
+const ZpRow zp_row_field_energy =
+    ZP_STORED(field_energy, "energy of the electric field, including what the breakdown cap absorbs");
+const ZpRow zp_row_charging_loss =
+    ZP_LOST(charging_loss, "part of electric_work, at jumps of the voltage, that the field did not store");
+
 static bool acts(const ZpModel *model) {
   return model->field && !model->leaks;
 }
@@ -59,7 +64,9 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   sum->capacitance += by->capacitance;
 }
 
+/* The rows are those of all electric terms together: sim/account.c fills them. */
 const ZpTerm zp_term_plates = {.name = "plates",
+                               .row = {&zp_row_field_energy, &zp_row_charging_loss},
                                .acts = acts,
                                .begin = begin,
                                .force = force,

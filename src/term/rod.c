@@ -3,8 +3,30 @@
 
 #include "ribbon/rod_plastic.h"
 
+const ZpRow zp_row_axial_energy = ZP_STORED(axial_energy, "stretching energy");
+const ZpRow zp_row_bending_energy =
+    ZP_STORED(bending_energy, "bending energy (mass_spring: energy of the shear springs)");
+const ZpRow zp_row_internal_loss = ZP_LOST(internal_loss, "energy lost so far to internal damping");
+const ZpRow zp_row_plastic_loss =
+    ZP_LOST(plastic_loss, "energy lost so far to plastic bending; 0 without ribbon.plasticity");
+const ZpRow zp_row_permanent_curvature =
+    ZP_SHOWN(permanent_curvature, "1/m", "_per_m",
+             "largest curvature of a ribbon that would remain without a moment; 0 without ribbon.plasticity");
+
+enum { AXIAL, BENDING, INTERNAL, PLASTIC, PERMANENT };
+
 static bool acts(const ZpModel *model) {
   return model->is_rod;
+}
+
+/* Plastic strains, fibre by fibre. */
+static size_t state(const ZpModel *model) {
+  return zp_rod_plastic_count(&model->rod);
+}
+
+static bool create(const ZpModel *model, ZpEval *e) {
+  e->rod_step.strain_end = e->memory_end + zp_law(model, &zp_term_rod)->at;
+  return true;
 }
 
 static const ZpRodEval *start_of(const ZpSpan *span, const ZpEval *e) {
@@ -17,7 +39,7 @@ static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 
 /* Plastic strains where the span starts. */
 static const double *strain_of(const ZpModel *model, const ZpSpan *span) {
-  return span->memory ? span->memory + model->plastic_at : NULL;
+  return zp_law_memory(model, &zp_term_rod, span->memory);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -36,25 +58,34 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_rod_eval(&model->rod, now->end, now->end + model->stride, &e->rod);
-  sum->axial += zp_rod_stretching_energy(&model->rod, &e->rod);
-  sum->bending +=
+  row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
+  row[BENDING] +=
       zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
+  row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
 }
 
 /* The edges are those at the end of the span, one correction after the last force. */
-static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
-  zp_term_edges_loss(model, span, e, sum);
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
+  if (span->v) return;
+  row[INTERNAL] += zp_term_edges_loss(model, span, e);
   e->rod_step.strain_start = strain_of(model, span);
-  sum->plastic += zp_rod_plastic_heat(&model->rod, &e->rod_start, &e->rod, &e->rod_step);
+  row[PLASTIC] += zp_rod_plastic_heat(&model->rod, &e->rod_start, &e->rod, &e->rod_step);
 }
 
 const ZpTerm zp_term_rod = {.name = "rod",
                             .of_edges = true,
+                            .row = {[AXIAL] = &zp_row_axial_energy,
+                                    [BENDING] = &zp_row_bending_energy,
+                                    [INTERNAL] = &zp_row_internal_loss,
+                                    [PLASTIC] = &zp_row_plastic_loss,
+                                    [PERMANENT] = &zp_row_permanent_curvature},
+                            .state = state,
                             .acts = acts,
+                            .create = create,
                             .begin = begin,
                             .force = force,
                             .stiffness = stiffness,
-                            .energy = energy,
+                            .now = hold,
                             .loss = loss};

@@ -5,6 +5,9 @@
 
 #include "term/term.h"
 
+const ZpRow zp_row_spring_energy = ZP_STORED(
+    spring_energy, "energy of the spring in parallel with the load, of the stop and of the spring at a hinge");
+
 enum { SPRINGS = 2 };
 
 typedef struct Spring {
@@ -87,14 +90,18 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
     zp_assemble_heights(assembly, i, slope, slope, -slope, K);
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   (void)e;
   for (int k = 0; k < SPRINGS; k++) {
     Spring spring = spring_of(model, k);
     double s = spring.k > 0 ? deformed(model, &spring, now->end) : 0;
-    sum->spring += 0.5 * (double)zp_load_ends(&model->topology) * spring.k * s * s;
+    row[0] += 0.5 * (double)zp_load_ends(&model->topology) * spring.k * s * s;
   }
 }
 
-const ZpTerm zp_term_spring = {
-    .name = "spring", .acts = acts, .force = force, .stiffness = stiffness, .energy = energy};
+const ZpTerm zp_term_spring = {.name = "spring",
+                               .row = {&zp_row_spring_energy},
+                               .acts = acts,
+                               .force = force,
+                               .stiffness = stiffness,
+                               .now = energy};

@@ -66,9 +66,9 @@ ZP_KERNEL static void add_edges(size_t stride, size_t s, const double *Rx, const
   }
 }
 
-void zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpLosses *sum) {
+double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   zp_rod_eval(&model->rod, span->end, span->end + model->stride, &e->rod);
-  sum->internal += zp_rod_step_loss(&model->rod, &e->rod_start, &e->rod, zp_span_damping(model, span));
+  return zp_rod_step_loss(&model->rod, &e->rod_start, &e->rod, zp_span_damping(model, span));
 }
 
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F) {

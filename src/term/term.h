@@ -1,6 +1,6 @@
 /* Laws as terms. A term computes a force and its derivative over a span of time from coordinates and voltages. At rest
- * the span has no length, and the same formula is the law at rest. Each term contains its own law only;
- * system/system.c adds the terms. */
+ * the span has no length, and the same formula is the law at rest. Each term contains its own law only: its force,
+ * its state, and the rows of what it stores and loses. system/system.c adds the terms. */
 #ifndef ZP_TERM_TERM_H
 #define ZP_TERM_TERM_H
 
@@ -18,12 +18,14 @@ typedef struct ZpSpan {
   double share;              /* of all weight that acts: 1, or less while an equilibrium is approached */
   bool faces_pass;           /* no contact force: faces may pass through each other, or contact is sequential */
   const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
-  const double *memory;      /* of a step, at its start, or of an instant: [kept] the laws' own state */
+  const double *memory;      /* of a step, at its start, or of an instant: [kept] the state of all laws; a term finds
+                                its own part by zp_law_memory */
   const ZpBead *bead;        /* of a step: [ZP_BEADS] at its start; of an instant: there; NULL: all liquid lies between
                                 the faces */
   const double *v0;          /* of a step: velocities at its start [2 stride] */
   const double *w;           /* of a step: mean velocities over the last one [2 stride]; NULL: there was none */
-  const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; else NULL */
+  const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; of an explicit step,
+                                whose losses are counted: mean velocities over it; else NULL */
   ZpHeld beyond;             /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
@@ -50,11 +52,15 @@ typedef struct ZpByVoltage {
 
 typedef struct ZpTerm {
   const char *name;
-  bool of_edges; /* its stiffness is one of edges, in eval->D */
+  bool of_edges;                     /* its stiffness is one of edges, in eval->D */
+  const ZpRow *row[ZP_ROWS_OF_TERM]; /* its rows of the ledger, NULL beyond them; several terms may have the same */
+  /* How many numbers of state does the term have? They begin at 0. Its force over a step, or its loss, writes those at
+   * the end into its part of eval->memory_end. NULL: none. */
+  size_t (*state)(const ZpModel *model);
   /* Does the model have this term? NULL: every model has it. */
   bool (*acts)(const ZpModel *model);
-  /* Allocate the term's own work space, beyond the arrays of an eval; false if there is no memory. destroy frees it,
-   * also if nothing was allocated. Both or neither may be NULL. */
+  /* Allocate the term's own work space, beyond the arrays of an eval, and place what it finds at the end of a span;
+   * false if there is no memory. destroy frees it, also if nothing was allocated. Either may be NULL. */
   bool (*create)(const ZpModel *model, ZpEval *eval);
   void (*destroy)(ZpEval *eval);
   /* Compute in eval what the term needs of the start of a span that is not still. May be NULL. */
@@ -68,10 +74,11 @@ typedef struct ZpTerm {
   /* F [2 stride] += inertia at the end of the span, beyond the masses of nodes, times accelerations a [2 stride].
    * NULL: none. */
   void (*inertia)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
-  /* sum += energy that the term stores at an instant, J. NULL: none. */
-  void (*energy)(const ZpModel *model, const ZpSpan *now, ZpEval *eval, ZpEnergies *sum);
-  /* sum += energy lost over a span that is not still, at the last force, J. NULL: none. */
-  void (*loss)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpLosses *sum);
+  /* row[k] += what the term has at an instant in its row k: energy stored, J, or the value of a signal. NULL: none. */
+  void (*now)(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double *row);
+  /* row[k] += energy lost in its row k over a span, at the last force, J: over a step, or over an explicit step of
+   * length span->h, which has no end of its own and mean velocities span->v. NULL: none. */
+  void (*loss)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row);
   /* sum += electric totals at the start or the end of the span, with the gaps found last, at voltage U. NULL: none. */
   void (*electric)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U,
                    ZpElectric *sum);
@@ -122,9 +129,9 @@ void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double 
 /* F [2 stride] += G. */
 void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);
 
-/* The `loss` of terms that act on edges: their internal damping over a span, eq. (18.2). The edges are those at the end
- * of the span, which is a last correction beyond the last force. */
-void zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpLosses *sum);
+/* Energy lost to the internal damping of edges over a step, eq. (18.2), J. The edges are those at its end, which is a
+ * last correction beyond the last force. */
+double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
 /* F [2 stride] += forces of edges on their nodes: R [-s .. stride) on the right ones, the opposite on the left. */
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F);

@@ -2,6 +2,11 @@
 #include "base/kernel.h"
 #include "term/term.h"
 
+const ZpRow zp_row_gravity_energy =
+    ZP_STORED(gravity_energy, "potential energy of all weights and of load.force, 0 when the ribbons are straight");
+const ZpRow zp_row_catch_loss =
+    ZP_LOST(catch_loss, "energy lost in the impact of a mass that was caught; 0 without load.change_mass");
+
 ZP_KERNEL static void add(size_t stride, double share, const double *weight, double *restrict F) {
   ZP_SIMD
   for (size_t j = 0; j < stride; j++)
@@ -35,16 +40,18 @@ void zp_weight_by_hung(const ZpModel *model, double *F) {
   add_load(model, 1, 0, F);
 }
 
-static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergies *sum) {
+static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   (void)e;
   const double *x = now->end, *y = now->end + model->stride;
   for (size_t j = 0; j < model->count; j++) {
     double along = x[j] - zp_straight_x(model, j / model->s);
-    sum->gravity -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
+    row[0] -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
   }
-  sum->gravity += constant_of(model) * zp_load_at(model, y);
-  sum->gravity -= now->hung * (model->fall[0] * (zp_load_at(model, x) - now->hung_at[0]) +
-                               model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
+  row[0] += constant_of(model) * zp_load_at(model, y);
+  row[0] -= now->hung * (model->fall[0] * (zp_load_at(model, x) - now->hung_at[0]) +
+                         model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
 }
 
-const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};
+/* The impact is booked where it happens, sim/catch.c. */
+const ZpTerm zp_term_weight = {
+    .name = "weight", .row = {&zp_row_gravity_energy, &zp_row_catch_loss}, .force = force, .now = energy};

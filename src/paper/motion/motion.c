@@ -50,12 +50,12 @@ static void damp_faces(ZpPaperMotion *m, double dt) {
   ZpState *state = m->state;
   const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = m->a + model->stride;
   const double *push = m->eval->faces.push;
-  double *vy = zp_state_v(model, state) + model->stride;
+  double *vy = zp_state_v(model, state) + model->stride, *loss = zp_state_row(model, state, &zp_row_contact_loss);
   for (size_t i = 1; i < model->nodes; i++) {
     if (!(push[i] > 0)) continue;
     double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
-    state->contact_loss -= push[i] * apart * dt;
-    state->contact_loss += damp(m, i, ay, dt, vy);
+    *loss -= push[i] * apart * dt;
+    *loss += damp(m, i, ay, dt, vy);
   }
   zp_plates_gaps(&model->plates, x, y, &m->eval->plates);
   state->zip = zp_eval_touching(model, m->eval->plates.gap);
@@ -73,9 +73,9 @@ static double next_meeting(void *self, const double *q, const double *v, const d
 static void meet(ZpPaperMotion *m) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
-  double *v = zp_state_v(model, state);
-  state->contact_loss += zp_zip_merge(m->met, &model->masses.x, v);
-  state->contact_loss += zp_zip_merge(m->met, &model->masses.y, v + model->stride);
+  double *v = zp_state_v(model, state), *loss = zp_state_row(model, state, &zp_row_contact_loss);
+  *loss += zp_zip_merge(m->met, &model->masses.x, v);
+  *loss += zp_zip_merge(m->met, &model->masses.y, v + model->stride);
   state->zip = zp_zip_after(state->zip, model->nodes, m->met);
   state->refreshed = NAN;
 }
@@ -117,6 +117,18 @@ static ZpPaperLimit limit_of(const ZpPaperMotion *m, ZpExplicitLimit limit) {
   return limit == ZP_EXPLICIT_END ? ZP_PAPER_END : m->limit;
 }
 
+/* What terms have lost over a step, at mean velocities, and their state at its end. */
+static void book(ZpPaperMotion *m, double dt) {
+  const ZpModel *model = m->model;
+  const double *v = zp_state_v(model, m->state);
+  for (size_t k = 0; k < 2 * model->stride; k++)
+    m->eval->mean_v[k] = v[k] - 0.5 * dt * m->a[k];
+  ZpSpan step = zp_span_of(model, m->state, zp_state_q(model, m->state), m->eval->mean_v);
+  step.h = dt;
+  zp_system_book(model, &step, m->eval, m->state);
+  memcpy(zp_state_own(model, m->state) + zp_own_unknowns(model), m->eval->memory_end, model->kept * sizeof *v);
+}
+
 ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double latest) {
   const ZpModel *model = m->model;
   double *q = zp_state_q(model, state), *hangs = q + model->stride + zp_load_node(&model->topology);
@@ -125,7 +137,7 @@ ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double lates
   m->state = state;
   ZpExplicitStep taken = zp_explicit_step(&system, latest - state->t, q, zp_state_v(model, state), m->a);
   state->t = taken.limit == ZP_EXPLICIT_END ? latest : state->t + taken.dt;
-  state->drag_loss += m->eval->drag_power * taken.dt;
+  book(m, taken.dt);
   state->load_work += load * (before - *hangs);
   if (taken.limit == ZP_EXPLICIT_EVENT)
     meet(m);

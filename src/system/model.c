@@ -1,0 +1,74 @@
+/* A model with its laws: terms, rows of the ledger, places of their state. */
+#include "system/system.h"
+
+static const ZpTerm *const table[] = {
+#define ZP_TERM(name) &zp_term_##name,
+#include "term/terms.def"
+#undef ZP_TERM
+};
+_Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "a model has room for all terms, and one of a program");
+
+const ZpRow zp_row_kinetic_energy = ZP_STORED(kinetic_energy, "kinetic energy");
+
+/* The number of a row, which laws may share. */
+static size_t number_of(ZpLedger *ledger, const ZpRow *row) {
+  size_t k = 0;
+  while (k < ledger->rows && ledger->row[k] != row)
+    k++;
+  if (k == ledger->rows) ledger->row[ledger->rows++] = row;
+  return k;
+}
+
+/* Those of a term => how many. */
+static size_t number_rows(ZpLedger *ledger, const ZpTerm *term, size_t number[ZP_ROWS_OF_TERM]) {
+  size_t rows = 0;
+  for (; rows < ZP_ROWS_OF_TERM && term->row[rows]; rows++)
+    number[rows] = number_of(ledger, term->row[rows]);
+  return rows;
+}
+
+bool zp_model_add_term(ZpModel *model, const ZpTerm *term) {
+  if (model->laws == ZP_MOST_TERMS || model->ledger.rows + ZP_ROWS_OF_TERM > ZP_MOST_ROWS) return false;
+  ZpLaw *law = &model->law[model->laws++];
+  *law = (ZpLaw){.term = term, .at = model->kept, .state = term->state ? term->state(model) : 0};
+  law->rows = number_rows(&model->ledger, term, law->row);
+  model->kept += law->state;
+  return true;
+}
+
+static bool is_of_library(const ZpTerm *term) {
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
+    if (table[k] == term) return true;
+  return false;
+}
+
+void zp_model_take_laws(ZpModel *model, const ZpModel *from) {
+  for (; model && from; model = model->below, from = from->below)
+    for (size_t k = 0; k < from->laws; k++)
+      if (!is_of_library(from->law[k].term)) zp_model_add_term(model, from->law[k].term);
+}
+
+/* The kinetic energy is the first row. */
+static void add_laws(ZpModel *model) {
+  ZpLedger *ledger = &model->ledger;
+  size_t number[ZP_ROWS_OF_TERM];
+  number_of(ledger, &zp_row_kinetic_energy);
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
+    number_rows(ledger, table[k], number);
+  for (const ZpRow *const *row = zp_supply_rows; *row; row++)
+    number_of(ledger, *row);
+  for (size_t k = 0; k < sizeof table / sizeof table[0]; k++)
+    if (!table[k]->acts || table[k]->acts(model)) zp_model_add_term(model, table[k]);
+}
+
+ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table_of_drive, ZpModel **out,
+                                ZpError *err) {
+  ZpStatus status = zp_model_build(def, table_of_drive, out, err);
+  for (ZpModel *model = *out; model; model = model->below)
+    add_laws(model);
+  return status;
+}
+
+ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **out, ZpError *err) {
+  return zp_model_create_driven(def, NULL, out, err);
+}

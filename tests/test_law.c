@@ -1,0 +1,259 @@
+/* A law of a program's own, in one file: a damper beside the load, whose coefficient grows while it works. It has a
+ * force, a state, a row of the ledger and a signal; nothing in src/ knows of it.
+ *
+ * Against: the integral of c v^2 over samples of a run; the balance of energy; runs without it. */
+#include "state_util.h"
+
+#include "sim/run_rates.h"
+
+static const double cold = 0.3;  /* N s/m, on the load of the whole actuator */
+static const double grows = 1e3; /* coefficient per (m/s)^2 s, over the cold one */
+
+static const ZpTerm damper;
+static const ZpRow lost_row = ZP_LOST(damper_loss, "energy lost so far in the damper beside the load"),
+                   coefficient_row = ZP_SHOWN(damper_coefficient, "N s/m", "", "coefficient of the damper");
+enum { LOST, COEFFICIENT };
+
+/* What the coefficient has gained: one number. */
+static size_t state(const ZpModel *model) {
+  (void)model;
+  return 1;
+}
+
+static double gained(const ZpModel *model, const ZpSpan *span) {
+  const double *memory = zp_law_memory(model, &damper, span->memory);
+  return memory ? *memory : 0;
+}
+
+/* Mean velocity of the load over the span; that of an instant; at rest 0. */
+static double velocity(const ZpModel *model, const ZpSpan *span) {
+  size_t stride = model->stride;
+  if (span->v) return zp_load_at(model, span->v + stride);
+  if (!(span->h > 0)) return 0;
+  return (zp_load_at(model, span->end + stride) - zp_load_at(model, span->start + stride)) / span->h;
+}
+
+/* In the middle of the span, on one end that the load hangs on, N s/m. */
+static double coefficient(const ZpModel *model, const ZpSpan *span) {
+  double v = velocity(model, span);
+  return zp_end_share(model) * cold * (1 + gained(model, span) + 0.5 * span->h * grows * v * v);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F) {
+  (void)eval;
+  const ZpTopology *t = &model->topology;
+  double push = -coefficient(model, span) * velocity(model, span);
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    F[model->stride + zp_lower(t, i)] += push;
+}
+
+/* Both ends of a platform that does not turn have one height. */
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K) {
+  (void)eval;
+  const ZpTopology *t = &model->topology;
+  if (!(span->h > 0)) return;
+  double v = velocity(model, span), warms = zp_end_share(model) * cold * span->h * grows * v * v;
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    zp_assemble_entry(assembly, 2 * zp_lower(t, i) + 1, 2 * zp_lower(t, i) + 1,
+                      (coefficient(model, span) + warms) / span->h, K);
+}
+
+static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row) {
+  double v = velocity(model, span);
+  row[LOST] += (double)zp_load_ends(&model->topology) * coefficient(model, span) * v * v * span->h;
+  eval->memory_end[zp_law(model, &damper)->at] = gained(model, span) + span->h * grows * v * v;
+}
+
+static void show(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double *row) {
+  (void)eval;
+  row[COEFFICIENT] += cold * (1 + gained(model, now));
+}
+
+static const ZpTerm damper = {.name = "damper",
+                              .row = {[LOST] = &lost_row, [COEFFICIENT] = &coefficient_row},
+                              .state = state,
+                              .force = force,
+                              .stiffness = stiffness,
+                              .loss = loss,
+                              .now = show};
+
+/* -- runs ------------------------------------------------------------------------------------------ */
+
+static const double end_time = 0.1, pause = 20e-6; /* s; between samples */
+
+static ZpActuatorDef def_of(bool is_explicit, ZpSymmetry symmetry) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"drive.voltage", 0}, {"solver.time_step", 10e-6},
+                          {"liquid.model", ZP_LIQUID_NONE}, {"actuator.symmetry", symmetry});
+  if (!is_explicit) return def;
+  def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
+  def.solver.time_step = 0.3e-6;
+  return def;
+}
+
+typedef struct Run {
+  ZpModel *model;
+  ZpSim *sim;
+  double integral, row, imbalance; /* of c v^2; the damper's loss; the largest imbalance over the load's work */
+} Run;
+
+/* A force pulls the load down from rest, so that it swings. */
+static Run begin(const ZpActuatorDef *def, bool damped) {
+  Run run = {.model = model_of(def)};
+  for (ZpModel *m = run.model; damped && m; m = m->below)
+    if (!m->below) ck_assert(zp_model_add_term(m, &damper));
+  run.sim = sim_of(run.model);
+  ck_assert_int_eq(zp_sim_set_input(run.sim, ZP_INPUT_LOAD, 0.05, 0, NULL), ZP_OK);
+  return run;
+}
+
+static double power(Run *run) {
+  double v = zp_sim_get(run->sim, "end_velocity");
+  return zp_sim_get(run->sim, "damper_coefficient") * v * v;
+}
+
+static void go_to(Run *run, double time) {
+  ZpRunInfo info;
+  ck_assert_msg(zp_outcome_good(zp_sim_run(run->sim, time, false, NULL, &info)), "%s", info.message);
+}
+
+/* The integral by Simpson's rule, two samples at a time. */
+static void sample(Run *run) {
+  double before = power(run), scale = 0;
+  for (int k = 2; k <= (int)round(end_time / pause); k += 2) {
+    go_to(run, (k - 1) * pause);
+    double middle = power(run);
+    go_to(run, k * pause);
+    double now = power(run);
+    run->integral += pause / 3 * (before + 4 * middle + now);
+    before = now;
+    scale = fmax(scale, fabs(zp_sim_get(run->sim, "load_work")));
+    run->imbalance = fmax(run->imbalance, fabs(zp_sim_get(run->sim, "energy_imbalance")));
+  }
+  run->imbalance /= scale;
+  run->row = zp_sim_get(run->sim, "damper_loss");
+}
+
+static void end(Run *run) {
+  zp_sim_destroy(run->sim);
+  zp_model_destroy(run->model);
+}
+
+static const struct {
+  bool is_explicit;
+  ZpSymmetry symmetry;
+  int series;
+} cases[] = {{false, ZP_SYMMETRY_HALF, 1},
+             {false, ZP_SYMMETRY_NONE, 1},
+             {true, ZP_SYMMETRY_HALF, 1},
+             {false, ZP_SYMMETRY_HALF, 2}};
+
+/* The row of the damper is the integral of c v^2, and the coefficient has grown. In implicit steps the energy balances
+ * with it. */
+START_TEST(row_is_the_integral) {
+  ZpActuatorDef def = def_of(cases[_i].is_explicit, cases[_i].symmetry);
+  def.stack.series = cases[_i].series;
+  Run run = begin(&def, true);
+  sample(&run);
+  printf("case %d: row %.9g, integral %.9g, imbalance %.1e, coefficient %.3f\n", _i, run.row, run.integral,
+         run.imbalance, zp_sim_get(run.sim, "damper_coefficient"));
+  ck_assert_double_gt(run.row, 1e-5);
+  ck_near(run.row, run.integral, 1e-6);
+  ck_assert_double_gt(zp_sim_get(run.sim, "damper_coefficient"), 1.1 * cold);
+  if (!cases[_i].is_explicit) ck_below(run.imbalance, 1e-8);
+  end(&run);
+}
+END_TEST
+
+/* The largest imbalance of explicit steps of this length. */
+static double imbalance_with(bool damped, double time_step) {
+  ZpActuatorDef def = def_of(true, ZP_SYMMETRY_HALF);
+  def.solver.time_step = time_step;
+  Run run = begin(&def, damped);
+  double scale = 0;
+  for (int k = 1; k <= 200; k++) {
+    go_to(&run, k * 1e-4);
+    scale = fmax(scale, fabs(zp_sim_get(run.sim, "load_work")));
+    run.imbalance = fmax(run.imbalance, fabs(zp_sim_get(run.sim, "energy_imbalance")));
+  }
+  end(&run);
+  return run.imbalance / scale;
+}
+
+/* Explicit steps of half the length have half the imbalance, and the damper adds nothing to it. */
+START_TEST(imbalance_is_of_first_order) {
+  double without = imbalance_with(false, 0.2e-6), with = imbalance_with(true, 0.2e-6),
+         half = imbalance_with(true, 0.1e-6);
+  printf("imbalance without %.2e, with %.2e, in half steps %.2e\n", without, with, half);
+  ck_below(with, 1.01 * without);
+  ck_near(with / half, 2, 0.1);
+}
+END_TEST
+
+/* The state, the row and the signal are part of a snapshot, and go on from it to the same bits; one of a model without
+ * the damper is refused. */
+START_TEST(continues_from_a_snapshot) {
+  ZpActuatorDef def = def_of(_i, ZP_SYMMETRY_HALF);
+  Run run = begin(&def, true), other = begin(&def, true), bare = begin(&def, false);
+  go_to(&run, 10e-3);
+  size_t size = zp_sim_state_size(run.sim);
+  unsigned char *bytes = malloc(size);
+  zp_sim_save(run.sim, bytes);
+  ck_assert_int_eq(zp_sim_restore(other.sim, bytes, size, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_restore(bare.sim, bytes, size, NULL), ZP_BAD_INPUT);
+  go_to(&run, 20e-3);
+  go_to(&other, 20e-3);
+  static const char *const signals[] = {"opening", "damper_loss", "damper_coefficient", "energy_imbalance"};
+  for (size_t k = 0; k < LENGTH_OF(signals); k++)
+    ck_assert_double_eq(zp_sim_get(run.sim, signals[k]), zp_sim_get(other.sim, signals[k]));
+  ck_assert(isnan(zp_sim_get(bare.sim, "damper_loss")));
+  free(bytes);
+  end(&run), end(&other), end(&bare);
+}
+END_TEST
+
+static double signal_of(ZpSim *sim, void *name) {
+  return zp_sim_get(sim, name);
+}
+
+/* A loss of the damper in a run of 20 ms, with another mass of the load. */
+static double lost_with(double mass, const char *signal) {
+  ZpActuatorDef def = def_of(false, ZP_SYMMETRY_HALF);
+  def.load.mass = mass;
+  Run run = begin(&def, true);
+  go_to(&run, 20e-3);
+  double value = zp_sim_get(run.sim, signal);
+  end(&run);
+  return value;
+}
+
+/* Derivatives of a run follow the row and the state of the damper, too. */
+START_TEST(derivatives_know_the_row) {
+  static char signals[][24] = {"damper_loss", "damper_coefficient"};
+  const int key = zp_key_find("load.mass");
+  const double part = 1e-3;
+  ZpActuatorDef def = def_of(false, ZP_SYMMETRY_HALF);
+  Run run = begin(&def, true);
+  ZpRunRates rates;
+  ck_assert_int_eq(zp_run_rates_open(&rates, run.sim, &key, 1, NULL), ZP_OK);
+  go_to(&run, 20e-3);
+  for (size_t k = 0; k < LENGTH_OF(signals); k++) {
+    double more = lost_with((1 + part) * def.load.mass, signals[k]),
+           less = lost_with((1 - part) * def.load.mass, signals[k]);
+    double rate = zp_run_rate_of(&rates, 0, signal_of, signals[k]);
+    ck_near(rate, (more - less) / (2 * part * def.load.mass), 1e-4);
+  }
+  zp_run_rates_close(&rates);
+  end(&run);
+}
+END_TEST
+
+int main(void) {
+  Suite *suite = suite_create("law");
+  TCase *c = tcase_create("damper");
+  tcase_add_loop_test(c, row_is_the_integral, 0, (int)LENGTH_OF(cases));
+  tcase_add_test(c, imbalance_is_of_first_order);
+  tcase_add_loop_test(c, continues_from_a_snapshot, 0, 2);
+  tcase_add_test(c, derivatives_know_the_row);
+  suite_add_tcase(suite, c);
+  return run_suite(suite);
+}
