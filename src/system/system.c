@@ -145,8 +145,8 @@ double zp_system_taken(const ZpModel *model, const double *start, const double *
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpState *state) {
   double *ledger = zp_state_ledger(model, state);
   for (const ZpLaw *law = model->law; law < model->law + model->laws; law++) {
+    if (!law->term->loss || (span->a && law->term->of_edges)) continue;
     double lost[ZP_ROWS_OF_TERM] = {0};
-    if (!law->term->loss) continue;
     law->term->loss(model, span, e, lost);
     for (size_t k = 0; k < law->rows; k++)
       ledger[law->row[k]] += lost[k];
