@@ -25,9 +25,10 @@ static double gained(const ZpModel *model, const ZpSpan *span) {
   return memory ? *memory : 0;
 }
 
-/* Mean velocity of the load over the span; that of an instant; at rest 0. */
+/* Mean velocity of the load over the span, or over an explicit step; that of an instant; at rest 0. */
 static double velocity(const ZpModel *model, const ZpSpan *span) {
   size_t stride = model->stride;
+  if (span->a) return zp_load_at(model, span->v + stride) - 0.5 * span->h * zp_load_at(model, span->a + stride);
   if (span->v) return zp_load_at(model, span->v + stride);
   if (!(span->h > 0)) return 0;
   return (zp_load_at(model, span->end + stride) - zp_load_at(model, span->start + stride)) / span->h;

@@ -383,11 +383,17 @@ static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride + zp_own_unknowns(model) + model->kept;
 }
 
-/* The entry of a row in a ledger [rows]; NULL: the model does not have the row. */
+/* The number of a row; that of all rows if it is none of them. */
+static inline size_t zp_row_number(const ZpLedger *ledger, const ZpRow *row) {
+  size_t k = 0;
+  while (k < ledger->rows && ledger->row[k] != row)
+    k++;
+  return k;
+}
+
+/* The entry of a row, which the model must have, in a ledger [rows]. */
 static inline double *zp_ledger_at(const ZpModel *model, double *ledger, const ZpRow *row) {
-  for (size_t k = 0; k < model->ledger.rows; k++)
-    if (model->ledger.row[k] == row) return ledger + k;
-  return NULL;
+  return ledger + zp_row_number(&model->ledger, row);
 }
 
 static inline double *zp_state_row(const ZpModel *model, ZpState *state, const ZpRow *row) {

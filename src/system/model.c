@@ -12,9 +12,7 @@ const ZpRow zp_row_kinetic_energy = ZP_STORED(kinetic_energy, "kinetic energy");
 
 /* The number of a row, which laws may share. */
 static size_t number_of(ZpLedger *ledger, const ZpRow *row) {
-  size_t k = 0;
-  while (k < ledger->rows && ledger->row[k] != row)
-    k++;
+  size_t k = zp_row_number(ledger, row);
   if (k == ledger->rows) ledger->row[ledger->rows++] = row;
   return k;
 }

@@ -92,14 +92,12 @@ void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpM
   divide(model->stride, masses->x.inverse, masses->y.inverse, a, a + model->stride);
 }
 
-/* What terms add to their rows: what they hold now, or their loss. */
-typedef void (*Book)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row);
-
-static void add_rows(const ZpModel *model, const ZpLaw *law, Book book, const ZpSpan *span, ZpEval *e, double *ledger) {
+/* What a law has now in its rows. */
+static void add_rows(const ZpModel *model, const ZpLaw *law, const ZpSpan *now, ZpEval *e, double *ledger) {
   double row[ZP_ROWS_OF_TERM];
   for (size_t k = 0; k < law->rows; k++)
     row[k] = ledger[law->row[k]];
-  book(model, span, e, row);
+  law->term->now(model, now, e, row);
   for (size_t k = 0; k < law->rows; k++)
     ledger[law->row[k]] = row[k];
 }
@@ -124,7 +122,7 @@ void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *e, double
     if (model->ledger.row[k]->kind == ZP_ROW_STORED || model->ledger.row[k]->kind == ZP_ROW_SIGNAL) ledger[k] = 0;
   ledger[0] = kinetic_energy(model, state);
   for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
-    if (law->term->now) add_rows(model, law, law->term->now, &now, e, ledger);
+    if (law->term->now) add_rows(model, law, &now, e, ledger);
 }
 
 double zp_system_stored(const ZpModel *model, const double *ledger) {
@@ -145,11 +143,14 @@ double zp_system_taken(const ZpModel *model, const double *start, const double *
 }
 
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpState *state) {
-  double lost[ZP_MOST_ROWS] = {0}, *ledger = zp_state_ledger(model, state);
-  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
-    if (law->term->loss) add_rows(model, law, law->term->loss, span, e, lost);
-  for (size_t k = 0; k < model->ledger.rows; k++)
-    if (model->ledger.row[k]->kind == ZP_ROW_LOST) ledger[k] += lost[k];
+  double *ledger = zp_state_ledger(model, state);
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++) {
+    if (!law->term->loss || (span->a && law->term->of_edges)) continue;
+    double lost[ZP_ROWS_OF_TERM] = {0};
+    law->term->loss(model, span, e, lost);
+    for (size_t k = 0; k < law->rows; k++)
+      ledger[law->row[k]] += lost[k];
+  }
 }
 
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {

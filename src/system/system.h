@@ -50,7 +50,8 @@ double zp_system_stored(const ZpModel *model, const double *ledger);
  * source and load if the energy balances. */
 double zp_system_taken(const ZpModel *model, const double *start, const double *now);
 
-/* Add what the terms have lost over a span, at its last force, to the ledger of the state. */
+/* Add what the terms have lost over a span, at its last force, to the ledger of the state. Edges are damped in implicit
+ * steps only. */
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpState *state);
 
 /* F [2 stride] = inertia of all terms beyond the masses of nodes, at accelerations a [2 stride], N. */

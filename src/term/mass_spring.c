@@ -61,7 +61,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
 }
 
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
-  if (!span->v) row[INTERNAL] += zp_term_edges_loss(model, span, e);
+  row[INTERNAL] += zp_term_edges_loss(model, span, e);
 }
 
 const ZpTerm zp_term_mass_spring = {

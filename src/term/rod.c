@@ -68,7 +68,6 @@ static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row
 
 /* The edges are those at the end of the span, one correction after the last force. */
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
-  if (span->v) return;
   row[INTERNAL] += zp_term_edges_loss(model, span, e);
   e->rod_step.strain_start = strain_of(model, span);
   row[PLASTIC] += zp_rod_plastic_heat(&model->rod, &e->rod_start, &e->rod, &e->rod_step);

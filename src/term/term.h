@@ -25,7 +25,8 @@ typedef struct ZpSpan {
   const double *v0;          /* of a step: velocities at its start [2 stride] */
   const double *w;           /* of a step: mean velocities over the last one [2 stride]; NULL: there was none */
   const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; of an explicit step,
-                                whose losses are counted: mean velocities over it; else NULL */
+                                whose losses are counted: those at its end; else NULL */
+  const double *a;           /* of such a step: accelerations [2 stride], so v - h/2 a are mean velocities */
   ZpHeld beyond;             /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
@@ -77,7 +78,7 @@ typedef struct ZpTerm {
   /* row[k] += what the term has at an instant in its row k: energy stored, J, or the value of a signal. NULL: none. */
   void (*now)(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double *row);
   /* row[k] += energy lost in its row k over a span, at the last force, J: over a step, or over an explicit step of
-   * length span->h, which has no end of its own and mean velocities span->v. NULL: none. */
+   * length span->h, which ends at velocities span->v. NULL: none. */
   void (*loss)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row);
   /* sum += electric totals at the start or the end of the span, with the gaps found last, at voltage U. NULL: none. */
   void (*electric)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U,

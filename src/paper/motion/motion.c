@@ -17,6 +17,7 @@ static bool is_unilateral(const ZpModel *model) {
 
 bool zp_paper_motion_create(const ZpModel *model, ZpEval *eval, ZpPaperMotion *motion) {
   *motion = (ZpPaperMotion){.model = model, .eval = eval, .longest = INFINITY};
+  motion->contact = zp_row_number(&model->ledger, &zp_row_contact_loss);
   motion->a = zp_calloc(2 * model->stride, sizeof *motion->a);
   return motion->a;
 }
@@ -50,7 +51,7 @@ static void damp_faces(ZpPaperMotion *m, double dt) {
   ZpState *state = m->state;
   const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = m->a + model->stride;
   const double *push = m->eval->faces.push;
-  double *vy = zp_state_v(model, state) + model->stride, *loss = zp_state_row(model, state, &zp_row_contact_loss);
+  double *vy = zp_state_v(model, state) + model->stride, *loss = zp_state_ledger(model, state) + m->contact;
   for (size_t i = 1; i < model->nodes; i++) {
     if (!(push[i] > 0)) continue;
     double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
@@ -117,16 +118,16 @@ static ZpPaperLimit limit_of(const ZpPaperMotion *m, ZpExplicitLimit limit) {
   return limit == ZP_EXPLICIT_END ? ZP_PAPER_END : m->limit;
 }
 
-/* What terms have lost over a step, at mean velocities, and their state at its end. */
+/* What terms have lost over a step, and their state at its end. */
 static void book(ZpPaperMotion *m, double dt) {
   const ZpModel *model = m->model;
-  const double *v = zp_state_v(model, m->state);
-  for (size_t k = 0; k < 2 * model->stride; k++)
-    m->eval->mean_v[k] = v[k] - 0.5 * dt * m->a[k];
-  ZpSpan step = zp_span_of(model, m->state, zp_state_q(model, m->state), m->eval->mean_v);
-  step.h = dt;
-  zp_system_book(model, &step, m->eval, m->state);
-  memcpy(zp_state_own(model, m->state) + zp_own_unknowns(model), m->eval->memory_end, model->kept * sizeof *v);
+  ZpState *state = m->state;
+  const double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
+  ZpSpan step = {.start = q, .end = q, .h = dt, .v = v, .a = m->a, .memory = zp_state_memory(model, state)};
+  zp_system_book(model, &step, m->eval, state);
+  double *laws = zp_state_own(model, state) + zp_own_unknowns(model);
+  for (size_t k = 0; k < model->kept; k++)
+    laws[k] = m->eval->memory_end[k];
 }
 
 ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double latest) {

@@ -21,6 +21,7 @@ typedef struct ZpPaperMotion {
   ZpState *state; /* of the current step */
   double *a;      /* [2 stride] accelerations */
   double longest; /* largest allowed step, s */
+  size_t contact; /* number of the row of contact losses */
   /* of the current step: */
   ZpPaperLimit limit; /* what limits the largest allowed step */
   size_t met;         /* pair that meets inside the step */
