@@ -518,7 +518,7 @@ START_TEST(refusals) {
     const char *by, *words;
   } wrong[] = {{"control.kind", ZP_CONTROL_PI, "gravity", "control.kind"},
                {"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "solver.integrator explicit"},
-               {"stack.series", 2, "gravity", "requires sensitivity.by empty"},
+               {"stack.series", 2, "gravity", "stack.series"},
                {"ribbon.plasticity", 1, "gravity", "ribbon.plasticity"},
                {"solver.tolerance", 1e-4, "solver.tolerance", "a setting of the computation"}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {

@@ -2,6 +2,7 @@
  * snapshot. */
 #include <string.h>
 
+#include <zipact/checkpoint.h>
 #include <zipact/version.h>
 
 #include "base/fail.h"
@@ -69,7 +70,10 @@ static ZpStatus read_record(const unsigned char *byte, size_t own, size_t size, 
   walk(&p, kept);
   status = zp_pack_end(&p, err);
   if (status != ZP_OK || (!kept->fmu.prepared && own == size)) return status;
-  return zp_snapshot_check(NULL, byte + own, size - own, err);
+  ZpCheckpoint *snapshot = NULL;
+  status = zp_checkpoint_from(byte + own, size - own, &snapshot, err);
+  zp_checkpoint_destroy(snapshot);
+  return status;
 }
 
 /* Build the model of the parameters, and its simulation in the state of the snapshot. */

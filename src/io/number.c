@@ -87,11 +87,21 @@ void zp_number_print(double value, char *text, size_t size) {
   text[room] = 0;
 }
 
+/* The point becomes the decimal sign of the user's locale. False if there is no room. */
+static bool put_sign(const char *text, const char *sign, char *copy, size_t size) {
+  const char *point = strchr(text, '.');
+  const int before = point ? (int)(point - text) : (int)strlen(text);
+  const int length = snprintf(copy, size, "%.*s%s%s", before, text, point ? sign : "", point ? point + 1 : "");
+  return length < (int)size && !strstr(text, sign);
+}
+
 bool zp_number_read(const char *text, double *value) {
-  char *end;
-  locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  if (!plain) return false;
-  *value = strtod_l(text, &end, plain);
-  freelocale(plain);
-  return end > text && *(end + strspn(end, " ")) == 0;
+  enum { LONGEST = 1100 }; /* digits of any double, and more */
+  char copy[LONGEST], *end;
+  const char *sign = localeconv()->decimal_point;
+  const bool plain = strcmp(sign, ".") == 0;
+  if (!plain && !put_sign(text, sign, copy, sizeof copy)) return false;
+  const char *from = plain ? text : copy;
+  *value = strtod(from, &end);
+  return end > from && *(end + strspn(end, " ")) == 0;
 }

@@ -206,9 +206,11 @@ static void define_optimum(const ZpOptimum *optimum, FILE *file) {
     fprintf(file, "front[%zu] = %zu\n", i + 1, optimum->row[i]);
 }
 
-/* The numbers of the summary of one run, and of its table the rows and how many states each stands for. */
+/* The numbers of the summary of one run but for wall times, and of its table the rows and how many states each stands
+ * for. */
 static void define_run(const ZpResult *result, FILE *file) {
   for (size_t i = 0; i < result->scalars; i++) {
+    if (result->scalar[i].timing) continue;
     define(file, "", result->scalar[i].name, result->scalar[i].value);
     define_text(file, "si_", result->scalar[i].name, result->scalar[i].unit);
   }

@@ -63,7 +63,7 @@ static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
   row[BENDING] +=
       zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
-  row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
+  if (strain_of(model, now)) row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
 }
 
 /* The edges are those at the end of the span, one correction after the last force. */
