@@ -179,7 +179,8 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
       {{"platform.length", 0}, "platform.rotates = true: requires platform.length above 0 m"},
       {{"platform.electrode", 1}, "platform.rotates = true: requires platform.electrode false"},
       {{"liquid.model", ZP_LIQUID_SUBMERGED},
-       "requires liquid.model none; the liquid between the platforms is modelled for level ones only"},
+       "requires liquid.model none, but it is submerged; the liquid between the platforms is modelled for level ones "
+       "only"},
       {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates = true: requires ribbon.plane strain or stress"},
       {{"ribbon.plasticity", 1}, "platform.rotates = true: requires ribbon.plasticity false"},
       {{"load.stop_opening", 5e-3}, "platform.rotates = true: requires load.stop_opening none"},
@@ -199,7 +200,7 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
   def.load.change_mass = 1e-3, def.load.change_time = 1e-3;
   ck_refused(&def, "platform.rotates = true: requires load.change_mass 0 kg");
   ZpActuatorDef held = turning(21, 0);
-  ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates: study isometric requires false");
+  ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates = true: study isometric requires false");
 }
 END_TEST
 

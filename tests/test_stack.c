@@ -326,12 +326,12 @@ START_TEST(what_unlike_ones_lack_is_said) {
     ZpStudy study;
     const char *says;
   } refused[] = {
-      {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not support them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not support this"},
       {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "hold each member alone"},
-      {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support this"},
       {{"stack.parallel", 9}, ZP_STUDY_STATIONARY, "stack.parallel = 9: with keys of member_K it is at most 8"},
       {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
-      {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series of at least 2"},
+      {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series at least 2"},
       {{"stack.distance", 0.02}, ZP_STUDY_STATIONARY, "requires stack.series 2"},
       {{"actuator.symmetry", ZP_SYMMETRY_NONE},
        ZP_STUDY_ACTUATE,
@@ -421,7 +421,7 @@ START_TEST(what_a_stack_lacks_is_said) {
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_CYCLE, "let study actuate run"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_PROFILE, "use stack.series 1"},
       {{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}, ZP_STUDY_LIMITS, "stack.series of at least 3"},
-      {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series of at least 2"},
+      {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series at least 2"},
       {{"member_1.ribbon.thickness", 60e-6}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series of at least 2"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].one, refused[k].other);

@@ -4,6 +4,7 @@
 #ifndef ZP_DRIVE_SUPPLY_H
 #define ZP_DRIVE_SUPPLY_H
 
+#include "def/rule.h"
 #include "drive/waveform.h"
 
 typedef struct ZpSupply {
@@ -46,5 +47,8 @@ double zp_supply_event(const ZpSupply *supply, const ZpCommand *command, double 
 
 /* Rate of the inner voltage just after t, V/s. */
 double zp_supply_rate(const ZpSupply *supply, const ZpCommand *command, double t, ZpSupplyState at);
+
+/* Combinations of its keys that are refused. */
+extern const ZpRules zp_rules_supply;
 
 #endif

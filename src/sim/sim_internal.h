@@ -5,7 +5,7 @@
 #include <zipact/sim.h>
 
 #include "actuator/shape.h"
-#include "paper/motion/motion.h"
+#include "sim/paper_motion.h"
 #include "rest/dynamics.h"
 #include "sim/feed.h"
 #include "sim/still.h"

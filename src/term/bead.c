@@ -282,5 +282,18 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   }
 }
 
-const ZpTerm zp_term_bead = {
-    .name = "bead", .acts = acts, .force = force, .stiffness = stiffness, .by_voltage = by_voltage};
+static const ZpRule rule[] = {
+    ZP_RULE(EQUATION, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_IS(electro.edges, false),
+            "lateral edges are modelled in a single liquid only; use liquid.model submerged"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_UNSET(insulator.resistivity),
+            "leakage in the air beyond a bead is not modelled; use liquid.model none or submerged"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_UNSET(medium.resistivity),
+            "leakage in the air beyond a bead is not modelled; use liquid.model none or submerged"),
+};
+
+const ZpTerm zp_term_bead = {.name = "bead",
+                             .acts = acts,
+                             .force = force,
+                             .stiffness = stiffness,
+                             .by_voltage = by_voltage,
+                             .rules = ZP_RULES_OF(rule)};

@@ -47,4 +47,14 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, ZpEnergie
                                model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
 }
 
-const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy};
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET(load.change_mass), ZP_SET(load.change_time), "a change of mass has a time"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(load.drop_height, 0), ZP_SET(load.change_time),
+            "what falls is caught at load.change_time"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(load.drop_height, 0), ZP_AT_LEAST(load.change_mass, 0),
+            "only a mass that is caught has fallen"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SET(load.change_mass), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "explicit steps are those of the paper, whose load is constant"),
+};
+
+const ZpTerm zp_term_weight = {.name = "weight", .force = force, .energy = energy, .rules = ZP_RULES_OF(rule)};
