@@ -463,34 +463,22 @@ const char *zp_word_of(const char *key, int choice) {
   return zp_key(zp_key_find(key))->choices[choice].word;
 }
 
-static const ZpKeyGroup drive = ZP_KEY_GROUP(drive), setpoint = ZP_KEY_GROUP(setpoint);
-
-/* The name without its group and point. */
-static const char *name_in(int key, ZpKeyGroup group) {
-  return keys[key].name + strlen(group.name) + 1;
-}
-
-static int key_in(ZpKeyGroup group, const char *name) {
-  for (int i = group.first; i < group.end; i++)
-    if (strcmp(name_in(i, group), name) == 0) return i;
-  return -1;
-}
-
-static double value_in(const ZpActuatorDef *def, ZpKeyGroup group, const char *name) {
-  return zp_def_get(def, key_in(group, name));
-}
-
-static ZpStatus check_square(const ZpActuatorDef *def, ZpKeyGroup group, ZpError *err) {
-  double duty = value_in(def, group, "duty"), rise_time = value_in(def, group, "rise_time");
-  double shorter = fmin(duty, 1 - duty) / value_in(def, group, "frequency");
+static ZpStatus check_square(const char *group, double duty, double frequency, double rise_time, ZpError *err) {
+  double shorter = fmin(duty, 1 - duty) / frequency;
   if (rise_time <= shorter) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "%s.rise_time = %g s: longer than the shorter part of the square wave, %g s (%s.duty / %s.frequency)",
-                 group.name, rise_time, shorter, group.name, group.name);
+                 group, rise_time, shorter, group, group);
 }
 
 static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
-  return def->drive.waveform == ZP_WAVEFORM_SQUARE ? check_square(def, drive, err) : ZP_OK;
+  if (def->drive.waveform != ZP_WAVEFORM_SQUARE) return ZP_OK;
+  return check_square("drive", def->drive.duty, def->drive.frequency, def->drive.rise_time, err);
+}
+
+static ZpStatus check_setpoint(const ZpActuatorDef *def, ZpError *err) {
+  if (def->setpoint.waveform != ZP_WAVEFORM_SQUARE) return ZP_OK;
+  return check_square("setpoint", def->setpoint.duty, def->setpoint.frequency, def->setpoint.rise_time, err);
 }
 
 bool zp_def_takes_table(const ZpActuatorDef *def) {
@@ -529,8 +517,7 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
   if (def->solver.end_time > most * period)
     return zp_fail(err, ZP_BAD_INPUT, "control.period = %g s: more than %g samples until solver.end_time = %g s",
                    period, most, def->solver.end_time);
-  ZpStatus status = def->setpoint.waveform == ZP_WAVEFORM_SQUARE ? check_square(def, setpoint, err) : ZP_OK;
-  return status == ZP_OK ? check_reach(def, err) : status;
+  return check_reach(def, err);
 }
 
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
@@ -706,7 +693,7 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of numbers that depend on each other, in the order in which they are asked. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
     check_build,  check_sizes, check_bare,  zp_check_ribbons, zp_check_stack, check_offset,
-    check_change, check_tilt,  check_drive, check_control,    check_meter};
+    check_change, check_tilt,  check_drive, check_setpoint,   check_control,  check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_layout(def, err);

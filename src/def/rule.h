@@ -37,33 +37,22 @@ typedef struct ZpCondition {
 } ZpCondition;
 
 #define ZP_KEY(name) ((int)offsetof(ZpKeyNumbers, name))
-#define ZP_ANY                                                                                                         \
-  { 0, ZP_TEST_ANY, 0 }
-#define ZP_IS(name, value)                                                                                             \
-  { ZP_KEY(name), ZP_TEST_IS, value }
-#define ZP_NOT(name, value)                                                                                            \
-  { ZP_KEY(name), ZP_TEST_IS_NOT, value }
-#define ZP_ONE_OF(name, bits)                                                                                          \
-  { ZP_KEY(name), ZP_TEST_ONE_OF, bits }
-#define ZP_ABOVE(name, value)                                                                                          \
-  { ZP_KEY(name), ZP_TEST_ABOVE, value }
-#define ZP_AT_LEAST(name, value)                                                                                       \
-  { ZP_KEY(name), ZP_TEST_AT_LEAST, value }
-#define ZP_AT_MOST(name, value)                                                                                        \
-  { ZP_KEY(name), ZP_TEST_AT_MOST, value }
-#define ZP_SET(name)                                                                                                   \
-  { ZP_KEY(name), ZP_TEST_SET, 0 }
-#define ZP_UNSET(name)                                                                                                 \
-  { ZP_KEY(name), ZP_TEST_UNSET, 0 }
-#define ZP_SET_WITHIN(first, last)                                                                                     \
-  { ZP_KEY(first), ZP_TEST_SET_WITHIN, ZP_KEY(last) }
-#define ZP_SEVERAL                                                                                                     \
-  { ZP_KEY(stack.series), ZP_TEST_SEVERAL, 0 }
-#define ZP_UNEQUAL                                                                                                     \
-  { ZP_KEY(stack.parallel), ZP_TEST_UNEQUAL, 0 }
-#define ZP_NEVER                                                                                                       \
-  { 0, ZP_TEST_NEVER, 0 }
-#define ZP_BIT(word) (1 << (word))
+#define ZP_CONDITION(name, is, value)                                                                                  \
+  { ZP_KEY(name), ZP_TEST_##is, value }
+#define ZP_ANY                    ZP_CONDITION(actuator.kind, ANY, 0)
+#define ZP_NEVER                  ZP_CONDITION(actuator.kind, NEVER, 0)
+#define ZP_IS(name, value)        ZP_CONDITION(name, IS, value)
+#define ZP_NOT(name, value)       ZP_CONDITION(name, IS_NOT, value)
+#define ZP_ONE_OF(name, bits)     ZP_CONDITION(name, ONE_OF, bits)
+#define ZP_ABOVE(name, value)     ZP_CONDITION(name, ABOVE, value)
+#define ZP_AT_LEAST(name, value)  ZP_CONDITION(name, AT_LEAST, value)
+#define ZP_AT_MOST(name, value)   ZP_CONDITION(name, AT_MOST, value)
+#define ZP_SET(name)              ZP_CONDITION(name, SET, 0)
+#define ZP_UNSET(name)            ZP_CONDITION(name, UNSET, 0)
+#define ZP_SET_WITHIN(name, last) ZP_CONDITION(name, SET_WITHIN, ZP_KEY(last))
+#define ZP_SEVERAL                ZP_CONDITION(stack.series, SEVERAL, 0)
+#define ZP_UNEQUAL                ZP_CONDITION(stack.parallel, UNEQUAL, 0)
+#define ZP_BIT(word)              (1 << (word))
 
 /* If `when` and `also` hold, `needs` must hold. */
 typedef struct ZpRule {

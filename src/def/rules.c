@@ -209,7 +209,7 @@ ZpStatus zp_rule_fail(const ZpRule *rule, const char *asks, const ZpActuatorDef 
   show_value(needs->key, value_of(def, needs->key), value);
   if (needs->test == ZP_TEST_SET)
     snprintf(given, sizeof given, ", which is missing");
-  else if (!bare && zp_key(needs->key)->type != ZP_KEY_TEXT)
+  else if (!bare && zp_key(needs->key)->type != ZP_KEY_TEXT && zp_key(needs->key)->type != ZP_KEY_BOOL)
     snprintf(given, sizeof given, ", but it is %s", value);
   return zp_fail(err, ZP_BAD_INPUT, "%s: %srequires %s%s; %s", head, asks, words, given, rule->why);
 }

@@ -5,10 +5,7 @@
 
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE), "only study actuate runs in time"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_NEVER,
-               "fit the keys of one member, with stack.series 1"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(stack.distance), ZP_NEVER, "fit the keys of one member"),
-    ZP_RULE(NOT_MODELLED, ZP_UNEQUAL, ZP_NEVER, "fit the keys of one member"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "fit the keys of one member, with stack.series 1"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
 };

@@ -729,10 +729,7 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(load.change_mass), "the load is periodic, too; use study actuate"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), "it opens and closes"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_NEVER,
-               "let study actuate run for some periods of the drive"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(stack.distance), ZP_NEVER, "let study actuate run for some periods of the drive"),
-    ZP_RULE(NOT_MODELLED, ZP_UNEQUAL, ZP_NEVER, "let study actuate run for some periods of the drive"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "let study actuate run for some periods of the drive"),
     ZP_RULE_STARTS,
     /* the linear answer */
     ZP_RULE(EQUATION, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(ribbon.model, ZP_RIBBON_ROD),

@@ -418,15 +418,10 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_HINGE)),
             "it holds a platform, or the end of a hinge"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_NEVER,
-               "hold each member alone, with stack.series 1: one force goes through all, and their separations add up"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(stack.distance), ZP_NEVER,
-            "hold each member alone, without the stack, and add the forces, that of a lower antagonist with a minus "
-            "sign: members on a held platform do not act on each other"),
-    ZP_RULE(NOT_MODELLED, ZP_UNEQUAL, ZP_NEVER,
-            "hold each member alone, without the stack, and add the forces, that of a lower antagonist with a minus "
-            "sign: members on a held platform do not act on each other; without keys of member_K the members are "
-            "equal, which all studies support"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER,
+            "hold each member alone, without the stack: the separations of a series add up, and the forces of members "
+            "at one "
+            "load, that of a lower antagonist with a minus sign"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

@@ -560,10 +560,7 @@ static const ZpRule rule[] = {
         "the field at the clip is infinite without an insulator, and its grid keeps closed faces a nanometre apart"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(electro.insulator_offset, 0),
             "the plates law, which it compares with the field, is infinite at the clip"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_NEVER,
-               "it compares forces in a single actuator; use stack.series 1"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(stack.distance), ZP_NEVER, "it compares forces in a single actuator"),
-    ZP_RULE(NOT_MODELLED, ZP_UNEQUAL, ZP_NEVER, "it compares forces in a single actuator"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "it compares forces in a single actuator; use stack.series 1"),
     ZP_RULE_STARTS,
 };
 const ZpRules zp_rules_profile = ZP_RULES_OF(rule);
