@@ -203,10 +203,9 @@ static const ZpRule rule[] = {
             "the eigenvalues of the control loop are computed without suction only"),
     ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(control.kind, ZP_CONTROL_NONE), "a controller measures a single actuator"),
     ZP_RULE(PHYSICS, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_SET(setpoint.value), "a controller has a setpoint"),
-    ZP_RULE_IF(PHYSICS, ZP_IS(control.kind, ZP_CONTROL_BOOST_PI), ZP_ABOVE(control.boost_voltage, 0),
-               ZP_NOT(setpoint.value, 0),
-               "there the boost acts in full on any error, so the loop has no eigenvalues; use another setpoint, or "
-               "control.kind pi"),
+    ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),
+               ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),
+               "there the boost acts in full on any error, so the loop has no eigenvalues; or use another setpoint"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

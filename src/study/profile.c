@@ -546,7 +546,8 @@ static ZpStatus run(Profiler *p, ZpError *err) {
 
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_ANY, ZP_IS(electro.edges, false),
-            "it compares forces in the plane of the ribbons; the other studies can include lateral edges"),
+            "it compares forces in the plane of the ribbons, without lateral edges; the other studies "
+            "can include them"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), "it compares forces between two ribbons"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "its grid covers one half"),
     ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.insulator.thickness),
