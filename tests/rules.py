@@ -28,9 +28,8 @@ MAY_INCLUDE = {
     "actuator": ["ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "term": ["actuator", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "system": ["term", "actuator", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "paper/motion": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "sim": ["rest", "paper/motion", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
+    "sim": ["rest", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "sample": ["base"],
     "fmu": ["sim", "actuator", "drive", "def", "base"],
@@ -42,6 +41,15 @@ MAY_INCLUDE = {
     "optimize": ["campaign", "fit", "io", "sample", "base"],
     "reproduce": ["fit", "io", "base"],
     "cli": [],
+}
+
+# What points up, and why: a room, a higher one.
+POINT_UP = {
+    # def/rules.def names the owners of rules, so that one checker asks all of them; a law brings its rules in its file
+    ("def", "drive"),
+    ("def", "actuator"),
+    ("def", "term"),
+    ("def", "sim"),
 }
 
 # Which of these the public headers stand for: including one is including its folder's interface.
@@ -185,6 +193,40 @@ def rule_includes(repo, files):
             if found:
                 ok = include_is_right(folder, *found.groups())
                 yield ok, "%s:%d" % (name, number), "%s may not include %s" % (folder, found.group(2))
+
+
+def room_of(name):
+    return folder_of(name).split("/")[0] if name.startswith("src/") and folder_of(name) else None
+
+
+def names_defined(code):
+    """Functions and constants that a C file makes for others."""
+    return re.findall(r"^(?!static\b|extern\b|typedef\b)[A-Za-z][\w \t*]*?\b(zp_\w+)\s*(?:\(|\[[^;]*=|=)", code, re.M)
+
+
+def names_used(text, code):
+    owners = ["zp_rules_of_" + name for name in re.findall(r"^ZP_OWNER\((\w+)\)", text, re.M)]
+    laws = ["zp_term_" + name for name in re.findall(r"^ZP_TERM\((\w+)\)", text, re.M)]
+    return set(re.findall(r"\bzp_\w+", code)) | set(owners) | set(laws)
+
+
+def rule_rooms(repo, files):
+    """Rooms of src/ stand above each other: neither an include nor a name points up, so there is no circle."""
+    texts = {name: read(repo, name) for name in files if room_of(name) and name.endswith((".c", ".h", ".def"))}
+    codes = {name: code_of(text) for name, text in texts.items()}
+    home = {symbol: room_of(name) for name in texts if name.endswith(".c") for symbol in names_defined(codes[name])}
+    order, seen = [room.split("/")[0] for room in MAY_INCLUDE], set()
+    for name, text in texts.items():
+        own = room_of(name)
+        included = re.findall(r'^\s*#\s*include\s*"(\w+)/', text, re.M)
+        for symbol in sorted(names_used(text, codes[name])) if not name.endswith(".h") else []:
+            included += [home[symbol]] if symbol in home else []
+        for other in set(included) - {own}:
+            up = order.index(other) > order.index(own)
+            seen |= {(own, other)} if up else set()
+            yield not up or (own, other) in POINT_UP, name + ":1", "src/%s/ needs src/%s/, which is above it" % (own, other)
+    for arrow in sorted(POINT_UP - seen):
+        yield False, "tests/rules.py:1", "%s no longer points up to %s" % arrow
 
 
 def rule_core_needs_no_library(repo, files):
@@ -522,6 +564,7 @@ RULES = [
     rule_limits_in_cpu_time,
     rule_no_products,
     rule_includes,
+    rule_rooms,
     rule_core_needs_no_library,
     rule_keys_documented,
     rule_signals_documented,
@@ -554,6 +597,8 @@ def self_test():
     assert not CORE_CALLS.search("snprintf(text); vsnprintf(t); reopen(x)")
     assert not CORE_CALLS.search("hooks->clock(user)") and CORE_CALLS.search("fprintf(stderr)") and CORE_CALLS.search("  exit (1)")
     assert ROUNDED_BY_LIBM.search("x = cbrt(y)") and not ROUNDED_BY_LIBM.search("sqrt(x) + zp_cos(y) + a.exp(z)")
+    assert names_defined("static int zp_a(void);\nconst ZpRules zp_b = {0};\nZpStatus *zp_c(int x) {\nextern int zp_d;\n") == ["zp_b", "zp_c"]
+    assert names_used("ZP_OWNER(terms)\n", "  zp_e(1);\n") == {"zp_rules_of_terms", "zp_e"}
     assert not include_is_right("solve", '"', "paper/massspring.h")
     assert not include_is_right("contact", '"', "electro/plates.h")
     assert not include_is_right("math", "<", "zipact/sim.h")

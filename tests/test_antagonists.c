@@ -531,7 +531,7 @@ START_TEST(what_antagonists_lack_is_said) {
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"stack.link_mass", 1e-3}}, ZP_STUDY_ACTUATE, "load.mass"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"initial.state", ZP_INITIAL_STRAIGHT}},
        ZP_STUDY_ACTUATE,
-       "initial.state equilibrium"},
+       "initial.state equilibrium or checkpoint"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"load.stiffness", 1}}, ZP_STUDY_ACTUATE, "load"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}},
        ZP_STUDY_ACTUATE,

@@ -668,7 +668,7 @@ START_TEST(test_what_is_refused) {
   ZpActuatorDef def;
   ZpError err;
   ZpStatus status = resolve(&def, list, 2, &err);
-  if (status == ZP_OK) status = zp_def_check(&def, &err);
+  if (status == ZP_OK) status = zp_study_check(ZP_STUDY_ACTUATE, &def, &err);
   ck_assert_int_eq(status, ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, other[_i].key));
 }

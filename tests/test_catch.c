@@ -93,7 +93,10 @@ START_TEST(what_it_lacks_is_said) {
       {ZP_STUDY_ACTUATE, {"load.change_mass", 1e-3}, {"mesh.nodes", 21}, "load.change_time"},
       {ZP_STUDY_ACTUATE, {"load.change_time", 1e-3}, {"load.change_mass", -9e-3}, "cannot drop more than load.mass"},
       {ZP_STUDY_ACTUATE, {"load.drop_height", 1e-3}, {"mesh.nodes", 21}, "load.change_time"},
-      {ZP_STUDY_CYCLE, {"load.change_time", 1e-3}, {"load.change_mass", 1e-3}, "a constant load"}};
+      {ZP_STUDY_CYCLE,
+       {"load.change_time", 1e-3},
+       {"load.change_mass", 1e-3},
+       "study cycle requires 0 kg; the load is periodic, too"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].setting, refused[k].other);
     ck_refused_by(refused[k].study, &def, refused[k].says);

@@ -622,7 +622,7 @@ START_TEST(test_keys) {
   } wrong[] = {
       {"", ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 2e-3, "requires initial.file"},
       {path, ZP_INITIAL_STRAIGHT, ZP_STUDY_ACTUATE, 2e-3, "initial.file: requires initial.state checkpoint"},
-      {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_STATIONARY, 2e-3, "requires study actuate"},
+      {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_STATIONARY, 2e-3, "only study actuate resumes a run"},
       {"nowhere.zps", ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 2e-3, "nowhere.zps: cannot be opened"},
       {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 0.5e-3, "solver.end_time must be larger than 0.0005 s"},
   };

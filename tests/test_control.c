@@ -563,11 +563,11 @@ START_TEST(wrong_keys) {
                {{"control.boost_band", 0}, "control.boost_band"},
                {{"solver.end_time", 2e3}, "more than 1e+06 samples"},
                {{"setpoint.value", 1.1}, "at most 1"},
-               {{"setpoint.value", NAN}, "missing; control.kind requires it"},
+               {{"setpoint.value", NAN}, "requires setpoint.value, which is missing"},
                {{"setpoint.frequency", 5}, "setpoint.waveform sine or square"},
                {{"drive.waveform", ZP_WAVEFORM_SINE}, "the controller sets the voltage"},
                {{"actuator.kind", ZP_KIND_FLANGE}, "control.signal = contraction"},
-               {{"actuator.kind", ZP_KIND_RIBBON}, "requires electrodes"}};
+               {{"actuator.kind", ZP_KIND_RIBBON}, "a single ribbon has no electrodes"}};
   const Setting list[] = {
       {"liquid.model", ZP_LIQUID_NONE}, {"control.kind", ZP_CONTROL_PI}, {"control.signal", ZP_CONTROL_CONTRACTION},
       {"control.proportional", 1e3},    {"setpoint.value", 0.5},         wrong[_i].setting};

@@ -150,8 +150,8 @@ START_TEST(what_it_lacks_is_said) {
     Setting setting;
     const char *says;
   } refused[] = {{{"ribbon.model", ZP_RIBBON_MASS_SPRING}, "requires ribbon.model rod"},
-                 {{"segment_1.length", 5e-3}, "a ribbon without segments"},
-                 {{"lower.segment_2.length", 5e-3}, "a ribbon without segments"}};
+                 {{"segment_1.length", 5e-3}, "is modelled without segments"},
+                 {{"lower.segment_2.length", 5e-3}, "is modelled without segments"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF({"ribbon.plane", ZP_PLANE_ANTICLASTIC}, refused[k].setting);
     ck_refused(&def, refused[k].says);

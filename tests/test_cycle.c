@@ -465,10 +465,10 @@ START_TEST(test_refusals) {
   static const struct {
     Setting set;
     const char *words;
-  } wrong[] = {{{"drive.waveform", ZP_WAVEFORM_TABLE}, "requires a periodic drive"},
+  } wrong[] = {{{"drive.waveform", ZP_WAVEFORM_TABLE}, "requires step, sine or square; the drive is periodic"},
                {{"actuator.kind", ZP_KIND_FLANGE}, "requires electro_ribbon"},
                {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, "requires implicit"},
-               {{"source.model", ZP_SOURCE_AMPLIFIER}, "no linear answer"}};
+               {{"source.model", ZP_SOURCE_AMPLIFIER}, "requires source.model ideal, but it is amplifier"}};
   ZpActuatorDef def = def_with(&wrong[_i].set, 1);
   def.cycle.method = ZP_CYCLE_LINEAR;
   ZpError err = {ZP_OK, ""};

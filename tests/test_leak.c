@@ -409,7 +409,7 @@ START_TEST(test_refused) {
   ZpError err = {ZP_OK, ""};
   Setting all[] = {{"medium.resistivity", 1e10}, of[_i].with};
   ck_assert_msg(resolve(&def, all, 2, &err) == ZP_OK, "%s", err.message);
-  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, of[_i].says) != NULL, "%s", err.message);
 }
 END_TEST

@@ -311,7 +311,7 @@ START_TEST(test_what_is_refused) {
   ZpActuatorDef def = DEF({other[_i].key, other[_i].value});
   ZpError err;
   def.liquid.model = ZP_LIQUID_SUBMERGED;
-  ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "liquid.model = submerged"));
   ck_assert_ptr_nonnull(strstr(err.message, other[_i].key));
 }

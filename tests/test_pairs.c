@@ -10,6 +10,7 @@
 
 #include "actuator/model.h"
 #include "rest/rest.h"
+#include "study/studies.h"
 
 /* -- features and pairs ---------------------------------------------------------------------------- */
 
@@ -161,15 +162,83 @@ static bool is_named(const char *message, ZpStudy study, int feature) {
   return false;
 }
 
+/* Pairs that a study takes one by one, and those of them that it refuses, by the class of the rule; the last one: of a
+ * check that is no rule. */
+enum { CLASSES = 4 };
+typedef struct Shares {
+  int cases, refused[CLASSES];
+} Shares;
+static Shares shares[STUDIES];
+
+static const char *class_word(int class) {
+  static const char *const word[CLASSES] = {"physics", "equation", "not modelled", "numbers"};
+  return word[class];
+}
+
+/* The paper's numerics, whose pairs are counted apart. */
+static bool is_of_paper(int feature) {
+  static const char *const names[] = {"mass and spring", "soft axial springs", "sequential contact", "Bezier surface",
+                                      "paper-text",      "paper-code",         "explicit steps"};
+  for (size_t k = 0; k < LENGTH_OF(names); k++)
+    if (strcmp(features[feature].name, names[k]) == 0) return true;
+  return false;
+}
+
+/* How often each rule refuses a pair with a study, without the paper's numerics. */
+enum { MOST_RULES = 256 };
+static struct {
+  const ZpRule *rule;
+  int cases;
+} costs[MOST_RULES];
+
+static void count_cost(const ZpRule *rule) {
+  size_t k = 0;
+  while (costs[k].rule && costs[k].rule != rule)
+    k++;
+  ck_assert_uint_lt(k, MOST_RULES - 1);
+  costs[k].rule = rule;
+  costs[k].cases++;
+}
+
+/* (class, rule) of a refusal in words. */
+static void write_rule(FILE *file, const ZpRule *rule, const char *between) {
+  char when[128], needs[128];
+  zp_condition_text(&rule->when, when, sizeof when);
+  zp_condition_text(&rule->needs, needs, sizeof needs);
+  fprintf(file, "%s%s%s: %s", class_word((int)rule->class), between, when, needs);
+}
+
+/* The shares of each study, without the paper's numerics. */
+static void write_shares(FILE *file) {
+  for (size_t k = 0; k < STUDIES; k++) {
+    fprintf(file, "%s, %d pairs that it takes one by one", zp_study_name(studies[k]), shares[k].cases);
+    for (int c = 0; c < CLASSES; c++)
+      fprintf(file, ", %s %.1f %%", class_word(c), 100.0 * shares[k].refused[c] / shares[k].cases);
+    fprintf(file, "\n");
+  }
+  for (size_t k = 0; costs[k].rule; k++) {
+    printf("%d cases: ", costs[k].cases);
+    write_rule(stdout, costs[k].rule, ", ");
+    printf("\n");
+  }
+}
+
 /* Tell the pair (or the feature alone) that some studies refuse, with the first reason. => number of studies */
 static int list_refusal(FILE *file, int a, int b, bool alone[FEATURES][STUDIES]) {
+  const ZpRule *first = NULL;
   char words[128] = "", reason[sizeof((ZpError *)0)->message] = "";
   int refused = 0;
   for (size_t k = 0; k < STUDIES; k++) {
     ZpActuatorDef def;
     ZpError err = {ZP_OK, ""};
     if (a != b && !(alone[a][k] && alone[b][k])) continue;
+    bool counts = a != b && !is_of_paper(a) && !is_of_paper(b);
+    shares[k].cases += counts;
     if (takes(studies[k], a, b, &def, &err)) continue;
+    const ZpRule *rule = zp_study_refusing(studies[k], &def);
+    if (counts && rule) count_cost(rule);
+    if (counts) shares[k].refused[rule ? (int)rule->class : CLASSES - 1]++;
+    if (refused == 0) first = rule;
     ck_assert_int_eq(err.status, ZP_BAD_INPUT);
     ck_assert_msg(is_named(err.message, studies[k], a) && is_named(err.message, studies[k], b),
                   "%s with %s is refused by %s without the name of both: %s", features[a].name, features[b].name,
@@ -178,7 +247,14 @@ static int list_refusal(FILE *file, int a, int b, bool alone[FEATURES][STUDIES])
     snprintf(words + strlen(words), sizeof words - strlen(words), "%s%s", refused > 1 ? " " : "",
              zp_study_name(studies[k]));
   }
-  if (refused > 0) fprintf(file, "%s\t%s\t%s\t%s\n", features[a].name, a == b ? "" : features[b].name, words, reason);
+  if (refused == 0) return 0;
+  fprintf(file, "%s\t%s\t%s", features[a].name, a == b ? "" : features[b].name, words);
+  fprintf(file, "\t");
+  if (first)
+    write_rule(file, first, "\t");
+  else
+    fprintf(file, "%s\t", class_word(CLASSES - 1));
+  fprintf(file, "\t%s\n", reason);
   return refused;
 }
 
@@ -196,8 +272,8 @@ static bool same_files(const char *a, const char *b) {
   return byte[0] == byte[1];
 }
 
-/* The list is tests/data/refused_pairs.tsv: features that a study refuses, alone or together, the studies, and the
- * reason of the first of them. */
+/* The list is tests/data/refused_pairs.tsv: features that a study refuses, alone or together, the studies, and of the
+ * first of them the class of the rule, the rule and the message. */
 START_TEST(refused_pairs_are_listed) {
   static const char fresh[] = "refused_pairs.tsv", kept[] = ZP_SOURCE_DIR "/tests/data/refused_pairs.tsv";
   bool alone[FEATURES][STUDIES];
@@ -217,6 +293,7 @@ START_TEST(refused_pairs_are_listed) {
         cases += alone[a][k] && alone[b][k];
       if (a != b) pairs++, refused += by > 0, refused_cases += by;
     }
+  write_shares(file);
   fprintf(file, "%d features, %d pairs: %d refused by a study that takes both alone; %d of %d pairs with a study\n",
           FEATURES, pairs, refused, refused_cases, cases);
   ck_assert_int_eq(fclose(file), 0);
@@ -253,6 +330,51 @@ static void check_start(int a, int b, const char *name) {
     ck_assert_msg(!starts(&def, name), "%s: study actuate refuses what starts to move", name);
   }
 }
+
+/* -- the page of rules ------------------------------------------------------------------------------ */
+
+static void write_rules(FILE *page, const char *owner, const ZpRules *rules) {
+  for (size_t i = 0; i < rules->count; i++) {
+    const ZpRule *rule = &rules->rule[i];
+    char when[128], also[128], needs[128];
+    zp_condition_text(&rule->when, when, sizeof when);
+    zp_condition_text(&rule->also, also, sizeof also);
+    zp_condition_text(&rule->needs, needs, sizeof needs);
+    bool bare = rule->when.test == ZP_TEST_ANY, never = rule->needs.test == ZP_TEST_NEVER;
+    fprintf(page, "| %s%s | %s%s%s | %s | %s | %s |\n", owner, rule->in_motion ? ", in motion" : "",
+            bare ? "always" : when, *also ? ", " : "", also, never ? "(refused)" : needs, class_word((int)rule->class),
+            rule->why);
+  }
+}
+
+static void write_owner(FILE *page, const char *owner, const ZpRules *const *of) {
+  for (; *of; of++)
+    write_rules(page, owner, *of);
+}
+
+/* docs/rules.md is what this writes. */
+START_TEST(page_of_rules_is_current) {
+  static const char fresh[] = "rules.md", kept[] = ZP_SOURCE_DIR "/docs/rules.md";
+  FILE *page = fopen(fresh, "w");
+  ck_assert_ptr_nonnull(page);
+  fprintf(page,
+          "# Rules\n\nCombinations of keys that are refused, made from the program's own tables. Class `physics`: "
+          "the combination has no meaning. Class `equation`: an equation is missing, which the reason names. Class "
+          "`not modelled`: the equations are known, and the program does not have them.\n\n"
+          "| owner | if | requires | class | reason |\n|---|---|---|---|---|\n");
+#define ZP_TERM(name) write_rules(page, #name, &zp_term_##name.rules);
+#include "term/terms.def"
+#undef ZP_TERM
+#define ZP_OWNER(name)                                                                                                 \
+  if (strcmp(#name, "terms") != 0) write_owner(page, #name, zp_rules_of_##name);
+#include "def/rules.def"
+#undef ZP_OWNER
+#define ZP_STUDY(enumerator, word, shows, files, help) write_rules(page, "study " #word, &zp_rules_##word);
+#include <zipact/studies.def>
+  ck_assert_int_eq(fclose(page), 0);
+  ck_assert_msg(same_files(fresh, kept), "rules have changed: replace %s by %s", kept, fresh);
+}
+END_TEST
 
 /* -- forces at rest -------------------------------------------------------------------------------- */
 
@@ -889,6 +1011,7 @@ int main(void) {
   tcase_add_unchecked_fixture(nightly, read_features, NULL);
   tcase_add_test(all, refused_pairs_are_listed);
   tcase_add_loop_test(all, some_refused_pairs_do_not_start, 0, FEATURES);
+  tcase_add_test(all, page_of_rules_is_current);
   tcase_add_loop_test(all, forces_at_rest_of_some_pairs, 0, FEATURES);
   tcase_add_loop_test(all, motion_of_some_pairs, 0, FEATURES);
   tcase_add_loop_test(nightly, refused_pairs_do_not_start, 0, FEATURES);

@@ -392,11 +392,11 @@ START_TEST(what_it_lacks_is_said) {
     Setting setting, other;
     const char *says;
   } refused[] = {
-      {ZP_STUDY_LIMITS, {"mesh.nodes", 21}, {"mesh.nodes", 21}, "study limits unloads ribbons"},
+      {ZP_STUDY_LIMITS, {"mesh.nodes", 21}, {"mesh.nodes", 21}, "study limits requires false; it unloads ribbons"},
       {ZP_STUDY_EQUILIBRIUM, {"mesh.nodes", 21}, {"mesh.nodes", 21}, "use study actuate"},
       {ZP_STUDY_ACTUATE, {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", 21}, "requires ribbon.model rod"},
       {ZP_STUDY_ACTUATE, {"ribbon.plane", ZP_PLANE_ANTICLASTIC}, {"mesh.nodes", 21}, "requires ribbon.plane strain"},
-      {ZP_STUDY_ACTUATE, {"control.kind", ZP_CONTROL_PI}, {"setpoint.value", 5e-3}, "requires control.kind none"},
+      {ZP_STUDY_ACTUATE, {"control.kind", ZP_CONTROL_PI}, {"setpoint.value", 5e-3}, "requires ribbon.plasticity false"},
       {ZP_STUDY_ACTUATE, {"segment_1.length", 5e-3}, {"segment_1.thickness", 9e-5}, "segments as thick as the ribbon"},
       {ZP_STUDY_ACTUATE,
        {"ribbon.plasticity", false},

@@ -476,7 +476,7 @@ START_TEST(test_refusals) {
   refused(bad, "actuator.kind = flange", "electro_ribbon");
   bad = def;
   bad.insulator.thickness = 0;
-  refused(bad, "insulator.thickness = 0 m", "touch without an insulator");
+  refused(bad, "insulator.thickness = 0 m", "infinite without an insulator");
   bad.insulator.thickness = 1e-8;
   refused(bad, "insulator.thickness = 1e-08 m", "1e-06 m");
   bad = def;

@@ -82,19 +82,22 @@ START_TEST(offset_on_the_other_side_is_a_mirror_image) {
 }
 END_TEST
 
-/* Under a load in the middle it hangs like a guided platform, up to the second order of its joints. */
+/* Under a load in the middle it hangs like a guided platform, up to the second order of its joints; strips that curl,
+ * too. */
 START_TEST(load_in_the_middle_does_not_tilt) {
   double off[3];
   for (int k = 0; k < 3; k++) {
     ZpActuatorDef def = turning(10 * (1 << k) + 1, 0);
+    if (_i) def.ribbon.plane = ZP_PLANE_ANTICLASTIC, def.ribbon.width = 30e-3;
     double free_to_turn = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
     ck_below(fabs(angle_of(def)), 1e-14);
     def.platform.rotates = false;
     off[k] = free_to_turn / answered_value(ZP_STUDY_STATIONARY, &def, "opening_m") - 1;
   }
-  ck_below(fabs(off[2]), 4e-4); /* 3e-4 measured */
-  ck_near(off[0] / off[1], 4, 5e-3);
-  ck_near(off[1] / off[2], 4, 2e-4); /* 6.1e-5 measured */
+  ck_below(fabs(off[2]), 4e-4);
+  /* Curl has no points beside the platform's end: first order, -3e-5 with 41 nodes. 3.1e-2 and 6.2e-2 measured. */
+  ck_near(off[0] / off[1], 4, _i ? 0.1 : 5e-3);
+  ck_near(off[1] / off[2], 4, _i ? 0.2 : 2e-4); /* 6.1e-5 measured */
 }
 END_TEST
 
@@ -179,8 +182,8 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
       {{"platform.length", 0}, "platform.rotates = true: requires platform.length above 0 m"},
       {{"platform.electrode", 1}, "platform.rotates = true: requires platform.electrode false"},
       {{"liquid.model", ZP_LIQUID_SUBMERGED},
-       "requires liquid.model none; the liquid between the platforms is modelled for level ones only"},
-      {{"ribbon.plane", ZP_PLANE_ANTICLASTIC}, "platform.rotates = true: requires ribbon.plane strain or stress"},
+       "requires liquid.model none, but it is submerged; the liquid between the platforms is modelled for level ones "
+       "only"},
       {{"ribbon.plasticity", 1}, "platform.rotates = true: requires ribbon.plasticity false"},
       {{"load.stop_opening", 5e-3}, "platform.rotates = true: requires load.stop_opening none"},
       {{"load.offset", 5.1e-3}, "load.offset = 0.0051 m: outside the platform; allowed are -0.005 to 0.005 m"},
@@ -197,9 +200,9 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
   ck_refused(&def, "platform.rotates = true: requires load.stiffness 0 N/m");
   def.load.stiffness = 0, def.load.rest_opening = NAN;
   def.load.change_mass = 1e-3, def.load.change_time = 1e-3;
-  ck_refused(&def, "platform.rotates = true: requires load.change_mass 0 kg");
+  ck_refused_by(ZP_STUDY_ACTUATE, &def, "platform.rotates = true: motion requires load.change_mass 0 kg");
   ZpActuatorDef held = turning(21, 0);
-  ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates: study isometric requires false");
+  ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates = true: study isometric requires false");
 }
 END_TEST
 
@@ -209,7 +212,7 @@ int main(void) {
   tcase_add_loop_test(c, small_tilt_is_that_of_its_closed_form, 0, 3);
   tcase_add_loop_test(c, small_load_beside_a_held_clip_is_as_its_closed_form, 0, 2);
   tcase_add_loop_test(c, offset_on_the_other_side_is_a_mirror_image, 0, 3);
-  tcase_add_test(c, load_in_the_middle_does_not_tilt);
+  tcase_add_loop_test(c, load_in_the_middle_does_not_tilt, 0, 2);
   tcase_add_test(c, platform_keeps_its_length);
   tcase_add_loop_test(c, energy_balances, 0, 4);
   tcase_add_test(c, rest_stays_at_rest);

@@ -163,14 +163,14 @@ START_TEST(test_refused) {
   static const struct {
     Setting with[3];
     const char *says;
-  } of[] = {
-      {{{"sense.frequency", 1e3}}, "sense.amplitude: missing; sense.frequency requires it"},
-      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}}, "sense.sampling_rate: missing; sense.frequency requires it"},
-      {{{"sense.noise", 1e-9}}, "sense.noise: requires sense.frequency"},
-      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 3e3}}, "at least 4"},
-      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 4500}}, "a whole multiple"},
-      {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 1e9}}, "samples until"},
-      {{{"sense.frequency", 10}, {"sense.amplitude", 1}, {"sense.sampling_rate", 100}}, "sense.bandwidth"}};
+  } of[] = {{{{"sense.frequency", 1e3}}, "sense.frequency = 1000 Hz: requires sense.amplitude, which is missing"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}},
+             "sense.frequency = 1000 Hz: requires sense.sampling_rate, which is missing"},
+            {{{"sense.noise", 1e-9}}, "sense.noise = 1e-09 A: requires sense.frequency"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 3e3}}, "at least 4"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 4500}}, "a whole multiple"},
+            {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 1e9}}, "samples until"},
+            {{{"sense.frequency", 10}, {"sense.amplitude", 1}, {"sense.sampling_rate", 100}}, "sense.bandwidth"}};
   ZpActuatorDef def;
   ZpError err = {ZP_OK, ""};
   size_t count = 0;

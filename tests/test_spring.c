@@ -161,7 +161,9 @@ START_TEST(what_a_spring_lacks_is_said) {
   static const struct {
     Setting one, other;
     const char *says;
-  } refused[] = {{{"load.stiffness", 3}, {"mesh.nodes", 21}, "load.rest_opening: missing; load.stiffness requires it"},
+  } refused[] = {{{"load.stiffness", 3},
+                  {"mesh.nodes", 21},
+                  "load.stiffness = 3 N/m: requires load.rest_opening, which is missing"},
                  {{"load.stop_stiffness", 3}, {"mesh.nodes", 21}, "requires load.stop_opening"},
                  {{"load.stop_opening", 3e-3}, {"actuator.kind", ZP_KIND_RIBBON}, "electro_ribbon"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {

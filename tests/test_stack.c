@@ -141,6 +141,21 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
 }
 END_TEST
 
+/* Each conducts as if it were alone: a stroke, and the heat in its insulators or its liquid. */
+START_TEST(leaking_ones_side_by_side_are_as_one) {
+  static const char *const name[] = {"opening_m", "leak_loss_J", "source_energy_J"};
+  ZpActuatorDef all = alike(2, 8e-3);
+  all.liquid.model = ZP_LIQUID_NONE;
+  all.solver.time_step = 1e-4;
+  all.solver.end_time = 15e-3;
+  *(_i ? &all.medium.resistivity : &all.insulator.resistivity) = 1e9;
+  ZpActuatorDef equal = all;
+  equal.member_1.ribbon.thickness = NAN;
+  for (size_t k = 0; k < LENGTH_OF(name); k++)
+    ck_near(answered_value(ZP_STUDY_ACTUATE, &all, name[k]), answered_value(ZP_STUDY_ACTUATE, &equal, name[k]), 1e-9);
+}
+END_TEST
+
 /* With a bead or dry. Two members that differ by the last digit of a thickness are a system of two; two equal ones are
  * one with a multiplicity. */
 START_TEST(two_equal_ones_are_twice_one) {
@@ -354,17 +369,17 @@ START_TEST(what_unlike_ones_lack_is_said) {
     ZpStudy study;
     const char *says;
   } refused[] = {
-      {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not support them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not support this"},
       {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "hold each member alone"},
-      {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support them"},
+      {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support this"},
       {{"stack.parallel", 9}, ZP_STUDY_STATIONARY, "stack.parallel = 9: with keys of member_K it is at most 8"},
       {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
-      {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series of at least 2"},
+      {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series at least 2"},
       {{"stack.distance", 0.02}, ZP_STUDY_STATIONARY, "requires stack.series 2"},
       {{"actuator.symmetry", ZP_SYMMETRY_NONE},
        ZP_STUDY_ACTUATE,
        "with unequal members: requires actuator.symmetry half"},
-      {{"ribbon.plasticity", 1}, ZP_STUDY_ACTUATE, "ribbon.plasticity false with unequal members"},
+      {{"ribbon.plasticity", 1}, ZP_STUDY_ACTUATE, "with unequal members: requires ribbon.plasticity false"},
       {{"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF({"stack.parallel", 3}, {"member_2.ribbon.thickness", 80e-6}, refused[k].set);
@@ -445,11 +460,11 @@ START_TEST(what_a_stack_lacks_is_said) {
       {{"stack.series", 2}, {"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"},
       {{"stack.series", 2}, {"load.share", 0.4}, ZP_STUDY_ACTUATE, "load.share 0.5"},
       {{"stack.series", 2}, {"load.stop_opening", 1e-2}, ZP_STUDY_LIMITS, "between the platforms of a single actuator"},
-      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "separations add up"},
+      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "separations of a series add up"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_CYCLE, "let study actuate run"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_PROFILE, "use stack.series 1"},
       {{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}, ZP_STUDY_LIMITS, "stack.series of at least 3"},
-      {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series of at least 2"},
+      {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series at least 2"},
       {{"member_1.ribbon.thickness", 60e-6}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series of at least 2"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].one, refused[k].other);
@@ -731,6 +746,7 @@ int main(void) {
   tcase_add_test(rest, members_carry_those_below);
   tcase_add_test(rest, uppermost_member_lifts_those_below);
   tcase_add_test(rest, parallel_shares_the_load);
+  tcase_add_loop_test(rest, leaking_ones_side_by_side_are_as_one, 0, 2);
   tcase_add_test(rest, what_a_stack_lacks_is_said);
   tcase_add_test(rest, forces_carry_the_load);
   tcase_add_test(rest, force_of_each_is_as_alone);

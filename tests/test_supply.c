@@ -686,16 +686,16 @@ START_TEST(test_refusals) {
                {{{"source.slew_rate", 0}}, "never leave 0 V"},
                {{{"source.bandwidth", 1e12}}, "time steps resolve"},
                {{{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}}, "requires solver.integrator implicit"},
-               {{{"actuator.kind", ZP_KIND_RIBBON}}, "requires electrodes"},
-               {{{"source.model", ZP_SOURCE_IDEAL}, {"source.resistance", 1}}, "source.resistance: requires"},
-               {{{"source.model", ZP_SOURCE_IDEAL}, {"source.sink_limit", 0}}, "source.sink_limit: requires"}};
+               {{{"actuator.kind", ZP_KIND_RIBBON}}, "a single ribbon has no electrodes"},
+               {{{"source.model", ZP_SOURCE_IDEAL}, {"source.resistance", 1}}, "source.resistance = 1 ohm: requires"},
+               {{{"source.model", ZP_SOURCE_IDEAL}, {"source.sink_limit", 0}}, "source.sink_limit = 0 A: requires"}};
   Setting list[4] = {{"source.model", ZP_SOURCE_AMPLIFIER}};
   size_t count = 1;
   for (size_t k = 0; k < 3 && wrong[_i].set[k].key; k++)
     list[count++] = wrong[_i].set[k];
   ZpActuatorDef def = def_with(list, count);
   ZpError err = {ZP_OK, ""};
-  ck_assert(zp_def_check(&def, &err) == ZP_BAD_INPUT);
+  ck_assert(zp_study_check(ZP_STUDY_ACTUATE, &def, &err) == ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, wrong[_i].words), "%s", err.message);
 }
 END_TEST

@@ -82,14 +82,7 @@ double zp_insulation(const ZpActuatorDef *def);
 /* Checks of segments, which must fit into their ribbon, and of lower.*, which requires two ribbons. */
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
 
-/* Conditions of `asks`, a key or a study, that supports equal insulators only; and, in addition, equal strips only. */
-ZpStatus zp_check_like_insulators(const ZpActuatorDef *def, const char *asks, ZpError *err);
-ZpStatus zp_check_like_sections(const ZpActuatorDef *def, const char *asks, ZpError *err);
-
 /* Motion requires a mass. */
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err);
-
-/* The grid of the field keeps closed faces a nanometre apart, so the insulator must be much thicker than that. */
-ZpStatus zp_check_insulator_of_field(const ZpActuatorDef *def, ZpError *err);
 
 #endif

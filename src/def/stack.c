@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/check.h"
+#include "def/rule.h"
 
 enum { PREFIX = sizeof "member_1." - 1 };
 _Static_assert(offsetof(ZpActuatorDef, member_8) ==
@@ -37,11 +37,6 @@ bool zp_def_abreast(const ZpActuatorDef *def) {
 
 int zp_def_members(const ZpActuatorDef *def) {
   return zp_def_abreast(def) ? def->stack.parallel : def->stack.series;
-}
-
-/* For messages: which key says how many members there are. */
-static const char *stack_of(const ZpActuatorDef *def) {
-  return zp_def_abreast(def) ? "parallel" : "series";
 }
 
 bool zp_def_opposed(const ZpActuatorDef *def) {
@@ -81,14 +76,15 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
     one.load.force /= def->stack.parallel;
     one.load.stiffness /= def->stack.parallel;
     if (!isnan(def->load.stop_opening)) one.load.stop_stiffness /= def->stack.parallel;
+    one.load.change_mass /= def->stack.parallel;
     return one;
   }
   if (zp_def_opposed(def)) {
     if (last) turn_over(def, &one);
     return one;
   }
+  if (!last) one.load = zp_def_unloaded(def).load;
   if (!last) one.load.mass = def->stack.link_mass;
-  if (!last) one.load.force = 0;
   return one;
 }
 
@@ -106,9 +102,6 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
                      parallel ? "parallel" : "series", member > 1 ? member : 2,
                      parallel ? def->stack.parallel : def->stack.series);
   }
-  if (!series && def->stack.link_mass > 0)
-    return zp_fail(err, ZP_BAD_INPUT, "stack.link_mass = %g kg: requires stack.series of at least 2",
-                   def->stack.link_mass);
   return ZP_OK;
 }
 
@@ -121,71 +114,7 @@ static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
                  def->stack.distance, def->ribbon.length, most);
 }
 
-/* What the keys of antagonists ask of others. */
-static ZpStatus check_opposed(const ZpActuatorDef *def, ZpError *err) {
-  bool opposed = zp_def_opposed(def), bias = !isnan(def->stack.lower_voltage), alike = def->stack.voltage_ratio == 1;
-  const struct {
-    bool given;
-    const char *says;
-  } wrong[] = {
-      {!opposed && bias, "stack.lower_voltage: requires stack.distance, which makes two members antagonists"},
-      {!opposed && !alike, "stack.voltage_ratio: requires stack.distance, which makes two members antagonists"},
-      {opposed && def->stack.series != 2, "stack.distance: requires stack.series 2, for two antagonists"},
-      {opposed && bias && !alike, "stack.lower_voltage: give it or stack.voltage_ratio, not both"},
-      {opposed && def->stack.link_mass > 0,
-       "stack.link_mass: requires stack.distance none; for antagonists load.mass is the whole moving mass"},
-      {opposed && !alike && def->drive.waveform == ZP_WAVEFORM_TABLE,
-       "stack.voltage_ratio: requires a drive.waveform other than table"},
-      {opposed && def->initial.state == ZP_INITIAL_STRAIGHT,
-       "stack.distance: requires initial.state equilibrium; straight ribbons do not reach the load"},
-  };
-  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++)
-    if (wrong[k].given) return zp_fail(err, ZP_BAD_INPUT, "%s", wrong[k].says);
-  return opposed ? check_distance(def, err) : ZP_OK;
-}
-
-/* What is not known of several members. */
-static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
-  const bool in_series = !zp_def_abreast(def) && !zp_def_opposed(def);
-  const struct {
-    bool given;
-    const char *key, *instead, *why;
-  } unknown[] = {
-      {def->actuator.symmetry != ZP_SYMMETRY_HALF, "actuator.symmetry", "half",
-       "links are modelled between the platforms of symmetric halves"},
-      {def->ribbon.model != ZP_RIBBON_ROD, "ribbon.model", "rod", "links are modelled between rods"},
-      {def->solver.integrator != ZP_INTEGRATOR_IMPLICIT, "solver.integrator", "implicit",
-       "the forces of the links are unknowns of implicit steps"},
-      {def->contact.model != ZP_CONTACT_UNILATERAL, "contact.model", "unilateral",
-       "sequential contact is modelled in a single actuator"},
-      {def->electro.model != ZP_ELECTRO_PLATES, "electro.model", "plates", "the field is solved for a single actuator"},
-      {def->source.model != ZP_SOURCE_IDEAL, "source.model", "ideal", "a supply is modelled with a single actuator"},
-      {def->control.kind != ZP_CONTROL_NONE, "control.kind", "none", "a controller measures a single actuator"},
-      {def->load.share != 0.5, "load.share", "0.5",
-       "both halves of a member carry the same share of what hangs below it"},
-      {def->load.change_mass != 0, "load.change_mass", "0",
-       "an impact is modelled on the platform of a single actuator"},
-      {def->ribbon.plasticity && zp_def_opposed(def), "ribbon.plasticity", "false with stack.distance",
-       "the members' common equilibrium is found by unloading, and a ribbon that has yielded does not return on the "
-       "same path"},
-      {def->ribbon.plasticity && zp_def_abreast(def), "ribbon.plasticity", "false with unequal members",
-       "the members' common equilibrium is found by unloading, and a ribbon that has yielded does not return on the "
-       "same path"},
-      {def->load.stiffness > 0 && in_series, "load.stiffness", "0",
-       "a spring acts between the platforms of a single actuator"},
-      {!isnan(def->load.stop_opening) && in_series, "load.stop_opening", "none",
-       "a stop acts between the platforms of a single actuator"},
-      {!isnan(def->insulator.resistivity), "insulator.resistivity", "none",
-       "leakage is modelled in the insulators of a single actuator"},
-      {!isnan(def->medium.resistivity), "medium.resistivity", "none",
-       "leakage is modelled in the medium of a single actuator"},
-      {!isnan(def->sense.frequency), "sense.frequency", "none", "the meter measures a single actuator"},
-  };
-  for (size_t k = 0; k < sizeof unknown / sizeof unknown[0]; k++)
-    if (unknown[k].given)
-      return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d%s: requires %s %s; %s", stack_of(def), zp_def_members(def),
-                     zp_def_abreast(def) ? " with unequal members" : "", unknown[k].key, unknown[k].instead,
-                     unknown[k].why);
+static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
   for (int member = 1; member <= zp_def_members(def); member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
@@ -196,14 +125,9 @@ static ZpStatus check_several(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
-  bool many = def->stack.series > 1 || def->stack.parallel > 1;
-  if (many && def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "stack.%s = %d: requires actuator.kind electro_ribbon, whose platforms it joins",
-                   def->stack.series > 1 ? "series" : "parallel",
-                   def->stack.series > 1 ? def->stack.series : def->stack.parallel);
   ZpStatus status = check_members(def, err);
-  if (status == ZP_OK) status = check_opposed(def, err);
-  return status == ZP_OK && zp_def_members(def) > 1 ? check_several(def, err) : status;
+  if (status == ZP_OK && zp_def_opposed(def)) status = check_distance(def, err);
+  return status == ZP_OK && zp_def_members(def) > 1 ? check_each(def, err) : status;
 }
 
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
@@ -217,3 +141,55 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
   }
   return status;
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const char joins[] = "a stack joins its platforms", opposes[] = "which makes two members antagonists",
+                  unloads[] =
+                      "the members' common equilibrium is found by unloading, and a ribbon that has yielded does "
+                      "not return on the same path";
+
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_ABOVE(stack.series, 1), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), joins),
+    ZP_RULE(PHYSICS, ZP_ABOVE(stack.parallel, 1), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), joins),
+    ZP_RULE(PHYSICS, ZP_ABOVE(stack.link_mass, 0), ZP_AT_LEAST(stack.series, 2), "a link joins two members"),
+    /* antagonists */
+    ZP_RULE(PHYSICS, ZP_SET(stack.lower_voltage), ZP_SET(stack.distance), opposes),
+    ZP_RULE(PHYSICS, ZP_SET(stack.voltage_ratio), ZP_SET(stack.distance), opposes),
+    ZP_RULE(PHYSICS, ZP_SET(stack.distance), ZP_IS(stack.series, 2), "there are two antagonists"),
+    ZP_RULE(PHYSICS, ZP_SET(stack.lower_voltage), ZP_UNSET(stack.voltage_ratio), "give one of them, not both"),
+    ZP_RULE(PHYSICS, ZP_SET(stack.distance), ZP_IS(stack.link_mass, 0),
+            "for antagonists load.mass is the whole moving mass"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET(stack.voltage_ratio), ZP_SET(stack.distance),
+               ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE), "a table has the voltages of the upper member"),
+    ZP_RULE(PHYSICS, ZP_SET(stack.distance), ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT),
+            "straight ribbons do not reach the load"),
+    /* several members */
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF),
+            "links are modelled between the platforms of symmetric halves"),
+    ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "links are modelled between rods"),
+    ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
+            "the paper's zipping has the order of a single actuator"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(electro.model, ZP_ELECTRO_PLATES),
+            "the field is solved for a single actuator"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_UNSET(load.share),
+            "both halves of a member carry the same share of what hangs below it"),
+    ZP_RULE_IF(EQUATION, ZP_SET(stack.distance), ZP_SEVERAL, ZP_IS(ribbon.plasticity, false), unloads),
+    ZP_RULE(EQUATION, ZP_UNEQUAL, ZP_IS(ribbon.plasticity, false), unloads),
+    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_IS(load.stiffness, 0),
+               "a spring acts between the platforms of a single actuator"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_UNSET(load.stop_opening),
+               "a stop acts between the platforms of a single actuator"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "the forces of the links are unknowns of implicit steps"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(source.model, ZP_SOURCE_IDEAL),
+                   "a supply is modelled with a single actuator"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(control.kind, ZP_CONTROL_NONE),
+                   "a controller measures a single actuator"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(load.change_mass, 0),
+                   "an impact is modelled on the platform of a single actuator"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_UNSET(sense.frequency), "the meter measures a single actuator"),
+};
+
+static const ZpRules rules = ZP_RULES_OF(rule);
+const ZpRules *const zp_rules_of_stack[] = {&rules, NULL};

@@ -5,7 +5,11 @@
 
 #include <math.h>
 
+#include "def/rule.h"
+#include "drive/meter.h"
 #include "drive/noise.h"
+#include "drive/supply.h"
+#include "drive/waveform.h"
 
 enum { PENDING = ZP_CONTROL_DELAY + 1 };
 
@@ -84,3 +88,25 @@ void zp_control_sample(const ZpControl *c, double setpoint, double signal, ZpCon
 double zp_control_output(ZpControlState *state) {
   return state->pending[(size_t)fmod(state->given++, PENDING)];
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const char no_control[] = "without a controller this key has no effect; use pi or boost_pi";
+#define ZP_WITH ZP_NOT(control.kind, ZP_CONTROL_NONE)
+
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(setpoint.value, setpoint.file), ZP_WITH, no_control),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(control.signal, control.boost_band), ZP_WITH, no_control),
+    ZP_RULE(PHYSICS, ZP_WITH, ZP_NOT(actuator.kind, ZP_KIND_RIBBON), "a single ribbon has no electrodes"),
+    ZP_RULE_IF(PHYSICS, ZP_ONE_OF(control.signal, ZP_BIT(ZP_CONTROL_OPENING) | ZP_BIT(ZP_CONTROL_CONTRACTION)), ZP_WITH,
+               ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_HINGE)),
+               "one ribbon has no opening; use control.signal stroke"),
+    ZP_RULE(PHYSICS, ZP_WITH, ZP_IS(drive.waveform, ZP_WAVEFORM_STEP),
+            "the controller sets the voltage, up to drive.voltage; setpoint.waveform is the setpoint over time"),
+    ZP_RULE_IF(PHYSICS, ZP_WITH, ZP_NOT(setpoint.waveform, ZP_WAVEFORM_TABLE), ZP_SET(setpoint.value),
+               "a controller has a setpoint"),
+};
+#undef ZP_WITH
+
+static const ZpRules rules = ZP_RULES_OF(rule);
+const ZpRules *const zp_rules_of_sources[] = {&rules, &zp_rules_waveform, &zp_rules_supply, &zp_rules_meter, NULL};

@@ -58,3 +58,20 @@ void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t first
     capacitance[w] = 2 * sum / ((double)count * gain);
   }
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const char no_meter[] = "without it there is no meter";
+
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET(sense.amplitude), ZP_SET(sense.frequency), no_meter),
+    ZP_RULE(PHYSICS, ZP_SET(sense.sampling_rate), ZP_SET(sense.frequency), no_meter),
+    ZP_RULE(PHYSICS, ZP_SET(sense.bits), ZP_SET(sense.frequency), no_meter),
+    ZP_RULE(PHYSICS, ZP_ABOVE(sense.noise, 0), ZP_SET(sense.frequency), no_meter),
+    ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_SET(sense.amplitude), "a meter applies a sine"),
+    ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_SET(sense.sampling_rate), "a meter takes samples"),
+    ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_NOT(actuator.kind, ZP_KIND_RIBBON),
+            "a single ribbon has no electrodes"),
+};
+
+const ZpRules zp_rules_meter = ZP_RULES_OF(rule);

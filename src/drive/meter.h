@@ -8,6 +8,8 @@
 
 #include <zipact/def.h>
 
+#include "def/rule.h"
+
 typedef struct ZpMeter {
   double frequency, amplitude; /* of the sine, Hz, V */
   size_t per_period;           /* samples in a period */
@@ -33,5 +35,8 @@ typedef struct ZpMeterTrace {
 /* Windows follow each other from time 0 on: readings of `windows` of them from number `first` on => capacitance
  * [windows], F. The trace must contain them. A window has the same noise whatever the first one is. */
 void zp_meter_read(const ZpMeter *meter, const ZpMeterTrace *trace, size_t first, size_t windows, double *capacitance);
+
+/* Combinations of its keys that are refused. */
+extern const ZpRules zp_rules_meter;
 
 #endif

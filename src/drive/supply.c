@@ -108,3 +108,23 @@ double zp_supply_event(const ZpSupply *s, const ZpCommand *c, double t, double l
   }
   return after;
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(source.slew_rate, source.voltage_limit), ZP_IS(source.model, ZP_SOURCE_AMPLIFIER),
+            "an ideal source has no limits"),
+    ZP_RULE(PHYSICS, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_NOT(source.slew_rate, 0),
+            "the source would never leave 0 V; give a rate above 0 or none"),
+    ZP_RULE(PHYSICS, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_NOT(source.current_limit, 0),
+            "the source could never charge the electrodes; give a current above 0 or none"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_AT_MOST(source.bandwidth, 1e9),
+            "time steps resolve no more; give none for an unlimited bandwidth"), /* a thousand of the shortest */
+    ZP_RULE(PHYSICS, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_NOT(actuator.kind, ZP_KIND_RIBBON),
+            "a single ribbon has no electrodes"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER),
+                   ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "the voltage of the electrodes is an unknown of implicit steps"),
+};
+
+const ZpRules zp_rules_supply = ZP_RULES_OF(rule);

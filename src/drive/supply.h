@@ -5,6 +5,7 @@
 #define ZP_DRIVE_SUPPLY_H
 
 #include "base/row.h"
+#include "def/rule.h"
 #include "drive/waveform.h"
 
 /* Its rows of the ledger, then NULL. */
@@ -50,5 +51,8 @@ double zp_supply_event(const ZpSupply *supply, const ZpCommand *command, double 
 
 /* Rate of the inner voltage just after t, V/s. */
 double zp_supply_rate(const ZpSupply *supply, const ZpCommand *command, double t, ZpSupplyState at);
+
+/* Combinations of its keys that are refused. */
+extern const ZpRules zp_rules_supply;
 
 #endif

@@ -205,3 +205,27 @@ double zp_waveform_period(const ZpWaveform *w) {
   bool repeats = w->kind == ZP_WAVEFORM_SINE || w->kind == ZP_WAVEFORM_SQUARE;
   return repeats ? 1 / w->frequency : INFINITY;
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+/* A key that the waveform does not use must not be given: either the key or the waveform would be a mistake. */
+static const char no_use[] = "the waveform does not use this key", alone[] = "give only one of them";
+#define ZP_WAVEFORM(group)                                                                                             \
+  ZP_RULE(PHYSICS, ZP_SET(group.offset),                                                                               \
+          ZP_ONE_OF(group.waveform, ZP_BIT(ZP_WAVEFORM_RAMP) | ZP_BIT(ZP_WAVEFORM_SINE) | ZP_BIT(ZP_WAVEFORM_SQUARE)), \
+          no_use),                                                                                                     \
+      ZP_RULE(PHYSICS, ZP_SET(group.rise_time),                                                                        \
+              ZP_ONE_OF(group.waveform, ZP_BIT(ZP_WAVEFORM_RAMP) | ZP_BIT(ZP_WAVEFORM_SQUARE)), no_use),               \
+      ZP_RULE(PHYSICS, ZP_SET(group.frequency),                                                                        \
+              ZP_ONE_OF(group.waveform, ZP_BIT(ZP_WAVEFORM_SINE) | ZP_BIT(ZP_WAVEFORM_SQUARE)), no_use),               \
+      ZP_RULE(PHYSICS, ZP_SET(group.duty), ZP_IS(group.waveform, ZP_WAVEFORM_SQUARE), no_use),                         \
+      ZP_RULE(PHYSICS, ZP_SET(group.table), ZP_IS(group.waveform, ZP_WAVEFORM_TABLE), no_use),                         \
+      ZP_RULE(PHYSICS, ZP_SET(group.file), ZP_IS(group.waveform, ZP_WAVEFORM_TABLE), no_use),                          \
+      ZP_RULE(PHYSICS, ZP_SET(group.file), ZP_UNSET(group.table), alone),                                              \
+      ZP_RULE(PHYSICS, ZP_IS(group.waveform, ZP_WAVEFORM_RAMP), ZP_ABOVE(group.rise_time, 0),                          \
+              "a ramp takes time; or use step")
+
+static const ZpRule rule[] = {ZP_WAVEFORM(drive), ZP_WAVEFORM(setpoint)};
+#undef ZP_WAVEFORM
+
+const ZpRules zp_rules_waveform = ZP_RULES_OF(rule);

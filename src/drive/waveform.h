@@ -12,6 +12,8 @@
 #include <zipact/def.h>
 #include <zipact/drive.h>
 
+#include "def/rule.h"
+
 typedef struct ZpWaveform {
   ZpWaveformKind kind;
   double offset, voltage;            /* V */
@@ -80,5 +82,8 @@ static inline double zp_ramp_rate(const ZpRamp *ramp, double t) {
 static inline double zp_ramp_corner(const ZpRamp *ramp, double t) {
   return ramp->rate != 0 && ramp->until > t ? ramp->until : INFINITY;
 }
+
+/* Combinations of its keys that are refused. */
+extern const ZpRules zp_rules_waveform;
 
 #endif

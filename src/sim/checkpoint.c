@@ -5,8 +5,8 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "def/check.h"
 #include "def/purpose.h"
+#include "def/rule.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
@@ -76,3 +76,10 @@ ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *er
   ZpStatus status = sim->below ? check_time(checkpoint, def, err) : zp_checkpoint_check(checkpoint, def, err);
   return status == ZP_OK ? zp_sim_restore(sim, checkpoint->byte, checkpoint->size, err) : status;
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const ZpRule rule[] = {ZP_RULE(PHYSICS, ZP_SET(initial.file), ZP_IS(initial.state, ZP_INITIAL_CHECKPOINT),
+                                      "another initial state has no file")};
+static const ZpRules rules = ZP_RULES_OF(rule);
+const ZpRules *const zp_rules_of_checkpoint[] = {&rules, NULL};

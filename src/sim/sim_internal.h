@@ -5,9 +5,9 @@
 #include <zipact/sim.h>
 
 #include "actuator/shape.h"
-#include "paper/motion/motion.h"
 #include "rest/dynamics.h"
 #include "sim/feed.h"
+#include "sim/paper_motion.h"
 #include "sim/still.h"
 #include "system/held.h"
 

@@ -11,6 +11,7 @@
 #include "study/notes.h"
 #include "study/rates.h"
 #include "study/sense.h"
+#include "study/sensitivity.h"
 #include "study/studies.h"
 
 /* A signal at the end of the run; NAN if the run ended with invalid numbers. */
@@ -342,10 +343,26 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
   return status;
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+            "the derivatives follow implicit steps"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_UNSET(sensitivity.by), "the derivatives of a run follow a single actuator"),
+    ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(control.kind, ZP_CONTROL_NONE),
+            "a controller's samples and limits are not differentiated"),
+    ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(ribbon.plasticity, false),
+            "the derivatives do not follow a strip that yields"),
+    ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT),
+            "a checkpoint does not contain its derivatives by a key"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(source.model, ZP_SOURCE_AMPLIFIER),
+               ZP_UNSET(source.slew_rate),
+               "the derivatives do not follow the instants at which the slew rate is reached and left"),
+    ZP_RULE_DERIVATIVES,
+};
+const ZpRules zp_rules_actuate = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_actuate(const ZpActuatorDef *def, ZpError *err) {
   bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
-  ZpStatus status = zp_def_check_motion(def, err);
-  if (status == ZP_OK) status = zp_check_rates(def, err);
+  ZpStatus status = zp_check_sensitivity(def, err);
   if (status != ZP_OK || table) return status;
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }

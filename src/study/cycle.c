@@ -603,12 +603,19 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   return c->rows && c->way_back && c->memory;
 }
 
+/* Has the definition a linear answer? */
+static bool has_linear(const ZpActuatorDef *def) {
+  ZpActuatorDef linear = *def;
+  linear.cycle.method = ZP_CYCLE_LINEAR;
+  return !zp_rules_find(&zp_rules_cycle, false, &linear);
+}
+
 /* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
 static bool choose(Cycles *c) {
   const ZpActuatorDef *def = &c->model->def;
   bool failed = false;
   c->small.curvature = NAN;
-  if (def->cycle.method == ZP_CYCLE_MOTION || zp_linear_cycle_lacks(def)) return true;
+  if (def->cycle.method == ZP_CYCLE_MOTION || !has_linear(def)) return true;
   bool found = zp_linear_cycle_open(c->model, c->hooks, &c->small, &failed);
   c->linear = found && (def->cycle.method == ZP_CYCLE_LINEAR || c->small.curvature < def->cycle.tolerance);
   if (def->cycle.method != ZP_CYCLE_LINEAR || found || failed) return !failed;
@@ -712,29 +719,37 @@ static ZpActuatorDef with_periodic_drive(ZpActuatorDef def) {
   return def;
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(control.kind, ZP_CONTROL_NONE),
+            "it finds the periodic motion under a periodic voltage; for a controller use study actuate with a periodic "
+            "setpoint"),
+    ZP_RULE(PHYSICS, ZP_ANY,
+            ZP_ONE_OF(drive.waveform, ZP_BIT(ZP_WAVEFORM_STEP) | ZP_BIT(ZP_WAVEFORM_SINE) | ZP_BIT(ZP_WAVEFORM_SQUARE)),
+            "the drive is periodic (step: sine)"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(load.change_mass), "the load is periodic, too; use study actuate"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), "it opens and closes"),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "let study actuate run for some periods of the drive"),
+    ZP_RULE_STARTS,
+    /* the linear answer */
+    ZP_RULE(EQUATION, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+            "the shear law of mass_spring has no energy"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
+            "the stiffness of a computed field is not available"),
+    ZP_RULE(PHYSICS, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(source.model, ZP_SOURCE_IDEAL),
+            "the limits of a supply are not linear"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(liquid.model, ZP_LIQUID_BEAD),
+               ZP_IS(bead.suction, 0), "the small motion of a meniscus that attracts is not modelled"),
+    ZP_RULE(PHYSICS, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(ribbon.plasticity, false), "yielding is not linear"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_UNSET(insulator.resistivity),
+            "the small motion of the charge of the faces is not modelled"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_UNSET(medium.resistivity),
+            "the small motion of the charge of the faces is not modelled"),
+};
+const ZpRules zp_rules_cycle = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
-  ZpWaveformKind kind = def->drive.waveform;
-  if (def->control.kind != ZP_CONTROL_NONE)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "control.kind = %s: study cycle requires none, because it finds the periodic motion under a "
-                   "periodic voltage; for a controller use study actuate with a periodic setpoint",
-                   zp_word_of("control.kind", (int)def->control.kind));
-  if (kind == ZP_WAVEFORM_RAMP || kind == ZP_WAVEFORM_TABLE)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "drive.waveform = %s: study cycle requires a periodic drive, sine or square (step: sine)",
-                   zp_word_of("drive.waveform", (int)kind));
-  if (def->load.change_mass != 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "load.change_mass: study cycle requires a constant load, because it finds periodic motion; use study actuate");
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT, "actuator.kind: study cycle requires electro_ribbon, which opens and closes");
-  if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
-    return zp_fail(err, ZP_BAD_INPUT, "solver.integrator = explicit: study cycle requires implicit");
-  const char *lacks = def->cycle.method == ZP_CYCLE_LINEAR ? zp_linear_cycle_lacks(def) : NULL;
-  if (lacks) return zp_fail(err, ZP_BAD_INPUT, "cycle.method = linear: there is no linear answer with %s", lacks);
-  ZpStatus status = zp_def_check_motion(def, err);
-  return status == ZP_OK ? zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err) : status;
+  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
 
 ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {

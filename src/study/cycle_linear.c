@@ -11,17 +11,6 @@
 
 enum { SINE = 2, BENT = 8, PHASES = 32 }; /* harmonics of a sine, and of forces of second order; their samples */
 
-const char *zp_linear_cycle_lacks(const ZpActuatorDef *def) {
-  if (def->ribbon.model != ZP_RIBBON_ROD) return "ribbon.model = mass_spring, whose shear law has no energy; use rod";
-  if (def->electro.model == ZP_ELECTRO_FIELD) return "electro.model = field; use plates";
-  if (def->source.model != ZP_SOURCE_IDEAL) return "source.model = amplifier, whose limits are not linear; use ideal";
-  if (def->bead.suction > 0 && zp_def_liquid(def) == ZP_LIQUID_BEAD) return "bead.suction above 0; use 0";
-  if (def->ribbon.plasticity) return "ribbon.plasticity; use false";
-  if (isfinite(def->insulator.resistivity) || isfinite(def->medium.resistivity))
-    return "insulator.resistivity and medium.resistivity; use none";
-  return NULL;
-}
-
 /* -- the squared voltage ---------------------------------------------------------------------------- */
 
 /* f <- f + a (cos - i sin)(turns) */

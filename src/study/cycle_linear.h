@@ -24,9 +24,6 @@ typedef struct ZpLinearCycle {
   void *memory;
 } ZpLinearCycle;
 
-/* The reason why a Def has no linear answer; NULL if it has one. */
-const char *zp_linear_cycle_lacks(const ZpActuatorDef *def);
-
 /* => whether there is a state at the mean; `failed`: there was no memory. To be closed in any case. */
 bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCycle *linear, bool *failed);
 void zp_linear_cycle_close(ZpLinearCycle *linear);

@@ -318,6 +318,13 @@ static ZpStatus run(Follower *f, ZpError *err) {
   return derive(f, err);
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE_STARTS,
+    ZP_RULE_ELASTIC,
+    ZP_RULE_DERIVATIVES,
+};
+const ZpRules zp_rules_equilibrium = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_equilibrium(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;

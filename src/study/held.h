@@ -4,7 +4,7 @@
 
 #include <zipact/def.h>
 
-/* Two ribbons, and a separation within their reach; `study` is the word for messages. */
-ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err);
+/* isometric.separation is within their reach. */
+ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err);
 
 #endif

@@ -116,26 +116,3 @@ ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err) {
   zp_model_destroy(model);
   return done ? ZP_OK : zp_fail_memory(err);
 }
-
-ZpStatus zp_check_hold(const ZpActuatorDef *def, ZpError *err) {
-  if (def->control.kind == ZP_CONTROL_NONE) return ZP_OK;
-  if (def->electro.model == ZP_ELECTRO_FIELD)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.model = field: with control.kind the eigenvalues of the control loop are computed for "
-                   "plates only; use plates");
-  if (def->bead.suction > 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "bead.suction = %g: with control.kind the eigenvalues of the control loop are computed without suction only; "
-        "use 0",
-        def->bead.suction);
-  if (isnan(def->setpoint.value))
-    return zp_fail(err, ZP_BAD_INPUT, "setpoint.value: missing; with control.kind, study modes requires it");
-  if (def->control.kind == ZP_CONTROL_BOOST_PI && def->control.boost_voltage > 0 && def->setpoint.value == 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "setpoint.value = 0: there control.boost_voltage = %g V acts in full on any error, so the loop has no "
-        "eigenvalues; use another setpoint, or control.kind pi",
-        def->control.boost_voltage);
-  return ZP_OK;
-}

@@ -5,9 +5,6 @@
 
 #include "study/studies.h"
 
-/* What it cannot look at; ZP_OK without a controller. */
-ZpStatus zp_check_hold(const ZpActuatorDef *def, ZpError *err);
-
 /* Add its numbers and what they say to a result; nothing without a controller. */
 ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err);
 

@@ -403,17 +403,9 @@ static void run(Holder *h) {
   h->rest.system.save(s, h->near);
 }
 
-ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err) {
+ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond it, ribbons are stretched more than bent */
   bool hinge = def->actuator.kind == ZP_KIND_HINGE;
-  if (!zp_def_has_two(def))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study %s requires actuator.kind electro_ribbon or hinge, whose platform or end "
-                   "it holds",
-                   zp_word_of("actuator.kind", (int)def->actuator.kind), study);
-  if (def->platform.rotates)
-    return zp_fail(err, ZP_BAD_INPUT, "platform.rotates: study %s requires false, since it holds the platform level",
-                   study);
   double longest = most * (def->ribbon.length - (hinge ? 0 : def->platform.length));
   if (def->isometric.separation > longest)
     return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m",
@@ -422,8 +414,22 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, const char *study, ZpError *err
   return ZP_OK;
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_HINGE)),
+            "it holds a platform, or the end of a hinge"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER,
+            "hold each member alone, without the stack: the separations of a series add up, and the forces of members "
+            "at one "
+            "load, that of a lower antagonist with a minus sign"),
+    ZP_RULE_STARTS,
+    ZP_RULE_ELASTIC,
+    ZP_RULE_DERIVATIVES,
+};
+const ZpRules zp_rules_isometric = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = zp_check_held(def, "isometric", err);
+  ZpStatus status = zp_check_held(def, err);
   if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }

@@ -456,10 +456,15 @@ static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
   return near && near->ribbons == model->s && near->nodes == zp_members(model) * model->nodes ? near : NULL;
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(actuator.kind, ZP_KIND_RIBBON), "a single ribbon has no electrodes"),
+    ZP_RULE_STARTS,
+    ZP_RULE_ELASTIC,
+    ZP_RULE_DERIVATIVES,
+};
+const ZpRules zp_rules_limits = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
-  if (def->actuator.kind == ZP_KIND_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = ribbon: study limits requires electrodes: kind electro_ribbon, flange or hinge");
   ZpStatus status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }

@@ -209,21 +209,30 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   report(p, result);
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the shear law of mass_spring has no energy"),
+    ZP_RULE(EQUATION, ZP_ANY, ZP_NOT(liquid.model, ZP_LIQUID_SUBMERGED),
+            "it neglects the mass of the liquid, which is far larger than that of the ribbons; use none"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(modes.voltage, 0),
+            "the stiffness of a computed field is not available; use plates"),
+    /* the control loop at a setpoint */
+    ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
+            "the eigenvalues of the control loop are computed for plates only"),
+    ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(bead.suction, 0),
+            "the eigenvalues of the control loop are computed without suction only"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(control.kind, ZP_CONTROL_NONE), "a controller measures a single actuator"),
+    ZP_RULE(PHYSICS, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_SET(setpoint.value), "a controller has a setpoint"),
+    ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),
+               ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),
+               "there the boost acts in full on any error, so the loop has no eigenvalues; or use another setpoint"),
+    ZP_RULE_STARTS,
+    ZP_RULE_ELASTIC,
+    ZP_RULE_DERIVATIVES,
+};
+const ZpRules zp_rules_modes = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
-  if (def->ribbon.model != ZP_RIBBON_ROD)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "ribbon.model = mass_spring: study modes requires rod, because the shear law of mass_spring has no energy");
-  if (def->liquid.model == ZP_LIQUID_SUBMERGED)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "liquid.model = submerged: study modes neglects the mass of the liquid, which is far larger than "
-                   "that of the ribbons; use none");
-  if (def->electro.model == ZP_ELECTRO_FIELD && def->modes.voltage > 0)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "modes.voltage = %g V: with electro.model field, study modes requires 0 V; use plates",
-                   def->modes.voltage);
   ZpStatus status = zp_check_mass(def, err);
-  if (status == ZP_OK) status = zp_check_hold(def, err);
   if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }

@@ -545,31 +545,30 @@ static ZpStatus run(Profiler *p, ZpError *err) {
   return end == ZP_FIELD_SOLVED ? report(p, err) : end_badly(p, ZP_DIVERGED, zp_field_words(end));
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(EQUATION, ZP_ANY, ZP_IS(electro.edges, false),
+            "it compares forces in the plane of the ribbons, without lateral edges; the other studies "
+            "can include them"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), "it compares forces between two ribbons"),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "its grid covers one half"),
+    ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.insulator.thickness),
+            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.insulator.permittivity),
+            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.ribbon.thickness),
+            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULE(
+        EQUATION, ZP_ANY, ZP_AT_LEAST(insulator.thickness, 1e-6),
+        "the field at the clip is infinite without an insulator, and its grid keeps closed faces a nanometre apart"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(electro.insulator_offset, 0),
+            "the plates law, which it compares with the field, is infinite at the clip"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "it compares forces in a single actuator; use stack.series 1"),
+    ZP_RULE_STARTS,
+};
+const ZpRules zp_rules_profile = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
-  if (def->electro.edges)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "electro.edges = true: study profile compares forces in the plane of the ribbons, without "
-                   "lateral edges; the other studies can include them");
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.kind = %s: study profile requires actuator.kind electro_ribbon, which has two ribbons",
-                   zp_word_of("actuator.kind", (int)def->actuator.kind));
-  if (def->actuator.symmetry != ZP_SYMMETRY_HALF)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "actuator.symmetry = none: study profile solves the field of one half; use actuator.symmetry half");
-  if (def->insulator.thickness == 0)
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "insulator.thickness = 0 m: at the clip the faces touch without an insulator between the metals, and "
-        "the field there is infinite");
-  ZpStatus status = zp_check_like_sections(def, "study profile", err);
-  if (status == ZP_OK) status = zp_check_insulator_of_field(def, err);
-  if (status != ZP_OK) return status;
-  if (isnan(def->electro.insulator_offset) || def->electro.insulator_offset > 0)
-    return def->profile.shape == ZP_PROFILE_HELD ? zp_check_held(def, "profile", err) : ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT,
-                 "electro.insulator_offset = 0 m: the plates law, which study profile compares with the field, is "
-                 "infinite at the clip");
+  return def->profile.shape == ZP_PROFILE_HELD ? zp_check_held(def, err) : ZP_OK;
 }
 
 /* As in study isometric, the load does not count. The model is that of plates: the shape has no voltage, and the field

@@ -9,37 +9,6 @@
 #include "sim/feed.h"
 #include "study/sensitivity.h"
 
-/* -- what can be asked ----------------------------------------------------------------------------- */
-
-static ZpStatus refuse(const char *what, const char *why, ZpError *err) {
-  return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: study actuate has no derivatives with %s: %s", what, why);
-}
-
-static ZpStatus check_model(const ZpActuatorDef *def, ZpError *err) {
-  if (zp_def_members(def) > 1 && def->stack.series > 1)
-    return refuse("stack.series", "the derivatives follow a single actuator", err);
-  if (zp_def_members(def) > 1)
-    return refuse("stack.parallel and unequal members", "the derivatives follow a single actuator", err);
-  if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)
-    return refuse("solver.integrator explicit", "the derivatives follow implicit steps", err);
-  if (def->control.kind != ZP_CONTROL_NONE)
-    return refuse("control.kind", "a controller's samples and limits are not differentiated", err);
-  if (def->ribbon.plasticity)
-    return refuse("ribbon.plasticity", "the derivatives do not follow a strip that yields", err);
-  if (def->initial.state == ZP_INITIAL_CHECKPOINT)
-    return refuse("initial.state checkpoint", "a checkpoint does not contain its derivatives by a key", err);
-  if (def->source.model != ZP_SOURCE_IDEAL && isfinite(def->source.slew_rate))
-    return refuse("source.slew_rate",
-                  "the derivatives do not follow the instants at which the slew rate is reached and left", err);
-  return ZP_OK;
-}
-
-ZpStatus zp_check_rates(const ZpActuatorDef *def, ZpError *err) {
-  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
-  ZpStatus status = zp_sensitivity_keys(def, key, &keys, err);
-  return status == ZP_OK && keys > 0 ? check_model(def, err) : status;
-}
-
 ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err) {
   int key[ZP_MAX_SENSITIVITY_KEYS], keys;
   ZpStatus status = zp_sensitivity_keys(zp_model_def(sim->model), key, &keys, err);

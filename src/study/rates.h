@@ -5,9 +5,6 @@
 #include "sim/run_rates.h"
 #include "study/studies.h"
 
-/* Check sensitivity.by of a run: keys and models that have derivatives in time. ZP_BAD_INPUT names the key. */
-ZpStatus zp_check_rates(const ZpActuatorDef *def, ZpError *err);
-
 /* Follow the derivatives of a run, which has not begun, by the keys that its definition names; nothing where it names
  * none. In any case to be closed, before the run. */
 ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err);

@@ -106,6 +106,12 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
 }
 
 /* It has no voltage. */
+static const ZpRule rule[] = {
+    ZP_RULE_STARTS,
+    ZP_RULE_DERIVATIVES,
+};
+const ZpRules zp_rules_stationary = ZP_RULES_OF(rule);
+
 ZpStatus zp_check_stationary(const ZpActuatorDef *def, ZpError *err) {
   return zp_check_sensitivity(def, err);
 }

@@ -1,10 +1,12 @@
-/* The two functions of each study, which its file defines: zp_check_WORD says what it asks of a Def that zp_def_check
- * has passed, zp_study_WORD fills a result. */
+/* Rules and functions of each study, which its file defines: zp_rules_WORD are the combinations of keys that it
+ * refuses, zp_check_WORD checks numbers of a Def that has passed these and zp_def_check, zp_study_WORD fills a result.
+ */
 #ifndef ZP_STUDY_STUDIES_H
 #define ZP_STUDY_STUDIES_H
 
 #include <zipact/study.h>
 
+#include "def/rule.h"
 #include "rest/statics.h"
 
 /* What a study is given. */
@@ -29,7 +31,22 @@ typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *er
 /* The zip time of study actuate and nothing else, in less time: no rows and no shapes, and energy does not balance. */
 ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err);
 
+/* Rules that several studies have: of what unloads ribbons through equilibria, of what computes derivatives, of what
+ * does not resume a run. */
+#define ZP_RULE_ELASTIC                                                                                                \
+  ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.plasticity, false),                                                           \
+          "it unloads ribbons along equilibria, which have no history; use study actuate")
+#define ZP_RULE_DERIVATIVES                                                                                            \
+  ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(electro.model, ZP_ELECTRO_PLATES),                               \
+          "the derivatives of a computed field are not available")
+#define ZP_RULE_STARTS                                                                                                 \
+  ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT), "only study actuate resumes a run")
+
+/* The rule by which a study refuses a Def, its own or one of all studies; NULL if another check does, or none. */
+const ZpRule *zp_study_refusing(ZpStudy study, const ZpActuatorDef *def);
+
 #define ZP_STUDY(enumerator, word, shows, files, help)                                                                 \
+  extern const ZpRules zp_rules_##word;                                                                                \
   ZpStatus zp_check_##word(const ZpActuatorDef *def, ZpError *err);                                                    \
   ZpStatus zp_study_##word(const ZpTask *task, ZpResult *result, ZpError *err);
 #include <zipact/studies.def>

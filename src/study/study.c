@@ -1,4 +1,7 @@
 /* Which study is run: the table of studies.def. This file is a layer above the studies; none of them includes it. */
+#include <stdio.h>
+#include <string.h>
+
 #include "base/fail.h"
 #include "def/check.h"
 #include "sim/hooks.h"
@@ -10,15 +13,16 @@ enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
 
 /* A study at work. */
 typedef struct Row {
-  const char *word;
+  const char *word, *shows;
   int files;
+  const ZpRules *rules;
   ZpStatus (*check)(const ZpActuatorDef *def, ZpError *err);
   ZpStudyRun run;
 } Row;
 
 static const Row table[ZpStudy_COUNT] = {
 #define ZP_STUDY(enumerator, word, shows, files, help)                                                                 \
-  [enumerator] = {#word, FILES_##files, zp_check_##word, zp_study_##word},
+  [enumerator] = {#word, #shows, FILES_##files, &zp_rules_##word, zp_check_##word, zp_study_##word},
 #include <zipact/studies.def>
 };
 
@@ -38,66 +42,26 @@ bool zp_study_follows(ZpStudy study) {
   return is_study(study) && follows[study];
 }
 
-/* Does a study support the members of this definition? */
-static bool supports(ZpStudy study, const ZpActuatorDef *def) {
-  static const bool many[ZpStudy_COUNT] = {
-#define ZP_MEMBERS(enumerator) [enumerator] = true,
-#include <zipact/studies.def>
-  };
-  return zp_def_members(def) == 1 || many[study];
+/* Does it run in time? */
+static bool is_motion(ZpStudy study) {
+  return strcmp(table[study].shows, "motion") == 0;
 }
 
-/* What a message advises in place of a study that supports a single actuator only. */
-static const char *instead_of(ZpStudy study) {
-  static const char *const instead[ZpStudy_COUNT] = {
-#define ZP_ALONE(enumerator, words) [enumerator] = words,
-#include <zipact/studies.def>
-  };
-  return instead[study] ? instead[study] : "use stack.series 1";
-}
-
-/* The same for members that share a load. */
-static const char *instead_of_shared(ZpStudy study) {
-  static const char *const instead[ZpStudy_COUNT] = {
-#define ZP_ALONE_SHARED(enumerator, words) [enumerator] = words,
-#include <zipact/studies.def>
-  };
-  return instead[study] ? instead[study] : "stationary, equilibrium, limits, modes and actuate do";
-}
-
-/* Does it unload ribbons through equilibria? */
-static bool is_elastic(ZpStudy study) {
-  static const bool elastic[ZpStudy_COUNT] = {
-#define ZP_ELASTIC(enumerator) [enumerator] = true,
-#include <zipact/studies.def>
-  };
-  return elastic[study];
+const ZpRule *zp_study_refusing(ZpStudy study, const ZpActuatorDef *def) {
+  const ZpRule *rule = zp_rule_refusing(false, def);
+  if (!rule) rule = zp_rules_find(table[study].rules, false, def);
+  return rule || !is_motion(study) ? rule : zp_rule_refusing(true, def);
 }
 
 ZpStatus zp_study_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
   if (!is_study(study))
     return zp_fail(err, ZP_BAD_INPUT, "study = %d: out of range; 0 to %d", (int)study, ZpStudy_COUNT - 1);
+  char asks[32];
+  snprintf(asks, sizeof asks, "study %s ", table[study].word);
   ZpStatus status = zp_def_check(def, err);
-  if (status != ZP_OK) return status;
-  if (def->initial.state == ZP_INITIAL_CHECKPOINT && table[study].files != FILES_course)
-    return zp_fail(err, ZP_BAD_INPUT, "initial.state = checkpoint: requires study actuate, not %s", table[study].word);
-  if (!supports(study, def) && zp_def_opposed(def))
-    return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: study %s does not support antagonists; %s",
-                   def->stack.distance, table[study].word, instead_of_shared(study));
-  if (!supports(study, def) && zp_def_abreast(def))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "stack.parallel = %d with unequal members: study %s does not support them; %s; without keys of "
-                   "member_K the members are equal, which all studies support",
-                   def->stack.parallel, table[study].word, instead_of_shared(study));
-  if (!supports(study, def))
-    return zp_fail(err, ZP_BAD_INPUT, "stack.series = %d: study %s does not support members in series; %s",
-                   def->stack.series, table[study].word, instead_of(study));
-  if (def->ribbon.plasticity && is_elastic(study))
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "ribbon.plasticity = true: study %s unloads ribbons along equilibria, which assumes that they do "
-                   "not yield; use study actuate, or ribbon.plasticity false",
-                   table[study].word);
-  return table[study].check(def, err);
+  if (status == ZP_OK) status = zp_rule_fail(zp_rules_find(table[study].rules, false, def), asks, def, err);
+  if (status == ZP_OK && is_motion(study)) status = zp_def_check_motion(def, err);
+  return status == ZP_OK ? table[study].check(def, err) : status;
 }
 
 bool zp_task_stops(const ZpTask *task, const char *stage, double fraction) {

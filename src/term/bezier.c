@@ -38,4 +38,11 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   zp_term_add(model->stride, e->none, Fy, F);
 }
 
-const ZpTerm zp_term_bezier = {.name = "bezier", .acts = acts, .force = force};
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_ABOVE(electro.switch_offset, 0), ZP_IS(electro.surface, ZP_SURFACE_BEZIER),
+            "it is the breakdown switch of the paper's surface"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(electro.refresh_period, 0), ZP_IS(electro.surface, ZP_SURFACE_BEZIER),
+            "the forces on the polyline are never held"),
+};
+
+const ZpTerm zp_term_bezier = {.name = "bezier", .acts = acts, .force = force, .rules = ZP_RULES_OF(rule)};

@@ -58,6 +58,22 @@ static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
   return !e->fault;
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+            "its grid lies between two ribbons with a platform; use plates, which is accurate within 1 % if the gap "
+            "changes slowly along the ribbon"),
+    ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
+            "the paper's surface carries the plates law"),
+    ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_AT_LEAST(insulator.thickness, 1e-6),
+            "its grid keeps closed faces a nanometre apart, which changes the force by less than 0.2 % then"),
+    ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(lower.insulator.thickness),
+            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(lower.insulator.permittivity),
+            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(lower.ribbon.thickness),
+            "its grid covers one half of the gap, whose middle plane is a mirror"),
+};
+
 const ZpTerm zp_term_field = {.name = "field",
                               .acts = acts,
                               .create = create,
@@ -65,4 +81,5 @@ const ZpTerm zp_term_field = {.name = "field",
                               .force = force,
                               .electric = electric,
                               .by_voltage = by_voltage,
-                              .solve = solve};
+                              .solve = solve,
+                              .rules = ZP_RULES_OF(rule)};

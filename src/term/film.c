@@ -228,6 +228,20 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
   }
 }
 
+#define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))
+static const ZpRule rule[] = {
+    ZP_RULE(EQUATION, WET, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+            "the film lies between two ribbons with a platform; use liquid.model none"),
+    ZP_RULE(EQUATION, WET, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the film acts on rods; use liquid.model none"),
+    ZP_RULE(EQUATION, WET, ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
+            "the paper's surface has no gap for a film; use liquid.model none"),
+    ZP_RULE(EQUATION, WET, ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
+            "the paper's zipping leaves no film between the faces; use liquid.model none"),
+    ZP_MOTION_RULE(NOT_MODELLED, WET, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "the pressures of the film are unknowns of implicit steps; use liquid.model none"),
+};
+#undef WET
+
 const ZpTerm zp_term_film = {.name = "film",
                              .row = {[STORED] = &zp_row_liquid_energy,
                                      [ALONG] = &zp_row_film_along_loss,
@@ -242,4 +256,5 @@ const ZpTerm zp_term_film = {.name = "film",
                              .stiffness = stiffness,
                              .inertia = inertia,
                              .now = energy,
-                             .loss = loss};
+                             .loss = loss,
+                             .rules = ZP_RULES_OF(rule)};

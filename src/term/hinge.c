@@ -63,9 +63,17 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
   row[0] += 0.5 * model->hinge.stiffness * turned * turned;
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET(hinge.stiffness), ZP_IS(actuator.kind, ZP_KIND_HINGE), "the other kinds have no hinge"),
+    ZP_RULE(PHYSICS, ZP_SET(hinge.rest_angle), ZP_IS(actuator.kind, ZP_KIND_HINGE), "the other kinds have no hinge"),
+    ZP_RULE(PHYSICS, ZP_SET(hinge.rest_angle), ZP_ABOVE(hinge.stiffness, 0),
+            "a hinge without a spring has no angle of rest"),
+};
+
 const ZpTerm zp_term_hinge = {.name = "hinge",
                               .row = {&zp_row_spring_energy},
                               .acts = acts,
                               .force = force,
                               .stiffness = stiffness,
-                              .now = energy};
+                              .now = energy,
+                              .rules = ZP_RULES_OF(rule)};

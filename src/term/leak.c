@@ -90,6 +90,30 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   sum->capacitance += by->capacitance;
 }
 
+#define ZP_LEAK(resistivity)                                                                                           \
+  ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_NOT(actuator.kind, ZP_KIND_RIBBON), "a single ribbon has no electrodes"),   \
+      ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_ABOVE(insulator.thickness, 0),                                          \
+              "charge accumulates on the face of an insulator"),                                                       \
+      ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_UNSET(electro.force_scale), "charge and force have one energy"),        \
+      ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_UNSET(electro.voltage_share), "charge and force have one energy"),      \
+      ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_UNSET(electro.insulator_offset),                                        \
+              "the insulator that charges has a thickness and a permittivity"),                                        \
+      ZP_RULE(EQUATION, ZP_SET(resistivity), ZP_IS(electro.edges, false),                                              \
+              "the charge of the faces at the lateral edges has no closed form"),                                      \
+      ZP_RULE(EQUATION, ZP_SET(resistivity), ZP_UNSET(lower.insulator.thickness),                                      \
+              "unequal layers charge at two rates"),                                                                   \
+      ZP_RULE(EQUATION, ZP_SET(resistivity), ZP_UNSET(lower.insulator.permittivity),                                   \
+              "unequal layers charge at two rates"),                                                                   \
+      ZP_RULE(NOT_MODELLED, ZP_SET(resistivity), ZP_IS(electro.model, ZP_ELECTRO_PLATES),                              \
+              "the charge of the faces enters the plates law"),                                                        \
+      ZP_RULE(EQUATION, ZP_SET(resistivity), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),                              \
+              "the charge of the faces belongs to places of the polyline"),                                            \
+      ZP_MOTION_RULE(NOT_MODELLED, ZP_SET(resistivity), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),              \
+                     "the charge of the faces is stepped with implicit steps")
+
+static const ZpRule rule[] = {ZP_LEAK(insulator.resistivity), ZP_LEAK(medium.resistivity)};
+#undef ZP_LEAK
+
 const ZpTerm zp_term_leak = {.name = "leak",
                              .row = {[CONDUCTION] = &zp_row_leak_loss, [OVERLAP] = &zp_row_contact_loss},
                              .state = state,
@@ -100,4 +124,5 @@ const ZpTerm zp_term_leak = {.name = "leak",
                              .stiffness = stiffness,
                              .loss = loss,
                              .electric = electric,
-                             .by_voltage = by_voltage};
+                             .by_voltage = by_voltage,
+                             .rules = ZP_RULES_OF(rule)};

@@ -64,6 +64,27 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   sum->capacitance += by->capacitance;
 }
 
+static const ZpRule rule[] = {
+    /* lateral edges */
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_NOT(actuator.kind, ZP_KIND_FLANGE),
+            "the width of a flange's flat electrode is not known"),
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
+            "the paper's surface has no edges"),
+    ZP_RULE(PHYSICS, ZP_IS(electro.edges, true), ZP_ABOVE(insulator.thickness, 0),
+            "the field at the edges of bare faces that touch is infinite"),
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_UNSET(lower.insulator.thickness),
+            "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_UNSET(lower.insulator.permittivity),
+            "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_UNSET(lower.ribbon.thickness),
+            "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
+    /* the paper's offset, which is that of both insulators */
+    ZP_RULE(PHYSICS, ZP_SET(electro.insulator_offset), ZP_UNSET(lower.insulator.thickness),
+            "the offset stands for both insulators"),
+    ZP_RULE(PHYSICS, ZP_SET(electro.insulator_offset), ZP_UNSET(lower.insulator.permittivity),
+            "the offset stands for both insulators"),
+};
+
 /* The rows are those of all electric terms together: sim/account.c fills them. */
 const ZpTerm zp_term_plates = {.name = "plates",
                                .row = {&zp_row_field_energy, &zp_row_charging_loss},
@@ -72,4 +93,5 @@ const ZpTerm zp_term_plates = {.name = "plates",
                                .force = force,
                                .stiffness = stiffness,
                                .electric = electric,
-                               .by_voltage = by_voltage};
+                               .by_voltage = by_voltage,
+                               .rules = ZP_RULES_OF(rule)};

@@ -73,6 +73,29 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
   row[PLASTIC] += zp_rod_plastic_heat(&model->rod, &e->rod_start, &e->rod, &e->rod_step);
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(EQUATION, ZP_IS(ribbon.plane, ZP_PLANE_ANTICLASTIC), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+            "the paper's springs have one bending stiffness"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
+            "an elastic strip does not harden"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(lower.ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
+            "an elastic strip does not harden"),
+    ZP_RULE(EQUATION, ZP_IS(ribbon.plasticity, true), ZP_NOT(ribbon.plane, ZP_PLANE_ANTICLASTIC),
+            "the moment of a strip that yields while it curls has no closed form; use strain or stress"),
+    ZP_RULE(EQUATION, ZP_IS(ribbon.plasticity, true), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+            "the paper's springs are elastic; use ribbon.plasticity false"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SET(sense.frequency), ZP_IS(ribbon.plasticity, false),
+                   "the meter converts its reading by equilibria of elastic ribbons"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(ribbon.plasticity, false),
+                   "a controller is judged by equilibria of elastic ribbons"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_IS(ribbon.plasticity, true), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "the state of a strip that yields is stepped with implicit steps"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_ABOVE(damping.internal, 0), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "explicit steps are those of the paper, which has no internal damping"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_ABOVE(damping.internal, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+                   "the paper's springs have no damping"),
+};
+
 const ZpTerm zp_term_rod = {.name = "rod",
                             .of_edges = true,
                             .row = {[AXIAL] = &zp_row_axial_energy,
@@ -87,4 +110,5 @@ const ZpTerm zp_term_rod = {.name = "rod",
                             .force = force,
                             .stiffness = stiffness,
                             .now = hold,
-                            .loss = loss};
+                            .loss = loss,
+                            .rules = ZP_RULES_OF(rule)};

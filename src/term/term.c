@@ -74,3 +74,9 @@ double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F) {
   add_edges(model->stride, model->s, Rx, Ry, F, F + model->stride);
 }
+
+const ZpRules *const zp_rules_of_terms[] = {
+#define ZP_TERM(name) &zp_term_##name.rules,
+#include "term/terms.def"
+#undef ZP_TERM
+    NULL};

@@ -6,6 +6,7 @@
 
 #include "actuator/assemble.h"
 #include "actuator/eval.h"
+#include "def/rule.h"
 
 /* The span of time over which a term is evaluated. Coordinates are [2 stride]: all x, then all y. */
 typedef struct ZpSpan {
@@ -89,6 +90,8 @@ typedef struct ZpTerm {
   /* Compute a held force, which is too expensive to compute for every span, at coordinates q and voltage U. If this
    * fails, eval->fault gives the reason. NULL: the term has no held force. */
   bool (*solve)(const ZpModel *model, const double *q, double U, ZpEval *eval);
+  /* Combinations of keys that the law refuses. May be empty. */
+  ZpRules rules;
 } ZpTerm;
 
 /* F [2 stride] += derivative of the forces by the weight ZpSpan.hung, N/N. */

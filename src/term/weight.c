@@ -52,6 +52,19 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
                          model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
 }
 
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET(load.change_mass), ZP_SET(load.change_time), "a change of mass has a time"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(load.drop_height, 0), ZP_SET(load.change_time),
+            "what falls is caught at load.change_time"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(load.drop_height, 0), ZP_AT_LEAST(load.change_mass, 0),
+            "only a mass that is caught has fallen"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_SET(load.change_mass), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "explicit steps are those of the paper, whose load is constant"),
+};
+
 /* The impact is booked where it happens, sim/catch.c. */
-const ZpTerm zp_term_weight = {
-    .name = "weight", .row = {&zp_row_gravity_energy, &zp_row_catch_loss}, .force = force, .now = energy};
+const ZpTerm zp_term_weight = {.name = "weight",
+                               .row = {&zp_row_gravity_energy, &zp_row_catch_loss},
+                               .force = force,
+                               .now = energy,
+                               .rules = ZP_RULES_OF(rule)};

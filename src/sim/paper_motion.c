@@ -1,9 +1,10 @@
-#include "paper/motion/motion.h"
+#include "sim/paper_motion.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/kernel.h"
+#include "def/rule.h"
 
 static const ZpZipState clip_only = {0, false};
 
@@ -148,3 +149,17 @@ ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double lates
     damp_faces(m, taken.dt);
   return limit_of(m, taken.limit);
 }
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const ZpRule rule[] = {
+    ZP_MOTION_RULE_IF(EQUATION, ZP_IS(contact.model, ZP_CONTACT_SEQUENTIAL),
+                      ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), ZP_IS(solver.integrator, ZP_INTEGRATOR_EXPLICIT),
+                      "pairs meet inside the paper's explicit steps"),
+    ZP_MOTION_RULE_IF(EQUATION, ZP_IS(electro.surface, ZP_SURFACE_BEZIER), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+                      ZP_IS(contact.model, ZP_CONTACT_SEQUENTIAL),
+                      "the surface begins at the zip front, and moves in steps of solver.integrator explicit"),
+};
+
+static const ZpRules rules = ZP_RULES_OF(rule);
+const ZpRules *const zp_rules_of_explicit_steps[] = {&rules, NULL};

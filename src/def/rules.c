@@ -1,0 +1,215 @@
+/* The checker of rules, and its messages. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "def/rule.h"
+
+enum { WORDS = 256, VALUE = 96 };
+
+/* -- conditions ------------------------------------------------------------------------------------ */
+
+static double value_of(const ZpActuatorDef *def, int key) {
+  return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
+}
+
+static bool is_set(const ZpActuatorDef *def, int key) {
+  const char *text = zp_def_text(def, key);
+  if (text) return *text != 0;
+  double value = zp_def_get(def, key), plain = zp_key(key)->def;
+  return value != plain && !(isnan(value) && isnan(plain));
+}
+
+/* The key of a condition; of a range the first that is set, or -1. */
+static int key_of(const ZpCondition *c, const ZpActuatorDef *def) {
+  if (c->test == ZP_TEST_SEVERAL && zp_def_abreast(def)) return ZP_KEY(stack.parallel);
+  if (c->test != ZP_TEST_SET_WITHIN) return c->key;
+  for (int key = c->key; key <= (int)c->value; key++)
+    if (is_set(def, key)) return key;
+  return -1;
+}
+
+static bool holds_for(const ZpCondition *c, double value) {
+  switch (c->test) {
+  case ZP_TEST_IS:
+    return value == c->value;
+  case ZP_TEST_IS_NOT:
+    return value != c->value;
+  case ZP_TEST_ONE_OF:
+    return ((unsigned)c->value >> (unsigned)value & 1) != 0;
+  case ZP_TEST_ABOVE:
+    return value > c->value;
+  case ZP_TEST_AT_LEAST:
+    return value >= c->value;
+  case ZP_TEST_AT_MOST:
+    return !(value > c->value);
+  default:
+    return false;
+  }
+}
+
+static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
+  switch (c->test) {
+  case ZP_TEST_ANY:
+    return true;
+  case ZP_TEST_NEVER:
+    return false;
+  case ZP_TEST_SET:
+    return is_set(def, c->key);
+  case ZP_TEST_UNSET:
+    return !is_set(def, c->key);
+  case ZP_TEST_SET_WITHIN:
+    return key_of(c, def) >= 0;
+  case ZP_TEST_SEVERAL:
+    return zp_def_members(def) > 1;
+  case ZP_TEST_UNEQUAL:
+    return zp_def_abreast(def);
+  default:
+    return holds_for(c, value_of(def, c->key));
+  }
+}
+
+/* -- the checker ----------------------------------------------------------------------------------- */
+
+static bool refuses(const ZpRule *rule, const ZpActuatorDef *def) {
+  return holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def);
+}
+
+const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuatorDef *def) {
+  for (size_t i = 0; i < rules->count; i++)
+    if (rules->rule[i].in_motion == in_motion && refuses(&rules->rule[i], def)) return &rules->rule[i];
+  return NULL;
+}
+
+static const ZpRules *const *const owners[] = {
+#define ZP_OWNER(name) zp_rules_of_##name,
+#include "def/rules.def"
+#undef ZP_OWNER
+};
+enum { OWNERS = sizeof owners / sizeof owners[0] };
+
+const ZpRule *zp_rule_refusing(bool in_motion, const ZpActuatorDef *def) {
+  const ZpRule *found = NULL;
+  for (size_t k = 0; k < OWNERS; k++)
+    for (const ZpRules *const *of = owners[k]; *of && !found; of++)
+      found = zp_rules_find(*of, in_motion, def);
+  return found;
+}
+
+const ZpRule *zp_rule_against(int key, int choice, const ZpActuatorDef *def) {
+  for (size_t k = 0; k < OWNERS; k++)
+    for (const ZpRules *const *of = owners[k]; *of; of++)
+      for (size_t i = 0; i < (*of)->count; i++) {
+        const ZpRule *rule = &(*of)->rule[i];
+        bool asks = rule->when.key == key && holds_for(&rule->when, choice);
+        if (asks && holds(&rule->also, def) && !holds(&rule->needs, def)) return rule;
+      }
+  return NULL;
+}
+
+/* -- its words ------------------------------------------------------------------------------------- */
+
+/* A value as it is written: "electro_ribbon", "true", "none", "5 N/m". */
+static void show_value(int key, double value, char text[VALUE]) {
+  const ZpKey *k = zp_key(key);
+  bool pure = strcmp(k->unit, "1") == 0;
+  if (k->type == ZP_KEY_ENUM)
+    snprintf(text, VALUE, "%s", k->choices[(int)value].word);
+  else if (k->type == ZP_KEY_BOOL)
+    snprintf(text, VALUE, "%s", value != 0 ? "true" : "false");
+  else if (k->type == ZP_KEY_TEXT)
+    snprintf(text, VALUE, "empty");
+  else if (isnan(value))
+    snprintf(text, VALUE, "%s", k->text);
+  else
+    snprintf(text, VALUE, "%g%s%s", value, pure ? "" : " ", pure ? "" : k->unit);
+}
+
+/* The bits of all words of a choice key but one. */
+static unsigned others(int key, double word) {
+  return ((2U << (unsigned)zp_key(key)->max) - 1) & ~(1U << (unsigned)word);
+}
+
+/* "ramp, sine or square" */
+static void show_words(int key, unsigned bits, char text[VALUE]) {
+  size_t used = 0;
+  text[0] = 0;
+  for (int word = 0; bits >> word; word++) {
+    if (!(bits >> word & 1)) continue;
+    const char *between = used == 0 ? "" : bits >> word == 1 ? " or " : ", ";
+    used += (size_t)snprintf(text + used, VALUE - used, "%s%s", between, zp_key(key)->choices[word].word);
+  }
+}
+
+void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
+  const char *name = zp_key(c->key)->name;
+  char value[VALUE];
+  if (c->test == ZP_TEST_IS_NOT && zp_key(c->key)->type == ZP_KEY_ENUM) {
+    show_words(c->key, others(c->key, c->value), value);
+    snprintf(text, size, "%s %s", name, value);
+    return;
+  }
+  switch (c->test) {
+  case ZP_TEST_ANY:
+  case ZP_TEST_NEVER:
+    snprintf(text, size, "%s", "");
+    break;
+  case ZP_TEST_ONE_OF:
+    show_words(c->key, (unsigned)c->value, value);
+    snprintf(text, size, "%s %s", name, value);
+    break;
+  case ZP_TEST_SET:
+    snprintf(text, size, "%s", name);
+    break;
+  case ZP_TEST_SET_WITHIN:
+    snprintf(text, size, "%s to %s", name, zp_key((int)c->value)->name);
+    break;
+  case ZP_TEST_SEVERAL:
+    snprintf(text, size, "stack with several members");
+    break;
+  case ZP_TEST_UNEQUAL:
+    snprintf(text, size, "%s with unequal members", name);
+    break;
+  default: {
+    static const char *const word[] = {[ZP_TEST_IS] = " ",
+                                       [ZP_TEST_UNSET] = " ",
+                                       [ZP_TEST_IS_NOT] = " other than ",
+                                       [ZP_TEST_ABOVE] = " above ",
+                                       [ZP_TEST_AT_LEAST] = " at least ",
+                                       [ZP_TEST_AT_MOST] = " at most "};
+    show_value(c->key, c->test == ZP_TEST_UNSET ? zp_key(c->key)->def : c->value, value);
+    snprintf(text, size, "%s%s%s", name, word[c->test], value);
+  }
+  }
+}
+
+/* "load.stiffness = 5 N/m" */
+static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[WORDS]) {
+  int key = key_of(c, def);
+  char value[VALUE];
+  bool unequal = zp_def_abreast(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_UNEQUAL);
+  show_value(key, value_of(def, key), value);
+  if (zp_key(key)->type == ZP_KEY_TEXT)
+    snprintf(text, WORDS, "%s", zp_key(key)->name);
+  else
+    snprintf(text, WORDS, "%s = %s%s", zp_key(key)->name, value, unequal ? " with unequal members" : "");
+}
+
+ZpStatus zp_rule_fail(const ZpRule *rule, const char *asks, const ZpActuatorDef *def, ZpError *err) {
+  if (!rule) return ZP_OK;
+  bool bare = rule->when.test == ZP_TEST_ANY;
+  const ZpCondition *needs = &rule->needs;
+  char head[WORDS], needed[WORDS], value[VALUE], given[VALUE + 16] = "";
+  show_key(bare ? needs : &rule->when, def, head);
+  if (needs->test == ZP_TEST_NEVER)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %sdoes not support this; %s", head, asks, rule->why);
+  zp_condition_text(needs, needed, sizeof needed);
+  const char *space = strchr(needed, ' '), *words = bare && space ? space + 1 : needed; /* the head has the key */
+  show_value(needs->key, value_of(def, needs->key), value);
+  if (needs->test == ZP_TEST_SET)
+    snprintf(given, sizeof given, ", which is missing");
+  else if (!bare && zp_key(needs->key)->type != ZP_KEY_TEXT && zp_key(needs->key)->type != ZP_KEY_BOOL)
+    snprintf(given, sizeof given, ", but it is %s", value);
+  return zp_fail(err, ZP_BAD_INPUT, "%s: %srequires %s%s; %s", head, asks, words, given, rule->why);
+}
