@@ -517,7 +517,7 @@ START_TEST(refusals) {
     double value;
     const char *by, *words;
   } wrong[] = {{"control.kind", ZP_CONTROL_PI, "gravity", "control.kind"},
-               {"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "solver.integrator explicit"},
+               {"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "requires solver.integrator implicit"},
                {"stack.series", 2, "gravity", "stack.series"},
                {"ribbon.plasticity", 1, "gravity", "ribbon.plasticity"},
                {"solver.tolerance", 1e-4, "solver.tolerance", "a setting of the computation"}};

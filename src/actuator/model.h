@@ -80,7 +80,7 @@ typedef struct ZpLaw {
 
 struct ZpModel {
   ZpActuatorDef def;
-  ZpActuatorDef whole; /* of the system whose member it is; else `def` */
+  ZpActuatorDef whole;      /* of the system whose member it is; else `def` */
   ZpLaw law[ZP_MOST_TERMS]; /* in the order in which they are added */
   size_t laws;
   ZpLedger ledger;
