@@ -112,6 +112,24 @@ START_TEST(damper_takes_what_the_loss_factor_says) {
 }
 END_TEST
 
+/* Faces that overlap by the depth push with `push` per length, (9.1): each end of a platform with half an element and
+ * its own half of the platform, between which there is no element. */
+START_TEST(both_ends_of_a_platform_push) {
+  enum { NODES = 6 };
+  ZpFacesParams faces = {
+      .nodes = NODES, .l = 1e-3, .depth = 1e-7, .push = 60, .flat_length = 2e-3, .platform = 2, .platform_end = 3};
+  double push[NODES], own[NODES], next[NODES], stiffness[NODES], none[NODES] = {0}, gap[NODES];
+  ZpFacesEval eval = {push, own, next, stiffness, none};
+  for (size_t i = 0; i < NODES; i++)
+    gap[i] = -faces.depth;
+  zp_faces_eval(&faces, &(ZpFacesSpan){gap, gap, 0, 0}, &eval);
+  for (size_t i = 0; i < NODES; i++) {
+    bool platform = i == 2 || i == 3, inner = i > 0 && i + 1 < NODES && !platform;
+    ck_near(push[i], faces.push * ((inner ? 1 : 0.5) * faces.l + (platform ? faces.flat_length : 0)), 1e-12);
+  }
+}
+END_TEST
+
 /* Eq. (9.6): over a short span at nearly constant depth the contact force beyond that of the layers is eta sqrt(k m)
  * times the velocity, and from the first touch to a depth it is eta sqrt(k m) / 2 times the velocity in contact. */
 START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
@@ -298,6 +316,7 @@ int main(void) {
   tcase_add_test(c, front_ends_at_the_first_open_station);
   tcase_add_test(c, closed_faces_lie_on_each_other);
   tcase_add_test(c, damper_takes_what_the_loss_factor_says);
+  tcase_add_test(c, both_ends_of_a_platform_push);
   tcase_add_test(c, damper_in_a_step_is_that_of_the_loss_factor);
   tcase_add_loop_test(c, push_over_a_step_does_the_work_of_the_layers, 0, 2);
   tcase_add_loop_test(c, push_over_a_step_has_this_derivative, 0, 2);
