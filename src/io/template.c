@@ -104,10 +104,12 @@ static ZpStatus write_one(const char *folder, const ZpTemplate *one, ZpError *er
   if (!path) return zp_fail_memory(err);
   ZpStatus status = ZP_OK;
   FILE *file = fopen(path, "wxe");
-  const bool exists = !file && errno == EEXIST, written = file && fputs(one->text, file) >= 0;
+  const bool exists = !file && errno == EEXIST;
+  bool written = file && fputs(one->text, file) >= 0;
+  if (file) written &= fclose(file) == 0;
   if (exists)
     status = zp_fail(err, ZP_BAD_INPUT, "%s: exists already and may have been edited; give another folder", path);
-  else if ((file && fclose(file) != 0) || !written)
+  else if (!written)
     status = zp_fail(err, ZP_MACHINE, "%s: cannot be written: %s", path, strerror(errno));
   free(path);
   return status;

@@ -27,7 +27,7 @@ static double weigh_member(const ZpSeriesMass *series, size_t which, const doubl
 static void weigh(const void *self, const double *u, double *mu) {
   const ZpSeriesMass *series = self;
   const ZpStatics *s = series->statics;
-  double momentum[ZP_MOST_MEMBERS], way = 0, below = 0;
+  double momentum[ZP_MOST_MEMBERS] = {0}, way = 0, below = 0;
   for (size_t k = 0; k < s->members; k++) {
     momentum[k] = weigh_member(series, k, u, way, mu);
     way += u[load_of(&s->member[k])];

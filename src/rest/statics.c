@@ -29,7 +29,7 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   s->member = (ZpRestMember *)(void *)zp_carve(&carver, s->members * sizeof *s->member / sizeof(double));
   s->product = zp_carve(&carver, s->members * 2 * model->stride);
   for (size_t k = 0; k < s->members; k++) {
-    ZpRestMember unused, *m = block ? &s->member[k] : &unused;
+    ZpRestMember unused = {0}, *m = block ? &s->member[k] : &unused;
     carve_member(m, model->stride, &carver);
   }
   return carver.used;

@@ -34,13 +34,20 @@ ZpStatus zp_study_zip_time(const ZpTask *task, ZpResult *result, ZpError *err);
 /* Rules that several studies have: of what unloads ribbons through equilibria, of what computes derivatives, of what
  * does not resume a run. */
 #define ZP_RULE_ELASTIC                                                                                                \
-  ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.plasticity, false),                                                           \
-          "it unloads ribbons along equilibria, which have no history; use study actuate")
+  {                                                                                                                    \
+    ZP_RULE_EQUATION, false, ZP_ANY, ZP_ANY, ZP_IS(ribbon.plasticity, false),                                          \
+        "it unloads ribbons along equilibria, which have no history; use study actuate"                                \
+  }
 #define ZP_RULE_DERIVATIVES                                                                                            \
-  ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(electro.model, ZP_ELECTRO_PLATES),                               \
-          "the derivatives of a computed field are not available")
+  {                                                                                                                    \
+    ZP_RULE_NOT_MODELLED, false, ZP_SET(sensitivity.by), ZP_ANY, ZP_IS(electro.model, ZP_ELECTRO_PLATES),              \
+        "the derivatives of a computed field are not available"                                                        \
+  }
 #define ZP_RULE_STARTS                                                                                                 \
-  ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT), "only study actuate resumes a run")
+  {                                                                                                                    \
+    ZP_RULE_PHYSICS, false, ZP_ANY, ZP_ANY, ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT),                              \
+        "only study actuate resumes a run"                                                                             \
+  }
 
 /* The rule by which a study refuses a Def, its own or one of all studies; NULL if another check does, or none. */
 const ZpRule *zp_study_refusing(ZpStudy study, const ZpActuatorDef *def);
