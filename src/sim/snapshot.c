@@ -170,7 +170,7 @@ static void walk_arrays(ZpPack *p, const ZpModel *model, double *data) {
 
 /* The rows of the ledger, behind the arrays. */
 static void walk_rows(ZpPack *p, const ZpModel *model, double *data) {
-  double *row = data ? data + 2 * (ARRAYS - 1) * model->stride + zp_own_unknowns(model) + model->kept : NULL;
+  double *row = data ? data + (size_t)(2 * (ARRAYS - 1)) * model->stride + zp_own_unknowns(model) + model->kept : NULL;
   for (size_t k = 0; k < model->ledger.rows; k++)
     zp_pack_field(p, model->ledger.row[k]->name, ZP_REAL, row ? row + k : NULL, 1);
 }
