@@ -95,7 +95,8 @@ void zp_pack_open(ZpPack *p, const char *name, ZpFieldType type) {
   unsigned char *head = p->out ? p->out + p->used : NULL;
   if (head) {
     head[0] = (unsigned char)length;
-    memcpy(head + 1, name, length);
+    for (size_t i = 0; i < length; i++)
+      head[1 + i] = (unsigned char)name[i];
     head[1 + length] = (unsigned char)type;
   }
   p->used = p->begin = p->used + HEAD + length;

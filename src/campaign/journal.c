@@ -88,13 +88,14 @@ static sqlite3_int64 id_of(const void *record, size_t size) {
 static bool add_names(ZpJournal *journal, sqlite3_int64 id, const void *record, size_t size) {
   Names *names = realloc(journal->names, (journal->known + 1) * sizeof *names);
   if (names) journal->names = names;
-  Names added = {.id = id, .record = names && record ? malloc(size) : NULL};
-  if (added.record) memcpy(added.record, record, size);
-  if (added.record && zp_names_read(added.record, size, &added.names, NULL) == ZP_OK) {
+  void *copy = names && record ? malloc(size) : NULL;
+  Names added = {.id = id, .record = copy};
+  if (copy) memcpy(copy, record, size);
+  if (copy && zp_names_read(copy, size, &added.names, NULL) == ZP_OK) {
     names[journal->known++] = added;
     return true;
   }
-  free(added.record);
+  free(copy);
   return false;
 }
 
