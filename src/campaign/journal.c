@@ -86,16 +86,17 @@ static sqlite3_int64 id_of(const void *record, size_t size) {
 
 /* Append a record of names, copied. False if it is damaged, or there is no memory. */
 static bool add_names(ZpJournal *journal, sqlite3_int64 id, const void *record, size_t size) {
-  Names *names = realloc(journal->names, (journal->known + 1) * sizeof *names);
-  if (names) journal->names = names;
-  void *copy = names && record ? malloc(size) : NULL;
-  Names added = {.id = id, .record = copy};
-  if (copy) memcpy(copy, record, size);
-  if (copy && zp_names_read(copy, size, &added.names, NULL) == ZP_OK) {
-    names[journal->known++] = added;
+  Names *names = record ? realloc(journal->names, (journal->known + 1) * sizeof *names) : NULL;
+  if (!names) return false;
+  journal->names = names;
+  Names *added = &names[journal->known];
+  *added = (Names){.id = id, .record = malloc(size)};
+  if (added->record) memcpy(added->record, record, size);
+  if (added->record && zp_names_read(added->record, size, &added->names, NULL) == ZP_OK) {
+    journal->known++;
     return true;
   }
-  free(copy);
+  free(added->record);
   return false;
 }
 
