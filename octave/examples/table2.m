@@ -25,7 +25,7 @@ end
 % Rows of nodes, load/g, stroke/mm, finite elements/mm; K_S of N nodes, N/m. From where zipact reproduce has them.
 function [table, shear] = published()
   here = fileparts(mfilename('fullpath'));
-  text = fileread(fullfile(here, '..', '..', 'src', 'reproduce', 'published.def'));
+  text = fileread(fullfile(here, '..', '..', 'reproduce', 'published.def'));
   numbers = @(pattern) cellfun(@str2double, vertcat_all(regexp(text, pattern, 'tokens')));
   table = numbers('ZP_TABLE_2\((\d+), (\d+), ([\d.]+), ([\d.]+),');
   saved = numbers('ZP_SAVED_SHEAR, (\d+), 61, ([\d.e]+)\)');
