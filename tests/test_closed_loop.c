@@ -305,6 +305,23 @@ START_TEST(static_gain_is_that_of_the_branch) {
 }
 END_TEST
 
+/* A supply's resistance R and its bleeder G divide the voltage: the electrodes get 1 / (1 + R G) of a volt more. */
+START_TEST(bleeder_takes_its_share_of_a_volt) {
+  const double R = 5e7, bleeder = 2e8;
+  ZpActuatorDef def =
+      DEF({"mesh.nodes", 9}, {"control.kind", ZP_CONTROL_PI}, {"control.signal", ZP_CONTROL_CONTRACTION},
+          {"setpoint.value", 0.3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", R});
+  double gain[2];
+  for (size_t k = 0; k < LENGTH_OF(gain); k++, def.source.bleeder = bleeder) {
+    Held h = hold(&def);
+    find(&h);
+    gain[k] = static_gain(&h);
+    let_go(&h);
+  }
+  ck_near(gain[1], gain[0] / (1 + R / bleeder), 1e-10);
+}
+END_TEST
+
 /* At a stable state without damping the eigenvalues are the frequencies of study modes. */
 START_TEST(open_loop_is_that_of_modes) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"damping.internal", 0}, {"control.kind", ZP_CONTROL_PI},
@@ -555,6 +572,7 @@ int main(void) {
   tcase_add_test(parts, loop_at_its_limit);
   tcase_add_test(parts, film_between_parallel_faces);
   tcase_add_test(plants, static_gain_is_that_of_the_branch);
+  tcase_add_test(plants, bleeder_takes_its_share_of_a_volt);
   tcase_add_test(plants, open_loop_is_that_of_modes);
   tcase_add_loop_test(plants, heavy_load_has_one_coordinate, 0, 2);
   tcase_add_loop_test(loops, undamped_no_gains_hold, 0, 1);
