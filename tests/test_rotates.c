@@ -82,6 +82,22 @@ START_TEST(offset_on_the_other_side_is_a_mirror_image) {
 }
 END_TEST
 
+/* Both ends of the platform count for whether it is closed: limits do not depend on the side of the load. */
+START_TEST(limits_of_a_mirrored_load_are_equal) {
+  static const char *const limits[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg"};
+  ZpActuatorDef right = turning(21, 3.22e-3);
+  right.drive.voltage = 2600, right.load.mass = 6.92e-3, right.ribbon.thickness = 95e-6;
+  right.ribbon.length = 86.5e-3, right.insulator.thickness = 107e-6;
+  ZpActuatorDef left = right;
+  left.load.offset *= -1;
+  ZpResult *one = study_of(ZP_STUDY_LIMITS, &right), *other = study_of(ZP_STUDY_LIMITS, &left);
+  for (size_t k = 0; k < LENGTH_OF(limits); k++)
+    ck_near(zp_result_get(one, limits[k]), zp_result_get(other, limits[k]), 1e-13); /* 2.0e-14 measured */
+  zp_result_destroy(one);
+  zp_result_destroy(other);
+}
+END_TEST
+
 /* Under a load in the middle it hangs like a guided platform, up to the second order of its joints; strips that curl,
  * too. */
 START_TEST(load_in_the_middle_does_not_tilt) {
@@ -212,6 +228,7 @@ int main(void) {
   tcase_add_loop_test(c, small_tilt_is_that_of_its_closed_form, 0, 3);
   tcase_add_loop_test(c, small_load_beside_a_held_clip_is_as_its_closed_form, 0, 2);
   tcase_add_loop_test(c, offset_on_the_other_side_is_a_mirror_image, 0, 3);
+  tcase_add_test(c, limits_of_a_mirrored_load_are_equal);
   tcase_add_loop_test(c, load_in_the_middle_does_not_tilt, 0, 2);
   tcase_add_test(c, platform_keeps_its_length);
   tcase_add_loop_test(c, energy_balances, 0, 4);
