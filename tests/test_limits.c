@@ -360,6 +360,26 @@ START_TEST(small_snap_is_no_pull_in) {
 }
 END_TEST
 
+/* Where it closes gradually, one state lies at the mark on the way up and on the way down: it releases where it closes,
+ * never above that. */
+START_TEST(gradual_closing_is_also_the_release) {
+  const ZpActuatorDef designs[] = {
+      DEF({"mesh.nodes", 11}, {"drive.voltage", 499.516}, {"load.mass", 0.67972e-3}, {"ribbon.thickness", 27.17e-6},
+          {"ribbon.length", 22.01e-3}, {"insulator.thickness", 38.09e-6}),
+      DEF({"mesh.nodes", 11}, {"drive.voltage", 3011.62}, {"load.mass", 1.4327e-3}, {"ribbon.thickness", 192.4e-6},
+          {"ribbon.length", 28.38e-3}, {"insulator.thickness", 40.62e-6}),
+      DEF({"mesh.nodes", 11}, {"drive.voltage", 5783.74}, {"load.mass", 2.1176e-3}, {"ribbon.thickness", 84.51e-6},
+          {"ribbon.length", 21.96e-3}, {"insulator.thickness", 112.2e-6})};
+  for (size_t k = 0; k < LENGTH_OF(designs); k++) {
+    ZpResult *result = limits_of(&designs[k]);
+    double closing = zp_result_get(result, "closing_voltage_V"), release = zp_result_get(result, "release_voltage_V");
+    ck_assert_double_le(release, closing);
+    ck_near(release, closing, 1e-12);
+    zp_result_destroy(result);
+  }
+}
+END_TEST
+
 /* Regression: two limit points 1 % apart, far below drive.voltage, were passed in one step, so the next one, at 445 V,
  * was reported as the pull-in. */
 START_TEST(curve_meets_both_limit_points_of_a_small_snap) {
@@ -792,6 +812,7 @@ int main(void) {
   tcase_add_loop_test(study, pull_in_hardly_depends_on_the_mesh, 0, 2);
   tcase_add_test(study, snap_of_a_few_nodes_is_the_pull_in);
   tcase_add_test(study, small_snap_is_no_pull_in);
+  tcase_add_test(study, gradual_closing_is_also_the_release);
   tcase_add_test(study, curve_meets_both_limit_points_of_a_small_snap);
   tcase_add_loop_test(study, closing_is_that_of_a_staircase, 0, 2);
   tcase_add_loop_test(study, release_is_that_of_a_staircase, 0, 4);
