@@ -380,6 +380,17 @@ START_TEST(gradual_closing_is_also_the_release) {
 }
 END_TEST
 
+/* A strip between two clamps is closed, at 1 % of its opening, slightly before a limit point: this is the pull-in, as
+ * on the curve. */
+START_TEST(pull_in_follows_a_gradual_closing) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"mesh.nodes", 9},
+                          {"electro.gap_offset", 0.0406e-3}, {"drive.voltage", 3670}, {"ribbon.thickness", 97.18e-6},
+                          {"ribbon.length", 70.08e-3}, {"insulator.thickness", 68.64e-6});
+  double pull_in = agrees_with_the_curve(&def);
+  ck_assert_double_lt(answered_value(ZP_STUDY_LIMITS, &def, "closing_voltage_V"), pull_in);
+}
+END_TEST
+
 /* Regression: two limit points 1 % apart, far below drive.voltage, were passed in one step, so the next one, at 445 V,
  * was reported as the pull-in. */
 START_TEST(curve_meets_both_limit_points_of_a_small_snap) {
@@ -813,6 +824,7 @@ int main(void) {
   tcase_add_test(study, snap_of_a_few_nodes_is_the_pull_in);
   tcase_add_test(study, small_snap_is_no_pull_in);
   tcase_add_test(study, gradual_closing_is_also_the_release);
+  tcase_add_test(study, pull_in_follows_a_gradual_closing);
   tcase_add_test(study, curve_meets_both_limit_points_of_a_small_snap);
   tcase_add_loop_test(study, closing_is_that_of_a_staircase, 0, 2);
   tcase_add_loop_test(study, release_is_that_of_a_staircase, 0, 4);
