@@ -25,8 +25,8 @@ held = zipact('stationary', pair{:});
 check(abs(held.opening_m + held.lower_opening_m - 0.02) < 1e-11 && held.stiffness_N_per_m > 0, 'antagonists at rest');
 path = zipact('equilibrium', pair{:}, 'drive.voltage', '5 kV');
 check(path.release_voltage_V < path.pull_in_voltage_V && path.closing_voltage_V < 5e3, 'antagonists close and open');
-same_as_the_command('limits', ' --set stack.series=2 --set "stack.distance=20 mm" --set mesh.nodes=21', 'stack.series', 2, ...
-                    'stack.distance', '20 mm', 'mesh.nodes', 21);
+same_as_the_command('limits', ' --set stack.series=2 --set "stack.distance=20 mm" --set mesh.nodes=21 --set load.mass=1g', ...
+                    'stack.series', 2, 'stack.distance', '20 mm', 'mesh.nodes', 21, 'load.mass', '1 g');
 same_as_the_command('modes', ' --set stack.parallel=2 --set "member_2.ribbon.thickness=80 um" --set mesh.nodes=21', ...
                     'stack.parallel', 2, 'member_2.ribbon.thickness', '80 um', 'mesh.nodes', 21);
 whole = {'actuator.symmetry', 'none', 'platform.rotates', true, 'platform.electrode', false, 'liquid.model', 'none', 'mesh.nodes', 21};
