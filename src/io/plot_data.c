@@ -50,7 +50,7 @@ static bool has_series(const ZpPlot *plot) {
   bool has = false;
   for (size_t run = 0; run < plot->report->count && !has; run++) {
     const ZpTable *table = zp_report_result(plot->report, run)->series;
-    has = table && table->rows > 1;
+    has = table && table->rows > (is_fit(plot) ? 0 : 1);
   }
   return has && (is_fit(plot) || (!plot->single && zp_study_shows(plot->study) == ZP_SHOWS_motion));
 }
