@@ -89,7 +89,7 @@ typedef struct ZpRules {
 /* The first of these rules that refuses `def`, of those in motion or of the others; NULL: none. */
 const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuatorDef *def);
 
-/* The same of all owners. */
+/* The first rule of all owners that refuses `def`, of those in motion or of the others; NULL: none. */
 const ZpRule *zp_rule_refusing(bool in_motion, const ZpActuatorDef *def);
 
 /* The rule for which this value of a choice key would be refused, whatever the key is now; NULL: none. */

@@ -1,4 +1,4 @@
-/* What there is to draw of a report, and result.gp, which defines it for the templates. */
+/* Writes the definitions (result.gp) and the plain columns from which the templates draw a report. */
 #include "io/plot.h"
 
 #include <ctype.h>

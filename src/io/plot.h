@@ -1,4 +1,4 @@
-/* What there is to draw of a report: definitions and plain columns for the templates. */
+/* Definitions and plain columns from which the templates draw the pictures of a report. */
 #ifndef ZP_IO_PLOT_H
 #define ZP_IO_PLOT_H
 

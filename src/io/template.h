@@ -20,8 +20,8 @@ extern const ZpTemplate zp_templates[];
  * template. `folder` is looked into first; NULL is none. ZP_MACHINE if a file there cannot be read. */
 ZpStatus zp_template_write(const char *folder, const char *name, FILE *script, ZpError *err);
 
-/* What gnuplot says of a script in `folder`, `"stroke.gp" line 80: ...`, as it is of a template: `template stroke.gp,
- * line 12: ...`. Of a line that no template has, it stays. */
+/* Rewrite a complaint of gnuplot about a script in `folder`, `"stroke.gp" line 80: ...`, so that it names the template
+ * and its line: `template stroke.gp, line 12: ...`. A complaint about a line that no template has stays as it is. */
 void zp_template_complaint(const char *folder, const char *script, char *reason, size_t size);
 
 #endif

@@ -133,7 +133,7 @@ static void residual(ZpStatics *s, double *r) {
   zp_statics_system(s).residual(s, r, NULL);
 }
 
-/* What a member adds to rate and tension, with so much weight. */
+/* Add a member's part of rate and tension, times `weight`. */
 static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, double weight) {
   const ZpRestMember *at = &p->at->member[which];
   size_t stride = at->model->stride, edges = at->model->count - at->model->s;

@@ -119,7 +119,7 @@ static ZpPaperLimit limit_of(const ZpPaperMotion *m, ZpExplicitLimit limit) {
   return limit == ZP_EXPLICIT_END ? ZP_PAPER_END : m->limit;
 }
 
-/* What terms have lost over a step, and their state at its end. */
+/* Book the losses of the terms over a step, and keep their state at its end. */
 static void book(ZpPaperMotion *m, double dt) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
