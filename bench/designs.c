@@ -82,6 +82,12 @@ static ZpActuatorDef design_for(ZpStudy study, uint64_t *state) {
   if (study == ZP_STUDY_ISOMETRIC || study == ZP_STUDY_PROFILE)
     def.isometric.separation = def.ribbon.length * log_uniform(&own, 3e-3, 0.3);
   if (study == ZP_STUDY_MODES) def.modes.voltage = 0.5 * def.drive.voltage;
+  if (study == ZP_STUDY_CYCLE) {
+    def.drive.waveform = ZP_WAVEFORM_SINE;
+    def.drive.frequency = log_uniform(&own, 0.5, 50);
+    def.liquid.model = draw(&own) < 0.5 ? ZP_LIQUID_SUBMERGED : ZP_LIQUID_NONE;
+    def.mesh.nodes = (int)log_uniform(&own, 15, 42);
+  }
   return def;
 }
 
@@ -260,7 +266,7 @@ static int check_study(ZpStudy study, int designs, uint64_t seed) {
 
 /* Everything but calibrate, which asks for measurements. */
 static const ZpStudy every[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS,  ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES,
-                                ZP_STUDY_STATIONARY,  ZP_STUDY_PROFILE, ZP_STUDY_ACTUATE};
+                                ZP_STUDY_STATIONARY,  ZP_STUDY_PROFILE, ZP_STUDY_ACTUATE,   ZP_STUDY_CYCLE};
 
 /* "--set KEY=VALUE", as print_design() writes it. */
 static bool take_option(ZpActuatorDef *def, char *option, ZpError *err) {
