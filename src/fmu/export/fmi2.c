@@ -140,7 +140,7 @@ fmi2Status fmi2GetDirectionalDerivative(fmi2Component c, const fmi2ValueReferenc
                                         const fmi2ValueReference known[], size_t knowns, const fmi2Real seed[],
                                         fmi2Real sensitivity[]) {
   if (!zp_slave_allows(c, READABLE, "fmi2GetDirectionalDerivative")) return fmi2Error;
-  return (fmi2Status)zp_slave_derivative(c, unknown, unknowns, known, knowns, seed, sensitivity);
+  return (fmi2Status)zp_slave_derivative(c, false, unknown, unknowns, known, knowns, seed, sensitivity);
 }
 
 fmi2Status fmi2SetRealInputDerivatives(fmi2Component c, const fmi2ValueReference reference[], size_t count,
@@ -218,21 +218,11 @@ static fmi2Status no_status(fmi2Component c, const char *what) {
   return (fmi2Status)zp_slave_say(c, ZP_SLAVE_DISCARD, "no such status, because a step is never pending");
 }
 
-fmi2Status fmi2GetStatus(fmi2Component c, fmi2StatusKind kind, fmi2Status *value) {
-  (void)kind, (void)value;
-  return no_status(c, "fmi2GetStatus");
-}
-
 fmi2Status fmi2GetRealStatus(fmi2Component c, fmi2StatusKind kind, fmi2Real *value) {
   const ZpSlave *slave = c;
   if (kind != fmi2LastSuccessfulTime || !slave) return no_status(c, "fmi2GetRealStatus");
   *value = slave->fmu->time;
   return fmi2OK;
-}
-
-fmi2Status fmi2GetIntegerStatus(fmi2Component c, fmi2StatusKind kind, fmi2Integer *value) {
-  (void)kind, (void)value;
-  return no_status(c, "fmi2GetIntegerStatus");
 }
 
 fmi2Status fmi2GetBooleanStatus(fmi2Component c, fmi2StatusKind kind, fmi2Boolean *value) {
@@ -242,60 +232,17 @@ fmi2Status fmi2GetBooleanStatus(fmi2Component c, fmi2StatusKind kind, fmi2Boolea
   return fmi2OK;
 }
 
-fmi2Status fmi2GetStringStatus(fmi2Component c, fmi2StatusKind kind, fmi2String *value) {
-  (void)kind, (void)value;
-  return no_status(c, "fmi2GetStringStatus");
-}
+/* -- what is refused -------------------------------------------------------------------------------- */
 
-/* -- model exchange -------------------------------------------------------------------------------- */
+/* The standard gives these functions their parameters. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/* Importers look for every function of the standard. */
-
-fmi2Status fmi2EnterEventMode(fmi2Component c) {
-  return (fmi2Status)zp_slave_exchange(c, "fmi2EnterEventMode");
-}
-
-fmi2Status fmi2NewDiscreteStates(fmi2Component c, fmi2EventInfo *info) {
-  (void)info;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2NewDiscreteStates");
-}
-
-fmi2Status fmi2EnterContinuousTimeMode(fmi2Component c) {
-  return (fmi2Status)zp_slave_exchange(c, "fmi2EnterContinuousTimeMode");
-}
-
-fmi2Status fmi2CompletedIntegratorStep(fmi2Component c, fmi2Boolean same_point, fmi2Boolean *enter_event_mode,
-                                       fmi2Boolean *terminate) {
-  (void)same_point, (void)enter_event_mode, (void)terminate;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2CompletedIntegratorStep");
-}
-
-fmi2Status fmi2SetTime(fmi2Component c, fmi2Real time) {
-  (void)time;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2SetTime");
-}
-
-fmi2Status fmi2SetContinuousStates(fmi2Component c, const fmi2Real x[], size_t count) {
-  (void)x, (void)count;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2SetContinuousStates");
-}
-
-fmi2Status fmi2GetDerivatives(fmi2Component c, fmi2Real derivative[], size_t count) {
-  (void)derivative, (void)count;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2GetDerivatives");
-}
-
-fmi2Status fmi2GetEventIndicators(fmi2Component c, fmi2Real indicator[], size_t count) {
-  (void)indicator, (void)count;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2GetEventIndicators");
-}
-
-fmi2Status fmi2GetContinuousStates(fmi2Component c, fmi2Real x[], size_t count) {
-  (void)x, (void)count;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2GetContinuousStates");
-}
-
-fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component c, fmi2Real nominal[], size_t count) {
-  (void)nominal, (void)count;
-  return (fmi2Status)zp_slave_exchange(c, "fmi2GetNominalsOfContinuousStates");
-}
+#define ZP_STATUS(name, parameters)                                                                                    \
+  fmi2Status fmi2##name parameters {                                                                                   \
+    return no_status(c, "fmi2" #name);                                                                                 \
+  }
+#define ZP_EXCHANGE(name, parameters)                                                                                  \
+  fmi2Status fmi2##name parameters {                                                                                   \
+    return (fmi2Status)zp_slave_exchange(c, "fmi2" #name);                                                             \
+  }
+#include "fmu/export/fmi2_refused.def"

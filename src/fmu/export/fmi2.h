@@ -85,23 +85,11 @@ ZP_FMI fmi2Status fmi2GetRealOutputDerivatives(fmi2Component, const fmi2ValueRef
                                                const fmi2Integer order[], fmi2Real[]);
 ZP_FMI fmi2Status fmi2DoStep(fmi2Component, fmi2Real now, fmi2Real size, fmi2Boolean no_return_before);
 ZP_FMI fmi2Status fmi2CancelStep(fmi2Component);
-ZP_FMI fmi2Status fmi2GetStatus(fmi2Component, fmi2StatusKind, fmi2Status *);
 ZP_FMI fmi2Status fmi2GetRealStatus(fmi2Component, fmi2StatusKind, fmi2Real *);
-ZP_FMI fmi2Status fmi2GetIntegerStatus(fmi2Component, fmi2StatusKind, fmi2Integer *);
 ZP_FMI fmi2Status fmi2GetBooleanStatus(fmi2Component, fmi2StatusKind, fmi2Boolean *);
-ZP_FMI fmi2Status fmi2GetStringStatus(fmi2Component, fmi2StatusKind, fmi2String *);
 
-/* For model exchange: all are refused. */
-ZP_FMI fmi2Status fmi2EnterEventMode(fmi2Component);
-ZP_FMI fmi2Status fmi2NewDiscreteStates(fmi2Component, fmi2EventInfo *info);
-ZP_FMI fmi2Status fmi2EnterContinuousTimeMode(fmi2Component);
-ZP_FMI fmi2Status fmi2CompletedIntegratorStep(fmi2Component, fmi2Boolean same_point, fmi2Boolean *enter_event_mode,
-                                              fmi2Boolean *terminate);
-ZP_FMI fmi2Status fmi2SetTime(fmi2Component, fmi2Real time);
-ZP_FMI fmi2Status fmi2SetContinuousStates(fmi2Component, const fmi2Real[], size_t count);
-ZP_FMI fmi2Status fmi2GetDerivatives(fmi2Component, fmi2Real[], size_t count);
-ZP_FMI fmi2Status fmi2GetEventIndicators(fmi2Component, fmi2Real[], size_t count);
-ZP_FMI fmi2Status fmi2GetContinuousStates(fmi2Component, fmi2Real[], size_t count);
-ZP_FMI fmi2Status fmi2GetNominalsOfContinuousStates(fmi2Component, fmi2Real[], size_t count);
+#define ZP_STATUS(name, parameters)   ZP_FMI fmi2Status fmi2##name parameters;
+#define ZP_EXCHANGE(name, parameters) ZP_FMI fmi2Status fmi2##name parameters;
+#include "fmu/export/fmi2_refused.def"
 
 #endif

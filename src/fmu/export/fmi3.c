@@ -160,112 +160,6 @@ static fmi3Status of_none(ZpSlave *slave, unsigned phases, const char *what, siz
   return count == 0 ? fmi3OK : (fmi3Status)zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no variable of this type");
 }
 
-#define NO_VARIABLES_OF_TYPE(Type)                                                                                     \
-  fmi3Status fmi3Get##Type(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,                  \
-                           fmi3##Type value[], size_t values) {                                                        \
-    (void)reference, (void)value, (void)values;                                                                        \
-    return of_none(instance, READABLE, "fmi3Get" #Type, count);                                                        \
-  }                                                                                                                    \
-  fmi3Status fmi3Set##Type(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,                  \
-                           const fmi3##Type value[], size_t values) {                                                  \
-    (void)reference, (void)value, (void)values;                                                                        \
-    return of_none(instance, SETTABLE, "fmi3Set" #Type, count);                                                        \
-  }
-
-NO_VARIABLES_OF_TYPE(Float32)
-NO_VARIABLES_OF_TYPE(Int8)
-NO_VARIABLES_OF_TYPE(UInt8)
-NO_VARIABLES_OF_TYPE(Int16)
-NO_VARIABLES_OF_TYPE(UInt16)
-NO_VARIABLES_OF_TYPE(UInt32)
-NO_VARIABLES_OF_TYPE(UInt64)
-NO_VARIABLES_OF_TYPE(String)
-
-fmi3Status fmi3GetBinary(fmi3Instance instance, const fmi3ValueReference reference[], size_t count, size_t sizes[],
-                         fmi3Binary value[], size_t values) {
-  (void)reference, (void)sizes, (void)value, (void)values;
-  return of_none(instance, READABLE, "fmi3GetBinary", count);
-}
-
-fmi3Status fmi3SetBinary(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                         const size_t sizes[], const fmi3Binary value[], size_t values) {
-  (void)reference, (void)sizes, (void)value, (void)values;
-  return of_none(instance, SETTABLE, "fmi3SetBinary", count);
-}
-
-fmi3Status fmi3GetClock(fmi3Instance instance, const fmi3ValueReference reference[], size_t count, fmi3Clock value[]) {
-  (void)reference, (void)value;
-  return of_none(instance, READABLE, "fmi3GetClock", count);
-}
-
-fmi3Status fmi3SetClock(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                        const fmi3Clock value[]) {
-  (void)reference, (void)value;
-  return of_none(instance, SETTABLE, "fmi3SetClock", count);
-}
-
-fmi3Status fmi3GetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                  fmi3Float64 interval[], fmi3IntervalQualifier qualifier[]) {
-  (void)reference, (void)interval, (void)qualifier;
-  return of_none(instance, READABLE, "fmi3GetIntervalDecimal", count);
-}
-
-fmi3Status fmi3GetIntervalFraction(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                   fmi3UInt64 counter[], fmi3UInt64 resolution[], fmi3IntervalQualifier qualifier[]) {
-  (void)reference, (void)counter, (void)resolution, (void)qualifier;
-  return of_none(instance, READABLE, "fmi3GetIntervalFraction", count);
-}
-
-fmi3Status fmi3GetShiftDecimal(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                               fmi3Float64 shift[]) {
-  (void)reference, (void)shift;
-  return of_none(instance, READABLE, "fmi3GetShiftDecimal", count);
-}
-
-fmi3Status fmi3GetShiftFraction(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                fmi3UInt64 counter[], fmi3UInt64 resolution[]) {
-  (void)reference, (void)counter, (void)resolution;
-  return of_none(instance, READABLE, "fmi3GetShiftFraction", count);
-}
-
-fmi3Status fmi3SetIntervalDecimal(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                  const fmi3Float64 interval[]) {
-  (void)reference, (void)interval;
-  return of_none(instance, SETTABLE, "fmi3SetIntervalDecimal", count);
-}
-
-fmi3Status fmi3SetIntervalFraction(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                   const fmi3UInt64 counter[], const fmi3UInt64 resolution[]) {
-  (void)reference, (void)counter, (void)resolution;
-  return of_none(instance, SETTABLE, "fmi3SetIntervalFraction", count);
-}
-
-fmi3Status fmi3SetShiftDecimal(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                               const fmi3Float64 shift[]) {
-  (void)reference, (void)shift;
-  return of_none(instance, SETTABLE, "fmi3SetShiftDecimal", count);
-}
-
-fmi3Status fmi3SetShiftFraction(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                const fmi3UInt64 counter[], const fmi3UInt64 resolution[]) {
-  (void)reference, (void)counter, (void)resolution;
-  return of_none(instance, SETTABLE, "fmi3SetShiftFraction", count);
-}
-
-/* The dependencies in modelDescription.xml do not change, so there is nothing to query. */
-fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance instance, fmi3ValueReference reference, size_t *count) {
-  (void)reference, (void)count;
-  return of_none(instance, ZP_FMU_ANY, "fmi3GetNumberOfVariableDependencies", 1);
-}
-
-fmi3Status fmi3GetVariableDependencies(fmi3Instance instance, fmi3ValueReference reference,
-                                       size_t element_of_dependent[], fmi3ValueReference independent[],
-                                       size_t element_of_independent[], fmi3DependencyKind kind[], size_t count) {
-  (void)reference, (void)element_of_dependent, (void)independent, (void)element_of_independent, (void)kind;
-  (void)count;
-  return of_none(instance, ZP_FMU_ANY, "fmi3GetVariableDependencies", 1);
-}
-
 /* Every variable is a scalar. */
 static fmi3Status wrong_length(const ZpSlave *slave) {
   return (fmi3Status)zp_slave_say(slave, ZP_SLAVE_ERROR,
@@ -277,7 +171,7 @@ fmi3Status fmi3GetDirectionalDerivative(fmi3Instance instance, const fmi3ValueRe
                                         size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities) {
   if (!zp_slave_allows(instance, READABLE, "fmi3GetDirectionalDerivative")) return fmi3Error;
   if (seeds != knowns || sensitivities != unknowns) return wrong_length(instance);
-  return (fmi3Status)zp_slave_derivative(instance, unknown, unknowns, known, knowns, seed, sensitivity);
+  return (fmi3Status)zp_slave_derivative(instance, false, unknown, unknowns, known, knowns, seed, sensitivity);
 }
 
 fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueReference unknown[], size_t unknowns,
@@ -285,13 +179,7 @@ fmi3Status fmi3GetAdjointDerivative(fmi3Instance instance, const fmi3ValueRefere
                                     size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities) {
   if (!zp_slave_allows(instance, READABLE, "fmi3GetAdjointDerivative")) return fmi3Error;
   if (seeds != unknowns || sensitivities != knowns) return wrong_length(instance);
-  return (fmi3Status)zp_slave_adjoint(instance, unknown, unknowns, known, knowns, seed, sensitivity);
-}
-
-fmi3Status fmi3GetOutputDerivatives(fmi3Instance instance, const fmi3ValueReference reference[], size_t count,
-                                    const fmi3Int32 order[], fmi3Float64 value[], size_t values) {
-  (void)reference, (void)order, (void)value, (void)values;
-  return of_none(instance, READABLE, "fmi3GetOutputDerivatives", count);
+  return (fmi3Status)zp_slave_derivative(instance, true, unknown, unknowns, known, knowns, seed, sensitivity);
 }
 
 /* -- states ---------------------------------------------------------------------------------------- */
@@ -359,61 +247,24 @@ fmi3Status fmi3UpdateDiscreteStates(fmi3Instance instance, fmi3Boolean *again, f
   return fmi3OK;
 }
 
-fmi3Status fmi3ActivateModelPartition(fmi3Instance instance, fmi3ValueReference clock, fmi3Float64 time) {
-  (void)clock, (void)time;
-  return of_none(instance, ZP_FMU_ANY, "fmi3ActivateModelPartition", 1);
-}
+/* -- what is refused -------------------------------------------------------------------------------- */
 
-/* -- model exchange -------------------------------------------------------------------------------- */
+/* The standard gives these functions their parameters. */
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 
-/* Importers look for every function of the standard. */
-
-fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance instance) {
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3EnterContinuousTimeMode");
-}
-
-fmi3Status fmi3CompletedIntegratorStep(fmi3Instance instance, fmi3Boolean same_point, fmi3Boolean *enter_event_mode,
-                                       fmi3Boolean *terminate) {
-  (void)same_point, (void)enter_event_mode, (void)terminate;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3CompletedIntegratorStep");
-}
-
-fmi3Status fmi3SetTime(fmi3Instance instance, fmi3Float64 time) {
-  (void)time;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3SetTime");
-}
-
-fmi3Status fmi3SetContinuousStates(fmi3Instance instance, const fmi3Float64 x[], size_t count) {
-  (void)x, (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3SetContinuousStates");
-}
-
-fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance instance, fmi3Float64 derivative[], size_t count) {
-  (void)derivative, (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetContinuousStateDerivatives");
-}
-
-fmi3Status fmi3GetEventIndicators(fmi3Instance instance, fmi3Float64 indicator[], size_t count) {
-  (void)indicator, (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetEventIndicators");
-}
-
-fmi3Status fmi3GetContinuousStates(fmi3Instance instance, fmi3Float64 x[], size_t count) {
-  (void)x, (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetContinuousStates");
-}
-
-fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance instance, fmi3Float64 nominal[], size_t count) {
-  (void)nominal, (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetNominalsOfContinuousStates");
-}
-
-fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance instance, size_t *count) {
-  (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetNumberOfEventIndicators");
-}
-
-fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance instance, size_t *count) {
-  (void)count;
-  return (fmi3Status)zp_slave_exchange(instance, "fmi3GetNumberOfContinuousStates");
-}
+#define ZP_NO_TYPE(Type)                                                                                               \
+  ZP_NONE(                                                                                                             \
+      Get##Type, READABLE, count,                                                                                      \
+      (fmi3Instance instance, const fmi3ValueReference reference[], size_t count, fmi3##Type value[], size_t values))  \
+  ZP_NONE(Set##Type, SETTABLE, count,                                                                                  \
+          (fmi3Instance instance, const fmi3ValueReference reference[], size_t count, const fmi3##Type value[],        \
+           size_t values))
+#define ZP_NONE(name, phases, asked, parameters)                                                                       \
+  fmi3Status fmi3##name parameters {                                                                                   \
+    return of_none(instance, phases, "fmi3" #name, asked);                                                             \
+  }
+#define ZP_EXCHANGE(name, parameters)                                                                                  \
+  fmi3Status fmi3##name parameters {                                                                                   \
+    return (fmi3Status)zp_slave_exchange(instance, "fmi3" #name);                                                      \
+  }
+#include "fmu/export/fmi3_refused.def"

@@ -84,29 +84,11 @@ ZP_FMI fmi3Status fmi3Reset(fmi3Instance);
                                   size_t values);                                                                      \
   ZP_FMI fmi3Status fmi3Set##Type(fmi3Instance, const fmi3ValueReference[], size_t count, const fmi3##Type[],          \
                                   size_t values)
-ZP_FMI3_VARIABLES(Float32);
 ZP_FMI3_VARIABLES(Float64);
-ZP_FMI3_VARIABLES(Int8);
-ZP_FMI3_VARIABLES(UInt8);
-ZP_FMI3_VARIABLES(Int16);
-ZP_FMI3_VARIABLES(UInt16);
 ZP_FMI3_VARIABLES(Int32);
-ZP_FMI3_VARIABLES(UInt32);
 ZP_FMI3_VARIABLES(Int64);
-ZP_FMI3_VARIABLES(UInt64);
 ZP_FMI3_VARIABLES(Boolean);
-ZP_FMI3_VARIABLES(String);
-ZP_FMI fmi3Status fmi3GetBinary(fmi3Instance, const fmi3ValueReference[], size_t count, size_t sizes[], fmi3Binary[],
-                                size_t values);
-ZP_FMI fmi3Status fmi3SetBinary(fmi3Instance, const fmi3ValueReference[], size_t count, const size_t sizes[],
-                                const fmi3Binary[], size_t values);
-ZP_FMI fmi3Status fmi3GetClock(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3Clock[]);
-ZP_FMI fmi3Status fmi3SetClock(fmi3Instance, const fmi3ValueReference[], size_t count, const fmi3Clock[]);
 
-ZP_FMI fmi3Status fmi3GetNumberOfVariableDependencies(fmi3Instance, fmi3ValueReference, size_t *count);
-ZP_FMI fmi3Status fmi3GetVariableDependencies(fmi3Instance, fmi3ValueReference, size_t element_of_dependent[],
-                                              fmi3ValueReference independent[], size_t element_of_independent[],
-                                              fmi3DependencyKind[], size_t count);
 ZP_FMI fmi3Status fmi3GetFMUState(fmi3Instance, fmi3FMUState *);
 ZP_FMI fmi3Status fmi3SetFMUState(fmi3Instance, fmi3FMUState);
 ZP_FMI fmi3Status fmi3FreeFMUState(fmi3Instance, fmi3FMUState *);
@@ -121,43 +103,17 @@ ZP_FMI fmi3Status fmi3GetAdjointDerivative(fmi3Instance, const fmi3ValueReferenc
                                            const fmi3ValueReference known[], size_t knowns, const fmi3Float64 seed[],
                                            size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities);
 
-ZP_FMI fmi3Status fmi3GetIntervalDecimal(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3Float64 interval[],
-                                         fmi3IntervalQualifier[]);
-ZP_FMI fmi3Status fmi3GetIntervalFraction(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3UInt64 counter[],
-                                          fmi3UInt64 resolution[], fmi3IntervalQualifier[]);
-ZP_FMI fmi3Status fmi3GetShiftDecimal(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3Float64 shift[]);
-ZP_FMI fmi3Status fmi3GetShiftFraction(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3UInt64 counter[],
-                                       fmi3UInt64 resolution[]);
-ZP_FMI fmi3Status fmi3SetIntervalDecimal(fmi3Instance, const fmi3ValueReference[], size_t count,
-                                         const fmi3Float64 interval[]);
-ZP_FMI fmi3Status fmi3SetIntervalFraction(fmi3Instance, const fmi3ValueReference[], size_t count,
-                                          const fmi3UInt64 counter[], const fmi3UInt64 resolution[]);
-ZP_FMI fmi3Status fmi3SetShiftDecimal(fmi3Instance, const fmi3ValueReference[], size_t count,
-                                      const fmi3Float64 shift[]);
-ZP_FMI fmi3Status fmi3SetShiftFraction(fmi3Instance, const fmi3ValueReference[], size_t count,
-                                       const fmi3UInt64 counter[], const fmi3UInt64 resolution[]);
 ZP_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance);
 ZP_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance, fmi3Boolean *again, fmi3Boolean *terminate,
                                            fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
                                            fmi3Boolean *next_defined, fmi3Float64 *next);
 
-ZP_FMI fmi3Status fmi3GetOutputDerivatives(fmi3Instance, const fmi3ValueReference[], size_t count,
-                                           const fmi3Int32 order[], fmi3Float64[], size_t values);
 ZP_FMI fmi3Status fmi3DoStep(fmi3Instance, fmi3Float64 now, fmi3Float64 size, fmi3Boolean no_return_before,
                              fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached);
-ZP_FMI fmi3Status fmi3ActivateModelPartition(fmi3Instance, fmi3ValueReference, fmi3Float64 time);
 
-/* For model exchange: all are refused. */
-ZP_FMI fmi3Status fmi3EnterContinuousTimeMode(fmi3Instance);
-ZP_FMI fmi3Status fmi3CompletedIntegratorStep(fmi3Instance, fmi3Boolean same_point, fmi3Boolean *enter_event_mode,
-                                              fmi3Boolean *terminate);
-ZP_FMI fmi3Status fmi3SetTime(fmi3Instance, fmi3Float64 time);
-ZP_FMI fmi3Status fmi3SetContinuousStates(fmi3Instance, const fmi3Float64[], size_t count);
-ZP_FMI fmi3Status fmi3GetContinuousStateDerivatives(fmi3Instance, fmi3Float64[], size_t count);
-ZP_FMI fmi3Status fmi3GetEventIndicators(fmi3Instance, fmi3Float64[], size_t count);
-ZP_FMI fmi3Status fmi3GetContinuousStates(fmi3Instance, fmi3Float64[], size_t count);
-ZP_FMI fmi3Status fmi3GetNominalsOfContinuousStates(fmi3Instance, fmi3Float64[], size_t count);
-ZP_FMI fmi3Status fmi3GetNumberOfEventIndicators(fmi3Instance, size_t *count);
-ZP_FMI fmi3Status fmi3GetNumberOfContinuousStates(fmi3Instance, size_t *count);
+#define ZP_NO_TYPE(Type)                         ZP_FMI3_VARIABLES(Type);
+#define ZP_NONE(name, phases, asked, parameters) ZP_FMI fmi3Status fmi3##name parameters;
+#define ZP_EXCHANGE(name, parameters)            ZP_FMI fmi3Status fmi3##name parameters;
+#include "fmu/export/fmi3_refused.def"
 
 #endif

@@ -128,36 +128,19 @@ ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, d
   return zp_slave_after(slave, zp_fmu_set(slave->fmu, reference, type, value, &err), &err);
 }
 
-ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
-                                  size_t knowns, const double *seed, double *sensitivity) {
+ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *unknown, size_t unknowns,
+                                  const uint32_t *known, size_t knowns, const double *seed, double *sensitivity) {
   ZpError err;
   ZpStatus status = ZP_OK;
   double slope[ZP_FMU_SIGNALS];
-  for (size_t i = 0; i < unknowns; i++)
-    sensitivity[i] = 0;
+  for (size_t k = 0; k < (adjoint ? knowns : unknowns); k++)
+    sensitivity[k] = 0;
   for (size_t j = 0; j < knowns && status == ZP_OK; j++) {
     status = zp_fmu_slopes(slave->fmu, known[j], slope, &err);
     for (size_t i = 0; i < unknowns && status == ZP_OK; i++) {
       int signal = 0;
       status = zp_fmu_signal(slave->fmu, unknown[i], &signal, &err);
-      sensitivity[i] += slope[signal] * seed[j];
-    }
-  }
-  return zp_slave_after(slave, status, &err);
-}
-
-ZpSlaveStatus zp_slave_adjoint(ZpSlave *slave, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
-                               size_t knowns, const double *seed, double *sensitivity) {
-  ZpError err;
-  ZpStatus status = ZP_OK;
-  double slope[ZP_FMU_SIGNALS];
-  for (size_t j = 0; j < knowns && status == ZP_OK; j++) {
-    status = zp_fmu_slopes(slave->fmu, known[j], slope, &err);
-    sensitivity[j] = 0;
-    for (size_t i = 0; i < unknowns && status == ZP_OK; i++) {
-      int signal = 0;
-      status = zp_fmu_signal(slave->fmu, unknown[i], &signal, &err);
-      sensitivity[j] += seed[i] * slope[signal];
+      sensitivity[adjoint ? j : i] += slope[signal] * seed[adjoint ? i : j];
     }
   }
   return zp_slave_after(slave, status, &err);

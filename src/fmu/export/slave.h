@@ -74,10 +74,8 @@ ZpSlaveStatus zp_slave_get(ZpSlave *slave, uint32_t reference, ZpKeyType type, d
 ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, double value);
 
 /* sensitivity = derivatives of unknowns with respect to knowns, times seed; adjoint: seed times derivatives. */
-ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
-                                  size_t knowns, const double *seed, double *sensitivity);
-ZpSlaveStatus zp_slave_adjoint(ZpSlave *slave, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
-                               size_t knowns, const double *seed, double *sensitivity);
+ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *unknown, size_t unknowns,
+                                  const uint32_t *known, size_t knowns, const double *seed, double *sensitivity);
 
 /* The current state => *state, which is created if it is NULL and reused otherwise. */
 ZpSlaveStatus zp_slave_get_state(ZpSlave *slave, void **state);
