@@ -423,8 +423,8 @@ START_TEST(constant_voltage_under_any_waveform) {
     ck_assert_int_eq(zp_def_set(&def, zp_key_find(of[_i][k].key), of[_i][k].value, NULL), ZP_OK);
   ck_assert_msg(zp_study_check(ZP_STUDY_ACTUATE, &def, &err) == ZP_OK, "%s", err.message);
   ZpModel *model = model_of(&def);
-  ck_assert_double_eq(zp_waveform_largest(&model->below->waveform), 2e3);
-  ck_assert_double_eq(zp_waveform_voltage(&model->below->waveform, 0.13), 2e3);
+  ck_assert_double_eq(zp_waveform_largest(&model[1].waveform), 2e3);
+  ck_assert_double_eq(zp_waveform_voltage(&model[1].waveform, 0.13), 2e3);
   zp_model_destroy(model);
 }
 END_TEST

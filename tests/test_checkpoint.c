@@ -425,7 +425,7 @@ START_TEST(test_forged_numbers) {
   ZpSim *sim = sim_of(model);
   zp_sim_run(sim, 2.5e-3, false, NULL, NULL);
   model->def.solver.max_steps = 2000; /* of 20 us each time */
-  size_t size = zp_sim_state_size(sim), own = size / zp_members(model);
+  size_t size = zp_sim_state_size(sim), own = size / model->members;
   unsigned char *byte = malloc(size);
   zp_sim_save(sim, byte);
   unsigned char *item;

@@ -283,7 +283,7 @@ EXPORT double zp_web_zip_time(ZpWeb *web) {
 
 /* Members of a stack that have shapes of their own: those of a series, and unequal parallel ones. */
 EXPORT int zp_web_members(ZpWeb *web) {
-  return (int)zp_members(web->model);
+  return (int)web->model->members;
 }
 
 /* Modelled halves of each: 1, which has a mirror image, or 2; 0 of a hinge, which has neither. */
@@ -298,10 +298,7 @@ EXPORT int zp_web_nodes(ZpWeb *web) {
 }
 
 static const ZpModel *member_of(const ZpWeb *web, int member) {
-  const ZpModel *model = web->model;
-  while (member-- > 0)
-    model = model->below;
-  return model;
+  return web->model + member;
 }
 
 static ZpActuatorDef ribbon_of(const ZpWeb *web, int member, int ribbon) {

@@ -727,11 +727,9 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
 #endif
 
 /* One actuator. If it `hangs`, it does so on the platform of another. */
-static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, bool hangs, ZpModel **out,
-                           ZpError *err) {
+static ZpStatus fill_one(const ZpActuatorDef *def, const ZpDriveTable *table, bool hangs, ZpModel *model,
+                         ZpError *err) {
   size_t rows = table ? table->rows : 0;
-  ZpModel *model = zp_calloc(1, sizeof *model);
-  if (!model) return zp_fail_memory(err);
   model->def = model->whole = *def;
   derive(model);
   if (hangs) zp_topology_hang(&model->topology);
@@ -741,10 +739,7 @@ static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, 
 #ifndef ZP_WITHOUT_FIELD
   if (status == ZP_OK) status = make_edges(model, err);
 #endif
-  if (status != ZP_OK) {
-    zp_model_destroy(model);
-    return status;
-  }
+  if (status != ZP_OK) return status;
   carve(model, rows, model->memory, &arrays);
   fill_waveform(model, table, &arrays);
   if (model->is_rod)
@@ -754,7 +749,6 @@ static ZpStatus create_one(const ZpActuatorDef *def, const ZpDriveTable *table, 
   fill_plastic(model);
   fill_stress(model, &arrays);
   fill_masses(model, &arrays);
-  *out = model;
   return ZP_OK;
 }
 
@@ -775,37 +769,32 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
                  hangs, most);
 }
 
-/* The members of a stack, two or more, from the last one on. */
-static ZpStatus create_stack(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
-  ZpModel *below = NULL;
-  for (int member = zp_def_members(def); member >= 1; member--) {
-    ZpActuatorDef one = zp_def_member(def, member);
-    ZpModel *model;
-    bool opposed = zp_def_opposed(def), abreast = zp_def_abreast(def), hangs = !opposed && !abreast,
-         follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
-    ZpStatus status = create_one(&one, follows ? table : NULL, member > 1 && hangs, &model, err);
-    if (status != ZP_OK) {
-      zp_model_destroy(below);
-      return status;
-    }
-    model->below = below;
-    model->whole = *def;
-    model->abreast = abreast;
-    if (abreast) model->ratio = 1;
-    if (opposed) {
-      model->distance = def->stack.distance;
-      model->bias = zp_def_lower_voltage(def, 0);
-      model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
-    }
-    if (below && hangs) model->carried = mass_from_here(below);
-    below = model;
+/* One member of a stack; those on which the load hangs come first. */
+static ZpStatus fill_member(const ZpActuatorDef *def, const ZpDriveTable *table, int member, ZpModel *model,
+                            ZpError *err) {
+  const ZpActuatorDef one = zp_def_member(def, member);
+  bool opposed = zp_def_opposed(def), abreast = zp_def_abreast(def), hangs = !opposed && !abreast,
+       follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
+  ZpStatus status = fill_one(&one, follows ? table : NULL, member > 1 && hangs, model, err);
+  if (status != ZP_OK) return status;
+  model->whole = *def;
+  model->abreast = abreast;
+  if (abreast) model->ratio = 1;
+  if (opposed) {
+    model->distance = def->stack.distance;
+    model->bias = zp_def_lower_voltage(def, 0);
+    model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
   }
-  ZpStatus status = below ? check_carried(below, err) : ZP_OK;
-  if (status == ZP_OK)
-    *out = below;
-  else
-    zp_model_destroy(below);
-  return status;
+  if (hangs && member < zp_def_members(def)) model->carried = mass_from_here(model + 1);
+  return ZP_OK;
+}
+
+static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel *model, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  if (model->members == 1) return fill_one(def, table, false, model, err);
+  for (size_t k = model->members; k-- > 0 && status == ZP_OK;)
+    status = fill_member(def, table, (int)k + 1, model + k, err);
+  return status == ZP_OK ? check_carried(model, err) : status;
 }
 
 ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
@@ -813,20 +802,22 @@ ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpM
   ZpStatus status = zp_def_check(def, err);
   if (status == ZP_OK) status = check_table(def, table, err);
   if (status != ZP_OK) return status;
-  return zp_def_members(def) > 1 ? create_stack(def, table, out, err) : create_one(def, table, false, out, err);
-}
-
-ZpActuatorDef zp_member_at_rest(const ZpModel *member) {
-  ZpActuatorDef def = member->def;
-  def.load.mass += member->carried;
-  def.load.force = zp_lowest(member)->def.load.force;
-  return def;
+  size_t members = (size_t)zp_def_members(def);
+  ZpModel *model = zp_calloc(members, sizeof *model);
+  if (!model) return zp_fail_memory(err);
+  for (size_t k = 0; k < members; k++)
+    model[k].members = members;
+  status = fill_all(def, table, model, err);
+  if (status == ZP_OK)
+    *out = model;
+  else
+    zp_model_destroy(model);
+  return status;
 }
 
 void zp_model_destroy(ZpModel *model) {
-  if (!model) return;
-  zp_model_destroy(model->below);
-  zp_free(model->memory);
+  for (size_t k = 0; model && k < model->members; k++)
+    zp_free(model[k].memory);
   zp_free(model);
 }
 

@@ -131,11 +131,11 @@ struct ZpModel {
   double total_weight;  /* of what moves, of one half, N */
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
-  ZpModel *below;  /* of a series: the member that hangs on this one's lower platform; else the next one; NULL: none */
-  bool abreast;    /* its lower platform is joined to those of the others, side by side */
-  double carried;  /* mass of all members and loads below, kg, of the whole actuator */
-  double distance; /* of both antagonists: what their openings sum up to, m; 0: it has none */
-  double ratio, bias; /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
+  size_t members;       /* of the system: models that follow each other, in series from the uppermost one down */
+  bool abreast;         /* its lower platform is joined to those of the others, side by side */
+  double carried;       /* mass of all members and loads below, kg, of the whole actuator */
+  double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
+  double ratio, bias;   /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
 };
 
 /* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
@@ -257,27 +257,9 @@ static inline bool zp_shares_load(const ZpModel *model) {
 
 /* The member of a series on which the load hangs: the lowest one, of those that share it the first
  * one. */
-static inline const ZpModel *zp_lowest(const ZpModel *model) {
-  while (model->below && !zp_shares_load(model))
-    model = model->below;
-  return model;
+static inline const ZpModel *zp_lowest(const ZpModel *first) {
+  return zp_shares_load(first) ? first : first + first->members - 1;
 }
-
-/* How many members are there from here on? */
-static inline size_t zp_members(const ZpModel *model) {
-  size_t count = 1;
-  while ((model = model->below))
-    count++;
-  return count;
-}
-
-/* Is it one of several members? */
-static inline bool zp_in_series(const ZpModel *model) {
-  return model->below || model->topology.platform.kind == ZP_JOINT_LINK || zp_shares_load(model);
-}
-
-/* The definition of one member alone, under all that hangs on it: at rest it is as it is in its series, eq. (29.1). */
-ZpActuatorDef zp_member_at_rest(const ZpModel *member);
 
 /* Mass that each end which the load hangs on has beyond its share of load.mass, kg. */
 static inline double zp_state_added(const ZpModel *model, const ZpState *state) {

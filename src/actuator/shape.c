@@ -90,7 +90,7 @@ ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
 ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
   ZpMargins worst = zp_margins_none();
   if (model->s == 2) worst = fields_at(model, voltage, 0, 0);
-  for (const ZpModel *m = model->below; m; m = m->below)
+  for (const ZpModel *m = model + 1; m < model + model->members; m++)
     zp_margins_join(&worst, fields_at(m, zp_shares_load(m) ? zp_opposed_voltage(m, voltage) : voltage, 0, 0));
   return worst;
 }
@@ -136,7 +136,7 @@ void zp_many_give(const ZpManyShapes *all, ZpShape *shape) {
 }
 
 ZpShapes *zp_model_shapes(const ZpModel *model, size_t capacity) {
-  size_t members = zp_members(model);
+  size_t members = model->members;
   ZpShapes *shapes = zp_shapes_create(model->s, members * model->nodes, capacity);
   if (shapes && members > 1) shapes->members = members;
   return shapes;

@@ -625,16 +625,16 @@ static void add_link_forces(ZpDynamics *d) {
 }
 
 /* The dynamics of this model and of all below it, without the parts that they share. */
-static bool create_members(const ZpModel *model, ZpDynamics *d) {
+static bool create_members(const ZpModel *model, size_t below, ZpDynamics *d) {
   d->model = model;
   if (!zp_system_create(model, false, &d->eval)) return false;
   if (!zp_assembly_create(model, model->own, true, &d->assembly)) return false;
-  if (!model->below) return true;
+  if (below == 0) return true;
   d->below = zp_calloc(1, sizeof *d->below);
   if (!d->below) return false;
   d->below->above = d;
   d->below->at = d->at + d->assembly.n;
-  return create_members(model->below, d->below);
+  return create_members(model + 1, below - 1, d->below);
 }
 
 /* The system of all members. */
@@ -701,8 +701,8 @@ static double error_of_step(const ZpActuatorDef *def) {
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
   memset(d, 0, sizeof *d);
   d->source = source;
-  if (!create_members(model, d)) return false;
-  d->links = zp_members(model) - 1;
+  if (!create_members(model, model->members - 1, d)) return false;
+  d->links = model->members - 1;
   d->system = system_of(d);
   if (!allocate(d)) return false;
   fill_equations(d);

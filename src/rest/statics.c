@@ -109,14 +109,14 @@ static void number(ZpStatics *s) {
 }
 
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
-  *s = (ZpStatics){.members = zp_members(model),
+  *s = (ZpStatics){.members = model->members,
                    .shared = zp_shares_load(model),
                    .distance = model->distance,
                    .force = zp_lowest(model)->def.load.force};
   s->memory = zp_calloc(1, carve(model, s, NULL));
   bool made = s->memory != NULL;
   if (made) carve(model, s, s->memory);
-  for (size_t k = 0; k < s->members && made; k++, model = model->below) {
+  for (size_t k = 0; k < s->members && made; k++, model++) {
     made = create_member(model, &s->member[k]);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model));
     s->own_load = s->shared ? s->own_load + model->def.load.mass : model->def.load.mass;

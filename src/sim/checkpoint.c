@@ -73,7 +73,7 @@ ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err) {
 
 ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *err) {
   const ZpActuatorDef *def = &sim->model->def; /* of a series that of its uppermost member */
-  ZpStatus status = sim->below ? check_time(checkpoint, def, err) : zp_checkpoint_check(checkpoint, def, err);
+  ZpStatus status = sim->members > 1 ? check_time(checkpoint, def, err) : zp_checkpoint_check(checkpoint, def, err);
   return status == ZP_OK ? zp_sim_restore(sim, checkpoint->byte, checkpoint->size, err) : status;
 }
 

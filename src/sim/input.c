@@ -37,7 +37,7 @@ static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
   bool within = voltage >= key->min && voltage <= key->max;
   ZpStatus status = ZP_OK;
-  for (const ZpSim *m = sim; m && within && status == ZP_OK; m = m->below)
+  for (const ZpSim *m = sim; m < sim + sim->members && within && status == ZP_OK; m++)
     status = zp_def_check_voltage(&m->model->def, voltage_of(sim, m, voltage), err);
   if (within) return status;
   ZpActuatorDef scratch = sim->model->def;
@@ -46,7 +46,7 @@ static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
 
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
   const ZpRamp all = voltage;
-  for (ZpSim *m = sim; m; m = m->below) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
     voltage.value = voltage_of(sim, m, all.value);
     voltage.rate = voltage_of(sim, m, all.rate) - voltage_of(sim, m, 0);
     m->state->by_hand = true;

@@ -344,11 +344,11 @@ static size_t put_member(const ZpSim *sim, double *place) {
 /* The same of all members, and numbers of each. */
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
-  if (!sim->below) return;
+  if (sim->members == 1) return;
   const bool shared = zp_shares_load(sim->model);
   double *row = sim->row, *place = row + SIGNAL_COUNT, whole = sim->state->opening0;
   place += put_member(sim, place);
-  for (ZpSim *m = sim->below; m; m = m->below) {
+  for (ZpSim *m = sim + 1; m < sim + sim->members; m++) {
     fill_own_row(m, what);
     place += put_member(m, place);
     if (!shared) whole += m->state->opening0;
@@ -373,7 +373,7 @@ static void make_row(ZpSim *sim) {
   fill_row(sim, ALL);
   if (!(state->t > sim->row_time)) return;
   if (!zp_sim_is_fed(sim)) zp_feed_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     count_from_here(m);
 }
 
@@ -389,7 +389,7 @@ void zp_sim_set_row_start(ZpSim *sim, ZpRowStart start) {
 
 void zp_sim_start_row(ZpSim *sim) {
   fill_row(sim, ELECTRIC);
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     count_from_here(m);
 }
 
@@ -422,7 +422,7 @@ ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *
 /* A row of the ledger that is no signal: of several members the sum, or the largest; NAN: none has it. */
 static double unlisted(ZpSim *sim, const char *name) {
   double found = NAN;
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     for (size_t k = 0; k < m->model->ledger.rows; k++) {
       const ZpRow *row = m->model->ledger.row[k];
       if (strcmp(row->name, name) != 0) continue;
@@ -450,9 +450,9 @@ void zp_sim_read(ZpSim *sim, double *row) {
 /* The shapes of all, member after member. */
 static ZpShape join_shapes(ZpSim *sim) {
   ZpShape shape = sim->shape;
-  if (!sim->below) return shape;
+  if (sim->members == 1) return shape;
   size_t member = 0;
-  for (ZpSim *m = sim; m; m = m->below, member++) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++, member++) {
     double *y = zp_many_put(&sim->all, member, &m->shape);
     if (m != sim && zp_is_opposed(sim->model)) zp_shape_turn_over(m->model, y);
   }
@@ -462,7 +462,7 @@ static ZpShape join_shapes(ZpSim *sim) {
 
 ZpShape zp_sim_shape(ZpSim *sim) {
   sim->shape = shape_of(sim);
-  for (ZpSim *m = sim->below; m; m = m->below)
+  for (ZpSim *m = sim + 1; m < sim + sim->members; m++)
     m->shape = shape_of(m);
   return join_shapes(sim);
 }
@@ -486,14 +486,14 @@ ZpLiquid zp_sim_liquid(ZpSim *sim) {
   const ZpLiquidRoom *room = &sim->liquid;
   size_t member = 0;
   if (!model->has_film) return (ZpLiquid){NULL, NULL, NULL};
-  for (ZpSim *m = sim; m; m = m->below, member++)
+  for (ZpSim *m = sim; m < sim + sim->members; m++, member++)
     fill_liquid(m, room->thickness + member * model->nodes, room->pressure + member * model->nodes,
                 room->wet_length + member * model->topology.halves);
   return (ZpLiquid){room->thickness, room->pressure, room->wet_length};
 }
 
 void zp_sim_watch(ZpSim *sim) {
-  for (ZpSim *m = sim; m; m = m->below) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
     m->watched = true;
     m->seen = zp_margins_none();
   }
@@ -504,13 +504,13 @@ void zp_sim_see_one(ZpSim *sim) {
 }
 
 void zp_sim_see(ZpSim *sim) {
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     zp_sim_see_one(m);
 }
 
 ZpMargins zp_sim_margins(const ZpSim *sim) {
   ZpMargins worst = zp_margins_none();
-  for (const ZpSim *m = sim; m; m = m->below)
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
     zp_margins_join(&worst, m->seen);
   return worst;
 }
@@ -518,7 +518,7 @@ ZpMargins zp_sim_margins(const ZpSim *sim) {
 /* The present row. */
 static void look(ZpSim *sim) {
   make_row(sim);
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     if (m->watched) zp_margins_join(&m->seen, m->now);
 }
 

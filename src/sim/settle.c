@@ -112,12 +112,10 @@ static void start_at(ZpSim *sim, const double *q) {
   if (strain) memcpy(strain, sim->eval.rod_step.strain_end, zp_rod_plastic_count(&model->rod) * sizeof *q);
 }
 
-bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
+/* The only member. */
+static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
   const ZpModel *model = sim->model;
   double *q = sim->relax_work;
-  bool goes_on = model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
-  sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;        /* until a state is given */
-  if (goes_on || zp_in_series(model)) return true;                  /* with all others */
   /* a single straight ribbon needs neither a start nor a reference */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
@@ -129,7 +127,7 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   return true;
 }
 
-/* One of several members, at their common equilibrium. */
+/* One of several, at their common equilibrium. */
 static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
   const double *q = rest->member[which].q;
@@ -140,7 +138,18 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
-bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks) {
+/* Lower a member until its upper platform is where the lower one of the member above is. */
+static void hang_below(const ZpSim *above, ZpSim *sim) {
+  double *y = zp_state_q(sim->model, sim->state) + sim->model->stride;
+  const ZpTopology *t = &sim->model->topology;
+  double fall = zp_state_motion(above->model, above->state).y[zp_load_node(&above->model->topology)] -
+                y[zp_upper(t, t->platform.first)];
+  for (size_t j = 0; j < sim->model->stride; j++)
+    y[j] += fall;
+}
+
+/* Members in series then hang on each other. */
+static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   ZpRest rest;
   bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   if (opened) {
@@ -150,10 +159,18 @@ bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks) {
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (!zp_newton_good(info.end)) sim->settled = rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-    size_t which = 0;
-    for (ZpSim *m = sim; m; m = m->below)
-      start_member(m, &rest.statics, which++);
+    for (size_t k = 0; k < sim->members; k++)
+      start_member(sim + k, &rest.statics, k);
+    for (size_t k = 1; k < sim->members && !zp_shares_load(sim->model); k++)
+      hang_below(sim + k - 1, sim + k);
   }
   zp_rest_close(&rest);
   return opened;
+}
+
+bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
+  bool goes_on = sim->model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
+  sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;             /* until a state is given */
+  if (goes_on) return true;
+  return sim->members > 1 ? settle_members(sim, hooks) : settle_one(sim, hooks);
 }

@@ -46,7 +46,7 @@ static bool make_shape_room(ZpSim *sim) {
 }
 
 static void carve_liquid(const ZpModel *model, ZpLiquidRoom *room, ZpCarver *carver) {
-  size_t members = zp_members(model);
+  size_t members = model->members;
   room->thickness = zp_carve(carver, members * model->nodes);
   room->pressure = zp_carve(carver, members * model->nodes);
   room->wet_length = zp_carve(carver, members * ZP_BEADS);
@@ -105,21 +105,21 @@ static bool has_diverged(const ZpModel *model, const ZpState *state) {
 }
 
 static bool diverged(const ZpSim *sim) {
-  for (const ZpSim *m = sim; m; m = m->below)
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
     if (has_diverged(m->model, m->state)) return true;
   return false;
 }
 
 void zp_sim_passed(const ZpSim *sim, ZpState *state[]) {
   bool off = sim->cut || diverged(sim);
-  for (const ZpSim *m = sim; m; m = m->below)
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
     *state++ = off ? m->kept : m->state;
 }
 
 /* A longer run passes through the present state, too, unless the end of this run has cut its last step short. */
 static void keep(ZpSim *sim) {
   if (sim->cut || diverged(sim)) return;
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     memcpy(m->kept, m->state, zp_state_size(m->model));
 }
 
@@ -136,41 +136,6 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
 }
 
-/* The simulation of one member, straight. NULL: there is no memory. */
-static ZpSim *create_straight(const ZpModel *model, bool uppermost) {
-  ZpSim *sim = zp_calloc(1, sizeof *sim);
-  if (!sim) return NULL;
-  sim->model = model;
-  sim->drive = zp_key_find("drive.voltage");
-  sim->signal = zp_key_find("control.signal");
-  if (!allocate(sim, uppermost)) {
-    zp_sim_destroy(sim);
-    return NULL;
-  }
-  ZpState *state = sim->state;
-  state->zip_time = state->closed_from = state->refreshed = state->starved_time = NAN;
-  lay_straight(model, zp_state_q(model, state));
-  return sim;
-}
-
-/* The same where it is at rest. */
-static ZpSim *create_one(const ZpModel *model, bool uppermost, const ZpHooks *hooks) {
-  ZpSim *sim = create_straight(model, uppermost);
-  if (!sim || zp_sim_settle(sim, hooks)) return sim;
-  zp_sim_destroy(sim);
-  return NULL;
-}
-
-/* Lower a member until its upper platform is where the lower one of the member above is. */
-static void hang_below(const ZpSim *above, ZpSim *sim) {
-  double *y = zp_state_q(sim->model, sim->state) + sim->model->stride;
-  const ZpTopology *t = &sim->model->topology;
-  double fall = zp_state_motion(above->model, above->state).y[zp_load_node(&above->model->topology)] -
-                y[zp_upper(t, t->platform.first)];
-  for (size_t j = 0; j < sim->model->stride; j++)
-    y[j] += fall;
-}
-
 /* For the shape of all members. */
 static bool make_room(ZpSim *sim, size_t members) {
   const ZpModel *model = sim->model;
@@ -182,24 +147,33 @@ static bool make_room(ZpSim *sim, size_t members) {
   return sim->all_memory != NULL;
 }
 
-/* The members below, each in equilibrium on the one above; those that share a load have a common equilibrium. False if
- * there is no memory. */
-static bool create_members(ZpSim *sim, const ZpHooks *hooks) {
-  size_t members = zp_members(sim->model), k = 0;
-  sim->states = zp_calloc(members, sizeof(ZpState *));
-  if (!sim->states || (members > 1 && !make_room(sim, members))) return false;
-  sim->states[k++] = sim->state;
-  for (ZpSim *above = sim; above->model->below; above = above->below) {
-    above->below = create_one(above->model->below, false, hooks);
-    if (!above->below) return false;
-    sim->states[k++] = above->below->state;
-  }
-  bool goes_on = sim->model->def.initial.state == ZP_INITIAL_CHECKPOINT;
-  if (goes_on || members == 1) return true;
-  if (!zp_sim_settle_members(sim, hooks)) return false;
-  for (ZpSim *above = sim; above->below && !zp_shares_load(sim->model); above = above->below)
-    hang_below(above, above->below);
+/* One member, straight. False if there is no memory. */
+static bool create_one(const ZpModel *model, bool uppermost, ZpSim *sim) {
+  sim->model = model;
+  sim->drive = zp_key_find("drive.voltage");
+  sim->signal = zp_key_find("control.signal");
+  if (!allocate(sim, uppermost)) return false;
+  ZpState *state = sim->state;
+  state->zip_time = state->closed_from = state->refreshed = state->starved_time = NAN;
+  lay_straight(model, zp_state_q(model, state));
   return true;
+}
+
+/* All members, straight. NULL: there is no memory. */
+static ZpSim *create_straight(const ZpModel *model) {
+  const size_t members = model->members;
+  ZpSim *sim = zp_calloc(members, sizeof *sim);
+  if (!sim) return NULL;
+  sim->members = members;
+  sim->states = zp_calloc(members, sizeof(ZpState *));
+  bool made = sim->states != NULL;
+  for (size_t k = 0; k < members && made; k++) {
+    made = create_one(model + k, k == 0, sim + k);
+    sim->states[k] = sim[k].state;
+  }
+  if (made && (members == 1 || make_room(sim, members))) return sim;
+  zp_sim_destroy(sim);
+  return NULL;
 }
 
 /* What a simulation starts with. */
@@ -228,8 +202,8 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   *out = NULL;
   ZpStatus status = check_creation(model, err);
   if (status != ZP_OK) return status;
-  ZpSim *sim = create_one(model, true, hooks);
-  if (!sim || !create_members(sim, hooks)) {
+  ZpSim *sim = create_straight(model);
+  if (!sim || !zp_sim_settle(sim, hooks)) {
     zp_sim_destroy(sim);
     return zp_fail_memory(err);
   }
@@ -238,7 +212,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     zp_sim_destroy(sim);
     return status;
   }
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     start(m);
   zp_sim_start_row(sim);
   *out = sim;
@@ -246,28 +220,16 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
 }
 
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0) {
-  ZpSim *sim = create_straight(model, true);
+  ZpSim *sim = create_straight(model);
   if (!sim) return NULL;
   sim->state->opening0 = opening0;
   if (q) memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
   sim->settled = ZP_REACHED_END;
-  sim->states = zp_calloc(1, sizeof(ZpState *));
-  if (!sim->states) {
-    zp_sim_destroy(sim);
-    return NULL;
-  }
-  sim->states[0] = sim->state;
   start(sim);
   return sim;
 }
 
-void zp_sim_destroy(ZpSim *sim) {
-  if (!sim) return;
-  zp_sim_destroy(sim->below);
-  zp_free(sim->states);
-  zp_free(sim->all_memory);
-  zp_dynamics_destroy(&sim->dynamics);
-  zp_paper_motion_destroy(&sim->paper);
+static void destroy_one(ZpSim *sim) {
   zp_system_destroy(&sim->eval);
   zp_free(sim->state);
   zp_free(sim->kept);
@@ -275,6 +237,16 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim->relax_work);
   zp_free(sim->row);
   zp_free(sim->shape_memory);
+}
+
+void zp_sim_destroy(ZpSim *sim) {
+  if (!sim) return;
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    destroy_one(m);
+  zp_dynamics_destroy(&sim->dynamics);
+  zp_paper_motion_destroy(&sim->paper);
+  zp_free(sim->states);
+  zp_free(sim->all_memory);
   zp_free(sim->liquid.memory);
   zp_free(sim);
 }
@@ -287,9 +259,7 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
 ZpSim *zp_sim_loaded(ZpSim *sim) {
-  while (sim->below && !zp_shares_load(sim->model))
-    sim = sim->below;
-  return sim;
+  return sim + (zp_lowest(sim->model) - sim->model);
 }
 
 /* A change of the load that is due now comes before the next step. */
@@ -407,8 +377,8 @@ static bool stays_closed(const ZpModel *model, const ZpState *state) {
 
 /* A series has closed when all its members have; antagonists have when one has. */
 static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, const ZpState *state)) {
-  if (zp_is_opposed(sim->model)) return holds(sim->model, sim->state) || holds(sim->below->model, sim->below->state);
-  for (const ZpSim *m = sim; m; m = m->below)
+  if (zp_is_opposed(sim->model)) return holds(sim->model, sim->state) || holds(sim[1].model, sim[1].state);
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
     if (!holds(m->model, m->state)) return false;
   return true;
 }
@@ -416,8 +386,8 @@ static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, con
 /* Of one of two antagonists, the earlier; else of all members, the last. */
 static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
   double last = instant(sim->state);
-  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim->below->state));
-  for (const ZpSim *m = sim->below; m; m = m->below)
+  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim[1].state));
+  for (const ZpSim *m = sim + 1; m < sim + sim->members; m++)
     last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
   return last;
 }
@@ -508,7 +478,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, 
 
 /* Prepare all members of a series before a motion. */
 bool zp_sim_prepare(ZpSim *sim) {
-  for (ZpSim *m = sim; m; m = m->below) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
     if (zp_is_pair(&m->model->topology)) m->step_start = start_of(m->model, m->state);
     sim->stuck = !prepare_step(m);
     if (sim->stuck) return false;
@@ -519,7 +489,7 @@ bool zp_sim_prepare(ZpSim *sim) {
 /* And where a step has ended. */
 void zp_sim_arrive(ZpSim *sim) {
   const ZpDynamics *dynamics = &sim->dynamics;
-  for (ZpSim *m = sim; m; m = m->below, dynamics = dynamics->below) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++, dynamics = dynamics->below) {
     follow_voltage(m);
     if (zp_is_pair(&m->model->topology)) note_closing(m);
     note_starving(m, dynamics);
@@ -541,7 +511,7 @@ static double left_of(const ZpSim *m, ZpLanding landing) {
 double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
   const bool first = landing == ZP_LANDS_SHORTED || zp_is_opposed(sim->model);
   double left = first ? INFINITY : -INFINITY;
-  for (const ZpSim *m = sim; m; m = m->below) {
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
     if (first)
       left = fmin(left, left_of(m, landing));
     else if (landing == ZP_LANDS_RESTED || isnan(m->before->zip_time)) /* after closing it may have opened again */
@@ -709,7 +679,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
 /* => what is impossible about the present state of one of the members; NULL: nothing. Faces overlap for a moment where
  * they meet, but by less than the strips are thick. */
 static const char *fault_of(const ZpSim *sim) {
-  for (const ZpSim *m = sim; m; m = m->below) {
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
     const ZpModel *model = m->model;
     const ZpActuatorDef *def = &model->def;
     bool parted = model->field && def->contact.model == ZP_CONTACT_UNILATERAL;
@@ -869,9 +839,7 @@ double zp_sim_closed_from(const ZpSim *sim) {
 }
 
 double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {
-  for (size_t k = 1; k < member; k++)
-    sim = sim->below;
-  return sim->state->zip_time;
+  return sim[member - 1].state->zip_time;
 }
 
 static void resume_one(ZpSim *sim) {
@@ -886,7 +854,7 @@ static void resume_one(ZpSim *sim) {
 
 void zp_sim_resume(ZpSim *sim) {
   zp_sim_start_row(sim);
-  for (ZpSim *m = sim; m; m = m->below)
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     resume_one(m);
 }
 
@@ -900,10 +868,10 @@ void zp_sim_save(const ZpSim *sim, void *bytes) {
 
 /* Distance of the platforms that a link joins, m. */
 static double apart(const ZpSim *m) {
-  const ZpModel *above = m->model, *below = m->below->model;
+  const ZpModel *above = m->model, *below = m[1].model;
   const ZpTopology *t = &below->topology;
   double y = zp_state_motion(above, m->state).y[zp_load_node(&above->topology)];
-  const double *other = zp_state_motion(below, m->below->state).y;
+  const double *other = zp_state_motion(below, m[1].state).y;
   if (above->abreast) return y - other[zp_load_node(t)];
   if (zp_is_opposed(above)) return y + other[zp_load_node(t)] + above->distance;
   return y - other[zp_upper(t, t->platform.first)];
@@ -911,23 +879,19 @@ static double apart(const ZpSim *m) {
 
 static bool is_joined(const ZpSim *sim) {
   static const double same = 1e-9; /* of the length */
-  for (const ZpSim *m = sim; m->below; m = m->below)
+  for (const ZpSim *m = sim; m + 1 < sim + sim->members; m++)
     if (!(fabs(apart(m)) < same * m->model->L)) return false;
   return true;
 }
 
 void zp_sim_keep_states(ZpSim *sim) {
-  ZpSim *m = sim;
-  do
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     memcpy(m->before, m->state, zp_state_size(m->model));
-  while ((m = m->below));
 }
 
 void zp_sim_take_states_back(ZpSim *sim) {
-  ZpSim *m = sim;
-  do
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     memcpy(m->state, m->before, zp_state_size(m->model));
-  while ((m = m->below));
 }
 
 /* => the states; if they do not fit, they do not change. */

@@ -129,8 +129,8 @@ struct ZpSim {
   ZpStop stop;                /* where the run under way ends before its end time */
   ZpLanding landing;          /* the run has ended at this instant, exactly at the end of the last step, */
   double left_before;         /* and what was left until then at the start of that step: zp_sim_left */
-  struct ZpSim *below;        /* of a series: the member that hangs on this one's lower platform; NULL: none */
-  ZpState **states;           /* of the uppermost member: its state and those of all below */
+  size_t members;             /* simulations of one member each that follow each other, from this first one on */
+  ZpState **states;           /* [members] of the first one: the states of all */
   struct ZpRunRates *rates;   /* derivatives of the run; NULL: none */
   ZpLiquidRoom liquid;        /* of the liquid that zp_sim_liquid returns */
   ZpManyShapes all;           /* of the uppermost member of a series: arrays for the shape of all members */
@@ -174,9 +174,6 @@ void zp_sim_close(ZpSim *sim, ZpOpeningAt start);
 /* Find the hanging equilibrium (settle.c): sets opening0 and, if the run starts there, the positions. False if
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
-
-/* The same for antagonists, which are at rest against each other. */
-bool zp_sim_settle_members(ZpSim *sim, const ZpHooks *hooks);
 
 /* Place the beads of the state by its gaps: at rest, with all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);

@@ -307,9 +307,9 @@ static void walk(ZpPack *p, const ZpModel *model, ZpState *numbers, double *data
 size_t zp_snapshot_size(const ZpModel *model) {
   ZpState none = {.t = 0};
   size_t size = 0;
-  for (; model; model = model->below) {
+  for (size_t k = 0; k < model->members; k++) {
     ZpPack p = zp_pack_count();
-    walk(&p, model, &none, NULL);
+    walk(&p, model + k, &none, NULL);
     size += p.used;
   }
   return size;
@@ -317,9 +317,9 @@ size_t zp_snapshot_size(const ZpModel *model) {
 
 void zp_snapshot_write(const ZpModel *model, ZpState *const state[], void *bytes) {
   unsigned char *byte = bytes;
-  for (; model; model = model->below, state++) {
+  for (size_t k = 0; k < model->members; k++) {
     ZpPack p = zp_pack_write(&snapshot, byte);
-    walk(&p, model, *state, (*state)->data);
+    walk(&p, model + k, state[k], state[k]->data);
     zp_pack_seal(&p);
     byte += p.used;
   }
@@ -371,10 +371,10 @@ static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, Z
 
 ZpStatus zp_snapshot_read(const ZpModel *model, const void *bytes, size_t size, ZpState *const state[], ZpError *err) {
   const unsigned char *byte = bytes;
-  ZpStatus status = check_count(bytes, size, zp_members(model), err);
-  for (; model && status == ZP_OK; model = model->below) {
+  ZpStatus status = check_count(bytes, size, model->members, err);
+  for (size_t k = 0; k < model->members && status == ZP_OK; k++) {
     const size_t own = zp_pack_first(byte, size);
-    status = read_one(model, byte, own, *state++, err);
+    status = read_one(model + k, byte, own, state[k], err);
     byte += own;
     size -= own;
   }

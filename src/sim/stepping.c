@@ -15,7 +15,7 @@ static bool step_implicit(ZpSim *sim, double latest, ZpStepLimit *limit) {
   *limit = sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
   if (zp_sim_is_fed(sim)) return zp_feed_step(sim, latest);
   if (latest - state->t < shortest) {
-    for (ZpSim *m = sim; m; m = m->below)
+    for (ZpSim *m = sim; m < sim + sim->members; m++)
       m->state->t = latest;
     return true;
   }

@@ -27,17 +27,16 @@ static ZpStatus check_one(const ZpModel *model, const ZpModel *other, ZpError *e
 /* Members that share a load fit together only at the lengths that they had. */
 static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   const ZpModel *model = sim->model, *other = from->model;
-  if (zp_members(model) != zp_members(other) || zp_is_opposed(model) != zp_is_opposed(other) ||
+  if (model->members != other->members || zp_is_opposed(model) != zp_is_opposed(other) ||
       model->abreast != other->abreast)
     return zp_fail(err, ZP_BAD_INPUT, "stack: the simulation to take over from has other members");
   if (zp_shares_load(model) && (model->L != other->L || model->distance != other->distance))
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.length, platform.length, stack.distance: members that share a load must keep them");
-  for (; sim; sim = sim->below, from = from->below) {
-    ZpStatus status = check_one(sim->model, from->model, err);
-    if (status != ZP_OK) return status;
-  }
-  return ZP_OK;
+  ZpStatus status = ZP_OK;
+  for (size_t k = 0; k < model->members && status == ZP_OK; k++)
+    status = check_one(model + k, other + k, err);
+  return status;
 }
 
 /* Copy numbers of one kind if both models have as many; else they begin at 0. */
@@ -91,9 +90,9 @@ static void take_drive(ZpSim *sim, const ZpSim *from) {
 ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {
   ZpStatus status = check_all(sim, from, err);
   if (status != ZP_OK) return status;
-  for (ZpSim *m = sim; m; m = m->below, from = from->below) {
-    take_state(m, from);
-    take_drive(m, from);
+  for (size_t k = 0; k < sim->members; k++) {
+    take_state(sim + k, from + k);
+    take_drive(sim + k, from + k);
   }
   zp_sim_resume(sim);
   return ZP_OK;

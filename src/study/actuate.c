@@ -82,7 +82,7 @@ static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *res
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
   double pull = 0,
          compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  for (const ZpModel *m = zp_lowest(model); m; m = m->below) /* those that carry the load */
+  for (const ZpModel *m = zp_lowest(model); m < model + model->members; m++) /* those that carry the load */
     pull += zp_load_pull(m);
   return pull * risen + compressed + work_on_change(sim, zp_lowest(model)) - at_end(sim, result, "load_work");
 }
@@ -143,7 +143,7 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
 }
 
 static bool was_open(const ZpSim *sim) {
-  for (const ZpSim *m = sim; m; m = m->below)
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
     if (m->state->was_open) return true;
   return false;
 }
@@ -217,7 +217,7 @@ static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *
   static const char *const names[] = {"member_1_zip_time_s", "member_2_zip_time_s", "member_3_zip_time_s",
                                       "member_4_zip_time_s", "member_5_zip_time_s", "member_6_zip_time_s",
                                       "member_7_zip_time_s", "member_8_zip_time_s"};
-  size_t members = zp_members(model);
+  size_t members = model->members;
   for (size_t k = 1; members > 1 && k <= members; k++)
     zp_result_add(result, names[k - 1], "s", zp_sim_member_zip_time(sim, k));
 }
@@ -329,9 +329,9 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
   const ZpColumn *column = zp_signal_columns_of(task->def, &columns);
   result->series = zp_table_create(column, columns, (size_t)def->output.samples);
   result->shapes =
-      zp_shapes_create((size_t)size.ribbons, zp_members(model) * (size_t)size.nodes, (size_t)def->output.shapes);
+      zp_shapes_create((size_t)size.ribbons, model->members * (size_t)size.nodes, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
-  result->shapes->members = zp_members(model);
+  result->shapes->members = model->members;
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;

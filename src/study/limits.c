@@ -269,10 +269,10 @@ static double mass_of_one(const ZpModel *model) {
 
 double zp_limits_mass(const ZpModel *model) {
   double sum = 0;
-  for (const ZpModel *m = model; m->below && !zp_shares_load(m); m = m->below)
+  for (const ZpModel *m = model; m < zp_lowest(model); m++)
     sum += m->def.load.mass; /* of the link on which the next one hangs */
-  for (; model; model = model->below)
-    sum += mass_of_one(model);
+  for (const ZpModel *m = model; m < model + model->members; m++)
+    sum += mass_of_one(m);
   return sum;
 }
 
@@ -453,7 +453,7 @@ static void run(Finder *f, ZpResult *r) {
 /* A case with another mesh or kind does not count as a neighbour. */
 static const ZpLimits *neighbour_of(const ZpTask *task, const ZpModel *model) {
   const ZpLimits *near = task->input.neighbour ? task->input.neighbour->limits : NULL;
-  return near && near->ribbons == model->s && near->nodes == zp_members(model) * model->nodes ? near : NULL;
+  return near && near->ribbons == model->s && near->nodes == model->members * model->nodes ? near : NULL;
 }
 
 static const ZpRule rule[] = {

@@ -30,7 +30,7 @@ static const ZpColumn closed_members = {"closed_members", "1", "number of closed
 
 /* => how many there are. */
 static size_t columns_of(const ZpModel *model, ZpColumn *columns) {
-  size_t members = zp_members(model);
+  size_t members = model->members;
   bool opposed = zp_is_opposed(model), shared = zp_shares_load(model);
   size_t count = opposed ? LOWER : shared ? OF_EACH * members : members;
   if (members == 1) return 0;

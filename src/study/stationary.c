@@ -131,7 +131,7 @@ ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err)
   ZpStatus status = zp_model_create(&def, &model, err);
   if (status != ZP_OK) return status;
   ZpRest rest = {0};
-  size_t members = zp_members(model);
+  size_t members = model->members;
   result->series = zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * model->nodes);
   result->shapes = zp_model_shapes(model, 2);
   if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))

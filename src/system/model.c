@@ -41,9 +41,9 @@ static bool is_of_library(const ZpTerm *term) {
 }
 
 void zp_model_take_laws(ZpModel *model, const ZpModel *from) {
-  for (; model && from; model = model->below, from = from->below)
-    for (size_t k = 0; k < from->laws; k++)
-      if (!is_of_library(from->law[k].term)) zp_model_add_term(model, from->law[k].term);
+  for (size_t m = 0; m < model->members; m++)
+    for (const ZpLaw *law = from[m].law; law < from[m].law + from[m].laws; law++)
+      if (!is_of_library(law->term)) zp_model_add_term(model + m, law->term);
 }
 
 /* The kinetic energy is the first row. */
@@ -62,8 +62,8 @@ static void add_laws(ZpModel *model) {
 ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table_of_drive, ZpModel **out,
                                 ZpError *err) {
   ZpStatus status = zp_model_build(def, table_of_drive, out, err);
-  for (ZpModel *model = *out; model; model = model->below)
-    add_laws(model);
+  for (size_t k = 0; status == ZP_OK && k < (*out)->members; k++)
+    add_laws(*out + k);
   return status;
 }
 
