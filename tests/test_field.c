@@ -361,6 +361,30 @@ START_TEST(test_a_bead_without_end_is_liquid_everywhere) {
 }
 END_TEST
 
+/* Where no bead is left, air is everywhere: between the faces, behind the strips and around them. Only the clip stays
+ * wet between its insulators. */
+START_TEST(test_a_bead_of_no_length_is_air_everywhere) {
+  enum { N = 21 };
+  ZpFieldParams p = wedge_params();
+  p.stations = N;
+  p.columns = 4;
+  p.eps_out = 1;
+  Wedge wedge;
+  double none[N - 1] = {0}, energy[2];
+  make_wedge(&wedge, N, 4e-3, 0.5);
+  for (int k = 0; k < 2; k++) {
+    ZpField f;
+    if (k) p.eps_m = 1;
+    ck_assert(zp_field_create(&p, &f));
+    if (!k) zp_field_cover(&f, &(ZpCover){none, {0, 0}});
+    ck_assert_int_eq(zp_field_solve(&f, &wedge.faces), ZP_FIELD_SOLVED);
+    energy[k] = f.energy;
+    zp_field_destroy(&f);
+  }
+  ck_near(energy[0], energy[1], 6e-7); /* 2.1e-7 measured */
+}
+END_TEST
+
 /* Its difference from the plates law, also with the cap, for a shape that is partly capped and in which one pair
  * overlaps; the charge is the derivative with respect to the voltage. The same with a bead that ends in an element,
  * where no air breaks down. */
@@ -682,6 +706,7 @@ int main(void) {
   tcase_add_test(grid, test_station_forces_are_the_gradient);
   tcase_add_test(grid, test_energy_goes_with_the_wet_length);
   tcase_add_test(grid, test_a_bead_without_end_is_liquid_everywhere);
+  tcase_add_test(grid, test_a_bead_of_no_length_is_air_everywhere);
   tcase_add_loop_test(grid, test_surplus_is_the_gradient, 0, 2);
   tcase_add_test(grid, test_outside_does_not_matter);
   tcase_add_test(grid, test_platform_without_electrode);

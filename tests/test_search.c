@@ -20,9 +20,14 @@
 /* How the logarithm of the strip's stroke changes over the range of its thickness. */
 static const double steepness = 3 * 0.40546510810816438; /* 3 log(60 / 40) */
 
+/* P L^3 (1 - nu^2) / (E w b^3), m, with P = 10 mg g. */
+static double stroke_of(double width, double thickness) {
+  return 10e-6 * 9.81 * 1e-3 * (1 - 0.285 * 0.285) / (200e9 * width * thickness * thickness * thickness);
+}
+
 /* Of the strip of 60 um, m. */
 static double least_stroke(void) {
-  return 10e-6 * 9.81 * 1e-3 * (1 - 0.285 * 0.285) / (200e9 * 20e-3 * 60e-6 * 60e-6 * 60e-6);
+  return stroke_of(20e-3, 60e-6);
 }
 
 typedef struct Bench {
@@ -48,6 +53,14 @@ static void resolve_goals(ZpSearch *s) {
   zp_result_destroy(result);
 }
 
+/* Nothing is left in it from a test that was killed. */
+static void make_empty(const char *folder) {
+  char path[64];
+  mkdir(folder, 0777);
+  snprintf(path, sizeof path, "%s/journal.sqlite", folder);
+  remove(path);
+}
+
 /* A search that has no case yet. */
 static void open_bench(Bench *b, const char *folder, const char *const *sets) {
   ZpError err;
@@ -64,10 +77,7 @@ static void open_bench(Bench *b, const char *folder, const char *const *sets) {
   s->old = calloc(s->room, sizeof *s->old);
   s->point = calloc(s->room, sizeof *s->point);
   ck_assert_int_eq(pthread_mutex_init(&s->lock, NULL), 0);
-  mkdir(folder, 0777);
-  char path[64];
-  snprintf(path, sizeof path, "%s/journal.sqlite", folder);
-  remove(path);
+  make_empty(folder);
   ck_assert_int_eq(zp_campaign_hash(s->study, &s->def, &s->start, &err), ZP_OK);
   ck_assert_msg(zp_journal_open(folder, s->study, false, s->room, &s->journal, &err) == ZP_OK, "%s", err.message);
 }
@@ -300,7 +310,7 @@ static ZpOptimization *optimize(const char *folder, bool resume, const char *con
   ZpOptimization *o;
   ZpScenario *scenario = scenario_with(sets);
   const ZpCampaignOptions options = {.jobs = 2, .resume = resume};
-  mkdir(folder, 0777);
+  if (!resume) make_empty(folder);
   ck_assert_msg(zp_optimize(scenario, folder, &options, &o, &err) == ZP_OK, "%s", err.message);
   zp_scenario_destroy(scenario);
   return o;
@@ -340,6 +350,22 @@ START_TEST(resumed_rows_are_of_the_same_case) {
 }
 END_TEST
 
+/* The scenario of the report has the thickness and the width of each of its rows. */
+START_TEST(rows_have_their_variables) {
+  ZpOptimization *o =
+      OPTIMIZE("rows", false, STRIP, BOTH, "optimize.objective=min stroke_m", "optimize.evaluations=16");
+  const ZpReport *report = zp_optimization_report(o);
+  ck_assert_uint_gt(report->count, 8);
+  for (size_t i = 0; i < report->count; i++) {
+    ZpActuatorDef def;
+    ck_assert_int_eq(zp_scenario_def(report->scenario, i, &def, NULL), ZP_OK);
+    ck_near(row_value(report, i, "stroke_m"), stroke_of(def.ribbon.width, def.ribbon.thickness),
+            1e-4); /* 3.4e-5 measured: the arm becomes shorter */
+  }
+  zp_optimization_destroy(o);
+}
+END_TEST
+
 /* A run that ends at a limit of steps has numbers, but no answer: no case satisfies anything. */
 START_TEST(failed_cases_have_no_goals) {
   ZpOptimization *o =
@@ -366,6 +392,7 @@ int main(void) {
   tcase_add_test(parts, generations_depend_on_the_seed);
   tcase_add_test(parts, fronts_reach_both_ends);
   tcase_add_test(whole, resumed_rows_are_of_the_same_case);
+  tcase_add_test(whole, rows_have_their_variables);
   tcase_add_test(whole, failed_cases_have_no_goals);
   suite_add_tcase(suite, parts);
   suite_add_tcase(suite, whole);

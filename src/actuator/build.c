@@ -700,11 +700,9 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
     memcpy(a->time, table->time, bytes);
     memcpy(a->voltage, table->voltage, bytes);
   }
-  ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage};
-  const ZpDriveTable none = {0};
-  bool controlled = model->def.control.kind != ZP_CONTROL_NONE;
-  model->waveform = zp_waveform_of(&model->def, controlled ? &none : &copy);
-  model->setpoint = zp_setpoint_of(&model->def, controlled ? &copy : &none);
+  const ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage}; /* of the one whose waveform is a table */
+  model->waveform = zp_waveform_of(&model->def, &copy);
+  model->setpoint = zp_setpoint_of(&model->def, &copy);
   model->control = zp_control_of(&model->def);
   model->supply = zp_supply_of(&model->def);
   model->supply.acts &= model->field;
