@@ -423,9 +423,16 @@ bool zp_slow_falls_closed(ZpSlow *f, const ZpLimit *limit) {
   return fall_from(f, limit, 1) && zp_slow_is_closed(f);
 }
 
-/* It has closed gradually: is there a limit point further up? */
+/* The gap that closes, above minus twice the one that counts as closed. */
+static double gap_above_overlap(void *self, double *row) {
+  const ZpStatics *s = self;
+  return zp_closing_gap(self, row) + 2 * s->member->closed;
+}
+
+/* It has closed gradually: is there a limit point further up, before faces overlap by as much as they were apart? Two
+ * that are close to each other are seen along the gap only. */
 static void seek_pull_in(ZpSlow *f, double top, ZpLimit *pull_in) {
-  f->march.event = NULL;
+  f->march.event = gap_above_overlap;
   if (zp_march(&f->march, top * top) == ZP_MARCH_FOLD) zp_slow_note(f, pull_in, ZP_MARCH_FOLD);
 }
 
