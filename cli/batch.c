@@ -4,7 +4,6 @@
  * and all finished answers after it. So the answers keep the order of the lines, and each is printed as soon as all
  * answers before it are: a program may wait for an answer before it sends the next line. Ctrl-C ends the program at
  * once; printed answers are kept. */
-#include <jansson.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -88,12 +87,13 @@ static ZpStatus answer_case(const Options *o, const Line *line, FILE *answer, Zp
 
 /* {"error": "..."}, to be freed; NULL if there is no memory. */
 static char *error_line(const ZpError *err) {
-  json_t *object = json_pack("{ss}", "error", err->message);
-  char *text = json_dumps(object, 0), *line = NULL;
-  if (text && asprintf(&line, "%s\n", text) < 0) line = NULL;
+  char *text = NULL;
+  size_t size;
+  FILE *line = open_memstream(&text, &size);
+  if (line) zp_error_write_line(err, line, NULL);
+  if (line && fclose(line) == 0) return text;
   free(text);
-  json_decref(object);
-  return line;
+  return NULL;
 }
 
 /* => the answer, to be freed; NULL if there is no memory. */
