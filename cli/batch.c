@@ -4,6 +4,7 @@
  * and all finished answers after it. So the answers keep the order of the lines, and each is printed as soon as all
  * answers before it are: a program may wait for an answer before it sends the next line. Ctrl-C ends the program at
  * once; printed answers are kept. */
+#include <jansson.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -87,13 +88,12 @@ static ZpStatus answer_case(const Options *o, const Line *line, FILE *answer, Zp
 
 /* {"error": "..."}, to be freed; NULL if there is no memory. */
 static char *error_line(const ZpError *err) {
-  char *text = NULL;
-  size_t size;
-  FILE *line = open_memstream(&text, &size);
-  if (line) zp_error_write_line(err, line, NULL);
-  if (line && fclose(line) == 0) return text;
+  json_t *object = json_pack("{ss}", "error", err->message);
+  char *text = json_dumps(object, 0), *line = NULL;
+  if (text && asprintf(&line, "%s\n", text) < 0) line = NULL;
   free(text);
-  return NULL;
+  json_decref(object);
+  return line;
 }
 
 /* => the answer, to be freed; NULL if there is no memory. */

@@ -1,4 +1,5 @@
 /* zipact bench: CPU time of steps, motions and equilibria on this machine, on one thread. */
+#include <jansson.h>
 #include <math.h>
 #include <stdio.h>
 
@@ -75,31 +76,26 @@ static void print_table(const Row *row) {
   }
 }
 
-/* A number of a row; null if there is none. */
-static void print_member(const char *name, double value, const char *after) {
-  printf("      \"%s\": ", name);
-  if (isfinite(value))
-    printf("%.6g", value);
-  else
-    printf("null");
-  printf("%s\n", after);
+static json_t *real_or_null(double value) {
+  return isfinite(value) ? json_real(value) : json_null();
+}
+
+static json_t *row_json(const Row *row) {
+  return json_pack("{s:s, s:i, s:o, s:o, s:o, s:f, s:o, s:o}", "name", row->name, "nodes", row->nodes,
+                   "ns_per_node_step", real_or_null(row->ns_per_node_step), "steps_per_simulated_second",
+                   real_or_null(row->steps), "seconds_per_simulated_second", real_or_null(row->seconds), "cpu_s",
+                   row->cpu, "error", real_or_null(row->error), "paper_cost_over_this", real_or_null(row->paper_ratio));
 }
 
 static int print_json(const Row *row) {
-  printf("{\n  \"version\": \"" ZP_VERSION "\",\n  \"rows\": [");
-  for (int i = 0; i < ROWS; i++) {
-    printf("%s\n    {\n      \"name\": \"%s\",\n", i ? "," : "", row[i].name);
-    print_member("nodes", row[i].nodes, ",");
-    print_member("ns_per_node_step", row[i].ns_per_node_step, ",");
-    print_member("steps_per_simulated_second", row[i].steps, ",");
-    print_member("seconds_per_simulated_second", row[i].seconds, ",");
-    print_member("cpu_s", row[i].cpu, ",");
-    print_member("error", row[i].error, ",");
-    print_member("paper_cost_over_this", row[i].paper_ratio, "");
-    printf("    }");
-  }
-  printf("\n  ]\n}\n");
-  return EXIT_DONE;
+  json_t *array = json_array(), *all = json_pack("{s:s, s:o}", "version", ZP_VERSION, "rows", array);
+  bool done = all != NULL;
+  for (int i = 0; i < ROWS && done; i++)
+    done = json_array_append_new(array, row_json(&row[i])) == 0;
+  done = done && json_dumpf(all, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(6)) == 0;
+  json_decref(all);
+  putchar('\n');
+  return done ? EXIT_DONE : cli_fail(&(ZpError){ZP_MACHINE, "cannot write to standard output"});
 }
 
 int cli_bench(const Options *options) {

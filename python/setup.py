@@ -22,7 +22,7 @@ from setuptools.command.build_py import build_py
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
-LIBRARIES = ["libfyaml", "udunits", "hdf5-serial", "nlopt", "sqlite3"]
+LIBRARIES = ["libfyaml", "udunits", "jansson", "hdf5-serial", "nlopt", "sqlite3"]
 WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wno-missing-field-initializers"]
 SANITIZE = os.environ.get("ZIPACT_SANITIZE", "")
 BUILD = os.environ.get("ZIPACT_BUILD", "")

@@ -21,7 +21,7 @@ sources() {
   # shellcheck disable=SC2086
   apt-get $own update
   # shellcheck disable=SC2086
-  apt-get $own source --download-only libfyaml nlopt sqlite3 libzip zlib
+  apt-get $own source --download-only libfyaml jansson nlopt sqlite3 libzip zlib
   for archive in *.orig.tar.*; do tar -x -f "$archive"; done
 }
 
@@ -58,6 +58,7 @@ compile() {
 version_of() { ls -d "$1"-[0-9]* | sed "s/^$1-//"; }
 
 sources
+with_cmake "jansson-$(version_of jansson)" -DJANSSON_BUILD_DOCS=OFF -DJANSSON_WITHOUT_TESTS=ON -DJANSSON_EXAMPLES=OFF
 with_cmake "nlopt-$(version_of nlopt)" -DNLOPT_CXX=OFF -DNLOPT_PYTHON=OFF -DNLOPT_OCTAVE=OFF -DNLOPT_MATLAB=OFF -DNLOPT_GUILE=OFF \
   -DNLOPT_SWIG=OFF -DNLOPT_TESTS=OFF
 mv "$prefix/lib/nlopt.lib" "$prefix/lib/libnlopt.a"
@@ -83,7 +84,7 @@ compile fyaml -D_GNU_SOURCE -D__USE_MINGW_ANSI_STDIO=1 "-DVERSION=\"${yaml#libfy
 cp -r "$yaml/include/." "$prefix/include/"
 describe libfyaml "${yaml#libfyaml-}" -lfyaml
 mkdir "$prefix/licences"
-for name in nlopt libzip libfyaml; do
+for name in jansson nlopt libzip libfyaml; do
   for file in LICENSE COPYING COPYRIGHT; do
     text=$name-$(version_of $name)/$file
     [ ! -e "$text" ] || cp "$text" "$prefix/licences/$name-$file"

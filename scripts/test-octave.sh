@@ -25,7 +25,7 @@ if [ "$steps" != test ]; then
   "$root/scripts/deps.sh" --octave
   mkdir -p "$folder"
   cp "$root"/octave/*.m "$folder"
-  libraries=$(pkg-config --libs libfyaml udunits hdf5-serial nlopt sqlite3)
+  libraries=$(pkg-config --libs libfyaml udunits jansson hdf5-serial nlopt sqlite3)
   cd "$folder"
   # shellcheck disable=SC2086
   CFLAGS="-std=c17 -D_GNU_SOURCE -O2 -fPIC -Wall -Wextra -Werror -fstack-protector-strong -U_FORTIFY_SOURCE -D_FORTIFY_SOURCE=3" \

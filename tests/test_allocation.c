@@ -4,7 +4,7 @@
  * nothing.
  *
  * The linker sends the allocating calls of the static libraries to the __wrap_ functions below; the
- * link options are listed in tests/CMakeLists.txt. Allocations inside
+ * link options are listed in tests/CMakeLists.txt. jansson is told to use them, too. Allocations inside
  * other shared libraries (libfyaml, UDUNITS-2, HDF5) are theirs and do not fail here.
  * Check is a static library and allocates in its asserts, so there are none while the ledger watches.
  * What is allocated through the wrappers is kept in a list, so that a leak shows without a sanitizer. */
@@ -19,6 +19,7 @@
 #include <unistd.h>
 
 #include <check.h>
+#include <jansson.h>
 
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
@@ -820,6 +821,7 @@ static void fail_each_report(const char *name, const char *text) {
 /* gnuplot is not run here: there is none on an empty PATH. */
 START_TEST(reports_survive_every_failure) {
   ck_assert_int_eq(setenv("PATH", "/nowhere", 1), 0);
+  json_set_alloc_funcs(__wrap_malloc, __wrap_free);
   fail_each_report("zp_report_write", "mesh: {nodes: 5}\n"
                                       "solver: {tolerance: 1e-1, end_time: 100 us}\n"
                                       "output: {samples: 10, shapes: 3}\n");
@@ -831,6 +833,12 @@ START_TEST(reports_survive_every_failure) {
                                                  "solver: {tolerance: 1e-1, end_time: 100 us}\n"
                                                  "drive: {voltage: [0 V, 1 kV]}\n"
                                                  "output: {samples: 10, shapes: 3}\n");
+}
+END_TEST
+
+START_TEST(keys_survive_failures_of_jansson) {
+  json_set_alloc_funcs(__wrap_malloc, __wrap_free);
+  fail_each_writer("zp_keys_write json, jansson too", write_keys_json, false);
 }
 END_TEST
 
@@ -852,6 +860,7 @@ int main(void) {
   suite_add_tcase(suite, core);
   suite_add_tcase(suite, files);
   TCase *nightly = nightly_case(suite);
+  tcase_add_test(nightly, keys_survive_failures_of_jansson);
   tcase_add_test(nightly, writers_survive_every_failure);
   tcase_add_test(nightly, reports_survive_every_failure);
   return run_suite(suite);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The command without memory:  python3 tests/test_no_memory.py ZIPACT FAIL_MALLOC.so SCRATCH
 
-Allocations are made to fail, one at a time or all from one on, also those inside libfyaml, UDUNITS-2, HDF5 and
+Allocations are made to fail, one at a time or all from one on, also those inside libfyaml, UDUNITS-2, HDF5, jansson and
 NLopt, which crashed, called exit(2) or took the text for bad YAML: 36 of 110 such failures ended so. Then runs get less
 address space than they want. Wanted: exit status 3 with a message of ours and
 what was computed, or 0 with the results of always. Most of 30000 allocations read the unit database: of those a few are

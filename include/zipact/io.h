@@ -169,9 +169,6 @@ ZP_API ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *er
 /* Write the same, of a report without rows, as one line. */
 ZP_API ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err);
 
-/* Write {"error": "..."}, the line of a report that does not exist, with the message of `error`. */
-ZP_API ZpStatus zp_error_write_line(const ZpError *error, FILE *file, ZpError *err);
-
 /* Write scenario.yaml, table.csv, results.h5, shapes.pvd with its .vtp files, for one run in time checkpoint.zps, then
  * summary.json, and finally the pictures in plots/. Each file appears under its name when it is complete. A picture
  * that cannot be drawn is not a failure: without gnuplot, or if gnuplot fails or takes longer than a minute, the

@@ -1,3 +1,4 @@
+/* JSON of summaries. jansson builds the tree and escapes the strings; everything else is printed here. */
 #include "io/json.h"
 
 #include <errno.h>
@@ -6,91 +7,133 @@
 
 #include "base/fail.h"
 #include "io/number.h"
-#include "io/source.h"
 
 /* Largest integer that a double represents exactly. */
 #define LARGEST_COUNT 9007199254740992.0
 
-static void begin_line(const ZpJson *json) {
-  if (!json->flat) fprintf(json->file, "\n%*s", 2 * json->depth, "");
+bool zp_json_set(json_t *object, const char *name, json_t *value) {
+  return json_object_set_new(object, name, value) == 0;
 }
 
-static void begin_member(ZpJson *json, const char *name) {
-  if (json->begun) fputs(json->flat ? ", " : ",", json->file);
-  if (json->depth > 0) begin_line(json);
-  if (name) fprintf(json->file, "\"%s\": ", name);
-  json->begun = true;
+json_t *zp_json_number(double value, const char *unit) {
+  if (!isfinite(value)) return json_null();
+  if (strcmp(unit, "count") == 0 && fabs(value) <= LARGEST_COUNT) return json_integer((json_int_t)value);
+  return json_real(value);
 }
 
-void zp_json_open(ZpJson *json, const char *name, char bracket) {
-  begin_member(json, name);
-  fputc(bracket, json->file);
-  json->depth++;
-  json->begun = false;
-}
-
-void zp_json_close(ZpJson *json, char bracket) {
-  json->depth--;
-  if (json->begun) begin_line(json);
-  fputc(bracket, json->file);
-  json->begun = true;
-}
-
-/* 1e-05 => 1e-5, 1e+20 => 1e20 */
-static void shorten_exponent(char *text) {
-  char *sign = strchr(text, 'e');
-  if (!sign) return;
-  char *from = sign + 1 + strspn(sign + 1, "+-"), *to = sign + 1 + (sign[1] == '-');
-  from += strspn(from, "0");
-  memmove(to, from, strlen(from) + 1);
-}
-
-void zp_json_number(ZpJson *json, const char *name, double value, const char *unit) {
-  const bool whole = strcmp(unit, "count") == 0 && fabs(value) <= LARGEST_COUNT;
+/* A real number keeps a point or an exponent, so that readers do not take 75.0 for an integer. */
+static void print_real(FILE *file, double value) {
   char text[ZP_NUMBER_SIZE];
-  begin_member(json, name);
-  if (!isfinite(value))
-    snprintf(text, sizeof text, "null");
-  else if (whole)
-    snprintf(text, sizeof text, "%lld", (long long)value);
-  else
-    zp_number_print(value, text, sizeof text);
-  if (json->terse) shorten_exponent(text);
-  fputs(text, json->file);
-  if (isfinite(value) && !whole && !strpbrk(text, ".e"))
-    fputs(".0", json->file); /* readers must not take 75.0 for 75 */
+  zp_number_print(value, text, sizeof text);
+  fputs(text, file);
+  if (!strpbrk(text, ".e")) fputs(".0", file);
 }
 
-void zp_json_text(ZpJson *json, const char *name, const char *text) {
-  static const char special[] = "\"\\\b\f\n\r\t", *const escape = "\"\\bfnrt";
-  begin_member(json, name);
-  if (!text) {
-    fputs("null", json->file);
-    return;
+/* The depth from which on everything is on one line. */
+enum { FLAT = -1 };
+
+static int inside(int depth) {
+  return depth == FLAT ? FLAT : depth + 1;
+}
+
+/* Two blanks per level, up to the deepest level. */
+static void begin_line(FILE *file, int depth) {
+  static const char line[] = "\n                                ";
+  size_t length = 1 + 2 * (size_t)depth, most = sizeof line - 1;
+  if (depth != FLAT) fwrite(line, 1, length < most ? length : most, file);
+}
+
+static bool print_tree(FILE *file, const json_t *tree, int depth);
+
+/* Everything except the closing brace. */
+static bool print_members(FILE *file, const json_t *object, int depth) {
+  const char *name, *mark = "{";
+  json_t *value;
+  bool done = true;
+  json_object_foreach((json_t *)object, name, value) {
+    fputs(mark, file);
+    begin_line(file, inside(depth));
+    fputc('"', file);
+    fputs(name, file);
+    fputs("\": ", file);
+    done = print_tree(file, value, inside(depth)) && done;
+    mark = depth == FLAT ? ", " : ",";
   }
-  fputc('"', json->file);
-  for (size_t left = strlen(text), length; left > 0; text += length, left -= length) {
-    const char *found = strchr(special, *text);
-    length = zp_text_character(text, left);
-    if (found)
-      fprintf(json->file, "\\%c", escape[found - special]);
-    else if (length > 0)
-      fwrite(text, 1, length, json->file);
-    else
-      fputc('?', json->file);
-    if (length == 0) length = 1;
+  return done;
+}
+
+static bool print_object(FILE *file, const json_t *object, int depth) {
+  bool done = print_members(file, object, depth);
+  begin_line(file, depth);
+  fputc('}', file);
+  return done;
+}
+
+static bool print_array(FILE *file, const json_t *array, int depth) {
+  bool done = true;
+  for (size_t i = 0; i < json_array_size(array); i++) {
+    fputs(i == 0 ? "[" : depth == FLAT ? ", " : ",", file);
+    begin_line(file, inside(depth));
+    done = print_tree(file, json_array_get(array, i), inside(depth)) && done;
   }
-  fputc('"', json->file);
+  begin_line(file, depth);
+  fputc(']', file);
+  return done;
 }
 
-void zp_json_bool(ZpJson *json, const char *name, bool value) {
-  begin_member(json, name);
-  fputs(value ? "true" : "false", json->file);
+/* Names of members need no escapes; jansson writes strings. */
+static bool print_tree(FILE *file, const json_t *tree, int depth) {
+  switch (json_typeof(tree)) {
+  case JSON_OBJECT:
+    return json_object_size(tree) > 0 ? print_object(file, tree, depth) : fputs("{}", file) >= 0;
+  case JSON_ARRAY:
+    return json_array_size(tree) > 0 ? print_array(file, tree, depth) : fputs("[]", file) >= 0;
+  case JSON_REAL:
+    print_real(file, json_real_value(tree));
+    return true;
+  case JSON_NULL:
+    return fputs("null", file) >= 0;
+  default:
+    return json_dumpf(tree, file, JSON_ENCODE_ANY) == 0;
+  }
 }
 
-ZpStatus zp_json_end(ZpJson *json, const char *what, ZpError *err) {
+/* `done`: no error so far. */
+static ZpStatus finish(FILE *file, bool done, ZpError *err) {
+  done = fputc('\n', file) != EOF && done;
+  if (done && fflush(file) == 0 && !ferror(file)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "cannot write summary.json: %s", strerror(errno ? errno : EIO));
+}
+
+/* Print the list in the format of print_array. */
+static bool print_list(FILE *file, size_t count, ZpJsonItem item, const void *user) {
+  bool done = true;
+  for (size_t i = 0; i < count && done; i++) {
+    json_t *tree = item(user, i);
+    fprintf(file, "%s\n    ", i ? "," : "[");
+    done = tree && print_tree(file, tree, 2);
+    json_decref(tree);
+  }
+  fputs(count > 0 ? "\n  ]" : "[]", file);
+  return done;
+}
+
+ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
+                            FILE *file, ZpError *err) {
   errno = 0;
-  fputc('\n', json->file);
-  if (fflush(json->file) == 0 && !ferror(json->file)) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "%s cannot be written: %s", what, strerror(errno ? errno : EIO));
+  bool done = print_members(file, head, 0);
+  fprintf(file, ",\n  \"%s\": ", name);
+  done = print_list(file, count, item, user) && done;
+  fputs("\n}", file);
+  return finish(file, done, err);
+}
+
+ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  return finish(file, print_tree(file, tree, 0), err);
+}
+
+ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err) {
+  errno = 0;
+  return finish(file, print_tree(file, tree, FLAT), err);
 }

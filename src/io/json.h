@@ -1,36 +1,32 @@
-/* JSON, written member by member. Errors of the stream show at the end. */
+/* JSON of summaries: trees built with jansson, printed for people and programs. */
 #ifndef ZP_IO_JSON_H
 #define ZP_IO_JSON_H
 
+#include <jansson.h>
+
 #include <stdbool.h>
-#include <stdio.h>
 
 #include <zipact/error.h>
 
-typedef struct ZpJson {
-  FILE *file;
-  bool flat;  /* all on one line */
-  bool terse; /* exponents without a plus sign and leading zeros: 1e-5 */
-  int depth;
-  bool begun; /* the innermost object or list has a member */
-} ZpJson;
+/* Takes ownership of `value`; true if both the value and its place could be created. */
+bool zp_json_set(json_t *object, const char *name, json_t *value);
 
-/* Each function takes the name of the member; NULL in a list and at the root. Names need no escapes. */
+/* A real number, an integer for the unit "count", null for NAN and infinity. */
+json_t *zp_json_number(double value, const char *unit);
 
-/* Open an object, '{', or a list, '['; close it by '}' or ']'. */
-void zp_json_open(ZpJson *json, const char *name, char bracket);
-void zp_json_close(ZpJson *json, char bracket);
+/* Creates item `index` of a list; NULL if there is no memory. */
+typedef json_t *(*ZpJsonItem)(const void *user, size_t index);
 
-/* A real number, with the shortest decimal that reads back to the same bits; a whole number for the unit "count"; null
- * for NAN and infinity. */
-void zp_json_number(ZpJson *json, const char *name, double value, const char *unit);
+/* Write the object `head` as zp_json_write does, with an additional last member `name`: a list of `count` items, of
+ * which only one is in memory at a time. */
+ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
+                            FILE *file, ZpError *err);
 
-/* A string; null for NULL. Bytes that are no text become question marks. */
-void zp_json_text(ZpJson *json, const char *name, const char *text);
+/* Write the tree in lines, with the shortest decimals that read back to the same bits (jansson writes all 17 digits of
+ * 0.075). ZP_MACHINE if the file could not be written. */
+ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err);
 
-void zp_json_bool(ZpJson *json, const char *name, bool value);
-
-/* End the line and bring everything to the stream. ZP_MACHINE: `what` could not be written. */
-ZpStatus zp_json_end(ZpJson *json, const char *what, ZpError *err);
+/* The same as a single line. */
+ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err);
 
 #endif

@@ -2,8 +2,9 @@
 #include <zipact/io.h>
 
 #include <errno.h>
-#include <math.h>
 #include <string.h>
+
+#include <jansson.h>
 
 #include "base/fail.h"
 #include "io/schema.h"
@@ -96,45 +97,72 @@ static const char *type_word(ZpKeyType type) {
   return words[type];
 }
 
-static const char *unit_of(const ZpKey *key) {
-  return key->type == ZP_KEY_INT ? "count" : key->unit;
-}
-
-static void put_key(ZpJson *json, int index) {
+static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
-  zp_json_open(json, NULL, '{');
-  zp_json_text(json, "key", key->name);
-  zp_json_text(json, "type", type_word(key->type));
-  zp_json_text(json, "unit", key->unit);
-  zp_json_key(json, "default", index, key->def);
-  zp_json_number(json, "min", zp_value_is_number(key) ? key->min : NAN, unit_of(key));
-  zp_json_number(json, "max", zp_value_is_number(key) ? key->max : NAN, unit_of(key));
-  zp_json_open(json, "choices", '[');
-  for (int i = 0; key->choices && i <= (int)key->max; i++) {
-    zp_json_open(json, NULL, '{');
-    zp_json_text(json, "word", key->choices[i].word);
-    zp_json_text(json, "help", key->choices[i].help);
-    zp_json_close(json, '}');
-  }
-  zp_json_close(json, ']');
-  zp_json_text(json, "help", key->help);
-  zp_json_close(json, '}');
+  return key->type == ZP_KEY_TEXT ? json_string(key->text) : zp_json_key(index, value);
 }
 
-static void put_keys(ZpJson *json) {
-  zp_json_open(json, NULL, '[');
-  for (int i = 0; i < zp_key_count(); i++)
-    put_key(json, i);
-  zp_json_close(json, ']');
+static json_t *json_of_choices(const ZpKey *key) {
+  json_t *list = json_array();
+  for (int i = 0; list && key->choices && i <= (int)key->max; i++) {
+    json_t *choice = json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help);
+    if (!choice || json_array_append_new(list, choice)) {
+      json_decref(list);
+      return NULL;
+    }
+  }
+  return list;
+}
+
+/* One key; NULL if there is no memory. json_pack takes ownership of the values and frees them on failure. */
+static json_t *json_of_key(int index) {
+  const ZpKey *key = zp_key(index);
+  json_t *least = zp_value_is_number(key) ? json_of_value(index, key->min) : json_null();
+  json_t *most = zp_value_is_number(key) ? json_of_value(index, key->max) : json_null();
+  return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s}", "key", key->name, "type", type_word(key->type), "unit",
+                   key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices",
+                   json_of_choices(key), "help", key->help);
+}
+
+/* The list of keys, owned by the caller; NULL if there is no memory. */
+static json_t *list_keys(void) {
+  json_t *list = json_array();
+  int failed = !list;
+  for (int i = 0; i < zp_key_count() && !failed; i++)
+    failed = json_array_append_new(list, json_of_key(i));
+  if (!failed) return list;
+  json_decref(list);
+  return NULL;
+}
+
+/* Write `json`, which is freed; NULL: there was no memory for it. */
+static ZpStatus write_json(json_t *json, FILE *file, ZpError *err) {
+  if (!json) return zp_fail_memory(err);
+  /* 16 digits reproduce every number of keys.def; 17 digits would print 0.1 as 0.10000000000000001. */
+  const int failed = json_dumpf(json, file, JSON_INDENT(2) | JSON_REAL_PRECISION(16));
+  json_decref(json);
+  if (failed) return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));
+  fputc('\n', file);
+  return ZP_OK;
 }
 
 ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err) {
-  ZpJson json = {.file = file, .terse = true};
-  if (format == ZP_KEYS_TEXT) write_text(file);
-  if (format == ZP_KEYS_YAML) write_yaml(file);
-  if (format == ZP_KEYS_JSON) put_keys(&json);
-  if (format == ZP_KEYS_SCHEMA) zp_schema_put(&json);
-  if (json.begun) return zp_json_end(&json, "the keys", err);
-  if (fflush(file) || ferror(file)) return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));
-  return ZP_OK;
+  ZpStatus status = ZP_OK;
+  switch (format) {
+  case ZP_KEYS_TEXT:
+    write_text(file);
+    break;
+  case ZP_KEYS_JSON:
+    status = write_json(list_keys(), file, err);
+    break;
+  case ZP_KEYS_SCHEMA:
+    status = write_json(zp_schema_make(), file, err);
+    break;
+  case ZP_KEYS_YAML:
+    write_yaml(file);
+    break;
+  }
+  if (status == ZP_OK && (fflush(file) || ferror(file)))
+    return zp_fail(err, ZP_MACHINE, "the keys cannot be written: %s", strerror(errno));
+  return status;
 }

@@ -13,7 +13,6 @@
 #include <zipact/io.h>
 
 #include "io/spread.h"
-#include "io/summary.h"
 #include "io/value.h"
 
 /* Customary units of a single dimension, as a regular expression. */
@@ -62,88 +61,71 @@ static void write_advice(int index, char *text, size_t size) {
            *key->shown ? " with a unit" : "", range);
 }
 
-/* A list of words, which `words` has with blanks between them. */
-static void put_words(ZpJson *json, const char *name, const char *words) {
-  char word[64];
-  zp_json_open(json, name, '[');
-  for (size_t length; *words; words += length + (words[length] == ' ')) {
-    length = strcspn(words, " ");
-    snprintf(word, sizeof word, "%.*s", (int)length, words);
-    zp_json_text(json, NULL, word);
-  }
-  zp_json_close(json, ']');
-}
-
-static void put_reference(ZpJson *json, const char *name, const char *definition) {
-  char path[160];
-  snprintf(path, sizeof path, "#/definitions/%s", definition);
-  zp_json_open(json, name, '{');
-  zp_json_text(json, "$ref", path);
-  zp_json_close(json, '}');
-}
-
-/* Of which types a value may be: {"type": [...]}. */
-static void put_type(ZpJson *json, const char *name, const char *types) {
-  zp_json_open(json, name, '{');
-  put_words(json, "type", types);
-  zp_json_close(json, '}');
-}
-
-/* A value of a number key: a number in SI, or a text. Limits apply to numbers, the pattern to texts. `more`: further
- * types. */
-static void put_value(ZpJson *json, int index, const char *more) {
+/* One value of a number key: a number in SI, or a text. Limits apply to numbers, the pattern to texts. */
+static json_t *value_schema(int index) {
   const ZpKey *key = zp_key(index);
-  char pattern[640], advice[ZP_RANGE_SIZE + 64], types[64];
+  char pattern[640], advice[ZP_RANGE_SIZE + 64];
   write_pattern(key, pattern, sizeof pattern);
   write_advice(index, advice, sizeof advice);
-  snprintf(types, sizeof types, "%s string%s", key->type == ZP_KEY_INT ? "integer" : "number", more);
-  put_words(json, "type", types);
-  zp_json_number(json, "minimum", key->min, "1");
-  zp_json_number(json, "maximum", key->max, "1");
-  zp_json_text(json, "pattern", pattern);
-  zp_json_text(json, "patternErrorMessage", advice);
+  return json_pack("{s:[s, s], s:f, s:f, s:s, s:s}", "type", key->type == ZP_KEY_INT ? "integer" : "number", "string",
+                   "minimum", key->min, "maximum", key->max, "pattern", pattern, "patternErrorMessage", advice);
+}
+
+/* Append; on failure free both. => the list or NULL */
+static json_t *with(json_t *list, json_t *item) {
+  if (list && item && json_array_append(list, item) == 0) {
+    json_decref(item);
+    return list;
+  }
+  json_decref(item);
+  json_decref(list);
+  return NULL;
+}
+
+static json_t *reference(const char *definition) {
+  char path[160];
+  snprintf(path, sizeof path, "#/definitions/%s", definition);
+  return json_pack("{s:s}", "$ref", path);
 }
 
 /* A value, a list of values, a range or a distribution. */
-static void put_number(ZpJson *json, int index) {
-  put_value(json, index, " array object");
-  zp_json_open(json, "items", '{');
-  put_value(json, index, "");
-  zp_json_close(json, '}');
-  zp_json_number(json, "minItems", 1, "count");
-  zp_json_open(json, "anyOf", '[');
-  put_type(json, NULL, "number string array");
-  put_reference(json, NULL, "range");
-  if (zp_key(index)->type != ZP_KEY_INT) put_reference(json, NULL, "distribution");
-  zp_json_close(json, ']');
-  zp_json_text(json, "x-unit", zp_key(index)->unit);
+static json_t *number_schema(int index) {
+  json_t *schema = value_schema(index);
+  json_t *any = with(json_pack("[{s:[s, s, s]}]", "type", "number", "string", "array"), reference("range"));
+  if (zp_key(index)->type != ZP_KEY_INT) any = with(any, reference("distribution"));
+  json_t *more = json_pack("{s:o, s:i, s:o}", "items", value_schema(index), "minItems", 1, "anyOf", any);
+  json_t *type = schema ? json_object_get(schema, "type") : NULL;
+  const bool failed = !more || !type || json_array_append_new(type, json_string("array")) ||
+                      json_array_append_new(type, json_string("object")) || json_object_update(schema, more);
+  json_decref(more);
+  if (!failed) return schema;
+  json_decref(schema);
+  return NULL;
 }
 
 /* In YAML true and false are not texts. */
-static void put_choices(ZpJson *json, const ZpKey *key) {
-  zp_json_open(json, "enum", '[');
+static json_t *words_schema(const ZpKey *key) {
+  json_t *words = json_array();
   for (int i = 0; i <= (int)key->max; i++) {
     const char *word = key->choices[i].word;
-    zp_json_text(json, NULL, word);
-    if (strcmp(word, "true") == 0 || strcmp(word, "false") == 0) zp_json_bool(json, NULL, *word == 't');
+    words = with(words, json_string(word));
+    if (strcmp(word, "true") == 0 || strcmp(word, "false") == 0) words = with(words, json_boolean(*word == 't'));
   }
-  zp_json_close(json, ']');
+  return json_pack("{s:o}", "enum", words);
 }
 
-static void put_bool(ZpJson *json) {
-  zp_json_open(json, "anyOf", '[');
-  zp_json_open(json, NULL, '{');
-  zp_json_text(json, "type", "boolean");
-  zp_json_close(json, '}');
-  zp_json_open(json, NULL, '{');
-  zp_json_text(json, "type", "string");
-  zp_json_text(json, "pattern", "^(?:[yY][eE][sS]|[nN][oO]|[oO][nN]|[oO][fF][fF])$");
-  zp_json_close(json, '}');
-  zp_json_close(json, ']');
+static json_t *type_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  if (zp_value_is_number(key)) return number_schema(index);
+  if (key->type == ZP_KEY_ENUM) return words_schema(key);
+  if (key->type == ZP_KEY_BOOL)
+    return json_pack("{s:[{s:s}, {s:s, s:s}]}", "anyOf", "type", "boolean", "type", "string", "pattern",
+                     "^(?:[yY][eE][sS]|[nN][oO]|[oO][nN]|[oO][fF][fF])$");
+  return json_pack("{s:[s, s]}", "type", "string", "number");
 }
 
 /* "mass hung on the actuator. From 0 g to 1000000 g, default 8 g." with the words of a choice. */
-static void put_description(ZpJson *json, int index) {
+static json_t *description(int index) {
   const ZpKey *key = zp_key(index);
   char text[4096], value[ZP_VALUE_SIZE], range[ZP_RANGE_SIZE] = "";
   zp_value_print(index, key->def, value, sizeof value);
@@ -152,125 +134,92 @@ static void put_description(ZpJson *json, int index) {
                       *range ? ". " : "", value);
   for (int i = 0; key->choices && i <= (int)key->max && used < (int)sizeof text; i++)
     used += snprintf(text + used, sizeof text - (size_t)used, "\n%s: %s", key->choices[i].word, key->choices[i].help);
-  zp_json_text(json, "description", text);
+  return json_string(text);
 }
 
 /* The text that an editor inserts. */
-static void put_default(ZpJson *json, int index) {
+static json_t *default_of(int index) {
   const ZpKey *key = zp_key(index);
   char value[ZP_VALUE_SIZE];
+  if (key->type == ZP_KEY_BOOL) return json_boolean(key->def != 0);
+  if (key->type == ZP_KEY_TEXT) return json_string(key->text);
+  if (key->type == ZP_KEY_INT) return json_integer((json_int_t)key->def);
   zp_value_print(index, key->def, value, sizeof value);
-  if (key->type == ZP_KEY_BOOL || key->type == ZP_KEY_TEXT || key->type == ZP_KEY_INT)
-    zp_json_key(json, "default", index, key->def);
-  else
-    zp_json_text(json, "default", value);
+  return json_string(value);
 }
 
-static void put_key(ZpJson *json, int index) {
+static json_t *key_schema(int index) {
   const ZpKey *key = zp_key(index);
-  zp_json_open(json, key->name, '{');
-  put_description(json, index);
-  put_default(json, index);
-  if (zp_value_is_number(key))
-    put_number(json, index);
-  else if (key->type == ZP_KEY_ENUM)
-    put_choices(json, key);
-  else if (key->type == ZP_KEY_BOOL)
-    put_bool(json);
-  else
-    put_words(json, "type", "string number");
-  zp_json_close(json, '}');
+  json_t *schema = json_pack("{s:o, s:o}", "description", description(index), "default", default_of(index));
+  json_t *type = type_schema(index);
+  bool failed = !schema || !type || json_object_update(schema, type);
+  json_decref(type);
+  if (!failed && zp_value_is_number(key)) failed = json_object_set_new(schema, "x-unit", json_string(key->unit)) != 0;
+  if (!failed) return schema;
+  json_decref(schema);
+  return NULL;
 }
 
-/* An object with these parts and no other ones. */
-static void open_parts(ZpJson *json, const char *name, const char *help, const char *required) {
-  zp_json_open(json, name, '{');
-  if (help) zp_json_text(json, "description", help);
-  zp_json_text(json, "type", "object");
-  zp_json_bool(json, "additionalProperties", false);
-  put_words(json, "required", required);
-  zp_json_open(json, "properties", '{');
+/* The parts of a range or a distribution. */
+static json_t *range_schema(void) {
+  return json_pack("{s:s, s:s, s:b, s:[s, s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}, s:{s:s, s:i, s:i}, s:{s:[s, s]}}}",
+                   "description", "values in equal steps or with equal ratios, both ends included", "type", "object",
+                   "additionalProperties", 0, "required", "from", "to", "count", "properties", "from", "type", "number",
+                   "string", "to", "type", "number", "string", "count", "type", "integer", "minimum", 2, "maximum",
+                   20000, "spacing", "enum", "linear", "log");
 }
 
-static void close_parts(ZpJson *json) {
-  zp_json_close(json, '}');
-  zp_json_close(json, '}');
+static json_t *one_distribution(ZpDistributionKind kind) {
+  const char *first = zp_spread_word[kind], *second = zp_spread_second(kind);
+  return json_pack("{s:s, s:b, s:[s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}}}", "type", "object", "additionalProperties", 0,
+                   "required", first, second, "properties", first, "type", "number", "string", second, "type", "number",
+                   "string");
 }
 
-static void put_range(ZpJson *json) {
-  open_parts(json, "range", "values in equal steps or with equal ratios, both ends included", "from to count");
-  put_type(json, "from", "number string");
-  put_type(json, "to", "number string");
-  zp_json_open(json, "count", '{');
-  zp_json_text(json, "type", "integer");
-  zp_json_number(json, "minimum", 2, "count");
-  zp_json_number(json, "maximum", 20000, "count");
-  zp_json_close(json, '}');
-  zp_json_open(json, "spacing", '{');
-  put_words(json, "enum", "linear log");
-  zp_json_close(json, '}');
-  close_parts(json);
+static json_t *distribution_schema(void) {
+  json_t *kinds = json_array();
+  for (int k = 1; k < ZpDistributionKind_COUNT; k++)
+    kinds = with(kinds, one_distribution((ZpDistributionKind)k));
+  return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
-static void put_distribution(ZpJson *json) {
-  zp_json_open(json, "distribution", '{');
-  zp_json_text(json, "description", "values are drawn");
-  zp_json_open(json, "anyOf", '[');
-  for (int k = 1; k < ZpDistributionKind_COUNT; k++) {
-    const char *first = zp_spread_word[k], *second = zp_spread_second((ZpDistributionKind)k);
-    char both[64];
-    snprintf(both, sizeof both, "%s %s", first, second);
-    open_parts(json, NULL, NULL, both);
-    put_type(json, first, "number string");
-    put_type(json, second, "number string");
-    close_parts(json);
-  }
-  zp_json_close(json, ']');
-  zp_json_close(json, '}');
-}
-
-/* Is key `index` the first one whose name begins with these bytes? */
-static bool is_first(int index, const char *path, size_t size) {
-  int first = 0;
-  while (strncmp(zp_key(first)->name, path, size) != 0)
-    first++;
-  return first == index;
-}
-
-/* The members of group `path` of `size` bytes, with its last point ("" for the root): its keys, by the rest of their
- * names, and its groups. */
-static void put_group(ZpJson *json, const char *path, size_t size) {
-  put_words(json, "type", "object null");
-  zp_json_bool(json, "additionalProperties", false);
-  zp_json_open(json, "properties", '{');
-  for (int i = 0; i < zp_key_count(); i++) {
-    const char *name = zp_key(i)->name, *rest = name + size;
-    if (strncmp(name, path, size) != 0) continue;
-    put_reference(json, rest, name);
-    for (const char *dot = strchr(rest, '.'); dot; dot = strchr(dot + 1, '.')) {
-      const size_t length = (size_t)(dot - name) + 1;
+/* The group `path` of `size` bytes ("" for the root): its keys, by the rest of their names, and its groups. */
+static json_t *group_schema(const char *path, size_t size) {
+  json_t *properties = json_object();
+  bool failed = !properties;
+  for (int i = 0; i < zp_key_count() && !failed; i++) {
+    const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
+    if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
+    failed = json_object_set_new(properties, rest, reference(name)) != 0;
+    for (const char *dot = strchr(rest, '.'); dot && !failed; dot = strchr(dot + 1, '.')) {
       char group[ZP_VALUE_SIZE];
-      if (!is_first(i, name, length)) continue;
       snprintf(group, sizeof group, "%.*s", (int)(dot - rest), rest);
-      zp_json_open(json, group, '{');
-      put_group(json, name, length);
-      zp_json_close(json, '}');
+      if (json_object_get(properties, group)) continue;
+      failed = json_object_set_new(properties, group, group_schema(name, (size_t)(dot - name))) != 0;
     }
   }
-  zp_json_close(json, '}');
+  if (!failed)
+    return json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties",
+                     properties);
+  json_decref(properties);
+  return NULL;
 }
 
-void zp_schema_put(ZpJson *json) {
-  zp_json_open(json, NULL, '{');
-  zp_json_text(json, "$schema", "http://json-schema.org/draft-07/schema#");
-  zp_json_text(json, "title", "zipact scenario");
-  zp_json_text(json, "description", "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.");
-  zp_json_open(json, "definitions", '{');
-  put_range(json);
-  put_distribution(json);
-  for (int i = 0; i < zp_key_count(); i++)
-    put_key(json, i);
-  zp_json_close(json, '}');
-  put_group(json, "", 0);
-  zp_json_close(json, '}');
+json_t *zp_schema_make(void) {
+  json_t *definitions = json_pack("{s:o, s:o}", "range", range_schema(), "distribution", distribution_schema());
+  for (int i = 0; i < zp_key_count() && definitions; i++)
+    if (json_object_set_new(definitions, zp_key(i)->name, key_schema(i))) {
+      json_decref(definitions);
+      definitions = NULL;
+    }
+  json_t *schema = json_pack("{s:s, s:s, s:s, s:o}", "$schema", "http://json-schema.org/draft-07/schema#", "title",
+                             "zipact scenario", "description",
+                             "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
+                             "definitions", definitions);
+  json_t *root = group_schema("", 0);
+  const bool failed = !schema || !root || json_object_update(schema, root);
+  json_decref(root);
+  if (!failed) return schema;
+  json_decref(schema);
+  return NULL;
 }

@@ -2,9 +2,9 @@
 #ifndef ZP_IO_SCHEMA_H
 #define ZP_IO_SCHEMA_H
 
-#include "io/json.h"
+#include <jansson.h>
 
-/* Write a JSON schema (draft 7) of scenarios. */
-void zp_schema_put(ZpJson *json);
+/* A JSON schema (draft 7) of scenarios => the caller's; NULL if there is no memory. */
+json_t *zp_schema_make(void);
 
 #endif

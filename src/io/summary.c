@@ -1,4 +1,5 @@
 /* summary.json: the results of a study, as one JSON object. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,100 +35,91 @@ static bool is_listed(const ZpResult *result, const ZpScalar *scalar) {
   return any;
 }
 
-static void put_list(ZpJson *json, const ZpResult *result, const List *list) {
-  zp_json_open(json, list->name, '[');
+static bool set_list(json_t *object, const ZpResult *result, const List *list) {
+  json_t *array = json_array();
+  bool done = true;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (is_of(list, scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
+    if (is_of(list, scalar))
+      done = json_array_append_new(array, zp_json_number(scalar->value, scalar->unit)) == 0 && done;
   }
-  zp_json_close(json, ']');
+  return zp_json_set(object, list->name, array) && done;
 }
 
-/* The derivatives of the output of derivative `first`, unless an earlier one has the same output. */
-static void put_derivatives(ZpJson *json, const ZpResult *result, size_t first) {
-  const char *output = result->sensitivity[first].output;
-  for (size_t i = 0; i < first; i++)
-    if (strcmp(result->sensitivity[i].output, output) == 0) return;
-  zp_json_open(json, output, '{');
-  for (size_t i = first; i < result->sensitivities; i++) {
+/* {output: {key: derivative}} where there are any. */
+static bool set_sensitivity(json_t *object, const ZpResult *result) {
+  json_t *all = json_object();
+  bool done = all != NULL;
+  for (size_t i = 0; i < result->sensitivities && done; i++) {
     const ZpSensitivity *s = &result->sensitivity[i];
-    if (strcmp(s->output, output) == 0) zp_json_number(json, zp_key(s->key)->name, s->value, "1");
+    json_t *by = json_object_get(all, s->output);
+    if (!by) done = zp_json_set(all, s->output, by = json_object());
+    done = done && zp_json_set(by, zp_key(s->key)->name, zp_json_number(s->value, "1"));
   }
-  zp_json_close(json, '}');
+  if (result->sensitivities > 0) return zp_json_set(object, "sensitivity", all) && done;
+  json_decref(all);
+  return done;
 }
 
-static void put_scalars(ZpJson *json, const ZpResult *result) {
+static bool set_scalars(json_t *object, const ZpResult *result) {
+  bool done = true;
   for (size_t k = 0; k < LISTS && zp_study_shows(result->study) == ZP_SHOWS_modes; k++)
-    put_list(json, result, &lists[k]);
+    done = set_list(object, result, &lists[k]) && done;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (!is_listed(result, scalar)) zp_json_number(json, scalar->name, scalar->value, scalar->unit);
+    if (!is_listed(result, scalar))
+      done = zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit)) && done;
   }
-  if (result->sensitivities == 0) return;
-  zp_json_open(json, "sensitivity", '{');
-  for (size_t i = 0; i < result->sensitivities; i++)
-    put_derivatives(json, result, i);
-  zp_json_close(json, '}');
+  return set_sensitivity(object, result) && done;
 }
 
 /* Largest number of different notes of all runs in the summary: notes with numbers may all differ, and each note is
  * compared with all others. */
 enum { NOTES_MOST = 50 };
 
-/* The different notes of several runs, and whether there are more. */
-typedef struct Notes {
-  char note[NOTES_MOST][sizeof((ZpResult *)0)->note[0]];
-  size_t count;
-  bool more;
-} Notes;
-
-static void add_notes(Notes *notes, const ZpResult *result) {
-  for (size_t i = 0; i < result->notes && !notes->more; i++) {
-    size_t known = 0;
-    while (known < notes->count && strcmp(notes->note[known], result->note[i]) != 0)
-      known++;
-    if (known < notes->count) continue;
-    notes->more = known == NOTES_MOST;
-    if (!notes->more) memcpy(notes->note[notes->count++], result->note[i], sizeof notes->note[0]);
+/* Add the new notes of a run to the array, up to NOTES_MOST, and a last one that refers to the rows. */
+static bool add_notes(json_t *array, const ZpResult *result) {
+  bool done = true;
+  for (size_t i = 0; i < result->notes && json_array_size(array) <= NOTES_MOST; i++) {
+    bool known = false;
+    for (size_t k = 0; k < json_array_size(array) && !known; k++)
+      known = strcmp(json_string_value(json_array_get(array, k)), result->note[i]) == 0;
+    const char *note = json_array_size(array) < NOTES_MOST ? result->note[i] : "the rows have more notes";
+    if (!known) done = json_array_append_new(array, json_string(note)) == 0 && done;
   }
+  return done;
 }
 
-static void put_notes(ZpJson *json, const Notes *notes) {
-  zp_json_open(json, "notes", '[');
-  for (size_t i = 0; i < notes->count; i++)
-    zp_json_text(json, NULL, notes->note[i]);
-  if (notes->more) zp_json_text(json, NULL, "the rows have more notes");
-  zp_json_close(json, ']');
-}
-
-void zp_json_key(ZpJson *json, const char *name, int key, double value) {
+json_t *zp_json_key(int key, double value) {
   const ZpKey *k = zp_key(key);
-  if (k->type == ZP_KEY_BOOL)
-    zp_json_bool(json, name, value != 0);
-  else if (k->type == ZP_KEY_ENUM)
-    zp_json_text(json, name, zp_key_word(key, value));
-  else if (k->type == ZP_KEY_TEXT || (k->type == ZP_KEY_REAL_AUTO && isnan(value)))
-    zp_json_text(json, name, k->text);
-  else
-    zp_json_number(json, name, value, k->type == ZP_KEY_INT ? "count" : k->unit);
+  if (k->type == ZP_KEY_BOOL) return json_boolean(value != 0);
+  if (k->type == ZP_KEY_ENUM) return json_string(zp_key_word(key, value));
+  if (k->type == ZP_KEY_REAL_AUTO && isnan(value)) return json_string(k->text);
+  return zp_json_number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
 }
 
-/* One run of a sweep; `value` has room for its keys. */
-static void put_row(ZpJson *json, const ZpReport *report, size_t run, double *value) {
+/* One run of a sweep: a ZpJsonItem. */
+static json_t *row_of(const void *user, size_t run) {
+  const ZpReport *report = user;
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
   const ZpResult *result = zp_report_result(report, run);
-  Notes notes = {.count = 0};
+  double *value = calloc(keys + 1, sizeof *value);
+  if (!value) return NULL;
   zp_scenario_values(report->scenario, run, value);
-  zp_json_open(json, NULL, '{');
-  for (size_t i = 0; i < keys; i++)
-    zp_json_key(json, zp_key(key[i])->name, key[i], value[i]);
-  zp_json_text(json, "outcome", zp_outcome_name(result->outcome));
-  zp_json_text(json, "message", result->message);
-  put_scalars(json, result);
-  add_notes(&notes, result);
-  put_notes(json, &notes);
-  zp_json_close(json, '}');
+  json_t *row = json_object(), *notes = json_array();
+  bool done = row != NULL;
+  for (size_t i = 0; i < keys && done; i++)
+    done = zp_json_set(row, zp_key(key[i])->name, zp_json_key(key[i], value[i]));
+  free(value);
+  done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
+  done = done && zp_json_set(row, "message", json_string(result->message));
+  done = done && set_scalars(row, result);
+  done = add_notes(notes, result) && done;
+  done = zp_json_set(row, "notes", notes) && done;
+  if (done) return row;
+  json_decref(row);
+  return NULL;
 }
 
 /* The run that represents all: the first that failed, otherwise the first. NULL if there is none. Valid until the next
@@ -138,40 +130,39 @@ static const ZpResult *spokesman(const ZpReport *report) {
   return report->count > 0 ? zp_report_result(report, 0) : NULL;
 }
 
-static void put_outcome(ZpJson *json, ZpOutcome outcome, const char *message) {
-  zp_json_text(json, "outcome", zp_outcome_name(outcome));
-  zp_json_text(json, "message", message);
-}
-
-static void put_end(ZpJson *json, const ZpReport *report) {
+static bool set_outcome(json_t *object, const ZpReport *report) {
+  const ZpOptimum *optimum = report->optimum;
+  if (optimum) {
+    bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(optimum->outcome)));
+    done = zp_json_set(object, "message", json_string(optimum->message)) && done;
+    return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
+  }
   const ZpResult *result = spokesman(report);
   const size_t cases = zp_scenario_count(report->scenario);
+  const bool stopped = !result || report->count < cases;
   char message[96] = "interrupted before the first run";
   if (result) snprintf(message, sizeof message, "stopped after %zu of %zu cases", report->count, cases);
-  if (report->optimum)
-    put_outcome(json, report->optimum->outcome, report->optimum->message);
-  else if (!result || report->count < cases)
-    put_outcome(json, ZP_INTERRUPTED, message);
-  else
-    put_outcome(json, result->outcome, result->message);
-  zp_json_number(json, "wall_time_s", report->wall_time, "s");
+  bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(stopped ? ZP_INTERRUPTED : result->outcome)));
+  done = zp_json_set(object, "message", json_string(stopped ? message : result->message)) && done;
+  return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
 }
 
 /* {"feasible": true, "cases": [...]}: the best cases, in the form of the rows. */
-static void put_optimum(ZpJson *json, const ZpReport *report, double *value) {
+static json_t *optimum_of(const ZpReport *report) {
   const ZpOptimum *optimum = report->optimum;
-  zp_json_open(json, "optimum", '{');
-  zp_json_bool(json, "feasible", optimum->feasible);
-  zp_json_number(json, "excluded_share", optimum->excluded, "1");
-  zp_json_open(json, "cases", '[');
+  json_t *object = json_object(), *cases = json_array();
+  bool done = zp_json_set(object, "feasible", json_boolean(optimum->feasible));
+  done = zp_json_set(object, "excluded_share", zp_json_number(optimum->excluded, "1")) && done;
   for (size_t i = 0; i < optimum->count; i++)
-    put_row(json, report, optimum->row[i], value);
-  zp_json_close(json, ']');
-  zp_json_close(json, '}');
+    done = json_array_append_new(cases, row_of(report, optimum->row[i])) == 0 && done;
+  done = zp_json_set(object, "cases", cases) && done;
+  if (done) return object;
+  json_decref(object);
+  return NULL;
 }
 
 /* The numbers of a sweep as a whole. */
-static void put_largest(ZpJson *json, const ZpReport *report) {
+static bool set_largest(json_t *object, const ZpReport *report) {
   static const struct {
     ZpStudy study;
     const char *name, *scalar, *where, *unit;
@@ -179,68 +170,50 @@ static void put_largest(ZpJson *json, const ZpReport *report) {
 #define ZP_LARGEST(enumerator, name, scalar, where, words, unit) {enumerator, name, scalar, where, unit},
 #include <zipact/studies.def>
   };
+  bool done = true;
   for (size_t i = 0; i < sizeof largest / sizeof largest[0] && report->count > 0; i++)
-    if (zp_report_result(report, 0)->study == largest[i].study)
-      zp_json_number(json, largest[i].name, zp_report_largest(report, largest[i].scalar, largest[i].where),
-                     largest[i].unit);
+    if (zp_report_result(report, 0)->study == largest[i].study) {
+      double value = zp_report_largest(report, largest[i].scalar, largest[i].where);
+      done = zp_json_set(object, largest[i].name, zp_json_number(value, largest[i].unit)) && done;
+    }
+  return done;
 }
 
-static void put_all_notes(ZpJson *json, const ZpReport *report) {
-  Notes notes = {.count = 0};
-  for (size_t i = 0; i < report->count; i++)
-    add_notes(&notes, zp_report_result(report, i));
-  put_notes(json, &notes);
-}
-
-/* `rows`: with the rows of a sweep. `value` has room for its keys. */
-static ZpStatus put_summary(ZpJson *json, const ZpReport *report, bool rows, double *value, ZpError *err) {
+static json_t *summary_of(const ZpReport *report) {
   const ZpResult *single = zp_report_single(report);
-  ZpStatus status = ZP_OK;
-  zp_json_open(json, NULL, '{');
-  zp_json_text(json, "version", ZP_VERSION);
-  zp_json_text(json, "study", zp_report_study(report));
-  put_end(json, report);
-  if (single) put_scalars(json, single);
-  if (zp_report_is_sweep(report)) put_largest(json, report);
-  put_all_notes(json, report);
-  if (zp_scenario_design(report->scenario)) status = zp_sample_statistics(json, report, err);
-  if (report->optimum) put_optimum(json, report, value);
-  if (rows) {
-    zp_json_open(json, "rows", '[');
-    for (size_t i = 0; i < report->count; i++)
-      put_row(json, report, i, value);
-    zp_json_close(json, ']');
-  }
-  zp_json_close(json, '}');
-  return status;
-}
-
-static ZpStatus write_summary(const ZpReport *report, bool line, FILE *file, ZpError *err) {
-  size_t keys;
-  ZpJson json = {.file = file, .flat = line};
-  zp_scenario_lists(report->scenario, &keys);
-  double *value = calloc(keys + 1, sizeof *value);
-  if (!value) return zp_fail_memory(err);
-  ZpStatus status = put_summary(&json, report, !line && zp_report_is_sweep(report), value, err);
-  free(value);
-  return status == ZP_OK ? zp_json_end(&json, "summary.json", err) : status;
+  json_t *object = json_object(), *notes = json_array();
+  bool done = zp_json_set(object, "version", json_string(ZP_VERSION));
+  done = zp_json_set(object, "study", json_string(zp_report_study(report))) && done;
+  done = set_outcome(object, report) && done;
+  if (single) done = set_scalars(object, single) && done;
+  if (zp_report_is_sweep(report)) done = set_largest(object, report) && done;
+  for (size_t i = 0; i < report->count; i++)
+    done = add_notes(notes, zp_report_result(report, i)) && done;
+  done = zp_json_set(object, "notes", notes) && done;
+  if (zp_scenario_design(report->scenario))
+    done = zp_json_set(object, "statistics", zp_sample_statistics(report)) && done;
+  if (report->optimum) done = zp_json_set(object, "optimum", optimum_of(report)) && done;
+  if (done) return object;
+  json_decref(object);
+  return NULL;
 }
 
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
-  ZpStatus status = write_summary(report, false, file, err);
+  json_t *summary = summary_of(report);
+  if (!summary) return zp_fail_memory(err);
+  ZpStatus status = zp_report_is_sweep(report)
+                        ? zp_json_write_list(summary, "rows", report->count, row_of, report, file, err)
+                        : zp_json_write(summary, file, err);
+  json_decref(summary);
   if (status == ZP_OK && report->rows)
     status = report->rows->status(report->rows->user, err); /* status of all files so far */
   return status;
 }
 
 ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err) {
-  return write_summary(report, true, file, err);
-}
-
-ZpStatus zp_error_write_line(const ZpError *error, FILE *file, ZpError *err) {
-  ZpJson json = {.file = file, .flat = true};
-  zp_json_open(&json, NULL, '{');
-  zp_json_text(&json, "error", error->message);
-  zp_json_close(&json, '}');
-  return zp_json_end(&json, "the error", err);
+  json_t *summary = summary_of(report);
+  if (!summary) return zp_fail_memory(err);
+  ZpStatus status = zp_json_write_line(summary, file, err);
+  json_decref(summary);
+  return status;
 }

@@ -6,12 +6,12 @@
 
 #include "io/json.h"
 
-/* The value of a key as a member `name`: a number, a word, true or false. */
-void zp_json_key(ZpJson *json, const char *name, int key, double value);
+/* The value of a key: a number, a word, true or false. NULL if there is no memory. */
+json_t *zp_json_key(int key, double value);
 
-/* The distribution of each output over the samples, as member "statistics": a list with an object per combination of
- * the lists' values, with the values of the keys and "outputs". For an interrupted report only complete combinations.
- */
-ZpStatus zp_sample_statistics(ZpJson *json, const ZpReport *report, ZpError *err);
+/* The distribution of each output over the samples: a list with an object per combination of the lists' values, with
+ * the values of the keys and "outputs". For an interrupted report only complete combinations. NULL if there is no
+ * memory. */
+json_t *zp_sample_statistics(const ZpReport *report);
 
 #endif

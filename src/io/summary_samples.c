@@ -2,8 +2,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "base/fail.h"
-#include "io/cases.h"
 #include "io/report.h"
 #include "io/sampled.h"
 #include "io/summary.h"
@@ -16,11 +14,9 @@ enum { COLUMNS = 8 };
 typedef struct Samples {
   const ZpReport *report;
   const ZpDesign *design;
-  size_t count;       /* number of samples of a combination */
-  double *value;      /* [COLUMNS][count] */
-  double *work;       /* [count] */
-  double *key_value;  /* [lists of the scenario] of a combination */
-  ZpIndices *indices; /* [dimensions of the design] of an output */
+  size_t count;  /* number of samples of a combination */
+  double *value; /* [COLUMNS][count] */
+  double *work;  /* [count] */
 } Samples;
 
 /* Read columns `first` .. of the outputs for the cases from `start` on. */
@@ -32,92 +28,100 @@ static void read_columns(Samples *s, const ZpScalarNames *names, size_t first, s
   }
 }
 
-static void put_interval(ZpJson *json, const char *name, const ZpIndex *index) {
-  zp_json_open(json, name, '[');
-  zp_json_number(json, NULL, index->low, "1");
-  zp_json_number(json, NULL, index->high, "1");
-  zp_json_close(json, ']');
+/* Two bounds. */
+static json_t *interval(const ZpIndex *index) {
+  json_t *pair = json_array();
+  bool done = pair && json_array_append_new(pair, zp_json_number(index->low, "1")) == 0;
+  if (done && json_array_append_new(pair, zp_json_number(index->high, "1")) == 0) return pair;
+  json_decref(pair);
+  return NULL;
 }
 
 /* An object per index, and one of its intervals, each with an entry per key. */
-static void put_indices(ZpJson *json, const Samples *s, const double *value) {
-  static const char *const name[] = {"first_order_indices", "first_order_interval_95", "total_indices",
-                                     "total_interval_95"};
+static bool set_indices(json_t *object, const Samples *s, const double *value) {
+  json_t *first = json_object(), *first_interval = json_object(), *total = json_object(),
+         *total_interval = json_object();
   size_t keys;
   const int *key = zp_scenario_lists(s->report->scenario, &keys);
-  for (int d = 0; d < s->design->dimensions; d++)
-    s->indices[d] = zp_sobol_indices(s->design, value, d);
-  for (int k = 0; k < 4; k++) {
-    const ZpIndices *of = s->indices;
-    zp_json_open(json, name[k], '{');
-    for (size_t i = 0; i < keys; i++) {
-      if (!zp_scenario_spread(s->report->scenario, key[i])) continue;
-      const ZpIndex *index = k < 2 ? &of->first : &of->total;
-      if (k % 2 == 0)
-        zp_json_number(json, zp_key(key[i])->name, index->value, "1");
-      else
-        put_interval(json, zp_key(key[i])->name, index);
-      of++;
-    }
-    zp_json_close(json, '}');
+  bool done = true;
+  int dimension = 0;
+  for (size_t i = 0; i < keys; i++) {
+    if (!zp_scenario_spread(s->report->scenario, key[i])) continue;
+    const ZpIndices indices = zp_sobol_indices(s->design, value, dimension++);
+    const char *name = zp_key(key[i])->name;
+    done = zp_json_set(first, name, zp_json_number(indices.first.value, "1")) && done;
+    done = zp_json_set(first_interval, name, interval(&indices.first)) && done;
+    done = zp_json_set(total, name, zp_json_number(indices.total.value, "1")) && done;
+    done = zp_json_set(total_interval, name, interval(&indices.total)) && done;
   }
+  done = zp_json_set(object, "first_order_indices", first) && done;
+  done = zp_json_set(object, "first_order_interval_95", first_interval) && done;
+  done = zp_json_set(object, "total_indices", total) && done;
+  return zp_json_set(object, "total_interval_95", total_interval) && done;
 }
 
-static void put_output(ZpJson *json, const char *name, const Samples *s, const double *value) {
+static json_t *describe(const Samples *s, const double *value) {
   static const char *const quantile[ZP_QUANTILES] = {"quantile_05", "quantile_25", "median", "quantile_75",
                                                      "quantile_95"};
   const ZpStatistics x = zp_statistics(s->design, value, s->work);
-  zp_json_open(json, name, '{');
-  zp_json_number(json, "count", (double)x.count, "count");
-  zp_json_number(json, "missing", (double)x.missing, "count");
-  zp_json_number(json, "mean", x.mean, "1");
-  zp_json_number(json, "standard_deviation", x.deviation, "1");
-  zp_json_number(json, "min", x.least, "1");
+  json_t *object = json_object();
+  bool done = zp_json_set(object, "count", zp_json_number((double)x.count, "count"));
+  done = zp_json_set(object, "missing", zp_json_number((double)x.missing, "count")) && done;
+  done = zp_json_set(object, "mean", zp_json_number(x.mean, "1")) && done;
+  done = zp_json_set(object, "standard_deviation", zp_json_number(x.deviation, "1")) && done;
+  done = zp_json_set(object, "min", zp_json_number(x.least, "1")) && done;
   for (int k = 0; k < ZP_QUANTILES; k++)
-    zp_json_number(json, quantile[k], x.quantile[k], "1");
-  zp_json_number(json, "max", x.most, "1");
-  if (s->design->indices) put_indices(json, s, value);
-  zp_json_close(json, '}');
+    done = zp_json_set(object, quantile[k], zp_json_number(x.quantile[k], "1")) && done;
+  done = zp_json_set(object, "max", zp_json_number(x.most, "1")) && done;
+  if (s->design->indices) done = set_indices(object, s, value) && done;
+  if (done) return object;
+  json_decref(object);
+  return NULL;
 }
 
-/* The combination whose samples start with case `start`. */
-static void put_combination(ZpJson *json, Samples *s, const ZpScalarNames *names, size_t start) {
+/* Statistics of all outputs over the samples from case `start` on. */
+static json_t *outputs_of(Samples *s, const ZpScalarNames *names, size_t start) {
+  json_t *object = json_object();
+  bool done = object != NULL;
+  for (size_t first = 0; first < names->count && done; first += COLUMNS) {
+    read_columns(s, names, first, start);
+    for (size_t k = 0; k < COLUMNS && first + k < names->count && done; k++)
+      done = zp_json_set(object, names->item[first + k].name, describe(s, s->value + k * s->count));
+  }
+  if (done) return object;
+  json_decref(object);
+  return NULL;
+}
+
+/* The object of the combination whose samples start with case `start`. */
+static json_t *combination(Samples *s, const ZpScalarNames *names, size_t start) {
   size_t keys;
   const int *key = zp_scenario_lists(s->report->scenario, &keys);
-  zp_scenario_values(s->report->scenario, start, s->key_value);
-  zp_json_open(json, NULL, '{');
-  for (size_t i = 0; i < keys; i++)
+  ZpActuatorDef def;
+  json_t *object = json_object();
+  bool done = object && zp_scenario_def(s->report->scenario, start, &def, NULL) == ZP_OK;
+  for (size_t i = 0; i < keys && done; i++)
     if (!zp_scenario_spread(s->report->scenario, key[i]))
-      zp_json_key(json, zp_key(key[i])->name, key[i], s->key_value[i]);
-  zp_json_open(json, "outputs", '{');
-  for (size_t first = 0; first < names->count; first += COLUMNS) {
-    read_columns(s, names, first, start);
-    for (size_t k = 0; k < COLUMNS && first + k < names->count; k++)
-      put_output(json, names->item[first + k].name, s, s->value + k * s->count);
-  }
-  zp_json_close(json, '}');
-  zp_json_close(json, '}');
+      done = zp_json_set(object, zp_key(key[i])->name, zp_json_key(key[i], zp_def_get(&def, key[i])));
+  if (done && zp_json_set(object, "outputs", outputs_of(s, names, start))) return object;
+  json_decref(object);
+  return NULL;
 }
 
-ZpStatus zp_sample_statistics(ZpJson *json, const ZpReport *report, ZpError *err) {
+json_t *zp_sample_statistics(const ZpReport *report) {
   const ZpDesign *design = zp_scenario_design(report->scenario);
   Samples s = {.report = report, .design = design, .count = zp_design_samples(design)};
   ZpScalarNames names = {0};
-  size_t keys;
-  zp_scenario_lists(report->scenario, &keys);
+  json_t *list = json_array();
   s.value = calloc(COLUMNS * s.count, sizeof *s.value);
   s.work = calloc(s.count, sizeof *s.work);
-  s.key_value = calloc(keys, sizeof *s.key_value);
-  s.indices = calloc((size_t)design->dimensions, sizeof *s.indices);
-  const bool done = s.value && s.work && s.key_value && s.indices && zp_report_scalars(report, false, &names);
-  zp_json_open(json, "statistics", '[');
+  bool done = list && s.value && s.work && zp_report_scalars(report, false, &names);
   for (size_t start = 0; start + s.count <= report->count && done; start += s.count)
-    put_combination(json, &s, &names, start);
-  zp_json_close(json, ']');
+    done = json_array_append_new(list, combination(&s, &names, start)) == 0;
   free(names.item);
   free(s.value);
   free(s.work);
-  free(s.key_value);
-  free(s.indices);
-  return done ? ZP_OK : zp_fail_memory(err);
+  if (done) return list;
+  json_decref(list);
+  return NULL;
 }
