@@ -633,6 +633,18 @@ START_TEST(largest_load_is_the_largest_that_closes) {
 }
 END_TEST
 
+/* Just above 1.0193 g, where the voltage is a limit point, it does not close; it closes again up to 1.0385 g, above
+ * which its closing voltage jumps. */
+START_TEST(larger_load_that_closes_again) {
+  ZpActuatorDef def = DEF({"ribbon.length", 0.1574917229260947}, {"ribbon.width", 0.004515478370925754},
+                          {"ribbon.thickness", 7.463166966632059e-05}, {"platform.length", 0.01574917229260947},
+                          {"insulator.thickness", 3.482150568880197e-05}, {"load.mass", 0.004062378575871861},
+                          {"mesh.nodes", 21}, {"drive.voltage", 9921.195981628765}, {"liquid.model", ZP_LIQUID_BEAD},
+                          {"bead.volume", 50e-9}, {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6});
+  check_definition(def, answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg"));
+}
+END_TEST
+
 /* Its closed state is open by more than 1 % of the opening with which it hangs, even without load. A candidate that no
  * voltage confirmed was once given as the answer. */
 START_TEST(no_largest_load) {
@@ -841,6 +853,7 @@ int main(void) {
   tcase_add_test(study, test_largest_load);
   tcase_add_test(study, largest_load_does_not_depend_on_the_load);
   tcase_add_loop_test(study, largest_load_is_the_largest_that_closes, 0, 9);
+  tcase_add_test(study, larger_load_that_closes_again);
   tcase_add_test(study, no_largest_load);
   tcase_add_test(study, largest_load_hardly_depends_on_the_mesh);
   tcase_add_test(study, gradual_largest_load_does_not_depend_on_the_load);
