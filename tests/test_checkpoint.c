@@ -136,6 +136,34 @@ START_TEST(test_another_voltage) {
 }
 END_TEST
 
+/* A force that the program applies is lifted like a load; work and efficiency are those since the run resumed. */
+START_TEST(test_work_since_then) {
+  const double force = 0.02, mass = 10e-3;
+  ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"load.mass", mass});
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpCheckpoint *checkpoint;
+  ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, force, 0, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(sim, 60e-3, false, NULL, NULL), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_checkpoint(sim, &checkpoint, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_restore(sim, checkpoint->byte, checkpoint->size, NULL),
+                   ZP_OK); /* before the step that was cut */
+  double supplied = zp_sim_get(sim, "source_energy");
+  write_to(path, checkpoint);
+  start_from(&def, path);
+  ZpResult *rest = result_of(ZP_STUDY_ACTUATE, &def);
+  double risen = zp_result_get(rest, "start_opening_m") - zp_result_get(rest, "opening_m"),
+         work = (mass * def.gravity + force) * risen;
+  ck_assert(risen > 1e-3 && supplied > 0);
+  ck_near(zp_result_get(rest, "mechanical_work_J"), work, 1e-12);
+  ck_near(zp_result_get(rest, "efficiency"), work / (zp_result_get(rest, "source_energy_J") - supplied), 1e-12);
+  zp_result_destroy(rest);
+  zp_checkpoint_destroy(checkpoint);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}
+END_TEST
+
 static bool stop_at_once(void *user, const char *stage, double fraction) {
   (void)user, (void)fraction;
   return strcmp(stage, "simulating") == 0;
@@ -644,6 +672,7 @@ int main(void) {
   TCase *same = tcase_create("continuation");
   tcase_add_loop_test(same, test_goes_on_to_the_same_bits, 0, 10);
   tcase_add_test(same, test_another_voltage);
+  tcase_add_test(same, test_work_since_then);
   tcase_add_loop_test(same, test_bad_ends, 0, 2);
   tcase_add_test(same, test_diverged);
   tcase_add_test(same, test_equal_states_give_equal_bytes);

@@ -56,6 +56,16 @@ static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
+/* What had been booked before a run that resumes began, J. */
+typedef struct Booked {
+  double energy, load_work;
+} Booked;
+
+static Booked booked_before(ZpSim *sim, bool resumes) {
+  if (!resumes) return (Booked){0, 0};
+  return (Booked){zp_sim_get(sim, "source_energy"), zp_sim_get(sim, "load_work")};
+}
+
 /* Work on a caught mass from then to the end, or on a dropped mass until then, J; to be added to that on load.mass. */
 static double work_on_change(ZpSim *sim, const ZpModel *model) {
   const ZpState *state = sim->state;
@@ -74,21 +84,21 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
   double along = zp_load_at(model, motion.x) - zp_load_at(model, start.x),
          up = zp_load_at(model, motion.y) - zp_load_at(model, start.y), weight = def->load.mass * def->gravity;
   double work = def->load.force * up - weight * (model->fall[0] * along + model->fall[1] * up);
-  return model->parts * zp_load_share(model) * work + work_on_change(sim, model) - at_end(sim, result, "load_work");
+  return model->parts * zp_load_share(model) * work + work_on_change(sim, model);
 }
 
-/* Work against pull and springs of the load, less that of the load input, from start to end, J. */
+/* Work against pull and springs of the load from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
   double pull = 0,
          compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
   for (const ZpModel *m = zp_lowest(model); m < model + model->members; m++) /* those that carry the load */
     pull += zp_load_pull(m);
-  return pull * risen + compressed + work_on_change(sim, zp_lowest(model)) - at_end(sim, result, "load_work");
+  return pull * risen + compressed + work_on_change(sim, zp_lowest(model));
 }
 
-/* The energy that the source delivered, and what became of it. */
-static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, ZpResult *result) {
+/* The energy that the source delivered, and what became of it. The load input takes part in the work on the load. */
+static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Booked before, ZpResult *result) {
   ZpCurrents currents = zp_sim_currents(sim, info->simulated_time);
   double energy = at_end(sim, result, "source_energy");
   zp_result_add(result, "peak_current_A", "A", currents.peak);
@@ -100,8 +110,9 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (zp_model_info(model).ribbons < 2) return;
   bool turns = zp_has_angle(&model->topology);
   double work = turns ? work_along_path(sim, model, result) : work_on_load(sim, model, result);
+  work -= at_end(sim, result, "load_work") - before.load_work;
   zp_result_add(result, "mechanical_work_J", "J", work);
-  zp_add_efficiency(result, "efficiency", work, energy);
+  zp_add_efficiency(result, "efficiency", work, energy - before.energy);
 }
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
@@ -253,7 +264,8 @@ static void judge(const ZpSim *sim, const ZpModel *model, ZpStop stop, ZpRunInfo
     snprintf(text, size, "closed after %.4g ms, stays closed to the end, at %.4g s", 1e3 * zip, t);
 }
 
-static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRunInfo *info, ZpResult *result) {
+static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRunInfo *info, Booked before,
+                      ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, stop, result);
@@ -266,7 +278,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
   summarize_members(sim, model, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
-  if (model->field) summarize_source(sim, model, info, result);
+  if (model->field) summarize_source(sim, model, info, before, result);
   summarize_steps(info, result);
 }
 
@@ -288,6 +300,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpStatus status = start ? zp_sim_continue(sim, start, err) : ZP_OK;
   if (status != ZP_OK) return status;
   const ZpActuatorDef *def = zp_model_def(model);
+  const Booked before = booked_before(sim, start != NULL);
   const ZpStop stop = zp_sim_stops(sim, stop_of(model)) ? ZP_STOP_AT_END : stop_of(model);
   bool controlled = def->control.kind != ZP_CONTROL_NONE;
   ZpTable *samples = controlled ? zp_loop_watch(sim) : NULL;
@@ -298,7 +311,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   if (status == ZP_OK) {
     zp_sim_run_until(sim, def->solver.end_time, stop, hooks, &info);
     judge(sim, model, stop, &info);
-    summarize(sim, model, stop, &info, result);
+    summarize(sim, model, stop, &info, before, result);
     zp_rates_add(&rates, result);
   }
   zp_run_rates_close(&rates);
