@@ -28,17 +28,16 @@ for key in json.load(sys.stdin):
 ' >"$made"
 python3 - "$(dirname "$0")/.." >>"$made" <<'PYTHON'
 import glob, re, sys
-signals = open(sys.argv[1] + "/include/zipact/signals.def").read()
+signals = "\n".join(open(sys.argv[1] + name).read() for name in ("/include/zipact/signals.def", "/src/term/terms.def"))
 laws = " ".join(" ".join(open(name).read().split()) for name in sorted(glob.glob(sys.argv[1] + "/src/**/*.c", recursive=True)))
 rows = {name: ("J", "_J", text) for name, text in re.findall(r'ZP_(?:STORED|LOST|LOST_BY_SOURCE)\( ?(\w+), "([^"]*)"\)', laws)}
 rows.update((name, (unit, suffix, text)) for name, unit, suffix, text in
             re.findall(r'ZP_SHOWN\( ?(\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', laws))
 print("\n# Columns of table.csv\n\n| column | unit | meaning |\n|---|---|---|")
 for line in signals.splitlines():
-    row = re.match(r"ZP_ROW\((\w+)\)", line)
     found = re.match(r'ZP_SIGNAL\((\w+), "([^"]*)", "([^"]*)", "([^"]*)"\)', line)
-    if row or found:
-        name, unit, suffix, text = (row.group(1), *rows[row.group(1)]) if row else found.groups()
+    listed = [found.groups()] if found else [(row, *rows[row]) for row in re.findall(r"(?<!define )ZP_ROW\((\w+)\)", line) if row in rows]
+    for name, unit, suffix, text in listed:
         print(f"| `{name}{suffix}` | {unit} | {text} |")
 for name, text in re.findall(r'^ZP_CONTROLLED\((\w+), "([^"]*)"\)', signals, re.M):
     print(f"| `{name}`, with a controller `{name}_m`, `{name}` or `{name}_F` | that of control.signal | {text} |")

@@ -279,19 +279,34 @@ def rows_of(repo, files):
     return rows
 
 
+def rows_of_terms(repo):
+    """(term, its rows) of each line of terms.def."""
+    for line in re.findall(r"^ZP_TERM\(.*", read(repo, "src/term/terms.def"), re.M):
+        yield re.match(r"ZP_TERM\((\w+)\)", line).group(1), re.findall(r"ZP_ROW\((\w+)\)", line)
+
+
 def rule_signals_documented(repo, files):
     """Every signal stands somewhere in docs/, as in a table: with the unit in its name."""
     pages = "\n".join(read(repo, name) for name in files if name.startswith("docs/") and name.endswith(".md"))
     text = read(repo, "include/zipact/signals.def")
     rows = rows_of(repo, files)
     signals = list(re.finditer(r'^ZP_SIGNAL\((\w+),\s*"[^"]*",\s*"([^"]*)"', text, re.M))
-    for found in re.finditer(r"^ZP_ROW\((\w+)\)", text, re.M):
-        column = found.group(1) + rows.get(found.group(1), ("", "", ""))[1]
+    listed = re.findall(r"^ZP_ROW\((\w+)\)", text, re.M)
+    for term, own in rows_of_terms(repo):
+        for row in own:
+            ok = rows.get(row, ("", "", ""))[2] == "src/term/%s.c" % term
+            yield ok, "src/term/terms.def:1", "row %s is not defined in src/term/%s.c" % (row, term)
+        listed += own
+    for row in listed:
+        column = row + rows.get(row, ("", "", ""))[1]
         ok = re.search(r"(?<!\w)%s(?!\w)" % re.escape(column), pages)
-        yield bool(ok), "include/zipact/signals.def:%d" % line_at(text, found.start()), "%s is not in docs/" % column
-    listed = set(re.findall(r"^ZP_ROW\((\w+)\)", text, re.M))
+        yield bool(ok), "include/zipact/signals.def:1", "%s is not in docs/" % column
+        yield listed.count(row) == 1, "src/term/terms.def:1", "row %s has two places" % row
     for row, (_, _, name) in rows.items():
-        yield row in listed, name + ":1", "row %s has no place in signals.def: no column would show it" % row
+        yield row in listed, name + ":1", "row %s has no place in signals.def or terms.def: no column would show it" % row
+        if name.startswith("src/term/"):
+            ok = re.search(r"&zp_row_%s\b" % row, read(repo, name))
+            yield bool(ok), name + ":1", "the term does not list its row %s" % row
     signals += list(re.finditer(r"^ZP_CONTROLLED\((\w+)()", text, re.M))
     yield len(signals) > 10, "include/zipact/signals.def:1", "only %d signals found" % len(signals)
     for found in signals:
@@ -522,9 +537,13 @@ ABOVE_TERMS = ("actuator", "system", "rest", "sim", "study")
 
 def rule_one_sum(repo, files):
     """Forces of laws are added up in system/system.c, nowhere else."""
-    terms = re.findall(r"^ZP_TERM\((\w+)\)$", read(repo, "src/term/terms.def"), re.M)
+    terms = [term for term, _ in rows_of_terms(repo)]
     for term in terms:
         yield "src/term/%s.c" % term in files, "src/term/terms.def:1", "term %s has no file" % term
+    for name in files:
+        if name.startswith("src/term/") and name.endswith(".c"):
+            for term in re.findall(r"^const ZpTerm zp_term_(\w+)", read(repo, name), re.M):
+                yield term in terms, name + ":1", "term %s has no line in terms.def" % term
     for name in files:
         if folder_of(name) not in ABOVE_TERMS or not name.endswith((".c", ".h")) or name == "src/system/system.c":
             continue

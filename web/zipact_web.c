@@ -20,11 +20,13 @@
 
 /* Number of signals. */
 #define ZP_SIGNAL(name, unit, suffix, help) +1
+#define ZP_ROW(name)                        +1
 enum {
   SIGNALS = 0
-#include <zipact/signals.def>
+#include "sim/columns.def"
 };
 #undef ZP_SIGNAL
+#undef ZP_ROW
 
 enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
 

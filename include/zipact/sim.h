@@ -219,8 +219,11 @@ ZP_API void zp_sim_save(const ZpSim *sim, void *bytes);
  */
 ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err);
 
-/* The columns of a time series: one per line of signals.def. */
+/* The columns of a time series: one per line of signals.def, then those of further laws of the library. */
 ZP_API const ZpColumn *zp_signal_columns(size_t *count);
+
+/* The name of the signal in column `index` of these, without its unit ("stroke"). */
+ZP_API const char *zp_signal_name(size_t index);
 
 /* The same with the units of this Def: setpoint and measured are in that of control.signal. */
 ZP_API const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count);

@@ -92,12 +92,6 @@ static PyObject *keys(PyObject *module, PyObject *unused) {
   return list;
 }
 
-#define ZP_SIGNAL(name, unit, suffix, help) #name,
-static const char *const signal_names[] = {
-#include <zipact/signals.def>
-};
-#undef ZP_SIGNAL
-
 /* (name, unit, help) of each signal. */
 static PyObject *signals(PyObject *module, PyObject *unused) {
   (void)module, (void)unused;
@@ -106,7 +100,7 @@ static PyObject *signals(PyObject *module, PyObject *unused) {
   Py_ssize_t count = (Py_ssize_t)columns;
   PyObject *list = PyTuple_New(count);
   for (Py_ssize_t i = 0; list && i < count; i++) {
-    PyObject *item = Py_BuildValue("(sss)", signal_names[i], signal[i].unit, signal[i].help);
+    PyObject *item = Py_BuildValue("(sss)", zp_signal_name((size_t)i), signal[i].unit, signal[i].help);
     if (!item || PyTuple_SetItem(list, i, item)) Py_CLEAR(list);
   }
   return list;

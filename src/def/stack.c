@@ -58,6 +58,18 @@ static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
   one->drive.voltage = zp_def_lower_voltage(def, def->drive.voltage);
 }
 
+/* Members side by side share one load: each has its part of what is in kg, N or N per something. A stop that does not
+ * exist keeps its default. */
+static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
+  static const ZpKeyGroup load = ZP_KEY_GROUP(load);
+  for (int key = load.first; key < load.end; key++) {
+    const char *unit = zp_key(key)->unit;
+    if (strncmp(unit, "kg", 2) == 0 || unit[0] == 'N')
+      zp_def_set(one, key, zp_def_get(def, key) / def->stack.parallel, NULL);
+  }
+  if (isnan(def->load.stop_opening)) one->load.stop_stiffness = def->load.stop_stiffness;
+}
+
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def;
   bool last = member == def->stack.series, abreast = zp_def_abreast(def);
@@ -72,11 +84,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   one.stack.voltage_ratio = 1;
   if (abreast) {
     one.stack.parallel = 1;
-    one.load.mass /= def->stack.parallel;
-    one.load.force /= def->stack.parallel;
-    one.load.stiffness /= def->stack.parallel;
-    if (!isnan(def->load.stop_opening)) one.load.stop_stiffness /= def->stack.parallel;
-    one.load.change_mass /= def->stack.parallel;
+    share_load(def, &one);
     return one;
   }
   if (zp_def_opposed(def)) {

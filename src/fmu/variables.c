@@ -12,12 +12,6 @@
 /* First value references: far enough apart for all tables. */
 enum { FIRST_INPUT = 1, FIRST_OUTPUT = 100, FIRST_PARAMETER = 1000 };
 
-#define ZP_SIGNAL(name, unit, suffix, help) #name,
-static const char *const signals[] = {
-#include <zipact/signals.def>
-};
-#undef ZP_SIGNAL
-
 static bool is_one_of(const char *name, const char *const *list, size_t count) {
   for (size_t k = 0; k < count; k++)
     if (strcmp(name, list[k]) == 0) return true;
@@ -26,7 +20,7 @@ static bool is_one_of(const char *name, const char *const *list, size_t count) {
 
 bool zp_fmu_is_output(int index) {
   static const char *const others[] = {"time", "setpoint", "sensed_capacitance", "sensed_stroke"};
-  return !is_one_of(signals[index], others, sizeof others / sizeof others[0]);
+  return !is_one_of(zp_signal_name((size_t)index), others, sizeof others / sizeof others[0]);
 }
 
 bool zp_fmu_is_input(int index, bool controlled) {
@@ -37,7 +31,8 @@ bool zp_fmu_follows(int index, ZpInput input) {
   static const char *const electric[] = {"voltage",       "force",         "charge",          "electric_work",
                                          "field_energy",  "charging_loss", "command",         "source_voltage",
                                          "source_energy", "leak_current",  "insulator_field", "energy_imbalance"};
-  return input == ZP_INPUT_VOLTAGE && is_one_of(signals[index], electric, sizeof electric / sizeof electric[0]);
+  return input == ZP_INPUT_VOLTAGE &&
+         is_one_of(zp_signal_name((size_t)index), electric, sizeof electric / sizeof electric[0]);
 }
 
 bool zp_fmu_is_parameter(int index, double value) {
@@ -73,7 +68,7 @@ const char *zp_fmu_name(ZpFmuVariable variable) {
   if (variable.role == ZP_FMU_TIME) return "time";
   if (variable.role == ZP_FMU_INPUT) return zp_input_name((ZpInput)variable.index);
   if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->name;
-  const char *name = signals[variable.index];
+  const char *name = zp_signal_name((size_t)variable.index);
   return strcmp(name, zp_input_name(ZP_INPUT_VOLTAGE)) == 0 ? "electrode_voltage" : name;
 }
 

@@ -9,11 +9,13 @@
 
 /* Positions of the signals in a row, and their number. */
 #define ZP_SIGNAL(name, unit, suffix, help) ZP_FMU_SIGNAL_##name,
+#define ZP_ROW(name)                        ZP_FMU_SIGNAL_##name,
 enum {
-#include <zipact/signals.def>
+#include "sim/columns.def"
   ZP_FMU_SIGNALS
 };
 #undef ZP_SIGNAL
+#undef ZP_ROW
 
 typedef enum ZpFmuRole { ZP_FMU_TIME, ZP_FMU_INPUT, ZP_FMU_OUTPUT, ZP_FMU_PARAMETER } ZpFmuRole;
 

@@ -8,11 +8,15 @@
 #include "sim/margins.h"
 #include "sim/sim_internal.h"
 
+#define ZP_ROW(name) extern const ZpRow zp_row_##name;
+#include "term/terms.def"
+#undef ZP_ROW
+
 /* Places of the signals in a row. */
 #define ZP_SIGNAL(name, unit, suffix, help) SIGNAL_##name,
 #define ZP_ROW(name)                        SIGNAL_##name,
 enum {
-#include <zipact/signals.def>
+#include "sim/columns.def"
   SIGNAL_COUNT
 };
 #undef ZP_SIGNAL
@@ -22,6 +26,16 @@ enum {
 #define ZP_SIGNAL(name, unit, suffix, help) NULL,
 #define ZP_ROW(name)                        &zp_row_##name,
 static const ZpRow *const row_of[] = {
+#include "sim/columns.def"
+};
+#undef ZP_SIGNAL
+#undef ZP_ROW
+
+/* The first row of a law that signals.def does not list. */
+#define ZP_SIGNAL(name, unit, suffix, help) +1
+#define ZP_ROW(name)                        +1
+enum {
+  SIGNAL_OF_LAWS = 0
 #include <zipact/signals.def>
 };
 #undef ZP_SIGNAL
@@ -46,31 +60,37 @@ enum { NUMBERS_ABREAST = 2 };
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
 #define ZP_ROW(name)                        {zp_row_##name.column, zp_row_##name.unit, zp_row_##name.help},
 static const ZpColumn columns[] = {
-#include <zipact/signals.def>
+#include "sim/columns.def"
     OPENINGS};
 _Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + ZP_MOST_MEMBERS, "one opening for each member");
 
 static const ZpColumn columns_abreast[] = {
-#include <zipact/signals.def>
+#include "sim/columns.def"
     ABREAST};
 
 /* The same where the controller holds a length, and where it holds a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_of_length[] = {
-#include <zipact/signals.def>
+#include "sim/columns.def"
 };
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_of_capacitance[] = {
-#include <zipact/signals.def>
+#include "sim/columns.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW
 
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
+#define ZP_ROW(name)                        #name,
 static const char *const names[] = {
-#include <zipact/signals.def>
+#include "sim/columns.def"
 };
 #undef ZP_SIGNAL
+#undef ZP_ROW
+
+const char *zp_signal_name(size_t index) {
+  return names[index];
+}
 
 const ZpColumn *zp_signal_columns(size_t *count) {
   *count = SIGNAL_COUNT;
@@ -103,6 +123,23 @@ void zp_sim_place_rows(ZpSim *sim) {
       signal++;
     sim->row_at[k] = signal < SIGNAL_COUNT ? signal : COLUMNS + k;
   }
+}
+
+/* Does any law of these members have the row? */
+static bool has_row(const ZpModel *first, const ZpRow *row) {
+  for (const ZpModel *model = first; model < first + first->members; model++)
+    for (size_t law = 0; law < model->laws; law++)
+      for (size_t k = 0; k < model->law[law].rows; k++)
+        if (model->ledger.row[model->law[law].row[k]] == row) return true;
+  return false;
+}
+
+bool zp_sim_next_row(const ZpSim *sim, size_t *signal) {
+  size_t k = *signal < SIGNAL_OF_LAWS ? SIGNAL_OF_LAWS : *signal + 1;
+  while (k < SIGNAL_COUNT && !has_row(sim->model, row_of[k]))
+    k++;
+  *signal = k;
+  return k < SIGNAL_COUNT;
 }
 
 const char *zp_control_unit(const ZpActuatorDef *def) {

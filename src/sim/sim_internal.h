@@ -38,6 +38,10 @@ double zp_sim_setpoint(const ZpSim *sim);
 /* The signal that the controller measures, without noise. */
 double zp_sim_controlled(ZpSim *sim);
 
+/* The next signal after this one, at first 0, that is a row which signals.def does not list of a law of the model =>
+ * false if there is none. */
+bool zp_sim_next_row(const ZpSim *sim, size_t *signal);
+
 /* Samples of a controller, as columns of a table. */
 enum { ZP_SAMPLE_TIME, ZP_SAMPLE_SETPOINT, ZP_SAMPLE_SIGNAL, ZP_SAMPLE_COLUMNS };
 const ZpColumn *zp_sample_columns(size_t *count);

@@ -223,6 +223,14 @@ static void summarize_bead(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
 }
 
+/* Losses and signals of laws that signals.def does not list. */
+static void summarize_laws(ZpSim *sim, ZpResult *result) {
+  size_t count;
+  const ZpColumn *column = zp_signal_columns(&count);
+  for (size_t k = 0; zp_sim_next_row(sim, &k);)
+    zp_result_add(result, column[k].name, column[k].unit, at_end(sim, result, zp_signal_name(k)));
+}
+
 /* When each member of a series has closed. */
 static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   static const char *const names[] = {"member_1_zip_time_s", "member_2_zip_time_s", "member_3_zip_time_s",
@@ -275,6 +283,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
   if (!isnan(model->def.load.change_time))
     zp_result_add(result, "catch_loss_J", "J", at_end(sim, result, "catch_loss"));
   if (model->has_bead) summarize_bead(sim, result);
+  summarize_laws(sim, result);
   summarize_members(sim, model, result);
   zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
