@@ -1,5 +1,6 @@
 /* Rows of the ledger: quantities that a law stores or loses, or only shows. A law defines its rows in its own file, and
- * laws that share a row name the same object. signals.def lists the rows in the order in which users see them. */
+ * laws that share a row name the same object. signals.def lists the rows in the order in which users see them;
+ * those of terms.def follow. */
 #ifndef ZP_BASE_ROW_H
 #define ZP_BASE_ROW_H
 

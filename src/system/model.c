@@ -8,6 +8,17 @@ static const ZpTerm *const table[] = {
 };
 _Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "a model has room for all terms, and one of a program");
 
+#define ZP_SIGNAL(name, unit, suffix, help)
+#define ZP_ROW(name) +1
+enum {
+  ROWS = 0
+#include "term/terms.def"
+#include <zipact/signals.def>
+};
+#undef ZP_SIGNAL
+#undef ZP_ROW
+_Static_assert(ROWS + ZP_ROWS_OF_TERM <= ZP_MOST_ROWS, "a ledger has room for all rows, and those of a program's law");
+
 const ZpRow zp_row_kinetic_energy = ZP_STORED(kinetic_energy, "kinetic energy");
 
 /* The number of a row, which laws may share. */

@@ -1,13 +1,13 @@
-/* A law in one file: a damper beside the load, whose coefficient grows while it works. It has a key, a force, a state, a
- * loss and a signal. test_law.c adds it to models of a program; law_is_one_file.py makes it a file of src/term/, with a
- * line of keys.def and one of terms.def. */
+/* A law in one file: a damper beside the load, whose coefficient grows while it works. It has a key, a force, a state,
+ * a loss and a signal. test_law.c adds it to models of a program; law_is_one_file.py makes it a file of src/term/, with
+ * a line of keys.def and one of terms.def. */
 #include "term/term.h"
 
-/* The coefficient at first, N s/m: a member's own, on the load of the whole actuator, and that of all members. A program
- * that brings the damper has no key. */
+/* The coefficient at first, N s/m: a member's own, on the load of the whole actuator, and that of all members. A
+ * program that brings the damper has no key. */
 #ifdef DAMPER_OF_PROGRAM
-#define DAMPER_COLD(model)  DAMPER_OF_PROGRAM
-#define DAMPER_WHOLE(model) DAMPER_OF_PROGRAM
+#define DAMPER_COLD(model)  ((void)(model), DAMPER_OF_PROGRAM)
+#define DAMPER_WHOLE(model) ((void)(model), DAMPER_OF_PROGRAM)
 #else
 #define DAMPER_COLD(model)  ((model)->def.load.damping)
 #define DAMPER_WHOLE(model) ((model)->whole.load.damping)
