@@ -60,13 +60,11 @@ static void measure(const char *name, ZpStudy study, ZpActuatorDef def, int warm
 
 typedef struct PullIn {
   ZpRest rest;
-  ZpSlow slow;
   ZpLimit limit;
 } PullIn;
 
 static void carve(void *user, ZpCarver *carver) {
   PullIn *p = user;
-  zp_slow_carve(&p->slow, &p->rest, carver);
   zp_limit_carve(&p->limit, zp_rest_save_size(&p->rest), p->rest.statics.n, carver);
 }
 
@@ -76,9 +74,10 @@ static double pull_in(const ZpActuatorDef *def) {
   ZpModel *model;
   if (zp_model_create(def, &model, NULL) != ZP_OK || !zp_rest_open(&p.rest, model, carve, &p)) exit(1);
   zp_rest_hang(&p.rest, 0);
-  zp_statics_stable(&p.rest.statics, p.slow.newton);
-  zp_slow_start(&p.slow, zp_closing_gap(&p.rest.statics, NULL));
-  if (zp_slow_pull_in(&p.slow, def->drive.voltage, &p.limit) != ZP_MARCH_FOLD) exit(1);
+  zp_statics_stable(&p.rest.statics);
+  zp_slow_start(&p.rest);
+  if (zp_slow_first(&p.rest, def->drive.voltage, &p.limit) != ZP_MARCH_FOLD) exit(1);
+  zp_slow_look_around(&p.rest, &p.limit, 1);
   zp_rest_close(&p.rest);
   zp_model_destroy(model);
   return p.limit.value;

@@ -115,8 +115,8 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
   s->contact_acts = true;
   system.residual(s, up, NULL);
   memcpy(s->member->tension, s->member->eval.edges.T, (model->count - model->s) * sizeof *s->member->tension);
-  system.stiffness(s, &rest.branch.newton.K, NULL);
-  double *A = full_of(&rest.branch.newton.K);
+  system.stiffness(s, &rest.statics.newton.K, NULL);
+  double *A = full_of(&rest.statics.newton.K);
   for (size_t j = 0; j < n; j++) {
     static const double by = 2e-8;
     shift(s, j, by);

@@ -77,7 +77,7 @@ START_TEST(impossible_states_are_named) {
   ZpStatics *s = &rest->statics;
   ZpStaticSystem system = zp_statics_system(s);
   ck_assert_ptr_null(zp_statics_fault(s));
-  double *x = s->member->q, *y = x + model->stride, *r = rest->branch.newton.r;
+  double *x = s->member->q, *y = x + model->stride, *r = rest->statics.newton.r;
   for (size_t j = 0; j < model->count; j++) /* both run back to the left */
     x[j] = -x[j];
   ck_assert_int_eq(system.residual(s, r, NULL), ZP_END_FOUND);

@@ -54,18 +54,16 @@ static double energy(ZpRest *r) {
 }
 
 static void raise_to(ZpRest *r, double voltage) {
-  ZpStaticSystem system = zp_statics_system(&r->statics);
   for (int k = 1; k <= 200; k++) {
     r->statics.U = voltage * k / 200;
-    ck_assert(zp_newton_good(zp_newton(&system, zp_statics_tolerance(&r->statics), 50, &r->branch.newton).end));
+    ck_assert(zp_newton_good(zp_statics_solve(&r->statics, 50).end));
   }
 }
 
 /* At the opening `to`, from near it. */
 static double energy_at(ZpRest *r, double to) {
-  ZpStaticSystem system = zp_statics_system(&r->statics);
   r->statics.opening = to;
-  ck_assert(zp_newton_good(zp_newton(&system, zp_statics_tolerance(&r->statics), 50, &r->branch.newton).end));
+  ck_assert(zp_newton_good(zp_statics_solve(&r->statics, 50).end));
   return energy(r);
 }
 
@@ -79,7 +77,7 @@ START_TEST(test_force_is_slope_of_energy) {
   ZpModel *model = model_of(&def);
   ZpRest r;
   ck_assert(zp_rest_open(&r, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, s, &r.branch.newton).end));
+  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, s).end));
   if (U > 0) raise_to(&r, U);
   double reaction = r.statics.reaction;
   double up = energy_at(&r, s + h), down = energy_at(&r, s - h), slope = (up - down) / (2 * h);
@@ -112,8 +110,8 @@ START_TEST(test_holds_what_hangs_powered) {
   ZpModel *model = model_of(&hangs);
   ZpRest r;
   ck_assert(zp_rest_open(&r, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hang(&r.statics, &r.branch.newton).end));
-  ck_assert(zp_statics_raise(&r.statics, U, &r.branch.newton));
+  ck_assert(zp_newton_good(zp_statics_hang(&r.statics).end));
+  ck_assert(zp_statics_raise(&r.statics, U));
   ZpActuatorDef held = held_def(zp_statics_opening(&r.statics), U, true, 61);
   zp_rest_close(&r);
   zp_model_destroy(model);
@@ -425,7 +423,7 @@ START_TEST(test_impossible_states_are_told) {
   ZpModel *model = model_of(&def);
   ZpRest r;
   ck_assert(zp_rest_open(&r, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, MM(2), &r.branch.newton).end));
+  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, MM(2)).end));
   ck_assert_ptr_null(zp_statics_fault(&r.statics));
   r.statics.member->eval.plates.gap[5] = -6e-6;
   ck_assert_str_eq(zp_statics_fault(&r.statics), "the insulators' faces overlap");

@@ -2,8 +2,8 @@
  * which follows the curve, against closed forms, and against itself. */
 #include "check_util.h"
 
-#include "rest/closing.h"
 #include "rest/rest.h"
+#include "rest/slow.h"
 #include "solve/march.h"
 
 /* -- a limit point known in closed form --------------------------------------------------------------- */
@@ -417,7 +417,7 @@ static const double stair = 0.005;
 static double climb_stairs(ZpRest *rest, double voltage, bool up, double closed) {
   enum { MOST = 2000 };
   for (int k = 0; k < MOST; k++, voltage *= up ? 1 + stair : 1 - stair) {
-    ck_assert(zp_newton_good(zp_statics_fall(&rest->statics, voltage, &rest->branch.newton).end));
+    ck_assert(zp_newton_good(zp_statics_fall(&rest->statics, voltage).end));
     if ((zp_closing_gap(&rest->statics, NULL) <= closed) == up) return voltage;
   }
   return NAN;
@@ -428,9 +428,9 @@ static double by_stairs(const ZpActuatorDef *def, double start, bool up) {
   ZpModel *model = model_of(def);
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hang(&rest.statics, &rest.branch.newton).end));
+  ck_assert(zp_newton_good(zp_statics_hang(&rest.statics).end));
   double closed = zp_closed_opening(rest.statics.member->model, zp_closing_gap(&rest.statics, NULL));
-  if (!up) ck_assert(zp_newton_good(zp_statics_close(&rest.statics, start, &rest.branch.newton).end));
+  if (!up) ck_assert(zp_newton_good(zp_statics_close(&rest.statics, start).end));
   double found = climb_stairs(&rest, start, up, closed);
   zp_rest_close(&rest);
   zp_model_destroy(model);

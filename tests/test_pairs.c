@@ -508,7 +508,7 @@ static double gradient_error(ZpStatics *s, size_t which, const double *saved, co
 static double stiffness_error(ZpStatics *s, const double *saved, const double *step, double h) {
   double product[ROOM], r[2][ROOM], worst = 0, most = 0;
   ZpStaticSystem system = zp_statics_system(s);
-  ZpBand *K = &((ZpRest *)s)->branch.newton.K;
+  ZpBand *K = &((ZpRest *)s)->statics.newton.K;
   for (int k = 0; k < 2; k++) {
     move_from(s, saved, step, k ? h : -h);
     system.residual(s, r[k], NULL);

@@ -361,7 +361,7 @@ static double polyline_force(ZpActuatorDef def, int nodes) {
   ZpModel *model = model_of(&def);
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hold(&rest.statics, def.isometric.separation, &rest.branch.newton).end));
+  ck_assert(zp_newton_good(zp_statics_hold(&rest.statics, def.isometric.separation).end));
   double force = zp_plates_totals(&model->plates, &rest.statics.member->eval.plates, def.drive.voltage).force;
   zp_rest_close(&rest);
   zp_model_destroy(model);

@@ -124,7 +124,7 @@ START_TEST(stiffness_is_the_derivative_of_the_forces) {
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
   ZpStatics *s = &rest.statics;
-  ZpNewtonWork *work = &rest.branch.newton;
+  ZpNewtonWork *work = &rest.statics.newton;
   ZpStaticSystem system = zp_statics_system(s);
   ck_assert_uint_le(system.n, MOST);
   bend(s, c->gap);

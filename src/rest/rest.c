@@ -13,13 +13,17 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
   *rest = (ZpRest){0};
   if (!zp_statics_create(model, &rest->statics)) return false;
   rest->system = zp_statics_branch(&rest->statics, ZP_ALONG_VOLTAGE);
+  rest->square = zp_statics_branch(&rest->statics, ZP_ALONG_SQUARE);
+  rest->load = zp_statics_branch(&rest->statics, ZP_ALONG_LOAD);
   for (int pass = 0; pass < 2; pass++) {
     if (pass) {
       rest->memory = zp_calloc(1, carver.used);
       carver = (ZpCarver){rest->memory, 0};
       if (!rest->memory) return false;
     }
-    zp_branch_carve(&rest->branch, &rest->system, rest->statics.form, &carver);
+    zp_branch_carve(&rest->branch, &rest->system, &rest->statics.newton, &carver);
+    zp_march_carve(&rest->march, &rest->square, rest->statics.form, &rest->statics.newton, &carver);
+    rest->held = zp_carve(&carver, zp_rest_save_size(rest));
     for (size_t k = 0; k < rest->statics.members; k++)
       zp_shape_carve(model, &rest->shape_room[k], &carver);
     if (rest->statics.members > 1)
@@ -57,6 +61,15 @@ size_t zp_rest_save_size(const ZpRest *rest) {
   return rest->system.save_size / sizeof(double);
 }
 
+void zp_rest_save(ZpRest *rest, double *state) {
+  rest->system.save(&rest->statics, state);
+}
+
+void zp_rest_go_to(ZpRest *rest, const double *state) {
+  rest->system.restore(&rest->statics, state);
+  zp_statics_stable(&rest->statics);
+}
+
 bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest) {
   return zp_branch_start(&rest->branch, growing, first, longest, 2 * zp_statics_tolerance(&rest->statics));
 }
@@ -67,9 +80,8 @@ bool zp_rest_follow(ZpRest *rest, bool growing) {
 
 ZpNewtonInfo zp_rest_settle(ZpRest *rest, double voltage) {
   enum { MOST = 30 };
-  ZpStaticSystem system = zp_statics_system(&rest->statics);
   rest->statics.U = voltage;
-  return zp_newton(&system, zp_statics_tolerance(&rest->statics), MOST, &rest->branch.newton);
+  return zp_statics_solve(&rest->statics, MOST);
 }
 
 /* -- for programs ---------------------------------------------------------------------------------- */
@@ -89,9 +101,8 @@ void zp_rest_destroy(ZpRest *rest) {
 
 bool zp_rest_hang(ZpRest *rest, double voltage) {
   ZpStatics *s = &rest->statics;
-  ZpNewtonWork *newton = &rest->branch.newton;
-  bool found = zp_newton_good(zp_statics_hang(s, newton).end);
-  if (found && voltage > 0 && s->member->model->field) found = zp_statics_raise(s, voltage, newton);
+  bool found = zp_newton_good(zp_statics_hang(s).end);
+  if (found && voltage > 0 && s->member->model->field) found = zp_statics_raise(s, voltage);
   return found && !zp_statics_shorted(s);
 }
 
@@ -112,7 +123,7 @@ ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *open
   *stroke = *opening = NAN;
   ZpStatus status = zp_slope_check(&rest->statics.member->model->def, key, err);
   if (status != ZP_OK) return status;
-  status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, key, err);
+  status = zp_slope_open(&slope, &rest->statics, key, err);
   if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {
     *stroke = zp_slope_of(&slope, zp_pose_load, zp_output_stroke, NULL);
     *opening = zp_slope_of(&slope, zp_pose_load, zp_output_opening, NULL);

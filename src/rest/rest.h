@@ -1,5 +1,5 @@
-/* A model at rest with everything that is needed to find and follow its equilibria: the system, the work space of
- * Newton's method and of the branch, and the arrays of the caller, in one block. Only this file combines these. */
+/* A model at rest with everything that is needed to find and follow its equilibria: the system, the work space of the
+ * branch, and the arrays of the caller, in one block. Only this file combines these. */
 #ifndef ZP_REST_REST_H
 #define ZP_REST_REST_H
 
@@ -7,11 +7,15 @@
 
 #include "def/check.h"
 #include "rest/statics.h"
+#include "solve/march.h"
 
 struct ZpRest {
   ZpStatics statics;
-  ZpBranch branch;                         /* along the voltage; its `newton` also serves without a branch */
-  ZpBranchSystem system;                   /* of the branch */
+  ZpBranchSystem system, square, load;     /* along the voltage, its square, the load */
+  ZpBranch branch;                         /* point by point along the voltage */
+  ZpMarch march;                           /* to the next limit along the square or the load */
+  void *held;                              /* a state to return to during a slow change (rest/slow.h) */
+  bool was_closed;                         /* when that began */
   ZpShapeRoom shape_room[ZP_MOST_MEMBERS]; /* for the shapes of the members */
   ZpManyShapes shapes;                     /* of several */
   void *memory;
@@ -27,8 +31,11 @@ void zp_rest_close(ZpRest *rest);
  * (may be NULL): what their materials see. */
 ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins);
 
-/* Number of doubles in a copy of the present point. */
+/* Number of doubles in a copy of the present point: its coordinates, voltage and load. Take one; go to one, whose
+ * stiffness is then factored. */
 size_t zp_rest_save_size(const ZpRest *rest);
+void zp_rest_save(ZpRest *rest, double *state);
+void zp_rest_go_to(ZpRest *rest, const double *state);
 
 /* Start to follow the branch from the present equilibrium, towards a growing or falling voltage; then
  * zp_branch_advance. False if the stiffness is singular there. */

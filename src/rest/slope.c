@@ -68,8 +68,8 @@ static size_t carve(ZpSlope *p, void *block) {
   return carver.used;
 }
 
-ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, ZpNewtonWork *work, int key, ZpError *err) {
-  *p = (ZpSlope){.at = at, .work = work, .key = key};
+ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, int key, ZpError *err) {
+  *p = (ZpSlope){.at = at, .key = key};
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   carve(p, p->memory);
@@ -171,9 +171,9 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
  * r. */
 static void stiffness(ZpSlope *p, double *r) {
   ZpStatics *at = p->at;
-  residual(at, p->work->r);
+  residual(at, p->at->newton.r);
   zp_statics_take_tensions(at);
-  zp_statics_system(at).stiffness(at, &p->work->K, r);
+  zp_statics_system(at).stiffness(at, &p->at->newton.K, r);
 }
 
 static void add_motion_of(ZpSlope *p, size_t which) {
@@ -205,15 +205,15 @@ static void add_reaction(ZpSlope *p) {
   at->opening = NAN;
   stiffness(p, NULL);
   at->opening = opening;
-  zp_band_multiply(&p->work->K, p->by_key, p->row);
+  zp_band_multiply(&p->at->newton.K, p->by_key, p->row);
   p->reaction -= p->row[zp_statics_platform(at)];
 }
 
 bool zp_slope_solve(ZpSlope *p, ZpPose pose) {
   differentiate(p, pose);
   stiffness(p, p->by_key);
-  if (!zp_band_factor(&p->work->K)) return false;
-  zp_band_solve(&p->work->K, p->by_key);
+  if (!zp_band_factor(&p->at->newton.K)) return false;
+  zp_band_solve(&p->at->newton.K, p->by_key);
   add_motion(p);
   if (!isnan(p->at->opening)) add_reaction(p);
   return true;
@@ -252,9 +252,9 @@ static bool solve_both(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch) {
   differentiate(p, pose);
   differentiate_by_parameter(p, branch);
   stiffness(p, NULL);
-  if (!zp_band_factor(&p->work->K)) return false;
-  zp_band_solve(&p->work->K, p->by_key);
-  zp_band_solve(&p->work->K, p->by_parameter);
+  if (!zp_band_factor(&p->at->newton.K)) return false;
+  zp_band_solve(&p->at->newton.K, p->by_key);
+  zp_band_solve(&p->at->newton.K, p->by_parameter);
   return true;
 }
 
@@ -270,8 +270,8 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->n;
   if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
-  zp_band_solve(&p->work->K, p->by_key);
-  zp_band_solve(&p->work->K, p->by_parameter);
+  zp_band_solve(&p->at->newton.K, p->by_key);
+  zp_band_solve(&p->at->newton.K, p->by_parameter);
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 

@@ -21,7 +21,6 @@ typedef double (*ZpOutput)(ZpStatics *statics, void *user);
 
 typedef struct ZpSlope {
   ZpStatics *at;                  /* the state */
-  ZpNewtonWork *work;             /* the caller's */
   int key;                        /* key of the derivatives */
   ZpNear by;                      /* actuators with a slightly larger or smaller key */
   ZpStatics near[ZP_NEAR_POINTS]; /* states of these */
@@ -40,7 +39,7 @@ ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err);
 
 /* Prepare derivatives by key `key` of states of `at`, whose model has a number for it. ZP_BAD_INPUT names the key if no
  * neighbouring models can be built; ZP_MACHINE: no memory. Close it in any case. */
-ZpStatus zp_slope_open(ZpSlope *slope, ZpStatics *at, ZpNewtonWork *work, int key, ZpError *err);
+ZpStatus zp_slope_open(ZpSlope *slope, ZpStatics *at, int key, ZpError *err);
 void zp_slope_close(ZpSlope *slope);
 
 /* Compute rate, tension and reaction at the present point, an equilibrium. False if the stiffness is singular. */

@@ -5,6 +5,95 @@
 
 #include "math/vector.h"
 
+/* -- closed ---------------------------------------------------------------------------------------- */
+
+/* Stations whose mean gap tells whether the actuator is closed: both ends of a platform, or one station twice. */
+typedef struct LastToClose {
+  size_t station[2];
+} LastToClose;
+
+static LastToClose last_to_close(const ZpModel *model) {
+  const ZpJoint *end = &model->topology.platform;
+  if (end->kind == ZP_JOINT_CLAMP) return (LastToClose){{end->first / 2, end->first / 2}};
+  return (LastToClose){{end->first, end->last}};
+}
+
+/* Gap of a member that closes last in it, m. */
+static double gap_of(const ZpRestMember *m) {
+  if (!m->model->field) return 0;
+  LastToClose last = last_to_close(m->model);
+  const double *gap = m->eval.plates.gap;
+  return 0.5 * (gap[last.station[0]] + gap[last.station[1]]);
+}
+
+/* The member that decides whether the system counts as closed: the last one to close of those side by side, the first
+ * one of antagonists. */
+static const ZpRestMember *deciding(const ZpStatics *s) {
+  const ZpRestMember *found = s->member;
+  for (size_t k = 1; k < s->members; k++) {
+    const ZpRestMember *m = &s->member[k];
+    bool nearer = gap_of(m) - m->closed < gap_of(found) - found->closed;
+    if (nearer == (s->distance > 0)) found = m;
+  }
+  return found;
+}
+
+static void add_gap_row(const ZpRestMember *m, double *row) {
+  const ZpTopology *t = &m->model->topology;
+  LastToClose last = last_to_close(m->model);
+  for (size_t k = 0; k < 2; k++) {
+    zp_assembly_add_one(&m->assembly, 2 * zp_lower(t, last.station[k]) + 1, -0.5, row);
+    if (zp_is_pair(t)) zp_assembly_add_one(&m->assembly, 2 * zp_upper(t, last.station[k]) + 1, 0.5, row);
+  }
+}
+
+double zp_closing_gap(void *self, double *row) {
+  const ZpStatics *s = self;
+  const ZpRestMember *m = deciding(s);
+  if (row) memset(row, 0, s->n * sizeof *row);
+  if (row) add_gap_row(m, row);
+  return m == s->member ? gap_of(m) : gap_of(m) - m->closed + s->member->closed;
+}
+
+/* The sum of these gaps of members in series, m; else that of the first member. */
+static double open_gap(const ZpStatics *s) {
+  double sum = gap_of(s->member);
+  for (size_t k = 1; k < s->members && !s->shared; k++)
+    sum += gap_of(&s->member[k]);
+  return sum;
+}
+
+size_t zp_closed_members(const ZpStatics *s) {
+  size_t closed = 0;
+  for (size_t k = 0; k < s->members; k++)
+    closed += gap_of(&s->member[k]) <= s->member[k].closed;
+  return closed;
+}
+
+void zp_slow_start(ZpRest *r) {
+  ZpStatics *s = &r->statics;
+  for (size_t k = 0; k < s->members; k++)
+    s->member[k].closed = zp_closed_opening(s->member[k].model, gap_of(&s->member[k]));
+  r->march.limit = s->member->closed;
+  r->march.fold.tolerance = zp_statics_tolerance(s);
+}
+
+bool zp_slow_is_closed(ZpRest *r) {
+  return zp_closing_gap(&r->statics, NULL) <= r->march.limit;
+}
+
+double zp_slow_closed_by_load(ZpRest *r) {
+  static const double step = 1e-3; /* of the gap: the law is linear but for a corner */
+  ZpStatics *s = &r->statics;
+  ZpFold *fold = &r->march.fold;
+  fold->system = &r->load;
+  if (!zp_fold_tangent(fold)) return NAN;
+  double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
+  double change =
+      zp_closed_opening(s->member->model, (1 + step) * gap) - zp_closed_opening(s->member->model, (1 - step) * gap);
+  return by_load * change / (2 * step * gap);
+}
+
 /* -- limits --------------------------------------------------------------------------------------- */
 
 void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver) {
@@ -16,99 +105,61 @@ void zp_limit_none(ZpLimit *limit, const char *reason) {
   *limit = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, limit->state, limit->null, 0};
 }
 
-void zp_limit_lost(ZpLimit *limit, const char *reason) {
+/* Mark it as one that was not found. */
+static void lose(ZpLimit *limit, const char *reason) {
   zp_limit_none(limit, reason);
   limit->end = ZP_MARCH_LOST;
 }
 
-/* -- states --------------------------------------------------------------------------------------- */
-
-void zp_slow_carve(ZpSlow *f, ZpRest *rest, ZpCarver *carver) {
-  ZpStatics *s = &rest->statics;
-  f->statics = s;
-  f->newton = &rest->branch.newton;
-  f->square = zp_closing_by_square(s);
-  f->load = zp_statics_branch(s, ZP_ALONG_LOAD);
-  zp_march_carve(&f->march, &f->square, s->form, f->newton, carver);
-  f->held = zp_carve(carver, zp_rest_save_size(rest));
-}
-
-void zp_slow_start(ZpSlow *f) {
-  f->closed = zp_mark_closed(f->statics);
-  f->march.limit = f->closed;
-  f->march.fold.tolerance = zp_statics_tolerance(f->statics);
-}
-
-bool zp_slow_is_closed(const ZpSlow *f) {
-  return zp_closing_gap(f->statics, NULL) <= f->closed;
-}
-
-double zp_slow_closed_by_load(ZpSlow *f) {
-  static const double step = 1e-3; /* of the gap: the law is linear but for a corner */
-  ZpStatics *s = f->statics;
-  ZpFold *fold = &f->march.fold;
-  fold->system = &f->load;
-  if (!zp_fold_tangent(fold)) return NAN;
-  double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
-  double change =
-      zp_closed_opening(s->member->model, (1 + step) * gap) - zp_closed_opening(s->member->model, (1 - step) * gap);
-  return by_load * change / (2 * step * gap);
-}
-
-void zp_slow_go_to(ZpSlow *f, const double *state) {
-  f->square.restore(f->statics, state);
-  zp_statics_stable(f->statics, f->newton);
-}
-
-static bool along_load(const ZpSlow *f) {
-  return f->march.fold.system == &f->load;
+static bool along_load(ZpRest *r) {
+  return r->march.fold.system == &r->load;
 }
 
 /* The voltage or the load at the present point. */
-static double value_at(const ZpSlow *f) {
-  return along_load(f) ? f->statics->load : f->statics->U;
+static double value_at(ZpRest *r) {
+  return along_load(r) ? r->statics.load : r->statics.U;
 }
 
-void zp_slow_note(ZpSlow *f, ZpLimit *limit, ZpMarchEnd end) {
-  const ZpStatics *s = f->statics;
+void zp_slow_note(ZpRest *r, ZpLimit *limit, ZpMarchEnd end) {
+  const ZpStatics *s = &r->statics;
   limit->end = end;
-  limit->value = value_at(f);
+  limit->value = value_at(r);
   limit->reason = NULL;
   limit->room = 0;
-  f->square.save(f->statics, limit->state);
-  memcpy(limit->null, f->march.fold.null, s->n * sizeof *limit->null);
+  zp_rest_save(r, limit->state);
+  memcpy(limit->null, r->march.fold.null, s->n * sizeof *limit->null);
 }
 
-void zp_slow_copy(const ZpSlow *f, const ZpLimit *from, ZpLimit *to) {
-  memcpy(to->state, from->state, f->square.save_size);
-  memcpy(to->null, from->null, f->statics->n * sizeof *to->null);
+void zp_slow_copy(const ZpRest *r, const ZpLimit *from, ZpLimit *to) {
+  memcpy(to->state, from->state, r->system.save_size);
+  memcpy(to->null, from->null, r->statics.n * sizeof *to->null);
   *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null, from->room};
 }
 
 /* The parameter, changed by this share of the voltage or of the load. */
-static double changed(const ZpSlow *f, double m, double share) {
+static double changed(ZpRest *r, double m, double share) {
   double factor = 1 + share;
-  return along_load(f) ? m * factor : m * factor * factor;
+  return along_load(r) ? m * factor : m * factor * factor;
 }
 
-static double parameter(ZpSlow *f) {
-  return f->march.fold.system->get(f->statics);
+static double parameter(ZpRest *r) {
+  return r->march.fold.system->get(&r->statics);
 }
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
 
 /* The step of the gap for a search along the branch. */
-static double look_step(const ZpSlow *f) {
+static double look_step(ZpRest *r) {
   static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
-  return zp_closing_gap(f->statics, NULL) * (zp_slow_is_closed(f) ? when_closed : when_open);
+  return zp_closing_gap(&r->statics, NULL) * (zp_slow_is_closed(r) ? when_closed : when_open);
 }
 
 /* An actuator that was closed has opened once it is clear of the limit, because motion with resistance does not come
  * back. (This does not hold for one that closes: its faces overlap for a moment on the way.) */
 static bool has_opened(void *user) {
   static const double clear = 3;
-  const ZpSlow *f = user;
-  return f->was_closed && zp_closing_gap(f->statics, NULL) > clear * f->closed;
+  ZpRest *r = user;
+  return r->was_closed && zp_closing_gap(&r->statics, NULL) > clear * r->march.limit;
 }
 
 /* Shares of the voltage or of the load by which a fall goes beyond the present point. The first is for limit points: a
@@ -117,14 +168,14 @@ static const double beyond[] = {1e-6, 1e-4, 3e-4, 1e-3};
 enum { FROM_LIMIT, FROM_LOST, SHARES = sizeof beyond / sizeof beyond[0] };
 
 /* Fall from the present point to the state beyond it. A fall that does not converge is tried again from further on. */
-static bool fall(ZpSlow *f, double sign, size_t first) {
-  double m = parameter(f);
+static bool fall(ZpRest *r, double sign, size_t first) {
+  double m = parameter(r);
   bool found = false;
-  f->square.save(f->statics, f->held);
+  zp_rest_save(r, r->held);
   for (size_t k = first; k < SHARES && !found; k++) {
-    if (k > first) zp_slow_go_to(f, f->held);
-    f->march.fold.system->set(f->statics, changed(f, m, sign * beyond[k]));
-    found = zp_newton_good(zp_statics_fall_until(f->statics, has_opened, f, f->newton).end);
+    if (k > first) zp_rest_go_to(r, r->held);
+    r->march.fold.system->set(&r->statics, changed(r, m, sign * beyond[k]));
+    found = zp_newton_good(zp_statics_fall_until(&r->statics, has_opened, r).end);
   }
   return found;
 }
@@ -132,34 +183,34 @@ static bool fall(ZpSlow *f, double sign, size_t first) {
 /* Fall from a limit point at the present point. An open actuator begins with a small step along the null vector,
  * without which it would be slow at first. A closed one does not: a front that gives way hardly moves the opening, by
  * which this step is measured. */
-static bool fall_from(ZpSlow *f, const ZpLimit *limit, double sign) {
+static bool fall_from(ZpRest *r, const ZpLimit *limit, double sign) {
   static const double part = 0.25; /* of a step along the branch */
-  if (!f->was_closed) zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(f));
-  return fall(f, sign, FROM_LIMIT);
+  if (!r->was_closed) zp_fold_leave(&r->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(r));
+  return fall(r, sign, FROM_LIMIT);
 }
 
 /* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
  * to a ripple of the mesh? Going down, the march may come back unnoticed to the side on which it was before the limit
  * point. */
-static bool is_ripple(ZpSlow *f, double m, double gap, double sign) {
-  ZpStatics *s = f->statics;
-  double fallen = zp_open_gap(s) - gap;
-  f->square.save(s, f->held);
-  ZpEvent event = f->march.event;
-  f->march.event = NULL;
-  ZpMarchEnd end = zp_march(&f->march, changed(f, m, -sign * ZP_FOLD_RIPPLE));
-  bool ripple = end != ZP_MARCH_ARRIVED || (zp_open_gap(s) - gap) * fallen < 0;
-  f->march.event = event;
-  zp_slow_go_to(f, f->held);
+static bool is_ripple(ZpRest *r, double m, double gap, double sign) {
+  ZpStatics *s = &r->statics;
+  double fallen = open_gap(s) - gap;
+  zp_rest_save(r, r->held);
+  ZpEvent event = r->march.event;
+  r->march.event = NULL;
+  ZpMarchEnd end = zp_march(&r->march, changed(r, m, -sign * ZP_FOLD_RIPPLE));
+  bool ripple = end != ZP_MARCH_ARRIVED || (open_gap(s) - gap) * fallen < 0;
+  r->march.event = event;
+  zp_rest_go_to(r, r->held);
   return ripple;
 }
 
 /* The parameter at the present point is further than m. */
-static ZpAround climb_on(ZpSlow *f, double m, double sign) {
-  ZpFold *fold = &f->march.fold;
-  if (zp_statics_stable(f->statics, f->newton)) return ZP_STABLE_HIGHER;
+static ZpAround climb_on(ZpRest *r, double m, double sign) {
+  ZpFold *fold = &r->march.fold;
+  if (zp_statics_stable(&r->statics)) return ZP_STABLE_HIGHER;
   zp_fold_guess(fold);
-  bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(f) - m) > 0;
+  bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(r) - m) > 0;
   return found ? ZP_CREST_HIGHER : ZP_OUT_OF_SIGHT;
 }
 
@@ -177,15 +228,15 @@ static bool is_higher(const Side *side, double m) {
 
 /* How far a parameter is below the limit's, relative to the value; for a square of the voltage, relative to the
  * voltage. */
-static double depth_of(const ZpSlow *f, const Side *side, double m) {
+static double depth_of(ZpRest *r, const Side *side, double m) {
   double ratio = fmax(m / side->m, 0);
-  return side->sign * (1 - (along_load(f) ? ratio : sqrt(ratio)));
+  return side->sign * (1 - (along_load(r) ? ratio : sqrt(ratio)));
 }
 
 /* If the branch rises again after its lowest point, its distance from the limit is least there: this is the limit's
  * room. */
-static void go_below(const ZpSlow *f, Side *side, ZpLimit *limit, double m) {
-  double below = depth_of(f, side, m);
+static void go_below(ZpRest *r, Side *side, ZpLimit *limit, double m) {
+  double below = depth_of(r, side, m);
   if (below < side->deepest) limit->room = fmin(limit->room, below);
   side->deepest = fmax(side->deepest, below);
 }
@@ -196,12 +247,12 @@ typedef struct Place {
 } Place;
 
 /* Pass the point that is `step` steps after another one. Its m is NAN if it was not found. */
-static Place pass(ZpSlow *f, const Side *side, Place from, double step) {
+static Place pass(ZpRest *r, const Side *side, Place from, double step) {
   enum { MOST = 6 };
   double at = from.at + step, here = side->gap + at * side->step, m, slope;
   ZpPass end = ZP_PASS_AGAIN;
   for (int tries = 0; tries < MOST && end == ZP_PASS_AGAIN; tries++)
-    end = zp_fold_pass(&f->march.fold, zp_closing_gap, here, here + step * side->step, &m, &slope);
+    end = zp_fold_pass(&r->march.fold, zp_closing_gap, here, here + step * side->step, &m, &slope);
   return end == ZP_PASS_ON ? (Place){at, m, slope * side->step} : (Place){at, NAN, NAN};
 }
 
@@ -236,191 +287,191 @@ static bool may_hide_crest(const Side *side, Place from, Place to) {
 }
 
 /* Is there a crest between two points that may be higher than the limit? => where, in steps from it; NAN: none */
-static double seek_crest(const ZpSlow *f, const Side *side, ZpLimit *limit, Place from, Place to) {
+static double seek_crest(ZpRest *r, const Side *side, ZpLimit *limit, Place from, Place to) {
   static const double part = 0.3; /* of the depth there: a cubic through two points is that accurate */
   Cubic c = cubic_through(from, to);
   double at, above = crest_of(&c, side->sign, &at);
   if (isnan(above)) return NAN;
-  double lowest = fmax(side->deepest, fmax(depth_of(f, side, from.m), depth_of(f, side, to.m)));
-  double below = depth_of(f, side, from.m + above);
+  double lowest = fmax(side->deepest, fmax(depth_of(r, side, from.m), depth_of(r, side, to.m)));
+  double below = depth_of(r, side, from.m + above);
   limit->room = fmin(limit->room, fmax(below, 0));
   return below < part * lowest ? from.at + at * (to.at - from.at) : (double)NAN;
 }
 
 /* Go to the crest near a point. If it is not higher than the limit, continue to the point `next`. */
-static ZpAround visit_crest(ZpSlow *f, ZpLimit *limit, const Side *side, double at, double next) {
-  ZpFold *fold = &f->march.fold;
+static ZpAround visit_crest(ZpRest *r, ZpLimit *limit, const Side *side, double at, double next) {
+  ZpFold *fold = &r->march.fold;
   bool found = zp_fold_event(fold, zp_closing_gap, side->gap + at * side->step, ZP_FOLD_ROUGH);
   if (found) zp_fold_guess(fold);
   if (!found || !zp_fold_solve(fold)) return ZP_OUT_OF_SIGHT;
-  if (is_higher(side, parameter(f)) && fold->negative == 0) return ZP_CREST_HIGHER;
-  limit->room = fmin(limit->room, fmax(depth_of(f, side, parameter(f)), 0));
-  double left = side->gap + next * side->step - zp_closing_gap(f->statics, NULL);
+  if (is_higher(side, parameter(r)) && fold->negative == 0) return ZP_CREST_HIGHER;
+  limit->room = fmin(limit->room, fmax(depth_of(r, side, parameter(r)), 0));
+  double left = side->gap + next * side->step - zp_closing_gap(&r->statics, NULL);
   zp_fold_leave(fold, fold->null, zp_closing_gap, left);
   return ZP_NOTHING_HIGHER;
 }
 
 /* Go step by step to the equilibrium at a point, which seems to be higher. */
-static bool go_to_point(ZpSlow *f, const ZpLimit *limit, const Side *side, double at) {
+static bool go_to_point(ZpRest *r, const ZpLimit *limit, const Side *side, double at) {
   int steps = (int)ceil(at);
   double step = at / steps * side->step;
   bool found = true;
-  zp_slow_go_to(f, limit->state);
-  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, step);
+  zp_rest_go_to(r, limit->state);
+  zp_fold_leave(&r->march.fold, limit->null, zp_closing_gap, step);
   for (int i = 1; i <= steps && found; i++)
-    found = zp_fold_event(&f->march.fold, zp_closing_gap, side->gap + i * step, ZP_FOLD_ROUGH);
+    found = zp_fold_event(&r->march.fold, zp_closing_gap, side->gap + i * step, ZP_FOLD_ROUGH);
   return found;
 }
 
 /* From the limit on. */
-static ZpAround look(ZpSlow *f, ZpLimit *limit, double sign, double whole) {
+static ZpAround look(ZpRest *r, ZpLimit *limit, double sign, double whole) {
   enum { FARTHEST = 12, MOST = 40 };
   static const double shortest = 0.1;
-  Side side = {parameter(f), zp_closing_gap(f->statics, NULL), sign, whole, 0};
+  Side side = {parameter(r), zp_closing_gap(&r->statics, NULL), sign, whole, 0};
   Place last = {0, side.m, 0};
   double step = 1;
-  zp_fold_leave(&f->march.fold, limit->null, zp_closing_gap, whole);
+  zp_fold_leave(&r->march.fold, limit->null, zp_closing_gap, whole);
   for (int k = 0; k < MOST && last.at < FARTHEST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
-    Place here = pass(f, &side, last, step);
+    Place here = pass(r, &side, last, step);
     if (isnan(here.m)) return ZP_OUT_OF_SIGHT;
     bool halve = step > shortest && may_hide_crest(&side, last, here);
     if (halve) step *= 0.5;
     if (halve) continue;
-    double crest = seek_crest(f, &side, limit, last, here), next = here.at + step;
-    ZpAround around = isnan(crest) ? ZP_NOTHING_HIGHER : visit_crest(f, limit, &side, crest, next);
+    double crest = seek_crest(r, &side, limit, last, here), next = here.at + step;
+    ZpAround around = isnan(crest) ? ZP_NOTHING_HIGHER : visit_crest(r, limit, &side, crest, next);
     if (around != ZP_NOTHING_HIGHER) return around;
     if (is_higher(&side, here.m))
-      return go_to_point(f, limit, &side, here.at) ? climb_on(f, side.m, sign) : ZP_OUT_OF_SIGHT;
-    go_below(f, &side, limit, here.m);
+      return go_to_point(r, limit, &side, here.at) ? climb_on(r, side.m, sign) : ZP_OUT_OF_SIGHT;
+    go_below(r, &side, limit, here.m);
     step = fmin(2 * step, 1);
     last = here;
   }
   return ZP_NOTHING_HIGHER;
 }
 
-ZpAround zp_slow_look_around(ZpSlow *f, ZpLimit *limit, double sign) {
-  double step = look_step(f);
+ZpAround zp_slow_look_around(ZpRest *r, ZpLimit *limit, double sign) {
+  double step = look_step(r);
   limit->room = ZP_FOLD_RIPPLE;
-  ZpAround beyond = look(f, limit, sign, -step);
+  ZpAround beyond = look(r, limit, sign, -step);
   if (beyond == ZP_STABLE_HIGHER || beyond == ZP_CREST_HIGHER) return beyond;
-  zp_slow_go_to(f, limit->state);
-  ZpAround before = look(f, limit, sign, step);
+  zp_rest_go_to(r, limit->state);
+  ZpAround before = look(r, limit, sign, step);
   ZpAround both = before == ZP_NOTHING_HIGHER ? beyond : before;
   if (both != ZP_NOTHING_HIGHER) limit->room = 0;
   return both;
 }
 
-double zp_slow_room_left(ZpSlow *f, const ZpLimit *near, double gap) {
+double zp_slow_room_left(ZpRest *r, const ZpLimit *near, double gap) {
   static const double sides = 4; /* steps from a crest to where the branch is deep below it, about */
-  double value = fabs(value_at(f) / near->value - 1);
-  double moved = fabs((zp_closing_gap(f->statics, NULL) - gap) / (sides * look_step(f)));
+  double value = fabs(value_at(r) / near->value - 1);
+  double moved = fabs((zp_closing_gap(&r->statics, NULL) - gap) / (sides * look_step(r)));
   return near->room - fmax(value, moved * ZP_FOLD_RIPPLE);
 }
 
 /* Go from a limit point to the highest crest of the ripple to which it may belong. => where; if a stable state is
  * higher, a march continues from it */
-static ZpAround climb(ZpSlow *f, ZpLimit *limit, double sign) {
+static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
   enum { MOST = 20 };
   ZpAround around = ZP_CREST_HIGHER;
   for (int k = 0; k < MOST && around == ZP_CREST_HIGHER; k++) {
-    zp_slow_note(f, limit, ZP_MARCH_FOLD);
-    around = zp_slow_look_around(f, limit, sign);
+    zp_slow_note(r, limit, ZP_MARCH_FOLD);
+    around = zp_slow_look_around(r, limit, sign);
   }
-  if (around != ZP_STABLE_HIGHER) zp_slow_go_to(f, limit->state);
+  if (around != ZP_STABLE_HIGHER) zp_rest_go_to(r, limit->state);
   return around;
 }
 
 /* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
  * open the actuator, because no limit point was found there. */
-static bool go_on_from_lost(ZpSlow *f, double sign) {
-  return fall(f, sign, FROM_LOST) && zp_slow_is_closed(f) == f->was_closed;
+static bool go_on_from_lost(ZpRest *r, double sign) {
+  return fall(r, sign, FROM_LOST) && zp_slow_is_closed(r) == r->was_closed;
 }
 
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Is the present point a closed state that cannot be? Beyond it nothing tells when the actuator opens. */
-static bool has_become_impossible(const ZpSlow *f) {
-  return f->was_closed && zp_slow_is_closed(f) && zp_statics_fault(f->statics);
+static bool has_become_impossible(ZpRest *r) {
+  return r->was_closed && zp_slow_is_closed(r) && zp_statics_fault(&r->statics);
 }
 
 /* From a crest beyond `target` back to the stable state before it. A lower crest of the same ripple comes before the
  * target, and the actuator falls from there into that state. */
-static ZpSlowEnd stop_before(ZpSlow *f, double target) {
-  f->march.fold.system->set(f->statics, target);
-  return zp_newton_good(zp_statics_fall_until(f->statics, NULL, NULL, f->newton).end) ? ZP_SLOW_ARRIVED : ZP_SLOW_LOST;
+static ZpSlowEnd stop_before(ZpRest *r, double target) {
+  r->march.fold.system->set(&r->statics, target);
+  return zp_newton_good(zp_statics_fall_until(&r->statics, NULL, NULL).end) ? ZP_SLOW_ARRIVED : ZP_SLOW_LOST;
 }
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
  * point on the way that is not a ripple is `first` (NULL: not requested). A limit point further than `enough` ends the
  * search. */
-static ZpSlowEnd change(ZpSlow *f, double target, double enough, ZpLimit *at, ZpLimit *first) {
+static ZpSlowEnd change(ZpRest *r, double target, double enough, ZpLimit *at, ZpLimit *first) {
   enum { MOST = 1000 }; /* limit points; there are many ripples where a front passes node by node */
-  double sign = target > parameter(f) ? 1 : -1;
-  f->was_closed = zp_slow_is_closed(f);
+  double sign = target > parameter(r) ? 1 : -1;
+  r->was_closed = zp_slow_is_closed(r);
   for (int k = 0; k < MOST; k++) {
-    if (zp_statics_asked_to_stop(f->statics)) return ZP_SLOW_STOPPED;
-    ZpMarchEnd end = zp_march(&f->march, target);
+    if (zp_statics_asked_to_stop(&r->statics)) return ZP_SLOW_STOPPED;
+    ZpMarchEnd end = zp_march(&r->march, target);
     if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
-    if (end == ZP_MARCH_LOST && !go_on_from_lost(f, sign)) return ZP_SLOW_LOST;
+    if (end == ZP_MARCH_LOST && !go_on_from_lost(r, sign)) return ZP_SLOW_LOST;
     if (end == ZP_MARCH_LOST) continue;
-    zp_slow_note(f, at, end);
-    if (has_become_impossible(f)) return ZP_SLOW_IMPOSSIBLE;
+    zp_slow_note(r, at, end);
+    if (has_become_impossible(r)) return ZP_SLOW_IMPOSSIBLE;
     if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
-    if (climb(f, at, sign) == ZP_STABLE_HIGHER) continue;
-    if (sign * (parameter(f) - enough) >= 0) return ZP_SLOW_BEYOND;
-    if (sign * (parameter(f) - target) > 0) return stop_before(f, target);
-    double m = parameter(f), gap = zp_open_gap(f->statics);
-    bool found = fall_from(f, at, sign), jumped = zp_slow_is_closed(f) != f->was_closed;
+    if (climb(r, at, sign) == ZP_STABLE_HIGHER) continue;
+    if (sign * (parameter(r) - enough) >= 0) return ZP_SLOW_BEYOND;
+    if (sign * (parameter(r) - target) > 0) return stop_before(r, target);
+    double m = parameter(r), gap = open_gap(&r->statics);
+    bool found = fall_from(r, at, sign), jumped = zp_slow_is_closed(r) != r->was_closed;
     bool is_first = first && first->end == ZP_MARCH_ARRIVED;
-    if (is_first && (!found || jumped || !is_ripple(f, m, gap, sign))) zp_slow_copy(f, at, first);
+    if (is_first && (!found || jumped || !is_ripple(r, m, gap, sign))) zp_slow_copy(r, at, first);
     if (!found) return ZP_SLOW_LOST;
     if (jumped) return ZP_SLOW_CHANGED;
-    if (has_become_impossible(f)) return ZP_SLOW_IMPOSSIBLE;
+    if (has_become_impossible(r)) return ZP_SLOW_IMPOSSIBLE;
   }
   return ZP_SLOW_LOST;
 }
 
-static void choose(ZpSlow *f, const ZpBranchSystem *along) {
-  f->march.fold.system = along;
-  f->march.event = zp_closing_gap;
+static void choose(ZpRest *r, const ZpBranchSystem *along) {
+  r->march.fold.system = along;
+  r->march.event = zp_closing_gap;
 }
 
-bool zp_slow_fold_of_load(ZpSlow *f, const double *null) {
-  choose(f, &f->load);
-  memcpy(f->march.fold.null, null, f->statics->n * sizeof *null);
-  return zp_fold_solve(&f->march.fold) && f->march.fold.negative == 0;
+bool zp_slow_fold_of_load(ZpRest *r, const double *null) {
+  choose(r, &r->load);
+  memcpy(r->march.fold.null, null, r->statics.n * sizeof *null);
+  return zp_fold_solve(&r->march.fold) && r->march.fold.negative == 0;
 }
 
-bool zp_slow_event_of_load(ZpSlow *f, double gap) {
-  choose(f, &f->load);
-  return zp_fold_event(&f->march.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && f->march.fold.negative == 0;
+bool zp_slow_event_of_load(ZpRest *r, double gap) {
+  choose(r, &r->load);
+  return zp_fold_event(&r->march.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && r->march.fold.negative == 0;
 }
 
 /* March to `target` => the limit at which this ends, if there is one. */
-static ZpMarchEnd go_to_first(ZpSlow *f, double target, ZpLimit *at) {
-  ZpMarchEnd end = zp_march(&f->march, target);
+static ZpMarchEnd go_to_first(ZpRest *r, double target, ZpLimit *at) {
+  ZpMarchEnd end = zp_march(&r->march, target);
   zp_limit_none(at, NULL);
-  if (end == ZP_MARCH_FOLD || end == ZP_MARCH_EVENT) zp_slow_note(f, at, end);
+  if (end == ZP_MARCH_FOLD || end == ZP_MARCH_EVENT) zp_slow_note(r, at, end);
   return end;
 }
 
-ZpMarchEnd zp_slow_drop_load(ZpSlow *f, ZpLimit *at) {
-  choose(f, &f->load);
-  return go_to_first(f, 0, at);
+ZpMarchEnd zp_slow_drop_load(ZpRest *r, ZpLimit *at) {
+  choose(r, &r->load);
+  return go_to_first(r, 0, at);
 }
 
-ZpMarchEnd zp_slow_first(ZpSlow *f, double top, ZpLimit *at) {
-  choose(f, &f->square);
-  return go_to_first(f, top * top, at);
+ZpMarchEnd zp_slow_first(ZpRest *r, double top, ZpLimit *at) {
+  choose(r, &r->square);
+  return go_to_first(r, top * top, at);
 }
 
-ZpSlowEnd zp_slow_close_at(ZpSlow *f, double top, double enough, ZpLimit *at) {
-  choose(f, &f->square);
-  return change(f, top * top, enough * enough, at, NULL);
+ZpSlowEnd zp_slow_close_at(ZpRest *r, double top, double enough, ZpLimit *at) {
+  choose(r, &r->square);
+  return change(r, top * top, enough * enough, at, NULL);
 }
 
-bool zp_slow_falls_closed(ZpSlow *f, const ZpLimit *limit) {
-  return fall_from(f, limit, 1) && zp_slow_is_closed(f);
+bool zp_slow_falls_closed(ZpRest *r, const ZpLimit *limit) {
+  return fall_from(r, limit, 1) && zp_slow_is_closed(r);
 }
 
 /* The gap that closes, above minus twice the one that counts as closed. */
@@ -431,53 +482,45 @@ static double gap_above_overlap(void *self, double *row) {
 
 /* It has closed gradually: is there a limit point further up, before faces overlap by as much as they were apart? Two
  * that are close to each other are seen along the gap only. */
-static void seek_pull_in(ZpSlow *f, double top, ZpLimit *pull_in) {
-  f->march.event = gap_above_overlap;
-  if (zp_march(&f->march, top * top) == ZP_MARCH_FOLD) zp_slow_note(f, pull_in, ZP_MARCH_FOLD);
+static void seek_pull_in(ZpRest *r, double top, ZpLimit *pull_in) {
+  r->march.event = gap_above_overlap;
+  if (zp_march(&r->march, top * top) == ZP_MARCH_FOLD) zp_slow_note(r, pull_in, ZP_MARCH_FOLD);
 }
 
-ZpMarchEnd zp_slow_pull_in(ZpSlow *f, double top, ZpLimit *limit) {
-  choose(f, &f->square);
-  ZpMarchEnd end = zp_march(&f->march, top * top);
-  if (end == ZP_MARCH_FOLD) climb(f, limit, 1);
-  return end;
-}
-
-ZpSlowEnd zp_slow_raise(ZpSlow *f, double top, ZpLimit *pull_in, ZpLimit *closing) {
+ZpSlowEnd zp_slow_raise(ZpRest *r, double top, ZpLimit *pull_in, ZpLimit *closing) {
   static const char *const lost = "the hanging state was lost as the voltage rose";
   zp_limit_none(pull_in, "no limit point up to drive.voltage");
   zp_limit_none(closing, "it does not close up to drive.voltage");
-  choose(f, &f->square);
-  ZpSlowEnd end = change(f, top * top, INFINITY, closing, pull_in);
-  if (end == ZP_SLOW_LOST) zp_limit_lost(closing, lost);
-  if (end == ZP_SLOW_LOST && isnan(pull_in->value)) zp_limit_lost(pull_in, lost);
+  choose(r, &r->square);
+  ZpSlowEnd end = change(r, top * top, INFINITY, closing, pull_in);
+  if (end == ZP_SLOW_LOST) lose(closing, lost);
+  if (end == ZP_SLOW_LOST && isnan(pull_in->value)) lose(pull_in, lost);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
   bool gradually = end == ZP_SLOW_CHANGED && closing->end == ZP_MARCH_EVENT;
-  if (gradually && isnan(pull_in->value)) seek_pull_in(f, top, pull_in);
+  if (gradually && isnan(pull_in->value)) seek_pull_in(r, top, pull_in);
   return end;
 }
 
 /* Is the state found closed, possible and stable? */
-static bool has_closed(ZpSlow *f, ZpNewtonInfo info) {
-  return zp_newton_good(info.end) && zp_slow_is_closed(f) && !zp_statics_fault(f->statics) &&
-         zp_statics_stable(f->statics, f->newton);
+static bool has_closed(ZpRest *r, ZpNewtonInfo info) {
+  return zp_newton_good(info.end) && zp_slow_is_closed(r) && !zp_statics_fault(&r->statics) &&
+         zp_statics_stable(&r->statics);
 }
 
-bool zp_slow_close(ZpSlow *f, double top) {
+bool zp_slow_close(ZpRest *r, double top) {
   enum { MOST = 30 };
-  ZpStaticSystem system = zp_statics_system(f->statics);
-  f->statics->U = top;
-  bool near = zp_slow_is_closed(f);
-  if (near && has_closed(f, zp_newton(&system, zp_statics_tolerance(f->statics), MOST, f->newton))) return true;
-  return has_closed(f, zp_statics_close(f->statics, top, f->newton));
+  r->statics.U = top;
+  bool near = zp_slow_is_closed(r);
+  if (near && has_closed(r, zp_statics_solve(&r->statics, MOST))) return true;
+  return has_closed(r, zp_statics_close(&r->statics, top));
 }
 
-ZpSlowEnd zp_slow_lower(ZpSlow *f, const ZpLimit *closing, ZpLimit *release) {
+ZpSlowEnd zp_slow_lower(ZpRest *r, const ZpLimit *closing, ZpLimit *release) {
   zp_limit_none(release, "it stays closed down to 0 V");
-  choose(f, &f->square);
-  ZpSlowEnd end = change(f, 0, -INFINITY, release, NULL);
+  choose(r, &r->square);
+  ZpSlowEnd end = change(r, 0, -INFINITY, release, NULL);
   if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
-  if (end == ZP_SLOW_LOST) zp_limit_lost(release, "the closed state was lost as the voltage fell");
+  if (end == ZP_SLOW_LOST) lose(release, "the closed state was lost as the voltage fell");
   if (end == ZP_SLOW_IMPOSSIBLE)
     zp_limit_none(release, "as the voltage fell, faces of the closed state came to lie inside each other");
   if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;

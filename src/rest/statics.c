@@ -24,10 +24,16 @@ static void carve_member(ZpRestMember *m, size_t stride, ZpCarver *carver) {
   m->model = (const ZpModel *)(void *)zp_carve(carver, (sizeof *m->model + sizeof(double) - 1) / sizeof(double));
 }
 
+static size_t carve_solution(ZpStatics *s, void *block) {
+  ZpCarver carver = {block, 0};
+  zp_newton_carve(&s->newton, s->n, s->form, &carver);
+  s->product = zp_carve(&carver, s->n);
+  return carver.used;
+}
+
 static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   ZpCarver carver = {block, 0};
   s->member = (ZpRestMember *)(void *)zp_carve(&carver, s->members * sizeof *s->member / sizeof(double));
-  s->product = zp_carve(&carver, s->members * 2 * model->stride);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember unused = {0}, *m = block ? &s->member[k] : &unused;
     carve_member(m, model->stride, &carver);
@@ -121,11 +127,13 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
     s->scale = fmax(s->scale, zp_eval_weight_scale(model));
     s->own_load = s->shared ? s->own_load + model->def.load.mass : model->def.load.mass;
   }
-  if (!made) {
+  if (made) number(s);
+  if (made) s->solution = zp_calloc(1, carve_solution(s, NULL));
+  if (!s->solution) {
     zp_statics_destroy(s);
     return false;
   }
-  number(s);
+  carve_solution(s, s->solution);
   s->load = s->own_load;
   s->bias = 1;
   put_on(s, 1);
@@ -140,7 +148,8 @@ void zp_statics_destroy(ZpStatics *s) {
     zp_assembly_destroy(&s->member[k].assembly);
   }
   zp_free(s->memory);
-  s->memory = NULL;
+  zp_free(s->solution);
+  s->memory = s->solution = NULL;
 }
 
 double zp_statics_tolerance(const ZpStatics *s) {
@@ -150,6 +159,11 @@ double zp_statics_tolerance(const ZpStatics *s) {
     largest = fmax(largest, 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
   }
   return largest;
+}
+
+ZpNewtonInfo zp_statics_solve(ZpStatics *s, int most) {
+  ZpStaticSystem system = zp_statics_system(s);
+  return zp_newton(&system, zp_statics_tolerance(s), most, &s->newton);
 }
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
@@ -178,10 +192,8 @@ void zp_statics_take_tensions(ZpStatics *s) {
 /* Start from the straight shape and let the load that `put` sets grow to `whole`, first by the share `step`, if the
  * equilibrium is too far away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a
  * first share. */
-static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step,
-                                 ZpNewtonWork *work) {
+static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step) {
   static const double shortest = 1e-8;
-  ZpStaticSystem system = zp_statics_system(s);
   double reached = 0;
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   int iterations = 0;
@@ -190,7 +202,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
     put(s, share * whole);
-    info = zp_newton(&system, zp_statics_tolerance(s), STEP_ITERATIONS, work);
+    info = zp_statics_solve(s, STEP_ITERATIONS);
     iterations += info.iterations;
     if (zp_newton_good(info.end)) {
       reached = share;
@@ -245,31 +257,28 @@ static bool has_jumped(const ZpStatics *s) {
 }
 
 /* Back to the last good state. */
-static void go_back(ZpStatics *s, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
+static void go_back(ZpStatics *s) {
   go_to_kept(s);
-  system.residual(s, work->r, NULL);
+  zp_statics_system(s).residual(s, s->newton.r, NULL);
   zp_statics_take_tensions(s);
 }
 
 /* Follow the branch from a stable equilibrium while `put(whole, share)` increases a load, in shares of at most
  * `longest`, to 1. False if the branch ends before; the present point is then its last equilibrium. */
-static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double whole, double longest,
-                 ZpNewtonWork *work) {
+static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double whole, double longest) {
   static const double shortest = 1e-6;
-  ZpStaticSystem system = zp_statics_system(s);
   double reached = 0, step = longest;
   keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
     put(s, whole, share);
-    ZpNewtonEnd end = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work).end;
-    if (zp_newton_good(end) && zp_statics_stable(s, work) && !has_jumped(s)) {
+    ZpNewtonEnd end = zp_statics_solve(s, MOST_ITERATIONS).end;
+    if (zp_newton_good(end) && zp_statics_stable(s) && !has_jumped(s)) {
       reached = share;
       step = fmin(2 * step, longest);
       keep(s);
     } else {
-      go_back(s, work);
+      go_back(s);
       step *= 0.5;
     }
   }
@@ -288,34 +297,33 @@ static void put_suction(ZpStatics *s, double whole, double share) {
 
 /* Continue from the equilibrium without suction at the menisci to the one with it. Where that branch ends, suction
  * draws the faces together. */
-static ZpNewtonInfo let_menisci_draw(ZpStatics *s, double suction, ZpNewtonInfo info, ZpNewtonWork *work) {
-  bool grown = zp_newton_good(info.end) && suction > 0 && grow(s, put_suction, suction, 1, work);
+static ZpNewtonInfo let_menisci_draw(ZpStatics *s, double suction, ZpNewtonInfo info) {
+  bool grown = zp_newton_good(info.end) && suction > 0 && grow(s, put_suction, suction, 1);
   put_suction(s, suction, 1);
-  return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_fall(s, 0, work);
+  return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_fall(s, 0);
 }
 
 /* Has Newton's method found an equilibrium without folded ribbons? Its last stiffness tells, or that of the equilibrium
  * itself. */
-static bool is_found(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
+static bool is_found(ZpStatics *s, ZpNewtonInfo info) {
   if (!zp_newton_good(info.end)) return false;
-  return info.iterations == 0 || zp_band_negative(&work->K) == 0 || zp_statics_stable(s, work);
+  return info.iterations == 0 || zp_band_negative(&s->newton.K) == 0 || zp_statics_stable(s);
 }
 
 /* Continue from the equilibrium without contact to the one with contact, if there are faces. If the faces have passed
  * through each other on the way, weight presses them together: they then lie on each other from the straight shape on,
  * unless the platform is held open. */
-static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info, ZpNewtonWork *work) {
+static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info) {
   s->contact_acts = true;
   if (!zp_newton_good(info.end) || !s->member->model->field) return info;
-  ZpStaticSystem system = zp_statics_system(s);
   keep(s);
-  ZpNewtonInfo contact = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(s, contact, work) || zp_statics_fault(s)) {
+  ZpNewtonInfo contact = zp_statics_solve(s, MOST_ITERATIONS);
+  if (!is_found(s, contact) || zp_statics_fault(s)) {
     go_to_kept(s);
     if (is_held(s))
-      contact = zp_statics_fall(s, 0, work);
+      contact = zp_statics_fall(s, 0);
     else
-      contact = zp_statics_close(s, 0, work);
+      contact = zp_statics_close(s, 0);
   }
   contact.iterations += info.iterations;
   return contact;
@@ -327,21 +335,20 @@ static void put_bias(ZpStatics *s, double whole, double share) {
 }
 
 /* Antagonists, from where both are held half way. */
-static ZpNewtonInfo hang_between(ZpStatics *s, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
+static ZpNewtonInfo hang_between(ZpStatics *s) {
   double load = s->load;
   s->bias = 0;
-  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * s->distance, work);
+  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * s->distance);
   s->opening = NAN;
   s->load = load;
   if (!zp_newton_good(info.end)) return info;
-  info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(s, info, work)) info = zp_statics_fall(s, 0, work);
+  info = zp_statics_solve(s, MOST_ITERATIONS);
+  if (!is_found(s, info)) info = zp_statics_fall(s, 0);
   return info;
 }
 
-bool zp_statics_bias(ZpStatics *s, ZpNewtonWork *work) {
-  bool biased = s->member->model->bias == 0 || grow(s, put_bias, 1, 0.05, work);
+bool zp_statics_bias(ZpStatics *s) {
+  bool biased = s->member->model->bias == 0 || grow(s, put_bias, 1, 0.05);
   if (biased) s->bias = 1;
   return biased;
 }
@@ -350,18 +357,17 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
   return s->bias < 1 ? "the lower one pulls in below stack.lower_voltage" : "no hanging equilibrium found";
 }
 
-ZpNewtonInfo zp_statics_hang(ZpStatics *s, ZpNewtonWork *work) {
-  if (s->distance > 0) return hang_between(s, work);
-  ZpStaticSystem system = zp_statics_system(s);
+ZpNewtonInfo zp_statics_hang(ZpStatics *s) {
+  if (s->distance > 0) return hang_between(s);
   double suction = s->member->model->bead.suction;
   s->U = 0;
   s->contact_acts = false;
   put_suction(s, 0, 1);
-  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(s, info, work)) info = step_by_step(s, put_on, 1, 0.01, work);
-  if (s->member->model->is_rod && !is_found(s, info, work)) info = zp_statics_fall(s, 0, work); /* limp springs relax */
-  info = let_faces_push(s, info, work);
-  info = let_menisci_draw(s, suction, info, work);
+  ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
+  if (!is_found(s, info)) info = step_by_step(s, put_on, 1, 0.01);
+  if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_fall(s, 0); /* limp springs relax */
+  info = let_faces_push(s, info);
+  info = let_menisci_draw(s, suction, info);
   if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
   return info;
 }
@@ -379,8 +385,7 @@ static void open_and_put_on(ZpStatics *s, double opening) {
   put_on(s, opening / s->held_at);
 }
 
-ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
+ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
   double suction = s->member->model->bead.suction;
   s->U = 0;
   s->load = 0;
@@ -388,26 +393,25 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening, ZpNewtonWork *work) {
   s->contact_acts = false;
   put_suction(s, 0, 1);
   lay_straight(s);
-  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (!is_found(s, info, work)) info = step_by_step(s, open_to, opening, 0.05, work);
-  if (!is_found(s, info, work)) info = step_by_step(s, open_and_put_on, opening, 0.01, work);
-  info = let_faces_push(s, info, work);
-  return let_menisci_draw(s, suction, info, work);
+  ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
+  if (!is_found(s, info)) info = step_by_step(s, open_to, opening, 0.05);
+  if (!is_found(s, info)) info = step_by_step(s, open_and_put_on, opening, 0.01);
+  info = let_faces_push(s, info);
+  return let_menisci_draw(s, suction, info);
 }
 
-bool zp_statics_raise(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  return grow(s, put_voltage, voltage, 0.05, work) && !zp_statics_fault(s);
+bool zp_statics_raise(ZpStatics *s, double voltage) {
+  return grow(s, put_voltage, voltage, 0.05) && !zp_statics_fault(s);
 }
 
-ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage, ZpNewtonWork *work) {
-  ZpStaticSystem system = zp_statics_system(s);
+ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
   lay_straight(s);
   s->U = voltage;
   s->contact_acts = true;
-  ZpNewtonInfo info = zp_newton(&system, zp_statics_tolerance(s), MOST_ITERATIONS, work);
-  if (zp_newton_good(info.end) && zp_statics_stable(s, work)) return info;
+  ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
+  if (zp_newton_good(info.end) && zp_statics_stable(s)) return info;
   lay_straight(s);
-  return zp_statics_fall(s, voltage, work);
+  return zp_statics_fall(s, voltage);
 }
 
 static double stroke_of(const ZpRestMember *m) {
@@ -732,7 +736,6 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
 
 static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
-  s->K = K;
   add_members(s, false, K);
   if (is_held(s)) hold_equation(s, K, r);
 }
@@ -753,12 +756,12 @@ static double fall_along(ZpStatics *s, const double *step, ZpBand *K) {
   return s->product[zp_statics_platform(s)];
 }
 
-double zp_statics_holding(ZpStatics *s, ZpNewtonWork *work) {
-  exact_residual(s, work->r);
-  stiffness(s, &work->K, work->r);
-  if (!zp_band_factor(&work->K)) return s->reaction;
-  zp_band_solve(&work->K, work->r);
-  return s->reaction - fall_along(s, work->r, &work->K);
+double zp_statics_holding(ZpStatics *s) {
+  exact_residual(s, s->newton.r);
+  stiffness(s, &s->newton.K, s->newton.r);
+  if (!zp_band_factor(&s->newton.K)) return s->reaction;
+  zp_band_solve(&s->newton.K, s->newton.r);
+  return s->reaction - fall_along(s, s->newton.r, &s->newton.K);
 }
 
 double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
@@ -1091,17 +1094,17 @@ static double care(const ZpStatics *s) {
   return is_few ? shorter : 1;
 }
 
-ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
+ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
   enum { MOST = 20000 };
   ZpStaticSystem system = zp_statics_system(s);
   s->careful = care(s);
   system.length = fall_length;
-  return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, work);
+  return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, &s->newton);
 }
 
-ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage, ZpNewtonWork *work) {
+ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage) {
   s->U = voltage;
-  return zp_statics_fall_until(s, NULL, NULL, work);
+  return zp_statics_fall_until(s, NULL, NULL);
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */
@@ -1112,6 +1115,15 @@ static double get_voltage(void *self) {
 
 static void set_voltage(void *self, double U) {
   ((ZpStatics *)self)->U = U;
+}
+
+static double get_square(void *self) {
+  const ZpStatics *s = self;
+  return s->U * s->U;
+}
+
+static void set_square(void *self, double square) {
+  ((ZpStatics *)self)->U = square > 0 ? sqrt(square) : 0;
 }
 
 static double get_load(void *self) {
@@ -1147,6 +1159,15 @@ void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
 static void by_voltage(void *self, double *r_m) {
   ZpStatics *s = self;
   zp_statics_by_voltage(s, s->U, r_m);
+}
+
+/* dr/dU over 2 U; at U = 0 its value at 1 V, where no cap acts. */
+static void by_square(void *self, double *r_m) {
+  ZpStatics *s = self;
+  double U = fmax(fabs(s->U), 1);
+  zp_statics_by_voltage(s, U, r_m);
+  for (size_t i = 0; i < s->n; i++)
+    r_m[i] /= 2 * U;
 }
 
 static void by_load(void *self, double *r_m) {
@@ -1227,46 +1248,39 @@ static bool are_alike(const ZpStatics *s) {
   return s->members > 1;
 }
 
-/* Where another branch crosses, rounding would lead to it. */
-static void make_alike(void *self, double *step) {
-  const ZpStatics *s = self;
-  size_t each = s->n / s->members;
-  for (size_t i = 0; i < each; i++) {
-    double mean = 0;
-    for (size_t k = 0; k < s->members; k++)
-      mean += step[k * each + i] / (double)s->members;
-    for (size_t k = 0; k < s->members; k++)
-      step[k * each + i] = mean;
-  }
-}
-
-/* Each has the same. */
-static size_t negative_of_one(void *self) {
-  const ZpStatics *s = self;
-  return zp_band_negative(s->K) / s->members;
-}
-
 ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
   const ZpModel *model = s->member->model;
-  bool voltage = along == ZP_ALONG_VOLTAGE, alike = are_alike(s);
+  const double voltage = fmax(model->def.drive.voltage, 1);
+  const struct {
+    double (*get)(void *self);
+    void (*set)(void *self, double parameter);
+    void (*sensitivity)(void *self, double *r_m);
+    double scale;
+  } of[] = {[ZP_ALONG_VOLTAGE] = {get_voltage, set_voltage, by_voltage, voltage},
+            [ZP_ALONG_SQUARE] = {get_square, set_square, by_square, voltage * voltage},
+            [ZP_ALONG_LOAD] = {get_load, set_load, by_load, fmax(s->own_load, 1e-3)}};
   return (ZpBranchSystem){.at_rest = zp_statics_system(s),
-                          .get = voltage ? get_voltage : get_load,
-                          .set = voltage ? set_voltage : set_load,
-                          .sensitivity = voltage ? by_voltage : by_load,
+                          .get = of[along].get,
+                          .set = of[along].set,
+                          .sensitivity = of[along].sensitivity,
                           .position = position,
-                          .make_alike = alike ? make_alike : NULL,
-                          .negative = alike ? negative_of_one : NULL,
+                          .alike = are_alike(s) ? s->members : 0,
                           .save = save,
                           .restore = restore,
                           .save_size = (3 * s->members * model->stride + 3) * sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
-                          .m_scale = voltage ? fmax(model->def.drive.voltage, 1) : fmax(s->own_load, 1e-3)};
+                          .m_scale = of[along].scale};
 }
 
-bool zp_statics_stable(ZpStatics *s, ZpNewtonWork *work) {
-  exact_residual(s, work->r);
-  stiffness(s, &work->K, NULL);
-  return zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0;
+/* The exact stiffness of the present point, factored => newton.K. False if it is singular. */
+static bool tangent(ZpStatics *s) {
+  exact_residual(s, s->newton.r);
+  stiffness(s, &s->newton.K, NULL);
+  return zp_band_factor(&s->newton.K);
+}
+
+bool zp_statics_stable(ZpStatics *s) {
+  return tangent(s) && zp_band_negative(&s->newton.K) == 0;
 }
 
 void zp_statics_masses(const ZpStatics *s, double *mass) {
@@ -1286,13 +1300,11 @@ double zp_statics_member_force(ZpStatics *s, size_t which) {
   return m->model->parts * sum + zp_load_pull(m->model);
 }
 
-double zp_statics_load_stiffness(ZpStatics *s, ZpNewtonWork *work) {
+double zp_statics_load_stiffness(ZpStatics *s) {
   size_t load = zp_statics_platform(s);
-  exact_residual(s, work->r);
-  stiffness(s, &work->K, NULL);
-  if (!zp_band_factor(&work->K)) return NAN;
-  memset(work->r, 0, s->n * sizeof *work->r);
-  work->r[load] = 1;
-  zp_band_solve(&work->K, work->r);
-  return s->member->model->parts / work->r[load];
+  if (!tangent(s)) return NAN;
+  memset(s->newton.r, 0, s->n * sizeof *s->newton.r);
+  s->newton.r[load] = 1;
+  zp_band_solve(&s->newton.K, s->newton.r);
+  return s->member->model->parts / s->newton.r[load];
 }

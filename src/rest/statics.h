@@ -21,7 +21,7 @@ typedef struct ZpRestMember {
   double *rotation, *stretch; /* [edges] by the last step that was examined, rad, m */
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied */
-  double closed;              /* gap at which it counts as closed, m; zp_mark_closed */
+  double closed;              /* gap at which it counts as closed, m; zp_slow_start */
 } ZpRestMember;
 
 typedef struct ZpStatics {
@@ -31,26 +31,26 @@ typedef struct ZpStatics {
   size_t n;             /* equations of all */
   ZpBandForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
-  const ZpBand *K;   /* where the last stiffness is, and maybe its factors */
-  double U;          /* of the first member, V */
-  double bias;       /* share of the lower antagonist's own voltage that acts */
-  double own_load;   /* load.mass, kg */
-  double load;       /* mass hung on all members, kg; starts as that */
-  double force;      /* load.force, N */
-  double share;      /* share of weight and natural curvature that acts: 1, or less while they are applied */
-  double distance;   /* of antagonists: what their openings sum up to, m; 0: there are none */
-  double opening;    /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
-  double held_at;    /* final value of this opening while it is approached, m */
-  double reaction;   /* force that holds it there, N, one part, positive downwards; of the last residual */
-  double careful;    /* factor by which steps of a fall are shorter */
-  bool contact_acts; /* faces push on each other; if false they may pass through each other (to find a start) */
-  double scale;      /* force that a residual is relative to, N */
-  double *product;   /* [n] work space */
+  double U;            /* of the first member, V */
+  double bias;         /* share of the lower antagonist's own voltage that acts */
+  double own_load;     /* load.mass, kg */
+  double load;         /* mass hung on all members, kg; starts as that */
+  double force;        /* load.force, N */
+  double share;        /* share of weight and natural curvature that acts: 1, or less while they are applied */
+  double distance;     /* of antagonists: what their openings sum up to, m; 0: there are none */
+  double opening;      /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
+  double held_at;      /* final value of this opening while it is approached, m */
+  double reaction;     /* force that holds it there, N, one part, positive downwards; of the last residual */
+  double careful;      /* factor by which steps of a fall are shorter */
+  bool contact_acts;   /* faces push on each other; if false they may pass through each other (to find a start) */
+  double scale;        /* force that a residual is relative to, N */
+  ZpNewtonWork newton; /* work space of Newton's method: the last stiffness, mostly factored, and unbalanced forces */
+  double *product;     /* [n] work space */
   bool (*stop)(void *caller); /* called now and then; true stops. NULL: none */
   void *caller;
   int unasked;  /* residuals since `stop` was called */
   bool stopped; /* `stop` returned true: from then on no residual is computed */
-  void *memory;
+  void *memory, *solution;
 } ZpStatics;
 
 /* Allocate and start straight, without voltage. False if there is no memory. */
@@ -63,8 +63,12 @@ bool zp_statics_asked_to_stop(ZpStatics *statics);
 /* The vtable for solve/newton.h. */
 ZpStaticSystem zp_statics_system(ZpStatics *statics);
 
-/* The same with the voltage or the load as parameter. */
-typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_LOAD } ZpAlong;
+/* From the present point to an equilibrium nearby, by at most `most` steps of Newton's method. */
+ZpNewtonInfo zp_statics_solve(ZpStatics *statics, int most);
+
+/* The static system with a parameter: the voltage; its square, to which forces are proportional, while along the
+ * voltage itself nothing moves at first; or the load. */
+typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_SQUARE, ZP_ALONG_LOAD } ZpAlong;
 ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
 /* Derivative of the forces by the voltage, at voltage U and the last residual => r_m [n], N/V. */
@@ -80,7 +84,7 @@ void zp_statics_rejoin(ZpStatics *statics);
 /* Is the present equilibrium stable? For a rod: the stiffness has no negative eigenvalue. For mass_spring, whose shear
  * law makes it unsymmetric: its determinant, which changes its sign at a limit point, is not negative. The stiffness is
  * then factored. */
-bool zp_statics_stable(ZpStatics *statics, ZpNewtonWork *work);
+bool zp_statics_stable(ZpStatics *statics);
 
 /* u' K u at the present point for a direction u [n], of edges one by one (zp_edges_along), with the predicted tensions.
  * K and r [n] are work space. */
@@ -91,41 +95,41 @@ double zp_statics_tolerance(const ZpStatics *statics);
 
 /* From the present point to the equilibrium in which the actuator hangs without voltage. Faces may pass through each
  * other during the search, but not in the result. */
-ZpNewtonInfo zp_statics_hang(ZpStatics *statics, ZpNewtonWork *work);
+ZpNewtonInfo zp_statics_hang(ZpStatics *statics);
 
 /* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before.
  */
-bool zp_statics_bias(ZpStatics *statics, ZpNewtonWork *work);
+bool zp_statics_bias(ZpStatics *statics);
 
 /* Why there is no equilibrium at which a voltage could begin to rise. */
 const char *zp_statics_no_rest(const ZpStatics *statics);
 
 /* From the hanging equilibrium up to `voltage` on the hanging branch, to within a millionth of its end. False if the
  * branch ends before, at the pull-in, or if the field cannot be solved (zp_statics_trouble). */
-bool zp_statics_raise(ZpStatics *statics, double voltage, ZpNewtonWork *work);
+bool zp_statics_raise(ZpStatics *statics, double voltage);
 
 /* From now on hold the lower platform of two ribbons at `opening` (below 2 L), or the right end of a fold's lower
  * ribbon as far below its hinge (below L), without load and voltage. Go from the straight shape to the equilibrium
  * there. */
-ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening, ZpNewtonWork *work);
+ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
 
 /* The equation of the lower platform's height. */
 size_t zp_statics_platform(const ZpStatics *statics);
 
 /* Force that holds the platform at the present point, an equilibrium, N, one part, positive downwards: `reaction`, plus
  * what a last step of Newton's method would add. Rounding of positions causes forces in stiff edges that no step
- * between rounded positions can remove; the last step accounts for them. K and r are overwritten. */
-double zp_statics_holding(ZpStatics *statics, ZpNewtonWork *work);
+ * between rounded positions can remove; the last step accounts for them. */
+double zp_statics_holding(ZpStatics *statics);
 
 /* From the straight shape, in which all faces of two ribbons are closed, to a stable equilibrium at `voltage`. */
-ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage, ZpNewtonWork *work);
+ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage);
 
 /* From the present point, which may be far from an equilibrium, to the equilibrium at `voltage` in which slow motion
  * against a resistance ends. If it succeeds, the equilibrium is stable. */
-ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage, ZpNewtonWork *work);
+ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage);
 
 /* The same at the present voltage, at most until `enough(user)` is true at the present point. */
-ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user, ZpNewtonWork *work);
+ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user);
 
 /* The present point: height of the clip or clamp over the right end of the lower or only ribbon, signed, m; distance
  * between the platforms' faces, m (NAN for one ribbon), both in series of all members together; angle of a fold, rad
@@ -152,8 +156,8 @@ double zp_statics_member_closed(const ZpStatics *statics, size_t which);
 double zp_statics_member_force(ZpStatics *statics, size_t which);
 
 /* Restoring force per displacement of the load at the present point, of the whole actuators, N/m; NAN if the stiffness
- * is singular. K and r are overwritten. */
-double zp_statics_load_stiffness(ZpStatics *statics, ZpNewtonWork *work);
+ * is singular. */
+double zp_statics_load_stiffness(ZpStatics *statics);
 
 /* The reason why the last solution of the field failed; NULL if it succeeded or no field was solved. */
 const char *zp_statics_trouble(const ZpStatics *statics);

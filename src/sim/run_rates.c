@@ -18,7 +18,7 @@ static const double part = 1e-7;
 static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *err) {
   const ZpModel *model = rest->statics.member->model;
   ZpSlope slope;
-  ZpStatus status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, key, err);
+  ZpStatus status = zp_slope_open(&slope, &rest->statics, key, err);
   if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {
     memcpy(zp_state_q(model, rate), slope.rate, 2 * model->stride * sizeof *slope.rate);
     rate->opening0 = zp_is_pair(&model->topology) ? zp_slope_of(&slope, zp_pose_load, zp_output_opening, NULL) : 0;
@@ -78,7 +78,7 @@ ZpStatus zp_run_rates_open(ZpRunRates *rates, ZpSim *sim, const int *key, size_t
   ZpRest rest;
   bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   ZpStatus status = opened && allocate(rates) ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK) zp_statics_hang(&rest.statics, &rest.branch.newton);
+  if (status == ZP_OK) zp_statics_hang(&rest.statics);
   for (size_t k = 0; k < keys && status == ZP_OK; k++)
     status = open_key(rates, &rest, key[k], &rates->key[k], err);
   zp_rest_close(&rest);

@@ -76,7 +76,7 @@ static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
   if (opened) {
     rest.statics.stop = stop_hanging;
     rest.statics.caller = (void *)hooks;
-    ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
+    ZpNewtonInfo info = zp_statics_hang(&rest.statics);
     *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
@@ -155,7 +155,7 @@ static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   if (opened) {
     rest.statics.stop = stop_hanging;
     rest.statics.caller = (void *)hooks;
-    ZpNewtonInfo info = zp_statics_hang(&rest.statics, &rest.branch.newton);
+    ZpNewtonInfo info = zp_statics_hang(&rest.statics);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (!zp_newton_good(info.end)) sim->settled = rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;

@@ -12,10 +12,10 @@ static const double sharpest_turn = 0.7; /* cosine: a step that turns by more wo
 static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
 enum { MOST_CORRECTIONS = 25, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
-void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, ZpBandForm form, ZpCarver *carver) {
+void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, ZpNewtonWork *newton, ZpCarver *carver) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   b->system = system;
-  zp_newton_carve(&b->newton, n, form, carver);
+  b->newton = newton;
   b->a = zp_carve(carver, n);
   b->b = zp_carve(carver, n);
   b->q = zp_carve(carver, n);
@@ -38,15 +38,22 @@ static size_t negative_of_part(const ZpParts *parts, size_t negative) {
  * others change its sign another branch crosses this one, which goes on. */
 static bool is_negative(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
-  size_t negative = sys->negative ? sys->negative(sys->at_rest.self) : zp_band_negative(&b->newton.K);
+  size_t negative = zp_band_negative(&b->newton->K) / (sys->alike > 0 ? sys->alike : 1);
   return negative_of_part(&sys->at_rest.parts, negative) % 2 == 1;
 }
 
-/* K^-1 x => x, of which only what moves equal systems alike. */
+/* K^-1 x => x, of which only what moves equal systems alike. Where another branch crosses, rounding would lead to it.
+ */
 static void solve(ZpBranch *b, double *x) {
-  const ZpBranchSystem *sys = b->system;
-  zp_band_solve(&b->newton.K, x);
-  if (sys->make_alike) sys->make_alike(sys->at_rest.self, x);
+  const size_t systems = b->system->alike, each = systems > 0 ? b->system->at_rest.n / systems : 0;
+  zp_band_solve(&b->newton->K, x);
+  for (size_t i = 0; i < each; i++) {
+    double mean = 0;
+    for (size_t k = 0; k < systems; k++)
+      mean += x[k * each + i] / (double)systems;
+    for (size_t k = 0; k < systems; k++)
+      x[k * each + i] = mean;
+  }
 }
 
 /* Tangent of the branch at the present point, of length 1 and towards increasing m => direction. => is the determinant
@@ -55,10 +62,10 @@ static int find_tangent(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
   size_t n = rest->n;
-  if (rest->residual(rest->self, b->newton.r, NULL) != ZP_END_FOUND) return -1;
-  rest->stiffness(rest->self, &b->newton.K, NULL);
+  if (rest->residual(rest->self, b->newton->r, NULL) != ZP_END_FOUND) return -1;
+  rest->stiffness(rest->self, &b->newton->K, NULL);
   sys->sensitivity(rest->self, b->a);
-  if (!zp_band_factor(&b->newton.K)) return -1;
+  if (!zp_band_factor(&b->newton->K)) return -1;
   solve(b, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
@@ -145,7 +152,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
   if (!fresh) return -1;
   for (int k = 0; k <= MOST_CORRECTIONS;) {
     double left;
-    if (rest->residual(rest->self, b->newton.r, &left) != ZP_END_FOUND) return -1;
+    if (rest->residual(rest->self, b->newton->r, &left) != ZP_END_FOUND) return -1;
     sys->position(rest->self, b->q);
     double gone = arc_length(b, m_start);
     bool close = zp_closing_done(&closing, left, b->tolerance), to_and_fro = sides.both && closing.stalled >= 3;
@@ -160,10 +167,10 @@ static int correct(ZpBranch *b, double s, double m_start) {
       k = 0;
       continue;
     }
-    rest->stiffness(rest->self, &b->newton.K, b->newton.r);
+    rest->stiffness(rest->self, &b->newton->K, b->newton->r);
     sys->sensitivity(rest->self, b->b);
-    if (!zp_band_factor(&b->newton.K)) return -1;
-    memcpy(b->a, b->newton.r, n * sizeof *b->a);
+    if (!zp_band_factor(&b->newton->K)) return -1;
+    memcpy(b->a, b->newton->r, n * sizeof *b->a);
     solve(b, b->a);
     solve(b, b->b);
     double ta = zp_static_dot(rest, b->direction, b->a) / sys->q_scale,
@@ -187,7 +194,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
 static bool predict(ZpBranch *b, double s) {
   const ZpBranchSystem *sys = b->system;
   const ZpStaticSystem *rest = &sys->at_rest;
-  rest->residual(rest->self, b->newton.r, NULL); /* the edges that a move turns are those of the last residual */
+  rest->residual(rest->self, b->newton->r, NULL); /* the edges that a move turns are those of the last residual */
   sys->position(rest->self, b->q_start);
   for (size_t i = 0; i < rest->n; i++)
     b->a[i] = b->direction[i] * s * sys->q_scale;
@@ -309,7 +316,7 @@ static bool never(void *user) {
   return false;
 }
 
-double zp_branch_limit(ZpBranch *b, void (*visit)(void *user), void *user) {
+double zp_branch_limit(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
   size_t bytes = sys->at_rest.n * sizeof *b->direction;
@@ -317,10 +324,9 @@ double zp_branch_limit(ZpBranch *b, void (*visit)(void *user), void *user) {
   sys->save(self, b->saved);
   memcpy(b->direction_after, b->direction, bytes);
   zp_branch_approach(b, never, NULL);
-  if (visit) visit(user);
   double where = sys->get(self);
   sys->restore(self, b->saved);
-  sys->at_rest.residual(self, b->newton.r, NULL);
+  sys->at_rest.residual(self, b->newton->r, NULL);
   memcpy(b->direction, b->direction_after, bytes);
   b->direction_m = after_m;
   return where;

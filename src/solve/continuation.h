@@ -15,15 +15,13 @@ typedef struct ZpBranchSystem {
   void (*restore)(void *self, const void *from);
   size_t save_size;
   double q_scale, m_scale; /* coordinates and parameter are measured in these */
-  /* of systems of equal equations that move alike along a branch; NULL: there are none */
-  void (*make_alike)(void *self, double *step); /* what of a step moves them alike */
-  size_t (*negative)(void *self);               /* negative eigenvalues of such motions, of the last stiffness */
+  size_t alike;            /* how many equal systems it consists of, one after the other, that move alike; 0: none */
 } ZpBranchSystem;
 
 /* A branch being followed. Direction in scaled units, length 1. */
 typedef struct ZpBranch {
   const ZpBranchSystem *system;
-  ZpNewtonWork newton;
+  ZpNewtonWork *newton;                                                        /* the caller's */
   double *a, *b, *q, *q_start, *direction, *direction_saved, *direction_after; /* [n] */
   double a_m;         /* of the tangent found last, which is in `a`, along m */
   double direction_m; /* part of the direction along m: its sign changes at a limit point */
@@ -37,7 +35,7 @@ typedef struct ZpBranch {
   void *saved, *saved_before;
 } ZpBranch;
 
-void zp_branch_carve(ZpBranch *branch, const ZpBranchSystem *system, ZpBandForm form, ZpCarver *carver);
+void zp_branch_carve(ZpBranch *branch, const ZpBranchSystem *system, ZpNewtonWork *newton, ZpCarver *carver);
 
 /* Start at the present point, which must be an equilibrium, towards growing (or falling) m. False if the
  * stiffness is singular there. */
@@ -47,10 +45,9 @@ bool zp_branch_start(ZpBranch *branch, bool growing, double first_step, double l
  * point is then the last good one. */
 bool zp_branch_advance(ZpBranch *branch);
 
-/* After a step over a limit point (direction_m has changed its sign): the parameter at the limit point, to
- * about a millionth. `visit` (may be NULL), with `user`, is called where the present point is as near to it, and may
- * leave it nearer. Then the present point is where it was. */
-double zp_branch_limit(ZpBranch *branch, void (*visit)(void *user), void *user);
+/* After a step over a limit point (direction_m has changed its sign): the parameter at the limit point, to about a
+ * millionth. The present point stays where it is. */
+double zp_branch_limit(ZpBranch *branch);
 
 /* After a step within which `passed` (of `user`, who knows the present point) has become true: back to just before it
  * did, or before the limit point if that came first. */

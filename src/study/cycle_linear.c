@@ -330,7 +330,7 @@ bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCy
   l->rest.statics.stop = stop;
   l->rest.statics.caller = (void *)hooks;
   if (!zp_rest_hang(&l->rest, sqrt(l->mean))) return false;
-  if (!zp_statics_stable(&l->rest.statics, &l->rest.branch.newton)) return false;
+  if (!zp_statics_stable(&l->rest.statics)) return false;
   Room room;
   *failed = !zp_small_motion_create(&l->rest, &l->small) || !(l->memory = zp_calloc(1, carve(l, NULL, &room)));
   if (*failed) return false;

@@ -2,7 +2,7 @@
  * branches that connect them, and the voltages at which the state jumps from one to the other.
  *
  * Both branches are followed for the table. The voltages are those of study limits: of a slowly rising and a slowly
- * falling voltage, rest/slow.h. Theory, section 10. */
+ * falling voltage, rest/limits.h. Theory, section 10. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -10,7 +10,6 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "rest/slow.h"
 #include "study/members.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
@@ -27,7 +26,8 @@ static const ZpColumn columns[] = {
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
     ZP_MARGIN_COLUMNS,
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000 };
+static const ZpLimitKind order[] = {ZP_LIMIT_PULL_IN, ZP_LIMIT_RELEASE, ZP_LIMIT_CLOSING};
+enum { COLUMNS = sizeof columns / sizeof columns[0], ORDER = sizeof order / sizeof order[0], MOST_POINTS = 5000 };
 
 /* A state hangs if the distance of the faces that close last is within this share of the one without voltage. */
 static const double hanging_part = 0.01;
@@ -37,13 +37,9 @@ typedef struct Follower {
   const ZpTask *task;
   ZpResult *result;
   ZpRest rest;
-  ZpSlow slow;
-  ZpLimit pull_in, closing, release;
+  ZpLimits *limits;
   int points;
   double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
-  void *start;    /* of the branch under way */
-  void *hung;     /* the hanging state without voltage */
-  double hanging; /* distance of the faces that close last, without voltage, m */
   ZpMargins margins;
   bool ran_back; /* the hanging branch turned back into itself */
   int turns;     /* limit points on the present branch */
@@ -51,25 +47,10 @@ typedef struct Follower {
   ZpOutcome outcome;
 } Follower;
 
-static void carve(void *user, ZpCarver *carver) {
-  Follower *f = user;
-  size_t save = zp_rest_save_size(&f->rest), equations = f->rest.statics.n;
-  zp_slow_carve(&f->slow, &f->rest, carver);
-  zp_limit_carve(&f->pull_in, save, equations, carver);
-  zp_limit_carve(&f->closing, save, equations, carver);
-  zp_limit_carve(&f->release, save, equations, carver);
-  f->start = zp_carve(carver, save);
-  f->hung = zp_carve(carver, save);
-}
-
-static double opening(Follower *f) {
-  return zp_closing_gap(&f->rest.statics, NULL);
-}
-
 static void record(Follower *f, int branch) {
   const ZpModel *model = f->model;
   ZpStatics *s = &f->rest.statics;
-  bool stable = zp_statics_stable(s, &f->rest.branch.newton);
+  bool stable = zp_statics_stable(s);
   ZpMargins margins;
   ZpShape shape = zp_rest_shape(&f->rest, f->points, &margins);
   double row[COLUMNS + ZP_MEMBER_COLUMNS] = {s->U,
@@ -112,7 +93,8 @@ static bool arrive(Follower *f) {
 
 /* Without voltage there is only the hanging state: has the branch returned to it? */
 static bool is_hanging(Follower *f) {
-  return f->hanging > 0 && fabs(opening(f) / f->hanging - 1) < hanging_part;
+  double hanging = f->limits->hanging;
+  return hanging > 0 && fabs(zp_closing_gap(&f->rest.statics, NULL) / hanging - 1) < hanging_part;
 }
 
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
@@ -154,56 +136,15 @@ static void follow_whole(Follower *f, bool growing, int mark) {
 
 /* -- the study ------------------------------------------------------------------------------------ */
 
-static bool hang(Follower *f) {
-  ZpNewtonInfo info = zp_statics_hang(&f->rest.statics, &f->rest.branch.newton);
-  zp_result_add(f->result, "iterations", "count", info.iterations);
-  zp_result_add(f->result, "residual", "1", info.residual);
-  if (zp_newton_good(info.end) && !zp_statics_bias(&f->rest.statics, &f->rest.branch.newton)) return false;
-  f->rest.system.save(&f->rest.statics, f->start);
-  f->rest.system.save(&f->rest.statics, f->hung);
-  f->hanging = f->model->field ? opening(f) : 0;
-  zp_slow_start(&f->slow);
-  return zp_newton_good(info.end);
-}
-
-static void none(Follower *f, const char *reason) {
-  zp_limit_none(&f->pull_in, reason);
-  zp_limit_none(&f->closing, reason);
-  zp_limit_none(&f->release, reason);
-}
-
-/* The limit voltages, from the hanging state. True: there is a closed state at drive.voltage, and the release was
- * searched from it. */
-static bool find_voltages(Follower *f) {
-  double top = f->model->def.drive.voltage;
-  none(f, "without a voltage there is none");
-  if (!f->model->field || top == 0) return false;
-  none(f, "it hangs closed");
-  if (f->hanging <= zp_closed_opening(f->rest.statics.member->model, 0)) return false;
-  ZpSlowEnd up = zp_slow_raise(&f->slow, top, &f->pull_in, &f->closing);
-  zp_limit_none(&f->release, "when closed, it is a short circuit");
-  if (zp_insulation(&f->model->def) == 0) zp_limit_none(&f->closing, "when closed, it is a short circuit");
-  if (zp_insulation(&f->model->def) == 0 || up == ZP_SLOW_STOPPED) return false;
-  zp_limit_none(&f->release, "it is not closed at drive.voltage");
-  if (!zp_slow_close(&f->slow, top)) return false;
-  f->rest.system.save(&f->rest.statics, f->start);
-  zp_slow_lower(&f->slow, &f->closing, &f->release);
-  return !f->rest.statics.stopped;
-}
-
 /* Both branches; if the hanging and the closed state are connected, the first one contains all. */
-static void find(Follower *f) {
-  none(f, "it does not hang");
-  if (!hang(f)) {
-    f->outcome = ZP_NOT_SETTLED;
-    return;
-  }
+static void follow_both(Follower *f) {
+  if (!f->limits->hangs) f->outcome = ZP_NOT_SETTLED;
+  if (!f->limits->hangs || f->rest.statics.stopped) return;
+  zp_rest_go_to(&f->rest, f->limits->start);
   follow_whole(f, true, 0);
-  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->model->field && zp_slow_is_closed(&f->slow);
-  if (f->rest.statics.stopped) return;
-  zp_slow_go_to(&f->slow, f->start);
-  if (!find_voltages(f) || whole) return;
-  zp_slow_go_to(&f->slow, f->start);
+  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->model->field && zp_slow_is_closed(&f->rest);
+  if (whole || !f->limits->closes || f->rest.statics.stopped) return;
+  zp_rest_go_to(&f->rest, f->limits->closed);
   follow_whole(f, false, 1);
 }
 
@@ -239,7 +180,8 @@ __attribute__((format(printf, 2, 3))) static void add(ZpResult *r, const char *f
 
 static void describe_way_up(const Follower *f) {
   ZpResult *r = f->result;
-  const double pull_in = f->pull_in.value, closing = f->closing.value;
+  const ZpLimit *closed = &f->limits->limit[ZP_LIMIT_CLOSING];
+  const double pull_in = f->limits->limit[ZP_LIMIT_PULL_IN].value, closing = closed->value;
   if (!isnan(pull_in))
     add(r, "pulls in at %.4g V", pull_in);
   else if (!isnan(f->shorted))
@@ -248,19 +190,20 @@ static void describe_way_up(const Follower *f) {
     add(r, "no pull-in: closes gradually at %.4g V", closing);
   else
     add(r, "no pull-in up to %g V", f->model->def.drive.voltage);
-  if (f->closing.end == ZP_MARCH_LOST)
-    add(r, "; %s", f->closing.reason);
+  if (closed->end == ZP_MARCH_LOST)
+    add(r, "; %s", closed->reason);
   else if (!isnan(pull_in) && closing > pull_in)
     add(r, ", closes at %.4g V", closing);
 }
 
 static void describe_way_down(const Follower *f) {
   ZpResult *r = f->result;
+  const ZpLimit *release = &f->limits->limit[ZP_LIMIT_RELEASE];
   const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->rest.statics);
-  if (!isnan(f->release.value))
-    add(r, ", releases at %.4g V", f->release.value);
+  if (!isnan(release->value))
+    add(r, ", releases at %.4g V", release->value);
   else if (isnan(f->shorted))
-    add(r, "; no release: %s", f->release.reason);
+    add(r, "; no release: %s", release->reason);
   if (f->outcome == ZP_BRANCH_LOST) add(r, "; a branch could not be followed to its end");
   if (trouble) add(r, ": %s", trouble);
 }
@@ -279,43 +222,35 @@ static void describe(const Follower *f) {
 
 static ZpOutcome outcome_of(const Follower *f) {
   if (f->rest.statics.stopped) return ZP_INTERRUPTED;
-  bool lost = f->pull_in.end == ZP_MARCH_LOST || f->closing.end == ZP_MARCH_LOST || f->release.end == ZP_MARCH_LOST;
-  return lost && f->outcome == ZP_FOLLOWED ? ZP_BRANCH_LOST : f->outcome;
+  return f->outcome == ZP_FOLLOWED && zp_limits_lost(f->limits) ? ZP_BRANCH_LOST : f->outcome;
 }
 
-static ZpStatus derive(Follower *f, ZpError *err) {
-  ZpLimitList list = {&f->slow,
-                      f->hung,
-                      NULL,
-                      {{"pull_in_voltage_V", &f->pull_in, false},
-                       {"release_voltage_V", &f->release, false},
-                       {"closing_voltage_V", &f->closing, false}},
-                      3};
-  if (f->outcome == ZP_NOT_SETTLED || f->rest.statics.stopped) return ZP_OK;
-  return zp_sensitivity_of(&f->rest, zp_derive_limits, &list, f->result, err);
+static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+  Follower *f = user;
+  zp_derive_limits(&f->rest, f->limits, order, ORDER, slope, result);
 }
 
 static ZpStatus run(Follower *f, ZpError *err) {
   const ZpActuatorDef *def = &f->model->def;
   f->result->series = zp_members_table(f->model, columns, COLUMNS, (size_t)def->output.samples);
   f->result->shapes = zp_model_shapes(f->model, (size_t)def->output.shapes);
-  if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, carve, f))
+  if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, NULL, NULL))
     return zp_fail_memory(err);
+  f->limits = zp_limits_create(&f->rest);
+  if (!f->limits) return zp_fail_memory(err);
   f->rest.statics.stop = asked_to_stop;
   f->rest.statics.caller = f;
-  const size_t first = f->result->scalars;
-  zp_result_add(f->result, "pull_in_voltage_V", "V", NAN);
-  zp_result_add(f->result, "release_voltage_V", "V", NAN);
-  zp_result_add(f->result, "closing_voltage_V", "V", NAN);
-  find(f);
-  f->result->scalar[first].value = f->pull_in.value;
-  f->result->scalar[first + 1].value = f->release.value;
-  f->result->scalar[first + 2].value = f->closing.value;
+  zp_limits_find(&f->rest, NULL, false, f->limits);
+  zp_add_limits(f->limits, order, ORDER, f->result);
+  zp_result_add(f->result, "iterations", "count", f->limits->info.iterations);
+  zp_result_add(f->result, "residual", "1", f->limits->info.residual);
+  follow_both(f);
   zp_result_add(f->result, "points", "count", f->points);
   f->result->outcome = outcome_of(f);
   describe(f);
   note(f);
-  return derive(f, err);
+  if (f->outcome == ZP_NOT_SETTLED || f->rest.statics.stopped) return ZP_OK;
+  return zp_sensitivity_of(&f->rest, derive, f, f->result, err);
 }
 
 static const ZpRule rule[] = {
@@ -342,6 +277,7 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
                 .margins = zp_margins_none(),
                 .outcome = ZP_FOLLOWED};
   status = run(&f, err);
+  zp_limits_destroy(f.limits);
   zp_rest_close(&f.rest);
   zp_model_destroy(model);
   return status;

@@ -64,7 +64,7 @@ static void carve(void *user, ZpCarver *carver) {
 
 /* The force that holds the platform, whole actuator, N. */
 static double holding(Holder *h) {
-  return h->model->parts * zp_statics_holding(&h->rest.statics, &h->rest.branch.newton);
+  return h->model->parts * zp_statics_holding(&h->rest.statics);
 }
 
 /* The force under voltage, whole actuator, N; exact enough for comparisons of states. */
@@ -89,7 +89,7 @@ static double zipped_length(const Holder *h) {
 }
 
 static bool is_stable(Holder *h) {
-  return zp_statics_stable(&h->rest.statics, &h->rest.branch.newton);
+  return zp_statics_stable(&h->rest.statics);
 }
 
 static void record(Holder *h, bool passed, bool last) {
@@ -139,7 +139,7 @@ static void look_at(Holder *h, double direction, bool *turned) {
   if (direction > 0 && h->rest.branch.direction_m < 0) {
     if (!*turned) memcpy(h->edge, h->before, h->rest.system.save_size);
     *turned = true;
-    h->highest = fmax(h->highest, zp_branch_limit(&h->rest.branch, NULL, NULL));
+    h->highest = fmax(h->highest, zp_branch_limit(&h->rest.branch));
   }
   if (h->rest.statics.U <= h->highest || !is_stable(h)) return;
   pass(h, *turned);
@@ -187,7 +187,7 @@ static bool fall(Holder *h, bool turned) {
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     h->rest.system.restore(s, h->edge);
     double U = fmin((1 + above[k]) * h->highest + least * top, top);
-    found = zp_newton_good(zp_statics_fall(s, U, &h->rest.branch.newton).end) && is_possible(h, false);
+    found = zp_newton_good(zp_statics_fall(s, U).end) && is_possible(h, false);
   }
   if (!found) return false;
   pass(h, turned);
@@ -231,7 +231,7 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
 /* If that fails too, a limit point is just below: the state falls from there to an equilibrium at drive.voltage. */
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
   h->rest.system.restore(&h->rest.statics, h->before);
-  *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage, &h->rest.branch.newton);
+  *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage);
   return zp_newton_good(info->end) && is_possible(h, true);
 }
 
@@ -385,7 +385,7 @@ static void run(Holder *h) {
   ZpStatics *s = &h->rest.statics;
   s->stop = asked_to_stop;
   s->caller = h;
-  ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation, &h->rest.branch.newton);
+  ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation);
   if (zp_newton_good(info.end)) {
     h->unpowered = holding(h);
     h->unpowered_moment = moment(h);

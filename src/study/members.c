@@ -2,7 +2,7 @@
 
 #include <string.h>
 
-#include "rest/closing.h"
+#include "rest/slow.h"
 
 static const ZpColumn stiffness = {"stiffness_N_per_m", "N/m", "restoring force per displacement of the load"};
 
@@ -65,7 +65,7 @@ void zp_members_values(ZpRest *rest, double *values) {
     *values++ = zp_statics_member_force(s, k);
     *values++ = zp_statics_member_closed(s, k);
   }
-  *values = zp_statics_load_stiffness(s, &rest->branch.newton);
+  *values = zp_statics_load_stiffness(s);
 }
 
 void zp_members_add(ZpRest *rest, ZpResult *result) {

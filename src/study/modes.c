@@ -163,7 +163,7 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   if (p->vibration.inertia)
     zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
   for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
-    Mode mode = {&p->rest.branch.newton.K, p->rest.branch.newton.r, p->vibration.u + j * p->vibration.n,
+    Mode mode = {&p->rest.statics.newton.K, p->rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
     double by_key = found ? zp_slope_of(slope, pose, stiffness_of_mode, &mode) : NAN;
     zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->vibration.omega2[j])));
@@ -172,18 +172,17 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
 
 static void run(Problem *p, const ZpTask *task, ZpResult *result) {
   zp_task_watches(task, &p->rest.statics);
-  ZpNewtonInfo info = zp_statics_hang(&p->rest.statics, &p->rest.branch.newton);
+  ZpNewtonInfo info = zp_statics_hang(&p->rest.statics);
   result->outcome = p->rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "%s",
            p->rest.statics.stopped ? "interrupted" : "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return;
-  if (!zp_statics_bias(&p->rest.statics, &p->rest.branch.newton)) {
+  if (!zp_statics_bias(&p->rest.statics)) {
     snprintf(result->message, sizeof result->message, "%s", zp_statics_no_rest(&p->rest.statics));
     return;
   }
   double voltage = p->rest.statics.member->model->def.modes.voltage;
-  if (voltage > 0 && p->rest.statics.member->model->field &&
-      !zp_statics_raise(&p->rest.statics, voltage, &p->rest.branch.newton)) {
+  if (voltage > 0 && p->rest.statics.member->model->field && !zp_statics_raise(&p->rest.statics, voltage)) {
     zp_modes_pulled_in(&p->vibration, voltage, zp_statics_trouble(&p->rest.statics), result);
     return;
   }
@@ -193,12 +192,12 @@ static void run(Problem *p, const ZpTask *task, ZpResult *result) {
              "short circuit at modes.voltage = %g V: electrodes without an insulator touch", voltage);
     return;
   }
-  if (!zp_statics_stable(&p->rest.statics, &p->rest.branch.newton)) {
+  if (!zp_statics_stable(&p->rest.statics)) {
     snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
     return;
   }
   ZpVibration *v = &p->vibration;
-  v->K = &p->rest.branch.newton.K;
+  v->K = &p->rest.statics.newton.K;
   if (p->rest.statics.members > 1 && !p->rest.statics.shared) {
     zp_series_mass_fill(&p->series);
     v->inertia = &p->series.inertia;

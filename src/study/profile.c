@@ -192,7 +192,7 @@ static bool hold(Profiler *p, bool *found) {
   ZpRest rest;
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
-    ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation, &rest.branch.newton);
+    ZpNewtonInfo info = zp_statics_hold(&rest.statics, model->def.isometric.separation);
     *found = zp_newton_good(info.end) && !zp_statics_fault(&rest.statics);
     ZpMargins margins;
     zp_rest_shape(&rest, 0, &margins);

@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/memory.h"
-#include "study/limits.h"
 #include "study/studies.h"
 
 ZpResult *zp_result_create(ZpStudy study) {

@@ -72,7 +72,7 @@ ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slo
   ZpStatus status = read_keys(&rest->statics.member->model->whole, &list, err);
   for (int k = 0; k < list.count && status == ZP_OK; k++) {
     ZpSlope slope;
-    status = zp_slope_open(&slope, &rest->statics, &rest->branch.newton, list.key[k], err);
+    status = zp_slope_open(&slope, &rest->statics, list.key[k], err);
     if (status == ZP_OK) derive(user, &slope, result);
     zp_slope_close(&slope);
   }
@@ -95,9 +95,9 @@ static void pose_as_is(const ZpActuatorDef *def, ZpStatics *s) {
 }
 
 /* Derivative of the gap at which it counts as closed, from the state that hangs. */
-static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope, const double *hangs, ZpPose pose) {
-  zp_slow_go_to(list->slow, hangs);
-  double hanging = zp_closing_gap(list->slow->statics, NULL), rate, sum = 0;
+static double rate_of_closed(ZpRest *rest, ZpSlope *slope, const double *hangs, ZpPose pose) {
+  zp_rest_go_to(rest, hangs);
+  double hanging = zp_closing_gap(&rest->statics, NULL), rate, sum = 0;
   if (!zp_slope_solve(slope, pose)) return NAN;
   rate = zp_slope_of(slope, pose, closing_gap, NULL);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
@@ -108,30 +108,30 @@ static double rate_of_closed(const ZpLimitList *list, ZpSlope *slope, const doub
 }
 
 /* Of a gradual closing: the gap at which it counts as closed changes, too, with the key and with the largest load. */
-static double derive_event(const ZpLimitList *list, const ZpNamedLimit *item, const ZpBranchSystem *branch,
-                           ZpSlope *slope) {
-  double closed = item->is_load ? rate_of_closed(list, slope, list->hung, pose_as_is)
-                                : rate_of_closed(list, slope, list->hanging, zp_pose_load);
-  double by_load = 0;
-  if (item->is_load) zp_slow_go_to(list->slow, list->hung);
-  if (item->is_load) by_load = zp_slow_closed_by_load(list->slow);
-  zp_slow_go_to(list->slow, item->limit->state);
-  return zp_slope_of_event(slope, item->is_load ? pose_voltage : zp_pose_load, branch, zp_closing_gap, closed, by_load);
+static double derive_event(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpSlope *slope) {
+  bool load = kind == ZP_LIMIT_LOAD;
+  double by_load = 0, closed = load ? rate_of_closed(rest, slope, limits->hung, pose_as_is)
+                                    : rate_of_closed(rest, slope, limits->start, zp_pose_load);
+  if (load) zp_rest_go_to(rest, limits->hung);
+  if (load) by_load = zp_slow_closed_by_load(rest);
+  zp_rest_go_to(rest, limits->limit[kind].state);
+  return zp_slope_of_event(slope, load ? pose_voltage : zp_pose_load, load ? &rest->load : &rest->square,
+                           zp_closing_gap, closed, by_load);
 }
 
-static double derive_fold(const ZpLimitList *list, const ZpNamedLimit *item, const ZpBranchSystem *branch,
-                          ZpSlope *slope) {
-  zp_slow_go_to(list->slow, item->limit->state);
-  return zp_slope_of_fold(slope, item->is_load ? pose_voltage : zp_pose_load, branch, item->limit->null);
+static double derive_fold(ZpRest *rest, const ZpLimit *limit, bool load, ZpSlope *slope) {
+  zp_rest_go_to(rest, limit->state);
+  return zp_slope_of_fold(slope, load ? pose_voltage : zp_pose_load, load ? &rest->load : &rest->square, limit->null);
 }
 
-static double derive_limit(const ZpLimitList *list, const ZpNamedLimit *item, ZpSlope *slope) {
-  const ZpBranchSystem *branch = item->is_load ? &list->slow->load : &list->slow->square;
+static double derive_limit(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpSlope *slope) {
+  const ZpLimit *limit = &limits->limit[kind];
+  bool load = kind == ZP_LIMIT_LOAD;
   double rate = NAN;
-  if (isnan(item->limit->value)) return NAN;
-  if (item->limit->end == ZP_MARCH_FOLD) rate = derive_fold(list, item, branch, slope);
-  if (item->limit->end == ZP_MARCH_EVENT) rate = derive_event(list, item, branch, slope);
-  return item->is_load ? rate : rate / (2 * item->limit->value);
+  if (isnan(limit->value)) return NAN;
+  if (limit->end == ZP_MARCH_FOLD) rate = derive_fold(rest, limit, load, slope);
+  if (limit->end == ZP_MARCH_EVENT) rate = derive_event(rest, limits, kind, slope);
+  return load ? rate : rate / (2 * limit->value);
 }
 
 /* Is it known that an output lacks a derivative? */
@@ -141,19 +141,31 @@ static bool has_none(const ZpResult *result, const char *output) {
   return false;
 }
 
-void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result) {
-  const ZpLimitList *list = user;
-  double found[ZP_MOST_LIMITS];
-  for (size_t k = 0; k < list->count; k++) {
-    const ZpNamedLimit *item = &list->item[k];
+/* Names and units of limits. */
+static const ZpColumn number[ZP_LIMIT_KINDS] = {[ZP_LIMIT_PULL_IN] = {"pull_in_voltage_V", "V"},
+                                                [ZP_LIMIT_CLOSING] = {"closing_voltage_V", "V"},
+                                                [ZP_LIMIT_RELEASE] = {"release_voltage_V", "V"},
+                                                [ZP_LIMIT_LOAD] = {"max_load_kg", "kg"}};
+
+void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpResult *result) {
+  for (size_t k = 0; k < count; k++)
+    zp_result_add(result, number[order[k]].name, number[order[k]].unit, limits->limit[order[k]].value);
+}
+
+void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpSlope *slope,
+                      ZpResult *result) {
+  double found[ZP_LIMIT_KINDS];
+  for (size_t k = 0; k < count; k++) {
+    const ZpLimit *limit = &limits->limit[order[k]];
+    const char *output = number[order[k]].name;
     size_t same = 0; /* a release is at most the closing voltage, whatever its state says */
-    while (same < k && list->item[same].limit->value != item->limit->value)
+    while (same < k && limits->limit[order[same]].value != limit->value)
       same++;
-    found[k] = same < k ? found[same] : derive_limit(list, item, slope);
-    if (isnan(found[k]) && !isnan(item->limit->value) && !has_none(result, item->output))
-      zp_result_note(result, "%s has no derivatives: %s", item->output,
-                     item->limit->end == ZP_MARCH_ARRIVED ? "beyond it the closing voltage jumps"
-                                                          : "the slope of a force jumps at this state");
-    zp_result_add_sensitivity(result, item->output, slope->key, found[k]);
+    found[k] = same < k ? found[same] : derive_limit(rest, limits, order[k], slope);
+    if (isnan(found[k]) && !isnan(limit->value) && !has_none(result, output))
+      zp_result_note(result, "%s has no derivatives: %s", output,
+                     limit->end == ZP_MARCH_ARRIVED ? "beyond it the closing voltage jumps"
+                                                    : "the slope of a force jumps at this state");
+    zp_result_add_sensitivity(result, output, slope->key, found[k]);
   }
 }

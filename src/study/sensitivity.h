@@ -4,8 +4,8 @@
 
 #include <zipact/study.h>
 
+#include "rest/limits.h"
 #include "rest/slope.h"
-#include "rest/slow.h"
 
 /* Check sensitivity.by: real keys, each once, whose derivatives there are. ZP_BAD_INPUT names the key. */
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err);
@@ -20,25 +20,10 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def);
 ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
                            ZpResult *result, ZpError *err);
 
-enum { ZP_MOST_LIMITS = 4 };
-
-/* One limit by name; and the state that hangs without voltage, which says when an actuator is closed. */
-typedef struct ZpNamedLimit {
-  const char *output;
-  const ZpLimit *limit;
-  bool is_load; /* the limit is a load at drive.voltage, else a voltage */
-} ZpNamedLimit;
-
-typedef struct ZpLimitList {
-  ZpSlow *slow;
-  const double *hanging; /* its state */
-  const double *hung;    /* the one under the largest load; NULL: that is not asked for */
-  ZpNamedLimit item[ZP_MOST_LIMITS];
-  size_t count;
-} ZpLimitList;
-
-/* Add the derivatives of these limits, an entry each: a `derive` of which `user` is a ZpLimitList. The present point is
+/* Add limits as numbers of a result, in this order; their derivatives by a key, an entry each. The present point is
  * then another. */
-void zp_derive_limits(void *user, ZpSlope *slope, ZpResult *result);
+void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpResult *result);
+void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpSlope *slope,
+                      ZpResult *result);
 
 #endif

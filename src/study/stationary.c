@@ -81,7 +81,7 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
 static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
   ZpStatics *s = &rest->statics;
   zp_task_watches(task, s);
-  ZpNewtonInfo info = zp_statics_hang(s, &rest->branch.newton);
+  ZpNewtonInfo info = zp_statics_hang(s);
   bool found = zp_newton_good(info.end);
   result->outcome = found ? ZP_CONVERGED : s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "%s%s",
