@@ -1,9 +1,10 @@
 #!/bin/sh
 # Looks at the manual as a reader would: all links of the Markdown and of the HTML arrive; in Chromium, wide and narrow,
 # nothing is cut off, formulas and pictures have a size, nothing comes from elsewhere; light and dark, words stand out.
-# Needs `make docs`, chromium (scripts/deps.sh --browser) and python3.
+# Needs `make html`, chromium (scripts/deps.sh --browser) and python3.
 #   check-docs.sh HTML [SHOTS]      with SHOTS, screenshots of the pages go to that folder
 set -eu
+[ -d "$1" ] || { echo "$1: there is no manual; make html writes it" >&2; exit 1; }
 site=$(cd "$1" && pwd) shots=${2:-}
 here=$(dirname "$0")
 scratch=$(mktemp -d)
