@@ -20,12 +20,13 @@ static char *put_file(const char *name, const char *text) {
 /* The number of a row in the column of that name, in SI. */
 static double number_of(const ZpData *data, size_t row, const char *column, const char *stem, const char *unit) {
   const int place = zp_data_column(data, column);
-  double value, factor, divisor;
+  double value;
+  ZpUnitScale scale;
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(place >= 0, "no %s", column);
-  ck_assert(zp_data_unit(data->cell[place], stem, unit, &factor, &divisor));
+  ck_assert(zp_data_unit(data->cell[place], stem, unit, &scale));
   ck_assert_msg(zp_data_number(data, row, (size_t)place, &value, &err) == ZP_OK, "%s", err.message);
-  return value * factor / divisor;
+  return zp_unit_apply(&scale, value, 1);
 }
 
 /* A spreadsheet's file with a byte order mark, semicolons, decimal commas, remarks, names in other letters, and no end

@@ -2,7 +2,6 @@
  * the scenario, a wrong row counts only if two cases with the same number collide, with a probability of 1 in 2^64. */
 #include "campaign/case_hash.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,6 +10,7 @@
 
 #include "base/fail.h"
 #include "def/purpose.h"
+#include "io/file.h"
 #include "io/range.h"
 
 static const uint64_t fnv_start = 0xcbf29ce484222325, fnv_prime = 0x100000001b3;
@@ -37,14 +37,14 @@ static uint64_t add_number(uint64_t hash, double value) {
 }
 
 static ZpStatus add_file(const char *key, const char *path, uint64_t *hash, ZpError *err) {
-  unsigned char part[1 << 14];
-  FILE *file = fopen(path, "rbe");
-  if (!file) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be opened: %s", key, path, strerror(errno));
-  for (size_t got; (got = fread(part, 1, sizeof part, file)) > 0;)
-    *hash = add_bytes(*hash, part, got);
-  const bool failed = ferror(file) != 0;
-  fclose(file); /* nothing was written */
-  return failed ? zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read", key, path) : ZP_OK;
+  char *text;
+  size_t size;
+  ZpError reason;
+  if (zp_file_read(path, SIZE_MAX / 2, &text, &size, &reason) != ZP_OK)
+    return zp_fail(err, ZP_MACHINE, "%s: %s", key, reason.message);
+  *hash = add_bytes(*hash, text, size);
+  free(text);
+  return ZP_OK;
 }
 
 /* The files of a key: data.file may name several, separated by semicolons. */

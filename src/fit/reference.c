@@ -12,22 +12,6 @@ void zp_reference_free(ZpReference *reference) {
   *reference = (ZpReference){0};
 }
 
-/* The column called `stem` with a unit of length, in SI. */
-static ZpStatus read_column(const ZpData *data, const char *stem, double *value, ZpError *err) {
-  double factor = 1, divisor = 1;
-  size_t column = 0;
-  while (column < data->columns && !zp_data_unit(data->cell[column], stem, "m", &factor, &divisor))
-    column++;
-  if (column == data->columns)
-    return zp_fail(err, ZP_BAD_INPUT, "data.file: %.200s: no column %s_m or %s_mm", data->path, stem, stem);
-  ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < data->rows && status == ZP_OK; i++) {
-    status = zp_data_number(data, i, column, &value[i], err);
-    value[i] = value[i] * factor / divisor;
-  }
-  return status;
-}
-
 static ZpStatus take(const ZpData *data, ZpReference *reference, ZpError *err) {
   reference->count = data->rows;
   if (data->rows < 2)
@@ -35,8 +19,8 @@ static ZpStatus take(const ZpData *data, ZpReference *reference, ZpError *err) {
   reference->x = calloc(data->rows, sizeof(double));
   reference->y = calloc(data->rows, sizeof(double));
   if (!reference->x || !reference->y) return zp_fail_memory(err);
-  ZpStatus status = read_column(data, "x", reference->x, err);
-  if (status == ZP_OK) status = read_column(data, "y", reference->y, err);
+  ZpStatus status = zp_data_read_column(data, "x", "m", "x_mm", reference->x, err);
+  if (status == ZP_OK) status = zp_data_read_column(data, "y", "m", "y_mm", reference->y, err);
   for (size_t i = 1; i < data->rows && status == ZP_OK; i++)
     if (!(reference->x[i] > reference->x[i - 1]))
       status = zp_fail(err, ZP_BAD_INPUT, "data.file: %.200s:%d: x must increase from row to row", data->path,

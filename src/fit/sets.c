@@ -8,7 +8,6 @@
 #include "base/fail.h"
 #include "fit/fit.h"
 #include "io/data.h"
-#include "io/number.h"
 #include "io/range.h"
 #include "io/units.h"
 
@@ -112,10 +111,9 @@ static bool is_measured(const Measured *measured, int column) {
 /* -- what was set ---------------------------------------------------------------------------------- */
 
 /* zp_data_unit; remembers a column that has no unit. */
-static bool take_unit(ZpFit *fit, const char *name, const char *stem, const char *unit, double *factor,
-                      double *divisor) {
+static bool take_unit(ZpFit *fit, const char *name, const char *stem, const char *unit, ZpUnitScale *scale) {
   char text[80];
-  if (!zp_data_unit(name, stem, unit, factor, divisor)) return false;
+  if (!zp_data_unit(name, stem, unit, scale)) return false;
   const bool bare = strlen(name) == strlen(stem) && *unit && strcmp(unit, "1") != 0;
   snprintf(text, sizeof text, "%.60s in %s", name, unit);
   const size_t used = strlen(fit->bare);
@@ -124,31 +122,36 @@ static bool take_unit(ZpFit *fit, const char *name, const char *stem, const char
   return true;
 }
 
+/* What a column has: numbers in this unit, over `per`. */
+typedef struct Unit {
+  ZpUnitScale scale;
+  double per;
+} Unit;
+
 /* The key and unit in the header of a column; -1 if it is not a key. */
-static int key_of_header(ZpFit *fit, const char *name, double *factor, double *divisor) {
-  if (fit->def->gravity > 0 && take_unit(fit, name, "force", "N", factor, divisor)) { /* the weight of a load */
-    *divisor *= fit->def->gravity;
-    return zp_key_find("load.mass");
-  }
-  if (take_unit(fit, name, "load", "kg", factor, divisor)) return zp_key_find("load.mass");
-  if (fit->def->gravity > 0 && take_unit(fit, name, "load", "N", factor, divisor)) {
-    *divisor *= fit->def->gravity;
-    return zp_key_find("load.mass");
-  }
-  if (take_unit(fit, name, "voltage", "V", factor, divisor)) return zp_key_find("drive.voltage");
+static int key_of_header(ZpFit *fit, const char *name, Unit *unit) {
+  const double gravity = fit->def->gravity;
+  unit->per = 1;
+  if (take_unit(fit, name, "load", "kg", &unit->scale)) return zp_key_find("load.mass");
+  if (take_unit(fit, name, "voltage", "V", &unit->scale)) return zp_key_find("drive.voltage");
   for (int i = 0; i < zp_key_count(); i++)
-    if (zp_fit_takes(i) && take_unit(fit, name, zp_key(i)->name, zp_key(i)->unit, factor, divisor)) return i;
+    if (zp_fit_takes(i) && take_unit(fit, name, zp_key(i)->name, zp_key(i)->unit, &unit->scale)) return i;
+  if (gravity > 0 &&
+      (take_unit(fit, name, "force", "N", &unit->scale) || take_unit(fit, name, "load", "N", &unit->scale))) {
+    unit->per = gravity; /* the weight of a load */
+    return zp_key_find("load.mass");
+  }
   return -1;
 }
 
 /* Read a column of numbers that set `key` (any numbers if it is -1) => values [rows], SI. */
-static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, int key, double factor, double divisor,
-                            double *values, ZpError *err) {
+static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, int key, const Unit *unit, double *values,
+                            ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < data->rows && status == ZP_OK; i++) {
     ZpActuatorDef scratch = *fit->def;
     status = zp_data_number(data, i, (size_t)column, &values[i], err);
-    values[i] = values[i] * factor / divisor;
+    values[i] = zp_unit_apply(&unit->scale, values[i], unit->per);
     if (status == ZP_OK && key >= 0) status = zp_def_set(&scratch, key, values[i], err);
   }
   return status;
@@ -179,10 +182,11 @@ static ZpStatus check_times(const double *time, const ZpData *data, ZpError *err
 }
 
 static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
-  double factor, divisor, *x = fit->x + set->first;
+  Unit unit = {.per = 1};
+  double *x = fit->x + set->first;
   const char *name = data->cell[column];
-  bool is_time = take_unit(fit, name, "time", "s", &factor, &divisor);
-  set->x_key = is_time ? -1 : key_of_header(fit, name, &factor, &divisor);
+  bool is_time = take_unit(fit, name, "time", "s", &unit.scale);
+  set->x_key = is_time ? -1 : key_of_header(fit, name, &unit);
   if (!is_time && set->x_key < 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
@@ -190,7 +194,7 @@ static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
         "unit, such as load_g; give another name by data.columns: %.60s = load_g",
         data->path, name, name);
   ZpStatus status = check_set(fit, set, set->x_key, name, err);
-  if (status == ZP_OK) status = read_column(fit, data, column, set->x_key, factor, divisor, x, err);
+  if (status == ZP_OK) status = read_column(fit, data, column, set->x_key, &unit, x, err);
   return status == ZP_OK && is_time ? check_times(x, data, err) : status;
 }
 
@@ -199,10 +203,10 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
   ZpStatus status = ZP_OK;
   const ZpData *data = measured->data;
   for (int column = 0; column < (int)data->columns && status == ZP_OK; column++) {
-    double factor, divisor;
+    Unit unit;
     const char *name = data->cell[column];
     const bool known = column == x || column == measured->x || is_measured(measured, column);
-    int key = known ? -1 : key_of_header(fit, name, &factor, &divisor);
+    int key = known ? -1 : key_of_header(fit, name, &unit);
     measured->used[column] |= known || key >= 0;
     if (key < 0) continue;
     if (set->x_key < 0)
@@ -215,8 +219,7 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
     set->other[set->others] = calloc(data->rows, sizeof(double));
     if (!set->other[set->others++]) return zp_fail_memory(err);
     status = check_set(fit, set, key, name, err);
-    if (status == ZP_OK)
-      status = read_column(fit, data, column, key, factor, divisor, set->other[set->others - 1], err);
+    if (status == ZP_OK) status = read_column(fit, data, column, key, &unit, set->other[set->others - 1], err);
   }
   return status;
 }
@@ -264,23 +267,6 @@ static ZpStatus check_rows(const ZpFit *fit, const ZpFitSet *set, const ZpData *
 
 /* -- standard deviations --------------------------------------------------------------------------- */
 
-/* "20 um" => SI; a number without a unit is SI. */
-static ZpStatus read_sigma_value(const char *text, const char *unit, double *value, ZpError *err) {
-  char number[64] = "";
-  ZpUnitScale scale = {.decimal = true};
-  const size_t length = strspn(text, "+-.0123456789eE");
-  if (length < sizeof number) memcpy(number, text, length);
-  const char *given = text + length + strspn(text + length, " \t");
-  if (!zp_number_read(number, value) || !(*value > 0) || !isfinite(*value))
-    return zp_fail(err, ZP_BAD_INPUT, "needs a number above 0 and its unit, %s", unit);
-  ZpStatus status = *given ? zp_unit_scale(given, unit, &scale, err) : ZP_OK;
-  if (status == ZP_OK)
-    *value = !scale.decimal       ? *value * scale.factor
-             : scale.exponent < 0 ? *value / pow(10, -scale.exponent)
-                                  : *value * pow(10, scale.exponent);
-  return status;
-}
-
 static int kind_called(const char *name) {
   int kind = 0;
   while (kind < ZP_FIT_KINDS && strcmp(zp_fit_number[kind].column, name) != 0)
@@ -302,7 +288,10 @@ static ZpStatus read_sigma_of(Reading *r, char *part) {
                    "calibrate.sigma: %.60s: takes stroke, opening, capacitance, force, zip_time, pull_in_voltage, "
                    "release_voltage or frequency",
                    name);
-  ZpStatus status = read_sigma_value(text, zp_fit_number[kind].unit, &r->sigma[kind], &reason);
+  const char *unit = zp_fit_number[kind].unit;
+  ZpStatus status = zp_quantity_read(text, unit, &r->sigma[kind], &reason);
+  if (status == ZP_OK && !(r->sigma[kind] > 0 && isfinite(r->sigma[kind])))
+    status = zp_fail(&reason, ZP_BAD_INPUT, "needs a number above 0 and its unit, %s", unit);
   if (status == ZP_OK) return ZP_OK;
   return zp_fail(r->err, status, "calibrate.sigma: %s = \"%.60s\": %.200s", name, text, reason.message);
 }
@@ -344,24 +333,24 @@ static int find_sigma(const ZpData *data, ZpFitKind kind) {
 }
 
 /* The unit in the name of such a column; false if it is not a unit of the measured quantity. */
-static bool find_sigma_unit(ZpFit *fit, const char *name, ZpFitKind kind, double *factor, double *divisor) {
+static bool find_sigma_unit(ZpFit *fit, const char *name, ZpFitKind kind, ZpUnitScale *scale) {
   const size_t length = strlen(zp_fit_number[kind].column);
   const bool named = is_sigma_of(name, (int)kind);
   if (named) name += 6 + length; /* "_mm" */
-  return take_unit(fit, name, named ? "" : "sigma", zp_fit_number[kind].unit, factor, divisor);
+  return take_unit(fit, name, named ? "" : "sigma", zp_fit_number[kind].unit, scale);
 }
 
 static ZpStatus read_sigma_column(ZpFit *fit, const ZpFitSet *set, const ZpData *data, int column, double *sigma,
                                   ZpError *err) {
   const char *name = data->cell[column], *unit = zp_fit_number[set->kind].unit;
-  double factor, divisor;
-  if (!find_sigma_unit(fit, name, set->kind, &factor, &divisor))
+  ZpUnitScale scale;
+  if (!find_sigma_unit(fit, name, set->kind, &scale))
     return zp_fail(err, ZP_BAD_INPUT,
                    "data.file: column %.60s: its unit must be one of the measured quantity, such as %s", name, unit);
   for (size_t i = 0; i < set->rows; i++) {
     ZpStatus status = zp_data_number(data, i, (size_t)column, &sigma[i], err);
     if (status != ZP_OK) return status;
-    sigma[i] = sigma[i] * factor / divisor;
+    sigma[i] = zp_unit_apply(&scale, sigma[i], 1);
     if (!(sigma[i] > 0))
       return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: column %.60s: a standard deviation must be above 0", data->path,
                      zp_data_line(data, i), name);
@@ -443,19 +432,19 @@ static bool is_possible(const ZpFitSet *set, ZpFitKind kind) {
 }
 
 /* The kind of a column by its name, and its unit; false if it is none. */
-static bool find_kind(ZpFit *fit, ZpFitSet *set, const char *name, double *factor, double *divisor) {
+static bool find_kind(ZpFit *fit, ZpFitSet *set, const char *name, ZpUnitScale *scale) {
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
     const ZpFitNumber *of = &zp_fit_number[kind];
     set->kind = (ZpFitKind)kind;
-    if (is_possible(set, set->kind) && take_unit(fit, name, of->column, of->unit, factor, divisor)) return true;
+    if (is_possible(set, set->kind) && take_unit(fit, name, of->column, of->unit, scale)) return true;
   }
   return false;
 }
 
 static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column, ZpError *err) {
-  double factor, divisor;
+  Unit unit = {.per = 1};
   const char *name = data->cell[column];
-  if (!find_kind(fit, set, name, &factor, &divisor))
+  if (!find_kind(fit, set, name, &unit.scale))
     return zp_fail(
         err, ZP_BAD_INPUT,
         "%.200s:1: column %.60s: unknown; calibrate.y takes stroke, opening or capacitance with its unit; against a "
@@ -465,18 +454,18 @@ static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
         data->path, name, name);
   if (set->kind == ZP_FIT_OPENING && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
-  return read_column(fit, data, column, -1, factor, divisor, fit->y + set->first, err);
+  return read_column(fit, data, column, -1, &unit, fit->y + set->first, err);
 }
 
 static bool is_length(const char *name) {
-  double factor, divisor;
-  return zp_data_unit(name, "stroke", "m", &factor, &divisor) || zp_data_unit(name, "opening", "m", &factor, &divisor);
+  ZpUnitScale scale;
+  return zp_data_unit(name, "stroke", "m", &scale) || zp_data_unit(name, "opening", "m", &scale);
 }
 
 static bool is_force(const char *name) {
-  double factor, divisor;
-  return zp_data_unit(name, "force", "N", &factor, &divisor) || zp_data_unit(name, "load", "kg", &factor, &divisor) ||
-         zp_data_unit(name, "load", "N", &factor, &divisor);
+  ZpUnitScale scale;
+  return zp_data_unit(name, "force", "N", &scale) || zp_data_unit(name, "load", "kg", &scale) ||
+         zp_data_unit(name, "load", "N", &scale);
 }
 
 static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measured, int y) {

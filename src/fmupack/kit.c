@@ -66,23 +66,3 @@ void zp_kit_free(ZpKit *names) {
   free(names->item);
   *names = (ZpKit){NULL, 0};
 }
-
-ZpStatus zp_file_load(const char *path, void **bytes, size_t *size, ZpError *err) {
-  struct stat info;
-  *bytes = NULL;
-  FILE *file = fopen(path, "rbe");
-  if (!file || fstat(fileno(file), &info) != 0) {
-    int reason = errno;
-    if (file) fclose(file); /* nothing was written */
-    return zp_fail(err, ZP_MACHINE, "%.300s: cannot be read: %s", path, strerror(reason));
-  }
-  *size = (size_t)info.st_size;
-  *bytes = malloc(*size + 1);
-  bool whole = *bytes && fread(*bytes, 1, *size, file) == *size;
-  fclose(file); /* nothing was written */
-  if (whole) return ZP_OK;
-  bool room = *bytes != NULL;
-  free(*bytes);
-  *bytes = NULL;
-  return room ? zp_fail(err, ZP_MACHINE, "%.300s: cannot be read", path) : zp_fail_memory(err);
-}

@@ -17,7 +17,4 @@ typedef struct ZpKit {
 ZpStatus zp_kit_list(const char *folder, ZpKit *names, ZpError *err);
 void zp_kit_free(ZpKit *names);
 
-/* A whole file => *bytes, to be freed by the caller. */
-ZpStatus zp_file_load(const char *path, void **bytes, size_t *size, ZpError *err);
-
 #endif

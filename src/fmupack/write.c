@@ -13,6 +13,7 @@
 #include "fmupack/description.h"
 #include "io/atomic.h"
 #include "io/drive_table.h"
+#include "io/file.h"
 #include "io/html.h"
 #include "io/number.h"
 
@@ -237,12 +238,13 @@ static ZpStatus add_start_source(ZpArchive *archive, const char *name, const ZpF
 }
 
 static ZpStatus add_file(ZpArchive *archive, const ZpFmuPlan *plan, const char *kit, const char *name, ZpError *err) {
-  void *bytes = NULL;
+  char *bytes = NULL;
   size_t size;
   if (strcmp(name, "sources/fmu/export/start_block.c") == 0) return add_start_source(archive, name, plan->start, err);
   char *path = zp_path_join(kit, name), *called = archive_name(name, plan->version);
-  ZpStatus status = path && called ? zp_file_load(path, &bytes, &size, err) : zp_fail_memory(err);
-  if (status == ZP_OK && strncmp(name, "binaries/", 9) == 0) status = fill_binary(name, bytes, size, plan->start, err);
+  ZpStatus status = path && called ? zp_file_read(path, SIZE_MAX / 2, &bytes, &size, err) : zp_fail_memory(err);
+  if (status == ZP_OK && strncmp(name, "binaries/", 9) == 0)
+    status = fill_binary(name, (unsigned char *)bytes, size, plan->start, err);
   if (status == ZP_OK)
     status = zp_archive_add(archive, called, bytes, size, err);
   else

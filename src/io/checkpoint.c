@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "io/file.h"
 #include "io/report.h"
 #include "io/writers.h"
 
@@ -43,29 +44,14 @@ ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err) {
 
 enum { LARGEST = 1 << 25 }; /* bytes: larger than any snapshot */
 
-static ZpStatus load(const char *path, unsigned char *byte, size_t *size, ZpError *err) {
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE, "%.300s: cannot be opened: %s",
-                   path, strerror(errno));
-  *size = fread(byte, 1, LARGEST, file);
-  bool failed = ferror(file) != 0;
-  int error = errno;
-  fclose(file); /* nothing was written */
-  return failed ? zp_fail(err, ZP_MACHINE, "%.300s: cannot be read: %s", path, strerror(error)) : ZP_OK;
-}
-
 ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err) {
-  *out = NULL;
+  char *byte;
   size_t size;
-  unsigned char *byte = malloc(LARGEST);
-  if (!byte) return zp_fail_memory(err);
-  ZpStatus status = load(path, byte, &size, err);
   ZpError reason;
-  if (status == ZP_OK) {
-    status = zp_checkpoint_from(byte, size, out, &reason);
-    if (status != ZP_OK) zp_fail(err, status, "%.300s: %.180s", path, reason.message);
-  }
+  *out = NULL;
+  ZpStatus status = zp_file_read(path, LARGEST, &byte, &size, err);
+  if (status != ZP_OK) return status;
+  status = zp_checkpoint_from(byte, size, out, &reason);
   free(byte);
-  return status;
+  return status == ZP_OK ? ZP_OK : zp_fail(err, status, "%.300s: %.180s", path, reason.message);
 }

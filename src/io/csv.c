@@ -3,11 +3,9 @@
  * No field needs quotes: names and outcomes have no commas. A value that does not exist is an empty
  * cell. */
 #include <math.h>
-#include <stdlib.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
-#include "io/cases.h"
 #include "io/number.h"
 #include "io/report.h"
 #include "io/writers.h"
@@ -32,57 +30,29 @@ static void write_series(FILE *file, const ZpTable *table) {
   }
 }
 
-static void write_head(FILE *file, const ZpReport *report, const ZpScalarNames *names) {
-  size_t keys;
-  const int *key = zp_scenario_lists(report->scenario, &keys);
-  for (size_t i = 0; i < keys; i++) {
-    char column[ZP_KEY_COLUMN_SIZE];
-    zp_key_column(key[i], column, sizeof column);
-    fprintf(file, "%s,", column);
-  }
-  fputs("outcome", file);
-  for (size_t i = 0; i < names->count; i++)
-    fprintf(file, ",%s", names->item[i].name);
-  fputc('\n', file);
-}
-
-/* The values of the swept keys of this run, which are numbers: words take no lists. */
-static void write_keys(FILE *file, const ZpReport *report, size_t run, double *value) {
-  size_t keys;
-  zp_scenario_lists(report->scenario, &keys);
-  zp_scenario_values(report->scenario, run, value);
-  for (size_t i = 0; i < keys; i++) {
-    put_number(file, value[i]);
-    fputc(',', file);
-  }
-}
-
-static void write_row(FILE *file, const ZpResult *result, const ZpScalarNames *names) {
-  fputs(zp_outcome_name(result->outcome), file);
-  for (size_t i = 0; i < names->count; i++) {
-    fputc(',', file);
-    put_number(file, zp_scalar_at(result, names, i));
+/* A row of names, or of a run if `result` is not NULL. The outcome is between the keys and the numbers. */
+static void write_row(FILE *file, const ZpCases *cases, const ZpResult *result) {
+  for (size_t i = 0; i <= cases->columns; i++) {
+    const size_t column = i - (i > cases->keys);
+    if (i) fputc(',', file);
+    if (i == cases->keys)
+      fputs(result ? zp_outcome_name(result->outcome) : "outcome", file);
+    else if (result)
+      put_number(file, cases->value[column]);
+    else
+      fputs(cases->column[column].name, file);
   }
   fputc('\n', file);
 }
 
 static ZpStatus write_sweep(FILE *file, const ZpReport *report, ZpError *err) {
-  size_t keys;
-  ZpScalarNames names;
-  zp_scenario_lists(report->scenario, &keys);
-  double *value = calloc(keys + 1, sizeof *value);
-  if (!value || !zp_report_scalars(report, false, &names)) {
-    free(value);
-    return zp_fail_memory(err);
-  }
-  write_head(file, report, &names);
-  for (size_t run = 0; run < report->count; run++) {
-    write_keys(file, report, run, value);
-    write_row(file, zp_report_result(report, run), &names);
-  }
-  free(names.item);
-  free(value);
-  return ZP_OK;
+  ZpCases cases;
+  const bool open = zp_cases_open(report, &cases);
+  if (open) write_row(file, &cases, NULL);
+  for (size_t run = 0; open && run < report->count; run++)
+    write_row(file, &cases, zp_cases_read(&cases, run));
+  zp_cases_close(&cases);
+  return open ? ZP_OK : zp_fail_memory(err);
 }
 
 ZpStatus zp_csv_write(const ZpReport *report, ZpError *err) {

@@ -3,7 +3,6 @@
 #include "io/data.h"
 
 #include <ctype.h>
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,6 +10,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
+#include "io/file.h"
 #include "io/number.h"
 #include "io/source.h"
 #include "io/units.h"
@@ -38,18 +38,12 @@ void zp_data_files_destroy(ZpDataFiles *files) {
 }
 
 static ZpStatus read_text(const char *key, const char *path, char **text, ZpError *err) {
-  FILE *file = fopen(path, "rb");
-  if (!file)
-    return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE,
-                   "%s: %.300s: cannot be opened: %s%s", key, path, strerror(errno),
+  size_t size;
+  ZpError reason;
+  ZpStatus status = zp_file_read(path, LARGEST_FILE, text, &size, &reason);
+  if (status != ZP_OK)
+    return zp_fail(err, status, "%s: %s%s", key, reason.message,
                    strchr(path, ',') ? "; several files are separated by semicolons" : "");
-  *text = malloc(LARGEST_FILE + 1);
-  size_t size = *text ? fread(*text, 1, LARGEST_FILE, file) : 0;
-  bool failed = ferror(file) != 0;
-  fclose(file); /* nothing was written */
-  if (!*text) return zp_fail_memory(err);
-  (*text)[size] = 0;
-  if (failed) return zp_fail(err, ZP_MACHINE, "%s: %.300s: cannot be read: %s", key, path, strerror(errno));
   if (size == LARGEST_FILE) return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: longer than 16 MB", key, path);
   if (size > 1 && (memcmp(*text, "\xFF\xFE", 2) == 0 || memcmp(*text, "\xFE\xFF", 2) == 0))
     return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: text in UTF-16; save it as CSV in UTF-8", key, path);
@@ -364,19 +358,26 @@ ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *v
                         data->cell[column], text);
 }
 
-bool zp_data_unit(const char *name, const char *stem, const char *unit, double *factor, double *divisor) {
+bool zp_data_unit(const char *name, const char *stem, const char *unit, ZpUnitScale *scale) {
   size_t length = strlen(stem);
-  ZpUnitScale scale;
-  *factor = *divisor = 1;
+  *scale = (ZpUnitScale){.decimal = true};
   if (strncasecmp(name, stem, length) != 0) return false;
   if (name[length] == 0) return true;
-  if (name[length] != '_' || name[length + 1] == 0) return false;
-  if (zp_unit_scale(name + length + 1, unit, &scale, NULL) != ZP_OK) return false;
-  if (!scale.decimal)
-    *factor = scale.factor;
-  else if (scale.exponent < 0)
-    *divisor = pow(10, -scale.exponent);
-  else
-    *factor = pow(10, scale.exponent);
-  return true;
+  return name[length] == '_' && name[length + 1] != 0 && zp_unit_scale(name + length + 1, unit, scale, NULL) == ZP_OK;
+}
+
+ZpStatus zp_data_read_column(const ZpData *data, const char *stem, const char *unit, const char *example, double *value,
+                             ZpError *err) {
+  ZpUnitScale scale;
+  size_t column = 0;
+  while (column < data->columns && !zp_data_unit(data->cell[column], stem, unit, &scale))
+    column++;
+  if (column == data->columns)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: %.200s: no column %s_%s or %s", data->key, data->path, stem, unit, example);
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < data->rows && status == ZP_OK; i++) {
+    status = zp_data_number(data, i, column, &value[i], err);
+    value[i] = zp_unit_apply(&scale, value[i], 1);
+  }
+  return status;
 }

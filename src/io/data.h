@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <zipact/error.h>
+#include "io/units.h"
 
 /* CSV files as read: a row of names, then rows of cells. Empty lines and lines that start with # are ignored. The row
  * of names determines the separator: semicolon, tab or comma; if it is not a comma, numbers may have a decimal comma.
@@ -50,8 +50,12 @@ int zp_data_line(const ZpData *data, size_t row);
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err);
 
 /* Is the header `name` equal to `stem`, in any case of its letters, or to `stem` and a unit, as "stroke_mm"? Then the
- * factor that converts it to SI, as number / divisor if that is exact. False if the stem differs or the unit is not one
- * of `unit`. */
-bool zp_data_unit(const char *name, const char *stem, const char *unit, double *factor, double *divisor);
+ * scale that converts it to SI. False if the stem differs or the unit is not one of `unit`. */
+bool zp_data_unit(const char *name, const char *stem, const char *unit, ZpUnitScale *scale);
+
+/* The column whose header is `stem` and a unit of `unit` => value [rows], SI. ZP_BAD_INPUT if there is none, with an
+ * `example` of its header, or a cell is not a number. */
+ZpStatus zp_data_read_column(const ZpData *data, const char *stem, const char *unit, const char *example, double *value,
+                             ZpError *err);
 
 #endif

@@ -94,29 +94,12 @@ static ZpStatus read_text(const Kind *kind, ZpDriveRows *rows, ZpError *err) {
 
 /* -- drive.file ----------------------------------------------------------------------------------- */
 
-static ZpStatus read_column(const Kind *kind, const ZpData *data, bool time, double *value, ZpError *err) {
-  const char *stem = time ? "time" : kind->stem, *unit = time ? "s" : kind->unit;
-  double factor = 1, divisor = 1;
-  size_t column = 0;
-  while (column < data->columns && !zp_data_unit(data->cell[column], stem, unit, &factor, &divisor))
-    column++;
-  if (column == data->columns)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: %.200s: no column %s_%s or %s", kind->file, data->path, stem, unit,
-                   time ? "time_ms" : kind->example);
-  ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < data->rows && status == ZP_OK; i++) {
-    status = zp_data_number(data, i, column, &value[i], err);
-    value[i] = value[i] * factor / divisor;
-  }
-  return status;
-}
-
 static ZpStatus read_file(const Kind *kind, ZpDriveRows *rows, ZpError *err) {
   ZpData data;
   ZpStatus status = zp_data_read(kind->file, kind->path, &data, err);
   if (status == ZP_OK) status = allocate(rows, data.rows, err);
-  if (status == ZP_OK) status = read_column(kind, &data, true, rows->time, err);
-  if (status == ZP_OK) status = read_column(kind, &data, false, rows->voltage, err);
+  if (status == ZP_OK) status = zp_data_read_column(&data, "time", "s", "time_ms", rows->time, err);
+  if (status == ZP_OK) status = zp_data_read_column(&data, kind->stem, kind->unit, kind->example, rows->voltage, err);
   size_t row;
   ZpDriveTable read = zp_drive_rows_table(rows);
   const char *fault = status == ZP_OK ? zp_drive_table_fault(&read, &row) : NULL;

@@ -22,7 +22,6 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
-#include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
 #include "io/shows.h"
@@ -153,48 +152,22 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStud
   free(zipped);
 }
 
-/* The numbers of a shape: for every node of each ribbon, or for every station. */
-typedef struct Field {
-  Meaning meaning;
-  bool of_nodes;
-  const double *(*of)(const ZpShape *shape);
-} Field;
-
-#define ZP_FIELD(name)                                                                                                 \
-  static const double *name##_of(const ZpShape *shape) {                                                               \
-    return shape->name;                                                                                                \
-  }
-ZP_FIELD(x)
-ZP_FIELD(y)
-ZP_FIELD(gap)
-ZP_FIELD(line_force)
-ZP_FIELD(insulator_field)
-ZP_FIELD(stress)
-
-static const Field fields[] = {
-    {{"x", "m", "horizontal position of a node; [frame][ribbon][node]"}, true, x_of},
-    {{"y", "m", "height of a node; [frame][ribbon][node]"}, true, y_of},
-    {{"gap", "m", "distance between the faces; [frame][node]"}, false, gap_of},
-    {{"line_force", "N/m", "attraction per length; [frame][node]"}, false, line_force_of},
-    {{"insulator_field", "V/m", "field in the insulators; [frame][node]"}, false, insulator_field_of},
-    {{"stress", "Pa", "largest stress of the metal in the section; [frame][ribbon][node]"}, true, stress_of},
-};
-
 /* Write one quantity of all frames, ribbon after ribbon; nothing if the shapes do not have it. */
-static void put_field(Store *store, hid_t group, const ZpShapes *shapes, const Field *field) {
+static void put_field(Store *store, hid_t group, const ZpShapes *shapes, const ZpShapeArray *field) {
   const size_t ribbons = field->of_nodes ? shapes->ribbons : 1, nodes = shapes->nodes;
   const hsize_t with_ribbons[] = {shapes->frames, ribbons, nodes}, without[] = {shapes->frames, nodes};
   const ZpShape first = zp_shapes_get(shapes, 0);
-  if (!field->of(&first)) return;
+  if (!zp_shape_array(&first, field)) return;
   double *value = numbers(store, shapes->frames * ribbons * nodes), *next = value;
   for (size_t i = 0; i < shapes->frames && !store->bad; i++) {
     const ZpShape shape = zp_shapes_get(shapes, i);
-    const double *from = field->of(&shape);
+    const double *from = zp_shape_array(&shape, field);
     for (size_t r = 0; r < ribbons; r++)
       for (size_t n = 0; n < nodes; n++)
         *next++ = clean(from[n * ribbons + r]);
   }
-  put_reals(store, group, &field->meaning, field->of_nodes ? 3 : 2, field->of_nodes ? with_ribbons : without, value);
+  put_reals(store, group, &(Meaning){field->name, field->unit, field->help}, field->of_nodes ? 3 : 2,
+            field->of_nodes ? with_ribbons : without, value);
   free(value);
 }
 
@@ -202,8 +175,8 @@ static void put_shapes(Store *store, hid_t parent, const ZpShapes *shapes, ZpStu
   if (!shapes) return;
   hid_t group = open_group(store, parent, "shapes");
   put_frames(store, group, shapes, study);
-  for (size_t k = 0; k < sizeof fields / sizeof fields[0]; k++)
-    put_field(store, group, shapes, &fields[k]);
+  for (const ZpShapeArray *field = zp_shape_arrays; field->name; field++)
+    put_field(store, group, shapes, field);
   H5Gclose(group);
 }
 
@@ -247,45 +220,31 @@ static void put_run(Store *store, hid_t parent, const ZpResult *result) {
 /* Number of rows that are written at a time. */
 enum { BLOCK = 1024 };
 
-/* The table of a sweep: the swept keys, then the scalars; the outcomes are separate. */
+/* The table of a sweep, in HDF5: a set per column, and one of the outcomes. */
 typedef struct Columns {
-  const ZpReport *report;
-  const int *key; /* [keys]; a choice is the number of its word */
-  size_t keys;
-  ZpScalarNames names;
+  ZpCases cases;
   hid_t type, outcomes;
-  hid_t *set;    /* [keys + names.count] */
-  double *value; /* [keys + names.count][BLOCK] */
-  double *given; /* [keys] values of the current row */
+  hid_t *set;    /* [columns] */
+  double *value; /* [columns][BLOCK] */
   char outcome[BLOCK][OUTCOME_SIZE];
 } Columns;
 
-static void open_key(Store *store, hid_t group, int key, hsize_t rows, hid_t *set) {
-  char name[ZP_KEY_COLUMN_SIZE];
-  const ZpKey *k = zp_key(key);
-  zp_key_column(key, name, sizeof name);
-  *set = open_array(store, group, &(Meaning){name, k->unit, k->help}, H5T_IEEE_F64LE, 1, &rows);
-}
-
-static void open_scalar(Store *store, hid_t group, const ZpScalar *scalar, hsize_t rows, hid_t *set) {
-  const Meaning meaning = {.name = scalar->name, .unit = scalar->unit};
-  *set = open_array(store, group, &meaning, H5T_IEEE_F64LE, 1, &rows);
-}
-
 static void open_columns(Store *store, hid_t group, Columns *c) {
-  const hsize_t rows = c->report->count;
+  const hsize_t rows = c->cases.report->count;
   const Meaning outcome = {.name = "outcome", .help = "outcome of the run"};
-  for (size_t i = 0; i < c->keys; i++)
-    open_key(store, group, c->key[i], rows, &c->set[i]);
   c->type = H5Tcopy(H5T_C_S1);
   if (!is_bad(store, c->type)) is_bad(store, H5Tset_size(c->type, OUTCOME_SIZE));
-  c->outcomes = open_array(store, group, &outcome, c->type, 1, &rows);
-  for (size_t i = 0; i < c->names.count; i++)
-    open_scalar(store, group, &c->names.item[i], rows, &c->set[c->keys + i]);
+  for (size_t i = 0; i <= c->cases.columns; i++) {
+    const ZpCaseColumn *column = &c->cases.column[i];
+    if (i == c->cases.keys) c->outcomes = open_array(store, group, &outcome, c->type, 1, &rows);
+    if (i < c->cases.columns)
+      c->set[i] =
+          open_array(store, group, &(Meaning){column->name, column->unit, column->help}, H5T_IEEE_F64LE, 1, &rows);
+  }
 }
 
 static void close_columns(const Columns *c) {
-  for (size_t i = 0; i < c->keys + c->names.count; i++)
+  for (size_t i = 0; i < c->cases.columns; i++)
     if (c->set[i] > 0) H5Dclose(c->set[i]);
   if (c->outcomes > 0) H5Dclose(c->outcomes);
   H5Tclose(c->type);
@@ -293,22 +252,18 @@ static void close_columns(const Columns *c) {
 
 /* Copy row `run` to row `place` of the block. */
 static void take_row(Columns *c, size_t run, size_t place) {
-  const ZpResult *result = zp_report_result(c->report, run);
-  double *value = c->value + place;
-  zp_scenario_values(c->report->scenario, run, c->given);
-  for (size_t i = 0; i < c->keys; i++, value += BLOCK)
-    *value = clean(c->given[i]);
-  for (size_t i = 0; i < c->names.count; i++, value += BLOCK)
-    *value = clean(zp_scalar_at(result, &c->names, i));
+  const ZpResult *result = zp_cases_read(&c->cases, run);
+  for (size_t i = 0; i < c->cases.columns; i++)
+    c->value[i * BLOCK + place] = clean(c->cases.value[i]);
   memset(c->outcome[place], 0, OUTCOME_SIZE);
   snprintf(c->outcome[place], OUTCOME_SIZE, "%s", zp_outcome_name(result->outcome));
 }
 
 static void put_block(Store *store, const Columns *c, size_t from, hsize_t rows) {
-  const hsize_t all = c->report->count, start = from;
+  const hsize_t all = c->cases.report->count, start = from;
   hid_t here = H5Screate_simple(1, &rows, NULL), there = H5Screate_simple(1, &all, NULL);
   if (!is_bad(store, there)) is_bad(store, H5Sselect_hyperslab(there, H5S_SELECT_SET, &start, NULL, &rows, NULL));
-  for (size_t i = 0; i < c->keys + c->names.count && !store->bad; i++)
+  for (size_t i = 0; i < c->cases.columns && !store->bad; i++)
     is_bad(store, H5Dwrite(c->set[i], H5T_NATIVE_DOUBLE, here, there, H5P_DEFAULT, c->value + i * BLOCK));
   if (!store->bad) is_bad(store, H5Dwrite(c->outcomes, c->type, here, there, H5P_DEFAULT, c->outcome));
   H5Sclose(here);
@@ -316,9 +271,10 @@ static void put_block(Store *store, const Columns *c, size_t from, hsize_t rows)
 }
 
 static void put_columns(Store *store, hid_t group, Columns *c) {
+  const size_t count = c->cases.report->count;
   open_columns(store, group, c);
-  for (size_t from = 0; from < c->report->count && !store->bad; from += BLOCK) {
-    const size_t left = c->report->count - from, rows = left < BLOCK ? left : BLOCK;
+  for (size_t from = 0; from < count && !store->bad; from += BLOCK) {
+    const size_t rows = count - from < BLOCK ? count - from : BLOCK;
     for (size_t i = 0; i < rows; i++)
       take_row(c, from + i, i);
     put_block(store, c, from, rows);
@@ -329,20 +285,16 @@ static void put_columns(Store *store, hid_t group, Columns *c) {
 static void put_table(Store *store, const ZpReport *report) {
   Columns *c = calloc(1, sizeof *c);
   hid_t group = open_group(store, store->file, "table");
-  if (!c || !zp_report_scalars(report, false, &c->names)) {
-    store->bad = true;
-  } else {
-    c->report = report;
-    c->key = zp_scenario_lists(report->scenario, &c->keys);
-    c->set = calloc(c->keys + c->names.count + 1, sizeof *c->set);
-    c->value = calloc((c->keys + c->names.count + 1) * BLOCK, sizeof *c->value);
-    c->given = calloc(c->keys + 1, sizeof *c->given);
-    store->bad = store->bad || !c->set || !c->value || !c->given;
-    if (!store->bad) put_columns(store, group, c);
-    free(c->names.item);
+  if (c && zp_cases_open(report, &c->cases)) {
+    c->set = calloc(c->cases.columns + 1, sizeof *c->set);
+    c->value = calloc((c->cases.columns + 1) * BLOCK, sizeof *c->value);
+  }
+  if (!c || !c->set || !c->value) store->bad = true;
+  if (!store->bad) put_columns(store, group, c);
+  if (c) {
+    zp_cases_close(&c->cases);
     free(c->set);
     free(c->value);
-    free(c->given);
   }
   free(c);
   H5Gclose(group);

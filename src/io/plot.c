@@ -7,7 +7,6 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "io/cases.h"
 #include "io/number.h"
 #include "io/sampled.h"
 #include "io/units.h"
@@ -45,31 +44,20 @@ static bool add_series(ZpPlot *plot, const ZpTable *table) {
   return plot->column != NULL;
 }
 
-/* List keys, then the numbers of the summary, as in table.csv. False if there is no memory. */
+/* False if there is no memory. */
 static bool add_cases(ZpPlot *plot) {
-  const ZpReport *report = plot->report;
-  ZpScalarNames names;
-  size_t keys;
-  const int *key = zp_scenario_lists(report->scenario, &keys);
-  if (!zp_report_scalars(report, false, &names)) return false;
-  double *value = calloc(keys + 1, sizeof *value);
-  plot->column = calloc(keys + names.count + 1, sizeof *plot->column);
-  const bool done = value && plot->column;
-  for (size_t i = 0; done && i < keys; i++) {
-    char name[ZP_KEY_COLUMN_SIZE];
-    zp_key_column(key[i], name, sizeof name);
-    add_column(plot, name, zp_key(key[i])->unit, "");
-  }
-  for (size_t i = 0; done && i < names.count; i++)
-    add_column(plot, names.item[i].name, names.item[i].unit, "");
-  for (size_t run = 0; done && run < report->count; run++) {
-    zp_scenario_values(report->scenario, run, value);
+  ZpCases cases;
+  const bool open = zp_cases_open(plot->report, &cases);
+  if (open) plot->column = calloc(cases.columns + 1, sizeof *plot->column);
+  for (size_t i = 0; plot->column && i < cases.columns; i++)
+    add_column(plot, cases.column[i].name, cases.column[i].unit, "");
+  for (size_t run = 0; plot->column && run < plot->report->count; run++) {
+    zp_cases_read(&cases, run);
     for (size_t i = 0; i < plot->columns; i++)
-      add_number(plot, i, i < keys ? value[i] : zp_scalar_at(zp_report_result(report, run), &names, i - keys));
+      add_number(plot, i, cases.value[i]);
   }
-  free(names.item);
-  free(value);
-  return done;
+  zp_cases_close(&cases);
+  return plot->column != NULL;
 }
 
 const ZpPlotColumn *zp_plot_column(const ZpPlot *plot, const char *name) {

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "io/cases.h"
 
 bool zp_report_is_sweep(const ZpReport *report) {
   size_t lists = 0;
@@ -62,10 +63,59 @@ bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names
   return true;
 }
 
-double zp_scalar_at(const ZpResult *result, const ZpScalarNames *names, size_t index) {
-  const char *name = names->item[index].name;
-  const bool here = index < result->scalars && strcmp(result->scalar[index].name, name) == 0; /* in most results */
-  return here ? result->scalar[index].value : zp_result_get(result, name);
+bool zp_cases_open(const ZpReport *report, ZpCases *cases) {
+  ZpScalarNames names;
+  *cases = (ZpCases){.report = report};
+  const int *key = zp_scenario_lists(report->scenario, &cases->keys);
+  if (!zp_report_scalars(report, false, &names)) return false;
+  cases->columns = cases->keys + names.count;
+  cases->column = calloc(cases->columns + 1, sizeof *cases->column);
+  cases->value = calloc(cases->columns + 1, sizeof *cases->value);
+  const bool done = cases->column && cases->value;
+  for (size_t i = 0; i < cases->columns && done; i++) {
+    ZpCaseColumn *column = &cases->column[i];
+    if (i < cases->keys) {
+      zp_key_column(key[i], column->name, sizeof column->name);
+      column->unit = zp_key(key[i])->unit;
+      column->help = zp_key(key[i])->help;
+    } else {
+      snprintf(column->name, sizeof column->name, "%s", names.item[i - cases->keys].name);
+      column->unit = names.item[i - cases->keys].unit;
+    }
+  }
+  free(names.item);
+  return done;
+}
+
+void zp_cases_close(ZpCases *cases) {
+  free(cases->column);
+  free(cases->value);
+}
+
+const ZpResult *zp_cases_read(const ZpCases *cases, size_t run) {
+  const ZpResult *result = zp_report_result(cases->report, run);
+  zp_scenario_values(cases->report->scenario, run, cases->value);
+  for (size_t i = 0; i < cases->columns - cases->keys; i++) {
+    const char *name = cases->column[cases->keys + i].name;
+    const bool here = i < result->scalars && strcmp(result->scalar[i].name, name) == 0; /* in most results */
+    cases->value[cases->keys + i] = here ? result->scalar[i].value : zp_result_get(result, name);
+  }
+  return result;
+}
+
+const ZpShapeArray zp_shape_arrays[] = {
+    {"x", "m", "horizontal position of a node; [frame][ribbon][node]", true, offsetof(ZpShape, x)},
+    {"y", "m", "height of a node; [frame][ribbon][node]", true, offsetof(ZpShape, y)},
+    {"gap", "m", "distance between the faces; [frame][node]", false, offsetof(ZpShape, gap)},
+    {"line_force", "N/m", "attraction per length; [frame][node]", false, offsetof(ZpShape, line_force)},
+    {"insulator_field", "V/m", "field in the insulators; [frame][node]", false, offsetof(ZpShape, insulator_field)},
+    {"stress", "Pa", "largest stress of the metal in the section; [frame][ribbon][node]", true,
+     offsetof(ZpShape, stress)},
+    {0},
+};
+
+const double *zp_shape_array(const ZpShape *shape, const ZpShapeArray *array) {
+  return *(const double *const *)((const char *)shape + array->offset);
 }
 
 size_t zp_result_numbers(const ZpResult *result) {

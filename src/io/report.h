@@ -32,8 +32,38 @@ const ZpResult *zp_report_single(const ZpReport *report);
  * there is no memory. */
 bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names);
 
-/* Scalar names->item[index] of a result; NAN if it does not have it. */
-double zp_scalar_at(const ZpResult *result, const ZpScalarNames *names, size_t index);
+/* A column of the table with a row per run. */
+typedef struct ZpCaseColumn {
+  char name[ZP_KEY_COLUMN_SIZE];
+  const char *unit, *help; /* help NULL: none */
+} ZpCaseColumn;
+
+/* That table: first the swept keys, where a choice is the number of its word, then the scalars of all runs. */
+typedef struct ZpCases {
+  const ZpReport *report;
+  size_t keys, columns;
+  ZpCaseColumn *column; /* [columns] */
+  double *value;        /* [columns] of the row that was read last */
+} ZpCases;
+
+/* False if there is no memory. To be closed in every case. */
+bool zp_cases_open(const ZpReport *report, ZpCases *cases);
+void zp_cases_close(ZpCases *cases);
+
+/* Read row `run`; NAN for a number that the run does not have. => its result, valid until the next call */
+const ZpResult *zp_cases_read(const ZpCases *cases, size_t run);
+
+/* The numbers of a shape: of every node of each ribbon, or of every station. */
+typedef struct ZpShapeArray {
+  const char *name, *unit, *help;
+  bool of_nodes;
+  size_t offset; /* of its pointer in a ZpShape */
+} ZpShapeArray;
+
+extern const ZpShapeArray zp_shape_arrays[]; /* the last has no name */
+
+/* NULL if the shape does not have it. */
+const double *zp_shape_array(const ZpShape *shape, const ZpShapeArray *array);
 
 /* Number of values in the series, shapes and field of a result. */
 size_t zp_result_numbers(const ZpResult *result);

@@ -14,11 +14,11 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/fail.h"
 #include "io/cases.h"
+#include "io/file.h"
 #include "io/plan.h"
 #include "io/range.h"
 #include "io/sampled.h"
@@ -571,25 +571,10 @@ ZpStatus zp_scenario_override(ZpScenario *s, const char *text, size_t size, cons
   return read_layer(s, text, size, name, s->set, err);
 }
 
-/* (open file) => its text, at most one byte more than allowed, to be freed. */
-static ZpStatus read_file(FILE *file, const char *path, char **text, size_t *size, ZpError *err) {
-  *text = malloc(ZP_YAML_LARGEST + 1);
-  if (!*text) return zp_fail_memory(err);
-  errno = 0;
-  *size = fread(*text, 1, ZP_YAML_LARGEST + 1, file);
-  if (!ferror(file)) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "%.300s: cannot be read: %s", path, strerror(errno));
-}
-
 ZpStatus zp_scenario_read(ZpScenario *s, const char *path, ZpError *err) {
-  char *text = NULL;
-  size_t size = 0;
-  FILE *file = fopen(path, "rb");
-  if (!file) /* a missing file is wrong input; a file that must not be read is a failure of the machine */
-    return zp_fail(err, errno == ENOENT || errno == ENOTDIR ? ZP_BAD_INPUT : ZP_MACHINE, "%.300s: cannot be opened: %s",
-                   path, strerror(errno));
-  ZpStatus status = read_file(file, path, &text, &size, err);
-  fclose(file); /* nothing was written */
+  char *text;
+  size_t size;
+  ZpStatus status = zp_file_read(path, ZP_YAML_LARGEST + 1, &text, &size, err);
   if (status == ZP_OK) status = zp_scenario_parse(s, text, size, path, err);
   free(text);
   return status;

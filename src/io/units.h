@@ -15,6 +15,13 @@ typedef struct ZpUnitScale {
   double factor;
 } ZpUnitScale;
 
+/* A number in that unit, over `per`, in SI. */
+double zp_unit_apply(const ZpUnitScale *scale, double number, double per);
+
+/* "20 um": a number and a unit like `unit`, or without one in SI; per cent for the units "1" and "count" => SI, rounded
+ * to 12 digits; NAN if it does not begin with a number. ZP_BAD_INPUT as zp_unit_scale. */
+ZpStatus zp_quantity_read(const char *text, const char *unit, double *value, ZpError *err);
+
 /* (unit as people write it, SI unit) => scale. ZP_BAD_INPUT with a message that is a part of a sentence, "unknown unit
  * "xyz"" or "not a length"; ZP_MACHINE if the UDUNITS database cannot be read. Several threads may call it. */
 ZpStatus zp_unit_scale(const char *from, const char *to, ZpUnitScale *scale, ZpError *err);

@@ -21,6 +21,9 @@
 #define BYTE_ORDER_NAME "BigEndian"
 #endif
 
+/* Those of a shape that are no positions. */
+static const ZpShapeArray *const data_arrays = &zp_shape_arrays[2];
+
 /* Arrays of a frame in the order of their bytes; the offset increases from one to the next. */
 typedef struct Layout {
   size_t ribbons, nodes, points;
@@ -46,10 +49,8 @@ static void write_head(FILE *file, const ZpShape *shape, Layout *l) {
           "      <PointData>\n",
           l->points, l->lines);
   declare(file, l, "Int64", "ribbon", 1, l->points * sizeof(int64_t));
-  if (shape->gap) declare(file, l, "Float64", "gap", 1, l->points * sizeof(double));
-  if (shape->line_force) declare(file, l, "Float64", "line_force", 1, l->points * sizeof(double));
-  if (shape->insulator_field) declare(file, l, "Float64", "insulator_field", 1, l->points * sizeof(double));
-  if (shape->stress) declare(file, l, "Float64", "stress", 1, l->points * sizeof(double));
+  for (const ZpShapeArray *array = data_arrays; array->name; array++)
+    if (zp_shape_array(shape, array)) declare(file, l, "Float64", array->name, 1, l->points * sizeof(double));
   fputs("      </PointData>\n      <Points>\n", file);
   declare(file, l, "Float64", "Points", 3, 3 * l->points * sizeof(double));
   fputs("      </Points>\n      <Lines>\n", file);
@@ -68,21 +69,13 @@ static void put_int(FILE *file, size_t value) {
   fwrite(&number, sizeof number, 1, file);
 }
 
-/* A value of a pair of nodes, written once for each ribbon. */
-static void put_pairs(FILE *file, const Layout *l, const double *value) {
-  if (!value) return;
-  put_length(file, l->points * sizeof(double));
-  for (size_t r = 0; r < l->ribbons; r++)
-    fwrite(value, sizeof *value, l->nodes, file);
-}
-
-/* A value of each node, ribbon after ribbon. */
-static void put_nodes(FILE *file, const Layout *l, const double *value) {
+/* A value of each node, ribbon after ribbon; that of a pair of nodes once for each ribbon. */
+static void put_values(FILE *file, const Layout *l, bool of_nodes, const double *value) {
   if (!value) return;
   put_length(file, l->points * sizeof(double));
   for (size_t r = 0; r < l->ribbons; r++)
     for (size_t i = 0; i < l->nodes; i++)
-      fwrite(&value[i * l->ribbons + r], sizeof *value, 1, file);
+      fwrite(&value[of_nodes ? i * l->ribbons + r : i], sizeof *value, 1, file);
 }
 
 /* Points are written ribbon after ribbon, so that each polyline has consecutive numbers. */
@@ -102,10 +95,8 @@ static void write_frame(FILE *file, const ZpShape *shape, const ZpShapes *film) 
   put_length(file, l.points * sizeof(int64_t));
   for (size_t i = 0; i < l.points; i++)
     put_int(file, i / nodes);
-  put_pairs(file, &l, shape->gap);
-  put_pairs(file, &l, shape->line_force);
-  put_pairs(file, &l, shape->insulator_field);
-  put_nodes(file, &l, shape->stress);
+  for (const ZpShapeArray *array = data_arrays; array->name; array++)
+    put_values(file, &l, array->of_nodes, zp_shape_array(shape, array));
   put_points(file, &l, shape);
   put_length(file, l.points * sizeof(int64_t));
   for (size_t i = 0; i < l.points; i++)

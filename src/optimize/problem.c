@@ -1,12 +1,10 @@
 #include "optimize/problem.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
-#include "io/number.h"
 #include "io/range.h"
 #include "io/units.h"
 #include "io/value.h"
@@ -104,30 +102,10 @@ ZpStatus zp_problem_read(const ZpActuatorDef *def, ZpProblem *problem, ZpError *
 
 /* -- outputs ---------------------------------------------------------------------------------------- */
 
-/* The unit of a bound on an output with the SI unit `of`. A number without a unit may be in per cent, as for keys. */
-static ZpStatus read_unit(const char *unit, const char *of, ZpUnitScale *scale, ZpError *err) {
-  const bool pure = strcmp(of, "1") == 0 || strcmp(of, "count") == 0;
-  *scale = (ZpUnitScale){.decimal = true, .exponent = pure && strcmp(unit, "%") == 0 ? -2 : 0};
-  if (!*unit || scale->exponent != 0) return ZP_OK;
-  return pure ? zp_fail(err, ZP_BAD_INPUT, "this output has no unit") : zp_unit_scale(unit, of, scale, err);
-}
-
-/* "15 mm": a number and, if letters follow, a unit. */
 static ZpStatus read_bound(ZpGoal *goal, const ZpScalar *scalar, ZpError *err) {
-  ZpUnitScale scale = {.decimal = true};
   ZpError reason = {ZP_BAD_INPUT, "not a number"};
-  char number[sizeof goal->bound_text];
-  snprintf(number, sizeof number, "%s", goal->bound_text);
-  size_t digits = strcspn(number, " ");
-  while (digits > 0 && (isalpha((unsigned char)number[digits - 1]) || number[digits - 1] == '%'))
-    digits--;
-  const char *unit = goal->bound_text + digits + strspn(goal->bound_text + digits, " ");
-  number[digits] = 0;
-  ZpStatus status = digits > 0 ? read_unit(unit, scalar->unit, &scale, &reason) : ZP_OK;
-  if (status == ZP_OK && zp_number_read(number, &goal->bound) && isfinite(goal->bound)) {
-    goal->bound = zp_rounded(goal->bound * (scale.decimal ? pow(10, scale.exponent) : scale.factor));
-    return ZP_OK;
-  }
+  ZpStatus status = zp_quantity_read(goal->bound_text, scalar->unit, &goal->bound, &reason);
+  if (status == ZP_OK && isfinite(goal->bound)) return ZP_OK;
   return zp_fail(err, reason.status, "optimize.constraints: %s: \"%s\": %.200s", goal->output, goal->bound_text,
                  reason.message);
 }
