@@ -106,11 +106,13 @@ static bool are_alternatives(int a, int b) {
 }
 
 /* Do so with each pair of feature `a` and a later one, and with the feature alone; of the pairs with one in `thinned`.
- */
+ * By hand: of those with the feature that ZP_PAIR names. */
 static void for_pairs(int a, int thinned, void (*check)(int a, int b, const char *name)) {
+  const char *with = getenv("ZP_PAIR");
   for (int b = a; b < FEATURES; b++) {
     char name[128];
     if (are_alternatives(a, b) || (a != b && (a + b) % thinned != 0)) continue;
+    if (with && strcmp(features[a].name, with) != 0 && strcmp(features[b].name, with) != 0) continue;
     snprintf(name, sizeof name, "%s, %s", features[a].name, features[b].name);
     check(a, b, name);
   }

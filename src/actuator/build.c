@@ -720,7 +720,11 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity};
   model->plates.edges = &model->edge_law;
-  return zp_edges_make(&params, halves * model->L, &model->edge_law, err);
+  ZpStatus status = zp_edges_make(&params, halves * model->L, &model->edge_law, err);
+  if (status != ZP_OK || !model->has_bead) return status;
+  params.eps_m = 1;
+  model->air.edges = &model->air_edges;
+  return zp_edges_make(&params, halves * model->L, &model->air_edges, err);
 }
 #endif
 

@@ -110,12 +110,12 @@ struct ZpModel {
   ZpLeakParams leak;
   bool has_bead; /* the film ends, and beyond it is air */
   ZpBeadParams bead;
-  ZpPlatesParams air;      /* the law there */
-  ZpOuterParams outer;     /* of liquid outside */
-  size_t own;              /* unknowns of the laws at each station, in motion */
-  size_t kept;             /* numbers of state of all laws, in motion */
-  double internal_damping; /* s */
-  ZpEdgeLaw edge_law;      /* of plates, where electro.edges */
+  ZpPlatesParams air;            /* the law there */
+  ZpOuterParams outer;           /* of liquid outside */
+  size_t own;                    /* unknowns of the laws at each station, in motion */
+  size_t kept;                   /* numbers of state of all laws, in motion */
+  double internal_damping;       /* s */
+  ZpEdgeLaw edge_law, air_edges; /* of plates and air, where electro.edges */
   ZpFieldParams cross_section;
   ZpWaveform waveform;
   ZpSupply supply;

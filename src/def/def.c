@@ -572,9 +572,15 @@ ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
   return zp_rule_fail(zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def), "", &wet, err);
 }
 
+/* The liquid is everywhere unless the scenario asks for a bead. */
+static bool is_bath_by_default(const ZpActuatorDef *def) {
+  return def->electro.edges || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity);
+}
+
 ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def) {
   if (!is_ours(def)) return ZP_LIQUID_NONE;
   if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
+  if (is_bath_by_default(def)) return ZP_LIQUID_NONE;
   return zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def) ? ZP_LIQUID_NONE : ZP_LIQUID_BEAD;
 }
 

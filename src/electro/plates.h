@@ -33,8 +33,8 @@ typedef struct ZpPlatesParams {
   double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
 
   const struct ZpEdgeLaw *edges;    /* what lateral edges add, edges.h; NULL without */
-  const struct ZpPlatesParams *air; /* the law where there is no liquid; k, relative, d, h_per_volt and h_least of it
-                                       count. NULL: liquid is everywhere */
+  const struct ZpPlatesParams *air; /* the law where there is no liquid; k, relative, d, h_per_volt, h_least and edges
+                                       of it count. NULL: liquid is everywhere */
 } ZpPlatesParams;
 
 /* Written by zp_plates_gaps. */

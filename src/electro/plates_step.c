@@ -224,7 +224,7 @@ static void covered_elements(const ZpPlatesParams *p, const ZpPlatesEval *e0, co
   Laws wet = laws_of(p, U0, U1), dry = laws_of(p->air, U0, U1);
   for (size_t i = 0, count; i + 1 < p->nodes; i += count > 0 ? count : 1) {
     double part = e1->cover->part[i];
-    count = wet.count == 1 ? alike_from(p, e1->cover, i) : 0;
+    count = wet.count == 1 && !p->edges ? alike_from(p, e1->cover, i) : 0;
     if (count > 0)
       alike_elements(i, count, part == 1 ? &wet : &dry, part == 1 ? p->d : p->air->d, e0, e1, s);
     else
@@ -538,11 +538,39 @@ double zp_plates_capacitance(const ZpPlatesParams *p, double U, double g) {
   return capacitance_at(p, U, g);
 }
 
-ZpPlatesPlace zp_plates_place(const ZpPlatesParams *p, size_t at) {
+/* Where the part of an element begins that its sampled point q stands for, 0 .. 1. */
+static double begin_of_place(size_t q) {
+  double sum = 0;
+  for (size_t k = 0; k < q; k++)
+    sum += gauss_weight[k];
+  return sum;
+}
+
+/* A place is wet by the share of its part of the element that the cover has. */
+static double wet_share(const ZpPlatesParams *p, const ZpCover *cover, size_t i, size_t q) {
+  double part = zp_cover_part(cover, i), begin = begin_of_place(q), weight = gauss_weight[q];
+  if (part == 0 || part == 1) return part;
+  double before = i >= p->platform_end ? 1 - begin - weight : begin;
+  return fmin(fmax((part - before) / weight, 0), 1);
+}
+
+ZpPlatesPlace zp_plates_place(const ZpPlatesParams *p, const ZpCover *cover, size_t at) {
   size_t i = at / ZP_PLATES_PLACES, q = at % ZP_PLATES_PLACES;
-  if (q == GAUSS) return (ZpPlatesPlace){i, 0, 0, i >= p->platform && i <= p->platform_end ? p->flat_length : 0};
-  if (i + 1 == p->nodes) return (ZpPlatesPlace){i, 0, 0, 0};
-  return (ZpPlatesPlace){i, zp_gauss_shares(&p->level, i)[q], gauss_weight[q], 0};
+  bool platform = i >= p->platform && i <= p->platform_end;
+  if (q == GAUSS) return (ZpPlatesPlace){i, 0, 0, platform ? p->flat_length : 0, zp_plates_flat(p, cover, i)};
+  if (i + 1 == p->nodes) return (ZpPlatesPlace){i, 0, 0, 0, 0};
+  return (ZpPlatesPlace){i, zp_gauss_shares(&p->level, i)[q], gauss_weight[q], 0, wet_share(p, cover, i, q)};
+}
+
+size_t zp_plates_place_at(size_t left, double part) {
+  size_t q = 0;
+  while (q + 1 < GAUSS && part >= begin_of_place(q + 1))
+    q++;
+  return ZP_PLATES_PLACES * left + q;
+}
+
+size_t zp_plates_flat_place(size_t station) {
+  return ZP_PLATES_PLACES * station + GAUSS;
 }
 
 void zp_plates_step_of(const ZpPlatesParams *p, const ZpPlatesMean *piece, const ZpPlatesEval *e0,

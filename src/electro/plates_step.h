@@ -65,10 +65,15 @@ typedef struct ZpPlatesPlace {
   double right;  /* and the share of the next one in what is sampled */
   double weight; /* of the element's x-length; 0: it has a length of its own, */
   double length; /* m; 0 as well: there are no faces */
+  double wet;    /* share of the place that liquid covers, 0 .. 1 */
 } ZpPlatesPlace;
 
-/* Place `at` of [ZP_PLATES_PLACES N]. */
-ZpPlatesPlace zp_plates_place(const ZpPlatesParams *params, size_t at);
+/* Place `at` of [ZP_PLATES_PLACES N], with the liquid where `cover` has it; NULL: everywhere. */
+ZpPlatesPlace zp_plates_place(const ZpPlatesParams *params, const ZpCover *cover, size_t at);
+
+/* The place at this part of the element right of a station, 0 .. 1, and that of a platform's electrode at a station. */
+size_t zp_plates_place_at(size_t left, double part);
+size_t zp_plates_flat_place(size_t station);
 
 /* There: the gap, m, and the length of faces, m. */
 static inline double zp_plates_place_gap(const ZpPlatesPlace *place, const ZpPlatesEval *e) {

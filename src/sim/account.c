@@ -32,7 +32,8 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
   const ZpState *state = sim->state;
   if (!model->leaks) return (ZpLeakNow){0, 0, 0, 0};
   ZpMotion m = zp_state_motion(model, state);
-  zp_plates_gaps(&model->plates, m.x, m.y, &sim->eval.plates);
+  ZpSpan now = zp_span_of(model, state, m.x, m.vx);
+  zp_term_gaps(model, &now, &sim->eval);
   return zp_leak_now(&model->leak, &model->plates, &sim->eval.plates, state->U,
                      zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }

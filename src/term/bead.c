@@ -294,20 +294,10 @@ static void volumes(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *
   row[1] += now->bead[0].lost;
 }
 
-static const ZpRule rule[] = {
-    ZP_RULE(EQUATION, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_IS(electro.edges, false),
-            "lateral edges are modelled in a single liquid only; use liquid.model submerged"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_UNSET(insulator.resistivity),
-            "leakage in the air beyond a bead is not modelled; use liquid.model none or submerged"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_UNSET(medium.resistivity),
-            "leakage in the air beyond a bead is not modelled; use liquid.model none or submerged"),
-};
-
 const ZpTerm zp_term_bead = {.name = "bead",
                              .row = {&zp_row_bead_outside, &zp_row_bead_lost},
                              .acts = acts,
                              .force = force,
                              .stiffness = stiffness,
                              .now = volumes,
-                             .by_voltage = by_voltage,
-                             .rules = ZP_RULES_OF(rule)};
+                             .by_voltage = by_voltage};

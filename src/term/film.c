@@ -62,18 +62,28 @@ static ZpFilmEnds ends_of(const ZpModel *model, const ZpEval *e) {
   return (ZpFilmEnds){cover, e->open, {e->meniscus[0], e->meniscus[1]}};
 }
 
+/* The charge between insulators and liquid at a bead's end, as a voltage: that at the start of the step. */
+static double interface_at(const ZpModel *model, const ZpSpan *span, const ZpBeadPlace *at) {
+  if (!model->leaks) return 0;
+  const double *Z = zp_law_memory(model, &zp_term_leak, span->memory);
+  if (at->near == at->far) return Z[zp_plates_flat_place(at->near)];
+  bool left = at->near < at->far;
+  return Z[zp_plates_place_at(left ? at->near : at->far, left ? at->part : 1 - at->part)];
+}
+
 /* At the predicted middle of the step; a mean over both voltages. */
 static double meniscus_head(const ZpModel *model, const ZpSpan *span, const ZpEval *e, int half) {
   const ZpFilmParams *film = &model->film;
   ZpBeadPlace at = zp_bead_place(film, half, e->reach[half]);
+  double Z = interface_at(model, span, &at);
   double gap = zp_bead_at(&at, e->plates_start.gap), H = zp_bead_thickness(film, &at, e->plates_start.gap);
   double moved = fmax(0.5 * span->h * zp_bead_at(&at, e->film.rate), -0.5 * H);
   double level = zp_term_level(model, &at, span->start);
   if (span->w && at.near != at.far) level += 0.5 * span->h * zp_term_level(model, &at, span->w);
   double room = zp_term_meniscus_room(model, e->reach[half]).share;
   return 0.5 * room *
-         (zp_term_meniscus_head(model, span->U0, gap + moved, H + moved, level) +
-          zp_term_meniscus_head(model, span->U1, gap + moved, H + moved, level));
+         (zp_term_meniscus_head(model, span->U0 + Z, gap + moved, H + moved, level) +
+          zp_term_meniscus_head(model, span->U1 + Z, gap + moved, H + moved, level));
 }
 
 static void find_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
@@ -177,13 +187,19 @@ static void reaches(const ZpFilmParams *film, const double reach[ZP_BEADS], Shor
   }
 }
 
+/* Potential of the field, J; with charge between insulators and liquid that of all faces. */
+static double potential(const ZpModel *model, const ZpPlatesEval *gaps, double U, const double *memory, Shore shore) {
+  if (!model->leaks) return zp_plates_totals_among(&model->plates, gaps, U, shore.first, shore.end - 1).potential;
+  return zp_leak_totals(&model->leak, &model->plates, gaps, U, zp_law_memory(model, &zp_term_leak, memory)).potential;
+}
+
 /* Energy of the gap around the shore at one end of the step, with liquid up to `reach`: the field's potential and the
- * film's energy, J. */
+ * film's energy, J. `memory`: the state of all laws there. */
 static double stored(const ZpModel *model, const ZpPlatesEval *gaps, double U, const double *memory,
                      const double reach[ZP_BEADS], Shore shore, ZpEval *e) {
   zp_eval_cover(model, reach, e);
-  return zp_plates_totals_among(&model->plates, gaps, U, shore.first, shore.end - 1).potential +
-         zp_film_energy_among(&model->film, &e->cover, gaps->gap, memory, shore.first, shore.end) +
+  return potential(model, gaps, U, memory, shore) +
+         zp_film_energy_among(&model->film, &e->cover, gaps->gap, memory_of(model, memory), shore.first, shore.end) +
          surface_energy(model, reach);
 }
 
@@ -197,11 +213,10 @@ static double lost_at_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *
   reaches(&model->film, before, &shore);
   reaches(&model->film, e->reach, &shore);
   reaches(&model->film, after, &shore);
-  const double *memory = memory_of(model, span->memory);
-  double released = stored(model, start, span->U0, memory, before, shore, e) -
-                    stored(model, start, span->U0, memory, e->reach, shore, e);
-  released += stored(model, end, span->U1, e->film.end, e->reach, shore, e) -
-              stored(model, end, span->U1, e->film.end, after, shore, e);
+  double released = stored(model, start, span->U0, span->memory, before, shore, e) -
+                    stored(model, start, span->U0, span->memory, e->reach, shore, e);
+  released += stored(model, end, span->U1, e->memory_end, e->reach, shore, e) -
+              stored(model, end, span->U1, e->memory_end, after, shore, e);
   return released + film->given + film->carried;
 }
 

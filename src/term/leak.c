@@ -39,7 +39,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
     zp_term_plates.force(model, span, e, F);
     return;
   }
-  zp_plates_gaps(&model->plates, span->end, span->end + model->stride, &e->plates);
+  zp_term_gaps(model, span, e);
   ZpLeakStep step = step_of(model, span, e);
   zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
   zp_leak_forces(&model->leak, &model->plates, &step, &e->leak, &e->attraction);
