@@ -310,6 +310,18 @@ START_TEST(test_voltages_beside_a_limit_point) {
 }
 END_TEST
 
+/* Far along the branch of this floppy ribbon an unstable state is passed with a rising voltage: it is none that another
+ * voltage could lead to. */
+START_TEST(only_stable_states_are_other_ones) {
+  ZpActuatorDef def =
+      DEF({"ribbon.length", 0.17655889683713855}, {"ribbon.width", 0.0041004933043827865},
+          {"ribbon.thickness", 1.001617762966381e-05}, {"platform.length", 0.017655889683713854},
+          {"insulator.thickness", 0.00014941690906170483}, {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6},
+          {"mesh.nodes", 13}, {"isometric.separation", 0.00047141954544906796});
+  ck_assert_double_eq(jumped_at(def, 6826.09470470199).others, 0);
+}
+END_TEST
+
 /* The zipped states of a floppy ribbon form an isolated branch: it jumps there, to the same place on any mesh. */
 START_TEST(test_falls) {
   double force[2];
@@ -541,6 +553,7 @@ int main(void) {
   if (!SANITIZED) tcase_add_test(force, test_mesh_powered);
   tcase_add_test(force, test_jumps);
   tcase_add_test(force, test_voltages_beside_a_limit_point);
+  tcase_add_test(force, only_stable_states_are_other_ones);
   tcase_add_test(force, test_falls);
   tcase_add_test(force, test_unpowered_is_stable);
   tcase_add_test(force, test_everywhere);

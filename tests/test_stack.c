@@ -119,16 +119,16 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
     const char *name;
     double within;
   } same[] = {{ZP_STUDY_STATIONARY, "opening_m", 1e-12},
-              {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", 1e-9},
-              {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", 1e-9},
-              {ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-9},
-              {ZP_STUDY_LIMITS, "closing_voltage_V", 1e-9},
-              {ZP_STUDY_LIMITS, "release_voltage_V", 1e-9},
-              {ZP_STUDY_LIMITS, "max_load_kg", 1e-9},
-              {ZP_STUDY_LIMITS, "travel_m", 1e-9},
+              {ZP_STUDY_EQUILIBRIUM, "pull_in_voltage_V", 1e-12},
+              {ZP_STUDY_EQUILIBRIUM, "release_voltage_V", 1e-12},
+              {ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-12},
+              {ZP_STUDY_LIMITS, "closing_voltage_V", 1e-12},
+              {ZP_STUDY_LIMITS, "release_voltage_V", 1e-12},
+              {ZP_STUDY_LIMITS, "max_load_kg", 1e-11}, /* 3.6e-12 measured */
+              {ZP_STUDY_LIMITS, "travel_m", 1e-12},
               {ZP_STUDY_LIMITS, "mass_kg", 1e-12},
-              {ZP_STUDY_MODES, "frequency_1_Hz", 1e-8}, /* rounding: 1e-9 with 61 nodes, 3e-8 with 241 */
-              {ZP_STUDY_ACTUATE, "opening_m", 1e-9}};
+              {ZP_STUDY_MODES, "frequency_1_Hz", 4e-9},  /* 1.3e-9 measured, 2.2e-8 with 241 nodes: rounding */
+              {ZP_STUDY_ACTUATE, "opening_m", 1.2e-10}}; /* 4.3e-11 measured */
   ZpActuatorDef all = alike(counts[_i], 4e-3 * counts[_i]);
   all.mesh.nodes = FULL_OR(61, 31); /* without ripples on the branch */
   all.solver.time_step = 1e-4;
@@ -137,7 +137,7 @@ START_TEST(equal_ones_side_by_side_are_as_one) {
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(same); k++)
     ck_near(answered_value(same[k].study, &all, same[k].name), answered_value(same[k].study, &equal, same[k].name),
-            same[k].within); /* 1.1e-9 measured where 1e-8 is allowed */
+            same[k].within);
 }
 END_TEST
 
@@ -152,7 +152,8 @@ START_TEST(leaking_ones_side_by_side_are_as_one) {
   ZpActuatorDef equal = all;
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(name); k++)
-    ck_near(answered_value(ZP_STUDY_ACTUATE, &all, name[k]), answered_value(ZP_STUDY_ACTUATE, &equal, name[k]), 1e-9);
+    ck_near(answered_value(ZP_STUDY_ACTUATE, &all, name[k]), answered_value(ZP_STUDY_ACTUATE, &equal, name[k]),
+            2.8e-10); /* 9.6e-11 measured */
 }
 END_TEST
 
@@ -169,8 +170,8 @@ START_TEST(two_equal_ones_are_twice_one) {
   ZpActuatorDef equal = all;
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(name); k++)
-    /* 8e-11 measured */
-    ck_near(answered_value(ZP_STUDY_LIMITS, &all, name[k]), answered_value(ZP_STUDY_LIMITS, &equal, name[k]), 5e-10);
+    /* 9.8e-13 measured */
+    ck_near(answered_value(ZP_STUDY_LIMITS, &all, name[k]), answered_value(ZP_STUDY_LIMITS, &equal, name[k]), 2.9e-12);
 }
 END_TEST
 
@@ -196,7 +197,7 @@ START_TEST(forces_carry_the_load) {
   ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   for (size_t row = 0; row < result->series->rows; row++)
     /* 2.2e-8 measured */
-    ck_near(sum_of(result->series, row, "force_N", 3), def.load.mass * def.gravity + def.load.force, 1e-7);
+    ck_near(sum_of(result->series, row, "force_N", 3), def.load.mass * def.gravity + def.load.force, 6.6e-8);
   zp_result_destroy(result);
 }
 END_TEST
@@ -210,8 +211,8 @@ START_TEST(force_of_each_is_as_alone) {
     ZpActuatorDef one = zp_def_member(&def, k + 1);
     one.load.mass = 0;
     one.load.force = zp_result_get(result, force[k]);
-    /* 7e-11 measured */
-    ck_near(answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), zp_result_get(result, "opening_m"), 5e-10);
+    /* 8.6e-11 measured */
+    ck_near(answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), zp_result_get(result, "opening_m"), 2.5e-10);
   }
   zp_result_destroy(result);
 }
@@ -256,7 +257,8 @@ START_TEST(stiffness_side_by_side_is_the_slope) {
   double moved =
       answered_value(ZP_STUDY_STATIONARY, &more, "opening_m") - answered_value(ZP_STUDY_STATIONARY, &less, "opening_m");
   /* 1e-10 measured */
-  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "stiffness_N_per_m"), 2 * little / moved, 1e-9);
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "stiffness_N_per_m"), 2 * little / moved,
+          6.5e-11); /* 2.2e-11 measured */
 }
 END_TEST
 
@@ -275,7 +277,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   const ZpTable *table = result->series;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-  ck_below(zp_result_get(result, "energy_error"), 3e-8); /* 5.4e-9 measured */
+  ck_below(zp_result_get(result, "energy_error"), 1.6e-8); /* 5.3e-9 measured */
   double work = 0, speed = 0, start = zp_table_get(table, 0, "opening_m"), opening = start;
   for (size_t row = 1; row < table->rows && zp_table_get(table, row, "opening_m") > 0.1 * start; row++) {
     double fell = opening - zp_table_get(table, row, "opening_m");
@@ -297,7 +299,7 @@ START_TEST(energy_and_forces_of_unlike_ones) {
           def.load.mass * def.gravity * (start - zp_table_get(table, table->rows - 1, "opening_m")),
           1e-12); /* 2.2e-16 measured */
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed),
-          _i == 0 ? 3e-3 : 3e-5); /* 7.6e-4 and 1.1e-5 measured */
+          _i == 0 ? 2.3e-3 : 3e-5); /* 7.6e-4 and 1.1e-5 measured */
   zp_result_destroy(result);
 }
 END_TEST
@@ -312,8 +314,8 @@ START_TEST(unlike_ones_at_rest_stay) {
   ck_near(zp_result_get(moved, "opening_m"), zp_result_get(rest, "opening_m"), 2e-11); /* 2.1e-12 measured */
   static const char *const force[] = {"member_1_force_N", "member_2_force_N", "member_3_force_N"};
   for (size_t k = 0; k < 3; k++) {
-    ck_near(zp_table_get(moved->series, 0, force[k]), zp_result_get(rest, force[k]), 1e-12);    /* 0 measured */
-    ck_near(zp_table_get(moved->series, last, force[k]), zp_result_get(rest, force[k]), 5e-10); /* 8.4e-11 measured */
+    ck_near(zp_table_get(moved->series, 0, force[k]), zp_result_get(rest, force[k]), 1e-12);      /* 0 measured */
+    ck_near(zp_table_get(moved->series, last, force[k]), zp_result_get(rest, force[k]), 3.2e-10); /* 1.1e-10 measured */
   }
   zp_result_destroy(moved);
   zp_result_destroy(rest);
@@ -354,12 +356,12 @@ START_TEST(any_member_hits_as_hard) {
     *thickness[k] = 80e-6;
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &one);
     lost[k] = zp_table_get(result->series, result->series->rows - 1, "contact_loss_J");
-    ck_below(zp_result_get(result, "energy_error"), 5e-8); /* 6.4e-9 measured */
+    ck_below(zp_result_get(result, "energy_error"), 1.9e-8); /* 6.4e-9 measured */
     zp_result_destroy(result);
   }
   ck_assert_double_gt(lost[0], 0);
-  ck_near(lost[1], lost[0], 1e-9); /* 2e-10 measured */
-  ck_near(lost[2], lost[0], 1e-8); /* 1.3e-9 measured */
+  ck_near(lost[1], lost[0], 1e-9);   /* 7.6e-10 measured */
+  ck_near(lost[2], lost[0], 1.4e-9); /* 4.5e-10 measured */
 }
 END_TEST
 
@@ -412,7 +414,7 @@ START_TEST(two_in_series_are_half_as_stiff) {
     two.solver.end_time = sqrt(2) * part[k];
     two.stack.series = 2;
     ck_near(answered_value(ZP_STUDY_ACTUATE, &two, "opening_m"),
-            2 * answered_value(ZP_STUDY_ACTUATE, &one, "opening_m"), 1e-3); /* 2.4e-4 measured */
+            2 * answered_value(ZP_STUDY_ACTUATE, &one, "opening_m"), 7.3e-4); /* 2.4e-4 measured */
   }
 }
 END_TEST
@@ -428,7 +430,7 @@ START_TEST(energy_and_links_of_a_zip) {
   const ZpShapes *film = result->shapes;
   size_t count = film->ribbons * film->nodes / film->members;
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
-  ck_below(zp_result_get(result, "energy_error"), 1e-6); /* 1.8e-7 measured */
+  ck_below(zp_result_get(result, "energy_error"), 5.4e-7); /* 1.8e-7 measured */
   ck_assert_uint_eq(film->members, 3);
   for (size_t frame = 0; frame < film->frames; frame++)
     for (size_t k = 1; k < film->members; k++) {
@@ -492,7 +494,8 @@ START_TEST(members_rest_together_as_alone) {
     ck_near(zp_table_get(both->series, top, sums[k]), 2 * zp_table_get(alone->series, last, sums[k]), 1e-12);
   ck_assert_uint_eq(both->series->rows, alone->series->rows);
   for (size_t row = 0; row < alone->series->rows; row++) {
-    ck_near(zp_table_get(both->series, row, "opening_m"), 2 * zp_table_get(alone->series, row, "opening_m"), 1e-9);
+    /* 2.3e-11 measured */
+    ck_near(zp_table_get(both->series, row, "opening_m"), 2 * zp_table_get(alone->series, row, "opening_m"), 7e-11);
     ck_assert_double_eq(zp_table_get(both->series, row, "branch"), zp_table_get(alone->series, row, "branch"));
   }
   zp_result_destroy(alone);
@@ -521,11 +524,11 @@ START_TEST(limits_of_a_series_are_those_of_its_members) {
   }
   zp_model_destroy(model);
   ZpResult *all = answer_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(all, "pull_in_voltage_V"), pull_in, 1e-9);
-  ck_near(zp_result_get(all, "closing_voltage_V"), closing, 1e-9);
-  ck_near(zp_result_get(all, "release_voltage_V"), release, 1e-9);
-  ck_near(zp_result_get(all, "max_load_kg"), lifted, 1e-9);
-  ck_near(zp_result_get(all, "travel_m"), travel, 1e-9);
+  ck_near(zp_result_get(all, "pull_in_voltage_V"), pull_in, 1e-12);
+  ck_near(zp_result_get(all, "closing_voltage_V"), closing, 1e-12);
+  ck_near(zp_result_get(all, "release_voltage_V"), release, 1e-9); /* 5.2e-10 measured */
+  ck_near(zp_result_get(all, "max_load_kg"), lifted, 1e-12);
+  ck_near(zp_result_get(all, "travel_m"), travel, 1e-12);
   zp_result_destroy(all);
 }
 END_TEST
@@ -543,11 +546,11 @@ START_TEST(chain_of_springs_and_masses) {
   one.stack.series = 1;
   one.stack.link_mass = 0;
   double alone = answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz");
-  ck_near(alone, sqrt(12 * EI / (L * L * L) / def.load.mass) / (2 * pi), 1e-5); /* 2e-6 measured */
+  ck_near(alone, sqrt(12 * EI / (L * L * L) / def.load.mass) / (2 * pi), 6e-6); /* 2e-6 measured */
   ZpResult *all = answer_of(ZP_STUDY_MODES, &def);
   static const char *const name[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
   for (int j = 0; j < 3; j++)
-    ck_near(zp_result_get(all, name[j]), 2 * alone * sin((2 * j + 1) * pi / 14), 1e-5); /* 2e-6 measured */
+    ck_near(zp_result_get(all, name[j]), 2 * alone * sin((2 * j + 1) * pi / 14), 6e-6); /* 2e-6 measured */
   zp_result_destroy(all);
 }
 END_TEST
@@ -589,8 +592,9 @@ START_TEST(limits_of_unlike_ones_are_turns_of_their_branch) {
   ZpActuatorDef def = DEF({"stack.parallel", 2}, {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 11},
                           {"load.mass", mass[_i]}, {"drive.voltage", 8e3}, {"output.samples", 5000});
   ZpResult *branch = answer_of(ZP_STUDY_EQUILIBRIUM, &def), *limits = answer_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(limits, "pull_in_voltage_V"), first_turn(branch->series, false, 1), 1e-2); /* 1.7e-3 measured */
-  ck_near(zp_result_get(limits, "release_voltage_V"), first_turn(branch->series, true, -1), 1e-2); /* 6.4e-3 measured */
+  ck_near(zp_result_get(limits, "pull_in_voltage_V"), first_turn(branch->series, false, 1), 6e-3); /* 2e-3 measured */
+  ck_near(zp_result_get(limits, "release_voltage_V"), first_turn(branch->series, true, -1),
+          1.2e-3); /* 3.9e-4 measured */
   zp_result_destroy(branch);
   zp_result_destroy(limits);
 }
@@ -620,7 +624,7 @@ START_TEST(stiff_member_is_a_mass) {
   one.load.mass += model->carried - series.load.mass;
   zp_model_destroy(model);
   ck_near(answered_value(ZP_STUDY_MODES, &series, "frequency_1_Hz"),
-          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 1e-4); /* 1.8e-5 measured */
+          answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 5.3e-5); /* 1.8e-5 measured */
 }
 END_TEST
 
@@ -653,7 +657,7 @@ START_TEST(members_yield) {
   two.load.mass = 5e-3;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &two);
   ck_assert_double_gt(zp_result_get(result, "plastic_loss_J"), 1e-6);
-  ck_below(zp_result_get(result, "energy_error"), 2e-8); /* 2.2e-9 measured */
+  ck_below(zp_result_get(result, "energy_error"), 6.7e-9); /* 2.2e-9 measured */
   zp_result_destroy(result);
   two.drive.voltage = 0;
   two.solver.end_time = 1e-4;
@@ -727,7 +731,7 @@ START_TEST(inputs_of_several_do_work) {
   opening_after(sim, 20e-3);
   ck_assert_double_gt(fabs(zp_sim_get(sim, "load_work")), 1e-9);
   /* 3.6e-10 measured */
-  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 3e-9);
+  ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / fabs(zp_sim_get(sim, "electric_work")), 1.1e-9);
   ck_near(zp_sim_get(sim, "voltage"), 3e3, 1e-12);                           /* 0 measured */
   ck_near(sim[1].state->U, _i ? def.stack.voltage_ratio * 3e3 : 3e3, 1e-12); /* 0 measured */
   /* a voltage that is set to what the drive has changes nothing */
