@@ -178,11 +178,6 @@ static const char *violated(const ZpActuatorDef *def, const ZpResult *r) {
 
 /* -- every study -------------------------------------------------------------------------------------- */
 
-/* The field's grid follows ribbons that do not fold back: study profile says so, and of which separation. */
-static bool is_beyond_the_grid(const ZpResult *r) {
-  return r->study == ZP_STUDY_PROFILE && r->outcome == ZP_DIVERGED && strstr(r->message, "a ribbon folds back");
-}
-
 static double cpu_s(void) {
   struct timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
@@ -194,8 +189,8 @@ static bool is_late(void *until, const char *stage, double fraction) {
   return cpu_s() > *(const double *)until;
 }
 
-/* => is there an answer within two minutes of CPU time, or a reason why there is none, and can it be? If not, `text`
- * says why. */
+/* => is there an answer within two minutes of CPU time, or a reason why there is none (ribbons may lie as the model
+ * does not describe), and can it be? If not, `text` says why. */
 static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512]) {
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
@@ -206,7 +201,7 @@ static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512])
     return false;
   }
   const char *fault = violated(def, result);
-  bool good = (zp_outcome_good(result->outcome) || is_beyond_the_grid(result)) && !fault;
+  bool good = (zp_outcome_good(result->outcome) || result->outcome == ZP_BEYOND_MODEL) && !fault;
   snprintf(text, 512, "%s%s%s: %s", fault ? fault : "", fault ? "; " : "", zp_outcome_name(result->outcome),
            result->message);
   zp_result_destroy(result);

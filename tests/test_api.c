@@ -395,7 +395,7 @@ END_TEST
 
 /* zp_outcome_name(999) read beyond its list. */
 START_TEST(words_of_no_outcome) {
-  const int beyond[] = {999, -1, INT_MAX, INT_MIN, ZP_REOPENED + 1};
+  const int beyond[] = {999, -1, INT_MAX, INT_MIN, ZP_BEYOND_MODEL + 1};
   for (size_t k = 0; k < sizeof beyond / sizeof beyond[0]; k++)
     ck_assert_str_eq(zp_outcome_name((ZpOutcome)beyond[k]), "unknown");
   ck_assert_str_eq(zp_outcome_name(ZP_PULLED_IN), "pulled_in");

@@ -3,6 +3,7 @@
 
 #include "rest/crossing.h"
 #include "rest/rest.h"
+#include "sim/sim_internal.h"
 
 /* Two straight ribbons, the lower one turned by a small angle about a point 0.35 elements right of node 7: from node 8
  * on it lies above the upper one, and the first two nodes there tell the depth. Ribbons that only touch, or that lie
@@ -67,6 +68,104 @@ START_TEST(depth_is_the_largest_of_all_places) {
 }
 END_TEST
 
+/* Eq. (9.9): on faces of slope theta nodes that face each other have slid apart by s, at one height. Every gap is 0,
+ * and the faces lie inside each other by s sin(theta). */
+START_TEST(gaps_do_not_show_what_has_slid) {
+  enum { AT = 7 };
+  static const double theta = 0.4, by_node = 2e-5; /* rad; m */
+  ZpActuatorDef def = DEF({"mesh.nodes", 21});
+  ZpModel *model = model_of(&def);
+  double *q = zp_calloc(2 * model->stride, sizeof *q);
+  for (size_t j = 0; j < model->count; j++) {
+    double along = (double)(j / 2) * model->l;
+    q[j] = along * cos(theta) - (j % 2 ? by_node * ((double)(j / 2) - AT - 0.35) : 0);
+    q[model->stride + j] = along * sin(theta);
+  }
+  double depth = 1.65 * by_node * sin(theta);
+  ck_near(zp_crossing_depth(model, q), depth, 1e-9); /* 3.8e-13 measured */
+  ck_assert(zp_crosses(model, q, 0.999 * depth));
+  ck_assert(!zp_crosses(model, q, 1.001 * depth));
+  zp_free(q);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* The short way and the long one, for random ribbons that run to the right, most of them steep, between a clip and
+ * a platform. */
+START_TEST(short_way_overlooks_no_crossing) {
+  enum { SHAPES = 300000 };
+  ZpActuatorDef def = DEF({"mesh.nodes", 9});
+  ZpModel *model = model_of(&def);
+  double *q = zp_calloc(2 * model->stride, sizeof *q), deeper = 0.1 * model->l;
+  uint64_t seed = 1;
+  int crosses = 0;
+  for (int k = 0; k < SHAPES; k++) {
+    double slid = (1 + noise(&seed)) * 0.15 * model->l, apart = (1 + noise(&seed)) * 0.1 * model->l;
+    for (size_t i = 0; i < model->nodes; i++)
+      for (size_t ribbon = 0; ribbon < 2; ribbon++) {
+        size_t j = 2 * i + ribbon, before = i > 0 ? j - 2 : j;
+        double y = q[model->stride + before] + (i > 0 ? 3 * noise(&seed) * model->l : 0);
+        q[j] = (double)i * model->l + noise(&seed) * slid;
+        q[model->stride + j] = ribbon ? q[model->stride + j - 1] + (noise(&seed) - 0.3) * apart : y;
+      }
+    size_t last = model->count - 2;
+    q[1] = q[0], q[model->stride + 1] = q[model->stride];
+    q[last + 1] = q[last], q[model->stride + last + 1] = fmin(q[model->stride + last + 1], q[model->stride + last]);
+    ck_assert(zp_crosses(model, q, deeper) == (zp_crossing_depth(model, q) > deeper));
+    crosses += zp_crosses(model, q, deeper);
+  }
+  printf("%d of %d shapes cross\n", crosses, SHAPES);
+  ck_assert(crosses > SHAPES / 10 && crosses < SHAPES * 9 / 10);
+  zp_free(q);
+  zp_model_destroy(model);
+}
+END_TEST
+
+/* A sheet of 12 um that hangs nearly upright: its zip makes steep faces slide. The run ends in the first step in which
+ * they lie deeper inside each other than insulators and sheet are thick. */
+START_TEST(run_ends_where_steep_faces_have_slid) {
+  ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 0.24}, {"platform.length", 0.024},
+                          {"ribbon.width", 0.03}, {"ribbon.thickness", 12e-6}, {"ribbon.young_modulus", 4.5e9},
+                          {"ribbon.density", 1390}, {"insulator.thickness", 27e-6}, {"electro.breakdown_cap", false},
+                          {"load.mass", 1e-4}, {"mesh.nodes", 15}, {"drive.voltage", 14e3});
+  const double most = 2 * def.insulator.thickness + def.ribbon.thickness;
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = NULL;
+  ZpRunInfo info;
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(sim, 0.2, false, NULL, &info), ZP_BEYOND_MODEL);
+  double depth = zp_crossing_depth(model, zp_state_q(model, sim->state));
+  printf("%s\ndeep by %.3g m of %.3g m\n", info.message, depth, most);
+  ck_assert(depth > most && depth < 1.5 * most); /* 1.02 measured */
+  ck_assert_ptr_nonnull(strstr(info.message, ZP_FACES_CROSS "; " ZP_LESS_STEEP "; the results so far are kept"));
+  ck_assert_str_eq(zp_outcome_name(info.outcome), "beyond_model");
+  ck_assert(!zp_outcome_good(info.outcome));
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
+  ck_assert_double_nan(zp_result_get(result, "contraction"));
+  zp_result_destroy(result);
+}
+END_TEST
+
+/* Ribbons that sag steeply beside each other: the only state at drive.voltage has faces inside each other, with any
+ * mesh. */
+START_TEST(held_ribbons_that_sag_have_no_force) {
+  ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 0.2155}, {"platform.length", 0.02155},
+                          {"ribbon.width", 26.34e-3}, {"ribbon.thickness", 23.76e-6}, {"ribbon.young_modulus", 120e9},
+                          {"ribbon.poisson_ratio", 0.34}, {"ribbon.density", 8960}, {"insulator.thickness", 15.38e-6},
+                          {"medium.permittivity", 1}, {"medium.breakdown_field", 3e6}, {"mesh.nodes", 29},
+                          {"drive.voltage", 3537}, {"isometric.separation", 0.665e-3});
+  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
+  printf("%s\n", result->message);
+  ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
+  ck_assert_double_nan(zp_result_get(result, "force_N"));
+  ck_assert_ptr_nonnull(strstr(result->message, "no force at drive.voltage = 3537 V: " ZP_FACES_CROSS));
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* The reason why a state is refused. */
 START_TEST(impossible_states_are_named) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
@@ -89,7 +188,7 @@ START_TEST(impossible_states_are_named) {
   x[1] = x[0], y[1] = y[0];
   x[3] = x[2] - 2e-4, x[5] = x[4] - 1e-3;
   ck_assert_int_eq(system.residual(s, r, NULL), ZP_END_FOUND);
-  ck_assert_str_eq(zp_statics_fault(s), "the faces cross each other");
+  ck_assert_str_eq(zp_statics_fault(s), ZP_FACES_CROSS);
   zp_rest_destroy(rest);
   zp_model_destroy(model);
 }
@@ -115,6 +214,10 @@ int main(void) {
   tcase_add_test(states, depth_is_that_of_two_lines);
   tcase_add_test(states, depth_of_one_node_is_its_own);
   tcase_add_test(states, depth_is_the_largest_of_all_places);
+  tcase_add_test(states, gaps_do_not_show_what_has_slid);
+  tcase_add_test(states, short_way_overlooks_no_crossing);
+  tcase_add_test(states, run_ends_where_steep_faces_have_slid);
+  tcase_add_test(states, held_ribbons_that_sag_have_no_force);
   tcase_add_test(states, impossible_states_are_named);
   tcase_add_test(states, fold_that_slides_has_no_release);
   suite_add_tcase(suite, states);

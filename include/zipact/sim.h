@@ -31,13 +31,16 @@ typedef enum ZpOutcome {
   ZP_EVENT,         /* "event": zp_sim_step_to_event has ended at an event */
   ZP_AT_BOUND,      /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
   ZP_TIME_LIMIT,    /* "time_limit": solver.max_cpu_time was not enough */
-  ZP_REOPENED       /* "reopened": the actuator has closed, and is open again at the end */
+  ZP_REOPENED,      /* "reopened": the actuator has closed, and is open again at the end */
+  ZP_BEYOND_MODEL /* "beyond_model": ribbons lie as the laws do not describe: a steep one has slid through the other, or
+                     one has folded back */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" for any other number. */
 ZP_API const char *zp_outcome_name(ZpOutcome outcome);
 
-/* True if the outcome is an answer, false if the solver failed (or was interrupted). */
+/* True if the outcome is an answer, false if the solver failed or was interrupted, or ribbons lie as the model does not
+ * describe. */
 ZP_API bool zp_outcome_good(ZpOutcome outcome);
 
 /* Functions that are called during a long call. All may be NULL. */

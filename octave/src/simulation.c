@@ -94,7 +94,7 @@ mxArray *simulation_step(int count, const mxArray *const *value) {
   watch_begin();
   ZpOutcome outcome = zp_sim_step(simulation->sim, dt, &watch_hooks, &info);
   watch_end();
-  simulation->ended = outcome == ZP_DIVERGED;
+  simulation->ended = outcome == ZP_DIVERGED || outcome == ZP_BEYOND_MODEL;
   if (outcome == ZP_INTERRUPTED) fail_interrupted();
   if (outcome != ZP_REACHED_END) fail_numerics(info.message);
   return new_double(zp_sim_get(simulation->sim, "time"));
@@ -163,7 +163,7 @@ mxArray *simulation_control(int count, const mxArray *const *value) {
   watch_end();
   simulation->runs = false;
   zp_sim_set_controller(simulation->sim, NULL, NULL);
-  simulation->ended = outcome == ZP_DIVERGED;
+  simulation->ended = outcome == ZP_DIVERGED || outcome == ZP_BEYOND_MODEL;
   if (controller.failed) fail_controller(&controller);
   if (outcome == ZP_INTERRUPTED) fail_interrupted();
   if (outcome == ZP_BAD_ARGUMENT) fail_input("%s", info.message);

@@ -118,7 +118,7 @@ static PyObject *step(Simulation *self, double dt, double voltage) {
   self->busy = false;
   self->steps += info.steps;
   self->time = outcome == ZP_REACHED_END && err.status == ZP_OK ? end : zp_sim_get(self->sim, "time");
-  self->ended = outcome == ZP_DIVERGED;
+  self->ended = outcome == ZP_DIVERGED || outcome == ZP_BEYOND_MODEL;
   if (watch.failed) return NULL;
   if (err.status != ZP_OK) return raise_error(self->state, &err);
   if (outcome == ZP_REACHED_END) Py_RETURN_NONE;

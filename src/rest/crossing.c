@@ -17,9 +17,11 @@ static double side(Point a, Point b, Point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
+/* Where a corner is nearest, both of its edges have the same bits. */
 static double distance_to_edge(Point a, Point b, Point c) {
   double x = b.x - a.x, y = b.y - a.y, along = ((c.x - a.x) * x + (c.y - a.y) * y) / (x * x + y * y);
-  double at = fmin(fmax(along, 0), 1), dx = c.x - a.x - at * x, dy = c.y - a.y - at * y;
+  Point near = along >= 1 ? b : a;
+  double at = along > 0 && along < 1 ? along : 0, dx = c.x - near.x - at * x, dy = c.y - near.y - at * y;
   return sqrt(dx * dx + dy * dy);
 }
 
@@ -58,11 +60,23 @@ static bool runs_right(const ZpModel *model, const double *q) {
   return true;
 }
 
+/* No node lies deeper in the other ribbon than this, m, if both run to the right: on the way to the node that faces it
+ * the other ribbon passes its height. (What lies beside the end of the other ribbon lies in nothing.) */
+static double deepest_possible(const ZpModel *model, const double *q) {
+  double slid = 0, overlap = 0;
+  for (size_t i = 0; i < model->nodes; i++) {
+    Point upper = node(model, q, 0, i), lower = node(model, q, 1, i);
+    slid = fmax(slid, fabs(upper.x - lower.x));
+    overlap = fmax(overlap, lower.y - upper.y);
+  }
+  return slid + overlap;
+}
+
 double zp_crossing_depth(const ZpModel *model, const double *q) {
   double deepest = 0;
   bool sorted = runs_right(model, q);
   size_t from = 0; /* if sorted: edges of the upper ribbon before this one lie left of edge i */
-  for (size_t i = 0; zp_is_pair(&model->topology) && i + 1 < model->nodes; i++) {
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
     Point a = node(model, q, 1, i), b = node(model, q, 1, i + 1);
     double left = fmin(a.x, b.x), right = fmax(a.x, b.x), bottom = fmin(a.y, b.y), top = fmax(a.y, b.y);
     while (sorted && from + 2 < model->nodes && node(model, q, 0, from + 1).x < left)
@@ -77,4 +91,10 @@ double zp_crossing_depth(const ZpModel *model, const double *q) {
     }
   }
   return deepest;
+}
+
+bool zp_crosses(const ZpModel *model, const double *q, double deeper) {
+  if (!zp_is_pair(&model->topology)) return false;
+  bool cannot = deepest_possible(model, q) <= deeper && runs_right(model, q);
+  return !cannot && zp_crossing_depth(model, q) > deeper;
 }

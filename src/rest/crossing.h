@@ -6,9 +6,17 @@
 
 #include "actuator/model.h"
 
-/* (coordinates [2 stride]) => by how much the polylines of the faces lie inside each other at a crossing, m: the
- * largest distance from the other polyline of the first two nodes beyond it. 0: they do not cross, or there is one
- * ribbon. */
+/* A state in which they do, in words, and what helps. */
+#define ZP_FACES_CROSS                                                                                                 \
+  "steep faces have slid until they lie inside each other, because gaps are those of facing stations, measured "       \
+  "vertically"
+#define ZP_LESS_STEEP "shorter or thicker ribbons are less steep"
+
+/* (two ribbons, coordinates [2 stride]) => by how much the polylines of the faces lie inside each other at a crossing,
+ * m: the largest distance from the other polyline of the first two nodes beyond it. 0: they do not cross. */
 double zp_crossing_depth(const ZpModel *model, const double *q);
+
+/* Is that depth larger than `deeper`? Never with one ribbon. */
+bool zp_crosses(const ZpModel *model, const double *q, double deeper);
 
 #endif

@@ -568,14 +568,17 @@ const char *zp_statics_fault_of_stations(const ZpStatics *s) {
   return fault;
 }
 
-const char *zp_statics_fault(const ZpStatics *s) {
+bool zp_statics_faces_cross(const ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++) {
     const ZpRestMember *m = &s->member[k];
     bool apart = m->model->field && s->contact_acts; /* as contact wants them */
-    if (apart && zp_crossing_depth(m->model, m->q) > deepest_crossing(m->model, zp_statics_member_voltage(s, k)))
-      return "the faces cross each other";
+    if (apart && zp_crosses(m->model, m->q, deepest_crossing(m->model, zp_statics_member_voltage(s, k)))) return true;
   }
-  return zp_statics_fault_of_stations(s);
+  return false;
+}
+
+const char *zp_statics_fault(const ZpStatics *s) {
+  return zp_statics_faces_cross(s) ? ZP_FACES_CROSS : zp_statics_fault_of_stations(s);
 }
 
 ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeRoom room) {

@@ -167,6 +167,9 @@ const char *zp_statics_trouble(const ZpStatics *statics);
  * faces. NULL if there is none. Of the last residual. */
 const char *zp_statics_fault(const ZpStatics *statics);
 
+/* Do the faces of a member cross each other, by more than they may? */
+bool zp_statics_faces_cross(const ZpStatics *statics);
+
 /* As zp_statics_fault, without faces that cross each other where ribbons are steep. Points on the way of a branch may:
  * coarse meshes have such points beside right answers. */
 const char *zp_statics_fault_of_stations(const ZpStatics *statics);

@@ -15,10 +15,10 @@
 #include "sim/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
-  static const char *const names[] = {"end_time",    "zipped",       "interrupted",   "not_settled",
-                                      "diverged",    "step_limit",   "converged",     "followed",
-                                      "branch_lost", "bad_argument", "short_circuit", "pulled_in",
-                                      "event",       "at_bound",     "time_limit",    "reopened"};
+  static const char *const names[] = {"end_time",      "zipped",      "interrupted", "not_settled", "diverged",
+                                      "step_limit",    "converged",   "followed",    "branch_lost", "bad_argument",
+                                      "short_circuit", "pulled_in",   "event",       "at_bound",    "time_limit",
+                                      "reopened",      "beyond_model"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
@@ -640,6 +640,20 @@ static bool asked_to_stop(const ZpHooks *hooks, double fraction) {
   return zp_hooks_stop(hooks, "simulating", fraction);
 }
 
+/* => why the model does not describe the present state of one of the members; NULL: it does. Faces overlap for a moment
+ * where they meet, but by less than the strips are thick. */
+static const char *fault_of(const ZpSim *sim) {
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
+    const ZpModel *model = m->model;
+    const ZpActuatorDef *def = &model->def;
+    bool parted = model->field && def->contact.model == ZP_CONTACT_UNILATERAL;
+    if (m->negative) return "a ribbon folds back until the capacitance is negative";
+    if (parted && zp_crosses(model, zp_state_q(model, m->state), zp_insulation(def) + def->ribbon.thickness))
+      return ZP_FACES_CROSS;
+  }
+  return NULL;
+}
+
 static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRunInfo *info) {
   enum { BETWEEN_LOOKS = 1024 }; /* steps between looks at divergence */
   const ZpModel *model = sim->model;
@@ -654,6 +668,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
     keep_before_cut(sim, end_time);
     step(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
+    if (!sim->stepping->fine && fault_of(sim)) return ZP_BEYOND_MODEL;
     bool sample = recording && state->t >= next_sample;
     if (!sample && !sim->stepping->fine) zp_sim_see(sim); /* a record sees, too */
     if (sample || info->steps % BETWEEN_LOOKS == 0) {
@@ -666,7 +681,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
     if (sample) {
       zp_sim_offer_record(sim);
       note_bounds(sim, info);
-      if (sim->negative) return ZP_DIVERGED;
+      if (sim->negative) return ZP_BEYOND_MODEL;
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
     if (shorted(sim)) return ZP_SHORT_CIRCUIT;
@@ -674,20 +689,6 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
     if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
-}
-
-/* => what is impossible about the present state of one of the members; NULL: nothing. Faces overlap for a moment where
- * they meet, but by less than the strips are thick. */
-static const char *fault_of(const ZpSim *sim) {
-  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
-    const ZpModel *model = m->model;
-    const ZpActuatorDef *def = &model->def;
-    bool parted = model->field && def->contact.model == ZP_CONTACT_UNILATERAL;
-    if (m->negative) return "the capacitance is negative, because a ribbon folds back";
-    if (parted && zp_crossing_depth(model, zp_state_q(model, m->state)) > zp_insulation(def) + def->ribbon.thickness)
-      return "the faces cross each other";
-  }
-  return NULL;
 }
 
 static void describe(const ZpSim *sim, ZpRunInfo *info) {
@@ -710,9 +711,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
              (long long)sim->settle_steps, sim->settle_residual);
     break;
   case ZP_DIVERGED:
-    if (sim->fault)
-      snprintf(text, size, "the state at %g s is impossible: %s; the results so far are kept", t, sim->fault);
-    else if (sim->eval.fault)
+    if (sim->eval.fault)
       snprintf(text, size, "the field could not be solved before %g s: %s; the results so far are kept", t,
                sim->eval.fault);
     else if (sim->stuck)
@@ -720,6 +719,9 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
                "the solver failed at %g s: no time step converges, however short; the results so far are kept", t);
     else
       snprintf(text, size, "diverged before %g s; the results so far are kept; try a smaller solver.time_step", t);
+    break;
+  case ZP_BEYOND_MODEL:
+    snprintf(text, size, "ended at %g s: %s; " ZP_LESS_STEEP "; the results so far are kept", t, sim->fault);
     break;
   case ZP_STEP_LIMIT:
     snprintf(text, size, "stopped at %g s after solver.max_steps = %d steps; raise solver.max_steps to run to the end",
@@ -781,7 +783,7 @@ ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHoo
     info.outcome = advance(sim, end_time, hooks, &info);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
     sim->fault = diverged(sim) || sim->stuck ? NULL : fault_of(sim);
-    if (sim->fault) info.outcome = ZP_DIVERGED;
+    if (sim->fault) info.outcome = ZP_BEYOND_MODEL;
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;
   info.simulated_time = sim->state->t - start_time;

@@ -127,7 +127,7 @@ struct ZpSim {
   ZpStepStart step_start;     /* of the last step */
   bool stuck;                 /* no step succeeded */
   bool negative;              /* a row has had a negative capacitance */
-  const char *fault;          /* why the state in which the last run ended is impossible; NULL: it is possible */
+  const char *fault;          /* why the model does not describe where the last run ended; NULL: it does */
   bool stops_at_events;       /* the run ends at the first event */
   bool at_event;              /* the last step has ended at an event */
   ZpStop stop;                /* where the run under way ends before its end time */

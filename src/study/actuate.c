@@ -14,15 +14,9 @@
 #include "study/sensitivity.h"
 #include "study/studies.h"
 
-/* A signal at the end of the run; NAN if the run ended with invalid numbers. */
-static double at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
-  bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
-  return sound ? zp_sim_get(sim, signal) : NAN;
-}
-
 /* Largest size of a signal in the rows and at the end. */
 static double largest(ZpSim *sim, const ZpResult *result, const char *signal, const char *column) {
-  double most = fabs(at_end(sim, result, signal));
+  double most = fabs(zp_at_end(sim, result, signal));
   for (size_t i = 0; i < result->series->rows; i++)
     most = fmax(most, fabs(zp_table_get(result->series, i, column)));
   return most;
@@ -30,7 +24,7 @@ static double largest(ZpSim *sim, const ZpResult *result, const char *signal, co
 
 /* Largest imbalance over the largest work of the source: how well energy balances. */
 static double energy_error(ZpSim *sim, const ZpResult *result) {
-  if (isnan(at_end(sim, result, "energy_imbalance"))) return NAN;
+  if (isnan(zp_at_end(sim, result, "energy_imbalance"))) return NAN;
   double work = largest(sim, result, "electric_work", "electric_work_J");
   return work > 0 ? largest(sim, result, "energy_imbalance", "energy_imbalance_J") / work : NAN;
 }
@@ -45,14 +39,14 @@ static double widest_opening(const ZpTable *series) {
 
 static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
   bool first = result->outcome == ZP_ZIPPED && stop == ZP_STOP_CLOSED; /* nothing is known of what follows */
-  zp_result_add(result, "contraction", "1", at_end(sim, result, "contraction"));
+  zp_result_add(result, "contraction", "1", zp_at_end(sim, result, "contraction"));
   zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
   zp_result_add(result, "closed_from_s", "s", first ? NAN : zp_sim_closed_from(sim));
-  zp_result_add(result, "zipped_length_m", "m", at_end(sim, result, "zipped_length"));
-  zp_result_add(result, "opening_m", "m", at_end(sim, result, "opening"));
+  zp_result_add(result, "zipped_length_m", "m", zp_at_end(sim, result, "zipped_length"));
+  zp_result_add(result, "opening_m", "m", zp_at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
-  if (zp_has_angle(&sim->model->topology)) zp_result_add(result, "angle_rad", "rad", at_end(sim, result, "angle"));
+  if (zp_has_angle(&sim->model->topology)) zp_result_add(result, "angle_rad", "rad", zp_at_end(sim, result, "angle"));
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
@@ -89,9 +83,9 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
 
 /* Work against pull and springs of the load from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
-  double risen = zp_table_get(result->series, 0, "opening_m") - at_end(sim, result, "opening");
+  double risen = zp_table_get(result->series, 0, "opening_m") - zp_at_end(sim, result, "opening");
   double pull = 0,
-         compressed = at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
+         compressed = zp_at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
   for (const ZpModel *m = zp_lowest(model); m < model + model->members; m++) /* those that carry the load */
     pull += zp_load_pull(m);
   return pull * risen + compressed + work_on_change(sim, zp_lowest(model));
@@ -100,7 +94,7 @@ static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *res
 /* The energy that the source delivered, and what became of it. The load input takes part in the work on the load. */
 static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Booked before, ZpResult *result) {
   ZpCurrents currents = zp_sim_currents(sim, info->simulated_time);
-  double energy = at_end(sim, result, "source_energy");
+  double energy = zp_at_end(sim, result, "source_energy");
   zp_result_add(result, "peak_current_A", "A", currents.peak);
   zp_result_add(result, "rms_current_A", "A", currents.rms);
   zp_result_add(result, "source_energy_J", "J", energy);
@@ -110,7 +104,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (zp_model_info(model).ribbons < 2) return;
   bool turns = zp_has_angle(&model->topology);
   double work = turns ? work_along_path(sim, model, result) : work_on_load(sim, model, result);
-  work -= at_end(sim, result, "load_work") - before.load_work;
+  work -= zp_at_end(sim, result, "load_work") - before.load_work;
   zp_result_add(result, "mechanical_work_J", "J", work);
   zp_add_efficiency(result, "efficiency", work, energy - before.energy);
 }
@@ -194,32 +188,32 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
 
 /* What the liquid has done. */
 static void summarize_liquid(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "film_thickness_m", "m", at_end(sim, result, "film_thickness"));
-  zp_result_add(result, "viscous_loss_J", "J", at_end(sim, result, "viscous_loss"));
-  zp_result_add(result, "film_along_loss_J", "J", at_end(sim, result, "film_along_loss"));
-  zp_result_add(result, "film_across_loss_J", "J", at_end(sim, result, "film_across_loss"));
-  zp_result_add(result, "jet_loss_J", "J", at_end(sim, result, "jet_loss"));
-  zp_result_add(result, "outer_drag_loss_J", "J", at_end(sim, result, "outer_drag_loss"));
+  zp_result_add(result, "film_thickness_m", "m", zp_at_end(sim, result, "film_thickness"));
+  zp_result_add(result, "viscous_loss_J", "J", zp_at_end(sim, result, "viscous_loss"));
+  zp_result_add(result, "film_along_loss_J", "J", zp_at_end(sim, result, "film_along_loss"));
+  zp_result_add(result, "film_across_loss_J", "J", zp_at_end(sim, result, "film_across_loss"));
+  zp_result_add(result, "jet_loss_J", "J", zp_at_end(sim, result, "jet_loss"));
+  zp_result_add(result, "outer_drag_loss_J", "J", zp_at_end(sim, result, "outer_drag_loss"));
 }
 
 /* The energy lost by leakage, and the remaining charge. */
 static void summarize_leak(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "leak_loss_J", "J", at_end(sim, result, "leak_loss"));
-  zp_result_add(result, "leak_current_A", "A", at_end(sim, result, "leak_current"));
-  zp_result_add(result, "interface_voltage_V", "V", at_end(sim, result, "interface_voltage"));
+  zp_result_add(result, "leak_loss_J", "J", zp_at_end(sim, result, "leak_loss"));
+  zp_result_add(result, "leak_current_A", "A", zp_at_end(sim, result, "leak_current"));
+  zp_result_add(result, "interface_voltage_V", "V", zp_at_end(sim, result, "interface_voltage"));
 }
 
 /* What has yielded. */
 static void summarize_plastic(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "plastic_loss_J", "J", at_end(sim, result, "plastic_loss"));
-  zp_result_add(result, "permanent_curvature_per_m", "1/m", at_end(sim, result, "permanent_curvature"));
+  zp_result_add(result, "plastic_loss_J", "J", zp_at_end(sim, result, "plastic_loss"));
+  zp_result_add(result, "permanent_curvature_per_m", "1/m", zp_at_end(sim, result, "permanent_curvature"));
 }
 
 static void summarize_bead(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "meniscus_loss_J", "J", at_end(sim, result, "meniscus_loss"));
-  zp_result_add(result, "wet_length_m", "m", at_end(sim, result, "wet_length"));
-  zp_result_add(result, "bead_outside_m3", "m3", at_end(sim, result, "bead_outside"));
-  zp_result_add(result, "bead_lost_m3", "m3", at_end(sim, result, "bead_lost"));
+  zp_result_add(result, "meniscus_loss_J", "J", zp_at_end(sim, result, "meniscus_loss"));
+  zp_result_add(result, "wet_length_m", "m", zp_at_end(sim, result, "wet_length"));
+  zp_result_add(result, "bead_outside_m3", "m3", zp_at_end(sim, result, "bead_outside"));
+  zp_result_add(result, "bead_lost_m3", "m3", zp_at_end(sim, result, "bead_lost"));
   zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
 }
 
@@ -228,7 +222,7 @@ static void summarize_laws(ZpSim *sim, ZpResult *result) {
   size_t count;
   const ZpColumn *column = zp_signal_columns(&count);
   for (size_t k = 0; zp_sim_next_row(sim, &k);)
-    zp_result_add(result, column[k].name, column[k].unit, at_end(sim, result, zp_signal_name(k)));
+    zp_result_add(result, column[k].name, column[k].unit, zp_at_end(sim, result, zp_signal_name(k)));
 }
 
 /* When each member of a series has closed. */
@@ -281,11 +275,11 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
   if (model->leaks) summarize_leak(sim, result);
   if (model->rod.plastic) summarize_plastic(sim, result);
   if (!isnan(model->def.load.change_time))
-    zp_result_add(result, "catch_loss_J", "J", at_end(sim, result, "catch_loss"));
+    zp_result_add(result, "catch_loss_J", "J", zp_at_end(sim, result, "catch_loss"));
   if (model->has_bead) summarize_bead(sim, result);
   summarize_laws(sim, result);
   summarize_members(sim, model, result);
-  zp_result_add(result, "stroke_m", "m", at_end(sim, result, "stroke"));
+  zp_result_add(result, "stroke_m", "m", zp_at_end(sim, result, "stroke"));
   zp_result_add(result, "start_stroke_m", "m", zp_table_get(result->series, 0, "stroke_m"));
   if (model->field) summarize_source(sim, model, info, before, result);
   summarize_steps(info, result);

@@ -358,7 +358,7 @@ static int shoot(Cycles *c) {
 
 /* From a state that is none of an actuator, where the search has led, back to where the cycle before has ended. */
 static bool go_back(Cycles *c) {
-  if (!c->foreseen || c->info.outcome != ZP_DIVERGED) return false;
+  if (!c->foreseen || (c->info.outcome != ZP_DIVERGED && c->info.outcome != ZP_BEYOND_MODEL)) return false;
   memcpy(c->sim->state, c->way_back, zp_state_size(c->model));
   zp_sim_resume(c->sim);
   zp_fixed_point_forget(&c->shooting);

@@ -12,6 +12,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "rest/crossing.h"
 #include "rest/rest.h"
 #include "study/held.h"
 #include "study/notes.h"
@@ -52,6 +53,7 @@ typedef struct Holder {
   double other_force;
   ZpMargins margins;
   const char *fault; /* why the state found is impossible; NULL: no reason is known */
+  bool cross;        /* a stable state at drive.voltage has been found, but its faces cross each other */
   ZpOutcome outcome;
 } Holder;
 
@@ -113,14 +115,20 @@ static bool asked_to_stop(void *holder) {
   return zp_task_stops(h->task, "raising the voltage", fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage);
 }
 
-/* Is the present state possible, as an answer or as a point on the way? Its force is at most the attraction of closed
- * faces. */
-static bool is_possible(Holder *h, bool answer) {
+/* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces. */
+static bool is_possible(Holder *h) {
   const ZpPlatesParams *plates = &h->rest.statics.member->model->plates;
   double most = zp_plates_law(plates, h->rest.statics.U, 0).W * zp_faces_length(h->model);
-  h->fault = answer ? zp_statics_fault(&h->rest.statics) : zp_statics_fault_of_stations(&h->rest.statics);
+  h->fault = zp_statics_fault_of_stations(&h->rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
+}
+
+/* May the present state be the answer? */
+static bool is_answer(Holder *h) {
+  bool cross = zp_statics_faces_cross(&h->rest.statics);
+  h->cross |= cross;
+  return is_possible(h) && !cross;
 }
 
 /* A rising voltage leads to the present point: has it jumped there? */
@@ -161,7 +169,7 @@ static End follow(Holder *h) {
     double direction = h->rest.branch.direction_m;
     h->rising = direction > 0;
     h->rest.system.save(s, h->before);
-    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h, false);
+    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h);
     if (!further && !turned) memcpy(h->edge, h->before, h->rest.system.save_size);
     if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
@@ -187,7 +195,7 @@ static bool fall(Holder *h, bool turned) {
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     h->rest.system.restore(s, h->edge);
     double U = fmin((1 + above[k]) * h->highest + least * top, top);
-    found = zp_newton_good(zp_statics_fall(s, U).end) && is_possible(h, false);
+    found = zp_newton_good(zp_statics_fall(s, U).end) && is_possible(h);
   }
   if (!found) return false;
   pass(h, turned);
@@ -209,7 +217,7 @@ static bool settle(Holder *h, ZpNewtonInfo *info) {
   int iterations = info->iterations;
   *info = zp_rest_settle(&h->rest, h->model->def.drive.voltage);
   info->iterations += iterations;
-  return zp_newton_good(info->end) && is_stable(h) && is_possible(h, true);
+  return zp_newton_good(info->end) && is_stable(h) && is_answer(h);
 }
 
 /* If that fails, limit points are near: repeat the branch's last step in shorter and shorter ones. */
@@ -232,7 +240,7 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
   h->rest.system.restore(&h->rest.statics, h->before);
   *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage);
-  return zp_newton_good(info->end) && is_possible(h, true);
+  return zp_newton_good(info->end) && is_answer(h);
 }
 
 /* Further along the branch: other stable states at drive.voltage. */
@@ -299,6 +307,10 @@ static void describe(Holder *h) {
              h->model->def.isometric.separation);
   else if (h->outcome == ZP_INTERRUPTED)
     snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
+  else if (h->outcome == ZP_BEYOND_MODEL)
+    snprintf(r->message, size,
+             "no force at drive.voltage = %g V: " ZP_FACES_CROSS "; " ZP_LESS_STEEP "; the results so far are kept",
+             top);
   else if (h->outcome == ZP_BRANCH_LOST)
     snprintf(r->message, size,
              "the rising voltage was followed to %.4g V only, of drive.voltage = %g V%s%s; set more mesh.nodes; the "
@@ -319,7 +331,7 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
   if (settle(h, info) || settle_closer(h, taken, info) || settle_beyond(h, info))
     record(h, true, true);
   else
-    h->outcome = ZP_BRANCH_LOST;
+    h->outcome = h->cross ? ZP_BEYOND_MODEL : ZP_BRANCH_LOST;
 }
 
 /* -- derivatives ---------------------------------------------------------------------------------- */

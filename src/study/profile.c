@@ -542,7 +542,9 @@ static ZpStatus run(Profiler *p, ZpError *err) {
   find_laws(p);
   if (!found) return end_badly(p, ZP_NOT_SETTLED, "no equilibrium without voltage found");
   ZpFieldEnd end = solve(p);
-  return end == ZP_FIELD_SOLVED ? report(p, err) : end_badly(p, ZP_DIVERGED, zp_field_words(end));
+  return end == ZP_FIELD_SOLVED
+             ? report(p, err)
+             : end_badly(p, end == ZP_FIELD_FOLDED ? ZP_BEYOND_MODEL : ZP_DIVERGED, zp_field_words(end));
 }
 
 static const ZpRule rule[] = {

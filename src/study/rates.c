@@ -149,10 +149,15 @@ static void note_lost(const ZpRunRates *rates, ZpResult *result) {
                      zp_key(of->by.key)->name, of->cause);
 }
 
+double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
+  ZpOutcome outcome = result->outcome;
+  bool sound = outcome != ZP_DIVERGED && outcome != ZP_BEYOND_MODEL && outcome != ZP_NOT_SETTLED;
+  return sound ? zp_sim_get(sim, signal) : NAN;
+}
+
 static void add_value(const ZpRunRates *rates, const EndNumber *number, ZpResult *result) {
   if (!number->has(rates->sim->model) || zp_result_has(result, number->name)) return;
-  bool sound = result->outcome != ZP_DIVERGED && result->outcome != ZP_NOT_SETTLED;
-  zp_result_add(result, number->name, number->unit, sound ? zp_sim_get(rates->sim, number->signal) : NAN);
+  zp_result_add(result, number->name, number->unit, zp_at_end(rates->sim, result, number->signal));
 }
 
 void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {

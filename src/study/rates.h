@@ -9,6 +9,9 @@
  * none. In any case to be closed, before the run. */
 ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err);
 
+/* A signal where a run has ended; NAN if it has not settled, or ended in a state that is none of an actuator. */
+double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal);
+
 /* Where the run has ended: add its derivatives, the numbers that they are of where the summary lacks them, and a note
  * on what has none. */
 void zp_rates_add(const ZpRunRates *rates, ZpResult *result);

@@ -87,13 +87,18 @@ static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResul
   return status;
 }
 
-/* Solve on the requested mesh; if the branch is lost, on one with half as long elements, and once more => the result,
+/* May a finer mesh have an answer? On a coarse one a branch is lost, or faces at rest cross each other. */
+static bool needs_finer(ZpStudy study, const ZpResult *result) {
+  return result->outcome == ZP_BRANCH_LOST || (result->outcome == ZP_BEYOND_MODEL && !is_motion(study));
+}
+
+/* Solve on the requested mesh; if that has no answer, on one with half as long elements, and once more => the result,
  * and the mesh that it belongs to in `def`. */
 static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpActuatorDef *def, ZpResult **result,
                                ZpError *err) {
   enum { MOST = 2 };
   ZpStatus status = solve(run, study, task, result, err);
-  for (int k = 0; k < MOST && status == ZP_OK && (*result)->outcome == ZP_BRANCH_LOST; k++) {
+  for (int k = 0; k < MOST && status == ZP_OK && needs_finer(study, *result); k++) {
     ZpActuatorDef finer = *def;
     finer.mesh.nodes = 2 * def->mesh.nodes - 1;
     if (zp_def_check(&finer, NULL) != ZP_OK) break;
@@ -101,8 +106,8 @@ static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task
     zp_result_destroy(*result);
     status = solve(run, study, &(ZpTask){def, task->input, task->hooks}, result, err);
     if (status == ZP_OK)
-      zp_result_note(*result, "solved with %d nodes: with mesh.nodes = %d the branch of equilibria was lost",
-                     def->mesh.nodes, task->def->mesh.nodes);
+      zp_result_note(*result, "solved with %d nodes: with mesh.nodes = %d no equilibrium was found", def->mesh.nodes,
+                     task->def->mesh.nodes);
   }
   return status;
 }
