@@ -41,12 +41,6 @@ static const ZpRule rule[] = {
             "the attraction of platforms is modelled for level ones only"),
     ZP_RULE(EQUATION, ZP_IS(platform.rotates, true), ZP_IS(liquid.model, ZP_LIQUID_NONE),
             "the liquid between the platforms is modelled for level ones only"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(platform.rotates, true), ZP_IS(ribbon.plasticity, false),
-            "beside the end of a platform that turns there are no points at which a strip yields"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(platform.rotates, true), ZP_IS(load.stiffness, 0),
-            "the spring is modelled for level platforms only"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(platform.rotates, true), ZP_UNSET(load.stop_opening),
-            "the stop is modelled for level platforms only"),
     ZP_MOTION_RULE(EQUATION, ZP_IS(platform.rotates, true), ZP_IS(load.change_mass, 0),
                    "an impact that turns the platform needs the balance of angular momentum"),
     /* what a platform that turns makes possible */

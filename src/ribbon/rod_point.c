@@ -35,6 +35,12 @@ static ZpRodPoint point_of_end(const ZpRodParams *p, size_t end, const Place *pl
                       .end = end};
 }
 
+/* The joint at an end of a platform that turns bends over half an edge only. */
+static bool is_beside_platform(const ZpRodParams *p, size_t j) {
+  size_t station = j / p->ribbons;
+  return p->lower_turns && j % p->ribbons == 1 && (station == p->rigid || station == p->rigid_end);
+}
+
 ZpRodPoint zp_rod_point(const ZpRodParams *p, size_t i) {
   size_t joints = joint_count(p);
   if (i >= joints) {
@@ -42,7 +48,8 @@ ZpRodPoint zp_rod_point(const ZpRodParams *p, size_t i) {
     return point_of_end(p, k / ZP_ROD_END_POINTS, &places[k % ZP_ROD_END_POINTS]);
   }
   bool bends = p->B[i] > 0 && zp_rod_point_at(p, i) == i;
-  return (ZpRodPoint){.length = bends ? p->l[0] : 0, .joints = 1, .joint = {i, i}, .share = {1, 0}};
+  double edges = is_beside_platform(p, i) ? 0.5 : 1;
+  return (ZpRodPoint){.length = bends ? edges * p->l[0] : 0, .joints = 1, .joint = {i, i}, .share = {1 / edges, 0}};
 }
 
 size_t zp_rod_point_ribbon(const ZpRodParams *p, const ZpRodPoint *point) {

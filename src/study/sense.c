@@ -193,9 +193,9 @@ static void fill_columns(const Sensing *s, ZpTable *series) {
   }
 }
 
-/* The equilibria up to the largest voltage of the run. With the field their shapes are those of the plates law, up to a
- * somewhat higher voltage: shapes of one stroke hardly differ, and a field for each of a path's steps would take
- * minutes. */
+/* The equilibria up to the largest voltage of the run, of ribbons that have not yielded. With the field their shapes
+ * are those of the plates law, up to a somewhat higher voltage: shapes of one stroke hardly differ, and a field for
+ * each of a path's steps would take minutes. */
 static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **path, ZpError *err) {
   static const double beyond = 1.1;
   ZpActuatorDef def = *task->def, fresh = zp_actuator_def_default();
@@ -208,6 +208,9 @@ static ZpStatus find_path(const ZpTask *task, const ZpModel *model, ZpResult **p
   def.sensitivity = fresh.sensitivity;
   def.initial = fresh.initial;
   def.insulator.resistivity = def.medium.resistivity = NAN;
+  def.ribbon.plasticity = false;
+  def.ribbon.hardening_modulus = fresh.ribbon.hardening_modulus;
+  def.lower.ribbon.hardening_modulus = fresh.lower.ribbon.hardening_modulus;
   def.output.errors = false;
   def.output.shapes = MOST_SHAPES;
   if (def.electro.model == ZP_ELECTRO_FIELD) def.drive.voltage *= beyond;

@@ -78,6 +78,12 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   }
 }
 
+/* Minus the derivative of the force at one end of a platform that turns, whose middle is the mean of both ends. */
+static void follow_middle(const ZpTopology *t, const ZpAssembly *assembly, size_t end, double slope, ZpBand *K) {
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    zp_assemble_entry(assembly, 2 * zp_lower(t, end) + 1, 2 * zp_lower(t, i) + 1, 0.5 * slope, K);
+}
+
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   (void)e;
   const ZpTopology *t = &model->topology;
@@ -87,7 +93,10 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
     if (spring.k > 0) slope += span->share * slope_of(&spring, way_of(model, &spring, span), zp_span_is_still(span));
   }
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    zp_assemble_heights(assembly, i, slope, slope, -slope, K);
+    if (zp_platform_turns(t))
+      follow_middle(t, assembly, i, slope, K);
+    else
+      zp_assemble_heights(assembly, i, slope, slope, -slope, K);
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
