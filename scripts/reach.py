@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Which tests reach which file: writes tests/reach.txt.   reach.py BUILD
 
-From what BUILD/mutants/results.json has recorded: a planted fault marks each test that reaches it. A file without a fault
+From what BUILD/mutants/results.json has recorded: a planted fault marks each test of `make check` that reaches it. A file without a fault
 has the tests of its room together. tests/reach.txt has a line per room or file: its path, then the tests, the cheapest first.
 """
 import collections
@@ -17,6 +17,8 @@ of_number = {mutant.number: mutant for mutant in mutants.read_tables()}
 reached, cost = collections.defaultdict(set), collections.Counter()
 for name, (_, seconds, numbers) in recorded.items():
     program = name.split("/")[0]
+    if program in mutants.ROOMS:
+        continue
     cost[program] += seconds
     for number in numbers:
         fault = of_number[number]
