@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Builds and runs those tests of `make check` that reach what has changed (.ci/changed).   check-near.py BUILD [--list]
 
-tests/reach.txt says which these are: of a file, or of its folder where it has no line of its own. A header has those of
-the source of its name. Tests that the table does not know run, too. All run for what every file depends on: public headers,
+tests/reach.txt says which these are: of a file, or of its folder where it has no line of its own; and test_NAME of NAME.c. A
+header has those of the source of its name. Tests that the table does not know run, too. All run for what every file depends on: public headers,
 the tables of keys, the build.
 --list only says which.
 """
@@ -48,8 +48,8 @@ def tests_near(path, reach, known):
             return (tests | {name}) & known
     for place in (path, os.path.splitext(path)[0] + ".c", *folders_of(path)):
         if place in reach:
-            return reach[place] & known
-    return set()
+            return (reach[place] | {"test_" + name}) & known
+    return {"test_" + name} & known
 
 
 def main():
@@ -59,7 +59,8 @@ def main():
     known = set(re.findall(r"^ *Test +#\d+: (\S+)", listed.stdout, re.M))
     reach = read_reach()
     near = [tests_near(path, reach, known) for path in changed]
-    new = {name for name in known if name.startswith("test_") and not any(name in tests for tests in reach.values())}
+    told = set().union(*reach.values(), *BY_HAND.values())
+    new = {name for name in known - told if name.startswith("test_")}
     chosen = known if None in near else ALWAYS.union(*near, new if any(path.startswith(("src/", "cli/", "reproduce/")) for path in changed) else ())
     print("%d of %d tests: %s" % (len(chosen), len(known), "all" if chosen == known else " ".join(sorted(chosen))), flush=True)
     for place, command in BESIDE.items():
