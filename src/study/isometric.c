@@ -393,6 +393,30 @@ static void derive(void *user, ZpSlope *slope, ZpResult *r) {
   if (zp_is_hinge(&h->model->topology)) derive_fold(slope, torque, found, r);
 }
 
+/* Is it a key of the load? That is removed, so nothing depends on it. */
+static bool is_of_load(int key) {
+  static const ZpKeyGroup load = ZP_KEY_GROUP(load);
+  return key >= load.first && key < load.end;
+}
+
+static void derive_by_load(int key, ZpResult *r) {
+  static const char *const outputs[] = {"force_N",       "force_unpowered_N", "opening_m", "charge_C",
+                                        "capacitance_F", "torque_N_m",        "angle_rad"};
+  for (size_t k = 0; k < sizeof outputs / sizeof outputs[0]; k++)
+    if (zp_result_has(r, outputs[k])) zp_result_add_sensitivity(r, outputs[k], key, 0);
+}
+
+static ZpStatus derive_all(Holder *h, ZpError *err) {
+  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
+  ZpStatus status = zp_sensitivity_keys(h->task->def, key, &keys, err);
+  for (int k = 0; k < keys && status == ZP_OK; k++)
+    if (is_of_load(key[k]))
+      derive_by_load(key[k], h->result);
+    else
+      status = zp_sensitivity_by(&h->rest, key[k], derive, h, h->result, err);
+  return status;
+}
+
 static void run(Holder *h) {
   ZpStatics *s = &h->rest.statics;
   s->stop = asked_to_stop;
@@ -446,11 +470,9 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
-/* The load does not count: it is removed before anything is scaled by it. The time at which it would change remains,
- * so that the derivative by it is 0. */
+/* The load does not count: it is removed before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = zp_def_unloaded(task->def);
-  bare.load.change_time = task->def->load.change_time;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
   if (status != ZP_OK) return status;
@@ -461,7 +483,7 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
     run(&h);
   else
     status = zp_fail_memory(err);
-  if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = zp_sensitivity_of(&h.rest, derive, &h, result, err);
+  if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = derive_all(&h, err);
   zp_rest_close(&h.rest);
   zp_model_destroy(model);
   return status;

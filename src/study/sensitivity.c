@@ -66,16 +66,19 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
                    "compute derivatives");
 }
 
-ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
-                           ZpResult *result, ZpError *err) {
+ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
+  ZpSlope slope;
+  ZpStatus status = zp_slope_open(&slope, &rest->statics, key, err);
+  if (status == ZP_OK) derive(user, &slope, result);
+  zp_slope_close(&slope);
+  return status;
+}
+
+ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
   KeyList list;
   ZpStatus status = read_keys(&rest->statics.member->model->whole, &list, err);
-  for (int k = 0; k < list.count && status == ZP_OK; k++) {
-    ZpSlope slope;
-    status = zp_slope_open(&slope, &rest->statics, list.key[k], err);
-    if (status == ZP_OK) derive(user, &slope, result);
-    zp_slope_close(&slope);
-  }
+  for (int k = 0; k < list.count && status == ZP_OK; k++)
+    status = zp_sensitivity_by(rest, list.key[k], derive, user, result, err);
   return status;
 }
 

@@ -16,9 +16,12 @@ ZpStatus zp_sensitivity_keys(const ZpActuatorDef *def, int *key, int *keys, ZpEr
 /* A study that differentiates nothing notes that it was asked to. */
 void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def);
 
-/* Call `derive` for each key of sensitivity.by, with derivatives of states of `rest` by it prepared. */
-ZpStatus zp_sensitivity_of(ZpRest *rest, void (*derive)(void *user, ZpSlope *slope, ZpResult *result), void *user,
-                           ZpResult *result, ZpError *err);
+/* Adds the derivatives by a key. */
+typedef void ZpDerive(void *user, ZpSlope *slope, ZpResult *result);
+
+/* Call `derive` with derivatives of states of `rest` by `key` prepared, or for each key of sensitivity.by. */
+ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
+ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
 
 /* Add limits as numbers of a result, in this order; their derivatives by a key, an entry each. The present point is
  * then another. */
