@@ -4,7 +4,7 @@
 
 /* -- the word -------------------------------------------------------------------------------------- */
 
-/* Every combination of what a bead asks for: a bead where all of it is given, else none. */
+/* Every combination of keys beside which auto is a bead: a bead where all are given, else none. */
 START_TEST(test_auto_is_a_bead_where_one_is_modelled) {
   static const struct {
     const char *key;
@@ -81,8 +81,8 @@ START_TEST(test_auto_runs_as_what_it_stands_for) {
     ZpLiquidModel liquid;
     const char *says;
   } of[] = {{"load.mass", 8e-3, ZP_LIQUID_BEAD, NULL},
-            {"electro.edges", true, ZP_LIQUID_NONE, "requires electro.edges false"},
-            {"medium.resistivity", 1e12, ZP_LIQUID_NONE, "requires medium.resistivity none"},
+            {"electro.edges", true, ZP_LIQUID_NONE, "electro.edges or a resistivity is given"},
+            {"medium.resistivity", 1e12, ZP_LIQUID_NONE, "electro.edges or a resistivity is given"},
             {"ribbon.model", ZP_RIBBON_MASS_SPRING, ZP_LIQUID_NONE, "requires ribbon.model rod"}};
   ZpStudy study = studies[_i];
   for (size_t k = 0; k < LENGTH_OF(of); k++) {

@@ -50,8 +50,10 @@ ZpStatus zp_quantity_read(const char *text, const char *unit, double *value, ZpE
   const char *given = text + length + strspn(text + length, " \t");
   const bool pure = strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0;
   if (length < sizeof number) memcpy(number, text, length);
-  *value = NAN;
-  if (!zp_number_read(number, value)) return ZP_OK;
+  if (!zp_number_read(number, value)) {
+    *value = NAN;
+    return ZP_OK;
+  }
   if (pure && strcmp(given, "%") == 0)
     scale.exponent = -2;
   else if (pure && *given)

@@ -85,11 +85,12 @@ void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest
 void zp_note_liquid(ZpResult *result, const ZpModel *model) {
   ZpError why;
   if (model->def.liquid.model != ZP_LIQUID_AUTO || model->has_bead) return;
-  if (zp_is_pair(&model->topology) && zp_check_bead(&model->def, &why) != ZP_OK)
-    zp_result_note(result,
-                   "liquid.model auto means none here: the liquid is everywhere and has no drag, because a bead is not "
-                   "possible (%s)",
-                   why.message);
+  if (!zp_is_pair(&model->topology)) return;
+  const bool possible = zp_check_bead(&model->def, &why) == ZP_OK;
+  zp_result_note(result, "liquid.model auto means none here: the liquid is everywhere and has no drag, because %s%s%s",
+                 possible ? "electro.edges or a resistivity is given; liquid.model bead is possible beside it"
+                          : "a bead is not possible (",
+                 possible ? "" : why.message, possible ? "" : ")");
 }
 
 /* -- what rest leaves out -------------------------------------------------------------------------- */
