@@ -356,16 +356,20 @@ typedef struct Charges {
   double P; /* -(q0 + q1) / 2 */
 } Charges;
 
-/* For the law with edges, the difference of gaps that are too close is rounding: they are moved a little apart. */
+/* A change of the voltage over which laws are differentiated: a part of it, or of a volt. */
+static double little_voltage(double U) {
+  static const double part = 1e-4;
+  return part * fmax(fabs(U), 1);
+}
+
+/* For the law with edges, the difference of charges at gaps that are too close is rounding: that of forces at the two
+ * sides of the voltage counts. */
 static Charges charges_with_edges(const ZpPlatesParams *p, double U, double g0, double g1) {
-  static const double little = 1e-8; /* m */
-  double q0 = zp_plates_law(p, U, g0).q, q1 = zp_plates_law(p, U, g1).q, P = -0.5 * (q0 + q1), over = g1 - g0;
-  if (fabs(over) < little) {
-    over = 2 * little;
-    q0 = zp_plates_law(p, U, g1 - little).q;
-    q1 = zp_plates_law(p, U, g1 + little).q;
-  }
-  return (Charges){-(q1 - q0) / over, P};
+  static const double close = 1e-8; /* m */
+  double q0 = zp_plates_law(p, U, g0).q, q1 = zp_plates_law(p, U, g1).q, by = little_voltage(U);
+  double W = fabs(g1 - g0) < close ? (zp_plates_law(p, U + by, g1).W - zp_plates_law(p, U - by, g1).W) / (2 * by)
+                                   : -(q1 - q0) / (g1 - g0);
+  return (Charges){W, -0.5 * (q0 + q1)};
 }
 
 static Charges charges_between(const ZpPlatesParams *p, double U, double g0, double g1) {
@@ -379,8 +383,7 @@ static Charges charges_between(const ZpPlatesParams *p, double U, double g0, dou
 
 /* dq/dU at a gap, F/m: 0 where the cap holds the charge. */
 static double capacitance_at(const ZpPlatesParams *p, double U, double g) {
-  static const double part = 1e-4; /* of the voltage, or of a volt */
-  double little = part * fmax(fabs(U), 1);
+  double little = little_voltage(U);
   if (p->edges) return (zp_plates_law(p, U + little, g).q - zp_plates_law(p, U - little, g).q) / (2 * little);
   double h = g + p->d, h_c = p->h_per_volt * fabs(U);
   if (h < p->h_least) h = p->h_least;

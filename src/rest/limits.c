@@ -19,12 +19,13 @@ typedef struct Finder {
   double at_least, at_most; /* voltages that close it under these, V; NAN: not known */
 } Finder;
 
-/* Hang without voltage, from close by => state; this determines when it counts as closed. */
-static bool hang(Finder *f, double *state) {
+/* Hang without voltage, from close by => state, gap; this determines when it counts as closed. */
+static bool hang(Finder *f, double *state, double *gap) {
   ZpStatics *s = &f->rest->statics;
   f->limits->info = zp_statics_hang(s);
   if (!zp_newton_good(f->limits->info.end) || !zp_statics_bias(s) || !zp_statics_stable(s)) return false;
   zp_rest_save(f->rest, state);
+  *gap = zp_closing_gap(s, NULL);
   zp_slow_start(f->rest);
   return true;
 }
@@ -48,7 +49,8 @@ static void narrow(Finder *f, double load, bool closes, double voltage) {
 static bool hang_under(Finder *f, double load) {
   f->rest->system.restore(&f->rest->statics, f->limits->hung);
   f->rest->statics.load = load;
-  return hang(f, f->limits->hung);
+  double gap;
+  return hang(f, f->limits->hung, &gap);
 }
 
 /* -- the largest load: a voltage that rises under a load ----------------------------------------------- */
@@ -290,8 +292,7 @@ static bool closes_as_neighbour(Finder *f) {
 static bool hang_first(Finder *f) {
   ZpLimits *limits = f->limits;
   if (f->near && f->near->hangs) take(f, f->near->start);
-  limits->hangs = hang(f, limits->start);
-  limits->hanging = limits->hangs && f->model->field ? zp_closing_gap(&f->rest->statics, NULL) : 0;
+  limits->hangs = hang(f, limits->start, &limits->hanging);
   return limits->hangs;
 }
 

@@ -62,7 +62,3 @@ ZpStatus zp_near_open(ZpNear *near, const ZpModel *model, int key, double part, 
                    value, row->unit, PERCENT * FARTHEST * part, reason.message);
   return ZP_OK;
 }
-
-double zp_near_weight(int k) {
-  return stencils[0].weight[k] / 12;
-}

@@ -21,7 +21,4 @@ typedef struct ZpNear {
 ZpStatus zp_near_open(ZpNear *near, const ZpModel *model, int key, double part, ZpError *err);
 void zp_near_close(ZpNear *near);
 
-/* Weight of point k, 0 to 4, of the quotient of a function of a number, k - 2 steps of 1 away from it. */
-double zp_near_weight(int k);
-
 #endif

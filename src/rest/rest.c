@@ -124,9 +124,9 @@ ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *open
   ZpStatus status = zp_slope_check(&rest->statics.member->model->def, key, err);
   if (status != ZP_OK) return status;
   status = zp_slope_open(&slope, &rest->statics, key, err);
-  if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {
-    *stroke = zp_slope_of(&slope, zp_pose_load, zp_output_stroke, NULL);
-    *opening = zp_slope_of(&slope, zp_pose_load, zp_output_opening, NULL);
+  if (status == ZP_OK && zp_slope_solve(&slope, ZP_SETS_LOAD)) {
+    *stroke = zp_slope_of(&slope, zp_output_stroke, NULL);
+    *opening = zp_slope_of(&slope, zp_output_opening, NULL);
   }
   zp_slope_close(&slope);
   return status;

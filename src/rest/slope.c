@@ -33,9 +33,13 @@ ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err) {
   return ZP_OK;
 }
 
-void zp_pose_load(const ZpActuatorDef *def, ZpStatics *s) {
-  (void)def;
-  s->load = s->own_load;
+/* The inputs that its definition sets. */
+static void set_inputs(ZpStatics *s, int inputs) {
+  const ZpActuatorDef *def = &s->member->model->def;
+  if (inputs & ZP_SETS_LOAD) s->load = s->own_load;
+  if (inputs & ZP_SETS_VOLTAGE) s->U = def->drive.voltage;
+  if (inputs & ZP_SETS_MODES_VOLTAGE) s->U = def->modes.voltage;
+  if (inputs & ZP_SETS_OPENING) s->opening = def->isometric.separation;
 }
 
 /* -- neighbouring actuators ----------------------------------------------------------------------- */
@@ -94,7 +98,7 @@ static void place_member(const ZpRestMember *at, ZpRestMember *near) {
 }
 
 /* Actuator k in the present state. */
-static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
+static ZpStatics *place(ZpSlope *p, int k) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
   for (size_t which = 0; which < at->members; which++)
@@ -105,7 +109,7 @@ static ZpStatics *place(ZpSlope *p, int k, ZpPose pose) {
   near->load = at->load;
   near->opening = at->opening;
   near->contact_acts = at->contact_acts;
-  pose(&near->member->model->def, near);
+  set_inputs(near, p->inputs);
   return near;
 }
 
@@ -115,8 +119,8 @@ static double *of_member(const ZpSlope *p, double *numbers, size_t which, size_t
 }
 
 /* Actuator k at the coordinates that the last solution gives. */
-static ZpStatics *place_along(ZpSlope *p, int k, ZpPose pose) {
-  ZpStatics *near = place(p, k, pose);
+static ZpStatics *place_along(ZpSlope *p, int k) {
+  ZpStatics *near = place(p, k);
   size_t stride = p->at->member->model->stride;
   for (size_t which = 0; which < near->members; which++) {
     const ZpRestMember *at = &p->at->member[which];
@@ -146,7 +150,7 @@ static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, doub
 
 /* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
  * reaction. */
-static void differentiate(ZpSlope *p, ZpPose pose) {
+static void differentiate(ZpSlope *p) {
   ZpStatics *at = p->at;
   size_t stride = at->members * at->member->model->stride, n = at->n;
   memset(p->rate, 0, 2 * stride * sizeof *p->rate);
@@ -155,7 +159,7 @@ static void differentiate(ZpSlope *p, ZpPose pose) {
   p->reaction = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
     if (!p->by.model[k]) continue;
-    const ZpStatics *near = place(p, k, pose);
+    const ZpStatics *near = place(p, k);
     residual(&p->near[k], p->row);
     for (size_t i = 0; i < n; i++)
       p->by_key[i] += p->by.weight[k] * p->row[i];
@@ -209,8 +213,9 @@ static void add_reaction(ZpSlope *p) {
   p->reaction -= p->row[zp_statics_platform(at)];
 }
 
-bool zp_slope_solve(ZpSlope *p, ZpPose pose) {
-  differentiate(p, pose);
+bool zp_slope_solve(ZpSlope *p, int inputs) {
+  p->inputs = inputs;
+  differentiate(p);
   stiffness(p, p->by_key);
   if (!zp_band_factor(&p->at->newton.K)) return false;
   zp_band_solve(&p->at->newton.K, p->by_key);
@@ -219,11 +224,11 @@ bool zp_slope_solve(ZpSlope *p, ZpPose pose) {
   return true;
 }
 
-double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
+double zp_slope_of(ZpSlope *p, ZpOutput output, void *user) {
   double sum = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
     if (!p->by.model[k]) continue;
-    ZpStatics *near = place_along(p, k, pose);
+    ZpStatics *near = place_along(p, k);
     residual(near, p->row);
     sum += p->by.weight[k] * output(near, user);
   }
@@ -232,26 +237,12 @@ double zp_slope_of(ZpSlope *p, ZpPose pose, ZpOutput output, void *user) {
 
 /* -- limits --------------------------------------------------------------------------------------- */
 
-/* dF/dm at the present point => by_parameter. */
-static void differentiate_by_parameter(ZpSlope *p, const ZpBranchSystem *branch) {
-  static const double least = 1e-3; /* of the parameter's scale */
-  size_t n = p->at->n;
-  double m = branch->get(p->at), step = part * fmax(fabs(m), least * branch->m_scale);
-  memset(p->by_parameter, 0, n * sizeof *p->by_parameter);
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
-    branch->set(p->at, m + (k - 2) * step);
-    residual(p->at, p->row);
-    for (size_t i = 0; i < n; i++)
-      p->by_parameter[i] += zp_near_weight(k) / step * p->row[i];
-  }
-  branch->set(p->at, m);
-}
-
 /* dF/dp and dF/dm, both multiplied by the inverse stiffness. */
-static bool solve_both(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch) {
-  differentiate(p, pose);
-  differentiate_by_parameter(p, branch);
+static bool solve_both(ZpSlope *p, int inputs, const ZpBranchSystem *branch) {
+  p->inputs = inputs;
+  differentiate(p);
   stiffness(p, NULL);
+  branch->sensitivity(p->at, p->by_parameter);
   if (!zp_band_factor(&p->at->newton.K)) return false;
   zp_band_solve(&p->at->newton.K, p->by_key);
   zp_band_solve(&p->at->newton.K, p->by_parameter);
@@ -267,22 +258,22 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 /* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two
  * solutions is a quotient of two products with the left null vector. Solved twice, other soft motions, as of members
  * that nearly reach their limit points together, are left out to second order. */
-double zp_slope_of_fold(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, const double *null) {
+double zp_slope_of_fold(ZpSlope *p, int inputs, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->n;
-  if (!solve_both(p, pose, branch) || !is_smooth(p, branch)) return NAN;
+  if (!solve_both(p, inputs, branch) || !is_smooth(p, branch)) return NAN;
   zp_band_solve(&p->at->newton.K, p->by_key);
   zp_band_solve(&p->at->newton.K, p->by_parameter);
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 
-double zp_slope_of_event(ZpSlope *p, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate,
+double zp_slope_of_event(ZpSlope *p, int inputs, const ZpBranchSystem *branch, ZpEvent event, double rate,
                          double by_parameter) {
   size_t n = p->at->n;
-  if (!solve_both(p, pose, branch)) return NAN;
+  if (!solve_both(p, inputs, branch)) return NAN;
   double direct = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
     if (!p->by.model[k]) continue;
-    ZpStatics *near = place(p, k, pose);
+    ZpStatics *near = place(p, k);
     residual(near, p->row);
     direct += p->by.weight[k] * event(near, NULL);
   }

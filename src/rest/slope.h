@@ -9,12 +9,9 @@
 #include "rest/statics.h"
 #include "solve/fold.h"
 
-/* Set what a definition determines of a state besides the model: voltage, load, the opening at which the platform is
- * held. What it does not set stays that of the state. */
-typedef void (*ZpPose)(const ZpActuatorDef *def, ZpStatics *statics);
-
-/* The load is load.mass. */
-void zp_pose_load(const ZpActuatorDef *def, ZpStatics *statics);
+/* Inputs of a state that its definition sets: load.mass, drive.voltage, modes.voltage, the opening
+ * isometric.separation at which the platform is held. Others stay as they are. */
+enum { ZP_SETS_LOAD = 1, ZP_SETS_VOLTAGE = 2, ZP_SETS_MODES_VOLTAGE = 4, ZP_SETS_OPENING = 8 };
 
 /* A number of a state, at its last residual. */
 typedef double (*ZpOutput)(ZpStatics *statics, void *user);
@@ -22,6 +19,7 @@ typedef double (*ZpOutput)(ZpStatics *statics, void *user);
 typedef struct ZpSlope {
   ZpStatics *at;                  /* the state */
   int key;                        /* key of the derivatives */
+  int inputs;                     /* those that move with the key */
   ZpNear by;                      /* actuators with a slightly larger or smaller key */
   ZpStatics near[ZP_NEAR_POINTS]; /* states of these */
   double *motion;                 /* [2 stride] the part of dq/dp beyond the stretching of all coordinates */
@@ -43,10 +41,10 @@ ZpStatus zp_slope_open(ZpSlope *slope, ZpStatics *at, int key, ZpError *err);
 void zp_slope_close(ZpSlope *slope);
 
 /* Compute rate, tension and reaction at the present point, an equilibrium. False if the stiffness is singular. */
-bool zp_slope_solve(ZpSlope *slope, ZpPose pose);
+bool zp_slope_solve(ZpSlope *slope, int inputs);
 
 /* The derivative of an output along the last solution. */
-double zp_slope_of(ZpSlope *slope, ZpPose pose, ZpOutput output, void *user);
+double zp_slope_of(ZpSlope *slope, ZpOutput output, void *user);
 
 /* Outputs, m or rad; `user` is not used. */
 double zp_output_stroke(ZpStatics *statics, void *user);
@@ -55,11 +53,11 @@ double zp_output_angle(ZpStatics *statics, void *user);
 
 /* Derivative of the parameter of `branch` at the present point, a limit point. NAN if there is none, because the branch
  * turns where a law has a corner. `null` [n] is the null vector. */
-double zp_slope_of_fold(ZpSlope *slope, ZpPose pose, const ZpBranchSystem *branch, const double *null);
+double zp_slope_of_fold(ZpSlope *slope, int inputs, const ZpBranchSystem *branch, const double *null);
 
 /* Derivative by the key of the parameter at which an event is; `rate` and `by_parameter` are the derivatives of its
  * value by the key and by the parameter. */
-double zp_slope_of_event(ZpSlope *slope, ZpPose pose, const ZpBranchSystem *branch, ZpEvent event, double rate,
+double zp_slope_of_event(ZpSlope *slope, int inputs, const ZpBranchSystem *branch, ZpEvent event, double rate,
                          double by_parameter);
 
 #endif

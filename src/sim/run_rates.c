@@ -19,9 +19,9 @@ static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *e
   const ZpModel *model = rest->statics.member->model;
   ZpSlope slope;
   ZpStatus status = zp_slope_open(&slope, &rest->statics, key, err);
-  if (status == ZP_OK && zp_slope_solve(&slope, zp_pose_load)) {
+  if (status == ZP_OK && zp_slope_solve(&slope, ZP_SETS_LOAD)) {
     memcpy(zp_state_q(model, rate), slope.rate, 2 * model->stride * sizeof *slope.rate);
-    rate->opening0 = zp_is_pair(&model->topology) ? zp_slope_of(&slope, zp_pose_load, zp_output_opening, NULL) : 0;
+    rate->opening0 = zp_is_pair(&model->topology) ? zp_slope_of(&slope, zp_output_opening, NULL) : 0;
   }
   zp_slope_close(&slope);
   return status;

@@ -10,21 +10,14 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "study/members.h"
-#include "study/notes.h"
+#include "study/equilibria.h"
 #include "study/sensitivity.h"
-#include "study/studies.h"
 
 static const ZpColumn columns[] = {
     {"voltage_V", "V", "voltage between the electrodes"},
-    {"stroke_m", "m", "height of the clip over the lower platform, signed"},
-    {"opening_m", "m", "distance between the platforms' faces"},
-    {"zipped_length_m", "m", "closed length of one half, from the clip"},
-    {"charge_C", "C", "charge on the electrodes"},
-    {"capacitance_F", "F", "capacitance of the electrodes"},
+    ZP_STATE_COLUMNS,
     {"stable", "1", "1: stable, 0: unstable"},
     {"branch", "1", "0: followed from hanging without voltage, 1: from closed at drive.voltage"},
-    ZP_MARGIN_COLUMNS,
 };
 static const ZpLimitKind order[] = {ZP_LIMIT_PULL_IN, ZP_LIMIT_RELEASE, ZP_LIMIT_CLOSING};
 enum { COLUMNS = sizeof columns / sizeof columns[0], ORDER = sizeof order / sizeof order[0], MOST_POINTS = 5000 };
@@ -33,60 +26,32 @@ enum { COLUMNS = sizeof columns / sizeof columns[0], ORDER = sizeof order / size
 static const double hanging_part = 0.01;
 
 typedef struct Follower {
-  const ZpModel *model;
-  const ZpTask *task;
-  ZpResult *result;
-  ZpRest rest;
+  ZpEquilibria at;
   ZpLimits *limits;
   int points;
   double shorted; /* voltage at which electrodes without an insulator touched first, V; NAN: they did not */
-  ZpMargins margins;
-  bool ran_back; /* the hanging branch turned back into itself */
-  int turns;     /* limit points on the present branch */
-  double left;   /* voltage at which a branch was not followed further beyond a limit point, V; NAN: none */
+  bool ran_back;  /* the hanging branch turned back into itself */
+  int turns;      /* limit points on the present branch */
+  double left;    /* voltage at which a branch was not followed further beyond a limit point, V; NAN: none */
   ZpOutcome outcome;
 } Follower;
 
 static void record(Follower *f, int branch) {
-  const ZpModel *model = f->model;
-  ZpStatics *s = &f->rest.statics;
-  bool stable = zp_statics_stable(s);
-  ZpMargins margins;
-  ZpShape shape = zp_rest_shape(&f->rest, f->points, &margins);
-  double row[COLUMNS + ZP_MEMBER_COLUMNS] = {s->U,
-                                             zp_statics_stroke(s),
-                                             zp_statics_opening(s),
-                                             zp_statics_closed_length(s),
-                                             zp_statics_charge(s),
-                                             zp_statics_capacitance(s),
-                                             stable,
-                                             branch,
-                                             ZP_MARGIN_VALUES(margins)};
-  zp_members_values(&f->rest, row + COLUMNS);
-  bool last = s->U == model->def.drive.voltage && f->points > 0;
+  ZpStatics *s = &f->at.rest.statics;
+  bool stable = zp_statics_stable(s), last = s->U == f->at.model->def.drive.voltage && f->points > 0;
+  zp_equilibria_add(&f->at, (double[COLUMNS + ZP_BEHIND]){s->U, ZP_STATE_VALUES(s), stable, branch}, f->points, last);
   f->points++;
-  zp_margins_join(&f->margins, margins);
-  zp_table_offer(f->result->series, row);
-  zp_shapes_offer(f->result->shapes, &shape);
-  if (!last) return;
-  zp_table_keep_last(f->result->series, row);
-  zp_shapes_keep_last(f->result->shapes, &shape);
-}
-
-static bool asked_to_stop(void *follower) {
-  const Follower *f = follower;
-  return zp_task_stops(f->task, "following", fabs(f->rest.statics.U) / fmax(f->model->def.drive.voltage, 1));
 }
 
 static bool is_beyond_top(void *user) {
   const Follower *f = user;
-  return f->rest.statics.U > f->model->def.drive.voltage;
+  return f->at.rest.statics.U > f->at.model->def.drive.voltage;
 }
 
 /* The equilibrium at drive.voltage, which the last step passed. */
 static bool arrive(Follower *f) {
-  zp_branch_approach(&f->rest.branch, is_beyond_top, f);
-  return zp_newton_good(zp_rest_settle(&f->rest, f->model->def.drive.voltage).end);
+  zp_branch_approach(&f->at.rest.branch, is_beyond_top, f);
+  return zp_newton_good(zp_rest_settle(&f->at.rest, f->at.model->def.drive.voltage).end);
 }
 
 /* -- branches ------------------------------------------------------------------------------------- */
@@ -94,32 +59,32 @@ static bool arrive(Follower *f) {
 /* Without voltage there is only the hanging state: has the branch returned to it? */
 static bool is_hanging(Follower *f) {
   double hanging = f->limits->hanging;
-  return hanging > 0 && fabs(zp_closing_gap(&f->rest.statics, NULL) / hanging - 1) < hanging_part;
+  return hanging > 0 && fabs(zp_closing_gap(&f->at.rest.statics, NULL) / hanging - 1) < hanging_part;
 }
 
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
  * => false if it was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
-  double top = f->model->def.drive.voltage;
+  double top = f->at.model->def.drive.voltage;
   record(f, mark);
-  if (!zp_rest_follow(&f->rest, growing)) return false;
+  if (!zp_rest_follow(&f->at.rest, growing)) return false;
   for (int k = 0; k < MOST_POINTS; k++) {
-    double direction = f->rest.branch.direction_m;
-    if (!zp_branch_advance(&f->rest.branch) || zp_statics_fault_of_stations(&f->rest.statics)) return false;
-    f->turns += direction * f->rest.branch.direction_m < 0;
-    if (f->rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
-    if (f->rest.statics.U < 0) return !f->ran_back;
-    if (zp_statics_shorted(&f->rest.statics)) {
-      f->shorted = f->rest.statics.U;
+    double direction = f->at.rest.branch.direction_m;
+    if (!zp_branch_advance(&f->at.rest.branch) || zp_statics_fault_of_stations(&f->at.rest.statics)) return false;
+    f->turns += direction * f->at.rest.branch.direction_m < 0;
+    if (f->at.rest.statics.U < 0) f->ran_back = growing && is_hanging(f);
+    if (f->at.rest.statics.U < 0) return !f->ran_back;
+    if (zp_statics_shorted(&f->at.rest.statics)) {
+      f->shorted = f->at.rest.statics.U;
       return true;
     }
-    if (f->rest.statics.U > top) {
+    if (f->at.rest.statics.U > top) {
       if (!arrive(f)) return false;
       record(f, mark);
       return true;
     }
     record(f, mark);
-    if (zp_statics_asked_to_stop(&f->rest.statics)) return true;
+    if (zp_statics_asked_to_stop(&f->at.rest.statics)) return true;
   }
   return false;
 }
@@ -129,7 +94,7 @@ static void follow_whole(Follower *f, bool growing, int mark) {
   f->turns = 0;
   if (follow(f, growing, mark)) return;
   if (f->turns > 0 && !f->ran_back)
-    f->left = f->rest.statics.U;
+    f->left = f->at.rest.statics.U;
   else
     f->outcome = ZP_BRANCH_LOST;
 }
@@ -139,23 +104,19 @@ static void follow_whole(Follower *f, bool growing, int mark) {
 /* Both branches; if the hanging and the closed state are connected, the first one contains all. */
 static void follow_both(Follower *f) {
   if (!f->limits->hangs) f->outcome = ZP_NOT_SETTLED;
-  if (!f->limits->hangs || f->rest.statics.stopped) return;
-  zp_rest_go_to(&f->rest, f->limits->start);
+  if (!f->limits->hangs || f->at.rest.statics.stopped) return;
+  zp_rest_go_to(&f->at.rest, f->limits->start);
   follow_whole(f, true, 0);
-  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->model->field && zp_slow_is_closed(&f->rest);
-  if (whole || !f->limits->closes || f->rest.statics.stopped) return;
-  zp_rest_go_to(&f->rest, f->limits->closed);
+  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->at.model->field && zp_slow_is_closed(&f->at.rest);
+  if (whole || !f->limits->closes || f->at.rest.statics.stopped) return;
+  zp_rest_go_to(&f->at.rest, f->limits->closed);
   follow_whole(f, false, 1);
 }
 
 static void note(Follower *f) {
-  ZpResult *r = f->result;
-  zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
-  zp_add_margins(r, f->model, &f->margins);
-  zp_note_mesh(r, f->model, f->model->def.drive.voltage);
-  zp_note_rest(r, f->model);
-  zp_note_no_controller(r, f->model);
-  if (f->model->def.drive.voltage > 0) zp_note_start(r, f->model, zp_table_get(r->series, 0, "opening_m"));
+  ZpResult *r = f->at.result;
+  zp_equilibria_note(&f->at, f->at.model->def.drive.voltage);
+  if (f->at.model->def.drive.voltage > 0) zp_note_start(r, f->at.model, zp_table_get(r->series, 0, "opening_m"));
   if (!isnan(f->left))
     zp_result_note(
         r,
@@ -179,7 +140,7 @@ __attribute__((format(printf, 2, 3))) static void add(ZpResult *r, const char *f
 }
 
 static void describe_way_up(const Follower *f) {
-  ZpResult *r = f->result;
+  ZpResult *r = f->at.result;
   const ZpLimit *closed = &f->limits->limit[ZP_LIMIT_CLOSING];
   const double pull_in = f->limits->limit[ZP_LIMIT_PULL_IN].value, closing = closed->value;
   if (!isnan(pull_in))
@@ -189,7 +150,7 @@ static void describe_way_up(const Follower *f) {
   else if (!isnan(closing))
     add(r, "no pull-in: closes gradually at %.4g V", closing);
   else
-    add(r, "no pull-in up to %g V", f->model->def.drive.voltage);
+    add(r, "no pull-in up to %g V", f->at.model->def.drive.voltage);
   if (closed->end == ZP_MARCH_LOST)
     add(r, "; %s", closed->reason);
   else if (!isnan(pull_in) && closing > pull_in)
@@ -197,9 +158,9 @@ static void describe_way_up(const Follower *f) {
 }
 
 static void describe_way_down(const Follower *f) {
-  ZpResult *r = f->result;
+  ZpResult *r = f->at.result;
   const ZpLimit *release = &f->limits->limit[ZP_LIMIT_RELEASE];
-  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->rest.statics);
+  const char *trouble = f->ran_back ? "it turned back to hanging" : zp_statics_trouble(&f->at.rest.statics);
   if (!isnan(release->value))
     add(r, ", releases at %.4g V", release->value);
   else if (isnan(f->shorted))
@@ -209,11 +170,11 @@ static void describe_way_down(const Follower *f) {
 }
 
 static void describe(const Follower *f) {
-  f->result->message[0] = 0;
-  if (f->rest.statics.stopped) {
-    add(f->result, "interrupted at %.4g V; the results so far are kept", fabs(f->rest.statics.U));
+  f->at.result->message[0] = 0;
+  if (f->at.rest.statics.stopped) {
+    add(f->at.result, "interrupted at %.4g V; the results so far are kept", fabs(f->at.rest.statics.U));
   } else if (f->outcome == ZP_NOT_SETTLED) {
-    add(f->result, "%s", zp_statics_no_rest(&f->rest.statics));
+    add(f->at.result, "%s", zp_statics_no_rest(&f->at.rest.statics));
   } else {
     describe_way_up(f);
     describe_way_down(f);
@@ -221,36 +182,29 @@ static void describe(const Follower *f) {
 }
 
 static ZpOutcome outcome_of(const Follower *f) {
-  if (f->rest.statics.stopped) return ZP_INTERRUPTED;
+  if (f->at.rest.statics.stopped) return ZP_INTERRUPTED;
   return f->outcome == ZP_FOLLOWED && zp_limits_lost(f->limits) ? ZP_BRANCH_LOST : f->outcome;
 }
 
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   Follower *f = user;
-  zp_derive_limits(&f->rest, f->limits, order, ORDER, slope, result);
+  zp_derive_limits(&f->at.rest, f->limits, order, ORDER, slope, result);
 }
 
 static ZpStatus run(Follower *f, ZpError *err) {
-  const ZpActuatorDef *def = &f->model->def;
-  f->result->series = zp_members_table(f->model, columns, COLUMNS, (size_t)def->output.samples);
-  f->result->shapes = zp_model_shapes(f->model, (size_t)def->output.shapes);
-  if (!f->result->series || !f->result->shapes || !zp_rest_open(&f->rest, f->model, NULL, NULL))
-    return zp_fail_memory(err);
-  f->limits = zp_limits_create(&f->rest);
+  f->limits = zp_limits_create(&f->at.rest);
   if (!f->limits) return zp_fail_memory(err);
-  f->rest.statics.stop = asked_to_stop;
-  f->rest.statics.caller = f;
-  zp_limits_find(&f->rest, NULL, false, f->limits);
-  zp_add_limits(f->limits, order, ORDER, f->result);
-  zp_result_add(f->result, "iterations", "count", f->limits->info.iterations);
-  zp_result_add(f->result, "residual", "1", f->limits->info.residual);
+  zp_limits_find(&f->at.rest, NULL, false, f->limits);
+  zp_add_limits(f->limits, order, ORDER, f->at.result);
+  zp_result_add(f->at.result, "iterations", "count", f->limits->info.iterations);
+  zp_result_add(f->at.result, "residual", "1", f->limits->info.residual);
   follow_both(f);
-  zp_result_add(f->result, "points", "count", f->points);
-  f->result->outcome = outcome_of(f);
+  zp_result_add(f->at.result, "points", "count", f->points);
+  f->at.result->outcome = outcome_of(f);
   describe(f);
   note(f);
-  if (f->outcome == ZP_NOT_SETTLED || f->rest.statics.stopped) return ZP_OK;
-  return zp_sensitivity_of(&f->rest, derive, f, f->result, err);
+  if (f->outcome == ZP_NOT_SETTLED || f->at.rest.statics.stopped) return ZP_OK;
+  return zp_sensitivity_of(&f->at.rest, derive, f, f->at.result, err);
 }
 
 static const ZpRule rule[] = {
@@ -266,19 +220,21 @@ ZpStatus zp_check_equilibrium(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpModel *model;
-  ZpStatus status = zp_model_create(task->def, &model, err);
-  if (status != ZP_OK) return status;
-  Follower f = {.model = model,
-                .task = task,
-                .result = result,
+  const ZpActuatorDef *def = task->def;
+  Follower f = {.at = {.task = task,
+                       .result = result,
+                       .stage = "following",
+                       .top = fmax(def->drive.voltage, 1),
+                       .column = columns,
+                       .columns = COLUMNS,
+                       .rows = (size_t)def->output.samples,
+                       .shapes = (size_t)def->output.shapes},
                 .shorted = NAN,
                 .left = NAN,
-                .margins = zp_margins_none(),
                 .outcome = ZP_FOLLOWED};
-  status = run(&f, err);
+  ZpStatus status = zp_equilibria_open(&f.at, def, NULL, NULL, err);
+  if (status == ZP_OK) status = run(&f, err);
   zp_limits_destroy(f.limits);
-  zp_rest_close(&f.rest);
-  zp_model_destroy(model);
+  zp_equilibria_close(&f.at);
   return status;
 }

@@ -13,21 +13,16 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/crossing.h"
-#include "rest/rest.h"
+#include "study/equilibria.h"
 #include "study/held.h"
-#include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/studies.h"
 
 static const ZpColumn columns[] = {
     {"voltage_V", "V", "voltage between the electrodes"},
     {"force_N", "N", "what the voltage adds to the force that holds the platform"},
-    {"zipped_length_m", "m", "closed length of one half, from the clip"},
-    {"charge_C", "C", "charge on the electrodes"},
-    {"capacitance_F", "F", "capacitance of the electrodes"},
+    ZP_ELECTRIC_COLUMNS,
     {"stable", "1", "1: stable, 0: unstable"},
     {"passed", "1", "1: a rising voltage passes through this state, 0: it jumps over it"},
-    ZP_MARGIN_COLUMNS,
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
 
@@ -35,10 +30,7 @@ enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BE
 static const double look_beyond = 1.25;
 
 typedef struct Holder {
-  const ZpModel *model;
-  const ZpTask *task;
-  ZpResult *result;
-  ZpRest rest;
+  ZpEquilibria at;
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
@@ -51,7 +43,6 @@ typedef struct Holder {
   int jumps, points;
   int others; /* more stable states at drive.voltage; the force of the last, N */
   double other_force;
-  ZpMargins margins;
   const char *fault; /* why the state found is impossible; NULL: no reason is known */
   bool cross;        /* a stable state at drive.voltage has been found, but its faces cross each other */
   ZpOutcome outcome;
@@ -61,17 +52,17 @@ static void carve(void *user, ZpCarver *carver) {
   Holder *h = user;
   void **const point[] = {&h->before, &h->edge, &h->near, &h->unpowered_state};
   for (size_t k = 0; k < sizeof point / sizeof point[0]; k++)
-    *point[k] = zp_carve(carver, zp_rest_save_size(&h->rest));
+    *point[k] = zp_carve(carver, zp_rest_save_size(&h->at.rest));
 }
 
 /* The force that holds the platform, whole actuator, N. */
 static double holding(Holder *h) {
-  return h->model->parts * zp_statics_holding(&h->rest.statics);
+  return h->at.model->parts * zp_statics_holding(&h->at.rest.statics);
 }
 
 /* The force under voltage, whole actuator, N; exact enough for comparisons of states. */
 static double force(const Holder *h) {
-  return h->model->parts * h->rest.statics.reaction - h->unpowered;
+  return h->at.model->parts * h->at.rest.statics.reaction - h->unpowered;
 }
 
 /* Distance of the held end of a fold to the right of the hinge, m. */
@@ -83,50 +74,33 @@ static double lever(ZpStatics *s, void *user) {
 
 /* Moment of the force on that end about the hinge, N m. */
 static double moment(Holder *h) {
-  return holding(h) * lever(&h->rest.statics, NULL);
-}
-
-static double zipped_length(const Holder *h) {
-  return zp_statics_closed_length(&h->rest.statics);
+  return holding(h) * lever(&h->at.rest.statics, NULL);
 }
 
 static bool is_stable(Holder *h) {
-  return zp_statics_stable(&h->rest.statics);
+  return zp_statics_stable(&h->at.rest.statics);
 }
 
 static void record(Holder *h, bool passed, bool last) {
-  ZpStatics *s = &h->rest.statics;
+  ZpStatics *s = &h->at.rest.statics;
   bool stable = is_stable(h);
-  ZpMargins margins;
-  ZpShape shape = zp_rest_shape(&h->rest, h->points++, &margins);
-  double row[COLUMNS] = {
-      s->U,   holding(h) - h->unpowered, zipped_length(h), zp_statics_charge(s), zp_statics_capacitance(s), stable,
-      passed, ZP_MARGIN_VALUES(margins)};
-  zp_margins_join(&h->margins, margins);
-  zp_table_offer(h->result->series, row);
-  zp_shapes_offer(h->result->shapes, &shape);
-  if (!last) return;
-  zp_table_keep_last(h->result->series, row);
-  zp_shapes_keep_last(h->result->shapes, &shape);
-}
-
-static bool asked_to_stop(void *holder) {
-  const Holder *h = holder;
-  return zp_task_stops(h->task, "raising the voltage", fmax(h->rest.statics.U, 0) / h->model->def.drive.voltage);
+  double force = holding(h) - h->unpowered;
+  zp_equilibria_add(&h->at, (double[COLUMNS + ZP_BEHIND]){s->U, force, ZP_ELECTRIC_VALUES(s), stable, passed},
+                    h->points++, last);
 }
 
 /* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces. */
 static bool is_possible(Holder *h) {
-  const ZpPlatesParams *plates = &h->rest.statics.member->model->plates;
-  double most = zp_plates_law(plates, h->rest.statics.U, 0).W * zp_faces_length(h->model);
-  h->fault = zp_statics_fault_of_stations(&h->rest.statics);
+  const ZpPlatesParams *plates = &h->at.rest.statics.member->model->plates;
+  double most = zp_plates_law(plates, h->at.rest.statics.U, 0).W * zp_faces_length(h->at.model);
+  h->fault = zp_statics_fault_of_stations(&h->at.rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
 }
 
 /* May the present state be the answer? */
 static bool is_answer(Holder *h) {
-  bool cross = zp_statics_faces_cross(&h->rest.statics);
+  bool cross = zp_statics_faces_cross(&h->at.rest.statics);
   h->cross |= cross;
   return is_possible(h) && !cross;
 }
@@ -139,17 +113,17 @@ static void pass(Holder *h, bool jumped) {
     if (fabs(now - h->force) > fabs(h->leap)) h->leap = now - h->force;
   }
   h->force = now;
-  h->highest = h->rest.statics.U;
+  h->highest = h->at.rest.statics.U;
 }
 
 /* Where is the branch after a step? */
 static void look_at(Holder *h, double direction, bool *turned) {
-  if (direction > 0 && h->rest.branch.direction_m < 0) {
-    if (!*turned) memcpy(h->edge, h->before, h->rest.system.save_size);
+  if (direction > 0 && h->at.rest.branch.direction_m < 0) {
+    if (!*turned) memcpy(h->edge, h->before, h->at.rest.system.save_size);
     *turned = true;
-    h->highest = fmax(h->highest, zp_branch_limit(&h->rest.branch));
+    h->highest = fmax(h->highest, zp_branch_limit(&h->at.rest.branch));
   }
-  if (h->rest.statics.U <= h->highest || !is_stable(h)) return;
+  if (h->at.rest.statics.U <= h->highest || !is_stable(h)) return;
   pass(h, *turned);
   *turned = false;
 }
@@ -160,23 +134,23 @@ typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
 /* Follow the branch until it has reached drive.voltage within its last step. If it turns back or is lost, `edge` is the
  * state from which it is released. */
 static End follow(Holder *h) {
-  double top = h->model->def.drive.voltage;
-  ZpStatics *s = &h->rest.statics;
+  double top = h->at.model->def.drive.voltage;
+  ZpStatics *s = &h->at.rest.statics;
   bool turned = false;
-  h->rest.system.save(s, h->edge);
-  if (!zp_rest_follow(&h->rest, true)) return LOST;
+  h->at.rest.system.save(s, h->edge);
+  if (!zp_rest_follow(&h->at.rest, true)) return LOST;
   for (int k = 0; k < MOST_POINTS; k++) {
-    double direction = h->rest.branch.direction_m;
+    double direction = h->at.rest.branch.direction_m;
     h->rising = direction > 0;
-    h->rest.system.save(s, h->before);
-    bool further = zp_branch_advance(&h->rest.branch) && s->U >= 0 && is_possible(h);
-    if (!further && !turned) memcpy(h->edge, h->before, h->rest.system.save_size);
+    h->at.rest.system.save(s, h->before);
+    bool further = zp_branch_advance(&h->at.rest.branch) && s->U >= 0 && is_possible(h);
+    if (!further && !turned) memcpy(h->edge, h->before, h->at.rest.system.save_size);
     if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
     if (fmax(h->highest, s->U) > top) {
-      h->rest.system.save(s, h->near);
+      h->at.rest.system.save(s, h->near);
       if (s->U < top)
-        memcpy(h->near, h->before, h->rest.system.save_size); /* reached and turned back within this step */
+        memcpy(h->near, h->before, h->at.rest.system.save_size); /* reached and turned back within this step */
       return ARRIVED;
     }
     record(h, s->U == h->highest, false);
@@ -189,11 +163,11 @@ static End follow(Holder *h) {
  * or that ends in an impossible state, is tried again from further above. */
 static bool fall(Holder *h, bool turned) {
   static const double above[] = {1e-3, 3e-3, 1e-2}, least = 1e-5; /* of that voltage, of drive.voltage */
-  ZpStatics *s = &h->rest.statics;
-  double top = h->model->def.drive.voltage;
+  ZpStatics *s = &h->at.rest.statics;
+  double top = h->at.model->def.drive.voltage;
   bool found = false;
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
-    h->rest.system.restore(s, h->edge);
+    h->at.rest.system.restore(s, h->edge);
     double U = fmin((1 + above[k]) * h->highest + least * top, top);
     found = zp_newton_good(zp_statics_fall(s, U).end) && is_possible(h);
   }
@@ -215,7 +189,7 @@ static End rise(Holder *h) {
 /* The state at drive.voltage from the present point near it. */
 static bool settle(Holder *h, ZpNewtonInfo *info) {
   int iterations = info->iterations;
-  *info = zp_rest_settle(&h->rest, h->model->def.drive.voltage);
+  *info = zp_rest_settle(&h->at.rest, h->at.model->def.drive.voltage);
   info->iterations += iterations;
   return zp_newton_good(info->end) && is_stable(h) && is_answer(h);
 }
@@ -223,14 +197,14 @@ static bool settle(Holder *h, ZpNewtonInfo *info) {
 /* If that fails, limit points are near: repeat the branch's last step in shorter and shorter ones. */
 static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
   enum { LEVELS = 4, FINER = 8 };
-  ZpStatics *s = &h->rest.statics;
+  ZpStatics *s = &h->at.rest.statics;
   double step = taken;
   for (int level = 0, most = 4 * FINER; level < LEVELS; level++, most *= FINER) {
     step /= FINER;
-    h->rest.system.restore(s, h->before);
-    if (!zp_rest_follow_by(&h->rest, h->rising, step, step)) return false;
-    for (int k = 0; k < most && s->U < h->model->def.drive.voltage; k++)
-      if (!zp_branch_advance(&h->rest.branch)) return false;
+    h->at.rest.system.restore(s, h->before);
+    if (!zp_rest_follow_by(&h->at.rest, h->rising, step, step)) return false;
+    for (int k = 0; k < most && s->U < h->at.model->def.drive.voltage; k++)
+      if (!zp_branch_advance(&h->at.rest.branch)) return false;
     if (settle(h, info)) return true;
   }
   return false;
@@ -238,18 +212,18 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
 
 /* If that fails too, a limit point is just below: the state falls from there to an equilibrium at drive.voltage. */
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
-  h->rest.system.restore(&h->rest.statics, h->before);
-  *info = zp_statics_fall(&h->rest.statics, h->model->def.drive.voltage);
+  h->at.rest.system.restore(&h->at.rest.statics, h->before);
+  *info = zp_statics_fall(&h->at.rest.statics, h->at.model->def.drive.voltage);
   return zp_newton_good(info->end) && is_answer(h);
 }
 
 /* Further along the branch: other stable states at drive.voltage. */
 static void count_others(Holder *h) {
-  double top = h->model->def.drive.voltage;
-  ZpStatics *s = &h->rest.statics;
+  double top = h->at.model->def.drive.voltage;
+  ZpStatics *s = &h->at.rest.statics;
   for (int k = 0; k < MOST_BEYOND; k++) {
     bool below = s->U < top;
-    if (!zp_branch_advance(&h->rest.branch) || s->U < 0 || s->U > look_beyond * top) return;
+    if (!zp_branch_advance(&h->at.rest.branch) || s->U < 0 || s->U > look_beyond * top) return;
     if (!below || s->U < top || !is_stable(h) || zp_statics_fault(s)) continue;
     h->others++;
     h->other_force = force(h);
@@ -257,17 +231,17 @@ static void count_others(Holder *h) {
 }
 
 static void summarize(Holder *h, const ZpNewtonInfo *info) {
-  ZpResult *r = h->result;
-  const ZpStatics *s = &h->rest.statics;
+  ZpResult *r = h->at.result;
+  const ZpStatics *s = &h->at.rest.statics;
   bool found = h->outcome == ZP_CONVERGED, held = h->outcome != ZP_NOT_SETTLED;
   zp_result_add(r, "force_N", "N", found ? holding(h) - h->unpowered : NAN);
   zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
   zp_result_add(r, "opening_m", "m", held ? zp_statics_opening(s) : NAN);
-  if (zp_is_hinge(&h->model->topology)) {
+  if (zp_is_hinge(&h->at.model->topology)) {
     zp_result_add(r, "angle_rad", "rad", held ? zp_statics_angle(s) : NAN);
     zp_result_add(r, "torque_N_m", "N m", found ? moment(h) - h->unpowered_moment : NAN);
   }
-  zp_result_add(r, "zipped_length_m", "m", found ? zipped_length(h) : NAN);
+  zp_result_add(r, "zipped_length_m", "m", found ? zp_statics_closed_length(s) : NAN);
   zp_result_add(r, "charge_C", "C", found ? zp_statics_charge(s) : NAN);
   zp_result_add(r, "capacitance_F", "F", found ? zp_statics_capacitance(s) : NAN);
   zp_result_add(r, "other_states", "count", found ? (double)h->others : (double)NAN);
@@ -277,12 +251,8 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 }
 
 static void note(Holder *h) {
-  ZpResult *r = h->result;
-  zp_margins_join(&h->margins, zp_margins_at_clip(h->model, h->model->def.drive.voltage));
-  zp_add_margins(r, h->model, &h->margins);
-  zp_note_mesh(r, h->model, h->model->def.drive.voltage);
-  zp_note_rest(r, h->model);
-  zp_note_no_controller(r, h->model);
+  ZpResult *r = h->at.result;
+  zp_equilibria_note(&h->at, h->at.model->def.drive.voltage);
   if (h->jumps > 0)
     zp_result_note(
         r,
@@ -298,15 +268,15 @@ static void note(Holder *h) {
 }
 
 static void describe(Holder *h) {
-  ZpResult *r = h->result;
+  ZpResult *r = h->at.result;
   size_t size = sizeof r->message;
-  double top = h->model->def.drive.voltage;
-  const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->rest.statics);
+  double top = h->at.model->def.drive.voltage;
+  const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->at.rest.statics);
   if (h->outcome == ZP_NOT_SETTLED)
     snprintf(r->message, size, "no equilibrium without voltage found at isometric.separation = %g m",
-             h->model->def.isometric.separation);
+             h->at.model->def.isometric.separation);
   else if (h->outcome == ZP_INTERRUPTED)
-    snprintf(r->message, size, "interrupted at %.4g V", h->rest.statics.U);
+    snprintf(r->message, size, "interrupted at %.4g V", h->at.rest.statics.U);
   else if (h->outcome == ZP_BEYOND_MODEL)
     snprintf(r->message, size,
              "no force at drive.voltage = %g V: " ZP_FACES_CROSS "; " ZP_LESS_STEEP "; the results so far are kept",
@@ -325,9 +295,9 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
   End end = rise(h);
   if (end != ARRIVED) h->outcome = ZP_BRANCH_LOST;
   if (end != ARRIVED) return;
-  double taken = h->rest.branch.taken;
+  double taken = h->at.rest.branch.taken;
   count_others(h);
-  h->rest.system.restore(&h->rest.statics, h->near);
+  h->at.rest.system.restore(&h->at.rest.statics, h->near);
   if (settle(h, info) || settle_closer(h, taken, info) || settle_beyond(h, info))
     record(h, true, true);
   else
@@ -335,15 +305,6 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
 }
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
-
-static void pose_unpowered(const ZpActuatorDef *def, ZpStatics *s) {
-  s->opening = def->isometric.separation;
-}
-
-static void pose_powered(const ZpActuatorDef *def, ZpStatics *s) {
-  s->opening = def->isometric.separation;
-  s->U = def->drive.voltage;
-}
 
 static double charge(ZpStatics *s, void *user) {
   (void)user;
@@ -356,18 +317,17 @@ static double capacitance(ZpStatics *s, void *user) {
 }
 
 /* Derivative of the moment of a fold at the present point, along the last solution. */
-static double moment_slope(Holder *h, ZpSlope *slope, ZpPose pose) {
-  ZpStatics *s = &h->rest.statics;
-  if (!zp_is_hinge(&h->model->topology)) return NAN;
+static double moment_slope(Holder *h, ZpSlope *slope) {
+  ZpStatics *s = &h->at.rest.statics;
+  if (!zp_is_hinge(&h->at.model->topology)) return NAN;
   double arm = lever(s, NULL), reaction = s->reaction;
-  return h->model->parts * (slope->reaction * arm + reaction * zp_slope_of(slope, pose, lever, NULL));
+  return h->at.model->parts * (slope->reaction * arm + reaction * zp_slope_of(slope, lever, NULL));
 }
 
 /* Of what a fold has beside. */
 static void derive_fold(ZpSlope *slope, double torque, bool found, ZpResult *r) {
   zp_result_add_sensitivity(r, "torque_N_m", slope->key, torque);
-  zp_result_add_sensitivity(r, "angle_rad", slope->key,
-                            found ? zp_slope_of(slope, pose_powered, zp_output_angle, NULL) : NAN);
+  zp_result_add_sensitivity(r, "angle_rad", slope->key, found ? zp_slope_of(slope, zp_output_angle, NULL) : NAN);
 }
 
 /* From the state at drive.voltage, `near` being a copy of it. */
@@ -377,20 +337,19 @@ static void derive(void *user, ZpSlope *slope, ZpResult *r) {
     ZpOutput output;
   } others[] = {{"opening_m", zp_output_opening}, {"charge_C", charge}, {"capacitance_F", capacitance}};
   Holder *h = user;
-  ZpStatics *s = &h->rest.statics;
-  h->rest.system.restore(s, h->unpowered_state);
-  bool rests = zp_slope_solve(slope, pose_unpowered);
-  double unpowered = rests ? h->model->parts * slope->reaction : NAN;
-  double moment_without = rests ? moment_slope(h, slope, pose_unpowered) : NAN;
-  h->rest.system.restore(s, h->near);
-  bool found = zp_slope_solve(slope, pose_powered);
-  double torque = found ? moment_slope(h, slope, pose_powered) - moment_without : NAN;
-  zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->model->parts * slope->reaction - unpowered : NAN);
+  ZpStatics *s = &h->at.rest.statics;
+  h->at.rest.system.restore(s, h->unpowered_state);
+  bool rests = zp_slope_solve(slope, ZP_SETS_OPENING);
+  double unpowered = rests ? h->at.model->parts * slope->reaction : NAN;
+  double moment_without = rests ? moment_slope(h, slope) : NAN;
+  h->at.rest.system.restore(s, h->near);
+  bool found = zp_slope_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
+  double torque = found ? moment_slope(h, slope) - moment_without : NAN;
+  zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->at.model->parts * slope->reaction - unpowered : NAN);
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
-    zp_result_add_sensitivity(r, others[k].name, slope->key,
-                              found ? zp_slope_of(slope, pose_powered, others[k].output, NULL) : NAN);
-  if (zp_is_hinge(&h->model->topology)) derive_fold(slope, torque, found, r);
+    zp_result_add_sensitivity(r, others[k].name, slope->key, found ? zp_slope_of(slope, others[k].output, NULL) : NAN);
+  if (zp_is_hinge(&h->at.model->topology)) derive_fold(slope, torque, found, r);
 }
 
 /* Is it a key of the load? That is removed, so nothing depends on it. */
@@ -408,26 +367,24 @@ static void derive_by_load(int key, ZpResult *r) {
 
 static ZpStatus derive_all(Holder *h, ZpError *err) {
   int key[ZP_MAX_SENSITIVITY_KEYS], keys;
-  ZpStatus status = zp_sensitivity_keys(h->task->def, key, &keys, err);
+  ZpStatus status = zp_sensitivity_keys(h->at.task->def, key, &keys, err);
   for (int k = 0; k < keys && status == ZP_OK; k++)
     if (is_of_load(key[k]))
-      derive_by_load(key[k], h->result);
+      derive_by_load(key[k], h->at.result);
     else
-      status = zp_sensitivity_by(&h->rest, key[k], derive, h, h->result, err);
+      status = zp_sensitivity_by(&h->at.rest, key[k], derive, h, h->at.result, err);
   return status;
 }
 
 static void run(Holder *h) {
-  ZpStatics *s = &h->rest.statics;
-  s->stop = asked_to_stop;
-  s->caller = h;
-  ZpNewtonInfo info = zp_statics_hold(s, h->model->def.isometric.separation);
+  ZpStatics *s = &h->at.rest.statics;
+  ZpNewtonInfo info = zp_statics_hold(s, h->at.model->def.isometric.separation);
   if (zp_newton_good(info.end)) {
     h->unpowered = holding(h);
     h->unpowered_moment = moment(h);
-    h->rest.system.save(s, h->unpowered_state);
+    h->at.rest.system.save(s, h->unpowered_state);
     record(h, true, false);
-    if (h->model->def.drive.voltage > 0) raise_voltage(h, &info);
+    if (h->at.model->def.drive.voltage > 0) raise_voltage(h, &info);
   } else {
     h->outcome = ZP_NOT_SETTLED;
   }
@@ -435,8 +392,8 @@ static void run(Holder *h) {
   summarize(h, &info);
   describe(h);
   note(h);
-  h->result->outcome = h->outcome;
-  h->rest.system.save(s, h->near);
+  h->at.result->outcome = h->outcome;
+  h->at.rest.system.save(s, h->near);
 }
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
@@ -473,18 +430,18 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
 /* The load does not count: it is removed before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = zp_def_unloaded(task->def);
-  ZpModel *model;
-  ZpStatus status = zp_model_create(&bare, &model, err);
-  if (status != ZP_OK) return status;
-  Holder h = {.model = model, .task = task, .result = result, .margins = zp_margins_none(), .outcome = ZP_CONVERGED};
-  result->series = zp_table_create(columns, COLUMNS, (size_t)bare.output.samples);
-  result->shapes = zp_model_shapes(model, (size_t)bare.output.shapes);
-  if (result->series && result->shapes && zp_rest_open(&h.rest, model, carve, &h))
-    run(&h);
-  else
-    status = zp_fail_memory(err);
+  Holder h = {.at = {.task = task,
+                     .result = result,
+                     .stage = "raising the voltage",
+                     .top = bare.drive.voltage,
+                     .column = columns,
+                     .columns = COLUMNS,
+                     .rows = (size_t)bare.output.samples,
+                     .shapes = (size_t)bare.output.shapes},
+              .outcome = ZP_CONVERGED};
+  ZpStatus status = zp_equilibria_open(&h.at, &bare, carve, &h, err);
+  if (status == ZP_OK) run(&h);
   if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = derive_all(&h, err);
-  zp_rest_close(&h.rest);
-  zp_model_destroy(model);
+  zp_equilibria_close(&h.at);
   return status;
 }

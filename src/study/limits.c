@@ -6,38 +6,23 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "study/members.h"
-#include "study/notes.h"
+#include "study/equilibria.h"
 #include "study/sensitivity.h"
-#include "study/studies.h"
 
 static const ZpColumn columns[] = {
     {"limit", "1", "0: pull-in, 1: closing, 2: release, 3: largest load"},
     {"voltage_V", "V", "voltage between the electrodes"},
     {"load_kg", "kg", "mass hung on the actuator"},
-    {"stroke_m", "m", "height of the clip over the lower platform, signed"},
-    {"opening_m", "m", "distance between the platforms' faces"},
-    {"zipped_length_m", "m", "closed length of one half, from the clip"},
-    {"charge_C", "C", "charge on the electrodes"},
-    {"capacitance_F", "F", "capacitance of the electrodes"},
-    ZP_MARGIN_COLUMNS,
+    ZP_STATE_COLUMNS,
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
 static const ZpLimitKind order[] = {ZP_LIMIT_PULL_IN, ZP_LIMIT_CLOSING, ZP_LIMIT_RELEASE, ZP_LIMIT_LOAD};
 
 typedef struct Finder {
-  const ZpModel *model;
-  const ZpTask *task;
-  ZpRest rest;
+  ZpEquilibria at;
   ZpLimits *limits;
-  ZpMargins margins;
 } Finder;
-
-static bool asked_to_stop(void *finder) {
-  const Finder *f = finder;
-  return zp_task_stops(f->task, "limits", 0);
-}
 
 /* -- the actuator ----------------------------------------------------------------------------------- */
 
@@ -62,8 +47,8 @@ static double mass_of(const ZpModel *model) {
 
 /* Opening of a state, m. */
 static double opening_at(Finder *f, const double *state) {
-  zp_rest_go_to(&f->rest, state);
-  return zp_statics_opening(&f->rest.statics);
+  zp_rest_go_to(&f->at.rest, state);
+  return zp_statics_opening(&f->at.rest.statics);
 }
 
 /* How far the load rises from hanging without voltage to closed at drive.voltage, m. NAN where it does not close. */
@@ -80,40 +65,17 @@ void zp_limits_destroy(ZpLimits *limits) {
 
 /* -- the study ------------------------------------------------------------------------------------- */
 
-/* Go to a state => the fields and stresses there, which count. */
-static ZpMargins look(Finder *f, const double *state) {
-  zp_rest_go_to(&f->rest, state);
-  ZpMargins margins;
-  zp_rest_shape(&f->rest, 0, &margins);
-  zp_margins_join(&f->margins, margins);
-  return margins;
+/* Go to one of the states between which a voltage that rises slowly to drive.voltage leads. */
+static void look(Finder *f, bool exists, const double *state) {
+  if (exists) zp_rest_go_to(&f->at.rest, state);
+  if (exists) zp_equilibria_look(&f->at);
 }
 
-/* The states between which a voltage that rises slowly to drive.voltage leads, and their fields. */
-static void look_at_ends(Finder *f) {
-  if (f->limits->hangs) look(f, f->limits->start);
-  if (f->limits->closes) look(f, f->limits->closed);
-  if (f->limits->arrives) look(f, f->limits->top);
-  zp_margins_join(&f->margins, zp_margins_at_clip(f->model, f->model->def.drive.voltage));
-}
-
-static void record(Finder *f, ZpTable *table, ZpShapes *shapes, int kind) {
-  ZpStatics *s = &f->rest.statics;
+static void record(Finder *f, int kind) {
+  ZpStatics *s = &f->at.rest.statics;
   if (isnan(f->limits->limit[kind].value)) return;
-  ZpMargins margins = look(f, f->limits->limit[kind].state);
-  double row[COLUMNS + ZP_MEMBER_COLUMNS] = {kind,
-                                             s->U,
-                                             s->load,
-                                             zp_statics_stroke(s),
-                                             zp_statics_opening(s),
-                                             zp_statics_closed_length(s),
-                                             zp_statics_charge(s),
-                                             zp_statics_capacitance(s),
-                                             ZP_MARGIN_VALUES(margins)};
-  zp_members_values(&f->rest, row + COLUMNS);
-  ZpShape shape = zp_rest_shape(&f->rest, kind, NULL);
-  zp_table_offer(table, row);
-  zp_shapes_offer(shapes, &shape);
+  zp_rest_go_to(&f->at.rest, f->limits->limit[kind].state);
+  zp_equilibria_add(&f->at, (double[COLUMNS + ZP_BEHIND]){kind, s->U, s->load, ZP_STATE_VALUES(s)}, kind, false);
 }
 
 /* ", releases at 855 V" or "; no release: why". */
@@ -129,9 +91,9 @@ static void say(char *text, size_t size, const ZpLimit *limit, const char *found
 static void describe(Finder *f, ZpResult *r) {
   const ZpLimit *limit = f->limits->limit, *pull_in = &limit[ZP_LIMIT_PULL_IN], *closing = &limit[ZP_LIMIT_CLOSING];
   size_t size = sizeof r->message;
-  const char *trouble = zp_statics_trouble(&f->rest.statics);
+  const char *trouble = zp_statics_trouble(&f->at.rest.statics);
   if (isnan(pull_in->value))
-    snprintf(r->message, size, "no pull-in up to %g V", f->model->def.drive.voltage);
+    snprintf(r->message, size, "no pull-in up to %g V", f->at.model->def.drive.voltage);
   else
     snprintf(r->message, size, "pulls in at %.4g V", pull_in->value);
   if (closing->value != pull_in->value && !isnan(closing->value))
@@ -143,64 +105,56 @@ static void describe(Finder *f, ZpResult *r) {
 }
 
 static ZpOutcome outcome_of(const Finder *f) {
-  if (f->rest.statics.stopped) return ZP_INTERRUPTED;
+  if (f->at.rest.statics.stopped) return ZP_INTERRUPTED;
   return zp_limits_lost(f->limits) ? ZP_BRANCH_LOST : ZP_CONVERGED;
 }
 
-static void pose_closed(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = s->own_load;
-  s->U = def->drive.voltage;
-}
-
 /* The derivative of the opening of a state. */
-static double slope_of_opening(Finder *f, ZpSlope *slope, const double *state, ZpPose pose) {
-  zp_rest_go_to(&f->rest, state);
-  if (!zp_slope_solve(slope, pose)) return NAN;
-  return zp_slope_of(slope, pose, zp_output_opening, NULL);
+static double slope_of_opening(Finder *f, ZpSlope *slope, const double *state, int inputs) {
+  zp_rest_go_to(&f->at.rest, state);
+  if (!zp_slope_solve(slope, inputs)) return NAN;
+  return zp_slope_of(slope, zp_output_opening, NULL);
 }
 
 /* Derivatives of travel_m and mass_kg; the latter follow from the definition alone. `user` is a Finder. */
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   Finder *f = user;
   double mass = 0, travel = NAN;
-  zp_derive_limits(&f->rest, f->limits, order, ZP_LIMIT_KINDS, slope, result);
+  zp_derive_limits(&f->at.rest, f->limits, order, ZP_LIMIT_KINDS, slope, result);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
     if (slope->by.model[k]) mass += slope->by.weight[k] * mass_of(slope->by.model[k]);
   if (f->limits->closes)
-    travel = slope_of_opening(f, slope, f->limits->start, zp_pose_load) -
-             slope_of_opening(f, slope, f->limits->closed, pose_closed);
+    travel = slope_of_opening(f, slope, f->limits->start, ZP_SETS_LOAD) -
+             slope_of_opening(f, slope, f->limits->closed, ZP_SETS_LOAD | ZP_SETS_VOLTAGE);
   zp_result_add_sensitivity(result, "travel_m", slope->key, travel);
   zp_result_add_sensitivity(result, "mass_kg", slope->key, mass);
 }
 
 /* A case with another mesh or kind does not count as a neighbour. */
 static const ZpLimits *neighbour_of(const Finder *f) {
-  const ZpResult *neighbour = f->task->input.neighbour;
+  const ZpResult *neighbour = f->at.task->input.neighbour;
   const ZpLimits *near = neighbour ? neighbour->limits : NULL;
   return near && near->ribbons == f->limits->ribbons && near->nodes == f->limits->nodes ? near : NULL;
 }
 
 static void run(Finder *f, ZpResult *r) {
-  f->rest.statics.stop = asked_to_stop;
-  f->rest.statics.caller = f;
-  zp_limits_find(&f->rest, neighbour_of(f), true, f->limits);
+  zp_limits_find(&f->at.rest, neighbour_of(f), true, f->limits);
   bool hangs = f->limits->hangs;
   zp_add_limits(f->limits, order, ZP_LIMIT_KINDS, r);
   zp_result_add(r, "travel_m", "m", travel_of(f));
-  zp_result_add(r, "mass_kg", "kg", mass_of(f->model));
+  zp_result_add(r, "mass_kg", "kg", mass_of(f->at.model));
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
-  r->outcome = hangs || f->rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
+  r->outcome = hangs || f->at.rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);
-  if (!hangs) snprintf(r->message, sizeof r->message, "%s", zp_statics_no_rest(&f->rest.statics));
-  if (f->rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; the results so far are kept");
+  if (!hangs) snprintf(r->message, sizeof r->message, "%s", zp_statics_no_rest(&f->at.rest.statics));
+  if (f->at.rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; the results so far are kept");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
-    record(f, r->series, r->shapes, k);
-  look_at_ends(f);
-  zp_add_margins(r, f->model, &f->margins);
-  zp_note_mesh(r, f->model, f->model->def.drive.voltage);
-  zp_note_rest(r, f->model);
-  zp_note_no_controller(r, f->model);
-  if (hangs) zp_note_start(r, f->model, f->limits->hanging);
+    record(f, k);
+  look(f, hangs, f->limits->start);
+  look(f, f->limits->closes, f->limits->closed);
+  look(f, f->limits->arrives, f->limits->top);
+  zp_equilibria_note(&f->at, f->at.model->def.drive.voltage);
+  if (hangs) zp_note_start(r, f->at.model, f->limits->hanging);
 }
 
 static const ZpRule rule[] = {
@@ -217,20 +171,18 @@ ZpStatus zp_check_limits(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_study_limits(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpModel *model;
-  ZpStatus status = zp_model_create(task->def, &model, err);
-  if (status != ZP_OK) return status;
-  Finder f = {.model = model, .task = task, .margins = zp_margins_none()};
-  result->series = zp_members_table(model, columns, COLUMNS, ZP_LIMIT_KINDS);
-  result->shapes = zp_model_shapes(model, ZP_LIMIT_KINDS);
-  bool open = result->series && result->shapes && zp_rest_open(&f.rest, model, NULL, NULL);
-  if (open) result->limits = f.limits = zp_limits_create(&f.rest);
-  if (f.limits)
-    run(&f, result);
-  else
-    status = zp_fail_memory(err);
-  if (f.limits && f.limits->hangs) status = zp_sensitivity_of(&f.rest, derive, &f, result, err);
-  zp_rest_close(&f.rest);
-  zp_model_destroy(model);
+  Finder f = {.at = {.task = task,
+                     .result = result,
+                     .stage = "limits",
+                     .column = columns,
+                     .columns = COLUMNS,
+                     .rows = ZP_LIMIT_KINDS,
+                     .shapes = ZP_LIMIT_KINDS}};
+  ZpStatus status = zp_equilibria_open(&f.at, task->def, NULL, NULL, err);
+  if (status == ZP_OK) result->limits = f.limits = zp_limits_create(&f.at.rest);
+  if (status == ZP_OK && !f.limits) status = zp_fail_memory(err);
+  if (status == ZP_OK) run(&f, result);
+  if (status == ZP_OK && f.limits->hangs) status = zp_sensitivity_of(&f.at.rest, derive, &f, result, err);
+  zp_equilibria_close(&f.at);
   return status;
 }

@@ -6,14 +6,11 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "rest/rest.h"
 #include "rest/series_mass.h"
 #include "rest/vibration.h"
+#include "study/equilibria.h"
 #include "study/hold.h"
-#include "study/modes.h"
-#include "study/notes.h"
 #include "study/sensitivity.h"
-#include "study/studies.h"
 
 static const double two_pi = 6.283185307179586;
 
@@ -22,55 +19,36 @@ static const ZpColumn columns[] = {
     {"frequency_Hz", "Hz", "frequency"},
     {"residual", "1", "largest relative error of the squared frequency"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0] };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MODES = 8, SUBSPACE = 16 };
 
-static const char *const names[ZP_MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
-                                            "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
+static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
+                                         "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
 
-/* -- any vibrating system -------------------------------------------------------------------------- */
+typedef struct Problem {
+  ZpEquilibria at;
+  ZpVibration vibration;
+  ZpSeriesMass series; /* of members in series */
+  double *equilibrium;
+} Problem;
 
-const char *zp_modes_name(size_t j) {
-  return names[j];
+static void carve(void *user, ZpCarver *carver) {
+  Problem *p = user;
+  zp_vibration_carve(&p->vibration, p->at.rest.statics.n, SUBSPACE, carver);
+  zp_series_mass_carve(&p->series, &p->at.rest.statics, carver);
+  p->equilibrium = zp_carve(carver, zp_rest_save_size(&p->at.rest));
 }
 
-size_t zp_modes_count(const ZpVibration *v) {
-  return v->m < ZP_MODES ? v->m : ZP_MODES;
+/* How many modes are told of? */
+static size_t count(const ZpVibration *v) {
+  return v->m < MODES ? v->m : MODES;
 }
 
-ZpTable *zp_modes_table(void) {
-  return zp_table_create(columns, COLUMNS, ZP_MODES);
-}
-
-bool zp_modes_solve(ZpVibration *v, ZpResult *result) {
-  zp_vibration_start(v);
-  bool found = zp_vibration_solve(v, zp_modes_count(v));
-  result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
-  if (found)
-    snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz", sqrt(v->omega2[0]) / two_pi);
-  else
-    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged");
-  return found;
-}
-
-void zp_modes_add(ZpVibration *v, size_t j, ZpResult *result) {
-  double frequency = sqrt(v->omega2[j]) / two_pi;
-  zp_result_add(result, names[j], "Hz", frequency);
-  zp_table_offer(result->series, (double[COLUMNS]){(double)(j + 1), frequency, zp_vibration_residual(v, j)});
-}
-
-void zp_modes_pulled_in(const ZpVibration *v, double voltage, const char *trouble, ZpResult *result) {
-  if (!trouble) result->outcome = ZP_PULLED_IN;
-  snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
-           trouble ? trouble : "the actuator pulls in below it");
-  for (size_t j = 0; j < zp_modes_count(v); j++)
-    zp_result_add(result, names[j], "Hz", NAN);
-}
-
-double zp_modes_amplitude(const ZpVibration *v, size_t j, double length) {
-  double largest = 0;
-  for (size_t i = 0; i < v->n; i++)
-    largest = fmax(largest, fabs(v->u[j * v->n + i]));
-  return 0.1 * length / largest;
+/* The error of a vector is the square root of that of its frequency: results that depend on it to first order need more
+ * rounds. */
+static void refine(Problem *p) {
+  enum { ROUNDS = 30 };
+  for (int round = 0; round < ROUNDS; round++)
+    zp_vibration_iterate(&p->vibration);
 }
 
 static void move_member(ZpRestMember *m, const double *u, double amplitude) {
@@ -82,61 +60,34 @@ static void move_member(ZpRestMember *m, const double *u, double amplitude) {
   if (model->field) zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
 }
 
-void zp_modes_move(ZpRest *rest, const double *equilibrium, const double *u, double amplitude) {
-  ZpStatics *s = &rest->statics;
-  rest->system.restore(s, equilibrium);
-  for (size_t k = 0; k < s->members; k++)
-    move_member(&s->member[k], u, amplitude);
+/* The equilibrium, moved by a mode u [n] so that the equation that moves most does so by a tenth of the length; NULL:
+ * not moved. */
+static void record_shape(Problem *p, size_t frame, const double *u) {
+  ZpStatics *s = &p->at.rest.statics;
+  double largest = 0;
+  for (size_t i = 0; u && i < s->n; i++)
+    largest = fmax(largest, fabs(u[i]));
+  p->at.rest.system.restore(s, p->equilibrium);
+  for (size_t k = 0; u && k < s->members; k++)
+    move_member(&s->member[k], u, 0.1 * s->member->model->L / largest);
+  ZpShape shape = zp_rest_shape(&p->at.rest, (double)frame, u ? NULL : &p->at.margins);
+  zp_shapes_offer(p->at.result->shapes, &shape);
 }
 
-/* -- one actuator ------------------------------------------------------------------------------------ */
-
-typedef struct Problem {
-  ZpRest rest;
-  ZpVibration vibration;
-  ZpSeriesMass series; /* of members in series */
-  double *equilibrium;
-  ZpMargins margins; /* of the equilibrium */
-} Problem;
-
-static void carve(void *user, ZpCarver *carver) {
-  Problem *p = user;
-  zp_vibration_carve(&p->vibration, p->rest.statics.n, ZP_MODES_SUBSPACE, carver);
-  zp_series_mass_carve(&p->series, &p->rest.statics, carver);
-  p->equilibrium = zp_carve(carver, zp_rest_save_size(&p->rest));
-}
-
-/* The error of a vector is the square root of that of its frequency: results that depend on it to first order need more
- * rounds. */
-static void refine(Problem *p) {
-  enum { ROUNDS = 30 };
-  for (int round = 0; round < ROUNDS; round++)
-    zp_vibration_iterate(&p->vibration);
-}
-
-/* The equilibrium moved by `amplitude` times mode j; frame 0 is the equilibrium itself, frame j + 1 mode j. */
-static void record_shape(Problem *p, double frame, size_t j, double amplitude, ZpShapes *shapes) {
-  zp_modes_move(&p->rest, p->equilibrium, p->vibration.u + j * p->vibration.n, amplitude);
-  ZpShape shape = zp_rest_shape(&p->rest, frame, frame == 0 ? &p->margins : NULL);
-  zp_shapes_offer(shapes, &shape);
-}
-
-static void report(Problem *p, ZpResult *result) {
-  const ZpModel *model = p->rest.statics.member->model;
-  p->rest.system.save(&p->rest.statics, p->equilibrium);
-  record_shape(p, 0, 0, 0, result->shapes);
-  for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
-    zp_modes_add(&p->vibration, j, result);
-    record_shape(p, (double)(j + 1), j, zp_modes_amplitude(&p->vibration, j, model->L), result->shapes);
+/* Frame 0 is the equilibrium itself, frame j + 1 mode j. */
+static void report(Problem *p) {
+  ZpVibration *v = &p->vibration;
+  zp_rest_save(&p->at.rest, p->equilibrium);
+  record_shape(p, 0, NULL);
+  for (size_t j = 0; j < count(v); j++) {
+    double frequency = sqrt(v->omega2[j]) / two_pi;
+    zp_result_add(p->at.result, names[j], "Hz", frequency);
+    zp_table_offer(p->at.result->series, (double[COLUMNS]){(double)(j + 1), frequency, zp_vibration_residual(v, j)});
+    record_shape(p, j + 1, v->u + j * v->n);
   }
 }
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
-
-static void pose(const ZpActuatorDef *def, ZpStatics *s) {
-  s->load = s->own_load;
-  s->U = def->modes.voltage;
-}
 
 typedef struct Mode {
   ZpBand *K;
@@ -157,55 +108,77 @@ static double stiffness_of_mode(ZpStatics *s, void *user) {
 
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   Problem *p = user;
-  ZpStatics *s = &p->rest.statics;
-  p->rest.system.restore(s, p->equilibrium);
-  bool found = !p->vibration.inertia && zp_slope_solve(slope, pose); /* of lumped masses */
+  ZpStatics *s = &p->at.rest.statics;
+  p->at.rest.system.restore(s, p->equilibrium);
+  bool found =
+      !p->vibration.inertia && zp_slope_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE); /* of lumped masses */
   if (p->vibration.inertia)
     zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
-  for (size_t j = 0; j < zp_modes_count(&p->vibration); j++) {
-    Mode mode = {&p->rest.statics.newton.K, p->rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
+  for (size_t j = 0; j < count(&p->vibration); j++) {
+    Mode mode = {&p->at.rest.statics.newton.K, p->at.rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
-    double by_key = found ? zp_slope_of(slope, pose, stiffness_of_mode, &mode) : NAN;
+    double by_key = found ? zp_slope_of(slope, stiffness_of_mode, &mode) : NAN;
     zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->vibration.omega2[j])));
   }
 }
 
-static void run(Problem *p, const ZpTask *task, ZpResult *result) {
-  zp_task_watches(task, &p->rest.statics);
-  ZpNewtonInfo info = zp_statics_hang(&p->rest.statics);
-  result->outcome = p->rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-  snprintf(result->message, sizeof result->message, "%s",
-           p->rest.statics.stopped ? "interrupted" : "no hanging equilibrium found");
-  if (!zp_newton_good(info.end)) return;
-  if (!zp_statics_bias(&p->rest.statics)) {
-    snprintf(result->message, sizeof result->message, "%s", zp_statics_no_rest(&p->rest.statics));
-    return;
-  }
-  double voltage = p->rest.statics.member->model->def.modes.voltage;
-  if (voltage > 0 && p->rest.statics.member->model->field && !zp_statics_raise(&p->rest.statics, voltage)) {
-    zp_modes_pulled_in(&p->vibration, voltage, zp_statics_trouble(&p->rest.statics), result);
-    return;
-  }
-  if (zp_statics_shorted(&p->rest.statics)) {
+/* There is no hanging equilibrium at modes.voltage. */
+static void note_pulled_in(Problem *p, double voltage) {
+  ZpResult *result = p->at.result;
+  const char *trouble = zp_statics_trouble(&p->at.rest.statics);
+  if (!trouble) result->outcome = ZP_PULLED_IN;
+  snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
+           trouble ? trouble : "the actuator pulls in below it");
+  for (size_t j = 0; j < count(&p->vibration); j++)
+    zp_result_add(result, names[j], "Hz", NAN);
+}
+
+/* Go to the hanging equilibrium at modes.voltage. */
+static bool find_equilibrium(Problem *p) {
+  ZpStatics *s = &p->at.rest.statics;
+  ZpResult *result = p->at.result;
+  const size_t size = sizeof result->message;
+  ZpNewtonInfo info = zp_statics_hang(s);
+  result->outcome = s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  snprintf(result->message, size, "%s", s->stopped ? "interrupted" : "no hanging equilibrium found");
+  if (!zp_newton_good(info.end)) return false;
+  double voltage = s->member->model->def.modes.voltage;
+  if (!zp_statics_bias(s)) {
+    snprintf(result->message, size, "%s", zp_statics_no_rest(s));
+  } else if (voltage > 0 && s->member->model->field && !zp_statics_raise(s, voltage)) {
+    note_pulled_in(p, voltage);
+  } else if (zp_statics_shorted(s)) {
     result->outcome = ZP_SHORT_CIRCUIT;
-    snprintf(result->message, sizeof result->message,
-             "short circuit at modes.voltage = %g V: electrodes without an insulator touch", voltage);
-    return;
+    snprintf(result->message, size, "short circuit at modes.voltage = %g V: electrodes without an insulator touch",
+             voltage);
+  } else if (zp_statics_stable(s)) {
+    return true;
+  } else {
+    snprintf(result->message, size, "the equilibrium is not stable");
   }
-  if (!zp_statics_stable(&p->rest.statics)) {
-    snprintf(result->message, sizeof result->message, "the equilibrium is not stable");
-    return;
-  }
+  return false;
+}
+
+static void run(Problem *p) {
   ZpVibration *v = &p->vibration;
-  v->K = &p->rest.statics.newton.K;
-  if (p->rest.statics.members > 1 && !p->rest.statics.shared) {
+  ZpStatics *s = &p->at.rest.statics;
+  ZpResult *result = p->at.result;
+  if (!find_equilibrium(p)) return;
+  v->K = &s->newton.K;
+  if (s->members > 1 && !s->shared) {
     zp_series_mass_fill(&p->series);
     v->inertia = &p->series.inertia;
   }
-  zp_statics_masses(&p->rest.statics, v->mass);
-  if (!zp_modes_solve(v, result)) return;
-  if (*p->rest.statics.member->model->def.sensitivity.by) refine(p);
-  report(p, result);
+  zp_statics_masses(s, v->mass);
+  zp_vibration_start(v);
+  bool found = zp_vibration_solve(v, count(v));
+  result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
+  if (found)
+    snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz", sqrt(v->omega2[0]) / two_pi);
+  else
+    snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged");
+  if (found && *s->member->model->def.sensitivity.by) refine(p);
+  if (found) report(p);
 }
 
 static const ZpRule rule[] = {
@@ -236,41 +209,31 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
-void zp_modes_note_bead(ZpResult *result, const ZpActuatorDef *def) {
+static void note_bead(ZpResult *result, const ZpActuatorDef *def) {
   if (zp_def_liquid(def) != ZP_LIQUID_BEAD) return;
   zp_result_note(result, "the bead is ignored: frequencies are those of the ribbons without its mass and drag%s",
                  def->modes.voltage > 0 ? ", with the liquid's permittivity everywhere" : "");
 }
 
-ZpActuatorDef zp_modes_def(const ZpActuatorDef *def) {
-  ZpActuatorDef dry = *def;
-  dry.liquid.model = ZP_LIQUID_NONE;
-  return dry;
-}
-
+/* Frequencies are those without the mass of a liquid: of a bead, which lies near the clip, where little moves. */
 ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpModel *model;
-  ZpActuatorDef def = zp_modes_def(task->def);
-  ZpStatus status = zp_model_create(&def, &model, err);
-  if (status != ZP_OK) return status;
+  ZpActuatorDef dry = *task->def;
+  dry.liquid.model = ZP_LIQUID_NONE;
   Problem *p = zp_calloc(1, sizeof *p);
-  result->series = zp_modes_table();
-  result->shapes = p ? zp_model_shapes(model, ZP_MODES + 1) : NULL;
-  if (result->series && result->shapes && zp_rest_open(&p->rest, model, carve, p)) {
-    p->margins = zp_margins_none();
-    run(p, task, result);
-    zp_margins_join(&p->margins, zp_margins_at_clip(model, task->def->modes.voltage));
-    zp_add_margins(result, model, &p->margins);
-    zp_note_mesh(result, model, task->def->modes.voltage);
-    zp_note_rest(result, model);
-    zp_modes_note_bead(result, task->def);
-    if (result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&p->rest, derive, p, result, err);
-    if (status == ZP_OK) status = zp_add_hold(task->def, result, err);
-  } else {
-    status = zp_fail_memory(err);
+  if (!p) return zp_fail_memory(err);
+  p->at = (ZpEquilibria){.task = task, .result = result, .stage = "hanging", .shapes = MODES + 1};
+  ZpStatus status = zp_equilibria_open(&p->at, &dry, carve, p, err);
+  if (status == ZP_OK) result->series = zp_table_create(columns, COLUMNS, MODES);
+  if (status == ZP_OK && !result->series) status = zp_fail_memory(err);
+  if (status == ZP_OK) {
+    run(p);
+    zp_equilibria_note(&p->at, dry.modes.voltage);
+    note_bead(result, task->def);
   }
-  if (p) zp_rest_close(&p->rest);
+  if (status == ZP_OK && result->outcome == ZP_CONVERGED)
+    status = zp_sensitivity_of(&p->at.rest, derive, p, result, err);
+  if (status == ZP_OK) status = zp_add_hold(task->def, result, err);
+  zp_equilibria_close(&p->at);
   zp_free(p);
-  zp_model_destroy(model);
   return status;
 }

@@ -8,13 +8,6 @@
 
 #include "actuator/shape.h"
 
-/* The last columns of tables of equilibria, and the last values of their rows. */
-#define ZP_MARGIN_COLUMNS                                                                                              \
-  {"insulator_field_V_per_m", "V/m", "largest field in the insulators, by the series law"}, {                          \
-    "max_stress_Pa", "Pa", "largest stress of the metal"                                                               \
-  }
-#define ZP_MARGIN_VALUES(margins) (margins).insulator, (margins).stress
-
 /* Add the stress of the metal, with a note where it yields. */
 void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 

@@ -89,20 +89,12 @@ static double closing_gap(ZpStatics *s, void *user) {
   return zp_closing_gap(s, NULL);
 }
 
-static void pose_voltage(const ZpActuatorDef *def, ZpStatics *s) {
-  s->U = def->drive.voltage;
-}
-
-static void pose_as_is(const ZpActuatorDef *def, ZpStatics *s) {
-  (void)def, (void)s;
-}
-
 /* Derivative of the gap at which it counts as closed, from the state that hangs. */
-static double rate_of_closed(ZpRest *rest, ZpSlope *slope, const double *hangs, ZpPose pose) {
+static double rate_of_closed(ZpRest *rest, ZpSlope *slope, const double *hangs, int inputs) {
   zp_rest_go_to(rest, hangs);
   double hanging = zp_closing_gap(&rest->statics, NULL), rate, sum = 0;
-  if (!zp_slope_solve(slope, pose)) return NAN;
-  rate = zp_slope_of(slope, pose, closing_gap, NULL);
+  if (!zp_slope_solve(slope, inputs)) return NAN;
+  rate = zp_slope_of(slope, closing_gap, NULL);
   for (int k = 0; k < ZP_NEAR_POINTS; k++)
     if (slope->by.model[k])
       sum +=
@@ -113,18 +105,19 @@ static double rate_of_closed(ZpRest *rest, ZpSlope *slope, const double *hangs, 
 /* Of a gradual closing: the gap at which it counts as closed changes, too, with the key and with the largest load. */
 static double derive_event(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpSlope *slope) {
   bool load = kind == ZP_LIMIT_LOAD;
-  double by_load = 0, closed = load ? rate_of_closed(rest, slope, limits->hung, pose_as_is)
-                                    : rate_of_closed(rest, slope, limits->start, zp_pose_load);
+  double by_load = 0, closed = load ? rate_of_closed(rest, slope, limits->hung, 0)
+                                    : rate_of_closed(rest, slope, limits->start, ZP_SETS_LOAD);
   if (load) zp_rest_go_to(rest, limits->hung);
   if (load) by_load = zp_slow_closed_by_load(rest);
   zp_rest_go_to(rest, limits->limit[kind].state);
-  return zp_slope_of_event(slope, load ? pose_voltage : zp_pose_load, load ? &rest->load : &rest->square,
+  return zp_slope_of_event(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
                            zp_closing_gap, closed, by_load);
 }
 
 static double derive_fold(ZpRest *rest, const ZpLimit *limit, bool load, ZpSlope *slope) {
   zp_rest_go_to(rest, limit->state);
-  return zp_slope_of_fold(slope, load ? pose_voltage : zp_pose_load, load ? &rest->load : &rest->square, limit->null);
+  return zp_slope_of_fold(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
+                          limit->null);
 }
 
 static double derive_limit(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpSlope *slope) {

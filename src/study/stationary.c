@@ -3,11 +3,8 @@
 #include <stdio.h>
 
 #include "base/fail.h"
-#include "rest/rest.h"
-#include "study/members.h"
-#include "study/notes.h"
+#include "study/equilibria.h"
 #include "study/sensitivity.h"
-#include "study/studies.h"
 
 static const ZpColumn columns[] = {
     {"station", "1", "number of the node, from the clip or clamp"},
@@ -67,20 +64,19 @@ static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
 
 static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   (void)user;
-  bool found = zp_slope_solve(slope, zp_pose_load), two = zp_is_pair(&slope->at->member->model->topology);
-  zp_result_add_sensitivity(result, "stroke_m", slope->key,
-                            found ? zp_slope_of(slope, zp_pose_load, zp_output_stroke, NULL) : NAN);
+  bool found = zp_slope_solve(slope, ZP_SETS_LOAD), two = zp_is_pair(&slope->at->member->model->topology);
+  zp_result_add_sensitivity(result, "stroke_m", slope->key, found ? zp_slope_of(slope, zp_output_stroke, NULL) : NAN);
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
-                              found ? zp_slope_of(slope, zp_pose_load, zp_output_opening, NULL) : NAN);
+                              found ? zp_slope_of(slope, zp_output_opening, NULL) : NAN);
   if (zp_has_angle(&slope->at->member->model->topology))
-    zp_result_add_sensitivity(result, "angle_rad", slope->key,
-                              found ? zp_slope_of(slope, zp_pose_load, zp_output_angle, NULL) : NAN);
+    zp_result_add_sensitivity(result, "angle_rad", slope->key, found ? zp_slope_of(slope, zp_output_angle, NULL) : NAN);
 }
 
-static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
-  ZpStatics *s = &rest->statics;
-  zp_task_watches(task, s);
+static void run(ZpEquilibria *at) {
+  ZpResult *result = at->result;
+  ZpStatics *s = &at->rest.statics;
+  const ZpTopology *t = &at->model->topology;
   ZpNewtonInfo info = zp_statics_hang(s);
   bool found = zp_newton_good(info.end);
   result->outcome = found ? ZP_CONVERGED : s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
@@ -88,18 +84,15 @@ static void run(ZpRest *rest, const ZpTask *task, ZpResult *result) {
            info.end == ZP_NEWTON_REFUSED ? "the equilibrium found is impossible: " : "",
            s->stopped ? "interrupted" : words_of(s, info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
-  if (zp_is_pair(&s->member->model->topology))
-    zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
-  if (zp_has_angle(&s->member->model->topology))
-    zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
-  if (found) zp_members_add(rest, result);
+  if (zp_is_pair(t)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
+  if (zp_has_angle(t)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (found) zp_equilibria_add_members(at);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
-  ZpMargins margins;
-  ZpShape shape = zp_rest_shape(rest, 0, &margins);
-  if (!found) margins = zp_margins_none();
-  zp_add_stress(result, s->member->model, &margins);
-  zp_note_mesh(result, s->member->model, 0);
+  ZpShape shape = zp_rest_shape(&at->rest, 0, &at->margins);
+  if (!found) at->margins = zp_margins_none();
+  zp_add_stress(result, at->model, &at->margins);
+  zp_note_mesh(result, at->model, 0);
   if (!found) return;
   fill_table(s, &shape, result->series);
   zp_shapes_offer(result->shapes, &shape);
@@ -126,20 +119,16 @@ static ZpActuatorDef as_it_acts(const ZpActuatorDef *def) {
 }
 
 ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpModel *model;
   ZpActuatorDef def = as_it_acts(task->def);
-  ZpStatus status = zp_model_create(&def, &model, err);
-  if (status != ZP_OK) return status;
-  ZpRest rest = {0};
-  size_t members = model->members;
-  result->series = zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * model->nodes);
-  result->shapes = zp_model_shapes(model, 2);
-  if (result->series && result->shapes && zp_rest_open(&rest, model, NULL, NULL))
-    run(&rest, task, result);
-  else
-    status = zp_fail_memory(err);
-  if (status == ZP_OK && result->outcome == ZP_CONVERGED) status = zp_sensitivity_of(&rest, derive, NULL, result, err);
-  zp_rest_close(&rest);
-  zp_model_destroy(model);
+  ZpEquilibria at = {.task = task, .result = result, .stage = "hanging", .shapes = 2};
+  ZpStatus status = zp_equilibria_open(&at, &def, NULL, NULL, err);
+  size_t members = status == ZP_OK ? at.model->members : 0;
+  if (status == ZP_OK)
+    result->series = zp_table_create(columns, members > 1 ? COLUMNS : COLUMNS - 1, members * at.model->nodes);
+  if (status == ZP_OK && !result->series) status = zp_fail_memory(err);
+  if (status == ZP_OK) run(&at);
+  if (status == ZP_OK && result->outcome == ZP_CONVERGED)
+    status = zp_sensitivity_of(&at.rest, derive, NULL, result, err);
+  zp_equilibria_close(&at);
   return status;
 }

@@ -7,7 +7,6 @@
 #include <zipact/study.h>
 
 #include "def/rule.h"
-#include "rest/statics.h"
 
 /* What a study is given. */
 typedef struct ZpTask {
@@ -18,9 +17,6 @@ typedef struct ZpTask {
 
 /* Tell the caller how far the study is. => Is it to stop? */
 bool zp_task_stops(const ZpTask *task, const char *stage, double fraction);
-
-/* Let a hanging equilibrium that is looked for ask so. `task` must outlive it. */
-void zp_task_watches(const ZpTask *task, ZpStatics *statics);
 
 /* Does a result have a number of this name? It may be null. */
 bool zp_result_has(const ZpResult *result, const char *name);

@@ -68,15 +68,6 @@ bool zp_task_stops(const ZpTask *task, const char *stage, double fraction) {
   return zp_hooks_stop(task->hooks, stage, fraction);
 }
 
-static bool stops_hanging(void *task) {
-  return zp_task_stops(task, "hanging", 0);
-}
-
-void zp_task_watches(const ZpTask *task, ZpStatics *statics) {
-  statics->stop = stops_hanging;
-  statics->caller = (void *)task;
-}
-
 static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResult **result, ZpError *err) {
   *result = zp_result_create(study);
   if (!*result) return zp_fail_memory(err);
