@@ -692,7 +692,7 @@ START_TEST(test_attraction_and_film_along_the_ribbon) {
     bool wet = (double)i * model->l <= reach;
     sum += 0.5 * model->l * (shape.line_force[i] + shape.line_force[i + 1]);
     ck_assert(wet ? liquid.thickness[i] >= def.film.roughness : liquid.thickness[i] == 0 && liquid.pressure[i] == 0);
-    if (wet) ck_near(liquid.pressure[i], sim->dynamics.eval.film.head[i], 1e-12); /* 0 measured */
+    if (wet) ck_near(liquid.pressure[i], sim->dynamics.member->eval.film.head[i], 1e-12); /* 0 measured */
     most = fmax(most, liquid.pressure[i]);
   }
   ck_assert(reach > 5e-3 && reach < 0.04 && most > 100);

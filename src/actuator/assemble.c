@@ -119,60 +119,87 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
 
 /* -- several members ------------------------------------------------------------------------------- */
 
-/* Of each member alone: how many equations it has, how many the members before it have, and which one is the height of
- * a shared load. */
+/* Of each member alone: how many equations it has, how many that are not shared the members before it have, and which
+ * of its equations are tied to which shared coordinates. */
 typedef struct Joined {
-  size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS], load[ZP_MOST_MEMBERS];
-  bool shared;
+  size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS];
+  size_t ties[ZP_MOST_MEMBERS], tied[ZP_MOST_MEMBERS][2], to[ZP_MOST_MEMBERS][2];
+  bool shared, border;
+  size_t inner; /* with a border: equations that are not shared */
 } Joined;
+
+/* With a border, the equations of each member follow those of the one before, and the shared ones follow all. */
+static size_t place_beside(const Joined *of, size_t which, size_t i) {
+  size_t place = of->before[which] + i;
+  for (size_t k = 0; k < of->ties[which]; k++) {
+    if (of->tied[which][k] == i) return of->inner + of->to[which][k];
+    if (of->tied[which][k] < i) place--;
+  }
+  return place;
+}
 
 /* An equation of one member alone => of all. Of two that share a load, those of the second one follow from its platform
  * back to its clip, so that the matrix stays a narrow band. More than two have the same equations; those of the same
  * number are adjacent.
  */
 static size_t place_of(const Joined *of, size_t which, size_t i) {
-  size_t load = of->load[which], back = of->count[0] + of->count[1] - 1 - i, members = of->members;
+  size_t load = of->tied[which][0], back = of->count[0] + of->count[1] - 1 - i, members = of->members;
+  if (of->border) return place_beside(of, which, i);
   if (!of->shared) return of->before[which] + i;
   if (members == 2 && which == 0) return i;
-  if (members == 2) return i == load ? of->load[0] : i < load ? back - 1 : back;
+  if (members == 2) return i == load ? of->tied[0][0] : i < load ? back - 1 : back;
   if (i < load) return members * i + which;
   return i == load ? members * load : members * (i - 1) + 1 + which;
 }
 
 static size_t joined_bandwidth(const Joined *of, size_t own) {
   size_t beyond = 0;
-  if (!of->shared) return own;
+  if (of->border || !of->shared) return own;
   if (of->members > 2) return of->members * own + of->members - 1;
   for (size_t which = 0; which < of->members; which++)
-    beyond += of->count[which] - 1 - of->load[which];
+    beyond += of->count[which] - 1 - of->tied[which][0];
   return own + beyond;
 }
 
 /* Number the equations of one member among those of all, `n`. */
-static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n, double factor) {
+static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
   a->n = n;
   a->begin = of->before[which];
-  a->end = a->begin + of->count[which];
+  a->end = a->begin + of->count[which] - of->ties[which];
   a->parts = (ZpParts){0};
   a->groups = (ZpBandGroups){0, 0};
-  a->turned = of->shared && factor < 0 ? (int)place_of(of, which, of->load[which]) : -1;
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
+  for (size_t c = 0; c < a->own * a->nodes; c++)
+    a->own_equation[c] = (int)place_of(of, which, (size_t)a->own_equation[c]);
   for (size_t i = 0; i < a->nodes; i++)
     a->first[i] = first_of(a, i);
 }
 
-size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const size_t load[], const double factor[]) {
-  Joined of = {.members = members, .shared = load != NULL};
-  size_t n = of.shared;
+/* The tie of one coordinate, before equations are numbered anew. */
+static void tie(const ZpAssembly *a, const ZpTie *tie, Joined *of) {
+  size_t k = of->ties[tie->member]++;
+  of->tied[tie->member][k] = (size_t)a->equation[tie->coordinate];
+  of->to[tie->member][k] = tie->shared;
+}
+
+size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const ZpTies *ties, bool border) {
+  Joined of = {.members = members, .shared = ties->count > 0, .border = border};
+  for (size_t k = 0; k < ties->count; k++)
+    tie(a[ties->tie[k].member], &ties->tie[k], &of);
+  size_t n = of.shared && !border;
   for (size_t which = 0; which < members; which++) {
     of.before[which] = n;
     of.count[which] = a[which]->n;
-    of.load[which] = of.shared ? (size_t)a[which]->equation[2 * load[which] + 1] : SIZE_MAX;
-    n += a[which]->n - of.shared;
+    n += a[which]->n - of.ties[which];
   }
+  of.inner = n;
+  if (border) n += ties->shared;
   for (size_t which = 0; which < members; which++)
-    join(a[which], &of, which, n, factor[which]);
+    join(a[which], &of, which, n);
+  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++)
+    if (t->factor < 0)
+      a[t->member]->turned = a[t->member]->equation[t->coordinate], a[t->member]->turned_from = t->offset;
   return joined_bandwidth(&of, a[0]->bandwidth);
 }
 
@@ -198,6 +225,12 @@ void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equati
 void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) nodes[place(a, k)] = zp_assembly_turned(a, a->equation[k], equations[a->equation[k]]);
+}
+
+void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nodes) {
+  zp_assembly_scatter(a, equations, nodes);
+  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
+    if (a->equation[2 * j + 1] == a->turned) nodes[a->stride + j] += a->turned_from;
 }
 
 void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
@@ -238,10 +271,16 @@ void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equ
 
 /* -- one entry, anywhere ---------------------------------------------------------------------------- */
 
+/* By the coordinates of two equations, i <= j if the matrix is symmetric. */
+static inline void add_at(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
+  bool turns = (i == a->turned) != (j == a->turned);
+  *zp_band_entry(K, (size_t)i, (size_t)j) += turns ? -value : value;
+}
+
 static void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
   int i = a->equation[row], j = a->equation[column];
   if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
-  *zp_band_at(K, (size_t)i, (size_t)j) += value;
+  add_at(a, i, j, value, K);
 }
 
 /* A derivative by two different coordinates is in two places of the matrix. */
@@ -254,19 +293,6 @@ static void add_both(const ZpAssembly *a, size_t one, size_t other, double value
 static void add_block(const ZpAssembly *a, size_t row, size_t column, const double block[4], ZpBand *K) {
   for (size_t k = 0; k < 4; k++)
     add(a, 2 * row + k / 2, 2 * column + k % 2, block[k], K);
-}
-
-void zp_assembly_turn_over(const ZpAssembly *a, ZpBand *K) {
-  size_t row = (size_t)a->turned, first = row > K->upper ? row - K->upper : 0;
-  for (size_t i = first; a->turned >= 0 && i < zp_band_end(K, row); i++) {
-    double *entry = i < row ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
-    bool inside = i >= row || zp_band_end(K, i) > row;
-    if (inside && i != row) *entry = -*entry;
-  }
-  for (size_t k = 0; a->turned >= 0 && k < K->rank; k++) {
-    K->u[k * K->n + row] *= -1;
-    K->v[k * K->n + row] *= -1;
-  }
 }
 
 /* -- edges ------------------------------------------------------------------------------------------ */
@@ -449,15 +475,14 @@ void zp_assemble_own(const ZpAssembly *a, size_t c, size_t d, double value, ZpBa
   *zp_band_at(K, (size_t)a->own_equation[c], (size_t)a->own_equation[d]) += value;
 }
 
-static inline void add_own_by(int own, int other, double value, ZpBand *K) {
-  if (other < 0) return;
-  *zp_band_at(K, (size_t)(own < other ? own : other), (size_t)(own < other ? other : own)) += value;
+static inline void add_above(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
+  if (i >= 0 && j >= 0) add_at(a, i < j ? i : j, i < j ? j : i, value, K);
 }
 
 void zp_assemble_own_by_gap(const ZpAssembly *a, size_t c, size_t station, double value, ZpBand *K) {
   const int own = a->own_equation[c], *height = a->equation + 2 * a->s * station + 1;
-  add_own_by(own, height[0], value, K);
-  add_own_by(own, height[2 * (a->s - 1)], -value, K);
+  add_above(a, own, height[0], value, K);
+  add_above(a, own, height[2 * (a->s - 1)], -value, K);
 }
 
 void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
@@ -466,9 +491,7 @@ void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double va
 
 void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
   int row = a->equation[2 * a->s * station + 1], column = a->equation[2 * (a->s * station + a->s - 1) + 1];
-  if (row >= 0) *zp_band_at(K, (size_t)row, (size_t)row) += upper;
-  if (column >= 0) *zp_band_at(K, (size_t)column, (size_t)column) += lower;
-  if (row < 0 || column < 0) return;
-  *zp_band_at(K, (size_t)(row < column ? row : column), (size_t)(row < column ? column : row)) +=
-      row == column ? 2 * both : both;
+  add_above(a, row, row, upper, K);
+  add_above(a, column, column, lower, K);
+  add_above(a, row, column, row == column ? 2 * both : both, K);
 }

@@ -4,6 +4,7 @@
 #define ZP_ACTUATOR_ASSEMBLE_H
 
 #include "actuator/model.h"
+#include "actuator/ties.h"
 #include "math/band.h"
 #include "math/parts.h"
 
@@ -20,8 +21,9 @@ typedef struct ZpAssembly {
   ZpParts parts;       /* halves, and the equations that both have */
   size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
   int *own_equation;   /* [own N] */
-  int turned; /* the equation whose unknown is minus the coordinate's change: the load's height, of a member upside
-                 down; -1: none */
+  int turned;          /* the equation whose unknown is minus the coordinate's change: the load's height, of a member
+                          upside down; -1: none */
+  double turned_from;  /* that coordinate where its unknown is 0, m */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
                  others following it; else -1 */
 } ZpAssembly;
@@ -30,14 +32,16 @@ typedef struct ZpAssembly {
 bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
-/* Number the equations of members as one system => the number of diagonals above the main one. Of members that share a
- * load, the height of node load[m] of member m, factor[m] (1 or -1) times that of the first one but for a constant, has
- * one equation; load = NULL: they have no equation in common. */
-size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const size_t load[], const double factor[]);
+/* Number the equations of members as one system, in which coordinates that are tied have one equation => the number of
+ * diagonals above the main one. In a border, the shared ones come last, and each member has a band of its own. Without
+ * one, at most one coordinate is shared, and is inside the band. */
+size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const ZpTies *ties, bool border);
 
-/* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. */
+/* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. Values are changes or
+ * rates; positions are placed. */
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
+void zp_assembly_place(const ZpAssembly *assembly, const double *equations, double *nodes);
 
 /* `value` of a coordinate as one of the unknown in its equation, or back. */
 static inline double zp_assembly_turned(const ZpAssembly *a, int equation, double value) {
@@ -65,15 +69,13 @@ void zp_assembly_add_masses(const ZpAssembly *assembly, const double *mass, doub
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
-/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and, of a symmetric
+/* Below, a matrix with a border (zp_bordered_band) takes what belongs in the columns of its border, too.
+ *
+ * K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and, of a symmetric
  * matrix, at c and the gap of a station: at its upper height, and the opposite at its lower one. A matrix that keeps
  * both triangles takes c and d in any order. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);
 void zp_assemble_own_by_gap(const ZpAssembly *assembly, size_t c, size_t station, double value, ZpBand *K);
-
-/* Of a symmetric matrix, change the signs in row and column of the equation whose unknown is minus the coordinate's
- * change: before and after a member adds its stiffness, which it does by its coordinates. */
-void zp_assembly_turn_over(const ZpAssembly *assembly, ZpBand *K);
 
 /* K += value at one place: in the row of a coordinate and the column of another. */
 void zp_assemble_entry(const ZpAssembly *assembly, size_t row, size_t column, double value, ZpBand *K);

@@ -189,7 +189,7 @@ static const ZpRule rule[] = {
     ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_UNSET(load.stop_opening),
                "a stop acts between the platforms of a single actuator"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
-                   "the forces of the links are unknowns of implicit steps"),
+                   "heights that members share are unknowns of implicit steps"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(source.model, ZP_SOURCE_IDEAL),
                    "a supply is modelled with a single actuator"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(control.kind, ZP_CONTROL_NONE),

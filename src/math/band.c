@@ -43,16 +43,6 @@ void zp_band_clear(ZpBand *band) {
   memset(band->v, 0, terms * sizeof *band->v);
 }
 
-ZpBand zp_band_part(const ZpBand *band, size_t first, size_t n) {
-  ZpBand part = *band;
-  part.n = n;
-  if (band->lower == 0)
-    part.lead += first;
-  else
-    part.a += first * band->stride;
-  return part;
-}
-
 static size_t least(size_t a, size_t b) {
   return a < b ? a : b;
 }

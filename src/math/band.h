@@ -33,6 +33,9 @@ typedef struct ZpBand {
   double *u, *v;       /* [rank * n] its terms u v' */
   double *w;           /* [rank * n] factored: u solved with the band and the terms before it; then n for work */
   double *s;           /* [rank] factored: 1 + v' w, by which a term changes the determinant */
+  size_t border;       /* of the band of a matrix with a border (bordered.h): equations n .. n + border - 1, */
+  double *beside;      /* [border * n] their columns, */
+  double *corner;      /* [border * border] and rows among themselves */
 } ZpBand;
 
 /* What a matrix looks like, whatever its size. */
@@ -54,9 +57,6 @@ void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carve
 /* All entries 0. */
 void zp_band_clear(ZpBand *band);
 
-/* Of a band of rank 0, the equations first .. first + n - 1 among themselves: to be written, not to be factored. */
-ZpBand zp_band_part(const ZpBand *band, size_t first, size_t n);
-
 /* Row i of a symmetric matrix: entry (i, j) at [j - i]. */
 static inline double *zp_band_row(const ZpBand *band, size_t i) {
   size_t place = i + band->lead;
@@ -66,6 +66,13 @@ static inline double *zp_band_row(const ZpBand *band, size_t i) {
 /* Entry (i, j) inside the band. */
 static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
   return band->lower == 0 ? zp_band_row(band, i) + (j - i) : band->a + i * band->stride + (j + band->lower - i);
+}
+
+/* The same, or in a column of the border, j >= n. */
+static inline double *zp_band_entry(const ZpBand *band, size_t i, size_t j) {
+  if (j < band->n) return zp_band_at(band, i, j);
+  return i < band->n ? band->beside + (j - band->n) * band->n + i
+                     : band->corner + (i - band->n) * band->border + (j - band->n);
 }
 
 /* The column after the last one that row i may have. */

@@ -20,6 +20,9 @@ void zp_bordered_carve(ZpBordered *m, size_t n, size_t border, size_t lower, siz
   m->V = zp_carve(carver, border * inner);
   m->b = zp_carve(carver, n);
   m->left = zp_carve(carver, n);
+  m->A.border = border;
+  m->A.beside = m->B;
+  m->A.corner = m->D;
 }
 
 void zp_bordered_clear(ZpBordered *m) {
@@ -29,6 +32,13 @@ void zp_bordered_clear(ZpBordered *m) {
   memset(m->B, 0, m->border * inner * sizeof *m->B);
   memset(m->C, 0, m->border * inner * sizeof *m->C);
   memset(m->D, 0, m->border * m->border * sizeof *m->D);
+}
+
+void zp_bordered_mirror(ZpBordered *m) {
+  memcpy(m->C, m->B, m->border * m->A.n * sizeof *m->C);
+  for (size_t i = 0; i < m->border; i++)
+    for (size_t j = 0; j < i; j++)
+      m->D[i * m->border + j] = m->D[j * m->border + i];
 }
 
 /* y -= a x */

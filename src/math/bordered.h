@@ -28,6 +28,9 @@ void zp_bordered_carve(ZpBordered *matrix, size_t n, size_t border, size_t lower
 /* All entries 0. */
 void zp_bordered_clear(ZpBordered *matrix);
 
+/* Of a symmetric matrix: rows of the border = its columns, which were written above the diagonal. */
+void zp_bordered_mirror(ZpBordered *matrix);
+
 /* Entry (i, j), inside the band or in the border. */
 static inline double *zp_bordered_at(const ZpBordered *m, size_t i, size_t j) {
   size_t inner = m->n - m->border;

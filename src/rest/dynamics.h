@@ -1,8 +1,8 @@
 /* An actuator in motion as a system for solve/implicit.h: mean forces over a step, whose work is exactly the change of
  * the energies of ribbons and plates; unilateral contact; damping. docs/theory.md, section 18.
  *
- * A series of actuators is one system: the equations of its members one after the other, then, in the border, the force
- * of each link, which makes the platforms that it joins move as one. Section 29. */
+ * Several actuators are one system: the equations of its members one after the other, then, in the border, the
+ * coordinates that they share. Sections 29 and 31. */
 #ifndef ZP_REST_DYNAMICS_H
 #define ZP_REST_DYNAMICS_H
 
@@ -11,48 +11,53 @@
 #include "system/system.h"
 #include "term/source.h"
 
-typedef struct ZpDynamics {
+/* One of the actuators of the system. */
+typedef struct ZpMovingMember {
   const ZpModel *model;
+  ZpEval eval;
+  ZpAssembly assembly;
+  const ZpState *state;  /* at the start of the present step */
+  double U0, U1;         /* voltage at its start and its end, V */
+  double *start, *end;   /* [2 stride] coordinates of nodes */
+  double *own;           /* [own N] the laws' own unknowns in the present step */
+  const double *mean_v;  /* [2 stride] mean velocity over the last step, m/s */
+  double *force, *moved; /* [2 stride] N; work space */
+  double *gap;           /* [N] gaps of the last force, m */
+  double *foreseen;      /* [N] contact force that the last tangent predicts after a correction, N */
+  double with[2];        /* mass that ties join to its upper platform and to its lower one, kg */
+  double added;          /* mass on each end that carries the load, in addition to that of the model, kg */
+} ZpMovingMember;
+
+typedef struct ZpDynamics {
+  size_t members;
+  ZpMovingMember *member; /* [members] */
+  size_t shared;          /* coordinates that members share */
   ZpImplicitSystem system;
   ZpImplicit stepper;
-  ZpEval eval;
   ZpImplicitHistory history;
-  ZpAssembly assembly;
-  double *moved;          /* [2 stride] work space */
-  double *own;            /* [own N] the laws' own unknowns in the present step */
-  size_t fewest;          /* cavities that contradict their heads, at least, in the iteration under way, */
-  int trials;             /* and the corrections left to make them fewer */
-  const double *mean_v;   /* [2 stride] mean velocity over the last step, m/s */
-  const ZpSource *source; /* NULL: the voltage is given */
-  ZpUnknown *kind;        /* [n] with a source: the last is the voltage */
-  double *scale;          /* [n] */
-  ZpByVoltage by_voltage; /* with a source */
-  ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
+  double *mass, *q, *v;    /* [n] by equations */
+  ZpUnknown *kind;         /* [n] */
+  double *scale, *sharers; /* [n] */
+  double t, h, latest;     /* of the present step: start, length, latest end, s */
+  size_t fewest;           /* cavities that contradict their heads, at least, in the iteration under way, */
+  int trials;              /* and the corrections left to make them fewer */
+  const ZpSource *source;  /* of the only member; NULL: the voltage is given. With a source the last unknown is the
+                              voltage */
+  ZpByVoltage by_voltage;  /* with a source */
+  ZpSourceLaw law;         /* its law at the last residual, and the capacitance of all electrodes there, F */
   double chord;
-  double charge0;                   /* of one part at the start of the step, C */
-  double charge1;                   /* of one part at the end of the last step, C */
-  double *mass, *q, *v;             /* [n] by equations */
-  double added;                     /* mass on each end that carries the load, in addition to that of the model, kg */
-  double *start, *end;              /* [2 stride] coordinates of nodes */
-  double *force;                    /* [2 stride] N */
-  double *gap;                      /* [N] gaps of the last force, m */
-  double *foreseen;                 /* [N] contact force that the last tangent predicts after a correction, N */
-  const ZpState *state;             /* at the start of the present step */
-  double latest;                    /* latest end of that step, s */
-  double h, U0, U1;                 /* its length, s; voltage at its start and its end, V */
-  struct ZpDynamics *above, *below; /* of a series: its neighbours; NULL: none */
-  size_t at;                        /* index of its first equation among those of the series */
-  size_t links;                     /* of the uppermost member: number of links between the members */
-  bool settles;                     /* without a film, each step removes velocities that are too fast for it, not only
-                                       after impacts: for a search of motion that has settled */
-  bool filters;                     /* the last step has removed velocities that are too fast for it */
-  const struct ZpDynamics *lead;    /* a simulation with nearly the same key whose filtering these steps repeat; NULL:
-                                       none */
+  double charge0;                /* of one part at the start of the step, C */
+  double charge1;                /* of one part at the end of the last step, C */
+  bool settles;                  /* without a film, each step removes velocities that are too fast for it, not only
+                                    after impacts: for a search of motion that has settled */
+  bool filters;                  /* the last step has removed velocities that are too fast for it */
+  const struct ZpDynamics *lead; /* a simulation with nearly the same key whose filtering these steps repeat; NULL:
+                                    none */
   void *memory;
 } ZpDynamics;
 
-/* For the model and all members below it. `source` must outlive it; NULL: the voltage is given, as always for a series.
- * False if there is no memory. */
+/* For all members, of which this is the first model. `source` must outlive it; NULL: the voltage is given, as always
+ * for several members. False if there is no memory. */
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
 

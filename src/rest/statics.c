@@ -93,10 +93,9 @@ static bool create_member(const ZpModel *model, ZpRestMember *m) {
 }
 
 /* The equations of all members. */
-static void number(ZpStatics *s) {
+static void number(const ZpModel *model, ZpStatics *s) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
-  size_t load[ZP_MOST_MEMBERS];
-  double factor[ZP_MOST_MEMBERS];
+  const ZpTies ties = s->shared ? zp_ties_of(model) : (ZpTies){0};
   const ZpAssembly *first = &s->member->assembly;
   s->parts = first->parts;
   s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
@@ -104,11 +103,9 @@ static void number(ZpStatics *s) {
     ZpRestMember *m = &s->member[k];
     s->form.rank += zp_bead_rank(m->model);
     of[k] = &m->assembly;
-    load[k] = zp_load_node(&m->model->topology);
-    factor[k] = factor_of(s, k);
   }
   if (s->members > 1) {
-    s->form.bandwidth = zp_assembly_join(of, s->members, s->shared ? load : NULL, factor);
+    s->form.bandwidth = zp_assembly_join(of, s->members, &ties, false);
     s->form.groups = (ZpBandGroups){0, 0};
   }
   s->n = first->n;
@@ -122,12 +119,12 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   s->memory = zp_calloc(1, carve(model, s, NULL));
   bool made = s->memory != NULL;
   if (made) carve(model, s, s->memory);
-  for (size_t k = 0; k < s->members && made; k++, model++) {
-    made = create_member(model, &s->member[k]);
-    s->scale = fmax(s->scale, zp_eval_weight_scale(model));
-    s->own_load = s->shared ? s->own_load + model->def.load.mass : model->def.load.mass;
+  for (size_t k = 0; k < s->members && made; k++) {
+    made = create_member(model + k, &s->member[k]);
+    s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
+    s->own_load = (s->shared ? s->own_load : 0) + model[k].def.load.mass;
   }
-  if (made) number(s);
+  if (made) number(model, s);
   if (made) s->solution = zp_calloc(1, carve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
@@ -726,12 +723,10 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
     ZpRestMember *m = &s->member[k];
     ZpSpan here = span_of(s, k);
     own.rank = zp_bead_rank(m->model);
-    zp_assembly_turn_over(&m->assembly, &own);
     if (beside_edges)
       zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &own);
     else
       zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &own);
-    zp_assembly_turn_over(&m->assembly, &own);
     own.u += own.rank * K->n;
     own.v += own.rank * K->n;
   }

@@ -158,10 +158,10 @@ static void lose(const ZpRunRates *rates, ZpKeyRates *of, const char *cause) {
 
 /* Has the bead covered a station in this step that it did not cover in the step before, or the reverse? */
 static bool meniscus_passes(ZpRunRates *rates) {
-  const ZpDynamics *d = &rates->sim->dynamics;
+  const ZpMovingMember *m = rates->sim->dynamics.member;
   bool passes = false;
-  for (size_t i = 1; i < d->model->nodes && d->model->has_bead; i++) {
-    bool wet = zp_film_covers(&d->model->film, &d->eval.film, i);
+  for (size_t i = 1; i < m->model->nodes && m->model->has_bead; i++) {
+    bool wet = zp_film_covers(&m->model->film, &m->eval.film, i);
     passes |= wet != rates->wet[i] && rates->before->t > 0;
     rates->wet[i] = wet;
   }

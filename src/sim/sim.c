@@ -459,12 +459,12 @@ static void note_closing(ZpSim *sim) {
 
 /* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the
  * insulators. Ribbons that have been closed from the start have no front. */
-static void note_starving(ZpSim *sim, const ZpDynamics *dynamics) {
+static void note_starving(ZpSim *sim, const ZpMovingMember *moved) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   bool zips = state->U != 0 && state->was_open && isnan(state->zip_time);
   if (!model->has_bead || !isnan(state->starved_time) || !zips) return;
-  const double *gap = dynamics->eval.plates.gap;
+  const double *gap = moved->eval.plates.gap;
   for (int half = 0; half < zp_beads(&model->film); half++) {
     ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);
     if (zp_bead_at(&end, gap) < model->plates.d) state->starved_time = state->t;
@@ -488,11 +488,11 @@ bool zp_sim_prepare(ZpSim *sim) {
 
 /* And where a step has ended. */
 void zp_sim_arrive(ZpSim *sim) {
-  const ZpDynamics *dynamics = &sim->dynamics;
-  for (ZpSim *m = sim; m < sim + sim->members; m++, dynamics = dynamics->below) {
+  for (size_t k = 0; k < sim->members; k++) {
+    ZpSim *m = sim + k;
     follow_voltage(m);
     if (zp_is_pair(&m->model->topology)) note_closing(m);
-    note_starving(m, dynamics);
+    note_starving(m, sim->dynamics.member ? &sim->dynamics.member[k] : NULL);
   }
 }
 
@@ -868,22 +868,20 @@ void zp_sim_save(const ZpSim *sim, void *bytes) {
   zp_snapshot_write(sim->model, sim->states, bytes);
 }
 
-/* Distance of the platforms that a link joins, m. */
-static double apart(const ZpSim *m) {
-  const ZpModel *above = m->model, *below = m[1].model;
-  const ZpTopology *t = &below->topology;
-  double y = zp_state_motion(above, m->state).y[zp_load_node(&above->topology)];
-  const double *other = zp_state_motion(below, m[1].state).y;
-  if (above->abreast) return y - other[zp_load_node(t)];
-  if (zp_is_opposed(above)) return y + other[zp_load_node(t)] + above->distance;
-  return y - other[zp_upper(t, t->platform.first)];
-}
-
+/* Are the heights that members share the same in all their states? */
 static bool is_joined(const ZpSim *sim) {
   static const double same = 1e-9; /* of the length */
-  for (const ZpSim *m = sim; m + 1 < sim + sim->members; m++)
-    if (!(fabs(apart(m)) < same * m->model->L)) return false;
-  return true;
+  const ZpTies ties = zp_ties_of(sim->model);
+  double first[ZP_MOST_MEMBERS];
+  bool joined = true, known[ZP_MOST_MEMBERS] = {false};
+  for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++) {
+    const ZpSim *m = sim + t->member;
+    double height = t->factor * (zp_state_motion(m->model, m->state).y[t->coordinate / 2] - t->offset);
+    if (!known[t->shared]) first[t->shared] = height;
+    known[t->shared] = true;
+    joined &= fabs(height - first[t->shared]) < same * m->model->L;
+  }
+  return joined;
 }
 
 void zp_sim_keep_states(ZpSim *sim) {

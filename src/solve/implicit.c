@@ -48,6 +48,11 @@ static double rms(const ZpImplicitSystem *system, const double *x, size_t counte
     double size = x[parts->common[k]] / scale_of(system, parts->common[k]);
     sum += (double)parts->more * size * size;
   }
+  for (size_t i = 0; system->sharers && i < system->n; i++) {
+    double size = x[i] / scale_of(system, i), more = fmax(system->sharers[i] - 1, 0);
+    sum += more * size * size;
+    counted += (size_t)more;
+  }
   return counted > 0 ? sqrt(sum / zp_parts_unknowns(parts, counted)) : 0;
 }
 

@@ -31,6 +31,7 @@ typedef struct ZpImplicitSystem {
   ZpBandGroups groups;   /* of a symmetric matrix */
   const ZpUnknown *kind; /* [n]; NULL: all of second order */
   const double *scale;   /* [n] positive: the change that counts as much as 1 m of a position; NULL: all 1 */
+  const double *sharers; /* [n] above 0: how many bodies share a position; so often it counts in means. NULL: none do */
   ZpParts parts;         /* equal parts of the system, the unknowns of the first one first; all 0: there is one part */
   void *self;            /* argument of the functions below */
   const double *mass;    /* [n] 0 or more, the inertia that the stepper adds; 0 for unknowns not of second order */

@@ -160,20 +160,15 @@ static Scalar head_after(Scalar part, const ZpBand *K) {
   return (Scalar){part.model, part.assembly, part.u + K->n, part.v + K->n};
 }
 
-static void add_by(const ZpAssembly *a, size_t coordinate, double value, double *vector) {
-  int equation = a->equation[coordinate];
-  if (equation >= 0) vector[equation] += value;
-}
-
 /* The scalar acts on coordinate c with so much force. */
 static void pushes(Scalar z, size_t c, double force) {
-  add_by(z.assembly, c, -force, z.u);
+  zp_assembly_add_one(z.assembly, c, -force, z.u);
 }
 
 /* Its derivative by the gap of station i. */
 static void follows_gap(Scalar z, size_t i, double by_gap) {
-  add_by(z.assembly, 2 * zp_upper(&z.model->topology, i) + 1, by_gap, z.v);
-  add_by(z.assembly, 2 * zp_lower(&z.model->topology, i) + 1, -by_gap, z.v);
+  zp_assembly_add_one(z.assembly, 2 * zp_upper(&z.model->topology, i) + 1, by_gap, z.v);
+  zp_assembly_add_one(z.assembly, 2 * zp_lower(&z.model->topology, i) + 1, -by_gap, z.v);
 }
 
 /* Its derivative by dx/ds at the bead's end, through the x of the nodes there. */
@@ -181,8 +176,8 @@ static void follows_level(Scalar z, const End *end, double by_level) {
   const ZpTopology *t = &z.model->topology;
   double value = 0.5 * by_level / z.model->film.l * (end->at.near < end->at.far ? 1 : -1);
   for (size_t lower = 0; lower < 2 && !is_below(end); lower++) {
-    add_by(z.assembly, 2 * (zp_upper(t, end->at.far) + lower), value, z.v);
-    add_by(z.assembly, 2 * (zp_upper(t, end->at.near) + lower), -value, z.v);
+    zp_assembly_add_one(z.assembly, 2 * (zp_upper(t, end->at.far) + lower), value, z.v);
+    zp_assembly_add_one(z.assembly, 2 * (zp_upper(t, end->at.near) + lower), -value, z.v);
   }
 }
 

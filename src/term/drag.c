@@ -43,10 +43,8 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   size_t stride = model->stride;
   for (size_t k = 0; span->h > 0 && k < 2 * model->count; k++) {
-    if (assembly->equation[k] < 0) continue;
-    size_t j = k / 2, i = (size_t)assembly->equation[k];
-    double x = e->mean_v[j], y = e->mean_v[stride + j];
-    *zp_band_at(K, i, i) += 2 * model->def.damping.drag * sqrt(x * x + y * y) / span->h;
+    double x = e->mean_v[k / 2], y = e->mean_v[stride + k / 2];
+    zp_assemble_entry(assembly, k, k, 2 * model->def.damping.drag * sqrt(x * x + y * y) / span->h, K);
   }
 }
 
