@@ -15,7 +15,7 @@ if (study eq 'equilibrium') {
 }
 if (study eq 'modes') { answer = 'Lowest frequency about the loaded equilibrium'; quantity = 'frequency'; si = 'Hz'; number[1] = 'frequency_1_Hz' }
 if (study eq 'isometric') {
-  answer = actuator_kind eq 'hinge' ? 'Force on the held end' : 'Force on the held platform'
+  answer = actuator_kind eq 'electro_ribbon' ? 'Force on the held platform' : 'Force on the held end'
   quantity = 'force'; si = 'N'; number[1] = 'force_N'
 }
 if (study eq 'profile') {

@@ -1,7 +1,7 @@
 #picture forces.svg many held_branch|field force_N :axis
 # Force on what is held, or on a ribbon of a given shape, against the list key that varies fastest.
 title = kind ne 'held_branch' ? 'Electric force on a ribbon of one half' \
-      : actuator_kind eq 'hinge' ? 'Force on the held end' : 'Force on the held platform'
+      : actuator_kind eq 'electro_ribbon' ? 'Force on the held platform' : 'Force on the held end'
 numbers = 'force_N'
 load 'held_curves.gp'
 factor = scale(largest('force_N'), 'N')

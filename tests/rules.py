@@ -26,6 +26,7 @@ MAY_INCLUDE = {
     "drive": ["math", "def", "base"],
     "solve": ["math", "base"],  # knows no physics
     "actuator": ["ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
+    "device": ["actuator", "math", "def", "base"],
     "term": ["actuator", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "system": ["term", "actuator", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
@@ -45,9 +46,10 @@ MAY_INCLUDE = {
 
 # What points up, and why: a room, a higher one.
 POINT_UP = {
-    # def/rules.def names the owners of rules, so that one checker asks all of them; a law brings its rules in its file
+    # def/rules.def names the owners of rules, so that one checker asks all of them; a law brings its rules in its file.
+    # devices.def names the devices, so that a Def knows what its kind has; a device brings its layout in its file.
     ("def", "drive"),
-    ("def", "actuator"),
+    ("def", "device"),
     ("def", "term"),
     ("def", "sim"),
 }
@@ -207,7 +209,8 @@ def names_defined(code):
 def names_used(text, code):
     owners = ["zp_rules_of_" + name for name in re.findall(r"^ZP_OWNER\((\w+)\)", text, re.M)]
     laws = ["zp_term_" + name for name in re.findall(r"^ZP_TERM\((\w+)\)", text, re.M)]
-    return set(re.findall(r"\bzp_\w+", code)) | set(owners) | set(laws)
+    devices = ["zp_device_" + name for name in re.findall(r"^ZP_KIND\(\w+, (\w+)\)", text, re.M)]
+    return set(re.findall(r"\bzp_\w+", code)) | set(owners) | set(laws) | set(devices)
 
 
 def rule_rooms(repo, files):

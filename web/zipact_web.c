@@ -13,7 +13,7 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "base/memory.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "io/value.h"
 
 #define EXPORT __attribute__((visibility("default"), used))
@@ -160,9 +160,10 @@ EXPORT int zp_web_assign(ZpWeb *web) {
 }
 
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
-  if (def->actuator.kind != ZP_KIND_ELECTRO_RIBBON && def->actuator.kind != ZP_KIND_HINGE)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "this page supports actuator.kind electro_ribbon and hinge; use the command for the other kinds");
+  if (!zp_def_has(def, ZP_DEVICE_PAIR))
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "this page supports kinds with two ribbons, electro_ribbon, hinge and mouth; use the command for the others");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs the studies actuate and equilibrium only; use the command for the others");
@@ -291,7 +292,7 @@ EXPORT int zp_web_members(ZpWeb *web) {
 /* Modelled halves of each: 1, which has a mirror image, or 2; 0 of a hinge, which has neither. */
 EXPORT int zp_web_halves(ZpWeb *web) {
   const ZpTopology *topology = &web->model->topology;
-  return zp_is_hinge(topology) ? 0 : (int)topology->halves;
+  return zp_is_open_pair(topology) ? 0 : (int)topology->halves;
 }
 
 /* Stations of each ribbon. */

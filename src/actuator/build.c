@@ -5,7 +5,7 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "base/kernel.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "math/elementary.h"
 #include "ribbon/rod_plastic.h"
 
@@ -602,7 +602,7 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
 /* damping.internal, or the value that auto means: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
-  bool damped = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->ribbon.model == ZP_RIBBON_ROD &&
+  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && def->ribbon.model == ZP_RIBBON_ROD &&
                 def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (!isnan(def->damping.internal)) return def->damping.internal;
   return damped ? of_taped_steel : 0;
@@ -644,8 +644,8 @@ static void derive(ZpModel *model) {
   model->nodes = t->stations;
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
-  model->field = def->actuator.kind != ZP_KIND_RIBBON;
-  model->flat = def->actuator.kind == ZP_KIND_FLANGE;
+  model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
+  model->flat = zp_def_has(def, ZP_DEVICE_PLATE);
   model->parts = platform ? 2 / (double)t->halves * def->stack.parallel : 1;
   model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);

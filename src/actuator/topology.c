@@ -1,6 +1,6 @@
 #include "actuator/topology.h"
 
-#include "def/check.h"
+#include "def/device.h"
 #include "math/elementary.h"
 
 /* The constraints of a joint on the nodes of its stations. */
@@ -24,48 +24,9 @@ static const Hold hold_of[ZP_JOINT_KINDS] = {
     [ZP_JOINT_LINK] = {.x = {true, true}, .slope = {true, true}},
 };
 
-static void add(ZpTopology *t, ZpJointKind kind, size_t first, size_t last) {
-  t->joint[t->joints++] = (ZpJoint){kind, first, last};
-}
-
-/* One ribbon, clamped at its left end. */
-static void of_one(ZpRightEnd end, size_t nodes, ZpTopology *t) {
-  static const ZpJointKind right[] = {
-      [ZP_END_GUIDED] = ZP_JOINT_GUIDE, [ZP_END_FREE] = ZP_JOINT_FREE, [ZP_END_CLAMPED] = ZP_JOINT_CLAMP};
-  t->stations = nodes;
-  add(t, ZP_JOINT_CLAMP, 0, 0);
-  add(t, right[end], nodes - 1, nodes - 1);
-  t->platform = t->joint[1];
-}
-
-/* Two ribbons from the left clip to the platform and, if there are two halves, on to the right clip. */
-static void of_two(const ZpActuatorDef *def, size_t nodes, ZpTopology *t) {
-  ZpHeldClip held = def->actuator.held_clip;
-  t->halves = def->actuator.symmetry == ZP_SYMMETRY_NONE ? 2 : 1;
-  t->stations = t->halves * nodes;
-  add(t, held == ZP_HELD_LEFT ? ZP_JOINT_HELD : ZP_JOINT_CLIP, 0, 0);
-  add(t, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes - 1, nodes + t->halves - 2);
-  t->platform = t->joint[1];
-  if (t->halves == 2) add(t, held == ZP_HELD_RIGHT ? ZP_JOINT_HELD : ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
-}
-
-/* Two ribbons on a hinge, their right ends free. */
-static void of_hinge(size_t nodes, ZpTopology *t) {
-  t->stations = nodes;
-  add(t, ZP_JOINT_HINGE, 0, 0);
-  add(t, ZP_JOINT_FREE, nodes - 1, nodes - 1);
-  t->platform = t->joint[1];
-}
-
 ZpTopology zp_topology_of(const ZpActuatorDef *def) {
-  size_t nodes = (size_t)def->mesh.nodes;
-  ZpTopology t = {.ribbons = zp_def_has_two(def) ? 2 : 1, .halves = 1};
-  if (def->actuator.kind == ZP_KIND_HINGE)
-    of_hinge(nodes, &t);
-  else if (zp_def_has_two(def))
-    of_two(def, nodes, &t);
-  else
-    of_one(def->actuator.right_end, nodes, &t);
+  ZpTopology t = {.ribbons = zp_def_has(def, ZP_DEVICE_PAIR) ? 2 : 1, .halves = 1};
+  zp_device_of(def->actuator.kind)->lay(def, &t);
   t.nodes = t.ribbons * t.stations;
   return t;
 }

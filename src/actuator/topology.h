@@ -91,6 +91,11 @@ static inline bool zp_ends_free(const ZpTopology *t) {
   return t->platform.kind == ZP_JOINT_FREE;
 }
 
+/* Two ribbons whose right ends are free? */
+static inline bool zp_is_open_pair(const ZpTopology *t) {
+  return zp_is_pair(t) && zp_ends_free(t);
+}
+
 /* May the lower platform turn? Then its two ends are nodes of their own. */
 static inline bool zp_platform_turns(const ZpTopology *t) {
   return t->platform.kind == ZP_JOINT_TURNING;

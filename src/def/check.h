@@ -50,9 +50,6 @@ const char *zp_word_of(const char *key, int choice);
 /* Conditions of liquid.model bead on other keys, whatever liquid.model is. Where they fail, auto means none. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 
-/* Does the actuator have two ribbons that face each other? */
-bool zp_def_has_two(const ZpActuatorDef *def);
-
 /* The Def of the lower ribbon: that of the upper one with the keys that lower.* gives. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/rule.h"
+#include "def/device.h"
 
 /* The words of each choice type. */
 #define ZP_CHOICES(type)                  static const ZpChoice words_of_##type[] = {
@@ -46,24 +46,16 @@ static const ZpKey keys[] = {
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
-/* Values that a kind or a preset sets, for one number of nodes or (nodes 0) for any. */
+/* Values that a preset or a supply sets, for one number of nodes or (nodes 0) for any. */
 typedef struct PresetValue {
-  int selector; /* ZpActuatorKind or ZpPreset */
+  int selector; /* ZpPreset or ZpSupplyModel */
   const char *key;
   int nodes;
   double value;
 } PresetValue;
 
-#define ZP_KIND_VALUE(kind, key, value) {kind, key, 0, value},
-#define ZP_SUPPLY_VALUE(supply, key, value)
 #define ZP_PRESET_VALUE(preset, key, value)
 #define ZP_PRESET_AT(preset, key, nodes, value)
-static const PresetValue kind_values[] = {
-#include <zipact/presets.def>
-};
-#undef ZP_KIND_VALUE
-#undef ZP_SUPPLY_VALUE
-#define ZP_KIND_VALUE(kind, key, value)
 #define ZP_SUPPLY_VALUE(supply, key, value) {supply, key, 0, value},
 static const PresetValue supply_values[] = {
 #include <zipact/presets.def>
@@ -77,7 +69,6 @@ static const PresetValue supply_values[] = {
 static const PresetValue preset_values[] = {
 #include <zipact/presets.def>
 };
-#undef ZP_KIND_VALUE
 #undef ZP_SUPPLY_VALUE
 #undef ZP_PRESET_VALUE
 #undef ZP_PRESET_AT
@@ -102,7 +93,6 @@ static const ZpMaterialValue medium_values[] = {
 };
 
 enum {
-  KIND_VALUES = sizeof kind_values / sizeof kind_values[0],
   SUPPLY_VALUES = sizeof supply_values / sizeof supply_values[0],
   PRESET_VALUES = sizeof preset_values / sizeof preset_values[0]
 };
@@ -452,7 +442,8 @@ ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count,
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
   *def = plain;
-  apply_values(def, kind_values, KIND_VALUES, (int)kind);
+  const ZpDevice *device = zp_device_of(kind);
+  status = apply_assignments(def, device->given, device->given_count, err);
   apply_preset(def, given.preset, given.mesh.nodes);
   apply_values(def, supply_values, SUPPLY_VALUES, (int)given.source.supply);
   apply_materials(def, &given);
@@ -536,34 +527,21 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_check_mass(def, err) : status;
 }
 
-/* Where electrodes touch at rest. */
-static const char *touches_at(const ZpActuatorDef *def) {
-  switch (def->actuator.kind) {
-  case ZP_KIND_ELECTRO_RIBBON:
-    return "clip";
-  case ZP_KIND_HINGE:
-    return "hinge";
-  default:
-    return "clamp (electro.gap_offset = 0 m)";
-  }
-}
-
 /* Two ribbons touch at their joint; a flange touches at its clamp if its gap there is 0, otherwise only beyond pull-in.
  */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus ours = check_layout(def, err);
   if (ours != ZP_OK) return ours;
   if (zp_def_members(def) > 1) return zp_check_members_voltage(def, voltage, err);
-  bool two = zp_def_has_two(def);
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
-  bool touches = two || (def->actuator.kind == ZP_KIND_FLANGE && def->electro.gap_offset == 0);
+  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_PLATE) && def->electro.gap_offset == 0);
   if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
                  "insulator, or 0 V",
-                 voltage, touches_at(def));
+                 voltage, zp_device_of(def->actuator.kind)->touches);
 }
 
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
@@ -624,7 +602,7 @@ ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def) {
 /* The halves are mirror images only if gravity is vertical. */
 static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
   static const double half_turn = 3.14159265358979323846;
-  bool mirrored = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->actuator.symmetry == ZP_SYMMETRY_HALF;
+  bool mirrored = zp_def_has(def, ZP_DEVICE_PLATFORM) && def->actuator.symmetry == ZP_SYMMETRY_HALF;
   double tilt = fabs(def->mount.tilt);
   if (!mirrored || tilt < zp_tilt_rounding || half_turn - tilt < zp_tilt_rounding) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
@@ -663,7 +641,7 @@ static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
 static ZpStatus check_bare(const ZpActuatorDef *def, ZpError *err) {
   double offset = def->electro.insulator_offset;
   bool bare = isnan(offset) ? zp_insulation(def) == 0 : offset == 0;
-  if (!zp_def_has_two(def) || !bare || def->electro.breakdown_cap) return ZP_OK;
+  if (!zp_def_has(def, ZP_DEVICE_PAIR) || !bare || def->electro.breakdown_cap) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: requires electro.breakdown_cap true; otherwise the force between bare "
                  "faces that touch is infinite");
@@ -671,10 +649,10 @@ static ZpStatus check_bare(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of lengths and numbers of nodes. */
 static ZpStatus check_sizes(const ZpActuatorDef *def, ZpError *err) {
-  if (def->actuator.kind == ZP_KIND_ELECTRO_RIBBON && def->platform.length > 0.9 * def->ribbon.length)
+  if (zp_def_has(def, ZP_DEVICE_PLATFORM) && def->platform.length > 0.9 * def->ribbon.length)
     return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",
                    def->platform.length, 0.9 * def->ribbon.length);
-  if (zp_def_has_two(def) && def->contact.complete_margin > def->mesh.nodes - 2)
+  if (zp_def_has(def, ZP_DEVICE_PAIR) && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);
   return ZP_OK;

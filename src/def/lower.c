@@ -3,7 +3,7 @@
 #include <stddef.h>
 
 #include "base/fail.h"
-#include "def/rule.h"
+#include "def/device.h"
 
 static const char prefix[] = "lower.";
 static const ZpKeyGroup lower_keys = ZP_KEY_GROUP(lower);
@@ -12,10 +12,6 @@ static const ZpKeyGroup lower_keys = ZP_KEY_GROUP(lower);
 static bool is_given(const ZpActuatorDef *def, int key) {
   double value = zp_def_get(def, key);
   return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
-}
-
-bool zp_def_has_two(const ZpActuatorDef *def) {
-  return def->actuator.kind == ZP_KIND_ELECTRO_RIBBON || def->actuator.kind == ZP_KIND_HINGE;
 }
 
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
@@ -56,7 +52,7 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
 }
 
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
-  bool platform = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON;
+  bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
   double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_segments(def, "", flexible, err);
@@ -72,8 +68,7 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
               "the paper's springs are those of a straight strip of one thickness")
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.permittivity),
-            ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_HINGE)),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.permittivity), ZP_HAS(PAIR),
             "the other kinds have no lower ribbon"),
     ZP_RULE(EQUATION, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.permittivity),
             ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the paper's mechanics makes both ribbons equal"),

@@ -13,6 +13,17 @@ typedef enum ZpRuleClass {
   ZP_RULE_NOT_MODELLED /* its equations are known, and the program does not have them */
 } ZpRuleClass;
 
+/* What a device has: def/device.h. */
+enum {
+  ZP_DEVICE_ELECTRODES = 1, /* that attract each other */
+  ZP_DEVICE_PAIR = 2,       /* two ribbons */
+  ZP_DEVICE_PLATFORM = 4,   /* two ribbons with a platform in the middle of each, and a mirror image */
+  ZP_DEVICE_OPEN = 8,       /* two ribbons whose right ends are free */
+  ZP_DEVICE_HINGE = 16,     /* a hinge at the left end of the lower ribbon */
+  ZP_DEVICE_PLATE = 32,     /* a flat electrode */
+  ZP_DEVICE_PAPERS = 64     /* the ends that the paper's steps, zipping and surface know */
+};
+
 typedef enum ZpTest {
   ZP_TEST_ANY,        /* holds always */
   ZP_TEST_IS,         /* the key has this value */
@@ -25,6 +36,8 @@ typedef enum ZpTest {
   ZP_TEST_UNSET,      /* has its default */
   ZP_TEST_SET_WITHIN, /* any key from this one to another differs from its default */
   ZP_TEST_SEVERAL,    /* several members: zp_def_members */
+  ZP_TEST_HAS,        /* the device of this actuator.kind has any of a set of ZP_DEVICE_ bits */
+  ZP_TEST_LACKS,      /* it has none of them */
   ZP_TEST_UNEQUAL,    /* parallel members that differ: zp_def_abreast */
   ZP_TEST_NEVER       /* never holds */
 } ZpTest;
@@ -50,6 +63,8 @@ typedef struct ZpCondition {
 #define ZP_SET(name)              ZP_CONDITION(name, SET, 0)
 #define ZP_UNSET(name)            ZP_CONDITION(name, UNSET, 0)
 #define ZP_SET_WITHIN(name, last) ZP_CONDITION(name, SET_WITHIN, ZP_KEY(last))
+#define ZP_HAS(device)            ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_##device)
+#define ZP_LACKS(device)          ZP_CONDITION(actuator.kind, LACKS, ZP_DEVICE_##device)
 #define ZP_SEVERAL                ZP_CONDITION(stack.series, SEVERAL, 0)
 #define ZP_UNEQUAL                ZP_CONDITION(stack.parallel, UNEQUAL, 0)
 #define ZP_BIT(word)              (1 << (word))

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/rule.h"
+#include "def/device.h"
 
 enum { WORDS = 256, VALUE = 96 };
 
@@ -38,6 +38,9 @@ static bool holds_for(const ZpCondition *c, double value) {
     return value != c->value;
   case ZP_TEST_ONE_OF:
     return ((unsigned)c->value >> (unsigned)value & 1) != 0;
+  case ZP_TEST_HAS:
+  case ZP_TEST_LACKS:
+    return ((zp_device_of((ZpActuatorKind)value)->has & (unsigned)c->value) != 0) == (c->test == ZP_TEST_HAS);
   case ZP_TEST_ABOVE:
     return value > c->value;
   case ZP_TEST_AT_LEAST:
@@ -131,6 +134,14 @@ static unsigned others(int key, double word) {
   return ((2U << (unsigned)zp_key(key)->max) - 1) & ~(1U << (unsigned)word);
 }
 
+/* The bits of the kinds for which a condition on their devices holds. */
+static unsigned kinds_of(const ZpCondition *c) {
+  unsigned bits = 0;
+  for (int kind = 0; kind < ZpActuatorKind_COUNT; kind++)
+    if (holds_for(c, kind)) bits |= 1U << (unsigned)kind;
+  return bits;
+}
+
 /* "ramp, sine or square" */
 static void show_words(int key, unsigned bits, char text[VALUE]) {
   size_t used = 0;
@@ -154,6 +165,11 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
   case ZP_TEST_ANY:
   case ZP_TEST_NEVER:
     snprintf(text, size, "%s", "");
+    break;
+  case ZP_TEST_HAS:
+  case ZP_TEST_LACKS:
+    show_words(c->key, kinds_of(c), value);
+    snprintf(text, size, "%s %s", name, value);
     break;
   case ZP_TEST_ONE_OF:
     show_words(c->key, (unsigned)c->value, value);

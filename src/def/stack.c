@@ -158,8 +158,8 @@ static const char joins[] = "a stack joins its platforms", opposes[] = "which ma
                       "not return on the same path";
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_ABOVE(stack.series, 1), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), joins),
-    ZP_RULE(PHYSICS, ZP_ABOVE(stack.parallel, 1), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), joins),
+    ZP_RULE(PHYSICS, ZP_ABOVE(stack.series, 1), ZP_HAS(PLATFORM), joins),
+    ZP_RULE(PHYSICS, ZP_ABOVE(stack.parallel, 1), ZP_HAS(PLATFORM), joins),
     ZP_RULE(PHYSICS, ZP_ABOVE(stack.link_mass, 0), ZP_AT_LEAST(stack.series, 2), "a link joins two members"),
     /* antagonists */
     ZP_RULE(PHYSICS, ZP_SET(stack.lower_voltage), ZP_SET(stack.distance), opposes),

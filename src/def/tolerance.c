@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "def/device.h"
+
 static const double usual = 1e-4;
 
 /* Errors of derivatives are ten and more times those of the numbers, eq. (20.11). */
@@ -18,7 +20,7 @@ static double of_mesh(const ZpActuatorDef *def) {
 double zp_def_tolerance(const ZpActuatorDef *def) {
   if (!isnan(def->solver.tolerance)) return def->solver.tolerance;
   if (*def->sensitivity.by) return of_derivatives;
-  return def->actuator.kind == ZP_KIND_RIBBON ? usual : of_mesh(def);
+  return zp_def_has(def, ZP_DEVICE_ELECTRODES) ? of_mesh(def) : usual;
 }
 
 double zp_tolerance_at_rest(const ZpActuatorDef *def) {

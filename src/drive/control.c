@@ -97,10 +97,9 @@ static const char no_control[] = "without a controller this key has no effect; u
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(setpoint.value, setpoint.file), ZP_WITH, no_control),
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(control.signal, control.boost_band), ZP_WITH, no_control),
-    ZP_RULE(PHYSICS, ZP_WITH, ZP_NOT(actuator.kind, ZP_KIND_RIBBON), "a single ribbon has no electrodes"),
+    ZP_RULE(PHYSICS, ZP_WITH, ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
     ZP_RULE_IF(PHYSICS, ZP_ONE_OF(control.signal, ZP_BIT(ZP_CONTROL_OPENING) | ZP_BIT(ZP_CONTROL_CONTRACTION)), ZP_WITH,
-               ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_HINGE)),
-               "one ribbon has no opening; use control.signal stroke"),
+               ZP_HAS(PAIR), "one ribbon has no opening; use control.signal stroke"),
     ZP_RULE(PHYSICS, ZP_WITH, ZP_IS(drive.waveform, ZP_WAVEFORM_STEP),
             "the controller sets the voltage, up to drive.voltage; setpoint.waveform is the setpoint over time"),
     ZP_RULE_IF(PHYSICS, ZP_WITH, ZP_NOT(setpoint.waveform, ZP_WAVEFORM_TABLE), ZP_SET(setpoint.value),

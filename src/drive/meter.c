@@ -70,8 +70,7 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ABOVE(sense.noise, 0), ZP_SET(sense.frequency), no_meter),
     ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_SET(sense.amplitude), "a meter applies a sine"),
     ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_SET(sense.sampling_rate), "a meter takes samples"),
-    ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_NOT(actuator.kind, ZP_KIND_RIBBON),
-            "a single ribbon has no electrodes"),
+    ZP_RULE(PHYSICS, ZP_SET(sense.frequency), ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
 };
 
 const ZpRules zp_rules_meter = ZP_RULES_OF(rule);

@@ -120,8 +120,7 @@ static const ZpRule rule[] = {
             "the source could never charge the electrodes; give a current above 0 or none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_AT_MOST(source.bandwidth, 1e9),
             "time steps resolve no more; give none for an unlimited bandwidth"), /* a thousand of the shortest */
-    ZP_RULE(PHYSICS, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_NOT(actuator.kind, ZP_KIND_RIBBON),
-            "a single ribbon has no electrodes"),
+    ZP_RULE(PHYSICS, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER), ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_IS(source.model, ZP_SOURCE_AMPLIFIER),
                    ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "the voltage of the electrodes is an unknown of implicit steps"),

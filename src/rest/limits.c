@@ -322,7 +322,7 @@ static bool find_closed(Finder *f) {
 static void lower_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
   const ZpTopology *t = &f->model->topology;
-  bool closes = find_closed(f), slides = zp_is_pair(t) && zp_ends_free(t);
+  bool closes = find_closed(f), slides = zp_is_open_pair(t);
   if (!slides && from_neighbour(f, ZP_LIMIT_RELEASE)) return;
   zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
   if (!closes) return;

@@ -887,8 +887,8 @@ static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
     q[j - s] = q[j] - d[j - s];
 }
 
-/* Lay two ribbons from their hinge. */
-static void lay_fold(ZpRestMember *m) {
+/* Lay two ribbons from the joint of their left ends. */
+static void lay_open(ZpRestMember *m) {
   const ZpModel *model = m->model;
   for (size_t c = 0; c < 2; c++)
     for (size_t ribbon = 0; ribbon < model->s; ribbon++)
@@ -1022,8 +1022,8 @@ void zp_statics_rejoin(ZpStatics *s) {
 
 static void move_member(ZpRestMember *m, const double *step, double fraction) {
   turn_edges(m, step, fraction);
-  if (zp_is_hinge(&m->model->topology))
-    lay_fold(m);
+  if (zp_is_open_pair(&m->model->topology))
+    lay_open(m);
   else if (zp_is_pair(&m->model->topology))
     lay_two(m);
   else

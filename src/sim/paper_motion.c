@@ -153,10 +153,9 @@ ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double lates
 /* -- rules ----------------------------------------------------------------------------------------- */
 
 static const ZpRule rule[] = {
-    ZP_MOTION_RULE_IF(EQUATION, ZP_IS(contact.model, ZP_CONTACT_SEQUENTIAL),
-                      ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), ZP_IS(solver.integrator, ZP_INTEGRATOR_EXPLICIT),
-                      "pairs meet inside the paper's explicit steps"),
-    ZP_MOTION_RULE_IF(EQUATION, ZP_IS(electro.surface, ZP_SURFACE_BEZIER), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+    ZP_MOTION_RULE_IF(EQUATION, ZP_IS(contact.model, ZP_CONTACT_SEQUENTIAL), ZP_HAS(PLATFORM),
+                      ZP_IS(solver.integrator, ZP_INTEGRATOR_EXPLICIT), "pairs meet inside the paper's explicit steps"),
+    ZP_MOTION_RULE_IF(EQUATION, ZP_IS(electro.surface, ZP_SURFACE_BEZIER), ZP_HAS(PLATFORM),
                       ZP_IS(contact.model, ZP_CONTACT_SEQUENTIAL),
                       "the surface begins at the zip front, and moves in steps of solver.integrator explicit"),
 };

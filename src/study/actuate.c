@@ -69,8 +69,8 @@ static double work_on_change(ZpSim *sim, const ZpModel *model) {
   return -model->parts * zp_state_hung(model, state) * (model->fall[0] * along + model->fall[1] * up);
 }
 
-/* Work on a load that does not only rise: that of a fold, whose spring is not part of the load, and that of a platform
- * that turns, J. */
+/* Work on a load that does not only rise: at a free end, where a spring of a hinge is not part of it, and that of a
+ * platform that turns, J. */
 static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   const ZpActuatorDef *def = &model->def;
   ZpMotion motion = zp_state_motion(model, sim->state);
@@ -102,8 +102,8 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (model->supply.acts && isfinite(limit) && highest > 0)
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (zp_model_info(model).ribbons < 2) return;
-  bool turns = zp_has_angle(&model->topology);
-  double work = turns ? work_along_path(sim, model, result) : work_on_load(sim, model, result);
+  bool rises = zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology);
+  double work = rises ? work_on_load(sim, model, result) : work_along_path(sim, model, result);
   work -= zp_at_end(sim, result, "load_work") - before.load_work;
   zp_result_add(result, "mechanical_work_J", "J", work);
   zp_add_efficiency(result, "efficiency", work, energy - before.energy);

@@ -727,7 +727,7 @@ static const ZpRule rule[] = {
             ZP_ONE_OF(drive.waveform, ZP_BIT(ZP_WAVEFORM_STEP) | ZP_BIT(ZP_WAVEFORM_SINE) | ZP_BIT(ZP_WAVEFORM_SQUARE)),
             "the drive is periodic (step: sine)"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(load.change_mass), "the load is periodic, too; use study actuate"),
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), "it opens and closes"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it opens and closes"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
     ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "let study actuate run for some periods of the drive"),
     ZP_RULE_STARTS,

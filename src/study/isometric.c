@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "rest/crossing.h"
 #include "study/equilibria.h"
 #include "study/held.h"
@@ -398,18 +398,17 @@ static void run(Holder *h) {
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond it, ribbons are stretched more than bent */
-  bool hinge = def->actuator.kind == ZP_KIND_HINGE;
-  double longest = most * (def->ribbon.length - (hinge ? 0 : def->platform.length));
+  bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
+  double longest = most * (def->ribbon.length - (platform ? def->platform.length : 0));
   if (def->isometric.separation > longest)
     return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m",
-                   def->isometric.separation, most, hinge ? "ribbon.length" : "(ribbon.length - platform.length)",
+                   def->isometric.separation, most, platform ? "(ribbon.length - platform.length)" : "ribbon.length",
                    longest);
   return ZP_OK;
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_HINGE)),
-            "it holds a platform, or the end of a hinge"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it holds a platform, or the free end of the lower of two ribbons"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
     ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER,
             "hold each member alone, without the stack: the separations of a series add up, and the forces of members "

@@ -158,7 +158,7 @@ static void run(Finder *f, ZpResult *r) {
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(actuator.kind, ZP_KIND_RIBBON), "a single ribbon has no electrodes"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

@@ -551,7 +551,7 @@ static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_ANY, ZP_IS(electro.edges, false),
             "it compares forces in the plane of the ribbons, without lateral edges; the other studies "
             "can include them"),
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON), "it compares forces between two ribbons"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PLATFORM), "its profile runs from a clip to a platform"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "its grid covers one half"),
     ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.insulator.thickness),
             "its grid covers one half of the gap, whose middle plane is a mirror"),

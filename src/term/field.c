@@ -59,7 +59,7 @@ static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_HAS(PLATFORM),
             "its grid lies between two ribbons with a platform; use plates, which is accurate within 1 % if the gap "
             "changes slowly along the ribbon"),
     ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),

@@ -245,7 +245,7 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
 
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))
 static const ZpRule rule[] = {
-    ZP_RULE(EQUATION, WET, ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+    ZP_RULE(EQUATION, WET, ZP_HAS(PLATFORM),
             "the film lies between two ribbons with a platform; use liquid.model none"),
     ZP_RULE(EQUATION, WET, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the film acts on rods; use liquid.model none"),
     ZP_RULE(EQUATION, WET, ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),

@@ -64,8 +64,8 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_SET(hinge.stiffness), ZP_IS(actuator.kind, ZP_KIND_HINGE), "the other kinds have no hinge"),
-    ZP_RULE(PHYSICS, ZP_SET(hinge.rest_angle), ZP_IS(actuator.kind, ZP_KIND_HINGE), "the other kinds have no hinge"),
+    ZP_RULE(PHYSICS, ZP_SET(hinge.stiffness), ZP_HAS(HINGE), "the other kinds have no hinge"),
+    ZP_RULE(PHYSICS, ZP_SET(hinge.rest_angle), ZP_HAS(HINGE), "the other kinds have no hinge"),
     ZP_RULE(PHYSICS, ZP_SET(hinge.rest_angle), ZP_ABOVE(hinge.stiffness, 0),
             "a hinge without a spring has no angle of rest"),
 };

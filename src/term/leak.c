@@ -91,7 +91,7 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
 }
 
 #define ZP_LEAK(resistivity)                                                                                           \
-  ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_NOT(actuator.kind, ZP_KIND_RIBBON), "a single ribbon has no electrodes"),   \
+  ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),                      \
       ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_ABOVE(insulator.thickness, 0),                                          \
               "charge accumulates on the face of an insulator"),                                                       \
       ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_UNSET(electro.force_scale), "charge and force have one energy"),        \

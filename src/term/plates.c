@@ -66,7 +66,7 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
 
 static const ZpRule rule[] = {
     /* lateral edges */
-    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_NOT(actuator.kind, ZP_KIND_FLANGE),
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_LACKS(PLATE),
             "the width of a flange's flat electrode is not known"),
     ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's surface has no edges"),

@@ -110,14 +110,12 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
 
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ABOVE(load.stiffness, 0), ZP_SET(load.rest_opening), "a spring has a length at rest"),
-    ZP_RULE(PHYSICS, ZP_ABOVE(load.stiffness, 0), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
-            "the spring acts on its platforms"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(load.stiffness, 0), ZP_HAS(PLATFORM), "the spring acts on its platforms"),
     ZP_RULE(EQUATION, ZP_ABOVE(load.stiffness, 0), ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
             "the paper's zipping has no spring"),
     ZP_RULE_IF(PHYSICS, ZP_SET(load.stop_stiffness), ZP_ABOVE(load.stop_stiffness, 0), ZP_SET(load.stop_opening),
                "without it there is no stop"),
-    ZP_RULE(PHYSICS, ZP_SET(load.stop_opening), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
-            "the stop acts on its platforms"),
+    ZP_RULE(PHYSICS, ZP_SET(load.stop_opening), ZP_HAS(PLATFORM), "the stop acts on its platforms"),
     ZP_RULE(EQUATION, ZP_SET(load.stop_opening), ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
             "the paper's zipping has no stop"),
 };

@@ -1,9 +1,21 @@
-/* Rules of the devices: kinds of actuators, their halves, platforms and clips. */
-#include "def/rule.h"
+/* Two ribbons from the left clip to the platform and, of a whole actuator, on to the right clip. */
+#include "device/device.h"
+
+static void lay(const ZpActuatorDef *def, ZpTopology *t) {
+  ZpHeldClip held = def->actuator.held_clip;
+  size_t nodes = (size_t)def->mesh.nodes;
+  t->halves = def->actuator.symmetry == ZP_SYMMETRY_NONE ? 2 : 1;
+  t->stations = t->halves * nodes;
+  zp_join(t, held == ZP_HELD_LEFT ? ZP_JOINT_HELD : ZP_JOINT_CLIP, 0, 0);
+  zp_join(t, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes - 1, nodes + t->halves - 2);
+  t->platform = t->joint[1];
+  if (t->halves == 2)
+    zp_join(t, held == ZP_HELD_RIGHT ? ZP_JOINT_HELD : ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
+}
 
 static const ZpRule rule[] = {
     /* halves */
-    ZP_RULE(PHYSICS, ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE), ZP_IS(actuator.kind, ZP_KIND_ELECTRO_RIBBON),
+    ZP_RULE(PHYSICS, ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE), ZP_HAS(PLATFORM),
             "the other kinds have no halves; use actuator.symmetry half"),
     ZP_RULE(EQUATION, ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
             "the paper's equations are those of one half; use actuator.symmetry half"),
@@ -16,22 +28,6 @@ static const ZpRule rule[] = {
     ZP_MOTION_RULE(NOT_MODELLED, ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE),
                    ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "explicit steps are those of one half; use actuator.symmetry half"),
-    /* a hinge */
-    ZP_RULE(EQUATION, ZP_IS(actuator.kind, ZP_KIND_HINGE), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
-            "the paper's springs have no angle at a hinge; use actuator.kind electro_ribbon"),
-    ZP_RULE(EQUATION, ZP_IS(actuator.kind, ZP_KIND_HINGE), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
-            "the paper's Bezier surface begins at a clip; use actuator.kind electro_ribbon"),
-    ZP_RULE(EQUATION, ZP_IS(actuator.kind, ZP_KIND_HINGE), ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
-            "the paper's zipping begins at a clip; use actuator.kind electro_ribbon"),
-    ZP_MOTION_RULE(NOT_MODELLED, ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_FLANGE) | ZP_BIT(ZP_KIND_HINGE)),
-                   ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
-                   "explicit steps are those of the paper's actuator and of one ribbon"),
-    ZP_MOTION_RULE(EQUATION, ZP_IS(contact.model, ZP_CONTACT_SEQUENTIAL),
-                   ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_RIBBON)),
-                   "the paper's zipping begins at a clip; use contact.model unilateral"),
-    ZP_MOTION_RULE(EQUATION, ZP_IS(electro.surface, ZP_SURFACE_BEZIER),
-                   ZP_ONE_OF(actuator.kind, ZP_BIT(ZP_KIND_ELECTRO_RIBBON) | ZP_BIT(ZP_KIND_RIBBON)),
-                   "the paper's Bezier surface begins at a clip; use electro.surface polyline"),
     /* a platform that turns */
     ZP_RULE(PHYSICS, ZP_IS(platform.rotates, true), ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE),
             "the platform of a symmetric half is level"),
@@ -50,5 +46,8 @@ static const ZpRule rule[] = {
             "on a guided platform the place of the load has no effect"),
 };
 
-static const ZpRules rules = ZP_RULES_OF(rule);
-const ZpRules *const zp_rules_of_devices[] = {&rules, NULL};
+const ZpDevice zp_device_electro_ribbon = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_PAIR | ZP_DEVICE_PLATFORM |
+                                                  ZP_DEVICE_PAPERS,
+                                           .touches = "clip",
+                                           .lay = lay,
+                                           .rules = ZP_RULES_OF(rule)};
