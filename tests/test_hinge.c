@@ -274,7 +274,6 @@ static const struct {
     {ZP_STUDY_ACTUATE, {"insulator.thickness", 0}, "short circuit, because the electrodes touch at the hinge"},
     {ZP_STUDY_ISOMETRIC, {"isometric.separation", 99e-3}, "0.98 ribbon.length"},
     {ZP_STUDY_PROFILE, {"mesh.nodes", 21}, "actuator.kind = hinge"},
-    {ZP_STUDY_CYCLE, {"drive.waveform", ZP_WAVEFORM_SQUARE}, "electro_ribbon"},
 };
 
 START_TEST(what_does_not_go_is_refused) {

@@ -29,8 +29,8 @@ START_TEST(tips_are_those_of_cantilevers) {
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   double lower = zp_result_get(result, "stroke_m"), upper = lower - zp_result_get(result, "opening_m");
   printf("tips: lower %.2e, upper %.2e off\n", lower / sunk[1] - 1, upper / sunk[0] - 1);
-  ck_near(lower, sunk[1], 1e-5);
-  ck_near(upper, sunk[0], 1e-5);
+  ck_near(lower, sunk[1], 4e-6); /* 1.2e-6 measured */
+  ck_near(upper, sunk[0], 4e-6); /* 1.5e-6 measured */
   zp_result_destroy(result);
   zp_model_destroy(model);
 }
@@ -54,8 +54,8 @@ START_TEST(pull_in_is_that_of_a_fold_that_does_not_turn) {
   double left = (4 * missed[1] - missed[0]) / 3;
   printf("pull-in of the fold over that of the mouth - 1: %.3e, %.3e; without the second order %.1e\n", missed[0],
          missed[1], left);
-  ck_near(missed[0] / missed[1], 4, 0.03);
-  ck_below(fabs(left), 1e-6);
+  ck_near(missed[0] / missed[1], 4, 0.05); /* 1.8e-2 measured */
+  ck_below(fabs(left), 1e-6);              /* 5.6e-7 measured */
 }
 END_TEST
 
@@ -64,7 +64,8 @@ START_TEST(zips_and_keeps_the_books) {
   ZpActuatorDef def = DEF(MOUTH, {"mesh.nodes", 15}, {"drive.voltage", 2e3}, {"electro.edges", _i},
                           {"solver.end_time", 0.05}, {"solver.tolerance", 1e-4});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-  ck_below(zp_result_get(result, "energy_error"), 1e-8);
+  printf("energy error %.1e\n", zp_result_get(result, "energy_error"));
+  ck_below(zp_result_get(result, "energy_error"), 8e-9); /* 2.9e-9 measured */
   ck_assert(isfinite(zp_result_get(result, "zip_time_s")));
   double rise = zp_table_get(result->series, 0, "stroke_m") - zp_result_get(result, "stroke_m");
   ck_near(zp_result_get(result, "mechanical_work_J"), def.load.mass * def.gravity * rise, 1e-12);
@@ -83,7 +84,7 @@ START_TEST(swings_as_two_cantilevers) {
   ZpResult *result = answer_of(ZP_STUDY_MODES, &def);
   for (int k = 0; k < 2; k++) {
     printf("frequency %d: %.2e off\n", k, result->scalar[k].value / frequency - 1);
-    ck_near(result->scalar[k].value, frequency, 2e-4);
+    ck_near(result->scalar[k].value, frequency, 1.8e-4); /* 6.1e-5 measured */
   }
   zp_result_destroy(result);
   zp_model_destroy(model);
