@@ -55,15 +55,14 @@ static const char *message_of(ZpOutcome outcome) {
 static ZpStatus put_summary(const ZpPage *page, FILE *file, ZpError *err) {
   json_t *verdicts = json_object(), *rows = json_array();
   const ZpOutcome outcome = page->runs->outcome;
-  bool done = true;
   for (int i = 0; i < ZP_VERDICT_COUNT; i++)
-    done = zp_json_set(verdicts, zp_verdicts[i].word, json_integer((json_int_t)page->comparisons->of[i])) && done;
+    zp_json_set(&verdicts, zp_verdicts[i].word, json_integer((json_int_t)page->comparisons->of[i]));
   for (size_t i = 0; i < page->comparisons->count; i++)
-    done = json_array_append_new(rows, row_of(&page->comparisons->item[i])) == 0 && done;
+    zp_json_add(&rows, row_of(&page->comparisons->item[i]));
   json_t *summary = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o}", "version", ZP_VERSION, "study", "reproduce",
                               "outcome", zp_outcome_name(outcome), "message", message_of(outcome), "wall_time_s",
                               zp_json_number(page->wall_time, "s"), "verdicts", verdicts, "rows", rows);
-  ZpStatus status = summary && done ? zp_json_write(summary, file, err) : zp_fail_memory(err);
+  ZpStatus status = summary ? zp_json_write(summary, file, err) : zp_fail_memory(err);
   json_decref(summary);
   return status;
 }

@@ -12,6 +12,7 @@
 #include "def/purpose.h"
 #include "io/file.h"
 #include "io/range.h"
+#include "io/value.h"
 
 static const uint64_t fnv_start = 0xcbf29ce484222325, fnv_prime = 0x100000001b3;
 
@@ -47,28 +48,23 @@ static ZpStatus add_file(const char *key, const char *path, uint64_t *hash, ZpEr
   return ZP_OK;
 }
 
-/* The files of a key: data.file may name several, separated by semicolons. */
-static ZpStatus add_files(const char *key, const char *paths, uint64_t *hash, ZpError *err) {
-  if (strcmp(key, "data.file") != 0) return add_file(key, paths, hash, err);
+/* The files of a key. */
+static ZpStatus add_files(int key, const char *paths, uint64_t *hash, ZpError *err) {
   char *copy = strdup(paths), *rest = copy;
+  const char *separator = zp_key_paths(key) == ZP_PATHS_SEVERAL ? ";" : "";
   ZpStatus status = copy ? ZP_OK : zp_fail_memory(err);
   while (rest && status == ZP_OK)
-    status = add_file(key, zp_trim(strsep(&rest, ";")), hash, err);
+    status = add_file(zp_key(key)->name, zp_trim(strsep(&rest, separator)), hash, err);
   free(copy);
   return status;
-}
-
-static bool names_file(const ZpKey *key) {
-  const char *last = strrchr(key->name, '.');
-  return last && strcmp(last, ".file") == 0;
 }
 
 ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *hash, ZpError *err) {
   ZpStatus status = ZP_OK;
   *hash = add_text(add_text(fnv_start, ZP_VERSION), zp_study_name(study));
   for (int i = 0; i < zp_key_count() && status == ZP_OK; i++) {
-    const char *path = names_file(zp_key(i)) ? zp_def_text(def, i) : NULL;
-    if (path && *path) status = add_files(zp_key(i)->name, path, hash, err);
+    const char *path = zp_key_paths(i) != ZP_PATHS_NONE ? zp_def_text(def, i) : NULL;
+    if (path && *path) status = add_files(i, path, hash, err);
   }
   return status;
 }

@@ -12,6 +12,7 @@
 #include "base/fail.h"
 #include "io/file.h"
 #include "io/number.h"
+#include "io/range.h"
 #include "io/source.h"
 #include "io/units.h"
 
@@ -51,16 +52,6 @@ static ZpStatus read_text(const char *key, const char *path, char **text, ZpErro
   return ZP_OK;
 }
 
-/* Remove white space at both ends, in place. */
-static char *trim(char *text) {
-  while (isspace((unsigned char)*text))
-    text++;
-  size_t length = strlen(text);
-  while (length && isspace((unsigned char)text[length - 1]))
-    text[--length] = 0;
-  return text;
-}
-
 static size_t count_char(const char *text, char c) {
   size_t count = 0;
   for (; *text; text++)
@@ -87,7 +78,7 @@ static char *unquote(char *cell) {
     i += cell[i] == '"' && cell[i + 1] == '"' && i + 2 < length;
   }
   cell[used] = 0;
-  return trim(cell);
+  return zp_trim(cell);
 }
 
 /* Split the next cell off a line, in place; NULL after the last one. */
@@ -95,7 +86,7 @@ static char *next_cell(char **line, char separator) {
   char *cell = *line, *end = cell_end(cell, separator);
   *line = *end ? end + 1 : NULL;
   *end = 0;
-  return unquote(trim(cell));
+  return unquote(zp_trim(cell));
 }
 
 /* The separator: semicolon, tab or comma, the first of these that the row of names has outside of quotes. */
@@ -124,14 +115,14 @@ static bool find_unit(char *name, char **unit, char **end) {
   char *open = strrchr(name, '[') ? strrchr(name, '[') : strrchr(name, '(');
   if (open && open > name && strchr(")]", name[length - 1])) {
     name[length - 1] = 0;
-    *unit = trim(open + 1);
+    *unit = zp_trim(open + 1);
     *end = open;
     return true;
   }
   for (size_t i = 0; i < sizeof before / sizeof before[0]; i++) {
     char *found = strstr(name, before[i]);
     if (!found) continue;
-    *unit = trim(found + strlen(before[i]));
+    *unit = zp_trim(found + strlen(before[i]));
     *end = found;
     return true;
   }
@@ -309,7 +300,7 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
                    "data.columns: \"%.80s\": write \"name in the file = name in zipact\", as in Gewicht = load_g",
                    part);
   *equals = 0;
-  char *theirs = trim(part), *ours = trim(equals + 1);
+  char *theirs = zp_trim(part), *ours = zp_trim(equals + 1);
   if (strchr(ours, '='))
     return zp_fail(err, ZP_BAD_INPUT, "data.columns: \"%.80s\": several names are separated by semicolons", ours);
   plain_name(theirs);
@@ -326,7 +317,7 @@ static ZpStatus rename_columns(ZpDataFiles *files, const char *renamed, ZpError 
   char *rest = files->renamed = strdup(renamed);
   ZpStatus status = rest ? ZP_OK : zp_fail_memory(err);
   for (char *part = rest ? strsep(&rest, ";") : NULL; part && status == ZP_OK; part = strsep(&rest, ";"))
-    if (*trim(part)) status = rename_column(files, part, err);
+    if (*zp_trim(part)) status = rename_column(files, part, err);
   return status;
 }
 
@@ -335,7 +326,7 @@ ZpStatus zp_data_read_all(const char *key, const char *paths, const char *rename
   if (!files->paths || !files->file) return zp_fail_memory(err);
   ZpStatus status = ZP_OK;
   for (char *rest = files->paths; rest && status == ZP_OK;)
-    status = zp_data_read(key, trim(strsep(&rest, ";")), &files->file[files->count++], err);
+    status = zp_data_read(key, zp_trim(strsep(&rest, ";")), &files->file[files->count++], err);
   return status == ZP_OK ? rename_columns(files, renamed, err) : status;
 }
 

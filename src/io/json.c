@@ -11,8 +11,17 @@
 /* Largest integer that a double represents exactly. */
 #define LARGEST_COUNT 9007199254740992.0
 
-bool zp_json_set(json_t *object, const char *name, json_t *value) {
-  return json_object_set_new(object, name, value) == 0;
+void zp_json_drop(json_t **tree) {
+  json_decref(*tree);
+  *tree = NULL;
+}
+
+void zp_json_set(json_t **object, const char *name, json_t *value) {
+  if (json_object_set_new(*object, name, value)) zp_json_drop(object);
+}
+
+void zp_json_add(json_t **list, json_t *value) {
+  if (json_array_append_new(*list, value)) zp_json_drop(list);
 }
 
 json_t *zp_json_number(double value, const char *unit) {

@@ -8,8 +8,13 @@
 
 #include <zipact/error.h>
 
-/* Takes ownership of `value`; true if both the value and its place could be created. */
-bool zp_json_set(json_t *object, const char *name, json_t *value);
+/* Put a member into an object, or an item into a list, which takes ownership of it. If there is no memory for one of
+ * them, both are freed and the object or list becomes NULL: so a tree that is not NULL is complete. */
+void zp_json_set(json_t **object, const char *name, json_t *value);
+void zp_json_add(json_t **list, json_t *value);
+
+/* A failure of another kind: free the tree, which becomes NULL. */
+void zp_json_drop(json_t **tree);
 
 /* A real number, an integer for the unit "count", null for NAN and infinity. */
 json_t *zp_json_number(double value, const char *unit);

@@ -92,11 +92,6 @@ static void write_yaml(FILE *file) {
   }
 }
 
-static const char *type_word(ZpKeyType type) {
-  static const char *const words[] = {"real", "real_auto", "int", "bool", "enum", "text"};
-  return words[type];
-}
-
 static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
   return key->type == ZP_KEY_TEXT ? json_string(key->text) : zp_json_key(index, value);
@@ -104,22 +99,18 @@ static json_t *json_of_value(int index, double value) {
 
 static json_t *json_of_choices(const ZpKey *key) {
   json_t *list = json_array();
-  for (int i = 0; list && key->choices && i <= (int)key->max; i++) {
-    json_t *choice = json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help);
-    if (!choice || json_array_append_new(list, choice)) {
-      json_decref(list);
-      return NULL;
-    }
-  }
+  for (int i = 0; key->choices && i <= (int)key->max; i++)
+    zp_json_add(&list, json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help));
   return list;
 }
 
 /* One key; NULL if there is no memory. json_pack takes ownership of the values and frees them on failure. */
 static json_t *json_of_key(int index) {
+  static const char *const type[] = {"real", "real_auto", "int", "bool", "enum", "text"};
   const ZpKey *key = zp_key(index);
   json_t *least = zp_value_is_number(key) ? json_of_value(index, key->min) : json_null();
   json_t *most = zp_value_is_number(key) ? json_of_value(index, key->max) : json_null();
-  return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s}", "key", key->name, "type", type_word(key->type), "unit",
+  return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s}", "key", key->name, "type", type[key->type], "unit",
                    key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices",
                    json_of_choices(key), "help", key->help);
 }
@@ -127,12 +118,9 @@ static json_t *json_of_key(int index) {
 /* The list of keys, owned by the caller; NULL if there is no memory. */
 static json_t *list_keys(void) {
   json_t *list = json_array();
-  int failed = !list;
-  for (int i = 0; i < zp_key_count() && !failed; i++)
-    failed = json_array_append_new(list, json_of_key(i));
-  if (!failed) return list;
-  json_decref(list);
-  return NULL;
+  for (int i = 0; i < zp_key_count(); i++)
+    zp_json_add(&list, json_of_key(i));
+  return list;
 }
 
 /* Write `json`, which is freed; NULL: there was no memory for it. */

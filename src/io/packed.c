@@ -72,16 +72,12 @@ static size_t write_both(const ZpResult *r, unsigned char *byte, size_t *names) 
   return *names + p.used;
 }
 
-static ZpPacked *create(ZpOutcome outcome, size_t names, size_t size) {
-  ZpPacked *packed = malloc(sizeof *packed + size);
-  if (packed) *packed = (ZpPacked){outcome, names, size};
-  return packed;
-}
-
 ZpPacked *zp_packed_of(const ZpResult *result) {
   size_t names, size = write_both(result, NULL, &names);
-  ZpPacked *packed = create(result->outcome, names, size);
-  if (packed) write_both(result, packed->byte, &names);
+  ZpPacked *packed = malloc(sizeof *packed + size);
+  if (!packed) return NULL;
+  *packed = (ZpPacked){result->outcome, names, size};
+  write_both(result, packed->byte, &names);
   return packed;
 }
 

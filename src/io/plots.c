@@ -114,12 +114,6 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
   return false;
 }
 
-/* Does a key differ from its default? */
-static bool is_changed(const ZpPlot *plot, const char *name) {
-  const double value = zp_def_get(&plot->def, zp_key_find(name)), usual = zp_key(zp_key_find(name))->def;
-  return value != usual && !(isnan(value) && isnan(usual));
-}
-
 static bool has_numbers(const ZpPlot *plot, const char *name) {
   char column[WORDS_SIZE];
   size_t least = 2;
@@ -131,6 +125,8 @@ static bool has_numbers(const ZpPlot *plot, const char *name) {
 static bool holds(const ZpPlot *plot, const char *condition) {
   const char *name = condition + 1;
   const ZpPlotColumn *column = zp_plot_column(plot, name);
+  const int key = strchr("@+", *condition) ? zp_key_find(name) : -1;
+  const double value = key >= 0 ? zp_def_get(&plot->def, key) : NAN, usual = key >= 0 ? zp_key(key)->def : NAN;
   switch (*condition) {
   case '!':
     return !holds(plot, name);
@@ -141,9 +137,9 @@ static bool holds(const ZpPlot *plot, const char *condition) {
   case '=':
     return isfinite(zp_result_get(plot->single, name));
   case '@':
-    return is_changed(plot, name);
+    return value != usual && !(isnan(value) && isnan(usual));
   case '+':
-    return zp_def_get(&plot->def, zp_key_find(name)) > 0;
+    return value > 0;
   case ':':
     return has_flag(plot, name);
   default:

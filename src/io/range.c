@@ -1,5 +1,6 @@
 #include "io/range.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -16,8 +17,9 @@ bool zp_range_is(const char *text) {
 }
 
 char *zp_trim(char *text) {
-  text += strspn(text, " \t");
-  for (size_t length = strlen(text); length > 0 && strchr(" \t", text[length - 1]);)
+  while (isspace((unsigned char)*text))
+    text++;
+  for (size_t length = strlen(text); length > 0 && isspace((unsigned char)text[length - 1]);)
     text[--length] = 0;
   return text;
 }
@@ -38,11 +40,8 @@ ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err) {
 }
 
 static ZpStatus read_end(int index, const char *name, const char *text, double *value, ZpError *err) {
-  ZpError reason;
   if (!text) return zp_fail(err, ZP_BAD_INPUT, "a range has no \"%s\"; give from, to and count", name);
-  ZpStatus status = zp_value_read(index, text, value, &reason);
-  if (status != ZP_OK) return zp_fail(err, status, "%s = \"%.60s\": %.300s", name, text, reason.message);
-  return isnan(*value) ? zp_fail(err, ZP_BAD_INPUT, "%s = \"%.60s\": give a number", name, text) : ZP_OK;
+  return zp_value_read_part(index, name, text, value, err);
 }
 
 static ZpStatus read_count(const char *text, size_t *count, ZpError *err) {
@@ -64,14 +63,13 @@ static ZpStatus read_spacing(const char *text, double from, double to, bool *by_
   return ZP_OK;
 }
 
-static double value_at(double from, double to, double share, bool by_factors) {
-  return zp_rounded(by_factors ? from * pow(to / from, share) : from + (to - from) * share);
-}
-
 static ZpStatus fill(int index, double from, double to, bool by_factors, double *value, size_t count, ZpError *err) {
   const bool whole = zp_key(index)->type == ZP_KEY_INT;
   for (size_t i = 0; i < count; i++) {
-    value[i] = i == 0 ? from : i + 1 == count ? to : value_at(from, to, (double)i / (double)(count - 1), by_factors);
+    const double share = (double)i / (double)(count - 1);
+    value[i] = i == 0           ? from
+               : i + 1 == count ? to
+                                : zp_rounded(by_factors ? from * pow(to / from, share) : from + (to - from) * share);
     if (whole && value[i] != floor(value[i]))
       return zp_fail(err, ZP_BAD_INPUT, "the range contains %g, which is not a whole number", value[i]);
   }
@@ -99,13 +97,6 @@ ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *
 
 /* -- intervals --------------------------------------------------------------------------------------- */
 
-static ZpStatus read_interval_end(const char *setting, int key, const char *text, double *value, ZpError *err) {
-  ZpError reason = {ZP_BAD_INPUT, "give a number"};
-  ZpStatus status = zp_value_read(key, text, value, &reason);
-  if (status == ZP_OK && isfinite(*value)) return ZP_OK;
-  return zp_fail(err, reason.status, "%s: %s = \"%.60s\": %.200s", setting, zp_key(key)->name, text, reason.message);
-}
-
 static ZpStatus check_interval(const char *setting, const ZpInterval *i, ZpError *err) {
   const char *name = zp_key(i->key)->name;
   if (!(i->from < i->to))
@@ -132,7 +123,9 @@ ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval,
   }
   if (zp_key(interval->key)->type != ZP_KEY_REAL && zp_key(interval->key)->type != ZP_KEY_REAL_AUTO)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not a real number", setting, name);
-  ZpStatus status = read_interval_end(setting, interval->key, zp_trim(equals + 1), &interval->from, err);
-  if (status == ZP_OK) status = read_interval_end(setting, interval->key, zp_trim(to), &interval->to, err);
+  char part[ZP_VALUE_SIZE];
+  snprintf(part, sizeof part, "%s: %s", setting, zp_key(interval->key)->name);
+  ZpStatus status = zp_value_read_part(interval->key, part, zp_trim(equals + 1), &interval->from, err);
+  if (status == ZP_OK) status = zp_value_read_part(interval->key, part, zp_trim(to), &interval->to, err);
   return status == ZP_OK ? check_interval(setting, interval, err) : status;
 }

@@ -147,19 +147,15 @@ static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, Z
   return status;
 }
 
-/* Does the value of this key determine values of keys that are not given? A preset has values for certain mesh.nodes.
- * All other such keys are words, which cannot have a list. */
-static bool moves_others(int key) {
-  const ZpKeyType type = zp_key(key)->type;
-  return type == ZP_KEY_ENUM || type == ZP_KEY_BOOL || strcmp(zp_key(key)->name, "mesh.nodes") == 0;
-}
-
-/* Resolve the common values of the cases. If the first case cannot be resolved, the request for it reports the reason.
- */
+/* Resolve the common values of the cases, unless a varied key determines values of keys that are not given: a preset
+ * has values for certain mesh.nodes, and all other such keys are words. If the first case cannot be resolved, the
+ * request for it reports the reason. */
 static void find_common(ZpScenario *s) {
   bool moves = false;
-  for (size_t v = 0; v < s->plan.variations; v++)
-    moves |= moves_others(s->plan.varied[v]);
+  for (size_t v = 0; v < s->plan.variations; v++) {
+    const ZpKey *key = zp_key(s->plan.varied[v]);
+    moves |= key->type == ZP_KEY_ENUM || key->type == ZP_KEY_BOOL || strcmp(key->name, "mesh.nodes") == 0;
+  }
   s->has_common = false;
   s->common.layout = zp_def_layout();
   s->has_common = !moves && resolve(s, 0, &s->common, NULL) == ZP_OK;
@@ -348,22 +344,12 @@ static char *absolute_paths(const ZpSource *source, const char *paths) {
   return whole;
 }
 
-/* Only data.file may name several files. */
-static char *resolve_path(const Reader *reader, int key, const char *path) {
-  if (strcmp(zp_key(key)->name, "data.file") == 0) return absolute_paths(reader->source, path);
-  return absolute_path(reader->source, path, (int)strlen(path));
-}
-
-static bool names_path(int key) {
-  const char *name = zp_key(key)->name, *last = strrchr(name, '.');
-  return last && strcmp(last, ".file") == 0;
-}
-
 static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  bool is_path = names_path(key);
-  ZpSlot slot = {.value = calloc(1, sizeof(double)),
-                 .count = 1,
-                 .text = is_path ? resolve_path(reader, key, item->word) : strdup(item->word)};
+  const ZpPaths paths = zp_key_paths(key);
+  ZpSlot slot = {.value = calloc(1, sizeof(double)), .count = 1};
+  slot.text = paths == ZP_PATHS_SEVERAL ? absolute_paths(reader->source, item->word)
+              : paths == ZP_PATHS_ONE   ? absolute_path(reader->source, item->word, (int)strlen(item->word))
+                                        : strdup(item->word);
   ZpActuatorDef scratch = zp_actuator_def_default();
   ZpError reason;
   ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
@@ -378,11 +364,6 @@ static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpErr
   reader->slot[key] = slot;
   reader->line[key] = item->line;
   return ZP_OK;
-}
-
-static bool takes_range(int key) {
-  ZpKeyType type = zp_key(key)->type;
-  return type == ZP_KEY_REAL || type == ZP_KEY_REAL_AUTO || type == ZP_KEY_INT;
 }
 
 /* Take the values of a range; messages quote `word`. */
@@ -487,7 +468,7 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
   const ZpDistributionKind kind = spread_of_parts(reader);
   if (kind != ZP_DISTRIBUTION_NONE && !takes_spread(key))
     return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a distribution", item->path);
-  if (!takes_range(key))
+  if (!zp_value_is_number(zp_key(key)))
     return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a range", item->path);
   if (reader->line[key])
     return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path,
@@ -502,7 +483,7 @@ static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpE
   ZpStatus status = check_shape(reader, key, item, err);
   if (status != ZP_OK) return status;
   if (zp_key(key)->type == ZP_KEY_TEXT) return take_text(reader, key, item, err);
-  if (item->kind == ZP_YAML_VALUE && takes_range(key) && zp_range_is(item->word))
+  if (item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key)) && zp_range_is(item->word))
     return take_range_word(reader, key, item, err);
   if (item->kind == ZP_YAML_VALUE && takes_spread(key) && zp_spread_is(item->word))
     return take_spread_word(reader, key, item, err);
@@ -602,7 +583,8 @@ static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) 
 /* A range is not YAML, in which its colon would start a mapping. */
 static ZpStatus read_argument(Reader *reader, const char *text, ZpError *err) {
   const ZpYamlItem item = {ZP_YAML_VALUE, "", 1, text, 1};
-  const bool is_range = takes_range(reader->key) && zp_range_is(text) && *(text + strspn(text, " ")) != '[';
+  const bool is_range =
+      zp_value_is_number(zp_key(reader->key)) && zp_range_is(text) && *(text + strspn(text, " ")) != '[';
   if (!is_range) return zp_yaml_read_value(reader->source, text, strlen(text), take_item, reader, err);
   if (strlen(text) < ZP_VALUE_SIZE) return take_values(reader, reader->key, &item, err);
   return zp_source_fail(reader->source, 0, err, "value longer than %d bytes", ZP_VALUE_SIZE - 1);
@@ -668,30 +650,25 @@ ZpStudy zp_scenario_study(const ZpScenario *s) {
   return (ZpStudy)0;
 }
 
-/* Add the file and the row to the message of a Def that is wrong as a whole. */
-static ZpStatus fail_def(const ZpScenario *s, size_t index, const ZpError *reason, ZpError *err) {
-  char row[64] = "";
-  if (s->plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->plan.count);
-  if (reason->status != ZP_BAD_INPUT || !s->name) return zp_fail(err, reason->status, "%s%s", row, reason->message);
-  ZpSource source = {.name = s->name};
-  return zp_source_fail(&source, 0, err, "%s%s", row, reason->message);
-}
-
-static ZpStatus fail_plan(const ZpScenario *s, ZpError *err) {
+/* Add the file and `row` to the message of a scenario or a Def that is wrong as a whole. */
+static ZpStatus fail_whole(const ZpScenario *s, ZpStatus status, const char *row, const char *message, ZpError *err) {
   const ZpSource source = {.name = s->name};
-  if (!s->name) return zp_fail(err, ZP_BAD_INPUT, "%s", s->plan.problem);
-  return zp_source_fail(&source, 0, err, "%s", s->plan.problem);
+  if (status != ZP_BAD_INPUT || !s->name) return zp_fail(err, status, "%s%s", row, message);
+  return zp_source_fail(&source, 0, err, "%s%s", row, message);
 }
 
 /* (status of a case) => the same status, with file and row in the message. */
 static ZpStatus say_of(const ZpScenario *s, size_t index, ZpStatus status, const ZpError *reason, ZpError *err) {
-  return status == ZP_OK ? ZP_OK : fail_def(s, index, reason, err);
+  char row[64] = "";
+  if (status == ZP_OK) return ZP_OK;
+  if (s->plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->plan.count);
+  return fail_whole(s, reason->status, row, reason->message, err);
 }
 
 static ZpStatus check_case(const ZpScenario *s, size_t index, ZpError *err) {
   if (index >= s->plan.count)
     return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->plan.count);
-  return s->plan.problem[0] ? fail_plan(s, err) : ZP_OK;
+  return s->plan.problem[0] ? fail_whole(s, ZP_BAD_INPUT, "", s->plan.problem, err) : ZP_OK;
 }
 
 ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
@@ -725,23 +702,18 @@ bool zp_scenario_keeps_series(const ZpScenario *s) {
   return def.output.series == ZP_WHEN_TRUE;
 }
 
-static bool same_value(double a, double b) {
-  return a == b || (isnan(a) && isnan(b));
-}
-
-/* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the Defs. */
-static void compare(const ZpScenario *s, const ZpActuatorDef *first, const ZpActuatorDef *def, bool *differs) {
-  for (int i = 0; i < zp_key_count() && !s->has_common; i++) /* otherwise only keys with lists may */
-    differs[i] |= !same_value(zp_def_get(first, i), zp_def_get(def, i));
-  differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(def);
-}
-
+/* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the cases. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   ZpActuatorDef def = {.layout = zp_def_layout()};
   for (size_t row = 1; row < s->plan.count; row++) {
     ZpError reason;
-    if (resolve(s, row, &def, &reason) != ZP_OK) return fail_def(s, row, &reason, err);
-    compare(s, first, &def, differs);
+    ZpStatus status = resolve(s, row, &def, &reason);
+    if (status != ZP_OK) return say_of(s, row, status, &reason, err);
+    for (int i = 0; i < zp_key_count() && !s->has_common; i++) { /* otherwise only keys with lists may */
+      const double a = zp_def_get(first, i), b = zp_def_get(&def, i);
+      differs[i] |= a != b && !(isnan(a) && isnan(b));
+    }
+    differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(&def);
   }
   return ZP_OK;
 }
@@ -754,11 +726,6 @@ static void write_slot(FILE *file, int key, const ZpSlot *slot) {
     fprintf(file, "%s%s", i ? ", " : "[", text);
   }
   fprintf(file, "]\n");
-}
-
-/* The model that liquid.model auto means. */
-static const char *liquid_word(const ZpActuatorDef *def) {
-  return zp_key(zp_key_find("liquid.model"))->choices[zp_def_liquid(def)].word;
 }
 
 /* One line per key. A value that the preset sets differently in different rows is left to the preset, where it is found
@@ -791,7 +758,8 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
       double value = is_study((size_t)i) ? (double)zp_scenario_study(s) : zp_def_get(first, i);
       zp_value_print(i, value, text, sizeof text);
       fputs(text, file);
-      if (i == liquid && value == ZP_LIQUID_AUTO) fprintf(file, " # %s", liquid_word(first));
+      if (i == liquid && value == ZP_LIQUID_AUTO) /* which means this model */
+        fprintf(file, " # %s", zp_key(i)->choices[zp_def_liquid(first)].word);
     }
     fputc('\n', file);
   }
@@ -800,10 +768,11 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
   ZpActuatorDef first = {.layout = zp_def_layout()};
   ZpError reason;
-  if (resolve(s, 0, &first, &reason) != ZP_OK) return fail_def(s, 0, &reason, err);
+  ZpStatus status = resolve(s, 0, &first, &reason);
+  if (status != ZP_OK) return say_of(s, 0, status, &reason, err);
   bool *differs = calloc(key_count(), sizeof *differs);
   if (!differs) return zp_fail_memory(err);
-  ZpStatus status = compare_defs(s, &first, differs, err);
+  status = compare_defs(s, &first, differs, err);
   if (status == ZP_OK) write_keys(s, &first, differs, file);
   free(differs);
   if (status != ZP_OK) return status;

@@ -12,6 +12,7 @@
 #include <zipact/def.h>
 #include <zipact/io.h>
 
+#include "io/json.h"
 #include "io/spread.h"
 #include "io/value.h"
 
@@ -71,36 +72,28 @@ static json_t *value_schema(int index) {
                    "minimum", key->min, "maximum", key->max, "pattern", pattern, "patternErrorMessage", advice);
 }
 
-/* Append; on failure free both. => the list or NULL */
-static json_t *with(json_t *list, json_t *item) {
-  if (list && item && json_array_append(list, item) == 0) {
-    json_decref(item);
-    return list;
-  }
-  json_decref(item);
-  json_decref(list);
-  return NULL;
-}
-
 static json_t *reference(const char *definition) {
   char path[160];
   snprintf(path, sizeof path, "#/definitions/%s", definition);
   return json_pack("{s:s}", "$ref", path);
 }
 
+/* Add the members of `more`, which is freed, to an object, which becomes NULL on failure. */
+static void merge(json_t **object, json_t *more) {
+  if (!more || json_object_update(*object, more)) zp_json_drop(object);
+  json_decref(more);
+}
+
 /* A value, a list of values, a range or a distribution. */
 static json_t *number_schema(int index) {
-  json_t *schema = value_schema(index);
-  json_t *any = with(json_pack("[{s:[s, s, s]}]", "type", "number", "string", "array"), reference("range"));
-  if (zp_key(index)->type != ZP_KEY_INT) any = with(any, reference("distribution"));
-  json_t *more = json_pack("{s:o, s:i, s:o}", "items", value_schema(index), "minItems", 1, "anyOf", any);
-  json_t *type = schema ? json_object_get(schema, "type") : NULL;
-  const bool failed = !more || !type || json_array_append_new(type, json_string("array")) ||
-                      json_array_append_new(type, json_string("object")) || json_object_update(schema, more);
-  json_decref(more);
-  if (!failed) return schema;
-  json_decref(schema);
-  return NULL;
+  json_t *schema = value_schema(index), *any = json_pack("[{s:[s, s, s]}]", "type", "number", "string", "array");
+  zp_json_add(&any, reference("range"));
+  if (zp_key(index)->type != ZP_KEY_INT) zp_json_add(&any, reference("distribution"));
+  merge(&schema, json_pack("{s:o, s:i, s:o}", "items", value_schema(index), "minItems", 1, "anyOf", any));
+  json_t *type = json_object_get(schema, "type");
+  if (json_array_append_new(type, json_string("array")) || json_array_append_new(type, json_string("object")))
+    zp_json_drop(&schema);
+  return schema;
 }
 
 /* In YAML true and false are not texts. */
@@ -108,8 +101,8 @@ static json_t *words_schema(const ZpKey *key) {
   json_t *words = json_array();
   for (int i = 0; i <= (int)key->max; i++) {
     const char *word = key->choices[i].word;
-    words = with(words, json_string(word));
-    if (strcmp(word, "true") == 0 || strcmp(word, "false") == 0) words = with(words, json_boolean(*word == 't'));
+    zp_json_add(&words, json_string(word));
+    if (strcmp(word, "true") == 0 || strcmp(word, "false") == 0) zp_json_add(&words, json_boolean(*word == 't'));
   }
   return json_pack("{s:o}", "enum", words);
 }
@@ -151,13 +144,9 @@ static json_t *default_of(int index) {
 static json_t *key_schema(int index) {
   const ZpKey *key = zp_key(index);
   json_t *schema = json_pack("{s:o, s:o}", "description", description(index), "default", default_of(index));
-  json_t *type = type_schema(index);
-  bool failed = !schema || !type || json_object_update(schema, type);
-  json_decref(type);
-  if (!failed && zp_value_is_number(key)) failed = json_object_set_new(schema, "x-unit", json_string(key->unit)) != 0;
-  if (!failed) return schema;
-  json_decref(schema);
-  return NULL;
+  merge(&schema, type_schema(index));
+  if (zp_value_is_number(key)) zp_json_set(&schema, "x-unit", json_string(key->unit));
+  return schema;
 }
 
 /* The parts of a range or a distribution. */
@@ -179,47 +168,36 @@ static json_t *one_distribution(ZpDistributionKind kind) {
 static json_t *distribution_schema(void) {
   json_t *kinds = json_array();
   for (int k = 1; k < ZpDistributionKind_COUNT; k++)
-    kinds = with(kinds, one_distribution((ZpDistributionKind)k));
+    zp_json_add(&kinds, one_distribution((ZpDistributionKind)k));
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
 /* The group `path` of `size` bytes ("" for the root): its keys, by the rest of their names, and its groups. */
 static json_t *group_schema(const char *path, size_t size) {
   json_t *properties = json_object();
-  bool failed = !properties;
-  for (int i = 0; i < zp_key_count() && !failed; i++) {
+  for (int i = 0; i < zp_key_count(); i++) {
     const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
     if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
-    failed = json_object_set_new(properties, rest, reference(name)) != 0;
-    for (const char *dot = strchr(rest, '.'); dot && !failed; dot = strchr(dot + 1, '.')) {
+    zp_json_set(&properties, rest, reference(name));
+    for (const char *dot = strchr(rest, '.'); dot && properties; dot = strchr(dot + 1, '.')) {
       char group[ZP_VALUE_SIZE];
       snprintf(group, sizeof group, "%.*s", (int)(dot - rest), rest);
-      if (json_object_get(properties, group)) continue;
-      failed = json_object_set_new(properties, group, group_schema(name, (size_t)(dot - name))) != 0;
+      if (!json_object_get(properties, group))
+        zp_json_set(&properties, group, group_schema(name, (size_t)(dot - name)));
     }
   }
-  if (!failed)
-    return json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties",
-                     properties);
-  json_decref(properties);
-  return NULL;
+  return json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties",
+                   properties);
 }
 
 json_t *zp_schema_make(void) {
   json_t *definitions = json_pack("{s:o, s:o}", "range", range_schema(), "distribution", distribution_schema());
-  for (int i = 0; i < zp_key_count() && definitions; i++)
-    if (json_object_set_new(definitions, zp_key(i)->name, key_schema(i))) {
-      json_decref(definitions);
-      definitions = NULL;
-    }
+  for (int i = 0; i < zp_key_count(); i++)
+    zp_json_set(&definitions, zp_key(i)->name, key_schema(i));
   json_t *schema = json_pack("{s:s, s:s, s:s, s:o}", "$schema", "http://json-schema.org/draft-07/schema#", "title",
                              "zipact scenario", "description",
                              "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
                              "definitions", definitions);
-  json_t *root = group_schema("", 0);
-  const bool failed = !schema || !root || json_object_update(schema, root);
-  json_decref(root);
-  if (!failed) return schema;
-  json_decref(schema);
-  return NULL;
+  merge(&schema, group_schema("", 0));
+  return schema;
 }

@@ -49,10 +49,6 @@ ZpStatus zp_spread_split(char *text, ZpSpread *spread, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus fail_part(const char *name, const char *text, const ZpError *reason, ZpError *err) {
-  return zp_fail(err, reason->status, "%s = \"%.60s\": %.300s", name, text, reason->message);
-}
-
 /* A standard deviation: in the unit of the key, or of a logarithm without a unit. */
 static ZpStatus read_sigma(int index, ZpDistributionKind kind, const char *text, double *sigma, ZpError *err) {
   ZpError reason = {ZP_BAD_INPUT, "give a number above 0"};
@@ -65,13 +61,7 @@ static ZpStatus read_sigma(int index, ZpDistributionKind kind, const char *text,
         &reason, ZP_BAD_INPUT,
         "with lognormal sigma is the standard deviation of the natural logarithm; give a number without a unit");
   if (status == ZP_OK && isfinite(*sigma) && *sigma > 0) return ZP_OK;
-  return fail_part("sigma", text, &reason, err);
-}
-
-static ZpStatus read_value(int index, const char *name, const char *text, double *value, ZpError *err) {
-  ZpError reason = {ZP_BAD_INPUT, "give a number"};
-  ZpStatus status = zp_value_read(index, text, value, &reason);
-  return status == ZP_OK && isfinite(*value) ? ZP_OK : fail_part(name, text, &reason, err);
+  return zp_fail(err, reason.status, "sigma = \"%.60s\": %.300s", text, reason.message);
 }
 
 static ZpStatus check(const ZpDistribution *d, ZpError *err) {
@@ -87,9 +77,9 @@ ZpStatus zp_spread_read(int index, const ZpSpread *spread, ZpDistribution *d, Zp
   const char *second = zp_spread_second(d->kind);
   if (!spread->a || !spread->b)
     return zp_fail(err, ZP_BAD_INPUT, "write {%s: ..., %s: ...}", zp_spread_word[d->kind], second);
-  ZpStatus status = read_value(index, zp_spread_word[d->kind], spread->a, &d->a, err);
+  ZpStatus status = zp_value_read_part(index, zp_spread_word[d->kind], spread->a, &d->a, err);
   if (status != ZP_OK) return status;
-  status = has_ends(d->kind) ? read_value(index, second, spread->b, &d->b, err)
+  status = has_ends(d->kind) ? zp_value_read_part(index, second, spread->b, &d->b, err)
                              : read_sigma(index, d->kind, spread->b, &d->b, err);
   return status == ZP_OK ? check(d, err) : status;
 }

@@ -35,42 +35,35 @@ static bool is_listed(const ZpResult *result, const ZpScalar *scalar) {
   return any;
 }
 
-static bool set_list(json_t *object, const ZpResult *result, const List *list) {
+static json_t *list_of(const ZpResult *result, const List *list) {
   json_t *array = json_array();
-  bool done = true;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (is_of(list, scalar))
-      done = json_array_append_new(array, zp_json_number(scalar->value, scalar->unit)) == 0 && done;
+    if (is_of(list, scalar)) zp_json_add(&array, zp_json_number(scalar->value, scalar->unit));
   }
-  return zp_json_set(object, list->name, array) && done;
+  return array;
 }
 
-/* {output: {key: derivative}} where there are any. */
-static bool set_sensitivity(json_t *object, const ZpResult *result) {
+/* {output: {key: derivative}} */
+static json_t *sensitivity_of(const ZpResult *result) {
   json_t *all = json_object();
-  bool done = all != NULL;
-  for (size_t i = 0; i < result->sensitivities && done; i++) {
+  for (size_t i = 0; i < result->sensitivities; i++) {
     const ZpSensitivity *s = &result->sensitivity[i];
+    if (!json_object_get(all, s->output)) zp_json_set(&all, s->output, json_object());
     json_t *by = json_object_get(all, s->output);
-    if (!by) done = zp_json_set(all, s->output, by = json_object());
-    done = done && zp_json_set(by, zp_key(s->key)->name, zp_json_number(s->value, "1"));
+    if (json_object_set_new(by, zp_key(s->key)->name, zp_json_number(s->value, "1"))) zp_json_drop(&all);
   }
-  if (result->sensitivities > 0) return zp_json_set(object, "sensitivity", all) && done;
-  json_decref(all);
-  return done;
+  return all;
 }
 
-static bool set_scalars(json_t *object, const ZpResult *result) {
-  bool done = true;
+static void set_scalars(json_t **object, const ZpResult *result) {
   for (size_t k = 0; k < LISTS && zp_study_shows(result->study) == ZP_SHOWS_modes; k++)
-    done = set_list(object, result, &lists[k]) && done;
+    zp_json_set(object, lists[k].name, list_of(result, &lists[k]));
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if (!is_listed(result, scalar))
-      done = zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit)) && done;
+    if (!is_listed(result, scalar)) zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit));
   }
-  return set_sensitivity(object, result) && done;
+  if (result->sensitivities > 0) zp_json_set(object, "sensitivity", sensitivity_of(result));
 }
 
 /* Largest number of different notes of all runs in the summary: notes with numbers may all differ, and each note is
@@ -78,16 +71,14 @@ static bool set_scalars(json_t *object, const ZpResult *result) {
 enum { NOTES_MOST = 50 };
 
 /* Add the new notes of a run to the array, up to NOTES_MOST, and a last one that refers to the rows. */
-static bool add_notes(json_t *array, const ZpResult *result) {
-  bool done = true;
-  for (size_t i = 0; i < result->notes && json_array_size(array) <= NOTES_MOST; i++) {
+static void add_notes(json_t **array, const ZpResult *result) {
+  for (size_t i = 0; i < result->notes && json_array_size(*array) <= NOTES_MOST; i++) {
     bool known = false;
-    for (size_t k = 0; k < json_array_size(array) && !known; k++)
-      known = strcmp(json_string_value(json_array_get(array, k)), result->note[i]) == 0;
-    const char *note = json_array_size(array) < NOTES_MOST ? result->note[i] : "the rows have more notes";
-    if (!known) done = json_array_append_new(array, json_string(note)) == 0 && done;
+    for (size_t k = 0; k < json_array_size(*array) && !known; k++)
+      known = strcmp(json_string_value(json_array_get(*array, k)), result->note[i]) == 0;
+    const char *note = json_array_size(*array) < NOTES_MOST ? result->note[i] : "the rows have more notes";
+    if (!known) zp_json_add(array, json_string(note));
   }
-  return done;
 }
 
 json_t *zp_json_key(int key, double value) {
@@ -108,18 +99,15 @@ static json_t *row_of(const void *user, size_t run) {
   if (!value) return NULL;
   zp_scenario_values(report->scenario, run, value);
   json_t *row = json_object(), *notes = json_array();
-  bool done = row != NULL;
-  for (size_t i = 0; i < keys && done; i++)
-    done = zp_json_set(row, zp_key(key[i])->name, zp_json_key(key[i], value[i]));
+  for (size_t i = 0; i < keys; i++)
+    zp_json_set(&row, zp_key(key[i])->name, zp_json_key(key[i], value[i]));
   free(value);
-  done = done && zp_json_set(row, "outcome", json_string(zp_outcome_name(result->outcome)));
-  done = done && zp_json_set(row, "message", json_string(result->message));
-  done = done && set_scalars(row, result);
-  done = add_notes(notes, result) && done;
-  done = zp_json_set(row, "notes", notes) && done;
-  if (done) return row;
-  json_decref(row);
-  return NULL;
+  zp_json_set(&row, "outcome", json_string(zp_outcome_name(result->outcome)));
+  zp_json_set(&row, "message", json_string(result->message));
+  set_scalars(&row, result);
+  add_notes(&notes, result);
+  zp_json_set(&row, "notes", notes);
+  return row;
 }
 
 /* The run that represents all: the first that failed, otherwise the first. NULL if there is none. Valid until the next
@@ -130,39 +118,39 @@ static const ZpResult *spokesman(const ZpReport *report) {
   return report->count > 0 ? zp_report_result(report, 0) : NULL;
 }
 
-static bool set_outcome(json_t *object, const ZpReport *report) {
-  const ZpOptimum *optimum = report->optimum;
-  if (optimum) {
-    bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(optimum->outcome)));
-    done = zp_json_set(object, "message", json_string(optimum->message)) && done;
-    return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
-  }
+static void set_end(json_t **object, ZpOutcome outcome, const char *message, double wall_time) {
+  zp_json_set(object, "outcome", json_string(zp_outcome_name(outcome)));
+  zp_json_set(object, "message", json_string(message));
+  zp_json_set(object, "wall_time_s", zp_json_number(wall_time, "s"));
+}
+
+static void set_outcome(json_t **object, const ZpReport *report) {
   const ZpResult *result = spokesman(report);
   const size_t cases = zp_scenario_count(report->scenario);
-  const bool stopped = !result || report->count < cases;
   char message[96] = "interrupted before the first run";
   if (result) snprintf(message, sizeof message, "stopped after %zu of %zu cases", report->count, cases);
-  bool done = zp_json_set(object, "outcome", json_string(zp_outcome_name(stopped ? ZP_INTERRUPTED : result->outcome)));
-  done = zp_json_set(object, "message", json_string(stopped ? message : result->message)) && done;
-  return zp_json_set(object, "wall_time_s", zp_json_number(report->wall_time, "s")) && done;
+  if (report->optimum)
+    set_end(object, report->optimum->outcome, report->optimum->message, report->wall_time);
+  else if (!result || report->count < cases)
+    set_end(object, ZP_INTERRUPTED, message, report->wall_time);
+  else
+    set_end(object, result->outcome, result->message, report->wall_time);
 }
 
 /* {"feasible": true, "cases": [...]}: the best cases, in the form of the rows. */
 static json_t *optimum_of(const ZpReport *report) {
   const ZpOptimum *optimum = report->optimum;
   json_t *object = json_object(), *cases = json_array();
-  bool done = zp_json_set(object, "feasible", json_boolean(optimum->feasible));
-  done = zp_json_set(object, "excluded_share", zp_json_number(optimum->excluded, "1")) && done;
+  zp_json_set(&object, "feasible", json_boolean(optimum->feasible));
+  zp_json_set(&object, "excluded_share", zp_json_number(optimum->excluded, "1"));
   for (size_t i = 0; i < optimum->count; i++)
-    done = json_array_append_new(cases, row_of(report, optimum->row[i])) == 0 && done;
-  done = zp_json_set(object, "cases", cases) && done;
-  if (done) return object;
-  json_decref(object);
-  return NULL;
+    zp_json_add(&cases, row_of(report, optimum->row[i]));
+  zp_json_set(&object, "cases", cases);
+  return object;
 }
 
 /* The numbers of a sweep as a whole. */
-static bool set_largest(json_t *object, const ZpReport *report) {
+static void set_largest(json_t **object, const ZpReport *report) {
   static const struct {
     ZpStudy study;
     const char *name, *scalar, *where, *unit;
@@ -170,32 +158,27 @@ static bool set_largest(json_t *object, const ZpReport *report) {
 #define ZP_LARGEST(enumerator, name, scalar, where, words, unit) {enumerator, name, scalar, where, unit},
 #include <zipact/studies.def>
   };
-  bool done = true;
   for (size_t i = 0; i < sizeof largest / sizeof largest[0] && report->count > 0; i++)
     if (zp_report_result(report, 0)->study == largest[i].study) {
       double value = zp_report_largest(report, largest[i].scalar, largest[i].where);
-      done = zp_json_set(object, largest[i].name, zp_json_number(value, largest[i].unit)) && done;
+      zp_json_set(object, largest[i].name, zp_json_number(value, largest[i].unit));
     }
-  return done;
 }
 
 static json_t *summary_of(const ZpReport *report) {
   const ZpResult *single = zp_report_single(report);
   json_t *object = json_object(), *notes = json_array();
-  bool done = zp_json_set(object, "version", json_string(ZP_VERSION));
-  done = zp_json_set(object, "study", json_string(zp_report_study(report))) && done;
-  done = set_outcome(object, report) && done;
-  if (single) done = set_scalars(object, single) && done;
-  if (zp_report_is_sweep(report)) done = set_largest(object, report) && done;
+  zp_json_set(&object, "version", json_string(ZP_VERSION));
+  zp_json_set(&object, "study", json_string(zp_report_study(report)));
+  set_outcome(&object, report);
+  if (single) set_scalars(&object, single);
+  if (zp_report_is_sweep(report)) set_largest(&object, report);
   for (size_t i = 0; i < report->count; i++)
-    done = add_notes(notes, zp_report_result(report, i)) && done;
-  done = zp_json_set(object, "notes", notes) && done;
-  if (zp_scenario_design(report->scenario))
-    done = zp_json_set(object, "statistics", zp_sample_statistics(report)) && done;
-  if (report->optimum) done = zp_json_set(object, "optimum", optimum_of(report)) && done;
-  if (done) return object;
-  json_decref(object);
-  return NULL;
+    add_notes(&notes, zp_report_result(report, i));
+  zp_json_set(&object, "notes", notes);
+  if (zp_scenario_design(report->scenario)) zp_json_set(&object, "statistics", zp_sample_statistics(report));
+  if (report->optimum) zp_json_set(&object, "optimum", optimum_of(report));
+  return object;
 }
 
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {

@@ -78,6 +78,12 @@ bool zp_value_is_number(const ZpKey *key) {
   return key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO || key->type == ZP_KEY_INT;
 }
 
+ZpPaths zp_key_paths(int index) {
+  const char *name = zp_key(index)->name, *last = strrchr(name, '.');
+  if (!last || strcmp(last, ".file") != 0) return ZP_PATHS_NONE;
+  return strcmp(name, "data.file") == 0 ? ZP_PATHS_SEVERAL : ZP_PATHS_ONE;
+}
+
 void zp_value_range(int index, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
   char least[ZP_VALUE_SIZE], most[ZP_VALUE_SIZE];
@@ -275,6 +281,13 @@ ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err)
   char copy[ZP_VALUE_SIZE];
   if (copy_trimmed(text, copy, sizeof copy)) return read_trimmed(index, copy, value, err);
   return zp_fail(err, ZP_BAD_INPUT, "longer than %d bytes", ZP_VALUE_SIZE - 1);
+}
+
+ZpStatus zp_value_read_part(int index, const char *name, const char *text, double *value, ZpError *err) {
+  ZpError reason = {ZP_BAD_INPUT, "give a number"};
+  ZpStatus status = zp_value_read(index, text, value, &reason);
+  if (status == ZP_OK && isfinite(*value)) return ZP_OK;
+  return zp_fail(err, reason.status, "%.120s = \"%.60s\": %.300s", name, text, reason.message);
 }
 
 ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err) {

@@ -18,12 +18,20 @@ enum {
  * add the place of the value. */
 ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err);
 
+/* The same for a part of a value or a setting, which messages call `name`: `to = "10": not a length; ...`. It must be a
+ * finite number. */
+ZpStatus zp_value_read_part(int index, const char *name, const char *text, double *value, ZpError *err);
+
 /* A number with a unit of key `index`, which may be out of its range, infinite, or NAN if there is no memory: for
  * quantities that are not values of the key itself, such as a standard deviation. ZP_BAD_INPUT: as zp_value_read. */
 ZpStatus zp_value_quantity(int index, const char *text, double *value, ZpError *err);
 
 /* Are the values of a key numbers: no words, no text? */
 bool zp_value_is_number(const ZpKey *key);
+
+/* Whether a text key is the path of a file, or of several that are separated by semicolons. */
+typedef enum ZpPaths { ZP_PATHS_NONE, ZP_PATHS_ONE, ZP_PATHS_SEVERAL } ZpPaths;
+ZpPaths zp_key_paths(int index);
 
 /* Is `text` a number without a unit, other than 0, for a key that has a unit? */
 bool zp_value_is_bare(int index, const char *text);

@@ -115,13 +115,6 @@ static ZpStatus write_tables(const ZpReport *report, Files *files, ZpError *err)
   return ZP_OK;
 }
 
-/* Give summary.json its name if everything else was written. */
-static ZpStatus finish_summary(ZpAtomic *summary, ZpStatus status, ZpError *err) {
-  if (status == ZP_OK) return zp_atomic_commit(summary, err);
-  zp_atomic_abandon(summary);
-  return status;
-}
-
 static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)(const char *message), ZpError *err) {
   Files files = {.report = report, .plain = plain};
   ZpStatus status = zp_remove_file(report->directory, "summary.json", err);
@@ -130,7 +123,10 @@ static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)
   if (status == ZP_OK) status = zp_checkpoint_report(report, err);
   if (status == ZP_OK) status = zp_plots_prepare(report, err);
   if (status == ZP_OK && report->rows) status = report->rows->status(report->rows->user, err);
-  status = finish_summary(&files.summary, status, err);
+  if (status == ZP_OK)
+    status = zp_atomic_commit(&files.summary, err);
+  else
+    zp_atomic_abandon(&files.summary);
   if (status == ZP_OK) zp_plots_write(report, notice);
   return status;
 }

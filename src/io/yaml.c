@@ -76,32 +76,9 @@ __attribute__((format(printf, 2, 3))) static ZpStatus fail_here(Walk *walk, cons
   return zp_source_fail(walk->source, walk->line, walk->err, "%.80s%s%s", walk->path, colon, reason);
 }
 
-static struct fy_token *token_of(const struct fy_event *event) {
-  switch (event->type) {
-  case FYET_SCALAR:
-    return event->scalar.value;
-  case FYET_SEQUENCE_START:
-    return event->sequence_start.sequence_start;
-  case FYET_MAPPING_START:
-    return event->mapping_start.mapping_start;
-  case FYET_ALIAS:
-    return event->alias.anchor;
-  default:
-    return NULL;
-  }
-}
-
-static bool is_decorated(const struct fy_event *event) {
-  switch (event->type) {
-  case FYET_SCALAR:
-    return event->scalar.anchor || event->scalar.tag;
-  case FYET_SEQUENCE_START:
-    return event->sequence_start.anchor || event->sequence_start.tag;
-  case FYET_MAPPING_START:
-    return event->mapping_start.anchor || event->mapping_start.tag;
-  default:
-    return event->type == FYET_ALIAS;
-  }
+/* Anchors, aliases and tags. */
+static bool is_decorated(struct fy_event *event) {
+  return event->type == FYET_ALIAS || fy_event_get_anchor_token(event) || fy_event_get_tag_token(event);
 }
 
 /* Next event, to be freed by fy_parser_event_free; NULL with an error filled. */
@@ -111,7 +88,9 @@ static struct fy_event *next_event(Walk *walk, ZpStatus *status) {
     *status = fail_syntax(walk);
     return NULL;
   }
-  struct fy_token *token = token_of(event);
+  const bool begins = event->type == FYET_SCALAR || event->type == FYET_SEQUENCE_START ||
+                      event->type == FYET_MAPPING_START || event->type == FYET_ALIAS;
+  struct fy_token *token = begins ? fy_event_get_token(event) : NULL;
   const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
   if (mark) walk->line = mark->line + 1;
   if (!is_decorated(event)) return event;
