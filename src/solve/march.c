@@ -153,6 +153,21 @@ static bool is_before_fold(ZpMarch *m, double sign) {
   return !behind && is_stable(m) && turn_of(m) * m->slope > 0;
 }
 
+/* At the last good point, which differs from a limit point by less than the accuracy of m. If that is flat, beside a
+ * corner, it is smooth itself: solved as such m hardly changes, but the state does, and with it the derivatives of m by
+ * keys. False if the point is not stable. */
+static bool refine(ZpMarch *m) {
+  static const double near = 1e-8; /* of m: another limit point is farther away */
+  go_back(m);
+  if (!is_stable(m)) return false;
+  zp_fold_guess(&m->fold);
+  if (zp_fold_solve(&m->fold) && m->fold.negative == 0 && fabs(parameter(m) - m->m) <= near * fabs(m->m)) return true;
+  go_back(m);
+  is_stable(m);
+  zp_fold_guess(&m->fold);
+  return true;
+}
+
 /* Halve the distance to a limit point between the last good point and `value`. It is a corner, where the stiffness
  * jumps. The last good point is then accurate enough. */
 static bool halve(ZpMarch *m, double sign, double value) {
@@ -194,10 +209,7 @@ static bool solve_between(ZpMarch *m, double sign, double value) {
 static bool find_fold(ZpMarch *m, double sign, double value, double far) {
   static const double close = 1e-3; /* of m: nearer, halving is surer */
   if (solve_between(m, sign, value)) return true;
-  if (fabs(far) > close * fabs(m->m) || !halve(m, sign, value)) return false;
-  is_stable(m);
-  zp_fold_guess(&m->fold);
-  return true;
+  return fabs(far) <= close * fabs(m->m) && halve(m, sign, value) && refine(m);
 }
 
 typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
@@ -282,9 +294,7 @@ static bool is_at_corner(ZpMarch *m, double sign) {
       step *= 0.5;
     }
   }
-  if (step > enough || !is_stable(m)) return false;
-  zp_fold_guess(&m->fold);
-  return true;
+  return step <= enough && refine(m);
 }
 
 static ZpMarchEnd march(ZpMarch *m, double target) {
