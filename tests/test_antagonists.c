@@ -159,10 +159,13 @@ static double pull_of(ZpActuatorDef one, double opening, double voltage) {
 }
 
 /* Where the load is, one pulls as the other does and the load weighs: F1(x) = F2(d - x) + m g, with each force from
- * that one alone, by studies that know no antagonists. Unlike ones, with their own weight. Eq. (31.2). */
+ * that one alone, by studies that know no antagonists. Unlike ones, with their own weight. Eq. (31.2). By night: with a
+ * computed field for each. */
 START_TEST(forces_of_each_alone_balance) {
-  ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 2e3}, {"stack.voltage_ratio", 0.7},
-                          {"member_2.ribbon.thickness", 60e-6});
+  ZpActuatorDef def =
+      DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 2e3}, {"stack.voltage_ratio", 0.7},
+          {"member_2.ribbon.thickness", 60e-6}, {"electro.model", _i ? ZP_ELECTRO_FIELD : ZP_ELECTRO_PLATES});
+  if (_i) def.mesh.nodes = 9;
   ZpActuatorDef upper = alone(&def, false), lower = alone(&def, true);
   ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   size_t last = result->series->rows - 1;
@@ -553,7 +556,7 @@ int main(void) {
   tcase_add_test(rest, small_stiffness_is_that_of_beams);
   tcase_add_test(rest, stiffness_is_the_slope_of_the_force);
   tcase_add_test(rest, voltage_moves_the_residual);
-  tcase_add_test(rest, forces_of_each_alone_balance);
+  tcase_add_loop_test(rest, forces_of_each_alone_balance, 0, 1);
   tcase_add_test(rest, each_is_closed_as_far_as_alone);
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
   tcase_add_test(rest, one_closes_where_the_way_is_highest);
@@ -577,5 +580,6 @@ int main(void) {
   tcase_add_test(motion, either_one_hits_as_hard);
   tcase_add_loop_test(motion, energy_of_a_zip_against_the_other, 0, 3);
   suite_add_tcase(suite, motion);
+  tcase_add_loop_test(nightly_case(suite), forces_of_each_alone_balance, 1, 2);
   return run_suite(suite);
 }

@@ -477,7 +477,6 @@ START_TEST(what_a_stack_lacks_is_said) {
       {{"stack.parallel", 2}, {"actuator.kind", ZP_KIND_RIBBON}, ZP_STUDY_STATIONARY, "actuator.kind electro_ribbon"},
       {{"stack.series", 2}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, ZP_STUDY_ACTUATE, "actuator.symmetry half"},
       {{"stack.series", 2}, {"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"},
-      {{"stack.series", 2}, {"load.share", 0.4}, ZP_STUDY_ACTUATE, "load.share 0.5"},
       {{"stack.series", 2}, {"load.stop_opening", 1e-2}, ZP_STUDY_LIMITS, "between the platforms of a single actuator"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "separations of a series add up"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_CYCLE, "let study actuate run"},
@@ -762,6 +761,30 @@ START_TEST(inputs_of_several_do_work) {
 }
 END_TEST
 
+/* Halves that carry a quarter of the load hang and move as those that carry half of a load half as heavy. */
+START_TEST(share_is_that_of_the_load) {
+  static const Setting of[][3] = {
+      {{"stack.series", 2}, {"stack.link_mass", 0.5e-3}, {"member_2.ribbon.thickness", 60e-6}},
+      {{"stack.parallel", 2}, {"member_1.insulator.thickness", 150e-6}, {"mesh.nodes", 9}},
+      {{"stack.series", 2}, {"stack.distance", 30e-3}, {"mesh.nodes", 9}}};
+  static const char *const limits[] = {"pull_in_voltage_V", "release_voltage_V"}, *const motion[] = {"opening_m"};
+  ZpResult *result[2][2];
+  for (int k = 0; k < 2; k++) {
+    ZpActuatorDef def =
+        DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"drive.voltage", 6e3}, {"load.share", k ? 0.5 : 0.25},
+            {"load.mass", k ? 4e-3 : 8e-3}, {"load.force", k ? 5e-3 : 10e-3}, {"solver.end_time", 5e-3}, of[_i][0],
+            of[_i][1], of[_i][2]);
+    result[0][k] = answer_of(ZP_STUDY_LIMITS, &def);
+    result[1][k] = answer_of(ZP_STUDY_ACTUATE, &def);
+  }
+  for (size_t k = 0; k < LENGTH_OF(limits); k++)
+    ck_near(zp_result_get(result[0][0], limits[k]), zp_result_get(result[0][1], limits[k]), 1e-12);
+  ck_near(zp_result_get(result[1][0], motion[0]), zp_result_get(result[1][1], motion[0]), 1e-12);
+  for (int k = 0; k < 4; k++)
+    zp_result_destroy(result[k / 2][k % 2]);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("stack");
   TCase *rest = tcase_create("rest");
@@ -788,6 +811,7 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, series_at_rest_stays, 0, 2);
   tcase_add_test(motion, two_in_series_are_half_as_stiff);
+  tcase_add_loop_test(motion, share_is_that_of_the_load, 0, 3);
   tcase_add_loop_test(motion, two_equal_ones_are_twice_one, 0, 2);
   tcase_add_loop_test(motion, two_equal_ones_are_twice_one, 4, 6);
   tcase_add_loop_test(motion, equal_ones_take_the_steps_of_one, 0, 4);

@@ -91,7 +91,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
     if (last) turn_over(def, &one);
     return one;
   }
-  if (!last) one.load = zp_def_unloaded(def).load;
+  if (!last) one.load = zp_actuator_def_default().load;
   if (!last) one.load.mass = def->stack.link_mass;
   return one;
 }
@@ -178,10 +178,6 @@ static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "links are modelled between rods"),
     ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
             "the paper's zipping has the order of a single actuator"),
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(electro.model, ZP_ELECTRO_PLATES),
-            "the field is solved for a single actuator"),
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_UNSET(load.share),
-            "both halves of a member carry the same share of what hangs below it"),
     ZP_RULE_IF(EQUATION, ZP_SET(stack.distance), ZP_SEVERAL, ZP_IS(ribbon.plasticity, false), unloads),
     ZP_RULE(EQUATION, ZP_UNEQUAL, ZP_IS(ribbon.plasticity, false), unloads),
     ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_IS(load.stiffness, 0),

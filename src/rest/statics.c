@@ -652,11 +652,18 @@ static double load_part(const ZpStatics *s, size_t which) {
   return s->shared ? 1 / (double)s->members : 1;
 }
 
-/* Mass that hangs on a member in addition to its own load, kg: in series also what hangs below it. */
+/* The part of the load's mass and force that the modelled part of a member carries: in series that of the lowest one,
+ * on which it hangs. */
+static double load_share(const ZpStatics *s, size_t which) {
+  return zp_load_share(s->member[s->shared ? which : s->members - 1].model);
+}
+
+/* Mass that hangs on the modelled part of a member in addition to its own load, kg: in series also what hangs below
+ * it. */
 static double hung_on(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->member[which].model, *last = s->member[s->members - 1].model;
-  if (s->shared) return load_part(s, which) * s->load - model->def.load.mass;
-  return model->carried + s->load - last->def.load.mass;
+  if (s->shared) return load_share(s, which) * (load_part(s, which) * s->load - model->def.load.mass);
+  return zp_load_share(model) * model->carried + load_share(s, which) * (s->load - last->def.load.mass);
 }
 
 /* The present point of a member. */
@@ -665,8 +672,8 @@ static ZpSpan span_of(const ZpStatics *s, size_t which) {
   const ZpActuatorDef *def = &m->model->def;
   ZpSpan span = zp_span_at(m->q);
   span.U0 = span.U1 = zp_statics_member_voltage(s, which);
-  span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
-  if (!s->shared) span.load = zp_load_share(m->model) * (s->force - def->load.force);
+  span.hung = hung_on(s, which) * def->gravity;
+  if (!s->shared) span.load = load_share(s, which) * (s->force - def->load.force);
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
   span.beyond = zp_eval_beyond(&m->eval);
@@ -1174,7 +1181,7 @@ static void by_load(void *self, double *r_m) {
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
     const ZpModel *model = m->model;
-    double per_mass = load_part(s, k) * zp_load_share(model) * model->def.gravity;
+    double per_mass = load_part(s, k) * load_share(s, k) * model->def.gravity;
     memset(m->force, 0, 2 * model->stride * sizeof *m->force);
     zp_weight_by_hung(model, m->force);
     for (size_t j = 0; j < 2 * model->stride; j++)
@@ -1222,8 +1229,8 @@ static void restore(void *self, const void *from) {
 
 /* Weight of what a member's platform carries, N. */
 static double carried_weight(const ZpStatics *s, size_t which) {
-  const ZpActuatorDef *def = &s->member[which].model->def;
-  return (def->load.mass + hung_on(s, which)) * def->gravity;
+  const ZpModel *model = s->member[which].model;
+  return (zp_load_share(model) * model->def.load.mass + hung_on(s, which)) * model->def.gravity;
 }
 
 /* Are two members the same actuator, but for their loads? */
