@@ -83,6 +83,8 @@ struct ZpModel {
   ZpActuatorDef whole;      /* of the system whose member it is; else `def` */
   ZpLaw law[ZP_MOST_TERMS]; /* in the order in which they are added */
   size_t laws;
+  unsigned char losing[ZP_MOST_TERMS]; /* numbers of the laws that lose energy over a span */
+  size_t losers;
   ZpLedger ledger;
   ZpTopology topology;
   size_t s, nodes, count; /* of it: ribbons, stations, nodes */
@@ -159,8 +161,8 @@ typedef struct ZpState {
   double opening0;    /* of the hanging equilibrium, m */
   double base_U;      /* voltage since the account of work was last closed, V; where U is another, it has jumped
                          there now */
-  double base_charge; /* per part, when it was closed, C */
-  double work;        /* per part: of the source until the account was closed, J */
+  double base_charge; /* per part: from which the account counts charge, C */
+  double work;        /* per part: of the source, without base_U (charge - base_charge), J */
   bool load_changed;  /* load.change_mass has been caught or dropped, */
   double changed_x;   /* where its node was then, m */
   double changed_y;

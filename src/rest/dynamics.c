@@ -641,16 +641,9 @@ void zp_dynamics_destroy(ZpDynamics *d) {
 
 /* -- a step ---------------------------------------------------------------------------------------- */
 
-/* With the liquid where it is then. */
-static double charge_at_end(const ZpDynamics *d, ZpMovingMember *m) {
-  ZpSpan span = span_of(d, m);
-  const ZpBead *bead = m->eval.bead_end;
-  zp_eval_cover(m->model, (const double[ZP_BEADS]){bead[0].reach, bead[1].reach}, &m->eval);
-  return zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, m->U1).charge;
-}
-
 /* The source's work over a step in which the voltage has changed, eq. (18.4): the mean of "first the voltage, then the
- * gaps" and "first the gaps, then the voltage". */
+ * gaps" and "first the gaps, then the voltage". The account adds U (Q - base_charge) where it is read; the rest is
+ * here. */
 static void book_work(const ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   double U0 = m->U0, U1 = m->U1;
   if (U0 == U1) return;
@@ -660,9 +653,7 @@ static void book_work(const ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
                     zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_START, U0).potential;
   double at_end = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, U1).potential -
                   zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, U0).potential;
-  double charge = charge_at_end(d, m);
-  state->work += U1 * charge - U0 * state->base_charge + 0.5 * (at_start + at_end);
-  state->base_charge = charge;
+  state->work += (U1 - U0) * state->base_charge + 0.5 * (at_start + at_end);
   state->base_U = state->U = U1;
 }
 

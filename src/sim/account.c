@@ -1,10 +1,10 @@
 /* The account of energy: what the source has delivered, and the part of it that the field did not keep. docs/theory.md,
  * section 17.
  *
- * It was last closed at the voltage base_U and the charge base_charge; since then positions have moved at that voltage.
- * A jump to another voltage stays open until the next motion. So a voltage that is replaced before then, which lasted
- * no time, does not count, and reading the account changes nothing. The account is closed at once only if what is held
- * over several steps must be computed again for the new voltage. */
+ * It was last closed at the voltage base_U; since then positions have moved at that voltage. It counts charge from
+ * base_charge. A jump to another voltage stays open until the next motion. So a voltage that is replaced before then,
+ * which lasted no time, does not count, and reading the account changes nothing. The account is closed at once only if
+ * what is held over several steps must be computed again for the new voltage. */
 #include <math.h>
 #include <string.h>
 

@@ -20,6 +20,7 @@ bool zp_paper_motion_create(const ZpModel *model, ZpEval *eval, ZpPaperMotion *m
   *motion = (ZpPaperMotion){.model = model, .eval = eval, .longest = INFINITY};
   motion->contact = zp_row_number(&model->ledger, &zp_row_contact_loss);
   motion->a = zp_calloc(2 * model->stride, sizeof *motion->a);
+  motion->step.a = motion->a;
   return motion->a;
 }
 
@@ -123,12 +124,14 @@ static ZpPaperLimit limit_of(const ZpPaperMotion *m, ZpExplicitLimit limit) {
 static void book(ZpPaperMotion *m, double dt) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
-  const double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
-  ZpSpan step = {.start = q, .end = q, .h = dt, .v = v, .a = m->a, .memory = zp_state_memory(model, state)};
-  zp_system_book(model, &step, m->eval, state);
-  double *laws = zp_state_own(model, state) + zp_own_unknowns(model);
-  for (size_t k = 0; k < model->kept; k++)
-    laws[k] = m->eval->memory_end[k];
+  ZpSpan *step = &m->step;
+  step->start = step->end = zp_state_q(model, state);
+  step->v = zp_state_v(model, state);
+  step->memory = zp_state_memory(model, state);
+  step->h = dt;
+  zp_system_book(model, step, m->eval, state);
+  if (model->kept == 0) return;
+  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), m->eval->memory_end, model->kept * sizeof(double));
 }
 
 ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double latest) {

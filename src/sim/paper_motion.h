@@ -23,6 +23,7 @@ typedef struct ZpPaperMotion {
   double longest; /* largest allowed step, s */
   size_t contact; /* number of the row of contact losses */
   /* of the current step: */
+  ZpSpan step;        /* over which losses are booked */
   ZpPaperLimit limit; /* what limits the largest allowed step */
   size_t met;         /* pair that meets inside the step */
   ZpZipState opened;  /* joined pairs after the step if no pair meets */

@@ -259,7 +259,7 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 /* -- the voltage ----------------------------------------------------------------------------------- */
 
 ZpSim *zp_sim_loaded(ZpSim *sim) {
-  return sim + (zp_lowest(sim->model) - sim->model);
+  return zp_shares_load(sim->model) ? sim : sim + sim->members - 1;
 }
 
 /* A change of the load that is due now comes before the next step. */
@@ -463,7 +463,7 @@ static void note_starving(ZpSim *sim, const ZpMovingMember *moved) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
   bool zips = state->U != 0 && state->was_open && isnan(state->zip_time);
-  if (!model->has_bead || !isnan(state->starved_time) || !zips) return;
+  if (!isnan(state->starved_time) || !zips) return;
   const double *gap = moved->eval.plates.gap;
   for (int half = 0; half < zp_beads(&model->film); half++) {
     ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);
@@ -492,7 +492,7 @@ void zp_sim_arrive(ZpSim *sim) {
     ZpSim *m = sim + k;
     follow_voltage(m);
     if (zp_is_pair(&m->model->topology)) note_closing(m);
-    note_starving(m, sim->dynamics.member ? &sim->dynamics.member[k] : NULL);
+    if (m->model->has_bead) note_starving(m, &sim->dynamics.member[k]);
   }
 }
 

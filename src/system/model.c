@@ -38,8 +38,10 @@ static size_t number_rows(ZpLedger *ledger, const ZpTerm *term, size_t number[ZP
 
 bool zp_model_add_term(ZpModel *model, const ZpTerm *term) {
   if (model->laws == ZP_MOST_TERMS || model->ledger.rows + ZP_ROWS_OF_TERM > ZP_MOST_ROWS) return false;
+  const bool explicit = model->def.solver.integrator == ZP_INTEGRATOR_EXPLICIT; /* edges are damped in implicit steps */
   ZpLaw *law = &model->law[model->laws++];
   *law = (ZpLaw){.term = term, .at = model->kept, .state = term->state ? term->state(model) : 0};
+  if (term->loss && !(term->of_edges && explicit)) model->losing[model->losers++] = (unsigned char)(law - model->law);
   law->rows = number_rows(&model->ledger, term, law->row);
   model->kept += law->state;
   return true;

@@ -48,8 +48,8 @@ void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 
 void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   memset(F, 0, 2 * model->stride * sizeof *F);
-  for (size_t k = 0; k < model->laws; k++)
-    model->law[k].term->force(model, span, e, F);
+  for (const ZpLaw *law = model->law, *end = law + model->laws; law < end; law++)
+    law->term->force(model, span, e, F);
 }
 
 static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
@@ -144,8 +144,8 @@ double zp_system_taken(const ZpModel *model, const double *start, const double *
 
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpState *state) {
   double *ledger = zp_state_ledger(model, state);
-  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++) {
-    if (!law->term->loss || (span->a && law->term->of_edges)) continue;
+  for (size_t i = 0; i < model->losers; i++) {
+    const ZpLaw *law = &model->law[model->losing[i]];
     double lost[ZP_ROWS_OF_TERM] = {0};
     law->term->loss(model, span, e, lost);
     for (size_t k = 0; k < law->rows; k++)
