@@ -24,7 +24,8 @@ START_TEST(numbers_are_short_and_exact) {
                {0.1 + 0.2, "0.30000000000000004"},
                {NAN, "nan"},
                {-INFINITY, "-inf"},
-               {1e15, "1000000000000000"}};
+               {1e15, "1000000000000000"},
+               {12345678901234568, "1.2345678901234568e+16"}};
   for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
     char text[ZP_NUMBER_SIZE];
     zp_number_print(known[i].value, text, sizeof text);
