@@ -201,6 +201,7 @@ def check_damaged_rows(zipact, scratch):
     spoil(torn, "UPDATE row SET names = 99 WHERE number = 2")
     spoil(torn, "UPDATE row SET record = (SELECT record FROM row WHERE number = 7) WHERE number = 3")
     spoil(torn, "UPDATE row SET sum = sum + 1 WHERE number = 4")
+    spoil(torn, "UPDATE row SET (record, sum) = (SELECT record, sum FROM row WHERE number = 7) WHERE number = 5")
     ok("damaged rows: computed again", subprocess.run(words).returncode == 0 and results(torn) == results(whole))
 
 

@@ -109,6 +109,21 @@ START_TEST(garbled_results_are_an_error) {
 }
 END_TEST
 
+/* Whole results, but of another study. */
+START_TEST(results_of_another_study_are_an_error) {
+  ZpScenario *scenario = sweep(), *other = sweep();
+  ZpError err;
+  double sum;
+  size_t rows;
+  Elsewhere elsewhere = {.scenario = other};
+  ck_assert_int_eq(zp_scenario_set(other, "study=stationary", &err), ZP_OK);
+  ck_assert_int_eq(run(scenario, &elsewhere, &sum, &rows, &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "cannot be read"));
+  zp_scenario_destroy(scenario);
+  zp_scenario_destroy(other);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("remote");
   TCase *part = tcase_create("cases");
@@ -116,6 +131,7 @@ int main(void) {
   tcase_add_test(part, a_lost_process_costs_no_case);
   tcase_add_test(part, all_processes_lost_is_an_error);
   tcase_add_test(part, garbled_results_are_an_error);
+  tcase_add_test(part, results_of_another_study_are_an_error);
   suite_add_tcase(suite, part);
   return run_suite(suite);
 }
