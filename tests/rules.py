@@ -555,6 +555,42 @@ def rule_one_sum(repo, files):
         yield not found, "%s:%d" % (name, line_at(code, found.start()) if found else 1), "adds to a force: that is a term's"
 
 
+# Where x and y of a node stand in an array is known to actuator/ and to the kernels below it, which get arrays. All
+# others read and write views (zp_nodes, zp_forces). These files do not yet; a file leaves the list for good.
+LAYOUT = re.compile(r"\bstride\b|\[2 \* \w+( \+ \w+)?\]")
+SEES_VIEWS = ("device", "term", "system", "rest", "sim", "study")
+KNOWS_LAYOUT = {
+    "src/rest/crossing.c": 1,
+    "src/rest/dynamics.c": 13,
+    "src/rest/plant.c": 16,
+    "src/rest/series_mass.c": 1,
+    "src/rest/slope.c": 17,
+    "src/rest/statics.c": 51,
+    "src/sim/paper_motion.c": 15,
+    "src/sim/record.c": 1,
+    "src/sim/run_rates.c": 1,
+    "src/sim/settle.c": 8,
+    "src/sim/sim.c": 5,
+    "src/sim/snapshot.c": 3,
+    "src/sim/take_over.c": 1,
+    "src/study/cycle.c": 1,
+    "src/study/faces.c": 5,
+    "src/study/profile.c": 1,
+    "src/study/sense.c": 1,
+}
+
+
+def rule_views(repo, files):
+    """Only actuator/ and the kernels know the layout of coordinates."""
+    for name in files:
+        if folder_of(name) not in SEES_VIEWS or not name.endswith((".c", ".h")):
+            continue
+        found = [line for line, text in enumerate(code_of(read(repo, name)).splitlines(), 1) if LAYOUT.search(text)]
+        where = "%s:%d" % (name, found[-1] if found else 1)
+        yield len(found) <= KNOWS_LAYOUT.get(name, 0), where, "knows where x and y of a node stand: use zp_nodes or zp_forces"
+        yield bool(found) or name not in KNOWS_LAYOUT, where, "needs no line in KNOWS_LAYOUT of tests/rules.py any more"
+
+
 # Phrases over which native speakers stumble, and what to say instead.
 STUMBLING = {
     r"(solved|found) anew": "re-solve, recompute",
@@ -601,6 +637,7 @@ RULES = [
     rule_head_comment,
     rule_a_study_is_known_to_its_own_file,
     rule_one_sum,
+    rule_views,
     rule_readme_is_short,
     rule_plain_words,
 ]

@@ -21,15 +21,15 @@ static double floor_stiffness(const ZpModel *model, size_t j) {
 /* The floor is at y = 0. It pushes where a node is below it at the end of the span, and does not hold what rises. */
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F) {
   (void)eval;
-  const double *y = span->end + model->stride;
-  double *Fy = F + model->stride;
+  const double *y = zp_nodes(model, span->end).y;
+  double *Fy = zp_forces(model, F).y;
   for (size_t j = 0; j < model->count; j++)
     if (y[j] < 0) Fy[j] -= floor_stiffness(model, j) * y[j];
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K) {
   (void)eval;
-  const double *y = span->end + model->stride;
+  const double *y = zp_nodes(model, span->end).y;
   for (size_t j = 0; j < model->count; j++) {
     int row = assembly->equation[2 * j + 1];
     if (row >= 0 && y[j] < 0) *zp_band_at(K, (size_t)row, (size_t)row) += floor_stiffness(model, j);
@@ -45,12 +45,12 @@ static bool check_pair(void) {
   ZpModel *model;
   ZpError err;
   if (zp_model_create(&def, &model, &err) != ZP_OK) return false;
-  double *q = calloc(4 * model->stride, sizeof *q), *F = q + 2 * model->stride, found = 0;
+  double *q = calloc(2 * zp_coordinates(model), sizeof *q), *F = q + zp_coordinates(model), found = 0;
   for (size_t j = 0; q && j < model->count; j++)
-    q[model->stride + j] = -depth;
+    zp_forces(model, q).y[j] = -depth;
   if (q) force(model, &(ZpSpan){.start = q, .end = q}, NULL, F);
   for (size_t j = 0; q && j < model->count; j++)
-    found += F[model->stride + j];
+    found += zp_nodes(model, F).y[j];
   double expected = k * depth * 2 * model->l * (double)(model->nodes - 1);
   printf("a pair is pushed with %.4f N, expected %.4f N\n", found, expected);
   free(q);

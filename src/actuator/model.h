@@ -309,7 +309,34 @@ static inline double zp_faces_length(const ZpModel *model) {
   return model->parts * (double)model->topology.halves * (model->L + model->plates.flat_length);
 }
 
-/* The same by axis, for reading. */
+/* Views of coordinates of all nodes, or of velocities and forces along them: only this room knows where x and y stand.
+ * Those of a node are at zp_upper and zp_lower of its station. */
+typedef struct ZpNodes {
+  const double *x, *y;
+} ZpNodes;
+
+typedef struct ZpForces {
+  double *x, *y; /* to add to */
+} ZpForces;
+
+static inline ZpNodes zp_nodes(const ZpModel *model, const double *q) {
+  return (ZpNodes){q, q + model->stride};
+}
+
+static inline ZpForces zp_forces(const ZpModel *model, double *F) {
+  return (ZpForces){F, F + model->stride};
+}
+
+/* How many numbers x or y has, whole lanes, and both have. */
+static inline size_t zp_lanes(const ZpModel *model) {
+  return model->stride;
+}
+
+static inline size_t zp_coordinates(const ZpModel *model) {
+  return 2 * model->stride;
+}
+
+/* A state by axis, for reading. */
 typedef struct ZpMotion {
   const double *x, *y, *vx, *vy; /* [stride] */
 } ZpMotion;
@@ -327,6 +354,15 @@ static inline double *zp_state_held(const ZpModel *model, ZpState *state) {
 /* The coordinates at which it was found. */
 static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
   return state->data + 6 * model->stride;
+}
+
+/* Both for reading. */
+static inline ZpNodes zp_held_force(const ZpModel *model, const ZpState *state) {
+  return zp_nodes(model, state->data + 4 * model->stride);
+}
+
+static inline ZpNodes zp_held_place(const ZpModel *model, const ZpState *state) {
+  return zp_nodes(model, state->data + 6 * model->stride);
 }
 
 /* Of all stations. */

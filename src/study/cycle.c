@@ -23,7 +23,7 @@ enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the 
 
 /* What is compared between two starts of cycles. */
 typedef struct Mark {
-  double *q;         /* [2 stride] m */
+  double *q;         /* m */
   double rate;       /* of the opening, m/s */
   double slow[SLOW]; /* volume outside the faces over that of the bead; interface voltage over the drive's */
 } Mark;
@@ -204,7 +204,7 @@ static void take_mark(Cycles *c) {
   const ZpModel *model = c->model;
   Mark oldest = c->mark[HISTORY - 1];
   memmove(c->mark + 1, c->mark, (HISTORY - 1) * sizeof *c->mark);
-  memcpy(oldest.q, zp_state_q(model, c->sim->state), 2 * model->stride * sizeof *oldest.q);
+  memcpy(oldest.q, zp_state_q(model, c->sim->state), zp_coordinates(model) * sizeof *oldest.q);
   for (int k = 0; k < ZP_BEADS; k++)
     oldest.slow[k] = model->has_bead ? c->sim->state->bead[k].outside / model->bead.volume : 0;
   oldest.slow[ZP_BEADS] = model->leaks ? zp_sim_get(c->sim, "interface_voltage") / c->highest : 0;
@@ -231,7 +231,7 @@ static double energy_of_response(const Cycles *c) {
 static double distance(const Cycles *c, int back) {
   const double *a = c->mark[0].q, *b = c->mark[back].q;
   double most = 0;
-  for (size_t k = 0; k < 2 * c->model->stride; k++)
+  for (size_t k = 0; k < zp_coordinates(c->model); k++)
     most = fmax(most, fabs(a[k] - b[k]));
   most /= size_of_response(c);
   for (int k = 0; k < SLOW; k++)
@@ -268,15 +268,15 @@ static int repeats_in(Cycles *c) {
 /* A state as a vector: what decides, in units of its own (positions, velocities, interface voltages), then what is
  * carried along: rates of the last step, and what the laws know beyond positions. */
 static size_t deciding(const ZpModel *model) {
-  return 4 * model->stride + (model->leaks ? zp_law(model, &zp_term_leak)->state : 0);
+  return 2 * zp_coordinates(model) + (model->leaks ? zp_law(model, &zp_term_leak)->state : 0);
 }
 
 static size_t carried(const ZpModel *model) {
-  return 4 * model->stride + zp_own_unknowns(model) + model->kept;
+  return 2 * zp_coordinates(model) + zp_own_unknowns(model) + model->kept;
 }
 
 static double *carried_of(const Cycles *c) {
-  return c->sim->state->data + 8 * c->model->stride;
+  return zp_state_mean_v(c->model, c->sim->state);
 }
 
 static double *leaked_of(const Cycles *c) {
@@ -285,12 +285,12 @@ static double *leaked_of(const Cycles *c) {
 
 /* Unit of a velocity, larger for a small mass, so that squares are like energies. */
 static double speed_of(const Cycles *c, size_t k) {
-  double mass = c->model->mass[k % c->model->stride];
+  double mass = c->model->mass[k % zp_lanes(c->model)];
   return mass > 0 ? c->fast * sqrt(c->heaviest / mass) : c->fast;
 }
 
 static void read_state(const Cycles *c, double *x) {
-  size_t n = 2 * c->model->stride, leaked = deciding(c->model) - 2 * n;
+  size_t n = zp_coordinates(c->model), leaked = deciding(c->model) - 2 * n;
   const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
   for (size_t k = 0; k < n; k++) {
     x[k] = q[k] / c->far;
@@ -314,7 +314,7 @@ static void refill(Cycles *c) {
 
 /* The next cycle starts there, with a new account of energy. */
 static void write_state(Cycles *c, const double *x) {
-  size_t n = 2 * c->model->stride;
+  size_t n = zp_coordinates(c->model);
   ZpState *state = c->sim->state;
   double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state);
   memcpy(carried_of(c), x + deciding(c->model), carried(c->model) * sizeof *x);
@@ -344,7 +344,7 @@ static int shoot(Cycles *c) {
   double ahead = 0, other = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
   for (size_t k = 0; k < deciding(c->model); k++) {
-    double *most = k < 2 * c->model->stride ? &ahead : &other;
+    double *most = k < zp_coordinates(c->model) ? &ahead : &other;
     *most = fmax(*most, fabs(c->next[k] - c->start[k]));
   }
   double away = ahead * c->far / size_of_response(c);
@@ -577,7 +577,7 @@ static size_t carve(Cycles *c, void *block) {
   size_t n = deciding(c->model) + carried(c->model);
   ZpCarver carver = {block, 0};
   for (int k = 0; k < HISTORY; k++)
-    c->mark[k].q = zp_carve(&carver, 2 * c->model->stride);
+    c->mark[k].q = zp_carve(&carver, zp_coordinates(c->model));
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
     *of_states[k] = zp_carve(&carver, n);
@@ -593,7 +593,7 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   c->period = zp_waveform_period(&model->waveform);
   c->highest = fmax(zp_waveform_largest(&model->waveform), 1);
   c->far = fmax(c->sim->state->opening0, model->faces.depth);
-  for (size_t j = 0; j < model->stride; j++)
+  for (size_t j = 0; j < zp_lanes(model); j++)
     c->heaviest = fmax(c->heaviest, model->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);

@@ -105,9 +105,9 @@ static void at_phase(const ZpLinearCycle *l, double turns, bool rate, double *x)
   }
 }
 
-/* share times the shapes => q [2 stride]. */
+/* share times the shapes => q. */
 static void combine(const ZpLinearCycle *l, const double *x, double share, double *q) {
-  const size_t nodes = 2 * l->model->stride;
+  const size_t nodes = zp_coordinates(l->model);
   memset(q, 0, nodes * sizeof *q);
   for (size_t j = 0; j < l->small.shapes; j++)
     for (size_t i = 0; i < nodes; i++)
@@ -136,7 +136,7 @@ static double reserve(ZpLinearCycle *l, int half) {
 /* -- the motion of second order --------------------------------------------------------------------- */
 
 static double opening_of(const ZpLinearCycle *l, size_t j) {
-  return zp_opening(&l->model->topology, l->small.shape + j * 2 * l->model->stride + l->model->stride);
+  return zp_opening(&l->model->topology, zp_nodes(l->model, l->small.shape + j * zp_coordinates(l->model)).y);
 }
 
 /* Amplitude of the opening in a harmonic of x, m. */
@@ -149,19 +149,19 @@ static double amplitude(const ZpLinearCycle *l, const ZpComplex *x) {
   return sqrt(sum.re * sum.re + sum.im * sum.im);
 }
 
-/* The forces of all laws at rest, `share` of the motion at a phase away from the mean => force [2 stride]. */
+/* The forces of all laws at rest, `share` of the motion at a phase away from the mean => force. */
 static void find_force(ZpLinearCycle *l, double share, double u) {
   ZpStatics *s = &l->rest.statics;
   const ZpModel *model = s->member->model;
   combine(l, l->x, share, l->q);
-  for (size_t i = 0; i < 2 * model->stride; i++)
+  for (size_t i = 0; i < zp_coordinates(model); i++)
     l->q[i] += s->member->q[i];
   ZpBead bead[ZP_BEADS] = {{0}};
   ZpSpan span = zp_span_at(l->q);
   span.U0 = span.U1 = sqrt(fmax(l->mean + share * u, 0));
   if (model->has_bead) {
     double reach[ZP_BEADS];
-    zp_plates_gaps(&model->plates, l->q, l->q + model->stride, &s->member->eval.plates);
+    zp_plates_gaps(&model->plates, l->q, zp_nodes(model, l->q).y, &s->member->eval.plates);
     for (int half = 0; half < zp_beads(&model->film); half++)
       bead[half].outside = share * outside(l, half, l->x);
     zp_eval_reach(model, s->member->eval.plates.gap, bead, reach);
@@ -173,7 +173,7 @@ static void find_force(ZpLinearCycle *l, double share, double u) {
 }
 
 static void add_along_shapes(const ZpLinearCycle *l, double weight, double *sum) {
-  const size_t nodes = 2 * l->model->stride;
+  const size_t nodes = zp_coordinates(l->model);
   for (size_t j = 0; j < l->small.shapes; j++)
     for (size_t i = 0; i < nodes; i++)
       sum[j] += weight * l->force[i] * l->small.shape[j * nodes + i];
@@ -184,10 +184,10 @@ static void find_drag(ZpLinearCycle *l, double turns) {
   const ZpModel *model = l->model;
   at_phase(l, turns, true, l->x);
   combine(l, l->x, 1, l->q);
-  memset(l->force, 0, 2 * model->stride * sizeof *l->force);
+  memset(l->force, 0, zp_coordinates(model) * sizeof *l->force);
   for (size_t j = 0; j < model->count; j++) {
-    double v = l->q[model->stride + j], length = zp_film_length(&model->film, j / model->s);
-    l->force[model->stride + j] = -model->outer.drag * model->film.w * length * fabs(v) * v;
+    double v = zp_nodes(model, l->q).y[j], length = zp_film_length(&model->film, j / model->s);
+    zp_forces(model, l->force).y[j] = -model->outer.drag * model->film.w * length * fabs(v) * v;
   }
 }
 
@@ -214,12 +214,12 @@ static void find_bent(ZpLinearCycle *l, double turns, double *sum) {
 static double largest_strain(ZpLinearCycle *l) {
   const ZpModel *model = l->model;
   ZpStatics *s = &l->rest.statics;
-  const double *y = l->q + model->stride;
+  const double *y = zp_nodes(model, l->q).y;
   double most = 0;
   for (int k = 0; k < PHASES; k++) {
     at_phase(l, (double)k / PHASES, false, l->x);
     combine(l, l->x, 1, l->q);
-    zp_plates_gaps(&model->plates, s->member->q, s->member->q + model->stride, &s->member->eval.plates);
+    zp_plates_gaps(&model->plates, s->member->q, zp_nodes(model, s->member->q).y, &s->member->eval.plates);
     for (size_t i = 0; i < model->nodes; i++) {
       double change = y[zp_upper(&model->topology, i)] - y[zp_lower(&model->topology, i)];
       most = fmax(most, fabs(change) / zp_film_thickness(&model->film, s->member->eval.plates.gap[i]));
@@ -317,8 +317,8 @@ static size_t carve(ZpLinearCycle *l, void *block, Room *room) {
   room->x = (ZpComplex *)(void *)zp_carve(&carver, 2 * rates);
   room->sample = zp_carve(&carver, PHASES * l->small.shapes);
   l->x = zp_carve(&carver, rates);
-  l->q = zp_carve(&carver, 2 * l->model->stride);
-  l->force = zp_carve(&carver, 2 * l->model->stride);
+  l->q = zp_carve(&carver, zp_coordinates(l->model));
+  l->force = zp_carve(&carver, zp_coordinates(l->model));
   return carver.used;
 }
 
@@ -348,7 +348,7 @@ void zp_linear_cycle_close(ZpLinearCycle *l) {
 
 void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
   const ZpModel *model = l->model;
-  const size_t nodes = 2 * model->stride;
+  const size_t nodes = zp_coordinates(model);
   ZpState *state = sim->state;
   double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++) {

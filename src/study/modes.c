@@ -53,11 +53,11 @@ static void refine(Problem *p) {
 
 static void move_member(ZpRestMember *m, const double *u, double amplitude) {
   const ZpModel *model = m->model;
-  memset(m->moved, 0, 2 * model->stride * sizeof *m->moved);
+  memset(m->moved, 0, zp_coordinates(model) * sizeof *m->moved);
   zp_assembly_scatter(&m->assembly, u, m->moved);
-  for (size_t i = 0; i < 2 * model->stride; i++)
+  for (size_t i = 0; i < zp_coordinates(model); i++)
     m->q[i] += amplitude * m->moved[i];
-  if (model->field) zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
+  if (model->field) zp_plates_gaps(&model->plates, m->q, zp_nodes(model, m->q).y, &m->eval.plates);
 }
 
 /* The equilibrium, moved by a mode u [n] so that the equation that moves most does so by a tenth of the length; NULL:

@@ -131,7 +131,7 @@ static bool allocate(Profiler *p) {
 static void lay_stations(Profiler *p, const double *q) {
   const ZpModel *model = p->model;
   if (q)
-    zp_faces_smooth(model->nodes, model->is_rod, q, q + model->stride, &p->stations);
+    zp_faces_smooth(model->nodes, model->is_rod, q, zp_nodes(model, q).y, &p->stations);
   else
     zp_faces_cubic(model->L, model->def.isometric.separation, &p->stations);
 }

@@ -223,7 +223,7 @@ static double capacitance_of(ZpRest *rest, const ZpShape *shape, double *force) 
   const ZpModel *model = rest->statics.member->model;
   ZpStaticSystem system = zp_statics_system(&rest->statics);
   memcpy(rest->statics.member->q, shape->x, model->count * sizeof(double));
-  memcpy(rest->statics.member->q + model->stride, shape->y, model->count * sizeof(double));
+  memcpy(zp_forces(model, rest->statics.member->q).y, shape->y, model->count * sizeof(double));
   rest->statics.U = shape->voltage;
   bool solved = !system.refresh || system.refresh(&rest->statics) == ZP_END_FOUND;
   return solved && system.residual(&rest->statics, force, NULL) == ZP_END_FOUND ? zp_statics_capacitance(&rest->statics)
@@ -234,7 +234,7 @@ static double capacitance_of(ZpRest *rest, const ZpShape *shape, double *force) 
 static bool take_field(const Sensing *s, const ZpModel *model, const ZpResult *path) {
   static const double near = 2;
   ZpRest rest;
-  double least = INFINITY, most = 0, *force = zp_calloc(4 * model->stride, sizeof *force);
+  double least = INFINITY, most = 0, *force = zp_calloc(2 * zp_coordinates(model), sizeof *force);
   bool opened = zp_rest_open(&rest, model, NULL, NULL) && force;
   size_t column = 0;
   for (size_t k = 0; k < s->readings->rows; k++) {

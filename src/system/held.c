@@ -7,7 +7,8 @@
 
 /* Has any gap, insulators included, changed by more than this share since the last refresh? */
 static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
-  const double *y = state->data + model->stride, *then = state->data + 7 * model->stride;
+  const double *y = zp_state_motion(model, state).y,
+               *then = zp_held_place(model, state).y;
   for (size_t i = 0; i < model->nodes; i++) {
     double gap = zp_plates_gap(&model->plates, y, i), before = zp_plates_gap(&model->plates, then, i);
     if (fabs(gap - before) > share * (before + model->plates.d)) return true;
@@ -35,7 +36,7 @@ bool zp_held_due(const ZpModel *model, const ZpState *state) {
 }
 
 static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const double *q, ZpEval *e) {
-  size_t bytes = 2 * model->stride * sizeof(double);
+  size_t bytes = zp_coordinates(model) * sizeof(double);
   zp_eval_cover(model, (const double[ZP_BEADS]){state->bead[0].reach, state->bead[1].reach}, e);
   if (!zp_system_solve(model, q, state->U, e)) return ZP_END_STOP;
   state->refreshed = state->t;
@@ -53,10 +54,10 @@ ZpEnd zp_held_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   if (model->field_solved) return refresh_beyond_plates(model, state, q, e);
   state->refreshed = state->t;
   if (model->is_rod) /* the curve begins where the closed part points to */
-    zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+    zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod);
   else
-    zp_massspring_eval(&model->spring, q, q + model->stride, &e->spring);
+    zp_massspring_eval(&model->spring, q, zp_nodes(model, q).y, &e->spring);
   zp_bezier_attract(model, state, q, e);
-  memcpy(zp_state_held(model, state) + model->stride, e->attraction.Fy, model->stride * sizeof(double));
+  memcpy(zp_forces(model, zp_state_held(model, state)).y, e->attraction.Fy, zp_lanes(model) * sizeof(double));
   return ZP_END_FOUND;
 }

@@ -47,7 +47,7 @@ void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 }
 
 void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
-  memset(F, 0, 2 * model->stride * sizeof *F);
+  memset(F, 0, zp_coordinates(model) * sizeof *F);
   for (const ZpLaw *law = model->law, *end = law + model->laws; law < end; law++)
     law->term->force(model, span, e, F);
 }
@@ -77,10 +77,10 @@ void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *sp
   add_stiffness(model, span, assembly, e, false, K);
 }
 
-ZP_KERNEL static void divide(size_t stride, const double *mx, const double *my, double *restrict ax,
+ZP_KERNEL static void divide(size_t lanes, const double *mx, const double *my, double *restrict ax,
                              double *restrict ay) {
   ZP_SIMD
-  for (size_t j = 0; j < stride; j++) {
+  for (size_t j = 0; j < lanes; j++) {
     ax[j] *= mx[j];
     ay[j] *= my[j];
   }
@@ -89,7 +89,8 @@ ZP_KERNEL static void divide(size_t stride, const double *mx, const double *my, 
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *e, double *a) {
   e->drag_power = e->drag_rate = 0;
   zp_system_force(model, span, e, a);
-  divide(model->stride, masses->x.inverse, masses->y.inverse, a, a + model->stride);
+  ZpForces of = zp_forces(model, a);
+  divide(zp_lanes(model), masses->x.inverse, masses->y.inverse, of.x, of.y);
 }
 
 /* What a law has now in its rows. */
@@ -154,7 +155,7 @@ void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpState
 }
 
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
-  memset(F, 0, 2 * model->stride * sizeof *F);
+  memset(F, 0, zp_coordinates(model) * sizeof *F);
   for (size_t k = 0; k < model->laws; k++)
     if (model->law[k].term->inertia) model->law[k].term->inertia(model, span, e, a, F);
 }
@@ -180,8 +181,8 @@ bool zp_system_solve(const ZpModel *model, const double *q, double U, ZpEval *e)
 }
 
 void zp_system_by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
-  memset(sum->force, 0, 2 * model->stride * sizeof *sum->force);
-  if (sum->charge) memset(sum->charge, 0, 2 * model->stride * sizeof *sum->charge);
+  memset(sum->force, 0, zp_coordinates(model) * sizeof *sum->force);
+  if (sum->charge) memset(sum->charge, 0, zp_coordinates(model) * sizeof *sum->charge);
   sum->capacitance = 0;
   for (size_t k = 0; k < model->laws; k++)
     if (model->law[k].term->by_voltage) model->law[k].term->by_voltage(model, span, e, sum);

@@ -20,7 +20,7 @@ ZpSpan zp_span_at(const double *q);
 /* Compute in eval what the terms need of the start of a span that is not still. */
 void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
-/* F [2 stride] = sum of the forces of all terms over the span, N. */
+/* F = sum of the forces of all terms over the span, N. */
 void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F);
 
 /* K += -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
@@ -36,7 +36,7 @@ void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *sp
  * trial values). */
 ZpSpan zp_span_of(const ZpModel *model, const ZpState *state, const double *q, const double *v);
 
-/* Compute for an instant the accelerations a [2 stride] of nodes that are not joined to others, and drag_power and
+/* Compute for an instant the accelerations a of nodes that are not joined to others, and drag_power and
  * drag_rate of eval. */
 void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpMasses *masses, ZpEval *eval, double *a);
 
@@ -54,7 +54,7 @@ double zp_system_taken(const ZpModel *model, const double *start, const double *
  * steps only. */
 void zp_system_book(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpState *state);
 
-/* F [2 stride] = inertia of all terms beyond the masses of nodes, at accelerations a [2 stride], N. */
+/* F = inertia of all terms beyond the masses of nodes, at accelerations a, N. */
 void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
 
 /* Electric totals at the start or the end of a span, with the gaps found last, at voltage U. */

@@ -110,7 +110,7 @@ static size_t last_of(const ZpModel *model, const End *end) {
 
 /* F += head x the derivative of the wet area by each gap. */
 static void add_head(const ZpModel *model, const ZpEval *e, const End *end, double head, double *F) {
-  double *Fy = F + model->stride;
+  double *Fy = zp_forces(model, F).y;
   for (size_t k = 0; k <= last_of(model, end); k++) {
     size_t i = zp_bead_station(&model->film, end->half, k);
     double push = model->film.w * head * wet_share(model, end, k) * rise(model, e, i);

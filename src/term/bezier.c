@@ -25,17 +25,17 @@ void zp_bezier_attract(const ZpModel *model, const ZpState *state, const double 
   if (front + 1 < model->nodes) zp_surface_prepare(&e->surface, model->nodes - front);
   double direction[2];
   closed_direction(model, front, &e->edges, direction);
-  zp_surface_bezier(&model->plates, &e->surface, q, q + model->stride, front, direction, state->U, e->attraction.Fy);
+  zp_surface_bezier(&model->plates, &e->surface, q, zp_nodes(model, q).y, front, direction, state->U, e->attraction.Fy);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (!span->paper) return;
-  const double *Fy = span->paper->data + 5 * model->stride;
+  const double *Fy = zp_held_force(model, span->paper).y;
   if (!(model->def.electro.refresh_period > 0)) {
     zp_bezier_attract(model, span->paper, span->end, e);
     Fy = e->attraction.Fy;
   }
-  zp_term_add(model->stride, e->none, Fy, F);
+  zp_term_add(model, e->none, Fy, F);
 }
 
 static const ZpRule rule[] = {

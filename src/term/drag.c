@@ -10,11 +10,11 @@ static bool acts(const ZpModel *model) {
   return model->def.damping.drag > 0;
 }
 
-ZP_KERNEL static void drag(size_t stride, double c, const double *v, const double *inverse, double *restrict Fx,
+ZP_KERNEL static void drag(size_t lanes, double c, ZpNodes v, const double *inverse, double *restrict Fx,
                            double *restrict Fy, double *power, double *rate) {
-  const double *vx = v, *vy = v + stride;
+  const double *vx = v.x, *vy = v.y;
   double lost[ZP_LANES] = {0}, fastest[ZP_LANES] = {0};
-  for (size_t block = 0; block < stride; block += ZP_LANES) {
+  for (size_t block = 0; block < lanes; block += ZP_LANES) {
     ZP_SIMD
     for (size_t k = 0; k < ZP_LANES; k++) {
       size_t j = block + k;
@@ -30,20 +30,20 @@ ZP_KERNEL static void drag(size_t stride, double c, const double *v, const doubl
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
-  size_t stride = model->stride;
   const double *v = span->v;
+  ZpForces to = zp_forces(model, F);
   if (!v && !(span->h > 0)) return;
-  for (size_t k = 0; !v && k < 2 * stride; k++)
+  for (size_t k = 0; !v && k < zp_coordinates(model); k++)
     e->mean_v[k] = (span->end[k] - span->start[k]) / span->h;
-  drag(stride, model->def.damping.drag, v ? v : e->mean_v, model->masses.y.inverse, F, F + stride, &e->drag_power,
-       &e->drag_rate);
+  drag(zp_lanes(model), model->def.damping.drag, zp_nodes(model, v ? v : e->mean_v), model->masses.y.inverse, to.x,
+       to.y, &e->drag_power, &e->drag_rate);
 }
 
 /* Derivative at its present speed; the change with direction is omitted. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
-  size_t stride = model->stride;
+  ZpNodes v = zp_nodes(model, e->mean_v);
   for (size_t k = 0; span->h > 0 && k < 2 * model->count; k++) {
-    double x = e->mean_v[k / 2], y = e->mean_v[stride + k / 2];
+    double x = v.x[k / 2], y = v.y[k / 2];
     zp_assemble_entry(assembly, k, k, 2 * model->def.damping.drag * sqrt(x * x + y * y) / span->h, K);
   }
 }

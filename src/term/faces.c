@@ -11,7 +11,7 @@ static bool acts(const ZpModel *model) {
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (span->faces_pass) return;
   const ZpTopology *t = &model->topology;
-  double *Fy = F + model->stride;
+  double *Fy = zp_forces(model, F).y;
   const double *start = zp_span_is_still(span) ? e->plates.gap : e->plates_start.gap;
   ZpFacesSpan faces = zp_faces_span(&model->faces, start, e->plates.gap, span->h);
   zp_faces_eval(&model->faces, &faces, &e->faces);

@@ -16,7 +16,7 @@ static void destroy(ZpEval *e) {
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
   double U2 = 0.5 * (span->U0 * span->U0 + span->U1 * span->U1);
-  for (size_t k = 0; span->beyond.F && k < 2 * model->stride; k++)
+  for (size_t k = 0; span->beyond.F && k < zp_coordinates(model); k++)
     F[k] += U2 * span->beyond.F[k];
 }
 
@@ -26,12 +26,12 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
   (void)e;
   const ZpHeld *held = &span->beyond;
   if (!held->F) return;
-  const double *q = at == ZP_SPAN_START ? span->start : span->end, *Fy = held->F + model->stride;
+  const double *q = at == ZP_SPAN_START ? span->start : span->end, *Fy = zp_nodes(model, held->F).y;
   double work = 0;
-  for (size_t k = 0; k < 2 * model->stride; k++)
+  for (size_t k = 0; k < zp_coordinates(model); k++)
     work += held->F[k] * (q[k] - held->at[k]);
   for (size_t i = 0; i < model->nodes; i++)
-    sum->force += 0.5 * U * U * (Fy[2 * i + 1] - Fy[2 * i]);
+    sum->force += 0.5 * U * U * (Fy[zp_lower(&model->topology, i)] - Fy[zp_upper(&model->topology, i)]);
   sum->charge += U * (held->charge + 2 * work);
   sum->potential -= U * U * (held->energy + work);
   sum->capacitance += held->capacitance + 2 * work / model->field_scale;
@@ -43,7 +43,7 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   bool still = zp_span_is_still(span);
   if (!held->F) return;
   sum->capacitance += held->charge;
-  for (size_t k = 0; k < 2 * model->stride; k++) {
+  for (size_t k = 0; k < zp_coordinates(model); k++) {
     sum->force[k] += (still ? 2 : 1) * span->U1 * held->F[k];
     if (still) continue;
     sum->charge[k] += 2 * span->U1 * held->F[k];

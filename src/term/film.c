@@ -52,7 +52,7 @@ static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
     e->open[i] = open_share(model, span, i);
   zp_film_begin(&model->film, memory_of(model, span->memory), &e->film);
   for (size_t i = 0; i < model->nodes; i++) {
-    const double *w = span->w ? span->w + model->stride : NULL;
+    const double *w = span->w ? zp_nodes(model, span->w).y : NULL;
     e->film.rate[i] = w ? w[zp_upper(&model->topology, i)] - w[zp_lower(&model->topology, i)] : 0;
   }
 }
@@ -104,7 +104,7 @@ static void solve_step(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (zp_span_is_still(span)) return;
-  double *Fy = F + model->stride;
+  double *Fy = zp_forces(model, F).y;
   solve_step(model, span, e);
   for (size_t i = 0; i < model->nodes; i++) {
     Fy[zp_upper(&model->topology, i)] += e->film.force[i];
@@ -235,11 +235,13 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
 
 /* Resistance to a change of the gap, at most as if all liquid flowed across. */
 static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
+  const double *up = zp_nodes(model, a).y;
+  double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++) {
-    size_t upper = zp_upper(&model->topology, i) + model->stride, lower = zp_lower(&model->topology, i) + model->stride;
-    double push = zp_film_inertia(&model->film, span->h, &e->film, i) * (a[upper] - a[lower]);
-    F[upper] += push;
-    F[lower] -= push;
+    size_t upper = zp_upper(&model->topology, i), lower = zp_lower(&model->topology, i);
+    double push = zp_film_inertia(&model->film, span->h, &e->film, i) * (up[upper] - up[lower]);
+    Fy[upper] += push;
+    Fy[lower] -= push;
   }
 }
 

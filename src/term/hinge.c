@@ -13,9 +13,9 @@ static size_t edge_of(const ZpModel *model) {
 }
 
 static double angle_of(const ZpModel *model, const double *q) {
-  const double *x = q, *y = q + model->stride;
+  ZpNodes at = zp_nodes(model, q);
   size_t j = edge_of(model), next = j + model->s;
-  return -zp_angle(y[next] - y[j], x[next] - x[j]);
+  return -zp_angle(at.y[next] - at.y[j], at.x[next] - at.x[j]);
 }
 
 /* Its mean moment over the span, N m, which closes an open fold. Like the natural curvature of ribbons, its rest angle
@@ -31,11 +31,11 @@ static double moment_of(const ZpModel *model, const ZpSpan *span, const ZpEval *
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   size_t j = edge_of(model), next = j + model->s;
   double moment = moment_of(model, span, e), Fx = moment * e->rod_step.gx[j], Fy = moment * e->rod_step.gy[j];
-  double *x = F, *y = F + model->stride;
-  x[next] += Fx;
-  y[next] += Fy;
-  x[j] -= Fx;
-  y[j] -= Fy;
+  ZpForces to = zp_forces(model, F);
+  to.x[next] += Fx;
+  to.y[next] += Fy;
+  to.x[j] -= Fx;
+  to.y[j] -= Fy;
 }
 
 /* Minus the derivative of R by the element's vector, eq. (30.3); at rest both ends of the span move. */

@@ -43,7 +43,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   ZpLeakStep step = step_of(model, span, e);
   zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
   zp_leak_forces(&model->leak, &model->plates, &step, &e->leak, &e->attraction);
-  zp_term_add(model->stride, e->attraction.Fx, e->attraction.Fy, F);
+  zp_term_add(model, e->attraction.Fx, e->attraction.Fy, F);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
@@ -85,8 +85,8 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   ZpPlatesByVoltage *by = &e->by_voltage;
   ZpLeakStep step = step_of(model, span, e);
   zp_leak_by_voltage(&model->leak, &model->plates, &step, &e->leak, by);
-  zp_term_add(model->stride, by->Fx, by->Fy, sum->force);
-  zp_term_add(model->stride, by->Qx, by->Qy, sum->charge);
+  zp_term_add(model, by->Fx, by->Fy, sum->force);
+  zp_term_add(model, by->Qx, by->Qy, sum->charge);
   sum->capacitance += by->capacitance;
 }
 

@@ -9,12 +9,12 @@ static bool acts(const ZpModel *model) {
 }
 
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  zp_rod_eval(&model->rod, span->start, span->start + model->stride, &e->rod_start);
-  zp_massspring_eval(&model->shear, span->start, span->start + model->stride, &e->spring_start);
+  zp_rod_eval(&model->rod, span->start, zp_nodes(model, span->start).y, &e->rod_start);
+  zp_massspring_eval(&model->shear, span->start, zp_nodes(model, span->start).y, &e->spring_start);
 }
 
 static void add_shear(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  zp_massspring_eval(&model->shear, span->end, span->end + model->stride, &e->spring);
+  zp_massspring_eval(&model->shear, span->end, zp_nodes(model, span->end).y, &e->spring);
   for (size_t j = 0; j + model->s < model->count; j++) {
     e->rod_step.Rx[j] += 0.5 * (e->spring_start.Rx[j] + e->spring.Rx[j]);
     e->rod_step.Ry[j] += 0.5 * (e->spring_start.Ry[j] + e->spring.Ry[j]);
@@ -23,11 +23,11 @@ static void add_shear(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (zp_span_is_still(span)) {
-    zp_massspring_eval(&model->spring, span->end, span->end + model->stride, &e->spring);
+    zp_massspring_eval(&model->spring, span->end, zp_nodes(model, span->end).y, &e->spring);
     zp_term_add_edges(model, e->spring.Rx, e->spring.Ry, F);
     return;
   }
-  zp_rod_eval(&model->rod, span->end, span->end + model->stride, &e->rod);
+  zp_rod_eval(&model->rod, span->end, zp_nodes(model, span->end).y, &e->rod);
   zp_rod_step(&model->rod, &e->rod_start, &e->rod, zp_span_damping(model, span), &e->rod_step);
   add_shear(model, span, e);
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
@@ -55,7 +55,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
-  zp_massspring_eval(&model->spring, now->end, now->end + model->stride, &e->spring);
+  zp_massspring_eval(&model->spring, now->end, zp_nodes(model, now->end).y, &e->spring);
   row[AXIAL] += zp_massspring_axial_energy(&model->spring, &e->spring);
   row[SHEAR] += zp_massspring_shear_energy(&model->spring, &e->spring);
 }

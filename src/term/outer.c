@@ -22,12 +22,14 @@ typedef struct Pair {
 } Pair;
 
 static Pair pair_of(const ZpModel *model, const ZpSpan *span, size_t i) {
-  Pair pair = {.upper = zp_upper(&model->topology, i) + model->stride,
-               .lower = zp_lower(&model->topology, i) + model->stride,
+  const double *from = zp_nodes(model, span->start).y, *to = zp_nodes(model, span->end).y,
+               *v0 = zp_nodes(model, span->v0).y;
+  Pair pair = {.upper = zp_upper(&model->topology, i),
+               .lower = zp_lower(&model->topology, i),
                .length = zp_film_length(&model->film, i)};
-  pair.rate[0] = (span->end[pair.upper] - span->start[pair.upper]) / span->h;
-  pair.rate[1] = (span->end[pair.lower] - span->start[pair.lower]) / span->h;
-  pair.Y0 = 0.5 * (span->v0[pair.upper] + span->v0[pair.lower]);
+  pair.rate[0] = (to[pair.upper] - from[pair.upper]) / span->h;
+  pair.rate[1] = (to[pair.lower] - from[pair.lower]) / span->h;
+  pair.Y0 = 0.5 * (v0[pair.upper] + v0[pair.lower]);
   pair.Y1 = pair.rate[0] + pair.rate[1] - pair.Y0;
   return pair;
 }
@@ -40,14 +42,15 @@ static double drag(const ZpModel *model, double length, double v) {
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (zp_span_is_still(span)) return;
   const double *g0 = e->plates_start.gap, *g1 = e->plates.gap;
+  double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++) {
     Pair pair = pair_of(model, span, i);
     double before = zp_outer_pair(&model->outer, g0[i]) * pair.Y0,
            after = zp_outer_pair(&model->outer, g1[i]) * pair.Y1;
     double on_both = -0.5 * pair.length * (after - before) / span->h;
     double on_gap = 0.5 * pair.length * zp_outer_pair_slope(&model->outer, g0[i], g1[i]) * pair.Y0 * pair.Y1;
-    F[pair.upper] += on_both + on_gap + drag(model, pair.length, pair.rate[0]);
-    F[pair.lower] += on_both - on_gap + drag(model, pair.length, pair.rate[1]);
+    Fy[pair.upper] += on_both + on_gap + drag(model, pair.length, pair.rate[0]);
+    Fy[pair.lower] += on_both - on_gap + drag(model, pair.length, pair.rate[1]);
   }
 }
 
@@ -64,26 +67,30 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 
 static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
   (void)span;
+  const double *up = zp_nodes(model, a).y;
+  double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++) {
-    size_t upper = zp_upper(&model->topology, i) + model->stride, lower = zp_lower(&model->topology, i) + model->stride;
+    size_t upper = zp_upper(&model->topology, i), lower = zp_lower(&model->topology, i);
     double mass = zp_film_length(&model->film, i) * zp_outer_pair(&model->outer, e->plates.gap[i]);
-    F[upper] += 0.25 * mass * (a[upper] + a[lower]);
-    F[lower] += 0.25 * mass * (a[upper] + a[lower]);
+    Fy[upper] += 0.25 * mass * (up[upper] + up[lower]);
+    Fy[lower] += 0.25 * mass * (up[upper] + up[lower]);
   }
 }
 
 void zp_term_add_outside(const ZpModel *model, const ZpEval *e, const double *a, double *F) {
+  const double *up = zp_nodes(model, a).y;
+  double *Fy = zp_forces(model, F).y;
   inertia(model, NULL, e, a, F);
   for (size_t j = 0; j < model->count; j++)
-    F[model->stride + j] +=
-        zp_outer_side(&model->outer) * zp_film_length(&model->film, j / model->s) * a[model->stride + j];
+    Fy[j] += zp_outer_side(&model->outer) * zp_film_length(&model->film, j / model->s) * up[j];
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
-  zp_plates_gaps(&model->plates, now->end, now->end + model->stride, &e->plates);
+  const double *v = zp_nodes(model, now->v).y;
+  zp_plates_gaps(&model->plates, now->end, zp_nodes(model, now->end).y, &e->plates);
   for (size_t i = 0; i < model->nodes; i++) {
-    double upper = now->v[model->stride + zp_upper(&model->topology, i)],
-           lower = now->v[model->stride + zp_lower(&model->topology, i)], Y = 0.5 * (upper + lower);
+    double upper = v[zp_upper(&model->topology, i)], lower = v[zp_lower(&model->topology, i)],
+           Y = 0.5 * (upper + lower);
     double sides = zp_outer_side(&model->outer) * (upper * upper + lower * lower);
     row[STORED] +=
         0.5 * zp_film_length(&model->film, i) * (sides + zp_outer_pair(&model->outer, e->plates.gap[i]) * Y * Y);

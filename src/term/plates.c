@@ -18,14 +18,14 @@ static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   const double reach[ZP_BEADS] = {span->bead ? span->bead[0].reach : 0, span->bead ? span->bead[1].reach : 0};
   zp_eval_cover(model, reach, e);
-  zp_plates_gaps(&model->plates, span->start, span->start + model->stride, &e->plates_start);
+  zp_plates_gaps(&model->plates, span->start, zp_nodes(model, span->start).y, &e->plates_start);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (!span->paper || !span->faces_pass) zp_term_gaps(model, span, e);
   if (span->paper) return; /* its Bezier surface attracts instead */
   zp_plates_step(&model->plates, start_of(span, e), &e->plates, span->U0, span->U1, &e->attraction);
-  zp_term_add(model->stride, e->attraction.Fx, e->attraction.Fy, F);
+  zp_term_add(model, e->attraction.Fx, e->attraction.Fy, F);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
@@ -51,16 +51,15 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
 }
 
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
-  size_t stride = model->stride;
   ZpPlatesByVoltage *by = &e->by_voltage;
   if (zp_span_is_still(span)) {
     zp_plates_rest_by_voltage(&model->plates, &e->plates, span->U1, &e->attraction, by->Fx, by->Fy);
-    zp_term_add(stride, by->Fx, by->Fy, sum->force);
+    zp_term_add(model, by->Fx, by->Fy, sum->force);
     return;
   }
   zp_plates_by_voltage(&model->plates, start_of(span, e), &e->plates, span->U1, &e->attraction, by);
-  zp_term_add(stride, by->Fx, by->Fy, sum->force);
-  zp_term_add(stride, by->Qx, by->Qy, sum->charge);
+  zp_term_add(model, by->Fx, by->Fy, sum->force);
+  zp_term_add(model, by->Qx, by->Qy, sum->charge);
   sum->capacitance += by->capacitance;
 }
 

@@ -34,7 +34,7 @@ static const ZpRodEval *start_of(const ZpSpan *span, const ZpEval *e) {
 }
 
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  zp_rod_eval(&model->rod, span->start, span->start + model->stride, &e->rod_start);
+  zp_rod_eval(&model->rod, span->start, zp_nodes(model, span->start).y, &e->rod_start);
 }
 
 /* Plastic strains where the span starts. */
@@ -43,7 +43,7 @@ static const double *strain_of(const ZpModel *model, const ZpSpan *span) {
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
-  zp_rod_eval(&model->rod, span->end, span->end + model->stride, &e->rod);
+  zp_rod_eval(&model->rod, span->end, zp_nodes(model, span->end).y, &e->rod);
   e->rod_step.strain_start = strain_of(model, span);
   zp_rod_step(&model->rod, start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
@@ -59,7 +59,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 }
 
 static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
-  zp_rod_eval(&model->rod, now->end, now->end + model->stride, &e->rod);
+  zp_rod_eval(&model->rod, now->end, zp_nodes(model, now->end).y, &e->rod);
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
   row[BENDING] +=
       zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));

@@ -32,7 +32,7 @@ static bool acts(const ZpModel *model) {
 
 /* Its deformation at these coordinates, m. */
 static double deformed(const ZpModel *model, const Spring *spring, const double *q) {
-  return fmax(spring->side * (spring->rest - zp_opening(&model->topology, q + model->stride)), 0);
+  return fmax(spring->side * (spring->rest - zp_opening(&model->topology, zp_nodes(model, q).y)), 0);
 }
 
 /* Over a span: the deformation at start and end, and the increase of the opening, m. */
@@ -47,7 +47,7 @@ static bool is_even(Way way) {
 
 static Way way_of(const ZpModel *model, const Spring *spring, const ZpSpan *span) {
   const ZpTopology *t = &model->topology;
-  double from = zp_opening(t, span->start + model->stride), to = zp_opening(t, span->end + model->stride);
+  double from = zp_opening(t, zp_nodes(model, span->start).y), to = zp_opening(t, zp_nodes(model, span->end).y);
   return (Way){deformed(model, spring, span->start), deformed(model, spring, span->end), to - from};
 }
 
@@ -67,14 +67,14 @@ static double slope_of(const Spring *spring, Way way, bool still) {
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
   const ZpTopology *t = &model->topology;
-  double push = 0;
+  double push = 0, *Fy = zp_forces(model, F).y;
   for (int k = 0; k < SPRINGS; k++) {
     Spring spring = spring_of(model, k);
     if (spring.k > 0) push += span->share * push_of(&spring, way_of(model, &spring, span));
   }
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
-    F[model->stride + zp_upper(t, i)] += push;
-    F[model->stride + zp_lower(t, i)] -= push;
+    Fy[zp_upper(t, i)] += push;
+    Fy[zp_lower(t, i)] -= push;
   }
 }
 

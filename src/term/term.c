@@ -12,7 +12,8 @@ static double reach_in_middle(const ZpModel *model, const ZpBead *bead, double h
 }
 
 void zp_term_gaps(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  zp_plates_gaps(&model->plates, span->end, span->end + model->stride, &e->plates);
+  ZpNodes at = zp_nodes(model, span->end);
+  zp_plates_gaps(&model->plates, at.x, at.y, &e->plates);
   if (!model->has_bead) return;
   for (int half = 0; span->bead && half < ZP_BEADS; half++)
     e->reach[half] = reach_in_middle(model, &span->bead[half], span->h);
@@ -44,35 +45,38 @@ ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach) {
   return share < 1 ? (ZpRoom){share, -1 / last} : (ZpRoom){1, 0};
 }
 
-ZP_KERNEL static void add(size_t stride, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
+ZP_KERNEL static void add(size_t lanes, const double *Gx, const double *Gy, double *restrict Fx, double *restrict Fy) {
   ZP_SIMD
-  for (size_t j = 0; j < stride; j++) {
+  for (size_t j = 0; j < lanes; j++) {
     Fx[j] += Gx[j];
     Fy[j] += Gy[j];
   }
 }
 
-void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F) {
-  add(stride, Gx, Gy, F, F + stride);
+void zp_term_add(const ZpModel *model, const double *Gx, const double *Gy, double *F) {
+  ZpForces to = zp_forces(model, F);
+  add(zp_lanes(model), Gx, Gy, to.x, to.y);
 }
 
-ZP_KERNEL static void add_edges(size_t stride, size_t s, const double *Rx, const double *Ry, double *restrict Fx,
+ZP_KERNEL static void add_edges(size_t lanes, size_t s, const double *Rx, const double *Ry, double *restrict Fx,
                                 double *restrict Fy) {
   const double *Lx = Rx - s, *Ly = Ry - s;
   ZP_SIMD
-  for (size_t j = 0; j < stride; j++) {
+  for (size_t j = 0; j < lanes; j++) {
     Fx[j] += Lx[j] - Rx[j];
     Fy[j] += Ly[j] - Ry[j];
   }
 }
 
 double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  zp_rod_eval(&model->rod, span->end, span->end + model->stride, &e->rod);
+  ZpNodes at = zp_nodes(model, span->end);
+  zp_rod_eval(&model->rod, at.x, at.y, &e->rod);
   return zp_rod_step_loss(&model->rod, &e->rod_start, &e->rod, zp_span_damping(model, span));
 }
 
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F) {
-  add_edges(model->stride, model->s, Rx, Ry, F, F + model->stride);
+  ZpForces to = zp_forces(model, F);
+  add_edges(zp_lanes(model), model->s, Rx, Ry, to.x, to.y);
 }
 
 const ZpRules *const zp_rules_of_terms[] = {

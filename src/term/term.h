@@ -8,7 +8,8 @@
 #include "actuator/eval.h"
 #include "def/rule.h"
 
-/* The span of time over which a term is evaluated. Coordinates are [2 stride]: all x, then all y. */
+/* The span of time over which a term is evaluated. Coordinates, velocities and forces of
+ * all nodes are arrays that zp_nodes and zp_forces read. */
 typedef struct ZpSpan {
   const double *start, *end; /* coordinates at its start and its end; the same array: rest, or an instant */
   double h;                  /* its length, s; 0: rest, or an instant */
@@ -23,11 +24,11 @@ typedef struct ZpSpan {
                                 its own part by zp_law_memory */
   const ZpBead *bead;        /* of a step: [ZP_BEADS] at its start; of an instant: there; NULL: all liquid lies between
                                 the faces */
-  const double *v0;          /* of a step: velocities at its start [2 stride] */
-  const double *w;           /* of a step: mean velocities over the last one [2 stride]; NULL: there was none */
-  const double *v;           /* of an instant: velocities [2 stride] against which the drag acts; of an explicit step,
+  const double *v0;          /* of a step: velocities at its start */
+  const double *w;           /* of a step: mean velocities over the last one; NULL: there was none */
+  const double *v;           /* of an instant: velocities against which the drag acts; of an explicit step,
                                 whose losses are counted: those at its end; else NULL */
-  const double *a;           /* of such a step: accelerations [2 stride], so v - h/2 a are mean velocities */
+  const double *a;           /* of such a step: accelerations, so v - h/2 a are mean velocities */
   ZpHeld beyond;             /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
@@ -47,8 +48,8 @@ static inline double zp_span_damping(const ZpModel *model, const ZpSpan *span) {
 /* Derivatives of a step by the voltage at its end; at rest, where both ends have one voltage, only that of the force.
  */
 typedef struct ZpByVoltage {
-  double *force;      /* [2 stride] derivative of the mean force by this voltage, N/V */
-  double *charge;     /* [2 stride] derivative of the charge at the end by the coordinates there, C/m */
+  double *force;      /* derivative of the mean force by this voltage, N/V */
+  double *charge;     /* derivative of the charge at the end by the coordinates there, C/m */
   double capacitance; /* derivative of this charge by this voltage, F */
 } ZpByVoltage;
 
@@ -67,13 +68,13 @@ typedef struct ZpTerm {
   void (*destroy)(ZpEval *eval);
   /* Compute in eval what the term needs of the start of a span that is not still. May be NULL. */
   void (*begin)(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
-  /* F [2 stride] += force on the nodes, N: over a span the mean force, whose work is the change of the term's energy.
+  /* F += force on the nodes, N: over a span the mean force, whose work is the change of the term's energy.
    */
   void (*force)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F);
   /* Add minus the derivative of the last force by the coordinates at the end to K, or to eval->gaps if it is by gaps.
    * NULL: it is 0, or omitted. */
   void (*stiffness)(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval, ZpBand *K);
-  /* F [2 stride] += inertia at the end of the span, beyond the masses of nodes, times accelerations a [2 stride].
+  /* F += inertia at the end of the span, beyond the masses of nodes, times accelerations a.
    * NULL: none. */
   void (*inertia)(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, const double *a, double *F);
   /* row[k] += what the term has at an instant in its row k: energy stored, J, or the value of a signal. NULL: none. */
@@ -94,7 +95,7 @@ typedef struct ZpTerm {
   ZpRules rules;
 } ZpTerm;
 
-/* F [2 stride] += derivative of the forces by the weight ZpSpan.hung, N/N. */
+/* F += derivative of the forces by the weight ZpSpan.hung, N/N. */
 void zp_weight_by_hung(const ZpModel *model, double *F);
 
 #define ZP_TERM(name) extern const ZpTerm zp_term_##name;
@@ -126,18 +127,18 @@ typedef struct ZpRoom {
  * mm before all is wet its head decreases to 0. */
 ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach);
 
-/* F [2 stride] += all inertia of the liquid outside, on pairs and on each outer face, at accelerations a [2 stride] and
+/* F += all inertia of the liquid outside, on pairs and on each outer face, at accelerations a and
  * the gaps found last. */
 void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double *a, double *F);
 
-/* F [2 stride] += G. */
-void zp_term_add(size_t stride, const double *Gx, const double *Gy, double *F);
+/* F += G. */
+void zp_term_add(const ZpModel *model, const double *Gx, const double *Gy, double *F);
 
 /* Energy lost to the internal damping of edges over a step, eq. (18.2), J. The edges are those at its end, which is a
  * last correction beyond the last force. */
 double zp_term_edges_loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 
-/* F [2 stride] += forces of edges on their nodes: R [-s .. stride) on the right ones, the opposite on the left. */
+/* F += forces of edges on their nodes: R from -s on on the right ones, the opposite on the left. */
 void zp_term_add_edges(const ZpModel *model, const double *Rx, const double *Ry, double *F);
 
 /* Compute in attraction.Fy the attraction on the Bezier surface at coordinates q, with the front of the state. */

@@ -7,9 +7,9 @@ const ZpRow zp_row_gravity_energy =
 const ZpRow zp_row_catch_loss =
     ZP_LOST(catch_loss, "energy lost in the impact of a mass that was caught; 0 without load.change_mass");
 
-ZP_KERNEL static void add(size_t stride, double share, const double *weight, double *restrict F) {
+ZP_KERNEL static void add(size_t lanes, double share, const double *weight, double *restrict F) {
   ZP_SIMD
-  for (size_t j = 0; j < stride; j++)
+  for (size_t j = 0; j < lanes; j++)
     F[j] += share * weight[j];
 }
 
@@ -17,10 +17,11 @@ ZP_KERNEL static void add(size_t stride, double share, const double *weight, dou
 static void add_load(const ZpModel *model, double hung, double down, double *F) {
   const ZpTopology *t = &model->topology;
   double ends = (double)zp_load_ends(t);
+  ZpForces to = zp_forces(model, F);
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     double part = zp_load_part(model, i) / ends;
-    F[zp_lower(t, i)] += part * (hung * model->fall[0]);
-    F[model->stride + zp_lower(t, i)] += part * (hung * model->fall[1] - down);
+    to.x[zp_lower(t, i)] += part * (hung * model->fall[0]);
+    to.y[zp_lower(t, i)] += part * (hung * model->fall[1] - down);
   }
 }
 
@@ -31,8 +32,9 @@ static double constant_of(const ZpModel *model) {
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   (void)e;
-  if (model->fall[0] != 0) add(model->stride, span->share * model->fall[0], model->weight, F);
-  add(model->stride, span->share * model->fall[1], model->weight, F + model->stride);
+  ZpForces to = zp_forces(model, F);
+  if (model->fall[0] != 0) add(zp_lanes(model), span->share * model->fall[0], model->weight, to.x);
+  add(zp_lanes(model), span->share * model->fall[1], model->weight, to.y);
   add_load(model, span->hung, span->load + span->share * constant_of(model), F);
 }
 
@@ -42,7 +44,7 @@ void zp_weight_by_hung(const ZpModel *model, double *F) {
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   (void)e;
-  const double *x = now->end, *y = now->end + model->stride;
+  const double *x = zp_nodes(model, now->end).x, *y = zp_nodes(model, now->end).y;
   for (size_t j = 0; j < model->count; j++) {
     double along = x[j] - zp_straight_x(model, j / model->s);
     row[0] -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);

@@ -36,13 +36,17 @@ static double gained(const ZpModel *model, const ZpSpan *span) {
   return memory ? *memory : 0;
 }
 
+/* What goes up: the load, of coordinates, velocities or accelerations. */
+static double load_of(const ZpModel *model, const double *q) {
+  return zp_load_at(model, zp_nodes(model, q).y);
+}
+
 /* Mean velocity of the load over the span, or over an explicit step; that of an instant; at rest 0. */
 static double velocity(const ZpModel *model, const ZpSpan *span) {
-  size_t stride = model->stride;
-  if (span->a) return zp_load_at(model, span->v + stride) - 0.5 * span->h * zp_load_at(model, span->a + stride);
-  if (span->v) return zp_load_at(model, span->v + stride);
+  if (span->a) return load_of(model, span->v) - 0.5 * span->h * load_of(model, span->a);
+  if (span->v) return load_of(model, span->v);
   if (!(span->h > 0)) return 0;
-  return (zp_load_at(model, span->end + stride) - zp_load_at(model, span->start + stride)) / span->h;
+  return (load_of(model, span->end) - load_of(model, span->start)) / span->h;
 }
 
 /* In the middle of the span, on one end that the load hangs on, N s/m. */
@@ -56,7 +60,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double
   const ZpTopology *t = &model->topology;
   double push = -coefficient(model, span) * velocity(model, span);
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    F[model->stride + zp_lower(t, i)] += push;
+    zp_forces(model, F).y[zp_lower(t, i)] += push;
 }
 
 /* Both ends of a platform that does not turn have one height. */
