@@ -406,34 +406,6 @@ static void take_old_row(void *user, size_t number, uint64_t hash, bool good) {
   c->mark[number] = good ? MARK_OLD_GOOD : MARK_OLD_FAILED;
 }
 
-static const ZpResult *get_row(void *user, size_t index) {
-  return zp_journal_get(((ZpCampaign *)user)->journal, index);
-}
-
-static ZpStatus get_status(void *user, ZpError *err) {
-  return zp_journal_status(((ZpCampaign *)user)->journal, err);
-}
-
-/* -- rows for a thread of its own; `user` is a ZpJournal -------------------------------------------- */
-
-static const ZpResult *get_row_here(void *user, size_t index) {
-  return zp_journal_get(user, index);
-}
-
-static ZpStatus get_status_here(void *user, ZpError *err) {
-  return zp_journal_status(user, err);
-}
-
-static void close_rows(void *user) {
-  zp_journal_close(user);
-}
-
-static bool open_rows(void *user, ZpRows *own) {
-  ZpJournal *reader = zp_journal_reader(((ZpCampaign *)user)->journal);
-  *own = (ZpRows){.get = get_row_here, .status = get_status_here, .user = reader, .close = close_rows};
-  return reader != NULL;
-}
-
 /* -- open and close --------------------------------------------------------------------------------- */
 
 static bool init_locks(ZpCampaign *c) {
@@ -456,6 +428,7 @@ static ZpStatus open_campaign(ZpCampaign *c, const char *directory, ZpError *err
   ZpStatus status = zp_scenario_def(c->scenario, 0, &def, err);
   if (status == ZP_OK) status = zp_campaign_hash(c->study, &def, &c->start, err);
   if (status == ZP_OK) status = zp_journal_open(directory, c->study, c->options.resume, c->cases, &c->journal, err);
+  c->rows = zp_journal_rows(c->journal);
   return status == ZP_OK ? zp_journal_visit(c->journal, take_old_row, c, err) : status;
 }
 
@@ -465,7 +438,6 @@ ZpStatus zp_campaign_open(const ZpScenario *scenario, const char *directory, con
   if (!c) return zp_fail_memory(err);
   c->scenario = scenario;
   c->options = *options;
-  c->rows = (ZpRows){.get = get_row, .status = get_status, .user = c, .open = open_rows};
   c->study = zp_scenario_study(scenario);
   c->cases = c->state.cases = zp_scenario_count(scenario);
   c->chunk = zp_case_chunk(scenario);

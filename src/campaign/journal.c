@@ -245,18 +245,6 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
   return status;
 }
 
-static bool open_reader(ZpJournal *journal) {
-  return sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
-         prepare_get(journal, NULL) == ZP_OK;
-}
-
-ZpJournal *zp_journal_reader(const ZpJournal *journal) {
-  ZpJournal *reader = journal->open ? NULL : create(journal->path, journal->row->study);
-  if (reader && open_reader(reader)) return reader;
-  zp_journal_close(reader);
-  return NULL;
-}
-
 void zp_journal_close(ZpJournal *journal) {
   if (!journal) return;
   if (journal->open) zp_journal_commit(journal, NULL);
@@ -364,4 +352,34 @@ const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err) {
   if (!journal->bad) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "%.300s: a row cannot be read: no memory, or it is damaged", journal->path);
+}
+
+/* -- rows for a report ------------------------------------------------------------------------------ */
+
+static const ZpResult *get_row(void *journal, size_t index) {
+  return zp_journal_get(journal, index);
+}
+
+static ZpStatus get_status(void *journal, ZpError *err) {
+  return zp_journal_status(journal, err);
+}
+
+static void close_rows(void *journal) {
+  zp_journal_close(journal);
+}
+
+/* Another reader, which cannot write. */
+static bool open_rows(void *user, ZpRows *own) {
+  const ZpJournal *journal = user;
+  ZpJournal *reader = journal->open ? NULL : create(journal->path, journal->row->study);
+  const bool open =
+      reader && sqlite3_open_v2(reader->path, &reader->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
+      prepare_get(reader, NULL) == ZP_OK;
+  *own = (ZpRows){.get = get_row, .status = get_status, .user = reader, .close = close_rows};
+  if (!open) zp_journal_close(reader);
+  return open;
+}
+
+ZpRows zp_journal_rows(ZpJournal *journal) {
+  return (ZpRows){.get = get_row, .status = get_status, .user = journal, .open = open_rows};
 }

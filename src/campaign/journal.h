@@ -14,10 +14,6 @@ typedef struct ZpJournal ZpJournal;
  * NULL on failure. */
 ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t cases, ZpJournal **out, ZpError *err);
 
-/* Another reader of the rows on the disk, for its own thread; it cannot write. NULL if some rows are not on the disk
- * yet, or the file cannot be opened. */
-ZpJournal *zp_journal_reader(const ZpJournal *journal);
-
 /* Commit and close; NULL is allowed. */
 void zp_journal_close(ZpJournal *journal);
 
@@ -38,5 +34,9 @@ ZpStatus zp_journal_finish(ZpJournal *journal, ZpError *err);
  * is empty, and zp_journal_status reports the error from then on. */
 const ZpResult *zp_journal_get(ZpJournal *journal, size_t number);
 ZpStatus zp_journal_status(ZpJournal *journal, ZpError *err);
+
+/* The rows for a report. `open` gives readers of those on the disk, for a thread of their own, unless some are not on
+ * the disk yet or the file cannot be opened. */
+ZpRows zp_journal_rows(ZpJournal *journal);
 
 #endif

@@ -321,7 +321,8 @@ static void put_experiment(FILE *file, const ZpFmuPlan *plan) {
   fputs("/>\n", file);
 }
 
-ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
+ZpStatus zp_fmu_describe(const void *of, FILE *file, ZpError *err) {
+  const ZpFmuPlan *plan = of;
   List list;
   list_variables(plan, &list);
   put_root(file, plan);
@@ -338,7 +339,8 @@ ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
   return status;
 }
 
-void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan) {
+ZpStatus zp_fmu_describe_build(const void *plan, FILE *file, ZpError *err) {
+  (void)err;
   fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiBuildDescription fmiVersion=\"3.0\">\n"
         "  <BuildConfiguration modelIdentifier=\"" ZP_FMU_IDENTIFIER "\">\n"
         "    <SourceFileSet language=\"C99\" compilerOptions=\"-ffp-contract=off -fopenmp-simd\">\n",
@@ -347,9 +349,12 @@ void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan) {
   fputs("      <IncludeDirectory name=\".\"/>\n    </SourceFileSet>\n"
         "    <Library name=\"m\" external=\"true\"/>\n  </BuildConfiguration>\n</fmiBuildDescription>\n",
         file);
+  return ZP_OK;
 }
 
-void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan) {
+ZpStatus zp_fmu_describe_terminals(const void *of, FILE *file, ZpError *err) {
+  const ZpFmuPlan *plan = of;
+  (void)err;
   fprintf(file,
           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
           "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the commanded "
@@ -358,4 +363,5 @@ void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan) {
           "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
           "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
           plan->controlled ? "command" : "voltage");
+  return ZP_OK;
 }

@@ -24,12 +24,11 @@ typedef struct ZpFmuPlan {
 /* Name of all binaries, and of the model in them. */
 #define ZP_FMU_IDENTIFIER "zipact"
 
-/* modelDescription.xml. ZP_MACHINE if units cannot be converted. */
-ZpStatus zp_fmu_describe(FILE *file, const ZpFmuPlan *plan, ZpError *err);
-
-/* FMI 3: sources/buildDescription.xml, terminalsAndIcons/terminalsAndIcons.xml. */
-void zp_fmu_describe_build(FILE *file, const ZpFmuPlan *plan);
-void zp_fmu_describe_terminals(FILE *file, const ZpFmuPlan *plan);
+/* Write a file of the ZpFmuPlan `plan`: each is a ZpPut. modelDescription.xml, where ZP_MACHINE is that units cannot be
+ * converted; for FMI 3 sources/buildDescription.xml and terminalsAndIcons/terminalsAndIcons.xml. */
+ZpStatus zp_fmu_describe(const void *plan, FILE *file, ZpError *err);
+ZpStatus zp_fmu_describe_build(const void *plan, FILE *file, ZpError *err);
+ZpStatus zp_fmu_describe_terminals(const void *plan, FILE *file, ZpError *err);
 
 /* Is this file of the kit a source to compile? => its name below sources/, otherwise NULL. */
 const char *zp_fmu_source_name(const char *file);

@@ -85,27 +85,6 @@ static ZpStatus fill_start(ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) 
 
 /* -- files of text --------------------------------------------------------------------------------- */
 
-/* A file of the archive, being written as text. */
-typedef struct Text {
-  FILE *file;
-  char *bytes;
-  size_t size;
-} Text;
-
-static ZpStatus open_text(Text *text, ZpError *err) {
-  *text = (Text){NULL, NULL, 0};
-  text->file = open_memstream(&text->bytes, &text->size);
-  return text->file ? ZP_OK : zp_fail_memory(err);
-}
-
-static ZpStatus add_text(ZpArchive *archive, const char *name, Text *text, ZpStatus status, ZpError *err) {
-  bool whole = !ferror(text->file);
-  whole = fclose(text->file) == 0 && whole;
-  if (status == ZP_OK && whole) return zp_archive_add(archive, name, text->bytes, text->size, err);
-  free(text->bytes);
-  return status == ZP_OK ? zp_fail_memory(err) : status;
-}
-
 static void put_row(FILE *file, ZpFmu *fmu) {
   char text[ZP_NUMBER_SIZE];
   zp_number_print(fmu->time, text, sizeof text);
@@ -119,7 +98,8 @@ static void put_row(FILE *file, ZpFmu *fmu) {
 }
 
 /* The outputs of the default experiment with the inputs at their start values. */
-static ZpStatus put_expected(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
+static ZpStatus put_expected(const void *of, FILE *file, ZpError *err) {
+  const ZpFmuPlan *plan = of;
   ZpFmu *fmu;
   ZpFmuStep step = {false, false};
   ZpStatus status = zp_fmu_create(plan->start, &fmu, err);
@@ -139,7 +119,9 @@ static ZpStatus put_expected(FILE *file, const ZpFmuPlan *plan, ZpError *err) {
   return status;
 }
 
-static void put_page(FILE *file, const ZpFmuPlan *plan) {
+static ZpStatus put_page(const void *of, FILE *file, ZpError *err) {
+  const ZpFmuPlan *plan = of;
+  (void)err;
   fputs("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>", file);
   zp_html_text(file, plan->name);
   fputs("</title></head><body>\n<h1>", file);
@@ -154,10 +136,13 @@ static void put_page(FILE *file, const ZpFmuPlan *plan) {
       "them "
       "to the last bit, other builds of the sources to the tolerance in its last line.</p>\n</body></html>\n",
       zp_input_name(plan->controlled ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
+  return ZP_OK;
 }
 
 /* The start values as a source, which replaces that of the kit. */
-static void put_start_source(FILE *file, const ZpFmuStart *start) {
+static ZpStatus put_start_source(const void *plan, FILE *file, ZpError *err) {
+  const ZpFmuStart *start = ((const ZpFmuPlan *)plan)->start;
+  (void)err;
   char text[ZP_NUMBER_SIZE];
   fprintf(file,
           "/* What this FMU begins with. */\n#include <math.h>\n\n#include \"fmu/start.h\"\n\n"
@@ -170,32 +155,30 @@ static void put_start_source(FILE *file, const ZpFmuStart *start) {
     fprintf(file, "    /* %s */ %s,\n", zp_key(key)->name, isnan(start->value[key]) ? "NAN" : text);
   }
   fputs("  }\n};\n", file);
+  return ZP_OK;
+}
+
+static ZpStatus add_text(ZpArchive *archive, const char *name, ZpPut put, const ZpFmuPlan *plan, ZpError *err) {
+  char *text;
+  size_t size;
+  ZpStatus status = zp_text_put(put, plan, &text, &size, err);
+  return status == ZP_OK ? zp_archive_add(archive, name, text, size, err) : status;
 }
 
 static ZpStatus add_texts(ZpArchive *archive, const ZpFmuPlan *plan, ZpError *err) {
-  Text text;
-  ZpStatus status = open_text(&text, err);
-  if (status == ZP_OK)
-    status = add_text(archive, "modelDescription.xml", &text, zp_fmu_describe(text.file, plan, err), err);
-  if (status == ZP_OK) status = open_text(&text, err);
-  if (status == ZP_OK)
-    status = add_text(archive, "documentation/expected.csv", &text, put_expected(text.file, plan, err), err);
-  if (status == ZP_OK) status = open_text(&text, err);
-  if (status != ZP_OK) return status;
-  put_page(text.file, plan);
-  return add_text(archive, "documentation/index.html", &text, ZP_OK, err);
-}
-
-static ZpStatus add_texts_of_3(ZpArchive *archive, const ZpFmuPlan *plan, ZpError *err) {
-  Text text;
-  ZpStatus status = open_text(&text, err);
-  if (status != ZP_OK) return status;
-  zp_fmu_describe_build(text.file, plan);
-  status = add_text(archive, "sources/buildDescription.xml", &text, ZP_OK, err);
-  if (status == ZP_OK) status = open_text(&text, err);
-  if (status != ZP_OK) return status;
-  zp_fmu_describe_terminals(text.file, plan);
-  return add_text(archive, "terminalsAndIcons/terminalsAndIcons.xml", &text, ZP_OK, err);
+  static const struct {
+    const char *name;
+    ZpPut put;
+    int least; /* version of FMI */
+  } text[] = {{"modelDescription.xml", zp_fmu_describe, 2},
+              {"documentation/expected.csv", put_expected, 2},
+              {"documentation/index.html", put_page, 2},
+              {"sources/buildDescription.xml", zp_fmu_describe_build, 3},
+              {"terminalsAndIcons/terminalsAndIcons.xml", zp_fmu_describe_terminals, 3}};
+  ZpStatus status = ZP_OK;
+  for (size_t k = 0; k < sizeof text / sizeof text[0] && status == ZP_OK; k++)
+    if (plan->version >= text[k].least) status = add_text(archive, text[k].name, text[k].put, plan, err);
+  return status;
 }
 
 /* -- files of the kit ------------------------------------------------------------------------------ */
@@ -229,18 +212,11 @@ static char *archive_name(const char *name, int version) {
   return asprintf(&text, "%s%s", platform[k][1], name + strlen(platform[k][0])) < 0 ? NULL : text;
 }
 
-static ZpStatus add_start_source(ZpArchive *archive, const char *name, const ZpFmuStart *start, ZpError *err) {
-  Text text;
-  ZpStatus status = open_text(&text, err);
-  if (status != ZP_OK) return status;
-  put_start_source(text.file, start);
-  return add_text(archive, name, &text, ZP_OK, err);
-}
-
 static ZpStatus add_file(ZpArchive *archive, const ZpFmuPlan *plan, const char *kit, const char *name, ZpError *err) {
   char *bytes = NULL;
   size_t size;
-  if (strcmp(name, "sources/fmu/export/start_block.c") == 0) return add_start_source(archive, name, plan->start, err);
+  if (strcmp(name, "sources/fmu/export/start_block.c") == 0)
+    return add_text(archive, name, put_start_source, plan, err);
   char *path = zp_path_join(kit, name), *called = archive_name(name, plan->version);
   ZpStatus status = path && called ? zp_file_read(path, SIZE_MAX / 2, &bytes, &size, err) : zp_fail_memory(err);
   if (status == ZP_OK && strncmp(name, "binaries/", 9) == 0)
@@ -261,7 +237,6 @@ static ZpStatus write_archive(const ZpFmuPlan *plan, const char *kit, const char
   ZpStatus status = zp_archive_open(path, &archive, err);
   if (status != ZP_OK) return status;
   status = add_texts(archive, plan, err);
-  if (status == ZP_OK && plan->version == 3) status = add_texts_of_3(archive, plan, err);
   for (size_t k = 0; k < plan->sources->count && status == ZP_OK; k++)
     status = add_file(archive, plan, kit, plan->sources->item[k], err);
   return zp_archive_close(archive, status, err);

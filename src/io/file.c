@@ -33,3 +33,15 @@ ZpStatus zp_file_read(const char *path, size_t most, char **text, size_t *size, 
   *text = NULL;
   return status;
 }
+
+ZpStatus zp_text_put(ZpPut put, const void *user, char **text, size_t *size, ZpError *err) {
+  *text = NULL;
+  FILE *file = open_memstream(text, size);
+  if (!file) return zp_fail_memory(err);
+  ZpStatus status = put(user, file, err);
+  if (fclose(file) != 0 && status == ZP_OK) status = zp_fail_memory(err);
+  if (status == ZP_OK) return ZP_OK;
+  free(*text);
+  *text = NULL;
+  return status;
+}

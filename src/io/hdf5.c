@@ -388,8 +388,9 @@ static ZpStatus build_guarded(const ZpReport *report, const char *scenario, FILE
 
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err) {
   char *scenario;
+  size_t size;
   ZpAtomic out;
-  ZpStatus status = zp_scenario_text(report, &scenario, err);
+  ZpStatus status = zp_scenario_text(report->scenario, &scenario, &size, err);
   if (status != ZP_OK) return status;
   status = zp_atomic_open(&out, report->directory, "results.h5", err);
   if (status == ZP_OK) status = zp_atomic_finish(&out, build_guarded(report, scenario, out.file, err), err);

@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "io/cases.h"
+#include "io/file.h"
 
 bool zp_report_is_sweep(const ZpReport *report) {
   size_t lists = 0;
@@ -150,16 +151,10 @@ const char *zp_key_word(int key, double value) {
   return k->type == ZP_KEY_ENUM ? k->choices[(int)value].word : NULL;
 }
 
-ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err) {
-  size_t size = 0;
-  *text = NULL;
-  FILE *file = open_memstream(text, &size);
-  if (!file) return zp_fail_memory(err);
-  ZpStatus status = zp_scenario_write(report->scenario, file, err);
-  if (fclose(file) != 0 && status == ZP_OK) status = zp_fail_memory(err);
-  if (status != ZP_OK) {
-    free(*text);
-    *text = NULL;
-  }
-  return status;
+static ZpStatus put_scenario(const void *scenario, FILE *file, ZpError *err) {
+  return zp_scenario_write(scenario, file, err);
+}
+
+ZpStatus zp_scenario_text(const ZpScenario *scenario, char **text, size_t *size, ZpError *err) {
+  return zp_text_put(put_scenario, scenario, text, size, err);
 }

@@ -77,7 +77,7 @@ void zp_key_column(int key, char *text, size_t size);
 /* The word of a choice key, or of true and false, for key `key` at `value`; NULL if it is a number. */
 const char *zp_key_word(int key, double value);
 
-/* scenario.yaml as text, to be freed by the caller. */
-ZpStatus zp_scenario_text(const ZpReport *report, char **text, ZpError *err);
+/* scenario.yaml as text, to be freed by the caller; NULL on failure. */
+ZpStatus zp_scenario_text(const ZpScenario *scenario, char **text, size_t *size, ZpError *err);
 
 #endif

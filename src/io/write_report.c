@@ -36,15 +36,8 @@ typedef struct Writer {
 
 static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
   ZpAtomic out;
-  char *text;
-  ZpStatus status = zp_scenario_text(report, &text, err);
-  if (status == ZP_OK) status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
-  if (status == ZP_OK) {
-    fputs(text, out.file); /* the commit reports errors of this */
-    status = zp_atomic_commit(&out, err);
-  }
-  free(text);
-  return status;
+  ZpStatus status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
+  return status == ZP_OK ? zp_atomic_finish(&out, zp_scenario_write(report->scenario, out.file, err), err) : status;
 }
 
 /* Write everything; the file gets its name last. */

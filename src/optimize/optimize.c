@@ -10,6 +10,7 @@
 #include "base/fail.h"
 #include "campaign/case_hash.h"
 #include "io/number.h"
+#include "io/report.h"
 #include "optimize/search.h"
 
 struct ZpOptimization {
@@ -243,17 +244,6 @@ static char *list_of(const ZpOptimization *o, size_t variable) {
   return NULL;
 }
 
-static ZpStatus copy_scenario(const ZpScenario *from, ZpScenario *to, ZpError *err) {
-  char *text = NULL;
-  size_t size;
-  FILE *stream = open_memstream(&text, &size);
-  ZpStatus status = stream ? zp_scenario_write(from, stream, err) : zp_fail_memory(err);
-  if (stream && fclose(stream) != 0 && status == ZP_OK) status = zp_fail_memory(err);
-  if (status == ZP_OK) status = zp_scenario_parse(to, text, size, "scenario.yaml", err);
-  free(text);
-  return status;
-}
-
 /* "sampling.together=KEY,KEY" */
 static void name_variables(const ZpProblem *p, char *text, size_t size) {
   size_t used = (size_t)snprintf(text, size, "sampling.together=\"");
@@ -265,9 +255,12 @@ static void name_variables(const ZpProblem *p, char *text, size_t size) {
 /* The scenario of all computed cases. */
 static ZpStatus list_cases(ZpOptimization *o, ZpError *err) {
   const ZpProblem *p = &o->search.problem;
-  char together[ZP_TEXT_SIZE + 32];
+  char together[ZP_TEXT_SIZE + 32], *text;
+  size_t size;
   name_variables(p, together, sizeof together);
-  ZpStatus status = copy_scenario(o->search.scenario, o->cases, err);
+  ZpStatus status = zp_scenario_text(o->search.scenario, &text, &size, err);
+  if (status == ZP_OK) status = zp_scenario_parse(o->cases, text, size, "scenario.yaml", err);
+  free(text);
   if (status == ZP_OK) status = zp_scenario_set(o->cases, together, err);
   for (size_t i = 0; i < p->variables && status == ZP_OK; i++) {
     char *list = list_of(o, i);
