@@ -156,7 +156,7 @@ START_TEST(continues_from_a_snapshot) {
 }
 END_TEST
 
-static double signal_of(ZpSim *sim, void *name) {
+static double signal_of(ZpSim *sim, const void *name) {
   return zp_sim_get(sim, name);
 }
 

@@ -104,7 +104,7 @@ typedef struct Supply {
   double V, R, K; /* V, ohm; of a cable, F */
 } Supply;
 
-static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
+static ZpSourceLaw law(void *self, const ZpSourceStep *s) {
   const Supply *supply = self;
   double flows = s->h * (supply->V - 0.5 * (s->U0 + s->U1)) / supply->R - supply->K * (s->U1 - s->U0);
   return (ZpSourceLaw){flows - s->taken, -0.5 * s->h / supply->R - supply->K, -1, NAN, 1};

@@ -27,11 +27,11 @@ typedef struct End {
 
 typedef struct Work {
   const ZpModel *model;
-  const ZpRest *rest;
-  ZpEval eval;
-  ZpAssembly assembly;
+  ZpStatics *at;
+  ZpEval *eval; /* of the state, as the equations are */
+  const ZpAssembly *assembly;
   ZpVibration vibration;
-  ZpBand K, factors;
+  ZpBand K, *factors; /* the stiffness; its factors, later the damping */
   ZpBead bead[ZP_BEADS];
   ZpCover cover;
   ZpFilmWays ways;
@@ -54,10 +54,9 @@ typedef struct Work {
 static size_t carve(Work *w, void *block) {
   const ZpModel *model = w->model;
   ZpCarver carver = {block, 0};
-  size_t n = w->assembly.n, N = model->nodes, stride = 2 * model->stride;
+  size_t n = w->assembly->n, N = model->nodes, stride = 2 * model->stride;
   zp_vibration_carve(&w->vibration, n, ZP_VIBRATIONS, &carver);
-  zp_band_carve_groups(&w->K, n, 0, w->assembly.bandwidth, w->assembly.groups, &carver);
-  zp_band_carve_groups(&w->factors, n, 0, w->assembly.bandwidth, w->assembly.groups, &carver);
+  zp_band_carve_groups(&w->K, n, 0, w->assembly->bandwidth, w->assembly->groups, &carver);
   if (model->has_film) zp_film_ways_carve(&model->film, &w->ways, &carver);
   w->shape = zp_carve(&carver, SHAPES * n);
   w->rate = zp_carve(&carver, SHAPES * N);
@@ -72,27 +71,11 @@ static size_t carve(Work *w, void *block) {
   return carver.used;
 }
 
-static bool open_work(const ZpRest *rest, Work *w) {
-  w->rest = rest;
-  w->model = rest->statics.member->model;
-  if (!zp_system_create(w->model, false, &w->eval) || !zp_assembly_create(w->model, 0, true, &w->assembly))
-    return false;
-  w->memory = zp_calloc(1, carve(w, NULL));
-  if (w->memory) carve(w, w->memory);
-  return w->memory != NULL;
-}
-
-static void close_work(Work *w) {
-  zp_system_destroy(&w->eval);
-  zp_assembly_destroy(&w->assembly);
-  zp_free(w->memory);
-}
-
 /* -- the ribbons ----------------------------------------------------------------------------------- */
 
 /* The present point at voltage U, with liquid up to `bead`. */
 static ZpSpan span_of(const Work *w, double U) {
-  ZpSpan span = zp_span_at(w->rest->statics.member->q);
+  ZpSpan span = zp_span_at(w->at->member->q);
   span.U0 = span.U1 = U;
   span.bead = w->bead;
   return span;
@@ -101,7 +84,7 @@ static ZpSpan span_of(const Work *w, double U) {
 /* Forces and derived quantities there => eval. */
 static void look(Work *w, double U) {
   ZpSpan span = span_of(w, U);
-  zp_system_force(w->model, &span, &w->eval, w->force);
+  zp_system_force(w->model, &span, w->eval, w->force);
 }
 
 /* Forces by the voltage at U, N/V. */
@@ -109,13 +92,13 @@ static void find_by_voltage(Work *w, double U, double *force) {
   ZpSpan span = span_of(w, U);
   ZpByVoltage by = {.force = force};
   look(w, U);
-  zp_system_by_voltage(w->model, &span, &w->eval, &by);
+  zp_system_by_voltage(w->model, &span, w->eval, &by);
 }
 
 /* Component of the forces on nodes [2 stride] along shape j. */
 static double along_shape(Work *w, const double *nodes, size_t j) {
-  zp_assembly_sum(&w->assembly, nodes, w->x);
-  return zp_dot(w->assembly.n, w->x, w->shape + j * w->assembly.n);
+  zp_assembly_sum(w->assembly, nodes, w->x);
+  return zp_dot(w->assembly->n, w->x, w->shape + j * w->assembly->n);
 }
 
 /* Add the part of x that is orthogonal to all shapes before, scaled to mass 1. */
@@ -134,48 +117,48 @@ static void add_shape(Work *w, const double *x) {
 /* All shapes, each of mass 1, and the exact stiffness at this state. */
 static void find_shapes(Work *w) {
   ZpVibration *v = &w->vibration;
-  size_t n = w->assembly.n;
-  ZpSpan span = span_of(w, w->rest->statics.U);
+  size_t n = w->assembly->n;
+  ZpSpan span = span_of(w, w->at->U);
   look(w, span.U1);
-  span.tension = w->eval.edges.T;
+  span.tension = w->eval->edges.T;
   zp_band_clear(&w->K);
-  zp_system_add_stiffness(w->model, &span, &w->assembly, &w->eval, &w->K);
-  memcpy(w->factors.a, w->K.a, w->K.entries * sizeof *w->K.a);
-  zp_band_factor(&w->factors);
-  v->K = &w->factors;
+  zp_system_add_stiffness(w->model, &span, w->assembly, w->eval, &w->K);
+  memcpy(w->factors->a, w->K.a, w->K.entries * sizeof *w->K.a);
+  zp_band_factor(w->factors);
+  v->K = w->factors;
   memset(v->mass, 0, n * sizeof *v->mass);
-  zp_assembly_add_masses(&w->assembly, w->model->mass, v->mass);
+  zp_assembly_add_masses(w->assembly, w->model->mass, v->mass);
   zp_vibration_start(v);
   zp_vibration_solve(v, v->m - v->m / 3);
   for (size_t j = 0; j < v->m; j++)
     add_shape(w, v->u + j * n);
   find_by_voltage(w, span.U1, w->by_voltage);
-  zp_assembly_sum(&w->assembly, w->by_voltage, w->y);
-  zp_band_solve(&w->factors, w->y);
+  zp_assembly_sum(w->assembly, w->by_voltage, w->y);
+  zp_band_solve(w->factors, w->y);
   if (w->m < n) add_shape(w, w->y);
 }
 
 static void project(Work *w, const ZpBand *K, double *reduced, size_t columns) {
   for (size_t j = 0; j < w->m; j++) {
-    zp_band_multiply(K, w->shape + j * w->assembly.n, w->y);
+    zp_band_multiply(K, w->shape + j * w->assembly->n, w->y);
     for (size_t k = 0; k < w->m; k++)
-      reduced[k * columns + j] += zp_dot(w->assembly.n, w->shape + k * w->assembly.n, w->y);
+      reduced[k * columns + j] += zp_dot(w->assembly->n, w->shape + k * w->assembly->n, w->y);
   }
 }
 
 /* Of the rods => factors. */
 static void find_internal_damping(Work *w) {
   const ZpModel *model = w->model;
-  ZpEval *e = &w->eval;
-  const double *q = w->rest->statics.member->q;
+  ZpEval *e = w->eval;
+  const double *q = w->at->member->q;
   zp_rod_eval(&model->rod, q, q + model->stride, &e->rod_start);
   zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
   zp_rod_damping(&model->rod, &e->rod_start, &e->rod, &e->rod_step, w->spare, e->D);
   for (size_t k = 0; k < 3 * (model->count - model->s); k++)
     for (size_t c = 0; c < 4; c++)
       e->D[k][c] *= model->internal_damping;
-  zp_band_clear(&w->factors);
-  zp_assemble_edges(&w->assembly, (const double(*)[4])e->D, &w->factors);
+  zp_band_clear(w->factors);
+  zp_assemble_edges(w->assembly, (const double(*)[4])e->D, w->factors);
 }
 
 /* -- the liquid ------------------------------------------------------------------------------------ */
@@ -185,7 +168,7 @@ static double *find_rate(Work *w, size_t j) {
   const ZpTopology *t = &w->model->topology;
   double *rate = w->rate + j * w->model->nodes;
   memset(w->moved, 0, 2 * w->model->stride * sizeof *w->moved);
-  zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
+  zp_assembly_scatter(w->assembly, w->shape + j * w->assembly->n, w->moved);
   const double *y = w->moved + w->model->stride;
   for (size_t i = 0; i < w->model->nodes; i++)
     rate[i] = y[zp_upper(t, i)] - y[zp_lower(t, i)];
@@ -197,7 +180,7 @@ static double *find_rate(Work *w, size_t j) {
 static void find_slow_shapes(Work *w) {
   const ZpTopology *t = &w->model->topology;
   const size_t N = w->model->nodes, stride = w->model->stride;
-  for (int k = 0; k < SLOW && w->m < w->assembly.n; k++) {
+  for (int k = 0; k < SLOW && w->m < w->assembly->n; k++) {
     double *drag = w->force;
     zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
     memset(w->moved, 0, 2 * stride * sizeof *w->moved);
@@ -205,8 +188,8 @@ static void find_slow_shapes(Work *w) {
       w->moved[stride + zp_upper(t, i)] += drag[i];
       w->moved[stride + zp_lower(t, i)] -= drag[i];
     }
-    zp_assembly_sum(&w->assembly, w->moved, w->y);
-    zp_band_solve(&w->factors, w->y);
+    zp_assembly_sum(w->assembly, w->moved, w->y);
+    zp_band_solve(w->factors, w->y);
     add_shape(w, w->y);
   }
 }
@@ -255,7 +238,7 @@ static void find_flows(Work *w) {
 
 /* Volume between the faces as far as `reach` with gaps changed by `amount` times those of shape j. */
 static double volume(Work *w, int half, size_t j, double amount) {
-  const double *gap = w->eval.plates.gap;
+  const double *gap = w->eval->plates.gap;
   for (size_t i = 0; i < w->model->nodes; i++)
     w->moved[i] = gap[i] + amount * w->rate[j * w->model->nodes + i];
   return zp_bead_volume(&w->model->film, w->moved, half, w->bead[half].reach);
@@ -271,13 +254,13 @@ static double largest_rate(const Work *w, size_t j) {
 
 static ZpElectric electric(Work *w, double U) {
   ZpSpan span = span_of(w, U);
-  zp_term_gaps(w->model, &span, &w->eval);
-  return zp_system_electric(w->model, &span, &w->eval, ZP_SPAN_END, U);
+  zp_term_gaps(w->model, &span, w->eval);
+  return zp_system_electric(w->model, &span, w->eval, ZP_SPAN_END, U);
 }
 
 /* By differences over a reach of a hundredth of an element. */
 static void move_end(Work *w, End *end, const ZpSetpointSignal *signal) {
-  const double U = w->rest->statics.U, reach = w->bead[end->half].reach, by = 0.01 * w->model->l;
+  const double U = w->at->U, reach = w->bead[end->half].reach, by = 0.01 * w->model->l;
   for (int sign = -1; sign <= 1; sign += 2) {
     w->bead[end->half].reach = reach + sign * by;
     look(w, U);
@@ -298,7 +281,7 @@ static void find_end(Work *w, int half, const ZpSetpointSignal *signal) {
   *end = (End){.half = half};
   move_end(w, end, signal);
   ZpBeadPlace place = zp_bead_place(film, half, w->bead[half].reach);
-  end->section = film->w * zp_bead_thickness(film, &place, w->eval.plates.gap);
+  end->section = film->w * zp_bead_thickness(film, &place, w->eval->plates.gap);
   for (size_t j = 0; j < w->m; j++) {
     double amount = little / fmax(largest_rate(w, j), 1e-12);
     end->volume_by[j] = (volume(w, half, j, amount) - volume(w, half, j, -amount)) / (2 * amount);
@@ -320,7 +303,7 @@ static void find_signal(Work *w, const ZpSetpointSignal *signal) {
       continue;
     }
     memset(w->moved, 0, 2 * w->model->stride * sizeof *w->moved);
-    zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
+    zp_assembly_scatter(w->assembly, w->shape + j * w->assembly->n, w->moved);
     const double *y = w->moved + w->model->stride;
     w->by_signal[j] = signal->kind == ZP_CONTROL_STROKE    ? zp_stroke(t, y)
                       : signal->kind == ZP_CONTROL_OPENING ? zp_opening(t, y)
@@ -335,8 +318,8 @@ static void add_outside(Work *w, size_t j) {
   const size_t nodes = 2 * w->model->stride;
   memset(w->moved, 0, nodes * sizeof *w->moved);
   memset(w->force, 0, nodes * sizeof *w->force);
-  zp_assembly_scatter(&w->assembly, w->shape + j * w->assembly.n, w->moved);
-  zp_term_add_outside(w->model, &w->eval, w->moved, w->force);
+  zp_assembly_scatter(w->assembly, w->shape + j * w->assembly->n, w->moved);
+  zp_term_add_outside(w->model, w->eval, w->moved, w->force);
   for (size_t k = 0; k < w->m; k++)
     w->mass[k * (w->m + w->z) + j] += along_shape(w, w->force, k);
 }
@@ -347,7 +330,7 @@ static void find_rate_laws(Work *w) {
   memset(w->mass, 0, sizeof w->mass);
   memset(w->damping, 0, sizeof w->damping);
   find_internal_damping(w);
-  project(w, &w->factors, w->damping, rates);
+  project(w, w->factors, w->damping, rates);
   for (size_t j = 0; j < w->m; j++)
     w->mass[j * rates + j] = 1;
   if (!w->model->has_film) return;
@@ -447,7 +430,7 @@ static void fill_signal(const Work *w, const Layout *at, ZpPlant *plant) {
 
 /* Row of the voltage of the electrodes behind a resistance: (C_p + dQ/dU) U' = (V - U) / R - G U - dQ/dt at that U. */
 static void fill_electrodes(Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
-  const double U = w->rest->statics.U, by = 1e-4 * fmax(U, 1), parts = w->model->parts;
+  const double U = w->at->U, by = 1e-4 * fmax(U, 1), parts = w->model->parts;
   const size_t n = at->n, row = at->electrodes;
   double more = electric(w, U + by).charge, charge = more - electric(w, U - by).charge;
   double capacitance = supply->capacitance + parts * charge / (2 * by);
@@ -504,12 +487,12 @@ static bool fill(Work *w, const ZpSupply *supply, ZpPlant *plant) {
 static void linearize(Work *w, const ZpSetpointSignal *signal) {
   const ZpModel *model = w->model;
   for (int half = 0; half < ZP_BEADS; half++)
-    w->bead[half].reach = w->rest->statics.member->eval.reach[half];
+    w->bead[half].reach = w->at->member->eval.reach[half];
   find_shapes(w);
-  look(w, w->rest->statics.U);
-  w->cover = w->eval.cover;
+  look(w, w->at->U);
+  w->cover = w->eval->cover;
   if (model->has_film) {
-    zp_film_ways(&model->film, model->has_bead ? &w->cover : NULL, w->eval.plates.gap, w->zeros, &w->eval.film,
+    zp_film_ways(&model->film, model->has_bead ? &w->cover : NULL, w->eval->plates.gap, w->zeros, &w->eval->film,
                  &w->ways);
     find_slow_shapes(w);
     for (size_t j = 0; j < w->m; j++)
@@ -520,7 +503,7 @@ static void linearize(Work *w, const ZpSetpointSignal *signal) {
   for (size_t j = 0; j < w->m; j++)
     w->by_u[j] = along_shape(w, w->by_voltage, j);
   find_signal(w, signal);
-  look(w, w->rest->statics.U);
+  look(w, w->at->U);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++)
     if (w->bead[half].reach < zp_bead_longest(&model->film)) find_end(w, half, signal);
   find_rate_laws(w);
@@ -528,19 +511,28 @@ static void linearize(Work *w, const ZpSetpointSignal *signal) {
 
 /* Work space with everything about the present point of `rest`; false if there is no memory. To be closed in any case.
  */
-static bool open_linear(const ZpRest *rest, const ZpSetpointSignal *signal, Work **out) {
+static bool open_linear(ZpRest *rest, const ZpSetpointSignal *signal, Work **out) {
+  ZpRestMember *m = rest->statics.member;
   Work *w = *out = zp_calloc(1, sizeof *w);
-  if (!w || !open_work(rest, w)) return false;
+  if (!w) return false;
+  *w = (Work){.model = m->model,
+              .at = &rest->statics,
+              .eval = &m->eval,
+              .assembly = &m->assembly,
+              .factors = &rest->statics.newton.K};
+  w->memory = zp_calloc(1, carve(w, NULL));
+  if (!w->memory) return false;
+  carve(w, w->memory);
   linearize(w, signal);
   return true;
 }
 
 static void close_linear(Work *w) {
-  if (w) close_work(w);
+  if (w) zp_free(w->memory);
   zp_free(w);
 }
 
-bool zp_plant_create(const ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
+bool zp_plant_create(ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
   const ZpSupply supply = zp_supply_of(&rest->statics.member->model->def);
   Work *w;
   *plant = (ZpPlant){0};
@@ -578,7 +570,7 @@ static void fill_small(const Work *w, ZpSmallMotion *small) {
   memcpy(small->by_voltage, w->by_u, w->m * sizeof *w->by_u);
   memcpy(small->charge, w->by_u, w->m * sizeof *w->by_u);
   for (size_t k = 0; k < w->m; k++) {
-    zp_assembly_scatter(&w->assembly, w->shape + k * w->assembly.n, small->shape + k * nodes);
+    zp_assembly_scatter(w->assembly, w->shape + k * w->assembly->n, small->shape + k * nodes);
     for (size_t j = 0; j < w->m; j++)
       small->stiffness[k * rates + j] = w->stiffness[k * w->m + j];
   }
@@ -593,7 +585,7 @@ static void fill_small(const Work *w, ZpSmallMotion *small) {
   }
 }
 
-bool zp_small_motion_create(const ZpRest *rest, ZpSmallMotion *small) {
+bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small) {
   const ZpSetpointSignal signal = {.kind = ZP_CONTROL_OPENING};
   Work *w;
   *small = (ZpSmallMotion){0};

@@ -16,9 +16,9 @@ typedef struct ZpPlant {
   void *memory;
 } ZpPlant;
 
-/* The system about the present point of `rest`, an equilibrium of rods; false if there is no memory. Destroy it, also
+/* The system about the present point of `rest`, an equilibrium of rods, which stays; false if there is no memory. Destroy it, also
  * if this fails. */
-bool zp_plant_create(const ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant);
+bool zp_plant_create(ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant);
 void zp_plant_destroy(ZpPlant *plant);
 
 /* These motions as equations of second order. The rates w, those of the shapes first, obey M w' + D w + K x = f, where
@@ -35,7 +35,7 @@ typedef struct ZpSmallMotion {
 } ZpSmallMotion;
 
 /* About the present point of `rest`, as above. */
-bool zp_small_motion_create(const ZpRest *rest, ZpSmallMotion *small);
+bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small);
 void zp_small_motion_destroy(ZpSmallMotion *small);
 
 #endif

@@ -21,7 +21,7 @@ static void carve_member(ZpRestMember *m, size_t stride, ZpCarver *carver) {
   m->k0_now = zp_carve(carver, stride);
   m->rotation = zp_carve(carver, stride);
   m->stretch = zp_carve(carver, stride);
-  m->model = (const ZpModel *)(void *)zp_carve(carver, (sizeof *m->model + sizeof(double) - 1) / sizeof(double));
+  m->model = m->own = (ZpModel *)(void *)zp_carve(carver, (sizeof *m->own + sizeof(double) - 1) / sizeof(double));
 }
 
 static size_t carve_solution(ZpStatics *s, void *block) {
@@ -49,10 +49,9 @@ static void hold_upper_platform(ZpTopology *t) {
 }
 
 static void fill_model(const ZpModel *model, ZpRestMember *m) {
-  ZpModel *own = (ZpModel *)m->model;
-  *own = *model;
-  hold_upper_platform(&own->topology);
-  own->rod.k0 = m->k0_now;
+  *m->own = *model;
+  hold_upper_platform(&m->own->topology);
+  m->own->rod.k0 = m->k0_now;
   m->k0 = model->rod.k0;
 }
 
@@ -289,7 +288,7 @@ static void put_voltage(ZpStatics *s, double whole, double share) {
 
 static void put_suction(ZpStatics *s, double whole, double share) {
   for (size_t k = 0; k < s->members; k++)
-    ((ZpModel *)s->member[k].model)->bead.suction = whole * share;
+    s->member[k].own->bead.suction = whole * share;
 }
 
 /* Continue from the equilibrium without suction at the menisci to the one with it. Where that branch ends, suction

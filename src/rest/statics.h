@@ -10,7 +10,8 @@
 
 /* One of the actuators of the system. */
 typedef struct ZpRestMember {
-  const ZpModel *model; /* a copy of the given one, with the natural turns that act, and overlapping faces closed */
+  ZpModel *own;         /* a copy of the given one, with the natural turns and the suction that act */
+  const ZpModel *model; /* it, for reading */
   ZpEval eval;
   double *q; /* [2 stride] the present point */
   ZpAssembly assembly;
@@ -46,8 +47,8 @@ typedef struct ZpStatics {
   double scale;        /* force that a residual is relative to, N */
   ZpNewtonWork newton; /* work space of Newton's method: the last stiffness, mostly factored, and unbalanced forces */
   double *product;     /* [n] work space */
-  bool (*stop)(void *caller); /* called now and then; true stops. NULL: none */
-  void *caller;
+  bool (*stop)(const void *caller); /* called now and then; true stops. NULL: none */
+  const void *caller;
   int unasked;  /* residuals since `stop` was called */
   bool stopped; /* `stop` returned true: from then on no residual is computed */
   void *memory, *solution;

@@ -220,8 +220,8 @@ static ZpSourceLaw has_voltage(const ZpSourceStep *s, double voltage) {
   return (ZpSourceLaw){.lacks = C * (voltage - s->U1), .by_voltage = -C, .bound = NAN, .resolved = share_of(s->h)};
 }
 
-static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
-  ZpSim *sim = (ZpSim *)self;
+static ZpSourceLaw law(void *self, const ZpSourceStep *s) {
+  ZpSim *sim = self;
   const ZpSupply *supply = &sim->model->supply;
   Drop drop = drop_over(sim, s);
   Limit limit = limit_over(sim, s, &drop);

@@ -339,7 +339,7 @@ void zp_run_rates_follow(ZpRunRates *rates) {
   }
 }
 
-double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, void *user), void *user) {
+double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user), const void *user) {
   const ZpKeyRates *of = &rates->key[k];
   double sum = 0;
   for (int i = 0; i < ZP_NEAR_POINTS; i++)

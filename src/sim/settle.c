@@ -63,7 +63,7 @@ static double rounding_floor(const ZpModel *model) {
   return 3 * DBL_EPSILON * model->L * model->spring.K_D / zp_eval_weight_scale(model);
 }
 
-static bool stop_hanging(void *hooks) {
+static bool stop_hanging(const void *hooks) {
   return zp_hooks_stop(hooks, "settling", 0);
 }
 
@@ -75,7 +75,7 @@ static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
     rest.statics.stop = stop_hanging;
-    rest.statics.caller = (void *)hooks;
+    rest.statics.caller = hooks;
     ZpNewtonInfo info = zp_statics_hang(&rest.statics);
     *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;
@@ -154,7 +154,7 @@ static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   if (opened) {
     rest.statics.stop = stop_hanging;
-    rest.statics.caller = (void *)hooks;
+    rest.statics.caller = hooks;
     ZpNewtonInfo info = zp_statics_hang(&rest.statics);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;

@@ -300,7 +300,7 @@ static double find_curvature(ZpLinearCycle *l, ZpComplex *x, double *sample) {
 
 /* -- all together ----------------------------------------------------------------------------------- */
 
-static bool stop(void *hooks) {
+static bool stop(const void *hooks) {
   return zp_hooks_stop(hooks, "finding the mean", 0);
 }
 
@@ -328,7 +328,7 @@ bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCy
   *failed = !zp_rest_open(&l->rest, model, NULL, NULL);
   if (*failed) return false;
   l->rest.statics.stop = stop;
-  l->rest.statics.caller = (void *)hooks;
+  l->rest.statics.caller = hooks;
   if (!zp_rest_hang(&l->rest, sqrt(l->mean))) return false;
   if (!zp_statics_stable(&l->rest.statics)) return false;
   Room room;

@@ -86,7 +86,7 @@ static ZpTable *make_table(const ZpEquilibria *at) {
   return zp_table_create(all, count + columns_of(at->model, all + count), at->rows);
 }
 
-static bool asked_to_stop(void *self) {
+static bool asked_to_stop(const void *self) {
   const ZpEquilibria *at = self;
   return zp_task_stops(at->task, at->stage, at->top > 0 ? fabs(at->rest.statics.U) / at->top : 0);
 }

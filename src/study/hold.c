@@ -69,7 +69,7 @@ static void note_unknown(const ZpControl *c, ZpResult *result) {
 }
 
 /* For a loop with a boost, the eigenvalue of the side that decays less. */
-static bool look(const ZpRest *rest, const ZpSetpointSignal *signal, double setpoint, ZpResult *result) {
+static bool look(ZpRest *rest, const ZpSetpointSignal *signal, double setpoint, ZpResult *result) {
   const ZpControl *c = &rest->statics.member->model->control;
   ZpPlant plant;
   bool done = zp_plant_create(rest, signal, &plant);

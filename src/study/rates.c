@@ -81,16 +81,16 @@ static const EndNumber at_end[] = {{"opening_m", "m", "opening", is_pair},
                                    {"leak_loss_J", "J", "leak_loss", leaks}};
 enum { AT_END = sizeof at_end / sizeof at_end[0] };
 
-static double signal_of(ZpSim *sim, void *name) {
+static double signal_of(ZpSim *sim, const void *name) {
   return zp_sim_get(sim, name);
 }
 
-static double zip_time_of(ZpSim *sim, void *unused) {
+static double zip_time_of(ZpSim *sim, const void *unused) {
   (void)unused;
   return sim->state->zip_time;
 }
 
-static double closed_from_of(ZpSim *sim, void *unused) {
+static double closed_from_of(ZpSim *sim, const void *unused) {
   (void)unused;
   return sim->state->closed_from;
 }
@@ -98,7 +98,7 @@ static double closed_from_of(ZpSim *sim, void *unused) {
 /* A run that was interrupted, or has used up its steps, ends at an instant that no physics sets. */
 static double rate_at_end(const ZpRunRates *rates, size_t k, const ZpResult *result, const char *signal) {
   bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
-  return none ? NAN : zp_run_rate_of(rates, k, signal_of, (void *)signal);
+  return none ? NAN : zp_run_rate_of(rates, k, signal_of, signal);
 }
 
 /* An actuator that has closed before the derivatives were lost was open for no instant since then. */

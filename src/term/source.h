@@ -23,7 +23,7 @@ typedef struct ZpSourceLaw {
 
 typedef struct ZpSource {
   void *self;
-  ZpSourceLaw (*law)(const void *self, const ZpSourceStep *step);
+  ZpSourceLaw (*law)(void *self, const ZpSourceStep *step);
   double scale; /* V: an error of this size counts as an error of the whole flexible length in position */
 } ZpSource;
 
