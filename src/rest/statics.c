@@ -893,112 +893,85 @@ static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
     q[j - s] = q[j] - d[j - s];
 }
 
-/* Lay two ribbons from the joint of their left ends. */
-static void lay_open(ZpRestMember *m) {
-  const ZpModel *model = m->model;
-  for (size_t c = 0; c < 2; c++)
-    for (size_t ribbon = 0; ribbon < model->s; ribbon++)
-      lay(m->moved + c * model->stride, model->s, ribbon, model->count - model->s + ribbon, m->q + c * model->stride);
-}
+/* A chain of nodes: along one ribbon from `start` to `turn`. If it `returns`, the latter is a clip, and the chain goes
+ * on from the clip's lower node back to the one below its start. */
+typedef struct Path {
+  size_t start, turn;
+  bool returns;
+} Path;
 
-/* Place one ribbon from its clamp; the closing error at a clamped right end is spread along it. */
-static void lay_one(ZpRestMember *m) {
-  size_t stride = m->model->stride, end = m->model->count - 1;
-  for (size_t c = 0; c < 2; c++) {
-    double *q = m->q + c * stride, last = q[end];
-    lay(m->moved + c * stride, 1, 0, end, q);
-    if (m->assembly.equation[2 * end + c] >= 0) continue;
-    double missed = q[end] - last;
-    for (size_t j = 1; j <= end; j++)
-      q[j] -= missed * (double)j / (double)end;
-  }
-}
-
-/* Stations of a half. Its upper ribbon is placed from the platform to the clip, the lower one from there back. */
-typedef struct Loop {
-  size_t platform, clip;
-  bool is_held; /* the clip */
-} Loop;
-
-static Loop loop_to(const ZpTopology *t, size_t platform, size_t clip) {
-  return (Loop){platform, clip, zp_topology_is_held(t, 2 * zp_upper(t, clip))};
-}
-
-/* The station `k` elements from the platform. */
-static size_t station_of(Loop loop, size_t k) {
-  return loop.clip < loop.platform ? loop.platform - k : loop.platform + k;
-}
-
-/* The closing error at a clip that is held is spread along the upper ribbon. */
-static void spread_to_clip(const ZpTopology *t, Loop loop, double missed, double *q) {
-  size_t elements = zp_half_elements(t);
-  for (size_t k = 0; k <= elements; k++)
-    q[zp_upper(t, station_of(loop, k))] -= missed * ((double)k / (double)elements);
-}
-
-static void lay_loop(const ZpTopology *t, Loop loop, const double *d, double *q) {
-  size_t clip = zp_upper(t, loop.clip);
-  double place = q[clip];
-  lay(d, t->ribbons, zp_upper(t, loop.platform), clip, q);
-  if (loop.is_held) spread_to_clip(t, loop, q[clip] - place, q);
-  q[zp_lower(t, loop.clip)] = q[clip];
-  lay(d, t->ribbons, zp_lower(t, loop.clip), zp_lower(t, loop.platform), q);
-}
-
-/* The closing error at the lower platform is spread along the loop, or along the lower ribbon alone if the clip is
+/* The one that ends at the lower platform of the left or right half: from the upper platform, or from a clip that is
  * held. */
-static void spread(const ZpTopology *t, Loop loop, double missed, double *q) {
-  size_t elements = zp_half_elements(t), path = loop.is_held ? elements : 2 * elements;
-  for (size_t k = 0; k <= elements; k++) {
-    size_t i = station_of(loop, k);
-    if (!loop.is_held) q[zp_upper(t, i)] -= missed * ((double)k / (double)path);
-    q[zp_lower(t, i)] -= missed * ((double)(path - k) / (double)path);
-  }
+static Path path_to_platform(const ZpTopology *t, bool right) {
+  size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
+  return zp_topology_is_held(t, 2 * clip) ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
 }
 
-/* A platform that turns is placed by its edge; half of the closing error is spread along each loop. */
-static void lay_platform(ZpRestMember *m, const Loop loops[2]) {
-  const ZpTopology *t = &m->model->topology;
-  size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
-  for (size_t c = 0; c < 2; c++) {
-    double *q = m->q + c * m->model->stride, missed = q[right] - q[left] - m->moved[c * m->model->stride + left];
-    spread(t, loops[0], -0.5 * missed, q);
-    spread(t, loops[1], 0.5 * missed, q);
-  }
-}
+enum { MOST_PATHS = 4 };
 
-/* A platform that does not turn keeps its x and, where two halves meet there, gets the mean of their y. */
-static void lay_level_platform(ZpRestMember *m, const Loop loops[2]) {
-  const ZpTopology *t = &m->model->topology;
-  double *x = m->q, *y = x + m->model->stride, sum = 0;
+/* The paths that place all nodes => how many. */
+static size_t paths_of(const ZpTopology *t, Path path[MOST_PATHS]) {
+  size_t count = 0, last = t->nodes - t->ribbons;
+  if (!zp_is_pair(t) || zp_is_open_pair(t)) {
+    for (; count < t->ribbons; count++)
+      path[count] = (Path){count, last + count, false};
+    return count;
+  }
   for (size_t h = 0; h < t->halves; h++) {
-    size_t upper = zp_upper(t, loops[h].platform), lower = zp_lower(t, loops[h].platform);
-    spread(t, loops[h], x[lower] - x[upper], x);
-    sum += y[lower];
+    Path end = path_to_platform(t, h > 0);
+    if (!end.returns) path[count++] = (Path){end.turn - 1, end.start - 1, false};
+    path[count++] = end;
   }
-  double mean = sum / (double)t->halves;
-  for (size_t h = 0; t->halves > 1 && h < t->halves; h++)
-    spread(t, loops[h], y[zp_lower(t, loops[h].platform)] - mean, y);
+  return count;
 }
 
-/* Place two ribbons, from the upper platform on. */
-static void lay_two(ZpRestMember *m) {
+/* Place its nodes at the ends of edges `d`. */
+static void walk(const ZpTopology *t, Path path, const double *d, double *q) {
+  lay(d, t->ribbons, path.start, path.turn, q);
+  if (!path.returns) return;
+  q[path.turn + 1] = q[path.turn];
+  lay(d, t->ribbons, path.turn + 1, path.start + 1, q);
+}
+
+/* Spread a closing error at its end along it. */
+static void spread(const ZpTopology *t, Path path, double missed, double *q) {
+  bool up = path.turn > path.start;
+  size_t edges = (up ? path.turn - path.start : path.start - path.turn) / t->ribbons, all = (1 + path.returns) * edges;
+  for (size_t k = 0; k <= edges; k++) {
+    size_t j = up ? path.start + t->ribbons * k : path.start - t->ribbons * k;
+    q[j] -= missed * ((double)k / (double)all);
+    if (path.returns) q[j + 1] -= missed * ((double)(all - k) / (double)all);
+  }
+}
+
+/* Place all nodes at the ends of the edges in m->moved. What misses a held end is spread along its path. What the lower
+ * platforms of two halves miss each other by, each half takes half of. */
+static void lay_member(ZpRestMember *m) {
   const ZpTopology *t = &m->model->topology;
-  const Loop loops[2] = {loop_to(t, t->platform.first, 0), loop_to(t, t->platform.last, t->stations - 1)};
-  for (size_t h = 0; h < t->halves; h++)
-    for (size_t c = 0; c < 2; c++)
-      lay_loop(t, loops[h], m->moved + c * m->model->stride, m->q + c * m->model->stride);
-  if (zp_platform_turns(t))
-    lay_platform(m, loops);
-  else
-    lay_level_platform(m, loops);
+  const int *equation = m->assembly.equation;
+  size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
+  Path path[MOST_PATHS];
+  size_t paths = paths_of(t, path);
+  for (size_t c = 0; c < 2; c++) {
+    double *q = m->q + c * m->model->stride, *d = m->moved + c * m->model->stride;
+    for (size_t k = 0; k < paths; k++) {
+      size_t end = path[k].returns ? path[k].start + 1 : path[k].turn;
+      double last = q[end];
+      walk(t, path[k], d, q);
+      if (equation[2 * end + c] < 0) spread(t, path[k], q[end] - last, q);
+    }
+    if (t->halves == 1 || equation[2 * left + c] < 0) continue;
+    double missed = q[right] - q[left] - d[left];
+    spread(t, path_to_platform(t, false), -0.5 * missed, q);
+    spread(t, path_to_platform(t, true), 0.5 * missed, q);
+  }
 }
 
 /* Put the lower platform of a half at a height. */
 static void put_platform(ZpRestMember *m, double height) {
   const ZpTopology *t = &m->model->topology;
   double *y = m->q + m->model->stride;
-  spread(t, loop_to(t, t->platform.first, 0), y[zp_load_node(t)] - height, y);
+  spread(t, path_to_platform(t, false), y[zp_load_node(t)] - height, y);
 }
 
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
@@ -1026,20 +999,12 @@ void zp_statics_rejoin(ZpStatics *s) {
   }
 }
 
-static void move_member(ZpRestMember *m, const double *step, double fraction) {
-  turn_edges(m, step, fraction);
-  if (zp_is_open_pair(&m->model->topology))
-    lay_open(m);
-  else if (zp_is_pair(&m->model->topology))
-    lay_two(m);
-  else
-    lay_one(m);
-}
-
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
-  for (size_t k = 0; k < s->members; k++)
-    move_member(&s->member[k], step, fraction);
+  for (size_t k = 0; k < s->members; k++) {
+    turn_edges(&s->member[k], step, fraction);
+    lay_member(&s->member[k]);
+  }
   meet(s);
 }
 
