@@ -36,8 +36,8 @@ ZP_API bool zp_checkpoint_holds(int index);
  * gives another reason: its numbers are not a state, or the end time is earlier than it. */
 ZP_API ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef *def, ZpError *err);
 
-/* The last state through which a longer run of the simulation would also pass; after ZP_DIVERGED, the last valid one.
- * *out is NULL if the simulation found no initial state. */
+/* The last state through which a longer run of the simulation would also pass; after ZP_DIVERGED or ZP_BEYOND_MODEL,
+ * the last valid one. *out is NULL if the simulation found no initial state. */
 ZP_API ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err);
 
 /* Resume from `checkpoint`. If the waveform has another voltage at that time, the voltage jumps. ZP_BAD_INPUT as
