@@ -70,8 +70,9 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
   if (isnan(def->load.stop_opening)) one->load.stop_stiffness = def->load.stop_stiffness;
 }
 
+/* The controller of the first member sets the voltages of all. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
-  ZpActuatorDef one = *def;
+  ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
   bool last = member == def->stack.series, abreast = zp_def_abreast(def);
   for (int key = first_member.first; key < last_member.end; key++) {
     double value = member_of(key) == member ? zp_def_get(def, key) : NAN;
@@ -82,6 +83,8 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   one.stack.link_mass = 0;
   one.stack.distance = one.stack.lower_voltage = NAN;
   one.stack.voltage_ratio = 1;
+  if (member > 1) one.control = fresh.control;
+  if (member > 1) one.setpoint = fresh.setpoint;
   if (abreast) {
     one.stack.parallel = 1;
     share_load(def, &one);
@@ -91,7 +94,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
     if (last) turn_over(def, &one);
     return one;
   }
-  if (!last) one.load = zp_actuator_def_default().load;
+  if (!last) one.load = fresh.load;
   if (!last) one.load.mass = def->stack.link_mass;
   return one;
 }
@@ -188,11 +191,8 @@ static const ZpRule rule[] = {
                    "heights that members share are unknowns of implicit steps"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(source.model, ZP_SOURCE_IDEAL),
                    "a supply is modelled with a single actuator"),
-    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(control.kind, ZP_CONTROL_NONE),
-                   "a controller measures a single actuator"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(load.change_mass, 0),
                    "an impact is modelled on the platform of a single actuator"),
-    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_UNSET(sense.frequency), "the meter measures a single actuator"),
 };
 
 static const ZpRules rules = ZP_RULES_OF(rule);

@@ -657,12 +657,13 @@ static double load_share(const ZpStatics *s, size_t which) {
   return zp_load_share(s->member[s->shared ? which : s->members - 1].model);
 }
 
-/* Mass that hangs on the modelled part of a member in addition to its own load, kg: in series also what hangs below
- * it. */
+/* Mass that hangs on a member in addition to its own load, kg: in series also what hangs below it. What is not carried
+ * in the share that the member has of its own load counts as so much more or less. */
 static double hung_on(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->member[which].model, *last = s->member[s->members - 1].model;
-  if (s->shared) return load_share(s, which) * (load_part(s, which) * s->load - model->def.load.mass);
-  return zp_load_share(model) * model->carried + load_share(s, which) * (s->load - last->def.load.mass);
+  if (s->shared) return load_part(s, which) * s->load - model->def.load.mass;
+  double share = model == last ? 1 : load_share(s, which) / zp_load_share(model);
+  return model->carried + share * s->load - share * last->def.load.mass;
 }
 
 /* The present point of a member. */
@@ -671,7 +672,7 @@ static ZpSpan span_of(const ZpStatics *s, size_t which) {
   const ZpActuatorDef *def = &m->model->def;
   ZpSpan span = zp_span_at(m->q);
   span.U0 = span.U1 = zp_statics_member_voltage(s, which);
-  span.hung = hung_on(s, which) * def->gravity;
+  span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
   if (!s->shared) span.load = load_share(s, which) * (s->force - def->load.force);
   span.share = s->share;
   span.faces_pass = !s->contact_acts;
@@ -1193,14 +1194,16 @@ static void restore(void *self, const void *from) {
 
 /* Weight of what a member's platform carries, N. */
 static double carried_weight(const ZpStatics *s, size_t which) {
-  const ZpModel *model = s->member[which].model;
-  return (zp_load_share(model) * model->def.load.mass + hung_on(s, which)) * model->def.gravity;
+  const ZpActuatorDef *def = &s->member[which].model->def;
+  return (def->load.mass + hung_on(s, which)) * def->gravity;
 }
 
-/* Are two members the same actuator, but for their loads? */
+/* Are two members the same actuator, but for their loads and the controller of the first one? */
 static bool is_same(const ZpActuatorDef *one, const ZpActuatorDef *other) {
   ZpActuatorDef loaded = *one;
   loaded.load = other->load;
+  loaded.control = other->control;
+  loaded.setpoint = other->setpoint;
   for (int key = 0; key < zp_key_count(); key++) {
     double a = zp_def_get(&loaded, key), b = zp_def_get(other, key);
     if (a != b && !(isnan(a) && isnan(b))) return false;

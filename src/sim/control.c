@@ -84,8 +84,6 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
     sim->control = (ZpOwnControl){.since = 0};
     return ZP_OK;
   }
-  if (sim->members > 1)
-    return zp_fail(err, ZP_BAD_INPUT, "controller: not available for actuators in series (stack.series)");
   if (is_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "controller: the model already has that of control.kind; use control.kind none");
   if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: its function `voltage` is missing");

@@ -72,11 +72,19 @@ static const ZpColumn columns_abreast[] = {
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_of_length[] = {
 #include "sim/columns.def"
-};
+    OPENINGS};
+#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
+static const ZpColumn columns_abreast_of_length[] = {
+#include "sim/columns.def"
+    ABREAST};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_of_capacitance[] = {
 #include "sim/columns.def"
-};
+    OPENINGS};
+#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
+static const ZpColumn columns_abreast_of_capacitance[] = {
+#include "sim/columns.def"
+    ABREAST};
 #undef ZP_SIGNAL
 #undef ZP_ROW
 
@@ -98,14 +106,16 @@ const ZpColumn *zp_signal_columns(size_t *count) {
 }
 
 const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
-  static const ZpColumn *const of[ZpControlSignal_COUNT] = {[ZP_CONTROL_OPENING] = columns_of_length,
-                                                            [ZP_CONTROL_STROKE] = columns_of_length,
-                                                            [ZP_CONTROL_CONTRACTION] = columns,
-                                                            [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance};
+  enum { SERIES, SIDE_BY_SIDE };
+  static const ZpColumn *const of[ZpControlSignal_COUNT][2] = {
+      [ZP_CONTROL_OPENING] = {columns_of_length, columns_abreast_of_length},
+      [ZP_CONTROL_STROKE] = {columns_of_length, columns_abreast_of_length},
+      [ZP_CONTROL_CONTRACTION] = {columns, columns_abreast},
+      [ZP_CONTROL_CAPACITANCE] = {columns_of_capacitance, columns_abreast_of_capacitance}};
   size_t members = zp_def_members(def) > 1 ? (size_t)zp_def_members(def) : 0;
-  *count = SIGNAL_COUNT + members * (zp_def_abreast(def) ? NUMBERS_ABREAST : 1);
-  if (zp_def_abreast(def)) return columns_abreast;
-  return def->control.kind == ZP_CONTROL_NONE ? columns : of[def->control.signal];
+  int joined = zp_def_abreast(def) ? SIDE_BY_SIDE : SERIES;
+  *count = SIGNAL_COUNT + members * (joined == SIDE_BY_SIDE ? NUMBERS_ABREAST : 1);
+  return of[def->control.kind == ZP_CONTROL_NONE ? ZP_CONTROL_CONTRACTION : def->control.signal][joined];
 }
 
 /* Rows of the ledger that are no signals have their places behind all columns. */
@@ -565,9 +575,12 @@ void zp_sim_trace(ZpSim *sim, ZpTable *trace) {
 
 static void offer_trace(const ZpSim *sim, bool last) {
   const double *row = sim->row;
+  double leaked = 0;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    leaked += m->model->parts * m->state->leaked;
   double values[ZP_TRACE_COLUMNS] = {[ZP_TRACE_TIME] = row[SIGNAL_time],
                                      [ZP_TRACE_VOLTAGE] = row[SIGNAL_voltage],
-                                     [ZP_TRACE_CHARGE] = row[SIGNAL_charge] + sim->model->parts * sim->state->leaked,
+                                     [ZP_TRACE_CHARGE] = row[SIGNAL_charge] + leaked,
                                      [ZP_TRACE_CAPACITANCE] = row[SIGNAL_capacitance],
                                      [ZP_TRACE_STROKE] = row[SIGNAL_stroke]};
   if (!sim->trace) return;
