@@ -62,7 +62,7 @@ static ZpStatus put_summary(const ZpPage *page, FILE *file, ZpError *err) {
   json_t *summary = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o}", "version", ZP_VERSION, "study", "reproduce",
                               "outcome", zp_outcome_name(outcome), "message", message_of(outcome), "wall_time_s",
                               zp_json_number(page->wall_time, "s"), "verdicts", verdicts, "rows", rows);
-  ZpStatus status = summary ? zp_json_write(summary, file, err) : zp_fail_memory(err);
+  ZpStatus status = summary ? zp_json_write(summary, false, file, err) : zp_fail_memory(err);
   json_decref(summary);
   return status;
 }

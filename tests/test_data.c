@@ -5,7 +5,6 @@
 #include "io/cases.h"
 #include "io/data.h"
 #include "io/drive_table.h"
-#include "io/sampled.h"
 #include "io/units.h"
 
 /* FOLDER/name with this text => its path, to be freed. */

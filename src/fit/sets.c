@@ -226,19 +226,6 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
 
 /* -- are the rows possible ------------------------------------------------------------------------- */
 
-/* Check one run in time, over all rows. */
-static ZpStatus check_run(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = zp_def_check_motion(def, err);
-  if (status != ZP_OK) return status;
-  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
-}
-
-/* Each row must be a valid case: by the check of the study that computes its number, otherwise by its voltage. */
-static ZpStatus check_row(ZpFitKind kind, const ZpActuatorDef *def, double voltage, ZpError *reason) {
-  if (!zp_fit_number[kind].number) return zp_def_check_voltage(def, voltage, reason);
-  return zp_study_check(zp_fit_number[kind].study, def, reason);
-}
-
 /* Study limits searches for pull-in and release up to drive.voltage. */
 static ZpStatus check_limit(ZpFitKind kind, const ZpActuatorDef *def, double measured, ZpError *reason) {
   bool is_limit = kind == ZP_FIT_PULL_IN || kind == ZP_FIT_RELEASE;
@@ -248,18 +235,24 @@ static ZpStatus check_limit(ZpFitKind kind, const ZpActuatorDef *def, double mea
                  kind == ZP_FIT_PULL_IN ? "pull-in voltage" : "release voltage", measured, def->drive.voltage);
 }
 
+/* Each row must be a valid case: by the check of the study that computes its number, otherwise by its voltage. */
 static ZpStatus check_rows(const ZpFit *fit, const ZpFitSet *set, const ZpData *data, ZpError *err) {
   double start[ZP_FIT_MOST], voltage;
   for (int k = 0; k < ZP_FIT_MOST; k++)
     start[k] = 1;
-  if (set->x_key < 0) return check_run(fit->def, err);
+  if (set->x_key < 0) { /* one run in time, over all rows */
+    ZpStatus status = zp_def_check_motion(fit->def, err);
+    const double highest = fmax(fit->def->drive.voltage, fabs(fit->def->drive.offset));
+    return status == ZP_OK ? zp_def_check_voltage(fit->def, highest, err) : status;
+  }
+  const ZpFitNumber *number = &zp_fit_number[set->kind];
   for (size_t i = 0; i < set->rows; i++) {
     ZpActuatorDef def;
     ZpError reason = {ZP_OK, ""};
     if (!zp_fit_row(fit, start, set->first + i, &def, &voltage)) continue; /* read_column has reported it */
-    if (check_row(set->kind, &def, voltage, &reason) == ZP_OK &&
-        check_limit(set->kind, &def, fit->y[set->first + i], &reason) == ZP_OK)
-      continue;
+    ZpStatus status =
+        number->number ? zp_study_check(number->study, &def, &reason) : zp_def_check_voltage(&def, voltage, &reason);
+    if (status == ZP_OK && check_limit(set->kind, &def, fit->y[set->first + i], &reason) == ZP_OK) continue;
     return zp_fail(err, ZP_BAD_INPUT, "%.120s:%d: %.300s", data->path, zp_data_line(data, i), reason.message);
   }
   return ZP_OK;

@@ -137,12 +137,7 @@ ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, 
   return finish(file, done, err);
 }
 
-ZpStatus zp_json_write(const json_t *tree, FILE *file, ZpError *err) {
+ZpStatus zp_json_write(const json_t *tree, bool flat, FILE *file, ZpError *err) {
   errno = 0;
-  return finish(file, print_tree(file, tree, 0), err);
-}
-
-ZpStatus zp_json_write_line(const json_t *tree, FILE *file, ZpError *err) {
-  errno = 0;
-  return finish(file, print_tree(file, tree, FLAT), err);
+  return finish(file, print_tree(file, tree, flat ? FLAT : 0), err);
 }

@@ -7,8 +7,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "io/cases.h"
 #include "io/number.h"
-#include "io/sampled.h"
 #include "io/units.h"
 
 /* -- columns --------------------------------------------------------------------------------------- */

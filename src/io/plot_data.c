@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/cases.h"
 #include "io/number.h"
 #include "io/plot.h"
-#include "io/sampled.h"
 #include "sample/statistics.h"
 
 static void put(FILE *file, double value, char after) {

@@ -25,9 +25,9 @@
 
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "io/cases.h"
 #include "io/drawing.h"
 #include "io/plot.h"
-#include "io/sampled.h"
 #include "io/template.h"
 #include "io/writers.h"
 

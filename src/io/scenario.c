@@ -21,7 +21,6 @@
 #include "io/file.h"
 #include "io/plan.h"
 #include "io/range.h"
-#include "io/sampled.h"
 #include "io/source.h"
 #include "io/spread.h"
 #include "io/value.h"
@@ -530,7 +529,7 @@ static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const c
   ZpSource source = {.name = name};
   Reader reader;
   ZpStatus status = open_reader(&reader, &source, -1, err);
-  if (status == ZP_OK) status = zp_yaml_read(&source, text, size, take_item, &reader, err);
+  if (status == ZP_OK) status = zp_yaml_read(&source, text, size, false, take_item, &reader, err);
   if (status == ZP_OK) status = merge(s, &reader, layer, err);
   close_reader(&reader);
   return status;
@@ -585,7 +584,7 @@ static ZpStatus read_argument(Reader *reader, const char *text, ZpError *err) {
   const ZpYamlItem item = {ZP_YAML_VALUE, "", 1, text, 1};
   const bool is_range =
       zp_value_is_number(zp_key(reader->key)) && zp_range_is(text) && *(text + strspn(text, " ")) != '[';
-  if (!is_range) return zp_yaml_read_value(reader->source, text, strlen(text), take_item, reader, err);
+  if (!is_range) return zp_yaml_read(reader->source, text, strlen(text), true, take_item, reader, err);
   if (strlen(text) < ZP_VALUE_SIZE) return take_values(reader, reader->key, &item, err);
   return zp_source_fail(reader->source, 0, err, "value longer than %d bytes", ZP_VALUE_SIZE - 1);
 }

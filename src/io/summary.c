@@ -10,7 +10,6 @@
 #include "io/cases.h"
 #include "io/json.h"
 #include "io/report.h"
-#include "io/sampled.h"
 #include "io/shows.h"
 #include "io/summary.h"
 
@@ -181,22 +180,22 @@ static json_t *summary_of(const ZpReport *report) {
   return object;
 }
 
-ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
+static ZpStatus write_summary(const ZpReport *report, bool flat, FILE *file, ZpError *err) {
   json_t *summary = summary_of(report);
   if (!summary) return zp_fail_memory(err);
-  ZpStatus status = zp_report_is_sweep(report)
+  ZpStatus status = !flat && zp_report_is_sweep(report)
                         ? zp_json_write_list(summary, "rows", report->count, row_of, report, file, err)
-                        : zp_json_write(summary, file, err);
+                        : zp_json_write(summary, flat, file, err);
   json_decref(summary);
-  if (status == ZP_OK && report->rows)
-    status = report->rows->status(report->rows->user, err); /* status of all files so far */
   return status;
 }
 
+ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {
+  ZpStatus status = write_summary(report, false, file, err);
+  if (status != ZP_OK || !report->rows) return status;
+  return report->rows->status(report->rows->user, err); /* status of all files so far */
+}
+
 ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err) {
-  json_t *summary = summary_of(report);
-  if (!summary) return zp_fail_memory(err);
-  ZpStatus status = zp_json_write_line(summary, file, err);
-  json_decref(summary);
-  return status;
+  return write_summary(report, true, file, err);
 }

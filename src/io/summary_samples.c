@@ -4,7 +4,6 @@
 
 #include "io/cases.h"
 #include "io/report.h"
-#include "io/sampled.h"
 #include "io/summary.h"
 #include "sample/statistics.h"
 

@@ -233,10 +233,8 @@ static ZpStatus read_value_root(Walk *walk, struct fy_event *event) {
   return read_node(walk, event, 0, walk->line);
 }
 
-typedef ZpStatus (*ReadRoot)(Walk *walk, struct fy_event *event);
-
 /* One document, or none, and nothing after it. */
-static ZpStatus read_stream(Walk *walk, ReadRoot root) {
+static ZpStatus read_stream(Walk *walk, bool is_value) {
   ZpStatus status = expect(walk, FYET_STREAM_START, "not YAML");
   if (status != ZP_OK) return status;
   struct fy_event *event = next_event(walk, &status);
@@ -246,7 +244,7 @@ static ZpStatus read_stream(Walk *walk, ReadRoot root) {
   if (empty) return ZP_OK;
   event = next_event(walk, &status);
   if (!event) return status;
-  status = root(walk, event);
+  status = is_value ? read_value_root(walk, event) : read_root(walk, event);
   fy_parser_event_free(walk->parser, event);
   if (status == ZP_OK) status = expect(walk, FYET_DOCUMENT_END, "not YAML");
   if (status == ZP_OK) status = expect(walk, FYET_STREAM_END, "more than one document");
@@ -293,46 +291,37 @@ static ZpStatus open_parser(Walk *walk, const char *text, size_t size) {
   return ZP_OK;
 }
 
-static ZpStatus parse(Walk *walk, const char *text, size_t size, ReadRoot root) {
+static ZpStatus parse(Walk *walk, const char *text, size_t size, bool is_value) {
   ZpStatus status = open_parser(walk, text, size);
-  if (status == ZP_OK) status = read_stream(walk, root);
+  if (status == ZP_OK) status = read_stream(walk, is_value);
   if (walk->parser) fy_parser_destroy(walk->parser);
   fy_diag_destroy(walk->diag);
   free(walk->words);
   return status;
 }
 
-static ZpStatus read_text(const ZpSource *source, const char *text, size_t size, ReadRoot root, ZpYamlVisit visitor,
-                          void *user, ZpError *err) {
+ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, bool is_value, ZpYamlVisit visitor,
+                      void *user, ZpError *err) {
   ZpGuard guard;
   ZpStatus status = check_text(source, text, size, err);
   if (status == ZP_OK) status = zp_guard_enter(&guard, "libfyaml", ROOM + 4 * size, err);
   if (status != ZP_OK) return status;
   Walk walk = {.source = source, .visit = visitor, .user = user, .err = err, .line = 1};
-  status = parse(&walk, text, size, root);
+  status = parse(&walk, text, size, is_value);
   zp_guard_leave(&guard);
   return status;
 }
 
-ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visitor, void *user,
-                      ZpError *err) {
-  return read_text(source, text, size, read_root, visitor, user, err);
-}
-
-ZpStatus zp_yaml_read_value(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visitor, void *user,
-                            ZpError *err) {
-  return read_text(source, text, size, read_value_root, visitor, user, err);
-}
-
-size_t zp_yaml_group(const char *name) {
+/* Length of the group in the name of a key: 6 in "ribbon.length", 0 in "gravity". */
+static size_t group_of(const char *name) {
   const char *point = strrchr(name, '.');
   return point ? (size_t)(point - name) : 0;
 }
 
 int zp_yaml_write_key(FILE *file, const char *name, const char *before) {
-  size_t group = zp_yaml_group(name);
+  size_t group = group_of(name);
   if (group == 0) return fprintf(file, "%s: ", name);
-  bool same = before && zp_yaml_group(before) == group && strncmp(name, before, group) == 0;
+  bool same = before && group_of(before) == group && strncmp(name, before, group) == 0;
   if (!same) fprintf(file, "%.*s:\n", (int)group, name);
   return fprintf(file, "  %s: ", name + group + 1);
 }

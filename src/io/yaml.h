@@ -2,6 +2,7 @@
 #ifndef ZP_IO_YAML_H
 #define ZP_IO_YAML_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
 
@@ -30,14 +31,10 @@ typedef struct ZpYamlItem {
 /* Takes an item; a status other than ZP_OK ends the reading. */
 typedef ZpStatus (*ZpYamlVisit)(void *user, const ZpYamlItem *item, ZpError *err);
 
-/* Visit all items of a text that is a mapping or empty. ZP_BAD_INPUT gives the place where it is not YAML, or uses YAML
- * that a scenario does not need. */
-ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visit, void *user,
-                      ZpError *err);
-
-/* The same for a text that is one word or one list. */
-ZpStatus zp_yaml_read_value(const ZpSource *source, const char *text, size_t size, ZpYamlVisit visit, void *user,
-                            ZpError *err);
+/* Visit all items of a text that is a mapping or empty, with `is_value` of one that is one word or one list.
+ * ZP_BAD_INPUT gives the place where it is not YAML, or uses YAML that a scenario does not need. */
+ZpStatus zp_yaml_read(const ZpSource *source, const char *text, size_t size, bool is_value, ZpYamlVisit visit,
+                      void *user, ZpError *err);
 
 /* Write the start of a line for the key `name`, "  length: ", and before it "ribbon:" where `before`, the
  * key written last or NULL, is of another group. Returns the width of what is on the line. */
@@ -45,8 +42,5 @@ int zp_yaml_write_key(FILE *file, const char *name, const char *before);
 
 /* Write `text`, which has no control characters, between double quotes. */
 void zp_yaml_write_text(FILE *file, const char *text);
-
-/* Length of the group in the name of a key: 6 in "ribbon.length", 0 in "gravity". */
-size_t zp_yaml_group(const char *name);
 
 #endif
