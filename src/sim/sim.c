@@ -1,4 +1,4 @@
-/* A run: steps, events, records, and the reasons why it ends. */
+/* A run: its creation, its steps one after the other, records, and the reasons why it ends. */
 #include <zipact/sim.h>
 
 #include <math.h>
@@ -251,360 +251,13 @@ void zp_sim_destroy(ZpSim *sim) {
   zp_free(sim);
 }
 
-void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
-  sim->series = series;
-  sim->shapes = shapes;
-}
-
-/* -- the voltage ----------------------------------------------------------------------------------- */
-
 ZpSim *zp_sim_loaded(ZpSim *sim) {
   return zp_shares_load(sim->model) ? sim : sim + sim->members - 1;
 }
 
-/* A change of the load that is due now comes before the next step. */
-static double next_change(const ZpSim *sim) {
-  double due = zp_sim_load_due(sim);
-  return due > sim->state->t ? due : INFINITY;
-}
-
-double zp_sim_next_corner(ZpSim *sim) {
-  const ZpState *state = sim->state;
-  double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
-                                  : zp_waveform_next_corner(&sim->model->waveform, state->t);
-  double load = fmin(next_change(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
-  return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
-}
-
-/* Longest step, s, for an input that a program sets and whose size matters from `least` on; never so short that time
- * stands still. */
-static double hand_resolution(const ZpRamp *ramp, double least, double t) {
-  static const double shortest = 1e-9; /* s */
-  double largest = fmax(least, fabs(zp_ramp_value(ramp, t)));
-  return fmax(zp_ramp_resolution(largest, zp_ramp_rate(ramp, t)), shortest);
-}
-
-/* Longest step for all that changes from outside the actuator, s. */
-static double resolution(ZpSim *sim) {
-  static const double least_voltage = 1e3; /* V */
-  const ZpModel *model = sim->model;
-  const ZpState *state = sim->state;
-  const ZpWaveform *waveform = &model->waveform;
-  double t = state->t, usual = fmax(least_voltage, zp_waveform_largest(waveform));
-  double voltage =
-      state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
-  if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_feed_resolution(sim, usual));
-  if (model->leaks) voltage = fmin(voltage, zp_ramp_resolution(usual, zp_sim_leak(sim).fastest));
-  return fmin(voltage, hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(model), t));
-}
-
-/* Jump to a voltage. Fields and stresses before a jump count, like those after it. */
-static void jump_to(ZpSim *sim, double voltage) {
-  if (voltage != sim->state->U) zp_sim_see_one(sim);
-  zp_sim_jump(sim, voltage);
-}
-
-/* The voltage at the time that a step has reached. An explicit step has used the voltage of its start throughout. */
-static void follow_voltage(ZpSim *sim) {
-  if (sim->dynamics.source) return;
-  const ZpWaveform *waveform = &sim->model->waveform;
-  ZpState *state = sim->state;
-  if (state->by_hand) {
-    zp_sim_glide(sim, zp_ramp_value(&state->voltage_input, state->t));
-    return;
-  }
-  zp_sim_glide(sim, zp_waveform_voltage_before(waveform, state->t));
-  jump_to(sim, zp_waveform_voltage(waveform, state->t));
-}
-
-/* Before a motion: complete a jump of the voltage, and update what is held over several steps. If this fails there is
- * no step: a field that cannot be solved ends the run. */
-static bool prepare_step(ZpSim *sim) {
-  ZpState *state = sim->state;
-  if (state->U != state->base_U) zp_sim_close_account(sim);
-  if (!zp_held_due(sim->model, state)) return true;
-  double charge = zp_sim_is_fed(sim) ? zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge : 0;
-  if (zp_held_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND) return false;
-  if (zp_sim_is_fed(sim)) zp_feed_renew(sim, charge);
-  return true;
-}
-
-/* -- one step ------------------------------------------------------------------------------------- */
-
-static double opening(const ZpModel *model, const ZpState *state) {
-  return zp_opening(&model->topology, zp_state_motion(model, state).y);
-}
-
-static bool is_open(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) > zp_closed_opening(model, state->opening0);
-}
-
-static bool started_open(const ZpSim *sim) {
-  return sim->step_start.opening > zp_closed_opening(sim->model, sim->state->opening0);
-}
-
-/* Is it closed, after it was open? An actuator that starts closed, as straight ribbons do, has to open first. */
-static bool is_zipped(const ZpModel *model, const ZpState *state) {
-  size_t margin = (size_t)model->def.contact.complete_margin;
-  if (!state->was_open) return false;
-  if (margin) return state->zip.front + margin >= model->topology.platform.first;
-  return state->opening0 > 0 && (state->zip.platform || !is_open(model, state));
-}
-
-/* Has it closed for the first time? In sequential contact without a margin also the platform has to arrive or turn
- * back. */
-static bool has_closed(const ZpModel *model, const ZpState *state) {
-  if (isnan(state->zip_time)) return false;
-  if (model->def.contact.complete_margin || model->def.contact.model != ZP_CONTACT_SEQUENTIAL) return true;
-  return state->zip.platform || zp_platform_middle(&model->topology, zp_state_motion(model, state).vy) <= 0;
-}
-
-/* A run ends once its actuator has stayed closed, and hardly moved, for a while => how far it is from that, m;
- * INFINITY: it is open. */
-static double left_to_rest(const ZpState *state) {
-  static const double at_rest = 1e-4; /* of the contraction */
-  const double least = at_rest * state->opening0, due = state->closed_from + ZP_STILL_TIME;
-  if (isnan(state->closed_from)) return INFINITY;
-  double range = zp_still_range(&state->still, state->closed_from, state->t);
-  return fmax(range - least, least * (due - state->t) / ZP_STILL_TIME);
-}
-
-/* Has it stayed closed, and hardly moved, for a while? Sequential contact never opens, so there closing is enough. */
-static bool stays_closed(const ZpModel *model, const ZpState *state) {
-  if (model->def.contact.model == ZP_CONTACT_SEQUENTIAL) return has_closed(model, state);
-  return left_to_rest(state) <= 0;
-}
-
-/* A series has closed when all its members have; antagonists have when one has. */
-static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, const ZpState *state)) {
-  if (zp_is_opposed(sim->model)) return holds(sim->model, sim->state) || holds(sim[1].model, sim[1].state);
-  for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    if (!holds(m->model, m->state)) return false;
-  return true;
-}
-
-/* Of one of two antagonists, the earlier; else of all members, the last. */
-static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
-  double last = instant(sim->state);
-  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim[1].state));
-  for (const ZpSim *m = sim + 1; m < sim + sim->members; m++)
-    last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
-  return last;
-}
-
-bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
-  if (stop == ZP_STOP_AT_END || !sim->model->field) return false;
-  return is_true_of(sim, stop == ZP_STOP_CLOSED ? has_closed : stays_closed);
-}
-
-/* Distance of bare electrodes from a touch, m; INFINITY where none matters. */
-static double left_to_short(const ZpModel *model, const ZpState *state) {
-  if (state->U == 0 || !model->field || zp_insulation(&model->def) > 0) return INFINITY;
-  return zp_plates_least_gap(&model->plates, zp_state_motion(model, state).y) - model->faces.depth;
-}
-
-/* Do electrodes without an insulator touch under a voltage? Members of a stack are pairs, which are refused without
- * one: they touch at the clip. */
-static bool shorted(const ZpSim *sim) {
-  return left_to_short(sim->model, sim->state) <= 0;
-}
-
-static ZpStepStart start_of(const ZpModel *model, const ZpState *state) {
-  ZpMotion motion = zp_state_motion(model, state);
-  return (ZpStepStart){state->t, zp_opening(&model->topology, motion.y), zp_opening(&model->topology, motion.vy)};
-}
-
-/* When the actuator closes: on the parabola of the midpoint rule, which has the opening and its rate at the start and
- * the opening at the end. */
-static double crossing(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  double now = opening(model, state), left = start.opening - zp_closed_opening(model, state->opening0),
-         taken = state->t - start.t;
-  double bend = ((now - start.opening) / taken - start.rate) / taken;
-  return start.t + 2 * left / (sqrt(fmax(start.rate * start.rate - 4 * bend * left, 0)) - start.rate);
-}
-
-double zp_sim_crossing(const ZpSim *sim) {
-  return crossing(sim->model, sim->state, sim->step_start);
-}
-
-/* Was that instant within the last step? */
-static bool crosses(const ZpModel *model, const ZpState *state, ZpStepStart start) {
-  return start.opening > zp_closed_opening(model, state->opening0) && !is_open(model, state);
-}
-
-void zp_sim_close(ZpSim *sim, ZpOpeningAt start) {
-  ZpState *state = sim->state;
-  state->closed_from = start.t;
-  zp_still_begin(&state->still, start.opening);
-  zp_still_follow(&state->still, start.t, start, (ZpOpeningAt){state->t, opening(sim->model, state)});
-}
-
-/* Has the last step closed the actuator, or opened it again? */
-static void note_closing(ZpSim *sim) {
-  const ZpModel *model = sim->model;
-  ZpState *state = sim->state;
-  state->was_open |= started_open(sim) || is_open(model, state);
-  const bool zipped = is_zipped(model, state), begins = zipped && isnan(state->closed_from);
-  if (!zipped) state->closed_from = NAN;
-  bool within = !sim->stepping->fine && crosses(model, state, sim->step_start);
-  double since = within ? zp_sim_crossing(sim) : state->t;
-  if (zipped && isnan(state->zip_time) && state->U != 0) state->zip_time = since;
-  if (!zipped || isnan(state->zip_time)) return;
-  const ZpOpeningAt start = {sim->step_start.t, sim->step_start.opening}, now = {state->t, opening(model, state)};
-  if (begins)
-    zp_sim_close(sim, within ? (ZpOpeningAt){since, zp_closed_opening(model, state->opening0)} : now);
-  else
-    zp_still_follow(&state->still, state->closed_from, start, now);
-}
-
-/* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the
- * insulators. Ribbons that have been closed from the start have no front. */
-static void note_starving(ZpSim *sim, const ZpMovingMember *moved) {
-  const ZpModel *model = sim->model;
-  ZpState *state = sim->state;
-  bool zips = state->U != 0 && state->was_open && isnan(state->zip_time);
-  if (!isnan(state->starved_time) || !zips) return;
-  const double *gap = moved->eval.plates.gap;
-  for (int half = 0; half < zp_beads(&model->film); half++) {
-    ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);
-    if (zp_bead_at(&end, gap) < model->plates.d) state->starved_time = state->t;
-  }
-}
-
-static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, double end_time) {
-  if (sim->state->t >= corner) return ZP_LIMIT_EVENT;
-  return limit != ZP_LIMIT_EVENT && sim->state->t >= end_time ? ZP_LIMIT_END : limit;
-}
-
-/* Prepare all members of a series before a motion. */
-bool zp_sim_prepare(ZpSim *sim) {
-  for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    if (zp_is_pair(&m->model->topology)) m->step_start = start_of(m->model, m->state);
-    sim->stuck = !prepare_step(m);
-    if (sim->stuck) return false;
-  }
-  return true;
-}
-
-/* And where a step has ended. */
-void zp_sim_arrive(ZpSim *sim) {
-  for (size_t k = 0; k < sim->members; k++) {
-    ZpSim *m = sim + k;
-    follow_voltage(m);
-    if (zp_is_pair(&m->model->topology)) note_closing(m);
-    if (m->model->has_bead) note_starving(m, &sim->dynamics.member[k]);
-  }
-}
-
-/* -- where a run ends within a step --------------------------------------------------------------- */
-
-static double left_to_close(const ZpModel *model, const ZpState *state) {
-  return opening(model, state) - zp_closed_opening(model, state->opening0);
-}
-
-static double left_of(const ZpSim *m, ZpLanding landing) {
-  if (landing == ZP_LANDS_SHORTED) return left_to_short(m->model, m->state);
-  if (landing == ZP_LANDS_RESTED) return left_to_rest(m->state);
-  return left_to_close(m->model, m->state);
-}
-
-double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
-  const bool first = landing == ZP_LANDS_SHORTED || zp_is_opposed(sim->model);
-  double left = first ? INFINITY : -INFINITY;
-  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
-    if (first)
-      left = fmin(left, left_of(m, landing));
-    else if (landing == ZP_LANDS_RESTED || isnan(m->before->zip_time)) /* after closing it may have opened again */
-      left = fmax(left, left_of(m, landing));
-  }
-  return left;
-}
-
-/* The instant within the last step at which the run ends. Where pairs join one by one it is the step's end. */
-static ZpLanding landing_of(const ZpSim *sim) {
-  if (shorted(sim)) return ZP_LANDS_SHORTED;
-  if (!zp_sim_stops(sim, sim->stop)) return ZP_LANDS_NOWHERE;
-  const ZpActuatorDef *def = &sim->model->def;
-  if (sim->stop == ZP_STOP_CLOSED) return def->contact.complete_margin == 0 ? ZP_LANDS_CLOSED : ZP_LANDS_NOWHERE;
-  return def->contact.model == ZP_CONTACT_SEQUENTIAL ? ZP_LANDS_NOWHERE : ZP_LANDS_RESTED;
-}
-
-static void return_to_start(ZpSim *sim, const ZpFeed *feed) {
-  zp_sim_take_states_back(sim);
-  sim->feed = *feed;
-}
-
-/* A step that ends at `latest` or before; false if none was found. */
-static bool take(ZpSim *sim, double latest, ZpStepLimit *limit) {
-  if (!zp_sim_prepare(sim)) return false;
-  sim->stuck = !sim->stepping->step(sim, latest, limit);
-  if (!sim->stuck) zp_sim_arrive(sim);
-  return !sim->stuck;
-}
-
-/* Instants in a step, s, and what is left at them: before and at or after the end of the run. */
-typedef struct Bracket {
-  double early, late, left_early, left_late;
-} Bracket;
-
-/* One trial of the method of false position, in which a point that stays counts half => whether a step was found. */
-static bool narrow(ZpSim *sim, ZpLanding landing, Bracket *b, ZpStepLimit *limit) {
-  if (!take(sim, b->late - b->left_late * (b->late - b->early) / (b->left_late - b->left_early), limit)) return false;
-  double left = zp_sim_left(sim, landing);
-  if (left > 0)
-    *b = (Bracket){sim->state->t, b->late, left, 0.5 * b->left_late};
-  else
-    *b = (Bracket){b->early, sim->state->t, 0.5 * b->left_early, left};
-  return true;
-}
-
-/* Take the last step again until it ends where the run does. */
-static void land(ZpSim *sim, ZpLanding landing, const ZpFeed *feed, ZpStepLimit *limit) {
-  enum { MOST_TRIES = 50 };
-  const double shortest = 1e-15 * sim->state->t, least = 1e-15 * sim->model->L; /* rounding */
-  Bracket b = {.late = sim->state->t, .left_late = zp_sim_left(sim, landing)};
-  return_to_start(sim, feed);
-  b.early = sim->state->t;
-  b.left_early = sim->left_before = zp_sim_left(sim, landing);
-  bool inside = b.left_early > 0 && isfinite(b.left_early);
-  for (int k = 0; k < MOST_TRIES && inside && b.late - b.early > shortest && b.left_late < -least; k++) {
-    if (!narrow(sim, landing, &b, limit)) break;
-    if (sim->state->t != b.late || b.left_late < -least) return_to_start(sim, feed);
-  }
-  if (inside) sim->landing = landing;
-  if (sim->state->t == b.late && !sim->stuck) return;
-  return_to_start(sim, feed);
-  take(sim, b.late, limit);
-}
-
-/* -- a step of a run ------------------------------------------------------------------------------- */
-
-static void step(ZpSim *sim, double end_time, ZpRunInfo *info) {
-  ZpState *state = sim->state;
-  if (sim->rates) zp_run_rates_begin(sim->rates, end_time);
-  if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
-  if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
-  double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
-  const bool fine = sim->stepping->fine;
-  if (!fine) latest = fmin(latest, state->t + resolution(sim));
-  if (zp_sim_is_fed(sim)) {
-    corner = fmin(corner, zp_feed_event(sim, latest));
-    latest = fmin(latest, corner);
-  }
-  const size_t mode = state->supply_mode;
-  const bool unzipped = isnan(zp_sim_zip_time(sim));
-  const ZpFeed feed = sim->feed;
-  ZpStepLimit limit;
-  if (!fine) zp_sim_keep_states(sim);
-  if (!take(sim, latest, &limit)) return;
-  ZpLanding landing = fine ? ZP_LANDS_NOWHERE : landing_of(sim);
-  if (landing != ZP_LANDS_NOWHERE) land(sim, landing, &feed, &limit);
-  if (sim->stuck) return;
-  info->steps++;
-  limit = limit_of(sim, limit, corner, end_time);
-  info->limited[limit]++;
-  if (sim->rates) zp_run_rates_follow(sim->rates);
-  sim->at_event = limit == ZP_LIMIT_EVENT || state->supply_mode != mode || (unzipped && !isnan(zp_sim_zip_time(sim)));
+void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
+  sim->series = series;
+  sim->shapes = shapes;
 }
 
 /* -- a run ---------------------------------------------------------------------------------------- */
@@ -666,7 +319,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
     if (!zp_sim_control(sim)) return ZP_BAD_ARGUMENT;
     keep_before_cut(sim, end_time);
-    step(sim, end_time, info);
+    zp_sim_advance(sim, end_time, info);
     if (sim->stuck) return ZP_DIVERGED;
     if (!sim->stepping->fine && fault_of(sim)) return ZP_BEYOND_MODEL;
     bool sample = recording && state->t >= next_sample;
@@ -684,8 +337,8 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
       if (sim->negative) return ZP_BEYOND_MODEL;
       next_sample += interval * ceil((state->t - next_sample) / interval + 1e-9);
     }
-    if (shorted(sim)) return ZP_SHORT_CIRCUIT;
-    if (zp_sim_stops(sim, sim->stop)) return ZP_ZIPPED;
+    const ZpOutcome end = zp_sim_end(sim);
+    if (end != ZP_REACHED_END) return end;
     if (sim->stops_at_events && sim->at_event) return diverged(sim) ? ZP_DIVERGED : ZP_EVENT;
   }
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
@@ -819,30 +472,6 @@ ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRu
 }
 
 /* -- state ---------------------------------------------------------------------------------------- */
-
-double zp_sim_starved_time(const ZpSim *sim) {
-  return sim->state->starved_time;
-}
-
-static double zip_time(const ZpState *state) {
-  return state->zip_time;
-}
-
-static double closed_from(const ZpState *state) {
-  return state->closed_from;
-}
-
-double zp_sim_zip_time(const ZpSim *sim) {
-  return time_of(sim, zip_time);
-}
-
-double zp_sim_closed_from(const ZpSim *sim) {
-  return time_of(sim, closed_from);
-}
-
-double zp_sim_member_zip_time(const ZpSim *sim, size_t member) {
-  return sim[member - 1].state->zip_time;
-}
 
 static void resume_one(ZpSim *sim) {
   ZpState *state = sim->state;

@@ -49,7 +49,7 @@ const ZpColumn *zp_sample_columns(size_t *count);
 /* From now on add a row to this table for each sample, with the signal without noise; NULL: no table. */
 void zp_sim_keep_samples(ZpSim *sim, ZpTable *samples);
 
-/* A method of time stepping (stepping.c). */
+/* A method of time stepping (step.c). */
 typedef struct ZpStepping {
   /* Allocate what it needs. False if there is no memory. */
   bool (*create)(ZpSim *sim);
@@ -93,9 +93,10 @@ typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_RESTED, ZP_
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
-  ZpState *kept;   /* a copy of a valid state through which a longer run would also pass */
-  ZpState *before; /* a copy of the state at the start of the step */
-  ZpFeed feed;     /* the supply at the electrodes */
+  ZpState *kept;      /* a copy of a valid state through which a longer run would also pass */
+  ZpState *before;    /* a copy of the state at the start of the step */
+  ZpFeed feed;        /* the supply at the electrodes */
+  ZpFeed feed_before; /* the same at the start of the step */
   ZpOwnControl control;
   bool cut;   /* the end of the run has shortened a step since `kept` */
   int drive;  /* the key drive.voltage, which has the range of voltages that a program sets */
@@ -163,6 +164,17 @@ void zp_sim_take_states_back(ZpSim *sim);
 
 /* Update the smallest margins of one member, if margins are followed (sim/margins.h). */
 void zp_sim_see_one(ZpSim *sim);
+
+/* Take one step of a run, at most to `end_time`, and count it (step.c). */
+void zp_sim_advance(ZpSim *sim, double end_time, ZpRunInfo *info);
+
+/* Note which events have happened in the last step of one member (closing.c). */
+void zp_sim_note_end(ZpSim *sim, const ZpMovingMember *moved);
+
+/* How a run ends in the present state; ZP_REACHED_END: it does not. The instant within the last step at which it ends.
+ */
+ZpOutcome zp_sim_end(const ZpSim *sim);
+ZpLanding zp_sim_landing(const ZpSim *sim);
 
 /* Prepare a step before anything moves; false if this fails. Complete a step at its end. */
 bool zp_sim_prepare(ZpSim *sim);
