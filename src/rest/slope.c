@@ -47,19 +47,6 @@ static void set_inputs(ZpStatics *s, int inputs) {
 /* Far above the rounding of forces, far below the change over which any law varies. */
 static const double part = 5e-5;
 
-static void forget(ZpSlope *p) {
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
-    if (p->by.model[k]) zp_statics_destroy(&p->near[k]);
-  zp_near_close(&p->by);
-}
-
-static bool make_statics(ZpSlope *p) {
-  bool made = true;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
-    if (p->by.model[k]) made &= zp_statics_create(p->by.model[k], &p->near[k]);
-  return made;
-}
-
 static size_t carve(ZpSlope *p, void *block) {
   ZpCarver carver = {block, 0};
   size_t stride = p->at->members * p->at->member->model->stride, n = p->at->n;
@@ -77,13 +64,16 @@ ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, int key, ZpError *err) {
   p->memory = zp_calloc(1, carve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   carve(p, p->memory);
-  ZpStatus status = zp_near_open(&p->by, at->member->model, key, part, err);
-  if (status == ZP_OK && !make_statics(p)) status = zp_fail_memory(err);
+  ZpStatus status = zp_near_open(&p->by, at->model, key, part, err);
+  for (int k = 0; k < ZP_NEAR_POINTS && status == ZP_OK; k++)
+    if (p->by.model[k] && !zp_statics_create(p->by.model[k], &p->near[k])) status = zp_fail_memory(err);
   return status;
 }
 
 void zp_slope_close(ZpSlope *p) {
-  forget(p);
+  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    if (p->by.model[k]) zp_statics_destroy(&p->near[k]);
+  zp_near_close(&p->by);
   zp_free(p->memory);
   p->memory = NULL;
 }
@@ -180,7 +170,8 @@ static void stiffness(ZpSlope *p, double *r) {
   zp_statics_system(at).stiffness(at, &p->at->newton.K, r);
 }
 
-static void add_motion_of(ZpSlope *p, size_t which) {
+/* dq/dp less the scaling is in by_key. */
+static void add_motion(ZpSlope *p, size_t which) {
   const ZpRestMember *m = &p->at->member[which];
   const ZpModel *model = m->model;
   const ZpEdges *e = &m->eval.edges;
@@ -194,12 +185,6 @@ static void add_motion_of(ZpSlope *p, size_t which) {
     double dx = x[j + model->s] - x[j], dy = y[j + model->s] - y[j];
     tension[j] += model->rod.S[j] * (e->ux[j] * dx + e->uy[j] * dy);
   }
-}
-
-/* dq/dp less the scaling is in by_key. */
-static void add_motion(ZpSlope *p) {
-  for (size_t which = 0; which < p->at->members; which++)
-    add_motion_of(p, which);
 }
 
 /* The force that holds the platform changes as the platform's equation would change if it were free. */
@@ -219,7 +204,8 @@ bool zp_slope_solve(ZpSlope *p, int inputs) {
   stiffness(p, p->by_key);
   if (!zp_band_factor(&p->at->newton.K)) return false;
   zp_band_solve(&p->at->newton.K, p->by_key);
-  add_motion(p);
+  for (size_t which = 0; which < p->at->members; which++)
+    add_motion(p, which);
   if (!isnan(p->at->opening)) add_reaction(p);
   return true;
 }

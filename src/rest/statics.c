@@ -41,20 +41,6 @@ static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
   return carver.used;
 }
 
-/* Each member is at rest in the frame of the platform that it hangs on. */
-static void hold_upper_platform(ZpTopology *t) {
-  for (size_t k = 0; k < t->joints; k++)
-    if (t->joint[k].kind == ZP_JOINT_LINK) t->joint[k].kind = ZP_JOINT_PLATFORM;
-  if (t->platform.kind == ZP_JOINT_LINK) t->platform.kind = ZP_JOINT_PLATFORM;
-}
-
-static void fill_model(const ZpModel *model, ZpRestMember *m) {
-  *m->own = *model;
-  hold_upper_platform(&m->own->topology);
-  m->own->rod.k0 = m->k0_now;
-  m->k0 = model->rod.k0;
-}
-
 static bool is_held(const ZpStatics *s) {
   return !isnan(s->opening);
 }
@@ -86,8 +72,15 @@ static double factor_of(const ZpStatics *s, size_t which) {
   return which > 0 && s->distance > 0 ? -1 : 1;
 }
 
+/* Each member is at rest in the frame of the platform that it hangs on. */
 static bool create_member(const ZpModel *model, ZpRestMember *m) {
-  fill_model(model, m);
+  *m->own = *model;
+  ZpTopology *t = &m->own->topology;
+  for (size_t k = 0; k < t->joints; k++)
+    if (t->joint[k].kind == ZP_JOINT_LINK) t->joint[k].kind = ZP_JOINT_PLATFORM;
+  if (t->platform.kind == ZP_JOINT_LINK) t->platform.kind = ZP_JOINT_PLATFORM;
+  m->own->rod.k0 = m->k0_now;
+  m->k0 = model->rod.k0;
   return zp_system_create(m->model, true, &m->eval) && zp_assembly_create(m->model, 0, model->is_rod, &m->assembly);
 }
 
@@ -111,7 +104,8 @@ static void number(const ZpModel *model, ZpStatics *s) {
 }
 
 bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
-  *s = (ZpStatics){.members = model->members,
+  *s = (ZpStatics){.model = model,
+                   .members = model->members,
                    .shared = zp_shares_load(model),
                    .distance = model->distance,
                    .force = zp_lowest(model)->def.load.force};
@@ -175,11 +169,6 @@ static void go_to_kept(ZpStatics *s) {
     memcpy(s->member[k].q, s->member[k].good, 2 * s->member[k].model->stride * sizeof *s->member[k].q);
 }
 
-static void slacken(ZpStatics *s) {
-  for (size_t k = 0; k < s->members; k++)
-    memset(s->member[k].tension, 0, s->member[k].model->stride * sizeof *s->member[k].tension);
-}
-
 void zp_statics_take_tensions(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++)
     memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
@@ -206,7 +195,8 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
       keep(s);
     } else {
       go_to_kept(s);
-      slacken(s);
+      for (size_t k = 0; k < s->members; k++)
+        memset(s->member[k].tension, 0, s->member[k].model->stride * sizeof *s->member[k].tension);
       step *= 0.25;
     }
   }
@@ -233,22 +223,16 @@ static bool member_has_jumped(const ZpRestMember *m) {
   return false;
 }
 
-/* Has the load moved by so much? */
-static bool load_has_jumped(const ZpStatics *s) {
+/* Has a member, or the load? */
+static bool has_jumped(const ZpStatics *s) {
   static const double part = 0.02; /* of the length, or of what both openings of antagonists sum up to */
   bool jumped = false;
   for (size_t k = 0; k < s->members; k++) {
     const ZpRestMember *m = &s->member[k];
     double before = zp_opening(&m->model->topology, m->good + m->model->stride);
     jumped |= fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
+    jumped |= member_has_jumped(m);
   }
-  return jumped;
-}
-
-static bool has_jumped(const ZpStatics *s) {
-  bool jumped = load_has_jumped(s);
-  for (size_t k = 0; k < s->members; k++)
-    jumped |= member_has_jumped(&s->member[k]);
   return jumped;
 }
 
@@ -467,17 +451,13 @@ double zp_statics_member_voltage(const ZpStatics *s, size_t which) {
   return which == 0 || !s->shared ? s->U : first->ratio * s->U + s->bias * first->bias;
 }
 
-static bool is_shorted(const ZpRestMember *m, double U) {
-  const ZpModel *model = m->model;
-  if (U == 0 || !model->field || zp_insulation(&model->def) > 0) return false;
-  return zp_plates_least_gap(&model->plates, m->q + model->stride) < model->faces.depth;
-}
-
 bool zp_statics_shorted(const ZpStatics *s) {
-  bool shorted = false;
-  for (size_t k = 0; k < s->members; k++)
-    shorted |= is_shorted(&s->member[k], zp_statics_member_voltage(s, k));
-  return shorted;
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpModel *model = s->member[k].model;
+    if (zp_statics_member_voltage(s, k) == 0 || !model->field || zp_insulation(&model->def) > 0) continue;
+    if (zp_plates_least_gap(&model->plates, s->member[k].q + model->stride) < model->faces.depth) return true;
+  }
+  return false;
 }
 
 const char *zp_statics_trouble(const ZpStatics *s) {
@@ -1009,19 +989,16 @@ static void move(void *self, const double *step, double fraction) {
   meet(s);
 }
 
-/* Where the liquid is at these positions, for the field that is solved there. */
-static void lay_bead(ZpRestMember *m) {
-  const ZpModel *model = m->model;
-  if (!model->has_bead) return;
-  zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
-  zp_eval_reach(model, m->eval.plates.gap, NULL, m->eval.reach);
-  zp_eval_cover(model, m->eval.reach, &m->eval);
-}
-
+/* With the liquid where it is at these positions. */
 static bool solve_field(ZpRestMember *m, double U) {
+  const ZpModel *model = m->model;
   if (U == 0) return true;
-  lay_bead(m);
-  return zp_system_solve(m->model, m->q, U, &m->eval);
+  if (model->has_bead) {
+    zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
+    zp_eval_reach(model, m->eval.plates.gap, NULL, m->eval.reach);
+    zp_eval_cover(model, m->eval.reach, &m->eval);
+  }
+  return zp_system_solve(model, m->q, U, &m->eval);
 }
 
 static ZpEnd refresh(void *self) {

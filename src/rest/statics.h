@@ -26,6 +26,7 @@ typedef struct ZpRestMember {
 } ZpRestMember;
 
 typedef struct ZpStatics {
+  const ZpModel *model; /* the given one: the first of its members */
   size_t members;       /* actuators that are one system */
   ZpRestMember *member; /* [members]; from the uppermost down */
   bool shared;          /* they have one load: its height is an unknown of all. In series each has its own frame */

@@ -324,12 +324,6 @@ static double moment_slope(Holder *h, ZpSlope *slope) {
   return h->at.model->parts * (slope->reaction * arm + reaction * zp_slope_of(slope, lever, NULL));
 }
 
-/* Of what a fold has beside. */
-static void derive_fold(ZpSlope *slope, double torque, bool found, ZpResult *r) {
-  zp_result_add_sensitivity(r, "torque_N_m", slope->key, torque);
-  zp_result_add_sensitivity(r, "angle_rad", slope->key, found ? zp_slope_of(slope, zp_output_angle, NULL) : NAN);
-}
-
 /* From the state at drive.voltage, `near` being a copy of it. */
 static void derive(void *user, ZpSlope *slope, ZpResult *r) {
   static const struct {
@@ -349,7 +343,9 @@ static void derive(void *user, ZpSlope *slope, ZpResult *r) {
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
     zp_result_add_sensitivity(r, others[k].name, slope->key, found ? zp_slope_of(slope, others[k].output, NULL) : NAN);
-  if (zp_is_hinge(&h->at.model->topology)) derive_fold(slope, torque, found, r);
+  if (!zp_is_hinge(&h->at.model->topology)) return;
+  zp_result_add_sensitivity(r, "torque_N_m", slope->key, torque);
+  zp_result_add_sensitivity(r, "angle_rad", slope->key, found ? zp_slope_of(slope, zp_output_angle, NULL) : NAN);
 }
 
 /* Is it a key of the load? That is removed, so nothing depends on it. */

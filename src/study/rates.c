@@ -18,67 +18,46 @@ ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err) {
 
 /* -- numbers --------------------------------------------------------------------------------------- */
 
-static bool any(const ZpModel *model) {
-  (void)model;
-  return true;
-}
+/* Models that have a number. */
+typedef enum Of { ANY, PAIRS, TURNING, WITH_FIELD, FED, WITH_FILM, WITH_BEAD, LEAKING, DAMPED } Of;
 
-static bool is_pair(const ZpModel *model) {
-  return zp_is_pair(&model->topology);
-}
-
-static bool turns(const ZpModel *model) {
-  return zp_has_angle(&model->topology);
-}
-
-static bool has_field(const ZpModel *model) {
-  return model->field;
-}
-
-static bool is_fed(const ZpModel *model) {
-  return model->supply.acts;
-}
-
-static bool has_film(const ZpModel *model) {
-  return model->has_film;
-}
-
-static bool has_bead(const ZpModel *model) {
-  return model->has_bead;
-}
-
-static bool leaks(const ZpModel *model) {
-  return model->leaks;
-}
-
-static bool is_damped(const ZpModel *model) {
-  return model->internal_damping > 0;
+static bool is_of(const ZpModel *model, Of of) {
+  const bool is[] = {[ANY] = true,
+                     [PAIRS] = zp_is_pair(&model->topology),
+                     [TURNING] = zp_has_angle(&model->topology),
+                     [WITH_FIELD] = model->field,
+                     [FED] = model->supply.acts,
+                     [WITH_FILM] = model->has_film,
+                     [WITH_BEAD] = model->has_bead,
+                     [LEAKING] = model->leaks,
+                     [DAMPED] = model->internal_damping > 0};
+  return is[of];
 }
 
 /* Numbers at the end of a run: their name, the signal, of which models. */
 typedef struct EndNumber {
   const char *name, *unit, *signal;
-  bool (*has)(const ZpModel *model);
+  Of of;
 } EndNumber;
 
-static const EndNumber at_end[] = {{"opening_m", "m", "opening", is_pair},
-                                   {"contraction", "1", "contraction", is_pair},
-                                   {"angle_rad", "rad", "angle", turns},
-                                   {"stroke_m", "m", "stroke", any},
-                                   {"internal_loss_J", "J", "internal_loss", is_damped},
-                                   {"contact_loss_J", "J", "contact_loss", has_field},
-                                   {"viscous_loss_J", "J", "viscous_loss", has_film},
-                                   {"film_along_loss_J", "J", "film_along_loss", has_film},
-                                   {"film_across_loss_J", "J", "film_across_loss", has_film},
-                                   {"jet_loss_J", "J", "jet_loss", has_film},
-                                   {"outer_drag_loss_J", "J", "outer_drag_loss", has_film},
-                                   {"meniscus_loss_J", "J", "meniscus_loss", has_bead},
-                                   {"wet_length_m", "m", "wet_length", has_bead},
-                                   {"electric_work_J", "J", "electric_work", has_field},
-                                   {"charge_C", "C", "charge", has_field},
-                                   {"source_energy_J", "J", "source_energy", has_field},
-                                   {"source_loss_J", "J", "source_loss", is_fed},
-                                   {"leak_loss_J", "J", "leak_loss", leaks}};
+static const EndNumber at_end[] = {{"opening_m", "m", "opening", PAIRS},
+                                   {"contraction", "1", "contraction", PAIRS},
+                                   {"angle_rad", "rad", "angle", TURNING},
+                                   {"stroke_m", "m", "stroke", ANY},
+                                   {"internal_loss_J", "J", "internal_loss", DAMPED},
+                                   {"contact_loss_J", "J", "contact_loss", WITH_FIELD},
+                                   {"viscous_loss_J", "J", "viscous_loss", WITH_FILM},
+                                   {"film_along_loss_J", "J", "film_along_loss", WITH_FILM},
+                                   {"film_across_loss_J", "J", "film_across_loss", WITH_FILM},
+                                   {"jet_loss_J", "J", "jet_loss", WITH_FILM},
+                                   {"outer_drag_loss_J", "J", "outer_drag_loss", WITH_FILM},
+                                   {"meniscus_loss_J", "J", "meniscus_loss", WITH_BEAD},
+                                   {"wet_length_m", "m", "wet_length", WITH_BEAD},
+                                   {"electric_work_J", "J", "electric_work", WITH_FIELD},
+                                   {"charge_C", "C", "charge", WITH_FIELD},
+                                   {"source_energy_J", "J", "source_energy", WITH_FIELD},
+                                   {"source_loss_J", "J", "source_loss", FED},
+                                   {"leak_loss_J", "J", "leak_loss", LEAKING}};
 enum { AT_END = sizeof at_end / sizeof at_end[0] };
 
 static double signal_of(ZpSim *sim, const void *name) {
@@ -117,14 +96,14 @@ static void add_currents(const ZpRunRates *rates, size_t k, ZpResult *result) {
 static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
   const ZpModel *model = rates->sim->model;
   int key = rates->key[k].by.key;
-  if (is_pair(model)) {
+  if (is_of(model, PAIRS)) {
     zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
     zp_result_add_sensitivity(result, "closed_from_s", key, rate_of_closed_from(rates, k, result));
   }
   for (size_t i = 0; i < AT_END; i++)
-    if (at_end[i].has(model))
+    if (is_of(model, at_end[i].of))
       zp_result_add_sensitivity(result, at_end[i].name, key, rate_at_end(rates, k, result, at_end[i].signal));
-  if (is_fed(model)) add_currents(rates, k, result);
+  if (is_of(model, FED)) add_currents(rates, k, result);
 }
 
 /* What ends the derivatives by all keys ends them at once. */
@@ -156,7 +135,7 @@ double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
 }
 
 static void add_value(const ZpRunRates *rates, const EndNumber *number, ZpResult *result) {
-  if (!number->has(rates->sim->model) || zp_result_has(result, number->name)) return;
+  if (!is_of(rates->sim->model, number->of) || zp_result_has(result, number->name)) return;
   zp_result_add(result, number->name, number->unit, zp_at_end(rates->sim, result, number->signal));
 }
 

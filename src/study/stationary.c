@@ -39,11 +39,6 @@ static void fill_rows(const ZpStatics *s, size_t which, const ZpShape *shape, Zp
   }
 }
 
-static void fill_table(const ZpStatics *s, const ZpShape *shape, ZpTable *table) {
-  for (size_t which = 0; which < s->members; which++)
-    fill_rows(s, which, shape, table);
-}
-
 static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
   switch (end) {
   case ZP_NEWTON_CONVERGED:
@@ -94,7 +89,8 @@ static void run(ZpEquilibria *at) {
   zp_add_stress(result, at->model, &at->margins);
   zp_note_mesh(result, at->model, 0);
   if (!found) return;
-  fill_table(s, &shape, result->series);
+  for (size_t which = 0; which < s->members; which++)
+    fill_rows(s, which, &shape, result->series);
   zp_shapes_offer(result->shapes, &shape);
 }
 
