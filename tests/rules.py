@@ -557,26 +557,17 @@ def rule_one_sum(repo, files):
 
 # Where x and y of a node stand in an array is known to actuator/ and to the kernels below it, which get arrays. All
 # others read and write views (zp_nodes, zp_forces). These files do not yet; a file leaves the list for good.
-LAYOUT = re.compile(r"\bstride\b|\[2 \* \w+( \+ \w+)?\]")
+LAYOUT = re.compile(r"\bstride\b|\[2 \* [ijk]( \+ \w+)?\]")
 SEES_VIEWS = ("device", "term", "system", "rest", "sim", "study")
 KNOWS_LAYOUT = {
-    "src/rest/crossing.c": 1,
     "src/rest/dynamics.c": 13,
     "src/rest/plant.c": 16,
     "src/rest/series_mass.c": 1,
-    "src/rest/slope.c": 17,
     "src/rest/statics.c": 51,
     "src/sim/paper_motion.c": 15,
-    "src/sim/record.c": 1,
-    "src/sim/run_rates.c": 1,
-    "src/sim/settle.c": 8,
-    "src/sim/sim.c": 5,
     "src/sim/snapshot.c": 3,
-    "src/sim/take_over.c": 1,
-    "src/study/cycle.c": 1,
     "src/study/faces.c": 5,
     "src/study/profile.c": 1,
-    "src/study/sense.c": 1,
 }
 
 
@@ -589,6 +580,18 @@ def rule_views(repo, files):
         where = "%s:%d" % (name, found[-1] if found else 1)
         yield len(found) <= KNOWS_LAYOUT.get(name, 0), where, "knows where x and y of a node stand: use zp_nodes or zp_forces"
         yield bool(found) or name not in KNOWS_LAYOUT, where, "needs no line in KNOWS_LAYOUT of tests/rules.py any more"
+
+
+# Clients of the public interface, which does not say what a kind has.
+ASKS_FOR_KIND = {"src/fit/sets.c", "src/io/plot_data.c"}
+
+
+def rule_kinds(repo, files):
+    """Which kind an actuator is, nobody asks: what its device has is in its file of src/device/."""
+    for name in files:
+        if name.startswith("src/") and name.endswith((".c", ".h")) and name not in ASKS_FOR_KIND:
+            found = re.search(r"\bZP_KIND_[A-Z]", code_of(read(repo, name)))
+            yield not found, name + ":1", "asks for a kind of actuator: ask for what its device has (ZP_HAS, zp_def_has)"
 
 
 # Phrases over which native speakers stumble, and what to say instead.
@@ -638,6 +641,7 @@ RULES = [
     rule_a_study_is_known_to_its_own_file,
     rule_one_sum,
     rule_views,
+    rule_kinds,
     rule_readme_is_short,
     rule_plain_words,
 ]

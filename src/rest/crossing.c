@@ -9,7 +9,7 @@ typedef struct Point {
 /* A node of one ribbon, 0 the upper one. */
 static Point node(const ZpModel *model, const double *q, size_t ribbon, size_t station) {
   size_t j = model->s * station + ribbon;
-  return (Point){q[j], q[model->stride + j]};
+  return (Point){q[j], zp_nodes(model, q).y[j]};
 }
 
 /* (b - a) x (c - a): positive where c is left of the way from a to b. */

@@ -49,10 +49,10 @@ static const double part = 5e-5;
 
 static size_t carve(ZpSlope *p, void *block) {
   ZpCarver carver = {block, 0};
-  size_t stride = p->at->members * p->at->member->model->stride, n = p->at->n;
-  p->rate = zp_carve(&carver, 2 * stride);
-  p->motion = zp_carve(&carver, p->at->member->model->stride * 2);
-  p->tension = zp_carve(&carver, stride);
+  size_t lanes = p->at->members * zp_lanes(p->at->member->model), n = p->at->n;
+  p->rate = zp_carve(&carver, 2 * lanes);
+  p->motion = zp_carve(&carver, zp_coordinates(p->at->member->model));
+  p->tension = zp_carve(&carver, lanes);
   double **vectors[] = {&p->by_key, &p->by_parameter, &p->row};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_carve(&carver, n);
@@ -82,7 +82,7 @@ void zp_slope_close(ZpSlope *p) {
 
 /* Member k of one in the present state of the other, with its coordinates scaled as its length. */
 static void place_member(const ZpRestMember *at, ZpRestMember *near) {
-  memcpy(near->q, at->q, 2 * at->model->stride * sizeof *near->q);
+  memcpy(near->q, at->q, zp_coordinates(at->model) * sizeof *near->q);
   near->closed = at->closed;
   if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
 }
@@ -105,19 +105,19 @@ static ZpStatics *place(ZpSlope *p, int k) {
 
 /* Where the numbers of a member begin, of `per_node` for each node. */
 static double *of_member(const ZpSlope *p, double *numbers, size_t which, size_t per_node) {
-  return numbers + which * per_node * p->at->member->model->stride;
+  return numbers + which * per_node * zp_lanes(p->at->member->model);
 }
 
 /* Actuator k at the coordinates that the last solution gives. */
 static ZpStatics *place_along(ZpSlope *p, int k) {
   ZpStatics *near = place(p, k);
-  size_t stride = p->at->member->model->stride;
+  size_t lanes = zp_lanes(p->at->member->model);
   for (size_t which = 0; which < near->members; which++) {
     const ZpRestMember *at = &p->at->member[which];
     const double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
-    for (size_t i = 0; i < 2 * stride; i++)
+    for (size_t i = 0; i < 2 * lanes; i++)
       near->member[which].q[i] = at->q[i] + p->by.offset[k] * rate[i];
-    for (size_t j = 0; j < stride; j++)
+    for (size_t j = 0; j < lanes; j++)
       near->member[which].tension[j] = at->tension[j] + p->by.offset[k] * tension[j];
   }
   return near;
@@ -130,9 +130,9 @@ static void residual(ZpStatics *s, double *r) {
 /* Add a member's part of rate and tension, times `weight`. */
 static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, double weight) {
   const ZpRestMember *at = &p->at->member[which];
-  size_t stride = at->model->stride, edges = at->model->count - at->model->s;
+  size_t lanes = zp_lanes(at->model), edges = at->model->count - at->model->s;
   double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
-  for (size_t i = 0; i < 2 * stride; i++)
+  for (size_t i = 0; i < 2 * lanes; i++)
     rate[i] += weight * (near->q[i] - at->q[i]);
   for (size_t j = 0; j < edges; j++)
     tension[j] += weight * near->eval.edges.T[j];
@@ -142,9 +142,9 @@ static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, doub
  * reaction. */
 static void differentiate(ZpSlope *p) {
   ZpStatics *at = p->at;
-  size_t stride = at->members * at->member->model->stride, n = at->n;
-  memset(p->rate, 0, 2 * stride * sizeof *p->rate);
-  memset(p->tension, 0, stride * sizeof *p->tension);
+  size_t lanes = at->members * zp_lanes(at->member->model), n = at->n;
+  memset(p->rate, 0, 2 * lanes * sizeof *p->rate);
+  memset(p->tension, 0, lanes * sizeof *p->tension);
   memset(p->by_key, 0, n * sizeof *p->by_key);
   p->reaction = 0;
   for (int k = 0; k < ZP_NEAR_POINTS; k++) {
@@ -176,10 +176,10 @@ static void add_motion(ZpSlope *p, size_t which) {
   const ZpModel *model = m->model;
   const ZpEdges *e = &m->eval.edges;
   double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
-  const double *x = p->motion, *y = x + model->stride;
-  memset(p->motion, 0, 2 * model->stride * sizeof *p->motion);
+  const double *x = p->motion, *y = zp_nodes(model, x).y;
+  memset(p->motion, 0, zp_coordinates(model) * sizeof *p->motion);
   zp_assembly_scatter(&m->assembly, p->by_key, p->motion); /* what is held stays 0 */
-  for (size_t i = 0; i < 2 * model->stride; i++)
+  for (size_t i = 0; i < zp_coordinates(model); i++)
     rate[i] += p->motion[i];
   for (size_t j = 0; j < model->count - model->s; j++) {
     double dx = x[j + model->s] - x[j], dy = y[j + model->s] - y[j];

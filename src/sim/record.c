@@ -375,7 +375,7 @@ static void join_row(const ZpModel *model, double *row, const double *other) {
 static double force_of(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
-  const double *up = zp_state_mean_a(model, sim->state) + model->stride;
+  const double *up = zp_nodes(model, zp_state_mean_a(model, sim->state)).y;
   double inertia = zp_load_share(model) * model->def.load.mass * zp_load_at(model, up);
   double input = zp_ramp_value(&state->load_input, state->t);
   return zp_load_pull(model) + input + model->parts * (inertia - state->link_force);

@@ -20,7 +20,7 @@ static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *e
   ZpSlope slope;
   ZpStatus status = zp_slope_open(&slope, &rest->statics, key, err);
   if (status == ZP_OK && zp_slope_solve(&slope, ZP_SETS_LOAD)) {
-    memcpy(zp_state_q(model, rate), slope.rate, 2 * model->stride * sizeof *slope.rate);
+    memcpy(zp_state_q(model, rate), slope.rate, zp_coordinates(model) * sizeof *slope.rate);
     rate->opening0 = zp_is_pair(&model->topology) ? zp_slope_of(&slope, zp_output_opening, NULL) : 0;
   }
   zp_slope_close(&slope);
@@ -339,7 +339,8 @@ void zp_run_rates_follow(ZpRunRates *rates) {
   }
 }
 
-double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user), const void *user) {
+double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
+                      const void *user) {
   const ZpKeyRates *of = &rates->key[k];
   double sum = 0;
   for (int i = 0; i < ZP_NEAR_POINTS; i++)

@@ -81,7 +81,7 @@ static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (rest.statics.stopped) sim->settled = ZP_INTERRUPTED;
-    memcpy(q, rest.statics.member->q, 2 * model->stride * sizeof *q);
+    memcpy(q, rest.statics.member->q, zp_coordinates(model) * sizeof *q);
   }
   zp_rest_close(&rest);
   return opened;
@@ -90,7 +90,7 @@ static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
 /* By damped stepping. */
 static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   const ZpModel *model = sim->model;
-  size_t n = 2 * model->stride;
+  size_t n = zp_coordinates(model);
   /* the stroke's error is of the order of the imbalance times the number of nodes */
   double tolerance = fmax(zp_tolerance_at_rest(&model->def), rounding_floor(model));
   Settling settling = {.sim = sim, .hooks = hooks, .tolerance = tolerance};
@@ -106,8 +106,8 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
 static void start_at(ZpSim *sim, const double *q) {
   const ZpModel *model = sim->model;
   ZpSpan there = zp_span_at(q);
-  memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
-  zp_system_force(model, &there, &sim->eval, sim->relax_work + 2 * model->stride);
+  memcpy(zp_state_q(model, sim->state), q, zp_coordinates(model) * sizeof *q);
+  zp_system_force(model, &there, &sim->eval, sim->relax_work + zp_coordinates(model));
   double *strain = zp_law_state(model, &zp_term_rod, sim->state);
   if (strain) memcpy(strain, sim->eval.rod_step.strain_end, zp_rod_plastic_count(&model->rod) * sizeof *q);
 }
@@ -122,7 +122,7 @@ static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
   if (!solve(sim, hooks, q, &found)) return false;
   if (!found && sim->settled == ZP_REACHED_END) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
-  if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
+  if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);
   return true;
 }
@@ -131,7 +131,7 @@ static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
 static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
   const double *q = rest->member[which].q;
-  sim->state->opening0 = zp_opening(&model->topology, q + model->stride);
+  sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   start_at(sim, q);
   if (model->abreast)
@@ -140,11 +140,11 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
 
 /* Lower a member until its upper platform is where the lower one of the member above is. */
 static void hang_below(const ZpSim *above, ZpSim *sim) {
-  double *y = zp_state_q(sim->model, sim->state) + sim->model->stride;
+  double *y = zp_forces(sim->model, zp_state_q(sim->model, sim->state)).y;
   const ZpTopology *t = &sim->model->topology;
   double fall = zp_state_motion(above->model, above->state).y[zp_load_node(&above->model->topology)] -
                 y[zp_upper(t, t->platform.first)];
-  for (size_t j = 0; j < sim->model->stride; j++)
+  for (size_t j = 0; j < zp_lanes(sim->model); j++)
     y[j] += fall;
 }
 

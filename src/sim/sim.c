@@ -68,7 +68,7 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   sim->state = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->before = zp_calloc(1, zp_state_size(model));
-  sim->relax_work = zp_calloc(12 * model->stride, sizeof(double));
+  sim->relax_work = zp_calloc(6 * zp_coordinates(model), sizeof(double));
   sim->row = zp_calloc(signals, sizeof(double));
   zp_sim_place_rows(sim);
   sim->seen = zp_margins_none();
@@ -79,7 +79,7 @@ static bool allocate(ZpSim *sim, bool uppermost) {
 }
 
 static void lay_straight(const ZpModel *model, double *q) {
-  for (size_t j = 0; j < model->stride; j++)
+  for (size_t j = 0; j < zp_lanes(model); j++)
     q[j] = zp_straight_x(model, j / model->s);
 }
 
@@ -98,8 +98,8 @@ void zp_sim_lay_beads(ZpSim *sim) {
 /* Nothing in an actuator is as fast as sound in its steel; numbers beyond this have diverged. */
 static bool has_diverged(const ZpModel *model, const ZpState *state) {
   static const double speed_of_sound = 1e4; /* m/s, rounded up */
-  const double *q = state->data, *v = q + 2 * model->stride;
-  for (size_t j = 0; j < 2 * model->stride; j++)
+  const double *q = state->data, *v = q + zp_coordinates(model);
+  for (size_t j = 0; j < zp_coordinates(model); j++)
     if (!(fabs(v[j]) < speed_of_sound) || !isfinite(q[j])) return true;
   return false;
 }
@@ -223,7 +223,7 @@ ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0) 
   ZpSim *sim = create_straight(model);
   if (!sim) return NULL;
   sim->state->opening0 = opening0;
-  if (q) memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
+  if (q) memcpy(zp_state_q(model, sim->state), q, zp_coordinates(model) * sizeof *q);
   sim->settled = ZP_REACHED_END;
   start(sim);
   return sim;

@@ -68,7 +68,7 @@ static void take_state(ZpSim *sim, const ZpSim *from) {
   double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
   zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)
-    for (size_t j = 0; j < 2 * model->stride; j++)
+    for (size_t j = 0; j < zp_coordinates(model); j++)
       moving[k][j] *= stretch;
   state->opening0 = opening0;
 }
