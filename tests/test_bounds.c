@@ -95,11 +95,11 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
   return strcmp(name, "contraction") == 0;
 }
 
-/* A run that found no start or diverged knows how it ended and how many steps it took, not where it is or what it took
- * to get there. */
+/* What found no state, or diverged, knows how it ended and how many steps it took, not where it is, what it took to get
+ * there or what stress it bears. */
 static bool is_of_the_end(const char *name) {
   size_t length = strlen(name);
-  if (length > 3 && strcmp(name + length - 3, "_m3") == 0) return true;
+  if (length > 3 && (strcmp(name + length - 3, "_m3") == 0 || strcmp(name + length - 3, "_Pa") == 0)) return true;
   return length > 2 && (strcmp(name + length - 2, "_m") == 0 || strcmp(name + length - 2, "_J") == 0);
 }
 
@@ -652,7 +652,7 @@ START_TEST(straight_without_voltage_opens) {
   ZpError err;
   ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
   ck_assert_msg(result->outcome == ZP_REACHED_END, "%s: %s", zp_outcome_name(result->outcome), result->message);
-  ck_assert_double_eq_tol(zp_result_get(result, "opening_m"), 9.81 * 15e-3 * 15e-3 / 2, 0.02e-3);
+  ck_assert_double_eq_tol(zp_result_get(result, "opening_m"), 9.81 * 15e-3 * 15e-3 / 2, 2.9e-6); /* 9.8e-7 measured */
   ck_assert(isnan(zp_result_get(result, "zip_time_s")));
   zp_result_destroy(result);
 }

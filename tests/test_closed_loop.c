@@ -340,7 +340,7 @@ START_TEST(open_loop_is_that_of_modes) {
       if (fabs(open[i].frequency - wanted) < fabs(nearest - wanted)) nearest = open[i].frequency;
     ck_near(nearest, wanted, 3e-8); /* 4.9e-9 measured */
   }
-  ck_near(zp_result_get(modes, "held_voltage_V"), h.rest.statics.U, 1e-9);
+  ck_near(zp_result_get(modes, "held_voltage_V"), h.rest.statics.U, 1e-12); /* 0 measured */
   zp_result_destroy(modes);
   let_go(&h);
 }
@@ -541,7 +541,7 @@ START_TEST(slowest_mode_decays_least) {
     zp_result_destroy(result);
   }
   ck_assert_double_lt(growth[0], 0);
-  ck_near(growth[1], 2 * growth[0], 1e-8); /* 1.7e-9 measured */
+  ck_near(growth[1], 2 * growth[0], 2.8e-9); /* 9.3e-10 measured */
 }
 END_TEST
 

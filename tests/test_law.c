@@ -102,9 +102,9 @@ START_TEST(row_is_the_integral) {
   printf("%s: row %.9g, integral %.9g, imbalance %.1e, coefficient %.3f\n", cases[_i].name, run.row, run.integral,
          run.imbalance, zp_sim_get(run.sim, "damper_coefficient"));
   ck_assert_double_gt(run.row, 1e-5);
-  ck_near(run.row, run.integral, 1e-6);
+  ck_near(run.row, run.integral, 1.1e-7); /* 3.5e-8 measured */
   ck_assert_double_gt(zp_sim_get(run.sim, "damper_coefficient"), 1.1 * cold);
-  if (!cases[_i].is_explicit) ck_below(run.imbalance, 1e-8);
+  if (!cases[_i].is_explicit) ck_below(run.imbalance, 3.6e-10); /* 1.2e-10 measured */
   end(&run);
 }
 END_TEST
@@ -130,7 +130,7 @@ START_TEST(imbalance_is_of_first_order) {
          half = imbalance_with(true, 0.1e-6);
   printf("imbalance without %.2e, with %.2e, in half steps %.2e\n", without, with, half);
   ck_below(with, 1.01 * without);
-  ck_near(with / half, 2, 0.1);
+  ck_near(with / half, 2, 1.8e-5); /* 6e-6 measured */
 }
 END_TEST
 
@@ -185,7 +185,7 @@ START_TEST(derivatives_know_the_row) {
     double more = lost_with((1 + part) * def.load.mass, signals[k]),
            less = lost_with((1 - part) * def.load.mass, signals[k]);
     double rate = zp_run_rate_of(&rates, 0, signal_of, signals[k]);
-    ck_near(rate, (more - less) / (2 * part * def.load.mass), 1e-4);
+    ck_near(rate, (more - less) / (2 * part * def.load.mass), 2.7e-6); /* 9e-7 measured */
   }
   zp_run_rates_close(&rates);
   end(&run);

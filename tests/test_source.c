@@ -88,9 +88,9 @@ START_TEST(test_derivatives_by_voltage) {
     worst = fmax(worst, fabs((s.F[1][k] - s.F[0][k]) / (2 * dU) - by.force[k]));
   for (size_t k = 0; k < n; k++)
     worst_charge = fmax(worst_charge, fabs((charge_at(&s, k, dq) - charge_at(&s, k, -dq)) / (2 * dq) - by.charge[k]));
-  ck_below(worst / largest(by.force, n), 5e-8);         /* 1.3e-8 measured */
-  ck_below(worst_charge / largest(by.charge, n), 2e-8); /* 2.2e-9 measured */
-  ck_near(by.capacitance, capacitance, 2e-11);          /* 2.4e-12 measured */
+  ck_below(worst / largest(by.force, n), 5e-8);           /* 1.3e-8 measured */
+  ck_below(worst_charge / largest(by.charge, n), 6.6e-9); /* 2.2e-9 measured */
+  ck_near(by.capacitance, capacitance, 2e-11);            /* 2.4e-12 measured */
   zp_free(F);
   zp_free(by.force);
   zp_free(by.charge);
