@@ -64,12 +64,13 @@ static ZpStatus read_case(const Options *o, const Line *line, ZpScenario **scena
 }
 
 static ZpStatus run_case(const ZpScenario *scenario, FILE *answer, ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   ZpResult *result = NULL;
   const double start = cli_wall_clock(NULL);
   const ZpHooks hooks = {.clock = cli_wall_clock};
-  ZpStatus status = zp_scenario_def(scenario, 0, &def, err);
-  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), &def, &hooks, &result, err);
+  ZpStatus status = zp_scenario_def(scenario, 0, def, err);
+  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), def, &hooks, &result, err);
+  zp_def_destroy(def);
   if (status != ZP_OK) return status;
   const ZpReport report = {
       .scenario = scenario, .result = &result, .count = 1, .wall_time = cli_wall_clock(NULL) - start};

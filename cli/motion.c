@@ -67,13 +67,13 @@ static double height_at(const Trajectory *r, double t) {
 }
 
 static double load_height(const ZpShape *shape, const ZpShapes *film) {
-  return shape->y[film->ribbons * film->nodes - 1];
+  return shape->y[zp_shapes_ribbons(film) * zp_shapes_nodes(film) - 1];
 }
 
 /* Root mean square over the time of the recording. */
 static double deviation(const ZpShapes *film, const Trajectory *reference) {
   double sum = 0, last = 0, before = 0, start = 0;
-  for (size_t f = 0; f < film->frames; f++) {
+  for (size_t f = 0; f < zp_shapes_frames(film); f++) {
     ZpShape shape = zp_shapes_get(film, f);
     double off = load_height(&shape, film) - height_at(reference, shape.time);
     if (f > 0)
@@ -88,26 +88,27 @@ static double deviation(const ZpShapes *film, const Trajectory *reference) {
 
 /* One run; the cost of its steps => motion, if it is the lowest so far. */
 static ZpStatus run(const ZpModel *model, ZpShapes *film, Motion *motion, ZpError *err) {
-  double end = zp_model_def(model)->solver.end_time;
+  double end = zp_def_number(zp_model_def(model), "solver.end_time");
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, NULL, &sim, err);
   if (status != ZP_OK) return status;
   zp_sim_record(sim, NULL, film);
-  ZpRunInfo info;
+  ZpRunInfo *info = zp_run_info_create();
   double start = motion_clock();
-  zp_sim_run(sim, end, false, NULL, &info);
+  ZpOutcome outcome = zp_sim_run(sim, end, false, NULL, info);
   motion->seconds = fmin(motion->seconds, (motion_clock() - start) / end);
-  motion->steps = (double)info.steps / end;
+  motion->steps = zp_run_info_get(info, "steps") / end;
+  zp_run_info_destroy(info);
   zp_sim_destroy(sim);
-  if (info.outcome == ZP_REACHED_END) return ZP_OK;
+  if (outcome == ZP_REACHED_END) return ZP_OK;
   *err = (ZpError){.status = ZP_MACHINE, .message = "a run of the benchmark failed"};
   return ZP_MACHINE;
 }
 
 static ZpStatus compare(const ZpModel *model, const Trajectory *reference, Motion *motion, ZpError *err) {
   enum { FRAMES = 4000 };
-  ZpModelInfo size = zp_model_info(model);
-  ZpShapes *film = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, FRAMES);
+  ZpShapes *film =
+      zp_shapes_create((size_t)zp_model_get(model, "ribbons"), (size_t)zp_model_get(model, "nodes"), FRAMES);
   if (!film) {
     *err = (ZpError){ZP_MACHINE, "no memory"};
     return ZP_MACHINE;
@@ -135,15 +136,20 @@ ZpStatus motion_measure(const ZpActuatorDef *def, const ZpDriveTable *table, con
   return status;
 }
 
+/* Place of the load in a shape: the last node of the lower ribbon. */
+static size_t last_node(const ZpModel *model) {
+  return (size_t)(zp_model_get(model, "ribbons") * zp_model_get(model, "nodes")) - 1;
+}
+
 ZpStatus motion_record(const ZpActuatorDef *def, size_t rows, double interval, double (*row)[2], ZpError *err) {
   ZpModel *model;
   ZpSim *sim = NULL;
   ZpStatus status = zp_model_create(def, &model, err);
   if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, err);
+  const size_t last = status == ZP_OK ? last_node(model) : 0;
   for (size_t i = 0; i < rows && status == ZP_OK; i++) {
     zp_sim_run(sim, (double)i * interval, false, NULL, NULL);
-    ZpModelInfo size = zp_model_info(model);
-    row[i][0] = zp_sim_shape(sim).y[size.ribbons * size.nodes - 1];
+    row[i][0] = zp_sim_shape(sim).y[last];
     row[i][1] = zp_sim_get(sim, "end_velocity");
   }
   zp_sim_destroy(sim);

@@ -80,12 +80,13 @@ static Progress begin_progress(const Options *o) {
 
 static int run_one(const ZpScenario *scenario, const Options *o, const char *directory, const ZpFolder *folder) {
   ZpError err;
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   ZpResult *result = NULL;
   Progress progress = begin_progress(o);
   const ZpHooks hooks = cli_hooks(&progress);
-  ZpStatus status = zp_scenario_def(scenario, 0, &def, &err);
-  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), &def, &hooks, &result, &err);
+  ZpStatus status = zp_scenario_def(scenario, 0, def, &err);
+  if (status == ZP_OK) status = zp_data_study_run(zp_scenario_study(scenario), def, &hooks, &result, &err);
+  zp_def_destroy(def);
   cli_progress_end(&progress);
   if (status != ZP_OK) return cli_fail(&err);
   const ZpReport report = {.directory = directory,
@@ -94,8 +95,8 @@ static int run_one(const ZpScenario *scenario, const Options *o, const char *dir
                            .count = 1,
                            .wall_time = cli_wall_clock(NULL) - progress.start,
                            .folder = folder};
-  const bool interrupted = result->outcome == ZP_INTERRUPTED;
-  int code = exit_status(write_report(&report, o), interrupted, zp_outcome_good(result->outcome));
+  const bool interrupted = zp_result_outcome(result) == ZP_INTERRUPTED;
+  int code = exit_status(write_report(&report, o), interrupted, zp_outcome_good(zp_result_outcome(result)));
   zp_result_destroy(result);
   return code;
 }

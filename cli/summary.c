@@ -25,8 +25,8 @@ static const Shown shown[] = {
 enum { SHOWN = sizeof shown / sizeof shown[0] };
 
 static const ZpScalar *find_scalar(const ZpResult *result, const char *name) {
-  for (size_t i = 0; i < result->scalars; i++)
-    if (strcmp(result->scalar[i].name, name) == 0) return &result->scalar[i];
+  for (size_t i = 0; i < zp_result_scalars(result); i++)
+    if (strcmp(zp_result_scalar(result, i)->name, name) == 0) return zp_result_scalar(result, i);
   return NULL;
 }
 
@@ -84,17 +84,17 @@ static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
 
 static void print_result(const ZpResult *result) {
   int printed = 0;
-  printf("%s: %s\n", zp_outcome_name(result->outcome), result->message);
-  for (size_t i = 0; i < result->scalars; i++)
-    printed += print_fitted(result, &result->scalar[i]);
+  printf("%s: %s\n", zp_outcome_name(zp_result_outcome(result)), zp_result_message(result));
+  for (size_t i = 0; i < zp_result_scalars(result); i++)
+    printed += print_fitted(result, zp_result_scalar(result, i));
   for (size_t i = 0; i < SHOWN && printed < MOST_NUMBERS; i++) {
-    const ZpScalar *scalar = shown[i].study == result->study ? find_scalar(result, shown[i].scalar) : NULL;
+    const ZpScalar *scalar = shown[i].study == zp_result_study(result) ? find_scalar(result, shown[i].scalar) : NULL;
     if (!scalar || (isnan(scalar->value) && !shown[i].headline)) continue;
     print_number(result, &shown[i], scalar->value);
     printed++;
   }
-  for (size_t i = 0; i < result->notes; i++)
-    printf("  note: %s\n", result->note[i]);
+  for (size_t i = 0; i < zp_result_notes(result); i++)
+    printf("  note: %s\n", zp_result_note_text(result, i));
 }
 
 /* -- many runs -------------------------------------------------------------------------------------- */
@@ -108,7 +108,7 @@ static void print_short(const char *label, double value, const char *unit) {
 static void print_headlines(const ZpResult *result) {
   for (size_t i = 0; i < SHOWN; i++) {
     const double value = zp_result_get(result, shown[i].scalar);
-    if (shown[i].study == result->study && shown[i].headline && !isnan(value))
+    if (shown[i].study == zp_result_study(result) && shown[i].headline && !isnan(value))
       print_short(shown[i].label, value * shown[i].factor, shown[i].unit);
   }
 }
@@ -118,14 +118,16 @@ static void print_row(const ZpReport *report, size_t index) {
   size_t lists;
   const int *list = zp_scenario_lists(report->scenario, &lists);
   const ZpResult *result = report->rows->get(report->rows->user, index);
-  ZpActuatorDef def;
-  if (zp_scenario_def(report->scenario, index, &def, NULL) != ZP_OK) return;
-  for (size_t k = 0; k < lists; k++) {
+  ZpActuatorDef *def = zp_def_create();
+  const bool good = zp_scenario_def(report->scenario, index, def, NULL) == ZP_OK;
+  for (size_t k = 0; k < lists && good; k++) {
     char text[64];
-    zp_value_print(list[k], zp_def_get(&def, list[k]), text, sizeof text);
+    zp_value_print(list[k], zp_def_get(def, list[k]), text, sizeof text);
     printf("  %s = %-10s", zp_key(list[k])->name, text);
   }
-  printf("  %-12s", zp_outcome_name(result->outcome));
+  zp_def_destroy(def);
+  if (!good) return;
+  printf("  %-12s", zp_outcome_name(zp_result_outcome(result)));
   print_headlines(result);
   printf("\n");
 }

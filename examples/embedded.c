@@ -4,22 +4,23 @@
 #include <zipact/zipact.h>
 
 int main(void) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.load.mass = 0.008;    /* kg */
-  def.drive.voltage = 10e3; /* V */
-  def.mesh.nodes = 15;
-
+  ZpError err = {0};
+  ZpActuatorDef *def = zp_def_create();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ZpError err = {0};
-  ZpRunInfo info = {0};
-  if (zp_model_create(&def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK) {
-    zp_sim_run(sim, 0.5, true, NULL, &info);
-    printf("%s: %s; contraction %.4f\n", zp_outcome_name(info.outcome), info.message, zp_sim_get(sim, "contraction"));
+  ZpOutcome outcome = ZP_NOT_SETTLED;
+  zp_def_set_number(def, "load.mass", 0.008, &err);    /* kg */
+  zp_def_set_number(def, "drive.voltage", 10e3, &err); /* V */
+  zp_def_set_number(def, "mesh.nodes", 15, &err);
+  if (zp_model_create(def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK) {
+    outcome = zp_sim_run(sim, 0.5, true, NULL, NULL);
+    printf("%s at %.4f s; contraction %.4f\n", zp_outcome_name(outcome), zp_sim_get(sim, "time"),
+           zp_sim_get(sim, "contraction"));
   } else {
     fprintf(stderr, "%s\n", err.message);
   }
   zp_sim_destroy(sim);
   zp_model_destroy(model);
-  return info.outcome == ZP_ZIPPED ? 0 : 1;
+  zp_def_destroy(def);
+  return outcome == ZP_ZIPPED ? 0 : 1;
 }

@@ -31,11 +31,11 @@ using Result = std::unique_ptr<ZpResult, decltype(&zp_result_destroy)>;
 using Scenario = std::unique_ptr<ZpScenario, decltype(&zp_scenario_destroy)>;
 
 static ZpActuatorDef short_def() {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.actuator.kind = ZP_KIND_ELECTRO_RIBBON;
-  def.mesh.nodes = 5;
-  def.solver.tolerance = 1e-1;
-  def.solver.end_time = 1e-4;
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "actuator.kind", ZP_KIND_ELECTRO_RIBBON, NULL);
+  zp_def_set_number(def, "mesh.nodes", 5, NULL);
+  zp_def_set_number(def, "solver.tolerance", 1e-1, NULL);
+  zp_def_set_number(def, "solver.end_time", 1e-4, NULL);
   return def;
 }
 
@@ -44,13 +44,13 @@ static void run_a_simulation() {
   ZpError err{};
   ZpModel *model = nullptr;
   ZpSim *sim = nullptr;
-  check(zp_model_create(&def, &model, &err) == ZP_OK, err.message);
+  check(zp_model_create(def, &model, &err) == ZP_OK, err.message);
   Model model_owner(model, zp_model_destroy);
-  check(zp_model_info(model).ribbons == 2, "a model of two ribbons");
+  check(zp_model_get(model, "ribbons") == 2, "a model of two ribbons");
   check(zp_sim_create(model, nullptr, &sim, &err) == ZP_OK, err.message);
   Sim sim_owner(sim, zp_sim_destroy);
-  ZpRunInfo info;
-  check(zp_sim_run(sim, 1e-4, false, nullptr, &info) == ZP_REACHED_END, info.message);
+  ZpRunInfo *info = zp_run_info_create();
+  check(zp_sim_run(sim, 1e-4, false, nullptr, info) == ZP_REACHED_END, zp_run_info_message(info));
   check(zp_sim_get(sim, "stroke") > 0, "a stroke");
 }
 
@@ -62,9 +62,9 @@ static void run_a_study() {
   hooks.user = &calls;
   hooks.progress = [](void *user, const char *, double) { return ++*static_cast<int *>(user) < 0; };
   ZpResult *result = nullptr;
-  check(zp_study_run(ZP_STUDY_ACTUATE, &def, nullptr, &hooks, &result, &err) == ZP_OK, err.message);
+  check(zp_study_run(ZP_STUDY_ACTUATE, def, nullptr, &hooks, &result, &err) == ZP_OK, err.message);
   Result owner(result, zp_result_destroy);
-  check(result && result->series && result->series->rows > 1, "a table");
+  check(result && zp_result_series(result) && zp_table_rows(zp_result_series(result)) > 1, "a table");
   check(std::isfinite(zp_result_get(result, "stroke_m")), "a stroke of the study");
   check(calls > 0, "progress");
 }

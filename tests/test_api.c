@@ -12,48 +12,51 @@
 
 #include <zipact/io.h>
 
-#include "check_util.h"
+#include "suite.h"
 
 /* A coarse actuator that settles in some milliseconds of wall time. */
-static ZpActuatorDef coarse_def(void) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.mesh.nodes = 11;
-  def.solver.tolerance = 1e-2;
+static ZpActuatorDef *coarse_def(void) {
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "mesh.nodes", 11, NULL);
+  zp_def_set_number(def, "solver.tolerance", 1e-2, NULL);
   return def;
 }
 
 /* What a user of the library writes. 8 g at 10 kV close at any mesh (facts of the paper's actuator); what is
  * left of the opening is below 1 %. Measured at N = 11: 0. */
 START_TEST(program_of_a_user) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.mesh.nodes = 11;
-  def.load.mass = 0.008;    /* kg */
-  def.drive.voltage = 10e3; /* V */
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "mesh.nodes", 11, NULL);
+  zp_def_set_number(def, "load.mass", 0.008, NULL);    /* kg */
+  zp_def_set_number(def, "drive.voltage", 10e3, NULL); /* V */
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
   ZpError err = {0};
-  ZpRunInfo info = {0};
-  if (zp_model_create(&def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK)
-    zp_sim_run(sim, 0.5, true, NULL, &info);
+  ZpRunInfo *info = zp_run_info_create();
+  if (zp_model_create(def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK)
+    zp_sim_run(sim, 0.5, true, NULL, info);
   ck_assert_msg(sim != NULL, "%s", err.message);
-  ck_assert_msg(info.outcome == ZP_ZIPPED, "%s", info.message);
+  ck_assert_msg(zp_run_info_outcome(info) == ZP_ZIPPED, "%s", zp_run_info_message(info));
   ck_assert_double_ge(zp_sim_get(sim, "contraction"), 0.99);
-  ck_assert_double_eq(zp_sim_get(sim, "time"), info.simulated_time);
-  ck_assert_double_le(zp_sim_zip_time(sim), info.simulated_time);
+  ck_assert_double_eq(zp_sim_get(sim, "time"), zp_run_info_get(info, "simulated_time"));
+  ck_assert_double_le(zp_sim_zip_time(sim), zp_run_info_get(info, "simulated_time"));
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
+  zp_run_info_destroy(info);
 }
 END_TEST
 
 START_TEST(null_is_allowed_where_it_says_so) {
-  ZpActuatorDef def = coarse_def(), wrong = def;
-  wrong.load.mass = -1;
+  ZpActuatorDef *def = coarse_def(), *wrong = zp_def_copy(def);
+  zp_def_set_number(wrong, "load.change_mass", -1, NULL); /* more than load.mass */
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ck_assert_int_eq(zp_def_check(&wrong, NULL), ZP_BAD_INPUT);
-  ck_assert_int_eq(zp_model_create(&wrong, &model, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_def_check(wrong, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_model_create(wrong, &model, NULL), ZP_BAD_INPUT);
   ck_assert_ptr_null(model);
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  zp_def_destroy(wrong);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_run(sim, 1e-4, false, NULL, NULL), ZP_REACHED_END);
   ck_assert_int_eq(zp_sim_set_voltage(sim, -1, NULL), ZP_BAD_INPUT);
@@ -63,6 +66,7 @@ START_TEST(null_is_allowed_where_it_says_so) {
   ck_assert_int_eq(zp_sim_run(sim, 2e-4, false, &(ZpHooks){0}, NULL), ZP_REACHED_END);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
@@ -79,32 +83,34 @@ END_TEST
 
 START_TEST(scenario_without_err) {
   ZpScenario *scenario = zp_scenario_create();
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   double value;
   ck_assert_int_eq(zp_scenario_set(scenario, "load.mass", NULL), ZP_BAD_INPUT);
   ck_assert_int_eq(zp_scenario_set(scenario, "load.mass=x", NULL), ZP_BAD_INPUT);
   ck_assert_int_eq(zp_scenario_read(scenario, "no such file", NULL), ZP_BAD_INPUT);
   ck_assert_int_eq(zp_scenario_parse(scenario, "{", 1, "name", NULL), ZP_BAD_INPUT);
-  ck_assert_int_eq(zp_scenario_def(scenario, 1, &def, NULL), ZP_BAD_INPUT);
-  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, NULL), ZP_OK);
+  ck_assert_int_eq(zp_scenario_def(scenario, 1, def, NULL), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, def, NULL), ZP_OK);
   ck_assert_int_eq(zp_value_parse(zp_key_find("load.mass"), "8 m", &value, NULL), ZP_BAD_INPUT);
   ZpFolder *folder;
   ck_assert_int_eq(zp_folder_open("", &folder, NULL), ZP_MACHINE);
   ck_assert_ptr_null(folder);
   zp_scenario_destroy(scenario);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* A study without hooks knows no wall time: NAN, not 0. */
 START_TEST(study_without_hooks) {
-  ZpActuatorDef def = coarse_def();
-  def.solver.end_time = 1e-4;
+  ZpActuatorDef *def = coarse_def();
+  zp_def_set_number(def, "solver.end_time", 1e-4, NULL);
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
-  ck_assert_int_eq(result->outcome, ZP_REACHED_END);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_result_outcome(result), ZP_REACHED_END);
   ck_assert(isnan(zp_result_get(result, "real_time_factor")));
   ck_assert(isnan(zp_result_get(result, "no such scalar")));
   zp_result_destroy(result);
+  zp_def_destroy(def);
 }
 END_TEST
 
@@ -129,35 +135,37 @@ static double on_clock(void *user) {
 }
 
 START_TEST(hooks_are_asked) {
-  ZpActuatorDef def = coarse_def();
-  def.solver.end_time = 5e-3;
+  ZpActuatorDef *def = coarse_def();
+  zp_def_set_number(def, "solver.end_time", 5e-3, NULL);
   Asked asked = {0, 1000000, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, on_clock};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &result, NULL), ZP_OK);
-  ck_assert_int_eq(result->outcome, ZP_REACHED_END);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_result_outcome(result), ZP_REACHED_END);
   ck_assert_int_gt(asked.calls, 2);
   ck_assert_double_ge(asked.least, 0);
   ck_assert_double_le(asked.most, 1);
   /* this clock goes on by 1 s each time it is asked: 5 ms in 1 s of it, if it is asked at start and end */
   ck_assert_double_eq_tol(zp_result_get(result, "real_time_factor"), 5e-3, 1e-12);
   zp_result_destroy(result);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* Asked to stop at any time, it stops soon and says so; what was reached is kept. */
 START_TEST(stops_when_asked) {
-  ZpActuatorDef def = coarse_def();
-  def.solver.end_time = 5e-3;
+  ZpActuatorDef *def = coarse_def();
+  zp_def_set_number(def, "solver.end_time", 5e-3, NULL);
   Asked asked = {0, _i, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, NULL};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &result, NULL), ZP_OK);
-  ck_assert_int_eq(result->outcome, ZP_INTERRUPTED);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, &hooks, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_result_outcome(result), ZP_INTERRUPTED);
   ck_assert_int_le(asked.calls, _i + 2);
-  ck_assert(!zp_outcome_good(result->outcome));
-  ck_assert_str_eq(zp_outcome_name(result->outcome), "interrupted");
+  ck_assert(!zp_outcome_good(zp_result_outcome(result)));
+  ck_assert_str_eq(zp_outcome_name(zp_result_outcome(result)), "interrupted");
   zp_result_destroy(result);
+  zp_def_destroy(def);
 }
 END_TEST
 
@@ -166,37 +174,40 @@ END_TEST
 START_TEST(rest_asks_before_it_hangs) {
   static const ZpStudy studies[] = {ZP_STUDY_STATIONARY, ZP_STUDY_MODES,     ZP_STUDY_EQUILIBRIUM,
                                     ZP_STUDY_LIMITS,     ZP_STUDY_ISOMETRIC, ZP_STUDY_ACTUATE};
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.ribbon.thickness = 1e-6;
-  def.mount.tilt = 3.141592653589793;
-  def.segment_3.curvature = -1000;
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "ribbon.thickness", 1e-6, NULL);
+  zp_def_set_number(def, "mount.tilt", 3.141592653589793, NULL);
+  zp_def_set_number(def, "segment_3.curvature", -1000, NULL);
   Asked asked = {0, 2, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, NULL};
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(studies[_i], &def, NULL, &hooks, &result, NULL), ZP_OK);
-  ck_assert_str_eq(zp_outcome_name(result->outcome), "interrupted");
-  ck_assert_ptr_nonnull(strstr(result->message, "interrupted"));
+  ck_assert_int_eq(zp_study_run(studies[_i], def, NULL, &hooks, &result, NULL), ZP_OK);
+  ck_assert_str_eq(zp_outcome_name(zp_result_outcome(result)), "interrupted");
+  ck_assert_ptr_nonnull(strstr(zp_result_message(result), "interrupted"));
   ck_assert_int_le(asked.calls, 10);
   zp_result_destroy(result);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* An implicit run asks its caller every few steps. It asked every 1024 only: where steps are nanoseconds long, minutes
  * passed before an interrupt or a limit of time counted. */
 START_TEST(implicit_run_asks_every_few_steps) {
-  ZpActuatorDef def = zp_actuator_def_default();
+  ZpActuatorDef *def = zp_def_create();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
   Asked asked = {0, 0, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, NULL};
-  ZpRunInfo info;
-  ck_assert_int_eq(zp_sim_run(sim, 1, false, &hooks, &info), ZP_INTERRUPTED);
+  ZpRunInfo *info = zp_run_info_create();
+  ck_assert_int_eq(zp_sim_run(sim, 1, false, &hooks, info), ZP_INTERRUPTED);
   ck_assert_int_eq(asked.calls, 1);
-  ck_assert_int_le(info.steps, 16);
+  ck_assert_double_le(zp_run_info_get(info, "steps"), 16);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
+  zp_run_info_destroy(info);
 }
 END_TEST
 
@@ -204,22 +215,25 @@ END_TEST
  * for a thousand million steps; Newton's method fails here, as faces at 1 MV without the breakdown cap are very stiff.
  */
 START_TEST(weightless_actuator_settles) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.load.mass = def.gravity = 0;
-  def.drive.voltage = 1e6;
-  def.electro.breakdown_cap = false;
-  def.solver.max_steps = 20000;
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "load.mass", 0, NULL);
+  zp_def_set_number(def, "gravity", 0, NULL);
+  zp_def_set_number(def, "drive.voltage", 1e6, NULL);
+  zp_def_set_number(def, "electro.breakdown_cap", false, NULL);
+  zp_def_set_number(def, "solver.max_steps", 20000, NULL);
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
   Asked asked = {0, 0, 1, 0, 0};
   ZpHooks hooks = {&asked, on_progress, NULL};
-  ZpRunInfo info;
-  ck_assert_int_ne(zp_sim_run(sim, 1e-3, false, &hooks, &info), ZP_NOT_SETTLED);
-  ck_assert_int_lt(info.settle_steps, 1000);
+  ZpRunInfo *info = zp_run_info_create();
+  ck_assert_int_ne(zp_sim_run(sim, 1e-3, false, &hooks, info), ZP_NOT_SETTLED);
+  ck_assert_double_lt(zp_run_info_get(info, "settle_steps"), 1000);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
+  zp_run_info_destroy(info);
 }
 END_TEST
 
@@ -227,10 +241,10 @@ END_TEST
 
 /* Going back to a saved state and continuing gives the same bits as continuing at once. */
 START_TEST(saved_state_continues_to_the_same_bits) {
-  ZpActuatorDef def = coarse_def();
+  ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
   size_t size = zp_sim_state_size(sim);
   void *saved = malloc(size), *first = malloc(size), *second = malloc(size);
@@ -249,15 +263,16 @@ START_TEST(saved_state_continues_to_the_same_bits) {
   free(second);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* Two simulations share a model and know nothing of each other. */
 START_TEST(simulations_share_a_model) {
-  ZpActuatorDef def = coarse_def();
+  ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *one = NULL, *other = NULL;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &one, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &other, NULL), ZP_OK);
   zp_sim_run(one, 1e-3, false, NULL, NULL);
@@ -267,6 +282,7 @@ START_TEST(simulations_share_a_model) {
   zp_sim_destroy(one);
   zp_sim_destroy(other);
   zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
@@ -275,10 +291,10 @@ END_TEST
 START_TEST(every_name_answers) {
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
-  ZpActuatorDef def = coarse_def();
+  ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
   ck_assert_uint_gt(columns, 10);
   for (size_t i = 0; i < columns; i++)
@@ -293,94 +309,182 @@ START_TEST(every_name_answers) {
     ck_assert_uint_gt(strlen(zp_outcome_name((ZpOutcome)outcome)), 0);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
-/* A Def filled by field, by key or by assignments is the same Def. */
 /* Steps of 1, 1 and 0.3 times the longest stable one, by turns, diverge; three of 0.77 do not. */
 START_TEST(steps_by_hand_are_even) {
-  ZpActuatorDef def = coarse_def();
-  def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
-  def.drive.voltage = 1e3; /* nothing meets: no other short steps */
+  ZpActuatorDef *def = coarse_def();
+  zp_def_set_number(def, "solver.integrator", ZP_INTEGRATOR_EXPLICIT, NULL);
+  zp_def_set_number(def, "drive.voltage", 1e3, NULL); /* nothing meets: no other short steps */
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  ZpRunInfo info;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ZpRunInfo *info = zp_run_info_create();
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
-  double dt = 2.3 * zp_model_info(model).stable_time_step;
+  double dt = 2.3 * zp_model_get(model, "stable_time_step");
   for (int i = 0; i < 2000; i++) {
-    ck_assert_int_eq(zp_sim_step(sim, dt, NULL, &info), ZP_REACHED_END);
-    ck_assert_int_eq(info.steps, 3);
+    ck_assert_int_eq(zp_sim_step(sim, dt, NULL, info), ZP_REACHED_END);
+    ck_assert_double_eq(zp_run_info_get(info, "steps"), 3);
   }
   ck_assert_double_lt(fabs(zp_sim_get(sim, "end_velocity")), 0.01);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_run_info_destroy(info);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* All signals at once are those one by one; the current is the mean since the reading before. */
 START_TEST(reading_is_a_row) {
-#define ZP_SIGNAL(name, unit, suffix, help) SIGNAL_##name,
-  enum {
-#include <zipact/signals.def>
-    SIGNALS
-  };
-#undef ZP_SIGNAL
-#define ZP_SIGNAL(name, unit, suffix, help) #name,
-  static const char *const names[] = {
-#include <zipact/signals.def>
-  };
-#undef ZP_SIGNAL
-  ZpActuatorDef def = coarse_def();
+  enum { MOST = 128 };
+  ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
-  double before[SIGNALS], row[SIGNALS];
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  double before[MOST], row[MOST];
+  size_t signals;
+  zp_signal_columns(&signals);
+  ck_assert_uint_le(signals, MOST);
+  int charge = zp_signal_find("charge"), at = zp_signal_find("current"), angle = zp_signal_find("angle");
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
   zp_sim_run(sim, 1e-3, false, NULL, NULL);
   zp_sim_read(sim, before);
   zp_sim_run(sim, 3e-3, false, NULL, NULL);
   double current = zp_sim_get(sim, "current");
   zp_sim_read(sim, row);
-  ck_assert_double_eq(row[SIGNAL_current], current);
-  double mean = (row[SIGNAL_charge] - before[SIGNAL_charge]) / 2e-3;
-  ck_assert_double_eq_tol(current, mean, 1e-12 * fabs(mean));
-  for (int i = 0; i < SIGNALS; i++)
-    if (i != SIGNAL_current && i != SIGNAL_power && i != SIGNAL_angle) /* which is that of a fold */
-      ck_assert_double_eq(row[i], zp_sim_get(sim, names[i]));
-  ck_assert(isnan(row[SIGNAL_angle]) && isnan(zp_sim_get(sim, "angle")));
+  ck_assert_double_eq(row[at], current);
+  double mean = (row[charge] - before[charge]) / 2e-3;
+  ck_assert(fabs(current - mean) <= 1e-12 * fabs(mean));
+  for (int i = 0; i < (int)signals; i++) {
+    ck_assert_int_eq(zp_signal_find(zp_signal_name((size_t)i)), i);
+    if (i != at && i != zp_signal_find("power") && i != angle) /* which is that of a fold */
+      ck_assert_double_eq(row[i], zp_sim_get(sim, zp_signal_name((size_t)i)));
+  }
+  ck_assert_int_eq(zp_signal_find("no such signal"), -1);
+  ck_assert(isnan(row[angle]) && isnan(zp_sim_get(sim, "angle")));
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
+}
+END_TEST
+
+/* What a result has is counted, and each part of it is read by its place. */
+START_TEST(result_is_read_by_calls) {
+  ZpActuatorDef *def = coarse_def();
+  ZpResult *result = NULL;
+  zp_def_set_number(def, "solver.end_time", 1e-3, NULL);
+  zp_def_set_word(def, "sensitivity.by", "load.mass, ribbon.thickness", NULL);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, NULL), ZP_OK);
+  ck_assert(zp_result_study(result) == ZP_STUDY_ACTUATE && zp_result_outcome(result) == ZP_REACHED_END);
+  ck_assert(*zp_result_message(result) && zp_result_resolution(result) > 0);
+  ck_assert_uint_gt(zp_result_scalars(result), 10);
+  for (size_t i = 0; i < zp_result_scalars(result); i++) {
+    const ZpScalar *scalar = zp_result_scalar(result, i);
+    double value = zp_result_get(result, scalar->name);
+    ck_assert(value == scalar->value || (isnan(value) && isnan(scalar->value)));
+  }
+  for (size_t i = 0; i < zp_result_notes(result); i++)
+    ck_assert(*zp_result_note_text(result, i));
+  ck_assert_uint_gt(zp_result_sensitivities(result), 2);
+  ck_assert_str_eq(zp_key(zp_result_sensitivity(result, 0)->key)->name, "load.mass");
+  const ZpTable *table = zp_result_series(result);
+  size_t rows = zp_table_rows(table), columns = zp_table_columns(table);
+  ck_assert(rows > 1 && columns > 10);
+  for (size_t c = 0; c < columns; c++) {
+    double value = zp_table_get(table, rows - 1, zp_table_column(table, c)->name);
+    ck_assert(value == zp_table_row(table, rows - 1)[c] || isnan(value));
+  }
+  ck_assert(zp_table_row(table, 1) == zp_table_row(table, 0) + columns && !zp_table_row(table, rows));
+  const ZpShapes *shapes = zp_result_shapes(result);
+  ck_assert(zp_shapes_frames(shapes) > 1 && zp_shapes_ribbons(shapes) == 2);
+  ck_assert(zp_shapes_nodes(shapes) == 11 && zp_shapes_members(shapes) == 1);
+  ck_assert(zp_shapes_get(shapes, 1).gap == zp_shapes_get(shapes, 0).gap + zp_shapes_stride(shapes));
+  ck_assert(zp_checkpoint_time(zp_result_checkpoint(result)) <= 1e-3 && !zp_result_map(result));
+  zp_result_destroy(result);
+  zp_def_destroy(def);
+}
+END_TEST
+
+/* 1 / 10 of the flexible 45 mm; E I and E A of the strip, wide. */
+START_TEST(constants_of_a_model) {
+  ZpActuatorDef *def = coarse_def();
+  ZpModel *model = NULL;
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
+  double E = zp_def_number(def, "ribbon.young_modulus"), nu = zp_def_number(def, "ribbon.poisson_ratio");
+  double b = zp_def_number(zp_model_def(model), "ribbon.width"), t = zp_def_number(def, "ribbon.thickness");
+  ck_assert(zp_model_get(model, "ribbons") == 2 && zp_model_get(model, "nodes") == 11);
+  ck_assert(fabs(zp_model_get(model, "flexible_length") - 45e-3) < 1e-15);
+  ck_assert(fabs(zp_model_get(model, "element_length") - 4.5e-3) < 1e-15);
+  ck_assert(fabs(zp_model_get(model, "bending_stiffness") * 12 * (1 - nu * nu) / (E * b * t * t * t) - 1) < 1e-12);
+  ck_assert(fabs(zp_model_get(model, "axial_stiffness") / (E * b * t) - 1) < 0.1); /* over 1 - nu^2 in a wide strip */
+  static const char *const more[] = {"line_mass",        "axial_spring",      "shear_coefficient", "insulator_offset",
+                                     "internal_damping", "closed_line_force", "stable_time_step"};
+  for (size_t k = 0; k < sizeof more / sizeof more[0]; k++)
+    ck_assert_msg(zp_model_get(model, more[k]) > 0, "%s", more[k]);
+  ck_assert(isnan(zp_model_get(model, "no such constant")));
+  zp_model_destroy(model);
+  zp_def_destroy(def);
+}
+END_TEST
+
+/* Each step counts once; a run of which nothing was asked tells nothing. */
+START_TEST(steps_are_counted_by_their_limit) {
+  ZpActuatorDef *def = coarse_def();
+  ZpModel *model = NULL;
+  ZpSim *sim = NULL;
+  ZpRunInfo *info = zp_run_info_create();
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_run(sim, 5e-3, false, NULL, info), ZP_REACHED_END);
+  int64_t sum = 0;
+  for (int limit = 0; strcmp(zp_step_limit_name((ZpStepLimit)limit), "unknown") != 0; limit++)
+    sum += zp_run_info_limited(info, (ZpStepLimit)limit);
+  ck_assert(sum == (int64_t)zp_run_info_get(info, "steps") && sum > 3);
+  ck_assert(zp_run_info_get(info, "iterations") >= (double)sum && zp_run_info_get(info, "settle_residual") < 1e-6);
+  ck_assert(zp_run_info_get(info, "simulated_time") == 5e-3 && isnan(zp_run_info_get(info, "wall_time")));
+  ck_assert(zp_run_info_limited(info, (ZpStepLimit)-1) == 0 && isnan(zp_run_info_get(info, "no such number")));
+  zp_run_info_destroy(info);
+  zp_run_info_destroy(NULL);
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
 static ZpSim *sim_with_model(const ZpActuatorDef *def, ZpModel **model) {
-  *model = model_of(def);
-  return sim_of(*model);
+  ZpSim *sim = NULL;
+  ck_assert_int_eq(zp_model_create(def, model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_sim_create(*model, NULL, &sim, NULL), ZP_OK);
+  return sim;
 }
 
 /* Times that make no sense answered "end_time": now nothing moves, and outcome and message say so. */
 START_TEST(bad_times_move_nothing) {
-  ZpActuatorDef def = coarse_def();
+  ZpActuatorDef *def = coarse_def();
   ZpModel *model;
-  ZpSim *sim = sim_with_model(&def, &model);
+  ZpSim *sim = sim_with_model(def, &model);
   ck_assert_int_eq(zp_sim_run(sim, 1e-3, false, NULL, NULL), ZP_REACHED_END);
   size_t size = zp_sim_state_size(sim);
   char *before = malloc(size), *after = malloc(size);
   zp_sim_save(sim, before);
+  ZpRunInfo *info = zp_run_info_create();
   const double ends[] = {NAN, -INFINITY, -1, 0, 0.9e-3}, steps[] = {NAN, -INFINITY, -1e-3, -0.0, 0, 1e-30, INFINITY};
   for (size_t k = 0; k < sizeof ends / sizeof ends[0]; k++) {
-    ZpRunInfo info = {.steps = 7};
-    ck_assert_int_eq(zp_sim_run(sim, ends[k], true, NULL, &info), ZP_BAD_ARGUMENT);
-    ck_assert(info.outcome == ZP_BAD_ARGUMENT && info.steps == 0 && info.simulated_time == 0);
-    ck_assert_msg(strncmp(info.message, "end_time = ", 11) == 0 && strstr(info.message, "0.001 s"), "%s", info.message);
+    ck_assert_int_eq(zp_sim_run(sim, ends[k], true, NULL, info), ZP_BAD_ARGUMENT);
+    ck_assert(zp_run_info_outcome(info) == ZP_BAD_ARGUMENT && zp_run_info_get(info, "steps") == 0 &&
+              zp_run_info_get(info, "simulated_time") == 0);
+    ck_assert_msg(strncmp(zp_run_info_message(info), "end_time = ", 11) == 0 &&
+                      strstr(zp_run_info_message(info), "0.001 s"),
+                  "%s", zp_run_info_message(info));
     ck_assert_int_eq(zp_sim_run(sim, ends[k], true, NULL, NULL), ZP_BAD_ARGUMENT);
   }
   for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
-    ZpRunInfo info = {.steps = 7};
-    ck_assert_int_eq(zp_sim_step(sim, steps[k], NULL, &info), ZP_BAD_ARGUMENT);
-    ck_assert_msg(strncmp(info.message, "dt = ", 5) == 0, "%s", info.message);
+    ck_assert_int_eq(zp_sim_step(sim, steps[k], NULL, info), ZP_BAD_ARGUMENT);
+    ck_assert_msg(strncmp(zp_run_info_message(info), "dt = ", 5) == 0, "%s", zp_run_info_message(info));
   }
+  zp_run_info_destroy(info);
   ck_assert(!zp_outcome_good(ZP_BAD_ARGUMENT));
   zp_sim_save(sim, after);
   ck_assert(memcmp(before, after, size) == 0);
@@ -390,6 +494,7 @@ START_TEST(bad_times_move_nothing) {
   free(after);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
@@ -413,63 +518,164 @@ static double stopped_clock(void *user) {
 
 /* A clock too coarse for the run gave an infinite factor: there is none. */
 START_TEST(no_real_time_factor_without_wall_time) {
-  ZpActuatorDef def = coarse_def();
-  def.solver.end_time = 1e-4;
+  ZpActuatorDef *def = coarse_def();
+  zp_def_set_number(def, "solver.end_time", 1e-4, NULL);
   ZpResult *result;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &(ZpHooks){.clock = stopped_clock}, &result, NULL),
-                   ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, &(ZpHooks){.clock = stopped_clock}, &result, NULL), ZP_OK);
   ck_assert(isnan(zp_result_get(result, "real_time_factor")));
   zp_result_destroy(result);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* A simulation that should resume from a checkpoint and gets none ran from the straight shape. */
 START_TEST(no_motion_without_the_checkpoint) {
-  ZpActuatorDef def = coarse_def();
+  ZpActuatorDef *def = coarse_def();
   ZpModel *model, *other;
-  ZpSim *first = sim_with_model(&def, &model);
+  ZpSim *first = sim_with_model(def, &model);
   ck_assert_int_eq(zp_sim_run(first, 1e-3, false, NULL, NULL), ZP_REACHED_END);
   ZpCheckpoint *checkpoint;
   ck_assert_int_eq(zp_sim_checkpoint(first, &checkpoint, NULL), ZP_OK);
-  def.initial.state = ZP_INITIAL_CHECKPOINT;
-  ZpSim *second = sim_with_model(&def, &other);
-  ZpRunInfo info;
-  ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, &info), ZP_BAD_ARGUMENT);
-  ck_assert_msg(strstr(info.message, "initial.state = checkpoint"), "%s", info.message);
+  zp_def_set_number(def, "initial.state", ZP_INITIAL_CHECKPOINT, NULL);
+  ZpSim *second = sim_with_model(def, &other);
+  ZpRunInfo *info = zp_run_info_create();
+  ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, info), ZP_BAD_ARGUMENT);
+  ck_assert_msg(strstr(zp_run_info_message(info), "initial.state = checkpoint"), "%s", zp_run_info_message(info));
   ck_assert_double_eq(zp_sim_get(second, "time"), 0);
   ck_assert_int_eq(zp_sim_continue(second, checkpoint, NULL), ZP_OK);
-  ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, &info), ZP_REACHED_END);
+  ck_assert_int_eq(zp_sim_run(second, 2e-3, false, NULL, info), ZP_REACHED_END);
   zp_checkpoint_destroy(checkpoint);
   zp_sim_destroy(first);
   zp_sim_destroy(second);
   zp_model_destroy(model);
   zp_model_destroy(other);
+  zp_run_info_destroy(info);
+  zp_def_destroy(def);
 }
 END_TEST
 
-START_TEST(three_ways_to_fill_a_def) {
-  ZpActuatorDef by_field = zp_actuator_def_default(), by_key = by_field, resolved;
+/* Every key has the same value in two Defs. */
+static void ck_same_def(const ZpActuatorDef *a, const ZpActuatorDef *b) {
+  for (int key = 0; key < zp_key_count(); key++) {
+    double value = zp_def_get(a, key), other = zp_def_get(b, key);
+    ck_assert_msg(value == other || (isnan(value) && isnan(other)), "%s", zp_key(key)->name);
+    if (zp_def_text(a, key)) ck_assert_str_eq(zp_def_text(a, key), zp_def_text(b, key));
+  }
+}
+
+/* A Def filled by name, by index, by values for people or by assignments is the same Def. */
+START_TEST(four_ways_to_fill_a_def) {
+  ZpActuatorDef *by_name = zp_def_create(), *by_index = zp_def_create(), *by_text = zp_def_create(),
+                *resolved = zp_def_create();
   int mass = zp_key_find("load.mass"), electrode = zp_key_find("platform.electrode");
-  by_field.load.mass = 0.02;
-  by_field.platform.electrode = false;
-  ck_assert_int_eq(zp_def_set(&by_key, mass, 0.02, NULL), ZP_OK);
-  ck_assert_int_eq(zp_def_set(&by_key, electrode, 0, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set_number(by_name, "load.mass", 0.02, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set_word(by_name, "platform.electrode", "false", NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set(by_index, mass, 0.02, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set(by_index, electrode, 0, NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set_value(by_text, "load.mass", "20 g", NULL), ZP_OK);
+  ck_assert_int_eq(zp_def_set_value(by_text, "platform.electrode", "false", NULL), ZP_OK);
   ZpAssignment list[] = {{mass, 0.02}, {electrode, 0}};
-  ck_assert_int_eq(zp_def_resolve(&resolved, list, 2, NULL), ZP_OK);
-  ck_assert_mem_eq(&by_field, &by_key, sizeof by_field);
-  ck_assert_mem_eq(&by_field, &resolved, sizeof by_field);
+  ck_assert_int_eq(zp_def_resolve(resolved, list, 2, NULL), ZP_OK);
+  ck_same_def(by_name, by_index);
+  ck_same_def(by_name, by_text);
+  ck_same_def(by_name, resolved);
+  ZpActuatorDef *copy = zp_def_copy(by_name);
+  zp_def_set_number(by_name, "load.mass", 0.03, NULL);
+  ck_assert_double_eq(zp_def_number(copy, "load.mass"), 0.02);
+  ZpActuatorDef *const all[] = {by_name, by_index, by_text, resolved, copy, NULL};
+  for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
+    zp_def_destroy(all[k]);
+}
+END_TEST
+
+/* Words, texts, auto, none, true and false are read as they are set. */
+START_TEST(words_of_a_def) {
+  static const struct {
+    const char *key, *word;
+  } set[] = {{"actuator.kind", "flange"},     {"platform.electrode", "false"},
+             {"platform.electrode", "true"},  {"damping.internal", "auto"},
+             {"source.bandwidth", "none"},    {"data.file", "bench.csv"},
+             {"optimize.objective", "min x"}, {"data.file", ""}};
+  ZpActuatorDef *def = zp_def_create();
+  ck_assert_ptr_null(zp_def_word(def, "load.mass"));
+  ck_assert_ptr_null(zp_def_word(def, "study"));
+  ck_assert_ptr_null(zp_def_word(def, "no.such.key"));
+  zp_def_set_number(def, "damping.internal", 1e-5, NULL);
+  ck_assert_ptr_null(zp_def_word(def, "damping.internal"));
+  for (size_t k = 0; k < sizeof set / sizeof set[0]; k++) {
+    ck_assert_int_eq(zp_def_set_word(def, set[k].key, set[k].word, NULL), ZP_OK);
+    ck_assert_str_eq(zp_def_word(def, set[k].key), set[k].word);
+  }
+  ck_assert_int_eq((int)zp_def_number(def, "actuator.kind"), ZP_KIND_FLANGE);
+  ck_assert(isnan(zp_def_number(def, "damping.internal")) && isnan(zp_def_number(def, "data.file")));
+  zp_def_destroy(def);
+}
+END_TEST
+
+/* A refusal names key, value, unit and range, or what the key takes, and changes nothing. */
+START_TEST(refusals_of_a_def) {
+  static const struct {
+    const char *key;
+    double number;
+    const char *word, *says;
+  } wrong[] = {
+      {"load.mass", 1e4, NULL, "load.mass = 10000 kg: out of range; 0 to 1000 kg"},
+      {"load.mas", 1, NULL, "load.mas: unknown key; did you mean load.mass?"},
+      {"temperature", 1, NULL, "temperature is not modelled"},
+      {"mesh.nodes", 20.5, NULL, "mesh.nodes = 20.5: not a whole number"},
+      {"data.file", 1, NULL, "data.file: takes a text, not a number"},
+      {"study", 1, NULL, "study: is a key of a scenario"},
+      {"load.mass", 0, "heavy", "load.mass: takes a number, not a word"},
+      {"load.mas", 0, "heavy", "did you mean load.mass?"},
+      {"actuator.right_end", 0, "loose", "actuator.right_end = loose: unknown word; give guided, free, clamped"},
+      {"platform.electrode", 0, "yes", "unknown word; give true, false"},
+      {"damping.internal", 0, "none", "damping.internal = none: unknown word; give auto, or set a number"}};
+  ZpActuatorDef *def = zp_def_create(), *plain = zp_def_create();
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+    ZpError err = {ZP_OK, ""};
+    ZpStatus status = wrong[k].word ? zp_def_set_word(def, wrong[k].key, wrong[k].word, &err)
+                                    : zp_def_set_number(def, wrong[k].key, wrong[k].number, &err);
+    ck_assert_int_eq(status, ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, wrong[k].says), "no '%s' in: %s", wrong[k].says, err.message);
+  }
+  ZpError err = {ZP_OK, ""};
+  ck_assert_int_eq(zp_def_set_value(def, "load.mass", "8 m", &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, "load.mass") && strstr(err.message, "8 m"), "%s", err.message);
+  ck_same_def(def, plain);
+  zp_def_destroy(def);
+  zp_def_destroy(plain);
+}
+END_TEST
+
+/* Without memory for a Def there is none, and each call that gets it says so. */
+START_TEST(no_def_is_no_memory) {
+  ZpError err = {ZP_OK, ""};
+  ZpModel *model = NULL;
+  ZpResult *result = NULL;
+  ZpScenario *scenario = zp_scenario_create();
+  ck_assert_int_eq(zp_def_set_number(NULL, "load.mass", 1, &err), ZP_MACHINE);
+  ck_assert_str_eq(err.message, "no memory");
+  ck_assert_int_eq(zp_def_set_text(NULL, zp_key_find("data.file"), "", &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_def_resolve(NULL, NULL, 0, &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, NULL, &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_def_check(NULL, &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_model_create(NULL, &model, &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, NULL, &err), ZP_MACHINE);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, NULL, NULL, NULL, &result, &err), ZP_MACHINE);
+  ck_assert(isnan(zp_def_number(NULL, "load.mass")) && !zp_def_word(NULL, "data.file"));
+  zp_scenario_destroy(scenario);
 }
 END_TEST
 
 /* One state after another: that of study stationary without voltage, less open under one, none above the pull-in. */
 START_TEST(rest_hangs_as_the_study_says) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.mesh.nodes = 21;
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "mesh.nodes", 21, NULL);
   ZpModel *model = NULL;
   ZpRest *rest = NULL;
   ZpResult *result = NULL;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, NULL), ZP_OK);
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ck_assert_int_eq(zp_study_run(ZP_STUDY_STATIONARY, def, NULL, NULL, &result, NULL), ZP_OK);
+  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
   ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
   ck_assert(zp_rest_hang(rest, 0));
   double stroke = zp_rest_stroke(rest), opening = zp_rest_opening(rest);
@@ -480,22 +686,24 @@ START_TEST(rest_hangs_as_the_study_says) {
   zp_rest_destroy(NULL);
   zp_result_destroy(result);
   zp_model_destroy(model);
+  zp_def_destroy(def);
 }
 END_TEST
 
 /* A study is checked as its number says, which may be none. */
 START_TEST(study_out_of_range) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  ZpResult *result = (ZpResult *)(void *)&def;
+  ZpActuatorDef *def = zp_def_create();
+  ZpResult *result = (ZpResult *)(void *)def;
   ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_study_run(ZpStudy_COUNT, &def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_study_run(ZpStudy_COUNT, def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_ptr_null(result);
   char words[64];
   snprintf(words, sizeof words, "study = %d: out of range; 0 to %d", ZpStudy_COUNT, ZpStudy_COUNT - 1);
   ck_assert_msg(strstr(err.message, words), "%s", err.message);
-  ck_assert_int_eq(zp_study_check((ZpStudy)-1, &def, &err), ZP_BAD_INPUT);
+  ck_assert_int_eq(zp_study_check((ZpStudy)-1, def, &err), ZP_BAD_INPUT);
   ck_assert_str_eq(zp_study_name((ZpStudy)-1), "unknown");
   ck_assert_str_eq(zp_study_name(ZP_STUDY_MODES), "modes");
+  zp_def_destroy(def);
 }
 END_TEST
 
@@ -523,7 +731,13 @@ int main(void) {
   tcase_add_test(c, words_of_no_outcome);
   tcase_add_test(c, no_real_time_factor_without_wall_time);
   tcase_add_test(c, no_motion_without_the_checkpoint);
-  tcase_add_test(c, three_ways_to_fill_a_def);
+  tcase_add_test(c, four_ways_to_fill_a_def);
+  tcase_add_test(c, words_of_a_def);
+  tcase_add_test(c, refusals_of_a_def);
+  tcase_add_test(c, no_def_is_no_memory);
+  tcase_add_test(c, result_is_read_by_calls);
+  tcase_add_test(c, constants_of_a_model);
+  tcase_add_test(c, steps_are_counted_by_their_limit);
   suite_add_tcase(suite, c);
   return run_suite(suite);
 }

@@ -18,6 +18,8 @@
 
 #define EXPORT __attribute__((visibility("default"), used))
 
+enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
+
 /* Number of signals. */
 #define ZP_SIGNAL(name, unit, suffix, help) +1
 #define ZP_ROW(name)                        +1
@@ -27,8 +29,6 @@ enum {
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW
-
-enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
 
 typedef struct ZpWeb {
   char text[TEXT_SIZE];
@@ -118,7 +118,7 @@ EXPORT const char *zp_web_choice_help(int index, int choice) {
 
 /* Value of a key in the resolved scenario, SI. */
 EXPORT double zp_web_key_value(const ZpWeb *web, int index) {
-  return zp_key(index)->offset == ZP_NO_FIELD ? (double)web->study : zp_def_get(&web->def, index);
+  return zp_key_in_def(index) ? zp_def_get(&web->def, index) : (double)web->study;
 }
 
 /* (key, SI) => text "8 g". */
@@ -150,10 +150,10 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   else if (zp_value_read(key, sign + 1, &value, &err) != ZP_OK)
     snprintf(message, sizeof message, "%s=%.80s: %s", web->text, sign + 1, err.message);
   else {
-    if (zp_key(key)->offset == ZP_NO_FIELD)
-      web->asked = (ZpStudy)value;
-    else
+    if (zp_key_in_def(key))
       web->list[web->assigned++] = (ZpAssignment){key, value};
+    else
+      web->asked = (ZpStudy)value;
     return say(web, ZP_OK, "");
   }
   return say(web, ZP_BAD_INPUT, message);

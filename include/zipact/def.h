@@ -107,6 +107,16 @@ typedef struct ZpMaterialValue {
   const char *source; /* where the value comes from, one line */
 } ZpMaterialValue;
 
+/* A new Def in which every key has its default: the paper's actuator, with correct physics. NULL if there is no memory.
+ */
+ZP_API ZpActuatorDef *zp_def_create(void);
+
+/* A copy, which belongs to the caller; NULL if there is no memory. */
+ZP_API ZpActuatorDef *zp_def_copy(const ZpActuatorDef *def);
+
+/* Free it; NULL is allowed. */
+ZP_API void zp_def_destroy(ZpActuatorDef *def);
+
 /* Number of keys. */
 ZP_API int zp_key_count(void);
 
@@ -131,6 +141,9 @@ ZP_API void zp_key_unknown(const char *name, char *text, size_t size);
 /* Place of `word` in the list of the choice key `index`, or -1. */
 ZP_API int zp_key_choice(int index, const char *word);
 
+/* Does a Def have key `index`? False for the key of the scenario: study. */
+ZP_API bool zp_key_in_def(int index);
+
 /* Value of key `index` in `def`, as in ZpAssignment; NAN for a text key and for a key of the scenario. */
 ZP_API double zp_def_get(const ZpActuatorDef *def, int index);
 
@@ -144,6 +157,18 @@ ZP_API const char *zp_def_text(const ZpActuatorDef *def, int index);
 /* Set a text key. ZP_BAD_INPUT if the text is longer than 255 bytes or has control characters, or the key is
  * of another type; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
+
+/* The same by the name of a key, which is found by comparison: programs that set a key thousands of times look it up
+ * once. An unknown name gives NAN, or ZP_BAD_INPUT with the nearest known key. */
+ZP_API double zp_def_number(const ZpActuatorDef *def, const char *key);
+ZP_API ZpStatus zp_def_set_number(ZpActuatorDef *def, const char *key, double value, ZpError *err);
+
+/* The value of a key as a word: that of a choice, true or false, auto or none, or a text; NULL if its value is a
+ * number, and if there is no such key. Valid until the key is set or the Def is destroyed. */
+ZP_API const char *zp_def_word(const ZpActuatorDef *def, const char *key);
+
+/* Set a key by such a word. ZP_BAD_INPUT names the key and the words that it takes; `def` is then unchanged. */
+ZP_API ZpStatus zp_def_set_word(ZpActuatorDef *def, const char *key, const char *word, ZpError *err);
 
 /* Number of members of the system: stack.series, or stack.parallel if a member has keys of its own. Equal actuators
  * side by side count as one. */

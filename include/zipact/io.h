@@ -74,6 +74,10 @@ ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
  * SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
 ZP_API ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
+/* Set key `key` of a Def by a value in the form for people: "8 g", "auto", "true", "plates", or a text. ZP_BAD_INPUT as
+ * zp_value_parse, or with the nearest known key; `def` is then unchanged. */
+ZP_API ZpStatus zp_def_set_value(ZpActuatorDef *def, const char *key, const char *text, ZpError *err);
+
 /* A result as bytes that mean the same on every machine, with all that is in it but the states of study limits. =>
  * their number; `bytes` NULL: they are only counted. */
 ZP_API size_t zp_result_save(const ZpResult *result, void *bytes);

@@ -28,6 +28,22 @@ ZP_API void zp_model_destroy(ZpModel *model);
 /* The definition that the model was built from. */
 ZP_API const ZpActuatorDef *zp_model_def(const ZpModel *model);
 
+/* A constant of `model`, for a series that of its uppermost member, SI; NAN if there is none of that name:
+ *   ribbons            1 or 2
+ *   nodes              per ribbon
+ *   flexible_length    L, of one modelled ribbon, m
+ *   element_length     l = L / (N-1), m
+ *   bending_stiffness  E I of a ribbon, N m^2
+ *   axial_stiffness    E A of a ribbon, N
+ *   line_mass          of a ribbon with its insulator, kg/m
+ *   axial_spring       K_D, N/m
+ *   shear_coefficient  K_S, N/m
+ *   insulator_offset   d, m
+ *   internal_damping   Kelvin-Voigt time, s
+ *   closed_line_force  attraction per length of closed faces at the highest voltage, N/m
+ *   stable_time_step   largest explicit step that is certainly stable, s */
+ZP_API double zp_model_get(const ZpModel *model, const char *name);
+
 /* Constants that follow from the keys, SI, for information. */
 typedef struct ZpModelInfo {
   int ribbons;              /* 1 or 2 */

@@ -83,6 +83,32 @@ typedef struct ZpRunInfo {
   double settle_residual;          /* largest unbalanced force there, over all weight */
 } ZpRunInfo;
 
+/* A new empty one, which belongs to the caller; NULL if there is no memory. */
+ZP_API ZpRunInfo *zp_run_info_create(void);
+
+/* Free it; NULL is allowed. */
+ZP_API void zp_run_info_destroy(ZpRunInfo *info);
+
+/* How the last run ended that filled it, and one sentence for people on that. */
+ZP_API ZpOutcome zp_run_info_outcome(const ZpRunInfo *info);
+ZP_API const char *zp_run_info_message(const ZpRunInfo *info);
+
+/* Number of steps that `limit` set; 0 for any other number. */
+ZP_API int64_t zp_run_info_limited(const ZpRunInfo *info, ZpStepLimit limit);
+
+/* A number of it, SI; NAN if there is none of that name:
+ *   steps            taken
+ *   rejected         implicit: steps rejected for their local error
+ *   failures         implicit: steps in which Newton's method did not converge
+ *   iterations       implicit: iterations of Newton's method
+ *   drag_bound, axial_bound, shear_bound
+ *                    smallest bounds of eq. (9) of the paper, s, over the recorded rows
+ *   simulated_time   s
+ *   wall_time        of the stepping, s; NAN without a clock
+ *   settle_steps     pseudo-time steps to the hanging equilibrium
+ *   settle_residual  largest unbalanced force there, over all weight */
+ZP_API double zp_run_info_get(const ZpRunInfo *info, const char *name);
+
 /* A new simulation at t = 0, in its initial state and with the voltage of the waveform at this time. `model` must
  * outlive it. The function first finds the hanging equilibrium, which is the start and the reference of contraction; if
  * there is none, the next zp_sim_run returns ZP_NOT_SETTLED and does nothing else. With initial.state checkpoint the
@@ -233,6 +259,9 @@ ZP_API const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *co
 
 /* The SI unit of control.signal: "m", "F" or "1". */
 ZP_API const char *zp_control_unit(const ZpActuatorDef *def);
+
+/* Place of the signal called `name` ("stroke") in a row, or -1. */
+ZP_API int zp_signal_find(const char *name);
 
 /* Continue from the state of `from`, a simulation of another model with as many members, ribbons and nodes: its time,
  * voltage, contact, velocities and shape, stretched to this model's length. Energy and losses count from here on;

@@ -121,6 +121,35 @@ ZP_API void zp_result_destroy(ZpResult *result);
 /* The scalar called `name`, NAN if there is none. */
 ZP_API double zp_result_get(const ZpResult *result, const char *name);
 
+/* The study, how it ended, and one sentence on that. */
+ZP_API ZpStudy zp_result_study(const ZpResult *result);
+ZP_API ZpOutcome zp_result_outcome(const ZpResult *result);
+ZP_API const char *zp_result_message(const ZpResult *result);
+
+/* Number of notes, and note `index` below it: a sentence on breakdown, yield, or limits of the model and of the mesh.
+ */
+ZP_API size_t zp_result_notes(const ZpResult *result);
+ZP_API const char *zp_result_note_text(const ZpResult *result, size_t index);
+
+/* Number of elements on the shortest length over which a ribbon bends, at the zip front or at rest (theory, eqs. (9.4)
+ * and (9.5)); below 1 no errors are estimated. INFINITY: no such length. */
+ZP_API double zp_result_resolution(const ZpResult *result);
+
+/* Number of scalars, and scalar `index` below it, in the order of the summary. */
+ZP_API size_t zp_result_scalars(const ZpResult *result);
+ZP_API const ZpScalar *zp_result_scalar(const ZpResult *result, size_t index);
+
+/* Number of derivatives, and derivative `index` below it: key by key, in the order of sensitivity.by. */
+ZP_API size_t zp_result_sensitivities(const ZpResult *result);
+ZP_API const ZpSensitivity *zp_result_sensitivity(const ZpResult *result, size_t index);
+
+/* The study's table, its shapes, its map of the field, and the checkpoint of a run in time, to resume from. They are
+ * parts of the result; NULL if it has none. */
+ZP_API const ZpTable *zp_result_series(const ZpResult *result);
+ZP_API const ZpShapes *zp_result_shapes(const ZpResult *result);
+ZP_API const ZpFieldMap *zp_result_map(const ZpResult *result);
+ZP_API const ZpCheckpoint *zp_result_checkpoint(const ZpResult *result);
+
 #ifdef __cplusplus
 }
 #endif

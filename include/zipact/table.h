@@ -48,6 +48,17 @@ ZP_API void zp_table_keep_last(ZpTable *table, const double *row);
 /* Value in row `row` of the column called `name`; NAN if there is none. */
 ZP_API double zp_table_get(const ZpTable *table, size_t row, const char *name);
 
+/* Numbers of rows and of columns. */
+ZP_API size_t zp_table_rows(const ZpTable *table);
+ZP_API size_t zp_table_columns(const ZpTable *table);
+
+/* Column `column`, below zp_table_columns. */
+ZP_API const ZpColumn *zp_table_column(const ZpTable *table, size_t column);
+
+/* Row `row`: zp_table_columns numbers, valid until the table changes. Rows follow each other in memory. NULL if there
+ * is no such row. */
+ZP_API const double *zp_table_row(const ZpTable *table, size_t row);
+
 /* One shape: values at every node. Station i of ribbon r is at [i * ribbons + r]; ribbon 0 is the upper one (kind
  * ribbon: the only one). Positions are those of the insulators' faces, m: x to the right from the clip of the straight
  * actuator, y upwards from the upper platform (kind ribbon: from the clamp). */
@@ -92,6 +103,16 @@ ZP_API void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape);
 
 /* Frame `frame` of the sequence; its pointers are valid until the sequence changes. */
 ZP_API ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame);
+
+/* Numbers of frames; of ribbons, 1 or 2; of nodes per ribbon, of a series those of all its members, the uppermost
+ * first; of members of a series, otherwise 1. */
+ZP_API size_t zp_shapes_frames(const ZpShapes *shapes);
+ZP_API size_t zp_shapes_ribbons(const ZpShapes *shapes);
+ZP_API size_t zp_shapes_nodes(const ZpShapes *shapes);
+ZP_API size_t zp_shapes_members(const ZpShapes *shapes);
+
+/* Distance in memory, in doubles, between a number of one frame and the same number of the next. */
+ZP_API size_t zp_shapes_stride(const ZpShapes *shapes);
 
 #ifdef __cplusplus
 }

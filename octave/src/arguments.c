@@ -165,3 +165,10 @@ void read_scenario(int count, const mxArray *const *value) {
   for (int i = first; i < count; i += 2)
     set_key(text_of(value[i], "key"), value[i + 1]);
 }
+
+const ZpActuatorDef *read_def(size_t row) {
+  ZpError err;
+  if (!call.def) call.def = zp_def_create();
+  if (zp_scenario_def(call.scenario, row, call.def, &err) != ZP_OK) fail(&err);
+  return call.def;
+}

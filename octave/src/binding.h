@@ -15,6 +15,7 @@
 /* The objects of the current call. */
 typedef struct Call {
   ZpScenario *scenario;
+  ZpActuatorDef *def;
   ZpBatch batch;
   ZpShapes *film;
 } Call;
@@ -38,6 +39,9 @@ double quantity_of(const char *key, const char *name, const mxArray *value);
 
 /* Fill call.scenario from [FILE or STRUCT,] KEY, VALUE, ... */
 void read_scenario(int count, const mxArray *const *value);
+
+/* Definition `row` of call.scenario, in call.def. */
+const ZpActuatorDef *read_def(size_t row);
 
 /* -- the library => structs (result.c) ------------------------------------------------------------------ */
 

@@ -84,8 +84,7 @@ static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
   mxArray *all = new_struct();
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpKey *key = zp_key(i);
-    mxArray *value =
-        key_value(key, key->offset == ZP_NO_FIELD ? (double)study : zp_def_get(def, i), zp_def_text(def, i));
+    mxArray *value = key_value(key, zp_key_in_def(i) ? zp_def_get(def, i) : (double)study, zp_def_text(def, i));
     const char *field;
     mxArray *group = group_of(all, key->name, &field);
     set(group, 0, field, value);
@@ -97,11 +96,11 @@ static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
 
 static mxArray *series_struct(const ZpTable *table) {
   mxArray *series = new_struct();
-  for (size_t i = 0; i < table->columns; i++) {
-    mxArray *column = new_matrix(table->rows, 1, NULL);
-    for (size_t row = 0; row < table->rows; row++)
-      mxGetPr(column)[row] = table->value[row * table->columns + i];
-    set(series, 0, table->column[i].name, column);
+  for (size_t i = 0; i < zp_table_columns(table); i++) {
+    mxArray *column = new_matrix(zp_table_rows(table), 1, NULL);
+    for (size_t row = 0; row < zp_table_rows(table); row++)
+      mxGetPr(column)[row] = zp_table_row(table, row)[i];
+    set(series, 0, zp_table_column(table, i)->name, column);
   }
   return series;
 }
@@ -119,12 +118,13 @@ static void put_frame(mxArray *film, size_t frame, size_t nodes, size_t ribbons,
 }
 
 mxArray *shapes_struct(const ZpShapes *film) {
-  size_t n = film->nodes, ribbons = film->ribbons, frames = film->frames;
+  size_t n = zp_shapes_nodes(film), ribbons = zp_shapes_ribbons(film), frames = zp_shapes_frames(film);
   mxArray *time = new_matrix(frames, 1, NULL), *voltage = new_matrix(frames, 1, NULL);
   mxArray *zipped = new_matrix(frames, 1, NULL);
   mxArray *x = new_film(n, ribbons, frames), *y = new_film(n, ribbons, frames);
   mxArray *gap = new_matrix(n, frames, NULL), *force = new_matrix(n, frames, NULL);
   mxArray *field = new_matrix(n, frames, NULL), *stress = new_film(n, ribbons, frames);
+  ZpShape first = frames ? zp_shapes_get(film, 0) : (ZpShape){0}; /* all have the same arrays */
   for (size_t i = 0; i < frames; i++) {
     ZpShape shape = zp_shapes_get(film, i);
     mxGetPr(time)[i] = shape.time;
@@ -132,10 +132,10 @@ mxArray *shapes_struct(const ZpShapes *film) {
     mxGetPr(zipped)[i] = (double)shape.zipped;
     put_frame(x, i, n, ribbons, shape.x);
     put_frame(y, i, n, ribbons, shape.y);
-    if (film->facing) put_frame(gap, i, n, 1, shape.gap);
-    if (film->facing) put_frame(force, i, n, 1, shape.line_force);
-    if (film->facing) put_frame(field, i, n, 1, shape.insulator_field);
-    if (film->stressed) put_frame(stress, i, n, ribbons, shape.stress);
+    if (first.gap) put_frame(gap, i, n, 1, shape.gap);
+    if (first.gap) put_frame(force, i, n, 1, shape.line_force);
+    if (first.gap) put_frame(field, i, n, 1, shape.insulator_field);
+    if (first.stress) put_frame(stress, i, n, ribbons, shape.stress);
   }
   mxArray *shapes = new_struct();
   set(shapes, 0, "time_s", time);
@@ -143,10 +143,10 @@ mxArray *shapes_struct(const ZpShapes *film) {
   set(shapes, 0, "zipped", zipped);
   set(shapes, 0, "x_m", x);
   set(shapes, 0, "y_m", y);
-  if (film->facing) set(shapes, 0, "gap_m", gap);
-  if (film->facing) set(shapes, 0, "line_force_N_per_m", force);
-  if (film->facing) set(shapes, 0, "insulator_field_V_per_m", field);
-  if (film->stressed) set(shapes, 0, "stress_Pa", stress);
+  if (first.gap) set(shapes, 0, "gap_m", gap);
+  if (first.gap) set(shapes, 0, "line_force_N_per_m", force);
+  if (first.gap) set(shapes, 0, "insulator_field_V_per_m", field);
+  if (first.stress) set(shapes, 0, "stress_Pa", stress);
   return shapes;
 }
 
@@ -164,17 +164,17 @@ static mxArray *map_struct(const ZpFieldMap *map) {
 /* -- results ------------------------------------------------------------------------------------------- */
 
 static mxArray *notes_cell(const ZpResult *result) {
-  mxArray *notes = mxCreateCellMatrix(result->notes, result->notes > 0);
-  for (size_t i = 0; i < result->notes; i++)
-    mxSetCell(notes, i, mxCreateString(result->note[i]));
+  mxArray *notes = mxCreateCellMatrix(zp_result_notes(result), zp_result_notes(result) > 0);
+  for (size_t i = 0; i < zp_result_notes(result); i++)
+    mxSetCell(notes, i, mxCreateString(zp_result_note_text(result, i)));
   return notes;
 }
 
 /* For each output a struct of its derivatives. */
 static mxArray *sensitivity_struct(const ZpResult *result) {
   mxArray *all = new_struct();
-  for (size_t i = 0; i < result->sensitivities; i++) {
-    const ZpSensitivity *s = &result->sensitivity[i];
+  for (size_t i = 0; i < zp_result_sensitivities(result); i++) {
+    const ZpSensitivity *s = zp_result_sensitivity(result, i);
     if (mxGetFieldNumber(all, s->output) < 0) set(all, 0, s->output, new_struct());
     set(mxGetField(all, 0, s->output), 0, zp_key(s->key)->name, mxCreateDoubleScalar(s->value));
   }
@@ -196,17 +196,17 @@ static bool set_frequency(mxArray *structs, size_t index, const ZpScalar *scalar
 }
 
 void set_result(mxArray *structs, size_t index, const ZpResult *result, const ZpActuatorDef *def) {
-  set(structs, index, "study", mxCreateString(zp_study_name(result->study)));
-  set(structs, index, "outcome", mxCreateString(zp_outcome_name(result->outcome)));
-  set(structs, index, "good", mxCreateLogicalScalar(zp_outcome_good(result->outcome)));
-  set(structs, index, "message", mxCreateString(result->message));
+  set(structs, index, "study", mxCreateString(zp_study_name(zp_result_study(result))));
+  set(structs, index, "outcome", mxCreateString(zp_outcome_name(zp_result_outcome(result))));
+  set(structs, index, "good", mxCreateLogicalScalar(zp_outcome_good(zp_result_outcome(result))));
+  set(structs, index, "message", mxCreateString(zp_result_message(result)));
   set(structs, index, "notes", notes_cell(result));
-  for (size_t i = 0; i < result->scalars; i++)
-    if (!set_frequency(structs, index, &result->scalar[i]))
-      set(structs, index, result->scalar[i].name, mxCreateDoubleScalar(result->scalar[i].value));
-  if (result->sensitivities > 0) set(structs, index, "sensitivity", sensitivity_struct(result));
-  if (result->series) set(structs, index, "series", series_struct(result->series));
-  if (result->shapes) set(structs, index, "shapes", shapes_struct(result->shapes));
-  if (result->map) set(structs, index, "field", map_struct(result->map));
-  set(structs, index, "definition", definition_struct(result->study, def));
+  for (size_t i = 0; i < zp_result_scalars(result); i++)
+    if (!set_frequency(structs, index, zp_result_scalar(result, i)))
+      set(structs, index, zp_result_scalar(result, i)->name, mxCreateDoubleScalar(zp_result_scalar(result, i)->value));
+  if (zp_result_sensitivities(result) > 0) set(structs, index, "sensitivity", sensitivity_struct(result));
+  if (zp_result_series(result)) set(structs, index, "series", series_struct(zp_result_series(result)));
+  if (zp_result_shapes(result)) set(structs, index, "shapes", shapes_struct(zp_result_shapes(result)));
+  if (zp_result_map(result)) set(structs, index, "field", map_struct(zp_result_map(result)));
+  set(structs, index, "definition", definition_struct(zp_result_study(result), def));
 }

@@ -12,8 +12,9 @@ typedef struct Simulation {
   uint64_t handle;
   ZpModel *model;
   ZpSim *sim;
-  bool ended; /* values are invalid until a state is restored */
-  bool runs;  /* its controller is running: it can only be read */
+  ZpRunInfo *info; /* of the last step or run */
+  bool ended;      /* values are invalid until a state is restored */
+  bool runs;       /* its controller is running: it can only be read */
 } Simulation;
 
 static Simulation *simulations; /* open simulations */
@@ -24,6 +25,7 @@ static void take_arguments(const char *command, int count, int least, int most) 
 }
 
 static void free_simulation(Simulation *simulation) {
+  zp_run_info_destroy(simulation->info);
   zp_sim_destroy(simulation->sim);
   zp_model_destroy(simulation->model);
   free(simulation);
@@ -61,15 +63,15 @@ static mxArray *new_double(double value) {
 }
 
 mxArray *simulation_open(int count, const mxArray *const *value) {
-  ZpActuatorDef def;
   ZpError err;
   read_scenario(count, value);
   if (zp_scenario_count(call.scenario) != 1) fail_input("open: takes one actuator, not lists of values");
-  if (zp_scenario_def(call.scenario, 0, &def, &err) != ZP_OK) fail(&err);
-  Simulation made = {.next = simulations, .handle = new_handle()}, *simulation = malloc(sizeof made);
+  const ZpActuatorDef *def = read_def(0);
+  Simulation made = {.next = simulations, .handle = new_handle(), .info = zp_run_info_create()};
+  Simulation *simulation = malloc(sizeof made);
   if (!simulation) fail_memory();
   watch_begin();
-  ZpStatus status = zp_data_sim_create(&def, &watch_hooks, &made.model, &made.sim, &err);
+  ZpStatus status = zp_data_sim_create(def, &watch_hooks, &made.model, &made.sim, &err);
   bool interrupted = watch_end();
   *simulation = made;
   if (status != ZP_OK || interrupted) free_simulation(simulation);
@@ -87,16 +89,15 @@ mxArray *simulation_step(int count, const mxArray *const *value) {
   Simulation *simulation = *find_free(value[0]);
   double dt = quantity_of("solver.end_time", "dt", value[1]);
   double voltage = count > 2 ? quantity_of("drive.voltage", "voltage", value[2]) : 0;
-  ZpRunInfo info = {0};
   ZpError err;
   if (simulation->ended) fail_numerics("the simulation has diverged; restore a state to continue");
   if (count > 2 && zp_sim_set_voltage(simulation->sim, voltage, &err) != ZP_OK) fail(&err);
   watch_begin();
-  ZpOutcome outcome = zp_sim_step(simulation->sim, dt, &watch_hooks, &info);
+  ZpOutcome outcome = zp_sim_step(simulation->sim, dt, &watch_hooks, simulation->info);
   watch_end();
   simulation->ended = outcome == ZP_DIVERGED || outcome == ZP_BEYOND_MODEL;
   if (outcome == ZP_INTERRUPTED) fail_interrupted();
-  if (outcome != ZP_REACHED_END) fail_numerics(info.message);
+  if (outcome != ZP_REACHED_END) fail_numerics(zp_run_info_message(simulation->info));
   return new_double(zp_sim_get(simulation->sim, "time"));
 }
 
@@ -148,7 +149,6 @@ static void check_signal(const char *signal) {
 mxArray *simulation_control(int count, const mxArray *const *value) {
   take_arguments("control", count, 5, 5);
   Simulation *simulation = *find_free(value[0]);
-  ZpRunInfo info = {0};
   ZpError err;
   if (!mxIsFunctionHandle(value[1])) fail_input("controller: takes a function handle, @(time, signal) voltage");
   Controller controller = {.function = (mxArray *)value[1], .signal = text_of(value[2], "signal")};
@@ -159,15 +159,15 @@ mxArray *simulation_control(int count, const mxArray *const *value) {
   if (zp_sim_set_controller(simulation->sim, &(ZpController){period, &controller, ask}, &err) != ZP_OK) fail(&err);
   simulation->runs = true;
   watch_begin();
-  ZpOutcome outcome = zp_sim_run(simulation->sim, end, false, &watch_hooks, &info);
+  ZpOutcome outcome = zp_sim_run(simulation->sim, end, false, &watch_hooks, simulation->info);
   watch_end();
   simulation->runs = false;
   zp_sim_set_controller(simulation->sim, NULL, NULL);
   simulation->ended = outcome == ZP_DIVERGED || outcome == ZP_BEYOND_MODEL;
   if (controller.failed) fail_controller(&controller);
   if (outcome == ZP_INTERRUPTED) fail_interrupted();
-  if (outcome == ZP_BAD_ARGUMENT) fail_input("%s", info.message);
-  if (outcome != ZP_REACHED_END) fail_numerics(info.message);
+  if (outcome == ZP_BAD_ARGUMENT) fail_input("%s", zp_run_info_message(simulation->info));
+  if (outcome != ZP_REACHED_END) fail_numerics(zp_run_info_message(simulation->info));
   return new_double(zp_sim_get(simulation->sim, "time"));
 }
 
@@ -187,9 +187,9 @@ mxArray *simulation_read(int count, const mxArray *const *value) {
 mxArray *simulation_shape(int count, const mxArray *const *value) {
   take_arguments("shape", count, 1, 1);
   Simulation *simulation = *find(value[0]);
-  ZpModelInfo info = zp_model_info(simulation->model);
   ZpShape shape = zp_sim_shape(simulation->sim);
-  call.film = zp_shapes_create((size_t)info.ribbons, (size_t)info.nodes, 2);
+  size_t ribbons = (size_t)zp_model_get(simulation->model, "ribbons");
+  call.film = zp_shapes_create(ribbons, (size_t)zp_model_get(simulation->model, "nodes"), 2);
   if (!call.film) fail_memory();
   zp_shapes_offer(call.film, &shape);
   return shapes_struct(call.film);

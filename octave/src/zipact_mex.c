@@ -12,6 +12,7 @@ Call call;
 static void free_call(void) {
   zp_batch_free(&call.batch);
   zp_scenario_destroy(call.scenario);
+  zp_def_destroy(call.def);
   zp_shapes_destroy(call.film);
   call = (Call){0};
 }
@@ -72,11 +73,8 @@ static mxArray *run_scenario(void) {
   if (status != ZP_OK) fail(&err);
   if (interrupted) fail_interrupted();
   mxArray *structs = mxCreateStructMatrix(1, call.batch.done, 0, NULL);
-  for (size_t run = 0; run < call.batch.done; run++) {
-    ZpActuatorDef def;
-    if (zp_scenario_def(call.scenario, run, &def, &err) != ZP_OK) fail(&err);
-    set_result(structs, run, call.batch.result[run], &def);
-  }
+  for (size_t run = 0; run < call.batch.done; run++)
+    set_result(structs, run, call.batch.result[run], read_def(run));
   return structs;
 }
 

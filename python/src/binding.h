@@ -65,7 +65,7 @@ extern PyType_Spec definition_spec, simulation_spec, result_spec, view_spec;
 typedef struct Definition {
   PyObject_HEAD State *state;
   ZpStudy study;
-  ZpActuatorDef def;
+  ZpActuatorDef *def;
   ZpDriveTable drive; /* rows of the drive given as arrays; 0 rows: the drive of def */
 } Definition;
 

@@ -57,8 +57,11 @@ int quantity_of(const State *state, int key, const char *name, PyObject *object,
     raise_input(state, "%s: not a finite number", name);
     return -1;
   }
-  ZpActuatorDef scratch = zp_actuator_def_default();
-  return zp_def_set(&scratch, key, *value, &err) == ZP_OK ? 0 : fail_renamed(state, key, name, &err);
+  ZpActuatorDef *scratch = zp_def_create();
+  ZpStatus status = zp_def_set(scratch, key, *value, &err);
+  zp_def_destroy(scratch);
+  if (status == ZP_MACHINE) raise_error(state, &err);
+  return status == ZP_OK ? 0 : status == ZP_MACHINE ? -1 : fail_renamed(state, key, name, &err);
 }
 
 static int key_of(const State *state, PyObject *name) {
@@ -91,7 +94,7 @@ static int set_text(const State *state, ZpActuatorDef *def, int key, PyObject *v
 
 /* The key of the scenario that is not part of the Def. */
 static bool is_study(int key) {
-  return zp_key(key)->offset == ZP_NO_FIELD;
+  return !zp_key_in_def(key);
 }
 
 /* The dictionary `values` => assignments and the study; their number, or -1. Converting a value to a text may run
@@ -169,7 +172,7 @@ static int take_drive(Definition *self, PyObject *drive) {
   const char *fault = rows == others ? zp_drive_table_fault(&self->drive, &row) : NULL;
   if (rows != others)
     raise_input(self->state, "drive: %zu times, but %zu voltages", rows, others);
-  else if (self->def.initial.state == ZP_INITIAL_CHECKPOINT)
+  else if (zp_def_number(self->def, "initial.state") == ZP_INITIAL_CHECKPOINT)
     raise_input(self->state, "initial.state = checkpoint: requires drive.table or drive.file instead of arrays");
   else if (fault)
     raise_input(self->state, "drive: row %zu: %s", row + 1, fault);
@@ -184,14 +187,16 @@ static PyObject *definition_new(PyTypeObject *type, PyObject *args, PyObject *kw
   Definition *self = (Definition *)((allocfunc)PyType_GetSlot(type, Py_tp_alloc))(type, 0);
   if (!self) return NULL;
   self->state = state;
+  self->def = zp_def_create();
   PyObject *own = PyDict_Copy(values);
-  if (!own || resolve(state, own, &self->study, &self->def) || (drive && take_drive(self, drive))) Py_CLEAR(self);
+  if (!own || resolve(state, own, &self->study, self->def) || (drive && take_drive(self, drive))) Py_CLEAR(self);
   Py_XDECREF(own);
   return (PyObject *)self;
 }
 
 static void definition_dealloc(PyObject *object) {
   Definition *self = (Definition *)object;
+  zp_def_destroy(self->def);
   free((void *)self->drive.time);
   free((void *)self->drive.voltage);
   free_object(object);
@@ -209,7 +214,8 @@ static PyObject *definitions_of(State *state, const ZpScenario *scenario) {
     if (good) {
       definition->state = state;
       definition->study = zp_scenario_study(scenario);
-      good = zp_scenario_def(scenario, row, &definition->def, &err) == ZP_OK;
+      definition->def = zp_def_create();
+      good = zp_scenario_def(scenario, row, definition->def, &err) == ZP_OK;
       if (!good) raise_error(state, &err);
     }
     if (!good || PyList_Append(list, (PyObject *)definition)) Py_CLEAR(list);
@@ -241,10 +247,10 @@ static PyObject *definition_get(PyObject *object, PyObject *name) {
   Definition *self = (Definition *)object;
   int key = key_of(self->state, name);
   if (key < 0) return NULL;
-  double value = is_study(key) ? (double)self->study : zp_def_get(&self->def, key);
+  double value = is_study(key) ? (double)self->study : zp_def_get(self->def, key);
   switch (zp_key(key)->type) {
   case ZP_KEY_TEXT:
-    return text_from(zp_def_text(&self->def, key));
+    return text_from(zp_def_text(self->def, key));
   case ZP_KEY_BOOL:
     return PyBool_FromLong(value != 0);
   case ZP_KEY_INT:
@@ -266,8 +272,8 @@ static PyObject *definition_run(PyObject *object, PyObject *progress) {
   ZpResult *result = NULL;
   ZpError err;
   ZpStudyInput arrays = {.table = &self->drive};
-  ZpStatus status = self->drive.rows ? zp_study_run_limited(self->study, &self->def, &arrays, &hooks, &result, &err)
-                                     : zp_data_study_run(self->study, &self->def, &hooks, &result, &err);
+  ZpStatus status = self->drive.rows ? zp_study_run_limited(self->study, self->def, &arrays, &hooks, &result, &err)
+                                     : zp_data_study_run(self->study, self->def, &hooks, &result, &err);
   watch_end(&watch);
   if (watch.failed) {
     zp_result_destroy(result);

@@ -71,9 +71,9 @@ static PyObject *get_message(PyObject *self, void *unused) {
 static PyObject *get_notes(PyObject *self, void *unused) {
   (void)unused;
   const ZpResult *result = of(self);
-  PyObject *list = PyTuple_New((Py_ssize_t)result->notes);
-  for (size_t i = 0; list && i < result->notes; i++) {
-    PyObject *text = text_from(result->note[i]);
+  PyObject *list = PyTuple_New((Py_ssize_t)zp_result_notes(result));
+  for (size_t i = 0; list && i < zp_result_notes(result); i++) {
+    PyObject *text = text_from(zp_result_note_text(result, i));
     if (!text || PyTuple_SetItem(list, (Py_ssize_t)i, text)) Py_CLEAR(list);
   }
   return list;
@@ -82,9 +82,9 @@ static PyObject *get_notes(PyObject *self, void *unused) {
 static PyObject *get_scalars(PyObject *self, void *unused) {
   (void)unused;
   const ZpResult *result = of(self);
-  PyObject *list = PyTuple_New((Py_ssize_t)result->scalars);
-  for (size_t i = 0; list && i < result->scalars; i++) {
-    const ZpScalar *scalar = &result->scalar[i];
+  PyObject *list = PyTuple_New((Py_ssize_t)zp_result_scalars(result));
+  for (size_t i = 0; list && i < zp_result_scalars(result); i++) {
+    const ZpScalar *scalar = zp_result_scalar(result, i);
     PyObject *item =
         Py_BuildValue("(ssdN)", scalar->name, scalar->unit, scalar->value, PyBool_FromLong(scalar->timing));
     if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
@@ -96,9 +96,9 @@ static PyObject *get_scalars(PyObject *self, void *unused) {
 static PyObject *get_sensitivities(PyObject *self, void *unused) {
   (void)unused;
   const ZpResult *result = of(self);
-  PyObject *list = PyTuple_New((Py_ssize_t)result->sensitivities);
-  for (size_t i = 0; list && i < result->sensitivities; i++) {
-    const ZpSensitivity *s = &result->sensitivity[i];
+  PyObject *list = PyTuple_New((Py_ssize_t)zp_result_sensitivities(result));
+  for (size_t i = 0; list && i < zp_result_sensitivities(result); i++) {
+    const ZpSensitivity *s = zp_result_sensitivity(result, i);
     PyObject *item = Py_BuildValue("(ssd)", s->output, zp_key(s->key)->name, s->value);
     if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
   }
@@ -112,14 +112,15 @@ static PyObject *get_series(PyObject *self, void *unused) {
   (void)unused;
   const ZpTable *table = of(self)->series;
   if (!table) Py_RETURN_NONE;
-  PyObject *columns = PyTuple_New((Py_ssize_t)table->columns);
-  for (size_t i = 0; columns && i < table->columns; i++) {
-    const ZpColumn *column = &table->column[i];
+  PyObject *columns = PyTuple_New((Py_ssize_t)zp_table_columns(table));
+  for (size_t i = 0; columns && i < zp_table_columns(table); i++) {
+    const ZpColumn *column = zp_table_column(table, i);
     PyObject *item = Py_BuildValue("(sss)", column->name, column->unit, column->help);
     if (!item || PyTuple_SetItem(columns, (Py_ssize_t)i, item)) Py_CLEAR(columns);
   }
   if (!columns) return NULL;
-  PyObject *rows = view_of_rows(((Result *)self)->state, self, table->value, table->rows, table->columns);
+  PyObject *rows = view_of_rows(((Result *)self)->state, self, zp_table_row(table, 0), zp_table_rows(table),
+                                zp_table_columns(table));
   return Py_BuildValue("(NN)", columns, rows);
 }
 
@@ -128,17 +129,17 @@ static PyObject *get_series(PyObject *self, void *unused) {
 static PyObject *film(PyObject *self, const double *first, int ndim) {
   if (!first) Py_RETURN_NONE;
   const ZpShapes *shapes = of(self)->shapes;
-  Py_ssize_t shape[] = {(Py_ssize_t)shapes->frames, (Py_ssize_t)shapes->nodes,
-                        ndim == 3 ? (Py_ssize_t)shapes->ribbons : 1};
+  Py_ssize_t shape[] = {(Py_ssize_t)zp_shapes_frames(shapes), (Py_ssize_t)zp_shapes_nodes(shapes),
+                        ndim == 3 ? (Py_ssize_t)zp_shapes_ribbons(shapes) : 1};
   Py_ssize_t size = sizeof(double);
-  Py_ssize_t strides[] = {(Py_ssize_t)shapes->frame_size * size, shape[2] * size, size};
+  Py_ssize_t strides[] = {(Py_ssize_t)zp_shapes_stride(shapes) * size, shape[2] * size, size};
   return view_new(((Result *)self)->state, self, first, ndim, shape, strides);
 }
 
 /* (time, voltage, zipped) of each frame. */
 static PyObject *frame_heads(const ZpShapes *shapes) {
-  PyObject *list = PyTuple_New((Py_ssize_t)shapes->frames);
-  for (size_t i = 0; list && i < shapes->frames; i++) {
+  PyObject *list = PyTuple_New((Py_ssize_t)zp_shapes_frames(shapes));
+  for (size_t i = 0; list && i < zp_shapes_frames(shapes); i++) {
     ZpShape shape = zp_shapes_get(shapes, i);
     PyObject *item = Py_BuildValue("(ddn)", shape.time, shape.voltage, (Py_ssize_t)shape.zipped);
     if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
@@ -149,7 +150,7 @@ static PyObject *frame_heads(const ZpShapes *shapes) {
 static PyObject *get_shapes(PyObject *self, void *unused) {
   (void)unused;
   const ZpShapes *shapes = of(self)->shapes;
-  if (!shapes || shapes->frames == 0) Py_RETURN_NONE;
+  if (!shapes || zp_shapes_frames(shapes) == 0) Py_RETURN_NONE;
   ZpShape first = zp_shapes_get(shapes, 0);
   return Py_BuildValue("{sNsNsNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
                        film(self, first.y, 3), "gap", film(self, first.gap, 2), "line_force",

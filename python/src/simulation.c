@@ -13,6 +13,7 @@ typedef struct Simulation {
   PyObject *definition; /* its definition */
   ZpModel *model;
   ZpSim *sim;
+  ZpRunInfo *info;               /* of the last step */
   int end_time_key, voltage_key; /* keys with the units and ranges of dt and voltage */
   double time;                   /* s */
   double hand_voltage;           /* voltage last set by step, V; NAN: none yet */
@@ -25,7 +26,7 @@ typedef struct Simulation {
 
 static ZpStatus compile(Simulation *self, const ZpHooks *hooks, ZpError *err) {
   const Definition *definition = (Definition *)self->definition;
-  const ZpActuatorDef *def = &definition->def;
+  const ZpActuatorDef *def = definition->def;
   if (!definition->drive.rows) return zp_data_sim_create(def, hooks, &self->model, &self->sim, err);
   ZpStatus status = zp_model_create_driven(def, &definition->drive, &self->model, err);
   return status == ZP_OK ? zp_sim_create(self->model, hooks, &self->sim, err) : status;
@@ -43,6 +44,7 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
   self->end_time_key = zp_key_find("solver.end_time");
   self->voltage_key = zp_key_find("drive.voltage");
   self->hand_voltage = NAN;
+  self->info = zp_run_info_create();
   Watch watch;
   watch_begin(&watch, NULL);
   ZpHooks hooks = watch_hooks(&watch);
@@ -60,6 +62,7 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
 
 static void simulation_dealloc(PyObject *object) {
   Simulation *self = (Simulation *)object;
+  zp_run_info_destroy(self->info);
   zp_sim_destroy(self->sim);
   zp_model_destroy(self->model);
   Py_XDECREF(self->definition);
@@ -95,34 +98,32 @@ static int step_arguments(const State *state, PyObject *const *args, Py_ssize_t 
   return -1;
 }
 
-static ZpOutcome advance(Simulation *self, double dt, double voltage, const ZpHooks *hooks, ZpRunInfo *info,
-                         ZpError *err) {
+static ZpOutcome advance(Simulation *self, double dt, double voltage, const ZpHooks *hooks, ZpError *err) {
   if (!isnan(voltage) && voltage != self->hand_voltage) {
     err->status = zp_sim_set_voltage(self->sim, voltage, err);
     if (err->status != ZP_OK) return ZP_REACHED_END;
     self->hand_voltage = voltage;
   }
-  return zp_sim_step(self->sim, dt, hooks, info);
+  return zp_sim_step(self->sim, dt, hooks, self->info);
 }
 
 static PyObject *step(Simulation *self, double dt, double voltage) {
   Watch watch;
-  ZpRunInfo info = {0};
   ZpError err = {.status = ZP_OK};
   double end = self->time + dt;
   self->busy = true;
   watch_begin(&watch, NULL);
   ZpHooks hooks = watch_hooks(&watch);
-  ZpOutcome outcome = advance(self, dt, voltage, &hooks, &info, &err);
+  ZpOutcome outcome = advance(self, dt, voltage, &hooks, &err);
   watch_end(&watch);
   self->busy = false;
-  self->steps += info.steps;
+  self->steps += (int64_t)zp_run_info_get(self->info, "steps");
   self->time = outcome == ZP_REACHED_END && err.status == ZP_OK ? end : zp_sim_get(self->sim, "time");
   self->ended = outcome == ZP_DIVERGED || outcome == ZP_BEYOND_MODEL;
   if (watch.failed) return NULL;
   if (err.status != ZP_OK) return raise_error(self->state, &err);
   if (outcome == ZP_REACHED_END) Py_RETURN_NONE;
-  PyErr_SetString(self->state->numerics_error, info.message);
+  PyErr_SetString(self->state->numerics_error, zp_run_info_message(self->info));
   return NULL;
 }
 
@@ -193,9 +194,8 @@ static PyObject *simulation_shape(PyObject *object, PyObject *unused) {
   (void)unused;
   Simulation *self = (Simulation *)object;
   if (refuse_busy(self)) return NULL;
-  ZpModelInfo info = zp_model_info(self->model);
   ZpShape shape = zp_sim_shape(self->sim);
-  size_t nodes = (size_t)info.nodes, ribbons = (size_t)info.ribbons;
+  size_t nodes = (size_t)zp_model_get(self->model, "nodes"), ribbons = (size_t)zp_model_get(self->model, "ribbons");
   return Py_BuildValue("(nNNNNNN)", (Py_ssize_t)shape.zipped, view_if_any(self, shape.x, nodes, ribbons),
                        view_if_any(self, shape.y, nodes, ribbons), view_if_any(self, shape.gap, 1, nodes),
                        view_if_any(self, shape.line_force, 1, nodes),

@@ -103,6 +103,22 @@ double zp_table_get(const ZpTable *table, size_t row, const char *name) {
   return NAN;
 }
 
+size_t zp_table_rows(const ZpTable *table) {
+  return table->rows;
+}
+
+size_t zp_table_columns(const ZpTable *table) {
+  return table->columns;
+}
+
+const ZpColumn *zp_table_column(const ZpTable *table, size_t column) {
+  return &table->column[column];
+}
+
+const double *zp_table_row(const ZpTable *table, size_t row) {
+  return row < table->rows ? table->value + row * table->columns : NULL;
+}
+
 /* A frame: time, voltage, zipped; x, y, stress of all nodes; gap, line force and insulator's field of the stations. */
 enum { FRAME_HEAD = 3, OF_NODES = 3, OF_STATIONS = 3 };
 
@@ -172,4 +188,24 @@ ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame) {
                    .line_force = of_stations ? of_stations + nodes : NULL,
                    .insulator_field = of_stations ? of_stations + 2 * nodes : NULL,
                    .stress = shapes->stressed ? x + 2 * all : NULL};
+}
+
+size_t zp_shapes_frames(const ZpShapes *shapes) {
+  return shapes->frames;
+}
+
+size_t zp_shapes_ribbons(const ZpShapes *shapes) {
+  return shapes->ribbons;
+}
+
+size_t zp_shapes_nodes(const ZpShapes *shapes) {
+  return shapes->nodes;
+}
+
+size_t zp_shapes_members(const ZpShapes *shapes) {
+  return shapes->members;
+}
+
+size_t zp_shapes_stride(const ZpShapes *shapes) {
+  return shapes->frame_size;
 }

@@ -192,6 +192,10 @@ int zp_key_choice(int index, const char *word) {
   return -1;
 }
 
+bool zp_key_in_def(int index) {
+  return keys[index].offset != ZP_NO_FIELD;
+}
+
 static bool has_field(const ZpKey *key) {
   return key->offset != ZP_NO_FIELD;
 }
@@ -230,11 +234,12 @@ static ZpActuatorDef defaults(void) {
 
 /* To be called before any field but the first is read. */
 static bool is_ours(const ZpActuatorDef *def) {
-  return def->layout == zp_def_layout();
+  return def && def->layout == zp_def_layout();
 }
 
 static ZpStatus check_layout(const ZpActuatorDef *def, ZpError *err) {
   if (is_ours(def)) return ZP_OK;
+  if (!def) return zp_fail_memory(err);
   return zp_fail(
       err, ZP_BAD_INPUT,
       "ZpActuatorDef does not match this library, zipact %s: either the program was compiled with headers of another "

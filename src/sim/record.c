@@ -480,13 +480,17 @@ static double unlisted(ZpSim *sim, const char *name) {
   return found;
 }
 
+int zp_signal_find(const char *name) {
+  for (int k = 0; k < SIGNAL_COUNT; k++)
+    if (strcmp(names[k], name) == 0) return k;
+  return -1;
+}
+
 double zp_sim_get(ZpSim *sim, const char *name) {
-  for (size_t k = 0; k < SIGNAL_COUNT; k++)
-    if (strcmp(names[k], name) == 0) {
-      fill_row(sim, row_of[k] ? taken_by(row_of[k]) : takes[k]);
-      return sim->row[k];
-    }
-  return unlisted(sim, name);
+  int k = zp_signal_find(name);
+  if (k < 0) return unlisted(sim, name);
+  fill_row(sim, row_of[k] ? taken_by(row_of[k]) : takes[k]);
+  return sim->row[k];
 }
 
 void zp_sim_read(ZpSim *sim, double *row) {

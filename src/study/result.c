@@ -92,3 +92,59 @@ void zp_result_note(ZpResult *result, const char *format, ...) {
   vsnprintf(result->note[result->notes++], sizeof result->note[0], format, args);
   va_end(args);
 }
+
+ZpStudy zp_result_study(const ZpResult *result) {
+  return result->study;
+}
+
+ZpOutcome zp_result_outcome(const ZpResult *result) {
+  return result->outcome;
+}
+
+const char *zp_result_message(const ZpResult *result) {
+  return result->message;
+}
+
+size_t zp_result_notes(const ZpResult *result) {
+  return result->notes;
+}
+
+const char *zp_result_note_text(const ZpResult *result, size_t index) {
+  return result->note[index];
+}
+
+double zp_result_resolution(const ZpResult *result) {
+  return result->resolution;
+}
+
+size_t zp_result_scalars(const ZpResult *result) {
+  return result->scalars;
+}
+
+const ZpScalar *zp_result_scalar(const ZpResult *result, size_t index) {
+  return &result->scalar[index];
+}
+
+size_t zp_result_sensitivities(const ZpResult *result) {
+  return result->sensitivities;
+}
+
+const ZpSensitivity *zp_result_sensitivity(const ZpResult *result, size_t index) {
+  return &result->sensitivity[index];
+}
+
+const ZpTable *zp_result_series(const ZpResult *result) {
+  return result->series;
+}
+
+const ZpShapes *zp_result_shapes(const ZpResult *result) {
+  return result->shapes;
+}
+
+const ZpFieldMap *zp_result_map(const ZpResult *result) {
+  return result->map;
+}
+
+const ZpCheckpoint *zp_result_checkpoint(const ZpResult *result) {
+  return result->checkpoint;
+}
