@@ -155,7 +155,7 @@ static void print_largest(const ZpReport *report) {
   };
   for (size_t i = 0; i < sizeof largest / sizeof largest[0] && report->count > 0; i++) {
     double value = zp_report_largest(report, largest[i].scalar, largest[i].where);
-    if (report->rows->get(report->rows->user, 0)->study == largest[i].study && !isnan(value))
+    if (zp_result_study(report->rows->get(report->rows->user, 0)) == largest[i].study && !isnan(value))
       printf("%s %.4g %s, of these\n", largest[i].words, value, largest[i].unit);
   }
 }

@@ -8,6 +8,8 @@
 
 #include "base/fail.h"
 #include "reproduce/parts.h"
+#include "actuator/model.h"
+#include "def/def.h"
 
 #define ZP_VERDICT(id, word, judged, title) {word, judged, title},
 const ZpVerdictInfo zp_verdicts[ZP_VERDICT_COUNT] = {

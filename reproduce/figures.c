@@ -9,6 +9,9 @@
 #include "io/atomic.h"
 #include "io/drawing.h"
 #include "reproduce/parts.h"
+#include "base/table.h"
+#include "def/def.h"
+#include "study/result.h"
 
 static bool has_run(const ZpRuns *runs, ZpRunId id) {
   return runs->run[id].batch.done > 0;

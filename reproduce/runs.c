@@ -8,6 +8,8 @@
 #include "base/fail.h"
 #include "io/atomic.h"
 #include "reproduce/parts.h"
+#include "def/def.h"
+#include "study/result.h"
 
 typedef struct Spec {
   const char *name;

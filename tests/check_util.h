@@ -12,7 +12,11 @@
 
 #include <zipact/zipact.h>
 
+#include "actuator/model.h"
+#include "def/def.h"
 #include "sanitized.h"
+#include "sim/info.h"
+#include "study/result.h"
 #include "suite.h"
 
 #define LENGTH_OF(array) (sizeof(array) / sizeof((array)[0]))

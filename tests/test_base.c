@@ -255,7 +255,7 @@ START_TEST(test_defaults_are_those_of_keys_def) {
 #define ZP_TEXT(path, name, def, help)                                                                                 \
   ck_assert_str_eq(d.path name, def);                                                                                  \
   check_key(&i, #path #name, NAN, NAN, 0, ZP_TEXT_SIZE - 1);
-#include <zipact/keys.def>
+#include "def/keys.def"
   ck_assert_int_eq(i, zp_key_count());
   ZpError err;
   ck_assert_int_eq(zp_def_check(&d, &err), ZP_OK);

@@ -51,7 +51,7 @@ def main():
     if header.name == "def.h":  # the macros that read the tables are nobody's business
         text = re.sub(r"^#define ZP_\w+\((?:[^\n]*\\\n)*[^\n]*\n|^#undef [^\n]*\n", "", text, flags=re.M)
         text = text.replace("#include <zipact/choices.def>", choices(body(header.parent / "choices.def"), body(header.parent / "studies.def")))
-        text = text.replace("#include <zipact/keys.def>", keys(body(header.parent / "keys.def")))
+        text = text.replace("#include "def/keys.def"", keys(body(header.parent / "keys.def")))
     text = re.sub(r"^/\*", "/** @file\n *", text, count=1)  # the first comment says what the file is,
     text = re.sub(r"^( *)/\* ", r"\1/** ", text, flags=re.M)  # one before a declaration belongs to it,
     text = re.sub(r"^(.*\S) +/\* ", r"\1 /**< ", text, flags=re.M)  # one behind a member to that

@@ -1,20 +1,20 @@
-/* The definition of an actuator, "Def": plain data, one field per key of keys.def.
+/* The definition of an actuator, "Def": a value for each key, behind a handle.
  *
- * Make a Def by zp_actuator_def_default or zp_def_resolve, which store the layout of the headers in it. Every function
- * that takes a Def refuses one that was made in another way, or with headers whose keys differ from those of the
- * library (ZP_BAD_INPUT; NAN or NULL if it returns no status). So a program never reads the wrong key.
+ * Keys have names ("load.mass"; `zipact keys` lists them with meaning, unit, default and range) and indices, which a
+ * program finds by name while it runs. There are three ways to fill a Def, with the same result: set one key after
+ * another by its name or its index, or give a list of assignments (zp_def_resolve), which also applies presets.
+ * zp_def_check checks the values; all functions that use a Def call it. All numbers are SI; io.h has a function that
+ * reads "8 g", and scenarios, in which a key may have a list of values. A key that is `auto` or `none` is NAN.
  *
- * There are three ways to fill a Def, with the same result: assign its fields (def.load.mass = 0.008), set it by key
- * (zp_def_set), or give a list of assignments (zp_def_resolve), which also applies presets. zp_def_check checks the
- * values; all functions that use a Def call it. All numbers are SI. A key that is `auto` or `none` is NAN.
+ * A Def is created by zp_def_create or zp_def_copy, which return NULL if there is no memory. Every function that takes
+ * a Def refuses NULL (ZP_MACHINE, "no memory"; NAN or NULL if it returns no status), so that a program need not ask
+ * twice.
  */
 #ifndef ZIPACT_DEF_H
 #define ZIPACT_DEF_H
 
 #include <stdbool.h>
 #include <stddef.h>
-#include <stdint.h>
-#include <string.h>
 
 #include <zipact/api.h>
 #include <zipact/error.h>
@@ -23,11 +23,11 @@
 extern "C" {
 #endif
 
-/* The enumerations: one type per list of choices.def, values from 0 in the order written there. */
+/* The enumerations: one type per list of choices.def, values from 0 in the order written there. A later library may add
+ * words at the end of a list. */
 #define ZP_CHOICES(type)                  typedef enum type {
 #define ZP_CHOICE(enumerator, word, help) enumerator,
 #define ZP_CHOICES_END(type)                                                                                           \
-  type##_COUNT                                                                                                         \
   }                                                                                                                    \
   type;
 #include <zipact/choices.def>
@@ -38,25 +38,9 @@ extern "C" {
 /* Bytes of a text key with the final 0. */
 #define ZP_TEXT_SIZE 256
 
-/* The definition of an actuator and of what is done with it. Field x.y is key "x.y"; keys.def (or `zipact keys`) has
- * meaning, unit, default and range of each. The study is not part of it: a scenario is a Def and a study (study.h). */
-#define ZP_GROUP(group) struct {
-#define ZP_GROUP_END(group)                                                                                            \
-  }                                                                                                                    \
-  group;
-#define ZP_REAL(path, name, unit, shown, def, min, max, help)           double name;
-#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) double field;
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           double name;
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           double name;
-#define ZP_INT(path, name, def, min, max, help)                         int name;
-#define ZP_BOOL(path, name, def, help)                                  bool name;
-#define ZP_ENUM(path, name, type, def, help)                            type name;
-#define ZP_TEXT(path, name, def, help)                                  char name[ZP_TEXT_SIZE];
-#define ZP_OF_SCENARIO(name, type, def, help)
-typedef struct ZpActuatorDef {
-  uint64_t layout; /* zp_def_layout of the headers that the program was compiled with; do not change it */
-#include <zipact/keys.def>
-} ZpActuatorDef;
+/* The definition of an actuator and of what is done with it. The study is not part of it: a scenario is a Def and a
+ * study (study.h). */
+typedef struct ZpActuatorDef ZpActuatorDef;
 
 /* Kind of value that a key takes. */
 typedef enum ZpKeyType {
@@ -68,16 +52,13 @@ typedef enum ZpKeyType {
   ZP_KEY_TEXT       /* a text; has no number (NAN) */
 } ZpKeyType;
 
-/* Offset of a key that belongs to the scenario and has no field in a Def: study. */
-#define ZP_NO_FIELD ((size_t)-1)
-
 /* A word of a choice key. */
 typedef struct ZpChoice {
   const char *word; /* as written in a scenario */
   const char *help; /* one line */
 } ZpChoice;
 
-/* A key: one row of keys.def. */
+/* A key. */
 typedef struct ZpKey {
   const char *name;        /* "ribbon.length" */
   ZpKeyType type;          /* kind of value */
@@ -88,7 +69,6 @@ typedef struct ZpKey {
   double max;              /* largest value allowed */
   const char *help;        /* one line */
   const ZpChoice *choices; /* ZP_KEY_ENUM: the words, `max` + 1 of them; else NULL */
-  size_t offset;           /* of its field in ZpActuatorDef, bytes; ZP_NO_FIELD: a key of the scenario */
   const char *text;        /* ZP_KEY_TEXT: default; ZP_KEY_REAL_AUTO: the word for NAN, auto or none; else NULL */
 } ZpKey;
 
@@ -98,7 +78,7 @@ typedef struct ZpAssignment {
   double value; /* SI; NAN for auto and none; the place of a word in its list; 0 or 1 */
 } ZpAssignment;
 
-/* The value that a material has for one key of its group: one row of materials.def. */
+/* The value that a material has for one key of its group. */
 typedef struct ZpMaterialValue {
   int material;       /* place of its word in the list of key `material` of the group */
   const char *name;   /* name of the key without its group: "young_modulus" */
@@ -120,7 +100,7 @@ ZP_API void zp_def_destroy(ZpActuatorDef *def);
 /* Number of keys. */
 ZP_API int zp_key_count(void);
 
-/* Key `index`, 0 <= index < zp_key_count(), in the order of keys.def. */
+/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`. */
 ZP_API const ZpKey *zp_key(int index);
 
 /* Index of the key called `name`, or -1. */
@@ -180,9 +160,10 @@ ZP_API bool zp_key_is_material(int index);
 /* The value that key `index` gets from the material that `def` names for its group; NULL if it gets none. */
 ZP_API const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index);
 
-/* As zp_def_resolve, with def->layout already set: for that function and zp_actuator_def_default. ZP_BAD_INPUT if the
- * layout differs from that of the library; then nothing else is read. */
-ZP_API ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
+/* Fill `def` from the defaults, those of the kind, the preset, supply and materials, and `count` assignments, in this
+ * order; the last assignment of a key counts. ZP_BAD_INPUT as zp_def_set, and if a preset has no value of a key that is
+ * not given. */
+ZP_API ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err);
 
 /* Check the range of every key and the conditions between keys. ZP_BAD_INPUT names the key. zp_study_check also checks
  * the conditions of a study. */
@@ -203,41 +184,11 @@ ZP_API bool zp_def_takes_table(const ZpActuatorDef *def);
 ZP_API ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
 
 /* liquid.model, or what auto means with the other keys of `def`: ZP_LIQUID_BEAD if a bead is modelled, else
- * ZP_LIQUID_NONE. ZP_LIQUID_NONE also for a Def of another library. */
+ * ZP_LIQUID_NONE. ZP_LIQUID_NONE also without a Def. */
 ZP_API ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
 
 /* solver.tolerance as a number: the relative error at which the time steps of a motion aim. */
 ZP_API double zp_def_tolerance(const ZpActuatorDef *def);
-
-#ifdef __cplusplus
-}
-#endif
-
-#include <zipact/layout.h>
-
-#ifdef __cplusplus
-extern "C" {
-#endif
-
-/* The two functions that make a Def are compiled into the program, because only the program knows the size of its Def.
- * A library with other keys refuses their Defs with an error and writes nothing into them. */
-
-/* The default of every key: the paper's actuator, with correct physics. */
-static inline ZpActuatorDef zp_actuator_def_default(void) {
-  ZpActuatorDef def;
-  memset(&def, 0, sizeof def);
-  def.layout = zp_def_layout();
-  zp_def_fill(&def, NULL, 0, NULL);
-  return def;
-}
-
-/* Fill `def` from the defaults, those of the kind, the preset, supply and materials, and `count` assignments, in this
- * order; the last assignment of a key counts. ZP_BAD_INPUT as zp_def_set, and if a preset has no value of a key that is
- * not given. */
-static inline ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
-  def->layout = zp_def_layout();
-  return zp_def_fill(def, list, count, err);
-}
 
 #ifdef __cplusplus
 }

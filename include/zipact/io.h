@@ -51,16 +51,9 @@ ZP_API bool zp_scenario_keeps_series(const ZpScenario *scenario);
 /* The study of the scenario, the same for all its Defs. */
 ZP_API ZpStudy zp_scenario_study(const ZpScenario *scenario);
 
-/* As zp_scenario_def, with def->layout already set: for that function. ZP_BAD_INPUT if the layout differs from that of
- * the library. */
-ZP_API ZpStatus zp_scenario_fill(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
-
-/* Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). Samples vary fastest,
- * then the last list key. */
-static inline ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err) {
-  def->layout = zp_def_layout();
-  return zp_scenario_fill(scenario, index, def, err);
-}
+/* Fill `def` by Def number `index`, resolved (zp_def_resolve) and checked (zp_study_check). Samples vary fastest, then
+ * the last list key. */
+ZP_API ZpStatus zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
 
 /* Write the scenario as YAML, with all keys resolved and lists as lists: it reads back to the same bits. */
 ZP_API ZpStatus zp_scenario_write(const ZpScenario *scenario, FILE *file, ZpError *err);

@@ -44,26 +44,6 @@ ZP_API const ZpActuatorDef *zp_model_def(const ZpModel *model);
  *   stable_time_step   largest explicit step that is certainly stable, s */
 ZP_API double zp_model_get(const ZpModel *model, const char *name);
 
-/* Constants that follow from the keys, SI, for information. */
-typedef struct ZpModelInfo {
-  int ribbons;              /* 1 or 2 */
-  int nodes;                /* per ribbon */
-  double flexible_length;   /* L, of one modelled ribbon, m */
-  double element_length;    /* l = L / (N-1), m */
-  double bending_stiffness; /* E I of a ribbon, N m^2 */
-  double axial_stiffness;   /* E A of a ribbon, N */
-  double line_mass;         /* of a ribbon with its insulator, kg/m */
-  double axial_spring;      /* K_D, N/m */
-  double shear_coefficient; /* K_S, N/m */
-  double insulator_offset;  /* d, m */
-  double internal_damping;  /* Kelvin-Voigt time, s */
-  double closed_line_force; /* attraction per length of closed faces at the highest voltage, N/m */
-  double stable_time_step;  /* largest explicit step that is certainly stable, s */
-} ZpModelInfo;
-
-/* The constants of `model`; for a series, those of its uppermost member. */
-ZP_API ZpModelInfo zp_model_info(const ZpModel *model);
-
 #ifdef __cplusplus
 }
 #endif

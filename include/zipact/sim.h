@@ -67,21 +67,8 @@ typedef enum ZpStepLimit {
 /* The word for a step limit, as in summary.json; "unknown" for any other number. */
 ZP_API const char *zp_step_limit_name(ZpStepLimit limit);
 
-/* How a run went. */
-typedef struct ZpRunInfo {
-  ZpOutcome outcome;
-  char message[256];               /* one sentence for people */
-  int64_t steps;                   /* taken */
-  int64_t limited[ZP_LIMIT_COUNT]; /* number of steps that each limit set */
-  int64_t rejected;                /* implicit: steps rejected for their local error */
-  int64_t failures;                /* implicit: steps in which Newton's method did not converge */
-  int64_t iterations;              /* implicit: iterations of Newton's method */
-  double smallest_bound[3];        /* of eq. (9): drag, axial, shear; s; over the recorded rows */
-  double simulated_time;           /* s */
-  double wall_time;                /* of the stepping, s; NAN without a clock */
-  int64_t settle_steps;            /* pseudo-time steps to the hanging equilibrium */
-  double settle_residual;          /* largest unbalanced force there, over all weight */
-} ZpRunInfo;
+/* How a run went, for a program that asks by the calls below. */
+typedef struct ZpRunInfo ZpRunInfo;
 
 /* A new empty one, which belongs to the caller; NULL if there is no memory. */
 ZP_API ZpRunInfo *zp_run_info_create(void);
@@ -120,8 +107,8 @@ ZP_API double zp_run_info_get(const ZpRunInfo *info, const char *name);
 ZP_API ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **sim, ZpError *err);
 ZP_API void zp_sim_destroy(ZpSim *sim);
 
-/* Record rows in `series` and shapes in `shapes` during runs; each may be NULL. The columns are those of signals.def
- * (zp_signal_columns). Both belong to the caller. */
+/* Record rows in `series` and shapes in `shapes` during runs; each may be NULL. The columns are those of
+ * zp_signal_columns. Both belong to the caller. */
 ZP_API void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 
 /* Run until `end_time` (s; INFINITY: until another end), or with `stop_when_zipped` until the actuator has closed. If
@@ -189,7 +176,7 @@ typedef struct ZpController {
  * the voltage stays. ZP_BAD_INPUT if the period is out of range or there is no function. */
 ZP_API ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpError *err);
 
-/* Present value of the signal called `name` in signals.def ("stroke"), SI; NAN if there is none. This does not affect
+/* Present value of the signal called `name` ("stroke"), SI; NAN if there is none. This does not affect
  * the simulation, but uses its work space: one thread at a time, as with all calls. */
 ZP_API double zp_sim_get(ZpSim *sim, const char *name);
 
@@ -248,7 +235,8 @@ ZP_API void zp_sim_save(const ZpSim *sim, void *bytes);
  */
 ZP_API ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err);
 
-/* The columns of a time series: one per line of signals.def, then those of further laws of the library. */
+/* The columns of a time series, one per signal, => their number. A later library may have more, and others at a place:
+ * find a signal by its name, while the program runs. */
 ZP_API const ZpColumn *zp_signal_columns(size_t *count);
 
 /* The name of the signal in column `index` of these, without its unit ("stroke"). */

@@ -17,19 +17,12 @@ typedef struct ZpScalar {
   bool timing;      /* a wall time, which differs from run to run */
 } ZpScalar;
 
-#define ZP_MAX_SCALARS 64
-#define ZP_MAX_NOTES   8
-
 /* A derivative of an output by a key of sensitivity.by, exact except for rounding. */
 typedef struct ZpSensitivity {
   const char *output; /* name of a scalar: "stroke_m" */
   int key;            /* index of the key */
   double value;       /* in SI units of both; NAN if it does not exist */
 } ZpSensitivity;
-
-/* Largest numbers of keys of sensitivity.by and of derivatives. */
-#define ZP_MAX_SENSITIVITY_KEYS 16
-#define ZP_MAX_SENSITIVITIES    512
 
 /* The electric field around the ribbons, on a grid that follows them: node (i, j) is at [i * ny + j], i along the
  * ribbons, j upwards; cell (i, j) between the nodes (i, j) and (i + 1, j + 1) is at [i * (ny - 1) + j]. */
@@ -48,31 +41,8 @@ typedef struct ZpFieldMap {
 ZP_API ZpFieldMap *zp_field_map_create(size_t nx, size_t ny);
 ZP_API void zp_field_map_destroy(ZpFieldMap *map);
 
-/* States of study limits from which a similar case can start, see ZpStudyInput. */
-typedef struct ZpLimits ZpLimits;
-
-/* Free them; NULL is allowed. After freeing those of a result, set its field to NULL. */
-ZP_API void zp_limits_destroy(ZpLimits *limits);
-
 /* The result of a study. */
-typedef struct ZpResult {
-  ZpStudy study;
-  ZpOutcome outcome;
-  char message[256];            /* one sentence on how it ended */
-  char note[ZP_MAX_NOTES][256]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
-  size_t notes;
-  double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest
-                      * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
-  ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
-  size_t scalars;
-  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
-  size_t sensitivities;
-  ZpTable *series;          /* the study's table; NULL if it has none */
-  ZpShapes *shapes;         /* NULL if it has none */
-  ZpFieldMap *map;          /* NULL if it has none */
-  ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
-  ZpLimits *limits;         /* the states of study limits; NULL for other studies */
-} ZpResult;
+typedef struct ZpResult ZpResult;
 
 /* The word for a study: "actuate"; "unknown" for any other number. */
 ZP_API const char *zp_study_name(ZpStudy study);
@@ -101,11 +71,11 @@ ZP_API ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpSt
 /* An empty result of `study`; NULL if there is no memory. */
 ZP_API ZpResult *zp_result_create(ZpStudy study);
 
-/* Append the derivative of the scalar `output` by key `key`; beyond ZP_MAX_SENSITIVITIES it is omitted. `output` must
+/* Append the derivative of the scalar `output` by key `key`; beyond 512 it is omitted. `output` must
  * outlive the result. */
 ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
 
-/* Append a number to the summary, a wall time, or a note of one sentence. Beyond ZP_MAX_SCALARS and ZP_MAX_NOTES they
+/* Append a number to the summary, a wall time, or a note of one sentence. Beyond 64 numbers and 8 notes they
  * are omitted. `name` and `unit` must outlive the result. */
 ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
@@ -114,6 +84,10 @@ ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(
 /* Add notes, for `model` at voltages up to `highest` (V), if the insulators break down at the clip, where the faces
  * touch, or if the mesh is too coarse. */
 ZP_API void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest);
+
+/* Free the states of study limits in a result, from which that of a similar Def can start: much memory. Nothing else of
+ * it changes. NULL is allowed. */
+ZP_API void zp_result_forget_states(ZpResult *result);
 
 /* Free a result and all its parts; NULL is allowed. */
 ZP_API void zp_result_destroy(ZpResult *result);

@@ -1,4 +1,4 @@
-/* Results as plain data: a table of numbers with named columns, and a sequence of shapes.
+/* Results: a table of numbers with named columns, and a sequence of shapes.
  *
  * Both have a bounded size: when they are full, every second row is dropped, and from then on only every second,
  * fourth,
@@ -23,22 +23,14 @@ typedef struct ZpColumn {
   const char *help; /* one line */
 } ZpColumn;
 
-/* A table: rows of `columns` doubles, row after row. NAN stands for a value that does not exist. */
-typedef struct ZpTable {
-  const ZpColumn *column; /* [columns] a copy of what it was created with */
-  size_t columns;
-  size_t rows;     /* filled */
-  size_t capacity; /* rows at most */
-  size_t stride;   /* one in `stride` offered rows is kept */
-  size_t offered;  /* rows offered so far */
-  double *value;   /* [capacity][columns] */
-} ZpTable;
+/* A table: rows of numbers, one per column. NAN stands for a value that does not exist. */
+typedef struct ZpTable ZpTable;
 
 /* A new empty table of at most `capacity` rows (2 or more), or NULL if there is no memory. */
 ZP_API ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity);
 ZP_API void zp_table_destroy(ZpTable *table);
 
-/* Offer a row of table->columns values; true if it was kept. */
+/* Offer a row of zp_table_columns values; true if it was kept. */
 ZP_API bool zp_table_offer(ZpTable *table, const double *row);
 
 /* Make `row` the last row, even if thinning would drop it; do nothing if it is already the last row (same value in
@@ -77,19 +69,7 @@ typedef struct ZpShape {
 } ZpShape;
 
 /* A sequence of shapes of one actuator. */
-typedef struct ZpShapes {
-  size_t ribbons;  /* 1 or 2 */
-  size_t nodes;    /* per ribbon; of a series, of all its members, the uppermost first */
-  size_t frames;   /* filled */
-  size_t capacity; /* frames at most */
-  size_t stride;   /* as in ZpTable */
-  size_t offered;
-  size_t frame_size; /* doubles per frame */
-  bool facing;       /* the shapes have gap, line_force and insulator_field */
-  bool stressed;     /* the shapes have stress */
-  double *value;     /* [capacity][frame_size] */
-  size_t members;    /* of a series; otherwise 1 */
-} ZpShapes;
+typedef struct ZpShapes ZpShapes;
 
 /* A new empty sequence of at most `capacity` frames (2 or more), or NULL if there is no memory. */
 ZP_API ZpShapes *zp_shapes_create(size_t ribbons, size_t nodes, size_t capacity);

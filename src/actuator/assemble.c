@@ -2,6 +2,7 @@
  * are written directly there. Near held and joined nodes each entry looks up its equations. */
 #include "actuator/assemble.h"
 
+#include <stdint.h>
 #include <string.h>
 
 #include "base/kernel.h"

@@ -2,7 +2,7 @@
 #ifndef ZP_ACTUATOR_SHAPE_H
 #define ZP_ACTUATOR_SHAPE_H
 
-#include <zipact/table.h>
+#include "base/table.h"
 
 #include "actuator/model.h"
 

@@ -8,7 +8,7 @@
 #define ZP_ACTUATOR_TOPOLOGY_H
 
 #include <math.h>
-#include <zipact/def.h>
+#include "def/def.h"
 
 #include "math/level.h"
 

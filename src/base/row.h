@@ -32,7 +32,7 @@ typedef struct ZpRow {
 
 #define ZP_ROW(name) extern const ZpRow zp_row_##name;
 #define ZP_SIGNAL(name, unit, suffix, help)
-#include <zipact/signals.def>
+#include "base/signals.def"
 #undef ZP_SIGNAL
 #undef ZP_ROW
 

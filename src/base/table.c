@@ -1,5 +1,5 @@
 /* Tables and films of bounded size (zipact/table.h). */
-#include <zipact/table.h>
+#include "base/table.h"
 
 #include <math.h>
 #include <string.h>

@@ -15,9 +15,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <zipact/version.h>
+
 #include "base/fail.h"
 #include "base/pack.h"
 #include "io/atomic.h"
+#include "study/result.h"
 
 /* "zipa", and the number of this layout. */
 enum { APPLICATION = 0x7a697061, LAYOUT = 3 };

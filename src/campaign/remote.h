@@ -2,7 +2,7 @@
 #ifndef ZP_CAMPAIGN_REMOTE_H
 #define ZP_CAMPAIGN_REMOTE_H
 
-#include <zipact/study.h>
+#include "study/result.h"
 
 /* Read the bytes of zp_campaign_compute, which must outlive the results => `count` new results of `study` in result
  * [count], which the caller frees. False if the bytes are not such results, or there is no memory; then there are none.

@@ -3,7 +3,7 @@
 #ifndef ZP_DEF_CHECK_H
 #define ZP_DEF_CHECK_H
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 /* A mount.tilt that differs from a right angle by less than this counts as one: degrees written with five digits are
  * rounded by this much, rad. */
@@ -27,7 +27,7 @@ enum { ZP_MOST_MEMBERS = 8 };
 #define ZP_TEXT(path, name, def, help)                                  char name;
 #define ZP_OF_SCENARIO(name, type, def, help)                           char name;
 typedef struct ZpKeyNumbers {
-#include <zipact/keys.def>
+#include "def/keys.def"
 } ZpKeyNumbers;
 
 /* The keys of a group: first .. end - 1. */

@@ -1,5 +1,5 @@
 /* The table of keys, made from keys.def, and its functions: defaults, presets, checks. */
-#include <zipact/def.h>
+#include "def/def.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -19,32 +19,45 @@
 #undef ZP_CHOICE
 #undef ZP_CHOICES_END
 
-#define OFFSET(path, name) offsetof(ZpActuatorDef, path name)
 #define ZP_GROUP(group)
 #define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
-  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, name), NULL},
+  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, NULL},
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help)                                                \
-  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, OFFSET(path, field), NULL},
+  {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, NULL},
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
-  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), "auto"},
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, "auto"},
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help)                                                          \
-  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, OFFSET(path, name), "none"},
-#define ZP_INT(path, name, def, min, max, help)                                                                        \
-  {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, OFFSET(path, name), NULL},
-#define ZP_BOOL(path, name, def, help)                                                                                 \
-  {#path #name, ZP_KEY_BOOL, "1", "", def, 0, 1, help, NULL, OFFSET(path, name), NULL},
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, "none"},
+#define ZP_INT(path, name, def, min, max, help) {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, NULL},
+#define ZP_BOOL(path, name, def, help)          {#path #name, ZP_KEY_BOOL, "1", "", def, 0, 1, help, NULL, NULL},
 #define ZP_ENUM(path, name, type, def, help)                                                                           \
-  {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, OFFSET(path, name), NULL},
-#define ZP_TEXT(path, name, def, help)                                                                                 \
-  {#path #name, ZP_KEY_TEXT, "1", "", NAN, 0, ZP_TEXT_SIZE - 1, help, NULL, OFFSET(path, name), def},
+  {#path #name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, NULL},
+#define ZP_TEXT(path, name, def, help) {#path #name, ZP_KEY_TEXT, "1", "", NAN, 0, ZP_TEXT_SIZE - 1, help, NULL, def},
 #define ZP_OF_SCENARIO(name, type, def, help)                                                                          \
-  {#name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, ZP_NO_FIELD, NULL},
+  {#name, ZP_KEY_ENUM, "1", "", def, 0, type##_COUNT - 1, help, words_of_##type, NULL},
 static const ZpKey keys[] = {
-#include <zipact/keys.def>
+#include "def/keys.def"
 };
 
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
+
+/* The place of each key's field in a Def; NO_FIELD: a key of the scenario. */
+#define NO_FIELD ((size_t)-1)
+#define ZP_GROUP(group)
+#define ZP_GROUP_END(group)
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           offsetof(ZpActuatorDef, path name),
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) offsetof(ZpActuatorDef, path field),
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           offsetof(ZpActuatorDef, path name),
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           offsetof(ZpActuatorDef, path name),
+#define ZP_INT(path, name, def, min, max, help)                         offsetof(ZpActuatorDef, path name),
+#define ZP_BOOL(path, name, def, help)                                  offsetof(ZpActuatorDef, path name),
+#define ZP_ENUM(path, name, type, def, help)                            offsetof(ZpActuatorDef, path name),
+#define ZP_TEXT(path, name, def, help)                                  offsetof(ZpActuatorDef, path name),
+#define ZP_OF_SCENARIO(name, type, def, help)                           NO_FIELD,
+static const size_t offsets[] = {
+#include "def/keys.def"
+};
 
 /* Values that a preset or a supply sets, for one number of nodes or (nodes 0) for any. */
 typedef struct PresetValue {
@@ -58,7 +71,7 @@ typedef struct PresetValue {
 #define ZP_PRESET_AT(preset, key, nodes, value)
 #define ZP_SUPPLY_VALUE(supply, key, value) {supply, key, 0, value},
 static const PresetValue supply_values[] = {
-#include <zipact/presets.def>
+#include "def/presets.def"
 };
 #undef ZP_SUPPLY_VALUE
 #undef ZP_PRESET_VALUE
@@ -67,7 +80,7 @@ static const PresetValue supply_values[] = {
 #define ZP_PRESET_VALUE(preset, key, value)     {preset, key, 0, value},
 #define ZP_PRESET_AT(preset, key, nodes, value) {preset, key, nodes, value},
 static const PresetValue preset_values[] = {
-#include <zipact/presets.def>
+#include "def/presets.def"
 };
 #undef ZP_SUPPLY_VALUE
 #undef ZP_PRESET_VALUE
@@ -77,19 +90,19 @@ static const PresetValue preset_values[] = {
 #define ZP_INSULATOR(material, name, value, spread, source)
 #define ZP_MEDIUM(material, name, value, spread, source)
 static const ZpMaterialValue strip_values[] = {
-#include <zipact/materials.def>
+#include "def/materials.def"
 };
 #define ZP_STRIP(material, name, value, spread, source)
 #define ZP_INSULATOR(material, name, value, spread, source) {material, name, value, spread, source},
 #define ZP_MEDIUM(material, name, value, spread, source)
 static const ZpMaterialValue insulator_values[] = {
-#include <zipact/materials.def>
+#include "def/materials.def"
 };
 #define ZP_STRIP(material, name, value, spread, source)
 #define ZP_INSULATOR(material, name, value, spread, source)
 #define ZP_MEDIUM(material, name, value, spread, source) {material, name, value, spread, source},
 static const ZpMaterialValue medium_values[] = {
-#include <zipact/materials.def>
+#include "def/materials.def"
 };
 
 enum {
@@ -192,17 +205,21 @@ int zp_key_choice(int index, const char *word) {
   return -1;
 }
 
-bool zp_key_in_def(int index) {
-  return keys[index].offset != ZP_NO_FIELD;
+static size_t offset_of(const ZpKey *key) {
+  return offsets[key - keys];
 }
 
 static bool has_field(const ZpKey *key) {
-  return key->offset != ZP_NO_FIELD;
+  return offset_of(key) != NO_FIELD;
+}
+
+bool zp_key_in_def(int index) {
+  return has_field(&keys[index]);
 }
 
 /* Write a value, which has been checked, into its field. */
 static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
-  void *field = (char *)def + key->offset;
+  void *field = (char *)def + offset_of(key);
   switch (key->type) {
   case ZP_KEY_REAL:
   case ZP_KEY_REAL_AUTO:
@@ -223,33 +240,22 @@ static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
 static ZpActuatorDef defaults(void) {
   ZpActuatorDef def;
   memset(&def, 0, sizeof def);
-  def.layout = zp_def_layout();
   for (int i = 0; i < KEY_COUNT; i++)
     if (keys[i].type == ZP_KEY_TEXT)
-      memcpy((char *)&def + keys[i].offset, keys[i].text, strlen(keys[i].text));
+      memcpy((char *)&def + offset_of(&keys[i]), keys[i].text, strlen(keys[i].text));
     else if (has_field(&keys[i]))
       store(&def, &keys[i], keys[i].def);
   return def;
 }
 
-/* To be called before any field but the first is read. */
-static bool is_ours(const ZpActuatorDef *def) {
-  return def && def->layout == zp_def_layout();
-}
-
-static ZpStatus check_layout(const ZpActuatorDef *def, ZpError *err) {
-  if (is_ours(def)) return ZP_OK;
-  if (!def) return zp_fail_memory(err);
-  return zp_fail(
-      err, ZP_BAD_INPUT,
-      "ZpActuatorDef does not match this library, zipact %s: either the program was compiled with headers of another "
-      "version, or it did not start from zp_actuator_def_default; compile it again with the headers of this library",
-      ZP_VERSION);
+/* Is there a Def? zp_def_create returns none if there is no memory. */
+static ZpStatus check_there(const ZpActuatorDef *def, ZpError *err) {
+  return def ? ZP_OK : zp_fail_memory(err);
 }
 
 /* The value of a key that has a field; NAN for a text. */
 static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
-  const void *field = (const char *)def + key->offset;
+  const void *field = (const char *)def + offset_of(key);
   double real;
   int whole;
   switch (key->type) {
@@ -271,11 +277,11 @@ static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
 
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = &keys[index];
-  return is_ours(def) && has_field(key) ? number_of(def, key) : (double)NAN;
+  return def && has_field(key) ? number_of(def, key) : (double)NAN;
 }
 
 const char *zp_def_text(const ZpActuatorDef *def, int index) {
-  return is_ours(def) && keys[index].type == ZP_KEY_TEXT ? (const char *)def + keys[index].offset : NULL;
+  return def && keys[index].type == ZP_KEY_TEXT ? (const char *)def + offset_of(&keys[index]) : NULL;
 }
 
 static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
@@ -291,10 +297,10 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
   const ZpKey *key = &keys[index];
   if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a number, not a text", key->name);
-  ZpStatus status = check_layout(def, err);
+  ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = check_text(key, text, err);
   if (status != ZP_OK) return status;
-  char *field = (char *)def + key->offset;
+  char *field = (char *)def + offset_of(key);
   memset(field, 0, ZP_TEXT_SIZE);
   memcpy(field, text, strlen(text) + 1);
   return ZP_OK;
@@ -318,10 +324,10 @@ static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
 }
 
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
-  ZpStatus status = check_layout(def, err);
+  ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = check_value(&keys[index], value, err);
   if (status == ZP_OK && !has_field(&keys[index]))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a ZpActuatorDef", keys[index].name);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a definition", keys[index].name);
   if (status == ZP_OK) store(def, &keys[index], value);
   return status;
 }
@@ -396,7 +402,7 @@ static int material_of(const ZpActuatorDef *def, const MaterialGroup *group) {
 }
 
 const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
-  const MaterialGroup *group = is_ours(def) ? material_group_of(keys[index].name) : NULL;
+  const MaterialGroup *group = def ? material_group_of(keys[index].name) : NULL;
   if (!group) return NULL;
   int material = material_of(def, group);
   const char *name = keys[index].name + strlen(group->prefix);
@@ -433,10 +439,10 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
   return ZP_OK;
 }
 
-ZpStatus zp_def_fill(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   const ZpActuatorDef plain = defaults();
   ZpActuatorDef given = plain;
-  ZpStatus status = check_layout(def, err);
+  ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = apply_assignments(&given, list, count, err);
   if (status == ZP_OK) status = check_preset_complete(given.preset, given.mesh.nodes, list, count, err);
   if (status != ZP_OK) return status;
@@ -527,7 +533,7 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = check_layout(def, err);
+  ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = zp_rule_fail(zp_rule_refusing(true, def), "motion ", def, err);
   return status == ZP_OK ? zp_check_mass(def, err) : status;
 }
@@ -535,7 +541,7 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
 /* Two ribbons touch at their joint; a flange touches at its clamp if its gap there is 0, otherwise only beyond pull-in.
  */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
-  ZpStatus ours = check_layout(def, err);
+  ZpStatus ours = check_there(def, err);
   if (ours != ZP_OK) return ours;
   if (zp_def_members(def) > 1) return zp_check_members_voltage(def, voltage, err);
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
@@ -561,7 +567,7 @@ static bool is_bath_by_default(const ZpActuatorDef *def) {
 }
 
 ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def) {
-  if (!is_ours(def)) return ZP_LIQUID_NONE;
+  if (!def) return ZP_LIQUID_NONE;
   if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
   if (is_bath_by_default(def)) return ZP_LIQUID_NONE;
   return zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def) ? ZP_LIQUID_NONE : ZP_LIQUID_BEAD;
@@ -627,7 +633,7 @@ static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
 /* Is this clearly a value in its range, or an empty text? A quick test for all keys of every case; any other value gets
  * the full check. */
 static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
-  if (key->type == ZP_KEY_TEXT) return *((const char *)def + key->offset) == 0;
+  if (key->type == ZP_KEY_TEXT) return *((const char *)def + offset_of(key)) == 0;
   double value = number_of(def, key);
   return key->type != ZP_KEY_BOOL && value >= key->min && value <= key->max;
 }
@@ -636,7 +642,7 @@ static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) {
     if (!has_field(&keys[i]) || is_in_range(def, &keys[i])) continue;
-    status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + keys[i].offset, err)
+    status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + offset_of(&keys[i]), err)
                                          : check_value(&keys[i], zp_def_get(def, i), err);
   }
   return status;
@@ -685,7 +691,7 @@ static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
     check_change, check_tilt,  check_drive, check_setpoint,   check_control,  check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = check_layout(def, err);
+  ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = check_fields(def, err);
   if (status == ZP_OK) status = zp_rule_fail(zp_rule_refusing(false, def), "", def, err);
   for (size_t k = 0; k < sizeof checks / sizeof checks[0] && status == ZP_OK; k++)

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 #include "base/fail.h"
 #include "base/memory.h"

@@ -1,13 +1,15 @@
 #include "def/purpose.h"
 
-/* Fields of the Def, a key or a group of keys each. */
+#include "def/check.h"
+
+/* Keys and groups of keys. */
 typedef struct Part {
   size_t first, size;
   unsigned purposes;
 } Part;
 
 #define PART(field, purposes)                                                                                          \
-  { offsetof(ZpActuatorDef, field), sizeof(((ZpActuatorDef *)0)->field), purposes }
+  { offsetof(ZpKeyNumbers, field), sizeof(((ZpKeyNumbers *)0)->field), purposes }
 static const Part parts[] = {PART(preset, ZP_NO_PARAMETER | ZP_MAY_CHANGE),
                              PART(drive, ZP_NO_PARAMETER | ZP_MAY_CHANGE),
                              PART(sense, ZP_NO_PARAMETER),
@@ -42,9 +44,9 @@ static const Part parts[] = {PART(preset, ZP_NO_PARAMETER | ZP_MAY_CHANGE),
 #undef PART
 
 unsigned zp_key_purposes(int index) {
-  const size_t offset = zp_key(index)->offset;
+  const size_t key = (size_t)index;
   unsigned purposes = 0;
   for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
-    if (offset >= parts[k].first && offset - parts[k].first < parts[k].size) purposes |= parts[k].purposes;
+    if (key >= parts[k].first && key - parts[k].first < parts[k].size) purposes |= parts[k].purposes;
   return purposes;
 }

@@ -2,7 +2,7 @@
 #ifndef ZP_DEF_PURPOSE_H
 #define ZP_DEF_PURPOSE_H
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 typedef enum ZpPurpose {
   ZP_NO_PARAMETER = 1, /* of an FMU: its inputs or its tool replace the key, or other studies use it */

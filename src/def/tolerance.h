@@ -2,7 +2,7 @@
 #ifndef ZP_DEF_TOLERANCE_H
 #define ZP_DEF_TOLERANCE_H
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 /* Relative error at which equilibria are solved. */
 double zp_tolerance_at_rest(const ZpActuatorDef *def);

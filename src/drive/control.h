@@ -4,7 +4,7 @@
 #ifndef ZP_DRIVE_CONTROL_H
 #define ZP_DRIVE_CONTROL_H
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 /* Longest delay, in periods. */
 enum { ZP_CONTROL_DELAY = 8 };

@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 #include "def/rule.h"
 

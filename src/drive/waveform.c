@@ -46,7 +46,6 @@ static int64_t knots(const ZpWaveform *w) {
     return (int64_t)w->table.rows;
   case ZP_WAVEFORM_STEP:
   case ZP_WAVEFORM_SINE:
-  case ZpWaveformKind_COUNT:
     break;
   }
   return 0;

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdbool.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 #include <zipact/drive.h>
 
 #include "def/rule.h"

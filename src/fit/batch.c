@@ -10,6 +10,8 @@
 #include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
+#include "def/def.h"
+#include "study/result.h"
 
 /* Bytes that a run may need while it lasts. */
 enum { MARGIN = 1 << 22 };
@@ -83,8 +85,7 @@ ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before,
   const bool fresh = index % zp_case_chunk(scenario) == 0;
   ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* the study checks it */
   if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
-  if (before) zp_limits_destroy(before->limits);
-  if (before) before->limits = NULL;
+  zp_result_forget_states(before);
   if (status == ZP_OK && zp_scenario_count(scenario) > 1) keep_the_series(*result);
   return status;
 }

@@ -6,6 +6,8 @@
 #include "base/fail.h"
 #include "fit/fit.h"
 #include "io/report.h"
+#include "def/def.h"
+#include "study/result.h"
 
 /* Names for summary.json made from the names of the keys. */
 typedef struct Names {
@@ -27,7 +29,7 @@ typedef struct Names {
 #define ZP_TEXT(path, name, def, help)                                  NAMES(#path #name)
 #define ZP_OF_SCENARIO(name, type, def, help)                           NAMES(#name)
 static const Names names[] = {
-#include <zipact/keys.def>
+#include "def/keys.def"
 };
 
 static const ZpColumn time_column = {"time_s", "s", "time since the voltage was switched on"};

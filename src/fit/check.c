@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "fit/data.h"
+#include "def/def.h"
 
 /* Number of cases that a thread checks before it looks at the progress of the others. */
 enum { BLOCK = 256 };

@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-#include <zipact/table.h>
+#include "base/table.h"
 
 #include "base/fail.h"
 

@@ -12,6 +12,8 @@
 #include "base/fail.h"
 #include "fit/fit.h"
 #include "sim/hooks.h"
+#include "def/def.h"
+#include "study/result.h"
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };
 

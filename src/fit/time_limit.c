@@ -7,6 +7,7 @@
 #include <zipact/calibrate.h>
 
 #include "sim/hooks.h"
+#include "def/def.h"
 
 /* Of this thread, s. */
 static double cpu_time(void) {
@@ -44,8 +45,7 @@ void zp_time_limit_end(const ZpTimeLimit *limit, ZpResult *result) {
     if (!result->scalar[k].timing) result->scalar[k].value = NAN;
   for (size_t k = 0; k < result->sensitivities; k++)
     result->sensitivity[k].value = NAN;
-  zp_limits_destroy(result->limits); /* where the next case would begin */
-  result->limits = NULL;
+  zp_result_forget_states(result); /* where the next case would begin */
 }
 
 ZpStatus zp_study_run_limited(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,

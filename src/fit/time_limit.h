@@ -2,7 +2,7 @@
 #ifndef ZP_FIT_TIME_LIMIT_H
 #define ZP_FIT_TIME_LIMIT_H
 
-#include <zipact/study.h>
+#include "study/result.h"
 
 typedef struct ZpTimeLimit {
   const ZpHooks *asked; /* hooks of the caller; may be NULL */

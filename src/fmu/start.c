@@ -6,15 +6,34 @@
 #include "base/fail.h"
 #include "drive/waveform.h"
 
+/* FNV-1a of a text, with its final 0. */
+static uint64_t mixed(uint64_t mark, const char *text) {
+  do
+    mark = (mark ^ (unsigned char)*text) * UINT64_C(0x100000001b3);
+  while (*text++);
+  return mark;
+}
+
+uint64_t zp_fmu_keys_mark(void) {
+  uint64_t mark = UINT64_C(0xcbf29ce484222325);
+  for (int index = 0; index < zp_key_count(); index++) {
+    const ZpKey *key = zp_key(index);
+    mark = mixed(mark, key->name) + (uint64_t)key->type;
+    for (int k = 0; key->choices && k <= (int)key->max; k++)
+      mark = mixed(mark, key->choices[k].word);
+  }
+  return mark;
+}
+
 bool zp_fmu_has_number(int index) {
-  return zp_key(index)->type != ZP_KEY_TEXT && zp_key(index)->offset != ZP_NO_FIELD;
+  return zp_key(index)->type != ZP_KEY_TEXT && zp_key_in_def(index);
 }
 
 ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *err) {
   ZpAssignment list[ZP_FMU_KEYS];
   size_t count = 0;
   if (!start->token[0]) return zp_fail(err, ZP_BAD_INPUT, "this binary has no start values; `zipact fmu` writes them");
-  if (start->layout != zp_def_layout())
+  if (start->layout != zp_fmu_keys_mark())
     return zp_fail(err, ZP_BAD_INPUT, "the start values were written by a version of zipact with other keys");
   for (int key = 0; key < ZP_FMU_KEYS; key++)
     if (zp_fmu_has_number(key)) list[count++] = (ZpAssignment){key, start->value[key]};

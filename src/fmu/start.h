@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 #include <zipact/drive.h>
 
 /* Number of keys, counted by one. */
@@ -23,7 +23,7 @@
 #define ZP_OF_SCENARIO(name, type, def, help)                           +1
 enum {
   ZP_FMU_KEYS = 0
-#include <zipact/keys.def>
+#include "def/keys.def"
 };
 
 /* 16 bytes that occur nowhere else in a binary, without a final 0; as text for a source. */
@@ -35,10 +35,14 @@ enum { ZP_FMU_MARK_SIZE = 16, ZP_FMU_TOKEN_SIZE = 40 };
 typedef struct ZpFmuStart {
   char mark[ZP_FMU_MARK_SIZE];
   uint64_t size;                 /* size of this block, bytes: that of a binary of another version may differ */
-  uint64_t layout;               /* zp_def_layout of the program with which the binary was built */
+  uint64_t layout;               /* zp_fmu_keys_mark of the program with which the binary was built */
   char token[ZP_FMU_TOKEN_SIZE]; /* GUID of FMI 2, instantiation token of FMI 3 */
   double value[ZP_FMU_KEYS];     /* of each key, as zp_def_get; 0 for keys without a number */
 } ZpFmuStart;
+
+/* A number made of the names, types and words of all keys: two programs with the same number mean the same by a list of
+ * values of all keys. */
+uint64_t zp_fmu_keys_mark(void);
 
 /* The block of this FMU. */
 extern const volatile ZpFmuStart zp_fmu_start;

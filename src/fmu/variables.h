@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 /* Positions of the signals in a row, and their number. */
 #define ZP_SIGNAL(name, unit, suffix, help) ZP_FMU_SIGNAL_##name,

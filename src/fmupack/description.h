@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 #include "fmu/start.h"
 #include "fmupack/kit.h"

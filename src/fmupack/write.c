@@ -76,7 +76,7 @@ static ZpStatus fill_start(ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) 
   def->solver.tolerance = zp_def_tolerance(def); /* importers need a number */
   memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
   start->size = sizeof *start;
-  start->layout = zp_def_layout();
+  start->layout = zp_fmu_keys_mark();
   for (int key = 0; key < ZP_FMU_KEYS; key++)
     if (zp_fmu_has_number(key)) start->value[key] = zp_def_get(def, key);
   make_token(start, start->token);

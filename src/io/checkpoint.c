@@ -9,6 +9,8 @@
 #include "io/file.h"
 #include "io/report.h"
 #include "io/writers.h"
+#include "def/def.h"
+#include "study/result.h"
 
 /* -- out ------------------------------------------------------------------------------------------- */
 

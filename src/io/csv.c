@@ -9,6 +9,8 @@
 #include "io/number.h"
 #include "io/report.h"
 #include "io/writers.h"
+#include "base/table.h"
+#include "study/result.h"
 
 static void put_number(FILE *file, double value) {
   char text[ZP_NUMBER_SIZE];

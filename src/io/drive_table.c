@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 #include "base/fail.h"
 #include "io/data.h"

@@ -26,6 +26,8 @@
 #include "io/report.h"
 #include "io/shows.h"
 #include "io/writers.h"
+#include "base/table.h"
+#include "study/result.h"
 
 /* Increment of the file in memory, bytes. */
 #define GROWTH (1 << 20)

@@ -7,6 +7,9 @@
 
 #include "base/fail.h"
 #include "base/pack.h"
+#include "base/table.h"
+#include "def/def.h"
+#include "study/result.h"
 
 static const ZpPackKind kind_of_names = {"result", 'N', 10}, kind_of_numbers = {"result", 'R', 10},
                         kind_of_arrays = {"result", 'A', 10};
@@ -109,7 +112,7 @@ static ZpOutcome outcome_of(const char *word) {
 /* ZpStudy_COUNT if there is none. */
 static ZpStudy study_of(const char *word) {
   ZpStudy study = (ZpStudy)0;
-  while (study < ZpStudy_COUNT && !(word && strcmp(zp_study_name(study), word) == 0))
+  while ((int)study < ZpStudy_COUNT && !(word && strcmp(zp_study_name(study), word) == 0))
     study++;
   return study;
 }
@@ -125,7 +128,7 @@ ZpStatus zp_names_read(const void *bytes, size_t size, ZpNames *names, ZpError *
   names->columns = find_texts(&p, "columns");
   names->sum = zp_pack_sum(bytes);
   status = zp_pack_end(&p, err);
-  if (status != ZP_OK || names->study < ZpStudy_COUNT) return status;
+  if (status != ZP_OK || (int)names->study < ZpStudy_COUNT) return status;
   return zp_fail(err, ZP_BAD_INPUT, "of a study that zipact %s does not have", ZP_VERSION);
 }
 

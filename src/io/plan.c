@@ -171,7 +171,7 @@ size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, const doubl
     const ZpSlot *s = slot[i];
     const bool is_varied = v > 0 && plan->varied[v - 1] == (int)i;
     if (is_varied) v--;
-    if (s->count == 0 || s->text || zp_key((int)i)->offset == ZP_NO_FIELD) continue;
+    if (s->count == 0 || s->text || !zp_key_in_def((int)i)) continue;
     list[used++] = (ZpAssignment){(int)i, is_varied ? value[v] : s->value[0]};
   }
   return used;

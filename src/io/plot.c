@@ -10,6 +10,8 @@
 #include "io/cases.h"
 #include "io/number.h"
 #include "io/units.h"
+#include "base/table.h"
+#include "study/result.h"
 
 /* -- columns --------------------------------------------------------------------------------------- */
 
@@ -116,7 +118,7 @@ static void define_text(FILE *file, const char *before, const char *name, const 
 /* drive_voltage in SI or as a word, and said_drive_voltage in its unit. */
 static void define_key(const ZpPlot *plot, int index, FILE *file) {
   const ZpKey *key = zp_key(index);
-  if (key->offset == ZP_NO_FIELD || key->type == ZP_KEY_TEXT) return;
+  if (!zp_key_in_def(index) || key->type == ZP_KEY_TEXT) return;
   const double value = zp_def_get(&plot->def, index);
   char said[64];
   zp_value_print(index, value, said, sizeof said);

@@ -8,6 +8,8 @@
 #include "io/number.h"
 #include "io/plot.h"
 #include "sample/statistics.h"
+#include "base/table.h"
+#include "study/result.h"
 
 static void put(FILE *file, double value, char after) {
   char text[ZP_NUMBER_SIZE];

@@ -115,7 +115,7 @@ static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err)
 static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
   ZpAssignment *list = calloc(key_count(), sizeof *list);
   if (!list) return zp_fail_memory(err);
-  ZpStatus status = zp_def_fill(def, list, zp_plan_assign(&s->plan, s->held, value, list), err);
+  ZpStatus status = zp_def_resolve(def, list, zp_plan_assign(&s->plan, s->held, value, list), err);
   free(list);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
@@ -140,8 +140,7 @@ static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, Z
   }
   double *value = more ? more : usual;
   zp_plan_values(&s->plan, s->held, index, value);
-  const bool shared = s->has_common && def->layout == zp_def_layout();
-  ZpStatus status = shared ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
+  ZpStatus status = s->has_common ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
   free(more);
   return status;
 }
@@ -156,7 +155,6 @@ static void find_common(ZpScenario *s) {
     moves |= key->type == ZP_KEY_ENUM || key->type == ZP_KEY_BOOL || strcmp(key->name, "mesh.nodes") == 0;
   }
   s->has_common = false;
-  s->common.layout = zp_def_layout();
   s->has_common = !moves && resolve(s, 0, &s->common, NULL) == ZP_OK;
 }
 
@@ -640,7 +638,7 @@ bool zp_scenario_bare_number(const ZpScenario *s, int key, double *value) {
 
 /* An error of the scenario, not of a single Def. */
 static bool is_study(size_t key) {
-  return zp_key((int)key)->offset == ZP_NO_FIELD;
+  return !zp_key_in_def((int)key);
 }
 
 ZpStudy zp_scenario_study(const ZpScenario *s) {
@@ -673,7 +671,6 @@ static ZpStatus check_case(const ZpScenario *s, size_t index, ZpError *err) {
 ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   ZpError reason;
   ZpStatus status = check_case(s, index, err);
-  def->layout = zp_def_layout();
   return status == ZP_OK ? say_of(s, index, resolve(s, index, def, &reason), &reason, err) : status;
 }
 
@@ -681,9 +678,9 @@ void zp_scenario_values(const ZpScenario *s, size_t index, double *value) {
   zp_plan_values(&s->plan, s->held, index, value);
 }
 
-ZpStatus zp_scenario_fill(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
+ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
   ZpError reason;
-  ZpStatus status = check_case(s, index, err);
+  ZpStatus status = def ? check_case(s, index, err) : zp_fail_memory(err);
   if (status != ZP_OK) return status;
   status = resolve(s, index, def, &reason);
   if (status == ZP_OK) status = zp_study_check(zp_scenario_study(s), def, &reason);
@@ -695,7 +692,6 @@ enum { CASES_WITH_SERIES = 20 };
 
 bool zp_scenario_keeps_series(const ZpScenario *s) {
   ZpActuatorDef def;
-  def.layout = zp_def_layout();
   if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
     return s->plan.count <= CASES_WITH_SERIES;
   return def.output.series == ZP_WHEN_TRUE;
@@ -703,7 +699,7 @@ bool zp_scenario_keeps_series(const ZpScenario *s) {
 
 /* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the cases. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
-  ZpActuatorDef def = {.layout = zp_def_layout()};
+  ZpActuatorDef def = {0};
   for (size_t row = 1; row < s->plan.count; row++) {
     ZpError reason;
     ZpStatus status = resolve(s, row, &def, &reason);
@@ -765,7 +761,7 @@ static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bo
 }
 
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
-  ZpActuatorDef first = {.layout = zp_def_layout()};
+  ZpActuatorDef first = {0};
   ZpError reason;
   ZpStatus status = resolve(s, 0, &first, &reason);
   if (status != ZP_OK) return say_of(s, 0, status, &reason, err);

@@ -9,7 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 #include <zipact/io.h>
 
 #include "io/json.h"

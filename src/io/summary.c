@@ -12,6 +12,7 @@
 #include "io/report.h"
 #include "io/shows.h"
 #include "io/summary.h"
+#include "study/result.h"
 
 /* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars, so that a sweep has columns, but arrays in JSON. */
 typedef struct List {

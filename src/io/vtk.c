@@ -14,6 +14,8 @@
 #include "io/number.h"
 #include "io/report.h"
 #include "io/writers.h"
+#include "base/table.h"
+#include "study/result.h"
 
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
 #define BYTE_ORDER_NAME "LittleEndian"

@@ -12,6 +12,7 @@
 #include "io/number.h"
 #include "io/report.h"
 #include "optimize/search.h"
+#include "study/result.h"
 
 struct ZpOptimization {
   ZpSearch search;

@@ -11,6 +11,7 @@
 #include "campaign/case_hash.h"
 #include "fit/case.h"
 #include "sample/design.h"
+#include "study/result.h"
 
 /* Interval of progress messages; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };

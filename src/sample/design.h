@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 typedef struct ZpDesign {
   ZpSampling method;

@@ -42,7 +42,7 @@ double zp_checkpoint_time(const ZpCheckpoint *checkpoint) {
 /* -- what it fits ---------------------------------------------------------------------------------- */
 
 bool zp_checkpoint_holds(int index) {
-  if (zp_key(index)->offset == ZP_NO_FIELD || zp_key_is_material(index)) return false;
+  if (!zp_key_in_def(index) || zp_key_is_material(index)) return false;
   return !(zp_key_purposes(index) & ZP_MAY_CHANGE);
 }
 

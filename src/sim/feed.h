@@ -2,7 +2,7 @@
 #ifndef ZP_SIM_FEED_H
 #define ZP_SIM_FEED_H
 
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 #include "term/source.h"
 

@@ -2,7 +2,7 @@
 #ifndef ZP_SIM_MARGINS_H
 #define ZP_SIM_MARGINS_H
 
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 #include "actuator/shape.h"
 

@@ -36,7 +36,7 @@ static const ZpRow *const row_of[] = {
 #define ZP_ROW(name)                        +1
 enum {
   SIGNAL_OF_LAWS = 0
-#include <zipact/signals.def>
+#include "base/signals.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW

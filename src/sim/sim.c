@@ -1,5 +1,5 @@
 /* A run: its creation, its steps one after the other, records, and the reasons why it ends. */
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 #include <math.h>
 #include <stdio.h>

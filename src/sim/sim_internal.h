@@ -2,7 +2,7 @@
 #ifndef ZP_SIM_SIM_INTERNAL_H
 #define ZP_SIM_SIM_INTERNAL_H
 
-#include <zipact/sim.h>
+#include "sim/info.h"
 
 #include "actuator/shape.h"
 #include "rest/dynamics.h"

@@ -2,7 +2,7 @@
 #ifndef ZP_STUDY_HELD_H
 #define ZP_STUDY_HELD_H
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 /* isometric.separation is within their reach. */
 ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err);

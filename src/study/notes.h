@@ -4,7 +4,7 @@
 #ifndef ZP_STUDY_NOTES_H
 #define ZP_STUDY_NOTES_H
 
-#include <zipact/study.h>
+#include "study/result.h"
 
 #include "actuator/shape.h"
 

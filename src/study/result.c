@@ -1,5 +1,5 @@
 /* A result: what every study fills. */
-#include <zipact/study.h>
+#include "study/result.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -14,6 +14,12 @@ ZpResult *zp_result_create(ZpStudy study) {
   if (result) result->study = study;
   if (result) result->resolution = INFINITY;
   return result;
+}
+
+void zp_result_forget_states(ZpResult *result) {
+  if (!result) return;
+  zp_limits_destroy(result->limits);
+  result->limits = NULL;
 }
 
 void zp_result_destroy(ZpResult *result) {

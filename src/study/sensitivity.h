@@ -2,7 +2,7 @@
 #ifndef ZP_STUDY_SENSITIVITY_H
 #define ZP_STUDY_SENSITIVITY_H
 
-#include <zipact/study.h>
+#include "study/result.h"
 
 #include "rest/limits.h"
 #include "rest/slope.h"

@@ -4,7 +4,7 @@
 #ifndef ZP_STUDY_STUDIES_H
 #define ZP_STUDY_STUDIES_H
 
-#include <zipact/study.h>
+#include "study/result.h"
 
 #include "def/rule.h"
 

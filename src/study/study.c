@@ -27,7 +27,7 @@ static const Row table[ZpStudy_COUNT] = {
 };
 
 static bool is_study(ZpStudy study) {
-  return (int)study >= 0 && study < ZpStudy_COUNT;
+  return (int)study >= 0 && (int)study < ZpStudy_COUNT;
 }
 
 const char *zp_study_name(ZpStudy study) {

@@ -13,7 +13,7 @@ _Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "a model has room
 enum {
   ROWS = 0
 #include "term/terms.def"
-#include <zipact/signals.def>
+#include "base/signals.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW

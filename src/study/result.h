@@ -1,0 +1,39 @@
+/* The inside of a result, which only the library and its tests see. */
+#ifndef ZP_STUDY_RESULT_H
+#define ZP_STUDY_RESULT_H
+
+#include <zipact/study.h>
+
+#include "base/table.h"
+#include "sim/info.h"
+
+/* Largest numbers of scalars, notes, keys of sensitivity.by and derivatives. */
+enum { ZP_MAX_SCALARS = 64, ZP_MAX_NOTES = 8, ZP_MAX_SENSITIVITY_KEYS = 16, ZP_MAX_SENSITIVITIES = 512 };
+
+/* States of study limits from which a similar case can start, see ZpStudyInput. */
+typedef struct ZpLimits ZpLimits;
+
+/* Free them; NULL is allowed. */
+void zp_limits_destroy(ZpLimits *limits);
+
+/* The result of a study. */
+struct ZpResult {
+  ZpStudy study;
+  ZpOutcome outcome;
+  char message[256];            /* one sentence on how it ended */
+  char note[ZP_MAX_NOTES][256]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
+  size_t notes;
+  double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest
+                      * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
+  ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
+  size_t scalars;
+  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
+  size_t sensitivities;
+  ZpTable *series;          /* the study's table; NULL if it has none */
+  ZpShapes *shapes;         /* NULL if it has none */
+  ZpFieldMap *map;          /* NULL if it has none */
+  ZpCheckpoint *checkpoint; /* of a run in time, to resume from; NULL if there is none */
+  ZpLimits *limits;         /* the states of study limits; NULL for other studies */
+};
+
+#endif
