@@ -44,13 +44,13 @@ static void measure_reading(const char *model, ZpSim *sim) {
 }
 
 static void measure(const char *name, ZpElectroModel model) {
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.electro.model = model;
-  def.liquid.model = ZP_LIQUID_NONE;
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "electro.model", model, NULL);
+  zp_def_set_number(def, "liquid.model", ZP_LIQUID_NONE, NULL);
   ZpModel *actuator;
   ZpSim *sim;
   ZpError err;
-  if (zp_model_create(&def, &actuator, &err) != ZP_OK || zp_sim_create(actuator, NULL, &sim, &err) != ZP_OK) {
+  if (zp_model_create(def, &actuator, &err) != ZP_OK || zp_sim_create(actuator, NULL, &sim, &err) != ZP_OK) {
     fprintf(stderr, "access: %s\n", err.message);
     exit(EXIT_FAILURE);
   }
@@ -61,6 +61,7 @@ static void measure(const char *name, ZpElectroModel model) {
   measure_reading(name, sim);
   zp_sim_destroy(sim);
   zp_model_destroy(actuator);
+  zp_def_destroy(def);
 }
 
 static double same(void *user, ZpSim *sim, double time) {
@@ -75,12 +76,12 @@ static double steps_with(const ZpController *controller, double size) {
                                {zp_key_find("mesh.nodes"), 21},
                                {zp_key_find("drive.voltage"), 0},
                                {zp_key_find("solver.time_step"), size}};
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   ZpModel *actuator;
   ZpSim *sim;
   ZpError err;
-  if (zp_def_resolve(&def, list, sizeof list / sizeof list[0], &err) != ZP_OK ||
-      zp_model_create(&def, &actuator, &err) != ZP_OK || zp_sim_create(actuator, NULL, &sim, &err) != ZP_OK ||
+  if (zp_def_resolve(def, list, sizeof list / sizeof list[0], &err) != ZP_OK ||
+      zp_model_create(def, &actuator, &err) != ZP_OK || zp_sim_create(actuator, NULL, &sim, &err) != ZP_OK ||
       zp_sim_set_controller(sim, controller, &err) != ZP_OK) {
     fprintf(stderr, "access: %s\n", err.message);
     exit(EXIT_FAILURE);
@@ -90,6 +91,7 @@ static double steps_with(const ZpController *controller, double size) {
   double stop = now();
   zp_sim_destroy(sim);
   zp_model_destroy(actuator);
+  zp_def_destroy(def);
   return stop - start;
 }
 

@@ -4,6 +4,9 @@
 
 #include <zipact/zipact.h>
 
+#include "def/def.h"
+#include "study/result.h"
+
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

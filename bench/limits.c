@@ -3,6 +3,9 @@
  * `limits NODES once|warm|pull_in [bead]`. */
 #include <zipact/zipact.h>
 
+#include "def/def.h"
+#include "study/result.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -10,7 +10,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "def/def.h"
 #include "motion.h"
+#include "study/result.h"
 
 enum { MESHES = 7 };
 

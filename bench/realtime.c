@@ -40,12 +40,12 @@ static void fail(const char *message) {
 }
 
 /* One step at the voltage of its place in the cycle. */
-static Cost measure(ZpSim *sim, int k) {
-  ZpRunInfo info;
+static Cost measure(ZpSim *sim, ZpRunInfo *info, int k) {
   double start = now();
   zp_sim_set_voltage(sim, k % CYCLE < ON ? 10e3 : 0, NULL);
-  if (zp_sim_step(sim, step_size, NULL, &info) != ZP_REACHED_END) fail(info.message);
-  return (Cost){now() - start, k % CYCLE, info.steps, info.rejected, info.iterations};
+  if (zp_sim_step(sim, step_size, NULL, info) != ZP_REACHED_END) fail(zp_run_info_message(info));
+  return (Cost){now() - start, k % CYCLE, (int64_t)zp_run_info_get(info, "steps"),
+                (int64_t)zp_run_info_get(info, "rejected"), (int64_t)zp_run_info_get(info, "iterations")};
 }
 
 /* How far it has closed and opened, as contraction. */
@@ -76,18 +76,18 @@ int main(int argc, char **argv) {
   ZpError err;
   ZpModel *model;
   ZpSim *sim;
-  ZpActuatorDef def = zp_actuator_def_default();
-  def.liquid.model = ZP_LIQUID_BEAD;
-  def.solver.tolerance = 1e-3; /* times to 0.2 %: a controller corrects more than that */
+  ZpRunInfo *info = zp_run_info_create();
+  ZpActuatorDef *def = zp_def_create();
+  zp_def_set_number(def, "liquid.model", ZP_LIQUID_BEAD, NULL);
+  zp_def_set_number(def, "solver.tolerance", 1e-3, NULL); /* times to 0.2 %: a controller corrects more than that */
   Cost *cost = steps > 0 ? malloc((size_t)steps * sizeof *cost) : NULL;
   if (!cost) fail("give a number of steps above 0");
-  if (zp_model_create(&def, &model, &err) != ZP_OK || zp_sim_create(model, NULL, &sim, &err) != ZP_OK)
-    fail(err.message);
+  if (zp_model_create(def, &model, &err) != ZP_OK || zp_sim_create(model, NULL, &sim, &err) != ZP_OK) fail(err.message);
   for (int k = 0; k < CYCLE; k++)
-    measure(sim, k);
+    measure(sim, info, k);
   Extremes contraction = {INFINITY, -INFINITY};
   for (int k = 0; k < steps; k++) {
-    cost[k] = measure(sim, k);
+    cost[k] = measure(sim, info, k);
     contraction.least = fmin(contraction.least, zp_sim_get(sim, "contraction"));
     contraction.most = fmax(contraction.most, zp_sim_get(sim, "contraction"));
   }
@@ -95,6 +95,8 @@ int main(int argc, char **argv) {
   printf("\nleast_contraction,most_contraction\n%.3f,%.3f\n", contraction.least, contraction.most);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
+  zp_run_info_destroy(info);
+  zp_def_destroy(def);
   free(cost);
   return EXIT_SUCCESS;
 }

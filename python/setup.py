@@ -104,7 +104,7 @@ def keywords():
         "class Keywords(TypedDict, total=False):",
         '    """Keys, the dot written as two underscores."""',
     ]
-    for kind, given in arguments("include/zipact/keys.def", "REAL|REAL_AS|REAL_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
+    for kind, given in arguments("src/def/keys.def", "REAL|REAL_AS|REAL_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
         if kind == "OF_SCENARIO":  # a choice key without a group
             kind, given = "ENUM", ["", *given]
         if kind == "REAL_AS":  # the field has another name

@@ -28,7 +28,7 @@ for key in json.load(sys.stdin):
 ' >"$made"
 python3 - "$(dirname "$0")/.." >>"$made" <<'PYTHON'
 import glob, re, sys
-signals = "\n".join(open(sys.argv[1] + name).read() for name in ("/include/zipact/signals.def", "/src/term/terms.def"))
+signals = "\n".join(open(sys.argv[1] + name).read() for name in ("/src/base/signals.def", "/src/term/terms.def"))
 laws = " ".join(" ".join(open(name).read().split()) for name in sorted(glob.glob(sys.argv[1] + "/src/**/*.c", recursive=True)))
 rows = {name: ("J", "_J", text) for name, text in re.findall(r'ZP_(?:STORED|LOST|LOST_BY_SOURCE)\( ?(\w+), "([^"]*)"\)', laws)}
 rows.update((name, (unit, suffix, text)) for name, unit, suffix, text in

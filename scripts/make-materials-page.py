@@ -9,7 +9,6 @@ import re
 import sys
 
 REPO = pathlib.Path(__file__).resolve().parent.parent
-TABLES = REPO / "include/zipact"
 STRING = r'"([^"]*)"'
 GROUPS = (
     ("ZP_STRIP", "ribbon", "Strips: `ribbon.material`, `lower.ribbon.material`"),
@@ -18,7 +17,7 @@ GROUPS = (
 )
 HEAD = """# Materials
 
-Made by `make docs` from `include/zipact/materials.def`.
+Made by `make docs` from `src/def/materials.def`.
 
 `ribbon.material`, `insulator.material` and `medium.material` name a material of these tables. A material sets those keys of its group that you do not give. A key
 that is given in the file or by `--set` keeps its value ([order](interface.md#which-value-counts)), so `--set ribbon.material=brass` does not change a `ribbon.density` in the file.
@@ -48,20 +47,20 @@ $ zipact run examples/materials.yaml -o out/materials
 
 def words():
     """Word and help line of each enumerator."""
-    text = (TABLES / "choices.def").read_text(encoding="utf-8")
+    text = (REPO / "include/zipact/choices.def").read_text(encoding="utf-8")
     return {name: (word, told) for name, word, told in re.findall(r"^ZP_CHOICE\((\w+), %s, %s\)" % (STRING, STRING), text, re.M)}
 
 
 def units():
     """(unit, unit that people write, how many of these in one) of each key."""
-    text = (TABLES / "keys.def").read_text(encoding="utf-8")
+    text = (REPO / "src/def/keys.def").read_text(encoding="utf-8")
     rows = re.findall(r"^ZP_REAL\w*\((\w+\.), (\w+), %s, %s" % (STRING, STRING), text, re.M)
     return {group + name: "" if unit == "1" else " " + unit for group, name, unit, _ in rows}
 
 
 def values(macro):
     """(enumerator, key without group, value, spread, source) of each row."""
-    text = (TABLES / "materials.def").read_text(encoding="utf-8")
+    text = (REPO / "src/def/materials.def").read_text(encoding="utf-8")
     return re.findall(r"^%s\((\w+), %s, ([^,]+), ([^,]+), %s\)$" % (macro, STRING, STRING), text, re.M)
 
 

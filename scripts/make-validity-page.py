@@ -224,8 +224,8 @@ class Spread:
 
 
 def of_material(name, key):
-    """(value, spread) of a material's key, as include/zipact/materials.def has them."""
-    with open(os.path.join(HOME, "include", "zipact", "materials.def"), encoding="utf-8") as file:
+    """(value, spread) of a material's key, as src/def/materials.def has them."""
+    with open(os.path.join(HOME, "src", "def", "materials.def"), encoding="utf-8") as file:
         found = re.search(rf'^ZP_\w+\({name}, "{key}", ([^,]+), ([^,]+),', file.read(), re.M)
     return tuple(float(text) for text in found.groups())
 

@@ -54,7 +54,7 @@ def migrate_def(text, notes):
             return '%szp_def_set_number(%s, "%s", %s, NULL);' % (found[1], name, key_name(found[2]), found[3])
 
         text = replace(text, r"(^[ \t]*|(?<=[;{)])[ \t]*)%s%s%s = ([^;=][^;]*);" % (name, dot, KEY), write)
-        text = replace(text, r"(?<![\w.>])%s%s%s(?![\w(.\[])" % (name, dot, KEY),
+        text = replace(text, r"(?<![\w.>/\"])%s%s%s(?![\w(.\[])" % (name, dot, KEY),
                        lambda found: 'zp_def_number(%s, "%s")' % (name, key_name(found[1])))
     return text
 

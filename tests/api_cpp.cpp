@@ -15,6 +15,7 @@
 #include <zipact/table.h>
 #include <zipact/version.h>
 #include <zipact/zipact.h>
+#include <zipact/def.h>
 
 static int failures = 0;
 
@@ -25,44 +26,47 @@ static void check(bool good, const std::string &what) {
 }
 
 // The destroy functions serve as deleters.
+using Def = std::unique_ptr<ZpActuatorDef, decltype(&zp_def_destroy)>;
+using Info = std::unique_ptr<ZpRunInfo, decltype(&zp_run_info_destroy)>;
 using Model = std::unique_ptr<ZpModel, decltype(&zp_model_destroy)>;
 using Sim = std::unique_ptr<ZpSim, decltype(&zp_sim_destroy)>;
 using Result = std::unique_ptr<ZpResult, decltype(&zp_result_destroy)>;
 using Scenario = std::unique_ptr<ZpScenario, decltype(&zp_scenario_destroy)>;
 
-static ZpActuatorDef short_def() {
-  ZpActuatorDef *def = zp_def_create();
-  zp_def_set_number(def, "actuator.kind", ZP_KIND_ELECTRO_RIBBON, NULL);
-  zp_def_set_number(def, "mesh.nodes", 5, NULL);
-  zp_def_set_number(def, "solver.tolerance", 1e-1, NULL);
-  zp_def_set_number(def, "solver.end_time", 1e-4, NULL);
-  return def;
+static Def short_def() {
+  Def owner(zp_def_create(), zp_def_destroy);
+  ZpActuatorDef *def = owner.get();
+  zp_def_set_number(def, "actuator.kind", ZP_KIND_ELECTRO_RIBBON, nullptr);
+  zp_def_set_number(def, "mesh.nodes", 5, nullptr);
+  zp_def_set_number(def, "solver.tolerance", 1e-1, nullptr);
+  zp_def_set_number(def, "solver.end_time", 1e-4, nullptr);
+  return owner;
 }
 
 static void run_a_simulation() {
-  ZpActuatorDef def = short_def();
+  const Def def = short_def();
   ZpError err{};
   ZpModel *model = nullptr;
   ZpSim *sim = nullptr;
-  check(zp_model_create(def, &model, &err) == ZP_OK, err.message);
+  check(zp_model_create(def.get(), &model, &err) == ZP_OK, err.message);
   Model model_owner(model, zp_model_destroy);
   check(zp_model_get(model, "ribbons") == 2, "a model of two ribbons");
   check(zp_sim_create(model, nullptr, &sim, &err) == ZP_OK, err.message);
   Sim sim_owner(sim, zp_sim_destroy);
-  ZpRunInfo *info = zp_run_info_create();
-  check(zp_sim_run(sim, 1e-4, false, nullptr, info) == ZP_REACHED_END, zp_run_info_message(info));
+  const Info info(zp_run_info_create(), zp_run_info_destroy);
+  check(zp_sim_run(sim, 1e-4, false, nullptr, info.get()) == ZP_REACHED_END, zp_run_info_message(info.get()));
   check(zp_sim_get(sim, "stroke") > 0, "a stroke");
 }
 
 static void run_a_study() {
-  ZpActuatorDef def = short_def();
+  const Def def = short_def();
   ZpError err{};
   int calls = 0;
   ZpHooks hooks{};
   hooks.user = &calls;
   hooks.progress = [](void *user, const char *, double) { return ++*static_cast<int *>(user) < 0; };
   ZpResult *result = nullptr;
-  check(zp_study_run(ZP_STUDY_ACTUATE, def, nullptr, &hooks, &result, &err) == ZP_OK, err.message);
+  check(zp_study_run(ZP_STUDY_ACTUATE, def.get(), nullptr, &hooks, &result, &err) == ZP_OK, err.message);
   Result owner(result, zp_result_destroy);
   check(result && zp_result_series(result) && zp_table_rows(zp_result_series(result)) > 1, "a table");
   check(std::isfinite(zp_result_get(result, "stroke_m")), "a stroke of the study");

@@ -12,6 +12,7 @@
 
 #include "math/elementary.h"
 #include "math/skyline.h"
+#include "study/result.h"
 #include "system/system.h"
 
 /* A NAN has many bit patterns, all of which mean the same. */

@@ -8,6 +8,8 @@
 
 #include <zipact/io.h>
 
+#include "def/def.h"
+
 enum { DEFS_MOST = 8, ROWS_MOST = 100 /* written scenarios resolve all rows: keep it fast */ };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);

@@ -35,12 +35,12 @@ MAY_INCLUDE = {
     "sample": ["base"],
     "fmu": ["sim", "actuator", "drive", "def", "base"],
     "fmu/export": ["fmu", "sim", "actuator", "drive", "def", "base"],
-    "io": ["sample", "base"],
+    "io": ["sample", "study", "def", "base"],
     "fmupack": ["io", "fmu", "fmu/export", "base"],
     "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
-    "campaign": ["fit", "io", "sample", "def", "base"],
-    "optimize": ["campaign", "fit", "io", "sample", "base"],
-    "reproduce": ["fit", "io", "base"],
+    "campaign": ["fit", "io", "sample", "study", "def", "base"],
+    "optimize": ["campaign", "fit", "io", "sample", "study", "def", "base"],
+    "reproduce": ["fit", "io", "study", "actuator", "def", "base"],
     "cli": [],
 }
 
@@ -62,18 +62,13 @@ PUBLIC = {
     "api.h": "base",
     "version.h": "base",
     "def.h": "def",
-    "layout.h": "def",
     "choices.def": "def",
-    "keys.def": "def",
     "studies.def": "def",
-    "presets.def": "def",
-    "materials.def": "def",
     "drive.h": "drive",
     "model.h": "actuator",
     "rest.h": "rest",
     "sim.h": "sim",
     "checkpoint.h": "sim",
-    "signals.def": "base",
     "study.h": "study",
     "zipact.h": "study",
     "io.h": "io",
@@ -248,7 +243,7 @@ def rule_core_needs_no_library(repo, files):
 
 def keys_of(repo):
     """(name, line) of each key of keys.def."""
-    text = read(repo, "include/zipact/keys.def")
+    text = read(repo, "src/def/keys.def")
     text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
     for found in re.finditer(r"^ZP_OF_SCENARIO\((\w+),", text, re.M):
         yield found.group(1), line_at(text, found.start())
@@ -262,10 +257,10 @@ def rule_keys_documented(repo, files):
     """Every key stands in docs/keys.md."""
     page = read(repo, "docs/keys.md") if "docs/keys.md" in files else ""
     keys = list(keys_of(repo))
-    yield len(keys) > 40, "include/zipact/keys.def:1", "only %d keys found: is its form still known here?" % len(keys)
+    yield len(keys) > 40, "src/def/keys.def:1", "only %d keys found: is its form still known here?" % len(keys)
     for key, line in keys:
         found = re.search(r"(?<![\w.])%s(?![\w.]*\w)" % re.escape(key), page)
-        yield bool(found), "include/zipact/keys.def:%d" % line, "key %s is not in docs/keys.md" % key
+        yield bool(found), "src/def/keys.def:%d" % line, "key %s is not in docs/keys.md" % key
 
 
 def rows_of(repo, files):
@@ -291,7 +286,7 @@ def rows_of_terms(repo):
 def rule_signals_documented(repo, files):
     """Every signal stands somewhere in docs/, as in a table: with the unit in its name."""
     pages = "\n".join(read(repo, name) for name in files if name.startswith("docs/") and name.endswith(".md"))
-    text = read(repo, "include/zipact/signals.def")
+    text = read(repo, "src/base/signals.def")
     rows = rows_of(repo, files)
     signals = list(re.finditer(r'^ZP_SIGNAL\((\w+),\s*"[^"]*",\s*"([^"]*)"', text, re.M))
     listed = re.findall(r"^ZP_ROW\((\w+)\)", text, re.M)
@@ -303,7 +298,7 @@ def rule_signals_documented(repo, files):
     for row in listed:
         column = row + rows.get(row, ("", "", ""))[1]
         ok = re.search(r"(?<!\w)%s(?!\w)" % re.escape(column), pages)
-        yield bool(ok), "include/zipact/signals.def:1", "%s is not in docs/" % column
+        yield bool(ok), "src/base/signals.def:1", "%s is not in docs/" % column
         yield listed.count(row) == 1, "src/term/terms.def:1", "row %s has two places" % row
     for row, (_, _, name) in rows.items():
         yield row in listed, name + ":1", "row %s has no place in signals.def or terms.def: no column would show it" % row
@@ -311,11 +306,11 @@ def rule_signals_documented(repo, files):
             ok = re.search(r"&zp_row_%s\b" % row, read(repo, name))
             yield bool(ok), name + ":1", "the term does not list its row %s" % row
     signals += list(re.finditer(r"^ZP_CONTROLLED\((\w+)()", text, re.M))
-    yield len(signals) > 10, "include/zipact/signals.def:1", "only %d signals found" % len(signals)
+    yield len(signals) > 10, "src/base/signals.def:1", "only %d signals found" % len(signals)
     for found in signals:
         column = found.group(1) + found.group(2)
         ok = re.search(r"(?<!\w)%s(?!\w)" % re.escape(column), pages)
-        yield bool(ok), "include/zipact/signals.def:%d" % line_at(text, found.start()), "%s is not in docs/" % column
+        yield bool(ok), "src/base/signals.def:%d" % line_at(text, found.start()), "%s is not in docs/" % column
 
 
 def rule_public_functions_commented(repo, files):

@@ -25,8 +25,11 @@
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
+#include "actuator/model.h"
+#include "def/def.h"
 #include "math/skyline.h"
 #include "sanitized.h"
+#include "study/result.h"
 #include "suite.h"
 
 /* -- the wrappers ---------------------------------------------------------------------------------- */

@@ -695,10 +695,13 @@ START_TEST(study_out_of_range) {
   ZpActuatorDef *def = zp_def_create();
   ZpResult *result = (ZpResult *)(void *)def;
   ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_study_run(ZpStudy_COUNT, def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
+  int studies = 0;
+  while (strcmp(zp_study_name((ZpStudy)studies), "unknown") != 0)
+    studies++;
+  ck_assert_int_eq(zp_study_run((ZpStudy)studies, def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_ptr_null(result);
   char words[64];
-  snprintf(words, sizeof words, "study = %d: out of range; 0 to %d", ZpStudy_COUNT, ZpStudy_COUNT - 1);
+  snprintf(words, sizeof words, "study = %d: out of range; 0 to %d", studies, studies - 1);
   ck_assert_msg(strstr(err.message, words), "%s", err.message);
   ck_assert_int_eq(zp_study_check((ZpStudy)-1, def, &err), ZP_BAD_INPUT);
   ck_assert_str_eq(zp_study_name((ZpStudy)-1), "unknown");

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""The binary interface:  python3 tests/test_interface.py REPO BUILD SCRATCH
+"""The binary interface:  python3 tests/test_interface.py REPO BUILD SCRATCH [grown]
 
 The shared libraries export what the headers mark ZP_API and nothing else, under the SOVERSION that the headers say. A
-program that was compiled with headers of other keys gets a sentence, no shifted keys, and nothing of it is written over.
+program that was compiled when this SOVERSION began runs with them: tests/abi keeps its source and the headers of that
+time (a binary would be of one machine). With `grown` it also runs, without another compilation, with a library that has
+more keys, words, signals and outcomes; this compiles the core.
 """
 
 import pathlib
@@ -60,108 +62,119 @@ def test_exports():
               "%s has another SOVERSION than ZP_ABI %s" % (library.name, abi))
 
 
-# Whatever takes a Def, and canaries beyond one. Prints a line for each call: status and message.
-PROGRAM = r"""
-#include <math.h>
-#include <stdio.h>
-#include <zipact/calibrate.h>
-#include <zipact/io.h>
-#include <zipact/zipact.h>
-
-static void say(const char *call, ZpStatus status, ZpError *err) {
-  printf("%s: %d %s\n", call, (int)status, status ? err->message : "");
-}
-
-int main(void) {
-  static struct { ZpActuatorDef def; unsigned char beyond[4096]; } guarded;
-  ZpError err = {ZP_OK, ""};
-  ZpModel *model = NULL;
-  ZpResult *result = NULL;
-  memset(guarded.beyond, 0x5A, sizeof guarded.beyond);
-  ZpScenario *scenario = zp_scenario_create();
-  say("zp_def_resolve", zp_def_resolve(&guarded.def, NULL, 0, &err), &err);
-  say("zp_scenario_def", zp_scenario_def(scenario, 0, &guarded.def, &err), &err);
-  guarded.def = zp_actuator_def_default();
-  guarded.def.mesh.nodes = 7;
-  guarded.def.solver.end_time = 1e-4;
-  say("zp_def_set", zp_def_set(&guarded.def, zp_key_find("load.mass"), 0.01, &err), &err);
-  say("zp_def_set_text", zp_def_set_text(&guarded.def, zp_key_find("data.file"), "", &err), &err);
-  say("zp_def_check", zp_def_check(&guarded.def, &err), &err);
-  say("zp_def_check_motion", zp_def_check_motion(&guarded.def, &err), &err);
-  say("zp_def_check_voltage", zp_def_check_voltage(&guarded.def, 1, &err), &err);
-  say("zp_model_create", zp_model_create(&guarded.def, &model, &err), &err);
-  say("zp_study_check", zp_study_check(ZP_STUDY_ACTUATE, &guarded.def, &err), &err);
-  say("zp_study_run", zp_study_run(ZP_STUDY_STATIONARY, &guarded.def, NULL, NULL, &result, &err), &err);
-  zp_result_destroy(result);
-  say("zp_data_study_run", zp_data_study_run(ZP_STUDY_STATIONARY, &guarded.def, NULL, &result, &err), &err);
-  zp_result_destroy(result);
-  printf("zp_def_get: %d\n", isnan(zp_def_get(&guarded.def, zp_key_find("load.mass"))) ? 2 : 0);
-  printf("zp_def_text: %d\n", zp_def_text(&guarded.def, zp_key_find("data.file")) ? 0 : 2);
-  printf("zp_def_liquid: %d\n", zp_def_liquid(&guarded.def) == ZP_LIQUID_BEAD ? 0 : 2);
-  size_t changed = 0;
-  for (size_t i = 0; i < sizeof guarded.beyond; i++)
-    changed += guarded.beyond[i] != 0x5A;
-  printf("beyond: %zu\nversion: %s\n", changed, zp_version());
-  zp_model_destroy(model);
-  zp_scenario_destroy(scenario);
-  return 0;
-}
-"""
+KEPT = REPO / "tests/abi"
 
 
-def program(name, change):
-    """Compile PROGRAM with headers on which `change` (file, pattern, by) was made, and run it."""
-    folder = SCRATCH / name
-    shutil.rmtree(folder, ignore_errors=True)
-    shutil.copytree(REPO / "include", folder / "include")
-    if change:
-        path, pattern, by = change
-        text = (folder / "include/zipact" / path).read_text(encoding="utf-8")
-        text, count = re.subn(pattern, by, text, count=1, flags=re.M)
-        check(count == 1, "%s: %s not found in %s" % (name, pattern, path))
-        (folder / "include/zipact" / path).write_text(text, encoding="utf-8")
-    (folder / "program.c").write_text(PROGRAM, encoding="utf-8")
+def kept_names():
+    """What abi-2.h declares: functions, enumerators, structs."""
+    text = (KEPT / "abi-2.h").read_text(encoding="utf-8")
+    functions = re.findall(r"\b(zp_\w+)\(", text)
+    enumerators = [name for inside in re.findall(r"enum \w+ \{(.*?)\}", text, re.S) for name in re.findall(r"\b(ZP_\w+)", inside)]
+    structs = re.findall(r"^\} (Zp\w+);", re.sub(r"typedef enum.*?\} \w+;", "", text, flags=re.S), re.M)
+    return functions, enumerators, structs, text
+
+
+def fields_of(name, text):
+    """Names of the members of a struct."""
+    inside = re.search(r"typedef struct %s \{(.*?)\n\} %s;" % (name, name), text, re.S).group(1)
+    inside = re.sub(r"\(\*(\w+)\)\([^;]*\)", r"\1", inside)  # pointers to functions
+    pieces = [piece for line in inside.split(";") for piece in line.split(",") if piece.strip()]
+    return [re.findall(r"\w+", re.sub(r"\[.*?\]", "", piece))[-1] for piece in pieces]
+
+
+def built(folder, source, *more):
+    folder.mkdir(parents=True, exist_ok=True)
     flags = re.search(r"^ZIPACT_SANITIZE:STRING=(.+)$", (BUILD / "CMakeCache.txt").read_text(encoding="utf-8"), re.M)
-    done = run("cc", "-std=c17", "-Wall", "-Wextra", "-Werror", *(["-fsanitize=" + flags.group(1)] if flags else []), "-I", folder / "include",
-               "-o", folder / "program", folder / "program.c", "-L", BUILD, "-lzipact-io", "-lzipact", "-lm", "-Wl,-rpath," + str(BUILD))
-    check(done.returncode == 0, "%s does not compile: %s" % (name, done.stderr))
-    done = run(folder / "program")
-    check(done.returncode == 0, "%s ends with %s" % (name, done.returncode))
-    return dict(line.split(": ", 1) for line in done.stdout.splitlines())
+    done = run("cc", "-std=c17", "-Wall", "-Wextra", "-Werror", *(["-fsanitize=" + flags.group(1)] if flags else []), "-o", folder / "program", source, *more)
+    check(done.returncode == 0, "%s does not compile: %s" % (source, done.stderr[:2000]))
+    return folder / "program"
 
 
-def test_same_headers():
-    says = program("same", None)
-    version = re.search(r'#define ZP_VERSION "(.*)"', (REPO / "include/zipact/version.h").read_text(encoding="utf-8")).group(1)
-    check(says.pop("version") == version, "zp_version is another than ZP_VERSION")
-    for call, answer in says.items():
-        check(answer.split()[0] == "0", "with its own headers, %s: %s" % (call, answer))
+def layout(folder, headers, enumerators, structs, text):
+    """(name, number) of each size, place and enumerator that a program has compiled in."""
+    asks = ['  printf("%s %%lld\\n", (long long)%s);' % (name, name) for name in enumerators if not name.endswith("_COUNT")]
+    for name in structs:
+        asks.append('  printf("sizeof %s %%zu\\n", sizeof(%s));' % (name, name))
+        asks += ['  printf("%s.%s %%zu\\n", offsetof(%s, %s));' % (name, field, name, field) for field in fields_of(name, text)]
+    folder.mkdir(parents=True, exist_ok=True)
+    source = folder / "layout.c"
+    source.write_text("%s\n#include <stddef.h>\n#include <stdio.h>\nint main(void) {\n%s\n  return 0;\n}\n" % (headers, "\n".join(asks)), encoding="utf-8")
+    return run(built(folder, source, "-I", REPO / "include", "-I", KEPT)).stdout.splitlines()
 
 
-def test_other_headers():
-    others = {
-        "key_removed": ("keys.def", r"^ZP_REAL\(ribbon\., width,.*\n", ""),
-        "key_added": ("keys.def", r"^(ZP_REAL\(ribbon\., width,.*\n)", r'\1ZP_REAL(ribbon., depth, "m", "mm", 1, 0, 2, "new")\n'),
-        "last_key_removed": ("keys.def", r"^ZP_\w+\(\w+\., \w+, [^\n]*\n(?=ZP_GROUP_END\(\w+\)\s*#undef)", ""),
-        "key_renamed": ("keys.def", r"^ZP_REAL\(ribbon\., width,", "ZP_REAL(ribbon., depth,"),
-        "keys_exchanged": ("keys.def", r"^(ZP_REAL\(ribbon\., length,.*\n)(ZP_REAL\(ribbon\., width,.*\n)", r"\2\1"),
-        "type_changed": ("keys.def", r"^ZP_INT\(mesh\., nodes, (\w+), (\w+), (\w+),", r'ZP_REAL(mesh., nodes, "1", "", \1, \2, \3,'),
-        "word_removed": ("choices.def", r"^ZP_CHOICE\(ZP_CONTACT_SEQUENTIAL,.*\n", ""),
-        "older_interface": ("version.h", r"#define ZP_ABI \d+", "#define ZP_ABI 0"),
-    }
-    for name, change in others.items():
-        says = program(name, change)
-        check(says.pop("beyond") == "0", name + ": writes beyond the program's ZpActuatorDef")
-        del says["version"]
-        for call, answer in says.items():
-            check(answer.split()[0] == "2", "%s: %s takes it: %s" % (name, call, answer))
-            quiet = call in ("zp_def_get", "zp_def_text", "zp_def_liquid")
-            check(quiet or "compiled with headers of another version" in answer, "%s: %s says %s" % (name, call, answer))
+def test_nothing_moved():
+    """Sizes of structs, places of their members and numbers of words are those of the beginning of the interface."""
+    functions, enumerators, structs, text = kept_names()
+    check(len(functions) > 120 and len(enumerators) > 120 and len(structs) > 20, "abi-2.h: is its form still known here?")
+    gone = set(functions) - exported(LIBRARIES[0]) - exported(LIBRARIES[1])
+    check(not gone, "no longer exported: " + ", ".join(sorted(gone)))
+    current = "".join("#include <zipact/%s.h>\n" % name for name in ("zipact", "io", "batch", "calibrate", "campaign", "optimize", "fmu"))
+    kept = layout(SCRATCH / "kept", '#include "abi-2.h"', enumerators, structs, text)
+    now = layout(SCRATCH / "now", current, enumerators, structs, text)
+    check(len(kept) > 250, "only %d numbers" % len(kept))
+    for before, after in zip(kept, now):
+        check(before == after, "a program has %s, the headers say %s" % (before, after))
+
+
+def test_headers_show_no_struct_that_grows():
+    text = "".join(path.read_text(encoding="utf-8") for path in (REPO / "include/zipact").glob("*.h"))
+    for name in ("ZpActuatorDef", "ZpResult", "ZpRunInfo", "ZpTable", "ZpShapes", "ZpModel", "ZpSim", "ZpScenario"):
+        check(re.search(r"^typedef struct %s %s;" % (name, name), text, re.M), name + " is not opaque")
+        check(not re.search(r"^(typedef )?struct %s \{" % name, text, re.M), name + " shows its members")
+
+
+def test_older_program():
+    """A program of the beginning of the interface runs with this library."""
+    program = built(SCRATCH / "older", KEPT / "program.c", "-DWITH_FILES", "-L", BUILD, "-lzipact-io", "-lzipact", "-lm", "-Wl,-rpath," + str(BUILD))
+    done = run(program)
+    check(done.returncode == 0 and done.stdout, "the older program: %s" % done.stdout)
+    return done.stdout
+
+
+# What a later library may have: (file, pattern, by).
+GROWTH = (
+    ("src/def/keys.def", r"^(ZP_REAL\(ribbon\., width,.*\n)", r'\1ZP_REAL(ribbon., depth, "m", "mm", 1, 0, 2, "new")\nZP_TEXT(ribbon., name, "", "new")\n'),
+    ("include/zipact/choices.def", r"^(ZP_CHOICES_END\(ZpContactModel\))", r'ZP_CHOICE(ZP_CONTACT_NEW, "new", "new")\n\1'),
+    ("src/base/signals.def", r"^(ZP_SIGNAL\(stroke,.*\n)", r'ZP_SIGNAL(newest, "1", "", "new")\n\1'),
+    ("include/zipact/sim.h", r"^(  ZP_REOPENED\b[^\n]*\n)", "  ZP_REOPENED, ZP_NEWEST\n"),
+    ("src/sim/info.h", r"^(struct ZpRunInfo \{\n)", r"\1  double newest;\n"),
+    ("src/study/result.h", r"^(struct ZpResult \{\n)", r"\1  double newest;\n"),
+)
+
+
+def test_grown_library():
+    """The same program, not compiled again, runs with a library that has more keys, words, signals and outcomes."""
+    grown = SCRATCH / "grown"
+    shutil.rmtree(grown, ignore_errors=True)
+    rooms = re.search(r"GLOB core_sources CONFIGURE_DEPENDS (.*?)\)", (REPO / "CMakeLists.txt").read_text(encoding="utf-8"), re.S).group(1)
+    for folder in ("include", "src"):
+        shutil.copytree(REPO / folder, grown / folder)
+    for path, pattern, by in GROWTH:
+        text, count = re.subn(pattern, by, (grown / path).read_text(encoding="utf-8"), count=1, flags=re.M)
+        check(count == 1, "%s not found in %s" % (pattern, path))
+        (grown / path).write_text(text, encoding="utf-8")
+    sources = [path for room in rooms.split() for path in sorted(grown.glob(room))]
+    (grown / "lib").mkdir()
+    objects = [grown / "lib" / ("%d.o" % number) for number in range(len(sources))]
+    for source, object_ in zip(sources, objects):
+        done = run("cc", "-std=c17", "-O1", "-ffp-contract=off", "-fPIC", "-fvisibility=hidden", "-I", grown / "include", "-I", grown / "src", "-c", source, "-o", object_)
+        check(done.returncode == 0, "the grown library does not compile: %s" % done.stderr[:2000])
+    done = run("cc", "-shared", "-Wl,-soname,libzipact.so.2", "-o", grown / "lib/libzipact.so.2", *objects, "-lm")
+    check(done.returncode == 0, "the grown library does not link: %s" % done.stderr[:2000])
+    program = built(SCRATCH / "core", KEPT / "program.c", "-L", BUILD, "-lzipact", "-lm")
+    said = [run(program, env={"LD_LIBRARY_PATH": str(folder), "LC_ALL": "C"}) for folder in (BUILD, grown / "lib")]
+    for name, done in zip(("this", "the grown"), said):
+        check(done.returncode == 0 and done.stdout, "with %s library: %s%s" % (name, done.stdout, done.stderr))
+    check(said[0].stdout == said[1].stdout, "%s became %s" % (said[0].stdout, said[1].stdout))
 
 
 SCRATCH.mkdir(parents=True, exist_ok=True)
-test_exports()
-test_same_headers()
-test_other_headers()
+if "grown" in sys.argv:
+    test_grown_library()
+else:
+    test_exports()
+    test_headers_show_no_struct_that_grows()
+    test_nothing_moved()
+    test_older_program()
 print("%d passed, %d failed" % (passed, failed))
 sys.exit(failed > 0)

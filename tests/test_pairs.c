@@ -130,8 +130,7 @@ static ZpStatus fill(ZpStudy study, int a, int b, ZpActuatorDef *def, ZpError *e
   for (size_t i = 0; i < all.count; i++)
     if (zp_key(all.given[i].key)->type != ZP_KEY_TEXT)
       list[count++] = (ZpAssignment){all.given[i].key, all.given[i].value};
-  def->layout = zp_actuator_def_default().layout;
-  ZpStatus status = zp_def_fill(def, list, count, err);
+  ZpStatus status = zp_def_resolve(def, list, count, err);
   for (size_t i = 0; i < all.count && status == ZP_OK; i++)
     if (zp_key(all.given[i].key)->type == ZP_KEY_TEXT)
       status = zp_def_set_text(def, all.given[i].key, all.given[i].text, err);
@@ -156,7 +155,7 @@ static bool is_named(const char *message, ZpStudy study, int feature) {
   fill(study, NONE, NONE, &without, NULL);
   for (int key = 0; key < zp_key_count(); key++) {
     const ZpKey *k = zp_key(key);
-    if (k->offset == ZP_NO_FIELD || !strstr(message, k->name)) continue;
+    if (!zp_key_in_def(key) || !strstr(message, k->name)) continue;
     double value = zp_def_get(&with, key), plain = zp_def_get(&without, key);
     bool text = k->type == ZP_KEY_TEXT, changed = !text && value != plain && !(isnan(value) && isnan(plain));
     if (changed || find(&parsed[feature], key)) return true;

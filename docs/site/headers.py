@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A public header as Doxygen wants it: our plain comments marked, the tables of keys and words written out.
+"""A public header as Doxygen wants it: our plain comments marked, the table of words written out.
 
     docs/site/headers.py HEADER      a filter of docs/site/Doxyfile
 """
@@ -8,7 +8,6 @@ import pathlib
 import re
 import sys
 
-TYPES = {"REAL": "double", "REAL_AUTO": "double", "INT": "int", "BOOL": "bool"}
 STRING = r'"((?:[^"\\]|\\.)*)"'
 
 
@@ -17,26 +16,8 @@ def choices(text, studies):
     rows = re.findall(r'^ZP_STUDY\((\w+), (\w+), \w+, \w+, (%s)\)$' % STRING, studies, re.M)
     text = re.sub(r"^#define ZP_STUDY.*\n#include.*\n", "".join('ZP_CHOICE(%s, "%s", %s)\n' % row[:3] for row in rows), text, flags=re.M)
     text = re.sub(r"^ZP_CHOICES\((\w+)\)", r"/* Words of a choice key. */\ntypedef enum \1 {", text, flags=re.M)
-    text = re.sub(r"^ZP_CHOICES_END\((\w+)\)", r"  \1_COUNT\n} \1;", text, flags=re.M)
+    text = re.sub(r"^ZP_CHOICES_END\((\w+)\)", r"} \1;", text, flags=re.M)
     return re.sub(r"^ZP_CHOICE\((\w+), %s, %s\)" % (STRING, STRING), r'  \1, /* "\2": \3 */', text, flags=re.M)
-
-
-def field(match):
-    """A field of the definition from a line of keys.def."""
-    kind, arguments = match.groups()
-    name, help_line = re.match(r"[\w.]*, (\w+)", arguments).group(1), re.search(STRING + r"$", arguments).group(1)
-    unit = re.search(r'^[\w.]*, \w+, "([^"]*)"', arguments) if kind.startswith("REAL") else None
-    unit = ", " + unit.group(1) if unit and unit.group(1) != "1" else ""
-    type_name = arguments.split(", ")[2] if kind == "ENUM" else TYPES.get(kind, "char")
-    return "%s %s%s; /* %s%s */" % (type_name, name, "[ZP_TEXT_SIZE]" if kind == "TEXT" else "", help_line, unit)
-
-
-def keys(text):
-    """The fields of keys.def."""
-    text = re.sub(r"^ZP_OF_SCENARIO\(.*\)\n|^#undef .*\n", "", text, flags=re.M)
-    text = re.sub(r"^ZP_GROUP\(\w+\)", "struct {", text, flags=re.M)
-    text = re.sub(r"^ZP_GROUP_END\((\w+)\)", r"} \1; /* the keys of \1 */", text, flags=re.M)
-    return re.sub(r"^ZP_(\w+)\((.*)\)$", field, text, flags=re.M)
 
 
 def body(path):
@@ -51,7 +32,6 @@ def main():
     if header.name == "def.h":  # the macros that read the tables are nobody's business
         text = re.sub(r"^#define ZP_\w+\((?:[^\n]*\\\n)*[^\n]*\n|^#undef [^\n]*\n", "", text, flags=re.M)
         text = text.replace("#include <zipact/choices.def>", choices(body(header.parent / "choices.def"), body(header.parent / "studies.def")))
-        text = text.replace("#include "def/keys.def"", keys(body(header.parent / "keys.def")))
     text = re.sub(r"^/\*", "/** @file\n *", text, count=1)  # the first comment says what the file is,
     text = re.sub(r"^( *)/\* ", r"\1/** ", text, flags=re.M)  # one before a declaration belongs to it,
     text = re.sub(r"^(.*\S) +/\* ", r"\1 /**< ", text, flags=re.M)  # one behind a member to that

@@ -10,10 +10,11 @@ extern "C" {
 
 #define ZP_VERSION "0.1.0"
 
-/* Number of the binary interface: the SOVERSION of the shared libraries. A release raises it if programs that were
- * compiled with the previous release could break: a function was removed or takes other arguments, a public struct or
- * enumeration changed, a key was added or removed. See docs/design.md. */
-#define ZP_ABI 1
+/* Number of the binary interface: the SOVERSION of the shared libraries. A program that was compiled with these headers
+ * runs with every later library of the same number, which may have more functions, keys, words at the end of a list,
+ * signals, columns, outcomes and inputs. A release raises it if a function was removed or takes other arguments, if a
+ * struct of the headers changed, or if an enumerator has another value. See docs/design.md. */
+#define ZP_ABI 2
 
 /* Version of the running library, which may differ from ZP_VERSION of the headers. */
 ZP_API const char *zp_version(void);

@@ -8,6 +8,7 @@
 #include "fit/reference.h"
 #include "fit/time_limit.h"
 #include "io/drive_table.h"
+#include "def/def.h"
 
 /* -- none ------------------------------------------------------------------------------------------- */
 

@@ -10,6 +10,7 @@
 #include "io/data.h"
 #include "io/range.h"
 #include "io/units.h"
+#include "def/def.h"
 
 enum { NAMES_MOST = 16 };
 

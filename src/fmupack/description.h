@@ -4,7 +4,7 @@
 
 #include <stdio.h>
 
-#include "sim/info.h"
+#include <zipact/sim.h>
 
 #include "fmu/start.h"
 #include "fmupack/kit.h"

@@ -4,9 +4,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "sim/info.h"
+#include <zipact/sim.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/data.h"
 #include "io/source.h"
 #include "io/value.h"

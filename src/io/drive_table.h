@@ -3,7 +3,7 @@
 #ifndef ZP_IO_DRIVE_TABLE_H
 #define ZP_IO_DRIVE_TABLE_H
 
-#include "def/def.h"
+#include <zipact/def.h>
 #include <zipact/drive.h>
 
 /* Rows with their memory. */

@@ -13,6 +13,7 @@
 #include "base/fail.h"
 #include "io/range.h"
 #include "io/value.h"
+#include "def/def.h"
 
 enum { CASES_MOST = 1000000, VALUES_MOST = 20000 };
 

@@ -9,6 +9,7 @@
 
 #include "io/report.h"
 #include "io/shows.h"
+#include "def/def.h"
 
 /* A column of table.csv. */
 typedef struct ZpPlotColumn {

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "def/def.h"
+#include <zipact/def.h>
 
 /* The parts of a range as written; NULL: not given. */
 typedef struct ZpRange {

@@ -25,6 +25,7 @@
 #include "io/spread.h"
 #include "io/value.h"
 #include "io/yaml.h"
+#include "def/def.h"
 
 struct ZpScenario {
   ZpSlot *file;        /* [keys] from files */

@@ -1,4 +1,5 @@
 #include "io/shows.h"
+#include "def/def.h"
 
 static const struct {
   ZpShows shows;

@@ -3,7 +3,7 @@
 #ifndef ZP_IO_SHOWS_H
 #define ZP_IO_SHOWS_H
 
-#include "def/def.h"
+#include <zipact/def.h>
 
 typedef enum ZpShows {
   ZP_SHOWS_motion,      /* rows and shapes over time */

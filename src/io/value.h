@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "def/def.h"
+#include <zipact/def.h>
 
 #include "io/units.h"
 

@@ -13,6 +13,7 @@
 #include "io/report.h"
 #include "optimize/search.h"
 #include "study/result.h"
+#include "def/def.h"
 
 struct ZpOptimization {
   ZpSearch search;

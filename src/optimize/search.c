@@ -12,6 +12,7 @@
 #include "fit/case.h"
 #include "sample/design.h"
 #include "study/result.h"
+#include "def/def.h"
 
 /* Interval of progress messages; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };

@@ -13,6 +13,7 @@
 
 #include "campaign/journal.h"
 #include "optimize/problem.h"
+#include "def/def.h"
 
 /* A finished case. */
 typedef struct ZpPoint {

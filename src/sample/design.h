@@ -5,7 +5,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "def/def.h"
+#include <zipact/def.h>
 
 typedef struct ZpDesign {
   ZpSampling method;

@@ -5,7 +5,6 @@
 #include <zipact/study.h>
 
 #include "base/table.h"
-#include "sim/info.h"
 
 /* Largest numbers of scalars, notes, keys of sensitivity.by and derivatives. */
 enum { ZP_MAX_SCALARS = 64, ZP_MAX_NOTES = 8, ZP_MAX_SENSITIVITY_KEYS = 16, ZP_MAX_SENSITIVITIES = 512 };
