@@ -64,7 +64,7 @@ def copy():
     for name in ("CMakeLists.txt", "LICENSE", "README.md"):
         shutil.copy(os.path.join(repo, name), tree)
     shutil.copy(tree + "/tests/law/damper.c", tree + "/src/term/damper.c")
-    add_line("include/zipact/keys.def", KEY, "ZP_REAL(load., stop_stiffness,")
+    add_line("src/def/keys.def", KEY, "ZP_REAL(load., stop_stiffness,")
     add_line("src/term/terms.def", LAW, "ZP_TERM(drag)")
 
 
@@ -122,7 +122,7 @@ def nothing_is_forgotten():
     rules = lambda: run(sys.executable, tree + "/tests/rules.py", tree)[1]
     check("damper" not in rules(), "the rules pass with the law:\n" + "\n".join(l for l in rules().splitlines() if "damper" in l))
     check(compiles("src/term/damper.c"), "the law compiles")
-    back = remove("include/zipact/keys.def", KEY)
+    back = remove("src/def/keys.def", KEY)
     check(not compiles("src/term/damper.c"), "without its key the law does not compile")
     back()
     for line, fault in ((LAW, "has no line"), (" ZP_ROW(damper_loss)", "damper_loss has no place")):

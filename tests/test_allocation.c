@@ -29,6 +29,7 @@
 #include "def/def.h"
 #include "math/skyline.h"
 #include "sanitized.h"
+#include "sim/info.h"
 #include "study/result.h"
 #include "suite.h"
 

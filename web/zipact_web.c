@@ -15,6 +15,7 @@
 #include "base/memory.h"
 #include "def/device.h"
 #include "io/value.h"
+#include "sim/info.h"
 #include "study/result.h"
 
 #define EXPORT __attribute__((visibility("default"), used))

@@ -6,6 +6,7 @@
 #include "io/report.h"
 #include "io/summary.h"
 #include "sample/statistics.h"
+#include "def/def.h"
 
 /* Number of outputs that are read at once: a campaign may have more rows than fit into memory, and reading them takes
  * time. */
