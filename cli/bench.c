@@ -77,16 +77,17 @@ static ZpStatus time_steps(const ZpActuatorDef *def, double *per_step, double *m
   ZpModel *model;
   ZpSim *sim = NULL;
   double samples[REPEATS] = {0};
+  ZpRunInfo *info = zp_run_info_create();
   ZpStatus status = zp_model_create(def, &model, err);
   if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, err);
   for (int k = 0; k < REPEATS && status == ZP_OK; k++) {
-    ZpRunInfo info;
     double start = motion_clock();
-    zp_sim_run(sim, span * (k + 1), false, NULL, &info);
-    samples[k] = (motion_clock() - start) / (double)info.steps;
-    *mean_step = info.simulated_time / (double)info.steps;
+    zp_sim_run(sim, span * (k + 1), false, NULL, info);
+    samples[k] = (motion_clock() - start) / zp_run_info_get(info, "steps");
+    *mean_step = zp_run_info_get(info, "simulated_time") / zp_run_info_get(info, "steps");
   }
   *per_step = median(samples);
+  zp_run_info_destroy(info);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
   return status;
@@ -112,20 +113,22 @@ static Row row_beside_paper(int nodes, double per_step, double start) {
 }
 
 static ZpStatus steps_of_paper(const Case *of, int nodes, Row *row, ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   double per_step = NAN, own_step, start = motion_clock();
-  ZpStatus status = define(of, nodes, &def, err);
-  if (status == ZP_OK) status = time_steps(&def, &per_step, &own_step, err);
+  ZpStatus status = define(of, nodes, def, err);
+  if (status == ZP_OK) status = time_steps(def, &per_step, &own_step, err);
   *row = row_beside_paper(nodes, per_step, start);
+  zp_def_destroy(def);
   return status;
 }
 
 static ZpStatus steps(const Case *of, int nodes, Row *row, ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   double per_step = NAN, step = NAN, start = motion_clock();
-  ZpStatus status = define(of, nodes, &def, err);
-  if (status == ZP_OK) status = time_steps(&def, &per_step, &step, err);
+  ZpStatus status = define(of, nodes, def, err);
+  if (status == ZP_OK) status = time_steps(def, &per_step, &step, err);
   *row = row_of_steps(nodes, per_step, step, start);
+  zp_def_destroy(def);
   return status;
 }
 
@@ -149,13 +152,14 @@ static ZpStatus plain(const Case *of, int nodes, Row *row, ZpError *err) {
 
 /* `scale`: the size to which errors refer; NAN: there is no reference. */
 static ZpStatus motion(const ZpActuatorDef *def, const ZpDriveTable *table, double scale, Row *row, ZpError *err) {
-  const int ribbons = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 : 1;
+  const int ribbons = zp_def_number(def, "actuator.kind") == ZP_KIND_ELECTRO_RIBBON ? 2 : 1;
+  const int nodes = (int)zp_def_number(def, "mesh.nodes");
   const Trajectory reference = motion_swing_reference();
   Motion m;
   ZpStatus status = motion_measure(def, table, isnan(scale) ? NULL : &reference, &m, err);
   if (status != ZP_OK) return status;
-  *row = (Row){.nodes = def->mesh.nodes,
-               .ns_per_node_step = 1e9 * m.seconds / (m.steps * ribbons * def->mesh.nodes),
+  *row = (Row){.nodes = nodes,
+               .ns_per_node_step = 1e9 * m.seconds / (m.steps * ribbons * nodes),
                .steps = m.steps,
                .seconds = m.seconds,
                .cpu = m.cpu,
@@ -166,25 +170,31 @@ static ZpStatus motion(const ZpActuatorDef *def, const ZpDriveTable *table, doub
 
 /* Error: rms of the distance of the tip from the converged swing, over the height of the swing. */
 static ZpStatus swing(const Case *of, int nodes, Row *row, ZpError *err) {
-  ZpActuatorDef def;
-  ZpStatus status = motion_swing(nodes, strcmp(of->scenario, "implicit") == 0, &def, err);
-  return status == ZP_OK ? motion(&def, NULL, motion_swing_height, row, err) : status;
+  ZpActuatorDef *def = zp_def_create();
+  ZpStatus status = motion_swing(nodes, strcmp(of->scenario, "implicit") == 0, def, err);
+  if (status == ZP_OK) status = motion(def, NULL, motion_swing_height, row, err);
+  zp_def_destroy(def);
+  return status;
 }
 
 static ZpStatus zip(const Case *of, int nodes, Row *row, ZpError *err) {
-  ZpActuatorDef def;
-  ZpStatus status = define(of, nodes, &def, err);
-  return status == ZP_OK ? motion(&def, NULL, NAN, row, err) : status;
+  ZpActuatorDef *def = zp_def_create();
+  ZpStatus status = define(of, nodes, def, err);
+  if (status == ZP_OK) status = motion(def, NULL, NAN, row, err);
+  zp_def_destroy(def);
+  return status;
 }
 
 /* The actuator zips, is held, is released and swings, 1 s in total. */
 static ZpStatus use(const Case *of, int nodes, Row *row, ZpError *err) {
   static const double time[] = {0, 0.48, 0.48}, voltage[] = {10e3, 10e3, 0};
   static const ZpDriveTable table = {3, time, voltage};
-  ZpActuatorDef def;
-  ZpStatus status = define(of, nodes, &def, err);
-  def.drive.waveform = ZP_WAVEFORM_TABLE;
-  return status == ZP_OK ? motion(&def, &table, NAN, row, err) : status;
+  ZpActuatorDef *def = zp_def_create();
+  ZpStatus status = define(of, nodes, def, err);
+  zp_def_set_number(def, "drive.waveform", ZP_WAVEFORM_TABLE, NULL);
+  if (status == ZP_OK) status = motion(def, &table, NAN, row, err);
+  zp_def_destroy(def);
+  return status;
 }
 
 /* -- equilibria ------------------------------------------------------------------------------------ */
@@ -222,12 +232,13 @@ static ZpStatus time_rest(ZpStudy study, const ZpActuatorDef *def, double *best,
 /* A steel strip of 45 x 12.7 mm x 100 um, guided, with 61 g at its end, from straight: 17.942 mm. */
 static ZpStatus strip(const Case *of, int nodes, Row *row, ZpError *err) {
   static const double converged = 17.942e-3; /* m, exact elastica */
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   ZpStudy study;
   double best = NAN, stroke = NAN;
-  ZpStatus status = define_study(of, nodes, &study, &def, err);
-  if (status == ZP_OK) status = time_rest(study, &def, &best, &stroke, err);
+  ZpStatus status = define_study(of, nodes, &study, def, err);
+  if (status == ZP_OK) status = time_rest(study, def, &best, &stroke, err);
   *row = row_of_study(nodes, best, fabs(stroke / converged - 1));
+  zp_def_destroy(def);
   return status;
 }
 
@@ -240,13 +251,14 @@ static ZpStatus table_2(const Case *of, int nodes, Row *row, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (int n = 0; n < 3 && status == ZP_OK; n++)
     for (int m = 0; m < 6 && status == ZP_OK; m++) {
-      ZpActuatorDef def;
+      ZpActuatorDef *def = zp_def_create();
       ZpStudy study;
       double best = NAN, stroke = NAN;
-      status = define_study(of, sizes[n], &study, &def, err);
-      def.mass_spring.shear_coefficient = zp_published(ZP_SAVED_SHEAR, sizes[n], 61);
-      def.load.mass = 1e-3 * load[m];
-      if (status == ZP_OK) status = time_rest(study, &def, &best, &stroke, err);
+      status = define_study(of, sizes[n], &study, def, err);
+      zp_def_set_number(def, "mass_spring.shear_coefficient", zp_published(ZP_SAVED_SHEAR, sizes[n], 61), NULL);
+      zp_def_set_number(def, "load.mass", 1e-3 * load[m], NULL);
+      if (status == ZP_OK) status = time_rest(study, def, &best, &stroke, err);
+      zp_def_destroy(def);
       sum += best;
       bool misprint = n == 0 && (m == 1 || m == 2); /* N = 21 at 60 and 80 g: differs from their program */
       if (!misprint) worst = fmax(worst, fabs(stroke * 1e3 / zp_published(ZP_TABLE_2_STROKE, sizes[n], load[m]) - 1));
@@ -259,12 +271,13 @@ static ZpStatus table_2(const Case *of, int nodes, Row *row, ZpError *err) {
  * difference between traction and virtual work. */
 static ZpStatus field(const Case *of, int nodes, Row *row, ZpError *err) {
   static const char *const name[] = {"virtual_work_difference", "equations"};
-  ZpActuatorDef def;
+  ZpActuatorDef *def = zp_def_create();
   ZpStudy study;
   double best = NAN, number[2] = {NAN, 0};
-  ZpStatus status = define_study(of, nodes, &study, &def, err);
-  if (status == ZP_OK) status = time_study(study, &def, 10, name, &best, number, err);
+  ZpStatus status = define_study(of, nodes, &study, def, err);
+  if (status == ZP_OK) status = time_study(study, def, 10, name, &best, number, err);
   *row = row_of_study((int)number[1], best, fabs(number[0]));
+  zp_def_destroy(def);
   return status;
 }
 

@@ -8,6 +8,7 @@
 #include "base/fail.h"
 #include "io/cases.h"
 #include "io/file.h"
+#include "study/result.h"
 
 bool zp_report_is_sweep(const ZpReport *report) {
   size_t lists = 0;
