@@ -2,9 +2,9 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "def/def.h"
 #include "fit/reference.h"
 #include "reproduce/parts.h"
-#include "def/def.h"
 #include "study/result.h"
 
 /* Hanging equilibrium of `elements` in gravity `g`, m/s2. => stroke, m, NAN if there is none; the caller frees *result.

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "base/fail.h"
-#include "reproduce/parts.h"
 #include "actuator/model.h"
+#include "base/fail.h"
 #include "def/def.h"
+#include "reproduce/parts.h"
 
 #define ZP_VERDICT(id, word, judged, title) {word, judged, title},
 const ZpVerdictInfo zp_verdicts[ZP_VERDICT_COUNT] = {

@@ -6,11 +6,11 @@
 #include <sys/stat.h>
 
 #include "base/fail.h"
+#include "base/table.h"
+#include "def/def.h"
 #include "io/atomic.h"
 #include "io/drawing.h"
 #include "reproduce/parts.h"
-#include "base/table.h"
-#include "def/def.h"
 #include "study/result.h"
 
 static bool has_run(const ZpRuns *runs, ZpRunId id) {

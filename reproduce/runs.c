@@ -6,9 +6,9 @@
 #include <time.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/atomic.h"
 #include "reproduce/parts.h"
-#include "def/def.h"
 #include "study/result.h"
 
 typedef struct Spec {

@@ -15,7 +15,6 @@
 #include <zipact/table.h>
 #include <zipact/version.h>
 #include <zipact/zipact.h>
-#include <zipact/def.h>
 
 static int failures = 0;
 

@@ -7,8 +7,8 @@
 #ifndef ZP_ACTUATOR_TOPOLOGY_H
 #define ZP_ACTUATOR_TOPOLOGY_H
 
-#include <math.h>
 #include "def/def.h"
+#include <math.h>
 
 #include "math/level.h"
 

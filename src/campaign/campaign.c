@@ -23,9 +23,9 @@
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
 #include "campaign/remote.h"
+#include "def/def.h"
 #include "fit/case.h"
 #include "io/cases.h"
-#include "def/def.h"
 
 /* Interval at which the writer wakes; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };

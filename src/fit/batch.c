@@ -6,11 +6,11 @@
 #include <zipact/calibrate.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "fit/case.h"
 #include "io/cases.h"
 #include "io/guard.h"
 #include "io/report.h"
-#include "def/def.h"
 #include "study/result.h"
 
 /* Bytes that a run may need while it lasts. */

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "fit/fit.h"
 #include "io/report.h"
-#include "def/def.h"
 #include "study/result.h"
 
 /* Names for summary.json made from the names of the keys. */

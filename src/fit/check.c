@@ -7,8 +7,8 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
-#include "fit/data.h"
 #include "def/def.h"
+#include "fit/data.h"
 
 /* Number of cases that a thread checks before it looks at the progress of the others. */
 enum { BLOCK = 256 };

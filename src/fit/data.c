@@ -3,12 +3,12 @@
 #include <zipact/io.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "fit/data.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
 #include "fit/time_limit.h"
 #include "io/drive_table.h"
-#include "def/def.h"
 
 /* -- none ------------------------------------------------------------------------------------------- */
 

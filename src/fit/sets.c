@@ -6,11 +6,11 @@
 #include <strings.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "fit/fit.h"
 #include "io/data.h"
 #include "io/range.h"
 #include "io/units.h"
-#include "def/def.h"
 
 enum { NAMES_MOST = 16 };
 

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "fit/fit.h"
 #include "io/range.h"
-#include "def/def.h"
 
 const ZpFitNumber zp_fit_number[ZP_FIT_KINDS] = {
     [ZP_FIT_STROKE] = {"stroke", "m", 0, NULL, true},

@@ -10,9 +10,9 @@
 #include <zipact/rest.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "fit/fit.h"
 #include "sim/hooks.h"
-#include "def/def.h"
 #include "study/result.h"
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };

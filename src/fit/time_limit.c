@@ -6,8 +6,8 @@
 
 #include <zipact/calibrate.h>
 
-#include "sim/hooks.h"
 #include "def/def.h"
+#include "sim/hooks.h"
 
 /* Of this thread, s. */
 static double cpu_time(void) {

@@ -5,11 +5,11 @@
 #include <sys/stat.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/atomic.h"
 #include "io/file.h"
 #include "io/report.h"
 #include "io/writers.h"
-#include "def/def.h"
 #include "study/result.h"
 
 /* -- out ------------------------------------------------------------------------------------------- */

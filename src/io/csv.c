@@ -5,11 +5,11 @@
 #include <math.h>
 
 #include "base/fail.h"
+#include "base/table.h"
 #include "io/atomic.h"
 #include "io/number.h"
 #include "io/report.h"
 #include "io/writers.h"
-#include "base/table.h"
 #include "study/result.h"
 
 static void put_number(FILE *file, double value) {

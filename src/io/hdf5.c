@@ -21,12 +21,12 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/table.h"
 #include "io/atomic.h"
 #include "io/guard.h"
 #include "io/report.h"
 #include "io/shows.h"
 #include "io/writers.h"
-#include "base/table.h"
 #include "study/result.h"
 
 /* Increment of the file in memory, bytes. */

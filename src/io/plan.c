@@ -11,9 +11,9 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/range.h"
 #include "io/value.h"
-#include "def/def.h"
 
 enum { CASES_MOST = 1000000, VALUES_MOST = 20000 };
 

@@ -7,10 +7,10 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/table.h"
 #include "io/cases.h"
 #include "io/number.h"
 #include "io/units.h"
-#include "base/table.h"
 #include "study/result.h"
 
 /* -- columns --------------------------------------------------------------------------------------- */

@@ -7,9 +7,9 @@
 
 #include <zipact/io.h>
 
+#include "def/def.h"
 #include "io/report.h"
 #include "io/shows.h"
-#include "def/def.h"
 
 /* A column of table.csv. */
 typedef struct ZpPlotColumn {

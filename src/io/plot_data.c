@@ -4,11 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/table.h"
 #include "io/cases.h"
 #include "io/number.h"
 #include "io/plot.h"
 #include "sample/statistics.h"
-#include "base/table.h"
 #include "study/result.h"
 
 static void put(FILE *file, double value, char after) {

@@ -17,6 +17,7 @@
 #include <unistd.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/cases.h"
 #include "io/file.h"
 #include "io/plan.h"
@@ -25,7 +26,6 @@
 #include "io/spread.h"
 #include "io/value.h"
 #include "io/yaml.h"
-#include "def/def.h"
 
 struct ZpScenario {
   ZpSlot *file;        /* [keys] from files */

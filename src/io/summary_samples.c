@@ -2,11 +2,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "def/def.h"
 #include "io/cases.h"
 #include "io/report.h"
 #include "io/summary.h"
 #include "sample/statistics.h"
-#include "def/def.h"
 
 /* Number of outputs that are read at once: a campaign may have more rows than fit into memory, and reading them takes
  * time. */

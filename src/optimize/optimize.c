@@ -9,11 +9,11 @@
 
 #include "base/fail.h"
 #include "campaign/case_hash.h"
+#include "def/def.h"
 #include "io/number.h"
 #include "io/report.h"
 #include "optimize/search.h"
 #include "study/result.h"
-#include "def/def.h"
 
 struct ZpOptimization {
   ZpSearch search;

@@ -5,11 +5,11 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/range.h"
 #include "io/units.h"
 #include "io/value.h"
 #include "study/result.h"
-#include "def/def.h"
 
 /* A constraint that is violated by such a small fraction is satisfied: a search ends on it, up to rounding. */
 static const double slack = 1e-6;

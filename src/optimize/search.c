@@ -9,10 +9,10 @@
 
 #include "base/fail.h"
 #include "campaign/case_hash.h"
+#include "def/def.h"
 #include "fit/case.h"
 #include "sample/design.h"
 #include "study/result.h"
-#include "def/def.h"
 
 /* Interval of progress messages; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };

@@ -12,8 +12,8 @@
 #include <zipact/campaign.h>
 
 #include "campaign/journal.h"
-#include "optimize/problem.h"
 #include "def/def.h"
+#include "optimize/problem.h"
 
 /* A finished case. */
 typedef struct ZpPoint {

@@ -12,8 +12,8 @@ _Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "a model has room
 #define ZP_ROW(name) +1
 enum {
   ROWS = 0
-#include "term/terms.def"
 #include "base/signals.def"
+#include "term/terms.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW

