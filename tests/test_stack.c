@@ -398,7 +398,6 @@ START_TEST(what_unlike_ones_lack_is_said) {
       {{"actuator.symmetry", ZP_SYMMETRY_NONE},
        ZP_STUDY_ACTUATE,
        "with unequal members: requires actuator.symmetry half"},
-      {{"ribbon.plasticity", 1}, ZP_STUDY_ACTUATE, "with unequal members: requires ribbon.plasticity false"},
       {{"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF({"stack.parallel", 3}, {"member_2.ribbon.thickness", 80e-6}, refused[k].set);

@@ -155,10 +155,7 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
 
 /* -- rules ----------------------------------------------------------------------------------------- */
 
-static const char joins[] = "a stack joins its platforms", opposes[] = "which makes two members antagonists",
-                  unloads[] =
-                      "the members' common equilibrium is found by unloading, and a ribbon that has yielded does "
-                      "not return on the same path";
+static const char joins[] = "a stack joins its platforms", opposes[] = "which makes two members antagonists";
 
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ABOVE(stack.series, 1), ZP_HAS(PLATFORM), joins),
@@ -181,8 +178,8 @@ static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "links are modelled between rods"),
     ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
             "the paper's zipping has the order of a single actuator"),
-    ZP_RULE_IF(EQUATION, ZP_SET(stack.distance), ZP_SEVERAL, ZP_IS(ribbon.plasticity, false), unloads),
-    ZP_RULE(EQUATION, ZP_UNEQUAL, ZP_IS(ribbon.plasticity, false), unloads),
+    ZP_RULE_IF(EQUATION, ZP_SET(stack.distance), ZP_SEVERAL, ZP_IS(ribbon.plasticity, false),
+               "how the members had been bent before they were joined is not known"),
     ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_IS(load.stiffness, 0),
                "a spring acts between the platforms of a single actuator"),
     ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_UNSET(load.stop_opening),

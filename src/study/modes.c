@@ -183,7 +183,7 @@ static void run(Problem *p) {
 
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the shear law of mass_spring has no energy"),
-    ZP_RULE(EQUATION, ZP_ANY, ZP_NOT(liquid.model, ZP_LIQUID_SUBMERGED),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_NOT(liquid.model, ZP_LIQUID_SUBMERGED),
             "it neglects the mass of the liquid, which is far larger than that of the ribbons; use none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(modes.voltage, 0),
             "the stiffness of a computed field is not available; use plates"),

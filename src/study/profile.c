@@ -548,16 +548,16 @@ static ZpStatus run(Profiler *p, ZpError *err) {
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(EQUATION, ZP_ANY, ZP_IS(electro.edges, false),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(electro.edges, false),
             "it compares forces in the plane of the ribbons, without lateral edges; the other studies "
             "can include them"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PLATFORM), "its profile runs from a clip to a platform"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "its grid covers one half"),
-    ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.insulator.thickness),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_UNSET(lower.insulator.thickness),
             "its grid covers one half of the gap, whose middle plane is a mirror"),
-    ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.insulator.permittivity),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_UNSET(lower.insulator.permittivity),
             "its grid covers one half of the gap, whose middle plane is a mirror"),
-    ZP_RULE(EQUATION, ZP_ANY, ZP_UNSET(lower.ribbon.thickness),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_UNSET(lower.ribbon.thickness),
             "its grid covers one half of the gap, whose middle plane is a mirror"),
     ZP_RULE(
         EQUATION, ZP_ANY, ZP_AT_LEAST(insulator.thickness, 1e-6),
