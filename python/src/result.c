@@ -50,22 +50,22 @@ static const ZpResult *of(PyObject *object) {
 
 static PyObject *get_study(PyObject *self, void *unused) {
   (void)unused;
-  return text_from(zp_study_name(of(self)->study));
+  return text_from(zp_study_name(zp_result_study(of(self))));
 }
 
 static PyObject *get_outcome(PyObject *self, void *unused) {
   (void)unused;
-  return text_from(zp_outcome_name(of(self)->outcome));
+  return text_from(zp_outcome_name(zp_result_outcome(of(self))));
 }
 
 static PyObject *get_good(PyObject *self, void *unused) {
   (void)unused;
-  return PyBool_FromLong(zp_outcome_good(of(self)->outcome));
+  return PyBool_FromLong(zp_outcome_good(zp_result_outcome(of(self))));
 }
 
 static PyObject *get_message(PyObject *self, void *unused) {
   (void)unused;
-  return text_from(of(self)->message);
+  return text_from(zp_result_message(of(self)));
 }
 
 static PyObject *get_notes(PyObject *self, void *unused) {
@@ -110,7 +110,7 @@ static PyObject *get_sensitivities(PyObject *self, void *unused) {
 /* ((name, unit, help) of each column, rows) */
 static PyObject *get_series(PyObject *self, void *unused) {
   (void)unused;
-  const ZpTable *table = of(self)->series;
+  const ZpTable *table = zp_result_series(of(self));
   if (!table) Py_RETURN_NONE;
   PyObject *columns = PyTuple_New((Py_ssize_t)zp_table_columns(table));
   for (size_t i = 0; columns && i < zp_table_columns(table); i++) {
@@ -128,7 +128,7 @@ static PyObject *get_series(PyObject *self, void *unused) {
  * the first frame, is NULL. */
 static PyObject *film(PyObject *self, const double *first, int ndim) {
   if (!first) Py_RETURN_NONE;
-  const ZpShapes *shapes = of(self)->shapes;
+  const ZpShapes *shapes = zp_result_shapes(of(self));
   Py_ssize_t shape[] = {(Py_ssize_t)zp_shapes_frames(shapes), (Py_ssize_t)zp_shapes_nodes(shapes),
                         ndim == 3 ? (Py_ssize_t)zp_shapes_ribbons(shapes) : 1};
   Py_ssize_t size = sizeof(double);
@@ -149,7 +149,7 @@ static PyObject *frame_heads(const ZpShapes *shapes) {
 
 static PyObject *get_shapes(PyObject *self, void *unused) {
   (void)unused;
-  const ZpShapes *shapes = of(self)->shapes;
+  const ZpShapes *shapes = zp_result_shapes(of(self));
   if (!shapes || zp_shapes_frames(shapes) == 0) Py_RETURN_NONE;
   ZpShape first = zp_shapes_get(shapes, 0);
   return Py_BuildValue("{sNsNsNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
@@ -160,7 +160,7 @@ static PyObject *get_shapes(PyObject *self, void *unused) {
 
 static PyObject *get_field(PyObject *self, void *unused) {
   (void)unused;
-  const ZpFieldMap *map = of(self)->map;
+  const ZpFieldMap *map = zp_result_map(of(self));
   if (!map) Py_RETURN_NONE;
   State *state = ((Result *)self)->state;
   size_t nx = map->nx, ny = map->ny;
