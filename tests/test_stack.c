@@ -518,6 +518,16 @@ START_TEST(members_rest_together_as_alone) {
 }
 END_TEST
 
+/* load.force of a series pulls on each of its members. Two without weight open twice as far as one. */
+START_TEST(force_pulls_on_each_of_a_series) {
+  ZpActuatorDef one = DEF({"ribbon.density", 0}, {"mesh.nodes", 21}, {"load.mass", 0}, {"load.force", 50e-3}),
+                two = one;
+  two.stack.series = 2;
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &two, "opening_m"),
+          2 * answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-12);
+}
+END_TEST
+
 /* Under a dead load the force on each member is known, so the limits of a series are those of its members, each alone
  * under all that hangs on it: the first one pulls in, the last one closes, the first one opens, the weakest one lifts
  * least. */
@@ -835,6 +845,7 @@ int main(void) {
   tcase_add_test(rest, stiffness_side_by_side_is_the_slope);
   tcase_add_test(rest, what_unlike_ones_lack_is_said);
   tcase_add_test(rest, members_rest_together_as_alone);
+  tcase_add_test(rest, force_pulls_on_each_of_a_series);
   tcase_add_test(rest, limits_of_a_series_are_those_of_its_members);
   tcase_add_loop_test(rest, limits_of_unlike_ones_are_at_their_states, 0, 2);
   tcase_add_loop_test(rest, limits_of_unlike_ones_are_turns_of_their_branch, 0, 2);
