@@ -377,6 +377,31 @@ START_TEST(test_stiffness) {
 }
 END_TEST
 
+/* Without the cap all forces are proportional to the square of the voltage, so their derivative by it is 2 F / U: on
+ * open and on closed faces, at gaps where the edges' law is tabulated. */
+START_TEST(forces_go_with_the_square_of_the_voltage) {
+  enum { N = 21 };
+  static const double U = 5e3, openings[] = {0, 1e-4, 4e-3};
+  for (size_t k = 0; k < LENGTH_OF(openings); k++) {
+    Pair pair = make_pair(edge_model(N, false, true, true));
+    double *Fy = zp_calloc(2 * pair.model->stride, sizeof *Fy), *Fx = Fy + pair.model->stride, worst = 0, largest = 0;
+    shape_wedge(&pair, openings[k], 0, 1);
+    polyline(&pair, U);
+    zp_plates_rest_by_voltage(&pair.model->plates, &pair.eval.plates, U, &pair.eval.attraction, Fx, Fy);
+    polyline(&pair, U);
+    for (size_t j = 0; j < pair.model->count; j++) {
+      worst = fmax(worst, fabs(Fy[j] - 2 / U * pair.eval.attraction.Fy[j]));
+      worst = fmax(worst, fabs(Fx[j] - 2 / U * pair.eval.attraction.Fx[j]));
+      largest = fmax(largest, fabs(Fy[j]));
+    }
+    printf("opening %g mm: %.1e of the largest\n", 1e3 * openings[k], worst / largest);
+    ck_below(worst / largest, 9e-13); /* 3.0e-13 measured */
+    zp_free(Fy);
+    free_pair(&pair);
+  }
+}
+END_TEST
+
 /* Force and capacitance of the wedges of 1, 2, 4 mm with 100 um strips, flexible part of one half: the edges of the
  * independent study add 0.6 to 0.7 % to the force. */
 START_TEST(test_wedge) {
@@ -546,6 +571,7 @@ int main(void) {
   tcase_add_test(law, test_scales);
   tcase_add_test(law, test_force_is_gradient);
   tcase_add_test(law, test_stiffness);
+  tcase_add_test(law, forces_go_with_the_square_of_the_voltage);
   tcase_add_test(law, test_wedge);
   suite_add_tcase(suite, law);
   TCase *whole = tcase_create("whole");

@@ -16,8 +16,8 @@ typedef struct ZpPlant {
   void *memory;
 } ZpPlant;
 
-/* The system about the present point of `rest`, an equilibrium of rods, which stays; false if there is no memory. Destroy it, also
- * if this fails. */
+/* The system about the present point of `rest`, an equilibrium of rods, which stays; false if there is no memory.
+ * Destroy it, also if this fails. */
 bool zp_plant_create(ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant);
 void zp_plant_destroy(ZpPlant *plant);
 

@@ -49,7 +49,8 @@ void zp_run_rates_begin(ZpRunRates *rates, double end_time);
 void zp_run_rates_follow(ZpRunRates *rates);
 
 /* The derivative by the k-th key of a number that a simulation has now. */
-double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user), const void *user);
+double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
+                      const void *user);
 
 /* The derivative by the k-th key of the peak and rms current of the run until now, behind a supply. */
 ZpCurrents zp_run_rate_of_currents(const ZpRunRates *rates, size_t k);
