@@ -43,7 +43,8 @@ typedef struct Sides {
 } Sides;
 
 static Sides sides_of(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesPlace *place) {
-  Sides sides = {0};
+  Sides sides;
+  sides.count = 0;
   if (place->wet > 0) sides.of[sides.count++] = (Side){plates, place->wet, p->discharge};
   if (place->wet < 1) sides.of[sides.count++] = (Side){plates->air, 1 - place->wet, 0};
   return sides;
@@ -98,12 +99,16 @@ typedef struct Charges {
 
 /* Of conduction: faces that overlap touch. */
 static Charges charges_of(const Sides *sides, double g) {
-  Charges charges = {.count = sides->count};
+  Charges charges;
+  charges.count = sides->count;
   for (int k = 0; k < sides->count; k++) {
-    Charge one = charge_in_field(sides->of[k].law, fmax(g, 0));
+    Charge *charge = &charges.of[k];
     double share = sides->of[k].share;
-    charges.of[k] =
-        (Charge){share * one.slope, g <= 0 ? 0 : share * one.bend, share * one.most, sides->of[k].discharge};
+    *charge = charge_in_field(sides->of[k].law, g > 0 ? g : 0);
+    charge->slope *= share;
+    charge->bend *= g > 0 ? share : 0;
+    charge->most *= share;
+    charge->discharge = sides->of[k].discharge;
   }
   return charges;
 }

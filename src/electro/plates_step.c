@@ -551,16 +551,19 @@ static double begin_of_place(size_t q) {
 
 /* A place is wet by the share of its part of the element that the cover has. */
 static double wet_share(const ZpPlatesParams *p, const ZpCover *cover, size_t i, size_t q) {
-  double part = zp_cover_part(cover, i), begin = begin_of_place(q), weight = gauss_weight[q];
+  double part = zp_cover_part(cover, i);
   if (part == 0 || part == 1) return part;
+  double begin = begin_of_place(q), weight = gauss_weight[q];
   double before = i >= p->platform_end ? 1 - begin - weight : begin;
   return fmin(fmax((part - before) / weight, 0), 1);
 }
 
 ZpPlatesPlace zp_plates_place(const ZpPlatesParams *p, const ZpCover *cover, size_t at) {
   size_t i = at / ZP_PLATES_PLACES, q = at % ZP_PLATES_PLACES;
-  bool platform = i >= p->platform && i <= p->platform_end;
-  if (q == GAUSS) return (ZpPlatesPlace){i, 0, 0, platform ? p->flat_length : 0, zp_plates_flat(p, cover, i)};
+  if (q == GAUSS) {
+    bool platform = i >= p->platform && i <= p->platform_end;
+    return (ZpPlatesPlace){i, 0, 0, platform ? p->flat_length : 0, zp_plates_flat(p, cover, i)};
+  }
   if (i + 1 == p->nodes) return (ZpPlatesPlace){i, 0, 0, 0, 0};
   return (ZpPlatesPlace){i, zp_gauss_shares(&p->level, i)[q], gauss_weight[q], 0, wet_share(p, cover, i, q)};
 }
