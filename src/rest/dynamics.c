@@ -391,11 +391,20 @@ static double pushed(const ZpMovingMember *m) {
   return loss;
 }
 
-/* Damp all faces that are in contact. */
+/* Damp all faces that are in contact. Platforms side by side land together: each takes its part of the velocity that
+ * they had before. */
 static void damp_all(ZpDynamics *d) {
+  const bool abreast = d->member->model->abreast;
+  double *fall = &d->v[d->system.n - 1], lost = 0;
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
-    for (size_t i = 1; i < m->model->nodes; i++)
-      if (meets(m, i)) damp(d, m, i);
+    for (size_t i = 1; i < m->model->nodes; i++) {
+      if (!meets(m, i)) continue;
+      if (abreast && is_platform(m, i))
+        lost += (1 - zp_faces_kept(&m->eval.faces, i, pair_of(m, i).reduced, d->h)) / (double)d->members;
+      else
+        damp(d, m, i);
+    }
+  if (abreast) *fall *= 1 - lost;
 }
 
 static bool any_meet(const ZpDynamics *d) {
@@ -549,15 +558,19 @@ static void join(ZpDynamics *d, const ZpTies *ties) {
   d->shared = ties->shared;
 }
 
-/* Mass that moves with each platform of the members beyond its own. */
+/* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
+ * equal part of all that they move, so that equal members are as one. */
 static void find_joined_masses(ZpDynamics *d, const ZpTies *ties) {
-  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++)
-    for (const ZpTie *other = ties->tie; other < ties->tie + ties->count; other++) {
-      ZpMovingMember *m = &d->member[t->member];
-      bool lower = t->coordinate == 2 * zp_load_node(&m->model->topology) + 1;
+  const bool abreast = d->member->model->abreast;
+  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++) {
+    ZpMovingMember *m = &d->member[t->member];
+    double others = 0, own = m->model->mass[t->coordinate / 2];
+    for (const ZpTie *other = ties->tie; other < ties->tie + ties->count; other++)
       if (other != t && other->shared == t->shared)
-        m->with[lower] += d->member[other->member].model->mass[other->coordinate / 2];
-    }
+        others += d->member[other->member].model->mass[other->coordinate / 2];
+    bool lower = t->coordinate == 2 * zp_load_node(&m->model->topology) + 1;
+    m->with[lower] = abreast ? (own + others) / (double)d->members - own : others;
+  }
 }
 
 /* The system of all members. */
