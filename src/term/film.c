@@ -247,8 +247,7 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
 
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, WET, ZP_NOT(actuator.kind, ZP_KIND_RIBBON),
-            "a single ribbon has no gap for a film; use liquid.model none"),
+    ZP_RULE(PHYSICS, WET, ZP_HAS(ELECTRODES), "a single ribbon has no gap for a film; use liquid.model none"),
     ZP_RULE(NOT_MODELLED, WET, ZP_HAS(PLATFORM),
             "the film is modelled between two ribbons with a platform; use liquid.model none"),
     ZP_RULE(EQUATION, WET, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the film acts on rods; use liquid.model none"),
