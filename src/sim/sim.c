@@ -10,7 +10,6 @@
 #include "rest/crossing.h"
 #include "sim/hooks.h"
 #include "sim/margins.h"
-#include "sim/run_rates.h"
 #include "sim/sim_internal.h"
 #include "sim/snapshot.h"
 
