@@ -258,6 +258,18 @@ def check_figures(folder):
     check(column("fig-8", "force_N", slice(half)) != column("fig-8", "force_N", slice(half, None)), "breakdown does not matter")
 
 
+PICTURES = ["plots/fig-%d" % k for k in (6, 7, 8)] + ["runs/%s/plots/contraction" % run for run in ("fig-9", "fig-9-code-n21", "fig-9-code-n61", "fig-9-text")] + [
+    "runs/fig-10/plots/profiles", "runs/fig-10-code/plots/profiles", "runs/factor/plots/factors"]
+
+
+def check_pictures(folder):
+    """The longest line of each picture is on the page."""
+    page = open(folder + "/report.html", encoding="utf-8").read()
+    for name in PICTURES:
+        lines = re.findall(r"""\bd=(['"])([^'"]*)\1""", open(folder + "/" + name + ".svg", encoding="utf-8").read())
+        check(max((line for _, line in lines), key=len) in page, name + " is not on the page")
+
+
 def check_cells(folder, rows, page):
     """Factors, openings and reasons as the page shows them."""
     cells, text = [cell.strip() for cell in page.text], " ".join(page.text)
@@ -324,7 +336,8 @@ def whole(zipact, folder):
     check_overview(rows, page)
     check_runs(folder)
     if shutil.which("gnuplot"):
-        check(page.pictures == 10, "%d pictures" % page.pictures)
+        check(page.pictures == len(PICTURES), "%d pictures" % page.pictures)
+        check_pictures(folder)
 
 
 def interrupted(zipact, folder):
