@@ -10,16 +10,13 @@
 #include "fit/time_limit.h"
 #include "io/drive_table.h"
 
+/* Each function reads the files of a definition and, unless `result` is NULL, runs the study with them. */
+
 /* -- none ------------------------------------------------------------------------------------------- */
 
-static ZpStatus check_none(const ZpActuatorDef *def, ZpError *err) {
-  (void)def, (void)err;
-  return ZP_OK;
-}
-
-static ZpStatus run_none(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
-                         ZpError *err) {
-  return zp_study_run(study, def, NULL, hooks, result, err);
+static ZpStatus with_none(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                          ZpError *err) {
+  return result ? zp_study_run(study, def, NULL, hooks, result, err) : ZP_OK;
 }
 
 /* -- course: a table of voltages or setpoints, a checkpoint ------------------------------------------------------- */
@@ -62,18 +59,11 @@ static ZpStatus open_files(const ZpActuatorDef *def, Files *files, ZpError *err)
   return status;
 }
 
-static ZpStatus check_course(const ZpActuatorDef *def, ZpError *err) {
+static ZpStatus with_course(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                            ZpError *err) {
   Files files;
   ZpStatus status = open_files(def, &files, err);
-  close_files(&files);
-  return status;
-}
-
-static ZpStatus run_course(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
-                           ZpError *err) {
-  Files files;
-  ZpStatus status = open_files(def, &files, err);
-  if (status == ZP_OK) status = zp_study_run(study, def, &files.input, hooks, result, err);
+  if (status == ZP_OK && result) status = zp_study_run(study, def, &files.input, hooks, result, err);
   close_files(&files);
   return status;
 }
@@ -104,49 +94,40 @@ ZpStatus zp_data_sim_create(const ZpActuatorDef *def, const ZpHooks *hooks, ZpMo
 
 /* -- reference: a curve to compare with -------------------------------------------------------------- */
 
-static ZpStatus check_reference(const ZpActuatorDef *def, ZpError *err) {
+static ZpStatus with_reference(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                               ZpError *err) {
   ZpReference reference;
-  if (*def->data.file == 0) return ZP_OK;
+  if (*def->data.file == 0) return with_none(study, def, hooks, result, err);
   ZpStatus status = zp_reference_read(def->data.file, &reference, err);
-  zp_reference_free(&reference);
-  return status;
-}
-
-static ZpStatus run_reference(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
-                              ZpError *err) {
-  ZpReference reference;
-  if (*def->data.file == 0) return zp_study_run(study, def, NULL, hooks, result, err);
-  ZpStatus status = zp_reference_read(def->data.file, &reference, err);
-  if (status == ZP_OK) status = zp_study_run(study, def, NULL, hooks, result, err);
-  if (status == ZP_OK) zp_result_add(*result, "area_error_m2", "m2", zp_reference_area(&reference, (*result)->series));
+  if (status == ZP_OK && result) {
+    status = zp_study_run(study, def, NULL, hooks, result, err);
+    if (status == ZP_OK)
+      zp_result_add(*result, "area_error_m2", "m2", zp_reference_area(&reference, (*result)->series));
+  }
   zp_reference_free(&reference);
   return status;
 }
 
 /* -- measurements: what keys are fitted to ----------------------------------------------------------- */
 
-static ZpStatus check_measurements(const ZpActuatorDef *def, ZpError *err) {
-  return zp_fit_check(def, err);
-}
-
-static ZpStatus run_measurements(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
-                                 ZpError *err) {
+static ZpStatus with_measurements(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                                  ZpError *err) {
   (void)study;
-  return zp_fit_run(def, hooks, result, err);
+  return result ? zp_fit_run(def, hooks, result, err) : zp_fit_check(def, err);
 }
 
 /* -- which study takes which ------------------------------------------------------------------------- */
 
-static const struct {
-  ZpStatus (*check)(const ZpActuatorDef *def, ZpError *err);
-  ZpStatus (*run)(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result, ZpError *err);
-} with_files[ZpStudy_COUNT] = {
-#define ZP_STUDY(enumerator, word, shows, files, help) [enumerator] = {check_##files, run_##files},
+typedef ZpStatus (*WithFiles)(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
+                              ZpError *err);
+
+static const WithFiles with_files[ZpStudy_COUNT] = {
+#define ZP_STUDY(enumerator, word, shows, files, help) [enumerator] = with_##files,
 #include <zipact/studies.def>
 };
 
 ZpStatus zp_data_check_files(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
-  return with_files[study].check(def, err);
+  return with_files[study](study, def, NULL, NULL, err);
 }
 
 ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
@@ -157,7 +138,7 @@ ZpStatus zp_data_check(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
 /* Can a study with a valid Def run without files? */
 static bool needs_no_file(ZpStudy study, const ZpActuatorDef *def) {
   const bool known = (int)study >= 0 && (int)study < ZpStudy_COUNT && def;
-  return known && with_files[study].run != run_measurements && *def->data.file == 0 && !zp_def_takes_table(def) &&
+  return known && with_files[study] != with_measurements && *def->data.file == 0 && !zp_def_takes_table(def) &&
          def->initial.state != ZP_INITIAL_CHECKPOINT;
 }
 
@@ -168,7 +149,7 @@ ZpStatus zp_data_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpHook
   ZpStatus status = needs_no_file(study, def) ? ZP_OK : zp_study_check(study, def, err);
   if (status != ZP_OK) return status;
   ZpTimeLimit limit;
-  status = with_files[study].run(study, def, zp_time_limit_begin(&limit, def, hooks), result, err);
+  status = with_files[study](study, def, zp_time_limit_begin(&limit, def, hooks), result, err);
   if (status == ZP_OK) zp_time_limit_end(&limit, *result);
   return status;
 }

@@ -37,56 +37,38 @@ const char *zp_report_study(const ZpReport *report) {
   return zp_study_name(report->count > 0 ? zp_report_result(report, 0)->study : zp_scenario_study(report->scenario));
 }
 
-static bool is_listed(const ZpScalarNames *names, const char *name) {
-  for (size_t i = 0; i < names->count; i++)
-    if (strcmp(names->item[i].name, name) == 0) return true;
-  return false;
-}
-
-static bool add_scalars(ZpScalarNames *names, const ZpResult *result, bool timing) {
-  ZpScalar *item = realloc(names->item, (names->count + result->scalars + 1) * sizeof *item);
-  if (!item) return false;
-  names->item = item;
+/* Append the scalars of a result that are no columns yet. False if there is no memory. */
+static bool add_scalars(ZpCases *cases, const ZpResult *result) {
+  ZpCaseColumn *column = realloc(cases->column, (cases->columns + result->scalars + 1) * sizeof *column);
+  if (!column) return false;
+  cases->column = column;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *scalar = &result->scalar[i];
-    if ((timing || !scalar->timing) && !is_listed(names, scalar->name)) item[names->count++] = *scalar;
+    size_t known = cases->keys;
+    while (known < cases->columns && strcmp(column[known].name, scalar->name) != 0)
+      known++;
+    if (scalar->timing || known < cases->columns) continue;
+    column[cases->columns] = (ZpCaseColumn){.unit = scalar->unit};
+    snprintf(column[cases->columns++].name, sizeof column->name, "%s", scalar->name);
   }
-  return true;
-}
-
-bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names) {
-  *names = (ZpScalarNames){0};
-  for (size_t i = 0; i < report->count; i++)
-    if (!add_scalars(names, zp_report_result(report, i), timing)) {
-      free(names->item);
-      *names = (ZpScalarNames){0};
-      return false;
-    }
   return true;
 }
 
 bool zp_cases_open(const ZpReport *report, ZpCases *cases) {
-  ZpScalarNames names;
   *cases = (ZpCases){.report = report};
   const int *key = zp_scenario_lists(report->scenario, &cases->keys);
-  if (!zp_report_scalars(report, false, &names)) return false;
-  cases->columns = cases->keys + names.count;
-  cases->column = calloc(cases->columns + 1, sizeof *cases->column);
-  cases->value = calloc(cases->columns + 1, sizeof *cases->value);
-  const bool done = cases->column && cases->value;
-  for (size_t i = 0; i < cases->columns && done; i++) {
-    ZpCaseColumn *column = &cases->column[i];
-    if (i < cases->keys) {
-      zp_key_column(key[i], column->name, sizeof column->name);
-      column->unit = zp_key(key[i])->unit;
-      column->help = zp_key(key[i])->help;
-    } else {
-      snprintf(column->name, sizeof column->name, "%s", names.item[i - cases->keys].name);
-      column->unit = names.item[i - cases->keys].unit;
-    }
+  cases->column = calloc(cases->keys + 1, sizeof *cases->column);
+  bool done = cases->column != NULL;
+  for (; done && cases->columns < cases->keys; cases->columns++) {
+    ZpCaseColumn *column = &cases->column[cases->columns];
+    zp_key_column(key[cases->columns], column->name, sizeof column->name);
+    column->unit = zp_key(key[cases->columns])->unit;
+    column->help = zp_key(key[cases->columns])->help;
   }
-  free(names.item);
-  return done;
+  for (size_t i = 0; i < report->count && done; i++)
+    done = add_scalars(cases, zp_report_result(report, i));
+  cases->value = done ? calloc(cases->columns + 1, sizeof *cases->value) : NULL;
+  return cases->value != NULL;
 }
 
 void zp_cases_close(ZpCases *cases) {

@@ -9,13 +9,6 @@
 /* Size of the column name of a key: "drive.voltage_V". */
 #define ZP_KEY_COLUMN_SIZE 96
 
-/* The columns of a sweep besides its swept keys: every scalar of any run, in the order of the summary. Their values
- * have no meaning. */
-typedef struct ZpScalarNames {
-  ZpScalar *item;
-  size_t count;
-} ZpScalarNames;
-
 /* Is the result a table of runs, not a single run? */
 bool zp_report_is_sweep(const ZpReport *report);
 
@@ -28,17 +21,14 @@ const ZpResult *zp_report_result(const ZpReport *report, size_t index);
 /* The run of a report without a sweep; NULL if it was interrupted before it started. */
 const ZpResult *zp_report_single(const ZpReport *report);
 
-/* The scalars of all runs; with `timing` including those that depend on wall time. The caller frees item. False if
- * there is no memory. */
-bool zp_report_scalars(const ZpReport *report, bool timing, ZpScalarNames *names);
-
 /* A column of the table with a row per run. */
 typedef struct ZpCaseColumn {
   char name[ZP_KEY_COLUMN_SIZE];
   const char *unit, *help; /* help NULL: none */
 } ZpCaseColumn;
 
-/* That table: first the swept keys, where a choice is the number of its word, then the scalars of all runs. */
+/* That table: first the swept keys, where a choice is the number of its word, then the scalars of all runs, in the
+ * order of the summary, except those that depend on wall time. */
 typedef struct ZpCases {
   const ZpReport *report;
   size_t keys, columns;

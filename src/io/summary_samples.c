@@ -13,20 +13,19 @@
 enum { COLUMNS = 8 };
 
 typedef struct Samples {
-  const ZpReport *report;
+  ZpCases cases;
   const ZpDesign *design;
   size_t count;  /* number of samples of a combination */
   double *value; /* [COLUMNS][count] */
   double *work;  /* [count] */
-  double *given; /* [keys] those of a combination */
 } Samples;
 
-/* Read columns `first` .. of the outputs for the cases from `start` on. */
-static void read_columns(Samples *s, const ZpScalarNames *names, size_t first, size_t start) {
+/* Read columns `first` .. for the cases from `start` on. */
+static void read_columns(Samples *s, size_t first, size_t start) {
   for (size_t i = 0; i < s->count; i++) {
-    const ZpResult *result = zp_report_result(s->report, start + i);
-    for (size_t k = 0; k < COLUMNS && first + k < names->count; k++)
-      s->value[k * s->count + i] = zp_result_get(result, names->item[first + k].name);
+    const ZpResult *result = zp_report_result(s->cases.report, start + i);
+    for (size_t k = 0; k < COLUMNS && first + k < s->cases.columns; k++)
+      s->value[k * s->count + i] = zp_result_get(result, s->cases.column[first + k].name);
   }
 }
 
@@ -43,10 +42,10 @@ static void set_indices(json_t **object, const Samples *s, const double *value) 
   json_t *first = json_object(), *first_interval = json_object(), *total = json_object(),
          *total_interval = json_object();
   size_t keys;
-  const int *key = zp_scenario_lists(s->report->scenario, &keys);
+  const int *key = zp_scenario_lists(s->cases.report->scenario, &keys);
   int dimension = 0;
   for (size_t i = 0; i < keys; i++) {
-    if (!zp_scenario_spread(s->report->scenario, key[i])) continue;
+    if (!zp_scenario_spread(s->cases.report->scenario, key[i])) continue;
     const ZpIndices indices = zp_sobol_indices(s->design, value, dimension++);
     const char *name = zp_key(key[i])->name;
     zp_json_set(&first, name, zp_json_number(indices.first.value, "1"));
@@ -78,45 +77,42 @@ static json_t *describe(const Samples *s, const double *value) {
 }
 
 /* Statistics of all outputs over the samples from case `start` on. */
-static json_t *outputs_of(Samples *s, const ZpScalarNames *names, size_t start) {
+static json_t *outputs_of(Samples *s, size_t start) {
+  const ZpCases *cases = &s->cases;
   json_t *object = json_object();
-  for (size_t first = 0; first < names->count && object; first += COLUMNS) {
-    read_columns(s, names, first, start);
-    for (size_t k = 0; k < COLUMNS && first + k < names->count; k++)
-      zp_json_set(&object, names->item[first + k].name, describe(s, s->value + k * s->count));
+  for (size_t first = cases->keys; first < cases->columns && object; first += COLUMNS) {
+    read_columns(s, first, start);
+    for (size_t k = 0; k < COLUMNS && first + k < cases->columns; k++)
+      zp_json_set(&object, cases->column[first + k].name, describe(s, s->value + k * s->count));
   }
   return object;
 }
 
 /* The object of the combination whose samples start with case `start`. */
-static json_t *combination(Samples *s, const ZpScalarNames *names, size_t start) {
+static json_t *combination(Samples *s, size_t start) {
+  const ZpScenario *scenario = s->cases.report->scenario;
   size_t keys;
-  const int *key = zp_scenario_lists(s->report->scenario, &keys);
+  const int *key = zp_scenario_lists(scenario, &keys);
   json_t *object = json_object();
-  zp_scenario_values(s->report->scenario, start, s->given);
+  zp_scenario_values(scenario, start, s->cases.value);
   for (size_t i = 0; i < keys; i++)
-    if (!zp_scenario_spread(s->report->scenario, key[i]))
-      zp_json_set(&object, zp_key(key[i])->name, zp_json_key(key[i], s->given[i]));
-  zp_json_set(&object, "outputs", outputs_of(s, names, start));
+    if (!zp_scenario_spread(scenario, key[i]))
+      zp_json_set(&object, zp_key(key[i])->name, zp_json_key(key[i], s->cases.value[i]));
+  zp_json_set(&object, "outputs", outputs_of(s, start));
   return object;
 }
 
 json_t *zp_sample_statistics(const ZpReport *report) {
   const ZpDesign *design = zp_scenario_design(report->scenario);
-  Samples s = {.report = report, .design = design, .count = zp_design_samples(design)};
-  ZpScalarNames names = {0};
-  size_t keys;
+  Samples s = {.design = design, .count = zp_design_samples(design)};
   json_t *list = json_array();
-  zp_scenario_lists(report->scenario, &keys);
   s.value = calloc(COLUMNS * s.count, sizeof *s.value);
   s.work = calloc(s.count, sizeof *s.work);
-  s.given = calloc(keys, sizeof *s.given);
-  if (!s.value || !s.work || !s.given || !zp_report_scalars(report, false, &names)) zp_json_drop(&list);
+  if (!zp_cases_open(report, &s.cases) || !s.value || !s.work) zp_json_drop(&list);
   for (size_t start = 0; start + s.count <= report->count && list; start += s.count)
-    zp_json_add(&list, combination(&s, &names, start));
-  free(names.item);
+    zp_json_add(&list, combination(&s, start));
+  zp_cases_close(&s.cases);
   free(s.value);
   free(s.work);
-  free(s.given);
   return list;
 }
