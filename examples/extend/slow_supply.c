@@ -22,7 +22,7 @@ typedef struct Supply {
 } Supply;
 
 /* What flows in less what is taken, and its derivatives by U1 and by the charge that is taken. */
-static ZpSourceLaw law(const void *self, const ZpSourceStep *s) {
+static ZpSourceLaw law(void *self, const ZpSourceStep *s) {
   const Supply *supply = self;
   double flows = s->h * (supply->V - 0.5 * (s->U0 + s->U1)) / supply->R - supply->K * (s->U1 - s->U0);
   return (ZpSourceLaw){.lacks = flows - s->taken,
