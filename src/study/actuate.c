@@ -5,9 +5,9 @@
 
 #include "actuator/model.h"
 #include "base/fail.h"
+#include "drive/response.h"
 #include "sim/feed.h"
 #include "sim/margins.h"
-#include "study/loop.h"
 #include "study/notes.h"
 #include "study/rates.h"
 #include "study/sense.h"
@@ -295,6 +295,48 @@ static ZpStatus check_start(const ZpActuatorDef *def, const ZpCheckpoint *start,
   return ZP_OK;
 }
 
+/* -- under a controller ----------------------------------------------------------------------------- */
+
+_Static_assert(sizeof(ZpResponseSample) == ZP_SAMPLE_COLUMNS * sizeof(double), "a row of the table is a sample");
+
+/* From now on the simulation keeps all its samples here: its owner's; NULL if there is no memory. */
+static ZpTable *watch_loop(ZpSim *sim) {
+  const ZpActuatorDef *def = zp_model_def(sim->model);
+  size_t columns;
+  const ZpColumn *column = zp_sample_columns(&columns);
+  ZpTable *samples = zp_table_create(column, columns, (size_t)(def->solver.end_time / def->control.period) + 4);
+  zp_sim_keep_samples(sim, samples);
+  return samples;
+}
+
+/* A setpoint that the controller asks for in vain. */
+static void note_limit(const ZpSim *sim, const ZpResponse *response, ZpResult *result) {
+  static const double little = 0.02; /* of the setpoint */
+  double highest = sim->model->control.highest, command = zp_sim_is_fed(sim) ? zp_sim_command(sim) : sim->state->U;
+  bool at_limit = command == 0 || command == highest;
+  if (at_limit && fabs(response->error) > little * fabs(zp_sim_setpoint(sim)))
+    zp_result_note(
+        result,
+        "the setpoint is not held: the run ends with the controller at its limit of %g V (its range is 0 V to "
+        "drive.voltage)",
+        command);
+}
+
+/* How the signal has answered, from the samples, at the end of the run. */
+static void summarize_loop(ZpSim *sim, ZpTable *samples, ZpResult *result) {
+  zp_table_offer(samples, (double[ZP_SAMPLE_COLUMNS]){sim->state->t, zp_sim_setpoint(sim), zp_sim_controlled(sim)});
+  ZpResponse response = zp_response_of((const ZpResponseSample *)(const void *)samples->value, samples->rows);
+  const char *unit = zp_control_unit(zp_model_def(sim->model));
+  zp_result_add(result, "rise_time_s", "s", response.rise_time);
+  zp_result_add(result, "overshoot", "1", response.overshoot);
+  zp_result_add(result, "steady_state_error", unit, response.error);
+  zp_result_add(result, "steady_state_ripple", unit, response.ripple);
+  zp_result_add(result, "settling_time_s", "s", response.settling_time);
+  note_limit(sim, &response, result);
+}
+
+/* -- the run -------------------------------------------------------------------------------------- */
+
 /* A run that resumes where it would end continues to the end time. */
 static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *start, const ZpHooks *hooks,
                          ZpResult *result, ZpError *err) {
@@ -306,7 +348,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   const Booked before = booked_before(sim, start != NULL);
   const ZpStop stop = zp_sim_stops(sim, stop_of(model)) ? ZP_STOP_AT_END : stop_of(model);
   bool controlled = def->control.kind != ZP_CONTROL_NONE;
-  ZpTable *samples = controlled ? zp_loop_watch(sim) : NULL;
+  ZpTable *samples = controlled ? watch_loop(sim) : NULL;
   if (controlled && !samples) return zp_fail_memory(err);
   ZpRunInfo info;
   ZpRunRates rates;
@@ -319,7 +361,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   }
   zp_run_rates_close(&rates);
   if (status != ZP_OK) return status;
-  if (controlled) zp_loop_summarize(sim, samples, result);
+  if (controlled) summarize_loop(sim, samples, result);
   zp_sim_keep_samples(sim, NULL);
   zp_table_destroy(samples);
   note(sim, model, result);
