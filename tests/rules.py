@@ -557,7 +557,6 @@ SEES_VIEWS = ("device", "term", "system", "rest", "sim", "study")
 KNOWS_LAYOUT = {
     "src/rest/dynamics.c": 13,
     "src/rest/plant.c": 16,
-    "src/rest/series_mass.c": 1,
     "src/rest/statics.c": 51,
     "src/sim/paper_motion.c": 15,
     "src/sim/snapshot.c": 3,

@@ -1238,6 +1238,34 @@ void zp_statics_masses(const ZpStatics *s, double *mass) {
     zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
 }
 
+/* The height of the platform of a member in series. */
+static size_t height_of(const ZpRestMember *m) {
+  return (size_t)m->assembly.equation[2 * zp_load_node(&m->model->topology) + 1];
+}
+
+/* Eq. (29.3): a member moves relative to its upper platform, and with that platform, which moves by `way`. */
+void zp_statics_weigh_series(void *self, const double *u, double *mu) {
+  ZpStatics *s = self;
+  double momentum[ZP_MOST_MEMBERS] = {0}, way = 0, below = 0;
+  memset(mu, 0, s->n * sizeof *mu);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    ZpForces moved = zp_forces(m->model, m->moved);
+    zp_assembly_changes(&m->assembly, u, m->moved);
+    for (size_t j = 0; j < m->model->count; j++) {
+      moved.x[j] *= m->model->mass[j];
+      moved.y[j] = m->model->mass[j] * (moved.y[j] + way);
+      momentum[k] += moved.y[j];
+    }
+    zp_assembly_add(&m->assembly, m->moved, mu);
+    way += u[height_of(m)];
+  }
+  for (size_t k = s->members; k-- > 0;) {
+    mu[height_of(&s->member[k])] += below;
+    below += momentum[k];
+  }
+}
+
 double zp_statics_member_force(ZpStatics *s, size_t which) {
   ZpRestMember *m = &s->member[which];
   const ZpTopology *t = &m->model->topology;

@@ -25,8 +25,8 @@ static double scattered(size_t k) {
 
 /* m u => mu */
 static void weigh(const ZpVibration *v, const double *u, double *mu) {
-  if (v->inertia) {
-    v->inertia->weigh(v->inertia->self, u, mu);
+  if (v->weigh) {
+    v->weigh(v->self, u, mu);
     return;
   }
   for (size_t i = 0; i < v->n; i++)

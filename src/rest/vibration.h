@@ -10,19 +10,14 @@
 
 enum { ZP_VIBRATIONS = 24 }; /* most */
 
-/* A mass matrix that is not diagonal. */
-typedef struct ZpInertia {
-  void (*weigh)(const void *self, const double *u, double *mu); /* m u; both [n] */
-  const void *self;
-} ZpInertia;
-
 typedef struct ZpVibration {
-  size_t n, m;              /* equations, vectors iterated */
-  const ZpBand *K;          /* factored; belongs to the caller */
-  const ZpInertia *inertia; /* instead of mass; NULL: masses are lumped */
-  double *mass;             /* [n] by equation, filled by the caller */
-  double *weighed;          /* [n] work space */
-  double *u, *next;         /* [m][n] the subspace, with norm 1 in the inner product of the mass; K^-1 m of it */
+  size_t n, m;                                            /* equations, vectors iterated */
+  const ZpBand *K;                                        /* factored; belongs to the caller */
+  void (*weigh)(void *self, const double *u, double *mu); /* m u, both [n]; NULL: masses are lumped, in `mass` */
+  void *self;
+  double *mass;     /* [n] by equation, filled by the caller */
+  double *weighed;  /* [n] work space */
+  double *u, *next; /* [m][n] the subspace, with norm 1 in the inner product of the mass; K^-1 m of it */
   double reduced[ZP_VIBRATIONS * ZP_VIBRATIONS], turn[ZP_VIBRATIONS * ZP_VIBRATIONS];
   double omega2[ZP_VIBRATIONS];
 } ZpVibration;

@@ -6,7 +6,6 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "rest/series_mass.h"
 #include "rest/vibration.h"
 #include "study/equilibria.h"
 #include "study/hold.h"
@@ -27,14 +26,12 @@ static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "fr
 typedef struct Problem {
   ZpEquilibria at;
   ZpVibration vibration;
-  ZpSeriesMass series; /* of members in series */
   double *equilibrium;
 } Problem;
 
 static void carve(void *user, ZpCarver *carver) {
   Problem *p = user;
   zp_vibration_carve(&p->vibration, p->at.rest.statics.n, SUBSPACE, carver);
-  zp_series_mass_carve(&p->series, &p->at.rest.statics, carver);
   p->equilibrium = zp_carve(carver, zp_rest_save_size(&p->at.rest));
 }
 
@@ -111,8 +108,8 @@ static void derive(void *user, ZpSlope *slope, ZpResult *result) {
   ZpStatics *s = &p->at.rest.statics;
   p->at.rest.system.restore(s, p->equilibrium);
   bool found =
-      !p->vibration.inertia && zp_slope_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE); /* of lumped masses */
-  if (p->vibration.inertia)
+      !p->vibration.weigh && zp_slope_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE); /* of lumped masses */
+  if (p->vibration.weigh)
     zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
   for (size_t j = 0; j < count(&p->vibration); j++) {
     Mode mode = {&p->at.rest.statics.newton.K, p->at.rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
@@ -166,8 +163,8 @@ static void run(Problem *p) {
   if (!find_equilibrium(p)) return;
   v->K = &s->newton.K;
   if (s->members > 1 && !s->shared) {
-    zp_series_mass_fill(&p->series);
-    v->inertia = &p->series.inertia;
+    v->weigh = zp_statics_weigh_series;
+    v->self = s;
   }
   zp_statics_masses(s, v->mass);
   zp_vibration_start(v);
