@@ -511,6 +511,11 @@ START_TEST(what_a_stack_lacks_is_said) {
     ZpActuatorDef def = DEF(refused[k].one, refused[k].other);
     ck_refused_by(refused[k].study, &def, refused[k].says);
   }
+  ZpActuatorDef fed = DEF({"stack.series", 2}, {"source.model", ZP_SOURCE_AMPLIFIER});
+  ZpModel *model = model_of(&fed);
+  ZpSim *sim = NULL;
+  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_BAD_INPUT); /* a program's own run */
+  zp_model_destroy(model);
 }
 END_TEST
 
