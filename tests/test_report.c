@@ -1298,6 +1298,7 @@ static Suite *suite_of_report(void) {
   suite_add_tcase(suite, pictures());
   suite_add_tcase(suite, failures());
   TCase *nightly = nightly_case(suite);
+  tcase_add_checked_fixture(nightly, set_up, tear_down); /* without it the root of the machine is the folder */
   tcase_add_test(nightly, field_of_equal_permittivities);
   tcase_add_test(nightly, axes_without_a_unit_say_so);
   tcase_add_test(nightly, files_of_rest);
