@@ -70,9 +70,23 @@ class BuildExtension(build_ext):
         super().build_extension(extension)
 
 
+def repeated(text):
+    """Lines ZP_KEYS_OF_... of a table as the lines that they stand for."""
+    for name, parameters, body in re.findall(r"^#define (ZP_KEYS_OF_\w+)\((.*)\) \\\n((?:.*\\\n)*.*\n)", text, re.M):
+        for line, values in re.findall(r"^(%s\((.*)\))$" % name, text, re.M):
+            rows = re.sub(r"^ +| \\$", "", body, flags=re.M)
+            for parameter, value in zip(parameters.split(", "), values.split(", ")):
+                if value[0] == '"':  # between texts, or behind one
+                    rows = rows.replace('" %s "' % parameter, value[1:-1]).replace('" %s)' % parameter, value[1:] + ")")
+                else:
+                    rows = re.sub(r"\b%s(?=[.)])" % parameter, value, rows)
+            text = text.replace(line, rows)
+    return text
+
+
 def arguments(path, macro):
     """(name of the macro, its arguments as C texts) of each line ZP_MACRO(...) of a table."""
-    for name, inside in re.findall(r"^ZP_(%s)\((.*)\)$" % macro, read(path), re.M):
+    for name, inside in re.findall(r"^ZP_(%s)\((.*)\)$" % macro, repeated(read(path)), re.M):
         parts = re.split(r',(?=(?:[^"]*"[^"]*")*[^"]*$)', inside)  # at commas outside of quotes
         yield name, [text.strip() for text in parts]
 

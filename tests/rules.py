@@ -245,6 +245,10 @@ def keys_of(repo):
     """(name, line) of each key of keys.def."""
     text = read(repo, "src/def/keys.def")
     text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
+    for name, parameter, body in re.findall(r"^#define (ZP_KEYS_OF_\w+)\((\w+),[^)]*\) \\\n((?:.*\\\n)*.*\n)", text, re.M):
+        for found in re.finditer(r"^%s\((\w+)," % name, text, re.M):
+            for path, key in re.findall(r"^\s*ZP_\w+\(([\w.]*), (\w+),", body, re.M):
+                yield re.sub(r"\b%s\b" % parameter, found.group(1), path) + key, line_at(text, found.start())
     for found in re.finditer(r"^ZP_OF_SCENARIO\((\w+),", text, re.M):
         yield found.group(1), line_at(text, found.start())
     for found in re.finditer(r"^ZP_(?:REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT)\(\s*([\w.]*)\s*,\s*(\w+)\s*,", text, re.M):
