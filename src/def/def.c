@@ -59,6 +59,24 @@ static const size_t offsets[] = {
 #include "def/keys.def"
 };
 
+/* Every key at its default. */
+#define ZP_GROUP(group) .group = {
+#define ZP_GROUP_END(group)                                                                                            \
+  }                                                                                                                    \
+  ,
+#define ZP_REAL(path, name, unit, shown, def, min, max, help)           .name = (def),
+#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) .field = (def),
+#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           .name = NAN,
+#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           .name = NAN,
+#define ZP_INT(path, name, def, min, max, help)                         .name = (def),
+#define ZP_BOOL(path, name, def, help)                                  .name = (def),
+#define ZP_ENUM(path, name, type, def, help)                            .name = (def),
+#define ZP_TEXT(path, name, def, help)                                  .name = def,
+#define ZP_OF_SCENARIO(name, type, def, help)
+static const ZpActuatorDef plain = {
+#include "def/keys.def"
+};
+
 /* Values that a preset or a supply sets, for one number of nodes or (nodes 0) for any. */
 typedef struct PresetValue {
   int selector; /* ZpPreset or ZpSupplyModel */
@@ -235,17 +253,6 @@ static void store(ZpActuatorDef *def, const ZpKey *key, double value) {
   case ZP_KEY_TEXT: /* a text has no number */
     break;
   }
-}
-
-static ZpActuatorDef defaults(void) {
-  ZpActuatorDef def;
-  memset(&def, 0, sizeof def);
-  for (int i = 0; i < KEY_COUNT; i++)
-    if (keys[i].type == ZP_KEY_TEXT)
-      memcpy((char *)&def + offset_of(&keys[i]), keys[i].text, strlen(keys[i].text));
-    else if (has_field(&keys[i]))
-      store(&def, &keys[i], keys[i].def);
-  return def;
 }
 
 /* Is there a Def? zp_def_create returns none if there is no memory. */
@@ -440,7 +447,6 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
 }
 
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
-  const ZpActuatorDef plain = defaults();
   ZpActuatorDef given = plain;
   ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = apply_assignments(&given, list, count, err);
