@@ -197,7 +197,7 @@ static bool is_answered(ZpStudy study, const ZpActuatorDef *def, char text[512])
   double until = cpu_s() + 120;
   const ZpHooks hooks = {.user = &until, .progress = is_late};
   if (zp_study_run(study, def, NULL, &hooks, &result, &err) != ZP_OK) {
-    snprintf(text, 512, "refused: %s", err.message);
+    snprintf(text, 512, "refused: %.490s", err.message);
     return false;
   }
   const char *fault = violated(def, result);
@@ -441,7 +441,7 @@ static Answer answer_of(ZpStudy which, const ZpActuatorDef *def) {
   ZpError err = {ZP_OK, ""};
   Answer answer = {.good = false};
   if (zp_study_run(which, def, NULL, NULL, &result, &err) != ZP_OK) {
-    snprintf(answer.message, sizeof answer.message, "refused: %s", err.message);
+    snprintf(answer.message, sizeof answer.message, "refused: %.490s", err.message);
     return answer;
   }
   answer.good = zp_outcome_good(result->outcome);
