@@ -9,6 +9,7 @@
 #include <zipact/io.h>
 
 #include "actuator/model.h"
+#include "def/device.h"
 #include "rest/rest.h"
 #include "study/studies.h"
 
@@ -817,7 +818,7 @@ static double difference(const ZpResult *a, const ZpResult *b, const char *name)
 
 /* What the load pulls with at this opening, N: load.share applies to all that hangs there. */
 static double pull_at(const ZpActuatorDef *def, double opening) {
-  double share = def->actuator.kind == ZP_KIND_ELECTRO_RIBBON ? 2 * def->load.share : def->load.share,
+  double share = zp_def_has(def, ZP_DEVICE_PLATFORM) ? 2 * def->load.share : def->load.share,
          hung = def->load.mass * def->gravity * cos(def->mount.tilt) + def->load.force, spring = 0, stop = 0;
   if (def->load.stiffness > 0) spring = def->load.stiffness * fmax(def->load.rest_opening - opening, 0);
   if (!isnan(def->load.stop_opening)) stop = def->load.stop_stiffness * fmax(opening - def->load.stop_opening, 0);
@@ -829,7 +830,7 @@ static double hold_error(int a, int b, const ZpResult *hanging, const char *name
   ZpActuatorDef def;
   if (!takes(ZP_STUDY_ISOMETRIC, a, b, &def, NULL)) return 0;
   double opening = zp_result_get(hanging, "opening_m");
-  def.isometric.separation = def.actuator.kind == ZP_KIND_HINGE ? zp_result_get(hanging, "stroke_m") : opening;
+  def.isometric.separation = zp_def_has(&def, ZP_DEVICE_PLATFORM) ? opening : zp_result_get(hanging, "stroke_m");
   def.drive.voltage = 0;
   if (!(def.isometric.separation > 1e-5) || zp_study_check(ZP_STUDY_ISOMETRIC, &def, NULL) != ZP_OK) return 0;
   ZpResult *held = run_study(ZP_STUDY_ISOMETRIC, &def, name);
