@@ -272,26 +272,34 @@ void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equ
 
 /* -- one entry, anywhere ---------------------------------------------------------------------------- */
 
-/* By the coordinates of two equations, i <= j if the matrix is symmetric. */
-static inline void add_at(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
+/* Of members of a system: in the border, or by the height of one that is upside down. */
+static __attribute__((noinline)) void add_joined(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
   bool turns = (i == a->turned) != (j == a->turned);
   *zp_band_entry(K, (size_t)i, (size_t)j) += turns ? -value : value;
 }
 
-static void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
+/* By the coordinates of two equations, i <= j if the matrix is symmetric. */
+ZP_INLINE void add_at(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
+  if (a->turned < 0 && (size_t)j < K->n)
+    *zp_band_at(K, (size_t)i, (size_t)j) += value;
+  else
+    add_joined(a, i, j, value, K);
+}
+
+ZP_INLINE void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
   int i = a->equation[row], j = a->equation[column];
   if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
   add_at(a, i, j, value, K);
 }
 
 /* A derivative by two different coordinates is in two places of the matrix. */
-static void add_both(const ZpAssembly *a, size_t one, size_t other, double value, ZpBand *K) {
+ZP_INLINE void add_both(const ZpAssembly *a, size_t one, size_t other, double value, ZpBand *K) {
   add(a, one, other, value, K);
   add(a, other, one, value, K);
 }
 
 /* The 2 x 2 block of the force on node `row` by the position of node `column`. */
-static void add_block(const ZpAssembly *a, size_t row, size_t column, const double block[4], ZpBand *K) {
+ZP_INLINE void add_block(const ZpAssembly *a, size_t row, size_t column, const double block[4], ZpBand *K) {
   for (size_t k = 0; k < 4; k++)
     add(a, 2 * row + k / 2, 2 * column + k % 2, block[k], K);
 }
