@@ -552,6 +552,18 @@ static double allowed_gradient(const ZpActuatorDef *def) {
   return zp_def_liquid(def) == ZP_LIQUID_BEAD && def->bead.suction > 0 ? 2e-3 : 1e-6;
 }
 
+/* Without suction the forces where a bead ends have no energy. */
+static bool ends_by_a_local_law(const ZpStatics *s) {
+  bool ends = false;
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpModel *model = s->member[k].model;
+    if (!model->has_bead || model->bead.suction > 0) continue;
+    for (int half = 0; half < zp_beads(&model->film); half++)
+      ends |= s->member[k].eval.reach[half] < zp_bead_longest(&model->film);
+  }
+  return ends;
+}
+
 /* All members of the model. */
 static void check_at_rest(int a, int b, const char *name) {
   ZpActuatorDef def;
@@ -561,9 +573,11 @@ static void check_at_rest(int a, int b, const char *name) {
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
   check_point(&rest.statics, &worst);
+  bool local = ends_by_a_local_law(&rest.statics);
   zp_rest_close(&rest);
   printf("at rest, %s: gradient %.1e, stiffness %.1e\n", name, worst.gradient, worst.stiffness);
-  ck_assert_msg(worst.gradient <= allowed_gradient(&def), "%s: force is off -dU/dq by %.1e", name, worst.gradient);
+  ck_assert_msg(local || worst.gradient <= allowed_gradient(&def), "%s: force is off -dU/dq by %.1e", name,
+                worst.gradient);
   ck_assert_msg(worst.stiffness <= 3e-7, "%s: stiffness is off -dF/dq by %.1e", name, worst.stiffness);
   zp_model_destroy(model);
 }
