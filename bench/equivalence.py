@@ -51,7 +51,7 @@ FEATURES = [
     {"control.kind": "pi", "control.integral": 1e6, "setpoint.value": 5e-3},
     {"solver.integrator": "explicit", "contact.model": "sequential", "ribbon.model": "mass_spring"},
     {"preset": "paper-code", "mesh.nodes": 21},
-    {"sensitivity.by": ["load.mass"]},
+    {"sensitivity.by": "load.mass"},
 ]
 # How often each is drawn.
 STUDIES = {"actuate": 4, "stationary": 2, "equilibrium": 3, "limits": 3, "isometric": 2, "modes": 2, "profile": 1, "cycle": 1}
