@@ -7,11 +7,11 @@
 enum { BAND = 2 * UNKNOWNS };
 static const ZpFilmEnds everywhere = {0};
 
-static size_t carve(Front *f, void *memory) {
-  ZpCarver carver = {memory, 0};
-  zp_film_carve(&f->film, &f->eval, &carver);
-  zp_band_carve(&f->J, UNKNOWNS * f->film.nodes, 0, BAND, &carver);
-  return carver.used;
+static size_t reserve(Front *f, void *memory) {
+  ZpArena arena = {memory, 0};
+  zp_film_reserve(&f->film, &f->eval, &arena);
+  zp_band_reserve(&f->J, UNKNOWNS * f->film.nodes, 0, BAND, &arena);
+  return arena.used;
 }
 
 Front *front_create(double stiffness, double viscosity, double w, double l, bool lateral_flow) {
@@ -20,8 +20,8 @@ Front *front_create(double stiffness, double viscosity, double w, double l, bool
   f->stiffness = stiffness;
   zp_film_modes(&f->film, lateral_flow);
   f->film.outlet = true;
-  f->memory = zp_calloc(1, carve(f, NULL));
-  carve(f, f->memory);
+  f->memory = zp_calloc(1, reserve(f, NULL));
+  reserve(f, f->memory);
   return f;
 }
 

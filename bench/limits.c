@@ -11,7 +11,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "rest/slow.h"
+#include "rest/quasistatic.h"
 
 enum { RUNS = 41 };
 
@@ -66,21 +66,21 @@ typedef struct PullIn {
   ZpLimit limit;
 } PullIn;
 
-static void carve(void *user, ZpCarver *carver) {
+static void reserve(void *user, ZpArena *arena) {
   PullIn *p = user;
-  zp_limit_carve(&p->limit, zp_rest_save_size(&p->rest), p->rest.statics.n, carver);
+  zp_limit_reserve(&p->limit, zp_rest_save_size(&p->rest), p->rest.statics.n, arena);
 }
 
 /* From scratch, the model included: hang, go to the first limit point, look for other crests round it. => V */
 static double pull_in(const ZpActuatorDef *def) {
   PullIn p = {.limit = {.value = 0}};
   ZpModel *model;
-  if (zp_model_create(def, &model, NULL) != ZP_OK || !zp_rest_open(&p.rest, model, carve, &p)) exit(1);
+  if (zp_model_create(def, &model, NULL) != ZP_OK || !zp_rest_open(&p.rest, model, reserve, &p)) exit(1);
   zp_rest_hang(&p.rest, 0);
   zp_statics_stable(&p.rest.statics);
-  zp_slow_start(&p.rest);
-  if (zp_slow_first(&p.rest, def->drive.voltage, &p.limit) != ZP_MARCH_FOLD) exit(1);
-  zp_slow_look_around(&p.rest, &p.limit, 1);
+  zp_quasistatic_start(&p.rest);
+  if (zp_quasistatic_first(&p.rest, def->drive.voltage, &p.limit) != ZP_TRACK_FOLD) exit(1);
+  zp_quasistatic_look_around(&p.rest, &p.limit, 1);
   zp_rest_close(&p.rest);
   zp_model_destroy(model);
   return p.limit.value;

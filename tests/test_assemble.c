@@ -22,12 +22,12 @@ static ZpModel *model_of_kind(size_t kind) {
 
 /* A band of zeros. */
 static void *zero_band(ZpBand *K, const ZpAssembly *a) {
-  ZpCarver carver = {NULL, 0};
+  ZpArena arena = {NULL, 0};
   size_t lower = a->symmetric ? 0 : a->bandwidth;
-  zp_band_carve(K, a->n, lower, a->bandwidth, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_band_carve(K, a->n, lower, a->bandwidth, &carver);
+  zp_band_reserve(K, a->n, lower, a->bandwidth, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_band_reserve(K, a->n, lower, a->bandwidth, &arena);
   return memory;
 }
 

@@ -158,17 +158,17 @@ END_TEST
 START_TEST(test_carver) {
   static const size_t counts[] = {1, 7, 8, 9, 0, 64, 1001};
   enum { ARRAYS = LENGTH_OF(counts) };
-  ZpCarver measure = {NULL, 0};
+  ZpArena measure = {NULL, 0};
   for (int k = 0; k < ARRAYS; k++)
-    ck_assert_ptr_null(zp_carve(&measure, counts[k]));
+    ck_assert_ptr_null(zp_arena_take(&measure, counts[k]));
   char *block = zp_calloc(1, measure.used);
-  ZpCarver carver = {block, 0};
+  ZpArena arena = {block, 0};
   double *array[ARRAYS];
   for (int k = 0; k < ARRAYS; k++) {
-    array[k] = zp_carve(&carver, counts[k]);
+    array[k] = zp_arena_take(&arena, counts[k]);
     ck_assert_uint_eq((uintptr_t)array[k] % ZP_ALIGNMENT, 0);
   }
-  ck_assert_uint_eq(carver.used, measure.used);
+  ck_assert_uint_eq(arena.used, measure.used);
   for (int k = 0; k < ARRAYS; k++) { /* writing one to its end touches no other */
     const char *end = (const char *)(array[k] + counts[k]);
     ck_assert_uint_le((size_t)(end - block), measure.used);
@@ -731,7 +731,7 @@ START_TEST(test_check_voltages) {
 }
 END_TEST
 
-/* The load of a series hangs from its last member; members abreast share it; the lower antagonist is the upper one
+/* The load of a series hangs from its last member; parallel members share it; the lower antagonist is the upper one
  * turned over, with its own voltage and without the load. */
 START_TEST(test_members_share_the_load) {
   ZpActuatorDef def = DEF({"stack.series", 3}, {"load.force", 2}, {"stack.link_mass", 1e-3});

@@ -208,12 +208,12 @@ START_TEST(film_between_parallel_faces) {
   zp_film_modes(&p, true);
   ZpFilmEval e;
   ZpFilmWays ways;
-  ZpCarver carver = {NULL, 0};
+  ZpArena arena = {NULL, 0};
   void *memory = NULL;
   for (int pass = 0; pass < 2; pass++) {
-    if (pass) carver = (ZpCarver){memory = calloc(1, carver.used), 0};
-    zp_film_carve(&p, &e, &carver);
-    zp_film_ways_carve(&p, &ways, &carver);
+    if (pass) arena = (ZpArena){memory = calloc(1, arena.used), 0};
+    zp_film_reserve(&p, &e, &arena);
+    zp_film_ways_reserve(&p, &ways, &arena);
   }
   double gap[N], rate[N], force[N], zeros[ZP_FILM_STATE * N] = {0}, flow[ZP_FILM_FLOWS * N] = {0}, part[N - 1], sum = 0;
   for (size_t i = 0; i < N; i++)

@@ -22,11 +22,11 @@ static void map(const double *x, double *y) {
 /* Waiting would take 60 000 evaluations to 1e-8. */
 START_TEST(test_fixed_point_of_slow_swings) {
   ZpFixedPoint f;
-  ZpCarver carver = {NULL, 0};
-  zp_fixed_point_carve(&f, N, N, &carver);
-  carver = (ZpCarver){zp_calloc(1, carver.used), 0};
-  void *memory = carver.base;
-  zp_fixed_point_carve(&f, N, N, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_fixed_point_reserve(&f, N, N, &arena);
+  arena = (ZpArena){zp_calloc(1, arena.used), 0};
+  void *memory = arena.base;
+  zp_fixed_point_reserve(&f, N, N, &arena);
   double x[N] = {0}, y[N], next[N], off = 1;
   int evaluations = 0;
   for (; off > 1e-8 && evaluations < 100; evaluations++) {

@@ -46,11 +46,11 @@ static const Shape shapes[] = {{9, 0, 0, 2},  {9, 0, 2, 3},  {9, 1, 0, 2}, {9, 1
                                {12, 3, 0, 2}, {12, 3, 3, 3}, {3, 2, 0, 0}, {24, 2, 1, 4}};
 
 static void *make_bordered(Shape shape, ZpBordered *m) {
-  ZpCarver carver = {NULL, 0};
-  zp_bordered_carve(m, shape.n, shape.border, shape.lower, shape.upper, (ZpBandGroups){0, 0}, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_bordered_carve(m, shape.n, shape.border, shape.lower, shape.upper, (ZpBandGroups){0, 0}, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_bordered_reserve(m, shape.n, shape.border, shape.lower, shape.upper, (ZpBandGroups){0, 0}, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_bordered_reserve(m, shape.n, shape.border, shape.lower, shape.upper, (ZpBandGroups){0, 0}, &arena);
   zp_bordered_clear(m);
   return memory;
 }
@@ -187,14 +187,14 @@ static double rate(const Motion *m, size_t i) {
   return (m->y1[i] - m->y0[i]) / m->h;
 }
 
-static void carve_motion(Motion *m, ZpCarver *carver) {
-  zp_implicit_carve(&m->stepper, &m->system, carver);
-  zp_implicit_carve_exact(&m->system, &m->exact, carver);
+static void reserve_motion(Motion *m, ZpArena *arena) {
+  zp_implicit_reserve(&m->stepper, &m->system, arena);
+  zp_implicit_reserve_exact(&m->system, &m->exact, arena);
 }
 
 /* From a system with its size, callbacks, masses and kinds. */
 static void start(Motion *m) {
-  ZpCarver carver = {NULL, 0};
+  ZpArena arena = {NULL, 0};
   m->system.self = m;
   m->system.mass = m->mass;
   m->system.scale = m->scale;
@@ -202,10 +202,10 @@ static void start(Motion *m) {
   m->system.begin = begin;
   for (size_t i = 0; i < m->system.n; i++)
     if (m->scale[i] == 0) m->scale[i] = 1;
-  carve_motion(m, &carver);
-  m->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){m->memory, 0};
-  carve_motion(m, &carver);
+  reserve_motion(m, &arena);
+  m->memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){m->memory, 0};
+  reserve_motion(m, &arena);
   m->stepper.accuracy = 1e-9;
   m->stepper.balance = 1e-12;
   m->history = (ZpImplicitHistory){.w = m->w, .a = m->a};

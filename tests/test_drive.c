@@ -600,10 +600,10 @@ START_TEST(field_follows_the_cap) {
               {0, 5e3, true},      {2e3, 1e3, false},  {-8e3, 8e3, false}};
     for (size_t i = 0; i < LENGTH_OF(at); i++) {
       sim->state->U = at[i].solved_at;
-      zp_held_refresh(model, sim->state, &sim->eval);
-      ck_assert(!zp_held_due(model, sim->state));
+      zp_cached_field_refresh(model, sim->state, &sim->eval);
+      ck_assert(!zp_cached_field_due(model, sim->state));
       sim->state->U = at[i].now;
-      ck_assert_int_eq(zp_held_due(model, sim->state), capped && at[i].due);
+      ck_assert_int_eq(zp_cached_field_due(model, sim->state), capped && at[i].due);
     }
     zp_sim_destroy(sim);
     zp_model_destroy(model);

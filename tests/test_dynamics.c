@@ -23,10 +23,10 @@ typedef struct Step {
   void *memory;
 } Step;
 
-static void carve(Step *s, ZpCarver *carver) {
-  zp_rod_carve(&s->params, &s->eval[0], carver);
-  zp_rod_carve(&s->params, &s->eval[1], carver);
-  zp_rod_step_carve(&s->params, &s->step, carver);
+static void reserve(Step *s, ZpArena *arena) {
+  zp_rod_reserve(&s->params, &s->eval[0], arena);
+  zp_rod_reserve(&s->params, &s->eval[1], arena);
+  zp_rod_step_reserve(&s->params, &s->step, arena);
 }
 
 /* Which ends have a held slope, how many ribbons. */
@@ -77,11 +77,11 @@ static void make_step(Step *s, Kind kind, uint64_t *seed) {
       .params = {
           .ribbons = kind.ribbons, .nodes = NODES, .stride = PLACES, .l = s->l, .S = s->S, .B = s->B, .k0 = s->k0}};
   set_params(s, kind, seed);
-  ZpCarver carver = {NULL, 0};
-  carve(s, &carver);
-  s->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){s->memory, 0};
-  carve(s, &carver);
+  ZpArena arena = {NULL, 0};
+  reserve(s, &arena);
+  s->memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){s->memory, 0};
+  reserve(s, &arena);
   shape_end(s, 0, 0.9, 0.3, seed);
   shape_end(s, 1, 0.9, 0.3, seed);
 }
@@ -189,14 +189,14 @@ typedef struct Plates {
   void *memory;
 } Plates;
 
-static void carve_plates(Plates *p, ZpCarver *carver) {
+static void reserve_plates(Plates *p, ZpArena *arena) {
   const ZpPlatesParams *params = &p->model->plates;
   for (size_t end = 0; end < 2; end++) {
-    zp_plates_carve(params, &p->eval[end], carver);
-    p->x[end] = zp_carve(carver, p->model->stride);
-    p->y[end] = zp_carve(carver, p->model->stride);
+    zp_plates_reserve(params, &p->eval[end], arena);
+    p->x[end] = zp_arena_take(arena, p->model->stride);
+    p->y[end] = zp_arena_take(arena, p->model->stride);
   }
-  zp_plates_step_carve(params, &p->step, carver);
+  zp_plates_step_reserve(params, &p->step, arena);
 }
 
 static const struct {
@@ -213,11 +213,11 @@ static void make_plates(Plates *p, int law) {
   ZpActuatorDef def = DEF({"actuator.kind", laws[law].kind}, {"mesh.nodes", STATIONS},
                           {"electro.edges", laws[law].edges}, {"electro.breakdown_cap", laws[law].cap});
   *p = (Plates){.model = model_of(&def), .U = laws[law].voltage};
-  ZpCarver carver = {NULL, 0};
-  carve_plates(p, &carver);
-  p->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){p->memory, 0};
-  carve_plates(p, &carver);
+  ZpArena arena = {NULL, 0};
+  reserve_plates(p, &arena);
+  p->memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){p->memory, 0};
+  reserve_plates(p, &arena);
 }
 
 static void free_plates(Plates *p) {

@@ -7,7 +7,7 @@
 
 #include "base/kernel.h"
 #include "electro/field.h"
-#include "electro/surplus.h"
+#include "electro/field_correction.h"
 #include "system/system.h"
 
 /* -- the grid ------------------------------------------------------------------------------------- */
@@ -116,7 +116,7 @@ static ZpFieldParams refined(ZpFieldParams p, size_t by) {
 
 typedef struct Wedge {
   double place[4 * 8 * STATIONS];
-  ZpFaces faces;
+  ZpContact faces;
 } Wedge;
 
 static double cubic(double xi) {
@@ -132,7 +132,7 @@ static void make_wedge(Wedge *wedge, size_t stations, double s, double upper_sha
     up[i] = upper_share * s * cubic(xi);
     low[i] = (upper_share - 1) * s * cubic(xi);
   }
-  wedge->faces = (ZpFaces){x, up, x, low, 1};
+  wedge->faces = (ZpContact){x, up, x, low, 1};
 }
 
 /* Attraction of the wedge by the plates law at 1 V, weighted by 1 or by how the gap opens. */
@@ -251,7 +251,7 @@ START_TEST(test_thin_strips_with_fringing) {
     double x[] = {0, 0.5e-3, 1e-3}, up[] = {0.5 * d - t, 0.5 * d - t, 0.5 * d - t}, low[] = {-up[0], -up[0], -up[0]};
     ZpField f;
     ck_assert(zp_field_create(&p, &f));
-    ck_assert_int_eq(zp_field_solve(&f, &(ZpFaces){x, up, x, low, 1}), ZP_FIELD_SOLVED);
+    ck_assert_int_eq(zp_field_solve(&f, &(ZpContact){x, up, x, low, 1}), ZP_FIELD_SOLVED);
     double C = 4 * zp_grid_energy(&f.grid) / ZP_EPS0;
     printf("thin strips, w/d = %g: C/eps0 = %.5f (%.5f)\n", w_over_d[k], C, exact[k]);
     ck_near(C, exact[k], 2e-3); /* 1.6e-3, 6e-4; twice as fine 3e-4, 1e-4: the edges are singular */
@@ -292,7 +292,7 @@ START_TEST(test_station_forces_are_the_gradient) {
     double step = side == 2 ? 0 : side ? h : -h;
     for (size_t j = 0; j < 4 * N; j++)
       moved[j] = q[j] + step * direction(j, N);
-    ck_assert_int_eq(zp_field_solve(&f, &(ZpFaces){moved, moved + 2 * N, moved + 1, moved + 2 * N + 1, 2}),
+    ck_assert_int_eq(zp_field_solve(&f, &(ZpContact){moved, moved + 2 * N, moved + 1, moved + 2 * N + 1, 2}),
                      ZP_FIELD_SOLVED);
     if (side < 2) energy[side] = f.energy;
   }
@@ -329,7 +329,7 @@ START_TEST(test_energy_goes_with_the_wet_length) {
     for (int i = 0; i < N - 1; i++)
       part[i] = i < (k ? 40 : 20) || (i == (k ? 40 : 20) && k); /* by whole elements: 41 and 20 of 60 */
     zp_field_cover(&f, &cover);
-    ck_assert_int_eq(zp_field_solve(&f, &(ZpFaces){x, up, x, low, 1}), ZP_FIELD_SOLVED);
+    ck_assert_int_eq(zp_field_solve(&f, &(ZpContact){x, up, x, low, 1}), ZP_FIELD_SOLVED);
     energy[k] = f.energy;
   }
   /* 3e-11 measured */
@@ -397,8 +397,8 @@ START_TEST(test_surplus_is_the_gradient) {
   for (int i = 0; i < N - 1; i++)
     part[i] = i < 8 ? 1 : i == 8 ? 0.7 : 0;
   const ZpCover half = {part, {0, 0}}, *cover = _i ? &half : NULL;
-  ZpSurplus s;
-  ck_assert(zp_surplus_create(&model->cross_section, &model->plates, model->field_scale, &s));
+  ZpFieldCorrection s;
+  ck_assert(zp_field_correction_create(&model->cross_section, &model->plates, model->field_scale, &s));
   double uneven[4 * N], energy[2], U = _i ? 10 : 6e3, h = 1e-9, work = 0, scale = 0;
   size_t stride = model->stride;
   double *moved = calloc(2 * stride, sizeof *moved);
@@ -407,7 +407,7 @@ START_TEST(test_surplus_is_the_gradient) {
     double step = side == 2 ? 0 : side ? h : -h;
     for (size_t j = 0; j < 4 * N; j++)
       moved[j < 2 * N ? j : j - 2 * N + stride] = uneven[j] + step * direction(j, N);
-    ck_assert_int_eq(zp_surplus_solve(&s, moved, U, cover), ZP_FIELD_SOLVED);
+    ck_assert_int_eq(zp_field_correction_solve(&s, moved, U, cover), ZP_FIELD_SOLVED);
     if (side < 2) energy[side] = s.energy;
   }
   for (size_t j = 0; j < 4 * N; j++) {
@@ -419,12 +419,12 @@ START_TEST(test_surplus_is_the_gradient) {
   double charge = s.charge * U, dU = 1e-2, co_energy[2];
   for (int side = 0; side < 2; side++) {
     double at = U + (side ? dU : -dU);
-    ck_assert_int_eq(zp_surplus_solve(&s, moved, at, cover), ZP_FIELD_SOLVED);
+    ck_assert_int_eq(zp_field_correction_solve(&s, moved, at, cover), ZP_FIELD_SOLVED);
     co_energy[side] = s.energy * at * at;
   }
   ck_near((co_energy[1] - co_energy[0]) / (2 * dU), charge, 5e-8); /* 1.3e-8 measured */
   free(moved);
-  zp_surplus_destroy(&s);
+  zp_field_correction_destroy(&s);
   zp_model_destroy(model);
 }
 END_TEST
@@ -650,7 +650,7 @@ START_TEST(test_held_field_is_that_of_every_step) {
     check_held(sim);
     ZpEval unaware; /* of where the liquid is */
     ck_assert(zp_system_create(model, true, &unaware));
-    ck_assert_int_eq(zp_held_refresh(model, sim->state, &unaware), ZP_END_FOUND);
+    ck_assert_int_eq(zp_cached_field_refresh(model, sim->state, &unaware), ZP_END_FOUND);
     zp_system_destroy(&unaware);
     check_held(sim);
     for (size_t k = 0; k < LENGTH_OF(signal) && afresh; k++)

@@ -19,11 +19,11 @@ typedef struct Film {
 
 static const ZpFilmEnds everywhere = {0};
 
-static size_t carve(Film *f, void *memory) {
-  ZpCarver carver = {memory, 0};
-  zp_film_carve(&f->params, &f->eval, &carver);
-  zp_band_carve(&f->A, ZP_FILM_MODES * f->params.nodes, 0, 2 * ZP_FILM_MODES - 1, &carver);
-  return carver.used;
+static size_t reserve(Film *f, void *memory) {
+  ZpArena arena = {memory, 0};
+  zp_film_reserve(&f->params, &f->eval, &arena);
+  zp_band_reserve(&f->A, ZP_FILM_MODES * f->params.nodes, 0, 2 * ZP_FILM_MODES - 1, &arena);
+  return arena.used;
 }
 
 static Film *make_film(size_t nodes, double length, double w, bool lateral_flow) {
@@ -33,8 +33,8 @@ static Film *make_film(size_t nodes, double length, double w, bool lateral_flow)
   f->h = 1e-6;
   zp_film_modes(&f->params, lateral_flow);
   f->params.roughness = 1e-13; /* as good as none */
-  f->memory = zp_calloc(1, carve(f, NULL));
-  carve(f, f->memory);
+  f->memory = zp_calloc(1, reserve(f, NULL));
+  reserve(f, f->memory);
   return f;
 }
 

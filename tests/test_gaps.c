@@ -2,7 +2,7 @@
  * other noticing. */
 #include "check_util.h"
 
-#include "contact/faces.h"
+#include "contact/contact.h"
 #include "drive/waveform.h"
 #include "electro/plates.h"
 
@@ -40,9 +40,9 @@ END_TEST
 /* -- contact --------------------------------------------------------------------------------------- */
 
 static size_t front_of(const double *gap, size_t nodes) {
-  ZpFacesParams faces = {
-      .nodes = nodes, .range = zp_faces_range(260e-6), .platform = nodes - 1, .platform_end = nodes - 1};
-  return zp_faces_front(&faces, gap);
+  ZpContactParams faces = {
+      .nodes = nodes, .range = zp_contact_range(260e-6), .platform = nodes - 1, .platform_end = nodes - 1};
+  return zp_contact_front(&faces, gap);
 }
 
 /* The front ends at the first station that is open, whatever touches behind it, and at the platform where none is. */
@@ -98,17 +98,17 @@ END_TEST
 /* Eq. (9.3): from the velocity of two nodes of mass m/2 on layers of stiffness k the damper removes the fraction eta
  * sqrt(k/m) per second; nothing if faces do not overlap. So it is with k by the Gauss points and by the station. */
 START_TEST(damper_takes_what_the_loss_factor_says) {
-  ZpFacesParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
+  ZpContactParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
   double push[3], own[3], next[3], stiffness[3], k = 3 * 60 * 1e-3 / 1e-7, m = 1e-5, dt = 1e-12;
   double none[3] = {0};
-  ZpFacesEval eval = {push, own, next, stiffness, none};
+  ZpContactEval eval = {push, own, next, stiffness, none};
   const double closed[] = {-1e-7, -1e-7, -1e-7}, open[] = {0, 1e-9, 0};
-  zp_faces_eval(&faces, &(ZpFacesSpan){closed, closed, 0, 0}, &eval);
-  ck_near((1 - zp_faces_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-6);                /* 2.1e-7 measured */
-  ck_near((1 - zp_faces_kept_at(&faces, closed[1], 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-6); /* 2.1e-7 measured */
-  zp_faces_eval(&faces, &(ZpFacesSpan){open, open, 0, 0}, &eval);
-  ck_assert_double_eq(zp_faces_kept(&eval, 1, m, 1), 1);
-  ck_assert_double_eq(zp_faces_kept_at(&faces, open[1], 1, m, 1), 1);
+  zp_contact_eval(&faces, &(ZpContactSpan){closed, closed, 0, 0}, &eval);
+  ck_near((1 - zp_contact_kept(&eval, 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-6);                /* 2.1e-7 measured */
+  ck_near((1 - zp_contact_kept_at(&faces, closed[1], 1, m, dt)) / dt, 0.5 * sqrt(k / m), 1e-6); /* 2.1e-7 measured */
+  zp_contact_eval(&faces, &(ZpContactSpan){open, open, 0, 0}, &eval);
+  ck_assert_double_eq(zp_contact_kept(&eval, 1, m, 1), 1);
+  ck_assert_double_eq(zp_contact_kept_at(&faces, open[1], 1, m, 1), 1);
 }
 END_TEST
 
@@ -116,13 +116,13 @@ END_TEST
  * its own half of the platform, between which there is no element. */
 START_TEST(both_ends_of_a_platform_push) {
   enum { NODES = 6 };
-  ZpFacesParams faces = {
+  ZpContactParams faces = {
       .nodes = NODES, .l = 1e-3, .depth = 1e-7, .push = 60, .flat_length = 2e-3, .platform = 2, .platform_end = 3};
   double push[NODES], own[NODES], next[NODES], stiffness[NODES], none[NODES] = {0}, gap[NODES];
-  ZpFacesEval eval = {push, own, next, stiffness, none};
+  ZpContactEval eval = {push, own, next, stiffness, none};
   for (size_t i = 0; i < NODES; i++)
     gap[i] = -faces.depth;
-  zp_faces_eval(&faces, &(ZpFacesSpan){gap, gap, 0, 0}, &eval);
+  zp_contact_eval(&faces, &(ZpContactSpan){gap, gap, 0, 0}, &eval);
   for (size_t i = 0; i < NODES; i++) {
     bool platform = i == 2 || i == 3, inner = i > 0 && i + 1 < NODES && !platform;
     ck_near(push[i], faces.push * ((inner ? 1 : 0.5) * faces.l + (platform ? faces.flat_length : 0)), 1e-12);
@@ -134,18 +134,18 @@ END_TEST
  * times the velocity, and from the first touch to a depth it is eta sqrt(k m) / 2 times the velocity in contact. */
 START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
   const double l = 1e-3, depth = 1e-7, m = 1e-5, h = 1e-9, k = 3 * 60 * l / depth;
-  ZpFacesParams faces = {.nodes = 3, .l = l, .depth = depth, .push = 60, .platform = 3};
+  ZpContactParams faces = {.nodes = 3, .l = l, .depth = depth, .push = 60, .platform = 3};
   double push[3], own[3], next[3], stiffness[3], damper[3];
-  ZpFacesEval eval = {push, own, next, stiffness, damper};
+  ZpContactEval eval = {push, own, next, stiffness, damper};
   const double start[] = {-1e-7 + 1e-11, 3e-7}, way[] = {2e-11, 4e-7}, touching[] = {2e-11, 1e-7}, depths[] = {1, 0.5};
   for (size_t j = 0; j < 2; j++) {
     double a = start[j], b = a - way[j];
     const double from[] = {a, a, a}, to[] = {b, b, b};
     memset(damper, 0, sizeof damper);
-    zp_faces_eval(&faces, &(ZpFacesSpan){from, to, 0, 1 / h}, &eval);
+    zp_contact_eval(&faces, &(ZpContactSpan){from, to, 0, 1 / h}, &eval);
     double layers = push[1];
-    zp_faces_damp(&faces, 1, m, &eval);
-    zp_faces_eval(&faces, &(ZpFacesSpan){from, to, 0, 1 / h}, &eval);
+    zp_contact_damp(&faces, 1, m, &eval);
+    zp_contact_eval(&faces, &(ZpContactSpan){from, to, 0, 1 / h}, &eval);
     ck_near(push[1] - layers, depths[j] * 0.5 * sqrt(k * m) * touching[j] / h, 3e-12); /* 3.9e-13 measured */
   }
 }
@@ -156,7 +156,7 @@ END_TEST
   { .nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60, .platform = 2, .platform_end = 2, .flat_length = (length) }
 
 /* Energy of the layers of two elements and of a free end, p_c delta / 4 (-g / delta)^4 per length, J. */
-static double layers_energy(const ZpFacesParams *faces, const double *gap) {
+static double layers_energy(const ZpContactParams *faces, const double *gap) {
   enum { CELLS = 4000 };
   double sum = 0;
   for (size_t i = 0; i + 1 < faces->nodes; i++)
@@ -168,9 +168,10 @@ static double layers_energy(const ZpFacesParams *faces, const double *gap) {
   return sum + faces->flat_length * faces->push * faces->depth / 4 * s * s * s * s;
 }
 
-static double work_of_push(const ZpFacesParams *faces, const double *from, const double *to, const ZpFacesEval *eval) {
+static double work_of_push(const ZpContactParams *faces, const double *from, const double *to,
+                           const ZpContactEval *eval) {
   double work = 0;
-  zp_faces_eval(faces, &(ZpFacesSpan){from, to, 0, 0}, eval);
+  zp_contact_eval(faces, &(ZpContactSpan){from, to, 0, 0}, eval);
   for (size_t i = 0; i < faces->nodes; i++)
     work += eval->push[i] * (to[i] - from[i]);
   return work;
@@ -183,10 +184,10 @@ START_TEST(push_over_a_step_does_the_work_of_the_layers) {
                                      {{5e-8, 5e-8, 5e-8}, {-1e-7, -1e-7, -1e-7}},
                                      {{-1e-7, -1e-7, -1e-7}, {2e-7, 2e-7, 2e-7}},
                                      {{1e-7, 1e-7, 1e-7}, {2e-7, 2e-7, 2e-7}}};
-  ZpFacesParams faces = WITH_FREE_END(3e-4 * _i);
+  ZpContactParams faces = WITH_FREE_END(3e-4 * _i);
   double push[3], own[3], next[3], stiffness[3];
   double none[3] = {0};
-  ZpFacesEval eval = {push, own, next, stiffness, none};
+  ZpContactEval eval = {push, own, next, stiffness, none};
   for (size_t k = 0; k < LENGTH_OF(way); k++) {
     double work = work_of_push(&faces, way[k][0], way[k][1], &eval);
     double lost = layers_energy(&faces, way[k][0]) - layers_energy(&faces, way[k][1]);
@@ -201,24 +202,24 @@ END_TEST
 START_TEST(push_over_a_step_has_this_derivative) {
   static const double from[][3] = {{-1e-7, -2e-7, -1e-7}, {5e-8, 5e-8, 5e-8}, {-3e-7, 1e-7, 2e-7}};
   const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
-  ZpFacesParams faces = WITH_FREE_END(3e-4 * _i);
+  ZpContactParams faces = WITH_FREE_END(3e-4 * _i);
   double push[3], own[3], next[3], stiffness[3], more[3], other[3][3];
   double damper[3] = {0};
-  ZpFacesEval eval = {push, own, next, stiffness, damper}, at_more = {more, other[0], other[1], other[2], damper};
-  zp_faces_damp(&faces, 1, 1e-5, &eval);
+  ZpContactEval eval = {push, own, next, stiffness, damper}, at_more = {more, other[0], other[1], other[2], damper};
+  zp_contact_damp(&faces, 1, 1e-5, &eval);
   for (size_t k = 0; k < LENGTH_OF(from); k++)
     for (size_t i = 0; i < 3; i++) {
       double moved[3] = {to[0], to[1], to[2]};
       moved[i] += d;
       double late = k == 2 ? 0.3 : 0, rate = 1e5; /* of it layers and damper have derivatives alike */
-      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], to, late, rate}, &eval);
-      zp_faces_eval(&faces, &(ZpFacesSpan){from[k], moved, late, rate}, &at_more);
+      zp_contact_eval(&faces, &(ZpContactSpan){from[k], to, late, rate}, &eval);
+      zp_contact_eval(&faces, &(ZpContactSpan){from[k], moved, late, rate}, &at_more);
       ck_near((push[i] - more[i]) / d, own[i], 1e-4);                         /* 1.4e-5 measured */
       if (i + 1 < 3) ck_near((push[i + 1] - more[i + 1]) / d, next[i], 1e-4); /* 1.4e-5 measured */
     }
-  zp_faces_eval(&faces, &(ZpFacesSpan){to, to, 0, 0}, &eval);
+  zp_contact_eval(&faces, &(ZpContactSpan){to, to, 0, 0}, &eval);
   double both[] = {to[0], to[1] + d, to[2]};
-  zp_faces_eval(&faces, &(ZpFacesSpan){both, both, 0, 0}, &at_more);
+  zp_contact_eval(&faces, &(ZpContactSpan){both, both, 0, 0}, &at_more);
   ck_near((push[1] - more[1]) / d, 2 * own[1], 3e-5); /* 7.7e-6 measured */
 }
 END_TEST

@@ -27,13 +27,13 @@ static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name
 
 /* -- energy ---------------------------------------------------------------------------------------- */
 
-static double contact_energy_at(const ZpFacesParams *p, double gap) {
+static double contact_energy_at(const ZpContactParams *p, double gap) {
   double s = fmax(-gap / p->depth, 0);
   return 0.25 * p->depth * p->push * s * s * s * s;
 }
 
 /* Energy of (9.1), at the points where it is integrated. */
-static double contact_energy(const ZpFacesParams *p, const double *gap) {
+static double contact_energy(const ZpContactParams *p, const double *gap) {
   static const double at[] = {0.11270166537925831, 0.5, 0.88729833462074169}, weight[] = {5.0 / 18, 8.0 / 18, 5.0 / 18};
   double sum = 0;
   for (size_t i = 0; i + 1 < p->nodes; i++)
@@ -110,8 +110,8 @@ START_TEST(test_holds_what_hangs_powered) {
   ZpModel *model = model_of(&hangs);
   ZpRest r;
   ck_assert(zp_rest_open(&r, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hang(&r.statics).end));
-  ck_assert(zp_statics_raise(&r.statics, U));
+  ck_assert(zp_newton_good(zp_statics_find_rest(&r.statics).end));
+  ck_assert(zp_statics_ramp_voltage(&r.statics, U));
   ZpActuatorDef held = held_def(zp_statics_opening(&r.statics), U, true, 61);
   zp_rest_close(&r);
   zp_model_destroy(model);

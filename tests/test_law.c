@@ -4,7 +4,7 @@
  * Against: the integral of c v^2 over samples of a run; the balance of energy; runs without it. */
 #include "state_util.h"
 
-#include "sim/run_rates.h"
+#include "sim/sensitivity.h"
 
 static const double cold = 0.3; /* N s/m, on the load of the whole actuator */
 #ifndef DAMPER_OF_LIBRARY
@@ -178,8 +178,8 @@ START_TEST(derivatives_know_the_row) {
   const double part = 1e-3;
   ZpActuatorDef def = def_of(false, ZP_SYMMETRY_HALF);
   Run run = begin(&def, true);
-  ZpRunRates rates;
-  ck_assert_int_eq(zp_run_rates_open(&rates, run.sim, &key, 1, NULL), ZP_OK);
+  ZpRunSensitivity rates;
+  ck_assert_int_eq(zp_run_sensitivity_open(&rates, run.sim, &key, 1, NULL), ZP_OK);
   go_to(&run, 20e-3);
   for (size_t k = 0; k < LENGTH_OF(signals); k++) {
     double more = lost_with((1 + part) * def.load.mass, signals[k]),
@@ -187,7 +187,7 @@ START_TEST(derivatives_know_the_row) {
     double rate = zp_run_rate_of(&rates, 0, signal_of, signals[k]);
     ck_near(rate, (more - less) / (2 * part * def.load.mass), 2.7e-6); /* 9e-7 measured */
   }
-  zp_run_rates_close(&rates);
+  zp_run_sensitivity_close(&rates);
   end(&run);
 }
 END_TEST

@@ -151,22 +151,22 @@ typedef struct Faces {
   void *memory;
 } Faces;
 
-static void carve(Faces *f, void *block) {
-  ZpCarver carver = {block, 0};
+static void reserve(Faces *f, void *block) {
+  ZpArena arena = {block, 0};
   const ZpPlatesParams *p = &f->model->plates;
-  zp_plates_carve(p, &f->start, &carver);
-  zp_plates_carve(p, &f->end, &carver);
-  zp_plates_step_carve(p, &f->forces, &carver);
-  zp_plates_by_voltage_carve(p, &f->by, &carver);
-  zp_leak_carve(p, &f->leak, &carver);
-  f->memory = block ? block : zp_calloc(1, carver.used);
+  zp_plates_reserve(p, &f->start, &arena);
+  zp_plates_reserve(p, &f->end, &arena);
+  zp_plates_step_reserve(p, &f->forces, &arena);
+  zp_plates_by_voltage_reserve(p, &f->by, &arena);
+  zp_leak_reserve(p, &f->leak, &arena);
+  f->memory = block ? block : zp_calloc(1, arena.used);
 }
 
 static void make_faces(Faces *f, const ZpActuatorDef *def) {
   uint64_t seed = 5;
   f->model = model_of(def);
-  carve(f, NULL);
-  carve(f, f->memory);
+  reserve(f, NULL);
+  reserve(f, f->memory);
   f->leak.Z = f->Z1;
   for (size_t i = 0; i < f->model->nodes; i++) {
     double s = (double)i / 7;

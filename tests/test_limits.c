@@ -2,9 +2,9 @@
  * which follows the curve, against closed forms, and against itself. */
 #include "check_util.h"
 
+#include "rest/quasistatic.h"
 #include "rest/rest.h"
-#include "rest/slow.h"
-#include "solve/march.h"
+#include "solve/track.h"
 
 /* -- a limit point known in closed form --------------------------------------------------------------- */
 
@@ -113,19 +113,19 @@ static ZpBranchSystem toy_system(Toy *t) {
 typedef struct ToyMarch {
   ZpBranchSystem system;
   ZpNewtonWork newton;
-  ZpMarch march;
+  ZpTrack march;
   void *memory;
 } ToyMarch;
 
 static void open_toy(ToyMarch *f, Toy *t, bool symmetric) {
-  ZpCarver carver = {NULL, 0};
+  ZpArena arena = {NULL, 0};
   const ZpBandForm form = {.bandwidth = 1, .symmetric = symmetric, .rank = t->lean != 0};
   *f = (ToyMarch){.system = toy_system(t)};
   for (int pass = 0; pass < 2; pass++) {
-    if (pass) f->memory = zp_calloc(1, carver.used);
-    carver = (ZpCarver){f->memory, 0};
-    zp_newton_carve(&f->newton, EQUATIONS, form, &carver);
-    zp_march_carve(&f->march, &f->system, form, &f->newton, &carver);
+    if (pass) f->memory = zp_calloc(1, arena.used);
+    arena = (ZpArena){f->memory, 0};
+    zp_newton_reserve(&f->newton, EQUATIONS, form, &arena);
+    zp_track_reserve(&f->march, &f->system, form, &f->newton, &arena);
   }
   f->march.fold.tolerance = 1e-12;
 }
@@ -162,8 +162,8 @@ START_TEST(test_unstable_limit_point_is_told) {
   ck_assert_uint_eq(f.march.fold.negative, 1);
   t = (Toy){.q = {0.5, 0.075, 0}, .m = 0, .across = -1};
   t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
-  ck_assert_int_eq(zp_march(&f.march, 1.2), ZP_MARCH_LOST);
-  ck_assert_int_eq(zp_march(&f.march, 0), ZP_MARCH_LOST);
+  ck_assert_int_eq(zp_track(&f.march, 1.2), ZP_TRACK_LOST);
+  ck_assert_int_eq(zp_track(&f.march, 0), ZP_TRACK_LOST);
   zp_free(f.memory);
 }
 END_TEST
@@ -213,10 +213,10 @@ START_TEST(test_march) {
   t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
   open_toy(&f, &t, true);
   Toy start = t;
-  ck_assert_int_eq(zp_march(&f.march, 1.2), ZP_MARCH_ARRIVED);
+  ck_assert_int_eq(zp_track(&f.march, 1.2), ZP_TRACK_ARRIVED);
   ck_assert_double_eq(t.m, 1.2);
   t = start;
-  ck_assert_int_eq(zp_march(&f.march, 0.5), ZP_MARCH_FOLD);
+  ck_assert_int_eq(zp_track(&f.march, 0.5), ZP_TRACK_FOLD);
   ck_assert_double_eq_tol(t.m, 1, 1e-12);                        /* 0 measured */
   ck_assert_double_eq_tol(fabs(f.march.fold.null[0]), 1, 1e-12); /* 0 measured */
   zp_free(f.memory);
@@ -417,7 +417,7 @@ static const double stair = 0.005;
 static double climb_stairs(ZpRest *rest, double voltage, bool up, double closed) {
   enum { MOST = 2000 };
   for (int k = 0; k < MOST; k++, voltage *= up ? 1 + stair : 1 - stair) {
-    ck_assert(zp_newton_good(zp_statics_fall(&rest->statics, voltage).end));
+    ck_assert(zp_newton_good(zp_statics_relax(&rest->statics, voltage).end));
     if ((zp_closing_gap(&rest->statics, NULL) <= closed) == up) return voltage;
   }
   return NAN;
@@ -428,7 +428,7 @@ static double by_stairs(const ZpActuatorDef *def, double start, bool up) {
   ZpModel *model = model_of(def);
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hang(&rest.statics).end));
+  ck_assert(zp_newton_good(zp_statics_find_rest(&rest.statics).end));
   double closed = zp_closed_opening(rest.statics.member->model, zp_closing_gap(&rest.statics, NULL));
   if (!up) ck_assert(zp_newton_good(zp_statics_close(&rest.statics, start).end));
   double found = climb_stairs(&rest, start, up, closed);

@@ -120,8 +120,8 @@ END_TEST
 
 /* At rest there all but exactly: what is left is a distance of 1e-5 of the way on which the fold is passed. */
 static void raise_to(ZpRest *rest, double U) {
-  ck_assert(zp_newton_good(zp_statics_hang(&rest->statics).end));
-  ck_assert(zp_statics_raise(&rest->statics, U * (1 - 1e-10)));
+  ck_assert(zp_newton_good(zp_statics_find_rest(&rest->statics).end));
+  ck_assert(zp_statics_ramp_voltage(&rest->statics, U * (1 - 1e-10)));
 }
 
 static double time_from(ZpActuatorDef def, const double *q, double U) {

@@ -710,7 +710,7 @@ static void check_in_motion(int a, int b, const char *name) {
   zp_model_destroy(model);
 }
 
-/* -- two halves, and two abreast -------------------------------------------------------------------- */
+/* -- two halves, and two in parallel ----------------------------------------------------------------- */
 
 static int feature(const char *name) {
   for (int k = 0; k < FEATURES; k++)
@@ -780,7 +780,7 @@ static void compare(int a, int other, double times, const char *name) {
 static void check_doubled(int a, int b, const char *name) {
   if (a != b) return;
   compare(a, feature("whole"), 1, name);
-  compare(a, feature("equal ones abreast"), 2, name);
+  compare(a, feature("equal ones parallel"), 2, name);
 }
 
 /* -- studies --------------------------------------------------------------------------------------- */

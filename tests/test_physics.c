@@ -199,7 +199,7 @@ START_TEST(test_solved_field_in_motion) {
     ck_assert_int_eq(zp_sim_run(sim, 1.5e-3 * k, false, NULL, NULL), ZP_REACHED_END);
     if (k % 10 == 0) ck_assert_int_eq(zp_sim_set_voltage(sim, 4e3 - 50 * k, NULL), ZP_OK);
     ZpShape shape = zp_sim_shape(sim);
-    ck_assert_int_eq(zp_field_solve(&field, &(ZpFaces){shape.x, shape.y, shape.x + 1, shape.y + 1, 2}),
+    ck_assert_int_eq(zp_field_solve(&field, &(ZpContact){shape.x, shape.y, shape.x + 1, shape.y + 1, 2}),
                      ZP_FIELD_SOLVED);
     double U = zp_sim_get(sim, "voltage");
     zp_plates_gaps(&model->plates, shape.x, shape.y, &sim->eval.plates);

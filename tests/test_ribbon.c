@@ -84,11 +84,11 @@ static void make_ribbon(Ribbon *r, size_t ribbons, size_t nodes, double K_D, dou
                               .K_S = K_S,
                               .left_slope = held,
                               .right_slope = held};
-  ZpCarver measure = {NULL, 0};
-  zp_massspring_carve(&r->p, &r->e, &measure);
+  ZpArena measure = {NULL, 0};
+  zp_massspring_reserve(&r->p, &r->e, &measure);
   r->memory = zp_calloc(1, measure.used);
-  ZpCarver carver = {r->memory, 0};
-  zp_massspring_carve(&r->p, &r->e, &carver);
+  ZpArena arena = {r->memory, 0};
+  zp_massspring_reserve(&r->p, &r->e, &arena);
   for (size_t j = 0; j < PLACES; j++)
     r->q[j] = (double)(j / ribbons);
 }

@@ -24,9 +24,9 @@ typedef struct Rod {
   void *memory;
 } Rod;
 
-static void carve(Rod *r, ZpCarver *carver) {
-  zp_rod_carve(&r->params, &r->eval, carver);
-  zp_rod_step_carve(&r->params, &r->forces, carver);
+static void reserve(Rod *r, ZpArena *arena) {
+  zp_rod_reserve(&r->params, &r->eval, arena);
+  zp_rod_step_reserve(&r->params, &r->forces, arena);
 }
 
 /* Unequal edges and joints, naturally curved, bent up to 0.5 rad a joint and stretched by a few percent.
@@ -53,11 +53,11 @@ static void make_rod(Rod *r, size_t ribbons, bool free_ends, uint64_t seed) {
     r->params.end[r->params.ends++] = (ZpRodEnd){j, j + ribbons, j, j + ribbons, -0.7};
     r->params.end[r->params.ends++] = (ZpRodEnd){last, last - ribbons, last - ribbons, last - 2 * ribbons, -0.4};
   }
-  ZpCarver carver = {NULL, 0};
-  carve(r, &carver);
-  r->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){r->memory, 0};
-  carve(r, &carver);
+  ZpArena arena = {NULL, 0};
+  reserve(r, &arena);
+  r->memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){r->memory, 0};
+  reserve(r, &arena);
 }
 
 static double *coordinate(Rod *r, size_t k) {
@@ -225,11 +225,11 @@ typedef struct Chain {
 static void make_chain(Chain *c, size_t ribbons, bool slopes, uint64_t seed) {
   make_rod(&c->shape, ribbons, false, seed);
   c->params = (ZpMassSpringParams){ribbons, NODES, PLACES, 1, 5, 2, slopes, slopes};
-  ZpCarver carver = {NULL, 0};
-  zp_massspring_carve(&c->params, &c->eval, &carver);
-  c->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){c->memory, 0};
-  zp_massspring_carve(&c->params, &c->eval, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_massspring_reserve(&c->params, &c->eval, &arena);
+  c->memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){c->memory, 0};
+  zp_massspring_reserve(&c->params, &c->eval, &arena);
 }
 
 static void chain_forces(Chain *c, double *force) {
@@ -299,11 +299,11 @@ static double eliminate(Dense a, double *b) {
 /* A band of random numbers, as such and dense; symmetric with `shift` on the diagonal if asked. */
 static void *random_band(ZpBand *band, Dense a, size_t lower, size_t upper, bool symmetric, double shift,
                          uint64_t seed) {
-  ZpCarver carver = {NULL, 0};
-  zp_band_carve(band, EQUATIONS, lower, upper, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_band_carve(band, EQUATIONS, lower, upper, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_band_reserve(band, EQUATIONS, lower, upper, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_band_reserve(band, EQUATIONS, lower, upper, &arena);
   zp_band_clear(band);
   memset(a, 0, sizeof(Dense));
   for (size_t i = 0; i < EQUATIONS; i++)
@@ -386,11 +386,11 @@ END_TEST
 
 /* The upper triangle of the same matrix, alone. */
 static void *upper_of(const ZpBand *band, ZpBand *half) {
-  ZpCarver carver = {NULL, 0};
-  zp_band_carve(half, band->n, 0, band->upper, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_band_carve(half, band->n, 0, band->upper, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_band_reserve(half, band->n, 0, band->upper, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_band_reserve(half, band->n, 0, band->upper, &arena);
   zp_band_clear(half);
   for (size_t i = 0; i < band->n; i++)
     for (size_t j = i; j < band->n && j <= i + band->upper; j++)
@@ -448,13 +448,13 @@ END_TEST
  * random factor of either sign. */
 static void *random_top(ZpBand *K, Dense a, size_t rank, bool symmetric, double shift, uint64_t seed) {
   ZpBand band;
-  ZpCarver carver = {NULL, 0};
+  ZpArena arena = {NULL, 0};
   const ZpBandForm form = {.bandwidth = 4, .symmetric = true, .rank = rank};
   void *other = random_band(&band, a, 4, 4, true, shift, seed);
-  zp_band_carve_form(K, EQUATIONS, form, &carver);
-  void *memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){memory, 0};
-  zp_band_carve_form(K, EQUATIONS, form, &carver);
+  zp_band_reserve_form(K, EQUATIONS, form, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_band_reserve_form(K, EQUATIONS, form, &arena);
   for (size_t i = 0; i < EQUATIONS; i++)
     for (size_t j = i; j < EQUATIONS && j <= i + 4; j++)
       *zp_band_at(K, i, j) = a[i][j];

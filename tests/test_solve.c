@@ -309,11 +309,11 @@ static void make_springs(Springs *s, double k0, double k1, double c) {
                                  .begin = springs_begin,
                                  .residual = springs_force,
                                  .tangent = springs_tangent};
-  ZpCarver carver = {NULL, 0};
-  zp_implicit_carve(&s->stepper, &s->system, &carver);
-  s->memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){s->memory, 0};
-  zp_implicit_carve(&s->stepper, &s->system, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_implicit_reserve(&s->stepper, &s->system, &arena);
+  s->memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){s->memory, 0};
+  zp_implicit_reserve(&s->stepper, &s->system, &arena);
   s->stepper.accuracy = 1e-9;
   s->stepper.balance = 1e-9;
   s->history = (ZpImplicitHistory){.w = s->w, .a = s->a};

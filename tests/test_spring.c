@@ -141,11 +141,11 @@ START_TEST(force_does_the_work_of_the_spring) {
   ZpAssembly assembly;
   ck_assert(zp_assembly_create(model, 0, true, &assembly));
   ZpBand K;
-  ZpCarver size = {NULL, 0};
-  zp_band_carve(&K, assembly.n, 0, assembly.bandwidth, &size);
+  ZpArena size = {NULL, 0};
+  zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &size);
   void *block = calloc(size.used, sizeof(double));
-  ZpCarver carver = {block, 0};
-  zp_band_carve(&K, assembly.n, 0, assembly.bandwidth, &carver);
+  ZpArena arena = {block, 0};
+  zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &arena);
   q1[stride + node] = -o[1];
   spring->stiffness(model, &(ZpSpan){.start = q0, .end = q1, .h = 1e-3, .share = 1}, &assembly, &e, &K);
   size_t row = (size_t)assembly.equation[2 * node + 1];

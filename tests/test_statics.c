@@ -489,7 +489,7 @@ static Point limit_of(const ZpActuatorDef *def) {
   ZpModel *model = model_of(def);
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_hang(&rest.statics).end));
+  ck_assert(zp_newton_good(zp_statics_find_rest(&rest.statics).end));
   ck_assert(zp_rest_follow_by(&rest, true, 0.01, 0.01));
   Point point[3] = {{0, 0}, {0, 0}, {0, 0}};
   while (point[2].voltage >= point[1].voltage) {
@@ -826,7 +826,7 @@ START_TEST(test_branch_along_the_load) {
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
   rest.system = zp_statics_branch(&rest.statics, ZP_ALONG_LOAD);
   ZpStatics *s = &rest.statics;
-  ck_assert(zp_newton_good(zp_statics_hang(s).end));
+  ck_assert(zp_newton_good(zp_statics_find_rest(s).end));
   ck_assert(zp_rest_follow_by(&rest, true, 0.01, 1));
   int points = 0;
   for (; s->load < 0.03 && points < 2000; points++) {

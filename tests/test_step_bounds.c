@@ -2,7 +2,7 @@
  * the bounds of eq. (9) of the paper node by node; drag's bound in a run. */
 #include "state_util.h"
 
-#include "contact/faces.h"
+#include "contact/contact.h"
 #include "solve/explicit.h"
 #include "system/system.h"
 

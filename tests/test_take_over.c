@@ -387,7 +387,7 @@ START_TEST(test_laws_keep_their_own_numbers) {
   const double *Z = zp_law_state(next.model, &zp_term_leak, to), *flows = zp_law_state(next.model, &zp_term_film, to);
   for (size_t i = 0; new->leaks &&i < faces; i++)
     ck_assert_double_eq(Z[i], old->leaks ? 1 + (double)(i % 5) : 0);
-  for (size_t i = 0; i < zp_own_unknowns(next.model); i++)
+  for (size_t i = 0; i < zp_extra_unknowns(next.model); i++)
     ck_assert_double_eq(zp_state_own(next.model, to)[i], 0);
   for (size_t i = 0; film && i < film->state; i++)
     ck_assert_double_eq(flows[i], 0);

@@ -326,7 +326,7 @@ EXPORT double zp_web_insulator_offset(const ZpWeb *web, int member) {
 
 /* The voltage of a member if the first one has `voltage`, V. */
 EXPORT double zp_web_member_voltage(const ZpWeb *web, int member, double voltage) {
-  bool lower = member > 0 && zp_def_opposed(&web->def);
+  bool lower = member > 0 && zp_def_antagonist(&web->def);
   return lower ? zp_def_lower_voltage(&web->def, voltage) : voltage;
 }
 

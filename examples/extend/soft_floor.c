@@ -70,7 +70,7 @@ int main(void) {
   ZpError err;
   if (zp_model_create(&def, &model, &err) != ZP_OK) return fprintf(stderr, "%s\n", err.message), 1;
   if (!zp_model_add_term(model, &soft_floor) || !zp_rest_open(&rest, model, NULL, NULL)) return 1;
-  ZpNewtonInfo info = zp_statics_hang(&rest.statics);
+  ZpNewtonInfo info = zp_statics_find_rest(&rest.statics);
   double lambda = pow(k / (4 * zp_ribbon_section(model, 0).EI), 0.25), P = def.load.share * def.load.mass * def.gravity;
   double expected = 2 * P * lambda / k + zp_ribbon_section(model, 0).mu * def.gravity / k,
          found = zp_statics_stroke(&rest.statics);

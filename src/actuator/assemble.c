@@ -21,7 +21,7 @@ static size_t number(const ZpTopology *t, ZpAssembly *a) {
       a->equation[k] = zp_topology_is_held(t, k) ? -1 : leader < k ? a->equation[leader] : next++;
     }
     for (size_t c = 0; c < a->own; c++)
-      a->own_equation[a->own * i + c] = next++;
+      a->extra_equation[a->own * i + c] = next++;
   }
   return (size_t)next;
 }
@@ -71,7 +71,7 @@ static size_t bandwidth_of(const ZpAssembly *a) {
     int first = outermost(a, i, i + 1, -1);
     if (first < 0) continue;
     width = wider(width, first, outermost(a, i, i + 3, 1));
-    if (a->own > 0) width = wider(width, first, a->own_equation[a->own * least(i + 2, a->nodes) - 1]);
+    if (a->own > 0) width = wider(width, first, a->extra_equation[a->own * least(i + 2, a->nodes) - 1]);
   }
   return width;
 }
@@ -104,8 +104,8 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
                     .symmetric = symmetric};
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->first = zp_calloc(model->nodes, sizeof *a->first);
-  a->own_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->own_equation);
-  if (!a->equation || !a->first || !a->own_equation) {
+  a->extra_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->extra_equation);
+  if (!a->equation || !a->first || !a->extra_equation) {
     zp_assembly_destroy(a);
     return false;
   }
@@ -172,7 +172,7 @@ static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
   for (size_t c = 0; c < a->own * a->nodes; c++)
-    a->own_equation[c] = (int)place_of(of, which, (size_t)a->own_equation[c]);
+    a->extra_equation[c] = (int)place_of(of, which, (size_t)a->extra_equation[c]);
   for (size_t i = 0; i < a->nodes; i++)
     a->first[i] = first_of(a, i);
 }
@@ -207,7 +207,7 @@ size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const ZpTies *tie
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
   zp_free(a->first);
-  zp_free(a->own_equation);
+  zp_free(a->extra_equation);
   *a = (ZpAssembly){0};
 }
 
@@ -481,7 +481,7 @@ void zp_assemble_gaps(const ZpAssembly *a, const ZpGapDerivatives *of, ZpBand *K
 /* -- the laws' own unknowns ------------------------------------------------------------------------- */
 
 void zp_assemble_own(const ZpAssembly *a, size_t c, size_t d, double value, ZpBand *K) {
-  *zp_band_at(K, (size_t)a->own_equation[c], (size_t)a->own_equation[d]) += value;
+  *zp_band_at(K, (size_t)a->extra_equation[c], (size_t)a->extra_equation[d]) += value;
 }
 
 static inline void add_above(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
@@ -489,7 +489,7 @@ static inline void add_above(const ZpAssembly *a, int i, int j, double value, Zp
 }
 
 void zp_assemble_own_by_gap(const ZpAssembly *a, size_t c, size_t station, double value, ZpBand *K) {
-  const int own = a->own_equation[c], *height = a->equation + 2 * a->s * station + 1;
+  const int own = a->extra_equation[c], *height = a->equation + 2 * a->s * station + 1;
   add_above(a, own, height[0], value, K);
   add_above(a, own, height[2 * (a->s - 1)], -value, K);
 }

@@ -20,7 +20,7 @@ typedef struct ZpAssembly {
   int *equation;       /* [2 count] numbered station by station; coordinates that are always the same share theirs */
   ZpParts parts;       /* halves, and the equations that both have */
   size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
-  int *own_equation;   /* [own N] */
+  int *extra_equation; /* [own N] */
   int turned;          /* the equation whose unknown is minus the coordinate's change: the load's height, of a member
                           upside down; -1: none */
   double turned_from;  /* that coordinate where its unknown is 0, m */

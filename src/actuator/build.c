@@ -282,18 +282,18 @@ typedef struct Arrays {
   double *time, *voltage; /* ZpDriveTable */
 } Arrays;
 
-static size_t carve(const ZpModel *model, size_t rows, void *block, Arrays *a) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a) {
+  ZpArena arena = {block, 0};
   double **of_nodes[] = {&a->rod_l, &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight,  &a->mass,       &a->pseudo,
                          &a->x1,    &a->y1,    &a->px1,   &a->py1,    &a->shear_B, &a->per_moment, &a->per_force};
   double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_carve(&carver, model->stride);
+    *of_nodes[k] = zp_arena_take(&arena, model->stride);
   for (size_t k = 0; k < sizeof of_pairs / sizeof of_pairs[0]; k++)
-    *of_pairs[k] = zp_carve(&carver, model->nodes);
-  a->time = zp_carve(&carver, rows);
-  a->voltage = zp_carve(&carver, rows);
-  return carver.used;
+    *of_pairs[k] = zp_arena_take(&arena, model->nodes);
+  a->time = zp_arena_take(&arena, rows);
+  a->voltage = zp_arena_take(&arena, rows);
+  return arena.used;
 }
 
 /* 1 / (m1 + m2) of two joined nodes from 1/m1 and 1/m2; 0 where one is held. */
@@ -535,25 +535,25 @@ static double point_length(const ZpModel *model) {
 }
 
 /* Eq. (9.2). */
-static ZpFacesParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
+static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
   static const double part = 1.0 / 150; /* of the liquid thickness that stands for the insulators */
   const ZpActuatorDef *def = &model->def;
-  double range = zp_faces_range(zp_insulation(def));
-  double depth = fmin(fmax(part * model->plates.d, zp_faces_range(0)), range);
+  double range = zp_contact_range(zp_insulation(def));
+  double depth = fmin(fmax(part * model->plates.d, zp_contact_range(0)), range);
   double stiffest = layer_stiffness(model, lower) * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
-  return (ZpFacesParams){.nodes = model->nodes,
-                         .l = model->l,
-                         .range = range,
-                         .depth = depth,
-                         .push = push,
-                         .settling = settling_time(model),
-                         .platform = model->topology.platform.first,
-                         .platform_end = model->topology.platform.last,
-                         .level = level_faces(model),
-                         .flat_length = point_length(model)};
+  return (ZpContactParams){.nodes = model->nodes,
+                           .l = model->l,
+                           .range = range,
+                           .depth = depth,
+                           .push = push,
+                           .settling = settling_time(model),
+                           .platform = model->topology.platform.first,
+                           .platform_end = model->topology.platform.last,
+                           .level = level_faces(model),
+                           .flat_length = point_length(model)};
 }
 
 /* Air beyond a bead. Eq. (8) of the paper caps its attraction even if that of the liquid is not capped. */
@@ -613,7 +613,7 @@ static double internal_damping_of(const ZpActuatorDef *def) {
 static double contact_frequency(const ZpModel *model) {
   enum { DEPTH = 5 };
   const ZpActuatorDef *def = &model->def;
-  const ZpFacesParams *p = &model->faces;
+  const ZpContactParams *p = &model->faces;
   double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, half = 0.5 * model->l;
   double mu = fmin(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double platform = stiffness * (half + p->flat_length);
@@ -736,13 +736,13 @@ static ZpStatus fill_one(const ZpActuatorDef *def, const ZpDriveTable *table, bo
   derive(model);
   if (hangs) zp_topology_hang(&model->topology);
   Arrays arrays;
-  model->memory = zp_calloc(1, carve(model, rows, NULL, &arrays));
+  model->memory = zp_calloc(1, reserve(model, rows, NULL, &arrays));
   ZpStatus status = model->memory ? ZP_OK : zp_fail_memory(err);
 #ifndef ZP_WITHOUT_FIELD
   if (status == ZP_OK) status = make_edges(model, err);
 #endif
   if (status != ZP_OK) return status;
-  carve(model, rows, model->memory, &arrays);
+  reserve(model, rows, model->memory, &arrays);
   fill_waveform(model, table, &arrays);
   if (model->is_rod)
     fill_rod(model, &arrays);
@@ -775,13 +775,13 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
 static ZpStatus fill_member(const ZpActuatorDef *def, const ZpDriveTable *table, int member, ZpModel *model,
                             ZpError *err) {
   const ZpActuatorDef one = zp_def_member(def, member);
-  bool opposed = zp_def_opposed(def), abreast = zp_def_abreast(def), hangs = !opposed && !abreast,
+  bool opposed = zp_def_antagonist(def), parallel = zp_def_parallel(def), hangs = !opposed && !parallel,
        follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
   ZpStatus status = fill_one(&one, follows ? table : NULL, member > 1 && hangs, model, err);
   if (status != ZP_OK) return status;
   model->whole = *def;
-  model->abreast = abreast;
-  if (abreast) model->ratio = 1;
+  model->parallel = parallel;
+  if (parallel) model->ratio = 1;
   if (opposed) {
     model->distance = def->stack.distance;
     model->bias = zp_def_lower_voltage(def, 0);
@@ -847,5 +847,5 @@ ZpModelInfo zp_model_info(const ZpModel *model) {
 
 size_t zp_state_size(const ZpModel *model) {
   return sizeof(ZpState) +
-         (12 * model->stride + zp_own_unknowns(model) + model->kept + model->ledger.rows) * sizeof(double);
+         (12 * model->stride + zp_extra_unknowns(model) + model->kept + model->ledger.rows) * sizeof(double);
 }

@@ -5,48 +5,48 @@
 
 #include "base/kernel.h"
 
-static void carve_mechanics(const ZpModel *model, ZpEval *e, ZpCarver *carver) {
-  zp_rod_carve(&model->rod, &e->rod_start, carver);
-  zp_rod_carve(&model->rod, &e->rod, carver);
-  zp_rod_step_carve(&model->rod, &e->rod_step, carver);
+static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {
+  zp_rod_reserve(&model->rod, &e->rod_start, arena);
+  zp_rod_reserve(&model->rod, &e->rod, arena);
+  zp_rod_step_reserve(&model->rod, &e->rod_step, arena);
   e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod_step.Rx, e->rod_step.Ry};
   if (model->is_rod) return;
-  zp_massspring_carve(&model->spring, &e->spring_start, carver);
-  zp_massspring_carve(&model->spring, &e->spring, carver);
+  zp_massspring_reserve(&model->spring, &e->spring_start, arena);
+  zp_massspring_reserve(&model->spring, &e->spring, arena);
   e->edges =
       (ZpEdges){e->spring.dpx, e->spring.dpy, e->spring.ux, e->spring.uy, e->spring.T, e->spring.Rx, e->spring.Ry};
 }
 
-static size_t carve(const ZpModel *model, ZpEval *e, void *block) {
-  ZpCarver carver = {block, 0};
-  carve_mechanics(model, e, &carver);
-  zp_plates_carve(&model->plates, &e->plates_start, &carver);
-  zp_plates_carve(&model->plates, &e->plates, &carver);
-  zp_plates_step_carve(&model->plates, &e->attraction, &carver);
-  zp_plates_by_voltage_carve(&model->plates, &e->by_voltage, &carver);
-  zp_film_carve(&model->film, &e->film, &carver);
-  e->cover.part = zp_carve(&carver, model->nodes);
-  e->open = zp_carve(&carver, model->nodes);
-  e->own_residual = e->film.r;
-  zp_leak_carve(&model->plates, &e->leak, &carver);
-  e->memory_end = zp_carve(&carver, model->kept);
-  zp_faces_carve(&model->faces, &e->faces, &carver);
-  zp_surface_carve(model->nodes, &e->surface, &carver);
+static size_t reserve(const ZpModel *model, ZpEval *e, void *block) {
+  ZpArena arena = {block, 0};
+  reserve_mechanics(model, e, &arena);
+  zp_plates_reserve(&model->plates, &e->plates_start, &arena);
+  zp_plates_reserve(&model->plates, &e->plates, &arena);
+  zp_plates_step_reserve(&model->plates, &e->attraction, &arena);
+  zp_plates_by_voltage_reserve(&model->plates, &e->by_voltage, &arena);
+  zp_film_reserve(&model->film, &e->film, &arena);
+  e->cover.part = zp_arena_take(&arena, model->nodes);
+  e->open = zp_arena_take(&arena, model->nodes);
+  e->extra_residual = e->film.r;
+  zp_leak_reserve(&model->plates, &e->leak, &arena);
+  e->memory_end = zp_arena_take(&arena, model->kept);
+  zp_contact_reserve(&model->faces, &e->faces, &arena);
+  zp_surface_reserve(model->nodes, &e->surface, &arena);
   double **stations[] = {&e->gaps.own, &e->gaps.next, &e->gaps.along0, &e->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
-    *stations[k] = zp_carve(&carver, model->nodes);
-  e->D = (double(*)[4])(void *)zp_carve(&carver, 12 * model->stride);
-  e->mean_v = zp_carve(&carver, 2 * model->stride);
-  e->none = zp_carve(&carver, model->stride);
-  return carver.used;
+    *stations[k] = zp_arena_take(&arena, model->nodes);
+  e->D = (double(*)[4])(void *)zp_arena_take(&arena, 12 * model->stride);
+  e->mean_v = zp_arena_take(&arena, 2 * model->stride);
+  e->none = zp_arena_take(&arena, model->stride);
+  return arena.used;
 }
 
 bool zp_eval_create(const ZpModel *model, ZpEval *e) {
   memset(e, 0, sizeof *e);
   e->model = model;
-  e->memory = zp_calloc(1, carve(model, e, NULL));
+  e->memory = zp_calloc(1, reserve(model, e, NULL));
   if (!e->memory) return false;
-  carve(model, e, e->memory);
+  reserve(model, e, e->memory);
   if (model->has_bead) e->plates_start.cover = e->plates.cover = &e->cover;
   return true;
 }
@@ -56,16 +56,16 @@ void zp_eval_destroy(ZpEval *e) {
   e->memory = NULL;
 }
 
-ZpHeld zp_state_beyond(const ZpModel *model, const ZpState *state) {
-  if (!model->field_solved) return (ZpHeld){0};
+ZpCachedField zp_state_beyond(const ZpModel *model, const ZpState *state) {
+  if (!model->field_solved) return (ZpCachedField){0};
   const double *F = state->data + 4 * model->stride;
-  return (ZpHeld){F, F + 2 * model->stride, state->held_energy, state->held_charge, state->held_capacitance};
+  return (ZpCachedField){F, F + 2 * model->stride, state->held_energy, state->held_charge, state->held_capacitance};
 }
 
-ZpHeld zp_eval_beyond(const ZpEval *e) {
-  const ZpSurplus *surplus = &e->surplus;
-  if (surplus->solutions == 0) return (ZpHeld){0};
-  return (ZpHeld){surplus->F, surplus->q, surplus->energy, surplus->charge, surplus->capacitance};
+ZpCachedField zp_eval_beyond(const ZpEval *e) {
+  const ZpFieldCorrection *surplus = &e->surplus;
+  if (surplus->solutions == 0) return (ZpCachedField){0};
+  return (ZpCachedField){surplus->F, surplus->q, surplus->energy, surplus->charge, surplus->capacitance};
 }
 
 void zp_eval_cover(const ZpModel *model, const double reach[ZP_BEADS], ZpEval *e) {
@@ -86,7 +86,7 @@ void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipStat
 }
 
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
-  size_t front = zp_faces_front(&model->faces, gap);
+  size_t front = zp_contact_front(&model->faces, gap);
   return (ZpZipState){front, front == model->topology.platform.first};
 }
 

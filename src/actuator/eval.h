@@ -5,7 +5,7 @@
 #include "actuator/assemble.h"
 #include "actuator/model.h"
 #include "base/end.h"
-#include "electro/surplus.h"
+#include "electro/field_correction.h"
 
 /* What both mechanics say of their edges; [-s .. edges + s) where the mechanics has it so. */
 typedef struct ZpEdges {
@@ -13,14 +13,14 @@ typedef struct ZpEdges {
 } ZpEdges;
 
 /* What a solved field has beyond plates, found last at some coordinates; it goes with U^2. */
-typedef struct ZpHeld {
+typedef struct ZpCachedField {
   const double *F;                    /* [2 stride] force, N/V^2; NULL: there is none */
   const double *at;                   /* [2 stride] the coordinates */
   double energy, charge, capacitance; /* co-energy, J/V^2, charge, C/V, and capacitance, F, of one modelled part */
-} ZpHeld;
+} ZpCachedField;
 
 /* As the state holds it. */
-ZpHeld zp_state_beyond(const ZpModel *model, const ZpState *state);
+ZpCachedField zp_state_beyond(const ZpModel *model, const ZpState *state);
 
 /* Work space of the terms, of the start and the end of a span; at rest and at an instant only of its end. */
 typedef struct ZpEval {
@@ -32,7 +32,7 @@ typedef struct ZpEval {
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;
-  ZpFacesEval faces; /* of unilateral contact */
+  ZpContactEval faces; /* of unilateral contact */
   ZpFilmEval film;
   ZpLeakEval leak;
   ZpCover cover;             /* where liquid is between the faces, with a bead */
@@ -40,10 +40,10 @@ typedef struct ZpEval {
   double *open;              /* [N] of a step: share of the long edges at a station where liquid can pass */
   double meniscus[ZP_BEADS]; /* head at the meniscus, Pa */
   ZpBead bead_end[ZP_BEADS]; /* where the step ends */
-  double *own_residual;      /* [own N] what is left of the equations of the laws' own unknowns */
+  double *extra_residual;    /* [own N] what is left of the equations of the laws' own unknowns */
   double *memory_end;        /* [kept] state of the laws where the span ends */
   bool solves;               /* it can solve the field, not only hold what was found */
-  ZpSurplus surplus;         /* where it does */
+  ZpFieldCorrection surplus; /* where it does */
   const char *fault;         /* why the last attempt to find a held force has failed; NULL: it has not */
   ZpBezierSurface surface;   /* for the free stations; remade when the front moves */
   ZpGapDerivatives gaps;     /* sum of the terms that depend on gaps */
@@ -69,7 +69,7 @@ void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, 
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
 /* What a solved field has beyond plates, as it was found last. */
-ZpHeld zp_eval_beyond(const ZpEval *eval);
+ZpCachedField zp_eval_beyond(const ZpEval *eval);
 
 /* Which stations are closed at these gaps, from the clip on, the clip not counted; the platform is if all are. */
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap);

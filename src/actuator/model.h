@@ -14,7 +14,7 @@
 
 #include "actuator/topology.h"
 #include "base/row.h"
-#include "contact/faces.h"
+#include "contact/contact.h"
 #include "drive/control.h"
 #include "drive/supply.h"
 #include "electro/edges.h"
@@ -105,8 +105,8 @@ struct ZpModel {
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
-  ZpFacesParams faces; /* of unilateral contact */
-  bool has_film;       /* of liquid between the faces */
+  ZpContactParams faces; /* of unilateral contact */
+  bool has_film;         /* of liquid between the faces */
   ZpFilmParams film;
   bool leaks; /* insulators or liquid conduct */
   ZpLeakParams leak;
@@ -134,7 +134,7 @@ struct ZpModel {
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
   size_t members;       /* of the system: models that follow each other, in series from the uppermost one down */
-  bool abreast;         /* its lower platform is joined to those of the others, side by side */
+  bool parallel;        /* its lower platform is joined to those of the others, side by side */
   double carried;       /* mass of all members and loads below, kg, of the whole actuator */
   double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
   double ratio, bias;   /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
@@ -180,7 +180,7 @@ typedef struct ZpState {
   bool setpoint_by_hand;   /* the user has set it: its waveform does not count any more */
   ZpRamp setpoint_input;   /* in the unit of the signal; counts where setpoint_by_hand */
   ZpSupplyState supply;    /* behind a supply: what of it evolves, */
-  size_t supply_mode;      /* which of its limits acts (sim/feed.c), */
+  size_t supply_mode;      /* which of its limits acts (sim/supply_coupling.c), */
   double source_charge;    /* and of the whole actuator: charge that it has given, C, */
   double source_energy;    /* and energy, J */
   double leaked;           /* per part: charge that has passed through the insulators, C */
@@ -243,18 +243,18 @@ static inline double zp_load_pull(const ZpModel *model) {
 }
 
 /* Two that pull at one load from opposite sides? */
-static inline bool zp_is_opposed(const ZpModel *model) {
+static inline bool zp_is_antagonist(const ZpModel *model) {
   return model->distance > 0;
 }
 
 /* Voltage of the lower antagonist where the upper one has `voltage`, V. */
-static inline double zp_opposed_voltage(const ZpModel *model, double voltage) {
+static inline double zp_antagonist_voltage(const ZpModel *model, double voltage) {
   return model->ratio * voltage + model->bias;
 }
 
 /* Do all members share one load, at the lower platform of each? */
 static inline bool zp_shares_load(const ZpModel *model) {
-  return zp_is_opposed(model) || model->abreast;
+  return zp_is_antagonist(model) || model->parallel;
 }
 
 /* The member of a series on which the load hangs: the lowest one, of those that share it the first
@@ -305,7 +305,7 @@ static inline double zp_closed_opening(const ZpModel *model, double hanging) {
 }
 
 /* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
-static inline double zp_faces_length(const ZpModel *model) {
+static inline double zp_contact_length(const ZpModel *model) {
   return model->parts * (double)model->topology.halves * (model->L + model->plates.flat_length);
 }
 
@@ -366,7 +366,7 @@ static inline ZpNodes zp_held_place(const ZpModel *model, const ZpState *state) 
 }
 
 /* Of all stations. */
-static inline size_t zp_own_unknowns(const ZpModel *model) {
+static inline size_t zp_extra_unknowns(const ZpModel *model) {
   return model->own * model->nodes;
 }
 
@@ -377,7 +377,7 @@ static inline double *zp_state_own(const ZpModel *model, ZpState *state) {
 
 /* State of the laws, [kept], law by law. */
 static inline const double *zp_state_memory(const ZpModel *model, const ZpState *state) {
-  return state->data + 12 * model->stride + zp_own_unknowns(model);
+  return state->data + 12 * model->stride + zp_extra_unknowns(model);
 }
 
 /* The law of a term in a model; NULL: it has none. */
@@ -395,12 +395,12 @@ static inline const double *zp_law_memory(const ZpModel *model, const struct ZpT
 
 static inline double *zp_law_state(const ZpModel *model, const struct ZpTerm *term, ZpState *state) {
   const ZpLaw *law = zp_law(model, term);
-  return law && law->state > 0 ? zp_state_own(model, state) + zp_own_unknowns(model) + law->at : NULL;
+  return law && law->state > 0 ? zp_state_own(model, state) + zp_extra_unknowns(model) + law->at : NULL;
 }
 
 /* The ledger, [rows]: what rows of losses have lost since it was opened, and what rows of energies held then, J. */
 static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
-  return state->data + 12 * model->stride + zp_own_unknowns(model) + model->kept;
+  return state->data + 12 * model->stride + zp_extra_unknowns(model) + model->kept;
 }
 
 /* The number of a row; that of all rows if it is none of them. */

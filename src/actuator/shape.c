@@ -5,12 +5,12 @@
 #include "def/check.h"
 #include "electro/series.h"
 
-void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver) {
+void zp_shape_reserve(const ZpModel *model, ZpShapeRoom *room, ZpArena *arena) {
   room->interface = room->strain = NULL;
   room->reach[0] = room->reach[1] = INFINITY;
-  room->line_force = zp_carve(carver, model->nodes);
-  room->insulator_field = zp_carve(carver, model->nodes);
-  room->stress = zp_carve(carver, model->count);
+  room->line_force = zp_arena_take(arena, model->nodes);
+  room->insulator_field = zp_arena_take(arena, model->nodes);
+  room->stress = zp_arena_take(arena, model->count);
 }
 
 bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i) {
@@ -91,7 +91,7 @@ ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
   ZpMargins worst = zp_margins_none();
   if (model->s == 2) worst = fields_at(model, voltage, 0, 0);
   for (const ZpModel *m = model + 1; m < model + model->members; m++)
-    zp_margins_join(&worst, fields_at(m, zp_shares_load(m) ? zp_opposed_voltage(m, voltage) : voltage, 0, 0));
+    zp_margins_join(&worst, fields_at(m, zp_shares_load(m) ? zp_antagonist_voltage(m, voltage) : voltage, 0, 0));
   return worst;
 }
 
@@ -102,11 +102,11 @@ void zp_shape_turn_over(const ZpModel *model, double *y) {
 
 /* -- several ------------------------------------------------------------------------------------------ */
 
-void zp_many_carve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpCarver *carver) {
+void zp_many_reserve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpArena *arena) {
   all->nodes = nodes;
   all->stations = stations;
   for (size_t k = 0; k < ZP_SHAPE_ARRAYS; k++)
-    all->array[k] = zp_carve(carver, members * (k < ZP_NODE_ARRAYS ? nodes : stations));
+    all->array[k] = zp_arena_take(arena, members * (k < ZP_NODE_ARRAYS ? nodes : stations));
 }
 
 double *zp_many_put(const ZpManyShapes *all, size_t member, const ZpShape *one) {

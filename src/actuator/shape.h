@@ -17,7 +17,7 @@ typedef struct ZpShapeRoom {
 } ZpShapeRoom;
 
 /* Without interface voltages, with liquid everywhere. */
-void zp_shape_carve(const ZpModel *model, ZpShapeRoom *room, ZpCarver *carver);
+void zp_shape_reserve(const ZpModel *model, ZpShapeRoom *room, ZpArena *arena);
 
 /* Is there liquid at station i? */
 bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i);
@@ -35,7 +35,7 @@ typedef struct ZpManyShapes {
   double *array[ZP_SHAPE_ARRAYS]; /* first those over nodes: x, y, stress; gap, line force, insulators' field */
 } ZpManyShapes;
 
-void zp_many_carve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpCarver *carver);
+void zp_many_reserve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpArena *arena);
 
 /* Copy a member's shape to its place => its heights there. */
 double *zp_many_put(const ZpManyShapes *all, size_t member, const ZpShape *one);

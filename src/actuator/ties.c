@@ -11,7 +11,7 @@ static void add(ZpTies *ties, size_t member, size_t node, ZpTie tie) {
  * share has one height, which the lower of two antagonists sees upside down, eq. (31.3). */
 ZpTies zp_ties_of(const ZpModel *first) {
   const size_t members = first->members;
-  const bool shared = zp_shares_load(first), opposed = zp_is_opposed(first);
+  const bool shared = zp_shares_load(first), opposed = zp_is_antagonist(first);
   ZpTies ties = {.shared = shared ? 1 : members - 1};
   for (size_t k = 0; k < members; k++) {
     const ZpTopology *t = &first[k].topology;

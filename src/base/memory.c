@@ -43,10 +43,10 @@ void zp_free(void *memory) {
   free(block_of(memory));
 }
 
-double *zp_carve(ZpCarver *carver, size_t count) {
+double *zp_arena_take(ZpArena *arena, size_t count) {
   size_t per_line = ZP_ALIGNMENT / sizeof(double);
   size_t bytes = (count + per_line - 1) / per_line * ZP_ALIGNMENT;
-  double *array = carver->base ? (double *)(void *)(carver->base + carver->used) : NULL;
-  carver->used += bytes + ZP_ALIGNMENT;
+  double *array = arena->base ? (double *)(void *)(arena->base + arena->used) : NULL;
+  arena->used += bytes + ZP_ALIGNMENT;
   return array;
 }

@@ -12,12 +12,12 @@ void zp_free(void *memory);
 
 /* One block from which arrays are cut, so that a struct of arrays costs one allocation. Use twice: first
  * with base NULL to add up the size, then with the block to hand out the pointers. */
-typedef struct ZpCarver {
+typedef struct ZpArena {
   char *base;
   size_t used;
-} ZpCarver;
+} ZpArena;
 
 /* Next array of `count` doubles, aligned; NULL while adding up. */
-double *zp_carve(ZpCarver *carver, size_t count);
+double *zp_arena_take(ZpArena *arena, size_t count);
 
 #endif

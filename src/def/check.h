@@ -57,7 +57,7 @@ ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def);
 
 /* Is this a stack of unequal parallel members, because a key of member_K is given? */
-bool zp_def_abreast(const ZpActuatorDef *def);
+bool zp_def_parallel(const ZpActuatorDef *def);
 
 /* Member 1 .. zp_def_members as a single actuator: the common keys, overridden by those of member_K. In a series the
  * last member carries load.mass and load.force, each other member a link. Of two antagonists the first carries the
@@ -66,7 +66,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
 /* Are the two members of a series antagonists, between mounts at stack.distance? The voltage of the lower one if the
  * upper one has `voltage`, V. */
-bool zp_def_opposed(const ZpActuatorDef *def);
+bool zp_def_antagonist(const ZpActuatorDef *def);
 double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
 
 /* Conditions of a stack on other keys; may all members have this voltage, V? */

@@ -38,7 +38,7 @@ typedef enum ZpTest {
   ZP_TEST_SEVERAL,    /* several members: zp_def_members */
   ZP_TEST_HAS,        /* the device of this actuator.kind has any of a set of ZP_DEVICE_ bits */
   ZP_TEST_LACKS,      /* it has none of them */
-  ZP_TEST_UNEQUAL,    /* parallel members that differ: zp_def_abreast */
+  ZP_TEST_UNEQUAL,    /* parallel members that differ: zp_def_parallel */
   ZP_TEST_NEVER       /* never holds */
 } ZpTest;
 

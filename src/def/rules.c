@@ -23,7 +23,7 @@ static bool is_set(const ZpActuatorDef *def, int key) {
 
 /* The key of a condition; of a range the first that is set, or -1. */
 static int key_of(const ZpCondition *c, const ZpActuatorDef *def) {
-  if (c->test == ZP_TEST_SEVERAL && zp_def_abreast(def)) return ZP_KEY(stack.parallel);
+  if (c->test == ZP_TEST_SEVERAL && zp_def_parallel(def)) return ZP_KEY(stack.parallel);
   if (c->test != ZP_TEST_SET_WITHIN) return c->key;
   for (int key = c->key; key <= (int)c->value; key++)
     if (is_set(def, key)) return key;
@@ -67,7 +67,7 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
   case ZP_TEST_SEVERAL:
     return zp_def_members(def) > 1;
   case ZP_TEST_UNEQUAL:
-    return zp_def_abreast(def);
+    return zp_def_parallel(def);
   default:
     return holds_for(c, value_of(def, c->key));
   }
@@ -204,7 +204,7 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
 static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[WORDS]) {
   int key = key_of(c, def);
   char value[VALUE];
-  bool unequal = zp_def_abreast(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_UNEQUAL);
+  bool unequal = zp_def_parallel(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_UNEQUAL);
   show_value(key, value_of(def, key), value);
   if (zp_key(key)->type == ZP_KEY_TEXT)
     snprintf(text, WORDS, "%s", zp_key(key)->name);

@@ -31,15 +31,15 @@ static bool has_unlike_member(const ZpActuatorDef *def) {
   return false;
 }
 
-bool zp_def_abreast(const ZpActuatorDef *def) {
+bool zp_def_parallel(const ZpActuatorDef *def) {
   return def->stack.series == 1 && def->stack.parallel > 1 && has_unlike_member(def);
 }
 
 int zp_def_members(const ZpActuatorDef *def) {
-  return zp_def_abreast(def) ? def->stack.parallel : def->stack.series;
+  return zp_def_parallel(def) ? def->stack.parallel : def->stack.series;
 }
 
-bool zp_def_opposed(const ZpActuatorDef *def) {
+bool zp_def_antagonist(const ZpActuatorDef *def) {
   return !isnan(def->stack.distance);
 }
 
@@ -73,7 +73,7 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
 /* The controller of the first member sets the voltages of all. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
-  bool last = member == def->stack.series, abreast = zp_def_abreast(def);
+  bool last = member == def->stack.series, unequal = zp_def_parallel(def);
   for (int key = first_member.first; key < last_member.end; key++) {
     double value = member_of(key) == member ? zp_def_get(def, key) : NAN;
     if (!isnan(value)) zp_def_set(&one, key_of_one(key), value, NULL);
@@ -85,12 +85,12 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   one.stack.voltage_ratio = 1;
   if (member > 1) one.control = fresh.control;
   if (member > 1) one.setpoint = fresh.setpoint;
-  if (abreast) {
+  if (unequal) {
     one.stack.parallel = 1;
     share_load(def, &one);
     return one;
   }
-  if (zp_def_opposed(def)) {
+  if (zp_def_antagonist(def)) {
     if (last) turn_over(def, &one);
     return one;
   }
@@ -101,9 +101,9 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
-  bool abreast = zp_def_abreast(def), series = def->stack.series > 1, parallel = !series && def->stack.parallel > 1;
+  bool unequal = zp_def_parallel(def), series = def->stack.series > 1, parallel = !series && def->stack.parallel > 1;
   int members = series ? def->stack.series : parallel ? def->stack.parallel : 0;
-  if (abreast && members > ZP_MOST_MEMBERS)
+  if (unequal && members > ZP_MOST_MEMBERS)
     return zp_fail(err, ZP_BAD_INPUT, "stack.parallel = %d: with keys of member_K it is at most %d", members,
                    ZP_MOST_MEMBERS);
   for (int key = first_member.first; key < last_member.end; key++) {
@@ -137,7 +137,7 @@ static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_members(def, err);
-  if (status == ZP_OK && zp_def_opposed(def)) status = check_distance(def, err);
+  if (status == ZP_OK && zp_def_antagonist(def)) status = check_distance(def, err);
   return status == ZP_OK && zp_def_members(def) > 1 ? check_each(def, err) : status;
 }
 
@@ -146,7 +146,7 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
   for (int member = 1; member <= zp_def_members(def) && status == ZP_OK; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
-    bool turned = zp_def_opposed(def) && member == 2;
+    bool turned = zp_def_antagonist(def) && member == 2;
     status = zp_def_check_voltage(&one, turned ? zp_def_lower_voltage(def, voltage) : voltage, &reason);
     if (status != ZP_OK) zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
   }

@@ -26,7 +26,7 @@ static double solve_at(ZpField *f, const ZpEdgeParams *p, double g) {
   double to_edge = 0.5 * p->w - f->params.clip, half = 0.5 * g;
   const double x[STATIONS] = {0, 0.5 * to_edge, to_edge}, upper[STATIONS] = {half, half, half},
                lower[STATIONS] = {-half, -half, -half};
-  ZpFaces faces = {x, upper, x, lower, 1};
+  ZpContact faces = {x, upper, x, lower, 1};
   if (zp_field_solve(f, &faces) != ZP_FIELD_SOLVED) return NAN;
   return 2 * MIRRORED * zp_grid_energy(&f->grid);
 }

@@ -179,28 +179,28 @@ static void fill_potentials(ZpField *f) {
       g->phi[i * g->ny + j] = 2 * j < g->ny ? -0.5 : 0.5;
 }
 
-static size_t carve(ZpField *f, void *block) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(ZpField *f, void *block) {
+  ZpArena arena = {block, 0};
   size_t nx = 2 * columns_of(&f->params) + 1, ny = 2 * rows_of(&f->params) + 1, pairs = 2 * f->params.stations;
   const size_t size = sizeof(double);
-  f->column = (void *)zp_carve(&carver, nx * ((sizeof *f->column + size - 1) / size));
-  f->row = (void *)zp_carve(&carver, ny * ((sizeof *f->row + size - 1) / size));
-  f->profile = (void *)zp_carve(&carver, nx * (sizeof *f->profile / size));
+  f->column = (void *)zp_arena_take(&arena, nx * ((sizeof *f->column + size - 1) / size));
+  f->row = (void *)zp_arena_take(&arena, ny * ((sizeof *f->row + size - 1) / size));
+  f->profile = (void *)zp_arena_take(&arena, nx * (sizeof *f->profile / size));
   double **arrays[] = {&f->Fx, &f->Fy};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_carve(&carver, pairs);
-  return carver.used;
+    *arrays[k] = zp_arena_take(&arena, pairs);
+  return arena.used;
 }
 
 bool zp_field_create(const ZpFieldParams *params, ZpField *f) {
   memset(f, 0, sizeof *f);
   f->params = *params;
-  f->memory = zp_calloc(1, carve(f, NULL));
+  f->memory = zp_calloc(1, reserve(f, NULL));
   if (!f->memory || !zp_grid_create(&f->grid, columns_of(params), rows_of(params))) {
     zp_field_destroy(f);
     return false;
   }
-  carve(f, f->memory);
+  reserve(f, f->memory);
   make_rows(f);
   make_columns(f);
   f->profiles = f->grid.nx - f->first;
@@ -219,7 +219,7 @@ void zp_field_destroy(ZpField *f) {
 
 /* -- shape ---------------------------------------------------------------------------------------- */
 
-ZpFieldEnd zp_field_check(const ZpFieldParams *p, const ZpFaces *faces) {
+ZpFieldEnd zp_field_check(const ZpFieldParams *p, const ZpContact *faces) {
   const double overlap = 1e-6 * p->mesh.size; /* m: contact in equilibrium overlaps faces less than that */
   ZpFieldEnd end = ZP_FIELD_SOLVED;
   for (size_t i = 0; i < p->stations; i++) {
@@ -244,7 +244,7 @@ typedef struct Point {
 } Point;
 
 /* The face of ribbon r (0: upper) on a column. */
-static Point face_at(const ZpFaces *faces, const ZpFieldColumn *c, size_t r) {
+static Point face_at(const ZpContact *faces, const ZpFieldColumn *c, size_t r) {
   const double *x = r ? faces->lower_x : faces->upper_x, *y = r ? faces->lower_y : faces->upper_y;
   size_t at = c->station * faces->step, to = at + faces->step;
   return (Point){mix(c->share, x[at], x[to]) + c->offset, mix(c->share, y[at], y[to])};
@@ -260,7 +260,7 @@ static void cross(const ZpField *f, Point upper, Point lower, Point at[SURFACES]
     at[s] = (Point){s < SURFACES / 2 ? lower.x : upper.x, height[s]};
 }
 
-static void place_nodes(ZpField *f, const ZpFaces *faces) {
+static void place_nodes(ZpField *f, const ZpContact *faces) {
   ZpGrid *g = &f->grid;
   Point at[SURFACES];
   for (size_t i = 0; i < g->nx; i++) {
@@ -333,7 +333,7 @@ static void find_energy(ZpField *f) {
   f->energy = p->w * (zp_grid_energy(&f->grid) - 0.5 * ZP_EPS0 * p->eps_m * p->clip / h);
 }
 
-ZpFieldEnd zp_field_solve(ZpField *f, const ZpFaces *faces) {
+ZpFieldEnd zp_field_solve(ZpField *f, const ZpContact *faces) {
   place_nodes(f, faces);
   ZpGridEnd end = zp_grid_solve(&f->grid);
   if (end == ZP_GRID_FOLDED) return ZP_FIELD_FOLDED;

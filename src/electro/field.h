@@ -51,10 +51,10 @@ typedef struct ZpFieldParams {
 } ZpFieldParams;
 
 /* The two insulator faces: places of their stations, `step` doubles apart. */
-typedef struct ZpFaces {
+typedef struct ZpContact {
   const double *upper_x, *upper_y, *lower_x, *lower_y;
   size_t step;
-} ZpFaces;
+} ZpContact;
 
 typedef enum ZpFieldEnd {
   ZP_FIELD_SOLVED,
@@ -102,10 +102,10 @@ void zp_field_destroy(ZpField *field);
 void zp_field_cover(ZpField *field, const ZpCover *cover);
 
 /* Is this a geometry that can be solved as it stands? zp_field_solve itself lays faces that overlap on each other. */
-ZpFieldEnd zp_field_check(const ZpFieldParams *params, const ZpFaces *faces);
+ZpFieldEnd zp_field_check(const ZpFieldParams *params, const ZpContact *faces);
 
 /* Solve at this shape => energy, forces on the stations. */
-ZpFieldEnd zp_field_solve(ZpField *field, const ZpFaces *faces);
+ZpFieldEnd zp_field_solve(ZpField *field, const ZpContact *faces);
 
 /* Traction and field strength on the facing surfaces at the last solution => profile. */
 void zp_field_profile(ZpField *field);

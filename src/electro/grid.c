@@ -18,15 +18,15 @@ static const double gauss_weight[3] = {5.0 / 9, 8.0 / 9, 5.0 / 9};
 static const double lobatto_at[3] = {-1, 0, 1};
 static const double lobatto_weight[3] = {1.0 / 3, 4.0 / 3, 1.0 / 3};
 
-static size_t carve(ZpGrid *g, void *block) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(ZpGrid *g, void *block) {
+  ZpArena arena = {block, 0};
   size_t count = g->nx * g->ny;
   double **arrays[] = {&g->x, &g->y, &g->phi, &g->Fx, &g->Fy, &g->rhs};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_carve(&carver, count);
-  g->eps = zp_carve(&carver, g->columns * g->rows);
-  g->equation = (int *)(void *)zp_carve(&carver, (count + 1) / 2);
-  return carver.used;
+    *arrays[k] = zp_arena_take(&arena, count);
+  g->eps = zp_arena_take(&arena, g->columns * g->rows);
+  g->equation = (int *)(void *)zp_arena_take(&arena, (count + 1) / 2);
+  return arena.used;
 }
 
 bool zp_grid_create(ZpGrid *g, size_t columns, size_t rows) {
@@ -35,9 +35,9 @@ bool zp_grid_create(ZpGrid *g, size_t columns, size_t rows) {
   g->rows = rows;
   g->nx = 2 * columns + 1;
   g->ny = 2 * rows + 1;
-  g->memory = zp_calloc(1, carve(g, NULL));
+  g->memory = zp_calloc(1, reserve(g, NULL));
   if (!g->memory) return false;
-  carve(g, g->memory);
+  reserve(g, g->memory);
   return true;
 }
 

@@ -18,13 +18,13 @@ static bool is_face(const ZpPlatesPlace *place) {
   return place->weight > 0 || place->length > 0;
 }
 
-void zp_leak_carve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpCarver *carver) {
+void zp_leak_reserve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpArena *arena) {
   size_t count = places(plates);
-  e->by_gap = zp_carve(carver, count);
-  e->by_voltage = zp_carve(carver, count);
-  e->passed = (ZpLeakPassed *)(void *)zp_carve(carver, count * (sizeof *e->passed / sizeof(double)));
-  e->piece = (ZpPlatesMean *)(void *)zp_carve(carver, count * (sizeof *e->piece / sizeof(double)));
-  zp_plates_step_carve(plates, &e->work, carver);
+  e->by_gap = zp_arena_take(arena, count);
+  e->by_voltage = zp_arena_take(arena, count);
+  e->passed = (ZpLeakPassed *)(void *)zp_arena_take(arena, count * (sizeof *e->passed / sizeof(double)));
+  e->piece = (ZpPlatesMean *)(void *)zp_arena_take(arena, count * (sizeof *e->piece / sizeof(double)));
+  zp_plates_step_reserve(plates, &e->work, arena);
 }
 
 /* -- what covers a place --------------------------------------------------------------------------- */

@@ -34,7 +34,7 @@ typedef struct ZpLeakEval {
 } ZpLeakEval;
 
 /* Z is the caller's. */
-void zp_leak_carve(const ZpPlatesParams *plates, ZpLeakEval *eval, ZpCarver *carver);
+void zp_leak_reserve(const ZpPlatesParams *plates, ZpLeakEval *eval, ZpArena *arena);
 
 /* A step. At an instant both ends are one, and h is 0. */
 typedef struct ZpLeakStep {

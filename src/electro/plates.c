@@ -52,9 +52,9 @@ double zp_plates_slope(const ZpPlatesParams *p, double U, double gap) {
   return slope;
 }
 
-void zp_plates_carve(const ZpPlatesParams *p, ZpPlatesEval *e, ZpCarver *carver) {
-  e->gap = zp_carve(carver, p->nodes);
-  e->dx = zp_carve(carver, p->nodes);
+void zp_plates_reserve(const ZpPlatesParams *p, ZpPlatesEval *e, ZpArena *arena) {
+  e->gap = zp_arena_take(arena, p->nodes);
+  e->dx = zp_arena_take(arena, p->nodes);
 }
 
 ZP_KERNEL static void gaps(size_t nodes, const double *restrict x, const double *restrict y, double *restrict gap,

@@ -76,7 +76,7 @@ double zp_plates_least_h(const ZpPlatesParams *params, double voltage);
 /* Capacitance per length over eps0 eps_m w at this gap, 1/m: 1 / (g + d), with edges more. */
 double zp_plates_inverse_gap(const ZpPlatesParams *params, double gap);
 
-void zp_plates_carve(const ZpPlatesParams *params, ZpPlatesEval *eval, ZpCarver *carver);
+void zp_plates_reserve(const ZpPlatesParams *params, ZpPlatesEval *eval, ZpArena *arena);
 
 /* (x, y of interleaved upper and lower nodes) => eval->gap and eval->dx. */
 void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double *y, ZpPlatesEval *eval);

@@ -9,12 +9,12 @@
 #include "base/kernel.h"
 #include "math/gauss.h"
 
-void zp_plates_step_carve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpCarver *carver) {
-  s->Fx = zp_carve(carver, p->stride);
-  s->Fy = zp_carve(carver, p->stride);
+void zp_plates_step_reserve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpArena *arena) {
+  s->Fx = zp_arena_take(arena, p->stride);
+  s->Fy = zp_arena_take(arena, p->stride);
   double **arrays[] = {&s->own, &s->next, &s->along0, &s->along1, &s->A, &s->B, &s->P, &s->own_A, &s->own_B};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_carve(carver, p->nodes);
+    *arrays[k] = zp_arena_take(arena, p->nodes);
 }
 
 /* The laws whose mean a step takes: one if the voltages of both ends attract alike. */
@@ -344,10 +344,10 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
 
 /* -- by the voltage ------------------------------------------------------------------------------- */
 
-void zp_plates_by_voltage_carve(const ZpPlatesParams *p, ZpPlatesByVoltage *by, ZpCarver *carver) {
+void zp_plates_by_voltage_reserve(const ZpPlatesParams *p, ZpPlatesByVoltage *by, ZpArena *arena) {
   double **arrays[] = {&by->Fx, &by->Fy, &by->Qx, &by->Qy};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_carve(carver, p->stride);
+    *arrays[k] = zp_arena_take(arena, p->stride);
 }
 
 /* Since dP/dU = -q, eq. (18.3) by the voltage has differences of the charge in place of those of the potential. */

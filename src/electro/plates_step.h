@@ -17,7 +17,7 @@ typedef struct ZpPlatesStep {
   double *own_A, *own_B; /* [N-1] and of the derivative */
 } ZpPlatesStep;
 
-void zp_plates_step_carve(const ZpPlatesParams *params, ZpPlatesStep *step, ZpCarver *carver);
+void zp_plates_step_reserve(const ZpPlatesParams *params, ZpPlatesStep *step, ZpArena *arena);
 
 /* (gaps and dx at both ends of the step, voltages there) => all of `step`. */
 void zp_plates_step(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U0,
@@ -30,7 +30,7 @@ typedef struct ZpPlatesByVoltage {
   double capacitance; /* of that charge by that voltage, F */
 } ZpPlatesByVoltage;
 
-void zp_plates_by_voltage_carve(const ZpPlatesParams *params, ZpPlatesByVoltage *by, ZpCarver *carver);
+void zp_plates_by_voltage_reserve(const ZpPlatesParams *params, ZpPlatesByVoltage *by, ZpArena *arena);
 
 /* (gaps and dx at both ends, U1) => all of `by`. `step` lends its parts A, B, P; its forces and derivatives stay. */
 void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U1,

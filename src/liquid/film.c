@@ -25,18 +25,18 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
   p->outlet = !lateral_flow;
 }
 
-void zp_film_carve(const ZpFilmParams *p, ZpFilmEval *e, ZpCarver *carver) {
+void zp_film_reserve(const ZpFilmParams *p, ZpFilmEval *e, ZpArena *arena) {
   enum { DOUBLES = sizeof(ZpFilmPiece) / sizeof(double) };
   double **stations[] = {&e->rate,     &e->middle, &e->H0,    &e->H1,   &e->secant, &e->depth0, &e->depth1, &e->jet,
                          &e->coupling, &e->head,   &e->grows, &e->held, &e->force,  &e->flat,   &e->given};
   double **modes[] = {&e->flow, &e->conductance, &e->leak, &e->leak_conductance, &e->r};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
-    *stations[k] = zp_carve(carver, p->nodes);
+    *stations[k] = zp_arena_take(arena, p->nodes);
   for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++)
-    *modes[k] = zp_carve(carver, ZP_FILM_MODES * p->nodes);
-  e->end = zp_carve(carver, ZP_FILM_STATE * p->nodes);
-  e->piece = (ZpFilmPiece *)(void *)zp_carve(carver, DOUBLES * p->nodes);
-  e->out = zp_carve(carver, 2);
+    *modes[k] = zp_arena_take(arena, ZP_FILM_MODES * p->nodes);
+  e->end = zp_arena_take(arena, ZP_FILM_STATE * p->nodes);
+  e->piece = (ZpFilmPiece *)(void *)zp_arena_take(arena, DOUBLES * p->nodes);
+  e->out = zp_arena_take(arena, 2);
 }
 
 /* -- geometry -------------------------------------------------------------------------------------- */

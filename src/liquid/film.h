@@ -83,7 +83,7 @@ typedef struct ZpFilmEval {
   double *end;                     /* [5 N] state at the end */
 } ZpFilmEval;
 
-void zp_film_carve(const ZpFilmParams *params, ZpFilmEval *eval, ZpCarver *carver);
+void zp_film_reserve(const ZpFilmParams *params, ZpFilmEval *eval, ZpArena *arena);
 
 /* Thickness at a gap, which may be below 0 by rounding and contact, m. */
 double zp_film_thickness(const ZpFilmParams *params, double gap);

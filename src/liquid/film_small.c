@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-void zp_film_ways_carve(const ZpFilmParams *p, ZpFilmWays *ways, ZpCarver *carver) {
+void zp_film_ways_reserve(const ZpFilmParams *p, ZpFilmWays *ways, ZpArena *arena) {
   double **modes[] = {&ways->along_inertia, &ways->along_resistance, &ways->across_inertia, &ways->across_resistance};
   for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++)
-    *modes[k] = zp_carve(carver, ZP_FILM_MODES * p->nodes);
-  ways->diagonal = zp_carve(carver, p->nodes);
-  ways->head = zp_carve(carver, p->nodes);
+    *modes[k] = zp_arena_take(arena, ZP_FILM_MODES * p->nodes);
+  ways->diagonal = zp_arena_take(arena, p->nodes);
+  ways->head = zp_arena_take(arena, p->nodes);
 }
 
 static size_t along(size_t i, int k) {

@@ -17,7 +17,7 @@ typedef struct ZpFilmWays {
   double *diagonal, *head;                    /* [N] work space */
 } ZpFilmWays;
 
-void zp_film_ways_carve(const ZpFilmParams *params, ZpFilmWays *ways, ZpCarver *carver);
+void zp_film_ways_reserve(const ZpFilmParams *params, ZpFilmWays *ways, ZpArena *arena);
 
 /* Where the film lies: (cover, gaps [N], state [5 N] of a film at rest and heads [2 N], all 0) => ways. `eval` is work
  * space, and must stay as it is. */

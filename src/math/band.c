@@ -12,27 +12,27 @@ static size_t columns_of(size_t upper, ZpBandGroups groups) {
   return (upper / ZP_BAND_BLOCK + 2) * ZP_BAND_BLOCK;
 }
 
-void zp_band_carve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpCarver *carver) {
+void zp_band_reserve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpArena *arena) {
   bool symmetric = lower == 0;
   size_t blocks = (groups.lead + n + ZP_BAND_BLOCK - 1) / ZP_BAND_BLOCK;
   *band = (ZpBand){.n = n, .lower = lower, .upper = upper, .lead = symmetric ? groups.lead : 0};
   band->stride = symmetric ? columns_of(upper, groups) : 2 * lower + upper + 1;
   band->entries = (symmetric ? blocks * ZP_BAND_BLOCK : n) * band->stride;
-  band->a = zp_carve(carver, band->entries);
-  band->pivot = symmetric ? NULL : (size_t *)(void *)zp_carve(carver, n); /* a size_t is no larger than a double */
+  band->a = zp_arena_take(arena, band->entries);
+  band->pivot = symmetric ? NULL : (size_t *)(void *)zp_arena_take(arena, n); /* a size_t is no larger than a double */
 }
 
-void zp_band_carve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpCarver *carver) {
-  zp_band_carve_groups(band, n, lower, upper, (ZpBandGroups){0, 0}, carver);
+void zp_band_reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpArena *arena) {
+  zp_band_reserve_groups(band, n, lower, upper, (ZpBandGroups){0, 0}, arena);
 }
 
-void zp_band_carve_form(ZpBand *band, size_t n, ZpBandForm form, ZpCarver *carver) {
-  zp_band_carve_groups(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, form.groups, carver);
+void zp_band_reserve_form(ZpBand *band, size_t n, ZpBandForm form, ZpArena *arena) {
+  zp_band_reserve_groups(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, form.groups, arena);
   band->rank = form.rank;
-  band->u = zp_carve(carver, form.rank * n);
-  band->v = zp_carve(carver, form.rank * n);
-  band->w = zp_carve(carver, form.rank ? (form.rank + 1) * n : 0);
-  band->s = zp_carve(carver, form.rank);
+  band->u = zp_arena_take(arena, form.rank * n);
+  band->v = zp_arena_take(arena, form.rank * n);
+  band->w = zp_arena_take(arena, form.rank ? (form.rank + 1) * n : 0);
+  band->s = zp_arena_take(arena, form.rank);
 }
 
 void zp_band_clear(ZpBand *band) {

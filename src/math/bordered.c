@@ -6,20 +6,20 @@
 
 #include "math/vector.h"
 
-void zp_bordered_carve(ZpBordered *m, size_t n, size_t border, size_t lower, size_t upper, ZpBandGroups groups,
-                       ZpCarver *carver) {
+void zp_bordered_reserve(ZpBordered *m, size_t n, size_t border, size_t lower, size_t upper, ZpBandGroups groups,
+                         ZpArena *arena) {
   size_t inner = n - border;
   *m = (ZpBordered){.n = n, .border = border};
-  zp_band_carve_groups(&m->A, inner, lower, upper, groups, carver);
+  zp_band_reserve_groups(&m->A, inner, lower, upper, groups, arena);
   if (border == 0) return;
-  zp_band_carve_groups(&m->LU, inner, lower, upper, groups, carver);
-  zp_band_carve(&m->S, border, border - 1, border - 1, carver);
-  m->B = zp_carve(carver, border * inner);
-  m->C = zp_carve(carver, border * inner);
-  m->D = zp_carve(carver, border * border);
-  m->V = zp_carve(carver, border * inner);
-  m->b = zp_carve(carver, n);
-  m->left = zp_carve(carver, n);
+  zp_band_reserve_groups(&m->LU, inner, lower, upper, groups, arena);
+  zp_band_reserve(&m->S, border, border - 1, border - 1, arena);
+  m->B = zp_arena_take(arena, border * inner);
+  m->C = zp_arena_take(arena, border * inner);
+  m->D = zp_arena_take(arena, border * border);
+  m->V = zp_arena_take(arena, border * inner);
+  m->b = zp_arena_take(arena, n);
+  m->left = zp_arena_take(arena, n);
   m->A.border = border;
   m->A.beside = m->B;
   m->A.corner = m->D;

@@ -20,10 +20,10 @@ typedef struct ZpBordered {
   double *b, *left; /* [n] what is to be solved, and what is left of it */
 } ZpBordered;
 
-/* Cut the arrays from `carver`: n equations, the last `border` < n of them the border's; lower, upper: diagonals of A.
+/* Cut the arrays from `arena`: n equations, the last `border` < n of them the border's; lower, upper: diagonals of A.
  * lower == 0: A is symmetric, with groups, and keeps its upper triangle; B, C and D are whole all the same. */
-void zp_bordered_carve(ZpBordered *matrix, size_t n, size_t border, size_t lower, size_t upper, ZpBandGroups groups,
-                       ZpCarver *carver);
+void zp_bordered_reserve(ZpBordered *matrix, size_t n, size_t border, size_t lower, size_t upper, ZpBandGroups groups,
+                         ZpArena *arena);
 
 /* All entries 0. */
 void zp_bordered_clear(ZpBordered *matrix);

@@ -16,17 +16,17 @@ static size_t edge_count(const ZpMassSpringParams *p) {
   return p->ribbons * (p->nodes - 1);
 }
 
-void zp_massspring_carve(const ZpMassSpringParams *p, ZpMassSpringEval *e, ZpCarver *carver) {
+void zp_massspring_reserve(const ZpMassSpringParams *p, ZpMassSpringEval *e, ZpArena *arena) {
   size_t margin = ZP_ALIGNMENT / sizeof(double);
-  e->dpx = zp_carve(carver, p->stride);
-  e->dpy = zp_carve(carver, p->stride);
-  e->T = zp_carve(carver, p->stride);
+  e->dpx = zp_arena_take(arena, p->stride);
+  e->dpy = zp_arena_take(arena, p->stride);
+  e->T = zp_arena_take(arena, p->stride);
   double **with_margin[] = {&e->ux, &e->uy, &e->Rx, &e->Ry};
   for (int k = 0; k < 4; k++) {
-    double *array = zp_carve(carver, margin + p->stride);
+    double *array = zp_arena_take(arena, margin + p->stride);
     *with_margin[k] = array ? array + margin : NULL;
   }
-  if (!carver->base) return;
+  if (!arena->base) return;
   for (size_t r = 0; r < p->ribbons; r++) /* the directions before the first edges, which stay constant */
     (e->ux - p->ribbons)[r] = p->left_slope ? 1 : 0;
 }

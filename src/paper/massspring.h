@@ -28,8 +28,8 @@ typedef struct ZpMassSpringEval {
   double *Rx, *Ry;   /* [-s .. stride) force of edge on its right node, N; outside the edges: 0 */
 } ZpMassSpringEval;
 
-/* Take the arrays of `eval` from `carver`, whose block must be zeroed. */
-void zp_massspring_carve(const ZpMassSpringParams *params, ZpMassSpringEval *eval, ZpCarver *carver);
+/* Take the arrays of `eval` from `arena`, whose block must be zeroed. */
+void zp_massspring_reserve(const ZpMassSpringParams *params, ZpMassSpringEval *eval, ZpArena *arena);
 
 /* (positions [stride]) => edge directions, tensions and edge forces. The force on node j is R[j - s] - R[j]. */
 void zp_massspring_eval(const ZpMassSpringParams *params, const double *x, const double *y, ZpMassSpringEval *eval);

@@ -12,12 +12,12 @@
 enum { GAUSS = 2 };
 static const double gauss_at[GAUSS] = {0.21132486540518712, 0.78867513459481287}; /* weights 1/2 */
 
-void zp_surface_carve(size_t nodes, ZpBezierSurface *surface, ZpCarver *carver) {
-  surface->fit.B1 = zp_carve(carver, 2 * nodes);
-  surface->fit.B2 = zp_carve(carver, 2 * nodes);
-  surface->t0 = zp_carve(carver, nodes);
-  surface->t1 = zp_carve(carver, nodes);
-  surface->closing = zp_carve(carver, nodes);
+void zp_surface_reserve(size_t nodes, ZpBezierSurface *surface, ZpArena *arena) {
+  surface->fit.B1 = zp_arena_take(arena, 2 * nodes);
+  surface->fit.B2 = zp_arena_take(arena, 2 * nodes);
+  surface->t0 = zp_arena_take(arena, nodes);
+  surface->t1 = zp_arena_take(arena, nodes);
+  surface->closing = zp_arena_take(arena, nodes);
 }
 
 void zp_surface_prepare(ZpBezierSurface *surface, size_t stations) {

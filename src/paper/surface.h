@@ -17,7 +17,7 @@ typedef struct ZpBezierSurface {
   double *closing; /* [N] attraction of each interval, N */
 } ZpBezierSurface;
 
-void zp_surface_carve(size_t nodes, ZpBezierSurface *surface, ZpCarver *carver);
+void zp_surface_reserve(size_t nodes, ZpBezierSurface *surface, ZpArena *arena);
 
 /* Prepare for this many free stations, 2 or more; does nothing if it is done already. */
 void zp_surface_prepare(ZpBezierSurface *surface, size_t stations);

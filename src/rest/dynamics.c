@@ -3,32 +3,32 @@
 #include <math.h>
 #include <string.h>
 
-static void carve_equations(ZpDynamics *d, ZpCarver *carver) {
+static void reserve_equations(ZpDynamics *d, ZpArena *arena) {
   double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale, &d->sharers};
   for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
-    *of_equations[k] = zp_carve(carver, d->system.n);
-  d->kind = (ZpUnknown *)(void *)zp_carve(carver, d->system.n); /* room for doubles is more than enough */
+    *of_equations[k] = zp_arena_take(arena, d->system.n);
+  d->kind = (ZpUnknown *)(void *)zp_arena_take(arena, d->system.n); /* room for doubles is more than enough */
 }
 
-static void carve_member(ZpMovingMember *m, ZpCarver *carver) {
+static void reserve_member(ZpMovingMember *m, ZpArena *arena) {
   const ZpModel *model = m->model;
   double **of_nodes[] = {&m->start, &m->end, &m->force, &m->moved};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_carve(carver, 2 * model->stride);
-  m->own = zp_carve(carver, zp_own_unknowns(model));
-  m->gap = zp_carve(carver, model->nodes);
-  m->foreseen = zp_carve(carver, model->nodes);
+    *of_nodes[k] = zp_arena_take(arena, 2 * model->stride);
+  m->own = zp_arena_take(arena, zp_extra_unknowns(model));
+  m->gap = zp_arena_take(arena, model->nodes);
+  m->foreseen = zp_arena_take(arena, model->nodes);
 }
 
-static size_t carve(ZpDynamics *d, void *block) {
-  ZpCarver carver = {block, 0};
-  zp_implicit_carve(&d->stepper, &d->system, &carver);
-  carve_equations(d, &carver);
+static size_t reserve(ZpDynamics *d, void *block) {
+  ZpArena arena = {block, 0};
+  zp_implicit_reserve(&d->stepper, &d->system, &arena);
+  reserve_equations(d, &arena);
   for (size_t k = 0; k < d->members; k++)
-    carve_member(&d->member[k], &carver);
-  d->by_voltage.force = zp_carve(&carver, 2 * d->member->model->stride);
-  d->by_voltage.charge = zp_carve(&carver, 2 * d->member->model->stride);
-  return carver.used;
+    reserve_member(&d->member[k], &arena);
+  d->by_voltage.force = zp_arena_take(&arena, 2 * d->member->model->stride);
+  d->by_voltage.charge = zp_arena_take(&arena, 2 * d->member->model->stride);
+  return arena.used;
 }
 
 /* -- the system ----------------------------------------------------------------------------------- */
@@ -123,8 +123,8 @@ static double begin(void *self, const double *q0, const double *v0) {
 
 /* The laws' own unknowns, from all equations. */
 static void gather_own(ZpMovingMember *m, const double *q) {
-  for (size_t c = 0; c < zp_own_unknowns(m->model); c++)
-    m->own[c] = q[m->assembly.own_equation[c]];
+  for (size_t c = 0; c < zp_extra_unknowns(m->model); c++)
+    m->own[c] = q[m->assembly.extra_equation[c]];
 }
 
 static void add_force(ZpDynamics *d, ZpMovingMember *m, const double *q1, double *f) {
@@ -136,8 +136,8 @@ static void add_force(ZpDynamics *d, ZpMovingMember *m, const double *q1, double
   zp_system_force(model, &span, &m->eval, m->force);
   if (model->field) memcpy(m->gap, m->eval.plates.gap, model->nodes * sizeof *m->gap);
   zp_assembly_add(&m->assembly, m->force, f);
-  for (size_t c = 0; c < zp_own_unknowns(model); c++)
-    f[m->assembly.own_equation[c]] = m->eval.own_residual[c];
+  for (size_t c = 0; c < zp_extra_unknowns(model); c++)
+    f[m->assembly.extra_equation[c]] = m->eval.extra_residual[c];
 }
 
 static ZpEnd force(void *self, const double *q1, double h, double *f) {
@@ -199,7 +199,7 @@ static void tangent(void *self, ZpBordered *J) {
 
 /* Entry of a vector of unknowns for the head of mode k at station i. */
 static double *head_in(const ZpMovingMember *m, size_t i, int k, double *x) {
-  return &x[m->assembly.own_equation[zp_film_mode_at(i, k)]];
+  return &x[m->assembly.extra_equation[zp_film_mode_at(i, k)]];
 }
 
 /* The matrix has other unknowns than the heads at stations with a cavity (zp_film_mix). */
@@ -305,7 +305,7 @@ static void attempt(void *self, double *q1) {
  * J. */
 static double unforeseen_of_one(const ZpDynamics *d, ZpMovingMember *m, const double *q1) {
   const ZpModel *model = m->model;
-  const ZpFacesEval *faces = &m->eval.faces;
+  const ZpContactEval *faces = &m->eval.faces;
   double work = 0, *foreseen = m->foreseen, *before = m->gap;
   const double *gap = m->eval.plates.gap;
   zp_assembly_place(&m->assembly, q1, m->end);
@@ -319,8 +319,8 @@ static double unforeseen_of_one(const ZpDynamics *d, ZpMovingMember *m, const do
     foreseen[i] -= faces->next[i] * (gap[i + 1] - before[i + 1]);
     foreseen[i + 1] -= faces->next[i] * (gap[i] - before[i]);
   }
-  ZpFacesSpan span = zp_faces_span(&model->faces, m->eval.plates_start.gap, gap, d->h);
-  zp_faces_eval(&model->faces, &span, faces);
+  ZpContactSpan span = zp_contact_span(&model->faces, m->eval.plates_start.gap, gap, d->h);
+  zp_contact_eval(&model->faces, &span, faces);
   for (size_t i = 1; i < model->nodes; i++)
     work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - m->eval.plates_start.gap[i]));
   return work;
@@ -371,7 +371,7 @@ static void damp(ZpDynamics *d, const ZpMovingMember *m, size_t i) {
   if (again) return;
   Pair pair = pair_of(m, i);
   if (pair.lower < 0) return;
-  double lost = (1 - zp_faces_kept(&m->eval.faces, i, pair.reduced, d->h)) * parting(m, pair, d->v);
+  double lost = (1 - zp_contact_kept(&m->eval.faces, i, pair.reduced, d->h)) * parting(m, pair, d->v);
   bring_nearer(m, pair, lost, d->v);
 }
 
@@ -394,17 +394,17 @@ static double pushed(const ZpMovingMember *m) {
 /* Damp all faces that are in contact. Platforms side by side land together: each takes its part of the velocity that
  * they had before. */
 static void damp_all(ZpDynamics *d) {
-  const bool abreast = d->member->model->abreast;
+  const bool parallel = d->member->model->parallel;
   double *fall = &d->v[d->system.n - 1], lost = 0;
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     for (size_t i = 1; i < m->model->nodes; i++) {
       if (!meets(m, i)) continue;
-      if (abreast && is_platform(m, i))
-        lost += (1 - zp_faces_kept(&m->eval.faces, i, pair_of(m, i).reduced, d->h)) / (double)d->members;
+      if (parallel && is_platform(m, i))
+        lost += (1 - zp_contact_kept(&m->eval.faces, i, pair_of(m, i).reduced, d->h)) / (double)d->members;
       else
         damp(d, m, i);
     }
-  if (abreast) *fall *= 1 - lost;
+  if (parallel) *fall *= 1 - lost;
 }
 
 static bool any_meet(const ZpDynamics *d) {
@@ -447,7 +447,7 @@ static double impact(ZpDynamics *d) {
  * too fast for the step is removed => the loss, J. */
 static double calm(ZpDynamics *d) {
   double before = kinetic_energy(d);
-  zp_implicit_calm(&d->stepper, d->h, d->history.w, d->v);
+  zp_implicit_filter(&d->stepper, d->h, d->history.w, d->v);
   return before - kinetic_energy(d);
 }
 
@@ -478,9 +478,9 @@ static double settle_films(ZpDynamics *d) {
 /* Pressures are unknowns of one step, without memory. */
 static void add_own(ZpDynamics *d, const ZpMovingMember *m) {
   static const double pressure = 1e9; /* Pa: what counts as much as 1 m of a position: 1 kPa as 1 um */
-  for (size_t c = 0; c < zp_own_unknowns(m->model); c++) {
-    d->kind[m->assembly.own_equation[c]] = ZP_ALGEBRAIC;
-    d->scale[m->assembly.own_equation[c]] = pressure;
+  for (size_t c = 0; c < zp_extra_unknowns(m->model); c++) {
+    d->kind[m->assembly.extra_equation[c]] = ZP_ALGEBRAIC;
+    d->scale[m->assembly.extra_equation[c]] = pressure;
   }
 }
 
@@ -511,7 +511,7 @@ static void set_dampers(ZpMovingMember *m) {
   const ZpModel *model = m->model;
   for (size_t i = 1; i < model->nodes && model->field && !model->has_film; i++) {
     Pair pair = pair_of(m, i);
-    if (pair.lower >= 0) zp_faces_damp(&model->faces, i, pair.reduced, &m->eval.faces);
+    if (pair.lower >= 0) zp_contact_damp(&model->faces, i, pair.reduced, &m->eval.faces);
   }
 }
 
@@ -561,7 +561,7 @@ static void join(ZpDynamics *d, const ZpTies *ties) {
 /* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
  * equal part of all that they move, so that equal members are as one. */
 static void find_joined_masses(ZpDynamics *d, const ZpTies *ties) {
-  const bool abreast = d->member->model->abreast;
+  const bool parallel = d->member->model->parallel;
   for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++) {
     ZpMovingMember *m = &d->member[t->member];
     double others = 0, own = m->model->mass[t->coordinate / 2];
@@ -569,7 +569,7 @@ static void find_joined_masses(ZpDynamics *d, const ZpTies *ties) {
       if (other != t && other->shared == t->shared)
         others += d->member[other->member].model->mass[other->coordinate / 2];
     bool lower = t->coordinate == 2 * zp_load_node(&m->model->topology) + 1;
-    m->with[lower] = abreast ? (own + others) / (double)d->members - own : others;
+    m->with[lower] = parallel ? (own + others) / (double)d->members - own : others;
   }
 }
 
@@ -631,9 +631,9 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (d->members > 1) join(d, &ties);
   find_joined_masses(d, &ties);
   d->system = system_of(d);
-  d->memory = zp_calloc(1, carve(d, NULL));
+  d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;
-  carve(d, d->memory);
+  reserve(d, d->memory);
   fill_equations(d, &ties);
   const ZpActuatorDef *def = &model->def;
   d->stepper.balance = 2e-6 * error_of_step(def);
@@ -701,8 +701,8 @@ static void load_one(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   zp_assembly_gather(&m->assembly, m->mean_v, d->history.w);
   zp_assembly_gather(&m->assembly, zp_state_mean_a(model, state), d->history.a);
   const double *own = zp_state_own(model, state);
-  for (size_t c = 0; c < zp_own_unknowns(model); c++) {
-    size_t i = (size_t)m->assembly.own_equation[c];
+  for (size_t c = 0; c < zp_extra_unknowns(model); c++) {
+    size_t i = (size_t)m->assembly.extra_equation[c];
     m->own[c] = d->q[i] = own[c];
     d->v[i] = d->history.w[i] = d->history.a[i] = 0;
   }
@@ -748,8 +748,8 @@ static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) 
   zp_assembly_scatter(&m->assembly, d->v, zp_state_v(model, state));
   zp_assembly_scatter(&m->assembly, d->history.w, zp_state_mean_v(model, state));
   zp_assembly_scatter(&m->assembly, d->history.a, zp_state_mean_a(model, state));
-  memcpy(zp_state_own(model, state), m->own, zp_own_unknowns(model) * sizeof *m->own);
-  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), m->eval.memory_end, model->kept * sizeof *m->own);
+  memcpy(zp_state_own(model, state), m->own, zp_extra_unknowns(model) * sizeof *m->own);
+  memcpy(zp_state_own(model, state) + zp_extra_unknowns(model), m->eval.memory_end, model->kept * sizeof *m->own);
   state->t = end_time(d);
   if (model->has_bead) memcpy(state->bead, m->eval.bead_end, sizeof state->bead);
   if (d->source) {
@@ -835,7 +835,7 @@ void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   for (size_t k = 0; k < d->members; k++)
     book(d, &d->member[k], state[k]);
   book_impacts(d, state[0]);
-  for (size_t k = 0; k < d->members && d->member->model->abreast; k++)
+  for (size_t k = 0; k < d->members && d->member->model->parallel; k++)
     book_link(d, &d->member[k], state[k]);
   for (size_t k = 0; k < d->members; k++)
     arrive(d, &d->member[k], state[k]);

@@ -22,11 +22,11 @@ typedef struct Finder {
 /* Hang without voltage, from close by => state, gap; this determines when it counts as closed. */
 static bool hang(Finder *f, double *state, double *gap) {
   ZpStatics *s = &f->rest->statics;
-  f->limits->info = zp_statics_hang(s);
+  f->limits->info = zp_statics_find_rest(s);
   if (!zp_newton_good(f->limits->info.end) || !zp_statics_bias(s) || !zp_statics_stable(s)) return false;
   zp_rest_save(f->rest, state);
   *gap = zp_closing_gap(s, NULL);
-  zp_slow_start(f->rest);
+  zp_quasistatic_start(f->rest);
   return true;
 }
 
@@ -57,38 +57,38 @@ static bool hang_under(Finder *f, double load) {
 
 /* A limit point is at the voltage, as accurately as it was solved: if the actuator falls closed from there, this is
  * where it closes. Else the next limit is above. */
-static ZpSlowEnd fall_at_top(Finder *f) {
-  bool closes = zp_slow_falls_closed(f->rest, &f->limits->at);
+static ZpQuasistaticEnd fall_at_top(Finder *f) {
+  bool closes = zp_quasistatic_falls_closed(f->rest, &f->limits->at);
   if (closes) zp_rest_save(f->rest, f->limits->lifted);
-  if (closes) return ZP_SLOW_CHANGED;
-  if (zp_slow_is_closed(f->rest)) return ZP_SLOW_LOST;
+  if (closes) return ZP_QUASISTATIC_CHANGED;
+  if (zp_quasistatic_is_closed(f->rest)) return ZP_QUASISTATIC_LOST;
   zp_limit_none(&f->limits->at, NULL);
-  return zp_slow_close_at(f->rest, far * f->top, f->top, &f->limits->at);
+  return zp_quasistatic_close_at(f->rest, far * f->top, f->top, &f->limits->at);
 }
 
 /* Raise the voltage under this load until it closes, or to the first limit that is not below the voltage asked for.
  * That limit is `at`. */
-static ZpSlowEnd raise(Finder *f, double load) {
+static ZpQuasistaticEnd raise(Finder *f, double load) {
   zp_limit_none(&f->limits->at, NULL);
-  if (!hang_under(f, load)) return ZP_SLOW_LOST;
-  if (zp_slow_is_closed(f->rest)) zp_slow_note(f->rest, &f->limits->at, ZP_MARCH_ARRIVED);
-  if (zp_slow_is_closed(f->rest)) return ZP_SLOW_CHANGED;
-  ZpSlowEnd end = zp_slow_close_at(f->rest, far * f->top, (1 - same) * f->top, &f->limits->at);
-  return end == ZP_SLOW_BEYOND && is_at_top(f) ? fall_at_top(f) : end;
+  if (!hang_under(f, load)) return ZP_QUASISTATIC_LOST;
+  if (zp_quasistatic_is_closed(f->rest)) zp_quasistatic_note(f->rest, &f->limits->at, ZP_TRACK_ARRIVED);
+  if (zp_quasistatic_is_closed(f->rest)) return ZP_QUASISTATIC_CHANGED;
+  ZpQuasistaticEnd end = zp_quasistatic_close_at(f->rest, far * f->top, (1 - same) * f->top, &f->limits->at);
+  return end == ZP_QUASISTATIC_BEYOND && is_at_top(f) ? fall_at_top(f) : end;
 }
 
 /* Does the voltage close the actuator under this load? */
 static bool closes_under(Finder *f, double load) {
-  bool closes = raise(f, load) == ZP_SLOW_CHANGED && !(f->limits->at.value > (1 + same) * f->top);
+  bool closes = raise(f, load) == ZP_QUASISTATIC_CHANGED && !(f->limits->at.value > (1 + same) * f->top);
   narrow(f, load, closes, f->limits->at.value);
   return closes;
 }
 
-/* Raise the voltage to the one asked for under this load. ZP_SLOW_ARRIVED if the actuator then hangs. */
-static ZpSlowEnd hang_at_top(Finder *f, double load) {
-  if (!hang_under(f, load)) return ZP_SLOW_LOST;
-  ZpSlowEnd end = zp_slow_close_at(f->rest, f->top, INFINITY, &f->limits->at);
-  narrow(f, load, end == ZP_SLOW_CHANGED, NAN);
+/* Raise the voltage to the one asked for under this load. ZP_QUASISTATIC_ARRIVED if the actuator then hangs. */
+static ZpQuasistaticEnd hang_at_top(Finder *f, double load) {
+  if (!hang_under(f, load)) return ZP_QUASISTATIC_LOST;
+  ZpQuasistaticEnd end = zp_quasistatic_close_at(f->rest, f->top, INFINITY, &f->limits->at);
+  narrow(f, load, end == ZP_QUASISTATIC_CHANGED, NAN);
   return end;
 }
 
@@ -97,7 +97,7 @@ static ZpSlowEnd hang_at_top(Finder *f, double load) {
 /* To the load at which the gap is `closed` => the gap at which it counts as closed under that load; NAN: not found */
 static double closed_beyond(Finder *f, double closed) {
   ZpRest *rest = f->rest;
-  if (!zp_slow_event_of_load(rest, closed)) return NAN;
+  if (!zp_quasistatic_event_of_load(rest, closed)) return NAN;
   zp_rest_save(rest, f->limits->at.state);
   bool hangs = hang_under(f, rest->statics.load);
   zp_rest_go_to(rest, f->limits->at.state);
@@ -125,7 +125,7 @@ static bool go_to_event(Finder *f, double closed) {
 
 /* Does the voltage close the actuator gradually under this load, without a limit point before? */
 static bool closes_gradually(Finder *f, double load) {
-  return hang_under(f, load) && zp_slow_first(f->rest, (1 + same) * f->top, &f->limits->at) == ZP_MARCH_EVENT;
+  return hang_under(f, load) && zp_quasistatic_first(f->rest, (1 + same) * f->top, &f->limits->at) == ZP_TRACK_EVENT;
 }
 
 /* From the present point, at the voltage under a large load, lower the load => its first limit, a candidate, if there
@@ -135,15 +135,16 @@ static void drop_load(Finder *f, ZpLimit *limit) {
   enum { MOST = 30 };
   static const double near = 0.8; /* of the gap: the rest is solved directly */
   ZpRest *rest = f->rest;
-  zp_slow_drop_load(rest, limit);
-  for (int k = 0; k < MOST && limit->end == ZP_MARCH_EVENT; k++) {
+  zp_quasistatic_drop_load(rest, limit);
+  for (int k = 0; k < MOST && limit->end == ZP_TRACK_EVENT; k++) {
     double closed = rest->march.limit;
     if (!hang_under(f, limit->value)) return;
     zp_rest_go_to(rest, limit->state);
     if (rest->march.limit > near * closed) break;
-    zp_slow_drop_load(rest, limit);
+    zp_quasistatic_drop_load(rest, limit);
   }
-  if (limit->end == ZP_MARCH_EVENT && go_to_event(f, rest->march.limit)) zp_slow_note(rest, limit, ZP_MARCH_EVENT);
+  if (limit->end == ZP_TRACK_EVENT && go_to_event(f, rest->march.limit))
+    zp_quasistatic_note(rest, limit, ZP_TRACK_EVENT);
 }
 
 /* -- by definition ---------------------------------------------------------------------------------- */
@@ -153,7 +154,7 @@ static double follow(Finder *f) {
   ZpRest *rest = f->rest;
   zp_rest_go_to(rest, f->limits->at.state);
   rest->statics.U = f->top;
-  bool found = f->limits->at.end == ZP_MARCH_FOLD ? zp_slow_fold_of_load(rest, f->limits->at.null)
+  bool found = f->limits->at.end == ZP_TRACK_FOLD ? zp_quasistatic_fold_of_load(rest, f->limits->at.null)
                                                   : go_to_event(f, rest->march.limit);
   double load = rest->statics.load;
   return found && load > f->least && load < f->most ? load : (double)NAN;
@@ -171,8 +172,8 @@ static double middle(const Finder *f) {
 /* The closing voltage jumps above the load under which it last closed: this is no limit point. */
 static bool settle_at_jump(Finder *f, ZpLimit *limit) {
   raise(f, f->least);
-  zp_slow_copy(f->rest, &f->limits->at, limit);
-  limit->end = ZP_MARCH_ARRIVED;
+  zp_quasistatic_copy(f->rest, &f->limits->at, limit);
+  limit->end = ZP_TRACK_ARRIVED;
   limit->value = f->least;
   return true;
 }
@@ -186,7 +187,7 @@ static bool find_below_most(Finder *f, double load, ZpLimit *limit) {
   for (int k = 0; k < MOST && !zp_statics_asked_to_stop(&f->rest->statics) && f->most > lightest; k++) {
     if (f->most / f->least - 1 < narrowest) return settle_at_jump(f, limit);
     if (closes_under(f, load) && is_at_top(f)) {
-      zp_slow_copy(f->rest, &f->limits->at, limit);
+      zp_quasistatic_copy(f->rest, &f->limits->at, limit);
       limit->value = load;
       return true;
     }
@@ -200,7 +201,8 @@ static bool find_below_most(Finder *f, double load, ZpLimit *limit) {
 /* Is the first limit that the voltage meets under this load, if there is any, above the one asked for? */
 static bool meets_none(Finder *f, double load) {
   if (!hang_under(f, load)) return false;
-  return zp_slow_first(f->rest, far * f->top, &f->limits->at) == ZP_MARCH_ARRIVED || f->limits->at.value > f->top;
+  return zp_quasistatic_first(f->rest, far * f->top, &f->limits->at) == ZP_TRACK_ARRIVED ||
+         f->limits->at.value > f->top;
 }
 
 /* Does it close under any of these larger loads? Then `least` is that one. Where the voltage does not even meet a limit
@@ -221,7 +223,7 @@ static bool closes_above(Finder *f, double load, bool *first) {
 static bool settle_load(Finder *f, ZpLimit *limit) {
   enum { MOST = 10 };
   double least = (1 - same) * f->least; /* the load known to close may itself be the largest */
-  bool candidate = limit->end != ZP_MARCH_ARRIVED && limit->value > least && limit->value < f->most, first = false;
+  bool candidate = limit->end != ZP_TRACK_ARRIVED && limit->value > least && limit->value < f->most, first = false;
   double load = candidate ? limit->value : middle(f);
   zp_limit_none(limit, "it does not close at drive.voltage even without load");
   if (!candidate && f->least == 0 && !closes_under(f, 0)) return false;
@@ -248,11 +250,11 @@ static void take(Finder *f, const double *state) {
 static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   static const double farthest = 0.3;
   const ZpLimit *near = f->near ? &f->near->limit[kind] : NULL;
-  if (!near || (near->end != ZP_MARCH_FOLD && near->end != ZP_MARCH_EVENT)) return false;
+  if (!near || (near->end != ZP_TRACK_FOLD && near->end != ZP_TRACK_EVENT)) return false;
   ZpRest *rest = f->rest;
   ZpStatics *s = &rest->statics;
   ZpFold *solver = &rest->march.fold;
-  bool load = kind == ZP_LIMIT_LOAD, fold = near->end == ZP_MARCH_FOLD;
+  bool load = kind == ZP_LIMIT_LOAD, fold = near->end == ZP_TRACK_FOLD;
   solver->system = load ? &rest->load : &rest->square;
   take(f, near->state);
   double near_gap = zp_closing_gap(s, NULL), closed = rest->march.limit;
@@ -268,11 +270,11 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   bool within = load ? value > 0 : value <= f->top;
   if (solver->negative > 0 || !sided || !within || fabs(value / near->value - 1) > farthest) return false;
   ZpLimit *limit = &f->limits->limit[kind];
-  zp_slow_note(rest, limit, near->end);
-  limit->room = zp_slow_room_left(rest, near, near_gap);
+  zp_quasistatic_note(rest, limit, near->end);
+  limit->room = zp_quasistatic_room_left(rest, near, near_gap);
   solver->system = &rest->square; /* crests under this load */
   double sign = kind == ZP_LIMIT_RELEASE ? -1 : 1;
-  bool highest = !fold || limit->room > 0 || zp_slow_look_around(rest, limit, sign) == ZP_NOTHING_HIGHER;
+  bool highest = !fold || limit->room > 0 || zp_quasistatic_look_around(rest, limit, sign) == ZP_NOTHING_HIGHER;
   f->limits->warm += highest;
   return highest;
 }
@@ -282,7 +284,7 @@ static bool closes_as_neighbour(Finder *f) {
   const ZpLimit *near = f->near ? f->near->limit : NULL;
   if (!near || near[ZP_LIMIT_CLOSING].value != near[ZP_LIMIT_PULL_IN].value) return false;
   if (!from_neighbour(f, ZP_LIMIT_PULL_IN)) return false;
-  zp_slow_copy(f->rest, &f->limits->limit[ZP_LIMIT_PULL_IN], &f->limits->limit[ZP_LIMIT_CLOSING]);
+  zp_quasistatic_copy(f->rest, &f->limits->limit[ZP_LIMIT_PULL_IN], &f->limits->limit[ZP_LIMIT_CLOSING]);
   return true;
 }
 
@@ -297,12 +299,13 @@ static bool hang_first(Finder *f) {
 }
 
 /* A voltage that rises to drive.voltage. */
-static ZpSlowEnd raise_voltage(Finder *f) {
+static ZpQuasistaticEnd raise_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
-  if (closes_as_neighbour(f)) return ZP_SLOW_CHANGED;
+  if (closes_as_neighbour(f)) return ZP_QUASISTATIC_CHANGED;
   zp_rest_go_to(f->rest, f->limits->start);
-  ZpSlowEnd end = zp_slow_raise(f->rest, f->top, &limit[ZP_LIMIT_PULL_IN], &limit[ZP_LIMIT_CLOSING]);
-  f->limits->arrives = end == ZP_SLOW_ARRIVED;
+  ZpQuasistaticEnd end =
+      zp_quasistatic_ramp_voltage(f->rest, f->top, &limit[ZP_LIMIT_PULL_IN], &limit[ZP_LIMIT_CLOSING]);
+  f->limits->arrives = end == ZP_QUASISTATIC_ARRIVED;
   if (f->limits->arrives) zp_rest_save(f->rest, f->limits->top);
   return end;
 }
@@ -312,7 +315,7 @@ static ZpSlowEnd raise_voltage(Finder *f) {
 static bool find_closed(Finder *f) {
   ZpLimits *limits = f->limits;
   if (f->near && f->near->closes) take(f, f->near->closed);
-  limits->closes = zp_slow_close(f->rest, f->top);
+  limits->closes = zp_quasistatic_close(f->rest, f->top);
   if (limits->closes) zp_rest_save(f->rest, limits->closed);
   return limits->closes;
 }
@@ -327,7 +330,7 @@ static void lower_voltage(Finder *f) {
   zp_limit_none(&limit[ZP_LIMIT_RELEASE], "it is not closed at drive.voltage");
   if (!closes) return;
   zp_rest_go_to(f->rest, f->limits->closed);
-  zp_slow_lower(f->rest, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
+  zp_quasistatic_lower(f->rest, &limit[ZP_LIMIT_CLOSING], &limit[ZP_LIMIT_RELEASE]);
 }
 
 /* Hang at drive.voltage under a load so large that it does not close. False if none was found. */
@@ -337,9 +340,9 @@ static bool hang_heavy(Finder *f) {
   double top = f->top, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
   double load = fmax(f->model->whole.load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
-    ZpSlowEnd end = hang_at_top(f, load);
-    if (end == ZP_SLOW_ARRIVED) return true;
-    if (end == ZP_SLOW_LOST || end == ZP_SLOW_STOPPED) return false;
+    ZpQuasistaticEnd end = hang_at_top(f, load);
+    if (end == ZP_QUASISTATIC_ARRIVED) return true;
+    if (end == ZP_QUASISTATIC_LOST || end == ZP_QUASISTATIC_STOPPED) return false;
   }
   return false;
 }
@@ -348,10 +351,10 @@ static bool hang_heavy(Finder *f) {
  * without a jump before? */
 static bool falls_as_neighbour(Finder *f) {
   const ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
-  if (limit->end == ZP_MARCH_EVENT) return closes_gradually(f, limit->value);
+  if (limit->end == ZP_TRACK_EVENT) return closes_gradually(f, limit->value);
   if (!hang_under(f, limit->value)) return false;
   take(f, f->near->lifted);
-  bool closed = zp_slow_close(f->rest, f->top);
+  bool closed = zp_quasistatic_close(f->rest, f->top);
   zp_rest_save(f->rest, f->limits->lifted);
   return closed;
 }
@@ -382,7 +385,7 @@ static void lift(Finder *f, bool closes) {
   if (!closes) zp_rest_go_to(f->rest, f->limits->top);
   drop_load(f, limit);
   f->limits->first = settle_load(f, limit);
-  if (limit->end == ZP_MARCH_EVENT) hang_under(f, limit->value);
+  if (limit->end == ZP_TRACK_EVENT) hang_under(f, limit->value);
 }
 
 /* Those from `first` on do not exist. */
@@ -394,7 +397,7 @@ static void none_from(Finder *f, int first, const char *reason) {
 /* Why no load is searched; NULL: it is. */
 static const char *no_load(const ZpModel *model, bool load) {
   if (!load) return "it was not searched";
-  if (zp_is_opposed(model)) return "a heavy load closes the lower antagonist";
+  if (zp_is_antagonist(model)) return "a heavy load closes the lower antagonist";
   return model->def.gravity > 0 && model->fall[1] < 0 ? NULL
                                                       : "gravity does not pull the platform down, so a mass is no load";
 }
@@ -406,38 +409,38 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   if (!hang_first(&f) || !model->field || f.top == 0) return;
   none_from(&f, 0, "it hangs closed");
   if (limits->hanging <= zp_closed_opening(model, 0)) return;
-  ZpSlowEnd up = raise_voltage(&f);
+  ZpQuasistaticEnd up = raise_voltage(&f);
   if (zp_insulation(&model->def) == 0) none_from(&f, ZP_LIMIT_CLOSING, "when closed, it is a short circuit");
   if (zp_insulation(&model->def) == 0) return;
   none_from(&f, ZP_LIMIT_RELEASE, "it was not searched");
-  if (up == ZP_SLOW_STOPPED) return;
+  if (up == ZP_QUASISTATIC_STOPPED) return;
   lower_voltage(&f);
   rest->statics.load = model->whole.load.mass;
-  const char *reason = up == ZP_SLOW_LOST ? "it was not searched" : no_load(model, load);
+  const char *reason = up == ZP_QUASISTATIC_LOST ? "it was not searched" : no_load(model, load);
   if (reason)
     zp_limit_none(&limits->limit[ZP_LIMIT_LOAD], reason);
   else
-    lift(&f, up == ZP_SLOW_CHANGED);
+    lift(&f, up == ZP_QUASISTATIC_CHANGED);
 }
 
 bool zp_limits_lost(const ZpLimits *limits) {
   bool lost = false;
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
-    lost |= limits->limit[k].end == ZP_MARCH_LOST;
+    lost |= limits->limit[k].end == ZP_TRACK_LOST;
   return lost;
 }
 
 /* -- limits that outlive their model ------------------------------------------------------------------ */
 
-static size_t carve(ZpLimits *limits, size_t save, size_t equations, void *block) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(ZpLimits *limits, size_t save, size_t equations, void *block) {
+  ZpArena arena = {block, 0};
   double **states[] = {&limits->start, &limits->top, &limits->closed, &limits->hung, &limits->lifted};
   for (size_t k = 0; k < sizeof states / sizeof states[0]; k++)
-    *states[k] = zp_carve(&carver, save);
+    *states[k] = zp_arena_take(&arena, save);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
-    zp_limit_carve(&limits->limit[k], save, equations, &carver);
-  zp_limit_carve(&limits->at, save, equations, &carver);
-  return carver.used;
+    zp_limit_reserve(&limits->limit[k], save, equations, &arena);
+  zp_limit_reserve(&limits->at, save, equations, &arena);
+  return arena.used;
 }
 
 ZpLimits *zp_limits_create(const ZpRest *rest) {
@@ -446,8 +449,8 @@ ZpLimits *zp_limits_create(const ZpRest *rest) {
   ZpLimits *limits = zp_calloc(1, sizeof *limits);
   if (!limits) return NULL;
   *limits = (ZpLimits){.ribbons = model->s, .nodes = rest->statics.members * model->nodes, .L = model->L};
-  limits->memory = zp_calloc(1, carve(limits, save, n, NULL));
-  if (limits->memory) carve(limits, save, n, limits->memory);
+  limits->memory = zp_calloc(1, reserve(limits, save, n, NULL));
+  if (limits->memory) reserve(limits, save, n, limits->memory);
   if (limits->memory) return limits;
   zp_free(limits);
   return NULL;

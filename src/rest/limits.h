@@ -1,10 +1,10 @@
 /* The limits of an actuator: pull-in, closing, release and the largest load. Each is solved as the limit point or event
- * that it is, without following the curve (rest/slow.h). What was found for one actuator is where a neighbour of it
- * starts. Theory, section 10. */
+ * that it is, without following the curve (rest/quasistatic.h). What was found for one actuator is where a neighbour of
+ * it starts. Theory, section 10. */
 #ifndef ZP_REST_LIMITS_H
 #define ZP_REST_LIMITS_H
 
-#include "rest/slow.h"
+#include "rest/quasistatic.h"
 
 typedef enum ZpLimitKind {
   ZP_LIMIT_PULL_IN,

@@ -51,24 +51,24 @@ typedef struct Work {
 
 /* -- work space ------------------------------------------------------------------------------------ */
 
-static size_t carve(Work *w, void *block) {
+static size_t reserve(Work *w, void *block) {
   const ZpModel *model = w->model;
-  ZpCarver carver = {block, 0};
+  ZpArena arena = {block, 0};
   size_t n = w->assembly->n, N = model->nodes, stride = 2 * model->stride;
-  zp_vibration_carve(&w->vibration, n, ZP_VIBRATIONS, &carver);
-  zp_band_carve_groups(&w->K, n, 0, w->assembly->bandwidth, w->assembly->groups, &carver);
-  if (model->has_film) zp_film_ways_carve(&model->film, &w->ways, &carver);
-  w->shape = zp_carve(&carver, SHAPES * n);
-  w->rate = zp_carve(&carver, SHAPES * N);
-  w->flow = zp_carve(&carver, (size_t)RATES * ZP_FILM_FLOWS * N);
-  w->zeros = zp_carve(&carver, ZP_FILM_STATE * N);
-  w->x = zp_carve(&carver, n);
-  w->y = zp_carve(&carver, n);
+  zp_vibration_reserve(&w->vibration, n, ZP_VIBRATIONS, &arena);
+  zp_band_reserve_groups(&w->K, n, 0, w->assembly->bandwidth, w->assembly->groups, &arena);
+  if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
+  w->shape = zp_arena_take(&arena, SHAPES * n);
+  w->rate = zp_arena_take(&arena, SHAPES * N);
+  w->flow = zp_arena_take(&arena, (size_t)RATES * ZP_FILM_FLOWS * N);
+  w->zeros = zp_arena_take(&arena, ZP_FILM_STATE * N);
+  w->x = zp_arena_take(&arena, n);
+  w->y = zp_arena_take(&arena, n);
   double **of_nodes[] = {&w->force, &w->moved, &w->by_voltage};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_carve(&carver, stride);
-  w->spare = (double(*)[4])(void *)zp_carve(&carver, 12 * model->stride);
-  return carver.used;
+    *of_nodes[k] = zp_arena_take(&arena, stride);
+  w->spare = (double(*)[4])(void *)zp_arena_take(&arena, 12 * model->stride);
+  return arena.used;
 }
 
 /* -- the ribbons ----------------------------------------------------------------------------------- */
@@ -467,13 +467,13 @@ static void fill_voltage(Work *w, const ZpSupply *supply, const Layout *at, ZpPl
 
 static bool fill(Work *w, const ZpSupply *supply, ZpPlant *plant) {
   Layout at = lay_out(w, supply);
-  ZpCarver carver = {NULL, 0};
+  ZpArena arena = {NULL, 0};
   for (int pass = 0; pass < 2; pass++) {
-    if (pass && !(plant->memory = zp_calloc(1, carver.used))) return false;
-    carver = (ZpCarver){plant->memory, 0};
-    plant->A = zp_carve(&carver, at.n * at.n);
-    plant->b = zp_carve(&carver, at.n);
-    plant->c = zp_carve(&carver, at.n);
+    if (pass && !(plant->memory = zp_calloc(1, arena.used))) return false;
+    arena = (ZpArena){plant->memory, 0};
+    plant->A = zp_arena_take(&arena, at.n * at.n);
+    plant->b = zp_arena_take(&arena, at.n);
+    plant->c = zp_arena_take(&arena, at.n);
   }
   plant->n = at.n;
   plant->neutral = w->ends;
@@ -520,9 +520,9 @@ static bool open_linear(ZpRest *rest, const ZpSetpointSignal *signal, Work **out
               .eval = &m->eval,
               .assembly = &m->assembly,
               .factors = &rest->statics.newton.K};
-  w->memory = zp_calloc(1, carve(w, NULL));
+  w->memory = zp_calloc(1, reserve(w, NULL));
   if (!w->memory) return false;
-  carve(w, w->memory);
+  reserve(w, w->memory);
   linearize(w, signal);
   return true;
 }
@@ -548,18 +548,18 @@ void zp_plant_destroy(ZpPlant *plant) {
 
 /* -- as equations of second order -------------------------------------------------------------------- */
 
-static size_t carve_small(const Work *w, void *block, ZpSmallMotion *small) {
-  ZpCarver carver = {block, 0};
+static size_t reserve_small(const Work *w, void *block, ZpSmallMotion *small) {
+  ZpArena arena = {block, 0};
   const size_t rates = w->m + w->z;
-  small->mass = zp_carve(&carver, rates * rates);
-  small->damping = zp_carve(&carver, rates * rates);
-  small->stiffness = zp_carve(&carver, rates * rates);
-  small->by_voltage = zp_carve(&carver, w->m);
-  small->charge = zp_carve(&carver, rates);
-  small->shape = zp_carve(&carver, w->m * 2 * w->model->stride);
+  small->mass = zp_arena_take(&arena, rates * rates);
+  small->damping = zp_arena_take(&arena, rates * rates);
+  small->stiffness = zp_arena_take(&arena, rates * rates);
+  small->by_voltage = zp_arena_take(&arena, w->m);
+  small->charge = zp_arena_take(&arena, rates);
+  small->shape = zp_arena_take(&arena, w->m * 2 * w->model->stride);
   for (int half = 0; half < ZP_BEADS; half++)
-    small->out[half] = zp_carve(&carver, rates);
-  return carver.used;
+    small->out[half] = zp_arena_take(&arena, rates);
+  return arena.used;
 }
 
 /* A bead's end acts on the shapes with the volume that shapes displace, and with what has flowed past the edges. */
@@ -593,11 +593,11 @@ bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small) {
   if (done) {
     small->shapes = w->m;
     small->rates = w->m + w->z;
-    small->memory = zp_calloc(1, carve_small(w, NULL, small));
+    small->memory = zp_calloc(1, reserve_small(w, NULL, small));
     done = small->memory != NULL;
   }
   if (done) {
-    carve_small(w, small->memory, small);
+    reserve_small(w, small->memory, small);
     fill_small(w, small);
   }
   close_linear(w);

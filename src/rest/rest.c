@@ -3,13 +3,13 @@
 #include <math.h>
 
 #include "base/fail.h"
-#include "rest/slope.h"
+#include "rest/sensitivity.h"
 
 /* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
 static const double first_step = 0.01, longest_step = 0.1;
 
-bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user) {
-  ZpCarver carver = {NULL, 0};
+bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user) {
+  ZpArena arena = {NULL, 0};
   *rest = (ZpRest){0};
   if (!zp_statics_create(model, &rest->statics)) return false;
   rest->system = zp_statics_branch(&rest->statics, ZP_ALONG_VOLTAGE);
@@ -17,18 +17,18 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, 
   rest->load = zp_statics_branch(&rest->statics, ZP_ALONG_LOAD);
   for (int pass = 0; pass < 2; pass++) {
     if (pass) {
-      rest->memory = zp_calloc(1, carver.used);
-      carver = (ZpCarver){rest->memory, 0};
+      rest->memory = zp_calloc(1, arena.used);
+      arena = (ZpArena){rest->memory, 0};
       if (!rest->memory) return false;
     }
-    zp_branch_carve(&rest->branch, &rest->system, &rest->statics.newton, &carver);
-    zp_march_carve(&rest->march, &rest->square, rest->statics.form, &rest->statics.newton, &carver);
-    rest->held = zp_carve(&carver, zp_rest_save_size(rest));
+    zp_branch_reserve(&rest->branch, &rest->system, &rest->statics.newton, &arena);
+    zp_track_reserve(&rest->march, &rest->square, rest->statics.form, &rest->statics.newton, &arena);
+    rest->held = zp_arena_take(&arena, zp_rest_save_size(rest));
     for (size_t k = 0; k < rest->statics.members; k++)
-      zp_shape_carve(model, &rest->shape_room[k], &carver);
+      zp_shape_reserve(model, &rest->shape_room[k], &arena);
     if (rest->statics.members > 1)
-      zp_many_carve(&rest->shapes, rest->statics.members, model->count, model->nodes, &carver);
-    if (carve) carve(user, &carver);
+      zp_many_reserve(&rest->shapes, rest->statics.members, model->count, model->nodes, &arena);
+    if (reserve) reserve(user, &arena);
   }
   return true;
 }
@@ -101,8 +101,8 @@ void zp_rest_destroy(ZpRest *rest) {
 
 bool zp_rest_hang(ZpRest *rest, double voltage) {
   ZpStatics *s = &rest->statics;
-  bool found = zp_newton_good(zp_statics_hang(s).end);
-  if (found && voltage > 0 && s->member->model->field) found = zp_statics_raise(s, voltage);
+  bool found = zp_newton_good(zp_statics_find_rest(s).end);
+  if (found && voltage > 0 && s->member->model->field) found = zp_statics_ramp_voltage(s, voltage);
   return found && !zp_statics_shorted(s);
 }
 
@@ -119,15 +119,15 @@ double zp_rest_capacitance(const ZpRest *rest) {
 }
 
 ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err) {
-  ZpSlope slope;
+  ZpRestSensitivity slope;
   *stroke = *opening = NAN;
-  ZpStatus status = zp_slope_check(&rest->statics.member->model->def, key, err);
+  ZpStatus status = zp_rest_sensitivity_check(&rest->statics.member->model->def, key, err);
   if (status != ZP_OK) return status;
-  status = zp_slope_open(&slope, &rest->statics, key, err);
-  if (status == ZP_OK && zp_slope_solve(&slope, ZP_SETS_LOAD)) {
-    *stroke = zp_slope_of(&slope, zp_output_stroke, NULL);
-    *opening = zp_slope_of(&slope, zp_output_opening, NULL);
+  status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
+  if (status == ZP_OK && zp_rest_sensitivity_solve(&slope, ZP_SETS_LOAD)) {
+    *stroke = zp_rest_sensitivity_of(&slope, zp_output_stroke, NULL);
+    *opening = zp_rest_sensitivity_of(&slope, zp_output_opening, NULL);
   }
-  zp_slope_close(&slope);
+  zp_rest_sensitivity_close(&slope);
   return status;
 }

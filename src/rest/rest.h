@@ -7,24 +7,24 @@
 
 #include "def/check.h"
 #include "rest/statics.h"
-#include "solve/march.h"
+#include "solve/track.h"
 
 struct ZpRest {
   ZpStatics statics;
   ZpBranchSystem system, square, load;     /* along the voltage, its square, the load */
   ZpBranch branch;                         /* point by point along the voltage */
-  ZpMarch march;                           /* to the next limit along the square or the load */
-  void *held;                              /* a state to return to during a slow change (rest/slow.h) */
+  ZpTrack march;                           /* to the next limit along the square or the load */
+  void *held;                              /* a state to return to during a slow change (rest/quasistatic.h) */
   bool was_closed;                         /* when that began */
   ZpShapeRoom shape_room[ZP_MOST_MEMBERS]; /* for the shapes of the members */
   ZpManyShapes shapes;                     /* of several */
   void *memory;
 };
 
-/* Fill `rest`: straight, without voltage. `carve` (may be NULL) takes the caller's own arrays from the same block; it
+/* Fill `rest`: straight, without voltage. `reserve` (may be NULL) takes the caller's own arrays from the same block; it
  * is called twice with `user`. False if there is no memory. `rest` must not be moved, and must be closed, also if this
  * fails. */
-bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*carve)(void *user, ZpCarver *carver), void *user);
+bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user);
 void zp_rest_close(ZpRest *rest);
 
 /* The present shape with any `time`, of several members as if they were one; valid until the point moves. *margins

@@ -12,33 +12,33 @@
 #include "rest/crossing.h"
 #include "solve/descend.h"
 
-static void carve_member(ZpRestMember *m, size_t stride, ZpCarver *carver) {
-  m->q = zp_carve(carver, 2 * stride);
-  m->moved = zp_carve(carver, 2 * stride);
-  m->force = zp_carve(carver, 2 * stride);
-  m->good = zp_carve(carver, 2 * stride);
-  m->tension = zp_carve(carver, stride);
-  m->k0_now = zp_carve(carver, stride);
-  m->rotation = zp_carve(carver, stride);
-  m->stretch = zp_carve(carver, stride);
-  m->model = m->own = (ZpModel *)(void *)zp_carve(carver, (sizeof *m->own + sizeof(double) - 1) / sizeof(double));
+static void reserve_member(ZpRestMember *m, size_t stride, ZpArena *arena) {
+  m->q = zp_arena_take(arena, 2 * stride);
+  m->moved = zp_arena_take(arena, 2 * stride);
+  m->force = zp_arena_take(arena, 2 * stride);
+  m->good = zp_arena_take(arena, 2 * stride);
+  m->tension = zp_arena_take(arena, stride);
+  m->k0_now = zp_arena_take(arena, stride);
+  m->rotation = zp_arena_take(arena, stride);
+  m->stretch = zp_arena_take(arena, stride);
+  m->model = m->own = (ZpModel *)(void *)zp_arena_take(arena, (sizeof *m->own + sizeof(double) - 1) / sizeof(double));
 }
 
-static size_t carve_solution(ZpStatics *s, void *block) {
-  ZpCarver carver = {block, 0};
-  zp_newton_carve(&s->newton, s->n, s->form, &carver);
-  s->product = zp_carve(&carver, s->n);
-  return carver.used;
+static size_t reserve_solution(ZpStatics *s, void *block) {
+  ZpArena arena = {block, 0};
+  zp_newton_reserve(&s->newton, s->n, s->form, &arena);
+  s->product = zp_arena_take(&arena, s->n);
+  return arena.used;
 }
 
-static size_t carve(const ZpModel *model, ZpStatics *s, void *block) {
-  ZpCarver carver = {block, 0};
-  s->member = (ZpRestMember *)(void *)zp_carve(&carver, s->members * sizeof *s->member / sizeof(double));
+static size_t reserve(const ZpModel *model, ZpStatics *s, void *block) {
+  ZpArena arena = {block, 0};
+  s->member = (ZpRestMember *)(void *)zp_arena_take(&arena, s->members * sizeof *s->member / sizeof(double));
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember unused = {0}, *m = block ? &s->member[k] : &unused;
-    carve_member(m, model->stride, &carver);
+    reserve_member(m, model->stride, &arena);
   }
-  return carver.used;
+  return arena.used;
 }
 
 static bool is_held(const ZpStatics *s) {
@@ -109,21 +109,21 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
                    .shared = zp_shares_load(model),
                    .distance = model->distance,
                    .force = zp_lowest(model)->def.load.force};
-  s->memory = zp_calloc(1, carve(model, s, NULL));
+  s->memory = zp_calloc(1, reserve(model, s, NULL));
   bool made = s->memory != NULL;
-  if (made) carve(model, s, s->memory);
+  if (made) reserve(model, s, s->memory);
   for (size_t k = 0; k < s->members && made; k++) {
     made = create_member(model + k, &s->member[k]);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
     s->own_load = (s->shared ? s->own_load : 0) + model[k].def.load.mass;
   }
   if (made) number(model, s);
-  if (made) s->solution = zp_calloc(1, carve_solution(s, NULL));
+  if (made) s->solution = zp_calloc(1, reserve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
     return false;
   }
-  carve_solution(s, s->solution);
+  reserve_solution(s, s->solution);
   s->load = s->own_load;
   s->bias = 1;
   put_on(s, 1);
@@ -280,7 +280,7 @@ static void put_suction(ZpStatics *s, double whole, double share) {
 static ZpNewtonInfo let_menisci_draw(ZpStatics *s, double suction, ZpNewtonInfo info) {
   bool grown = zp_newton_good(info.end) && suction > 0 && grow(s, put_suction, suction, 1);
   put_suction(s, suction, 1);
-  return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_fall(s, 0);
+  return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_relax(s, 0);
 }
 
 /* Has Newton's method found an equilibrium without folded ribbons? Its last stiffness tells, or that of the equilibrium
@@ -301,7 +301,7 @@ static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info) {
   if (!is_found(s, contact) || zp_statics_fault(s)) {
     go_to_kept(s);
     if (is_held(s))
-      contact = zp_statics_fall(s, 0);
+      contact = zp_statics_relax(s, 0);
     else
       contact = zp_statics_close(s, 0);
   }
@@ -323,7 +323,7 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
   s->load = load;
   if (!zp_newton_good(info.end)) return info;
   info = zp_statics_solve(s, MOST_ITERATIONS);
-  if (!is_found(s, info)) info = zp_statics_fall(s, 0);
+  if (!is_found(s, info)) info = zp_statics_relax(s, 0);
   return info;
 }
 
@@ -337,7 +337,7 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
   return s->bias < 1 ? "the lower one pulls in below stack.lower_voltage" : "no hanging equilibrium found";
 }
 
-ZpNewtonInfo zp_statics_hang(ZpStatics *s) {
+ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->distance > 0) return hang_between(s);
   double suction = s->member->model->bead.suction;
   s->U = 0;
@@ -345,7 +345,7 @@ ZpNewtonInfo zp_statics_hang(ZpStatics *s) {
   put_suction(s, 0, 1);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, put_on, 1, 0.01);
-  if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_fall(s, 0); /* limp springs relax */
+  if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */
   info = let_faces_push(s, info);
   info = let_menisci_draw(s, suction, info);
   if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
@@ -380,7 +380,7 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
   return let_menisci_draw(s, suction, info);
 }
 
-bool zp_statics_raise(ZpStatics *s, double voltage) {
+bool zp_statics_ramp_voltage(ZpStatics *s, double voltage) {
   return grow(s, put_voltage, voltage, 0.05) && !zp_statics_fault(s);
 }
 
@@ -391,7 +391,7 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (zp_newton_good(info.end) && zp_statics_stable(s)) return info;
   lay_straight(s);
-  return zp_statics_fall(s, voltage);
+  return zp_statics_relax(s, voltage);
 }
 
 static double stroke_of(const ZpRestMember *m) {
@@ -423,7 +423,7 @@ double zp_statics_angle(const ZpStatics *s) {
 }
 
 static size_t front_of(const ZpRestMember *m) {
-  return m->model->field ? zp_faces_front(&m->model->faces, m->eval.plates.gap) : 0;
+  return m->model->field ? zp_contact_front(&m->model->faces, m->eval.plates.gap) : 0;
 }
 
 size_t zp_statics_front(const ZpStatics *s) {
@@ -495,13 +495,13 @@ double zp_statics_capacitance(const ZpStatics *s) {
 static double closed_capacitance(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double per_length = zp_plates_inverse_gap(&model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  return per_length * zp_faces_length(model);
+  return per_length * zp_contact_length(model);
 }
 
 /* Force per length of faces, N/m, with which a load that falls upwards presses those of the platform together, or the
  * edge of a free end onto the other face. */
 static double pressed_by_load(const ZpModel *model) {
-  const ZpFacesParams *faces = &model->faces;
+  const ZpContactParams *faces = &model->faces;
   double beside = zp_ends_free(&model->topology) ? 0 : 0.5 * faces->l;
   return zp_load_pull(model) < 0 ? model->total_weight / (faces->flat_length + beside) : 0;
 }
@@ -511,7 +511,7 @@ static double pressed_by_load(const ZpModel *model) {
  * like a lever. */
 static double deepest_overlap(const ZpModel *model, double U) {
   static const double ranges = 2, of_insulators = 0.02, lever = 3;
-  const ZpFacesParams *faces = &model->faces;
+  const ZpContactParams *faces = &model->faces;
   double attraction = zp_plates_law(&model->plates, U, 0).W;
   double pull = (attraction + pressed_by_load(model)) / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
@@ -1041,7 +1041,7 @@ static double care(const ZpStatics *s) {
   return is_few ? shorter : 1;
 }
 
-ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
+ZpNewtonInfo zp_statics_relax_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
   enum { MOST = 20000 };
   ZpStaticSystem system = zp_statics_system(s);
   s->careful = care(s);
@@ -1049,9 +1049,9 @@ ZpNewtonInfo zp_statics_fall_until(ZpStatics *s, bool (*enough)(void *user), voi
   return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, &s->newton);
 }
 
-ZpNewtonInfo zp_statics_fall(ZpStatics *s, double voltage) {
+ZpNewtonInfo zp_statics_relax(ZpStatics *s, double voltage) {
   s->U = voltage;
-  return zp_statics_fall_until(s, NULL, NULL);
+  return zp_statics_relax_until(s, NULL, NULL);
 }
 
 /* -- along a parameter ---------------------------------------------------------------------------- */

@@ -22,7 +22,7 @@ typedef struct ZpRestMember {
   double *rotation, *stretch; /* [edges] by the last step that was examined, rad, m */
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied */
-  double closed;              /* gap at which it counts as closed, m; zp_slow_start */
+  double closed;              /* gap at which it counts as closed, m; zp_quasistatic_start */
 } ZpRestMember;
 
 typedef struct ZpStatics {
@@ -97,7 +97,7 @@ double zp_statics_tolerance(const ZpStatics *statics);
 
 /* From the present point to the equilibrium in which the actuator hangs without voltage. Faces may pass through each
  * other during the search, but not in the result. */
-ZpNewtonInfo zp_statics_hang(ZpStatics *statics);
+ZpNewtonInfo zp_statics_find_rest(ZpStatics *statics);
 
 /* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before.
  */
@@ -108,7 +108,7 @@ const char *zp_statics_no_rest(const ZpStatics *statics);
 
 /* From the hanging equilibrium up to `voltage` on the hanging branch, to within a millionth of its end. False if the
  * branch ends before, at the pull-in, or if the field cannot be solved (zp_statics_trouble). */
-bool zp_statics_raise(ZpStatics *statics, double voltage);
+bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
 
 /* From now on hold the lower platform of two ribbons at `opening` (below 2 L), or the right end of a fold's lower
  * ribbon as far below its hinge (below L), without load and voltage. Go from the straight shape to the equilibrium
@@ -128,10 +128,10 @@ ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage);
 
 /* From the present point, which may be far from an equilibrium, to the equilibrium at `voltage` in which slow motion
  * against a resistance ends. If it succeeds, the equilibrium is stable. */
-ZpNewtonInfo zp_statics_fall(ZpStatics *statics, double voltage);
+ZpNewtonInfo zp_statics_relax(ZpStatics *statics, double voltage);
 
 /* The same at the present voltage, at most until `enough(user)` is true at the present point. */
-ZpNewtonInfo zp_statics_fall_until(ZpStatics *statics, bool (*enough)(void *user), void *user);
+ZpNewtonInfo zp_statics_relax_until(ZpStatics *statics, bool (*enough)(void *user), void *user);
 
 /* The present point: height of the clip or clamp over the right end of the lower or only ribbon, signed, m; distance
  * between the platforms' faces, m (NAN for one ribbon), both in series of all members together; angle of a fold, rad

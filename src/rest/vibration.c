@@ -8,13 +8,13 @@
 /* Relative change of omega^2 in a round: far above what rounding leaves at N = 2001, far below what a mesh gives. */
 static const double settled_to = 1e-7;
 
-void zp_vibration_carve(ZpVibration *v, size_t n, size_t most, ZpCarver *carver) {
+void zp_vibration_reserve(ZpVibration *v, size_t n, size_t most, ZpArena *arena) {
   v->n = n;
   v->m = n < most ? n : most;
-  v->mass = zp_carve(carver, n);
-  v->weighed = zp_carve(carver, n);
-  v->u = zp_carve(carver, v->m * n);
-  v->next = zp_carve(carver, v->m * n);
+  v->mass = zp_arena_take(arena, n);
+  v->weighed = zp_arena_take(arena, n);
+  v->u = zp_arena_take(arena, v->m * n);
+  v->next = zp_arena_take(arena, v->m * n);
 }
 
 /* Multiples of the golden ratio, which scatter over -1 .. 1. */

@@ -22,8 +22,8 @@ typedef struct ZpVibration {
   double omega2[ZP_VIBRATIONS];
 } ZpVibration;
 
-/* Take the arrays for n equations and at most `most` vectors from `carver`. */
-void zp_vibration_carve(ZpVibration *v, size_t n, size_t most, ZpCarver *carver);
+/* Take the arrays for n equations and at most `most` vectors from `arena`. */
+void zp_vibration_reserve(ZpVibration *v, size_t n, size_t most, ZpArena *arena);
 
 /* a' m b, the inner product of the mass. */
 double zp_vibration_inner(const ZpVibration *v, const double *a, const double *b);

@@ -13,17 +13,17 @@ static size_t edge_count(const ZpRodParams *p) {
   return p->ribbons * (p->nodes - 1);
 }
 
-void zp_rod_carve(const ZpRodParams *p, ZpRodEval *e, ZpCarver *carver) {
+void zp_rod_reserve(const ZpRodParams *p, ZpRodEval *e, ZpArena *arena) {
   size_t margin = ZP_ALIGNMENT / sizeof(double);
   double **plain[] = {&e->dpx, &e->dpy, &e->T, &e->half, &e->k};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
-    *plain[i] = zp_carve(carver, p->stride);
+    *plain[i] = zp_arena_take(arena, p->stride);
   double **with_margin[] = {&e->ux, &e->uy, &e->inverse};
   for (size_t i = 0; i < sizeof with_margin / sizeof with_margin[0]; i++) {
-    double *array = zp_carve(carver, margin + p->stride);
+    double *array = zp_arena_take(arena, margin + p->stride);
     *with_margin[i] = array ? array + margin : NULL;
   }
-  if (!carver->base) return;
+  if (!arena->base) return;
   for (size_t r = 0; r < p->ribbons; r++)
     (e->ux - p->ribbons)[r] = 1;
 }

@@ -49,7 +49,7 @@ typedef struct ZpRodEval {
   double *k;         /* [stride] their discrete curvature, eq. (8.2) */
 } ZpRodEval;
 
-void zp_rod_carve(const ZpRodParams *params, ZpRodEval *eval, ZpCarver *carver);
+void zp_rod_reserve(const ZpRodParams *params, ZpRodEval *eval, ZpArena *arena);
 
 /* Is edge j, between the stations rigid and rigid_end, rigid and horizontal? */
 static inline bool zp_rod_is_rigid(const ZpRodParams *p, size_t j) {

@@ -17,14 +17,14 @@ static size_t edge_count(const ZpRodParams *p) {
   return p->ribbons * (p->nodes - 1);
 }
 
-void zp_rod_step_carve(const ZpRodParams *p, ZpRodStep *s, ZpCarver *carver) {
+void zp_rod_step_reserve(const ZpRodParams *p, ZpRodStep *s, ZpArena *arena) {
   double **plain[] = {&s->tx, &s->ty, &s->T, &s->M, &s->slope, &s->stiffness, &s->tension, &s->endx, &s->endy};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
-    *plain[i] = zp_carve(carver, p->stride);
+    *plain[i] = zp_arena_take(arena, p->stride);
   size_t margin = ZP_ALIGNMENT / sizeof(double); /* one edge more before the first: a held slope, that never turns */
   double **with_margin[] = {&s->gx, &s->gy, &s->turn, &s->Rx, &s->Ry};
   for (size_t i = 0; i < sizeof with_margin / sizeof with_margin[0]; i++) {
-    double *array = zp_carve(carver, margin + p->stride);
+    double *array = zp_arena_take(arena, margin + p->stride);
     *with_margin[i] = array ? array + margin : NULL;
   }
 }

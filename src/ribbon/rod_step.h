@@ -26,7 +26,7 @@ typedef struct ZpRodStep {
   double *Rx, *Ry;            /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodStep;
 
-void zp_rod_step_carve(const ZpRodParams *params, ZpRodStep *step, ZpCarver *carver);
+void zp_rod_step_reserve(const ZpRodParams *params, ZpRodStep *step, ZpArena *arena);
 
 /* A step is to be tried: its tension is first taken for that at its start. */
 void zp_rod_step_begin(const ZpRodParams *params, const ZpRodEval *start, ZpRodStep *step);

@@ -50,7 +50,7 @@ static bool stays_closed(const ZpModel *model, const ZpState *state) {
 
 /* A series has closed when all its members have; antagonists have when one has. */
 static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, const ZpState *state)) {
-  if (zp_is_opposed(sim->model)) return holds(sim->model, sim->state) || holds(sim[1].model, sim[1].state);
+  if (zp_is_antagonist(sim->model)) return holds(sim->model, sim->state) || holds(sim[1].model, sim[1].state);
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
     if (!holds(m->model, m->state)) return false;
   return true;
@@ -59,7 +59,7 @@ static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, con
 /* Of one of two antagonists, the earlier; else of all members, the last. */
 static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
   double last = instant(sim->state);
-  if (zp_is_opposed(sim->model)) return fmin(last, instant(sim[1].state));
+  if (zp_is_antagonist(sim->model)) return fmin(last, instant(sim[1].state));
   for (const ZpSim *m = sim + 1; m < sim + sim->members; m++)
     last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
   return last;
@@ -157,7 +157,7 @@ static double left_of(const ZpSim *m, ZpLanding landing) {
 }
 
 double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
-  const bool first = landing == ZP_LANDS_SHORTED || zp_is_opposed(sim->model);
+  const bool first = landing == ZP_LANDS_SHORTED || zp_is_antagonist(sim->model);
   double left = first ? INFINITY : -INFINITY;
   for (const ZpSim *m = sim; m < sim + sim->members; m++) {
     if (first)

@@ -1,5 +1,5 @@
-/* Inputs: what a program changes while a simulation runs. Their work is booked: of the voltage by account.c, of the
- * load step by step. docs/theory.md, section 17. */
+/* Inputs: what a program changes while a simulation runs. Their work is booked: of the voltage by energy_balance.c, of
+ * the load step by step. docs/theory.md, section 17. */
 #include <math.h>
 
 #include "base/fail.h"
@@ -28,8 +28,8 @@ static ZpRamp ramp_within(double value, double rate, double t, double least, dou
 
 /* Voltage of a member where the uppermost one has `voltage`, V: the same, but of the lower antagonist. */
 static double voltage_of(const ZpSim *sim, const ZpSim *member, double voltage) {
-  bool turned = member != sim && zp_is_opposed(sim->model);
-  return turned ? zp_opposed_voltage(sim->model, voltage) : voltage;
+  bool turned = member != sim && zp_is_antagonist(sim->model);
+  return turned ? zp_antagonist_voltage(sim->model, voltage) : voltage;
 }
 
 /* Says that, and why, it is out of range. */

@@ -39,7 +39,7 @@ static double damp(const ZpPaperMotion *m, size_t i, const double *ay, double dt
   double upper = inverse[2 * i], lower = inverse[2 * i + 1], both = upper + lower;
   if (both == 0) return 0;
   double apart = vy[2 * i] - vy[2 * i + 1];
-  double lost = (1 - zp_faces_kept_at(&m->model->faces, m->eval->plates.gap[i], i, 1 / both, dt)) * apart;
+  double lost = (1 - zp_contact_kept_at(&m->model->faces, m->eval->plates.gap[i], i, 1 / both, dt)) * apart;
   double other = (ay[2 * i] - ay[2 * i + 1]) / both - m->eval->faces.push[i];
   vy[2 * i] -= lost * upper / both;
   vy[2 * i + 1] += lost * lower / both;
@@ -131,7 +131,7 @@ static void book(ZpPaperMotion *m, double dt) {
   step->h = dt;
   zp_system_book(model, step, m->eval, state);
   if (model->kept == 0) return;
-  memcpy(zp_state_own(model, state) + zp_own_unknowns(model), m->eval->memory_end, model->kept * sizeof(double));
+  memcpy(zp_state_own(model, state) + zp_extra_unknowns(model), m->eval->memory_end, model->kept * sizeof(double));
 }
 
 ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double latest) {

@@ -113,7 +113,7 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
       [ZP_CONTROL_CONTRACTION] = {columns, columns_abreast},
       [ZP_CONTROL_CAPACITANCE] = {columns_of_capacitance, columns_abreast_of_capacitance}};
   size_t members = zp_def_members(def) > 1 ? (size_t)zp_def_members(def) : 0;
-  int joined = zp_def_abreast(def) ? SIDE_BY_SIDE : SERIES;
+  int joined = zp_def_parallel(def) ? SIDE_BY_SIDE : SERIES;
   *count = SIGNAL_COUNT + members * (joined == SIDE_BY_SIDE ? NUMBERS_ABREAST : 1);
   return of[def->control.kind == ZP_CONTROL_NONE ? ZP_CONTROL_CONTRACTION : def->control.signal][joined];
 }
@@ -222,7 +222,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_voltage] = state->U;
   row[SIGNAL_command] = zp_sim_is_fed(sim) ? zp_sim_command(sim) : state->U;
   row[SIGNAL_source_voltage] = zp_sim_is_fed(sim) ? state->supply.voltage : state->U;
-  row[SIGNAL_cable_energy] = zp_sim_is_fed(sim) ? zp_feed_cable_energy(sim, state->U) : 0;
+  row[SIGNAL_cable_energy] = zp_sim_is_fed(sim) ? zp_supply_coupling_cable_energy(sim, state->U) : 0;
   row[SIGNAL_setpoint] = zp_sim_setpoint(sim);
   row[SIGNAL_measured] = sim->model->control.kind == ZP_CONTROL_NONE ? 0 : state->control.measured;
   row[SIGNAL_load_work] = parts * state->load_work;
@@ -254,7 +254,7 @@ static void fill_leak(ZpSim *sim, double *row) {
 static void fill_electric(ZpSim *sim, double *now, double *row) {
   const ZpState *state = sim->state;
   ZpElectric e = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
-  ZpAccount account = zp_sim_account(sim, e);
+  ZpBalance account = zp_sim_energy_balance(sim, e);
   bool fed = zp_sim_is_fed(sim);
   double parts = sim->model->parts, passed = state->t - sim->row_time;
   double given = fed ? state->source_charge / parts : e.charge + state->leaked;
@@ -356,7 +356,7 @@ static bool is_of_upper(size_t signal) {
 static int rule_of(const ZpModel *model, size_t signal) {
   if (row_of[signal]) return row_of[signal]->kind == ZP_ROW_SIGNAL ? LARGEST : SUM;
   if (!zp_shares_load(model) || !is_of_upper(signal)) return of_series[signal];
-  return model->abreast && signal == SIGNAL_zipped_length ? LEAST : FIRST;
+  return model->parallel && signal == SIGNAL_zipped_length ? LEAST : FIRST;
 }
 
 /* Combine the row of a member with that of those above it. */
@@ -383,9 +383,9 @@ static double force_of(const ZpSim *sim) {
 
 /* Signals of one member alone, in addition to those of all => their number. */
 static size_t put_member(const ZpSim *sim, double *place) {
-  place[0] = sim->model->abreast ? force_of(sim) : sim->row[SIGNAL_opening];
-  if (sim->model->abreast) place[1] = sim->row[SIGNAL_zipped_length];
-  return sim->model->abreast ? NUMBERS_ABREAST : 1;
+  place[0] = sim->model->parallel ? force_of(sim) : sim->row[SIGNAL_opening];
+  if (sim->model->parallel) place[1] = sim->row[SIGNAL_zipped_length];
+  return sim->model->parallel ? NUMBERS_ABREAST : 1;
 }
 
 /* The same of all members, and numbers of each. */
@@ -419,7 +419,7 @@ static void make_row(ZpSim *sim) {
   const ZpState *state = sim->state;
   fill_row(sim, ALL);
   if (!(state->t > sim->row_time)) return;
-  if (!zp_sim_is_fed(sim)) zp_feed_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
+  if (!zp_sim_is_fed(sim)) zp_supply_coupling_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
   for (ZpSim *m = sim; m < sim + sim->members; m++)
     count_from_here(m);
 }
@@ -505,7 +505,7 @@ static ZpShape join_shapes(ZpSim *sim) {
   size_t member = 0;
   for (ZpSim *m = sim; m < sim + sim->members; m++, member++) {
     double *y = zp_many_put(&sim->all, member, &m->shape);
-    if (m != sim && zp_is_opposed(sim->model)) zp_shape_turn_over(m->model, y);
+    if (m != sim && zp_is_antagonist(sim->model)) zp_shape_turn_over(m->model, y);
   }
   zp_many_give(&sim->all, &shape);
   return shape;

@@ -76,7 +76,7 @@ static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
   if (opened) {
     rest.statics.stop = stop_hanging;
     rest.statics.caller = hooks;
-    ZpNewtonInfo info = zp_statics_hang(&rest.statics);
+    ZpNewtonInfo info = zp_statics_find_rest(&rest.statics);
     *found = zp_newton_good(info.end);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
@@ -134,7 +134,7 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   start_at(sim, q);
-  if (model->abreast)
+  if (model->parallel)
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
@@ -155,7 +155,7 @@ static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   if (opened) {
     rest.statics.stop = stop_hanging;
     rest.statics.caller = hooks;
-    ZpNewtonInfo info = zp_statics_hang(&rest.statics);
+    ZpNewtonInfo info = zp_statics_find_rest(&rest.statics);
     sim->settle_steps = info.iterations;
     sim->settle_residual = info.residual;
     if (!zp_newton_good(info.end)) sim->settled = rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;

@@ -36,27 +36,27 @@ const char *zp_step_limit_name(ZpStepLimit limit) {
 /* -- creation ------------------------------------------------------------------------------------- */
 
 static bool make_shape_room(ZpSim *sim) {
-  ZpCarver carver = {NULL, 0};
-  zp_shape_carve(sim->model, &sim->shape_room, &carver);
-  sim->shape_memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){sim->shape_memory, 0};
-  if (sim->shape_memory) zp_shape_carve(sim->model, &sim->shape_room, &carver);
+  ZpArena arena = {NULL, 0};
+  zp_shape_reserve(sim->model, &sim->shape_room, &arena);
+  sim->shape_memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){sim->shape_memory, 0};
+  if (sim->shape_memory) zp_shape_reserve(sim->model, &sim->shape_room, &arena);
   return sim->shape_memory != NULL;
 }
 
-static void carve_liquid(const ZpModel *model, ZpLiquidRoom *room, ZpCarver *carver) {
+static void reserve_liquid(const ZpModel *model, ZpLiquidRoom *room, ZpArena *arena) {
   size_t members = model->members;
-  room->thickness = zp_carve(carver, members * model->nodes);
-  room->pressure = zp_carve(carver, members * model->nodes);
-  room->wet_length = zp_carve(carver, members * ZP_BEADS);
+  room->thickness = zp_arena_take(arena, members * model->nodes);
+  room->pressure = zp_arena_take(arena, members * model->nodes);
+  room->wet_length = zp_arena_take(arena, members * ZP_BEADS);
 }
 
 static bool make_liquid_room(ZpSim *sim) {
-  ZpCarver carver = {NULL, 0};
-  carve_liquid(sim->model, &sim->liquid, &carver);
-  sim->liquid.memory = zp_calloc(1, carver.used);
-  carver = (ZpCarver){sim->liquid.memory, 0};
-  if (sim->liquid.memory) carve_liquid(sim->model, &sim->liquid, &carver);
+  ZpArena arena = {NULL, 0};
+  reserve_liquid(sim->model, &sim->liquid, &arena);
+  sim->liquid.memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){sim->liquid.memory, 0};
+  if (sim->liquid.memory) reserve_liquid(sim->model, &sim->liquid, &arena);
   return sim->liquid.memory != NULL;
 }
 
@@ -138,11 +138,11 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
 /* For the shape of all members. */
 static bool make_room(ZpSim *sim, size_t members) {
   const ZpModel *model = sim->model;
-  ZpCarver size = {NULL, 0};
-  zp_many_carve(&sim->all, members, model->count, model->nodes, &size);
+  ZpArena size = {NULL, 0};
+  zp_many_reserve(&sim->all, members, model->count, model->nodes, &size);
   sim->all_memory = zp_calloc(1, size.used);
-  ZpCarver carver = {sim->all_memory, 0};
-  zp_many_carve(&sim->all, members, model->count, model->nodes, &carver);
+  ZpArena arena = {sim->all_memory, 0};
+  zp_many_reserve(&sim->all, members, model->count, model->nodes, &arena);
   return sim->all_memory != NULL;
 }
 
@@ -179,7 +179,7 @@ static ZpSim *create_straight(const ZpModel *model) {
 static void start(ZpSim *sim) {
   const ZpModel *model = sim->model;
   zp_sim_lay_beads(sim);
-  zp_sim_start_account(sim);
+  zp_sim_start_balance(sim);
   if (model->control.kind != ZP_CONTROL_NONE)
     zp_sim_start_control(sim);
   else if (!zp_sim_is_fed(sim))

@@ -6,10 +6,10 @@
 
 #include "actuator/shape.h"
 #include "rest/dynamics.h"
-#include "sim/feed.h"
 #include "sim/paper_motion.h"
 #include "sim/still.h"
-#include "system/held.h"
+#include "sim/supply_coupling.h"
+#include "system/cached_field.h"
 
 /* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
 typedef struct ZpOwnControl {
@@ -93,10 +93,10 @@ typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_RESTED, ZP_
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
-  ZpState *kept;      /* a copy of a valid state through which a longer run would also pass */
-  ZpState *before;    /* a copy of the state at the start of the step */
-  ZpFeed feed;        /* the supply at the electrodes */
-  ZpFeed feed_before; /* the same at the start of the step */
+  ZpState *kept;                /* a copy of a valid state through which a longer run would also pass */
+  ZpState *before;              /* a copy of the state at the start of the step */
+  ZpSupplyCoupling feed;        /* the supply at the electrodes */
+  ZpSupplyCoupling feed_before; /* the same at the start of the step */
   ZpOwnControl control;
   bool cut;   /* the end of the run has shortened a step since `kept` */
   int drive;  /* the key drive.voltage, which has the range of voltages that a program sets */
@@ -122,24 +122,24 @@ struct ZpSim {
   ZpOutcome settled;             /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;
-  const ZpStepping *stepping; /* the method of time stepping */
-  ZpDynamics dynamics;        /* of implicit steps */
-  ZpPaperMotion paper;        /* of the paper's steps */
-  ZpStepStart step_start;     /* of the last step */
-  bool stuck;                 /* no step succeeded */
-  bool negative;              /* a row has had a negative capacitance */
-  const char *fault;          /* why the model does not describe where the last run ended; NULL: it does */
-  bool stops_at_events;       /* the run ends at the first event */
-  bool at_event;              /* the last step has ended at an event */
-  ZpStop stop;                /* where the run under way ends before its end time */
-  ZpLanding landing;          /* the run has ended at this instant, exactly at the end of the last step, */
-  double left_before;         /* and what was left until then at the start of that step: zp_sim_left */
-  size_t members;             /* simulations of one member each that follow each other, from this first one on */
-  ZpState **states;           /* [members] of the first one: the states of all */
-  struct ZpRunRates *rates;   /* derivatives of the run; NULL: none */
-  ZpLiquidRoom liquid;        /* of the liquid that zp_sim_liquid returns */
-  ZpManyShapes all;           /* of the uppermost member of a series: arrays for the shape of all members */
-  void *all_memory;           /* memory of these arrays */
+  const ZpStepping *stepping;     /* the method of time stepping */
+  ZpDynamics dynamics;            /* of implicit steps */
+  ZpPaperMotion paper;            /* of the paper's steps */
+  ZpStepStart step_start;         /* of the last step */
+  bool stuck;                     /* no step succeeded */
+  bool negative;                  /* a row has had a negative capacitance */
+  const char *fault;              /* why the model does not describe where the last run ended; NULL: it does */
+  bool stops_at_events;           /* the run ends at the first event */
+  bool at_event;                  /* the last step has ended at an event */
+  ZpStop stop;                    /* where the run under way ends before its end time */
+  ZpLanding landing;              /* the run has ended at this instant, exactly at the end of the last step, */
+  double left_before;             /* and what was left until then at the start of that step: zp_sim_left */
+  size_t members;                 /* simulations of one member each that follow each other, from this first one on */
+  ZpState **states;               /* [members] of the first one: the states of all */
+  struct ZpRunSensitivity *rates; /* derivatives of the run; NULL: none */
+  ZpLiquidRoom liquid;            /* of the liquid that zp_sim_liquid returns */
+  ZpManyShapes all;               /* of the uppermost member of a series: arrays for the shape of all members */
+  void *all_memory;               /* memory of these arrays */
 };
 
 /* A simulation that starts at coordinates q [2 stride] (NULL: straight) with a given hanging opening, without computing
@@ -197,7 +197,8 @@ void zp_sim_lay_beads(ZpSim *sim);
 /* The member that carries the load. */
 ZpSim *zp_sim_loaded(ZpSim *sim);
 
-/* Time at which load.change_mass will still be caught or dropped, s; INFINITY: never. Catch or drop it now (catch.c).
+/* Time at which load.change_mass will still be caught or dropped, s; INFINITY: never. Catch or drop it now
+ * (load_change.c).
  */
 double zp_sim_load_due(const ZpSim *sim);
 void zp_sim_change_load(ZpSim *sim);
@@ -208,20 +209,21 @@ void zp_sim_resume(ZpSim *sim);
 /* The last valid states through which a longer run would also pass => state [members]. */
 void zp_sim_passed(const ZpSim *sim, ZpState *state[]);
 
-/* Work of the source so far, and the part of it at jumps that the field did not store, of one part, J (account.c). */
-typedef struct ZpAccount {
+/* Work of the source so far, and the part of it at jumps that the field did not store, of one part, J
+ * (energy_balance.c). */
+typedef struct ZpBalance {
   double work, charging_loss;
-} ZpAccount;
+} ZpBalance;
 
 /* The account of the present state, with its electric totals `now`; the state does not change. */
-ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now);
+ZpBalance zp_sim_energy_balance(ZpSim *sim, ZpElectric now);
 
 /* Count energies and losses from now on. */
-void zp_sim_start_account(ZpSim *sim);
+void zp_sim_start_balance(ZpSim *sim);
 
 /* Close the account of the source at the present time, including a jump that is still open; a held field that is out of
  * date is recomputed first. */
-void zp_sim_close_account(ZpSim *sim);
+void zp_sim_close_balance(ZpSim *sim);
 
 /* Set this voltage from now on, V, within its range: the command of a supply, or else a jump. */
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage);

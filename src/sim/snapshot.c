@@ -15,7 +15,7 @@
 
 #include "base/pack.h"
 #include "def/check.h"
-#include "sim/feed.h"
+#include "sim/supply_coupling.h"
 
 static const ZpPackKind snapshot = {"snapshot", 'S', 10};
 
@@ -32,7 +32,7 @@ typedef enum Kind {
   STEP,    /* of time, s; 0: none */
   FLAG,
   NODE,  /* a number of one, in a size_t */
-  MODE,  /* a ZpFeedMode, in a size_t */
+  MODE,  /* a ZpSupplyMode, in a size_t */
   SAMPLE /* a whole number, in a double */
 } Kind;
 
@@ -165,12 +165,13 @@ static void walk_numbers(ZpPack *p, ZpState *state) {
 static void walk_arrays(ZpPack *p, const ZpModel *model, double *data) {
   for (size_t k = 0; k < ARRAYS; k++)
     zp_pack_field(p, array[k], ZP_REAL, data ? data + 2 * k * model->stride : NULL,
-                  k + 1 < ARRAYS ? 2 * model->stride : zp_own_unknowns(model) + model->kept);
+                  k + 1 < ARRAYS ? 2 * model->stride : zp_extra_unknowns(model) + model->kept);
 }
 
 /* The rows of the ledger, behind the arrays. */
 static void walk_rows(ZpPack *p, const ZpModel *model, double *data) {
-  double *row = data ? data + (size_t)(2 * (ARRAYS - 1)) * model->stride + zp_own_unknowns(model) + model->kept : NULL;
+  double *row =
+      data ? data + (size_t)(2 * (ARRAYS - 1)) * model->stride + zp_extra_unknowns(model) + model->kept : NULL;
   for (size_t k = 0; k < model->ledger.rows; k++)
     zp_pack_field(p, model->ledger.row[k]->name, ZP_REAL, row ? row + k : NULL, 1);
 }
@@ -241,12 +242,12 @@ static bool is_possible(Kind kind, double value, double t, const ZpActuatorDef *
   case NODE:
     return value < def->mesh.nodes;
   case MODE:
-    return value == ZP_FEED_FREE || value == ZP_FEED_GIVES_MOST || value == ZP_FEED_SINKS_MOST ||
-           value == ZP_FEED_SPILLS;
+    return value == ZP_SUPPLY_FREE || value == ZP_SUPPLY_GIVES_MOST || value == ZP_SUPPLY_SINKS_MOST ||
+           value == ZP_SUPPLY_SPILLS;
   case VOLTAGE:
     return is_voltage(value, 1);
   case RATE:
-    return is_voltage(value, 1 / ZP_FEED_SHORTEST);
+    return is_voltage(value, 1 / ZP_SUPPLY_SHORTEST);
   case INPUT:
     return fabs(value) <= most_input;
   case READING:

@@ -3,14 +3,14 @@
  * (rest/dynamics.c) or by the paper's explicit ones (paper_motion.c), and arrives. */
 #include <math.h>
 
-#include "sim/run_rates.h"
+#include "sim/sensitivity.h"
 #include "sim/sim_internal.h"
 
 /* -- the two methods ------------------------------------------------------------------------------- */
 
 static bool create_implicit(ZpSim *sim) {
   bool fed = zp_sim_is_fed(sim);
-  if (fed) zp_feed_create(sim);
+  if (fed) zp_supply_coupling_create(sim);
   return zp_dynamics_create(sim->model, fed ? &sim->feed.source : NULL, &sim->dynamics);
 }
 
@@ -20,7 +20,7 @@ static bool step_implicit(ZpSim *sim, double latest, ZpStepLimit *limit) {
   static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
   ZpState *state = sim->state;
   *limit = sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
-  if (zp_sim_is_fed(sim)) return zp_feed_step(sim, latest);
+  if (zp_sim_is_fed(sim)) return zp_supply_coupling_step(sim, latest);
   if (latest - state->t < shortest) {
     for (ZpSim *m = sim; m < sim + sim->members; m++)
       m->state->t = latest;
@@ -98,7 +98,7 @@ static double resolution(ZpSim *sim) {
   double t = state->t, usual = fmax(least_voltage, zp_waveform_largest(waveform));
   double voltage =
       state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
-  if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_feed_resolution(sim, usual));
+  if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_supply_coupling_resolution(sim, usual));
   if (model->leaks) voltage = fmin(voltage, zp_ramp_resolution(usual, zp_sim_leak(sim).fastest));
   return fmin(voltage, hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(model), t));
 }
@@ -109,11 +109,11 @@ static double resolution(ZpSim *sim) {
  * no step: a field that cannot be solved ends the run. */
 static bool prepare_step(ZpSim *sim) {
   ZpState *state = sim->state;
-  if (state->U != state->base_U) zp_sim_close_account(sim);
-  if (!zp_held_due(sim->model, state)) return true;
+  if (state->U != state->base_U) zp_sim_close_balance(sim);
+  if (!zp_cached_field_due(sim->model, state)) return true;
   double charge = zp_sim_is_fed(sim) ? zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge : 0;
-  if (zp_held_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND) return false;
-  if (zp_sim_is_fed(sim)) zp_feed_renew(sim, charge);
+  if (zp_cached_field_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND) return false;
+  if (zp_sim_is_fed(sim)) zp_supply_coupling_renew(sim, charge);
   return true;
 }
 
@@ -233,13 +233,13 @@ typedef struct Step {
 /* Changes that are due now, and how long nothing from outside stops the motion. */
 static Step begin(ZpSim *sim, double end_time) {
   const ZpState *state = sim->state;
-  if (sim->rates) zp_run_rates_begin(sim->rates, end_time);
+  if (sim->rates) zp_run_sensitivity_begin(sim->rates, end_time);
   if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
-  if (zp_sim_is_fed(sim)) zp_feed_arrive(sim);
+  if (zp_sim_is_fed(sim)) zp_supply_coupling_arrive(sim);
   double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
   if (zp_sim_is_fed(sim)) {
-    corner = fmin(corner, zp_feed_event(sim, latest));
+    corner = fmin(corner, zp_supply_coupling_event(sim, latest));
     latest = fmin(latest, corner);
   }
   return (Step){.corner = corner,
@@ -258,7 +258,7 @@ static void count(ZpSim *sim, const Step *step, double end_time, ZpRunInfo *info
   const ZpStepLimit limit = limit_of(sim, step->limit, step->corner, end_time);
   info->steps++;
   info->limited[limit]++;
-  if (sim->rates) zp_run_rates_follow(sim->rates);
+  if (sim->rates) zp_run_sensitivity_follow(sim->rates);
   sim->at_event = limit == ZP_LIMIT_EVENT || sim->state->supply_mode != step->supply_mode ||
                   (step->unzipped && !isnan(zp_sim_zip_time(sim)));
 }

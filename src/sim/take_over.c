@@ -27,8 +27,8 @@ static ZpStatus check_one(const ZpModel *model, const ZpModel *other, ZpError *e
 /* Members that share a load fit together only at the lengths that they had. */
 static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   const ZpModel *model = sim->model, *other = from->model;
-  if (model->members != other->members || zp_is_opposed(model) != zp_is_opposed(other) ||
-      model->abreast != other->abreast)
+  if (model->members != other->members || zp_is_antagonist(model) != zp_is_antagonist(other) ||
+      model->parallel != other->parallel)
     return zp_fail(err, ZP_BAD_INPUT, "stack: the simulation to take over from has other members");
   if (zp_shares_load(model) && (model->L != other->L || model->distance != other->distance))
     return zp_fail(err, ZP_BAD_INPUT,
@@ -49,8 +49,8 @@ static void take_numbers(double *to, size_t count, const double *old, size_t kno
  * charge, a strip that has not yielded. */
 static void take_own(ZpSim *sim, const ZpSim *from) {
   const ZpModel *model = sim->model;
-  take_numbers(zp_state_own(model, sim->state), zp_own_unknowns(model), zp_state_own(from->model, from->state),
-               zp_own_unknowns(from->model));
+  take_numbers(zp_state_own(model, sim->state), zp_extra_unknowns(model), zp_state_own(from->model, from->state),
+               zp_extra_unknowns(from->model));
   for (const ZpLaw *law = model->law; law < model->law + model->laws; law++) {
     const ZpLaw *known = zp_law(from->model, law->term);
     take_numbers(zp_law_state(model, law->term, sim->state), law->state,
@@ -82,9 +82,9 @@ static void take_drive(ZpSim *sim, const ZpSim *from) {
   state->by_hand = true;
   if (!zp_sim_is_fed(from)) state->supply = (ZpSupplyState){voltage, voltage};
   state->refreshed = NAN;
-  if (zp_held_due(sim->model, state)) zp_held_refresh(sim->model, state, &sim->eval);
+  if (zp_cached_field_due(sim->model, state)) zp_cached_field_refresh(sim->model, state, &sim->eval);
   zp_control_restart(&sim->model->control, state->t, &state->control);
-  zp_sim_start_account(sim);
+  zp_sim_start_balance(sim);
 }
 
 ZpStatus zp_sim_take_over(ZpSim *sim, const ZpSim *from, ZpError *err) {

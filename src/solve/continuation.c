@@ -12,19 +12,19 @@ static const double sharpest_turn = 0.7; /* cosine: a step that turns by more wo
 static const double corner_step = 1e-7;  /* what still turns more within it is a corner, where the stiffness jumps */
 enum { MOST_CORRECTIONS = 25, EASY_CORRECTIONS = 4, MOST_REFRESHES = 20 };
 
-void zp_branch_carve(ZpBranch *b, const ZpBranchSystem *system, ZpNewtonWork *newton, ZpCarver *carver) {
+void zp_branch_reserve(ZpBranch *b, const ZpBranchSystem *system, ZpNewtonWork *newton, ZpArena *arena) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   b->system = system;
   b->newton = newton;
-  b->a = zp_carve(carver, n);
-  b->b = zp_carve(carver, n);
-  b->q = zp_carve(carver, n);
-  b->q_start = zp_carve(carver, n);
-  b->direction = zp_carve(carver, n);
-  b->direction_saved = zp_carve(carver, n);
-  b->direction_after = zp_carve(carver, n);
-  b->saved = zp_carve(carver, saved);
-  b->saved_before = zp_carve(carver, saved);
+  b->a = zp_arena_take(arena, n);
+  b->b = zp_arena_take(arena, n);
+  b->q = zp_arena_take(arena, n);
+  b->q_start = zp_arena_take(arena, n);
+  b->direction = zp_arena_take(arena, n);
+  b->direction_saved = zp_arena_take(arena, n);
+  b->direction_after = zp_arena_take(arena, n);
+  b->saved = zp_arena_take(arena, saved);
+  b->saved_before = zp_arena_take(arena, saved);
 }
 
 /* Negative eigenvalues for motions in which equal parts move alike, as they do along a branch. The common unknowns are

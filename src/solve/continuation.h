@@ -35,7 +35,7 @@ typedef struct ZpBranch {
   void *saved, *saved_before;
 } ZpBranch;
 
-void zp_branch_carve(ZpBranch *branch, const ZpBranchSystem *system, ZpNewtonWork *newton, ZpCarver *carver);
+void zp_branch_reserve(ZpBranch *branch, const ZpBranchSystem *system, ZpNewtonWork *newton, ZpArena *arena);
 
 /* Start at the present point, which must be an equilibrium, towards growing (or falling) m. False if the
  * stiffness is singular there. */

@@ -10,17 +10,17 @@
 enum { DEPTH = ZP_FIXED_POINT_DEPTH };
 static const double dependent = 1e-10; /* share of a column whose remainder is rounding */
 
-void zp_fixed_point_carve(ZpFixedPoint *f, size_t n, size_t judged, ZpCarver *carver) {
+void zp_fixed_point_reserve(ZpFixedPoint *f, size_t n, size_t judged, ZpArena *arena) {
   f->n = n;
   f->judged = judged;
   f->pairs = -1;
-  f->x = zp_carve(carver, n);
-  f->left = zp_carve(carver, n);
-  f->rest = zp_carve(carver, judged);
+  f->x = zp_arena_take(arena, n);
+  f->left = zp_arena_take(arena, n);
+  f->rest = zp_arena_take(arena, judged);
   for (int k = 0; k < DEPTH; k++) {
-    f->moved[k] = zp_carve(carver, n);
-    f->changed[k] = zp_carve(carver, n);
-    f->q[k] = zp_carve(carver, judged);
+    f->moved[k] = zp_arena_take(arena, n);
+    f->changed[k] = zp_arena_take(arena, n);
+    f->q[k] = zp_arena_take(arena, judged);
   }
 }
 

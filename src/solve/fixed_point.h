@@ -21,8 +21,8 @@ typedef struct ZpFixedPoint {
   double *rest;                          /* [judged] work space */
 } ZpFixedPoint;
 
-/* Cut the arrays for n unknowns, of which the first `judged` decide, from `carver`. */
-void zp_fixed_point_carve(ZpFixedPoint *f, size_t n, size_t judged, ZpCarver *carver);
+/* Cut the arrays for n unknowns, of which the first `judged` decide, from `arena`. */
+void zp_fixed_point_reserve(ZpFixedPoint *f, size_t n, size_t judged, ZpArena *arena);
 
 /* (x, G(x)) => next [n], where to try it next; `next` may not be one of both. Those that decide are in like units. */
 void zp_fixed_point_next(ZpFixedPoint *f, const double *x, const double *mapped, double *next);

@@ -11,15 +11,15 @@
 
 #include "math/vector.h"
 
-void zp_fold_carve(ZpFold *f, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpCarver *carver) {
+void zp_fold_reserve(ZpFold *f, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpArena *arena) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   f->system = system;
   f->newton = newton;
-  zp_band_carve_form(&f->beside, n, form, carver);
+  zp_band_reserve_form(&f->beside, n, form, arena);
   double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at, &f->by_a, &f->by_n};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
-    *vectors[k] = zp_carve(carver, n);
-  f->saved = zp_carve(carver, saved);
+    *vectors[k] = zp_arena_take(arena, n);
+  f->saved = zp_arena_take(arena, saved);
 }
 
 bool zp_fold_tangent(ZpFold *f) {

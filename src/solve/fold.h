@@ -34,7 +34,7 @@ typedef struct ZpFold {
 /* Accuracy of a solution: a result, or an intermediate point, which is only accurate enough for its tangent. */
 typedef enum ZpFoldTo { ZP_FOLD_EXACT, ZP_FOLD_ROUGH } ZpFoldTo;
 
-void zp_fold_carve(ZpFold *fold, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpCarver *carver);
+void zp_fold_reserve(ZpFold *fold, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpArena *arena);
 
 /* At the present point: unbalanced forces => newton->r, factored stiffness => newton->K, number of its negative pivots
  * => negative, dq/dm = K^-1 dr/dm => along. False if there is no residual or the stiffness is singular. */

@@ -19,13 +19,13 @@ static const double fastest_growth = 1.6, sharpest_cut = 0.3, safety = 0.85;
 static const double start_growth = 4, far_below = 1e-3; /* where the error is far below the limit, as at first */
 enum { MOST_ITERATIONS = 16, MOST_CHOICES = 60, PATIENCE = 8, EASY = 5, HARD = 8 };
 
-void zp_implicit_carve(ZpImplicit *s, const ZpImplicitSystem *system, ZpCarver *carver) {
+void zp_implicit_reserve(ZpImplicit *s, const ZpImplicitSystem *system, ZpArena *arena) {
   s->system = system;
   s->share = newton_share;
-  s->q = zp_carve(carver, system->n);
-  s->r = zp_carve(carver, system->n);
-  s->x = zp_carve(carver, system->n);
-  zp_bordered_carve(&s->A, system->n, system->border, system->lower, system->bandwidth, system->groups, carver);
+  s->q = zp_arena_take(arena, system->n);
+  s->r = zp_arena_take(arena, system->n);
+  s->x = zp_arena_take(arena, system->n);
+  zp_bordered_reserve(&s->A, system->n, system->border, system->lower, system->bandwidth, system->groups, arena);
 }
 
 static ZpUnknown kind_of(const ZpImplicitSystem *system, size_t i) {
@@ -309,7 +309,7 @@ void zp_implicit_smooth(ZpImplicit *s, double h, double *v) {
   smooth(s, h, true, 5, v);
 }
 
-void zp_implicit_calm(ZpImplicit *s, double h, const double *w, double *v) {
+void zp_implicit_filter(ZpImplicit *s, double h, const double *w, double *v) {
   for (size_t i = 0; i < s->system->n; i++)
     v[i] -= w[i];
   smooth(s, h, false, 3, v);
@@ -377,35 +377,35 @@ typedef struct Rates {
 } Rates;
 
 /* Difference quotient over the neighbouring steps; for equal numbers it is exactly 0. */
-static double quotient(const ZpNearSteps *steps, const double *(*of)(const ZpNearStep *near), size_t i) {
+static double quotient(const ZpDifferenceSteps *steps, const double *(*of)(const ZpDifferenceStep *near), size_t i) {
   double sum = 0, first = of(&steps->near[0])[i];
   for (int k = 1; k < steps->count; k++)
     sum += steps->near[k].weight * (of(&steps->near[k])[i] - first);
   return sum;
 }
 
-static const double *position(const ZpNearStep *near) {
+static const double *position(const ZpDifferenceStep *near) {
   return near->q;
 }
 
-static const double *velocity(const ZpNearStep *near) {
+static const double *velocity(const ZpDifferenceStep *near) {
   return near->v;
 }
 
-static const double *mass_of(const ZpNearStep *near) {
+static const double *mass_of(const ZpDifferenceStep *near) {
   return near->stepper->system->mass;
 }
 
-static const double *mean_rate(const ZpNearStep *near) {
+static const double *mean_rate(const ZpDifferenceStep *near) {
   return near->history->last > 0 ? near->history->w : near->v;
 }
 
-static const double *length(const ZpNearStep *near) {
+static const double *length(const ZpDifferenceStep *near) {
   return &near->h;
 }
 
 /* The starts of the steps; ends are guessed as if all changed as in the last step. */
-static Rates start(const ZpNearSteps *steps, double *rate) {
+static Rates start(const ZpDifferenceSteps *steps, double *rate) {
   size_t n = steps->near[0].stepper->system->n;
   double *work = steps->work + n;
   Rates r = {.n = n,
@@ -422,7 +422,7 @@ static Rates start(const ZpNearSteps *steps, double *rate) {
     rate[i] = r.dq[i] + r.h * quotient(steps, mean_rate, i) + r.dh * steps->lead->w[i];
   }
   for (int k = 0; k < steps->count; k++) {
-    const ZpNearStep *near = &steps->near[k];
+    const ZpDifferenceStep *near = &steps->near[k];
     ZpImplicit *s = near->stepper;
     begin(s, near->q, near->v);
     if (s->system->attempt) s->system->attempt(s->system->self, s->q);
@@ -431,7 +431,7 @@ static Rates start(const ZpNearSteps *steps, double *rate) {
 }
 
 /* Derivative of the inertia 2 m (w - v0) / h = m a over the step. */
-static double rate_of_inertia(const ZpNearSteps *steps, const Rates *r, size_t i) {
+static double rate_of_inertia(const ZpDifferenceSteps *steps, const Rates *r, size_t i) {
   const ZpImplicitHistory *lead = steps->lead;
   double m = mass_of(&steps->near[0])[i], a = lead->a[i], v = lead->w[i] - 0.5 * r->h * a;
   double late = r->dq1[i] - r->dq[i] - r->dh * v - r->h * r->dv[i];
@@ -439,10 +439,10 @@ static double rate_of_inertia(const ZpNearSteps *steps, const Rates *r, size_t i
 }
 
 /* Move all ends along the rate, and differentiate the residual there => left. */
-static bool look(const ZpNearSteps *steps, const Rates *r, double *left) {
+static bool look(const ZpDifferenceSteps *steps, const Rates *r, double *left) {
   memset(left, 0, r->n * sizeof *left);
   for (int k = 0; k < steps->count; k++) {
-    const ZpNearStep *near = &steps->near[k];
+    const ZpDifferenceStep *near = &steps->near[k];
     ZpImplicit *s = near->stepper;
     for (size_t i = 0; i < r->n; i++)
       s->q[i] = steps->q1[i] + near->offset * r->dq1[i];
@@ -455,7 +455,7 @@ static bool look(const ZpNearSteps *steps, const Rates *r, double *left) {
   return true;
 }
 
-static bool factor(const ZpNearStep *near) {
+static bool factor(const ZpDifferenceStep *near) {
   Imbalance unused;
   return linearise(near->stepper, near->h, near->q, near->v, &unused) == ZP_END_FOUND;
 }
@@ -484,7 +484,7 @@ static double taken_back(const ZpImplicitSystem *system, const double *left, con
 }
 
 /* One pass that leaves a correction: the rate changes by it and by what the previous pass has shown of it. */
-static void correct(const ZpNearSteps *steps, const Rates *r, bool first) {
+static void correct(const ZpDifferenceSteps *steps, const Rates *r, bool first) {
   double *left = steps->work, *before = left + 4 * r->n, *moved = left + 5 * r->n;
   double share = first ? 0 : taken_back(steps->near[0].stepper->system, left, before);
   for (size_t i = 0; i < r->n; i++) {
@@ -496,7 +496,7 @@ static void correct(const ZpNearSteps *steps, const Rates *r, bool first) {
 }
 
 /* Rounding of a derivative of numbers of size 1: a third of the sum of the weights' sizes, as errors mostly cancel. */
-static double rate_rounding(const ZpNearSteps *steps) {
+static double rate_rounding(const ZpDifferenceSteps *steps) {
   double sum = 0;
   for (int k = 0; k < steps->count; k++)
     sum += fabs(steps->near[k].weight);
@@ -504,7 +504,7 @@ static double rate_rounding(const ZpNearSteps *steps) {
 }
 
 /* Passes with the factored Jacobian of one of the steps: the next pass corrects what it lacks of the exact tangent. */
-static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
+static bool find_rate(const ZpDifferenceSteps *steps, const Rates *r) {
   enum { MOST_PASSES = 40 };
   ZpImplicit *s = steps->near[0].stepper;
   double *left = steps->work, before = INFINITY, rounding = rate_rounding(steps) * s->reach;
@@ -521,7 +521,7 @@ static bool find_rate(const ZpNearSteps *steps, const Rates *r) {
 }
 
 /* The end of the neighbouring step whose residual was found last. */
-static void accept_near(const ZpNearSteps *steps, const Rates *r, const ZpNearStep *near) {
+static void accept_near(const ZpDifferenceSteps *steps, const Rates *r, const ZpDifferenceStep *near) {
   const ZpImplicitHistory *lead = steps->lead;
   accept(near->stepper, near->h, near->q, near->v, near->history);
   for (size_t i = 0; i < r->n; i++) {
@@ -533,7 +533,7 @@ static void accept_near(const ZpNearSteps *steps, const Rates *r, const ZpNearSt
   }
 }
 
-bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate) {
+bool zp_implicit_follow(const ZpDifferenceSteps *steps, bool with_matrix, double *rate) {
   Rates r = start(steps, rate);
   if (!find_rate(steps, &r) || !look(steps, &r, steps->work)) return false;
   for (int k = 0; k < steps->count; k++) {
@@ -545,8 +545,8 @@ bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate
 
 /* -- the exact tangent ----------------------------------------------------------------------------- */
 
-void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver) {
-  zp_bordered_carve(J, system->n, system->border, system->bandwidth, system->bandwidth, system->groups, carver);
+void zp_implicit_reserve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpArena *arena) {
+  zp_bordered_reserve(J, system->n, system->border, system->bandwidth, system->bandwidth, system->groups, arena);
 }
 
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J) {

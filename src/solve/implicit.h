@@ -94,8 +94,8 @@ typedef struct ZpImplicit {
   ZpBordered A;
 } ZpImplicit;
 
-/* Take the arrays from `carver`. */
-void zp_implicit_carve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpCarver *carver);
+/* Take the arrays from `arena`. */
+void zp_implicit_reserve(ZpImplicit *stepper, const ZpImplicitSystem *system, ZpArena *arena);
 
 /* From now on the iteration leaves more of the error and of the energy: for runs of which only times are asked. */
 void zp_implicit_hasten(ZpImplicit *stepper);
@@ -106,36 +106,36 @@ void zp_implicit_hasten(ZpImplicit *stepper);
 double zp_implicit_step(ZpImplicit *stepper, double longest, double *q, double *v, ZpImplicitHistory *history);
 
 /* A step of length h of a system that differs by `offset` in some number from a system whose step is known. */
-typedef struct ZpNearStep {
+typedef struct ZpDifferenceStep {
   ZpImplicit *stepper;
   double offset, weight; /* difference of the number, and the weight in the difference quotient by the number */
   double h;              /* s */
   double *q, *v;         /* as in zp_implicit_step */
   ZpImplicitHistory *history;
-} ZpNearStep;
+} ZpDifferenceStep;
 
-enum { ZP_NEAR_STEPS = 5 };
+enum { ZP_DIFFERENCE_STEPS = 5 };
 
-typedef struct ZpNearSteps {
-  ZpNearStep near[ZP_NEAR_STEPS];
+typedef struct ZpDifferenceSteps {
+  ZpDifferenceStep near[ZP_DIFFERENCE_STEPS];
   int count;
   const double *q1;              /* [n] end of the known step */
   const ZpImplicitHistory *lead; /* rates of the known step */
   double *work;                  /* [6 n] */
-} ZpNearSteps;
+} ZpDifferenceSteps;
 
 /* Derivative of the end of the known step by the number => rate [n], eq. (20.7); all near steps are accepted at
- * q1 + offset rate. With `with_matrix` their Jacobians are factored there, for zp_implicit_smooth and zp_implicit_calm.
- * False if the rate was not found. */
-bool zp_implicit_follow(const ZpNearSteps *steps, bool with_matrix, double *rate);
+ * q1 + offset rate. With `with_matrix` their Jacobians are factored there, for zp_implicit_smooth and
+ * zp_implicit_filter. False if the rate was not found. */
+bool zp_implicit_follow(const ZpDifferenceSteps *steps, bool with_matrix, double *rate);
 
 /* Remove from velocities v the share (x / (1 + x))^3 of their difference from the mean rates w of the last step, by the
  * inertia `mass` alone: where a resistance is far larger than this inertia, they would change sign in every step. */
-void zp_implicit_calm(ZpImplicit *stepper, double h, const double *w, double *v);
+void zp_implicit_filter(ZpImplicit *stepper, double h, const double *w, double *v);
 
 /* Exact -d(r - M a)/dy1 at the last residual of the system, for a step of length h => J, whose arrays come from
- * zp_implicit_carve_exact. False if the system has no `exact`. */
-void zp_implicit_carve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpCarver *carver);
+ * zp_implicit_reserve_exact. False if the system has no `exact`. */
+void zp_implicit_reserve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpArena *arena);
 bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
 /* Remove from velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of

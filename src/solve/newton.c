@@ -4,9 +4,9 @@
 
 #include "math/vector.h"
 
-void zp_newton_carve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpCarver *carver) {
-  zp_band_carve_form(&work->K, n, form, carver);
-  work->r = zp_carve(carver, n);
+void zp_newton_reserve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpArena *arena) {
+  zp_band_reserve_form(&work->K, n, form, arena);
+  work->r = zp_arena_take(arena, n);
 }
 
 bool zp_newton_good(ZpNewtonEnd end) {

@@ -79,7 +79,7 @@ bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolera
 /* After a refresh, when the residual may be larger again. */
 void zp_closing_renew(ZpClosing *closing);
 
-void zp_newton_carve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpCarver *carver);
+void zp_newton_reserve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpArena *arena);
 
 /* Iterate from the present point. */
 ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most, ZpNewtonWork *work);

@@ -6,8 +6,8 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "drive/response.h"
-#include "sim/feed.h"
 #include "sim/margins.h"
+#include "sim/supply_coupling.h"
 #include "study/notes.h"
 #include "study/rates.h"
 #include "study/sense.h"
@@ -351,7 +351,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   ZpTable *samples = controlled ? watch_loop(sim) : NULL;
   if (controlled && !samples) return zp_fail_memory(err);
   ZpRunInfo info;
-  ZpRunRates rates;
+  ZpRunSensitivity rates;
   status = zp_rates_open(&rates, sim, err);
   if (status == ZP_OK) {
     zp_sim_run_until(sim, def->solver.end_time, stop, hooks, &info);
@@ -359,7 +359,7 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
     summarize(sim, model, stop, &info, before, result);
     zp_rates_add(&rates, result);
   }
-  zp_run_rates_close(&rates);
+  zp_run_sensitivity_close(&rates);
   if (status != ZP_OK) return status;
   if (controlled) summarize_loop(sim, samples, result);
   zp_sim_keep_samples(sim, NULL);

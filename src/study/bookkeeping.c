@@ -51,7 +51,7 @@ static double law(const ZpField *f, double d) {
   return sum;
 }
 
-bool zp_paper_factor(const ZpFieldParams *params, const ZpFaces *faces, ZpPaperFactor *factor) {
+bool zp_paper_factor(const ZpFieldParams *params, const ZpContact *faces, ZpPaperFactor *factor) {
   ZpField field;
   ZpFieldParams theirs = *params;
   theirs.eps_m = theirs.eps_out = fe_liquid;

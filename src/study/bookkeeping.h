@@ -14,7 +14,7 @@ typedef struct ZpPaperFactor {
 
 /* Solve with the materials of their finite-element model, else as in params, and keep their books. All NAN where that
  * field has no solution. False if there is no memory. */
-bool zp_paper_factor(const ZpFieldParams *params, const ZpFaces *faces, ZpPaperFactor *factor);
+bool zp_paper_factor(const ZpFieldParams *params, const ZpContact *faces, ZpPaperFactor *factor);
 
 /* Their factor: the product of all. */
 double zp_paper_factor_product(const ZpPaperFactor *factor);

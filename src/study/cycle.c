@@ -122,13 +122,13 @@ static void put(Cycles *c, double turns) {
   c->sim->state->t = t;
   zp_sim_glide(c->sim, before);
   zp_sim_jump(c->sim, zp_waveform_voltage(w, t));
-  if (c->sim->state->U != c->sim->state->base_U) zp_sim_close_account(c->sim);
+  if (c->sim->state->U != c->sim->state->base_U) zp_sim_close_balance(c->sim);
 }
 
 /* The first cycle begins at the state of the linear answer. */
 static void start_linear(Cycles *c) {
   zp_linear_cycle_put(&c->small, 0, c->sim);
-  zp_sim_start_account(c->sim);
+  zp_sim_start_balance(c->sim);
   zp_sim_start_row(c->sim);
 }
 
@@ -272,7 +272,7 @@ static size_t deciding(const ZpModel *model) {
 }
 
 static size_t carried(const ZpModel *model) {
-  return 2 * zp_coordinates(model) + zp_own_unknowns(model) + model->kept;
+  return 2 * zp_coordinates(model) + zp_extra_unknowns(model) + model->kept;
 }
 
 static double *carried_of(const Cycles *c) {
@@ -324,8 +324,8 @@ static void write_state(Cycles *c, const double *x) {
   }
   if (c->refills) refill(c);
   zp_sim_lay_beads(c->sim);
-  if (state->U != state->base_U) zp_sim_close_account(c->sim);
-  zp_sim_start_account(c->sim);
+  if (state->U != state->base_U) zp_sim_close_balance(c->sim);
+  zp_sim_start_balance(c->sim);
   zp_sim_start_row(c->sim);
 }
 
@@ -573,16 +573,16 @@ static void summarize(const Cycles *c, ZpResult *result) {
 
 /* -- the study -------------------------------------------------------------------------------------- */
 
-static size_t carve(Cycles *c, void *block) {
+static size_t reserve(Cycles *c, void *block) {
   size_t n = deciding(c->model) + carried(c->model);
-  ZpCarver carver = {block, 0};
+  ZpArena arena = {block, 0};
   for (int k = 0; k < HISTORY; k++)
-    c->mark[k].q = zp_carve(&carver, zp_coordinates(c->model));
+    c->mark[k].q = zp_arena_take(&arena, zp_coordinates(c->model));
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
-    *of_states[k] = zp_carve(&carver, n);
-  zp_fixed_point_carve(&c->shooting, n, deciding(c->model), &carver);
-  return carver.used;
+    *of_states[k] = zp_arena_take(&arena, n);
+  zp_fixed_point_reserve(&c->shooting, n, deciding(c->model), &arena);
+  return arena.used;
 }
 
 static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
@@ -598,8 +598,8 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
   c->way_back = zp_calloc(1, zp_state_size(model));
-  c->memory = zp_calloc(1, carve(c, NULL));
-  if (c->memory) carve(c, c->memory);
+  c->memory = zp_calloc(1, reserve(c, NULL));
+  if (c->memory) reserve(c, c->memory);
   return c->rows && c->way_back && c->memory;
 }
 

@@ -123,7 +123,7 @@ static double outside(const ZpLinearCycle *l, int half, const double *x) {
 }
 
 /* How much must be there at the mean, so that the edges never run dry: twice the range in a cycle before the least. */
-static double reserve(ZpLinearCycle *l, int half) {
+static double outside_reserve(ZpLinearCycle *l, int half) {
   double least = 0, most = 0;
   for (int k = 0; k < PHASES; k++) {
     at_phase(l, (double)k / PHASES, false, l->x);
@@ -309,17 +309,17 @@ typedef struct Room {
   double *sample;
 } Room;
 
-static size_t carve(ZpLinearCycle *l, void *block, Room *room) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(ZpLinearCycle *l, void *block, Room *room) {
+  ZpArena arena = {block, 0};
   const size_t rates = l->small.rates;
-  l->moved = (ZpComplex *)(void *)zp_carve(&carver, 2 * (l->harmonics + 1) * rates);
-  l->matrix = (ZpComplex *)(void *)zp_carve(&carver, 2 * rates * rates);
-  room->x = (ZpComplex *)(void *)zp_carve(&carver, 2 * rates);
-  room->sample = zp_carve(&carver, PHASES * l->small.shapes);
-  l->x = zp_carve(&carver, rates);
-  l->q = zp_carve(&carver, zp_coordinates(l->model));
-  l->force = zp_carve(&carver, zp_coordinates(l->model));
-  return carver.used;
+  l->moved = (ZpComplex *)(void *)zp_arena_take(&arena, 2 * (l->harmonics + 1) * rates);
+  l->matrix = (ZpComplex *)(void *)zp_arena_take(&arena, 2 * rates * rates);
+  room->x = (ZpComplex *)(void *)zp_arena_take(&arena, 2 * rates);
+  room->sample = zp_arena_take(&arena, PHASES * l->small.shapes);
+  l->x = zp_arena_take(&arena, rates);
+  l->q = zp_arena_take(&arena, zp_coordinates(l->model));
+  l->force = zp_arena_take(&arena, zp_coordinates(l->model));
+  return arena.used;
 }
 
 bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCycle *l, bool *failed) {
@@ -332,9 +332,9 @@ bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCy
   if (!zp_rest_hang(&l->rest, sqrt(l->mean))) return false;
   if (!zp_statics_stable(&l->rest.statics)) return false;
   Room room;
-  *failed = !zp_small_motion_create(&l->rest, &l->small) || !(l->memory = zp_calloc(1, carve(l, NULL, &room)));
+  *failed = !zp_small_motion_create(&l->rest, &l->small) || !(l->memory = zp_calloc(1, reserve(l, NULL, &room)));
   if (*failed) return false;
-  carve(l, l->memory, &room);
+  reserve(l, l->memory, &room);
   if (!find_motion(l)) return false;
   l->curvature = find_curvature(l, room.x, room.sample);
   return true;
@@ -352,7 +352,7 @@ void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
   ZpState *state = sim->state;
   double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++) {
-    double mean = reserve(l, half);
+    double mean = outside_reserve(l, half);
     at_phase(l, turns, false, l->x);
     state->bead[half].outside = mean + outside(l, half, l->x);
     state->bead[half].supply = 1;

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "rest/slow.h"
+#include "rest/quasistatic.h"
 
 /* -- several members ------------------------------------------------------------------------------- */
 
@@ -35,7 +35,7 @@ static const ZpColumn closed_members = {"closed_members", "1", "number of closed
 /* => how many there are. */
 static size_t columns_of(const ZpModel *model, ZpColumn *columns) {
   size_t members = model->members;
-  bool opposed = zp_is_opposed(model), shared = zp_shares_load(model);
+  bool opposed = zp_is_antagonist(model), shared = zp_shares_load(model);
   size_t count = opposed ? LOWER : shared ? OF_EACH * members : members;
   if (members == 1) return 0;
   memcpy(columns, opposed ? lower : shared ? of_each : openings, count * sizeof *columns);
@@ -91,7 +91,7 @@ static bool asked_to_stop(const void *self) {
   return zp_task_stops(at->task, at->stage, at->top > 0 ? fabs(at->rest.statics.U) / at->top : 0);
 }
 
-ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*carve)(void *user, ZpCarver *carver),
+ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*reserve)(void *user, ZpArena *arena),
                             void *user, ZpError *err) {
   at->margins = zp_margins_none();
   ZpStatus status = zp_model_create(def, &at->model, err);
@@ -99,7 +99,7 @@ ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*c
   if (at->column) at->result->series = make_table(at);
   at->result->shapes = zp_model_shapes(at->model, at->shapes);
   bool made = at->result->shapes && (!at->column || at->result->series);
-  if (!made || !zp_rest_open(&at->rest, at->model, carve, user)) return zp_fail_memory(err);
+  if (!made || !zp_rest_open(&at->rest, at->model, reserve, user)) return zp_fail_memory(err);
   at->rest.statics.stop = asked_to_stop;
   at->rest.statics.caller = at;
   return ZP_OK;

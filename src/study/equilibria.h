@@ -38,7 +38,7 @@ typedef struct ZpEquilibria {
 
 /* Create the model of `def`, table and shapes, with the caller's arrays as of zp_rest_open. To be closed in any case.
  */
-ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*carve)(void *user, ZpCarver *carver),
+ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*reserve)(void *user, ZpArena *arena),
                             void *user, ZpError *err);
 void zp_equilibria_close(ZpEquilibria *at);
 

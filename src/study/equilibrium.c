@@ -107,7 +107,8 @@ static void follow_both(Follower *f) {
   if (!f->limits->hangs || f->at.rest.statics.stopped) return;
   zp_rest_go_to(&f->at.rest, f->limits->start);
   follow_whole(f, true, 0);
-  bool whole = f->outcome == ZP_FOLLOWED && isnan(f->left) && f->at.model->field && zp_slow_is_closed(&f->at.rest);
+  bool whole =
+      f->outcome == ZP_FOLLOWED && isnan(f->left) && f->at.model->field && zp_quasistatic_is_closed(&f->at.rest);
   if (whole || !f->limits->closes || f->at.rest.statics.stopped) return;
   zp_rest_go_to(&f->at.rest, f->limits->closed);
   follow_whole(f, false, 1);
@@ -151,7 +152,7 @@ static void describe_way_up(const Follower *f) {
     add(r, "no pull-in: closes gradually at %.4g V", closing);
   else
     add(r, "no pull-in up to %g V", f->at.model->def.drive.voltage);
-  if (closed->end == ZP_MARCH_LOST)
+  if (closed->end == ZP_TRACK_LOST)
     add(r, "; %s", closed->reason);
   else if (!isnan(pull_in) && closing > pull_in)
     add(r, ", closes at %.4g V", closing);
@@ -186,7 +187,7 @@ static ZpOutcome outcome_of(const Follower *f) {
   return f->outcome == ZP_FOLLOWED && zp_limits_lost(f->limits) ? ZP_BRANCH_LOST : f->outcome;
 }
 
-static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   Follower *f = user;
   zp_derive_limits(&f->at.rest, f->limits, order, ORDER, slope, result);
 }

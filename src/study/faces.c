@@ -18,7 +18,7 @@ static double place(const ZpStations *s, size_t k) {
   return 0.5 * even * (1 + even);
 }
 
-size_t zp_faces_move_front(ZpStations *s, size_t k, double share) {
+size_t zp_contact_move_front(ZpStations *s, size_t k, double share) {
   static const double least = 1e-3; /* of the number of all: closer to an end it is there */
   s->front = 0;
   double last = (double)(s->count - 1), at = place(s, k) + share * (place(s, k + 1) - place(s, k));
@@ -29,7 +29,7 @@ size_t zp_faces_move_front(ZpStations *s, size_t k, double share) {
   return s->front;
 }
 
-void zp_faces_cubic(double length, double separation, ZpStations *s) {
+void zp_contact_cubic(double length, double separation, ZpStations *s) {
   for (size_t k = 0; k < s->count; k++) {
     double xi = place(s, k), half = 0.5 * separation * xi * xi * (3 - 2 * xi);
     s->x[2 * k] = s->x[2 * k + 1] = length * xi;
@@ -73,7 +73,7 @@ static double hermite(const Line *line, size_t i, double u) {
   return v * v * ((1 + 2 * u) * left + u * slope(line, i)) + u * u * ((3 - 2 * u) * right - v * slope(line, i + 1));
 }
 
-void zp_faces_smooth(size_t nodes, bool rods, const double *x, const double *y, ZpStations *s) {
+void zp_contact_smooth(size_t nodes, bool rods, const double *x, const double *y, ZpStations *s) {
   double clip = x[0];
   for (size_t k = 0; k < s->count; k++) {
     double at = place(s, k) * (double)(nodes - 1);

@@ -14,15 +14,15 @@ typedef struct ZpStations {
 } ZpStations;
 
 /* A wedge over `length`: gap = separation (3 xi^2 - 2 xi^3), symmetric about y = 0. */
-void zp_faces_cubic(double length, double separation, ZpStations *stations);
+void zp_contact_cubic(double length, double separation, ZpStations *stations);
 
 /* Let a station of even number be `share` of the way from station k to the next when the stations are laid again => its
  * number; 0 or count - 1 if this is as good as at the first or the last one. */
-size_t zp_faces_move_front(ZpStations *stations, size_t k, double share);
+size_t zp_contact_move_front(ZpStations *stations, size_t k, double share);
 
 /* Of two ribbons (nodes of upper and lower interleaved), which are horizontal at both ends: a curve whose direction has
  * no jumps, so that the chords of a coarse mesh are not taken for corners of the faces. The nodes of rods lie beside it
  * by a twelfth of their second difference, eq. (8.8); those of others on it. */
-void zp_faces_smooth(size_t nodes, bool rods, const double *x, const double *y, ZpStations *stations);
+void zp_contact_smooth(size_t nodes, bool rods, const double *x, const double *y, ZpStations *stations);
 
 #endif

@@ -48,11 +48,11 @@ typedef struct Holder {
   ZpOutcome outcome;
 } Holder;
 
-static void carve(void *user, ZpCarver *carver) {
+static void reserve(void *user, ZpArena *arena) {
   Holder *h = user;
   void **const point[] = {&h->before, &h->edge, &h->near, &h->unpowered_state};
   for (size_t k = 0; k < sizeof point / sizeof point[0]; k++)
-    *point[k] = zp_carve(carver, zp_rest_save_size(&h->at.rest));
+    *point[k] = zp_arena_take(arena, zp_rest_save_size(&h->at.rest));
 }
 
 /* The force that holds the platform, whole actuator, N. */
@@ -92,7 +92,7 @@ static void record(Holder *h, bool passed, bool last) {
 /* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces. */
 static bool is_possible(Holder *h) {
   const ZpPlatesParams *plates = &h->at.rest.statics.member->model->plates;
-  double most = zp_plates_law(plates, h->at.rest.statics.U, 0).W * zp_faces_length(h->at.model);
+  double most = zp_plates_law(plates, h->at.rest.statics.U, 0).W * zp_contact_length(h->at.model);
   h->fault = zp_statics_fault_of_stations(&h->at.rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
@@ -169,7 +169,7 @@ static bool fall(Holder *h, bool turned) {
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     h->at.rest.system.restore(s, h->edge);
     double U = fmin((1 + above[k]) * h->highest + least * top, top);
-    found = zp_newton_good(zp_statics_fall(s, U).end) && is_possible(h);
+    found = zp_newton_good(zp_statics_relax(s, U).end) && is_possible(h);
   }
   if (!found) return false;
   pass(h, turned);
@@ -213,7 +213,7 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
 /* If that fails too, a limit point is just below: the state falls from there to an equilibrium at drive.voltage. */
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
   h->at.rest.system.restore(&h->at.rest.statics, h->before);
-  *info = zp_statics_fall(&h->at.rest.statics, h->at.model->def.drive.voltage);
+  *info = zp_statics_relax(&h->at.rest.statics, h->at.model->def.drive.voltage);
   return zp_newton_good(info->end) && is_answer(h);
 }
 
@@ -317,15 +317,15 @@ static double capacitance(ZpStatics *s, void *user) {
 }
 
 /* Derivative of the moment of a fold at the present point, along the last solution. */
-static double moment_slope(Holder *h, ZpSlope *slope) {
+static double moment_slope(Holder *h, ZpRestSensitivity *slope) {
   ZpStatics *s = &h->at.rest.statics;
   if (!zp_is_hinge(&h->at.model->topology)) return NAN;
   double arm = lever(s, NULL), reaction = s->reaction;
-  return h->at.model->parts * (slope->reaction * arm + reaction * zp_slope_of(slope, lever, NULL));
+  return h->at.model->parts * (slope->reaction * arm + reaction * zp_rest_sensitivity_of(slope, lever, NULL));
 }
 
 /* From the state at drive.voltage, `near` being a copy of it. */
-static void derive(void *user, ZpSlope *slope, ZpResult *r) {
+static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
   static const struct {
     const char *name;
     ZpOutput output;
@@ -333,19 +333,21 @@ static void derive(void *user, ZpSlope *slope, ZpResult *r) {
   Holder *h = user;
   ZpStatics *s = &h->at.rest.statics;
   h->at.rest.system.restore(s, h->unpowered_state);
-  bool rests = zp_slope_solve(slope, ZP_SETS_OPENING);
+  bool rests = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
   double unpowered = rests ? h->at.model->parts * slope->reaction : NAN;
   double moment_without = rests ? moment_slope(h, slope) : NAN;
   h->at.rest.system.restore(s, h->near);
-  bool found = zp_slope_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
+  bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
   double torque = found ? moment_slope(h, slope) - moment_without : NAN;
   zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->at.model->parts * slope->reaction - unpowered : NAN);
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
-    zp_result_add_sensitivity(r, others[k].name, slope->key, found ? zp_slope_of(slope, others[k].output, NULL) : NAN);
+    zp_result_add_sensitivity(r, others[k].name, slope->key,
+                              found ? zp_rest_sensitivity_of(slope, others[k].output, NULL) : NAN);
   if (!zp_is_hinge(&h->at.model->topology)) return;
   zp_result_add_sensitivity(r, "torque_N_m", slope->key, torque);
-  zp_result_add_sensitivity(r, "angle_rad", slope->key, found ? zp_slope_of(slope, zp_output_angle, NULL) : NAN);
+  zp_result_add_sensitivity(r, "angle_rad", slope->key,
+                            found ? zp_rest_sensitivity_of(slope, zp_output_angle, NULL) : NAN);
 }
 
 /* Is it a key of the load? That is removed, so nothing depends on it. */
@@ -434,7 +436,7 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
                      .rows = (size_t)bare.output.samples,
                      .shapes = (size_t)bare.output.shapes},
               .outcome = ZP_CONVERGED};
-  ZpStatus status = zp_equilibria_open(&h.at, &bare, carve, &h, err);
+  ZpStatus status = zp_equilibria_open(&h.at, &bare, reserve, &h, err);
   if (status == ZP_OK) run(&h);
   if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = derive_all(&h, err);
   zp_equilibria_close(&h.at);

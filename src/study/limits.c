@@ -110,18 +110,18 @@ static ZpOutcome outcome_of(const Finder *f) {
 }
 
 /* The derivative of the opening of a state. */
-static double slope_of_opening(Finder *f, ZpSlope *slope, const double *state, int inputs) {
+static double slope_of_opening(Finder *f, ZpRestSensitivity *slope, const double *state, int inputs) {
   zp_rest_go_to(&f->at.rest, state);
-  if (!zp_slope_solve(slope, inputs)) return NAN;
-  return zp_slope_of(slope, zp_output_opening, NULL);
+  if (!zp_rest_sensitivity_solve(slope, inputs)) return NAN;
+  return zp_rest_sensitivity_of(slope, zp_output_opening, NULL);
 }
 
 /* Derivatives of travel_m and mass_kg; the latter follow from the definition alone. `user` is a Finder. */
-static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   Finder *f = user;
   double mass = 0, travel = NAN;
   zp_derive_limits(&f->at.rest, f->limits, order, ZP_LIMIT_KINDS, slope, result);
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (slope->by.model[k]) mass += slope->by.weight[k] * mass_of(slope->by.model[k]);
   if (f->limits->closes)
     travel = slope_of_opening(f, slope, f->limits->start, ZP_SETS_LOAD) -

@@ -29,10 +29,10 @@ typedef struct Problem {
   double *equilibrium;
 } Problem;
 
-static void carve(void *user, ZpCarver *carver) {
+static void reserve(void *user, ZpArena *arena) {
   Problem *p = user;
-  zp_vibration_carve(&p->vibration, p->at.rest.statics.n, SUBSPACE, carver);
-  p->equilibrium = zp_carve(carver, zp_rest_save_size(&p->at.rest));
+  zp_vibration_reserve(&p->vibration, p->at.rest.statics.n, SUBSPACE, arena);
+  p->equilibrium = zp_arena_take(arena, zp_rest_save_size(&p->at.rest));
 }
 
 /* How many modes are told of? */
@@ -103,18 +103,18 @@ static double stiffness_of_mode(ZpStatics *s, void *user) {
   return sum;
 }
 
-static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   Problem *p = user;
   ZpStatics *s = &p->at.rest.statics;
   p->at.rest.system.restore(s, p->equilibrium);
-  bool found =
-      !p->vibration.weigh && zp_slope_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE); /* of lumped masses */
+  bool found = !p->vibration.weigh &&
+               zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE); /* of lumped masses */
   if (p->vibration.weigh)
     zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
   for (size_t j = 0; j < count(&p->vibration); j++) {
     Mode mode = {&p->at.rest.statics.newton.K, p->at.rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
-    double by_key = found ? zp_slope_of(slope, stiffness_of_mode, &mode) : NAN;
+    double by_key = found ? zp_rest_sensitivity_of(slope, stiffness_of_mode, &mode) : NAN;
     zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->vibration.omega2[j])));
   }
 }
@@ -135,14 +135,14 @@ static bool find_equilibrium(Problem *p) {
   ZpStatics *s = &p->at.rest.statics;
   ZpResult *result = p->at.result;
   const size_t size = sizeof result->message;
-  ZpNewtonInfo info = zp_statics_hang(s);
+  ZpNewtonInfo info = zp_statics_find_rest(s);
   result->outcome = s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   snprintf(result->message, size, "%s", s->stopped ? "interrupted" : "no hanging equilibrium found");
   if (!zp_newton_good(info.end)) return false;
   double voltage = s->member->model->def.modes.voltage;
   if (!zp_statics_bias(s)) {
     snprintf(result->message, size, "%s", zp_statics_no_rest(s));
-  } else if (voltage > 0 && s->member->model->field && !zp_statics_raise(s, voltage)) {
+  } else if (voltage > 0 && s->member->model->field && !zp_statics_ramp_voltage(s, voltage)) {
     note_pulled_in(p, voltage);
   } else if (zp_statics_shorted(s)) {
     result->outcome = ZP_SHORT_CIRCUIT;
@@ -219,7 +219,7 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   Problem *p = zp_calloc(1, sizeof *p);
   if (!p) return zp_fail_memory(err);
   p->at = (ZpEquilibria){.task = task, .result = result, .stage = "hanging", .shapes = MODES + 1};
-  ZpStatus status = zp_equilibria_open(&p->at, &dry, carve, p, err);
+  ZpStatus status = zp_equilibria_open(&p->at, &dry, reserve, p, err);
   if (status == ZP_OK) result->series = zp_table_create(columns, COLUMNS, MODES);
   if (status == ZP_OK && !result->series) status = zp_fail_memory(err);
   if (status == ZP_OK) {

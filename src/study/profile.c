@@ -70,7 +70,7 @@ typedef struct Profiler {
   ZpField field;
   ZpFieldTotals totals;
   ZpStations stations;
-  ZpFaces faces;
+  ZpContact faces;
   ZpMargins margins; /* of the shape without voltage, then under it as the field is solved */
   Row *row;          /* [rows] */
   size_t last, rows; /* row of the platform's edge; rows up to the mirror plane, or to the edge of a bare platform */
@@ -95,19 +95,19 @@ static void find_laws(Profiler *p) {
   set_right(&model->def, 1, &p->right.air);
 }
 
-static size_t carve(Profiler *p, void *block) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(Profiler *p, void *block) {
+  ZpArena arena = {block, 0};
   size_t n = STATIONS;
   p->stations = (ZpStations){.count = n};
-  p->stations.x = zp_carve(&carver, 2 * n);
-  p->stations.y = zp_carve(&carver, 2 * n);
-  p->gap = zp_carve(&carver, n);
-  p->line = zp_carve(&carver, n);
-  p->insulator = zp_carve(&carver, n);
-  p->row = (void *)zp_carve(&carver, p->field.profiles * COLUMNS);
-  p->wet = zp_carve(&carver, p->field.profiles);
-  p->cover.part = zp_carve(&carver, n);
-  return carver.used;
+  p->stations.x = zp_arena_take(&arena, 2 * n);
+  p->stations.y = zp_arena_take(&arena, 2 * n);
+  p->gap = zp_arena_take(&arena, n);
+  p->line = zp_arena_take(&arena, n);
+  p->insulator = zp_arena_take(&arena, n);
+  p->row = (void *)zp_arena_take(&arena, p->field.profiles * COLUMNS);
+  p->wet = zp_arena_take(&arena, p->field.profiles);
+  p->cover.part = zp_arena_take(&arena, n);
+  return arena.used;
 }
 
 static bool allocate(Profiler *p) {
@@ -115,11 +115,11 @@ static bool allocate(Profiler *p) {
   p->params.stations = STATIONS;
   p->params.columns = 1;
   if (!zp_field_create(&p->params, &p->field)) return false;
-  p->memory = zp_calloc(1, carve(p, NULL));
+  p->memory = zp_calloc(1, reserve(p, NULL));
   if (!p->memory) return false;
-  carve(p, p->memory);
+  reserve(p, p->memory);
   const double *x = p->stations.x, *y = p->stations.y;
-  p->faces = (ZpFaces){x, y, x + 1, y + 1, 2};
+  p->faces = (ZpContact){x, y, x + 1, y + 1, 2};
   p->last = p->field.last - p->field.first;
   p->rows = p->params.electrode ? p->field.profiles : p->last + 1;
   return true;
@@ -131,9 +131,9 @@ static bool allocate(Profiler *p) {
 static void lay_stations(Profiler *p, const double *q) {
   const ZpModel *model = p->model;
   if (q)
-    zp_faces_smooth(model->nodes, model->is_rod, q, zp_nodes(model, q).y, &p->stations);
+    zp_contact_smooth(model->nodes, model->is_rod, q, zp_nodes(model, q).y, &p->stations);
   else
-    zp_faces_cubic(model->L, model->def.isometric.separation, &p->stations);
+    zp_contact_cubic(model->L, model->def.isometric.separation, &p->stations);
 }
 
 /* Length of a face from station k to the next, m. */
@@ -158,7 +158,7 @@ static size_t find_meniscus(Profiler *p, double *beyond) {
     if (area < all) {
       double wet = zp_bead_within(near, far, l, area);
       p->wet_length += wet;
-      return zp_faces_move_front(&p->stations, k, wet / l);
+      return zp_contact_move_front(&p->stations, k, wet / l);
     }
     area -= all;
     p->wet_length += l;

@@ -6,14 +6,14 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "sim/feed.h"
+#include "sim/supply_coupling.h"
 #include "study/sensitivity.h"
 
-ZpStatus zp_rates_open(ZpRunRates *rates, ZpSim *sim, ZpError *err) {
+ZpStatus zp_rates_open(ZpRunSensitivity *rates, ZpSim *sim, ZpError *err) {
   int key[ZP_MAX_SENSITIVITY_KEYS], keys;
   ZpStatus status = zp_sensitivity_keys(zp_model_def(sim->model), key, &keys, err);
-  *rates = (ZpRunRates){.sim = sim};
-  return status == ZP_OK && keys > 0 ? zp_run_rates_open(rates, sim, key, (size_t)keys, err) : status;
+  *rates = (ZpRunSensitivity){.sim = sim};
+  return status == ZP_OK && keys > 0 ? zp_run_sensitivity_open(rates, sim, key, (size_t)keys, err) : status;
 }
 
 /* -- numbers --------------------------------------------------------------------------------------- */
@@ -75,25 +75,25 @@ static double closed_from_of(ZpSim *sim, const void *unused) {
 }
 
 /* A run that was interrupted, or has used up its steps, ends at an instant that no physics sets. */
-static double rate_at_end(const ZpRunRates *rates, size_t k, const ZpResult *result, const char *signal) {
+static double rate_at_end(const ZpRunSensitivity *rates, size_t k, const ZpResult *result, const char *signal) {
   bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
   return none ? NAN : zp_run_rate_of(rates, k, signal_of, signal);
 }
 
 /* An actuator that has closed before the derivatives were lost was open for no instant since then. */
-static double rate_of_closed_from(const ZpRunRates *rates, size_t k, const ZpResult *result) {
+static double rate_of_closed_from(const ZpRunSensitivity *rates, size_t k, const ZpResult *result) {
   double from = zp_result_get(result, "closed_from_s");
   return from < rates->key[k].lost ? zp_run_rate_of(rates, k, closed_from_of, NULL) : NAN;
 }
 
-static void add_currents(const ZpRunRates *rates, size_t k, ZpResult *result) {
+static void add_currents(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
   bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
   ZpCurrents rate = none ? (ZpCurrents){NAN, NAN} : zp_run_rate_of_currents(rates, k);
   zp_result_add_sensitivity(result, "peak_current_A", rates->key[k].by.key, rate.peak);
   zp_result_add_sensitivity(result, "rms_current_A", rates->key[k].by.key, rate.rms);
 }
 
-static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
+static void add_key(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
   const ZpModel *model = rates->sim->model;
   int key = rates->key[k].by.key;
   if (is_of(model, PAIRS)) {
@@ -107,13 +107,13 @@ static void add_key(const ZpRunRates *rates, size_t k, ZpResult *result) {
 }
 
 /* What ends the derivatives by all keys ends them at once. */
-static bool all_lost(const ZpRunRates *rates) {
+static bool all_lost(const ZpRunSensitivity *rates) {
   for (size_t k = 0; k < rates->keys; k++)
     if (rates->key[k].lost != rates->key[0].lost) return false;
   return isfinite(rates->key[0].lost);
 }
 
-static void note_lost(const ZpRunRates *rates, ZpResult *result) {
+static void note_lost(const ZpRunSensitivity *rates, ZpResult *result) {
   if (!zp_outcome_good(result->outcome))
     zp_result_note(result,
                    "sensitivity: numbers at the end have no derivatives, because the run did not reach its end");
@@ -134,12 +134,12 @@ double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
   return sound ? zp_sim_get(sim, signal) : NAN;
 }
 
-static void add_value(const ZpRunRates *rates, const EndNumber *number, ZpResult *result) {
+static void add_value(const ZpRunSensitivity *rates, const EndNumber *number, ZpResult *result) {
   if (!is_of(rates->sim->model, number->of) || zp_result_has(result, number->name)) return;
   zp_result_add(result, number->name, number->unit, zp_at_end(rates->sim, result, number->signal));
 }
 
-void zp_rates_add(const ZpRunRates *rates, ZpResult *result) {
+void zp_rates_add(const ZpRunSensitivity *rates, ZpResult *result) {
   if (rates->keys == 0) return;
   for (size_t i = 0; i < AT_END; i++)
     add_value(rates, &at_end[i], result);

@@ -32,27 +32,27 @@ void zp_result_destroy(ZpResult *result) {
   zp_free(result);
 }
 
-static size_t carve_map(ZpFieldMap *map, void *block) {
-  ZpCarver carver = {block, 0};
+static size_t reserve_map(ZpFieldMap *map, void *block) {
+  ZpArena arena = {block, 0};
   size_t cells = (map->nx - 1) * (map->ny - 1);
   double **of_nodes[] = {&map->x, &map->y, &map->potential}, **of_cells[] = {&map->strength, &map->permittivity};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_carve(&carver, map->nx * map->ny);
+    *of_nodes[k] = zp_arena_take(&arena, map->nx * map->ny);
   for (size_t k = 0; k < sizeof of_cells / sizeof of_cells[0]; k++)
-    *of_cells[k] = zp_carve(&carver, cells);
-  return carver.used;
+    *of_cells[k] = zp_arena_take(&arena, cells);
+  return arena.used;
 }
 
 ZpFieldMap *zp_field_map_create(size_t nx, size_t ny) {
   ZpFieldMap *map = zp_calloc(1, sizeof *map);
   if (!map) return NULL;
   *map = (ZpFieldMap){.nx = nx, .ny = ny};
-  map->memory = zp_calloc(1, carve_map(map, NULL));
+  map->memory = zp_calloc(1, reserve_map(map, NULL));
   if (!map->memory) {
     zp_free(map);
     return NULL;
   }
-  carve_map(map, map->memory);
+  reserve_map(map, map->memory);
   return map;
 }
 

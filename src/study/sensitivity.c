@@ -23,7 +23,7 @@ static ZpStatus add_key(const ZpActuatorDef *def, const char *name, KeyList *lis
   for (int i = 0; i < list->count; i++)
     if (list->key[i] == key) return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is named twice", name);
   list->key[list->count++] = key;
-  return zp_slope_check(def, key, err);
+  return zp_rest_sensitivity_check(def, key, err);
 }
 
 /* "a, b" => keys. */
@@ -67,10 +67,10 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
 }
 
 ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
-  ZpSlope slope;
-  ZpStatus status = zp_slope_open(&slope, &rest->statics, key, err);
+  ZpRestSensitivity slope;
+  ZpStatus status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
   if (status == ZP_OK) derive(user, &slope, result);
-  zp_slope_close(&slope);
+  zp_rest_sensitivity_close(&slope);
   return status;
 }
 
@@ -90,12 +90,12 @@ static double closing_gap(ZpStatics *s, void *user) {
 }
 
 /* Derivative of the gap at which it counts as closed, from the state that hangs. */
-static double rate_of_closed(ZpRest *rest, ZpSlope *slope, const double *hangs, int inputs) {
+static double rate_of_closed(ZpRest *rest, ZpRestSensitivity *slope, const double *hangs, int inputs) {
   zp_rest_go_to(rest, hangs);
   double hanging = zp_closing_gap(&rest->statics, NULL), rate, sum = 0;
-  if (!zp_slope_solve(slope, inputs)) return NAN;
-  rate = zp_slope_of(slope, closing_gap, NULL);
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  if (!zp_rest_sensitivity_solve(slope, inputs)) return NAN;
+  rate = zp_rest_sensitivity_of(slope, closing_gap, NULL);
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (slope->by.model[k])
       sum +=
           slope->by.weight[k] * zp_closed_opening(slope->near[k].member->model, hanging + slope->by.offset[k] * rate);
@@ -103,30 +103,30 @@ static double rate_of_closed(ZpRest *rest, ZpSlope *slope, const double *hangs, 
 }
 
 /* Of a gradual closing: the gap at which it counts as closed changes, too, with the key and with the largest load. */
-static double derive_event(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpSlope *slope) {
+static double derive_event(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpRestSensitivity *slope) {
   bool load = kind == ZP_LIMIT_LOAD;
   double by_load = 0, closed = load ? rate_of_closed(rest, slope, limits->hung, 0)
                                     : rate_of_closed(rest, slope, limits->start, ZP_SETS_LOAD);
   if (load) zp_rest_go_to(rest, limits->hung);
-  if (load) by_load = zp_slow_closed_by_load(rest);
+  if (load) by_load = zp_quasistatic_closed_by_load(rest);
   zp_rest_go_to(rest, limits->limit[kind].state);
-  return zp_slope_of_event(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
-                           zp_closing_gap, closed, by_load);
+  return zp_rest_sensitivity_of_event(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
+                                      zp_closing_gap, closed, by_load);
 }
 
-static double derive_fold(ZpRest *rest, const ZpLimit *limit, bool load, ZpSlope *slope) {
+static double derive_fold(ZpRest *rest, const ZpLimit *limit, bool load, ZpRestSensitivity *slope) {
   zp_rest_go_to(rest, limit->state);
-  return zp_slope_of_fold(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
-                          limit->null);
+  return zp_rest_sensitivity_of_fold(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
+                                     limit->null);
 }
 
-static double derive_limit(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpSlope *slope) {
+static double derive_limit(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpRestSensitivity *slope) {
   const ZpLimit *limit = &limits->limit[kind];
   bool load = kind == ZP_LIMIT_LOAD;
   double rate = NAN;
   if (isnan(limit->value)) return NAN;
-  if (limit->end == ZP_MARCH_FOLD) rate = derive_fold(rest, limit, load, slope);
-  if (limit->end == ZP_MARCH_EVENT) rate = derive_event(rest, limits, kind, slope);
+  if (limit->end == ZP_TRACK_FOLD) rate = derive_fold(rest, limit, load, slope);
+  if (limit->end == ZP_TRACK_EVENT) rate = derive_event(rest, limits, kind, slope);
   return load ? rate : rate / (2 * limit->value);
 }
 
@@ -148,8 +148,8 @@ void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t cou
     zp_result_add(result, number[order[k]].name, number[order[k]].unit, limits->limit[order[k]].value);
 }
 
-void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpSlope *slope,
-                      ZpResult *result) {
+void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
+                      ZpRestSensitivity *slope, ZpResult *result) {
   double found[ZP_LIMIT_KINDS];
   for (size_t k = 0; k < count; k++) {
     const ZpLimit *limit = &limits->limit[order[k]];
@@ -160,7 +160,7 @@ void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind or
     found[k] = same < k ? found[same] : derive_limit(rest, limits, order[k], slope);
     if (isnan(found[k]) && !isnan(limit->value) && !has_none(result, output))
       zp_result_note(result, "%s has no derivatives: %s", output,
-                     limit->end == ZP_MARCH_ARRIVED ? "beyond it the closing voltage jumps"
+                     limit->end == ZP_TRACK_ARRIVED ? "beyond it the closing voltage jumps"
                                                     : "the slope of a force jumps at this state");
     zp_result_add_sensitivity(result, output, slope->key, found[k]);
   }

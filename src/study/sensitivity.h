@@ -5,7 +5,7 @@
 #include "study/result.h"
 
 #include "rest/limits.h"
-#include "rest/slope.h"
+#include "rest/sensitivity.h"
 
 /* Check sensitivity.by: real keys, each once, whose derivatives there are. ZP_BAD_INPUT names the key. */
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err);
@@ -17,7 +17,7 @@ ZpStatus zp_sensitivity_keys(const ZpActuatorDef *def, int *key, int *keys, ZpEr
 void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def);
 
 /* Adds the derivatives by a key. */
-typedef void ZpDerive(void *user, ZpSlope *slope, ZpResult *result);
+typedef void ZpDerive(void *user, ZpRestSensitivity *slope, ZpResult *result);
 
 /* Call `derive` with derivatives of states of `rest` by `key` prepared, or for each key of sensitivity.by. */
 ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
@@ -26,7 +26,7 @@ ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult 
 /* Add limits as numbers of a result, in this order; their derivatives by a key, an entry each. The present point is
  * then another. */
 void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpResult *result);
-void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpSlope *slope,
-                      ZpResult *result);
+void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
+                      ZpRestSensitivity *slope, ZpResult *result);
 
 #endif

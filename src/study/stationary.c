@@ -57,22 +57,24 @@ static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
   return "no equilibrium found within the largest number of iterations";
 }
 
-static void derive(void *user, ZpSlope *slope, ZpResult *result) {
+static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   (void)user;
-  bool found = zp_slope_solve(slope, ZP_SETS_LOAD), two = zp_is_pair(&slope->at->member->model->topology);
-  zp_result_add_sensitivity(result, "stroke_m", slope->key, found ? zp_slope_of(slope, zp_output_stroke, NULL) : NAN);
+  bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD), two = zp_is_pair(&slope->at->member->model->topology);
+  zp_result_add_sensitivity(result, "stroke_m", slope->key,
+                            found ? zp_rest_sensitivity_of(slope, zp_output_stroke, NULL) : NAN);
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
-                              found ? zp_slope_of(slope, zp_output_opening, NULL) : NAN);
+                              found ? zp_rest_sensitivity_of(slope, zp_output_opening, NULL) : NAN);
   if (zp_has_angle(&slope->at->member->model->topology))
-    zp_result_add_sensitivity(result, "angle_rad", slope->key, found ? zp_slope_of(slope, zp_output_angle, NULL) : NAN);
+    zp_result_add_sensitivity(result, "angle_rad", slope->key,
+                              found ? zp_rest_sensitivity_of(slope, zp_output_angle, NULL) : NAN);
 }
 
 static void run(ZpEquilibria *at) {
   ZpResult *result = at->result;
   ZpStatics *s = &at->rest.statics;
   const ZpTopology *t = &at->model->topology;
-  ZpNewtonInfo info = zp_statics_hang(s);
+  ZpNewtonInfo info = zp_statics_find_rest(s);
   bool found = zp_newton_good(info.end);
   result->outcome = found ? ZP_CONVERGED : s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "%s%s",

@@ -6,11 +6,12 @@ static bool acts(const ZpModel *model) {
 }
 
 static bool create(const ZpModel *model, ZpEval *e) {
-  return !e->solves || zp_surplus_create(&model->cross_section, &model->plates, model->field_scale, &e->surplus);
+  return !e->solves ||
+         zp_field_correction_create(&model->cross_section, &model->plates, model->field_scale, &e->surplus);
 }
 
 static void destroy(ZpEval *e) {
-  zp_surplus_destroy(&e->surplus);
+  zp_field_correction_destroy(&e->surplus);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -24,7 +25,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
                      ZpElectric *sum) {
   (void)e;
-  const ZpHeld *held = &span->beyond;
+  const ZpCachedField *held = &span->beyond;
   if (!held->F) return;
   const double *q = at == ZP_SPAN_START ? span->start : span->end, *Fy = zp_nodes(model, held->F).y;
   double work = 0;
@@ -39,7 +40,7 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
 
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   (void)e;
-  const ZpHeld *held = &span->beyond;
+  const ZpCachedField *held = &span->beyond;
   bool still = zp_span_is_still(span);
   if (!held->F) return;
   sum->capacitance += held->charge;
@@ -53,7 +54,7 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
 
 static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
   (void)model;
-  ZpFieldEnd end = zp_surplus_solve(&e->surplus, q, U, model->has_bead ? &e->cover : NULL);
+  ZpFieldEnd end = zp_field_correction_solve(&e->surplus, q, U, model->has_bead ? &e->cover : NULL);
   e->fault = end == ZP_FIELD_SOLVED ? NULL : zp_field_words(end);
   return !e->fault;
 }

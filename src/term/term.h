@@ -29,7 +29,7 @@ typedef struct ZpSpan {
   const double *v;           /* of an instant: velocities against which the drag acts; of an explicit step,
                                 whose losses are counted: those at its end; else NULL */
   const double *a;           /* of such a step: accelerations, so v - h/2 a are mean velocities */
-  ZpHeld beyond;             /* difference of a computed field from the plates law; all 0: none */
+  ZpCachedField beyond;      /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
   const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
 } ZpSpan;

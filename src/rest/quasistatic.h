@@ -1,10 +1,10 @@
 /* A slow change of the voltage or of the load: from limit to limit, each solved as a limit point or an event. Theory,
  * section 10.
  *
- * zp_march goes to the next limit point, or to where the actuator counts as closed. From a limit point the state falls
+ * zp_track goes to the next limit point, or to where the actuator counts as closed. From a limit point the state falls
  * to the stable state beyond it. This is repeated until the actuator has closed or opened. */
-#ifndef ZP_REST_SLOW_H
-#define ZP_REST_SLOW_H
+#ifndef ZP_REST_QUASISTATIC_H
+#define ZP_REST_QUASISTATIC_H
 
 #include "rest/rest.h"
 
@@ -18,19 +18,19 @@ double zp_closing_gap(void *statics, double *row);
 size_t zp_closed_members(const ZpStatics *statics);
 
 /* From the present point, at which the actuator hangs without a voltage: this determines when it counts as closed. */
-void zp_slow_start(ZpRest *rest);
+void zp_quasistatic_start(ZpRest *rest);
 
-bool zp_slow_is_closed(ZpRest *rest);
+bool zp_quasistatic_is_closed(ZpRest *rest);
 
 /* Derivative of the gap at which it counts as closed by the load, m/kg, at the present point, where it hangs without
  * voltage. */
-double zp_slow_closed_by_load(ZpRest *rest);
+double zp_quasistatic_closed_by_load(ZpRest *rest);
 
 /* -- limits ---------------------------------------------------------------------------------------- */
 
 /* One limit: an equilibrium. */
 typedef struct ZpLimit {
-  ZpMarchEnd end;     /* a limit point or an event; ZP_MARCH_ARRIVED: there is none, ZP_MARCH_LOST: it was not found */
+  ZpTrackEnd end;     /* a limit point or an event; ZP_TRACK_ARRIVED: there is none, ZP_TRACK_LOST: it was not found */
   double value;       /* V or kg; NAN if it does not exist */
   const char *reason; /* why it does not exist */
   double *state;      /* zp_rest_save */
@@ -39,60 +39,60 @@ typedef struct ZpLimit {
 } ZpLimit;
 
 /* Take state and null vector from the caller's block. */
-void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver);
+void zp_limit_reserve(ZpLimit *limit, size_t save_size, size_t equations, ZpArena *arena);
 
 /* Mark a limit as one that does not exist. */
 void zp_limit_none(ZpLimit *limit, const char *reason);
 
 /* Store the present point, at which a march has ended, as this limit. */
-void zp_slow_note(ZpRest *rest, ZpLimit *limit, ZpMarchEnd end);
-void zp_slow_copy(const ZpRest *rest, const ZpLimit *from, ZpLimit *to);
+void zp_quasistatic_note(ZpRest *rest, ZpLimit *limit, ZpTrackEnd end);
+void zp_quasistatic_copy(const ZpRest *rest, const ZpLimit *from, ZpLimit *to);
 
 /* Examine the branch on both sides of the limit point at the present point, as far as a ripple may extend. Its highest
  * crest is where the parameter, growing (sign 1) or falling (-1), goes furthest. Also sets the room of the limit. */
 typedef enum ZpAround { ZP_NOTHING_HIGHER, ZP_STABLE_HIGHER, ZP_CREST_HIGHER, ZP_OUT_OF_SIGHT } ZpAround;
-ZpAround zp_slow_look_around(ZpRest *rest, ZpLimit *limit, double sign);
+ZpAround zp_quasistatic_look_around(ZpRest *rest, ZpLimit *limit, double sign);
 
 /* The room that the limit at the present point keeps of that of `near`, a limit of a neighbour with this `gap`. */
-double zp_slow_room_left(ZpRest *rest, const ZpLimit *near, double gap);
+double zp_quasistatic_room_left(ZpRest *rest, const ZpLimit *near, double gap);
 
 /* From close by, at the present voltage, to the load of a limit point with about this null vector, and to the one under
  * which the closing gap has this value. False if there is none, or it is not stable apart from the null vector. */
-bool zp_slow_fold_of_load(ZpRest *rest, const double *null);
-bool zp_slow_event_of_load(ZpRest *rest, double gap);
+bool zp_quasistatic_fold_of_load(ZpRest *rest, const double *null);
+bool zp_quasistatic_event_of_load(ZpRest *rest, double gap);
 
 /* From the present equilibrium, lower the load to 0, or raise the voltage to `top`, V, or to the first limit => at, if
  * there is one. */
-ZpMarchEnd zp_slow_drop_load(ZpRest *rest, ZpLimit *at);
-ZpMarchEnd zp_slow_first(ZpRest *rest, double top, ZpLimit *at);
+ZpTrackEnd zp_quasistatic_drop_load(ZpRest *rest, ZpLimit *at);
+ZpTrackEnd zp_quasistatic_first(ZpRest *rest, double top, ZpLimit *at);
 
 /* -- a slow change of the voltage ------------------------------------------------------------------- */
 
-typedef enum ZpSlowEnd {
-  ZP_SLOW_ARRIVED, /* the change has ended */
-  ZP_SLOW_CHANGED, /* it has closed or opened */
-  ZP_SLOW_BEYOND,  /* a limit point is further than was asked */
-  ZP_SLOW_LOST,
-  ZP_SLOW_IMPOSSIBLE, /* still closed, in a state that cannot be */
-  ZP_SLOW_STOPPED
-} ZpSlowEnd;
+typedef enum ZpQuasistaticEnd {
+  ZP_QUASISTATIC_ARRIVED, /* the change has ended */
+  ZP_QUASISTATIC_CHANGED, /* it has closed or opened */
+  ZP_QUASISTATIC_BEYOND,  /* a limit point is further than was asked */
+  ZP_QUASISTATIC_LOST,
+  ZP_QUASISTATIC_IMPOSSIBLE, /* still closed, in a state that cannot be */
+  ZP_QUASISTATIC_STOPPED
+} ZpQuasistaticEnd;
 
 /* From the present equilibrium, raise the voltage to `top`, V, until the actuator closes, or to the first limit point
  * not below `enough`, V, from which it does not fall: this limit is `at`. */
-ZpSlowEnd zp_slow_close_at(ZpRest *rest, double top, double enough, ZpLimit *at);
+ZpQuasistaticEnd zp_quasistatic_close_at(ZpRest *rest, double top, double enough, ZpLimit *at);
 
 /* Does the actuator close when it falls from this limit point of the voltage, at which it is? */
-bool zp_slow_falls_closed(ZpRest *rest, const ZpLimit *limit);
+bool zp_quasistatic_falls_closed(ZpRest *rest, const ZpLimit *limit);
 
 /* From the hanging state without voltage, raise the voltage to `top`, V, or until the actuator closes => pull_in, the
  * first limit point that is no ripple of the mesh, and closing. */
-ZpSlowEnd zp_slow_raise(ZpRest *rest, double top, ZpLimit *pull_in, ZpLimit *closing);
+ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *rest, double top, ZpLimit *pull_in, ZpLimit *closing);
 
 /* Go to the closed state at voltage `top`: from the present point if it is closed, else from the straight shape. False
  * if the actuator is not closed there. */
-bool zp_slow_close(ZpRest *rest, double top);
+bool zp_quasistatic_close(ZpRest *rest, double top);
 
 /* From that state, lower the voltage to 0 or until the actuator opens => release, which is not above closing. */
-ZpSlowEnd zp_slow_lower(ZpRest *rest, const ZpLimit *closing, ZpLimit *release);
+ZpQuasistaticEnd zp_quasistatic_lower(ZpRest *rest, const ZpLimit *closing, ZpLimit *release);
 
 #endif

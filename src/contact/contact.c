@@ -1,6 +1,6 @@
 /* Letters of docs/theory.md, section 9: g gap, m; s = -g / delta where that is positive. The push per length is
  * p_c s^3, its stiffness 3 p_c s^2 / delta. */
-#include "contact/faces.h"
+#include "contact/contact.h"
 
 #include <math.h>
 #include <string.h>
@@ -8,17 +8,17 @@
 #include "base/kernel.h"
 #include "math/gauss.h"
 
-double zp_faces_range(double insulation) {
+double zp_contact_range(double insulation) {
   static const double usual = 5e-7, of = 260e-6, least = 1e-9; /* m */
   return fmax(usual * (insulation / of), least);
 }
 
-void zp_faces_carve(const ZpFacesParams *p, ZpFacesEval *e, ZpCarver *carver) {
-  e->push = zp_carve(carver, p->nodes);
-  e->own = zp_carve(carver, p->nodes);
-  e->next = zp_carve(carver, p->nodes);
-  e->stiffness = zp_carve(carver, p->nodes);
-  e->damper = zp_carve(carver, p->nodes);
+void zp_contact_reserve(const ZpContactParams *p, ZpContactEval *e, ZpArena *arena) {
+  e->push = zp_arena_take(arena, p->nodes);
+  e->own = zp_arena_take(arena, p->nodes);
+  e->next = zp_arena_take(arena, p->nodes);
+  e->stiffness = zp_arena_take(arena, p->nodes);
+  e->damper = zp_arena_take(arena, p->nodes);
 }
 
 /* Push over p_c as faces go from x0 to x1, -g / delta, of which what is positive is the depth s: eq. (18.11), and its
@@ -38,7 +38,7 @@ static inline Mean mean_of(double x0, double x1, double late) {
   return (Mean){push + late * (q1 * s1 - push), slope + late * (3 * q1 - slope)};
 }
 
-static void add_element(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
+static void add_element(const ZpContactParams *p, const ZpContactSpan *span, size_t i, const ZpContactEval *e) {
   const double *share = zp_gauss_shares(&p->level, i), *start = span->start, *end = span->end;
   for (int q = 0; q < GAUSS; q++) {
     double r = share[q], l = 1 - r, weight = gauss_weight[q] * p->l * p->push;
@@ -56,11 +56,11 @@ static void add_element(const ZpFacesParams *p, const ZpFacesSpan *span, size_t 
 }
 
 /* Is element i the platform? */
-static bool is_rigid(const ZpFacesParams *p, size_t i) {
+static bool is_rigid(const ZpContactParams *p, size_t i) {
   return i >= p->platform && i < p->platform_end;
 }
 
-static void add_platform(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
+static void add_platform(const ZpContactParams *p, const ZpContactSpan *span, size_t i, const ZpContactEval *e) {
   Mean m = mean_of(-span->start[i] / p->depth, -span->end[i] / p->depth, span->late);
   double weight = p->flat_length * p->push, c = weight * m.slope / p->depth;
   e->push[i] += weight * m.push;
@@ -80,7 +80,7 @@ typedef struct Block {
 } Block;
 
 /* In equilibrium the mean at a point is s^3, and half of its slope 3 s^2 / 2. */
-ZP_KERNEL static void block_at_rest(const ZpFacesParams *p, const double *restrict gap, size_t count,
+ZP_KERNEL static void block_at_rest(const ZpContactParams *p, const double *restrict gap, size_t count,
                                     Block *restrict of) {
   double per_depth = 1 / p->depth, l = p->l * p->push;
   ZP_SIMD
@@ -100,7 +100,7 @@ ZP_KERNEL static void block_at_rest(const ZpFacesParams *p, const double *restri
 }
 
 /* As mean_of, without branches. */
-ZP_KERNEL static void block_over_span(const ZpFacesParams *p, const ZpFacesSpan *span, size_t first, size_t count,
+ZP_KERNEL static void block_over_span(const ZpContactParams *p, const ZpContactSpan *span, size_t first, size_t count,
                                       Block *restrict of) {
   const double *start = span->start + first, *end = span->end + first;
   double per_depth = 1 / p->depth, l = p->l * p->push, late = span->late;
@@ -129,7 +129,7 @@ ZP_KERNEL static void block_over_span(const ZpFacesParams *p, const ZpFacesSpan 
   }
 }
 
-static void add_of_block(const Block *of, size_t k, size_t i, const ZpFacesEval *e) {
+static void add_of_block(const Block *of, size_t k, size_t i, const ZpContactEval *e) {
   for (size_t end = 0; end < 2; end++) {
     e->push[i + end] += of->push[end][k];
     e->own[i + end] += of->own[end][k];
@@ -138,21 +138,21 @@ static void add_of_block(const Block *of, size_t k, size_t i, const ZpFacesEval 
   e->next[i] += of->next[k];
 }
 
-static bool is_level(const ZpFacesParams *p, size_t i) {
+static bool is_level(const ZpContactParams *p, size_t i) {
   for (size_t k = 0; k < p->level.count; k++)
     if (p->level.of[k].element == i) return true;
   return false;
 }
 
-static bool is_at_rest(const ZpFacesSpan *span) {
+static bool is_at_rest(const ZpContactSpan *span) {
   return span->start == span->end;
 }
 
-static bool meet(const ZpFacesSpan *span, size_t i) {
+static bool meet(const ZpContactSpan *span, size_t i) {
   return touches(span->end, i) || touches(span->start, i);
 }
 
-static void add_elements(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
+static void add_elements(const ZpContactParams *p, const ZpContactSpan *span, const ZpContactEval *e) {
   size_t elements = p->nodes - 1;
   for (size_t first = 0; first < elements; first += ZP_LANES) {
     size_t count = elements - first < ZP_LANES ? elements - first : ZP_LANES;
@@ -176,35 +176,35 @@ static void add_elements(const ZpFacesParams *p, const ZpFacesSpan *span, const 
 /* -- all -------------------------------------------------------------------------------------------- */
 
 /* Eq. (9.6), and its derivative. */
-static void add_damper(const ZpFacesParams *p, const ZpFacesSpan *span, size_t i, const ZpFacesEval *e) {
+static void add_damper(const ZpContactParams *p, const ZpContactSpan *span, size_t i, const ZpContactEval *e) {
   double s0 = fmax(-span->start[i] / p->depth, 0), s1 = fmax(-span->end[i] / p->depth, 0),
          c = e->damper[i] * span->rate;
   e->push[i] += 0.5 * c * p->depth * (s1 * s1 - s0 * s0);
   e->own[i] += c * s1;
 }
 
-ZpFacesSpan zp_faces_span(const ZpFacesParams *p, const double *start, const double *end, double h) {
-  if (!(h > 0)) return (ZpFacesSpan){start, end, 0, 0};
-  return (ZpFacesSpan){start, end, h / (h + p->settling), 1 / h};
+ZpContactSpan zp_contact_span(const ZpContactParams *p, const double *start, const double *end, double h) {
+  if (!(h > 0)) return (ZpContactSpan){start, end, 0, 0};
+  return (ZpContactSpan){start, end, h / (h + p->settling), 1 / h};
 }
 
 /* Length of the faces that belong to station i, m. */
-static double length_of(const ZpFacesParams *p, size_t i) {
+static double length_of(const ZpContactParams *p, size_t i) {
   bool left = i > 0 && !is_rigid(p, i - 1), right = i + 1 < p->nodes && !is_rigid(p, i);
   bool flat = i >= p->platform && i <= p->platform_end;
   return 0.5 * p->l * (left + right) + (flat ? p->flat_length : 0);
 }
 
 /* k_c of station i at s = 1, N/m. */
-static double layers_at(const ZpFacesParams *p, size_t i) {
+static double layers_at(const ZpContactParams *p, size_t i) {
   return 3 * p->push * length_of(p, i) / p->depth;
 }
 
-void zp_faces_damp(const ZpFacesParams *p, size_t i, double reduced_mass, const ZpFacesEval *e) {
+void zp_contact_damp(const ZpContactParams *p, size_t i, double reduced_mass, const ZpContactEval *e) {
   e->damper[i] = ZP_FACES_LOSS_FACTOR * sqrt(layers_at(p, i) * reduced_mass);
 }
 
-void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFacesEval *e) {
+void zp_contact_eval(const ZpContactParams *p, const ZpContactSpan *span, const ZpContactEval *e) {
   memset(e->push, 0, p->nodes * sizeof *e->push);
   memset(e->own, 0, p->nodes * sizeof *e->own);
   memset(e->next, 0, p->nodes * sizeof *e->next);
@@ -216,16 +216,16 @@ void zp_faces_eval(const ZpFacesParams *p, const ZpFacesSpan *span, const ZpFace
     add_damper(p, span, i, e);
 }
 
-double zp_faces_kept(const ZpFacesEval *e, size_t i, double reduced_mass, double dt) {
+double zp_contact_kept(const ZpContactEval *e, size_t i, double reduced_mass, double dt) {
   return 1 / (1 + ZP_FACES_LOSS_FACTOR * dt * sqrt(e->stiffness[i] / reduced_mass));
 }
 
-double zp_faces_kept_at(const ZpFacesParams *p, double gap, size_t i, double reduced_mass, double dt) {
+double zp_contact_kept_at(const ZpContactParams *p, double gap, size_t i, double reduced_mass, double dt) {
   double s = fmax(-gap / p->depth, 0);
   return 1 / (1 + ZP_FACES_LOSS_FACTOR * dt * s * sqrt(layers_at(p, i) / reduced_mass));
 }
 
-size_t zp_faces_front(const ZpFacesParams *p, const double *gap) {
+size_t zp_contact_front(const ZpContactParams *p, const double *gap) {
   size_t front = 0;
   while (front < p->platform && gap[front + 1] < p->range)
     front++;

@@ -1,4 +1,4 @@
-#include "rest/near.h"
+#include "rest/finite_difference.h"
 
 #include <math.h>
 
@@ -16,24 +16,24 @@ static double step_of(const ZpKey *row, double value, double part) {
 
 /* Difference quotients of fourth order: around the value, below it, above it. */
 typedef struct Stencil {
-  int first;                     /* place of the first point, in steps */
-  double weight[ZP_NEAR_POINTS]; /* times 12 */
+  int first;                           /* place of the first point, in steps */
+  double weight[ZP_DIFFERENCE_POINTS]; /* times 12 */
 } Stencil;
 
 static const Stencil stencils[] = {{-2, {1, -8, 0, 8, -1}}, {-4, {3, -16, 36, -48, 25}}, {0, {-25, 48, -36, 16, -3}}};
 enum { STENCILS = sizeof stencils / sizeof stencils[0] };
 
-void zp_near_close(ZpNear *near) {
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+void zp_finite_difference_close(ZpFiniteDifference *near) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     zp_model_destroy(near->model[k]);
     near->model[k] = NULL;
   }
 }
 
-static ZpStatus build(ZpNear *near, const ZpModel *model, const Stencil *stencil, ZpError *err) {
+static ZpStatus build(ZpFiniteDifference *near, const ZpModel *model, const Stencil *stencil, ZpError *err) {
   ZpDriveTable table = model->waveform.table;
   ZpStatus status = ZP_OK;
-  for (int k = 0; k < ZP_NEAR_POINTS && status == ZP_OK; k++) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS && status == ZP_OK; k++) {
     ZpActuatorDef def = model->whole;
     near->offset[k] = (stencil->first + k) * near->step;
     near->weight[k] = stencil->weight[k] / (12 * near->step);
@@ -42,13 +42,13 @@ static ZpStatus build(ZpNear *near, const ZpModel *model, const Stencil *stencil
     if (status == ZP_OK) status = zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &near->model[k], err);
     if (status == ZP_OK) zp_model_take_laws(near->model[k], model);
   }
-  if (status != ZP_OK) zp_near_close(near);
+  if (status != ZP_OK) zp_finite_difference_close(near);
   return status;
 }
 
-ZpStatus zp_near_open(ZpNear *near, const ZpModel *model, int key, double part, ZpError *err) {
+ZpStatus zp_finite_difference_open(ZpFiniteDifference *near, const ZpModel *model, int key, double part, ZpError *err) {
   enum { FARTHEST = 4, PERCENT = 100 };
-  *near = (ZpNear){.key = key};
+  *near = (ZpFiniteDifference){.key = key};
   const ZpKey *row = zp_key(key);
   double value = zp_def_get(&model->whole, key);
   ZpError reason = {ZP_OK, ""};

@@ -3,19 +3,19 @@
  *
  * Near a limit point m_f the branch is a parabola: q_f - q = 2 (m_f - m) dq/dm, and 1 / |dq/dm|^2 falls to 0 like
  * m_f - m. The first relation checks a result; the second tells how far the limit point is. */
-#ifndef ZP_SOLVE_MARCH_H
-#define ZP_SOLVE_MARCH_H
+#ifndef ZP_SOLVE_TRACK_H
+#define ZP_SOLVE_TRACK_H
 
 #include "solve/fold.h"
 
-typedef enum ZpMarchEnd {
-  ZP_MARCH_ARRIVED, /* at the target m */
-  ZP_MARCH_FOLD,    /* at a limit point, with the null vector `fold.null` */
-  ZP_MARCH_EVENT,   /* at the event */
-  ZP_MARCH_LOST     /* at the last good point: none of these was found */
-} ZpMarchEnd;
+typedef enum ZpTrackEnd {
+  ZP_TRACK_ARRIVED, /* at the target m */
+  ZP_TRACK_FOLD,    /* at a limit point, with the null vector `fold.null` */
+  ZP_TRACK_EVENT,   /* at the event */
+  ZP_TRACK_LOST     /* at the last good point: none of these was found */
+} ZpTrackEnd;
 
-typedef struct ZpMarch {
+typedef struct ZpTrack {
   ZpFold fold;
   ZpEvent event;  /* NULL: none */
   double limit;   /* value of its function at the event */
@@ -31,12 +31,12 @@ typedef struct ZpMarch {
   double flat;    /* 1 / |dq/dm|^2 there */
   double to_fold; /* distance of the limit point along m; INFINITY: none is expected */
   bool tried;     /* the solution for it from there has been tried */
-} ZpMarch;
+} ZpTrack;
 
-void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
-                    ZpCarver *carver);
+void zp_track_reserve(ZpTrack *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+                      ZpArena *arena);
 
 /* From the present point, a stable equilibrium, towards m = target. Every point on the way is stable. */
-ZpMarchEnd zp_march(ZpMarch *march, double target);
+ZpTrackEnd zp_track(ZpTrack *march, double target);
 
 #endif

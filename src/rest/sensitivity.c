@@ -1,5 +1,5 @@
 /* Letters of docs/theory.md, section 20: p the key, q coordinates, F forces, K = -dF/dq, m a branch's parameter. */
-#include "rest/slope.h"
+#include "rest/sensitivity.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,7 @@ static bool is_numerical(const char *name) {
   return false;
 }
 
-ZpStatus zp_slope_check(const ZpActuatorDef *def, int key, ZpError *err) {
+ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *err) {
   const ZpKey *k = zp_key(key);
   if (def->electro.model == ZP_ELECTRO_FIELD)
     return zp_fail(
@@ -47,33 +47,33 @@ static void set_inputs(ZpStatics *s, int inputs) {
 /* Far above the rounding of forces, far below the change over which any law varies. */
 static const double part = 5e-5;
 
-static size_t carve(ZpSlope *p, void *block) {
-  ZpCarver carver = {block, 0};
+static size_t reserve(ZpRestSensitivity *p, void *block) {
+  ZpArena arena = {block, 0};
   size_t lanes = p->at->members * zp_lanes(p->at->member->model), n = p->at->n;
-  p->rate = zp_carve(&carver, 2 * lanes);
-  p->motion = zp_carve(&carver, zp_coordinates(p->at->member->model));
-  p->tension = zp_carve(&carver, lanes);
+  p->rate = zp_arena_take(&arena, 2 * lanes);
+  p->motion = zp_arena_take(&arena, zp_coordinates(p->at->member->model));
+  p->tension = zp_arena_take(&arena, lanes);
   double **vectors[] = {&p->by_key, &p->by_parameter, &p->row};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
-    *vectors[k] = zp_carve(&carver, n);
-  return carver.used;
+    *vectors[k] = zp_arena_take(&arena, n);
+  return arena.used;
 }
 
-ZpStatus zp_slope_open(ZpSlope *p, ZpStatics *at, int key, ZpError *err) {
-  *p = (ZpSlope){.at = at, .key = key};
-  p->memory = zp_calloc(1, carve(p, NULL));
+ZpStatus zp_rest_sensitivity_open(ZpRestSensitivity *p, ZpStatics *at, int key, ZpError *err) {
+  *p = (ZpRestSensitivity){.at = at, .key = key};
+  p->memory = zp_calloc(1, reserve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
-  carve(p, p->memory);
-  ZpStatus status = zp_near_open(&p->by, at->model, key, part, err);
-  for (int k = 0; k < ZP_NEAR_POINTS && status == ZP_OK; k++)
+  reserve(p, p->memory);
+  ZpStatus status = zp_finite_difference_open(&p->by, at->model, key, part, err);
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS && status == ZP_OK; k++)
     if (p->by.model[k] && !zp_statics_create(p->by.model[k], &p->near[k])) status = zp_fail_memory(err);
   return status;
 }
 
-void zp_slope_close(ZpSlope *p) {
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+void zp_rest_sensitivity_close(ZpRestSensitivity *p) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (p->by.model[k]) zp_statics_destroy(&p->near[k]);
-  zp_near_close(&p->by);
+  zp_finite_difference_close(&p->by);
   zp_free(p->memory);
   p->memory = NULL;
 }
@@ -88,7 +88,7 @@ static void place_member(const ZpRestMember *at, ZpRestMember *near) {
 }
 
 /* Actuator k in the present state. */
-static ZpStatics *place(ZpSlope *p, int k) {
+static ZpStatics *place(ZpRestSensitivity *p, int k) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
   for (size_t which = 0; which < at->members; which++)
@@ -104,12 +104,12 @@ static ZpStatics *place(ZpSlope *p, int k) {
 }
 
 /* Where the numbers of a member begin, of `per_node` for each node. */
-static double *of_member(const ZpSlope *p, double *numbers, size_t which, size_t per_node) {
+static double *of_member(const ZpRestSensitivity *p, double *numbers, size_t which, size_t per_node) {
   return numbers + which * per_node * zp_lanes(p->at->member->model);
 }
 
 /* Actuator k at the coordinates that the last solution gives. */
-static ZpStatics *place_along(ZpSlope *p, int k) {
+static ZpStatics *place_along(ZpRestSensitivity *p, int k) {
   ZpStatics *near = place(p, k);
   size_t lanes = zp_lanes(p->at->member->model);
   for (size_t which = 0; which < near->members; which++) {
@@ -128,7 +128,7 @@ static void residual(ZpStatics *s, double *r) {
 }
 
 /* Add a member's part of rate and tension, times `weight`. */
-static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, double weight) {
+static void add_scaling(ZpRestSensitivity *p, size_t which, const ZpRestMember *near, double weight) {
   const ZpRestMember *at = &p->at->member[which];
   size_t lanes = zp_lanes(at->model), edges = at->model->count - at->model->s;
   double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
@@ -140,14 +140,14 @@ static void add_scaling(ZpSlope *p, size_t which, const ZpRestMember *near, doub
 
 /* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
  * reaction. */
-static void differentiate(ZpSlope *p) {
+static void differentiate(ZpRestSensitivity *p) {
   ZpStatics *at = p->at;
   size_t lanes = at->members * zp_lanes(at->member->model), n = at->n;
   memset(p->rate, 0, 2 * lanes * sizeof *p->rate);
   memset(p->tension, 0, lanes * sizeof *p->tension);
   memset(p->by_key, 0, n * sizeof *p->by_key);
   p->reaction = 0;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     if (!p->by.model[k]) continue;
     const ZpStatics *near = place(p, k);
     residual(&p->near[k], p->row);
@@ -163,7 +163,7 @@ static void differentiate(ZpSlope *p) {
 
 /* The exact stiffness at the present point => K; the effect of the held platform's motion on the other equations, in
  * r. */
-static void stiffness(ZpSlope *p, double *r) {
+static void stiffness(ZpRestSensitivity *p, double *r) {
   ZpStatics *at = p->at;
   residual(at, p->at->newton.r);
   zp_statics_take_tensions(at);
@@ -171,7 +171,7 @@ static void stiffness(ZpSlope *p, double *r) {
 }
 
 /* dq/dp less the scaling is in by_key. */
-static void add_motion(ZpSlope *p, size_t which) {
+static void add_motion(ZpRestSensitivity *p, size_t which) {
   const ZpRestMember *m = &p->at->member[which];
   const ZpModel *model = m->model;
   const ZpEdges *e = &m->eval.edges;
@@ -188,7 +188,7 @@ static void add_motion(ZpSlope *p, size_t which) {
 }
 
 /* The force that holds the platform changes as the platform's equation would change if it were free. */
-static void add_reaction(ZpSlope *p) {
+static void add_reaction(ZpRestSensitivity *p) {
   ZpStatics *at = p->at;
   double opening = at->opening;
   at->opening = NAN;
@@ -198,7 +198,7 @@ static void add_reaction(ZpSlope *p) {
   p->reaction -= p->row[zp_statics_platform(at)];
 }
 
-bool zp_slope_solve(ZpSlope *p, int inputs) {
+bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
   p->inputs = inputs;
   differentiate(p);
   stiffness(p, p->by_key);
@@ -210,9 +210,9 @@ bool zp_slope_solve(ZpSlope *p, int inputs) {
   return true;
 }
 
-double zp_slope_of(ZpSlope *p, ZpOutput output, void *user) {
+double zp_rest_sensitivity_of(ZpRestSensitivity *p, ZpOutput output, void *user) {
   double sum = 0;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     if (!p->by.model[k]) continue;
     ZpStatics *near = place_along(p, k);
     residual(near, p->row);
@@ -224,7 +224,7 @@ double zp_slope_of(ZpSlope *p, ZpOutput output, void *user) {
 /* -- limits --------------------------------------------------------------------------------------- */
 
 /* dF/dp and dF/dm, both multiplied by the inverse stiffness. */
-static bool solve_both(ZpSlope *p, int inputs, const ZpBranchSystem *branch) {
+static bool solve_both(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *branch) {
   p->inputs = inputs;
   differentiate(p);
   stiffness(p, NULL);
@@ -236,7 +236,7 @@ static bool solve_both(ZpSlope *p, int inputs, const ZpBranchSystem *branch) {
 }
 
 /* Is the stiffness singular here, as at a smooth limit point, or does the branch turn at a corner of a law? */
-static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
+static bool is_smooth(const ZpRestSensitivity *p, const ZpBranchSystem *branch) {
   static const double least = 1e3; /* longest steps per change of the parameter by itself; a corner has about 1 */
   return branch->at_rest.length(p->at, p->by_parameter) * fabs(branch->get(p->at)) > least;
 }
@@ -244,7 +244,7 @@ static bool is_smooth(const ZpSlope *p, const ZpBranchSystem *branch) {
 /* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two
  * solutions is a quotient of two products with the left null vector. Solved twice, other soft motions, as of members
  * that nearly reach their limit points together, are left out to second order. */
-double zp_slope_of_fold(ZpSlope *p, int inputs, const ZpBranchSystem *branch, const double *null) {
+double zp_rest_sensitivity_of_fold(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->n;
   if (!solve_both(p, inputs, branch) || !is_smooth(p, branch)) return NAN;
   zp_band_solve(&p->at->newton.K, p->by_key);
@@ -252,12 +252,12 @@ double zp_slope_of_fold(ZpSlope *p, int inputs, const ZpBranchSystem *branch, co
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 
-double zp_slope_of_event(ZpSlope *p, int inputs, const ZpBranchSystem *branch, ZpEvent event, double rate,
-                         double by_parameter) {
+double zp_rest_sensitivity_of_event(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *branch, ZpEvent event,
+                                    double rate, double by_parameter) {
   size_t n = p->at->n;
   if (!solve_both(p, inputs, branch)) return NAN;
   double direct = 0;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     if (!p->by.model[k]) continue;
     ZpStatics *near = place(p, k);
     residual(near, p->row);

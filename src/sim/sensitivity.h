@@ -1,10 +1,10 @@
 /* Derivatives of a whole run by keys, forward through its accepted steps. Beside the run go actuators near it, whose
  * key is a little larger or smaller, each at the run's state plus its share of the derivatives; after a step these
  * follow from where they end. docs/theory.md, section 20. */
-#ifndef ZP_SIM_RUN_RATES_H
-#define ZP_SIM_RUN_RATES_H
+#ifndef ZP_SIM_SENSITIVITY_H
+#define ZP_SIM_SENSITIVITY_H
 
-#include "rest/near.h"
+#include "rest/finite_difference.h"
 #include "sim/sim_internal.h"
 
 /* A current of the run, its time and its derivative. */
@@ -14,20 +14,20 @@ typedef struct ZpCurrentRate {
 
 /* Of one key. */
 typedef struct ZpKeyRates {
-  ZpNear by;
-  ZpSim *near[ZP_NEAR_POINTS]; /* NULL where the point is not used */
-  double from[ZP_NEAR_POINTS]; /* their last corner */
-  double to[ZP_NEAR_POINTS];   /* and their next one, s */
-  double late;                 /* derivative of the end of the step, beyond that by corners, s */
-  ZpState *rate;               /* derivatives of the numbers of the run's state; of its time where a key moves it */
-  double square, peak;         /* of the integral of the current's square and of its largest size so far (feed.h) */
+  ZpFiniteDifference by;
+  ZpSim *near[ZP_DIFFERENCE_POINTS]; /* NULL where the point is not used */
+  double from[ZP_DIFFERENCE_POINTS]; /* their last corner */
+  double to[ZP_DIFFERENCE_POINTS];   /* and their next one, s */
+  double late;                       /* derivative of the end of the step, beyond that by corners, s */
+  ZpState *rate;       /* derivatives of the numbers of the run's state; of its time where a key moves it */
+  double square, peak; /* of the integral of the current's square and of its largest size so far (supply_coupling.h) */
   ZpCurrentRate last[2]; /* the currents of the last two steps, the later one first; t is NAN before there is one */
   bool at_peak;          /* the later one is the largest so far */
   double lost;           /* when they ceased to exist, s; INFINITY: they have not */
   const char *cause;     /* and why */
 } ZpKeyRates;
 
-typedef struct ZpRunRates {
+typedef struct ZpRunSensitivity {
   ZpSim *sim;      /* the run */
   ZpKeyRates *key; /* [keys] */
   size_t keys;
@@ -37,22 +37,22 @@ typedef struct ZpRunRates {
   bool *wet;       /* [N] stations that the liquid of a bead covers */
   double *work;    /* [6 n] */
   double *motion;  /* [n] */
-} ZpRunRates;
+} ZpRunSensitivity;
 
 /* Follow a run, which has not begun, by these keys; in any case to be closed, before the run. ZP_BAD_INPUT names a key
  * about which there are no actuators near, ZP_MACHINE: no memory. */
-ZpStatus zp_run_rates_open(ZpRunRates *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err);
-void zp_run_rates_close(ZpRunRates *rates);
+ZpStatus zp_run_sensitivity_open(ZpRunSensitivity *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err);
+void zp_run_sensitivity_close(ZpRunSensitivity *rates);
 
 /* A step begins, of a run until end_time, s; it has ended. */
-void zp_run_rates_begin(ZpRunRates *rates, double end_time);
-void zp_run_rates_follow(ZpRunRates *rates);
+void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time);
+void zp_run_sensitivity_follow(ZpRunSensitivity *rates);
 
 /* The derivative by the k-th key of a number that a simulation has now. */
-double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
+double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
                       const void *user);
 
 /* The derivative by the k-th key of the peak and rms current of the run until now, behind a supply. */
-ZpCurrents zp_run_rate_of_currents(const ZpRunRates *rates, size_t k);
+ZpCurrents zp_run_rate_of_currents(const ZpRunSensitivity *rates, size_t k);
 
 #endif

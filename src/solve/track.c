@@ -1,4 +1,4 @@
-#include "solve/march.h"
+#include "solve/track.h"
 
 #include <math.h>
 #include <string.h>
@@ -7,31 +7,31 @@
 
 static const double little = 5e-3; /* of the scale of q: a smaller motion does not matter */
 
-void zp_march_carve(ZpMarch *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
-                    ZpCarver *carver) {
+void zp_track_reserve(ZpTrack *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+                      ZpArena *arena) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
-  zp_fold_carve(&march->fold, system, form, newton, carver);
+  zp_fold_reserve(&march->fold, system, form, newton, arena);
   double **vectors[] = {&march->q, &march->before, &march->guess};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
-    *vectors[k] = zp_carve(carver, n);
-  march->good = zp_carve(carver, saved);
-  march->start = zp_carve(carver, saved);
+    *vectors[k] = zp_arena_take(arena, n);
+  march->good = zp_arena_take(arena, saved);
+  march->start = zp_arena_take(arena, saved);
 }
 
 /* -- points ---------------------------------------------------------------------------------------- */
 
-static double parameter(const ZpMarch *m) {
+static double parameter(const ZpTrack *m) {
   const ZpBranchSystem *sys = m->fold.system;
   return sys->get(sys->at_rest.self);
 }
 
 /* Is the present equilibrium stable? Then dq/dm is in fold.along. */
-static bool is_stable(ZpMarch *m) {
+static bool is_stable(ZpTrack *m) {
   return zp_fold_tangent(&m->fold) && m->fold.negative == 0;
 }
 
 /* The present point is good: store it, and its distance from a limit point. `first`: there is none before it. */
-static void keep(ZpMarch *m, bool first) {
+static void keep(ZpTrack *m, bool first) {
   const ZpBranchSystem *sys = m->fold.system;
   const ZpStaticSystem *rest = &sys->at_rest;
   double flat = 1 / zp_static_dot(rest, m->fold.along, m->fold.along), gone = fabs(parameter(m) - m->m);
@@ -49,7 +49,7 @@ static void keep(ZpMarch *m, bool first) {
   m->slope = zp_dot(rest->n, m->guess, m->before);
 }
 
-static void go_back(ZpMarch *m) {
+static void go_back(ZpTrack *m) {
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   m->fold.system->restore(rest->self, m->good);
   rest->residual(rest->self, m->fold.newton->r, NULL);
@@ -57,7 +57,7 @@ static void go_back(ZpMarch *m) {
 
 /* From the last good point by `way` along its tangent, to parameter m.m + dm. False if that is too far for a
  * tangent. */
-static bool predict(ZpMarch *m, double way, double dm) {
+static bool predict(ZpTrack *m, double way, double dm) {
   static const double farthest = 0.6; /* of what linearisation stands */
   const ZpBranchSystem *sys = m->fold.system;
   const ZpStaticSystem *rest = &sys->at_rest;
@@ -71,7 +71,7 @@ static bool predict(ZpMarch *m, double way, double dm) {
 
 /* Is the present point where the tangents from the last good point lead: `from` times the tangent there and `to` times
  * its own? After a jump to another branch it is not. */
-static bool agrees(ZpMarch *m, double from, double to) {
+static bool agrees(ZpTrack *m, double from, double to) {
   static const double part = 0.25; /* of what moved */
   const ZpBranchSystem *sys = m->fold.system;
   size_t n = sys->at_rest.n;
@@ -86,7 +86,7 @@ static bool agrees(ZpMarch *m, double from, double to) {
 }
 
 /* Does the value of the event change as its slopes at both ends say? This detects a jump that hardly moves the rest. */
-static bool value_agrees(ZpMarch *m, double dm) {
+static bool value_agrees(ZpTrack *m, double dm) {
   static const double part = 0.25, least = 1e-3; /* of its change; of its limit */
   if (!m->event) return true;
   double change = m->event(m->fold.system->at_rest.self, m->guess) - m->value;
@@ -97,7 +97,7 @@ static bool value_agrees(ZpMarch *m, double dm) {
 /* -- the limit point ahead -------------------------------------------------------------------------- */
 
 /* Solve for the limit point at the distance `far` from the last good one. */
-static bool try_fold(ZpMarch *m, double sign, double far) {
+static bool try_fold(ZpTrack *m, double sign, double far) {
   static const double part = 0.3;
   if (!predict(m, 2 * sign * far, sign * far)) return false;
   memcpy(m->fold.along, m->before, m->fold.system->at_rest.n * sizeof *m->before);
@@ -108,46 +108,46 @@ static bool try_fold(ZpMarch *m, double sign, double far) {
 }
 
 /* Converge from nearby to the equilibrium at the present parameter. Is it stable? */
-static bool polish(ZpMarch *m) {
+static bool polish(ZpTrack *m) {
   enum { MOST = 12 };
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   return zp_newton_good(zp_newton(rest, m->fold.tolerance, MOST, m->fold.newton).end) && is_stable(m);
 }
 
 /* The same, as accurate as a step on the way needs it. */
-static bool settle(ZpMarch *m) {
+static bool settle(ZpTrack *m) {
   return m->to == ZP_FOLD_EXACT ? polish(m) : zp_fold_rest(&m->fold) && m->fold.negative == 0;
 }
 
 /* One step along m. */
-static bool try_step(ZpMarch *m, double dm, double way) {
+static bool try_step(ZpTrack *m, double dm, double way) {
   return predict(m, way, dm) && settle(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
 }
 
 /* -- along the event's value ------------------------------------------------------------------------ */
 
 /* The scale of the event's value: below a thousandth of its limit it does not count. */
-static double scale(const ZpMarch *m) {
+static double scale(const ZpTrack *m) {
   return fmax(fabs(m->value), 1e-3 * fabs(m->limit));
 }
 
 /* Does the value change faster than the parameter, relative to both? */
-static bool is_steep(const ZpMarch *m) {
+static bool is_steep(const ZpTrack *m) {
   return m->event && fabs(m->slope * m->m) > scale(m);
 }
 
-static bool solve_at(ZpMarch *m, double value, ZpFoldTo to) {
+static bool solve_at(ZpTrack *m, double value, ZpFoldTo to) {
   return zp_fold_event(&m->fold, m->event, value, to);
 }
 
 /* dm/d(value) at the present point. */
-static double turn_of(ZpMarch *m) {
+static double turn_of(ZpTrack *m) {
   m->event(m->fold.system->at_rest.self, m->guess);
   return 1 / zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along);
 }
 
 /* Is the branch as at the last good point, and not behind it: stable, with m in the same direction? */
-static bool is_before_fold(ZpMarch *m, double sign) {
+static bool is_before_fold(ZpTrack *m, double sign) {
   static const double rounding = 1e-10; /* of m, which is flat at a limit point */
   bool behind = sign * (parameter(m) - m->m) < -rounding * fabs(m->m);
   return !behind && is_stable(m) && turn_of(m) * m->slope > 0;
@@ -156,7 +156,7 @@ static bool is_before_fold(ZpMarch *m, double sign) {
 /* At the last good point, which differs from a limit point by less than the accuracy of m. If that is flat, beside a
  * corner, it is smooth itself: solved as such m hardly changes, but the state does, and with it the derivatives of m by
  * keys. False if the point is not stable. */
-static bool refine(ZpMarch *m) {
+static bool refine(ZpTrack *m) {
   static const double near = 1e-8; /* of m: another limit point is farther away */
   go_back(m);
   if (!is_stable(m)) return false;
@@ -170,7 +170,7 @@ static bool refine(ZpMarch *m) {
 
 /* Halve the distance to a limit point between the last good point and `value`. It is a corner, where the stiffness
  * jumps. The last good point is then accurate enough. */
-static bool halve(ZpMarch *m, double sign, double value) {
+static bool halve(ZpTrack *m, double sign, double value) {
   enum { MOST = 60 };
   static const double enough = 1e-10;
   double step = value - m->value, before = INFINITY;
@@ -189,7 +189,7 @@ static bool halve(ZpMarch *m, double sign, double value) {
 /* The same if the limit point is smooth: solve it as such, starting where the tangents at both ends make the branch
  * turn. If a parabola does not lead there from the last good point, it is the crest of a ripple beyond the one that was
  * passed. */
-static bool solve_between(ZpMarch *m, double sign, double value) {
+static bool solve_between(ZpTrack *m, double sign, double value) {
   static const double part = 0.3;
   double here = 1 / m->slope, there = turn_of(m), at = m->value + (value - m->value) * here / (here - there);
   if (!(here * there < 0)) return false;
@@ -206,7 +206,7 @@ static bool solve_between(ZpMarch *m, double sign, double value) {
 }
 
 /* The limit point that the step to `value` has passed. */
-static bool find_fold(ZpMarch *m, double sign, double value, double far) {
+static bool find_fold(ZpTrack *m, double sign, double value, double far) {
   static const double close = 1e-3; /* of m: nearer, halving is surer */
   if (solve_between(m, sign, value)) return true;
   return fabs(far) <= close * fabs(m->m) && halve(m, sign, value) && refine(m);
@@ -215,7 +215,7 @@ static bool find_fold(ZpMarch *m, double sign, double value, double far) {
 typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
 
 /* One step along the value of the event, which changes to `value`. */
-static Step step_along_value(ZpMarch *m, double sign, double value) {
+static Step step_along_value(ZpTrack *m, double sign, double value) {
   static const double off = 0.25;  /* of the change of m: with more, it has turned twice on the way */
   static const double tiny = 1e-6; /* of m: less does not matter, and where the stiffness jumps no step agrees */
   double far = (value - m->value) / m->slope;
@@ -231,7 +231,7 @@ static Step step_along_value(ZpMarch *m, double sign, double value) {
 }
 
 /* The value to which a step along it goes: `part` of a factor of 3, not past the limit. */
-static double next_value(const ZpMarch *m, double sign, double part) {
+static double next_value(const ZpTrack *m, double sign, double part) {
   static const double turn = 0.05;
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   double towards = sign * m->slope > 0 ? 1 : -1, longest = turn / rest->length(rest->self, m->before) * fabs(m->slope);
@@ -242,7 +242,7 @@ static double next_value(const ZpMarch *m, double sign, double part) {
 /* -- the way --------------------------------------------------------------------------------------- */
 
 /* The longest allowed step along m; its rotation has `grown` while steps were good. */
-static double longest_step(ZpMarch *m, double target, double grown) {
+static double longest_step(ZpTrack *m, double target, double grown) {
   static const double part = 0.7, turn = 0.03, most = 0.75; /* of the way; of what linearisation stands; towards 0 */
   const ZpStaticSystem *rest = &m->fold.system->at_rest;
   double left = fabs(target - m->m), h = fmin(left, grown * turn / rest->length(rest->self, m->before));
@@ -252,18 +252,18 @@ static double longest_step(ZpMarch *m, double target, double grown) {
 }
 
 /* Along the parabola of the limit point ahead, or along the tangent. */
-static double way_of(const ZpMarch *m, double h) {
+static double way_of(const ZpTrack *m, double h) {
   double x = h / m->to_fold;
   return x < 0.9 ? h * 2 / (1 + sqrt(1 - x)) : h;
 }
 
 /* Has the event been passed? */
-static bool is_past(const ZpMarch *m, double before) {
+static bool is_past(const ZpTrack *m, double before) {
   return m->event && (before - m->limit) * (m->event(m->fold.system->at_rest.self, m->guess) - m->limit) < 0;
 }
 
 /* One step along m, of at most `part` of the best estimate. */
-static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
+static Step step_along_m(ZpTrack *m, double sign, double target, double part) {
   static const double close = 0.35; /* of m at the limit point */
   double left = sign * (target - m->m);
   if (!m->tried && m->to_fold < close * fabs(m->m) && m->to_fold < 1.5 * left) {
@@ -280,7 +280,7 @@ static Step step_along_m(ZpMarch *m, double sign, double target, double part) {
 
 /* No step was short enough: is the last good point, within the accuracy, a corner, where the stiffness jumps and beyond
  * which there is no stable state? The limit point there cannot be solved as a smooth one. */
-static bool is_at_corner(ZpMarch *m, double sign) {
+static bool is_at_corner(ZpTrack *m, double sign) {
   enum { MOST = 200 };
   static const double first = 1e-4, enough = 1e-10; /* of m */
   double step = first;
@@ -297,39 +297,39 @@ static bool is_at_corner(ZpMarch *m, double sign) {
   return step <= enough && refine(m);
 }
 
-static ZpMarchEnd march(ZpMarch *m, double target) {
+static ZpTrackEnd march(ZpTrack *m, double target) {
   enum { MOST = 400 };
   static const double longest = 8, shortest = 1e-9, rounding = 1e-14;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
-  if (!is_stable(m)) return ZP_MARCH_LOST;
+  if (!is_stable(m)) return ZP_TRACK_LOST;
   keep(m, true);
   for (int k = 0; k < MOST && part > shortest; k++) {
-    if (sign * (target - m->m) <= rounding * fabs(target)) return polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+    if (sign * (target - m->m) <= rounding * fabs(target)) return polish(m) ? ZP_TRACK_ARRIVED : ZP_TRACK_LOST;
     Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1)))
                             : step_along_m(m, sign, target, part);
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);
-      if (try_step(m, target - m->m, target - m->m)) return polish(m) ? ZP_MARCH_ARRIVED : ZP_MARCH_LOST;
+      if (try_step(m, target - m->m, target - m->m)) return polish(m) ? ZP_TRACK_ARRIVED : ZP_TRACK_LOST;
       step = STEP_TOO_LONG; /* the branch bends before it gets there */
     }
-    if (step == STEP_FOLD) return ZP_MARCH_FOLD;
-    if (step == STEP_EVENT) return ZP_MARCH_EVENT;
+    if (step == STEP_FOLD) return ZP_TRACK_FOLD;
+    if (step == STEP_EVENT) return ZP_TRACK_EVENT;
     if (step == STEP_GOOD) keep(m, false);
     if (step == STEP_TOO_LONG) go_back(m);
     part = step == STEP_GOOD ? fmin(2 * part, longest) : 0.4 * fmin(part, 1);
   }
-  if (is_at_corner(m, sign)) return ZP_MARCH_FOLD;
+  if (is_at_corner(m, sign)) return ZP_TRACK_FOLD;
   go_back(m);
-  return ZP_MARCH_LOST;
+  return ZP_TRACK_LOST;
 }
 
-ZpMarchEnd zp_march(ZpMarch *m, double target) {
+ZpTrackEnd zp_track(ZpTrack *m, double target) {
   const ZpBranchSystem *sys = m->fold.system;
   sys->save(sys->at_rest.self, m->start);
   m->to = ZP_FOLD_ROUGH;
-  ZpMarchEnd end = march(m, target);
-  if (end != ZP_MARCH_LOST) return end;
+  ZpTrackEnd end = march(m, target);
+  if (end != ZP_TRACK_LOST) return end;
   sys->restore(sys->at_rest.self, m->start);
   m->to = ZP_FOLD_EXACT;
   return march(m, target);

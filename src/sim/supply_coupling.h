@@ -1,65 +1,70 @@
 /* An actuator behind a supply: how the voltage of its electrodes follows, and the books of what the supply gives. */
-#ifndef ZP_SIM_FEED_H
-#define ZP_SIM_FEED_H
+#ifndef ZP_SIM_SUPPLY_COUPLING_H
+#define ZP_SIM_SUPPLY_COUPLING_H
 
 #include "sim/info.h"
 
 #include "term/source.h"
 
 /* Which limit of the supply acts. */
-typedef enum ZpFeedMode {
-  ZP_FEED_FREE,
-  ZP_FEED_GIVES_MOST,
-  ZP_FEED_SINKS_MOST,
-  ZP_FEED_SPILLS /* capped faces have to give more charge than the limit takes: the breakdown takes the rest */
-} ZpFeedMode;
+typedef enum ZpSupplyMode {
+  ZP_SUPPLY_FREE,
+  ZP_SUPPLY_GIVES_MOST,
+  ZP_SUPPLY_SINKS_MOST,
+  ZP_SUPPLY_SPILLS /* capped faces have to give more charge than the limit takes: the breakdown takes the rest */
+} ZpSupplyMode;
 
 /* Currents of a step that may be the largest one. */
-typedef enum ZpFeedCurrent { ZP_CURRENT_MEAN, ZP_CURRENT_AT_START, ZP_CURRENT_AT_END, ZP_FEED_CURRENTS } ZpFeedCurrent;
+typedef enum ZpSupplyCurrent {
+  ZP_CURRENT_MEAN,
+  ZP_CURRENT_AT_START,
+  ZP_CURRENT_AT_END,
+  ZP_SUPPLY_CURRENTS
+} ZpSupplyCurrent;
 
 /* Shortest step, s. In a shorter one, before a corner, only time advances. */
-#define ZP_FEED_SHORTEST 1e-10
+#define ZP_SUPPLY_SHORTEST 1e-10
 
-typedef struct ZpFeed {
+typedef struct ZpSupplyCoupling {
   ZpSource source;     /* what the dynamics ask */
   double scale;        /* V */
-  ZpFeedMode mode;     /* of the step at the last residual, */
+  ZpSupplyMode mode;   /* of the step at the last residual, */
   double bleeds;       /* and the weight of the voltage at its end in that at the bleeder */
   double square, peak; /* of the current in the run so far: integral of its square, A^2 s; its largest size, A */
-  double current[ZP_FEED_CURRENTS]; /* of the last step, A */
-  int largest;                      /* which of them is larger than any in the steps before; ZP_FEED_CURRENTS: none */
-} ZpFeed;
+  double current[ZP_SUPPLY_CURRENTS]; /* of the last step, A */
+  int largest; /* which of them is larger than any in the steps before; ZP_SUPPLY_CURRENTS: none */
+} ZpSupplyCoupling;
 
-/* Is there a supply that acts? Else zp_feed_create to zp_feed_cable_energy, zp_sim_command excepted, are not to be
- * called. */
+/* Is there a supply that acts? Else zp_supply_coupling_create to zp_supply_coupling_cable_energy, zp_sim_command
+ * excepted, are not to be called. */
 bool zp_sim_is_fed(const ZpSim *sim);
 
-void zp_feed_create(ZpSim *sim);
+void zp_supply_coupling_create(ZpSim *sim);
 
 /* What the supply is told now, V. */
 double zp_sim_command(const ZpSim *sim);
 
 /* Before a step: jumps of the command arrive. */
-void zp_feed_arrive(ZpSim *sim);
+void zp_supply_coupling_arrive(ZpSim *sim);
 
 /* A field that was computed again, or a surface, holds another charge at the same voltage than `before` (of one part,
  * C): the supply gives the difference. */
-void zp_feed_renew(ZpSim *sim, double before);
+void zp_supply_coupling_renew(ZpSim *sim, double before);
 
 /* The next event of the supply before `latest`, s. */
-double zp_feed_event(const ZpSim *sim, double latest);
+double zp_supply_coupling_event(const ZpSim *sim, double latest);
 
 /* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
-double zp_feed_resolution(const ZpSim *sim, double least);
+double zp_supply_coupling_resolution(const ZpSim *sim, double least);
 
 /* One step that ends at `latest` or before. False if none was found. Its start is in sim->before. */
-bool zp_feed_step(ZpSim *sim, double latest);
+bool zp_supply_coupling_step(ZpSim *sim, double latest);
 
 /* After a step of the dynamics that is found otherwise, without a limit in it. */
-void zp_feed_end(ZpSim *sim);
+void zp_supply_coupling_end(ZpSim *sim);
 
 /* A mean current has flowed for a time h behind an ideal source. */
-void zp_feed_note_current(ZpSim *sim, double current, double h);
+void zp_supply_coupling_note_current(ZpSim *sim, double current, double h);
 
 /* The current out of the source over a run so far, of that duration, A. NAN: the voltage of the electrodes has jumped,
  * which takes an infinite one. Of an ideal source they are those of the rows. */
@@ -69,6 +74,6 @@ typedef struct ZpCurrents {
 ZpCurrents zp_sim_currents(ZpSim *sim, double duration);
 
 /* Energy of the cable's capacitance at voltage U, J. */
-double zp_feed_cable_energy(const ZpSim *sim, double U);
+double zp_supply_coupling_cable_energy(const ZpSim *sim, double U);
 
 #endif

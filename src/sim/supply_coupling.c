@@ -1,7 +1,7 @@
 /* The supply at the electrodes, docs/theory.md, section 23. Its inner voltage V follows from the command alone
  * (drive/supply.c), so its events are corners in time. A limit of the current depends on what the electrodes take: it
  * is part of the step's equations. */
-#include "sim/feed.h"
+#include "sim/supply_coupling.h"
 
 #include <math.h>
 
@@ -41,14 +41,14 @@ static double inner_after(const ZpSim *sim, double h) {
   return followed(sim, sim->state, h == latest - t ? latest : t + h).voltage;
 }
 
-double zp_feed_event(const ZpSim *sim, double latest) {
+double zp_supply_coupling_event(const ZpSim *sim, double latest) {
   static const double far = 1; /* s */
   ZpCommand command = command_of(sim);
   double t = sim->state->t;
   return zp_supply_event(&sim->model->supply, &command, t, fmin(latest, t + far), sim->state->supply);
 }
 
-double zp_feed_resolution(const ZpSim *sim, double least) {
+double zp_supply_coupling_resolution(const ZpSim *sim, double least) {
   ZpCommand command = command_of(sim);
   const ZpState *state = sim->state;
   double V = state->supply.voltage, rate = zp_supply_rate(&sim->model->supply, &command, state->t, state->supply);
@@ -59,7 +59,7 @@ double zp_feed_resolution(const ZpSim *sim, double least) {
 
 /* -- the law of the current ------------------------------------------------------------------------ */
 
-double zp_feed_cable_energy(const ZpSim *sim, double U) {
+double zp_supply_coupling_cable_energy(const ZpSim *sim, double U) {
   return 0.5 * sim->model->supply.capacitance * U * U;
 }
 
@@ -174,7 +174,7 @@ static double full_from(const ZpSourceStep *s, const Full *full) {
 
 /* The limit that acts in a step, if one does. */
 typedef struct Limit {
-  ZpFeedMode mode;
+  ZpSupplyMode mode;
   double current; /* A */
   double voltage; /* of faces that spill charge, V */
 } Limit;
@@ -182,7 +182,7 @@ typedef struct Limit {
 /* A current at its limit. The charge that faces can hold at most may fall faster, as they move, than the current takes
  * it. Without a capacitance beside them this charge would raise any voltage. So the breakdown takes it and the voltage
  * stays; or it follows, if faces are full at the voltage that follows, too. */
-static Limit limit_of(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop, double current, ZpFeedMode mode) {
+static Limit limit_of(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop, double current, ZpSupplyMode mode) {
   const ZpSupply *supply = &sim->model->supply;
   Limit limit = {.mode = mode, .current = current};
   if (supply->capacitance >= undecided) return limit;
@@ -190,7 +190,7 @@ static Limit limit_of(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop,
   if (!is_too_much(&full, s->h * current - full.charge)) return limit;
   limit.voltage = full_from(s, &full);
   if (!is_too_much(&full, left_at(supply, s, drop, current, limit.voltage))) return limit;
-  limit.mode = is_full(s, &full, behind(supply, drop, current)) ? ZP_FEED_FREE : ZP_FEED_SPILLS;
+  limit.mode = is_full(s, &full, behind(supply, drop, current)) ? ZP_SUPPLY_FREE : ZP_SUPPLY_SPILLS;
   return limit;
 }
 
@@ -199,10 +199,10 @@ static Limit limit_of(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop,
 static Limit limit_over(const ZpSim *sim, const ZpSourceStep *s, const Drop *drop) {
   const ZpSupply *supply = &sim->model->supply;
   if (isfinite(supply->most) && left_by(supply, s, drop, supply->most) < 0)
-    return limit_of(sim, s, drop, supply->most, ZP_FEED_GIVES_MOST);
+    return limit_of(sim, s, drop, supply->most, ZP_SUPPLY_GIVES_MOST);
   if (isfinite(supply->sinks) && left_by(supply, s, drop, -supply->sinks) > 0)
-    return limit_of(sim, s, drop, -supply->sinks, ZP_FEED_SINKS_MOST);
-  return (Limit){.mode = ZP_FEED_FREE};
+    return limit_of(sim, s, drop, -supply->sinks, ZP_SUPPLY_SINKS_MOST);
+  return (Limit){.mode = ZP_SUPPLY_FREE};
 }
 
 /* The charge is exact: errors are those of the voltage's path within the step. */
@@ -227,15 +227,15 @@ static ZpSourceLaw law(void *self, const ZpSourceStep *s) {
   Limit limit = limit_over(sim, s, &drop);
   sim->feed.mode = limit.mode;
   sim->feed.bleeds = drop.bleeds;
-  if (limit.mode == ZP_FEED_SPILLS) return has_voltage(s, limit.voltage);
-  if (limit.mode != ZP_FEED_FREE) return has_current(supply, s, &drop, limit.current);
+  if (limit.mode == ZP_SUPPLY_SPILLS) return has_voltage(s, limit.voltage);
+  if (limit.mode != ZP_SUPPLY_FREE) return has_current(supply, s, &drop, limit.current);
   ZpSourceLaw follows = follows_voltage(supply, s, &drop);
-  bool corner = sim->state->supply_mode != ZP_FEED_FREE; /* where a limit ends */
+  bool corner = sim->state->supply_mode != ZP_SUPPLY_FREE; /* where a limit ends */
   if (corner) follows.resolved = fmax(follows.resolved, share_of(s->h));
   return follows;
 }
 
-void zp_feed_create(ZpSim *sim) {
+void zp_supply_coupling_create(ZpSim *sim) {
   static const double usual = 1e3; /* V: scale where the waveform has none */
   double largest = zp_waveform_largest(&sim->model->waveform);
   sim->feed.scale = largest > 0 ? largest : usual;
@@ -262,7 +262,7 @@ static void jump(ZpSim *sim, double V) {
   double charge0 = zp_system_electric_now(sim->model, state, U0, &sim->eval).charge, work0 = given(state, charge0);
   double *charging = zp_state_row(sim->model, state, &zp_row_charging_loss), loss0 = *charging;
   zp_sim_jump(sim, V);
-  if (state->U != state->base_U) zp_sim_close_account(sim);
+  if (state->U != state->base_U) zp_sim_close_balance(sim);
   double work = parts * (given(state, state->base_charge) - work0), lost = *charging - loss0;
   state->source_charge += parts * (state->base_charge - charge0) + C * (V - U0);
   state->source_energy += work + C * V * (V - U0);
@@ -278,7 +278,7 @@ static void jump(ZpSim *sim, double V) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);
 }
 
-void zp_feed_renew(ZpSim *sim, double before) {
+void zp_supply_coupling_renew(ZpSim *sim, double before) {
   ZpState *state = sim->state;
   double after = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
   double charge = sim->model->parts * (after - before), V = state->supply.voltage;
@@ -300,10 +300,10 @@ static double charge_given(const ZpSim *sim) {
   double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
   double bled = h * supply->conductance * at_bleeder(sim);
   double given = taken + supply->capacitance * (state->U - before->U) + bled;
-  return state->supply_mode == ZP_FEED_SPILLS ? fmin(fmax(given, -supply->sinks * h), supply->most * h) : given;
+  return state->supply_mode == ZP_SUPPLY_SPILLS ? fmin(fmax(given, -supply->sinks * h), supply->most * h) : given;
 }
 
-void zp_feed_note_current(ZpSim *sim, double current, double h) {
+void zp_supply_coupling_note_current(ZpSim *sim, double current, double h) {
   sim->feed.square += current * current * h;
   sim->feed.peak = fmax(sim->feed.peak, fabs(current));
 }
@@ -318,13 +318,13 @@ static double current_at(const ZpSim *sim, const ZpState *state, double mean) {
 
 /* Behind a resistance the current is largest at the start or the end of a step, or at its limit. */
 static void note_currents(ZpSim *sim, double mean, double h) {
-  ZpFeed *feed = &sim->feed;
+  ZpSupplyCoupling *feed = &sim->feed;
   feed->current[ZP_CURRENT_MEAN] = mean;
   feed->current[ZP_CURRENT_AT_START] = current_at(sim, sim->before, mean);
   feed->current[ZP_CURRENT_AT_END] = current_at(sim, sim->state, mean);
-  feed->largest = ZP_FEED_CURRENTS;
+  feed->largest = ZP_SUPPLY_CURRENTS;
   feed->square += mean * mean * h;
-  for (int k = 0; k < ZP_FEED_CURRENTS; k++)
+  for (int k = 0; k < ZP_SUPPLY_CURRENTS; k++)
     if (fabs(feed->current[k]) > feed->peak) feed->peak = fabs(feed->current[k]), feed->largest = k;
 }
 
@@ -337,7 +337,7 @@ static void book(ZpSim *sim) {
   double electrodes = sim->model->parts * (given(state, d->charge1) - given(before, d->charge0));
   double bled = h * sim->model->supply.conductance * at_bleeder(sim) * at_bleeder(sim);
   double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
-  bool ideal = state->supply_mode == ZP_FEED_FREE && sim->model->supply.resistance == 0;
+  bool ideal = state->supply_mode == ZP_SUPPLY_FREE && sim->model->supply.resistance == 0;
   double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
   state->source_charge += charge;
   state->source_energy += energy;
@@ -357,7 +357,7 @@ static double capacitance_now(ZpSim *sim) {
 }
 
 /* A jump of the command that no limit of the current holds back, through a resistance too small to last. */
-void zp_feed_arrive(ZpSim *sim) {
+void zp_supply_coupling_arrive(ZpSim *sim) {
   ZpCommand command = command_of(sim);
   const ZpSupply *supply = &sim->model->supply;
   ZpState *state = sim->state;
@@ -367,21 +367,21 @@ void zp_feed_arrive(ZpSim *sim) {
   if (supply->resistance * capacitance_now(sim) < instant) jump(sim, state->supply.voltage);
 }
 
-void zp_feed_end(ZpSim *sim) {
+void zp_supply_coupling_end(ZpSim *sim) {
   sim->state->supply = followed(sim, sim->before, sim->state->t);
   sim->state->supply_mode = sim->feed.mode;
   book(sim);
 }
 
-bool zp_feed_step(ZpSim *sim, double latest) {
+bool zp_supply_coupling_step(ZpSim *sim, double latest) {
   ZpState *state = sim->state;
-  if (latest - state->t < ZP_FEED_SHORTEST) {
+  if (latest - state->t < ZP_SUPPLY_SHORTEST) {
     state->supply = followed(sim, state, latest);
     state->t = latest;
     return true;
   }
   if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return false;
-  zp_feed_end(sim);
+  zp_supply_coupling_end(sim);
   return true;
 }
 

@@ -1,4 +1,4 @@
-#include "rest/slow.h"
+#include "rest/quasistatic.h"
 
 #include <math.h>
 #include <string.h>
@@ -70,7 +70,7 @@ size_t zp_closed_members(const ZpStatics *s) {
   return closed;
 }
 
-void zp_slow_start(ZpRest *r) {
+void zp_quasistatic_start(ZpRest *r) {
   ZpStatics *s = &r->statics;
   for (size_t k = 0; k < s->members; k++)
     s->member[k].closed = zp_closed_opening(s->member[k].model, gap_of(&s->member[k]));
@@ -78,11 +78,11 @@ void zp_slow_start(ZpRest *r) {
   r->march.fold.tolerance = zp_statics_tolerance(s);
 }
 
-bool zp_slow_is_closed(ZpRest *r) {
+bool zp_quasistatic_is_closed(ZpRest *r) {
   return zp_closing_gap(&r->statics, NULL) <= r->march.limit;
 }
 
-double zp_slow_closed_by_load(ZpRest *r) {
+double zp_quasistatic_closed_by_load(ZpRest *r) {
   static const double step = 1e-3; /* of the gap: the law is linear but for a corner */
   ZpStatics *s = &r->statics;
   ZpFold *fold = &r->march.fold;
@@ -96,19 +96,19 @@ double zp_slow_closed_by_load(ZpRest *r) {
 
 /* -- limits --------------------------------------------------------------------------------------- */
 
-void zp_limit_carve(ZpLimit *limit, size_t save_size, size_t equations, ZpCarver *carver) {
-  limit->state = zp_carve(carver, save_size);
-  limit->null = zp_carve(carver, equations);
+void zp_limit_reserve(ZpLimit *limit, size_t save_size, size_t equations, ZpArena *arena) {
+  limit->state = zp_arena_take(arena, save_size);
+  limit->null = zp_arena_take(arena, equations);
 }
 
 void zp_limit_none(ZpLimit *limit, const char *reason) {
-  *limit = (ZpLimit){ZP_MARCH_ARRIVED, NAN, reason, limit->state, limit->null, 0};
+  *limit = (ZpLimit){ZP_TRACK_ARRIVED, NAN, reason, limit->state, limit->null, 0};
 }
 
 /* Mark it as one that was not found. */
 static void lose(ZpLimit *limit, const char *reason) {
   zp_limit_none(limit, reason);
-  limit->end = ZP_MARCH_LOST;
+  limit->end = ZP_TRACK_LOST;
 }
 
 static bool along_load(ZpRest *r) {
@@ -120,7 +120,7 @@ static double value_at(ZpRest *r) {
   return along_load(r) ? r->statics.load : r->statics.U;
 }
 
-void zp_slow_note(ZpRest *r, ZpLimit *limit, ZpMarchEnd end) {
+void zp_quasistatic_note(ZpRest *r, ZpLimit *limit, ZpTrackEnd end) {
   const ZpStatics *s = &r->statics;
   limit->end = end;
   limit->value = value_at(r);
@@ -130,7 +130,7 @@ void zp_slow_note(ZpRest *r, ZpLimit *limit, ZpMarchEnd end) {
   memcpy(limit->null, r->march.fold.null, s->n * sizeof *limit->null);
 }
 
-void zp_slow_copy(const ZpRest *r, const ZpLimit *from, ZpLimit *to) {
+void zp_quasistatic_copy(const ZpRest *r, const ZpLimit *from, ZpLimit *to) {
   memcpy(to->state, from->state, r->system.save_size);
   memcpy(to->null, from->null, r->statics.n * sizeof *to->null);
   *to = (ZpLimit){from->end, from->value, NULL, to->state, to->null, from->room};
@@ -151,7 +151,7 @@ static double parameter(ZpRest *r) {
 /* The step of the gap for a search along the branch. */
 static double look_step(ZpRest *r) {
   static const double when_open = 4e-3, when_closed = 0.08; /* of the gap */
-  return zp_closing_gap(&r->statics, NULL) * (zp_slow_is_closed(r) ? when_closed : when_open);
+  return zp_closing_gap(&r->statics, NULL) * (zp_quasistatic_is_closed(r) ? when_closed : when_open);
 }
 
 /* An actuator that was closed has opened once it is clear of the limit, because motion with resistance does not come
@@ -175,7 +175,7 @@ static bool fall(ZpRest *r, double sign, size_t first) {
   for (size_t k = first; k < SHARES && !found; k++) {
     if (k > first) zp_rest_go_to(r, r->held);
     r->march.fold.system->set(&r->statics, changed(r, m, sign * beyond[k]));
-    found = zp_newton_good(zp_statics_fall_until(&r->statics, has_opened, r).end);
+    found = zp_newton_good(zp_statics_relax_until(&r->statics, has_opened, r).end);
   }
   return found;
 }
@@ -198,8 +198,8 @@ static bool is_ripple(ZpRest *r, double m, double gap, double sign) {
   zp_rest_save(r, r->held);
   ZpEvent event = r->march.event;
   r->march.event = NULL;
-  ZpMarchEnd end = zp_march(&r->march, changed(r, m, -sign * ZP_FOLD_RIPPLE));
-  bool ripple = end != ZP_MARCH_ARRIVED || (open_gap(s) - gap) * fallen < 0;
+  ZpTrackEnd end = zp_track(&r->march, changed(r, m, -sign * ZP_FOLD_RIPPLE));
+  bool ripple = end != ZP_TRACK_ARRIVED || (open_gap(s) - gap) * fallen < 0;
   r->march.event = event;
   zp_rest_go_to(r, r->held);
   return ripple;
@@ -349,7 +349,7 @@ static ZpAround look(ZpRest *r, ZpLimit *limit, double sign, double whole) {
   return ZP_NOTHING_HIGHER;
 }
 
-ZpAround zp_slow_look_around(ZpRest *r, ZpLimit *limit, double sign) {
+ZpAround zp_quasistatic_look_around(ZpRest *r, ZpLimit *limit, double sign) {
   double step = look_step(r);
   limit->room = ZP_FOLD_RIPPLE;
   ZpAround beyond = look(r, limit, sign, -step);
@@ -361,7 +361,7 @@ ZpAround zp_slow_look_around(ZpRest *r, ZpLimit *limit, double sign) {
   return both;
 }
 
-double zp_slow_room_left(ZpRest *r, const ZpLimit *near, double gap) {
+double zp_quasistatic_room_left(ZpRest *r, const ZpLimit *near, double gap) {
   static const double sides = 4; /* steps from a crest to where the branch is deep below it, about */
   double value = fabs(value_at(r) / near->value - 1);
   double moved = fabs((zp_closing_gap(&r->statics, NULL) - gap) / (sides * look_step(r)));
@@ -374,8 +374,8 @@ static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
   enum { MOST = 20 };
   ZpAround around = ZP_CREST_HIGHER;
   for (int k = 0; k < MOST && around == ZP_CREST_HIGHER; k++) {
-    zp_slow_note(r, limit, ZP_MARCH_FOLD);
-    around = zp_slow_look_around(r, limit, sign);
+    zp_quasistatic_note(r, limit, ZP_TRACK_FOLD);
+    around = zp_quasistatic_look_around(r, limit, sign);
   }
   if (around != ZP_STABLE_HIGHER) zp_rest_go_to(r, limit->state);
   return around;
@@ -384,51 +384,52 @@ static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
 /* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
  * open the actuator, because no limit point was found there. */
 static bool go_on_from_lost(ZpRest *r, double sign) {
-  return fall(r, sign, FROM_LOST) && zp_slow_is_closed(r) == r->was_closed;
+  return fall(r, sign, FROM_LOST) && zp_quasistatic_is_closed(r) == r->was_closed;
 }
 
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Is the present point a closed state that cannot be? Beyond it nothing tells when the actuator opens. */
 static bool has_become_impossible(ZpRest *r) {
-  return r->was_closed && zp_slow_is_closed(r) && zp_statics_fault(&r->statics);
+  return r->was_closed && zp_quasistatic_is_closed(r) && zp_statics_fault(&r->statics);
 }
 
 /* From a crest beyond `target` back to the stable state before it. A lower crest of the same ripple comes before the
  * target, and the actuator falls from there into that state. */
-static ZpSlowEnd stop_before(ZpRest *r, double target) {
+static ZpQuasistaticEnd stop_before(ZpRest *r, double target) {
   r->march.fold.system->set(&r->statics, target);
-  return zp_newton_good(zp_statics_fall_until(&r->statics, NULL, NULL).end) ? ZP_SLOW_ARRIVED : ZP_SLOW_LOST;
+  return zp_newton_good(zp_statics_relax_until(&r->statics, NULL, NULL).end) ? ZP_QUASISTATIC_ARRIVED
+                                                                             : ZP_QUASISTATIC_LOST;
 }
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
  * point on the way that is not a ripple is `first` (NULL: not requested). A limit point further than `enough` ends the
  * search. */
-static ZpSlowEnd change(ZpRest *r, double target, double enough, ZpLimit *at, ZpLimit *first) {
+static ZpQuasistaticEnd change(ZpRest *r, double target, double enough, ZpLimit *at, ZpLimit *first) {
   enum { MOST = 1000 }; /* limit points; there are many ripples where a front passes node by node */
   double sign = target > parameter(r) ? 1 : -1;
-  r->was_closed = zp_slow_is_closed(r);
+  r->was_closed = zp_quasistatic_is_closed(r);
   for (int k = 0; k < MOST; k++) {
-    if (zp_statics_asked_to_stop(&r->statics)) return ZP_SLOW_STOPPED;
-    ZpMarchEnd end = zp_march(&r->march, target);
-    if (end == ZP_MARCH_ARRIVED) return ZP_SLOW_ARRIVED;
-    if (end == ZP_MARCH_LOST && !go_on_from_lost(r, sign)) return ZP_SLOW_LOST;
-    if (end == ZP_MARCH_LOST) continue;
-    zp_slow_note(r, at, end);
-    if (has_become_impossible(r)) return ZP_SLOW_IMPOSSIBLE;
-    if (end == ZP_MARCH_EVENT) return ZP_SLOW_CHANGED;
+    if (zp_statics_asked_to_stop(&r->statics)) return ZP_QUASISTATIC_STOPPED;
+    ZpTrackEnd end = zp_track(&r->march, target);
+    if (end == ZP_TRACK_ARRIVED) return ZP_QUASISTATIC_ARRIVED;
+    if (end == ZP_TRACK_LOST && !go_on_from_lost(r, sign)) return ZP_QUASISTATIC_LOST;
+    if (end == ZP_TRACK_LOST) continue;
+    zp_quasistatic_note(r, at, end);
+    if (has_become_impossible(r)) return ZP_QUASISTATIC_IMPOSSIBLE;
+    if (end == ZP_TRACK_EVENT) return ZP_QUASISTATIC_CHANGED;
     if (climb(r, at, sign) == ZP_STABLE_HIGHER) continue;
-    if (sign * (parameter(r) - enough) >= 0) return ZP_SLOW_BEYOND;
+    if (sign * (parameter(r) - enough) >= 0) return ZP_QUASISTATIC_BEYOND;
     if (sign * (parameter(r) - target) > 0) return stop_before(r, target);
     double m = parameter(r), gap = open_gap(&r->statics);
-    bool found = fall_from(r, at, sign), jumped = zp_slow_is_closed(r) != r->was_closed;
-    bool is_first = first && first->end == ZP_MARCH_ARRIVED;
-    if (is_first && (!found || jumped || !is_ripple(r, m, gap, sign))) zp_slow_copy(r, at, first);
-    if (!found) return ZP_SLOW_LOST;
-    if (jumped) return ZP_SLOW_CHANGED;
-    if (has_become_impossible(r)) return ZP_SLOW_IMPOSSIBLE;
+    bool found = fall_from(r, at, sign), jumped = zp_quasistatic_is_closed(r) != r->was_closed;
+    bool is_first = first && first->end == ZP_TRACK_ARRIVED;
+    if (is_first && (!found || jumped || !is_ripple(r, m, gap, sign))) zp_quasistatic_copy(r, at, first);
+    if (!found) return ZP_QUASISTATIC_LOST;
+    if (jumped) return ZP_QUASISTATIC_CHANGED;
+    if (has_become_impossible(r)) return ZP_QUASISTATIC_IMPOSSIBLE;
   }
-  return ZP_SLOW_LOST;
+  return ZP_QUASISTATIC_LOST;
 }
 
 static void choose(ZpRest *r, const ZpBranchSystem *along) {
@@ -436,42 +437,42 @@ static void choose(ZpRest *r, const ZpBranchSystem *along) {
   r->march.event = zp_closing_gap;
 }
 
-bool zp_slow_fold_of_load(ZpRest *r, const double *null) {
+bool zp_quasistatic_fold_of_load(ZpRest *r, const double *null) {
   choose(r, &r->load);
   memcpy(r->march.fold.null, null, r->statics.n * sizeof *null);
   return zp_fold_solve(&r->march.fold) && r->march.fold.negative == 0;
 }
 
-bool zp_slow_event_of_load(ZpRest *r, double gap) {
+bool zp_quasistatic_event_of_load(ZpRest *r, double gap) {
   choose(r, &r->load);
   return zp_fold_event(&r->march.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && r->march.fold.negative == 0;
 }
 
 /* March to `target` => the limit at which this ends, if there is one. */
-static ZpMarchEnd go_to_first(ZpRest *r, double target, ZpLimit *at) {
-  ZpMarchEnd end = zp_march(&r->march, target);
+static ZpTrackEnd go_to_first(ZpRest *r, double target, ZpLimit *at) {
+  ZpTrackEnd end = zp_track(&r->march, target);
   zp_limit_none(at, NULL);
-  if (end == ZP_MARCH_FOLD || end == ZP_MARCH_EVENT) zp_slow_note(r, at, end);
+  if (end == ZP_TRACK_FOLD || end == ZP_TRACK_EVENT) zp_quasistatic_note(r, at, end);
   return end;
 }
 
-ZpMarchEnd zp_slow_drop_load(ZpRest *r, ZpLimit *at) {
+ZpTrackEnd zp_quasistatic_drop_load(ZpRest *r, ZpLimit *at) {
   choose(r, &r->load);
   return go_to_first(r, 0, at);
 }
 
-ZpMarchEnd zp_slow_first(ZpRest *r, double top, ZpLimit *at) {
+ZpTrackEnd zp_quasistatic_first(ZpRest *r, double top, ZpLimit *at) {
   choose(r, &r->square);
   return go_to_first(r, top * top, at);
 }
 
-ZpSlowEnd zp_slow_close_at(ZpRest *r, double top, double enough, ZpLimit *at) {
+ZpQuasistaticEnd zp_quasistatic_close_at(ZpRest *r, double top, double enough, ZpLimit *at) {
   choose(r, &r->square);
   return change(r, top * top, enough * enough, at, NULL);
 }
 
-bool zp_slow_falls_closed(ZpRest *r, const ZpLimit *limit) {
-  return fall_from(r, limit, 1) && zp_slow_is_closed(r);
+bool zp_quasistatic_falls_closed(ZpRest *r, const ZpLimit *limit) {
+  return fall_from(r, limit, 1) && zp_quasistatic_is_closed(r);
 }
 
 /* The gap that closes, above minus twice the one that counts as closed. */
@@ -484,45 +485,45 @@ static double gap_above_overlap(void *self, double *row) {
  * that are close to each other are seen along the gap only. */
 static void seek_pull_in(ZpRest *r, double top, ZpLimit *pull_in) {
   r->march.event = gap_above_overlap;
-  if (zp_march(&r->march, top * top) == ZP_MARCH_FOLD) zp_slow_note(r, pull_in, ZP_MARCH_FOLD);
+  if (zp_track(&r->march, top * top) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
 }
 
-ZpSlowEnd zp_slow_raise(ZpRest *r, double top, ZpLimit *pull_in, ZpLimit *closing) {
+ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pull_in, ZpLimit *closing) {
   static const char *const lost = "the hanging state was lost as the voltage rose";
   zp_limit_none(pull_in, "no limit point up to drive.voltage");
   zp_limit_none(closing, "it does not close up to drive.voltage");
   choose(r, &r->square);
-  ZpSlowEnd end = change(r, top * top, INFINITY, closing, pull_in);
-  if (end == ZP_SLOW_LOST) lose(closing, lost);
-  if (end == ZP_SLOW_LOST && isnan(pull_in->value)) lose(pull_in, lost);
-  if (end == ZP_SLOW_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
-  bool gradually = end == ZP_SLOW_CHANGED && closing->end == ZP_MARCH_EVENT;
+  ZpQuasistaticEnd end = change(r, top * top, INFINITY, closing, pull_in);
+  if (end == ZP_QUASISTATIC_LOST) lose(closing, lost);
+  if (end == ZP_QUASISTATIC_LOST && isnan(pull_in->value)) lose(pull_in, lost);
+  if (end == ZP_QUASISTATIC_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
+  bool gradually = end == ZP_QUASISTATIC_CHANGED && closing->end == ZP_TRACK_EVENT;
   if (gradually && isnan(pull_in->value)) seek_pull_in(r, top, pull_in);
   return end;
 }
 
 /* Is the state found closed, possible and stable? */
 static bool has_closed(ZpRest *r, ZpNewtonInfo info) {
-  return zp_newton_good(info.end) && zp_slow_is_closed(r) && !zp_statics_fault(&r->statics) &&
+  return zp_newton_good(info.end) && zp_quasistatic_is_closed(r) && !zp_statics_fault(&r->statics) &&
          zp_statics_stable(&r->statics);
 }
 
-bool zp_slow_close(ZpRest *r, double top) {
+bool zp_quasistatic_close(ZpRest *r, double top) {
   enum { MOST = 30 };
   r->statics.U = top;
-  bool near = zp_slow_is_closed(r);
+  bool near = zp_quasistatic_is_closed(r);
   if (near && has_closed(r, zp_statics_solve(&r->statics, MOST))) return true;
   return has_closed(r, zp_statics_close(&r->statics, top));
 }
 
-ZpSlowEnd zp_slow_lower(ZpRest *r, const ZpLimit *closing, ZpLimit *release) {
+ZpQuasistaticEnd zp_quasistatic_lower(ZpRest *r, const ZpLimit *closing, ZpLimit *release) {
   zp_limit_none(release, "it stays closed down to 0 V");
   choose(r, &r->square);
-  ZpSlowEnd end = change(r, 0, -INFINITY, release, NULL);
-  if (end == ZP_SLOW_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
-  if (end == ZP_SLOW_LOST) lose(release, "the closed state was lost as the voltage fell");
-  if (end == ZP_SLOW_IMPOSSIBLE)
+  ZpQuasistaticEnd end = change(r, 0, -INFINITY, release, NULL);
+  if (end == ZP_QUASISTATIC_ARRIVED) zp_limit_none(release, "it stays closed down to 0 V");
+  if (end == ZP_QUASISTATIC_LOST) lose(release, "the closed state was lost as the voltage fell");
+  if (end == ZP_QUASISTATIC_IMPOSSIBLE)
     zp_limit_none(release, "as the voltage fell, faces of the closed state came to lie inside each other");
-  if (end == ZP_SLOW_CHANGED && release->value > closing->value) release->value = closing->value;
+  if (end == ZP_QUASISTATIC_CHANGED && release->value > closing->value) release->value = closing->value;
   return end;
 }

@@ -13,8 +13,8 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   const ZpTopology *t = &model->topology;
   double *Fy = zp_forces(model, F).y;
   const double *start = zp_span_is_still(span) ? e->plates.gap : e->plates_start.gap;
-  ZpFacesSpan faces = zp_faces_span(&model->faces, start, e->plates.gap, span->h);
-  zp_faces_eval(&model->faces, &faces, &e->faces);
+  ZpContactSpan faces = zp_contact_span(&model->faces, start, e->plates.gap, span->h);
+  zp_contact_eval(&model->faces, &faces, &e->faces);
   for (size_t i = 0; i < model->nodes; i++) {
     Fy[zp_lower(t, i)] -= e->faces.push[i];
     if (zp_is_pair(t)) Fy[zp_upper(t, i)] += e->faces.push[i];
@@ -31,5 +31,5 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 }
 
 /* What impacts lose is booked by those who make the steps. */
-const ZpTerm zp_term_faces = {
-    .name = "faces", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness};
+const ZpTerm zp_term_contact = {
+    .name = "contact", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness};

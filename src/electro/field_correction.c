@@ -1,20 +1,21 @@
-#include "electro/surplus.h"
+#include "electro/field_correction.h"
 
 #include <math.h>
 #include <string.h>
 
-static size_t carve(ZpSurplus *s, void *block) {
-  ZpCarver carver = {block, 0};
-  zp_plates_carve(&s->plates, &s->eval, &carver);
-  zp_plates_step_carve(&s->plates, &s->attraction, &carver);
-  s->q = zp_carve(&carver, 2 * s->plates.stride);
-  s->floored = zp_carve(&carver, 2 * s->plates.stride);
-  s->F = zp_carve(&carver, 2 * s->plates.stride);
-  s->cover.part = zp_carve(&carver, s->plates.nodes);
-  return carver.used;
+static size_t reserve(ZpFieldCorrection *s, void *block) {
+  ZpArena arena = {block, 0};
+  zp_plates_reserve(&s->plates, &s->eval, &arena);
+  zp_plates_step_reserve(&s->plates, &s->attraction, &arena);
+  s->q = zp_arena_take(&arena, 2 * s->plates.stride);
+  s->floored = zp_arena_take(&arena, 2 * s->plates.stride);
+  s->F = zp_arena_take(&arena, 2 * s->plates.stride);
+  s->cover.part = zp_arena_take(&arena, s->plates.nodes);
+  return arena.used;
 }
 
-bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale, ZpSurplus *s) {
+bool zp_field_correction_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale,
+                                ZpFieldCorrection *s) {
   memset(s, 0, sizeof *s);
   s->plates = *plates;
   s->plates.h_per_volt = 0;
@@ -30,30 +31,30 @@ bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates,
   }
   s->plates.edges = NULL; /* the field solved is that of the strips' middle: edges stay in the plates law beside it */
   s->scale = scale;
-  s->memory = zp_calloc(1, carve(s, NULL));
+  s->memory = zp_calloc(1, reserve(s, NULL));
   if (!s->memory || !zp_field_create(field, &s->field)) {
-    zp_surplus_destroy(s);
+    zp_field_correction_destroy(s);
     return false;
   }
-  carve(s, s->memory);
+  reserve(s, s->memory);
   s->q[0] = NAN;
   return true;
 }
 
-void zp_surplus_destroy(ZpSurplus *s) {
+void zp_field_correction_destroy(ZpFieldCorrection *s) {
   zp_field_destroy(&s->field);
   zp_free(s->memory);
   s->memory = NULL;
 }
 
 /* Pairs closer than this, m, count as this far apart: in a narrower gap rounding exceeds the forces of the field. */
-static double narrowest_of(const ZpSurplus *s) {
+static double narrowest_of(const ZpFieldCorrection *s) {
   return 1e-7 * s->field.params.mesh.size;
 }
 
 /* A bead's end within an element: the element counts as wet if liquid covers more than half of it. => whether this
  * changed. */
-static bool round_cover(ZpSurplus *s, const ZpCover *cover) {
+static bool round_cover(ZpFieldCorrection *s, const ZpCover *cover) {
   bool moved = false;
   for (size_t i = 0; i + 1 < s->plates.nodes; i++) {
     double part = zp_cover_part(cover, i) > 0.5;
@@ -70,19 +71,19 @@ static bool round_cover(ZpSurplus *s, const ZpCover *cover) {
 
 /* Is there liquid before pair i? Only halves have a computed field, and liquid lies from their clip on: if the element
  * before a pair is dry, all beyond it is. */
-static bool is_wet(const ZpSurplus *s, size_t i) {
+static bool is_wet(const ZpFieldCorrection *s, size_t i) {
   return s->cover.part[i - 1] > 0;
 }
 
 /* The gap below which the cap holds the force in the liquid, m; negative where closed faces are not capped. */
-static double capped_gap(const ZpSurplus *s) {
+static double capped_gap(const ZpFieldCorrection *s) {
   return s->U * s->h_per_volt - s->plates.d;
 }
 
 /* Capped and closed pairs are moved apart about their middle, so that both laws apply at the same gap. The clip stays
  * closed. Air breaks down in gaps of millimetres, next to wet ones that are closed. Moving such pairs apart would
  * distort the ribbons, so all stay where they are. */
-static void part_capped(ZpSurplus *s) {
+static void part_capped(ZpFieldCorrection *s) {
   size_t stride = s->plates.stride;
   double *y = s->floored + stride, narrowest = narrowest_of(s), capped = fmax(capped_gap(s), narrowest);
   memcpy(s->floored, s->q, 2 * stride * sizeof *s->q);
@@ -103,7 +104,7 @@ static double hold_apart(double *Fy, size_t i) {
 
 /* Forces that would move capped pairs further apart do no work on them, but change the charge with the voltage's cap.
  * Pairs that are only closed keep their forces, so that contact causes no jump. */
-static void hold_capped(ZpSurplus *s) {
+static void hold_capped(ZpFieldCorrection *s) {
   double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, opening = 0;
   double capped = capped_gap(s), capped_in_air = s->U * s->air_h_per_volt - s->air.d;
   for (size_t i = 1; i < s->plates.nodes; i++) {
@@ -114,7 +115,7 @@ static void hold_capped(ZpSurplus *s) {
   s->charge = 2 * s->energy + s->U * s->h_per_volt * opening;
 }
 
-static void subtract_plates(ZpSurplus *s) {
+static void subtract_plates(ZpFieldCorrection *s) {
   size_t stride = s->plates.stride;
   zp_plates_rest(&s->plates, s->floored, s->floored + stride, 1, &s->eval, &s->attraction);
   for (size_t k = 0; k < 2 * s->plates.nodes; k++) {
@@ -126,7 +127,7 @@ static void subtract_plates(ZpSurplus *s) {
   s->capacitance = 2 * s->field.energy - ZP_EPS0 * s->field.params.eps_m * s->field.params.w * plates.inverse_gap;
 }
 
-ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage, const ZpCover *cover) {
+ZpFieldEnd zp_field_correction_solve(ZpFieldCorrection *s, const double *q, double voltage, const ZpCover *cover) {
   size_t stride = s->plates.stride, bytes = 2 * stride * sizeof *q;
   double U = voltage != 0 ? fabs(voltage) : 1;
   bool same_cap = U == s->U || (s->h_per_volt == 0 && s->air_h_per_volt == 0), same_cover = !round_cover(s, cover);
@@ -136,7 +137,7 @@ ZpFieldEnd zp_surplus_solve(ZpSurplus *s, const double *q, double voltage, const
   if (s->plates.air) zp_field_cover(&s->field, &s->cover);
   part_capped(s);
   const double *x = s->floored, *y = x + stride;
-  ZpFieldEnd end = s->end = zp_field_solve(&s->field, &(ZpFaces){x, y, x + 1, y + 1, 2});
+  ZpFieldEnd end = s->end = zp_field_solve(&s->field, &(ZpContact){x, y, x + 1, y + 1, 2});
   s->solutions++;
   if (end == ZP_FIELD_SOLVED) {
     subtract_plates(s);

@@ -1,4 +1,4 @@
-#include "system/held.h"
+#include "system/cached_field.h"
 
 #include <math.h>
 #include <string.h>
@@ -21,16 +21,16 @@ static bool cap_changed(const ZpModel *model, const ZpState *state, double share
   return fabs(fmax(d, zp_plates_least_h(&model->plates, state->U)) - before) > share * before;
 }
 
-bool zp_held_outdated(const ZpModel *model, const ZpState *state) {
+bool zp_cached_field_outdated(const ZpModel *model, const ZpState *state) {
   if (!model->field_solved) return model->def.electro.refresh_period > 0;
   return isnan(state->refreshed) || cap_changed(model, state, model->def.electro.refresh_change);
 }
 
-bool zp_held_due(const ZpModel *model, const ZpState *state) {
+bool zp_cached_field_due(const ZpModel *model, const ZpState *state) {
   const ZpActuatorDef *def = &model->def;
   if (!model->field) return false;
   if (model->field_solved)
-    return zp_held_outdated(model, state) || gaps_changed(model, state, def->electro.refresh_change);
+    return zp_cached_field_outdated(model, state) || gaps_changed(model, state, def->electro.refresh_change);
   return def->electro.refresh_period > 0 && !(state->t - state->refreshed < def->electro.refresh_period);
 }
 
@@ -48,7 +48,7 @@ static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const d
   return ZP_END_FOUND;
 }
 
-ZpEnd zp_held_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
+ZpEnd zp_cached_field_refresh(const ZpModel *model, ZpState *state, ZpEval *e) {
   double *q = zp_state_q(model, state);
   if (model->field_solved) return refresh_beyond_plates(model, state, q, e);
   state->refreshed = state->t;

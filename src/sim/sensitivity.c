@@ -1,11 +1,11 @@
-#include "sim/run_rates.h"
+#include "sim/sensitivity.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/fail.h"
 #include "rest/rest.h"
-#include "rest/slope.h"
+#include "rest/sensitivity.h"
 #include "sim/snapshot.h"
 
 /* Steps of a key. They are so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
@@ -17,20 +17,20 @@ static const double part = 1e-7;
 /* Derivative of the hanging equilibrium by a key => rate, of coordinates and opening0. */
 static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *err) {
   const ZpModel *model = rest->statics.member->model;
-  ZpSlope slope;
-  ZpStatus status = zp_slope_open(&slope, &rest->statics, key, err);
-  if (status == ZP_OK && zp_slope_solve(&slope, ZP_SETS_LOAD)) {
+  ZpRestSensitivity slope;
+  ZpStatus status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
+  if (status == ZP_OK && zp_rest_sensitivity_solve(&slope, ZP_SETS_LOAD)) {
     memcpy(zp_state_q(model, rate), slope.rate, zp_coordinates(model) * sizeof *slope.rate);
-    rate->opening0 = zp_is_pair(&model->topology) ? zp_slope_of(&slope, zp_output_opening, NULL) : 0;
+    rate->opening0 = zp_is_pair(&model->topology) ? zp_rest_sensitivity_of(&slope, zp_output_opening, NULL) : 0;
   }
-  zp_slope_close(&slope);
+  zp_rest_sensitivity_close(&slope);
   return status;
 }
 
-static ZpStatus create_near(ZpRunRates *rates, ZpKeyRates *of, ZpError *err) {
+static ZpStatus create_near(ZpRunSensitivity *rates, ZpKeyRates *of, ZpError *err) {
   const ZpModel *model = rates->sim->model;
   bool straight = model->def.initial.state == ZP_INITIAL_STRAIGHT;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     if (!of->by.model[k]) continue;
     zp_state_along(model, rates->sim->state, of->rate, of->by.offset[k], rates->before);
     double *q = straight ? NULL : zp_state_q(model, rates->before);
@@ -41,28 +41,28 @@ static ZpStatus create_near(ZpRunRates *rates, ZpKeyRates *of, ZpError *err) {
   return ZP_OK;
 }
 
-static void take_rate(const ZpRunRates *rates, const ZpKeyRates *of) {
+static void take_rate(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
   const ZpModel *model = rates->sim->model;
   memset(of->rate, 0, zp_state_size(model));
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (of->near[k]) zp_state_add_rate(model, rates->sim->state, of->near[k]->state, of->by.weight[k], of->rate);
 }
 
-static ZpStatus open_key(ZpRunRates *rates, ZpRest *rest, int key, ZpKeyRates *of, ZpError *err) {
+static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRates *of, ZpError *err) {
   const ZpModel *model = rates->sim->model;
   bool hangs = zp_is_pair(&model->topology) || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
   of->lost = INFINITY;
   of->last[0].t = of->last[1].t = NAN;
   of->rate = zp_calloc(1, zp_state_size(model));
   if (!of->rate) return zp_fail_memory(err);
-  ZpStatus status = zp_near_open(&of->by, model, key, part, err);
+  ZpStatus status = zp_finite_difference_open(&of->by, model, key, part, err);
   if (status == ZP_OK && hangs) status = rate_of_hanging(rest, key, of->rate, err);
   if (status == ZP_OK) status = create_near(rates, of, err);
   if (status == ZP_OK) take_rate(rates, of);
   return status;
 }
 
-static bool allocate(ZpRunRates *rates) {
+static bool allocate(ZpRunSensitivity *rates) {
   const ZpModel *model = rates->sim->model;
   size_t n = rates->sim->dynamics.system.n;
   rates->key = zp_calloc(rates->keys, sizeof *rates->key);
@@ -73,12 +73,12 @@ static bool allocate(ZpRunRates *rates) {
   return rates->key && rates->before && rates->wet && rates->work;
 }
 
-ZpStatus zp_run_rates_open(ZpRunRates *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err) {
-  *rates = (ZpRunRates){.sim = sim, .keys = keys};
+ZpStatus zp_run_sensitivity_open(ZpRunSensitivity *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err) {
+  *rates = (ZpRunSensitivity){.sim = sim, .keys = keys};
   ZpRest rest;
   bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
   ZpStatus status = opened && allocate(rates) ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK) zp_statics_hang(&rest.statics);
+  if (status == ZP_OK) zp_statics_find_rest(&rest.statics);
   for (size_t k = 0; k < keys && status == ZP_OK; k++)
     status = open_key(rates, &rest, key[k], &rates->key[k], err);
   zp_rest_close(&rest);
@@ -86,11 +86,11 @@ ZpStatus zp_run_rates_open(ZpRunRates *rates, ZpSim *sim, const int *key, size_t
   return status;
 }
 
-void zp_run_rates_close(ZpRunRates *rates) {
+void zp_run_sensitivity_close(ZpRunSensitivity *rates) {
   for (size_t k = 0; rates->key && k < rates->keys; k++) {
-    for (int i = 0; i < ZP_NEAR_POINTS; i++)
+    for (int i = 0; i < ZP_DIFFERENCE_POINTS; i++)
       zp_sim_destroy(rates->key[k].near[i]);
-    zp_near_close(&rates->key[k].by);
+    zp_finite_difference_close(&rates->key[k].by);
     zp_free(rates->key[k].rate);
   }
   zp_free(rates->key);
@@ -103,7 +103,7 @@ void zp_run_rates_close(ZpRunRates *rates) {
 /* -- a step begins ----------------------------------------------------------------------------------- */
 
 /* Between two corners steps end at the same share of the interval, so steps also end at corners that a key moves. */
-static double time_of(const ZpRunRates *rates, const ZpKeyRates *of, int k, double t) {
+static double time_of(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k, double t) {
   double share = (t - rates->from) / (rates->to - rates->from);
   return t == rates->to ? of->to[k] : of->from[k] + share * (of->to[k] - of->from[k]);
 }
@@ -120,7 +120,7 @@ static void set_voltage(const ZpSim *sim, ZpSim *near) {
   if (sim->state->U == sim->state->base_U) near->state->base_U = near->state->U;
 }
 
-static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_corner, double end_time) {
+static void begin_near(const ZpRunSensitivity *rates, ZpKeyRates *of, int k, bool at_corner, double end_time) {
   const ZpSim *sim = rates->sim;
   ZpSim *near = of->near[k];
   double t = time_of(rates, of, k, sim->state->t);
@@ -128,20 +128,20 @@ static void begin_near(const ZpRunRates *rates, ZpKeyRates *of, int k, bool at_c
   near->state->t = t;
   set_voltage(sim, near);
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
-  if (zp_sim_is_fed(near)) zp_feed_arrive(near);
+  if (zp_sim_is_fed(near)) zp_supply_coupling_arrive(near);
   memcpy(near->before, near->state, zp_state_size(near->model));
   if (!at_corner) return;
   of->from[k] = t;
   of->to[k] = corner_of(near, end_time);
 }
 
-void zp_run_rates_begin(ZpRunRates *rates, double end_time) {
+void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time) {
   ZpSim *sim = rates->sim;
   bool at_corner = sim->state->t >= rates->to;
   memcpy(rates->before, sim->state, zp_state_size(sim->model));
   rates->taken = sim->dynamics.stepper.counts.steps;
   for (size_t j = 0; j < rates->keys; j++)
-    for (int k = 0; k < ZP_NEAR_POINTS; k++)
+    for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
       if (rates->key[j].near[k] && !isfinite(rates->key[j].lost))
         begin_near(rates, &rates->key[j], k, at_corner, end_time);
   if (!at_corner) return;
@@ -151,13 +151,13 @@ void zp_run_rates_begin(ZpRunRates *rates, double end_time) {
 
 /* -- and ends ---------------------------------------------------------------------------------------- */
 
-static void lose(const ZpRunRates *rates, ZpKeyRates *of, const char *cause) {
+static void lose(const ZpRunSensitivity *rates, ZpKeyRates *of, const char *cause) {
   of->lost = rates->before->t;
   of->cause = cause;
 }
 
 /* Has the bead covered a station in this step that it did not cover in the step before, or the reverse? */
-static bool meniscus_passes(ZpRunRates *rates) {
+static bool meniscus_passes(ZpRunSensitivity *rates) {
   const ZpMovingMember *m = rates->sim->dynamics.member;
   bool passes = false;
   for (size_t i = 1; i < m->model->nodes && m->model->has_bead; i++) {
@@ -175,7 +175,7 @@ static bool ends_late(const ZpSim *sim) {
 
 /* An event in the run's step that has no derivative. What a meniscus leaves at a station that it passes, and how long a
  * supply is at its limit, depend on when within the step it happens. NULL: none. */
-static const char *cause_of_loss(ZpRunRates *rates) {
+static const char *cause_of_loss(ZpRunSensitivity *rates) {
   if (rates->sim->state->supply_mode != rates->before->supply_mode)
     return "a limit of the supply's current begins or ends";
   if (ends_late(rates->sim)) return "the run ends at the end of a step, not at the instant that ends it";
@@ -184,42 +184,43 @@ static const char *cause_of_loss(ZpRunRates *rates) {
 }
 
 /* Does the step's matrix filter velocities, because of faces or menisci? */
-static bool takes_matrix(const ZpRunRates *rates) {
+static bool takes_matrix(const ZpRunSensitivity *rates) {
   return rates->sim->model->has_bead || rates->sim->dynamics.filters;
 }
 
-static double end_near(const ZpRunRates *rates, const ZpKeyRates *of, int k) {
+static double end_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k) {
   return time_of(rates, of, k, rates->sim->state->t) + of->by.offset[k] * of->late;
 }
 
 /* The dynamics of all points of a key, from their present states to the end of the run's step. */
-static bool move(ZpRunRates *rates, ZpKeyRates *of) {
+static bool move(ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
-  _Static_assert((int)ZP_NEAR_STEPS == (int)ZP_NEAR_POINTS, "one step per point");
-  ZpNearSteps steps = {.q1 = sim->dynamics.q, .lead = &sim->dynamics.history, .work = rates->work};
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+  _Static_assert((int)ZP_DIFFERENCE_STEPS == (int)ZP_DIFFERENCE_POINTS, "one step per point");
+  ZpDifferenceSteps steps = {.q1 = sim->dynamics.q, .lead = &sim->dynamics.history, .work = rates->work};
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     ZpSim *near = of->near[k];
     if (!near) continue;
     double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
     if (!zp_sim_prepare(near)) return false;
     zp_dynamics_begin(d, near->states, latest);
-    steps.near[steps.count++] =
-        (ZpNearStep){&d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
+    steps.near[steps.count++] = (ZpDifferenceStep){
+        &d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
   }
   return zp_implicit_follow(&steps, takes_matrix(rates), rates->motion);
 }
 
 static void arrive(ZpSim *near) {
   zp_dynamics_end(&near->dynamics, near->states);
-  if (zp_sim_is_fed(near)) zp_feed_end(near);
+  if (zp_sim_is_fed(near)) zp_supply_coupling_end(near);
   zp_sim_arrive(near);
 }
 
 /* When a neighbouring actuator closes, if the run closes in this step: where the neighbour's path of the same step
  * passes the limit, even outside the step. A front that arrives is detected only at the end of a step, which is not the
  * exact instant. `now` and `before` are of the run, at the end and the start of the step. */
-static double closing_near(const ZpRunRates *rates, const ZpSim *near, double before, double now, double carried) {
+static double closing_near(const ZpRunSensitivity *rates, const ZpSim *near, double before, double now,
+                           double carried) {
   const ZpSim *sim = rates->sim;
   if (isnan(now)) return NAN;
   if (now == before) return carried;
@@ -228,12 +229,12 @@ static double closing_near(const ZpRunRates *rates, const ZpSim *near, double be
 }
 
 /* Take the neighbours from the start of the run's step to its end. */
-static bool follow_step(ZpRunRates *rates, ZpKeyRates *of, bool moves) {
+static bool follow_step(ZpRunSensitivity *rates, ZpKeyRates *of, bool moves) {
   const ZpState *now = rates->sim->state, *before = rates->before;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (of->near[k]) memcpy(of->near[k]->state, of->near[k]->before, zp_state_size(of->near[k]->model));
   if (moves && !move(rates, of)) return false;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++) {
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
     ZpSim *near = of->near[k];
     if (!near) continue;
     if (moves)
@@ -253,16 +254,16 @@ static bool follow_step(ZpRunRates *rates, ZpKeyRates *of, bool moves) {
 }
 
 /* Derivative at the end of the step of what is left until the run ends. */
-static double rate_of_left(const ZpRunRates *rates, const ZpKeyRates *of) {
+static double rate_of_left(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
   double sum = 0;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (of->near[k]) sum += of->by.weight[k] * zp_sim_left(of->near[k], rates->sim->landing);
   return sum;
 }
 
 /* The last step of a run that ends at an event, eq. (20.10): it ends where nothing is left in the neighbours, too. What
  * is left there is linear in the derivative of the end. */
-static bool follow_landing(ZpRunRates *rates, ZpKeyRates *of) {
+static bool follow_landing(ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   if (!follow_step(rates, of, true)) return false;
   double first = rate_of_left(rates, of), trial = first * (sim->state->t - rates->before->t) / sim->left_before;
@@ -275,7 +276,7 @@ static bool follow_landing(ZpRunRates *rates, ZpKeyRates *of) {
 
 static double rate_of_current(const ZpKeyRates *of, int which) {
   double sum = 0;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (of->near[k]) sum += of->by.weight[k] * of->near[k]->feed.current[which];
   return sum;
 }
@@ -292,16 +293,16 @@ static double rate_at_vertex(ZpCurrentRate a, ZpCurrentRate b, ZpCurrentRate c) 
 
 /* Derivative of the peak. It is mostly at the end of a step, or without a resistance in the middle of one. At a corner
  * of the drive it stays there; otherwise the next step shows where between them it is. */
-static void follow_peak(const ZpRunRates *rates, ZpKeyRates *of) {
+static void follow_peak(const ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
-  const ZpFeed *feed = &sim->feed;
+  const ZpSupplyCoupling *feed = &sim->feed;
   const int which = sim->model->supply.resistance > 0 ? ZP_CURRENT_AT_END : ZP_CURRENT_MEAN;
   double start = rates->before->t, end = sim->state->t;
   ZpCurrentRate now = {which == ZP_CURRENT_MEAN ? 0.5 * (start + end) : end, feed->current[which],
                        rate_of_current(of, which)};
-  bool passed = of->at_peak && feed->largest == ZP_FEED_CURRENTS && start != rates->from && !isnan(of->last[1].t);
+  bool passed = of->at_peak && feed->largest == ZP_SUPPLY_CURRENTS && start != rates->from && !isnan(of->last[1].t);
   if (passed) of->peak = copysign(1, of->last[0].I) * rate_at_vertex(of->last[1], of->last[0], now);
-  if (feed->largest < ZP_FEED_CURRENTS)
+  if (feed->largest < ZP_SUPPLY_CURRENTS)
     of->peak = copysign(1, feed->current[feed->largest]) * rate_of_current(of, feed->largest);
   of->at_peak = feed->largest == which;
   of->last[1] = of->last[0];
@@ -310,15 +311,15 @@ static void follow_peak(const ZpRunRates *rates, ZpKeyRates *of) {
 
 /* Derivatives of the square's integral and of the peak, from those of the currents of the run's step. A difference of
  * the neighbours' peaks would compare instants at which only one of them has a peak. */
-static void follow_currents(const ZpRunRates *rates, ZpKeyRates *of) {
+static void follow_currents(const ZpRunSensitivity *rates, ZpKeyRates *of) {
   double mean = rates->sim->feed.current[ZP_CURRENT_MEAN], h = rates->sim->state->t - rates->before->t, dh = 0;
-  for (int k = 0; k < ZP_NEAR_POINTS; k++)
+  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
     if (of->near[k]) dh += of->by.weight[k] * (of->near[k]->state->t - of->near[k]->before->t);
   of->square += 2 * mean * rate_of_current(of, ZP_CURRENT_MEAN) * h + mean * mean * dh;
   follow_peak(rates, of);
 }
 
-static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
+static bool follow_key(ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   bool moves = sim->dynamics.stepper.counts.steps > rates->taken, lands = sim->landing != ZP_LANDS_NOWHERE;
   of->late = 0;
@@ -327,7 +328,7 @@ static bool follow_key(ZpRunRates *rates, ZpKeyRates *of) {
   return true;
 }
 
-void zp_run_rates_follow(ZpRunRates *rates) {
+void zp_run_sensitivity_follow(ZpRunSensitivity *rates) {
   const char *cause = cause_of_loss(rates);
   for (size_t k = 0; k < rates->keys; k++) {
     ZpKeyRates *of = &rates->key[k];
@@ -339,16 +340,16 @@ void zp_run_rates_follow(ZpRunRates *rates) {
   }
 }
 
-double zp_run_rate_of(const ZpRunRates *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
+double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
                       const void *user) {
   const ZpKeyRates *of = &rates->key[k];
   double sum = 0;
-  for (int i = 0; i < ZP_NEAR_POINTS; i++)
+  for (int i = 0; i < ZP_DIFFERENCE_POINTS; i++)
     if (of->near[i]) sum += of->by.weight[i] * number(of->near[i], user);
   return sum;
 }
 
-ZpCurrents zp_run_rate_of_currents(const ZpRunRates *rates, size_t k) {
+ZpCurrents zp_run_rate_of_currents(const ZpRunSensitivity *rates, size_t k) {
   const ZpKeyRates *of = &rates->key[k];
   double T = rates->sim->state->t;
   ZpCurrents now = zp_sim_currents(rates->sim, T);

@@ -3,13 +3,13 @@
  * nothing is added: both are taken with no gap below that at which it sets in, eq. (14.7). Per U^2: without
  * cap it does not depend on U. With a bead, liquid fills the gap by whole elements in both laws, and air lies around;
  * where air breaks down beyond it, nothing is added either, eq. (14.8). */
-#ifndef ZP_ELECTRO_SURPLUS_H
-#define ZP_ELECTRO_SURPLUS_H
+#ifndef ZP_ELECTRO_FIELD_CORRECTION_H
+#define ZP_ELECTRO_FIELD_CORRECTION_H
 
 #include "electro/field.h"
 #include "electro/plates_step.h"
 
-typedef struct ZpSurplus {
+typedef struct ZpFieldCorrection {
   ZpField field;
   ZpPlatesParams plates; /* without cap, */
   ZpPlatesParams air;    /* and its law beyond a bead */
@@ -29,14 +29,15 @@ typedef struct ZpSurplus {
   ZpFieldEnd end;     /* how the last solution ended */
   int solutions;      /* how often the field was solved */
   void *memory;
-} ZpSurplus;
+} ZpFieldCorrection;
 
 /* False if there is no memory. */
-bool zp_surplus_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale, ZpSurplus *surplus);
-void zp_surplus_destroy(ZpSurplus *surplus);
+bool zp_field_correction_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale,
+                                ZpFieldCorrection *surplus);
+void zp_field_correction_destroy(ZpFieldCorrection *surplus);
 
 /* (coordinates as q, voltage, where liquid is; NULL: everywhere) => F, energy, charge. Where the field cannot be solved
  * they stay. Costs nothing where it was solved last. Without voltage: as at 1 V, where nothing is capped. */
-ZpFieldEnd zp_surplus_solve(ZpSurplus *surplus, const double *q, double voltage, const ZpCover *cover);
+ZpFieldEnd zp_field_correction_solve(ZpFieldCorrection *surplus, const double *q, double voltage, const ZpCover *cover);
 
 #endif

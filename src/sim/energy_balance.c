@@ -12,16 +12,16 @@
 
 /* Work of ideal sources at U0 during the motion and of their jump to U1, between the states `before` and `after` the
  * jump. */
-static ZpAccount charged(const ZpSim *sim, ZpElectric before, ZpElectric after) {
+static ZpBalance charged(const ZpSim *sim, ZpElectric before, ZpElectric after) {
   const ZpState *state = sim->state;
   double lost = *zp_state_row(sim->model, sim->state, &zp_row_charging_loss);
   double U0 = state->base_U, U1 = state->U, given = U1 * (after.charge - before.charge);
   double kept = zp_field_energy(after, U1) - zp_field_energy(before, U0);
-  return (ZpAccount){state->work + U0 * (before.charge - state->base_charge) + given,
+  return (ZpBalance){state->work + U0 * (before.charge - state->base_charge) + given,
                      lost + (U1 == U0 ? 0 : given - kept)};
 }
 
-ZpAccount zp_sim_account(ZpSim *sim, ZpElectric now) {
+ZpBalance zp_sim_energy_balance(ZpSim *sim, ZpElectric now) {
   const ZpState *state = sim->state;
   if (state->U == state->base_U) return charged(sim, now, now);
   return charged(sim, zp_system_electric_now(sim->model, state, state->base_U, &sim->eval), now);
@@ -38,7 +38,7 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
                      zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }
 
-void zp_sim_start_account(ZpSim *sim) {
+void zp_sim_start_balance(ZpSim *sim) {
   ZpState *state = sim->state;
   double *ledger = zp_state_ledger(sim->model, state);
   memset(ledger, 0, sim->model->ledger.rows * sizeof *ledger);
@@ -52,12 +52,12 @@ void zp_sim_start_account(ZpSim *sim) {
 }
 
 /* A field that cannot be solved remains due, and ends the run before the next step. */
-void zp_sim_close_account(ZpSim *sim) {
+void zp_sim_close_balance(ZpSim *sim) {
   ZpState *state = sim->state;
   ZpElectric before = zp_system_electric_now(sim->model, state, state->base_U, &sim->eval);
-  if (zp_held_due(sim->model, state)) zp_held_refresh(sim->model, state, &sim->eval);
+  if (zp_cached_field_due(sim->model, state)) zp_cached_field_refresh(sim->model, state, &sim->eval);
   ZpElectric after = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
-  ZpAccount account = charged(sim, before, after);
+  ZpBalance account = charged(sim, before, after);
   state->work = account.work;
   *zp_state_row(sim->model, state, &zp_row_charging_loss) = account.charging_loss;
   state->base_charge = after.charge;
@@ -68,15 +68,15 @@ void zp_sim_jump(ZpSim *sim, double voltage) {
   ZpState *state = sim->state;
   if (voltage == state->U) return;
   state->U = voltage;
-  if (!zp_held_outdated(sim->model, state)) return;
+  if (!zp_cached_field_outdated(sim->model, state)) return;
   state->refreshed = NAN;
-  zp_sim_close_account(sim);
+  zp_sim_close_balance(sim);
 }
 
 void zp_sim_glide(ZpSim *sim, double voltage) {
   ZpState *state = sim->state;
   if (voltage == state->U) return;
-  if (state->U != state->base_U) zp_sim_close_account(sim);
+  if (state->U != state->base_U) zp_sim_close_balance(sim);
   ZpElectric before = zp_system_electric_now(sim->model, state, state->U, &sim->eval),
              after = zp_system_electric_now(sim->model, state, voltage, &sim->eval);
   state->work += state->U * (before.charge - state->base_charge) + zp_field_energy(after, voltage) -
