@@ -138,10 +138,10 @@ static bool has_none(const ZpResult *result, const char *output) {
 }
 
 /* Names and units of limits. */
-static const ZpColumn number[ZP_LIMIT_KINDS] = {[ZP_LIMIT_PULL_IN] = {"pull_in_voltage_V", "V"},
-                                                [ZP_LIMIT_CLOSING] = {"closing_voltage_V", "V"},
-                                                [ZP_LIMIT_RELEASE] = {"release_voltage_V", "V"},
-                                                [ZP_LIMIT_LOAD] = {"max_load_kg", "kg"}};
+static const ZpColumn number[ZP_LIMIT_KINDS] = {[ZP_LIMIT_PULL_IN] = {"pull_in_voltage_V", "V", NULL},
+                                                [ZP_LIMIT_CLOSING] = {"closing_voltage_V", "V", NULL},
+                                                [ZP_LIMIT_RELEASE] = {"release_voltage_V", "V", NULL},
+                                                [ZP_LIMIT_LOAD] = {"max_load_kg", "kg", NULL}};
 
 void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpResult *result) {
   for (size_t k = 0; k < count; k++)
