@@ -87,10 +87,9 @@ void zp_note_liquid(ZpResult *result, const ZpModel *model) {
   if (model->def.liquid.model != ZP_LIQUID_AUTO || model->has_bead) return;
   if (!zp_is_pair(&model->topology)) return;
   const bool possible = zp_check_bead(&model->def, &why) == ZP_OK;
-  zp_result_note(result, "liquid.model auto means none here: the liquid is everywhere and has no drag, because %s%s%s",
+  zp_result_note(result, "liquid.model auto means none here, liquid everywhere without drag: %s",
                  possible ? "electro.edges or a resistivity is given; liquid.model bead is possible beside it"
-                          : "a bead is not possible (",
-                 possible ? "" : why.message, possible ? "" : ")");
+                          : why.message);
 }
 
 /* -- what rest leaves out -------------------------------------------------------------------------- */
