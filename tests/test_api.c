@@ -612,6 +612,45 @@ START_TEST(words_of_a_def) {
 }
 END_TEST
 
+/* Where memory was short there is no Def; every function that takes one refuses it. */
+START_TEST(no_def_is_refused) {
+  ZpError err = {ZP_OK, ""};
+  size_t count = 1;
+  ck_assert_ptr_null(zp_def_copy(NULL));
+  ck_assert(zp_def_members(NULL) == 0 && !zp_def_takes_table(NULL) && zp_def_liquid(NULL) == ZP_LIQUID_NONE);
+  ck_assert(isnan(zp_def_number(NULL, "load.mass")) && isnan(zp_def_tolerance(NULL)));
+  ck_assert_ptr_null(zp_def_word(NULL, "liquid.model"));
+  ck_assert_ptr_null(zp_def_word(NULL, "electro.edges"));
+  ck_assert_ptr_null(zp_def_word(NULL, "solver.time_step"));
+  ck_assert_ptr_null(zp_def_text(NULL, zp_key_find("data.file")));
+  ck_assert_ptr_null(zp_signal_columns_of(NULL, &count));
+  ck_assert_uint_eq(count, 0);
+  ck_assert_ptr_null(zp_control_unit(NULL));
+  ck_assert_int_eq(zp_def_set_number(NULL, "load.mass", 1, &err), ZP_MACHINE);
+  ck_assert_str_eq(err.message, "no memory");
+}
+END_TEST
+
+/* The index of an unknown name, and one behind the last key, are refused by every function that takes one. */
+START_TEST(no_key_is_refused) {
+  const int wrong[] = {zp_key_find("no.such.key"), zp_key_count()};
+  ZpActuatorDef *def = zp_def_create();
+  for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+    ZpError err = {ZP_OK, ""};
+    ck_assert_ptr_null(zp_key(wrong[k]));
+    ck_assert(!zp_key_in_def(wrong[k]) && !zp_key_is_material(wrong[k]) && zp_key_choice(wrong[k], "none") == -1);
+    ck_assert(isnan(zp_def_get(def, wrong[k])));
+    ck_assert_ptr_null(zp_def_text(def, wrong[k]));
+    ck_assert_ptr_null(zp_material_value(def, wrong[k]));
+    ck_assert_int_eq(zp_def_set_text(def, wrong[k], "a", NULL), ZP_BAD_INPUT);
+    ck_assert_int_eq(zp_def_resolve(def, &(ZpAssignment){wrong[k], 1}, 1, NULL), ZP_BAD_INPUT);
+    ck_assert_int_eq(zp_def_set(def, wrong[k], 1, &err), ZP_BAD_INPUT);
+    ck_assert_msg(strstr(err.message, "there is no such key"), "%s", err.message);
+  }
+  zp_def_destroy(def);
+}
+END_TEST
+
 /* A refusal names key, value, unit and range, or what the key takes, and changes nothing. */
 START_TEST(refusals_of_a_def) {
   static const struct {
@@ -737,6 +776,8 @@ int main(void) {
   tcase_add_test(c, four_ways_to_fill_a_def);
   tcase_add_test(c, words_of_a_def);
   tcase_add_test(c, refusals_of_a_def);
+  tcase_add_test(c, no_def_is_refused);
+  tcase_add_test(c, no_key_is_refused);
   tcase_add_test(c, no_def_is_no_memory);
   tcase_add_test(c, result_is_read_by_calls);
   tcase_add_test(c, constants_of_a_model);

@@ -7,8 +7,9 @@
  * reads "8 g", and scenarios, in which a key may have a list of values. A key that is `auto` or `none` is NAN.
  *
  * A Def is created by zp_def_create or zp_def_copy, which return NULL if there is no memory. Every function that takes
- * a Def refuses NULL (ZP_MACHINE, "no memory"; NAN or NULL if it returns no status), so that a program need not ask
- * twice.
+ * a Def refuses NULL (ZP_MACHINE, "no memory"; NAN, NULL, 0 or false if it returns no status), so that a program need
+ * not ask twice. The functions of this header refuse an index without a key, such as the -1 of zp_key_find, in the
+ * same way, with ZP_BAD_INPUT.
  */
 #ifndef ZIPACT_DEF_H
 #define ZIPACT_DEF_H
@@ -100,7 +101,7 @@ ZP_API void zp_def_destroy(ZpActuatorDef *def);
 /* Number of keys. */
 ZP_API int zp_key_count(void);
 
-/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`. */
+/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`; NULL for any other. */
 ZP_API const ZpKey *zp_key(int index);
 
 /* Index of the key called `name`, or -1. */
@@ -138,8 +139,8 @@ ZP_API const char *zp_def_text(const ZpActuatorDef *def, int index);
  * of another type; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err);
 
-/* The same by the name of a key, which is found by comparison: programs that set a key thousands of times look it up
- * once. An unknown name gives NAN, or ZP_BAD_INPUT with the nearest known key. */
+/* zp_def_get and zp_def_set by the name of a key, which is found by comparison: programs that set a key thousands of
+ * times look its index up once. An unknown name gives NAN, or ZP_BAD_INPUT with the nearest known key. */
 ZP_API double zp_def_number(const ZpActuatorDef *def, const char *key);
 ZP_API ZpStatus zp_def_set_number(ZpActuatorDef *def, const char *key, double value, ZpError *err);
 
@@ -147,7 +148,8 @@ ZP_API ZpStatus zp_def_set_number(ZpActuatorDef *def, const char *key, double va
  * number, and if there is no such key. Valid until the key is set or the Def is destroyed. */
 ZP_API const char *zp_def_word(const ZpActuatorDef *def, const char *key);
 
-/* Set a key by such a word. ZP_BAD_INPUT names the key and the words that it takes; `def` is then unchanged. */
+/* Set a key by a word as zp_def_word gives it, or a text key by a text. ZP_BAD_INPUT names the key and the words that
+ * it takes; `def` is then unchanged. */
 ZP_API ZpStatus zp_def_set_word(ZpActuatorDef *def, const char *key, const char *word, ZpError *err);
 
 /* Number of members of the system: stack.series, or stack.parallel if a member has keys of its own. Equal actuators

@@ -108,7 +108,7 @@ ZP_API ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim 
 ZP_API void zp_sim_destroy(ZpSim *sim);
 
 /* Record rows in `series` and shapes in `shapes` during runs; each may be NULL. The columns are those of
- * zp_signal_columns. Both belong to the caller. */
+ * zp_signal_columns, or all of zp_signal_columns_of. Both belong to the caller. */
 ZP_API void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 
 /* Run until `end_time` (s; INFINITY: until another end), or with `stop_when_zipped` until the actuator has closed. If
@@ -242,7 +242,8 @@ ZP_API const ZpColumn *zp_signal_columns(size_t *count);
 /* The name of the signal in column `index` of these, without its unit ("stroke"). */
 ZP_API const char *zp_signal_name(size_t index);
 
-/* The same with the units of this Def: setpoint and measured are in that of control.signal. */
+/* The columns of a run of `def`: those of zp_signal_columns, setpoint and measured in the unit of control.signal, and
+ * behind them numbers of each member of a stack. */
 ZP_API const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count);
 
 /* The SI unit of control.signal: "m", "F" or "1". */

@@ -1,8 +1,7 @@
 /* Results: a table of numbers with named columns, and a sequence of shapes.
  *
  * Both have a bounded size: when they are full, every second row is dropped, and from then on only every second,
- * fourth,
- * ... offered row is kept. The first row stays; zp_table_keep_last keeps the last one.
+ * fourth, ... offered row is kept. The first row stays; zp_table_keep_last keeps the last one.
  */
 #ifndef ZIPACT_TABLE_H
 #define ZIPACT_TABLE_H

@@ -133,7 +133,7 @@ int zp_key_count(void) {
 }
 
 const ZpKey *zp_key(int index) {
-  return &keys[index];
+  return index >= 0 && index < KEY_COUNT ? &keys[index] : NULL;
 }
 
 int zp_key_find(const char *name) {
@@ -217,8 +217,8 @@ const char *zp_key_nearest(const char *name) {
 }
 
 int zp_key_choice(int index, const char *word) {
-  const ZpKey *key = &keys[index];
-  for (int i = 0; key->choices && i <= (int)key->max; i++)
+  const ZpKey *key = zp_key(index);
+  for (int i = 0; key && key->choices && i <= (int)key->max; i++)
     if (strcmp(key->choices[i].word, word) == 0) return i;
   return -1;
 }
@@ -232,7 +232,8 @@ static bool has_field(const ZpKey *key) {
 }
 
 bool zp_key_in_def(int index) {
-  return has_field(&keys[index]);
+  const ZpKey *key = zp_key(index);
+  return key && has_field(key);
 }
 
 /* Write a value, which has been checked, into its field. */
@@ -283,12 +284,18 @@ static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
 }
 
 double zp_def_get(const ZpActuatorDef *def, int index) {
-  const ZpKey *key = &keys[index];
-  return def && has_field(key) ? number_of(def, key) : (double)NAN;
+  const ZpKey *key = zp_key(index);
+  return def && key && has_field(key) ? number_of(def, key) : (double)NAN;
 }
 
 const char *zp_def_text(const ZpActuatorDef *def, int index) {
-  return def && keys[index].type == ZP_KEY_TEXT ? (const char *)def + offset_of(&keys[index]) : NULL;
+  const ZpKey *key = zp_key(index);
+  return def && key && key->type == ZP_KEY_TEXT ? (const char *)def + offset_of(key) : NULL;
+}
+
+/* Is there such a key? zp_key_find gives -1 for an unknown name. */
+static ZpStatus check_known(int index, ZpError *err) {
+  return zp_key(index) ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "key %d: there is no such key", index);
 }
 
 static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
@@ -302,6 +309,7 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
 }
 
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
+  if (check_known(index, err) != ZP_OK) return ZP_BAD_INPUT;
   const ZpKey *key = &keys[index];
   if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a number, not a text", key->name);
   ZpStatus status = check_there(def, err);
@@ -332,6 +340,7 @@ static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
 
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
   ZpStatus status = check_there(def, err);
+  if (status == ZP_OK) status = check_known(index, err);
   if (status == ZP_OK) status = check_value(&keys[index], value, err);
   if (status == ZP_OK && !has_field(&keys[index]))
     return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a definition", keys[index].name);
@@ -398,7 +407,8 @@ static bool is_filled(const char *name) {
 }
 
 bool zp_key_is_material(int index) {
-  const char *last = strrchr(keys[index].name, '.');
+  const ZpKey *key = zp_key(index);
+  const char *last = key ? strrchr(key->name, '.') : NULL;
   return last && strcmp(last, ".material") == 0;
 }
 
@@ -409,7 +419,7 @@ static int material_of(const ZpActuatorDef *def, const MaterialGroup *group) {
 }
 
 const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
-  const MaterialGroup *group = def ? material_group_of(keys[index].name) : NULL;
+  const MaterialGroup *group = def && zp_key(index) ? material_group_of(keys[index].name) : NULL;
   if (!group) return NULL;
   int material = material_of(def, group);
   const char *name = keys[index].name + strlen(group->prefix);
@@ -490,6 +500,7 @@ static ZpStatus check_setpoint(const ZpActuatorDef *def, ZpError *err) {
 }
 
 bool zp_def_takes_table(const ZpActuatorDef *def) {
+  if (!def) return false;
   bool controlled = def->control.kind != ZP_CONTROL_NONE;
   return (controlled ? def->setpoint.waveform : def->drive.waveform) == ZP_WAVEFORM_TABLE;
 }

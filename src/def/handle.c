@@ -15,7 +15,7 @@ ZpActuatorDef *zp_def_create(void) {
 }
 
 ZpActuatorDef *zp_def_copy(const ZpActuatorDef *def) {
-  ZpActuatorDef *copy = zp_calloc(1, sizeof *copy);
+  ZpActuatorDef *copy = def ? zp_calloc(1, sizeof *copy) : NULL;
   if (copy) *copy = *def;
   return copy;
 }
@@ -47,7 +47,7 @@ ZpStatus zp_def_set_number(ZpActuatorDef *def, const char *key, double value, Zp
 
 const char *zp_def_word(const ZpActuatorDef *def, const char *key) {
   int index = zp_key_find(key);
-  if (index < 0) return NULL;
+  if (!def || index < 0) return NULL;
   double value = zp_def_get(def, index);
   switch (zp_key(index)->type) {
   case ZP_KEY_TEXT:

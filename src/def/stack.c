@@ -36,6 +36,7 @@ bool zp_def_parallel(const ZpActuatorDef *def) {
 }
 
 int zp_def_members(const ZpActuatorDef *def) {
+  if (!def) return 0;
   return zp_def_parallel(def) ? def->stack.parallel : def->stack.series;
 }
 

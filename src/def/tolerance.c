@@ -18,6 +18,7 @@ static double of_mesh(const ZpActuatorDef *def) {
 }
 
 double zp_def_tolerance(const ZpActuatorDef *def) {
+  if (!def) return NAN;
   if (!isnan(def->solver.tolerance)) return def->solver.tolerance;
   if (*def->sensitivity.by) return of_derivatives;
   return zp_def_has(def, ZP_DEVICE_ELECTRODES) ? of_mesh(def) : usual;

@@ -112,6 +112,8 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
       [ZP_CONTROL_STROKE] = {columns_of_length, columns_abreast_of_length},
       [ZP_CONTROL_CONTRACTION] = {columns, columns_abreast},
       [ZP_CONTROL_CAPACITANCE] = {columns_of_capacitance, columns_abreast_of_capacitance}};
+  *count = 0;
+  if (!def) return NULL;
   size_t members = zp_def_members(def) > 1 ? (size_t)zp_def_members(def) : 0;
   int joined = zp_def_parallel(def) ? SIDE_BY_SIDE : SERIES;
   *count = SIGNAL_COUNT + members * (joined == SIDE_BY_SIDE ? NUMBERS_ABREAST : 1);
@@ -154,7 +156,7 @@ bool zp_sim_next_row(const ZpSim *sim, size_t *signal) {
 
 const char *zp_control_unit(const ZpActuatorDef *def) {
   size_t count;
-  return zp_signal_columns_of(def, &count)[SIGNAL_setpoint].unit;
+  return def ? zp_signal_columns_of(def, &count)[SIGNAL_setpoint].unit : NULL;
 }
 
 const ZpColumn *zp_trace_columns(size_t *count) {
