@@ -51,9 +51,12 @@ def migrate_def(text, notes):
     for name, dot in [(n, r"(?:\.|->)") for n in structs] + [(n, "->") for n in pointers]:
 
         def write(found):
-            return '%szp_def_set_number(%s, "%s", %s, NULL);' % (found[1], name, key_name(found[2]), found[3])
+            key, operator, value = key_name(found[2]), found[3], found[4]
+            if operator:
+                value = 'zp_def_number(%s, "%s") %s (%s)' % (name, key, operator, value)
+            return '%szp_def_set_number(%s, "%s", %s, NULL);' % (found[1], name, key, value)
 
-        text = replace(text, r"(^[ \t]*|(?<=[;{)])[ \t]*)%s%s%s = ([^;=][^;]*);" % (name, dot, KEY), write)
+        text = replace(text, r"(^[ \t]*|(?<=[;{)])[ \t]*)%s%s%s ([-+*/]?)= ((?!=)(?:(?!, %s%s)[^;])+);" % (name, dot, KEY, name, dot), write)
         text = replace(text, r"(?<![\w.>/\"])%s%s%s(?![\w(.\[])" % (name, dot, KEY),
                        lambda found: 'zp_def_number(%s, "%s")' % (name, key_name(found[1])))
     return text
@@ -96,14 +99,30 @@ def migrate_results(text, notes):
         text = replace(text, r"(?<!\w)%s->(rows|columns)\b" % name, r"zp_table_\g<%d>(%s)" % (group, same))
         text = replace(text, r"&%s->column\[([^]]+)\](?!\.)" % name, r"zp_table_column(%s, \g<%d>)" % (same, group))
         text = replace(text, r"(?<!\w)%s->column\[([^]]+)\]\." % name, r"zp_table_column(%s, \g<%d>)->" % (same, group))
-    for name in names_of(text, "ZpShapes", True):
-        text = replace(text, r"\b%s->(frames|ribbons|nodes|members)\b" % name, r"zp_shapes_\1(%s)" % name)
-        text = replace(text, r"\b%s->frame_size\b" % name, "zp_shapes_stride(%s)" % name)
+    for name in names_of(text, "ZpShapes", True) + [r"zp_result_shapes\(\w+\)"]:
+        text = replace(text, r"(?<!\w)(%s)->(frames|ribbons|nodes|members)\b" % name, r"zp_shapes_\2(\1)")
+        text = replace(text, r"(?<!\w)(%s)->frame_size\b" % name, r"zp_shapes_stride(\1)")
     return text
 
 
+# Lines that do not compile, or mean something else, after all replacements.
+SUSPECT = {
+    r"zp_actuator_def_default|ZpModelInfo|zp_model_info|zp_limits_destroy|->offset\b|layout\.h": "is not in interface 2",
+    r"\bZp(?:ActuatorDef|RunInfo|Result|Table|Shapes) \w+ *[=;,\[]": "is a pointer now, created and destroyed by calls",
+    r"&zp_def_number\(|zp_def_number\([^()]*\) *[-+*/]?=(?!=)|zp_def_number\([^()]*\)(?:\+\+|--)": "sets a key: zp_def_set_number",
+    r"\b(?:str\w*|snprintf|sprintf|memcpy)\(zp_def_number": "sets a text: zp_def_set_word",
+    r"zp_result_(?:series|shapes)\(\w+\)->": "reads a member of what is opaque",
+    r"%[-0-9]*(?:z|l*)[ud].*zp_(?:model|run_info)_get\(": "prints a number that is a double now",
+}
+
+
 def left_over(text, notes):
-    """Fields that remain."""
+    """Fields that remain, and what else a person has to look at."""
+    unseen = len(re.findall(r"zp_def_set_number\([^;]*, NULL\);", text))
+    if unseen:
+        notes.append("%d keys are set and no error is read: a value out of range leaves the old one, no later call refuses it" % unseen)
+    for number, line in enumerate(text.splitlines(), 1):
+        notes += ["line %d %s: %s" % (number, why, line.strip()) for pattern, why in SUSPECT.items() if re.search(pattern, line)]
     for kind, pattern in {"ZpActuatorDef": r"[a-z]\w*", "ZpResult": r"\w+", "ZpTable": r"\w+", "ZpShapes": r"\w+", "ZpRunInfo": r"\w+"}.items():
         for name in names_of(text, kind, False) + names_of(text, kind, True):
             for number, line in enumerate(text.splitlines(), 1):
