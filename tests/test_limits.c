@@ -798,16 +798,25 @@ START_TEST(largest_load_from_gradual_neighbours) {
 }
 END_TEST
 
-/* One of another mesh, or another kind, is no neighbour. */
-START_TEST(test_no_neighbour) {
-  ZpActuatorDef def = DEF({"mesh.nodes", 41}), other = DEF({"mesh.nodes", 31});
-  ZpResult *near = limits_of(&other), *warm = run(ZP_STUDY_LIMITS, &def, near), *cold = limits_of(&def);
+static void check_no_neighbour(const ZpActuatorDef *def, const ZpActuatorDef *other) {
+  ZpResult *near = limits_of(other), *warm = run(ZP_STUDY_LIMITS, def, near), *cold = limits_of(def);
   ck_assert_double_eq(zp_result_get(warm, "warm_starts"), 0);
   for (size_t i = 0; i < LENGTH_OF(names); i++)
-    ck_assert_double_eq(zp_result_get(warm, names[i]), zp_result_get(cold, names[i]));
+    same(warm, cold, names[i], 0);
   zp_result_destroy(near);
   zp_result_destroy(warm);
   zp_result_destroy(cold);
+}
+
+/* One of another mesh, with other halves or with other joints is no neighbour. */
+START_TEST(test_no_neighbour) {
+  ZpActuatorDef fine = DEF({"mesh.nodes", 41}), coarse = DEF({"mesh.nodes", 31}), half = DEF({"mesh.nodes", 22}),
+                whole = DEF({"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}),
+                parallel = DEF({"mesh.nodes", 11}, {"stack.parallel", 2}, {"member_1.ribbon.thickness", 51e-6}),
+                series = DEF({"mesh.nodes", 11}, {"stack.series", 2});
+  check_no_neighbour(&fine, &coarse);
+  check_no_neighbour(&whole, &half);
+  check_no_neighbour(&parallel, &series);
 }
 END_TEST
 

@@ -101,7 +101,7 @@ static double closed_beyond(Finder *f, double closed) {
   zp_rest_save(rest, f->limits->at.state);
   bool hangs = hang_under(f, rest->statics.load);
   zp_rest_go_to(rest, f->limits->at.state);
-  return hangs ? rest->march.limit : (double)NAN;
+  return hangs ? rest->track.limit : (double)NAN;
 }
 
 /* From the present point, at the voltage, to the load at which the actuator closes gradually, by the gap at which it
@@ -137,13 +137,13 @@ static void drop_load(Finder *f, ZpLimit *limit) {
   ZpRest *rest = f->rest;
   zp_quasistatic_drop_load(rest, limit);
   for (int k = 0; k < MOST && limit->end == ZP_TRACK_EVENT; k++) {
-    double closed = rest->march.limit;
+    double closed = rest->track.limit;
     if (!hang_under(f, limit->value)) return;
     zp_rest_go_to(rest, limit->state);
-    if (rest->march.limit > near * closed) break;
+    if (rest->track.limit > near * closed) break;
     zp_quasistatic_drop_load(rest, limit);
   }
-  if (limit->end == ZP_TRACK_EVENT && go_to_event(f, rest->march.limit))
+  if (limit->end == ZP_TRACK_EVENT && go_to_event(f, rest->track.limit))
     zp_quasistatic_note(rest, limit, ZP_TRACK_EVENT);
 }
 
@@ -155,7 +155,7 @@ static double follow(Finder *f) {
   zp_rest_go_to(rest, f->limits->at.state);
   rest->statics.U = f->top;
   bool found = f->limits->at.end == ZP_TRACK_FOLD ? zp_quasistatic_fold_of_load(rest, f->limits->at.null)
-                                                  : go_to_event(f, rest->march.limit);
+                                                  : go_to_event(f, rest->track.limit);
   double load = rest->statics.load;
   return found && load > f->least && load < f->most ? load : (double)NAN;
 }
@@ -253,11 +253,11 @@ static bool from_neighbour(Finder *f, ZpLimitKind kind) {
   if (!near || (near->end != ZP_TRACK_FOLD && near->end != ZP_TRACK_EVENT)) return false;
   ZpRest *rest = f->rest;
   ZpStatics *s = &rest->statics;
-  ZpFold *solver = &rest->march.fold;
+  ZpFold *solver = &rest->track.fold;
   bool load = kind == ZP_LIMIT_LOAD, fold = near->end == ZP_TRACK_FOLD;
   solver->system = load ? &rest->load : &rest->square;
   take(f, near->state);
-  double near_gap = zp_closing_gap(s, NULL), closed = rest->march.limit;
+  double near_gap = zp_closing_gap(s, NULL), closed = rest->track.limit;
   if (load) s->load = near->value;
   if (load) s->U = f->top;
   memcpy(solver->null, near->null, s->n * sizeof *near->null);
@@ -432,25 +432,24 @@ bool zp_limits_lost(const ZpLimits *limits) {
 
 /* -- limits that outlive their model ------------------------------------------------------------------ */
 
-static size_t reserve(ZpLimits *limits, size_t save, size_t equations, void *block) {
+static size_t reserve(ZpLimits *limits, void *block) {
   ZpArena arena = {block, 0};
   double **states[] = {&limits->start, &limits->top, &limits->closed, &limits->hung, &limits->lifted};
   for (size_t k = 0; k < sizeof states / sizeof states[0]; k++)
-    *states[k] = zp_arena_take(&arena, save);
+    *states[k] = zp_arena_take(&arena, limits->save);
   for (int k = 0; k < ZP_LIMIT_KINDS; k++)
-    zp_limit_reserve(&limits->limit[k], save, equations, &arena);
-  zp_limit_reserve(&limits->at, save, equations, &arena);
+    zp_limit_reserve(&limits->limit[k], limits->save, limits->equations, &arena);
+  zp_limit_reserve(&limits->at, limits->save, limits->equations, &arena);
   return arena.used;
 }
 
 ZpLimits *zp_limits_create(const ZpRest *rest) {
-  const ZpModel *model = rest->statics.member->model;
-  size_t save = zp_rest_save_size(rest), n = rest->statics.n;
   ZpLimits *limits = zp_calloc(1, sizeof *limits);
   if (!limits) return NULL;
-  *limits = (ZpLimits){.ribbons = model->s, .nodes = rest->statics.members * model->nodes, .L = model->L};
-  limits->memory = zp_calloc(1, reserve(limits, save, n, NULL));
-  if (limits->memory) reserve(limits, save, n, limits->memory);
+  *limits =
+      (ZpLimits){.save = zp_rest_save_size(rest), .equations = rest->statics.n, .L = rest->statics.member->model->L};
+  limits->memory = zp_calloc(1, reserve(limits, NULL));
+  if (limits->memory) reserve(limits, limits->memory);
   if (limits->memory) return limits;
   zp_free(limits);
   return NULL;

@@ -15,10 +15,10 @@ typedef enum ZpLimitKind {
 } ZpLimitKind;
 
 typedef struct ZpLimits {
-  size_t ribbons, nodes; /* of the model */
-  double L;              /* flexible length, m */
-  double hanging;        /* gap that closes last, without voltage, m */
-  ZpNewtonInfo info;     /* of the search of the state that hangs without voltage: */
+  size_t save, equations; /* doubles of a state; equations of a null vector */
+  double L;               /* flexible length, m */
+  double hanging;         /* gap that closes last, without voltage, m */
+  ZpNewtonInfo info;      /* of the search of the state that hangs without voltage: */
   double *start;
   bool hangs;
   double *top; /* the state that hangs at drive.voltage */
@@ -37,8 +37,8 @@ typedef struct ZpLimits {
 /* NULL if there is no memory. */
 ZpLimits *zp_limits_create(const ZpRest *rest);
 
-/* Find the limits up to drive.voltage, with `load` also the largest load, from those of a neighbour with the same mesh
- * (NULL: none). The present point is then another. */
+/* Find the limits up to drive.voltage, with `load` also the largest load, from those of a neighbour whose states have
+ * the same form (NULL: none). The present point is then another. */
 void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *limits);
 
 /* Was one of them not found although it may exist? */

@@ -74,18 +74,18 @@ void zp_quasistatic_start(ZpRest *r) {
   ZpStatics *s = &r->statics;
   for (size_t k = 0; k < s->members; k++)
     s->member[k].closed = zp_closed_opening(s->member[k].model, gap_of(&s->member[k]));
-  r->march.limit = s->member->closed;
-  r->march.fold.tolerance = zp_statics_tolerance(s);
+  r->track.limit = s->member->closed;
+  r->track.fold.tolerance = zp_statics_tolerance(s);
 }
 
 bool zp_quasistatic_is_closed(ZpRest *r) {
-  return zp_closing_gap(&r->statics, NULL) <= r->march.limit;
+  return zp_closing_gap(&r->statics, NULL) <= r->track.limit;
 }
 
 double zp_quasistatic_closed_by_load(ZpRest *r) {
   static const double step = 1e-3; /* of the gap: the law is linear but for a corner */
   ZpStatics *s = &r->statics;
-  ZpFold *fold = &r->march.fold;
+  ZpFold *fold = &r->track.fold;
   fold->system = &r->load;
   if (!zp_fold_tangent(fold)) return NAN;
   double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
@@ -112,7 +112,7 @@ static void lose(ZpLimit *limit, const char *reason) {
 }
 
 static bool along_load(ZpRest *r) {
-  return r->march.fold.system == &r->load;
+  return r->track.fold.system == &r->load;
 }
 
 /* The voltage or the load at the present point. */
@@ -127,7 +127,7 @@ void zp_quasistatic_note(ZpRest *r, ZpLimit *limit, ZpTrackEnd end) {
   limit->reason = NULL;
   limit->room = 0;
   zp_rest_save(r, limit->state);
-  memcpy(limit->null, r->march.fold.null, s->n * sizeof *limit->null);
+  memcpy(limit->null, r->track.fold.null, s->n * sizeof *limit->null);
 }
 
 void zp_quasistatic_copy(const ZpRest *r, const ZpLimit *from, ZpLimit *to) {
@@ -143,7 +143,7 @@ static double changed(ZpRest *r, double m, double share) {
 }
 
 static double parameter(ZpRest *r) {
-  return r->march.fold.system->get(&r->statics);
+  return r->track.fold.system->get(&r->statics);
 }
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
@@ -159,7 +159,7 @@ static double look_step(ZpRest *r) {
 static bool has_opened(void *user) {
   static const double clear = 3;
   ZpRest *r = user;
-  return r->was_closed && zp_closing_gap(&r->statics, NULL) > clear * r->march.limit;
+  return r->was_closed && zp_closing_gap(&r->statics, NULL) > clear * r->track.limit;
 }
 
 /* Shares of the voltage or of the load by which a fall goes beyond the present point. The first is for limit points: a
@@ -174,7 +174,7 @@ static bool fall(ZpRest *r, double sign, size_t first) {
   zp_rest_save(r, r->held);
   for (size_t k = first; k < SHARES && !found; k++) {
     if (k > first) zp_rest_go_to(r, r->held);
-    r->march.fold.system->set(&r->statics, changed(r, m, sign * beyond[k]));
+    r->track.fold.system->set(&r->statics, changed(r, m, sign * beyond[k]));
     found = zp_newton_good(zp_statics_relax_until(&r->statics, has_opened, r).end);
   }
   return found;
@@ -185,29 +185,29 @@ static bool fall(ZpRest *r, double sign, size_t first) {
  * which this step is measured. */
 static bool fall_from(ZpRest *r, const ZpLimit *limit, double sign) {
   static const double part = 0.25; /* of a step along the branch */
-  if (!r->was_closed) zp_fold_leave(&r->march.fold, limit->null, zp_closing_gap, -sign * part * look_step(r));
+  if (!r->was_closed) zp_fold_leave(&r->track.fold, limit->null, zp_closing_gap, -sign * part * look_step(r));
   return fall(r, sign, FROM_LIMIT);
 }
 
 /* Does the branch to which the state fell, from the limit point at m and `gap`, end so little below it that both belong
- * to a ripple of the mesh? Going down, the march may come back unnoticed to the side on which it was before the limit
+ * to a ripple of the mesh? Going down, the track may come back unnoticed to the side on which it was before the limit
  * point. */
 static bool is_ripple(ZpRest *r, double m, double gap, double sign) {
   ZpStatics *s = &r->statics;
   double fallen = open_gap(s) - gap;
   zp_rest_save(r, r->held);
-  ZpEvent event = r->march.event;
-  r->march.event = NULL;
-  ZpTrackEnd end = zp_track(&r->march, changed(r, m, -sign * ZP_FOLD_RIPPLE));
+  ZpEvent event = r->track.event;
+  r->track.event = NULL;
+  ZpTrackEnd end = zp_track(&r->track, changed(r, m, -sign * ZP_FOLD_RIPPLE));
   bool ripple = end != ZP_TRACK_ARRIVED || (open_gap(s) - gap) * fallen < 0;
-  r->march.event = event;
+  r->track.event = event;
   zp_rest_go_to(r, r->held);
   return ripple;
 }
 
 /* The parameter at the present point is further than m. */
 static ZpAround climb_on(ZpRest *r, double m, double sign) {
-  ZpFold *fold = &r->march.fold;
+  ZpFold *fold = &r->track.fold;
   if (zp_statics_stable(&r->statics)) return ZP_STABLE_HIGHER;
   zp_fold_guess(fold);
   bool found = zp_fold_solve(fold) && fold->negative == 0 && sign * (parameter(r) - m) > 0;
@@ -252,7 +252,7 @@ static Place pass(ZpRest *r, const Side *side, Place from, double step) {
   double at = from.at + step, here = side->gap + at * side->step, m, slope;
   ZpPass end = ZP_PASS_AGAIN;
   for (int tries = 0; tries < MOST && end == ZP_PASS_AGAIN; tries++)
-    end = zp_fold_pass(&r->march.fold, zp_closing_gap, here, here + step * side->step, &m, &slope);
+    end = zp_fold_pass(&r->track.fold, zp_closing_gap, here, here + step * side->step, &m, &slope);
   return end == ZP_PASS_ON ? (Place){at, m, slope * side->step} : (Place){at, NAN, NAN};
 }
 
@@ -300,7 +300,7 @@ static double seek_crest(ZpRest *r, const Side *side, ZpLimit *limit, Place from
 
 /* Go to the crest near a point. If it is not higher than the limit, continue to the point `next`. */
 static ZpAround visit_crest(ZpRest *r, ZpLimit *limit, const Side *side, double at, double next) {
-  ZpFold *fold = &r->march.fold;
+  ZpFold *fold = &r->track.fold;
   bool found = zp_fold_event(fold, zp_closing_gap, side->gap + at * side->step, ZP_FOLD_ROUGH);
   if (found) zp_fold_guess(fold);
   if (!found || !zp_fold_solve(fold)) return ZP_OUT_OF_SIGHT;
@@ -317,9 +317,9 @@ static bool go_to_point(ZpRest *r, const ZpLimit *limit, const Side *side, doubl
   double step = at / steps * side->step;
   bool found = true;
   zp_rest_go_to(r, limit->state);
-  zp_fold_leave(&r->march.fold, limit->null, zp_closing_gap, step);
+  zp_fold_leave(&r->track.fold, limit->null, zp_closing_gap, step);
   for (int i = 1; i <= steps && found; i++)
-    found = zp_fold_event(&r->march.fold, zp_closing_gap, side->gap + i * step, ZP_FOLD_ROUGH);
+    found = zp_fold_event(&r->track.fold, zp_closing_gap, side->gap + i * step, ZP_FOLD_ROUGH);
   return found;
 }
 
@@ -330,7 +330,7 @@ static ZpAround look(ZpRest *r, ZpLimit *limit, double sign, double whole) {
   Side side = {parameter(r), zp_closing_gap(&r->statics, NULL), sign, whole, 0};
   Place last = {0, side.m, 0};
   double step = 1;
-  zp_fold_leave(&r->march.fold, limit->null, zp_closing_gap, whole);
+  zp_fold_leave(&r->track.fold, limit->null, zp_closing_gap, whole);
   for (int k = 0; k < MOST && last.at < FARTHEST && side.deepest <= ZP_FOLD_RIPPLE; k++) {
     Place here = pass(r, &side, last, step);
     if (isnan(here.m)) return ZP_OUT_OF_SIGHT;
@@ -369,7 +369,7 @@ double zp_quasistatic_room_left(ZpRest *r, const ZpLimit *near, double gap) {
 }
 
 /* Go from a limit point to the highest crest of the ripple to which it may belong. => where; if a stable state is
- * higher, a march continues from it */
+ * higher, a track continues from it */
 static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
   enum { MOST = 20 };
   ZpAround around = ZP_CREST_HIGHER;
@@ -381,7 +381,7 @@ static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
   return around;
 }
 
-/* The march has lost the branch while it was stable: fall to a state a little further. False if this would close or
+/* The track has lost the branch while it was stable: fall to a state a little further. False if this would close or
  * open the actuator, because no limit point was found there. */
 static bool go_on_from_lost(ZpRest *r, double sign) {
   return fall(r, sign, FROM_LOST) && zp_quasistatic_is_closed(r) == r->was_closed;
@@ -397,7 +397,7 @@ static bool has_become_impossible(ZpRest *r) {
 /* From a crest beyond `target` back to the stable state before it. A lower crest of the same ripple comes before the
  * target, and the actuator falls from there into that state. */
 static ZpQuasistaticEnd stop_before(ZpRest *r, double target) {
-  r->march.fold.system->set(&r->statics, target);
+  r->track.fold.system->set(&r->statics, target);
   return zp_newton_good(zp_statics_relax_until(&r->statics, NULL, NULL).end) ? ZP_QUASISTATIC_ARRIVED
                                                                              : ZP_QUASISTATIC_LOST;
 }
@@ -411,7 +411,7 @@ static ZpQuasistaticEnd change(ZpRest *r, double target, double enough, ZpLimit 
   r->was_closed = zp_quasistatic_is_closed(r);
   for (int k = 0; k < MOST; k++) {
     if (zp_statics_asked_to_stop(&r->statics)) return ZP_QUASISTATIC_STOPPED;
-    ZpTrackEnd end = zp_track(&r->march, target);
+    ZpTrackEnd end = zp_track(&r->track, target);
     if (end == ZP_TRACK_ARRIVED) return ZP_QUASISTATIC_ARRIVED;
     if (end == ZP_TRACK_LOST && !go_on_from_lost(r, sign)) return ZP_QUASISTATIC_LOST;
     if (end == ZP_TRACK_LOST) continue;
@@ -433,24 +433,24 @@ static ZpQuasistaticEnd change(ZpRest *r, double target, double enough, ZpLimit 
 }
 
 static void choose(ZpRest *r, const ZpBranchSystem *along) {
-  r->march.fold.system = along;
-  r->march.event = zp_closing_gap;
+  r->track.fold.system = along;
+  r->track.event = zp_closing_gap;
 }
 
 bool zp_quasistatic_fold_of_load(ZpRest *r, const double *null) {
   choose(r, &r->load);
-  memcpy(r->march.fold.null, null, r->statics.n * sizeof *null);
-  return zp_fold_solve(&r->march.fold) && r->march.fold.negative == 0;
+  memcpy(r->track.fold.null, null, r->statics.n * sizeof *null);
+  return zp_fold_solve(&r->track.fold) && r->track.fold.negative == 0;
 }
 
 bool zp_quasistatic_event_of_load(ZpRest *r, double gap) {
   choose(r, &r->load);
-  return zp_fold_event(&r->march.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && r->march.fold.negative == 0;
+  return zp_fold_event(&r->track.fold, zp_closing_gap, gap, ZP_FOLD_EXACT) && r->track.fold.negative == 0;
 }
 
 /* March to `target` => the limit at which this ends, if there is one. */
 static ZpTrackEnd go_to_first(ZpRest *r, double target, ZpLimit *at) {
-  ZpTrackEnd end = zp_track(&r->march, target);
+  ZpTrackEnd end = zp_track(&r->track, target);
   zp_limit_none(at, NULL);
   if (end == ZP_TRACK_FOLD || end == ZP_TRACK_EVENT) zp_quasistatic_note(r, at, end);
   return end;
@@ -481,11 +481,11 @@ static double gap_above_overlap(void *self, double *row) {
   return zp_closing_gap(self, row) + 2 * s->member->closed;
 }
 
-/* It has closed gradually: is there a limit point further up, before faces overlap by as much as they were apart? Two
- * that are close to each other are seen along the gap only. */
+/* The actuator has closed gradually: is there a limit point further up, before faces overlap by as much as they were
+ * apart? Two that are close to each other are seen along the gap only. */
 static void seek_pull_in(ZpRest *r, double top, ZpLimit *pull_in) {
-  r->march.event = gap_above_overlap;
-  if (zp_track(&r->march, top * top) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
+  r->track.event = gap_above_overlap;
+  if (zp_track(&r->track, top * top) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
 }
 
 ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pull_in, ZpLimit *closing) {

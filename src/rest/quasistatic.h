@@ -44,7 +44,7 @@ void zp_limit_reserve(ZpLimit *limit, size_t save_size, size_t equations, ZpAren
 /* Mark a limit as one that does not exist. */
 void zp_limit_none(ZpLimit *limit, const char *reason);
 
-/* Store the present point, at which a march has ended, as this limit. */
+/* Store the present point, at which a track has ended, as this limit. */
 void zp_quasistatic_note(ZpRest *rest, ZpLimit *limit, ZpTrackEnd end);
 void zp_quasistatic_copy(const ZpRest *rest, const ZpLimit *from, ZpLimit *to);
 

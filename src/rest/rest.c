@@ -22,7 +22,7 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user
       if (!rest->memory) return false;
     }
     zp_branch_reserve(&rest->branch, &rest->system, &rest->statics.newton, &arena);
-    zp_track_reserve(&rest->march, &rest->square, rest->statics.form, &rest->statics.newton, &arena);
+    zp_track_reserve(&rest->track, &rest->square, rest->statics.form, &rest->statics.newton, &arena);
     rest->held = zp_arena_take(&arena, zp_rest_save_size(rest));
     for (size_t k = 0; k < rest->statics.members; k++)
       zp_shape_reserve(model, &rest->shape_room[k], &arena);

@@ -13,7 +13,7 @@ struct ZpRest {
   ZpStatics statics;
   ZpBranchSystem system, square, load;     /* along the voltage, its square, the load */
   ZpBranch branch;                         /* point by point along the voltage */
-  ZpTrack march;                           /* to the next limit along the square or the load */
+  ZpTrack track;                           /* to the next limit along the square or the load */
   void *held;                              /* a state to return to during a slow change (rest/quasistatic.h) */
   bool was_closed;                         /* when that began */
   ZpShapeRoom shape_room[ZP_MOST_MEMBERS]; /* for the shapes of the members */

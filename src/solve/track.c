@@ -7,15 +7,15 @@
 
 static const double little = 5e-3; /* of the scale of q: a smaller motion does not matter */
 
-void zp_track_reserve(ZpTrack *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
                       ZpArena *arena) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
-  zp_fold_reserve(&march->fold, system, form, newton, arena);
-  double **vectors[] = {&march->q, &march->before, &march->guess};
+  zp_fold_reserve(&track->fold, system, form, newton, arena);
+  double **vectors[] = {&track->q, &track->before, &track->guess};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_arena_take(arena, n);
-  march->good = zp_arena_take(arena, saved);
-  march->start = zp_arena_take(arena, saved);
+  track->good = zp_arena_take(arena, saved);
+  track->start = zp_arena_take(arena, saved);
 }
 
 /* -- points ---------------------------------------------------------------------------------------- */
@@ -297,7 +297,7 @@ static bool is_at_corner(ZpTrack *m, double sign) {
   return step <= enough && refine(m);
 }
 
-static ZpTrackEnd march(ZpTrack *m, double target) {
+static ZpTrackEnd track(ZpTrack *m, double target) {
   enum { MOST = 400 };
   static const double longest = 8, shortest = 1e-9, rounding = 1e-14;
   double sign = target > parameter(m) ? 1 : -1, part = 1;
@@ -328,9 +328,9 @@ ZpTrackEnd zp_track(ZpTrack *m, double target) {
   const ZpBranchSystem *sys = m->fold.system;
   sys->save(sys->at_rest.self, m->start);
   m->to = ZP_FOLD_ROUGH;
-  ZpTrackEnd end = march(m, target);
+  ZpTrackEnd end = track(m, target);
   if (end != ZP_TRACK_LOST) return end;
   sys->restore(sys->at_rest.self, m->start);
   m->to = ZP_FOLD_EXACT;
-  return march(m, target);
+  return track(m, target);
 }

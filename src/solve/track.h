@@ -23,7 +23,7 @@ typedef struct ZpTrack {
   double *before; /* [n] dq/dm there */
   double *guess;  /* [n] a step */
   void *good;     /* the last good point */
-  void *start;    /* the start of the march */
+  void *start;    /* the start of the track */
   ZpFoldTo to;    /* how accurate steps are: rough at first, exact if the branch was lost */
   double m;       /* parameter at the last good point */
   double value;   /* value of the event there */
@@ -33,10 +33,10 @@ typedef struct ZpTrack {
   bool tried;     /* the solution for it from there has been tried */
 } ZpTrack;
 
-void zp_track_reserve(ZpTrack *march, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
                       ZpArena *arena);
 
 /* From the present point, a stable equilibrium, towards m = target. Every point on the way is stable. */
-ZpTrackEnd zp_track(ZpTrack *march, double target);
+ZpTrackEnd zp_track(ZpTrack *track, double target);
 
 #endif

@@ -130,11 +130,11 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   zp_result_add_sensitivity(result, "mass_kg", slope->key, mass);
 }
 
-/* A case with another mesh or kind does not count as a neighbour. */
+/* A case whose states have another form, as one with another mesh, kind or other members, is no neighbour. */
 static const ZpLimits *neighbour_of(const Finder *f) {
   const ZpResult *neighbour = f->at.task->input.neighbour;
   const ZpLimits *near = neighbour ? neighbour->limits : NULL;
-  return near && near->ribbons == f->limits->ribbons && near->nodes == f->limits->nodes ? near : NULL;
+  return near && near->save == f->limits->save && near->equations == f->limits->equations ? near : NULL;
 }
 
 static void run(Finder *f, ZpResult *r) {
