@@ -1,4 +1,4 @@
-/* What the files of devices share. */
+/* The layouts that files of devices build from. */
 #ifndef ZP_DEVICE_DEVICE_H
 #define ZP_DEVICE_DEVICE_H
 

@@ -1,4 +1,4 @@
-/* What several devices share: a layout, and rules on the paper's numerics. */
+/* The layout of one ribbon, which several devices have, and rules on the paper's numerics. */
 #include "device/device.h"
 
 void zp_lay_ribbon(const ZpActuatorDef *def, ZpTopology *t) {

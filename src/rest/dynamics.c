@@ -445,7 +445,7 @@ static double impact(ZpDynamics *d) {
 /* A meniscus that passes a station gives it a film at once. Where the film's resistance far exceeds the inertia of the
  * ribbons, the difference of velocities from the mean of the step would reverse in every step. The part of it that is
  * too fast for the step is removed => the loss, J. */
-static double calm(ZpDynamics *d) {
+static double filter_menisci(ZpDynamics *d) {
   double before = kinetic_energy(d);
   zp_implicit_filter(&d->stepper, d->h, d->history.w, d->v);
   return before - kinetic_energy(d);
@@ -796,7 +796,7 @@ static void book_impacts(ZpDynamics *d, ZpState *state) {
   if (!model->field) return;
   *zp_state_row(model, state, &zp_row_contact_loss) += impact(d);
   if (model->has_film)
-    *zp_state_row(model, state, &zp_row_film_across_loss) += model->has_bead ? calm(d) : settle_films(d);
+    *zp_state_row(model, state, &zp_row_film_across_loss) += model->has_bead ? filter_menisci(d) : settle_films(d);
 }
 
 /* Store the state at the step's end, and book the work of the load input. */

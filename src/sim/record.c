@@ -48,14 +48,15 @@ enum {
   OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
 
 /* Members side by side have one opening; each has its own force. */
-enum { NUMBERS_ABREAST = 2 };
-#define ABREAST_OF(member)                                                                                             \
+enum { NUMBERS_PARALLEL = 2 };
+#define PARALLEL_OF(member)                                                                                            \
   {"member_" #member "_force_N", "N", "force with which member " #member " of those side by side pulls the load up"},  \
   {                                                                                                                    \
     "member_" #member "_zipped_length_m", "m", "closed length of one half of member " #member                          \
   }
-#define ABREAST                                                                                                        \
-  ABREAST_OF(1), ABREAST_OF(2), ABREAST_OF(3), ABREAST_OF(4), ABREAST_OF(5), ABREAST_OF(6), ABREAST_OF(7), ABREAST_OF(8)
+#define PARALLEL_MEMBERS                                                                                               \
+  PARALLEL_OF(1), PARALLEL_OF(2), PARALLEL_OF(3), PARALLEL_OF(4), PARALLEL_OF(5), PARALLEL_OF(6), PARALLEL_OF(7),      \
+      PARALLEL_OF(8)
 
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
 #define ZP_ROW(name)                        {zp_row_##name.column, zp_row_##name.unit, zp_row_##name.help},
@@ -64,9 +65,9 @@ static const ZpColumn columns[] = {
     OPENINGS};
 _Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + ZP_MOST_MEMBERS, "one opening for each member");
 
-static const ZpColumn columns_abreast[] = {
+static const ZpColumn columns_parallel[] = {
 #include "sim/columns.def"
-    ABREAST};
+    PARALLEL_MEMBERS};
 
 /* The same where the controller holds a length, and where it holds a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
@@ -74,17 +75,17 @@ static const ZpColumn columns_of_length[] = {
 #include "sim/columns.def"
     OPENINGS};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
-static const ZpColumn columns_abreast_of_length[] = {
+static const ZpColumn columns_parallel_of_length[] = {
 #include "sim/columns.def"
-    ABREAST};
+    PARALLEL_MEMBERS};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_of_capacitance[] = {
 #include "sim/columns.def"
     OPENINGS};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
-static const ZpColumn columns_abreast_of_capacitance[] = {
+static const ZpColumn columns_parallel_of_capacitance[] = {
 #include "sim/columns.def"
-    ABREAST};
+    PARALLEL_MEMBERS};
 #undef ZP_SIGNAL
 #undef ZP_ROW
 
@@ -108,20 +109,20 @@ const ZpColumn *zp_signal_columns(size_t *count) {
 const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
   enum { SERIES, SIDE_BY_SIDE };
   static const ZpColumn *const of[ZpControlSignal_COUNT][2] = {
-      [ZP_CONTROL_OPENING] = {columns_of_length, columns_abreast_of_length},
-      [ZP_CONTROL_STROKE] = {columns_of_length, columns_abreast_of_length},
-      [ZP_CONTROL_CONTRACTION] = {columns, columns_abreast},
-      [ZP_CONTROL_CAPACITANCE] = {columns_of_capacitance, columns_abreast_of_capacitance}};
+      [ZP_CONTROL_OPENING] = {columns_of_length, columns_parallel_of_length},
+      [ZP_CONTROL_STROKE] = {columns_of_length, columns_parallel_of_length},
+      [ZP_CONTROL_CONTRACTION] = {columns, columns_parallel},
+      [ZP_CONTROL_CAPACITANCE] = {columns_of_capacitance, columns_parallel_of_capacitance}};
   *count = 0;
   if (!def) return NULL;
   size_t members = zp_def_members(def) > 1 ? (size_t)zp_def_members(def) : 0;
   int joined = zp_def_parallel(def) ? SIDE_BY_SIDE : SERIES;
-  *count = SIGNAL_COUNT + members * (joined == SIDE_BY_SIDE ? NUMBERS_ABREAST : 1);
+  *count = SIGNAL_COUNT + members * (joined == SIDE_BY_SIDE ? NUMBERS_PARALLEL : 1);
   return of[def->control.kind == ZP_CONTROL_NONE ? ZP_CONTROL_CONTRACTION : def->control.signal][joined];
 }
 
 /* Rows of the ledger that are no signals have their places behind all columns. */
-enum { COLUMNS = sizeof columns_abreast / sizeof columns_abreast[0] }; /* the most of all */
+enum { COLUMNS = sizeof columns_parallel / sizeof columns_parallel[0] }; /* the most of all */
 
 size_t zp_sim_row_size(void) {
   return COLUMNS + ZP_MOST_ROWS;
@@ -387,7 +388,7 @@ static double force_of(const ZpSim *sim) {
 static size_t put_member(const ZpSim *sim, double *place) {
   place[0] = sim->model->parallel ? force_of(sim) : sim->row[SIGNAL_opening];
   if (sim->model->parallel) place[1] = sim->row[SIGNAL_zipped_length];
-  return sim->model->parallel ? NUMBERS_ABREAST : 1;
+  return sim->model->parallel ? NUMBERS_PARALLEL : 1;
 }
 
 /* The same of all members, and numbers of each. */

@@ -221,7 +221,7 @@ static ZpStepLimit limit_of(const ZpSim *sim, ZpStepLimit limit, double corner, 
 
 /* -- a step ---------------------------------------------------------------------------------------- */
 
-/* What a step begins with: the next corner of the inputs or event of the supply, s; the step's latest end, s; and what
+/* The begin of a step: the next corner of the inputs or event of the supply, s; the step's latest end, s; and what
  * tells afterwards whether an event has happened. */
 typedef struct Step {
   double corner, latest;

@@ -288,7 +288,8 @@ static void accept(ZpImplicit *s, double h, double *q, double *v, ZpImplicitHist
   s->counts.steps++;
 }
 
-/* Switch the inertia beyond `mass` on or off. */
+/* Take the fast share of velocities v out, (x / (1 + x))^power of each mode; `all`: x counts the inertia beyond `mass`,
+ * too. */
 static void smooth(ZpImplicit *s, double h, bool all, int power, double *v) {
   size_t n = s->system->n;
   double *fast = s->r, *slow = s->q;

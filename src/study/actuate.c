@@ -50,7 +50,7 @@ static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
-/* What had been booked before a run that resumes began, J. */
+/* Work booked before a run that resumes, J. */
 typedef struct Booked {
   double energy, load_work;
 } Booked;

@@ -1,4 +1,4 @@
-/* What all studies of equilibria have in common: a model at rest, the table and shapes of its points, what materials
+/* The common part of all studies of equilibria: a model at rest, the table and shapes of its points, what materials
  * have seen in them, and the numbers that a system of several members has in addition. */
 #ifndef ZP_STUDY_EQUILIBRIA_H
 #define ZP_STUDY_EQUILIBRIA_H
