@@ -471,6 +471,7 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   *def = plain;
   const ZpDevice *device = zp_device_of(kind);
   status = apply_assignments(def, device->given, device->given_count, err);
+  if (status != ZP_OK) return status;
   apply_preset(def, given.preset, given.mesh.nodes);
   apply_values(def, supply_values, SUPPLY_VALUES, (int)given.source.supply);
   apply_materials(def, &given);

@@ -365,7 +365,7 @@ void zp_value_print_in(int index, const ZpShownUnit *shown, double value, char *
 
 ZpStatus zp_def_set_value(ZpActuatorDef *def, const char *key, const char *text, ZpError *err) {
   int index = zp_key_find(key);
-  double value;
+  double value = NAN;
   if (index < 0 || zp_key(index)->type == ZP_KEY_TEXT) return zp_def_set_word(def, key, text, err);
   ZpStatus status = zp_value_parse(index, text, &value, err);
   return status == ZP_OK ? zp_def_set(def, index, value, err) : status;

@@ -762,12 +762,13 @@ static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) 
 
 /* Each coordinate of the load's nodes keeps its momentum: the impact does not affect the strips. */
 void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
-  const ZpMovingMember *m = d->member;
+  ZpMovingMember *m = d->member;
   const ZpModel *model = m->model;
   const ZpTopology *t = &model->topology;
   double each = zp_end_share(model) * model->def.load.change_mass;
   double fast = sqrt(2 * model->def.gravity * model->def.load.drop_height);
-  weigh(d, (ZpState *const[]){state});
+  memset(d->mass, 0, d->system.n * sizeof *d->mass);
+  add_masses(d, m, zp_state_added(model, state));
   zp_assembly_gather(&m->assembly, zp_state_v(model, state), d->v);
   for (size_t c = 0; c < 2; c++) {
     int row = m->assembly.equation[2 * zp_load_node(t) + c];
