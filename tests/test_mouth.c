@@ -114,6 +114,21 @@ START_TEST(what_it_does_not_have_is_refused) {
 }
 END_TEST
 
+/* The load of a mouth or a fold hangs on the lower ribbon, whose tip rises by twice the amplitude in a cycle; the tip
+ * of the upper one moves, too, and is not loaded. */
+START_TEST(work_of_a_cycle_is_that_on_the_load) {
+  ZpActuatorDef def =
+      DEF(MOUTH, {"actuator.kind", _i ? ZP_KIND_HINGE : ZP_KIND_MOUTH}, {"mesh.nodes", 11}, {"drive.voltage", 500},
+          {"hinge.stiffness", _i ? 2e-3 : 0}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 0.01},
+          {"cycle.method", ZP_CYCLE_LINEAR});
+  ZpResult *result = answer_of(ZP_STUDY_CYCLE, &def);
+  double weight = def.load.mass * def.gravity, risen = 2 * zp_result_get(result, "stroke_amplitude_m");
+  printf("work: %.3e off\n", zp_result_get(result, "work_per_cycle_J") / (weight * risen) - 1);
+  ck_near(zp_result_get(result, "work_per_cycle_J"), weight * risen, 1e-15); /* 2e-16 measured */
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("mouth");
   TCase *rest = tcase_create("rest");
@@ -123,6 +138,7 @@ int main(void) {
   suite_add_tcase(suite, rest);
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, zips_and_keeps_the_books, 0, 2);
+  tcase_add_loop_test(motion, work_of_a_cycle_is_that_on_the_load, 0, 2);
   suite_add_tcase(suite, motion);
   TCase *refused = tcase_create("refused");
   tcase_add_loop_test(refused, what_it_does_not_have_is_refused, 0, LENGTH_OF(refusals));

@@ -242,6 +242,14 @@ static inline double zp_load_pull(const ZpModel *model) {
   return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);
 }
 
+/* Work against this pull, J, while the point that the load hangs on moves by (along, up), m. */
+static inline double zp_load_work(const ZpModel *model, double along, double up) {
+  const ZpActuatorDef *def = &model->def;
+  double weight = def->load.mass * def->gravity;
+  double work = def->load.force * up - weight * (model->fall[0] * along + model->fall[1] * up);
+  return model->parts * zp_load_share(model) * work;
+}
+
 /* Two that pull at one load from opposite sides? */
 static inline bool zp_is_antagonist(const ZpModel *model) {
   return model->distance > 0;

@@ -72,13 +72,11 @@ static double work_on_change(ZpSim *sim, const ZpModel *model) {
 /* Work on a load that does not only rise: at a free end, where a spring of a hinge is not part of it, and that of a
  * platform that turns, J. */
 static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
-  const ZpActuatorDef *def = &model->def;
   ZpMotion motion = zp_state_motion(model, sim->state);
   ZpShape start = zp_shapes_get(result->shapes, 0);
   double along = zp_load_at(model, motion.x) - zp_load_at(model, start.x),
-         up = zp_load_at(model, motion.y) - zp_load_at(model, start.y), weight = def->load.mass * def->gravity;
-  double work = def->load.force * up - weight * (model->fall[0] * along + model->fall[1] * up);
-  return model->parts * zp_load_share(model) * work + work_on_change(sim, model);
+         up = zp_load_at(model, motion.y) - zp_load_at(model, start.y);
+  return zp_load_work(model, along, up) + work_on_change(sim, model);
 }
 
 /* Work against pull and springs of the load from start to end, J. */

@@ -45,6 +45,7 @@ typedef struct Cycles {
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpTable *rows;              /* of the last cycle */
+  double load[PHASES + 1][2]; /* x and y of the point that the load hangs on, by row, m */
   double period;              /* s */
   double highest;             /* size of the command, V */
   double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with: */
@@ -75,6 +76,9 @@ typedef struct Cycles {
 
 /* The row at a phase of the cycle under way; the first and the last are its ends. */
 static void keep_row(Cycles *c) {
+  ZpMotion motion = zp_state_motion(c->model, c->sim->state);
+  c->load[c->rows->rows][0] = zp_load_at(c->model, motion.x);
+  c->load[c->rows->rows][1] = zp_load_at(c->model, motion.y);
   zp_sim_read(c->sim, c->rows->value + c->rows->rows * c->rows->columns);
   c->rows->rows++;
   zp_sim_see(c->sim);
@@ -467,14 +471,20 @@ static double phase_of(const Cycles *c) {
   return phase < -0.5 * zp_pi ? phase + 2 * zp_pi : phase; /* a lag above its resonance is near pi */
 }
 
-/* Work against pull and springs of the load on the way up, J; on the way down it is returned. */
+/* Work against pull and springs of the load in row k, J. A spring of a hinge is not part of the load. */
+static double work_in_row(const Cycles *c, int k) {
+  const double *from = c->load[k], *to = c->load[k + 1];
+  if (!zp_has_platform(&c->model->topology)) return zp_load_work(c->model, to[0] - from[0], to[1] - from[1]);
+  double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m");
+  double compressed = at(c, k + 1, "spring_energy_J") - at(c, k, "spring_energy_J");
+  return zp_load_pull(c->model) * risen + compressed;
+}
+
+/* Their sum on the way up, J; on the way down it is returned. */
 static double work_of(const Cycles *c) {
   double work = 0;
-  for (int k = 0; k < PHASES; k++) {
-    double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m");
-    double compressed = at(c, k + 1, "spring_energy_J") - at(c, k, "spring_energy_J");
-    work += fmax(zp_load_pull(c->model) * risen + compressed, 0);
-  }
+  for (int k = 0; k < PHASES; k++)
+    work += fmax(work_in_row(c, k), 0);
   return work;
 }
 
