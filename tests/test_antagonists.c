@@ -177,6 +177,27 @@ START_TEST(forces_of_each_alone_balance) {
 }
 END_TEST
 
+/* Where the load is held, the lower one takes from the pull of the upper one, each as it is alone at its opening and
+ * voltage. Voltages of both in proportion, or a constant one of the lower one. */
+START_TEST(held_load_takes_the_difference) {
+  static const char *const names[] = {"force_N", "force_unpowered_N", "charge_C", "capacitance_F"};
+  ZpActuatorDef def = DEF(BOTH, {"drive.voltage", 4e3}, {"isometric.separation", 7e-3},
+                          {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 21});
+  zp_def_set(&def, zp_key_find(_i ? "stack.lower_voltage" : "stack.voltage_ratio"), _i ? 3e3 : 1.5, NULL);
+  ZpActuatorDef one[] = {alone(&def, false), alone(&def, true)};
+  one[1].isometric.separation = 13e-3;
+  one[1].drive.voltage = _i ? 3e3 : 6e3;
+  ZpResult *both = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  for (size_t k = 0; k < LENGTH_OF(names); k++) {
+    double upper = answered_value(ZP_STUDY_ISOMETRIC, &one[0], names[k]),
+           lower = answered_value(ZP_STUDY_ISOMETRIC, &one[1], names[k]);
+    ck_near(zp_result_get(both, names[k]), k < 2 ? upper - lower : upper + lower, 1.8e-10); /* 6.3e-11 measured */
+  }
+  ck_near(zp_result_get(both, "lower_opening_m"), 13e-3, 1e-12); /* 3.4e-15 measured */
+  zp_result_destroy(both);
+}
+END_TEST
+
 /* Each is closed from its clip as far as it is alone where it is held at its opening and voltage. */
 START_TEST(each_is_closed_as_far_as_alone) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 4e3}, {"stack.voltage_ratio", 1.4});
@@ -531,7 +552,9 @@ START_TEST(what_antagonists_lack_is_said) {
       {{{"stack.voltage_ratio", 0.5}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
       {{{"stack.series", 2}, {"stack.distance", 0.2}}, ZP_STUDY_STATIONARY, "span at most"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_CYCLE, "study cycle"},
-      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_ISOMETRIC, "study isometric"},
+      {{{"stack.series", 2}, {"stack.distance", 0.02}, {"isometric.separation", 0.02}},
+       ZP_STUDY_ISOMETRIC,
+       "below stack.distance"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"stack.link_mass", 1e-3}}, ZP_STUDY_ACTUATE, "load.mass"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"initial.state", ZP_INITIAL_STRAIGHT}},
        ZP_STUDY_ACTUATE,
@@ -558,6 +581,7 @@ int main(void) {
   tcase_add_test(rest, stiffness_is_the_slope_of_the_force);
   tcase_add_test(rest, voltage_moves_the_residual);
   tcase_add_loop_test(rest, forces_of_each_alone_balance, 0, 1);
+  tcase_add_loop_test(rest, held_load_takes_the_difference, 0, 2);
   tcase_add_test(rest, each_is_closed_as_far_as_alone);
   tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
   tcase_add_test(rest, one_closes_where_the_way_is_highest);

@@ -288,6 +288,57 @@ START_TEST(closed_length_is_the_least_of_all) {
 }
 END_TEST
 
+/* Held at one opening, unequal members do not see each other: forces, charges and derivatives are the sums of those of
+ * each alone, at every voltage. */
+START_TEST(held_ones_pull_as_each_alone) {
+  static const char *const names[] = {"force_N", "force_unpowered_N", "charge_C", "capacitance_F"};
+  ZpActuatorDef def = unlike();
+  def.isometric.separation = 2e-3;
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "medium.permittivity");
+  double sum[LENGTH_OF(names)] = {0}, half_way = 0, slope = 0;
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef one = zp_def_member(&def, k + 1);
+    ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &one);
+    for (size_t j = 0; j < LENGTH_OF(names); j++)
+      sum[j] += zp_result_get(result, names[j]);
+    slope += slope_in(result, "force_N", "medium.permittivity");
+    one.drive.voltage *= 0.5;
+    half_way += answered_value(ZP_STUDY_ISOMETRIC, &one, "force_N");
+    zp_result_destroy(result);
+  }
+  ZpResult *all = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  for (size_t j = 0; j < LENGTH_OF(names); j++)
+    ck_near(zp_result_get(all, names[j]), sum[j], 1e-12);                 /* 2.7e-15 measured */
+  ck_near(slope_in(all, "force_N", "medium.permittivity"), slope, 3e-11); /* 1.0e-11 measured */
+  size_t row = 0;
+  while (zp_table_get(all->series, row, "voltage_V") < 0.5 * def.drive.voltage)
+    row++;
+  ck_assert_double_eq(zp_table_get(all->series, row, "voltage_V"), 0.5 * def.drive.voltage);
+  ck_near(zp_table_get(all->series, row, "force_N"), half_way, 1e-12); /* 6.7e-16 measured */
+  zp_result_destroy(all);
+}
+END_TEST
+
+/* With members whose keys have nearly equal values, force and stiffness are as many times those of one as with the
+ * factor of equal ones. */
+START_TEST(equal_ones_are_held_as_one) {
+  ZpActuatorDef def = DEF({"stack.parallel", 3}, {"mesh.nodes", _i ? 61 : 21}, {"drive.voltage", 6e3},
+                          {"isometric.separation", 2e-3}),
+                apart = def;
+  zp_def_set(&apart, zp_key_find("member_2.ribbon.thickness"), nextafter(def.ribbon.thickness, 1), NULL);
+  snprintf(apart.sensitivity.by, sizeof apart.sensitivity.by, "isometric.separation");
+  ZpResult *factor = answer_of(ZP_STUDY_ISOMETRIC, &def), *members = answer_of(ZP_STUDY_ISOMETRIC, &apart);
+  ck_near(zp_result_get(members, "force_N"), zp_result_get(factor, "force_N"), 1e-12);   /* 3.3e-16 measured */
+  ck_near(zp_result_get(members, "charge_C"), zp_result_get(factor, "charge_C"), 1e-12); /* 5.3e-14 measured */
+  ck_assert_double_eq(zp_result_get(members, "other_states"), 3 * zp_result_get(factor, "other_states"));
+  double slope = slope_in(members, "force_N", "isometric.separation") +
+                 slope_in(members, "force_unpowered_N", "isometric.separation");
+  ck_near(zp_result_get(members, "stiffness_N_per_m"), slope, 5e-12); /* 1.8e-12 measured */
+  zp_result_destroy(factor);
+  zp_result_destroy(members);
+}
+END_TEST
+
 /* The stiffness is how the sum of forces goes with the opening: that is what a little more load says. */
 START_TEST(stiffness_side_by_side_is_the_slope) {
   static const double little = 1e-5; /* N */
@@ -413,7 +464,6 @@ START_TEST(what_unlike_ones_lack_is_said) {
     const char *says;
   } refused[] = {
       {{"mesh.nodes", 21}, ZP_STUDY_CYCLE, "study cycle does not support this"},
-      {{"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "hold each member alone"},
       {{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support this"},
       {{"stack.parallel", 9}, ZP_STUDY_STATIONARY, "stack.parallel = 9: with keys of member_K it is at most 8"},
       {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
@@ -501,7 +551,7 @@ START_TEST(what_a_stack_lacks_is_said) {
       {{"stack.series", 2}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, ZP_STUDY_ACTUATE, "actuator.symmetry half"},
       {{"stack.series", 2}, {"source.model", ZP_SOURCE_AMPLIFIER}, ZP_STUDY_ACTUATE, "source.model ideal"},
       {{"stack.series", 2}, {"load.stop_opening", 1e-2}, ZP_STUDY_LIMITS, "between the platforms of a single actuator"},
-      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "separations of a series add up"},
+      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "at one force their separations add up"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_CYCLE, "let study actuate run"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_PROFILE, "use stack.series 1"},
       {{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}, ZP_STUDY_LIMITS, "stack.series of at least 3"},
@@ -870,6 +920,8 @@ int main(void) {
   tcase_add_test(rest, what_a_stack_lacks_is_said);
   tcase_add_test(rest, forces_carry_the_load);
   tcase_add_test(rest, force_of_each_is_as_alone);
+  tcase_add_test(rest, held_ones_pull_as_each_alone);
+  tcase_add_loop_test(rest, equal_ones_are_held_as_one, 0, 2);
   tcase_add_test(rest, closed_length_is_the_least_of_all);
   tcase_add_test(rest, stiffness_side_by_side_is_the_slope);
   tcase_add_test(rest, what_unlike_ones_lack_is_said);

@@ -67,8 +67,7 @@ static void lay_straight(ZpStatics *s) {
   }
 }
 
-/* Upside down, the platform of the lower antagonist falls as the load rises. */
-static double factor_of(const ZpStatics *s, size_t which) {
+double zp_statics_factor(const ZpStatics *s, size_t which) {
   return which > 0 && s->distance > 0 ? -1 : 1;
 }
 
@@ -365,11 +364,22 @@ static void open_and_put_on(ZpStatics *s, double opening) {
   put_on(s, opening / s->held_at);
 }
 
-ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
-  double suction = s->member->model->bead.suction;
+void zp_statics_hold_at(ZpStatics *s, double opening) {
   s->U = 0;
   s->load = 0;
   s->opening = s->held_at = opening;
+  s->contact_acts = true;
+}
+
+void zp_statics_take_member(ZpStatics *s, size_t which, const ZpStatics *alone) {
+  ZpRestMember *to = &s->member[which];
+  memcpy(to->q, alone->member->q, zp_coordinates(to->model) * sizeof *to->q);
+  memcpy(to->tension, alone->member->tension, zp_lanes(to->model) * sizeof *to->tension);
+}
+
+ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
+  double suction = s->member->model->bead.suction;
+  zp_statics_hold_at(s, opening);
   s->contact_acts = false;
   put_suction(s, 0, 1);
   lay_straight(s);
@@ -960,12 +970,12 @@ static void meet(ZpStatics *s) {
   if (!s->shared) return;
   double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = -opening_of(s->member);
   for (size_t k = 1; k < s->members; k++) {
-    missed[k] = first + factor_of(s, k) * opening_of(&s->member[k]) + s->distance;
+    missed[k] = first + zp_statics_factor(s, k) * opening_of(&s->member[k]) + s->distance;
     mean += missed[k] / (double)s->members;
   }
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    put_platform(m, factor_of(s, k) * (missed[k] - mean) - opening_of(m));
+    put_platform(m, zp_statics_factor(s, k) * (missed[k] - mean) - opening_of(m));
   }
 }
 
@@ -1279,7 +1289,11 @@ double zp_statics_member_force(ZpStatics *s, size_t which) {
 
 double zp_statics_load_stiffness(ZpStatics *s) {
   size_t load = zp_statics_platform(s);
-  if (!tangent(s)) return NAN;
+  double opening = s->opening;
+  s->opening = NAN; /* as if it were free */
+  bool regular = tangent(s);
+  s->opening = opening;
+  if (!regular) return NAN;
   memset(s->newton.r, 0, s->n * sizeof *s->newton.r);
   s->newton.r[load] = 1;
   zp_band_solve(&s->newton.K, s->newton.r);

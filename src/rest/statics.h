@@ -115,6 +115,15 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
 
+/* The same without going anywhere: the present point is already near the equilibrium there, with faces that push. */
+void zp_statics_hold_at(ZpStatics *statics, double opening);
+
+/* A member takes the present shape of an actuator that is its only one. */
+void zp_statics_take_member(ZpStatics *statics, size_t which, const ZpStatics *alone);
+
+/* 1, or -1 of a lower antagonist: upside down, its platform falls as the load rises. */
+double zp_statics_factor(const ZpStatics *statics, size_t which);
+
 /* The equation of the lower platform's height. */
 size_t zp_statics_platform(const ZpStatics *statics);
 

@@ -5,12 +5,16 @@
  * that branch rises, this is the state to which a slowly rising voltage leads. Where it turns back (a limit point), the
  * state jumps. The branch is followed through the turn until it is stable and above the voltage of the turn again:
  * there the jump lands. If the branch never gets there, the state is released at the turn and lands where slow motion
- * against a resistance ends. Theory, section 13. */
+ * against a resistance ends. Theory, section 13.
+ *
+ * Members whose platforms are one do not see each other while it is held. Each follows a branch of its own, from one
+ * level of the voltage to the next; their states together are a state of the whole. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "def/device.h"
 #include "rest/crossing.h"
 #include "study/equilibria.h"
@@ -24,18 +28,21 @@ static const ZpColumn columns[] = {
     {"stable", "1", "1: stable, 0: unstable"},
     {"passed", "1", "1: a rising voltage passes through this state, 0: it jumps over it"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000, LEVELS = 20 };
 
 /* The branch is searched for other states at drive.voltage up to this multiple of it. */
 static const double look_beyond = 1.25;
 
 typedef struct Holder {
   ZpEquilibria at;
+  struct Holder *member; /* [members] of several: each alone, without rows of its own; NULL: it is one */
+  bool is_member;
+  double top;          /* voltage to which it is raised, V */
   void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
   bool rising;         /* before the last step */
   void *edge;          /* before the last turn */
   void *unpowered_state;
-  double unpowered;        /* force that holds the platform without voltage, N, whole actuator */
+  double unpowered;        /* force that holds the platform without voltage, N, whole actuator; NAN: not found */
   double unpowered_moment; /* of a fold: its moment about the hinge, N m */
   double highest;          /* voltage that the branch has reached, V */
   double force;            /* at the last state that was passed, N */
@@ -83,6 +90,7 @@ static bool is_stable(Holder *h) {
 
 static void record(Holder *h, bool passed, bool last) {
   ZpStatics *s = &h->at.rest.statics;
+  if (h->is_member) return;
   bool stable = is_stable(h);
   double force = holding(h) - h->unpowered;
   zp_equilibria_add(&h->at, (double[COLUMNS + ZP_BEHIND]){s->U, force, ZP_ELECTRIC_VALUES(s), stable, passed},
@@ -131,10 +139,9 @@ static void look_at(Holder *h, double direction, bool *turned) {
 /* How following the branch ends. */
 typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
 
-/* Follow the branch until it has reached drive.voltage within its last step. If it turns back or is lost, `edge` is the
+/* Follow the branch until it has reached `top` within its last step. If it turns back or is lost, `edge` is the
  * state from which it is released. */
 static End follow(Holder *h) {
-  double top = h->at.model->def.drive.voltage;
   ZpStatics *s = &h->at.rest.statics;
   bool turned = false;
   h->at.rest.system.save(s, h->edge);
@@ -147,9 +154,9 @@ static End follow(Holder *h) {
     if (!further && !turned) memcpy(h->edge, h->before, h->at.rest.system.save_size);
     if (!further) return turned ? TURNED_FOR_GOOD : LOST;
     look_at(h, direction, &turned);
-    if (fmax(h->highest, s->U) > top) {
+    if (fmax(h->highest, s->U) > h->top) {
       h->at.rest.system.save(s, h->near);
-      if (s->U < top)
+      if (s->U < h->top)
         memcpy(h->near, h->before, h->at.rest.system.save_size); /* reached and turned back within this step */
       return ARRIVED;
     }
@@ -164,11 +171,10 @@ static End follow(Holder *h) {
 static bool fall(Holder *h, bool turned) {
   static const double above[] = {1e-3, 3e-3, 1e-2}, least = 1e-5; /* of that voltage, of drive.voltage */
   ZpStatics *s = &h->at.rest.statics;
-  double top = h->at.model->def.drive.voltage;
   bool found = false;
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     h->at.rest.system.restore(s, h->edge);
-    double U = fmin((1 + above[k]) * h->highest + least * top, top);
+    double U = fmin((1 + above[k]) * h->highest + least * h->at.model->def.drive.voltage, h->top);
     found = zp_newton_good(zp_statics_relax(s, U).end) && is_possible(h);
   }
   if (!found) return false;
@@ -186,45 +192,44 @@ static End rise(Holder *h) {
   return end;
 }
 
-/* The state at drive.voltage from the present point near it. */
+/* The state at `top` from the present point near it. */
 static bool settle(Holder *h, ZpNewtonInfo *info) {
   int iterations = info->iterations;
-  *info = zp_rest_settle(&h->at.rest, h->at.model->def.drive.voltage);
+  *info = zp_rest_settle(&h->at.rest, h->top);
   info->iterations += iterations;
   return zp_newton_good(info->end) && is_stable(h) && is_answer(h);
 }
 
 /* If that fails, limit points are near: repeat the branch's last step in shorter and shorter ones. */
 static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
-  enum { LEVELS = 4, FINER = 8 };
+  enum { TIMES = 4, FINER = 8 };
   ZpStatics *s = &h->at.rest.statics;
   double step = taken;
-  for (int level = 0, most = 4 * FINER; level < LEVELS; level++, most *= FINER) {
+  for (int level = 0, most = 4 * FINER; level < TIMES; level++, most *= FINER) {
     step /= FINER;
     h->at.rest.system.restore(s, h->before);
     if (!zp_rest_follow_by(&h->at.rest, h->rising, step, step)) return false;
-    for (int k = 0; k < most && s->U < h->at.model->def.drive.voltage; k++)
+    for (int k = 0; k < most && s->U < h->top; k++)
       if (!zp_branch_advance(&h->at.rest.branch)) return false;
     if (settle(h, info)) return true;
   }
   return false;
 }
 
-/* If that fails too, a limit point is just below: the state falls from there to an equilibrium at drive.voltage. */
+/* If that fails too, a limit point is just below: the state falls from there to an equilibrium at `top`. */
 static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
   h->at.rest.system.restore(&h->at.rest.statics, h->before);
-  *info = zp_statics_relax(&h->at.rest.statics, h->at.model->def.drive.voltage);
+  *info = zp_statics_relax(&h->at.rest.statics, h->top);
   return zp_newton_good(info->end) && is_answer(h);
 }
 
-/* Further along the branch: other stable states at drive.voltage. */
+/* Further along the branch: other stable states at `top`. */
 static void count_others(Holder *h) {
-  double top = h->at.model->def.drive.voltage;
   ZpStatics *s = &h->at.rest.statics;
   for (int k = 0; k < MOST_BEYOND; k++) {
-    bool below = s->U < top;
-    if (!zp_branch_advance(&h->at.rest.branch) || s->U < 0 || s->U > look_beyond * top) return;
-    if (!below || s->U < top || !is_stable(h) || zp_statics_fault(s)) continue;
+    bool below = s->U < h->top;
+    if (!zp_branch_advance(&h->at.rest.branch) || s->U < 0 || s->U > look_beyond * h->top) return;
+    if (!below || s->U < h->top || !is_stable(h) || zp_statics_fault(s)) continue;
     h->others++;
     h->other_force = force(h);
   }
@@ -233,7 +238,7 @@ static void count_others(Holder *h) {
 static void summarize(Holder *h, const ZpNewtonInfo *info) {
   ZpResult *r = h->at.result;
   const ZpStatics *s = &h->at.rest.statics;
-  bool found = h->outcome == ZP_CONVERGED, held = h->outcome != ZP_NOT_SETTLED;
+  bool found = h->outcome == ZP_CONVERGED, held = !isnan(h->unpowered);
   zp_result_add(r, "force_N", "N", found ? holding(h) - h->unpowered : NAN);
   zp_result_add(r, "force_unpowered_N", "N", held ? h->unpowered : NAN);
   zp_result_add(r, "opening_m", "m", held ? zp_statics_opening(s) : NAN);
@@ -248,6 +253,7 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
   zp_result_add(r, "jumps", "count", held ? (double)h->jumps : (double)NAN);
   zp_result_add(r, "iterations", "count", info->iterations);
   zp_result_add(r, "residual", "1", isfinite(info->residual) ? info->residual : NAN);
+  if (found) zp_equilibria_add_members(&h->at);
 }
 
 static void note(Holder *h) {
@@ -267,41 +273,183 @@ static void note(Holder *h) {
         h->others, h->others == 1 ? "" : "s", h->other_force);
 }
 
-static void describe(Holder *h) {
-  ZpResult *r = h->at.result;
-  size_t size = sizeof r->message;
+/* => message [size] */
+static void describe(const Holder *h, char *message, size_t size) {
   double top = h->at.model->def.drive.voltage;
   const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->at.rest.statics);
   if (h->outcome == ZP_NOT_SETTLED)
-    snprintf(r->message, size, "no equilibrium without voltage found at isometric.separation = %g m",
+    snprintf(message, size, "no equilibrium without voltage found at isometric.separation = %g m",
              h->at.model->def.isometric.separation);
   else if (h->outcome == ZP_INTERRUPTED)
-    snprintf(r->message, size, "interrupted at %.4g V", h->at.rest.statics.U);
+    snprintf(message, size, "interrupted at %.4g V", h->at.rest.statics.U);
   else if (h->outcome == ZP_BEYOND_MODEL)
-    snprintf(r->message, size,
+    snprintf(message, size,
              "no force at drive.voltage = %g V: " ZP_FACES_CROSS "; " ZP_LESS_STEEP "; the results so far are kept",
              top);
   else if (h->outcome == ZP_BRANCH_LOST)
-    snprintf(r->message, size,
+    snprintf(message, size,
              "the rising voltage was followed to %.4g V only, of drive.voltage = %g V%s%s; set more mesh.nodes; the "
              "results so far are kept",
              h->highest, top, trouble ? "; there " : "", trouble ? trouble : "");
   else
-    snprintf(r->message, size, "%g V pull with %.4g N", top, zp_result_get(r, "force_N"));
+    snprintf(message, size, "%g V pull with %.4g N", top, zp_result_get(h->at.result, "force_N"));
 }
 
-/* From the unpowered state to the one at drive.voltage. */
-static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
+/* From the present state to the one at this voltage, V, the first time that a rising voltage reaches it. `last`: look
+ * for others there. */
+static void raise_voltage(Holder *h, double top, bool last, ZpNewtonInfo *info) {
+  h->top = top;
   End end = rise(h);
   if (end != ARRIVED) h->outcome = ZP_BRANCH_LOST;
   if (end != ARRIVED) return;
   double taken = h->at.rest.branch.taken;
-  count_others(h);
+  if (last) count_others(h);
   h->at.rest.system.restore(&h->at.rest.statics, h->near);
   if (settle(h, info) || settle_closer(h, taken, info) || settle_beyond(h, info))
-    record(h, true, true);
+    record(h, true, last);
   else
     h->outcome = h->cross ? ZP_BEYOND_MODEL : ZP_BRANCH_LOST;
+}
+
+/* To the unpowered state. */
+static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
+  ZpStatics *s = &h->at.rest.statics;
+  *info = zp_statics_hold(s, h->at.model->def.isometric.separation);
+  if (zp_newton_good(info->end)) {
+    h->unpowered = holding(h);
+    h->unpowered_moment = moment(h);
+    h->at.rest.system.save(s, h->unpowered_state);
+    record(h, true, false);
+  } else {
+    h->outcome = ZP_NOT_SETTLED;
+  }
+}
+
+static void run_one(Holder *h, ZpNewtonInfo *info) {
+  double voltage = h->at.model->def.drive.voltage;
+  hold_unpowered(h, info);
+  if (h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, voltage, true, info);
+}
+
+/* -- several members ------------------------------------------------------------------------------ */
+
+/* One of them alone, at the opening that it has while the lower platform is held. */
+static ZpActuatorDef alone(const ZpActuatorDef *def, int member) {
+  ZpActuatorDef one = zp_def_member(def, member);
+  if (zp_def_antagonist(def) && member == 2) one.isometric.separation = def->stack.distance - def->isometric.separation;
+  return one;
+}
+
+static ZpStatus open_members(Holder *h, const ZpActuatorDef *bare, ZpError *err) {
+  size_t members = h->at.rest.statics.members;
+  if (members == 1) return ZP_OK;
+  h->member = zp_calloc(members, sizeof *h->member);
+  if (!h->member) return zp_fail_memory(err);
+  ZpStatus status = ZP_OK;
+  for (size_t k = 0; k < members && status == ZP_OK; k++) {
+    Holder *one = &h->member[k];
+    ZpActuatorDef def = alone(bare, (int)k + 1);
+    one->is_member = true;
+    one->outcome = ZP_CONVERGED;
+    status = zp_model_create(&def, &one->at.model, err);
+    if (status == ZP_OK && !zp_rest_open(&one->at.rest, one->at.model, reserve, one)) status = zp_fail_memory(err);
+    one->at.rest.statics.stop = h->at.rest.statics.stop;
+    one->at.rest.statics.caller = h->at.rest.statics.caller;
+  }
+  return status;
+}
+
+static void close_members(Holder *h) {
+  for (size_t k = 0; h->member && k < h->at.rest.statics.members; k++)
+    zp_equilibria_close(&h->member[k].at);
+  zp_free(h->member);
+}
+
+/* All are where each is alone: settle as one system at voltage U of the first one, V, with a share of the lower one's
+ * own voltage. */
+static bool join(Holder *h, double U, double bias, ZpNewtonInfo *info) {
+  ZpStatics *s = &h->at.rest.statics;
+  int iterations = info->iterations;
+  for (size_t k = 0; k < s->members; k++)
+    zp_statics_take_member(s, k, &h->member[k].at.rest.statics);
+  s->bias = bias;
+  *info = zp_rest_settle(&h->at.rest, U);
+  info->iterations += iterations;
+  return zp_newton_good(info->end) && is_stable(h);
+}
+
+static void hold_members(Holder *h, ZpNewtonInfo *info) {
+  ZpStatics *s = &h->at.rest.statics;
+  zp_statics_hold_at(s, h->at.model->def.isometric.separation);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpNewtonInfo own;
+    hold_unpowered(&h->member[k], &own);
+    info->iterations += own.iterations;
+    if (h->member[k].outcome != ZP_CONVERGED) h->outcome = h->member[k].outcome;
+    s->stopped |= h->member[k].at.rest.statics.stopped;
+  }
+  if (h->outcome == ZP_CONVERGED && !join(h, 0, 0, info)) h->outcome = ZP_NOT_SETTLED;
+  if (h->outcome != ZP_CONVERGED) return;
+  h->unpowered = holding(h);
+  h->at.rest.system.save(s, h->unpowered_state);
+  record(h, true, false);
+}
+
+/* Raise each to its voltage where the first one has U. */
+static void raise_members(Holder *h, double U, bool last, ZpNewtonInfo *info) {
+  ZpStatics *s = &h->at.rest.statics;
+  for (size_t k = 0; k < s->members && h->outcome == ZP_CONVERGED; k++) {
+    Holder *one = &h->member[k];
+    ZpNewtonInfo own = {.iterations = 0};
+    s->U = U;
+    double voltage = zp_statics_member_voltage(s, k);
+    if (voltage > one->top) raise_voltage(one, voltage, last || voltage == one->at.model->def.drive.voltage, &own);
+    info->iterations += own.iterations;
+    h->outcome = one->outcome;
+    s->stopped |= one->at.rest.statics.stopped;
+  }
+}
+
+/* Numbers of each that are sums of all. */
+static void sum_up(Holder *h) {
+  double other = 0;
+  for (size_t k = 0; k < h->at.rest.statics.members; k++) {
+    Holder *one = &h->member[k];
+    h->jumps += one->jumps;
+    h->others += one->others;
+    if (fabs(one->leap) > fabs(h->leap)) h->leap = one->leap;
+    if (one->others > 0) other = zp_statics_factor(&h->at.rest.statics, k) * (one->other_force - force(one));
+  }
+  h->other_force = force(h) + other;
+}
+
+static void run_members(Holder *h, ZpNewtonInfo *info) {
+  double top = h->at.model->def.drive.voltage;
+  int levels = top > 0 ? LEVELS : 0;
+  *info = (ZpNewtonInfo){.iterations = 0};
+  hold_members(h, info);
+  h->at.rest.statics.bias = 1;
+  for (int level = h->at.model->bias > 0 ? 0 : 1; level <= levels && h->outcome == ZP_CONVERGED; level++) {
+    double U = top * level / levels;
+    raise_members(h, levels > 0 ? U : 0, level == levels, info);
+    if (h->outcome == ZP_CONVERGED && !join(h, levels > 0 ? U : 0, 1, info)) h->outcome = ZP_BRANCH_LOST;
+    if (h->outcome == ZP_CONVERGED) record(h, true, level == levels);
+  }
+  if (h->outcome == ZP_CONVERGED) sum_up(h);
+}
+
+/* The first one that has not arrived gives the reason. */
+static void describe_all(Holder *h) {
+  char *message = h->at.result->message;
+  size_t size = sizeof h->at.result->message;
+  bool of_one = h->member && h->outcome != ZP_INTERRUPTED;
+  for (size_t k = 0; of_one && k < h->at.rest.statics.members; k++) {
+    if (h->member[k].outcome == ZP_CONVERGED) continue;
+    int used = snprintf(message, size, "member %zu of the stack: ", k + 1);
+    describe(&h->member[k], message + used, size - (size_t)used);
+    return;
+  }
+  describe(h, message, size);
 }
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
@@ -376,19 +524,14 @@ static ZpStatus derive_all(Holder *h, ZpError *err) {
 
 static void run(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
-  ZpNewtonInfo info = zp_statics_hold(s, h->at.model->def.isometric.separation);
-  if (zp_newton_good(info.end)) {
-    h->unpowered = holding(h);
-    h->unpowered_moment = moment(h);
-    h->at.rest.system.save(s, h->unpowered_state);
-    record(h, true, false);
-    if (h->at.model->def.drive.voltage > 0) raise_voltage(h, &info);
-  } else {
-    h->outcome = ZP_NOT_SETTLED;
-  }
+  ZpNewtonInfo info;
+  if (h->member)
+    run_members(h, &info);
+  else
+    run_one(h, &info);
   if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);
-  describe(h);
+  describe_all(h);
   note(h);
   h->at.result->outcome = h->outcome;
   h->at.rest.system.save(s, h->near);
@@ -408,18 +551,35 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it holds a platform, or the free end of the lower of two ribbons"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER,
-            "hold each member alone, without the stack: the separations of a series add up, and the forces of members "
-            "at one "
-            "load, that of a lower antagonist with a minus sign"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_NEVER,
+               "members in series share the force, not the opening: as one closes, another opens; hold each alone, "
+               "without the stack: at one force their separations add up"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
 };
 const ZpRules zp_rules_isometric = ZP_RULES_OF(rule);
 
+/* The lower platform is held within the reach of each. */
+static ZpStatus check_all_held(const ZpActuatorDef *def, ZpError *err) {
+  const double least = zp_key(ZP_KEY(isometric.separation))->min;
+  ZpStatus status = ZP_OK;
+  if (zp_def_members(def) == 1) return zp_check_held(def, err);
+  if (zp_def_antagonist(def) && !(def->stack.distance - def->isometric.separation > least))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "isometric.separation = %g m: below stack.distance = %g m, so that the lower one opens",
+                   def->isometric.separation, def->stack.distance);
+  for (int member = 1; member <= zp_def_members(def) && status == ZP_OK; member++) {
+    ZpActuatorDef one = alone(def, member);
+    ZpError reason;
+    status = zp_check_held(&one, &reason);
+    if (status != ZP_OK) zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
+  }
+  return status;
+}
+
 ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = zp_check_held(def, err);
+  ZpStatus status = check_all_held(def, err);
   if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
@@ -435,10 +595,13 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
                      .columns = COLUMNS,
                      .rows = (size_t)bare.output.samples,
                      .shapes = (size_t)bare.output.shapes},
+              .unpowered = NAN,
               .outcome = ZP_CONVERGED};
   ZpStatus status = zp_equilibria_open(&h.at, &bare, reserve, &h, err);
+  if (status == ZP_OK) status = open_members(&h, &bare, err);
   if (status == ZP_OK) run(&h);
   if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = derive_all(&h, err);
+  close_members(&h);
   zp_equilibria_close(&h.at);
   return status;
 }
