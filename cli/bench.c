@@ -23,7 +23,7 @@ typedef struct Row {
   double error;            /* relative error; NAN without a reference */
 } Row;
 
-/* What is measured, with several numbers of nodes. */
+/* A measurement, repeated with several numbers of nodes. */
 typedef struct Case Case;
 struct Case {
   ZpStatus (*measure)(const Case *of, int nodes, Row *row, ZpError *err); /* => row, except its name */
@@ -104,8 +104,8 @@ static Row row_of_steps(int nodes, double per_step, double step, double start) {
                .error = NAN};
 }
 
-/* The same with the mean step of the paper, for comparison with its cost, which is that of MATLAB code on one thread of
- * an i7-8700. */
+/* A row of steps at the mean step of the paper, for comparison with its cost, which is that of MATLAB code on one
+ * thread of an i7-8700. */
 static Row row_beside_paper(int nodes, double per_step, double start) {
   Row row = row_of_steps(nodes, per_step, 1e-6 * zp_published(ZP_MEAN_STEP, nodes, 0), start);
   row.paper_ratio = 60 * zp_published(ZP_COST, nodes, 0) / row.seconds;

@@ -14,7 +14,7 @@ ZpStatus zp_file_read(const char *path, size_t most, char **text, size_t *size, 
 /* Writes `user` to a file. */
 typedef ZpStatus (*ZpPut)(const void *user, FILE *file, ZpError *err);
 
-/* What put(user, file) writes => *text, to be freed; NULL on failure. */
+/* The text that put(user, file) writes => *text, to be freed; NULL on failure. */
 ZpStatus zp_text_put(ZpPut put, const void *user, char **text, size_t *size, ZpError *err);
 
 #endif
