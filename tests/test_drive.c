@@ -536,7 +536,7 @@ static void *state_by_hand(const ZpModel *model, int often, bool looks, int *sol
     zp_sim_step(sim, 1e-5, NULL, NULL);
   }
   zp_sim_save(sim, state);
-  *solutions = sim->eval.surplus.solutions;
+  *solutions = sim->eval.correction.solutions;
   zp_sim_destroy(sim);
   return state;
 }

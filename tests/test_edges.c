@@ -447,8 +447,8 @@ START_TEST(test_with_solved_field) {
     span.beyond = zp_eval_beyond(&pair[k].eval);
     zp_system_force(pair[k].model, &span, &pair[k].eval, F[k]);
     ZpPlatesTotals t = totals_of(&pair[k], 6e3);
-    energy[k] = t.potential - 36e6 * pair[k].eval.surplus.energy;
-    charge[k] = t.charge + 2 * 6e3 * pair[k].eval.surplus.energy;
+    energy[k] = t.potential - 36e6 * pair[k].eval.correction.energy;
+    charge[k] = t.charge + 2 * 6e3 * pair[k].eval.correction.energy;
   }
   size_t stride = pair[0].model->stride;
   double most = 0;

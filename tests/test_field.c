@@ -514,10 +514,10 @@ START_TEST(test_surplus_makes_plates_the_field) {
   }
   ck_assert(zp_system_solve(model, q, 6e3, &eval));
   ck_assert(zp_system_solve(model, q, 5e3, &eval));
-  ck_assert_int_eq(eval.surplus.solutions, 1); /* without cap it does not depend on the voltage */
+  ck_assert_int_eq(eval.correction.solutions, 1); /* without cap it does not depend on the voltage */
   double beyond = 0;
   for (size_t i = 0; i < model->nodes; i++)
-    beyond += eval.surplus.F[model->stride + 2 * i + 1];
+    beyond += eval.correction.F[model->stride + 2 * i + 1];
   printf("beyond plates: %.1e of the force on the 2 mm wedge\n",
          beyond / plates_force(&model->cross_section, 2e-3, false));
   ck_below(fabs(beyond), 1e-4 * plates_force(&model->cross_section, 2e-3, false));
@@ -621,12 +621,12 @@ static void check_held(ZpSim *sim) {
   ck_assert(zp_system_create(model, true, &e));
   zp_eval_cover(model, (const double[ZP_BEADS]){state->bead[0].reach, state->bead[1].reach}, &e);
   ck_assert(zp_system_solve(model, zp_state_held_at(model, sim->state), state->held_U, &e));
-  ck_assert(memcmp(zp_state_held(model, sim->state), e.surplus.F, 2 * model->stride * sizeof(double)) == 0);
-  ck_assert_double_eq(state->held_charge, e.surplus.charge);
-  ck_assert_double_eq(state->held_energy, e.surplus.energy);
-  ck_assert_double_eq(state->held_capacitance, e.surplus.capacitance);
+  ck_assert(memcmp(zp_state_held(model, sim->state), e.correction.F, 2 * model->stride * sizeof(double)) == 0);
+  ck_assert_double_eq(state->held_charge, e.correction.charge);
+  ck_assert_double_eq(state->held_energy, e.correction.energy);
+  ck_assert_double_eq(state->held_capacitance, e.correction.capacitance);
   for (size_t i = 0; i + 1 < model->nodes && model->has_bead; i++) /* liquid by whole elements, then air */
-    ck_assert_double_eq(e.surplus.cover.part[i], (double)i + 0.5 < state->bead[0].reach / model->l);
+    ck_assert_double_eq(e.correction.cover.part[i], (double)i + 0.5 < state->bead[0].reach / model->l);
   zp_system_destroy(&e);
 }
 

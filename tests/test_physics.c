@@ -209,7 +209,7 @@ START_TEST(test_solved_field_in_motion) {
     worst[2] = fmax(worst[2], fabs(zp_sim_get(sim, "field_energy") / (0.5 * 1.1 * C * U * U) - 1));
   }
   printf("field in motion: capacitance off by %.1e, charge by %.1e, energy by %.1e; %d solutions\n", worst[0], worst[1],
-         worst[2], sim->eval.surplus.solutions);
+         worst[2], sim->eval.correction.solutions);
   for (int k = 0; k < 3; k++)
     ck_below(worst[k], 1e-5);
   zp_field_destroy(&field);

@@ -717,7 +717,7 @@ START_TEST(supply_gives_what_a_solved_field_holds) {
   ZpSim *sim = sim_of(model);
   ZpRunInfo info;
   ck_assert_msg(zp_sim_run(sim, 6e-3, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
-  ck_assert_int_gt(sim->eval.surplus.solutions, 3);
+  ck_assert_int_gt(sim->eval.correction.solutions, 3);
   double parts = zp_sim_get(sim, "electric_work") + zp_sim_get(sim, "source_loss");
   ck_near(sim->state->source_charge, zp_sim_get(sim, "charge"), 1e-12);
   ck_near(zp_sim_get(sim, "source_energy"), parts, 1e-12);

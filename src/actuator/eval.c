@@ -63,9 +63,9 @@ ZpCachedField zp_state_beyond(const ZpModel *model, const ZpState *state) {
 }
 
 ZpCachedField zp_eval_beyond(const ZpEval *e) {
-  const ZpFieldCorrection *surplus = &e->surplus;
-  if (surplus->solutions == 0) return (ZpCachedField){0};
-  return (ZpCachedField){surplus->F, surplus->q, surplus->energy, surplus->charge, surplus->capacitance};
+  const ZpFieldCorrection *correction = &e->correction;
+  if (correction->solutions == 0) return (ZpCachedField){0};
+  return (ZpCachedField){correction->F, correction->q, correction->energy, correction->charge, correction->capacitance};
 }
 
 void zp_eval_cover(const ZpModel *model, const double reach[ZP_BEADS], ZpEval *e) {

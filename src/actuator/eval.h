@@ -35,23 +35,23 @@ typedef struct ZpEval {
   ZpContactEval faces; /* of unilateral contact */
   ZpFilmEval film;
   ZpLeakEval leak;
-  ZpCover cover;             /* where liquid is between the faces, with a bead */
-  double reach[ZP_BEADS];    /* wet length over the span, m */
-  double *open;              /* [N] of a step: share of the long edges at a station where liquid can pass */
-  double meniscus[ZP_BEADS]; /* head at the meniscus, Pa */
-  ZpBead bead_end[ZP_BEADS]; /* where the step ends */
-  double *extra_residual;    /* [own N] what is left of the equations of the laws' own unknowns */
-  double *memory_end;        /* [kept] state of the laws where the span ends */
-  bool solves;               /* it can solve the field, not only hold what was found */
-  ZpFieldCorrection surplus; /* where it does */
-  const char *fault;         /* why the last attempt to find a held force has failed; NULL: it has not */
-  ZpBezierSurface surface;   /* for the free stations; remade when the front moves */
-  ZpGapDerivatives gaps;     /* sum of the terms that depend on gaps */
-  double (*D)[4];            /* [3 edges] stiffness of edges */
-  double *mean_v;            /* [2 stride] of a span, m/s */
-  const double *none;        /* [stride] zeros */
-  double drag_power;         /* lost now, W */
-  double drag_rate;          /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
+  ZpCover cover;                /* where liquid is between the faces, with a bead */
+  double reach[ZP_BEADS];       /* wet length over the span, m */
+  double *open;                 /* [N] of a step: share of the long edges at a station where liquid can pass */
+  double meniscus[ZP_BEADS];    /* head at the meniscus, Pa */
+  ZpBead bead_end[ZP_BEADS];    /* where the step ends */
+  double *extra_residual;       /* [own N] what is left of the equations of the laws' own unknowns */
+  double *memory_end;           /* [kept] state of the laws where the span ends */
+  bool solves;                  /* it can solve the field, not only hold what was found */
+  ZpFieldCorrection correction; /* where it does */
+  const char *fault;            /* why the last attempt to find a held force has failed; NULL: it has not */
+  ZpBezierSurface surface;      /* for the free stations; remade when the front moves */
+  ZpGapDerivatives gaps;        /* sum of the terms that depend on gaps */
+  double (*D)[4];               /* [3 edges] stiffness of edges */
+  double *mean_v;               /* [2 stride] of a span, m/s */
+  const double *none;           /* [stride] zeros */
+  double drag_power;            /* lost now, W */
+  double drag_rate;             /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */
   void *memory;
 } ZpEval;
 

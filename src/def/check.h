@@ -44,9 +44,6 @@ typedef struct ZpKeyGroup {
 /* Word distance of a name from a key, or from the last part of the key plus 1, whichever is less. */
 int zp_key_distance(const char *name, const char *key);
 
-/* (name of a choice key, number of a word) => that word. */
-const char *zp_word_of(const char *key, int choice);
-
 /* Conditions of liquid.model bead on other keys, whatever liquid.model is. Where they fail, auto means none. */
 ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 

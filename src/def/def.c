@@ -478,7 +478,8 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   return apply_assignments(def, list, count, err);
 }
 
-const char *zp_word_of(const char *key, int choice) {
+/* (name of a choice key, number of a word) => that word. */
+static const char *word_of(const char *key, int choice) {
   return zp_key(zp_key_find(key))->choices[choice].word;
 }
 
@@ -520,7 +521,7 @@ static ZpStatus check_reach(const ZpActuatorDef *def, ZpError *err) {
   if ((signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CAPACITANCE) && low < 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "setpoint.value = %g: must be at least 0, because control.signal = %s is never negative", low,
-                   zp_word_of("control.signal", (int)signal));
+                   word_of("control.signal", (int)signal));
   return ZP_OK;
 }
 

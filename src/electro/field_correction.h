@@ -33,11 +33,12 @@ typedef struct ZpFieldCorrection {
 
 /* False if there is no memory. */
 bool zp_field_correction_create(const ZpFieldParams *field, const ZpPlatesParams *plates, double scale,
-                                ZpFieldCorrection *surplus);
-void zp_field_correction_destroy(ZpFieldCorrection *surplus);
+                                ZpFieldCorrection *correction);
+void zp_field_correction_destroy(ZpFieldCorrection *correction);
 
 /* (coordinates as q, voltage, where liquid is; NULL: everywhere) => F, energy, charge. Where the field cannot be solved
  * they stay. Costs nothing where it was solved last. Without voltage: as at 1 V, where nothing is capped. */
-ZpFieldEnd zp_field_correction_solve(ZpFieldCorrection *surplus, const double *q, double voltage, const ZpCover *cover);
+ZpFieldEnd zp_field_correction_solve(ZpFieldCorrection *correction, const double *q, double voltage,
+                                     const ZpCover *cover);
 
 #endif

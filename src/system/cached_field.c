@@ -39,12 +39,12 @@ static ZpEnd refresh_beyond_plates(const ZpModel *model, ZpState *state, const d
   zp_eval_cover(model, (const double[ZP_BEADS]){state->bead[0].reach, state->bead[1].reach}, e);
   if (!zp_system_solve(model, q, state->U, e)) return ZP_END_STOP;
   state->refreshed = state->t;
-  memcpy(zp_state_held(model, state), e->surplus.F, bytes);
+  memcpy(zp_state_held(model, state), e->correction.F, bytes);
   memcpy(zp_state_held_at(model, state), q, bytes);
   state->held_U = state->U;
-  state->held_energy = e->surplus.energy;
-  state->held_charge = e->surplus.charge;
-  state->held_capacitance = e->surplus.capacitance;
+  state->held_energy = e->correction.energy;
+  state->held_charge = e->correction.charge;
+  state->held_capacitance = e->correction.capacitance;
   return ZP_END_FOUND;
 }
 

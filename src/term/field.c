@@ -7,11 +7,11 @@ static bool acts(const ZpModel *model) {
 
 static bool create(const ZpModel *model, ZpEval *e) {
   return !e->solves ||
-         zp_field_correction_create(&model->cross_section, &model->plates, model->field_scale, &e->surplus);
+         zp_field_correction_create(&model->cross_section, &model->plates, model->field_scale, &e->correction);
 }
 
 static void destroy(ZpEval *e) {
-  zp_field_correction_destroy(&e->surplus);
+  zp_field_correction_destroy(&e->correction);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -54,7 +54,7 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
 
 static bool solve(const ZpModel *model, const double *q, double U, ZpEval *e) {
   (void)model;
-  ZpFieldEnd end = zp_field_correction_solve(&e->surplus, q, U, model->has_bead ? &e->cover : NULL);
+  ZpFieldEnd end = zp_field_correction_solve(&e->correction, q, U, model->has_bead ? &e->cover : NULL);
   e->fault = end == ZP_FIELD_SOLVED ? NULL : zp_field_words(end);
   return !e->fault;
 }
