@@ -370,7 +370,7 @@ START_TEST(reading_is_a_row) {
 }
 END_TEST
 
-/* What a result has is counted, and each part of it is read by its place. */
+/* Parts of a result are counted and read by their places. */
 START_TEST(result_is_read_by_calls) {
   ZpActuatorDef *def = coarse_def();
   ZpResult *result = NULL;

@@ -95,8 +95,7 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
   return strcmp(name, "contraction") == 0;
 }
 
-/* What found no state, or diverged, knows how it ended and how many steps it took, not where it is, what it took to get
- * there or what stress it bears. */
+/* A run that diverged, or a study that found no state, may lack these numbers: places, volumes, work and stress. */
 static bool is_of_the_end(const char *name) {
   size_t length = strlen(name);
   if (length > 3 && (strcmp(name + length - 3, "_m3") == 0 || strcmp(name + length - 3, "_Pa") == 0)) return true;

@@ -4,8 +4,8 @@
 The shared libraries export what the headers mark ZP_API and nothing else, under the SOVERSION that the headers say. A
 program that was compiled when this SOVERSION began runs with them: tests/abi keeps its source and the headers of that
 time (a binary would be of one machine). With `grown` it also runs, without another compilation, with a library that has
-more keys, words, signals and outcomes; this compiles the core. `keep` writes the kept
-headers anew, which is allowed only as long as no release has this interface.
+more keys, words, signals and outcomes; this compiles the core. `keep` replaces the kept headers by those of today, which is
+allowed only until a release has this interface.
 """
 
 import pathlib
@@ -68,7 +68,7 @@ HEADERS = "".join("#include <zipact/%s.h>\n" % name for name in ("zipact", "io",
 
 
 def keep():
-    """Write abi-2.h anew, as long as no release has this interface."""
+    """Replace abi-2.h by the headers of today. This is allowed only until a release has this interface."""
     (SCRATCH / "all.c").write_text(HEADERS, encoding="utf-8")
     lines, ours = [], False
     for line in run("cc", "-E", "-I", REPO / "include", SCRATCH / "all.c").stdout.splitlines():

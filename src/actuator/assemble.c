@@ -177,7 +177,7 @@ static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
     a->first[i] = first_of(a, i);
 }
 
-/* The tie of one coordinate, before equations are numbered anew. */
+/* Note the tie of one coordinate, by its equation in its member alone. */
 static void tie(const ZpAssembly *a, const ZpTie *tie, Joined *of) {
   size_t k = of->ties[tie->member]++;
   of->tied[tie->member][k] = (size_t)a->equation[tie->coordinate];

@@ -13,7 +13,7 @@ typedef enum ZpRuleClass {
   ZP_RULE_NOT_MODELLED /* its equations are known, and the program does not have them */
 } ZpRuleClass;
 
-/* What a device has: def/device.h. */
+/* Properties of a device, bits of ZpDevice.has (def/device.h). */
 enum {
   ZP_DEVICE_ELECTRODES = 1, /* that attract each other */
   ZP_DEVICE_PAIR = 2,       /* two ribbons */
@@ -114,7 +114,7 @@ const ZpRule *zp_rule_against(int key, int choice, const ZpActuatorDef *def);
  * but it is flange; why". `asks` stands before "requires": "", "motion " or "study modes ". ZP_OK if `rule` is NULL. */
 ZpStatus zp_rule_fail(const ZpRule *rule, const char *asks, const ZpActuatorDef *def, ZpError *err);
 
-/* Its conditions in words: "liquid.model bead", "electro.edges false". */
+/* A condition in words: "liquid.model bead", "electro.edges false". */
 void zp_condition_text(const ZpCondition *condition, char *text, size_t size);
 
 #endif

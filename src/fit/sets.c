@@ -123,7 +123,7 @@ static bool take_unit(ZpFit *fit, const char *name, const char *stem, const char
   return true;
 }
 
-/* What a column has: numbers in this unit, over `per`. */
+/* Unit of the numbers in a column: a value is number * scale / per. */
 typedef struct Unit {
   ZpUnitScale scale;
   double per;

@@ -265,7 +265,8 @@ static void put_structure(FILE *file, const ZpFmuPlan *plan, const List *list) {
 
 /* -- the file -------------------------------------------------------------------------------------- */
 
-const char *zp_fmu_source_name(const char *file) {
+/* Is this file of the kit a source to compile? => its name below sources/, otherwise NULL. */
+static const char *source_name(const char *file) {
   static const char folder[] = "sources/";
   size_t length = strlen(file);
   bool source = strncmp(file, folder, strlen(folder)) == 0 && length > 2 && strcmp(file + length - 2, ".c") == 0;
@@ -274,7 +275,7 @@ const char *zp_fmu_source_name(const char *file) {
 
 static void put_sources(FILE *file, const ZpFmuPlan *plan, const char *word) {
   for (size_t k = 0; k < plan->sources->count; k++) {
-    const char *name = zp_fmu_source_name(plan->sources->item[k]);
+    const char *name = source_name(plan->sources->item[k]);
     if (name) fprintf(file, "      <%s name=\"%s\"/>\n", word, name);
   }
 }

@@ -30,7 +30,4 @@ ZpStatus zp_fmu_describe(const void *plan, FILE *file, ZpError *err);
 ZpStatus zp_fmu_describe_build(const void *plan, FILE *file, ZpError *err);
 ZpStatus zp_fmu_describe_terminals(const void *plan, FILE *file, ZpError *err);
 
-/* Is this file of the kit a source to compile? => its name below sources/, otherwise NULL. */
-const char *zp_fmu_source_name(const char *file);
-
 #endif

@@ -27,8 +27,8 @@ typedef struct ZpCaseColumn {
   const char *unit, *help; /* help NULL: none */
 } ZpCaseColumn;
 
-/* That table: first the swept keys, where a choice is the number of its word, then the scalars of all runs, in the
- * order of the summary, except those that depend on wall time. */
+/* The table of all runs of a report: first the swept keys, where a choice is the number of its word, then the scalars
+ * of all runs, in the order of the summary, except those that depend on wall time. */
 typedef struct ZpCases {
   const ZpReport *report;
   size_t keys, columns;

@@ -18,8 +18,8 @@ enum {
  * add the place of the value. */
 ZpStatus zp_value_read(int index, const char *text, double *value, ZpError *err);
 
-/* The same for a part of a value or a setting, which messages call `name`: `to = "10": not a length; ...`. It must be a
- * finite number. */
+/* Read a part of a value or a setting, such as the end of a range, in the unit of key `index`: a finite number.
+ * Messages call the part `name`: `to = "10": not a length; ...`. */
 ZpStatus zp_value_read_part(int index, const char *name, const char *text, double *value, ZpError *err);
 
 /* A number with a unit of key `index`, which may be out of its range, infinite, or NAN if there is no memory: for

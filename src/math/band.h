@@ -68,7 +68,7 @@ static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
   return band->lower == 0 ? zp_band_row(band, i) + (j - i) : band->a + i * band->stride + (j + band->lower - i);
 }
 
-/* The same, or in a column of the border, j >= n. */
+/* Entry (i, j) inside the band, or in a column of the border, j >= n. */
 static inline double *zp_band_entry(const ZpBand *band, size_t i, size_t j) {
   if (j < band->n) return zp_band_at(band, i, j);
   return i < band->n ? band->beside + (j - band->n) * band->n + i

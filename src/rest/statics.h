@@ -115,7 +115,8 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
 
-/* The same without going anywhere: the present point is already near the equilibrium there, with faces that push. */
+/* From now on hold the platform as zp_statics_hold does, but stay at the present point. It must be near the equilibrium
+ * there, and its faces may touch. */
 void zp_statics_hold_at(ZpStatics *statics, double opening);
 
 /* A member takes the present shape of an actuator that is its only one. */

@@ -430,9 +430,9 @@ static void run_members(Holder *h, ZpNewtonInfo *info) {
   hold_members(h, info);
   h->at.rest.statics.bias = 1;
   for (int level = h->at.model->bias > 0 ? 0 : 1; level <= levels && h->outcome == ZP_CONVERGED; level++) {
-    double U = top * level / levels;
-    raise_members(h, levels > 0 ? U : 0, level == levels, info);
-    if (h->outcome == ZP_CONVERGED && !join(h, levels > 0 ? U : 0, 1, info)) h->outcome = ZP_BRANCH_LOST;
+    double U = levels > 0 ? top * level / levels : 0;
+    raise_members(h, U, level == levels, info);
+    if (h->outcome == ZP_CONVERGED && !join(h, U, 1, info)) h->outcome = ZP_BRANCH_LOST;
     if (h->outcome == ZP_CONVERGED) record(h, true, level == levels);
   }
   if (h->outcome == ZP_CONVERGED) sum_up(h);

@@ -25,7 +25,7 @@ static bool acts(const ZpModel *model) {
   return DAMPER_COLD(model) > 0;
 }
 
-/* What the coefficient has gained: one number. */
+/* The state has one number, the growth of the coefficient. */
 static size_t state(const ZpModel *model) {
   (void)model;
   return 1;
@@ -36,7 +36,7 @@ static double gained(const ZpModel *model, const ZpSpan *span) {
   return memory ? *memory : 0;
 }
 
-/* What goes up: the load, of coordinates, velocities or accelerations. */
+/* Component of the load in coordinates, velocities or accelerations, upwards. */
 static double load_of(const ZpModel *model, const double *q) {
   return zp_load_at(model, zp_nodes(model, q).y);
 }
