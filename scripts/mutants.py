@@ -3,7 +3,7 @@
 
 tests/mutants/*.txt has the faults: a file, a name, the text and what replaces it.
 
-    src/sim/supply_coupling.c leaves_out_the_cable
+    src/run/supply_coupling.c leaves_out_the_cable
     - charge + [[cable]]
     + 0
 

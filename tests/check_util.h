@@ -14,8 +14,8 @@
 
 #include "actuator/model.h"
 #include "def/def.h"
+#include "run/info.h"
 #include "sanitized.h"
-#include "sim/info.h"
 #include "study/result.h"
 #include "suite.h"
 

@@ -30,14 +30,14 @@ MAY_INCLUDE = {
     "term": ["actuator", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "system": ["term", "actuator", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "rest": ["system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "sim": ["rest", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
-    "study": ["sim", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
+    "run": ["rest", "system", "term", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
+    "study": ["run", "rest", "actuator", "solve", "ribbon", "electro", "contact", "liquid", "paper", "drive", "math", "def", "base"],
     "sample": ["base"],
-    "fmu": ["sim", "actuator", "drive", "def", "base"],
-    "fmu/export": ["fmu", "sim", "actuator", "drive", "def", "base"],
+    "fmu": ["run", "actuator", "drive", "def", "base"],
+    "fmu/export": ["fmu", "run", "actuator", "drive", "def", "base"],
     "io": ["sample", "study", "def", "base"],
     "fmupack": ["io", "fmu", "fmu/export", "base"],
-    "fit": ["io", "study", "sim", "rest", "actuator", "solve", "math", "def", "base"],
+    "fit": ["io", "study", "run", "rest", "actuator", "solve", "math", "def", "base"],
     "campaign": ["fit", "io", "sample", "study", "def", "base"],
     "optimize": ["campaign", "fit", "io", "sample", "study", "def", "base"],
     "reproduce": ["fit", "io", "study", "actuator", "def", "base"],
@@ -51,11 +51,11 @@ POINT_UP = {
     ("def", "drive"),
     ("def", "device"),
     ("def", "term"),
-    ("def", "sim"),
+    ("def", "run"),
 }
 
 # Which of these the public headers stand for: including one is including its folder's interface.
-# model.h and sim.h describe what actuator/ and sim/ share with their users.
+# model.h and sim.h describe what actuator/ and run/ share with their users.
 PUBLIC = {
     "error.h": "base",
     "table.h": "base",
@@ -67,8 +67,8 @@ PUBLIC = {
     "drive.h": "drive",
     "model.h": "actuator",
     "rest.h": "rest",
-    "sim.h": "sim",
-    "checkpoint.h": "sim",
+    "sim.h": "run",
+    "checkpoint.h": "run",
     "study.h": "study",
     "zipact.h": "study",
     "io.h": "io",
@@ -93,7 +93,7 @@ ROUNDED_BY_LIBM = re.compile(
     r"(?<![\w.>])(hypot|pow|cbrt|exp2?|expm1|log|log2|log10|log1p|sin|cos|tan|asin|acos|atan2?|sinh|cosh|tanh|asinh|acosh|atanh"
     r"|erfc?|[lt]gamma|fma)\s*\("
 )
-PROGRESS_ONLY = {("src/sim/settle.c", "log10")}  # in no result
+PROGRESS_ONLY = {("src/run/settle.c", "log10")}  # in no result
 ALLOCATOR = re.compile(r"(?<![\w.>])(malloc|calloc|realloc|aligned_alloc|posix_memalign|strdup|strndup|free)\s*\(")
 
 
@@ -534,7 +534,7 @@ FORCE_OF_A_LAW = re.compile(
     r"\b(zp_rod_step|zp_rod_stiffness|zp_massspring_stiffness|zp_plates_step|zp_plates_rest|zp_surface_bezier)\s*\("
     r"|\b(F|Fx|Fy|force|a|ax|ay)\s*\[[^\]]*\]\s*[-+]=|->\s*(force|stiffness)\(model"
 )
-ABOVE_TERMS = ("actuator", "system", "rest", "sim", "study")
+ABOVE_TERMS = ("actuator", "system", "rest", "run", "study")
 
 
 def rule_one_sum(repo, files):
@@ -557,13 +557,13 @@ def rule_one_sum(repo, files):
 # Where x and y of a node stand in an array is known to actuator/ and to the kernels below it, which get arrays. All
 # others read and write views (zp_nodes, zp_forces). These files do not yet; a file leaves the list for good.
 LAYOUT = re.compile(r"\bstride\b|\[2 \* [ijk]( \+ \w+)?\]")
-SEES_VIEWS = ("device", "term", "system", "rest", "sim", "study")
+SEES_VIEWS = ("device", "term", "system", "rest", "run", "study")
 KNOWS_LAYOUT = {
-    "src/rest/dynamics.c": 13,
+    "src/run/dynamics.c": 13,
     "src/rest/plant.c": 16,
     "src/rest/statics.c": 51,
-    "src/sim/paper_motion.c": 15,
-    "src/sim/snapshot.c": 3,
+    "src/run/paper_motion.c": 15,
+    "src/run/snapshot.c": 3,
     "src/study/faces.c": 5,
     "src/study/profile.c": 1,
 }
@@ -663,9 +663,9 @@ def self_test():
     assert not include_is_right("solve", '"', "paper/massspring.h")
     assert not include_is_right("contact", '"', "electro/plates.h")
     assert not include_is_right("math", "<", "zipact/sim.h")
-    assert include_is_right("sim", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")
+    assert include_is_right("run", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")
     assert ASKS_FOR_STUDY.search("status = zp_study_run(") and not ASKS_FOR_STUDY.search("if (study == ")
-    assert not include_is_right("cli", '"', "io/report.h") and not include_is_right("io", '"', "sim/sim_internal.h")
+    assert not include_is_right("cli", '"', "io/report.h") and not include_is_right("io", '"', "run/run.h")
 
 
 def main():

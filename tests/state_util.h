@@ -4,7 +4,7 @@
 
 #include "check_util.h"
 
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 static inline void copy_state(const ZpSim *sim, void *state) {
   memcpy(state, sim->state, zp_state_size(sim->model));

@@ -3,7 +3,7 @@
 #include "check_util.h"
 
 #include "rest/rest.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 #define BEAD                                                                                                           \
   { "liquid.model", ZP_LIQUID_BEAD }

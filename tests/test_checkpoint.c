@@ -6,7 +6,7 @@
 #include <zipact/io.h>
 
 #include "base/pack.h"
-#include "sim/snapshot.h"
+#include "run/snapshot.h"
 
 #define IMPLICIT                                                                                                       \
   {"solver.integrator", ZP_INTEGRATOR_IMPLICIT}, {                                                                     \

@@ -6,7 +6,7 @@
 #include <zipact/checkpoint.h>
 #include <zipact/sim.h>
 
-#include "sim/still.h"
+#include "run/still.h"
 
 /* The default actuator, coarse, with all samples. `settings` as in DEF. */
 #define COARSE                                                                                                         \

@@ -11,7 +11,7 @@
 
 #include "drive/control.h"
 #include "drive/response.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* -- the fixture ----------------------------------------------------------------------------------- */
 

@@ -3,7 +3,7 @@
 
 #include "rest/crossing.h"
 #include "rest/rest.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* Two straight ribbons, the lower one turned by a small angle about a point 0.35 elements right of node 7: from node 8
  * on it lies above the upper one, and the first two nodes there tell the depth. Ribbons that only touch, or that lie

@@ -3,7 +3,7 @@
 #include "check_util.h"
 
 #include "rest/rest.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 static const double pi = 3.14159265358979323846, eps0 = 8.8541878128e-12;
 

@@ -152,7 +152,7 @@ GROWTH = (
     ("include/zipact/choices.def", r"^(ZP_CHOICES_END\(ZpContactModel\))", r'ZP_CHOICE(ZP_CONTACT_NEW, "new", "new")\n\1'),
     ("src/base/signals.def", r"^(ZP_SIGNAL\(stroke,.*\n)", r'ZP_SIGNAL(newest, "1", "", "new")\n\1'),
     ("include/zipact/sim.h", r"^(\} ZpOutcome;)", r"  , ZP_NEWEST\n\1"),
-    ("src/sim/info.h", r"^(struct ZpRunInfo \{\n)", r"\1  double newest;\n"),
+    ("src/run/info.h", r"^(struct ZpRunInfo \{\n)", r"\1  double newest;\n"),
     ("src/study/result.h", r"^(struct ZpResult \{\n)", r"\1  double newest;\n"),
 )
 

@@ -4,7 +4,7 @@
  * Against: the integral of c v^2 over samples of a run; the balance of energy; runs without it. */
 #include "state_util.h"
 
-#include "sim/sensitivity.h"
+#include "run/sensitivity.h"
 
 static const double cold = 0.3; /* N s/m, on the load of the whole actuator */
 #ifndef DAMPER_OF_LIBRARY

@@ -3,7 +3,7 @@
 #include "check_util.h"
 
 #include "electro/leak.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 static const double EPS_M = 2.75, EPS_I = 4.62, T = 130e-6; /* the defaults */
 

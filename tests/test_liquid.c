@@ -4,7 +4,7 @@
 
 #include "actuator/model.h"
 #include "rest/rest.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 #include "system/system.h"
 #include "term/term.h"
 

@@ -2,7 +2,7 @@
  * charging of a closed actuator, in closed form; the ideal source as a limit; what the electrodes take. */
 #include "check_util.h"
 
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
 

@@ -4,7 +4,7 @@
 
 #include "actuator/model.h"
 #include "def/check.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* Members without weight are alike: their limits are those of one, their openings add up. */
 START_TEST(weightless_series_pulls_in_as_one) {

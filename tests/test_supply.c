@@ -5,7 +5,7 @@
 #include "def/check.h"
 #include "drive/supply.h"
 #include "math/elementary.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* -- functions of its own -------------------------------------------------------------------------- */
 

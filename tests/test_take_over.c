@@ -2,7 +2,7 @@
 #include "actuator/model.h"
 #include "check_util.h"
 #include "ribbon/rod_plastic.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 typedef struct Run {
   ZpActuatorDef def;

@@ -15,7 +15,7 @@
 #include "base/memory.h"
 #include "def/device.h"
 #include "io/value.h"
-#include "sim/info.h"
+#include "run/info.h"
 #include "study/result.h"
 
 #define EXPORT __attribute__((visibility("default"), used))
@@ -27,7 +27,7 @@ enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
 #define ZP_ROW(name)                        +1
 enum {
   SIGNALS = 0
-#include "sim/columns.def"
+#include "run/columns.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW

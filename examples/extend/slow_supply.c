@@ -15,7 +15,7 @@
 #include <math.h>
 #include <stdio.h>
 
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 typedef struct Supply {
   double V, R, K; /* V, ohm, F */

@@ -1,4 +1,4 @@
-/* The inside of a model, a state and an eval: what actuator/, sim/ and study/ share.
+/* The inside of a model, a state and an eval: what actuator/, run/ and study/ share.
  *
  * Node i of ribbon r is at [i * s + r] (topology.h). Arrays over nodes have `stride`
  * places, a multiple of ZP_LANES, so that kernels need no remainder, over edges either; places beyond `count` hold
@@ -141,14 +141,14 @@ struct ZpModel {
 };
 
 /* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
- * ZP_STILL_CELLS: as many are kept as the last 0.1 s can meet (sim/still.h). */
+ * ZP_STILL_CELLS: as many are kept as the last 0.1 s can meet (run/still.h). */
 enum { ZP_STILL_CELLS = 17 };
 typedef struct ZpStill {
   double least[ZP_STILL_CELLS], most[ZP_STILL_CELLS];
 } ZpStill;
 
 /* All that evolves. One block of zp_state_size bytes: inside one simulation a copy of it is a way back; what leaves it
- * is a snapshot (sim/snapshot.h). */
+ * is a snapshot (run/snapshot.h). */
 typedef struct ZpState {
   double t;     /* s */
   double U;     /* potential difference, V */
@@ -180,7 +180,7 @@ typedef struct ZpState {
   bool setpoint_by_hand;   /* the user has set it: its waveform does not count any more */
   ZpRamp setpoint_input;   /* in the unit of the signal; counts where setpoint_by_hand */
   ZpSupplyState supply;    /* behind a supply: what of it evolves, */
-  size_t supply_mode;      /* which of its limits acts (sim/supply_coupling.c), */
+  size_t supply_mode;      /* which of its limits acts (run/supply_coupling.c), */
   double source_charge;    /* and of the whole actuator: charge that it has given, C, */
   double source_energy;    /* and energy, J */
   double leaked;           /* per part: charge that has passed through the insulators, C */

@@ -12,7 +12,7 @@
 #include "base/fail.h"
 #include "def/def.h"
 #include "fit/fit.h"
-#include "sim/hooks.h"
+#include "run/hooks.h"
 #include "study/result.h"
 
 enum { POLISH_MOST = 30, HALVINGS = 12 };

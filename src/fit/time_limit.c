@@ -7,7 +7,7 @@
 #include <zipact/calibrate.h>
 
 #include "def/def.h"
-#include "sim/hooks.h"
+#include "run/hooks.h"
 
 /* Of this thread, s. */
 static double cpu_time(void) {

@@ -8,7 +8,7 @@
 #include "base/fail.h"
 #include "base/pack.h"
 #include "fmu/instance.h"
-#include "sim/snapshot.h"
+#include "run/snapshot.h"
 
 static const ZpPackKind kind = {"state of an FMU", 'F', 10};
 

@@ -5,13 +5,13 @@
 
 #include <stdint.h>
 
-#include "sim/info.h"
+#include "run/info.h"
 
 /* Positions of the signals in a row, and their number. */
 #define ZP_SIGNAL(name, unit, suffix, help) ZP_FMU_SIGNAL_##name,
 #define ZP_ROW(name)                        ZP_FMU_SIGNAL_##name,
 enum {
-#include "sim/columns.def"
+#include "run/columns.def"
   ZP_FMU_SIGNALS
 };
 #undef ZP_SIGNAL

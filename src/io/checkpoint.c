@@ -1,4 +1,4 @@
-/* Checkpoints as files: checkpoint.zps holds the bytes of a snapshot (sim/snapshot.c). */
+/* Checkpoints as files: checkpoint.zps holds the bytes of a snapshot (run/snapshot.c). */
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>

@@ -7,7 +7,7 @@
 
 #include "math/elementary.h"
 #include "math/gauss.h"
-#include "sim/hooks.h"
+#include "run/hooks.h"
 
 enum { SINE = 2, BENT = 8, PHASES = 32 }; /* harmonics of a sine, and of forces of second order; their samples */
 

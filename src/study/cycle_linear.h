@@ -5,7 +5,7 @@
 
 #include "math/complex_solve.h"
 #include "rest/plant.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 enum { ZP_CYCLE_HARMONICS = 64 }; /* most */
 

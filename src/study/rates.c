@@ -6,7 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
-#include "sim/supply_coupling.h"
+#include "run/supply_coupling.h"
 #include "study/sensitivity.h"
 
 ZpStatus zp_rates_open(ZpRunSensitivity *rates, ZpSim *sim, ZpError *err) {

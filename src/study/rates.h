@@ -2,7 +2,7 @@
 #ifndef ZP_STUDY_RATES_H
 #define ZP_STUDY_RATES_H
 
-#include "sim/sensitivity.h"
+#include "run/sensitivity.h"
 #include "study/studies.h"
 
 /* Follow the derivatives of a run, which has not begun, by the keys that its definition names; nothing where it names

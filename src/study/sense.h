@@ -2,7 +2,7 @@
 #ifndef ZP_STUDY_SENSE_H
 #define ZP_STUDY_SENSE_H
 
-#include "sim/sim_internal.h"
+#include "run/run.h"
 #include "study/studies.h"
 
 /* Is a meter asked for? */

@@ -4,7 +4,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "sim/hooks.h"
+#include "run/hooks.h"
 #include "study/estimate.h"
 #include "study/rates.h"
 

@@ -84,7 +84,7 @@ static const ZpRule rule[] = {
             "the offset stands for both insulators"),
 };
 
-/* The rows are those of all electric terms together: sim/energy_balance.c fills them. */
+/* The rows are those of all electric terms together: run/energy_balance.c fills them. */
 const ZpTerm zp_term_plates = {.name = "plates",
                                .row = {&zp_row_field_energy, &zp_row_charging_loss},
                                .acts = acts,

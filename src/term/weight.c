@@ -64,7 +64,7 @@ static const ZpRule rule[] = {
                    "explicit steps are those of the paper, whose load is constant"),
 };
 
-/* The impact is booked where it happens, sim/load_change.c. */
+/* The impact is booked where it happens, run/load_change.c. */
 const ZpTerm zp_term_weight = {.name = "weight",
                                .row = {&zp_row_gravity_energy, &zp_row_catch_loss},
                                .force = force,

@@ -1,4 +1,4 @@
-#include "sim/paper_motion.h"
+#include "run/paper_motion.h"
 
 #include <math.h>
 #include <string.h>

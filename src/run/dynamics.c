@@ -1,4 +1,4 @@
-#include "rest/dynamics.h"
+#include "run/dynamics.h"
 
 #include <math.h>
 #include <string.h>

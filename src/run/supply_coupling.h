@@ -2,7 +2,7 @@
 #ifndef ZP_SIM_SUPPLY_COUPLING_H
 #define ZP_SIM_SUPPLY_COUPLING_H
 
-#include "sim/info.h"
+#include "run/info.h"
 
 #include "term/source.h"
 

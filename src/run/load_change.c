@@ -3,7 +3,7 @@
  * or removes changes the initial value of the energy balance. docs/theory.md, eqs. (27.6) and (27.7). */
 #include <math.h>
 
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* The instant of a change of the load that is still to come, s; else INFINITY. */
 double zp_sim_load_due(const ZpSim *sim) {

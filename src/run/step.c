@@ -1,10 +1,10 @@
 /* A step of a run. To be read from the end: what is due and how long the step may be; the motion; the instant at which
  * the run ends, if it is in the step; what is counted. The motion is prepared, taken by implicit steps
- * (rest/dynamics.c) or by the paper's explicit ones (paper_motion.c), and arrives. */
+ * (run/dynamics.c) or by the paper's explicit ones (paper_motion.c), and arrives. */
 #include <math.h>
 
-#include "sim/sensitivity.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
+#include "run/sensitivity.h"
 
 /* -- the two methods ------------------------------------------------------------------------------- */
 

@@ -7,8 +7,8 @@
 #include "def/tolerance.h"
 #include "rest/rest.h"
 #include "ribbon/rod_plastic.h"
-#include "sim/hooks.h"
-#include "sim/sim_internal.h"
+#include "run/hooks.h"
+#include "run/run.h"
 #include "solve/relax.h"
 
 typedef struct Settling {

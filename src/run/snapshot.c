@@ -4,7 +4,7 @@
  * uppermost on.
  *
  * Another meaning of a number raises the version; a field that is added or removed need not. */
-#include "sim/snapshot.h"
+#include "run/snapshot.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,7 @@
 
 #include "base/pack.h"
 #include "def/check.h"
-#include "sim/supply_coupling.h"
+#include "run/supply_coupling.h"
 
 static const ZpPackKind snapshot = {"snapshot", 'S', 10};
 

@@ -1,14 +1,14 @@
-/* The inside of a simulation, shared by the files of sim/. */
+/* The inside of a simulation, shared by the files of run/. */
 #ifndef ZP_SIM_SIM_INTERNAL_H
 #define ZP_SIM_SIM_INTERNAL_H
 
-#include "sim/info.h"
+#include "run/info.h"
 
 #include "actuator/shape.h"
-#include "rest/dynamics.h"
-#include "sim/paper_motion.h"
-#include "sim/still.h"
-#include "sim/supply_coupling.h"
+#include "run/dynamics.h"
+#include "run/paper_motion.h"
+#include "run/still.h"
+#include "run/supply_coupling.h"
 #include "system/cached_field.h"
 
 /* A controller of the program's own, and its samples: sample k is due at since + k period (control.c). */
@@ -162,7 +162,7 @@ double zp_sim_next_corner(ZpSim *sim);
 void zp_sim_keep_states(ZpSim *sim);
 void zp_sim_take_states_back(ZpSim *sim);
 
-/* Update the smallest margins of one member, if margins are followed (sim/margins.h). */
+/* Update the smallest margins of one member, if margins are followed (run/margins.h). */
 void zp_sim_see_one(ZpSim *sim);
 
 /* Take one step of a run, at most to `end_time`, and count it (step.c). */

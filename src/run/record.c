@@ -5,8 +5,8 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "ribbon/rod_plastic.h"
-#include "sim/margins.h"
-#include "sim/sim_internal.h"
+#include "run/margins.h"
+#include "run/run.h"
 
 #define ZP_ROW(name) extern const ZpRow zp_row_##name;
 #include "term/terms.def"
@@ -16,7 +16,7 @@
 #define ZP_SIGNAL(name, unit, suffix, help) SIGNAL_##name,
 #define ZP_ROW(name)                        SIGNAL_##name,
 enum {
-#include "sim/columns.def"
+#include "run/columns.def"
   SIGNAL_COUNT
 };
 #undef ZP_SIGNAL
@@ -26,7 +26,7 @@ enum {
 #define ZP_SIGNAL(name, unit, suffix, help) NULL,
 #define ZP_ROW(name)                        &zp_row_##name,
 static const ZpRow *const row_of[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW
@@ -61,30 +61,30 @@ enum { NUMBERS_PARALLEL = 2 };
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
 #define ZP_ROW(name)                        {zp_row_##name.column, zp_row_##name.unit, zp_row_##name.help},
 static const ZpColumn columns[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
     OPENINGS};
 _Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + ZP_MOST_MEMBERS, "one opening for each member");
 
 static const ZpColumn columns_parallel[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
     PARALLEL_MEMBERS};
 
 /* The same where the controller holds a length, and where it holds a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_of_length[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
     OPENINGS};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_parallel_of_length[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
     PARALLEL_MEMBERS};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_of_capacitance[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
     OPENINGS};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_parallel_of_capacitance[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
     PARALLEL_MEMBERS};
 #undef ZP_SIGNAL
 #undef ZP_ROW
@@ -92,7 +92,7 @@ static const ZpColumn columns_parallel_of_capacitance[] = {
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
 #define ZP_ROW(name)                        #name,
 static const char *const names[] = {
-#include "sim/columns.def"
+#include "run/columns.def"
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW

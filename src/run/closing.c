@@ -2,7 +2,7 @@
 #include <math.h>
 
 #include "def/check.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 static double opening(const ZpModel *model, const ZpState *state) {
   return zp_opening(&model->topology, zp_state_motion(model, state).y);

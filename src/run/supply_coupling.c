@@ -1,12 +1,12 @@
 /* The supply at the electrodes, docs/theory.md, section 23. Its inner voltage V follows from the command alone
  * (drive/supply.c), so its events are corners in time. A limit of the current depends on what the electrodes take: it
  * is part of the step's equations. */
-#include "sim/supply_coupling.h"
+#include "run/supply_coupling.h"
 
 #include <math.h>
 
 #include "math/elementary.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 static const double least_capacitance = 1e-15; /* F: a capped charge has none, and a law needs a scale */
 static const double undecided = 1e-13;         /* F: with less, charge that cannot leave would raise any voltage */

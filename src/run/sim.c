@@ -1,5 +1,5 @@
 /* A run: its creation, its steps one after the other, records, and the reasons why it ends. */
-#include "sim/info.h"
+#include "run/info.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -8,10 +8,10 @@
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/crossing.h"
-#include "sim/hooks.h"
-#include "sim/margins.h"
-#include "sim/sim_internal.h"
-#include "sim/snapshot.h"
+#include "run/hooks.h"
+#include "run/margins.h"
+#include "run/run.h"
+#include "run/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",      "zipped",      "interrupted", "not_settled", "diverged",

@@ -1,4 +1,4 @@
-#include "sim/still.h"
+#include "run/still.h"
 
 #include <math.h>
 

@@ -7,8 +7,8 @@
 #include "base/memory.h"
 #include "def/purpose.h"
 #include "def/rule.h"
-#include "sim/sim_internal.h"
-#include "sim/snapshot.h"
+#include "run/run.h"
+#include "run/snapshot.h"
 
 static ZpCheckpoint *create(size_t size) {
   ZpCheckpoint *checkpoint = zp_calloc(1, sizeof *checkpoint);

@@ -2,7 +2,7 @@
 #ifndef ZP_SIM_MARGINS_H
 #define ZP_SIM_MARGINS_H
 
-#include "sim/info.h"
+#include "run/info.h"
 
 #include "actuator/shape.h"
 

@@ -1,4 +1,4 @@
-#include "sim/sensitivity.h"
+#include "run/sensitivity.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "base/fail.h"
 #include "rest/rest.h"
 #include "rest/sensitivity.h"
-#include "sim/snapshot.h"
+#include "run/snapshot.h"
 
 /* Steps of a key. They are so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
  * the points of a difference, but they are above rounding. */

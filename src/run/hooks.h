@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-#include "sim/info.h"
+#include "run/info.h"
 
 /* Tell the caller how far a stage is, 0 .. 1 (more is 1). => Is it to stop? `hooks` may be NULL. */
 static inline bool zp_hooks_stop(const ZpHooks *hooks, const char *stage, double fraction) {

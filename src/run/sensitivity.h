@@ -5,7 +5,7 @@
 #define ZP_SIM_SENSITIVITY_H
 
 #include "rest/finite_difference.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* A current of the run, its time and its derivative. */
 typedef struct ZpCurrentRate {

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* Work of ideal sources at U0 during the motion and of their jump to U1, between the states `before` and `after` the
  * jump. */

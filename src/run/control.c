@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/fail.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 static const double rounding = 1e-9; /* of a period: a time that is meant to be that of a sample */
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 /* Ends, halves and platforms of the same kinds? */
 static bool are_alike(const ZpTopology *a, const ZpTopology *b) {

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "sim/info.h"
+#include "run/info.h"
 
 #include "base/memory.h"
 

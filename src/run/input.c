@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/fail.h"
-#include "sim/sim_internal.h"
+#include "run/run.h"
 
 typedef struct Input {
   const char *name, *unit;
