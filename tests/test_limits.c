@@ -633,6 +633,23 @@ START_TEST(largest_load_is_the_largest_that_closes) {
 }
 END_TEST
 
+/* Elements are 18 times as long as the front, which passes 91 nodes in 34,664 steps of a fall. Where such a fall ended
+ * after 20,000 steps, this load was 0.50 g. */
+START_TEST(front_passes_every_node_of_a_coarse_mesh) {
+  ZpActuatorDef def =
+      DEF({"ribbon.length", 0.29133597482441054}, {"ribbon.width", 0.018681133350026146},
+          {"ribbon.thickness", 1.8127693362754846e-05}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
+          {"ribbon.density", 1390}, {"platform.length", 0.029133597482441057},
+          {"insulator.thickness", 1.6673562179830768e-05}, {"load.mass", 0.00032966619580438551}, {"mesh.nodes", 92},
+          {"electro.breakdown_cap", false}, {"drive.voltage", 6236.4389796081914});
+  double largest = answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg");
+  check_definition(def, largest);
+  def.load.mass = 0.9999 * largest;
+  ck_assert_double_lt(answered_value(ZP_STUDY_LIMITS, &def, "closing_voltage_V"), def.drive.voltage);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg"), largest, 1e-10);
+}
+END_TEST
+
 /* Just above 1.0193 g, where the voltage is a limit point, it does not close; it closes again up to 1.0385 g, above
  * which its closing voltage jumps. */
 START_TEST(larger_load_that_closes_again) {
@@ -880,5 +897,6 @@ int main(void) {
   TCase *nightly = nightly_case(suite);
   tcase_add_loop_test(nightly, test_limits_from_a_neighbour, 0, 1);
   tcase_add_loop_test(nightly, test_limits_from_a_neighbour, 2, 4);
+  tcase_add_test(nightly, front_passes_every_node_of_a_coarse_mesh);
   return run_suite(suite);
 }

@@ -1051,12 +1051,14 @@ static double care(const ZpStatics *s) {
   return is_few ? shorter : 1;
 }
 
+/* A front that passes node by node takes up to 400 steps for each node. */
 ZpNewtonInfo zp_statics_relax_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
-  enum { MOST = 20000 };
+  enum { MOST_FOR_AN_UNKNOWN = 1000 };
   ZpStaticSystem system = zp_statics_system(s);
   s->careful = care(s);
   system.length = fall_length;
-  return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST, enough, user, &s->newton);
+  return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST_FOR_AN_UNKNOWN * (int)s->n, enough, user,
+                          &s->newton);
 }
 
 ZpNewtonInfo zp_statics_relax(ZpStatics *s, double voltage) {
