@@ -54,7 +54,6 @@ typedef void (*fmi3LockPreemptionCallback)(void);
 typedef void (*fmi3UnlockPreemptionCallback)(void);
 
 ZP_FMI const char *fmi3GetVersion(void);
-ZP_FMI fmi3Status fmi3SetDebugLogging(fmi3Instance, fmi3Boolean on, size_t count, const fmi3String category[]);
 ZP_FMI fmi3Instance fmi3InstantiateModelExchange(fmi3String name, fmi3String token, fmi3String resources,
                                                  fmi3Boolean visible, fmi3Boolean logging, fmi3InstanceEnvironment,
                                                  fmi3LogMessageCallback);
@@ -68,52 +67,11 @@ ZP_FMI fmi3Instance fmi3InstantiateScheduledExecution(fmi3String name, fmi3Strin
                                                       fmi3LogMessageCallback, fmi3ClockUpdateCallback,
                                                       fmi3LockPreemptionCallback, fmi3UnlockPreemptionCallback);
 ZP_FMI void fmi3FreeInstance(fmi3Instance);
-ZP_FMI fmi3Status fmi3EnterInitializationMode(fmi3Instance, fmi3Boolean has_tolerance, fmi3Float64 tolerance,
-                                              fmi3Float64 start, fmi3Boolean has_stop, fmi3Float64 stop);
-ZP_FMI fmi3Status fmi3ExitInitializationMode(fmi3Instance);
-ZP_FMI fmi3Status fmi3EnterEventMode(fmi3Instance);
-ZP_FMI fmi3Status fmi3EnterStepMode(fmi3Instance);
-ZP_FMI fmi3Status fmi3EnterConfigurationMode(fmi3Instance);
-ZP_FMI fmi3Status fmi3ExitConfigurationMode(fmi3Instance);
-ZP_FMI fmi3Status fmi3Terminate(fmi3Instance);
-ZP_FMI fmi3Status fmi3Reset(fmi3Instance);
 
-/* The getter and the setter of a type of numbers. */
-#define ZP_FMI3_VARIABLES(Type)                                                                                        \
-  ZP_FMI fmi3Status fmi3Get##Type(fmi3Instance, const fmi3ValueReference[], size_t count, fmi3##Type[],                \
-                                  size_t values);                                                                      \
-  ZP_FMI fmi3Status fmi3Set##Type(fmi3Instance, const fmi3ValueReference[], size_t count, const fmi3##Type[],          \
-                                  size_t values)
-ZP_FMI3_VARIABLES(Float64);
-ZP_FMI3_VARIABLES(Int32);
-ZP_FMI3_VARIABLES(Int64);
-ZP_FMI3_VARIABLES(Boolean);
-
-ZP_FMI fmi3Status fmi3GetFMUState(fmi3Instance, fmi3FMUState *);
-ZP_FMI fmi3Status fmi3SetFMUState(fmi3Instance, fmi3FMUState);
-ZP_FMI fmi3Status fmi3FreeFMUState(fmi3Instance, fmi3FMUState *);
-ZP_FMI fmi3Status fmi3SerializedFMUStateSize(fmi3Instance, fmi3FMUState, size_t *size);
-ZP_FMI fmi3Status fmi3SerializeFMUState(fmi3Instance, fmi3FMUState, fmi3Byte[], size_t size);
-ZP_FMI fmi3Status fmi3DeserializeFMUState(fmi3Instance, const fmi3Byte[], size_t size, fmi3FMUState *);
-ZP_FMI fmi3Status fmi3GetDirectionalDerivative(fmi3Instance, const fmi3ValueReference unknown[], size_t unknowns,
-                                               const fmi3ValueReference known[], size_t knowns,
-                                               const fmi3Float64 seed[], size_t seeds, fmi3Float64 sensitivity[],
-                                               size_t sensitivities);
-ZP_FMI fmi3Status fmi3GetAdjointDerivative(fmi3Instance, const fmi3ValueReference unknown[], size_t unknowns,
-                                           const fmi3ValueReference known[], size_t knowns, const fmi3Float64 seed[],
-                                           size_t seeds, fmi3Float64 sensitivity[], size_t sensitivities);
-
-ZP_FMI fmi3Status fmi3EvaluateDiscreteStates(fmi3Instance);
-ZP_FMI fmi3Status fmi3UpdateDiscreteStates(fmi3Instance, fmi3Boolean *again, fmi3Boolean *terminate,
-                                           fmi3Boolean *nominals_changed, fmi3Boolean *states_changed,
-                                           fmi3Boolean *next_defined, fmi3Float64 *next);
-
-ZP_FMI fmi3Status fmi3DoStep(fmi3Instance, fmi3Float64 now, fmi3Float64 size, fmi3Boolean no_return_before,
-                             fmi3Boolean *event, fmi3Boolean *terminate, fmi3Boolean *early, fmi3Float64 *reached);
-
-#define ZP_NO_TYPE(Type)                         ZP_FMI3_VARIABLES(Type);
-#define ZP_NONE(name, phases, asked, parameters) ZP_FMI fmi3Status fmi3##name parameters;
-#define ZP_EXCHANGE(name, parameters)            ZP_FMI fmi3Status fmi3##name parameters;
-#include "fmu/export/fmi3_refused.def"
+#define ZP_FMI_VERSION    3
+#define ZP_FMI_NAME(name) fmi3##name
+#include "fmu/export/functions.def"
+#undef ZP_FMI_NAME
+#undef ZP_FMI_VERSION
 
 #endif

@@ -46,7 +46,6 @@ ZpSlave *zp_slave_refuse(const ZpSlave *like, const char *name, const char *why)
 
 ZpSlaveStatus zp_slave_exchange(const ZpSlave *slave, const char *what) {
   char text[160];
-  if (!slave) return ZP_SLAVE_ERROR;
   snprintf(text, sizeof text, "%s is for model exchange; this FMU is for co-simulation and has no continuous states",
            what);
   return zp_slave_say(slave, ZP_SLAVE_ERROR, text);
@@ -85,8 +84,19 @@ ZpSlaveStatus zp_slave_setup(ZpSlave *slave, double start, double tolerance, dou
   return isnan(tolerance) ? ZP_SLAVE_OK : use_tolerance(slave, tolerance);
 }
 
-ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave, ZpFmuPhase next) {
+ZpSlaveStatus zp_slave_set_logging(ZpSlave *slave, bool on) {
+  slave->logging = on;
+  return ZP_SLAVE_OK;
+}
+
+ZpSlaveStatus zp_slave_move(ZpSlave *slave, ZpFmuPhase next) {
+  slave->fmu->phase = next;
+  return ZP_SLAVE_OK;
+}
+
+ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave) {
   ZpError err;
+  ZpFmuPhase next = slave->uses_events ? ZP_FMU_AT_EVENT : ZP_FMU_STEPPING;
   slave->fmu->phase = zp_fmu_begin(slave->fmu, &err) == ZP_OK ? next : ZP_FMU_FAILED;
   return slave->fmu->phase == next ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
 }
@@ -128,6 +138,15 @@ ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, d
   return zp_slave_after(slave, zp_fmu_set(slave->fmu, reference, type, value, &err), &err);
 }
 
+ZpSlaveStatus zp_slave_none(const ZpSlave *slave, size_t count) {
+  return count == 0 ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no variable of this type");
+}
+
+ZpSlaveStatus zp_slave_no_rates(const ZpSlave *slave, size_t count) {
+  if (count == 0) return ZP_SLAVE_OK;
+  return zp_slave_say(slave, ZP_SLAVE_ERROR, "derivatives of outputs with respect to time are not available");
+}
+
 ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *unknown, size_t unknowns,
                                   const uint32_t *known, size_t knowns, const double *seed, double *sensitivity) {
   ZpError err;
@@ -157,12 +176,13 @@ static ZpSlaveState *make_state(size_t size) {
   return NULL;
 }
 
-void zp_slave_free_state(void **place) {
+ZpSlaveStatus zp_slave_free_state(void **place) {
   ZpSlaveState *state = place ? *place : NULL;
-  if (!state) return;
+  if (!state) return ZP_SLAVE_OK;
   zp_free(state->byte);
   zp_free(state);
   *place = NULL;
+  return ZP_SLAVE_OK;
 }
 
 /* A state of that size in *place. False, with a message, if there is no memory. */

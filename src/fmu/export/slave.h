@@ -49,6 +49,11 @@ ZpSlave *zp_slave_refuse(const ZpSlave *like, const char *name, const char *why)
  * message. */
 ZpSlaveStatus zp_slave_exchange(const ZpSlave *slave, const char *what);
 
+/* The worse of two. */
+static inline ZpSlaveStatus zp_slave_worse(ZpSlaveStatus a, ZpSlaveStatus b) {
+  return a > b ? a : b;
+}
+
 /* Is the call `what` allowed now? If not, logs a message. */
 bool zp_slave_allows(const ZpSlave *slave, unsigned phases, const char *what);
 
@@ -61,8 +66,11 @@ ZpSlaveStatus zp_slave_after(const ZpSlave *slave, ZpStatus status, const ZpErro
 /* Set start time and tolerance (NAN: none given) of an experiment that ends at `stop` (INFINITY: never). */
 ZpSlaveStatus zp_slave_setup(ZpSlave *slave, double start, double tolerance, double stop);
 
-/* Change from initialization to phase `next`. */
-ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave, ZpFmuPhase next);
+ZpSlaveStatus zp_slave_set_logging(ZpSlave *slave, bool on);
+
+/* Change to phase `next`; from initialization to the phase that follows. */
+ZpSlaveStatus zp_slave_move(ZpSlave *slave, ZpFmuPhase next);
+ZpSlaveStatus zp_slave_exit_initialization(ZpSlave *slave);
 
 ZpSlaveStatus zp_slave_reset(ZpSlave *slave);
 
@@ -73,6 +81,11 @@ ZpSlaveStatus zp_slave_step(ZpSlave *slave, double now, double size, ZpFmuStep *
 ZpSlaveStatus zp_slave_get(ZpSlave *slave, uint32_t reference, ZpKeyType type, double *value);
 ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, double value);
 
+/* Calls for variables of a type that has none, and for derivatives of outputs with respect to time: correct only if
+ * they request none. */
+ZpSlaveStatus zp_slave_none(const ZpSlave *slave, size_t count);
+ZpSlaveStatus zp_slave_no_rates(const ZpSlave *slave, size_t count);
+
 /* sensitivity = derivatives of unknowns with respect to knowns, times seed; adjoint: seed times derivatives. */
 ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *unknown, size_t unknowns,
                                   const uint32_t *known, size_t knowns, const double *seed, double *sensitivity);
@@ -80,7 +93,7 @@ ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *
 /* The current state => *state, which is created if it is NULL and reused otherwise. */
 ZpSlaveStatus zp_slave_get_state(ZpSlave *slave, void **state);
 ZpSlaveStatus zp_slave_set_state(ZpSlave *slave, const void *state);
-void zp_slave_free_state(void **state);
+ZpSlaveStatus zp_slave_free_state(void **state);
 ZpSlaveStatus zp_slave_state_size(const ZpSlave *slave, const void *state, size_t *size);
 ZpSlaveStatus zp_slave_serialize(const ZpSlave *slave, const void *state, void *bytes, size_t size);
 ZpSlaveStatus zp_slave_deserialize(ZpSlave *slave, const void *bytes, size_t size, void **state);
