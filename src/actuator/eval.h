@@ -28,7 +28,9 @@ typedef struct ZpEval {
   ZpMassSpringEval spring_start, spring; /* mass_spring */
   ZpRodEval rod_start, rod;
   ZpRodStep rod_step;
-  ZpEdges edges; /* at the end, of the mechanics in use */
+  ZpRodParams straighter; /* the rod with a share of its natural curvature, */
+  double *k0;             /* [stride] which is this */
+  ZpEdges edges;          /* at the end, of the mechanics in use */
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;

@@ -18,7 +18,6 @@ static void reserve_member(ZpRestMember *m, size_t stride, ZpArena *arena) {
   m->force = zp_arena_take(arena, 2 * stride);
   m->good = zp_arena_take(arena, 2 * stride);
   m->tension = zp_arena_take(arena, stride);
-  m->k0_now = zp_arena_take(arena, stride);
   m->rotation = zp_arena_take(arena, stride);
   m->stretch = zp_arena_take(arena, stride);
   m->model = m->own = (ZpModel *)(void *)zp_arena_take(arena, (sizeof *m->own + sizeof(double) - 1) / sizeof(double));
@@ -52,9 +51,6 @@ static size_t edge_count(const ZpRestMember *m) {
 /* Apply this share of weight and natural curvature. */
 static void put_on(ZpStatics *s, double share) {
   s->share = share;
-  for (size_t k = 0; k < s->members; k++)
-    for (size_t j = 0; j < s->member[k].model->stride; j++)
-      s->member[k].k0_now[j] = share * s->member[k].k0[j];
 }
 
 static void lay_straight(ZpStatics *s) {
@@ -78,8 +74,6 @@ static bool create_member(const ZpModel *model, ZpRestMember *m) {
   for (size_t k = 0; k < t->joints; k++)
     if (t->joint[k].kind == ZP_JOINT_LINK) t->joint[k].kind = ZP_JOINT_PLATFORM;
   if (t->platform.kind == ZP_JOINT_LINK) t->platform.kind = ZP_JOINT_PLATFORM;
-  m->own->rod.k0 = m->k0_now;
-  m->k0 = model->rod.k0;
   return zp_system_create(m->model, true, &m->eval) && zp_assembly_create(m->model, 0, model->is_rod, &m->assembly);
 }
 
@@ -124,8 +118,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   }
   reserve_solution(s, s->solution);
   s->load = s->own_load;
-  s->bias = 1;
-  put_on(s, 1);
+  s->bias = s->share = s->suction = 1;
   s->opening = NAN;
   lay_straight(s);
   return true;
@@ -270,16 +263,16 @@ static void put_voltage(ZpStatics *s, double whole, double share) {
 }
 
 static void put_suction(ZpStatics *s, double whole, double share) {
-  for (size_t k = 0; k < s->members; k++)
-    s->member[k].own->bead.suction = whole * share;
+  s->suction = whole * share;
 }
 
 /* Continue from the equilibrium without suction at the menisci to the one with it. Where that branch ends, suction
  * draws the faces together. */
-static ZpNewtonInfo let_menisci_draw(ZpStatics *s, double suction, ZpNewtonInfo info) {
-  bool grown = zp_newton_good(info.end) && suction > 0 && grow(s, put_suction, suction, 1);
-  put_suction(s, suction, 1);
-  return grown || suction == 0 || !zp_newton_good(info.end) ? info : zp_statics_relax(s, 0);
+static ZpNewtonInfo let_menisci_draw(ZpStatics *s, ZpNewtonInfo info) {
+  bool draw = s->member->model->bead.suction > 0 && zp_newton_good(info.end),
+       grown = draw && grow(s, put_suction, 1, 1);
+  s->suction = 1;
+  return draw && !grown ? zp_statics_relax(s, 0) : info;
 }
 
 /* Has Newton's method found an equilibrium without folded ribbons? Its last stiffness tells, or that of the equilibrium
@@ -338,15 +331,13 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->distance > 0) return hang_between(s);
-  double suction = s->member->model->bead.suction;
-  s->U = 0;
+  s->U = s->suction = 0;
   s->contact_acts = false;
-  put_suction(s, 0, 1);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, put_on, 1, 0.01);
   if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */
   info = let_faces_push(s, info);
-  info = let_menisci_draw(s, suction, info);
+  info = let_menisci_draw(s, info);
   if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
   return info;
 }
@@ -361,7 +352,7 @@ static void open_to(ZpStatics *s, double opening) {
  * from. */
 static void open_and_put_on(ZpStatics *s, double opening) {
   open_to(s, opening);
-  put_on(s, opening / s->held_at);
+  s->share = opening / s->held_at;
 }
 
 void zp_statics_hold_at(ZpStatics *s, double opening) {
@@ -378,16 +369,15 @@ void zp_statics_take_member(ZpStatics *s, size_t which, const ZpStatics *alone) 
 }
 
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
-  double suction = s->member->model->bead.suction;
   zp_statics_hold_at(s, opening);
   s->contact_acts = false;
-  put_suction(s, 0, 1);
+  s->suction = 0;
   lay_straight(s);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, open_to, opening, 0.05);
   if (!is_found(s, info)) info = step_by_step(s, open_and_put_on, opening, 0.01);
   info = let_faces_push(s, info);
-  return let_menisci_draw(s, suction, info);
+  return let_menisci_draw(s, info);
 }
 
 bool zp_statics_ramp_voltage(ZpStatics *s, double voltage) {
@@ -665,6 +655,7 @@ static ZpSpan span_of(const ZpStatics *s, size_t which) {
   span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
   if (!s->shared) span.load = load_share(s, which) * (s->force - def->load.force);
   span.share = s->share;
+  span.suction = s->suction;
   span.faces_pass = !s->contact_acts;
   span.beyond = zp_eval_beyond(&m->eval);
   span.tension = m->tension;

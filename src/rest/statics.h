@@ -10,13 +10,11 @@
 
 /* One of the actuators of the system. */
 typedef struct ZpRestMember {
-  ZpModel *own;         /* a copy of the given one, with the natural turns and the suction that act */
+  ZpModel *own;         /* a copy of the given one, at rest in the frame of the platform that it hangs on */
   const ZpModel *model; /* it, for reading */
   ZpEval eval;
   double *q; /* [2 stride] the present point */
   ZpAssembly assembly;
-  const double *k0;           /* [stride] natural 2 tan(phi / 2) of joints, for the whole natural curvature */
-  double *k0_now;             /* the same, for the share that acts */
   double *tension;            /* [edges] tension that the last step predicted, N */
   double *moved;              /* [2 stride] work space of a move */
   double *rotation, *stretch; /* [edges] by the last step that was examined, rad, m */
@@ -39,6 +37,7 @@ typedef struct ZpStatics {
   double load;         /* mass hung on all members, kg; starts as that */
   double force;        /* load.force, N */
   double share;        /* share of weight and natural curvature that acts: 1, or less while they are applied */
+  double suction;      /* share of the suction at menisci that acts: 1, or less while it is applied */
   double distance;     /* of antagonists: what their openings sum up to, m; 0: there are none */
   double opening;      /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
   double held_at;      /* final value of this opening while it is approached, m */

@@ -23,6 +23,7 @@ typedef struct End {
   ZpBeadPlace at;
   double g, H;            /* at the meniscus, m */
   double level;           /* dx/ds there */
+  double suction;         /* that acts */
   double by_area;         /* of the part, 1/m^2, */
   double by_near, by_far; /* 1/m */
   double length;          /* of what the part is of, m */
@@ -38,7 +39,7 @@ static bool is_below(const End *end) {
   return end->at.near == end->at.far;
 }
 
-static End end_of(const ZpModel *model, const double *x, const ZpEval *e, int half) {
+static End end_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e, int half) {
   const ZpFilmParams *film = &model->film;
   End end = {.half = half, .at = zp_bead_place(film, half, e->reach[half])};
   double part = end.at.part, far = is_below(&end) ? 0 : 0.5 * part * part;
@@ -46,7 +47,8 @@ static End end_of(const ZpModel *model, const double *x, const ZpEval *e, int ha
   end.length = is_below(&end) ? film->flat_length : film->l;
   end.g = zp_bead_at(&end.at, e->plates.gap);
   end.H = zp_bead_thickness(film, &end.at, e->plates.gap);
-  end.level = zp_term_level(model, &end.at, x);
+  end.level = zp_term_level(model, &end.at, span->end);
+  end.suction = span->suction * model->bead.suction;
   if (!end.ends) return end;
   end.room = zp_term_meniscus_room(model, e->reach[half]);
   end.by_area = -1 / (end.H * end.length);
@@ -59,7 +61,7 @@ static End end_of(const ZpModel *model, const double *x, const ZpEval *e, int ha
 
 /* With room for the meniscus. */
 static double free_head(const ZpModel *model, double U, const End *end) {
-  return zp_term_meniscus_head(model, U, end->g, end->H, end->level);
+  return zp_term_meniscus_head(model, end->suction, U, end->g, end->H, end->level);
 }
 
 static double head_of(const ZpModel *model, double U, const End *end) {
@@ -79,7 +81,7 @@ typedef struct HeadSlope {
 static HeadSlope head_slope(const ZpModel *model, const ZpEval *e, double U, const End *end) {
   double W = zp_plates_law(&model->air, U, end->g).W - zp_plates_law(&model->plates, U, end->g).W;
   double follows = share_that_follows(model, U, end), head = free_head(model, U, end);
-  double by_g = -follows * model->bead.suction * W * end->level / (model->film.w * end->H);
+  double by_g = -follows * end->suction * W * end->level / (model->film.w * end->H);
   double by_H = -follows * head / end->H, by_part = head * end->room.by_reach * end->length;
   const double *gap = e->plates.gap;
   if (is_below(end)) return (HeadSlope){by_part, by_g + by_H * rise(model, e, end->at.near), 0};
@@ -120,26 +122,22 @@ static void add_head(const ZpModel *model, const ZpEval *e, const End *end, doub
 }
 
 static bool draws(const ZpModel *model, const ZpSpan *span) {
-  return zp_span_is_still(span) && model->bead.suction > 0;
+  return zp_span_is_still(span) && span->suction * model->bead.suction > 0;
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (!draws(model, span)) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    End end = end_of(model, span->end, e, half);
+    End end = end_of(model, span, e, half);
     add_head(model, e, &end, head_of(model, span->U1, &end), F);
   }
 }
 
 /* -- stiffness ------------------------------------------------------------------------------------- */
 
-/* Scalars of a bead. */
-static size_t scalars_of(const ZpModel *model) {
-  return model->bead.suction > 0 ? 2 : 1;
-}
-
 size_t zp_bead_rank(const ZpModel *model) {
-  return model->has_bead ? scalars_of(model) * (size_t)zp_beads(&model->film) : 0;
+  size_t scalars = model->bead.suction > 0 ? 2 : 1; /* of each bead */
+  return model->has_bead ? scalars * (size_t)zp_beads(&model->film) : 0;
 }
 
 /* A scalar z as a term of rank one: -dF/dz => u, and its derivatives by the coordinates => v. */
@@ -149,8 +147,7 @@ typedef struct Scalar {
   double *u, *v; /* [equations] */
 } Scalar;
 
-/* The part where bead `half` ends. The head's term is there where the rank has room for it: without suction, on the way
- * to a rest with it, it is 0. */
+/* The part where bead `half` ends. The head's term is there where the model has suction, and 0 while none acts. */
 static Scalar part_of(const ZpModel *model, const ZpAssembly *a, int half, const ZpBand *K) {
   size_t first = (size_t)half * (K->rank / (size_t)zp_beads(&model->film)) * K->n;
   return (Scalar){model, a, K->u + first, K->v + first};
@@ -198,7 +195,8 @@ static void follows_part(Scalar z, const ZpEval *e, const End *end, double by_pa
 /* The head is that of the meniscus. */
 static void head_follows(Scalar z, const ZpEval *e, double U, const End *end) {
   HeadSlope slope = head_slope(z.model, e, U, end);
-  double draws_on = share_that_follows(z.model, U, end) * zp_term_electric_head(z.model, U, end->g, end->H);
+  double draws_on =
+      share_that_follows(z.model, U, end) * zp_term_electric_head(z.model, end->suction, U, end->g, end->H);
   follows_part(z, e, end, slope.by_part);
   follows_level(z, end, draws_on);
   follows_gap(z, end->at.near, slope.by_near);
@@ -262,7 +260,7 @@ static void suction(Scalar part, const ZpEval *e, double U, const End *end, ZpBa
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
   if (!zp_span_is_still(span) || K->rank == 0) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    End end = end_of(model, span->end, e, half);
+    End end = end_of(model, span, e, half);
     if (!end.ends) continue;
     Scalar part = part_of(model, a, half, K);
     part_attracts(part, e, span->U1, &end);
@@ -275,10 +273,10 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   if (!draws(model, span)) return;
   for (int half = 0; half < zp_beads(&model->film); half++) {
-    End end = end_of(model, span->end, e, half);
+    End end = end_of(model, span, e, half);
     double charge = zp_plates_law(&model->plates, span->U1, end.g).q - zp_plates_law(&model->air, span->U1, end.g).q;
     double follows = share_that_follows(model, span->U1, &end);
-    add_head(model, e, &end, -follows * model->bead.suction * charge * end.level / (model->film.w * end.H), sum->force);
+    add_head(model, e, &end, -follows * end.suction * charge * end.level / (model->film.w * end.H), sum->force);
   }
 }
 

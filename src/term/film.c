@@ -80,10 +80,10 @@ static double meniscus_head(const ZpModel *model, const ZpSpan *span, const ZpEv
   double moved = fmax(0.5 * span->h * zp_bead_at(&at, e->film.rate), -0.5 * H);
   double level = zp_term_level(model, &at, span->start);
   if (span->w && at.near != at.far) level += 0.5 * span->h * zp_term_level(model, &at, span->w);
-  double room = zp_term_meniscus_room(model, e->reach[half]).share;
+  double room = zp_term_meniscus_room(model, e->reach[half]).share, suction = model->bead.suction;
   return 0.5 * room *
-         (zp_term_meniscus_head(model, span->U0 + Z, gap + moved, H + moved, level) +
-          zp_term_meniscus_head(model, span->U1 + Z, gap + moved, H + moved, level));
+         (zp_term_meniscus_head(model, suction, span->U0 + Z, gap + moved, H + moved, level) +
+          zp_term_meniscus_head(model, suction, span->U1 + Z, gap + moved, H + moved, level));
 }
 
 static void find_menisci(const ZpModel *model, const ZpSpan *span, ZpEval *e) {

@@ -42,10 +42,20 @@ static const double *strain_of(const ZpModel *model, const ZpSpan *span) {
   return zp_law_memory(model, &zp_term_rod, span->memory);
 }
 
+/* With the share of the natural curvature that acts. */
+static const ZpRodParams *acting(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  if (span->share == 1) return &model->rod;
+  for (size_t j = 0; j < zp_lanes(model); j++)
+    e->k0[j] = span->share * model->rod.k0[j];
+  e->straighter = model->rod;
+  e->straighter.k0 = e->k0;
+  return &e->straighter;
+}
+
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   zp_rod_eval(&model->rod, span->end, zp_nodes(model, span->end).y, &e->rod);
   e->rod_step.strain_start = strain_of(model, span);
-  zp_rod_step(&model->rod, start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
+  zp_rod_step(acting(model, span, e), start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
 }
 

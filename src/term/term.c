@@ -29,13 +29,13 @@ double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double 
   return (end->near < end->far ? along : -along) / (2 * model->film.l);
 }
 
-double zp_term_electric_head(const ZpModel *model, double U, double g, double H) {
+double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H) {
   double released = zp_plates_law(&model->air, U, g).P - zp_plates_law(&model->plates, U, g).P;
-  return -model->bead.suction * released / (model->film.w * H);
+  return -suction * released / (model->film.w * H);
 }
 
-double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level) {
-  double head = level * zp_term_electric_head(model, U, g, H) - 2 * model->bead.suction * model->bead.tension / H;
+double zp_term_meniscus_head(const ZpModel *model, double suction, double U, double g, double H, double level) {
+  double head = level * zp_term_electric_head(model, suction, U, g, H) - 2 * suction * model->bead.tension / H;
   return fmax(head, -zp_film_tension);
 }
 

@@ -17,7 +17,9 @@ typedef struct ZpSpan {
   double load;               /* N, mean of the load input, down on the lower platform (one ribbon: the right end) */
   double hung;               /* N, weight that hangs there, along gravity, in addition to that of load.mass */
   double hung_at[2];         /* of an instant: coordinates of its node at which its potential energy is 0, m */
-  double share;              /* of all weight that acts: 1, or less while an equilibrium is approached */
+  double share;              /* of all weight and natural curvature that acts: 1, or less while an equilibrium is
+                                approached */
+  double suction;            /* at rest: share of the suction at menisci that acts, likewise */
   bool faces_pass;           /* no contact force: faces may pass through each other, or contact is sequential */
   const double *own;         /* of a step: [own N] the laws' own unknowns; else NULL */
   const double *memory;      /* of a step, at its start, or of an instant: [kept] the state of all laws; a term finds
@@ -110,10 +112,10 @@ void zp_term_gaps(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double *x);
 
 /* Head of the liquid at a meniscus where the gap is g and the thickness of the film H, Pa, eq. (22.17): the pull of
- * field and surface, times bead.suction. Below 0: suction. The second function is that of the field alone on level
+ * field and surface, times `suction`. Below 0: suction. The second function is that of the field alone on level
  * ribbons. */
-double zp_term_meniscus_head(const ZpModel *model, double U, double g, double H, double level);
-double zp_term_electric_head(const ZpModel *model, double U, double g, double H);
+double zp_term_meniscus_head(const ZpModel *model, double suction, double U, double g, double H, double level);
+double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H);
 
 /* Number of terms of rank one that a bead at rest adds to the band of the stiffness. */
 size_t zp_bead_rank(const ZpModel *model);
