@@ -193,7 +193,7 @@ START_TEST(test_stroke_by_the_field) {
   double sensed = zp_table_get(result->series, last, "sensed_stroke_m");
   printf("stroke by the field: %.6g mm, true %.6g mm\n", 1e3 * sensed,
          1e3 * zp_table_get(result->series, last, "stroke_m"));
-  ck_near(sensed, 10.1211e-3, 1e-3); /* 2.3e-4 measured */
+  ck_near(sensed, 10.1211e-3, 3e-4); /* 2.4e-4 measured */
   zp_result_destroy(result);
 }
 END_TEST

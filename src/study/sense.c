@@ -230,26 +230,89 @@ static double capacitance_of(ZpRest *rest, const ZpShape *shape, double *force) 
                                                                                 : NAN;
 }
 
+/* The path by the field: of each row the ratio of the field's capacitance to that of the plates law. */
+typedef struct FieldPath {
+  ZpRest *rest;
+  const ZpResult *path;
+  double *ratio, *force;
+  size_t capacitance, branch; /* columns */
+} FieldPath;
+
+static double *cell(const FieldPath *p, size_t row, size_t column) {
+  return &p->path->series->value[row * p->path->series->columns + column];
+}
+
+static void solve_row(FieldPath *p, size_t row) {
+  ZpShape shape = zp_shapes_get(p->path->shapes, row);
+  p->ratio[row] = capacitance_of(p->rest, &shape, p->force) / *cell(p, row, p->capacitance);
+}
+
+/* The rows between two solved ones. The ratio is smooth along a branch, so it is linear where the row in the middle
+ * lies on the line. */
+static void refine(FieldPath *p, size_t from, size_t to) {
+  enum { LONGEST = 32 }; /* rows that one row in the middle may speak for */
+  static const double straight = 3e-4;
+  size_t middle = (from + to) / 2;
+  if (middle == from) return;
+  solve_row(p, middle);
+  double share = (double)(middle - from) / (double)(to - from);
+  double off = p->ratio[middle] - p->ratio[from] - share * (p->ratio[to] - p->ratio[from]);
+  if (to - from <= LONGEST && fabs(off) < straight * p->ratio[middle]) {
+    for (size_t k = from + 1; k < to; k++) {
+      size_t left = k < middle ? from : middle, right = k < middle ? middle : to;
+      share = (double)(k - left) / (double)(right - left);
+      p->ratio[k] = p->ratio[left] + share * (p->ratio[right] - p->ratio[left]);
+    }
+    return;
+  }
+  refine(p, from, middle);
+  refine(p, middle, to);
+}
+
+/* The rows of one branch from `first` whose capacitance is within the range of the readings => the row after them */
+static size_t take_branch(FieldPath *p, size_t first, size_t rows, const double range[2]) {
+  size_t end = first;
+  while (end < rows && *cell(p, end, p->branch) == *cell(p, first, p->branch) &&
+         *cell(p, end, p->capacitance) > range[0] && *cell(p, end, p->capacitance) < range[1])
+    end++;
+  if (end == first) return first + 1;
+  solve_row(p, first);
+  if (end - 1 > first) solve_row(p, end - 1);
+  refine(p, first, end - 1);
+  for (size_t k = first; k < end; k++)
+    *cell(p, k, p->capacitance) *= p->ratio[k];
+  return end;
+}
+
+static size_t column_named(const ZpTable *table, const char *name) {
+  size_t column = 0;
+  while (strcmp(table->column[column].name, name) != 0)
+    column++;
+  return column;
+}
+
 /* The path's capacitances by the field, as far as readings come near them. */
 static bool take_field(const Sensing *s, const ZpModel *model, const ZpResult *path) {
   static const double near = 2;
   ZpRest rest;
-  double least = INFINITY, most = 0, *force = zp_calloc(2 * zp_coordinates(model), sizeof *force);
-  bool opened = zp_rest_open(&rest, model, NULL, NULL) && force;
-  size_t column = 0;
+  size_t rows = path->series->rows < path->shapes->frames ? path->series->rows : path->shapes->frames;
+  double range[2] = {INFINITY, 0}, *block = zp_calloc(2 * zp_coordinates(model) + rows, sizeof *block);
+  bool opened = zp_rest_open(&rest, model, NULL, NULL) && block;
   for (size_t k = 0; k < s->readings->rows; k++) {
-    least = fmin(least, s->readings->value[k * COLUMNS + CAPACITANCE]);
-    most = fmax(most, s->readings->value[k * COLUMNS + CAPACITANCE]);
+    double C = s->readings->value[k * COLUMNS + CAPACITANCE];
+    range[0] = fmin(range[0], C / near);
+    range[1] = fmax(range[1], C * near);
   }
-  while (strcmp(path->series->column[column].name, "capacitance_F") != 0)
-    column++;
-  for (size_t k = 0; opened && k < path->series->rows && k < path->shapes->frames; k++) {
-    double *C = &path->series->value[k * path->series->columns + column];
-    ZpShape shape = zp_shapes_get(path->shapes, k);
-    if (*C > least / near && *C < most * near) *C = capacitance_of(&rest, &shape, force);
-  }
+  FieldPath p = {&rest,
+                 path,
+                 block,
+                 block ? block + rows : NULL,
+                 column_named(path->series, "capacitance_F"),
+                 column_named(path->series, "branch")};
+  for (size_t k = 0; opened && k < rows;)
+    k = take_branch(&p, k, rows, range);
   zp_rest_close(&rest);
-  zp_free(force);
+  zp_free(block);
   return opened;
 }
 
