@@ -22,6 +22,9 @@ from setuptools.command.build_py import build_py
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(HERE)
+sys.path.insert(0, os.path.join(ROOT, "scripts"))
+from keys_table import rows  # noqa: E402
+
 LIBRARIES = ["libfyaml", "udunits", "jansson", "hdf5-serial", "nlopt", "sqlite3"]
 WARNINGS = ["-Wall", "-Wextra", "-Wconversion", "-Wno-missing-field-initializers"]
 SANITIZE = os.environ.get("ZIPACT_SANITIZE", "")
@@ -70,25 +73,11 @@ class BuildExtension(build_ext):
         super().build_extension(extension)
 
 
-def repeated(text):
-    """Lines ZP_KEYS_OF_... of a table as the lines that they stand for."""
-    for name, parameters, body in re.findall(r"^#define (ZP_KEYS_OF_\w+)\((.*)\) \\\n((?:.*\\\n)*.*\n)", text, re.M):
-        for line, values in re.findall(r"^(%s\((.*)\))$" % name, text, re.M):
-            rows = re.sub(r"^ +| \\$", "", body, flags=re.M)
-            for parameter, value in zip(parameters.split(", "), values.split(", ")):
-                if value[0] == '"':  # between texts, or behind one
-                    rows = rows.replace('" %s "' % parameter, value[1:-1]).replace('" %s)' % parameter, value[1:] + ")")
-                else:
-                    rows = re.sub(r"\b%s(?=[.)])" % parameter, value, rows)
-            text = text.replace(line, rows)
-    return text
-
-
 def arguments(path, macro):
     """(name of the macro, its arguments as C texts) of each line ZP_MACRO(...) of a table."""
-    for name, inside in re.findall(r"^ZP_(%s)\((.*)\)$" % macro, repeated(read(path)), re.M):
-        parts = re.split(r',(?=(?:[^"]*"[^"]*")*[^"]*$)', inside)  # at commas outside of quotes
-        yield name, [text.strip() for text in parts]
+    for _, name, given in rows(read(path)):
+        if re.fullmatch(macro, name):
+            yield name, given
 
 
 def choices():

@@ -8,6 +8,8 @@ import pathlib
 import re
 import sys
 
+from keys_table import rows
+
 REPO = pathlib.Path(__file__).resolve().parent.parent
 STRING = r'"([^"]*)"'
 GROUPS = (
@@ -52,10 +54,10 @@ def words():
 
 
 def units():
-    """(unit, unit that people write, how many of these in one) of each key."""
+    """The unit of each key."""
     text = (REPO / "src/def/keys.def").read_text(encoding="utf-8")
-    rows = re.findall(r"^ZP_REAL\w*\((\w+\.), (\w+), %s, %s" % (STRING, STRING), text, re.M)
-    return {group + name: "" if unit == "1" else " " + unit for group, name, unit, _ in rows}
+    keys = [given for _, kind, given in rows(text) if kind.startswith("REAL")]
+    return {given[0] + given[1]: "" if given[2] == '"1"' else " " + given[2].strip('"') for given in keys}
 
 
 def values(macro):

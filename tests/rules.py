@@ -13,6 +13,9 @@ import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "scripts"))
+import keys_table  # noqa: E402
+
 # Folders of src/ from low to high. A file may include its own folder and every folder listed for it.
 MAY_INCLUDE = {
     "base": [],
@@ -243,18 +246,11 @@ def rule_core_needs_no_library(repo, files):
 
 def keys_of(repo):
     """(name, line) of each key of keys.def."""
-    text = read(repo, "src/def/keys.def")
-    text = re.sub(r"/\*.*?\*/", blank, text, flags=re.S)
-    for name, parameter, body in re.findall(r"^#define (ZP_KEYS_OF_\w+)\((\w+),[^)]*\) \\\n((?:.*\\\n)*.*\n)", text, re.M):
-        for found in re.finditer(r"^%s\((\w+)," % name, text, re.M):
-            for path, key in re.findall(r"^\s*ZP_\w+\(([\w.]*), (\w+),", body, re.M):
-                yield re.sub(r"\b%s\b" % parameter, found.group(1), path) + key, line_at(text, found.start())
-    for found in re.finditer(r"^ZP_OF_SCENARIO\((\w+),", text, re.M):
-        yield found.group(1), line_at(text, found.start())
-    for found in re.finditer(r"^ZP_(?:REAL|REAL_AUTO|INT|BOOL|ENUM|TEXT)\(\s*([\w.]*)\s*,\s*(\w+)\s*,", text, re.M):
-        yield found.group(1) + found.group(2), line_at(text, found.start())
-    for found in re.finditer(r"^ZP_REAL_AS\(\s*([\w.]*)\s*,\s*\w+\s*,\s*(\w+)\s*,", text, re.M):
-        yield found.group(1) + found.group(2), line_at(text, found.start())
+    for number, kind, given in keys_table.rows(read(repo, "src/def/keys.def")):
+        if kind == "OF_SCENARIO":
+            yield given[0], number
+        elif kind in ("REAL", "REAL_AS", "REAL_AUTO", "REAL_NONE", "INT", "BOOL", "ENUM", "TEXT"):
+            yield given[0] + given[2 if kind == "REAL_AS" else 1], number
 
 
 def rule_keys_documented(repo, files):

@@ -389,17 +389,8 @@ static void refuse_field(ZpActuatorDef *def, const char *name) {
 }
 
 /* Where the field of each key is. */
-#define ZP_GROUP(group)
-#define ZP_GROUP_END(group)
-#define ZP_REAL(path, name, ...)           offsetof(ZpActuatorDef, path name),
-#define ZP_REAL_AS(path, field, name, ...) offsetof(ZpActuatorDef, path field),
-#define ZP_REAL_AUTO                       ZP_REAL
-#define ZP_REAL_NONE                       ZP_REAL
-#define ZP_INT                             ZP_REAL
-#define ZP_BOOL                            ZP_REAL
-#define ZP_ENUM                            ZP_REAL
-#define ZP_TEXT                            ZP_REAL
-#define ZP_OF_SCENARIO(...)                0,
+#define ZP_EACH_KEY(path, field, text) offsetof(ZpActuatorDef, path field),
+#define ZP_OF_SCENARIO(...)            0,
 static const size_t field_of[] = {
 #include "def/keys.def"
 };

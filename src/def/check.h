@@ -17,15 +17,7 @@ enum { ZP_MOST_MEMBERS = 8 };
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \
   group;
-#define ZP_REAL(path, name, unit, shown, def, min, max, help)           char name;
-#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) char field;
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           char name;
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           char name;
-#define ZP_INT(path, name, def, min, max, help)                         char name;
-#define ZP_BOOL(path, name, def, help)                                  char name;
-#define ZP_ENUM(path, name, type, def, help)                            char name;
-#define ZP_TEXT(path, name, def, help)                                  char name;
-#define ZP_OF_SCENARIO(name, type, def, help)                           char name;
+#define ZP_EACH_KEY(path, field, text) char field;
 typedef struct ZpKeyNumbers {
 #include "def/keys.def"
 } ZpKeyNumbers;

@@ -19,8 +19,6 @@
 #undef ZP_CHOICE
 #undef ZP_CHOICES_END
 
-#define ZP_GROUP(group)
-#define ZP_GROUP_END(group)
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, NULL},
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help)                                                \
@@ -43,18 +41,9 @@ static const ZpKey keys[] = {
 enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 
 /* The place of each key's field in a Def; NO_FIELD: a key of the scenario. */
-#define NO_FIELD ((size_t)-1)
-#define ZP_GROUP(group)
-#define ZP_GROUP_END(group)
-#define ZP_REAL(path, name, unit, shown, def, min, max, help)           offsetof(ZpActuatorDef, path name),
-#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) offsetof(ZpActuatorDef, path field),
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           offsetof(ZpActuatorDef, path name),
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           offsetof(ZpActuatorDef, path name),
-#define ZP_INT(path, name, def, min, max, help)                         offsetof(ZpActuatorDef, path name),
-#define ZP_BOOL(path, name, def, help)                                  offsetof(ZpActuatorDef, path name),
-#define ZP_ENUM(path, name, type, def, help)                            offsetof(ZpActuatorDef, path name),
-#define ZP_TEXT(path, name, def, help)                                  offsetof(ZpActuatorDef, path name),
-#define ZP_OF_SCENARIO(name, type, def, help)                           NO_FIELD,
+#define NO_FIELD                              ((size_t)-1)
+#define ZP_EACH_KEY(path, field, text)        offsetof(ZpActuatorDef, path field),
+#define ZP_OF_SCENARIO(name, type, def, help) NO_FIELD,
 static const size_t offsets[] = {
 #include "def/keys.def"
 };

@@ -87,6 +87,17 @@ typedef struct ZpRule {
 #define ZP_MOTION_RULE_IF(class, when, also, needs, why)                                                               \
   { ZP_RULE_##class, true, when, also, needs, why }
 
+/* Rules of a law that holds for two equal insulators; for two equal ribbons. */
+#define ZP_RULES_EQUAL_INSULATORS(class, when, why)                                                                    \
+  {ZP_RULE_##class, false, when, ZP_ANY, ZP_UNSET(lower.insulator.thickness), why}, {                                  \
+    ZP_RULE_##class, false, when, ZP_ANY, ZP_UNSET(lower.insulator.permittivity), why                                  \
+  }
+#define ZP_RULES_EQUAL_RIBBONS(class, when, why)                                                                       \
+  {ZP_RULE_##class, false, when, ZP_ANY, ZP_UNSET(lower.insulator.thickness), why},                                    \
+      {ZP_RULE_##class, false, when, ZP_ANY, ZP_UNSET(lower.insulator.permittivity), why}, {                           \
+    ZP_RULE_##class, false, when, ZP_ANY, ZP_UNSET(lower.ribbon.thickness), why                                        \
+  }
+
 /* The rules of an owner. */
 typedef struct ZpRules {
   const ZpRule *rule;

@@ -15,19 +15,9 @@ typedef struct Names {
   const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
 } Names;
 
-#define ZP_GROUP(group)
-#define ZP_GROUP_END(group)
-#define NAMES(key)                                                                                                     \
-  {key "_standard_error", {key "_correlation_1", key "_correlation_2", key "_correlation_3", key "_correlation_4"}},
-#define ZP_REAL(path, name, unit, shown, def, min, max, help)           NAMES(#path #name)
-#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) NAMES(#path #name)
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           NAMES(#path #name)
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           NAMES(#path #name)
-#define ZP_INT(path, name, def, min, max, help)                         NAMES(#path #name)
-#define ZP_BOOL(path, name, def, help)                                  NAMES(#path #name)
-#define ZP_ENUM(path, name, type, def, help)                            NAMES(#path #name)
-#define ZP_TEXT(path, name, def, help)                                  NAMES(#path #name)
-#define ZP_OF_SCENARIO(name, type, def, help)                           NAMES(#name)
+#define ZP_EACH_KEY(path, field, text)                                                                                 \
+  {text "_standard_error",                                                                                             \
+   {text "_correlation_1", text "_correlation_2", text "_correlation_3", text "_correlation_4"}},
 static const Names names[] = {
 #include "def/keys.def"
 };

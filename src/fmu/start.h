@@ -10,17 +10,7 @@
 #include <zipact/drive.h>
 
 /* Number of keys, counted by one. */
-#define ZP_GROUP(group)
-#define ZP_GROUP_END(group)
-#define ZP_REAL(path, name, unit, shown, def, min, max, help)           +1
-#define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) +1
-#define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           +1
-#define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           +1
-#define ZP_INT(path, name, def, min, max, help)                         +1
-#define ZP_BOOL(path, name, def, help)                                  +1
-#define ZP_ENUM(path, name, type, def, help)                            +1
-#define ZP_TEXT(path, name, def, help)                                  +1
-#define ZP_OF_SCENARIO(name, type, def, help)                           +1
+#define ZP_EACH_KEY(path, field, text) +1
 enum {
   ZP_FMU_KEYS = 0
 #include "def/keys.def"

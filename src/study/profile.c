@@ -553,12 +553,7 @@ static const ZpRule rule[] = {
             "can include them"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PLATFORM), "its profile runs from a clip to a platform"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "its grid covers one half"),
-    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_UNSET(lower.insulator.thickness),
-            "its grid covers one half of the gap, whose middle plane is a mirror"),
-    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_UNSET(lower.insulator.permittivity),
-            "its grid covers one half of the gap, whose middle plane is a mirror"),
-    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_UNSET(lower.ribbon.thickness),
-            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULES_EQUAL_RIBBONS(NOT_MODELLED, ZP_ANY, "its grid covers one half of the gap, whose middle plane is a mirror"),
     ZP_RULE(
         EQUATION, ZP_ANY, ZP_AT_LEAST(insulator.thickness, 1e-6),
         "the field at the clip is infinite without an insulator, and its grid keeps closed faces a nanometre apart"),

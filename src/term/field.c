@@ -67,12 +67,8 @@ static const ZpRule rule[] = {
             "the paper's surface carries the plates law"),
     ZP_RULE(EQUATION, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_AT_LEAST(insulator.thickness, 1e-6),
             "its grid keeps closed faces a nanometre apart, which changes the force by less than 0.2 % then"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(lower.insulator.thickness),
-            "its grid covers one half of the gap, whose middle plane is a mirror"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(lower.insulator.permittivity),
-            "its grid covers one half of the gap, whose middle plane is a mirror"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(lower.ribbon.thickness),
-            "its grid covers one half of the gap, whose middle plane is a mirror"),
+    ZP_RULES_EQUAL_RIBBONS(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD),
+                           "its grid covers one half of the gap, whose middle plane is a mirror"),
 };
 
 const ZpTerm zp_term_field = {.name = "field",

@@ -100,10 +100,8 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
               "the insulator that charges has a thickness and a permittivity"),                                        \
       ZP_RULE(EQUATION, ZP_SET(resistivity), ZP_IS(electro.edges, false),                                              \
               "the charge of the faces at the lateral edges has no closed form"),                                      \
-      ZP_RULE(NOT_MODELLED, ZP_SET(resistivity), ZP_UNSET(lower.insulator.thickness),                                  \
-              "unequal layers charge at two rates, and one is modelled"),                                              \
-      ZP_RULE(NOT_MODELLED, ZP_SET(resistivity), ZP_UNSET(lower.insulator.permittivity),                               \
-              "unequal layers charge at two rates, and one is modelled"),                                              \
+      ZP_RULES_EQUAL_INSULATORS(NOT_MODELLED, ZP_SET(resistivity),                                                     \
+                                "unequal layers charge at two rates, and one is modelled"),                            \
       ZP_RULE(NOT_MODELLED, ZP_SET(resistivity), ZP_IS(electro.model, ZP_ELECTRO_PLATES),                              \
               "the charge of the faces enters the plates law"),                                                        \
       ZP_RULE(EQUATION, ZP_SET(resistivity), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),                              \

@@ -71,17 +71,10 @@ static const ZpRule rule[] = {
             "the paper's surface has no edges"),
     ZP_RULE(PHYSICS, ZP_IS(electro.edges, true), ZP_ABOVE(insulator.thickness, 0),
             "the field at the edges of bare faces that touch is infinite"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_UNSET(lower.insulator.thickness),
-            "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_UNSET(lower.insulator.permittivity),
-            "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
-    ZP_RULE(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_UNSET(lower.ribbon.thickness),
-            "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
+    ZP_RULES_EQUAL_RIBBONS(NOT_MODELLED, ZP_IS(electro.edges, true),
+                           "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
     /* the paper's offset, which is that of both insulators */
-    ZP_RULE(PHYSICS, ZP_SET(electro.insulator_offset), ZP_UNSET(lower.insulator.thickness),
-            "the offset stands for both insulators"),
-    ZP_RULE(PHYSICS, ZP_SET(electro.insulator_offset), ZP_UNSET(lower.insulator.permittivity),
-            "the offset stands for both insulators"),
+    ZP_RULES_EQUAL_INSULATORS(PHYSICS, ZP_SET(electro.insulator_offset), "the offset stands for both insulators"),
 };
 
 /* The rows are those of all electric terms together: run/energy_balance.c fills them. */
