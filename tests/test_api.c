@@ -749,12 +749,46 @@ START_TEST(study_out_of_range) {
 }
 END_TEST
 
+/* A wrong number of a part or of a key has an answer of its own. */
+START_TEST(what_is_out_of_range_has_an_answer) {
+  ZpError err = {0};
+  double value;
+  char text[64];
+  ZpResult *result = zp_result_create(ZP_STUDY_STATIONARY);
+  zp_result_add(result, "stroke_m", "m", 1);
+  zp_result_add_sensitivity(result, "stroke_m", zp_key_find("load.mass"), 2);
+  zp_result_note(result, "%0300d", 7);
+  ck_assert_uint_eq(strlen(zp_result_note_text(result, 0)), 300);
+  ck_assert_ptr_nonnull(zp_result_scalar(result, 0));
+  ck_assert_ptr_nonnull(zp_result_sensitivity(result, 0));
+  ck_assert_ptr_null(zp_result_scalar(result, 1));
+  ck_assert_ptr_null(zp_result_sensitivity(result, 1));
+  ck_assert_ptr_null(zp_result_note_text(result, 1));
+  zp_result_destroy(result);
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns(&columns);
+  ZpTable *table = zp_table_create(column, columns, 2);
+  ck_assert_ptr_nonnull(zp_table_column(table, columns - 1));
+  ck_assert_ptr_null(zp_table_column(table, columns));
+  zp_table_destroy(table);
+  for (int k = 0; k < 2; k++) {
+    const int key = k ? zp_key_count() : -1;
+    ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_BAD_INPUT);
+    ck_assert_ptr_nonnull(strstr(err.message, "there is no key number"));
+    zp_value_print(key, 8, text, sizeof text);
+    ck_assert_str_eq(text, "8");
+    ck_assert(!zp_checkpoint_holds(key));
+  }
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("api");
   TCase *c = tcase_create("api");
   tcase_add_test(c, rest_hangs_as_the_study_says);
   tcase_add_test(c, study_out_of_range);
   tcase_add_test(c, program_of_a_user);
+  tcase_add_test(c, what_is_out_of_range_has_an_answer);
   tcase_add_test(c, null_is_allowed_where_it_says_so);
   tcase_add_test(c, destroying_nothing_does_nothing);
   tcase_add_test(c, scenario_without_err);

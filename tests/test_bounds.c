@@ -163,7 +163,8 @@ static ZpOutcome run_and_check(ZpStudy study, const ZpActuatorDef *def, const ch
   if (def->solver.max_steps > most_steps) bounded.solver.max_steps = most_steps;
   const ZpDriveTable table = {3, (const double[]){0, 5e-5, 5e-5}, (const double[]){-1e6, 1e6, 0}};
   bool by_table = def->drive.waveform == ZP_WAVEFORM_TABLE || def->setpoint.waveform == ZP_WAVEFORM_TABLE;
-  ZpStudyInput input = {.table = by_table ? &table : NULL, .start = start_of(&bounded)};
+  ZpCheckpoint *from = start_of(&bounded);
+  ZpStudyInput input = {.table = by_table ? &table : NULL, .start = from};
   ZpStatus status = zp_study_run(study, &bounded, &input, NULL, &result, &err);
   double seconds = cpu_seconds() - start;
   ck_assert_msg(status == ZP_OK, "%s: %s", what, err.message);
@@ -172,7 +173,7 @@ static ZpOutcome run_and_check(ZpStudy study, const ZpActuatorDef *def, const ch
   check_scalars(result, def, what);
   check_table(result, def, what);
   check_shapes(result, def, what);
-  zp_checkpoint_destroy((ZpCheckpoint *)input.start);
+  zp_checkpoint_destroy(from);
   ZpOutcome outcome = result->outcome;
   if (getenv("ZP_SHOW_OUTCOMES")) printf("%-60s %-12s %.3f s\n", what, zp_outcome_name(outcome), seconds);
   zp_result_destroy(result);

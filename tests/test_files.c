@@ -7,7 +7,7 @@
 
 /* -- what was read ---------------------------------------------------------------------------------- */
 
-static const json_t *datasets; /* of results.h5, by path */
+static json_t *datasets; /* of results.h5, by path */
 static size_t looked_at;
 
 /* What the other program finds in the files. */
@@ -58,7 +58,7 @@ static void check_all_were_looked_at(void) {
   const char *path;
   json_t *item;
   size_t sets = 0;
-  json_object_foreach((json_t *)datasets, path, item) {
+  json_object_foreach(datasets, path, item) {
     sets += json_object_get(item, "shape") != NULL;
   }
   ck_assert_uint_eq(sets, looked_at);

@@ -57,7 +57,7 @@ static void tear_down(void) {
 }
 
 /* "base/name"; a few of them live at a time. */
-static const char *in_base(const char *name) {
+static char *in_base(const char *name) {
   static char path[4][1280];
   static int next;
   next = (next + 1) % 4;
@@ -155,7 +155,7 @@ static ZpResult *made_up(size_t rows, size_t frames, bool ribbon, double voltage
   result->study = ZP_STUDY_ACTUATE;
   result->outcome = ZP_ZIPPED;
   strcpy(result->message, "zipped after 75 ms");
-  strcpy(result->note[result->notes++], "the field in the insulator was above insulator.breakdown_field");
+  zp_result_note(result, "the field in the insulator was above insulator.breakdown_field");
   add_scalar(result, "contraction", "1", 0.1 + 0.2, false);
   add_scalar(result, "zip_time_s", "s", ribbon ? (double)NAN : ZIP_TIME * slowness, false);
   add_scalar(result, "steps", "count", 123456789, false);

@@ -64,7 +64,7 @@ typedef enum ZpKeysFormat { ZP_KEYS_TEXT, ZP_KEYS_JSON, ZP_KEYS_YAML, ZP_KEYS_SC
 ZP_API ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err);
 
 /* Read a value of key `index` in the form for people: "130 um", "auto", "true", "plates"; a number without a unit is
- * SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key. */
+ * SI. ZP_BAD_INPUT names key, value, unit and range; also for a text key, and where there is no such key. */
 ZP_API ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err);
 
 /* Set key `key` of a Def by a value in the form for people: "8 g", "auto", "true", "plates", or a text. ZP_BAD_INPUT as
@@ -84,7 +84,8 @@ ZP_API ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **result
 ZP_API ZpStatus zp_templates_write(const char *folder, ZpError *err);
 
 /* Write a value of key `index` in the form for people: "100 mm", "auto", "true", "plates". It reads back to the same
- * bits; for a text key, its default. `text` gets at most `size` bytes with the final 0. */
+ * bits; for a text key, its default; the number alone where there is no such key. `text` gets at most `size` bytes with
+ * the final 0. */
 ZP_API void zp_value_print(int index, double value, char *text, size_t size);
 
 /* Write a checkpoint to `file`. */

@@ -75,8 +75,8 @@ ZP_API ZpResult *zp_result_create(ZpStudy study);
  * outlive the result. */
 ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
 
-/* Append a number to the summary, a wall time, or a note of one sentence. Beyond 64 numbers and 8 notes they
- * are omitted. `name` and `unit` must outlive the result. */
+/* Append a number to the summary, a wall time, or a note of one sentence of any length. Beyond 64 numbers and 8 notes
+ * they are omitted, a note also without memory. `name` and `unit` must outlive the result. */
 ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
@@ -100,8 +100,8 @@ ZP_API ZpStudy zp_result_study(const ZpResult *result);
 ZP_API ZpOutcome zp_result_outcome(const ZpResult *result);
 ZP_API const char *zp_result_message(const ZpResult *result);
 
-/* Number of notes, and note `index` below it: a sentence on breakdown, yield, or limits of the model and of the mesh.
- */
+/* Number of notes, and note `index`, NULL from there on: a sentence on breakdown, yield, or limits of the model and of
+ * the mesh. */
 ZP_API size_t zp_result_notes(const ZpResult *result);
 ZP_API const char *zp_result_note_text(const ZpResult *result, size_t index);
 
@@ -109,11 +109,11 @@ ZP_API const char *zp_result_note_text(const ZpResult *result, size_t index);
  * and (9.5)); below 1 no errors are estimated. INFINITY: no such length. */
 ZP_API double zp_result_resolution(const ZpResult *result);
 
-/* Number of scalars, and scalar `index` below it, in the order of the summary. */
+/* Number of scalars, and scalar `index`, NULL from there on, in the order of the summary. */
 ZP_API size_t zp_result_scalars(const ZpResult *result);
 ZP_API const ZpScalar *zp_result_scalar(const ZpResult *result, size_t index);
 
-/* Number of derivatives, and derivative `index` below it: key by key, in the order of sensitivity.by. */
+/* Number of derivatives, and derivative `index`, NULL from there on: key by key, in the order of sensitivity.by. */
 ZP_API size_t zp_result_sensitivities(const ZpResult *result);
 ZP_API const ZpSensitivity *zp_result_sensitivity(const ZpResult *result, size_t index);
 

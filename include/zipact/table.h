@@ -43,7 +43,7 @@ ZP_API double zp_table_get(const ZpTable *table, size_t row, const char *name);
 ZP_API size_t zp_table_rows(const ZpTable *table);
 ZP_API size_t zp_table_columns(const ZpTable *table);
 
-/* Column `column`, below zp_table_columns. */
+/* Column `column`; NULL from zp_table_columns on. */
 ZP_API const ZpColumn *zp_table_column(const ZpTable *table, size_t column);
 
 /* Row `row`: zp_table_columns numbers, valid until the table changes. Rows follow each other in memory. NULL if there

@@ -112,7 +112,7 @@ size_t zp_table_columns(const ZpTable *table) {
 }
 
 const ZpColumn *zp_table_column(const ZpTable *table, size_t column) {
-  return &table->column[column];
+  return column < table->columns ? &table->column[column] : NULL;
 }
 
 const double *zp_table_row(const ZpTable *table, size_t row) {

@@ -348,7 +348,7 @@ const ZpResult *zp_journal_get(ZpJournal *journal, size_t number) {
   if (journal->has_row && journal->at == number) return journal->row;
   journal->has_row = find_row(journal, number) && read_row(journal);
   journal->bad = journal->bad || !journal->has_row;
-  if (!journal->has_row) zp_numbers_clear(journal->row);
+  if (!journal->has_row) zp_result_clear(journal->row);
   return journal->row;
 }
 

@@ -40,7 +40,7 @@ void zp_time_limit_end(const ZpTimeLimit *limit, ZpResult *result) {
   result->outcome = ZP_TIME_LIMIT;
   snprintf(result->message, sizeof result->message, "stopped by solver.max_cpu_time = %g s before it had a result",
            limit->most);
-  result->notes = 0;
+  zp_result_forget_notes(result);
   for (size_t k = 0; k < result->scalars; k++)
     if (!result->scalar[k].timing) result->scalar[k].value = NAN;
   for (size_t k = 0; k < result->sensitivities; k++)

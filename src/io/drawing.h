@@ -16,7 +16,7 @@ typedef struct ZpPicture {
 #define ZP_DRAWING_PATIENCE 60.0
 
 typedef struct ZpDrawing {
-  const char *folder;                  /* where the pictures are */
+  char *folder;                        /* where the pictures are */
   const char *templates;               /* folder of templates that replace those built in; NULL: none */
   void (*notice)(const char *message); /* NULL: silent */
   double patience;                     /* ZP_DRAWING_PATIENCE, s */

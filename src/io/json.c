@@ -52,14 +52,14 @@ static void begin_line(FILE *file, int depth) {
   if (depth != FLAT) fwrite(line, 1, length < most ? length : most, file);
 }
 
-static bool print_tree(FILE *file, const json_t *tree, int depth);
+static bool print_tree(FILE *file, json_t *tree, int depth);
 
 /* Everything except the closing brace. */
-static bool print_members(FILE *file, const json_t *object, int depth) {
+static bool print_members(FILE *file, json_t *object, int depth) {
   const char *name, *mark = "{";
   json_t *value;
   bool done = true;
-  json_object_foreach((json_t *)object, name, value) {
+  json_object_foreach(object, name, value) {
     fputs(mark, file);
     begin_line(file, inside(depth));
     fputc('"', file);
@@ -71,14 +71,14 @@ static bool print_members(FILE *file, const json_t *object, int depth) {
   return done;
 }
 
-static bool print_object(FILE *file, const json_t *object, int depth) {
+static bool print_object(FILE *file, json_t *object, int depth) {
   bool done = print_members(file, object, depth);
   begin_line(file, depth);
   fputc('}', file);
   return done;
 }
 
-static bool print_array(FILE *file, const json_t *array, int depth) {
+static bool print_array(FILE *file, json_t *array, int depth) {
   bool done = true;
   for (size_t i = 0; i < json_array_size(array); i++) {
     fputs(i == 0 ? "[" : depth == FLAT ? ", " : ",", file);
@@ -91,7 +91,7 @@ static bool print_array(FILE *file, const json_t *array, int depth) {
 }
 
 /* Names of members need no escapes; jansson writes strings. */
-static bool print_tree(FILE *file, const json_t *tree, int depth) {
+static bool print_tree(FILE *file, json_t *tree, int depth) {
   switch (json_typeof(tree)) {
   case JSON_OBJECT:
     return json_object_size(tree) > 0 ? print_object(file, tree, depth) : fputs("{}", file) >= 0;
@@ -127,8 +127,8 @@ static bool print_list(FILE *file, size_t count, ZpJsonItem item, const void *us
   return done;
 }
 
-ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
-                            FILE *file, ZpError *err) {
+ZpStatus zp_json_write_list(json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user, FILE *file,
+                            ZpError *err) {
   errno = 0;
   bool done = print_members(file, head, 0);
   fprintf(file, ",\n  \"%s\": ", name);
@@ -137,7 +137,7 @@ ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, 
   return finish(file, done, err);
 }
 
-ZpStatus zp_json_write(const json_t *tree, bool flat, FILE *file, ZpError *err) {
+ZpStatus zp_json_write(json_t *tree, bool flat, FILE *file, ZpError *err) {
   errno = 0;
   return finish(file, print_tree(file, tree, flat ? FLAT : 0), err);
 }

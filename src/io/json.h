@@ -24,11 +24,11 @@ typedef json_t *(*ZpJsonItem)(const void *user, size_t index);
 
 /* Write the object `head` as zp_json_write does, with an additional last member `name`: a list of `count` items, of
  * which only one is in memory at a time. */
-ZpStatus zp_json_write_list(const json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user,
-                            FILE *file, ZpError *err);
+ZpStatus zp_json_write_list(json_t *head, const char *name, size_t count, ZpJsonItem item, const void *user, FILE *file,
+                            ZpError *err);
 
 /* Write the tree in lines or as a single line, with the shortest decimals that read back to the same bits (jansson
  * writes all 17 digits of 0.075). ZP_MACHINE if the file could not be written. */
-ZpStatus zp_json_write(const json_t *tree, bool flat, FILE *file, ZpError *err);
+ZpStatus zp_json_write(json_t *tree, bool flat, FILE *file, ZpError *err);
 
 #endif

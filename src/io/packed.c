@@ -1,5 +1,6 @@
 #include "io/packed.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -191,31 +192,18 @@ static bool read_series(ZpTexts texts, Numbers *numbers, ZpResult *result) {
   return true;
 }
 
-/* A text as long as a message. */
-static void copy_text(const char *text, char to[256]) {
-  const size_t length = strnlen(text, 255);
-  memcpy(to, text, length);
-  to[length] = 0;
-}
-
 static void read_texts(ZpTexts texts, ZpResult *result) {
   result->outcome = outcome_of(next_text(&texts));
   const char *text = next_text(&texts);
-  copy_text(text ? text : "", result->message);
-  while ((text = next_text(&texts)) && result->notes < ZP_MAX_NOTES)
-    copy_text(text, result->note[result->notes++]);
-}
-
-void zp_numbers_clear(ZpResult *result) {
-  zp_table_destroy(result->series);
-  result->series = NULL;
-  result->scalars = result->sensitivities = result->notes = 0;
+  snprintf(result->message, sizeof result->message, "%s", text ? text : "");
+  while ((text = next_text(&texts)))
+    zp_result_note(result, "%s", text);
 }
 
 ZpStatus zp_numbers_read(const ZpNames *names, const void *bytes, size_t size, ZpResult *result, ZpError *err) {
   ZpPack p;
   Numbers numbers = {NULL, 0, false};
-  zp_numbers_clear(result);
+  zp_result_clear(result);
   ZpStatus status = zp_pack_read(&kind_of_numbers, bytes, size, &p, err);
   if (status != ZP_OK) return status;
   const ZpTexts texts = find_texts(&p, "texts");
@@ -230,7 +218,7 @@ ZpStatus zp_numbers_read(const ZpNames *names, const void *bytes, size_t size, Z
   read_derivatives(names->derivatives, &numbers, result);
   const bool room = read_series(names->columns, &numbers, result);
   if (room && !numbers.bad && numbers.left == 0) return ZP_OK;
-  zp_numbers_clear(result);
+  zp_result_clear(result);
   return room ? zp_fail(err, ZP_BAD_INPUT, "damaged: its numbers are not those of its names") : zp_fail_memory(err);
 }
 

@@ -38,7 +38,4 @@ ZpStatus zp_names_read(const void *bytes, size_t size, ZpNames *names, ZpError *
  * ZP_MACHINE if there is no memory. */
 ZpStatus zp_numbers_read(const ZpNames *names, const void *bytes, size_t size, ZpResult *result, ZpError *err);
 
-/* Take away what zp_numbers_read has filled in. */
-void zp_numbers_clear(ZpResult *result);
-
 #endif

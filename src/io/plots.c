@@ -226,7 +226,7 @@ static ZpStatus open_drawing(const ZpReport *report, ZpDrawing *drawing, ZpPlot 
 
 static void close_drawing(ZpDrawing *drawing, ZpPlot *plot) {
   free(plot->column);
-  free((char *)drawing->folder);
+  free(drawing->folder);
 }
 
 ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err) {

@@ -4,63 +4,74 @@
 
 #include <errno.h>
 #include <stdbool.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <zipact/io.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
+#include "io/file.h"
 
 /* Largest depth of templates that load each other: more are a circle, and gnuplot reports it. Longest name of a
  * template, and longest line of a script that may be a mark. */
 enum { NESTED_MOST = 8, NAME_SIZE = 64, LINE_SIZE = 4096 };
 
-/* A stream of the user's own template, with its path, or of the one that is built in; NULL with errno and the path if
- * there is none. The path is to be freed. */
-static FILE *open_template(const char *folder, const char *name, char **path) {
+/* The text of a template: the user's own one, with its path, or the one that is built in. NULL in *text: there is none
+ * of that name. *own and *path are to be freed. ZP_MACHINE if the user's own one cannot be read. */
+static ZpStatus find_text(const char *folder, const char *name, char **own, const char **text, char **path,
+                          ZpError *err) {
+  size_t size;
+  ZpError reason;
+  *own = NULL;
   *path = folder ? zp_path_join(folder, name) : NULL;
-  FILE *file = *path ? fopen(*path, "re") : NULL;
-  if (file || (*path && errno != ENOENT)) return file;
+  if (*path && (access(*path, F_OK) == 0 || errno != ENOENT)) {
+    if (zp_file_read(*path, SIZE_MAX / 2, own, &size, &reason) != ZP_OK)
+      return zp_fail(err, ZP_MACHINE, "cannot read the template %s", reason.message);
+    *text = *own;
+    return ZP_OK;
+  }
   const ZpTemplate *one = zp_templates;
   while (one->name && strcmp(one->name, name) != 0)
     one++;
   free(*path);
   *path = strdup(name);
-  errno = ENOENT;
-  return one->name ? fmemopen((void *)one->text, strlen(one->text), "r") : NULL;
+  *text = one->text;
+  return *path ? ZP_OK : zp_fail_memory(err);
 }
 
-/* Does the line load another file: is it "load 'NAME'"? => its name. */
-static bool is_load(const char *line, char name[NAME_SIZE]) {
+/* Does the line of `length` bytes load another file: is it "load 'NAME'"? => its name. */
+static bool is_load(const char *line, size_t length, char name[NAME_SIZE]) {
   int end = 0;
-  return sscanf(line, " load '%63[^'/]'%n", name, &end) == 1 && end > 0 &&
-         line[end + (int)strspn(line + end, " \t\r\n")] == 0;
+  if (sscanf(line, " load '%63[^'/]'%n", name, &end) != 1 || end == 0) return false;
+  return (size_t)end + strspn(line + end, " \t\r\n") >= length;
 }
 
 /* A line that loads what is no template stays. */
 static ZpStatus write_nested(const char *folder, const char *name, int depth, FILE *script, ZpError *err) {
-  char *path, *line = NULL, loaded[NAME_SIZE];
-  size_t room = 0;
-  FILE *file = open_template(folder, name, &path);
-  ZpStatus status = file ? ZP_OK : zp_fail(err, ZP_MACHINE, "cannot read the template %s: %s", path, strerror(errno));
-  if (!file && errno == ENOENT && depth > 1) {
-    status = ZP_OK;
-    fprintf(script, "load '%s'\n", name);
-  }
-  if (file) fprintf(script, "#line 1 %s\n", path);
-  for (int number = 1; file && status == ZP_OK && getline(&line, &room, file) > 0; number++) {
-    if (depth < NESTED_MOST && is_load(line, loaded)) {
+  const char *text = NULL;
+  char *path, *own, loaded[NAME_SIZE];
+  ZpStatus status = find_text(folder, name, &own, &text, &path, err);
+  if (status == ZP_OK && !text && depth == 1)
+    status = zp_fail(err, ZP_MACHINE, "cannot read the template %s: %s", name, strerror(ENOENT));
+  else if (status == ZP_OK)
+    fprintf(script, text ? "#line 1 %s\n" : "load '%s'\n", path);
+  size_t length;
+  for (int number = 2; text && *text && status == ZP_OK; number++, text += length) {
+    length = strcspn(text, "\n") + 1;
+    if (depth < NESTED_MOST && is_load(text, length, loaded)) {
       status = write_nested(folder, loaded, depth + 1, script, err);
-      fprintf(script, "#line %d %s\n", number + 1, path);
+      fprintf(script, "#line %d %s\n", number, path);
     } else {
-      fprintf(script, "%s%s", line, strchr(line, '\n') ? "" : "\n");
+      fprintf(script, "%.*s\n", (int)length - 1, text);
     }
+    length -= text[length - 1] == 0;
   }
-  free(line);
   free(path);
-  if (file) fclose(file);
+  free(own);
   return status;
 }
 

@@ -101,9 +101,8 @@ static bool is_proportional(const cv_converter *converter, double *factor) {
   return isnormal(*factor) && *factor > 0 && fabs(twice - 2 * *factor) <= 1e-12 * twice;
 }
 
-static ZpStatus scale_between(const ut_unit *from, const ut_unit *to, const char *to_text, ZpUnitScale *scale,
-                              ZpError *err) {
-  cv_converter *converter = ut_get_converter((ut_unit *)from, (ut_unit *)to);
+static ZpStatus scale_between(ut_unit *from, ut_unit *to, const char *to_text, ZpUnitScale *scale, ZpError *err) {
+  cv_converter *converter = ut_get_converter(from, to);
   if (!converter) return zp_unit_fail_dimension(to_text, err);
   double factor;
   bool proportional = is_proportional(converter, &factor);

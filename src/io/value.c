@@ -292,6 +292,7 @@ ZpStatus zp_value_read_part(int index, const char *name, const char *text, doubl
 
 ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err) {
   ZpError reason;
+  if (!zp_key(index)) return zp_fail(err, ZP_BAD_INPUT, "there is no key number %d", index);
   ZpStatus status = zp_value_read(index, text, value, &reason);
   if (status == ZP_OK) return ZP_OK;
   zp_fail(err, status, "%s = \"%.80s\": %s", zp_key(index)->name, text, reason.message);
@@ -340,7 +341,7 @@ static void print_si(const ZpKey *key, double value, char *text, size_t size) {
 ZpShownUnit zp_value_unit(int index) {
   const ZpKey *key = zp_key(index);
   ZpShownUnit shown = {false, {0}};
-  shown.known = *key->shown && zp_unit_scale(key->shown, key->unit, &shown.scale, NULL) == ZP_OK;
+  shown.known = key && *key->shown && zp_unit_scale(key->shown, key->unit, &shown.scale, NULL) == ZP_OK;
   return shown;
 }
 
@@ -351,7 +352,9 @@ void zp_value_print(int index, double value, char *text, size_t size) {
 
 void zp_value_print_in(int index, const ZpShownUnit *shown, double value, char *text, size_t size) {
   const ZpKey *key = zp_key(index);
-  if (key->type == ZP_KEY_TEXT)
+  if (!key)
+    zp_number_print(value, text, size);
+  else if (key->type == ZP_KEY_TEXT)
     snprintf(text, size, "\"%s\"", key->text);
   else if (key->type == ZP_KEY_BOOL)
     snprintf(text, size, "%s", value != 0 ? "true" : "false");

@@ -172,10 +172,10 @@ static void evaluate_new(void *user, size_t index) {
 
 /* Cut some cells, each along its variable, and run the new cases. */
 static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *variable, size_t count, ZpError *err) {
-  const Wave wave = {e, e->cells};
+  Wave wave = {e, e->cells};
   for (size_t k = 0; k < count; k++)
     cut(e, &e->cell[chosen[k]], variable[k]);
-  ZpStatus status = zp_search_parallel(e->search, 2 * count, evaluate_new, (void *)&wave, err);
+  ZpStatus status = zp_search_parallel(e->search, 2 * count, evaluate_new, &wave, err);
   if (status != ZP_OK || atomic_load(&e->search->stop)) return status;
   for (size_t k = 0; k < 2 * count; k++)
     learn(e, &e->cell[chosen[k / 2]], &e->cell[wave.first + k], variable[k / 2]);

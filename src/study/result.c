@@ -22,9 +22,21 @@ void zp_result_forget_states(ZpResult *result) {
   result->limits = NULL;
 }
 
+void zp_result_forget_notes(ZpResult *result) {
+  while (result->notes > 0)
+    zp_free(result->note[--result->notes]);
+}
+
+void zp_result_clear(ZpResult *result) {
+  zp_table_destroy(result->series);
+  result->series = NULL;
+  result->scalars = result->sensitivities = 0;
+  zp_result_forget_notes(result);
+}
+
 void zp_result_destroy(ZpResult *result) {
   if (!result) return;
-  zp_table_destroy(result->series);
+  zp_result_clear(result);
   zp_shapes_destroy(result->shapes);
   zp_field_map_destroy(result->map);
   zp_checkpoint_destroy(result->checkpoint);
@@ -92,10 +104,16 @@ void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, do
 }
 
 void zp_result_note(ZpResult *result, const char *format, ...) {
-  if (result->notes == ZP_MAX_NOTES) return;
-  va_list args;
+  va_list args, again;
   va_start(args, format);
-  vsnprintf(result->note[result->notes++], sizeof result->note[0], format, args);
+  va_copy(again, args);
+  const int length = vsnprintf(NULL, 0, format, again);
+  char *note = length >= 0 && result->notes < ZP_MAX_NOTES ? zp_calloc((size_t)length + 1, 1) : NULL;
+  if (note) {
+    vsnprintf(note, (size_t)length + 1, format, args);
+    result->note[result->notes++] = note;
+  }
+  va_end(again);
   va_end(args);
 }
 
@@ -116,7 +134,7 @@ size_t zp_result_notes(const ZpResult *result) {
 }
 
 const char *zp_result_note_text(const ZpResult *result, size_t index) {
-  return result->note[index];
+  return index < result->notes ? result->note[index] : NULL;
 }
 
 double zp_result_resolution(const ZpResult *result) {
@@ -128,7 +146,7 @@ size_t zp_result_scalars(const ZpResult *result) {
 }
 
 const ZpScalar *zp_result_scalar(const ZpResult *result, size_t index) {
-  return &result->scalar[index];
+  return index < result->scalars ? &result->scalar[index] : NULL;
 }
 
 size_t zp_result_sensitivities(const ZpResult *result) {
@@ -136,7 +154,7 @@ size_t zp_result_sensitivities(const ZpResult *result) {
 }
 
 const ZpSensitivity *zp_result_sensitivity(const ZpResult *result, size_t index) {
-  return &result->sensitivity[index];
+  return index < result->sensitivities ? &result->sensitivity[index] : NULL;
 }
 
 const ZpTable *zp_result_series(const ZpResult *result) {

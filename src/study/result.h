@@ -15,12 +15,18 @@ typedef struct ZpLimits ZpLimits;
 /* Free them; NULL is allowed. */
 void zp_limits_destroy(ZpLimits *limits);
 
+/* Take away the notes. */
+void zp_result_forget_notes(ZpResult *result);
+
+/* Take away scalars, derivatives, notes and the table. */
+void zp_result_clear(ZpResult *result);
+
 /* The result of a study. */
 struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
   char message[256];            /* one sentence on how it ended */
-  char note[ZP_MAX_NOTES][256]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
+  char *note[ZP_MAX_NOTES]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
   size_t notes;
   double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest
                       * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
