@@ -132,6 +132,24 @@ START_TEST(test_energy_of_a_cycle) {
 }
 END_TEST
 
+/* At half of its lowest frequency, 3.69 Hz, an actuator without drag swings with hardly any energy from the source: the
+ * load falls as far as it rises, and the note says that it lifts itself. */
+START_TEST(test_efficiency_of_a_load_that_swings) {
+  ZpActuatorDef def = DEF(SINE, {"drive.voltage", 100}, {"drive.frequency", 1.8}, {"cycle.method", ZP_CYCLE_LINEAR});
+  ZpResult *result = cycle_of(&def);
+  double work = zp_result_get(result, "work_per_cycle_J");
+  ck_assert(zp_result_get(result, "periodic") == 1);
+  ck_assert(zp_result_get(result, "energy_per_cycle_J") > 0);
+  ck_assert_double_gt(work, zp_result_get(result, "energy_drawn_per_cycle_J"));
+  ck_assert_double_nan(zp_result_get(result, "efficiency"));
+  ck_assert_double_nan(zp_result_get(result, "efficiency_without_recovery"));
+  ck_assert_ptr_nonnull(note_of(result, "efficiency is null: the load swings"));
+  ck_assert_ptr_nonnull(note_of(result, "efficiency_without_recovery is null: the load swings"));
+  ck_assert_ptr_null(note_of(result, "stored before"));
+  zp_result_destroy(result);
+}
+END_TEST
+
 /* Closed ribbons are a capacitor: under a sine of both signs its current has the amplitude C w U, and twice per cycle
  * the source supplies C U^2 / 2 and recovers it. The voltage is so low that the faces hardly give way. Rows have mean
  * currents over a hundredth of a cycle. */
@@ -485,6 +503,7 @@ int main(void) {
   tcase_add_test(cycles, test_lag_beyond_half_a_turn);
   tcase_add_test(cycles, test_work_on_a_spring);
   tcase_add_test(cycles, test_energy_of_a_cycle);
+  tcase_add_test(cycles, test_efficiency_of_a_load_that_swings);
   tcase_add_test(cycles, test_current_of_a_capacitor);
   tcase_add_test(cycles, test_shooting_finds_what_waiting_leads_to);
   tcase_add_loop_test(cycles, test_liquid_is_waited_for, 1, 2);

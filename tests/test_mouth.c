@@ -130,6 +130,18 @@ START_TEST(work_of_a_cycle_is_that_on_the_load) {
 }
 END_TEST
 
+/* Its steep faces have slid into each other 3 ms after it closed: the model ends there, and how long it stays closed is
+ * not known. */
+START_TEST(a_run_that_ends_beyond_the_model_tells_no_closed_from) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_MOUTH}, {"drive.voltage", 8e3}, {"mesh.nodes", 15});
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
+  ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 0.1);
+  ck_assert_double_nan(zp_result_get(result, "closed_from_s"));
+  zp_result_destroy(result);
+}
+END_TEST
+
 int main(void) {
   Suite *suite = suite_create("mouth");
   TCase *rest = tcase_create("rest");
@@ -140,6 +152,7 @@ int main(void) {
   TCase *motion = tcase_create("motion");
   tcase_add_loop_test(motion, zips_and_keeps_the_books, 0, 2);
   tcase_add_loop_test(motion, work_of_a_cycle_is_that_on_the_load, 0, 2);
+  tcase_add_test(motion, a_run_that_ends_beyond_the_model_tells_no_closed_from);
   suite_add_tcase(suite, motion);
   TCase *refused = tcase_create("refused");
   tcase_add_loop_test(refused, what_it_does_not_have_is_refused, 0, LENGTH_OF(refusals));

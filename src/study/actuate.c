@@ -38,10 +38,10 @@ static double widest_opening(const ZpTable *series) {
 }
 
 static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
-  bool first = result->outcome == ZP_ZIPPED && stop == ZP_STOP_CLOSED; /* nothing is known of what follows */
+  bool until_end = zp_outcome_good(result->outcome) && !(result->outcome == ZP_ZIPPED && stop == ZP_STOP_CLOSED);
   zp_result_add(result, "contraction", "1", zp_at_end(sim, result, "contraction"));
   zp_result_add(result, "zip_time_s", "s", zp_sim_zip_time(sim));
-  zp_result_add(result, "closed_from_s", "s", first ? NAN : zp_sim_closed_from(sim));
+  zp_result_add(result, "closed_from_s", "s", until_end ? zp_sim_closed_from(sim) : NAN);
   zp_result_add(result, "zipped_length_m", "m", zp_at_end(sim, result, "zipped_length"));
   zp_result_add(result, "opening_m", "m", zp_at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
@@ -89,6 +89,20 @@ static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *res
   return pull * risen + compressed + work_on_change(sim, zp_lowest(model));
 }
 
+/* Work on the load over the energy from the source, J. */
+static void add_efficiency(ZpResult *result, double work, double energy) {
+  bool sound = energy > 0 && work >= 0 && work <= energy;
+  zp_result_add(result, "efficiency", "1", sound ? work / energy : NAN);
+  if (energy > 0 && work < 0)
+    zp_result_note(result, "efficiency is null: the load ends lower than it began; the work on it is %.3g J", work);
+  if (energy > 0 && work > energy)
+    zp_result_note(
+        result,
+        "efficiency is null: the work on the load, %.3g J, is more than the source gave, %.3g J; the rest was stored "
+        "before",
+        work, energy);
+}
+
 /* The energy that the source delivered, and what became of it. The load input takes part in the work on the load. */
 static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *info, Booked before, ZpResult *result) {
   ZpCurrents currents = zp_sim_currents(sim, info->simulated_time);
@@ -104,7 +118,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   double work = rises ? work_on_load(sim, model, result) : work_along_path(sim, model, result);
   work -= zp_at_end(sim, result, "load_work") - before.load_work;
   zp_result_add(result, "mechanical_work_J", "J", work);
-  zp_add_efficiency(result, "efficiency", work, energy - before.energy);
+  add_efficiency(result, work, energy - before.energy);
 }
 
 static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {

@@ -513,6 +513,16 @@ static double energy_of(const Cycles *c, double jumps) {
   return c->linear ? c->small.energy + jumps : c->response.spent;
 }
 
+/* Work on the load over what the source gives in a cycle. */
+static void add_efficiency(const Cycles *c, ZpResult *result, const char *name, double work, double energy) {
+  add_periodic(c, result, name, "1", energy > 0 && work <= energy ? work / energy : NAN);
+  if (c->repeats == 1 && energy > 0 && work > energy)
+    zp_result_note(result,
+                   "%s is null: the load swings; %.3g J of work lift it in a cycle, more than the %.3g J that the "
+                   "source gives, because what it gives back on its way down lifts it again",
+                   name, work, energy);
+}
+
 static void summarize_energy(const Cycles *c, ZpResult *result) {
   double work = work_of(c), square = 0, jumps = at(c, PHASES, "charging_loss_J") - at(c, 0, "charging_loss_J"),
          energy = energy_of(c, jumps);
@@ -523,14 +533,9 @@ static void summarize_energy(const Cycles *c, ZpResult *result) {
   add_periodic(c, result, "energy_drawn_per_cycle_J", "J", c->response.drawn);
   add_periodic(c, result, "work_per_cycle_J", "J", work);
   add_periodic(c, result, "power_W", "W", energy / c->period);
-  if (c->repeats == 1) {
-    zp_add_efficiency(result, "efficiency", work, energy);
-    zp_add_efficiency(result, "efficiency_without_recovery", work, c->response.drawn);
-  } else {
-    zp_result_add(result, "efficiency", "1", NAN);
-    zp_result_add(result, "efficiency_without_recovery", "1", NAN);
-    zp_result_note(result, "the motion is not periodic: numbers of a cycle are null");
-  }
+  add_efficiency(c, result, "efficiency", work, energy);
+  add_efficiency(c, result, "efficiency_without_recovery", work, c->response.drawn);
+  if (c->repeats != 1) zp_result_note(result, "the motion is not periodic: numbers of a cycle are null");
   add_periodic(c, result, "peak_current_A", "A", jumps > 0 ? NAN : fmax(current.most, -current.least));
   add_periodic(c, result, "rms_current_A", "A", jumps > 0 ? NAN : sqrt(square));
 }

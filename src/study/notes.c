@@ -121,16 +121,3 @@ void zp_note_start(ZpResult *result, const ZpModel *model, double opening) {
         "is nearly closed, so zip_time_s says little about zipping",
         1e6 * opening, 1e6 * insulators);
 }
-
-void zp_add_efficiency(ZpResult *result, const char *name, double work, double energy) {
-  bool sound = energy > 0 && work >= 0 && work <= energy;
-  zp_result_add(result, name, "1", sound ? work / energy : NAN);
-  if (!(energy > 0)) return;
-  if (work < 0)
-    zp_result_note(result, "%s is null: the load ends lower than it began; the work on it is %.3g J", name, work);
-  if (work > energy)
-    zp_result_note(
-        result,
-        "%s is null: the work on the load, %.3g J, is more than the source gave, %.3g J; the rest was stored before",
-        name, work, energy);
-}

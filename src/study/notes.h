@@ -28,9 +28,4 @@ void zp_note_no_controller(ZpResult *result, const ZpModel *model);
 /* Note a start that is nearly closed: opening of the platforms (m; NAN: there are none). */
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening);
 
-/* Add an efficiency: work on the load over the energy of the source, J. NAN, with a note, where the load ends lower
- * than it began (work below 0) or takes more than the source gives, as one that swings does; NAN alone where that gives
- * nothing. */
-void zp_add_efficiency(ZpResult *result, const char *name, double work, double energy);
-
 #endif
