@@ -41,12 +41,12 @@ def checks_of(room, program, folder):
         for line in lines:
             _, test, value, against, measured, allowed = line.rstrip("\n").split("\t")
             error = float(measured)
-            yield Check(room, test.removesuffix("_fn"), value, against, 0 if math.isnan(error) else error, float(allowed))
+            yield Check(room, test, value, against, 0 if math.isnan(error) else error, float(allowed))
 
 
 def comment_above(source, test):
     """First sentence of the comment above a test or what it calls; its name in words where there is none."""
-    found = re.search(r"/\*((?:(?!\*/).)*)\*/\n(?:START_TEST\(%s\)|static [^\n;]*\b%s\()" % (test, test), source, re.S)
+    found = re.search(r"/\*((?:(?!\*/).)*)\*/\n(?:\w*TESTS?\(%s\b|static [^\n;]*\b%s\()" % (test, test), source, re.S)
     text = " ".join(found.group(1).replace("*", " ").split()) if found else ""
     sentence = re.split(r"(?<=[a-z0-9)][.:;]) (?=[A-Z0-9])", text)[0].rstrip(".:;")
     if not sentence or sentence.startswith(("Measured", "Theirs")):

@@ -248,7 +248,7 @@ def functions_of(entry):
     source = os.path.join(HOME, "tests", entry["name"] + ".c")
     if not os.path.exists(source):
         return [None]
-    return sorted(set(re.findall(r"^START_TEST\((\w+)\)", read(source).decode(), re.MULTILINE))) or [None]
+    return sorted(set(re.findall(r"^\w*TESTS?(?:_ENDED_BY)?\((\w+)", read(source).decode(), re.MULTILINE))) or [None]
 
 
 def tests_of(folder):

@@ -10,16 +10,18 @@
 
 static char folder[64]; /* of the test that runs */
 
-static inline void make_folder(void) {
+static void make_folder(void) {
   snprintf(folder, sizeof folder, "files-XXXXXX");
   ck_assert_ptr_nonnull(mkdtemp(folder));
 }
 
-static inline void remove_folder(void) {
+static void remove_folder(void) {
   char command[128];
   snprintf(command, sizeof command, "rm -r %s", folder);
   ck_assert_int_eq(system(command), 0); // NOLINT: the command is the test's own
 }
+
+AROUND_EACH(make_folder, remove_folder)
 
 /* "FOLDER/name", to be freed. */
 static inline char *path_of(const char *name) {

@@ -105,7 +105,7 @@ def numbers_hold():
     flags = must("pkg-config", "--cflags", "--libs", "check").split()
     program = folder + "/test_law"
     must("cc", "-std=c17", "-D_GNU_SOURCE", "-DZP_UNCONTRACTED", "-DDAMPER_OF_LIBRARY", "-I" + tree + "/include", "-I" + tree + "/src",
-         "-I" + tree + "/tests", tree + "/tests/test_law.c", tree + "/tests/limit_cpu.c", build + "/libzipact.a", "-lm", "-o", program, *flags)
+         "-I" + tree + "/tests", tree + "/tests/test_law.c", tree + "/tests/suite.c", build + "/libzipact.a", "-lm", "-o", program, *flags)
     status, text = run(program)
     print(text.strip())
     check(status == 0, "tests/test_law.c")

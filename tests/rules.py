@@ -441,7 +441,7 @@ def rule_equations_are_checked(repo, files):
         source = ""
         for name in re.findall(r"`(\w+)`", row.split("|")[1]):
             source = tests.get(name, source)
-            known = name in tests or "START_TEST(%s)" % name in source
+            known = name in tests or bool(re.search(r"^\w*TESTS?\(%s\b" % name, source, re.M))
             yield known, "docs/theory.md:1", "there is no test %s" % name
 
 
@@ -482,10 +482,10 @@ def rule_head_comment(repo, files):
 
 
 def rule_limits_in_cpu_time(repo, files):
-    """No test is limited in wall time, which a busy machine uses up: tests/limit_cpu.c limits its CPU time."""
+    """No test is limited in wall time, which a busy machine uses up: tests/suite.c limits its CPU time."""
     for name in files:
         if name.startswith("tests/") and name.endswith(".c"):
-            yield "tcase_set_timeout" not in read(repo, name), name, "tcase_set_timeout is of wall time: tests/limit_cpu.c"
+            yield "tcase_set_timeout" not in read(repo, name), name, "tcase_set_timeout is of wall time: tests/suite.c"
 
 
 def rule_no_products(repo, files):

@@ -20,10 +20,4 @@
 /* A mesh, a time, a count, a step of a loop: that of the usual build, and that under sanitizers. */
 #define FULL_OR(full, sanitized) (SANITIZED ? (sanitized) : (full))
 
-/* A test of numbers that takes long and runs only what shorter tests run as well: left to the usual build. */
-#define add_long_test(tcase, test)                                                                                     \
-  do {                                                                                                                 \
-    if (!SANITIZED) tcase_add_test(tcase, test);                                                                       \
-  } while (0)
-
 #endif

@@ -1,38 +1,56 @@
-/* What ends a test's main(): its suite run, and the tests that are left to `make nightly`. */
+/* A test is a function that its program runs by itself, without a list of them: main() is in suite.c.
+ *   TEST(name) {...}                once
+ *   TESTS(name, from, to) {...}     for each _i from `from` to below `to`
+ *   NIGHTLY_TEST, NIGHTLY_TESTS     tests that take long and find little that shorter ones do not: `make check` leaves
+ * them out by their tag ALSO(name, from, to), ALSO_NIGHTLY(name, from, to)   further values of a test ZP_TEST=NAME runs
+ * the test of this name alone. */
 #ifndef ZP_TESTS_SUITE_H
 #define ZP_TESTS_SUITE_H
 
+#include <stdbool.h>
+
 #include <check.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
-/* ZP_TEST=NAME runs the test function of this name alone. */
-static inline void add_if_chosen(TCase *tcase, const TTest *test, int from, int to) {
-  const char *chosen = getenv("ZP_TEST");
-  if (!chosen || !strcmp(chosen, test->name)) _tcase_add_test(tcase, test, 0, 0, from, to);
-}
-#undef tcase_add_test
-#define tcase_add_test(tcase, test) add_if_chosen(tcase, test, 0, 1)
-#undef tcase_add_loop_test
-#define tcase_add_loop_test(tcase, test, from, to) add_if_chosen(tcase, test, from, to)
+typedef struct TestEntry {
+  TTest test;
+  bool nightly;
+  int signal; /* that ends the test; 0 for none */
+  int from, to;
+  struct TestEntry *next;
+} TestEntry;
 
-/* Tests that take long and find little that shorter ones do not: `make check` leaves them out by their tag. */
-static inline TCase *nightly_case(Suite *suite) {
-  TCase *nightly = tcase_create("nightly");
-  tcase_set_tags(nightly, "nightly");
-  suite_add_tcase(suite, nightly);
-  return nightly;
-}
+void zp_test_add(TestEntry *entry);
 
-/* => the status of the program */
-static inline int run_suite(Suite *suite) {
-  setvbuf(stdout, NULL, _IOLBF, 0); /* measured values are printed before a test fails */
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
-}
+/* What runs before and after each test of the program, and before the first and after the last. */
+void zp_test_around_each(void (*before)(void), void (*after)(void));
+void zp_test_around_all(void (*before)(void), void (*after)(void));
+
+#define ADD_TEST(name, unique, at_night, ended_by, first, past)                                                        \
+  __attribute__((constructor)) static void name##unique(void) {                                                        \
+    static TestEntry entry = {{#name, name, __FILE__, __LINE__}, at_night, ended_by, 0, 0, NULL};                      \
+    entry.from = (int)(first);                                                                                         \
+    entry.to = (int)(past);                                                                                            \
+    zp_test_add(&entry);                                                                                               \
+  }
+#define DEFINE_TEST(name, at_night, ended_by, first, past)                                                             \
+  static void name(int _i);                                                                                            \
+  ADD_TEST(name, _added, at_night, ended_by, first, past)                                                              \
+  static void name(__attribute__((unused)) int _i)
+
+#define TEST(name)                    DEFINE_TEST(name, false, 0, 0, 1)
+#define TESTS(name, from, to)         DEFINE_TEST(name, false, 0, from, to)
+#define NIGHTLY_TEST(name)            DEFINE_TEST(name, true, 0, 0, 1)
+#define NIGHTLY_TESTS(name, from, to) DEFINE_TEST(name, true, 0, from, to)
+#define TEST_ENDED_BY(name, signal)   DEFINE_TEST(name, false, signal, 0, 1)
+#define ALSO(name, from, to)          ADD_TEST(name, _from_##from, false, 0, from, to)
+#define ALSO_NIGHTLY(name, from, to)  ADD_TEST(name, _from_##from, true, 0, from, to)
+#define AROUND_EACH(before, after)                                                                                     \
+  __attribute__((constructor)) static void around_each(void) {                                                         \
+    zp_test_around_each(before, after);                                                                                \
+  }
+#define AROUND_ALL(before, after)                                                                                      \
+  __attribute__((constructor)) static void around_all(void) {                                                          \
+    zp_test_around_all(before, after);                                                                                 \
+  }
 
 #endif

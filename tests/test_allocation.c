@@ -289,7 +289,7 @@ static ZpStatus run_profile(ZpError *err, bool *whole) {
   return status;
 }
 
-START_TEST(core_survives_every_failure) {
+TEST(core_survives_every_failure) {
   ZpActuatorDef def = short_def();
   ck_assert_int_eq(zp_model_create(&def, &shared_model, NULL), ZP_OK);
   /* the counts: a model is a struct and a block, a simulation a struct and at least state and work space */
@@ -302,7 +302,6 @@ START_TEST(core_survives_every_failure) {
   ck_assert_int_ge(fail_each("study isometric", run_isometric, false), 8);
   zp_model_destroy(shared_model);
 }
-END_TEST
 
 static ZpStatus create_table(ZpError *err, bool *whole) {
   static const ZpColumn column[] = {{"time_s", "s", ""}};
@@ -316,10 +315,9 @@ static ZpStatus create_table(ZpError *err, bool *whole) {
   return status;
 }
 
-START_TEST(tables_survive_every_failure) {
+TEST(tables_survive_every_failure) {
   ck_assert_int_eq(fail_each("zp_table_create, zp_shapes_create", create_table, false), 4);
 }
-END_TEST
 
 static ZpStatus create_skyline(ZpError *err, bool *whole) {
   static const size_t first[] = {0, 0, 1, 0, 3, 2, 5, 5, 1, 9, 8};
@@ -331,10 +329,9 @@ static ZpStatus create_skyline(ZpError *err, bool *whole) {
   return status;
 }
 
-START_TEST(skyline_survives_every_failure) {
+TEST(skyline_survives_every_failure) {
   ck_assert_int_eq(fail_each("zp_skyline_create", create_skyline, false), 2);
 }
-END_TEST
 
 /* -- stepping allocates nothing ---------------------------------------------------------------------- */
 
@@ -366,7 +363,7 @@ static void assert_no_allocation(const ZpActuatorDef *def, double time, int64_t 
   zp_model_destroy(model);
 }
 
-START_TEST(steps_allocate_nothing) {
+TEST(steps_allocate_nothing) {
   ZpActuatorDef def = short_def();
   def.drive.voltage = 10e3;
   def.solver.end_time = 4e-3;
@@ -376,7 +373,6 @@ START_TEST(steps_allocate_nothing) {
   def.load.share = 1;
   assert_no_allocation(&def, 4e-3, 1000);
 }
-END_TEST
 
 static ZpActuatorDef explicit_def(void) {
   ZpActuatorDef def = short_def();
@@ -394,12 +390,11 @@ static ZpStatus run_explicit(ZpError *err, bool *whole) {
   return status;
 }
 
-START_TEST(explicit_survives_every_failure) {
+TEST(explicit_survives_every_failure) {
   ck_assert_int_ge(fail_each("zp_study_run, actuate, explicit", run_explicit, false), 10);
 }
-END_TEST
 
-START_TEST(implicit_steps_allocate_nothing) {
+TEST(implicit_steps_allocate_nothing) {
   ZpActuatorDef def = short_def();
   def.drive.voltage = 10e3;
   def.damping.internal = 1e-5;
@@ -407,10 +402,9 @@ START_TEST(implicit_steps_allocate_nothing) {
   def.solver.end_time = 0.2;
   assert_no_allocation(&def, 0.2, 100); /* zips on the way */
 }
-END_TEST
 
 /* A control loop steps again and again, in a liquid, with the model's controller. */
-START_TEST(controlled_steps_allocate_nothing) {
+TEST(controlled_steps_allocate_nothing) {
   ZpActuatorDef def = short_def();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
@@ -436,10 +430,9 @@ START_TEST(controlled_steps_allocate_nothing) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The whole life: sagging, zipping pair after pair, closed. */
-START_TEST(zipping_allocates_nothing) {
+TEST(zipping_allocates_nothing) {
   ZpActuatorDef def = short_def();
   def.drive.voltage = 10e3;
   def.solver.end_time = 0.2;
@@ -448,10 +441,9 @@ START_TEST(zipping_allocates_nothing) {
   def.contact.model = ZP_CONTACT_SEQUENTIAL;
   assert_no_allocation(&def, 0.2, 10000);
 }
-END_TEST
 
 /* The Bezier surface is fitted anew when the front moves and when the force is refreshed. */
-START_TEST(bezier_steps_allocate_nothing) {
+TEST(bezier_steps_allocate_nothing) {
   ZpAssignment list[] = {{zp_key_find("preset"), ZP_PRESET_PAPER_CODE},
                          {zp_key_find("mesh.nodes"), 21},
                          {zp_key_find("solver.tolerance"), 1e-1}};
@@ -461,7 +453,6 @@ START_TEST(bezier_steps_allocate_nothing) {
   def.electro.refresh_period = 0;
   assert_no_allocation(&def, 25e-3, 5000);
 }
-END_TEST
 
 /* -- scenarios --------------------------------------------------------------------------------------- */
 
@@ -561,7 +552,7 @@ static ZpStatus run_by_table(ZpError *err, bool *whole) {
   return status;
 }
 
-START_TEST(table_survives_every_failure) {
+TEST(table_survives_every_failure) {
   FILE *file = fopen("memory.csv", "w");
   ck_assert(file && fputs("time_us,voltage_V\n0,0\n10,100\n", file) >= 0 && fclose(file) == 0);
   from_file = false;
@@ -569,7 +560,6 @@ START_TEST(table_survives_every_failure) {
   from_file = true;
   ck_assert_int_ge(fail_each("drive.file", run_by_table, false), 13);
 }
-END_TEST
 
 static ZpStatus write_checkpoint(FILE *file, ZpError *err) {
   ZpActuatorDef def = short_def();
@@ -602,10 +592,9 @@ static ZpStatus run_from_checkpoint(ZpError *err, bool *whole) {
   return status;
 }
 
-START_TEST(checkpoint_survives_every_failure) {
+TEST(checkpoint_survives_every_failure) {
   ck_assert_int_ge(fail_each("initial.file", run_from_checkpoint, true), 20);
 }
-END_TEST
 
 /* -- texts: what is written under failures is what is written without ---------------------------------- */
 
@@ -715,7 +704,7 @@ static void fail_each_writer(const char *name, Writer tested, bool may_do_withou
   reference = NULL;
 }
 
-START_TEST(scenarios_survive_every_failure) {
+TEST(scenarios_survive_every_failure) {
   FILE *file = fopen("memory.yaml", "w");
   ck_assert_ptr_nonnull(file);
   fputs(scenario_text, file);
@@ -729,15 +718,13 @@ START_TEST(scenarios_survive_every_failure) {
   fail_each("zp_value_parse", parse_value, false);
   ck_assert_int_eq(unlink("memory.yaml"), 0);
 }
-END_TEST
 
-START_TEST(writers_survive_every_failure) {
+NIGHTLY_TEST(writers_survive_every_failure) {
   fail_each_writer("zp_scenario_write", write_scenario, true);
   fail_each_writer("zp_keys_write text", write_keys_text, true);
   fail_each_writer("zp_keys_write json", write_keys_json, false);
   fail_each_writer("zp_keys_write yaml", write_keys_yaml, true);
 }
-END_TEST
 
 /* -- reports ----------------------------------------------------------------------------------------- */
 
@@ -823,7 +810,7 @@ static void fail_each_report(const char *name, const char *text) {
 }
 
 /* gnuplot is not run here: there is none on an empty PATH. */
-START_TEST(reports_survive_every_failure) {
+NIGHTLY_TEST(reports_survive_every_failure) {
   ck_assert_int_eq(setenv("PATH", "/nowhere", 1), 0);
   json_set_alloc_funcs(__wrap_malloc, __wrap_free);
   fail_each_report("zp_report_write", "mesh: {nodes: 5}\n"
@@ -838,34 +825,8 @@ START_TEST(reports_survive_every_failure) {
                                                  "drive: {voltage: [0 V, 1 kV]}\n"
                                                  "output: {samples: 10, shapes: 3}\n");
 }
-END_TEST
 
-START_TEST(keys_survive_failures_of_jansson) {
+NIGHTLY_TEST(keys_survive_failures_of_jansson) {
   json_set_alloc_funcs(__wrap_malloc, __wrap_free);
   fail_each_writer("zp_keys_write json, jansson too", write_keys_json, false);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("allocation");
-  TCase *core = tcase_create("core"), *files = tcase_create("files");
-  tcase_add_test(core, core_survives_every_failure);
-  tcase_add_test(core, tables_survive_every_failure);
-  tcase_add_test(core, skyline_survives_every_failure);
-  tcase_add_test(core, steps_allocate_nothing);
-  tcase_add_test(core, explicit_survives_every_failure);
-  tcase_add_test(core, implicit_steps_allocate_nothing);
-  tcase_add_test(core, controlled_steps_allocate_nothing);
-  tcase_add_test(core, zipping_allocates_nothing);
-  tcase_add_test(core, bezier_steps_allocate_nothing);
-  tcase_add_test(files, table_survives_every_failure);
-  tcase_add_test(files, checkpoint_survives_every_failure);
-  tcase_add_test(files, scenarios_survive_every_failure);
-  suite_add_tcase(suite, core);
-  suite_add_tcase(suite, files);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_test(nightly, keys_survive_failures_of_jansson);
-  tcase_add_test(nightly, writers_survive_every_failure);
-  tcase_add_test(nightly, reports_survive_every_failure);
-  return run_suite(suite);
 }

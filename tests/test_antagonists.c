@@ -24,7 +24,7 @@ static double last_of(ZpStudy study, const ZpActuatorDef *def, const char *colum
 
 /* Two that are alike are at rest in the middle at any voltage that both have, and move neither way; the capacitance is
  * that of both. */
-START_TEST(equal_ones_rest_in_the_middle) {
+TEST(equal_ones_rest_in_the_middle) {
   ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"load.mass", 1e-3}, {"drive.voltage", 2e3});
   ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   size_t rows = result->series->rows;
@@ -47,11 +47,10 @@ START_TEST(equal_ones_rest_in_the_middle) {
              1e-12 * def.stack.distance); /* 1.8e-16 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Beams that hardly bend: each half of an actuator is two of them in a row, so both actuators hold the load by
  * 24 EI / L^3, which its weight deflects by m g over that. Eq. (31.4). */
-START_TEST(small_stiffness_is_that_of_beams) {
+TEST(small_stiffness_is_that_of_beams) {
   ZpActuatorDef def = DEF({"stack.series", 2}, {"stack.distance", 0.4e-3}, {"ribbon.density", 0},
                           {"insulator.density", 0}, {"insulator.young_modulus", 0}, {"load.mass", 0.01e-3});
   const double nu = def.ribbon.poisson_ratio, b = def.ribbon.thickness,
@@ -65,10 +64,9 @@ START_TEST(small_stiffness_is_that_of_beams) {
   ck_near(zp_result_get(result, "opening_m") + zp_result_get(result, "lower_opening_m"), 0.4e-3, 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The stiffness at a voltage is what a small force deflects the load by. */
-START_TEST(stiffness_is_the_slope_of_the_force) {
+TEST(stiffness_is_the_slope_of_the_force) {
   static const double force = 1e-6; /* N */
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 1.5e3}, {"stack.voltage_ratio", 0.6},
                           {"solver.tolerance", 1e-6}),
@@ -78,7 +76,6 @@ START_TEST(stiffness_is_the_slope_of_the_force) {
   double moved = last_of(ZP_STUDY_EQUILIBRIUM, &more, "opening_m") - last_of(ZP_STUDY_EQUILIBRIUM, &less, "opening_m");
   ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m"), 2 * force / moved, 2e-9); /* 3.6e-10 measured */
 }
-END_TEST
 
 /* The largest of so many. */
 static double largest_of(const double *r, size_t n) {
@@ -89,7 +86,7 @@ static double largest_of(const double *r, size_t n) {
 }
 
 /* What the branch is told of the voltage is how the forces go with it, of both. */
-START_TEST(voltage_moves_the_residual) {
+TEST(voltage_moves_the_residual) {
   static const double little = 1e-2; /* V */
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"stack.voltage_ratio", 0.6});
   ZpModel *model = model_of(&def);
@@ -115,7 +112,6 @@ START_TEST(voltage_moves_the_residual) {
   zp_rest_close(&both);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- each of them alone ---------------------------------------------------------------------------- */
 
@@ -161,7 +157,7 @@ static double pull_of(ZpActuatorDef one, double opening, double voltage) {
 /* Where the load is, one pulls as the other does and the load weighs: F1(x) = F2(d - x) + m g, with each force from
  * that one alone, by studies that know no antagonists. Unlike ones, with their own weight. Eq. (31.2). By night: with a
  * computed field for each. */
-START_TEST(forces_of_each_alone_balance) {
+TEST(forces_of_each_alone_balance) {
   ZpActuatorDef def =
       DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 2e3}, {"stack.voltage_ratio", 0.7},
           {"member_2.ribbon.thickness", 60e-6}, {"electro.model", _i ? ZP_ELECTRO_FIELD : ZP_ELECTRO_PLATES});
@@ -175,11 +171,11 @@ START_TEST(forces_of_each_alone_balance) {
   ck_near(pull_of(upper, x, 2e3) - pull_of(lower, y, 1.4e3), def.load.mass * def.gravity, 2e-9); /* 2.5e-10 measured */
   zp_result_destroy(result);
 }
-END_TEST
+ALSO_NIGHTLY(forces_of_each_alone_balance, 1, 2)
 
 /* Where the load is held, the lower one takes from the pull of the upper one, each as it is alone at its opening and
  * voltage. Voltages of both in proportion, or a constant one of the lower one. */
-START_TEST(held_load_takes_the_difference) {
+TESTS(held_load_takes_the_difference, 0, 2) {
   static const char *const names[] = {"force_N", "force_unpowered_N", "charge_C", "capacitance_F"};
   ZpActuatorDef def = DEF(BOTH, {"drive.voltage", 4e3}, {"isometric.separation", 7e-3},
                           {"member_2.ribbon.thickness", 60e-6}, {"mesh.nodes", 21});
@@ -196,10 +192,9 @@ START_TEST(held_load_takes_the_difference) {
   ck_near(zp_result_get(both, "lower_opening_m"), 13e-3, 1e-12); /* 3.4e-15 measured */
   zp_result_destroy(both);
 }
-END_TEST
 
 /* Each is closed from its clip as far as it is alone where it is held at its opening and voltage. */
-START_TEST(each_is_closed_as_far_as_alone) {
+TEST(each_is_closed_as_far_as_alone) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 4e3}, {"stack.voltage_ratio", 1.4});
   ZpActuatorDef one[] = {alone(&def, false), alone(&def, true)};
   static const char *const opening[] = {"opening_m", "lower_opening_m"},
@@ -221,7 +216,6 @@ START_TEST(each_is_closed_as_far_as_alone) {
   ck_assert_int_eq(compared, 3);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Half the difference of the force of one alone over a small way (m), N/m. */
 static double slope_over(const ZpActuatorDef *one, double opening, double voltage, double way) {
@@ -234,7 +228,7 @@ static double slope_of(const ZpActuatorDef *one, double opening, double voltage)
 
 /* In the middle the stiffness is the sum of both, less what the field takes: twice that of one alone, with the other
  * sign below and above the voltage at which the middle is lost. Eq. (31.5). */
-START_TEST(middle_is_lost_where_both_slopes_vanish) {
+TEST(middle_is_lost_where_both_slopes_vanish) {
   ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"load.mass", 1e-3}, {"drive.voltage", 2e3}), one = alone(&def, false);
   /* 1.6e-6 measured */
   ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m"), 2 * slope_of(&one, 10e-3, 2e3), 5e-6);
@@ -243,10 +237,9 @@ START_TEST(middle_is_lost_where_both_slopes_vanish) {
   ck_assert_double_gt(slope_of(&one, 10e-3, 0.999 * lost), 0);
   ck_assert_double_lt(slope_of(&one, 10e-3, 1.001 * lost), 0);
 }
-END_TEST
 
 /* The upper one closes at the highest voltage of all equilibria on the way there. */
-START_TEST(one_closes_where_the_way_is_highest) {
+TEST(one_closes_where_the_way_is_highest) {
   ZpActuatorDef def =
       DEF(BOTH, {"mesh.nodes", 121}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
   ZpResult *result = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
@@ -258,11 +251,10 @@ START_TEST(one_closes_where_the_way_is_highest) {
   ck_near(closing, highest, 1e-3); /* 1.1e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* While the upper one is closed the lower one hangs at the whole distance, and pulls as a constant force does: the
  * upper one opens where it would alone under that force, with the load. */
-START_TEST(it_opens_as_alone_under_the_pull_of_the_other) {
+TEST(it_opens_as_alone_under_the_pull_of_the_other) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0}),
                 upper = alone(&def, false);
   upper.load.mass = def.load.mass;
@@ -270,7 +262,6 @@ START_TEST(it_opens_as_alone_under_the_pull_of_the_other) {
   ck_near(answered_value(ZP_STUDY_EQUILIBRIUM, &def, "release_voltage_V"),
           answered_value(ZP_STUDY_LIMITS, &upper, "release_voltage_V"), 1e-3); /* 4.5e-4 measured */
 }
-END_TEST
 
 /* Limits are those of the curve. */
 static void ck_as_curve(const ZpActuatorDef *def, const ZpResult *limits) {
@@ -284,7 +275,7 @@ static void ck_as_curve(const ZpActuatorDef *def, const ZpResult *limits) {
 
 /* The load jumps where the forces of both, each of that one alone by study isometric, are equal and have slopes that
  * cancel: the pull-in of the upper one while the lower one has its own voltage. Eqs. (31.2), (31.4). */
-START_TEST(pull_in_is_where_slopes_cancel) {
+TEST(pull_in_is_where_slopes_cancel) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.lower_voltage", 1.5e3},
                           {"member_2.ribbon.thickness", 60e-6}),
                 upper = alone(&def, false), lower = alone(&def, true);
@@ -300,10 +291,9 @@ START_TEST(pull_in_is_where_slopes_cancel) {
   ck_near(slope_over(&upper, x, voltage, way), -slope_over(&lower, y, 1.5e3, way), 1e-3); /* 1.6e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* While it is closed, and as it opens, the numbers of the limits are those of the states that they have. */
-START_TEST(limits_have_their_states) {
+TEST(limits_have_their_states) {
   ZpActuatorDef def =
       DEF(BOTH, {"mesh.nodes", 61}, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0});
   ZpResult *result = answer_of(ZP_STUDY_LIMITS, &def);
@@ -320,11 +310,10 @@ START_TEST(limits_have_their_states) {
   ck_near(zp_result_get(result, "mass_kg"), 2 * answered_value(ZP_STUDY_LIMITS, &one, "mass_kg"), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Thick ribbons close without a jump, the upper one or the lower one: where the opening is a hundredth of that without
  * voltage. */
-START_TEST(one_closes_gradually) {
+TESTS(one_closes_gradually, 0, 2) {
   static const double ratio[] = {0, 3};
   ZpActuatorDef def =
       DEF({"stack.series", 2}, {"stack.distance", 0.2e-3}, {"ribbon.thickness", 300e-6}, {"load.mass", 1e-3},
@@ -341,13 +330,12 @@ START_TEST(one_closes_gradually) {
           1e-12); /* 3e-14 measured */
   zp_result_destroy(limits);
 }
-END_TEST
 
 /* -- small motions --------------------------------------------------------------------------------- */
 
 /* Two alike in the middle move with the load as one does with half of it, held at that opening by a constant force:
  * without and with a voltage. */
-START_TEST(two_swing_as_one_with_half_the_load) {
+TESTS(two_swing_as_one_with_half_the_load, 0, 2) {
   static const double voltage[] = {0, 2e3};
   ZpActuatorDef both = DEF(BOTH, {"gravity", 0}, {"load.mass", 1e-3}, {"liquid.model", ZP_LIQUID_NONE},
                            {"modes.voltage", voltage[_i]}),
@@ -357,11 +345,10 @@ START_TEST(two_swing_as_one_with_half_the_load) {
   ck_near(answered_value(ZP_STUDY_MODES, &both, "frequency_1_Hz"),
           answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 2e-9); /* 6.9e-10 measured */
 }
-END_TEST
 
 /* A heavy load between unequal light ones is a mass on the stiffness that study equilibrium finds, whose two terms the
  * voltages reduce; for small openings it is that of beams. Eqs. (31.4), (31.6). */
-START_TEST(heavy_load_swings_on_both_stiffnesses) {
+TEST(heavy_load_swings_on_both_stiffnesses) {
   ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"ribbon.density", 1}, {"insulator.density", 0}, {"load.mass", 1},
                           {"drive.voltage", 1.5e3}, {"modes.voltage", 1.5e3}, {"stack.voltage_ratio", 0.6},
                           {"member_2.ribbon.thickness", 60e-6}, {"liquid.model", ZP_LIQUID_NONE});
@@ -376,11 +363,10 @@ START_TEST(heavy_load_swings_on_both_stiffnesses) {
   /* 7.6e-6 measured */
   ck_near(answered_value(ZP_STUDY_MODES, &beams, "frequency_1_Hz"), sqrt(24 * EI / (L * L * L)) / (2 * pi), 3e-5);
 }
-END_TEST
 
 /* A small voltage makes the load swing about where it is then at rest: after one and a quarter periods of the lowest
  * mode it passes there. Ribbons and load have their masses, so the period is that of all. */
-START_TEST(period_of_a_swing_is_that_of_the_mode) {
+TEST(period_of_a_swing_is_that_of_the_mode) {
   ZpActuatorDef def =
       DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 500}, {"modes.voltage", 500}, {"stack.voltage_ratio", 0},
           {"member_2.ribbon.thickness", 60e-6}, {"liquid.model", ZP_LIQUID_NONE}, {"solver.tolerance", 1e-6});
@@ -392,10 +378,9 @@ START_TEST(period_of_a_swing_is_that_of_the_mode) {
   ck_assert_double_eq_tol((answered_value(ZP_STUDY_ACTUATE, &def, "opening_m") - rest) / (rest - start), 0,
                           0.02); /* 0.015 measured */
 }
-END_TEST
 
 /* Above the pull-in there are no modes, and the message names the voltage; below they fall towards it. */
-START_TEST(voltage_softens_both) {
+TEST(voltage_softens_both) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 5e3}, {"stack.voltage_ratio", 0},
                           {"liquid.model", ZP_LIQUID_NONE});
   double without = answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"),
@@ -409,19 +394,17 @@ START_TEST(voltage_softens_both) {
   ck_assert_msg(strstr(result->message, "modes.voltage"), "%s", result->message);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Upside down both change their places. */
-START_TEST(upside_down_they_change_places) {
+TEST(upside_down_they_change_places) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.7e-3}), turned = def;
   turned.mount.tilt = pi;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
           answered_value(ZP_STUDY_STATIONARY, &turned, "lower_opening_m"), 1e-12); /* 2.2e-16 measured */
 }
-END_TEST
 
 /* A constant voltage of the lower one is as good as a ratio that makes it. */
-START_TEST(constant_voltage_is_that_ratio) {
+TEST(constant_voltage_is_that_ratio) {
   ZpActuatorDef ratio = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 2e3}, {"stack.voltage_ratio", 0.5}),
                 constant = ratio;
   constant.stack.voltage_ratio = 1;
@@ -434,10 +417,9 @@ START_TEST(constant_voltage_is_that_ratio) {
   ck_assert_msg(strstr(result->message, "stack.lower_voltage"), "%s", result->message);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The lower one stays at its constant voltage under any waveform of the upper one, whose keys are not its own. */
-START_TEST(constant_voltage_under_any_waveform) {
+TESTS(constant_voltage_under_any_waveform, 0, 3) {
   static const Setting of[][4] = {
       {{"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 5}},
       {{"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 5}, {"drive.duty", 0.3}, {"drive.rise_time", 1e-3}},
@@ -452,12 +434,11 @@ START_TEST(constant_voltage_under_any_waveform) {
   ck_assert_double_eq(zp_waveform_voltage(&model[1].waveform, 0.13), 2e3);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- in motion ------------------------------------------------------------------------------------- */
 
 /* Without voltage what is at rest stays. */
-START_TEST(at_rest_they_stay) {
+TESTS(at_rest_they_stay, 0, 2) {
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 1e-3}, {"drive.voltage", 0}, {"solver.end_time", 0.2},
                           {"liquid.model", _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -466,11 +447,10 @@ START_TEST(at_rest_they_stay) {
   ck_near(zp_result_get(result, "start_opening_m"), answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A heavy load between light ribbons is a mass on the spring of both: a small voltage of one makes it swing, and after
  * half a period it has gone twice as far as at rest. */
-START_TEST(load_swings_on_both) {
+TEST(load_swings_on_both) {
   ZpActuatorDef def = DEF(BOTH, {"gravity", 0}, {"ribbon.density", 1}, {"insulator.density", 0}, {"load.mass", 1},
                           {"drive.voltage", 300}, {"stack.voltage_ratio", 0}, {"solver.tolerance", 1e-7});
   double stiffness = last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m");
@@ -478,11 +458,10 @@ START_TEST(load_swings_on_both) {
   def.solver.end_time = pi * sqrt(def.load.mass / stiffness);
   ck_near(answered_value(ZP_STUDY_ACTUATE, &def, "opening_m") - 10e-3, 2 * moved, 1e-4); /* 2.1e-5 measured */
 }
-END_TEST
 
 /* What both sources give is stored or lost while the upper one closes against the lower one, dry, in a bath and with
  * beads; openings sum up to the distance, and platforms are where the load is. */
-START_TEST(energy_of_a_zip_against_the_other) {
+TESTS(energy_of_a_zip_against_the_other, 0, 3) {
   static const int liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
   ZpActuatorDef def = DEF(BOTH, {"load.mass", 0.5e-3}, {"drive.voltage", 10e3}, {"stack.voltage_ratio", 0.2},
                           {"liquid.model", liquid[_i]}, {"solver.end_time", 2}, {"bead.volume", 1e-6});
@@ -504,10 +483,9 @@ START_TEST(energy_of_a_zip_against_the_other) {
   }
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without weight either one closes in the same way, with the load and the other one behind it, and ends the run. */
-START_TEST(either_one_may_close) {
+TEST(either_one_may_close) {
   static const char *const name[] = {"member_1_zip_time_s", "member_2_zip_time_s"};
   double time[2];
   for (int k = 0; k < 2; k++) {
@@ -522,11 +500,10 @@ START_TEST(either_one_may_close) {
   }
   ck_near(time[1], time[0], 1e-12); /* 8.1e-14 measured */
 }
-END_TEST
 
 /* Behind the damper of either one that closes are the load and the other's platform: both lose as much in the impact,
  * and are then as fast. */
-START_TEST(either_one_hits_as_hard) {
+TEST(either_one_hits_as_hard) {
   ZpActuatorDef upper = DEF(BOTH, {"gravity", 0}, {"load.mass", 5e-3}, {"drive.voltage", 10e3}, {"mesh.nodes", 11},
                             {"stack.voltage_ratio", 0.2}, {"solver.stop_when_zipped", ZP_WHEN_FALSE},
                             {"solver.tolerance", 1e-3}, {"solver.end_time", 0.1}),
@@ -537,11 +514,10 @@ START_TEST(either_one_hits_as_hard) {
   ck_assert_double_gt(lost, 0);
   ck_near(last_of(ZP_STUDY_ACTUATE, &lower, "contact_loss_J"), lost, 2e-11); /* 2.1e-12 measured */
 }
-END_TEST
 
 /* -- what is refused ------------------------------------------------------------------------------- */
 
-START_TEST(what_antagonists_lack_is_said) {
+TEST(what_antagonists_lack_is_said) {
   static const struct {
     Setting set[3];
     ZpStudy study;
@@ -570,41 +546,4 @@ START_TEST(what_antagonists_lack_is_said) {
   }
   ZpActuatorDef both = DEF(BOTH, {"stack.lower_voltage", 1e3}, {"stack.voltage_ratio", 0.5});
   ck_refused_by(ZP_STUDY_ACTUATE, &both, "not both");
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("antagonists");
-  TCase *rest = tcase_create("rest");
-  tcase_add_test(rest, equal_ones_rest_in_the_middle);
-  tcase_add_test(rest, small_stiffness_is_that_of_beams);
-  tcase_add_test(rest, stiffness_is_the_slope_of_the_force);
-  tcase_add_test(rest, voltage_moves_the_residual);
-  tcase_add_loop_test(rest, forces_of_each_alone_balance, 0, 1);
-  tcase_add_loop_test(rest, held_load_takes_the_difference, 0, 2);
-  tcase_add_test(rest, each_is_closed_as_far_as_alone);
-  tcase_add_test(rest, middle_is_lost_where_both_slopes_vanish);
-  tcase_add_test(rest, one_closes_where_the_way_is_highest);
-  tcase_add_test(rest, it_opens_as_alone_under_the_pull_of_the_other);
-  tcase_add_test(rest, pull_in_is_where_slopes_cancel);
-  tcase_add_test(rest, limits_have_their_states);
-  tcase_add_loop_test(rest, one_closes_gradually, 0, 2);
-  tcase_add_loop_test(rest, constant_voltage_under_any_waveform, 0, 3);
-  tcase_add_loop_test(rest, two_swing_as_one_with_half_the_load, 0, 2);
-  tcase_add_test(rest, heavy_load_swings_on_both_stiffnesses);
-  tcase_add_test(rest, voltage_softens_both);
-  tcase_add_test(rest, upside_down_they_change_places);
-  tcase_add_test(rest, constant_voltage_is_that_ratio);
-  tcase_add_test(rest, what_antagonists_lack_is_said);
-  suite_add_tcase(suite, rest);
-  TCase *motion = tcase_create("motion");
-  tcase_add_loop_test(motion, at_rest_they_stay, 0, 2);
-  tcase_add_test(motion, load_swings_on_both);
-  tcase_add_test(motion, period_of_a_swing_is_that_of_the_mode);
-  tcase_add_test(motion, either_one_may_close);
-  tcase_add_test(motion, either_one_hits_as_hard);
-  tcase_add_loop_test(motion, energy_of_a_zip_against_the_other, 0, 3);
-  suite_add_tcase(suite, motion);
-  tcase_add_loop_test(nightly_case(suite), forces_of_each_alone_balance, 1, 2);
-  return run_suite(suite);
 }

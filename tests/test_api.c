@@ -24,7 +24,7 @@ static ZpActuatorDef *coarse_def(void) {
 
 /* What a user of the library writes. 8 g at 10 kV close at any mesh (facts of the paper's actuator); what is
  * left of the opening is below 1 %. Measured at N = 11: 0. */
-START_TEST(program_of_a_user) {
+TEST(program_of_a_user) {
   ZpActuatorDef *def = zp_def_create();
   zp_def_set_number(def, "mesh.nodes", 11, NULL);
   zp_def_set_number(def, "load.mass", 0.008, NULL);    /* kg */
@@ -45,9 +45,8 @@ START_TEST(program_of_a_user) {
   zp_def_destroy(def);
   zp_run_info_destroy(info);
 }
-END_TEST
 
-START_TEST(null_is_allowed_where_it_says_so) {
+TEST(null_is_allowed_where_it_says_so) {
   ZpActuatorDef *def = coarse_def(), *wrong = zp_def_copy(def);
   zp_def_set_number(wrong, "load.change_mass", -1, NULL); /* more than load.mass */
   ZpModel *model = NULL;
@@ -68,9 +67,8 @@ START_TEST(null_is_allowed_where_it_says_so) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
-START_TEST(destroying_nothing_does_nothing) {
+TEST(destroying_nothing_does_nothing) {
   zp_model_destroy(NULL);
   zp_sim_destroy(NULL);
   zp_result_destroy(NULL);
@@ -79,9 +77,8 @@ START_TEST(destroying_nothing_does_nothing) {
   zp_scenario_destroy(NULL);
   zp_folder_close(NULL);
 }
-END_TEST
 
-START_TEST(scenario_without_err) {
+TEST(scenario_without_err) {
   ZpScenario *scenario = zp_scenario_create();
   ZpActuatorDef *def = zp_def_create();
   double value;
@@ -98,10 +95,9 @@ START_TEST(scenario_without_err) {
   zp_scenario_destroy(scenario);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* A study without hooks knows no wall time: NAN, not 0. */
-START_TEST(study_without_hooks) {
+TEST(study_without_hooks) {
   ZpActuatorDef *def = coarse_def();
   zp_def_set_number(def, "solver.end_time", 1e-4, NULL);
   ZpResult *result = NULL;
@@ -112,7 +108,6 @@ START_TEST(study_without_hooks) {
   zp_result_destroy(result);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* -- hooks ---------------------------------------------------------------------------------------------- */
 
@@ -134,7 +129,7 @@ static double on_clock(void *user) {
   return ((Asked *)user)->clock += 1;
 }
 
-START_TEST(hooks_are_asked) {
+TEST(hooks_are_asked) {
   ZpActuatorDef *def = coarse_def();
   zp_def_set_number(def, "solver.end_time", 5e-3, NULL);
   Asked asked = {0, 1000000, 1, 0, 0};
@@ -150,10 +145,9 @@ START_TEST(hooks_are_asked) {
   zp_result_destroy(result);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Asked to stop at any time, it stops soon and says so; what was reached is kept. */
-START_TEST(stops_when_asked) {
+TESTS(stops_when_asked, 0, 6) {
   ZpActuatorDef *def = coarse_def();
   zp_def_set_number(def, "solver.end_time", 5e-3, NULL);
   Asked asked = {0, _i, 1, 0, 0};
@@ -167,11 +161,10 @@ START_TEST(stops_when_asked) {
   zp_result_destroy(result);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Studies at rest ask while they look for a first equilibrium. They asked from the second on only: ribbons of 1 um bent
  * to a radius of 1 mm, for which none is found, took seconds that no limit of time ended. */
-START_TEST(rest_asks_before_it_hangs) {
+TESTS(rest_asks_before_it_hangs, 0, 6) {
   static const ZpStudy studies[] = {ZP_STUDY_STATIONARY, ZP_STUDY_MODES,     ZP_STUDY_EQUILIBRIUM,
                                     ZP_STUDY_LIMITS,     ZP_STUDY_ISOMETRIC, ZP_STUDY_ACTUATE};
   ZpActuatorDef *def = zp_def_create();
@@ -188,11 +181,10 @@ START_TEST(rest_asks_before_it_hangs) {
   zp_result_destroy(result);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* An implicit run asks its caller every few steps. It asked every 1024 only: where steps are nanoseconds long, minutes
  * passed before an interrupt or a limit of time counted. */
-START_TEST(implicit_run_asks_every_few_steps) {
+TEST(implicit_run_asks_every_few_steps) {
   ZpActuatorDef *def = zp_def_create();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
@@ -209,12 +201,11 @@ START_TEST(implicit_run_asks_every_few_steps) {
   zp_def_destroy(def);
   zp_run_info_destroy(info);
 }
-END_TEST
 
 /* The hanging state of what weighs nothing is found. Damped stepping asked for less than rounding leaves, and went on
  * for a thousand million steps; Newton's method fails here, as faces at 1 MV without the breakdown cap are very stiff.
  */
-START_TEST(weightless_actuator_settles) {
+TEST(weightless_actuator_settles) {
   ZpActuatorDef *def = zp_def_create();
   zp_def_set_number(def, "load.mass", 0, NULL);
   zp_def_set_number(def, "gravity", 0, NULL);
@@ -235,12 +226,11 @@ START_TEST(weightless_actuator_settles) {
   zp_def_destroy(def);
   zp_run_info_destroy(info);
 }
-END_TEST
 
 /* -- state ------------------------------------------------------------------------------------------------ */
 
 /* Going back to a saved state and continuing gives the same bits as continuing at once. */
-START_TEST(saved_state_continues_to_the_same_bits) {
+TEST(saved_state_continues_to_the_same_bits) {
   ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
@@ -265,10 +255,9 @@ START_TEST(saved_state_continues_to_the_same_bits) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Two simulations share a model and know nothing of each other. */
-START_TEST(simulations_share_a_model) {
+TEST(simulations_share_a_model) {
   ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *one = NULL, *other = NULL;
@@ -284,11 +273,10 @@ START_TEST(simulations_share_a_model) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* -- names ---------------------------------------------------------------------------------------------------- */
 
-START_TEST(every_name_answers) {
+TEST(every_name_answers) {
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
   ZpActuatorDef *def = coarse_def();
@@ -311,10 +299,9 @@ START_TEST(every_name_answers) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Steps of 1, 1 and 0.3 times the longest stable one, by turns, diverge; three of 0.77 do not. */
-START_TEST(steps_by_hand_are_even) {
+TEST(steps_by_hand_are_even) {
   ZpActuatorDef *def = coarse_def();
   zp_def_set_number(def, "solver.integrator", ZP_INTEGRATOR_EXPLICIT, NULL);
   zp_def_set_number(def, "drive.voltage", 1e3, NULL); /* nothing meets: no other short steps */
@@ -334,10 +321,9 @@ START_TEST(steps_by_hand_are_even) {
   zp_run_info_destroy(info);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* All signals at once are those one by one; the current is the mean since the reading before. */
-START_TEST(reading_is_a_row) {
+TEST(reading_is_a_row) {
   enum { MOST = 128 };
   ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
@@ -368,10 +354,9 @@ START_TEST(reading_is_a_row) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Parts of a result are counted and read by their places. */
-START_TEST(result_is_read_by_calls) {
+TEST(result_is_read_by_calls) {
   ZpActuatorDef *def = coarse_def();
   ZpResult *result = NULL;
   zp_def_set_number(def, "solver.end_time", 1e-3, NULL);
@@ -405,10 +390,9 @@ START_TEST(result_is_read_by_calls) {
   zp_result_destroy(result);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* 1 / 10 of the flexible 45 mm; E I and E A of the strip, wide. */
-START_TEST(constants_of_a_model) {
+TEST(constants_of_a_model) {
   ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
@@ -427,10 +411,9 @@ START_TEST(constants_of_a_model) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Each step counts once; a run of which nothing was asked tells nothing. */
-START_TEST(steps_are_counted_by_their_limit) {
+TEST(steps_are_counted_by_their_limit) {
   ZpActuatorDef *def = coarse_def();
   ZpModel *model = NULL;
   ZpSim *sim = NULL;
@@ -451,7 +434,6 @@ START_TEST(steps_are_counted_by_their_limit) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 static ZpSim *sim_with_model(const ZpActuatorDef *def, ZpModel **model) {
   ZpSim *sim = NULL;
@@ -461,7 +443,7 @@ static ZpSim *sim_with_model(const ZpActuatorDef *def, ZpModel **model) {
 }
 
 /* Times that make no sense answered "end_time": now nothing moves, and outcome and message say so. */
-START_TEST(bad_times_move_nothing) {
+TEST(bad_times_move_nothing) {
   ZpActuatorDef *def = coarse_def();
   ZpModel *model;
   ZpSim *sim = sim_with_model(def, &model);
@@ -496,10 +478,9 @@ START_TEST(bad_times_move_nothing) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* zp_outcome_name(999) read beyond its list. */
-START_TEST(words_of_no_outcome) {
+TEST(words_of_no_outcome) {
   const int beyond[] = {999, -1, INT_MAX, INT_MIN, ZP_BEYOND_MODEL + 1};
   for (size_t k = 0; k < sizeof beyond / sizeof beyond[0]; k++)
     ck_assert_str_eq(zp_outcome_name((ZpOutcome)beyond[k]), "unknown");
@@ -509,7 +490,6 @@ START_TEST(words_of_no_outcome) {
   ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_COUNT), "unknown");
   ck_assert_str_eq(zp_step_limit_name((ZpStepLimit)-1), "unknown");
 }
-END_TEST
 
 static double stopped_clock(void *user) {
   (void)user;
@@ -517,7 +497,7 @@ static double stopped_clock(void *user) {
 }
 
 /* A clock too coarse for the run gave an infinite factor: there is none. */
-START_TEST(no_real_time_factor_without_wall_time) {
+TEST(no_real_time_factor_without_wall_time) {
   ZpActuatorDef *def = coarse_def();
   zp_def_set_number(def, "solver.end_time", 1e-4, NULL);
   ZpResult *result;
@@ -526,10 +506,9 @@ START_TEST(no_real_time_factor_without_wall_time) {
   zp_result_destroy(result);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* A simulation that should resume from a checkpoint and gets none ran from the straight shape. */
-START_TEST(no_motion_without_the_checkpoint) {
+TEST(no_motion_without_the_checkpoint) {
   ZpActuatorDef *def = coarse_def();
   ZpModel *model, *other;
   ZpSim *first = sim_with_model(def, &model);
@@ -552,7 +531,6 @@ START_TEST(no_motion_without_the_checkpoint) {
   zp_run_info_destroy(info);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Every key has the same value in two Defs. */
 static void ck_same_def(const ZpActuatorDef *a, const ZpActuatorDef *b) {
@@ -564,7 +542,7 @@ static void ck_same_def(const ZpActuatorDef *a, const ZpActuatorDef *b) {
 }
 
 /* A Def filled by name, by index, by values for people or by assignments is the same Def. */
-START_TEST(four_ways_to_fill_a_def) {
+TEST(four_ways_to_fill_a_def) {
   ZpActuatorDef *by_name = zp_def_create(), *by_index = zp_def_create(), *by_text = zp_def_create(),
                 *resolved = zp_def_create();
   int mass = zp_key_find("load.mass"), electrode = zp_key_find("platform.electrode");
@@ -586,10 +564,9 @@ START_TEST(four_ways_to_fill_a_def) {
   for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
     zp_def_destroy(all[k]);
 }
-END_TEST
 
 /* Words, texts, auto, none, true and false are read as they are set. */
-START_TEST(words_of_a_def) {
+TEST(words_of_a_def) {
   static const struct {
     const char *key, *word;
   } set[] = {{"actuator.kind", "flange"},     {"platform.electrode", "false"},
@@ -610,10 +587,9 @@ START_TEST(words_of_a_def) {
   ck_assert(isnan(zp_def_number(def, "damping.internal")) && isnan(zp_def_number(def, "data.file")));
   zp_def_destroy(def);
 }
-END_TEST
 
 /* Where memory was short there is no Def; every function that takes one refuses it. */
-START_TEST(no_def_is_refused) {
+TEST(no_def_is_refused) {
   ZpError err = {ZP_OK, ""};
   size_t count = 1;
   ck_assert_ptr_null(zp_def_copy(NULL));
@@ -629,10 +605,9 @@ START_TEST(no_def_is_refused) {
   ck_assert_int_eq(zp_def_set_number(NULL, "load.mass", 1, &err), ZP_MACHINE);
   ck_assert_str_eq(err.message, "no memory");
 }
-END_TEST
 
 /* The index of an unknown name, and one behind the last key, are refused by every function that takes one. */
-START_TEST(no_key_is_refused) {
+TEST(no_key_is_refused) {
   const int wrong[] = {zp_key_find("no.such.key"), zp_key_count()};
   ZpActuatorDef *def = zp_def_create();
   for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
@@ -649,10 +624,9 @@ START_TEST(no_key_is_refused) {
   }
   zp_def_destroy(def);
 }
-END_TEST
 
 /* A refusal names key, value, unit and range, or what the key takes, and changes nothing. */
-START_TEST(refusals_of_a_def) {
+TEST(refusals_of_a_def) {
   static const struct {
     const char *key;
     double number;
@@ -684,10 +658,9 @@ START_TEST(refusals_of_a_def) {
   zp_def_destroy(def);
   zp_def_destroy(plain);
 }
-END_TEST
 
 /* Without memory for a Def there is none, and each call that gets it says so. */
-START_TEST(no_def_is_no_memory) {
+TEST(no_def_is_no_memory) {
   ZpError err = {ZP_OK, ""};
   ZpModel *model = NULL;
   ZpResult *result = NULL;
@@ -704,10 +677,9 @@ START_TEST(no_def_is_no_memory) {
   ck_assert(isnan(zp_def_number(NULL, "load.mass")) && !zp_def_word(NULL, "data.file"));
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* One state after another: that of study stationary without voltage, less open under one, none above the pull-in. */
-START_TEST(rest_hangs_as_the_study_says) {
+TEST(rest_hangs_as_the_study_says) {
   ZpActuatorDef *def = zp_def_create();
   zp_def_set_number(def, "mesh.nodes", 21, NULL);
   ZpModel *model = NULL;
@@ -727,10 +699,9 @@ START_TEST(rest_hangs_as_the_study_says) {
   zp_model_destroy(model);
   zp_def_destroy(def);
 }
-END_TEST
 
 /* A study is checked as its number says, which may be none. */
-START_TEST(study_out_of_range) {
+TEST(study_out_of_range) {
   ZpActuatorDef *def = zp_def_create();
   ZpResult *result = (ZpResult *)(void *)def;
   ZpError err = {ZP_OK, ""};
@@ -747,10 +718,9 @@ START_TEST(study_out_of_range) {
   ck_assert_str_eq(zp_study_name(ZP_STUDY_MODES), "modes");
   zp_def_destroy(def);
 }
-END_TEST
 
 /* A wrong number of a part or of a key has an answer of its own. */
-START_TEST(what_is_out_of_range_has_an_answer) {
+TEST(what_is_out_of_range_has_an_answer) {
   ZpError err = {0};
   double value;
   char text[64];
@@ -779,43 +749,4 @@ START_TEST(what_is_out_of_range_has_an_answer) {
     ck_assert_str_eq(text, "8");
     ck_assert(!zp_checkpoint_holds(key));
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("api");
-  TCase *c = tcase_create("api");
-  tcase_add_test(c, rest_hangs_as_the_study_says);
-  tcase_add_test(c, study_out_of_range);
-  tcase_add_test(c, program_of_a_user);
-  tcase_add_test(c, what_is_out_of_range_has_an_answer);
-  tcase_add_test(c, null_is_allowed_where_it_says_so);
-  tcase_add_test(c, destroying_nothing_does_nothing);
-  tcase_add_test(c, scenario_without_err);
-  tcase_add_test(c, study_without_hooks);
-  tcase_add_test(c, hooks_are_asked);
-  tcase_add_loop_test(c, rest_asks_before_it_hangs, 0, 6);
-  tcase_add_loop_test(c, stops_when_asked, 0, 6);
-  tcase_add_test(c, implicit_run_asks_every_few_steps);
-  tcase_add_test(c, weightless_actuator_settles);
-  tcase_add_test(c, saved_state_continues_to_the_same_bits);
-  tcase_add_test(c, simulations_share_a_model);
-  tcase_add_test(c, every_name_answers);
-  tcase_add_test(c, reading_is_a_row);
-  tcase_add_test(c, steps_by_hand_are_even);
-  tcase_add_test(c, bad_times_move_nothing);
-  tcase_add_test(c, words_of_no_outcome);
-  tcase_add_test(c, no_real_time_factor_without_wall_time);
-  tcase_add_test(c, no_motion_without_the_checkpoint);
-  tcase_add_test(c, four_ways_to_fill_a_def);
-  tcase_add_test(c, words_of_a_def);
-  tcase_add_test(c, refusals_of_a_def);
-  tcase_add_test(c, no_def_is_refused);
-  tcase_add_test(c, no_key_is_refused);
-  tcase_add_test(c, no_def_is_no_memory);
-  tcase_add_test(c, result_is_read_by_calls);
-  tcase_add_test(c, constants_of_a_model);
-  tcase_add_test(c, steps_are_counted_by_their_limit);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

@@ -48,7 +48,7 @@ static void draw(const ZpModel *model, double (*D)[4], double gaps[4][STATIONS])
     gaps[k / model->nodes][k % model->nodes] = noise(&seed);
 }
 
-START_TEST(test_symmetric_matrix_is_half_of_the_other) {
+TESTS(test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds)) {
   ZpModel *model = model_of_kind((size_t)_i);
   ZpAssembly half, whole;
   ck_assert(zp_assembly_create(model, 0, true, &half) && zp_assembly_create(model, 0, false, &whole));
@@ -75,13 +75,4 @@ START_TEST(test_symmetric_matrix_is_half_of_the_other) {
   zp_assembly_destroy(&half);
   zp_assembly_destroy(&whole);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("assemble");
-  TCase *matrix = tcase_create("matrix");
-  tcase_add_loop_test(matrix, test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds));
-  suite_add_tcase(suite, matrix);
-  return run_suite(suite);
 }

@@ -5,7 +5,7 @@
 /* -- the word -------------------------------------------------------------------------------------- */
 
 /* Every combination of keys beside which auto is a bead: a bead where all are given, else none. */
-START_TEST(test_auto_is_a_bead_where_one_is_modelled) {
+TEST(test_auto_is_a_bead_where_one_is_modelled) {
   static const struct {
     const char *key;
     double asked, other;
@@ -28,19 +28,17 @@ START_TEST(test_auto_is_a_bead_where_one_is_modelled) {
     ck_assert_msg(zp_def_liquid(&def) == (set ? ZP_LIQUID_NONE : ZP_LIQUID_BEAD), "combination %u", set);
   }
 }
-END_TEST
 
-START_TEST(test_other_words_stand_for_themselves) {
+TEST(test_other_words_stand_for_themselves) {
   for (int model = ZP_LIQUID_NONE; model <= ZP_LIQUID_BEAD; model++) {
     ZpActuatorDef def = DEF({"liquid.model", model}, {"electro.edges", true});
     ck_assert_int_eq(zp_def_liquid(&def), model);
   }
   ck_assert_int_eq(zp_def_liquid(NULL), ZP_LIQUID_NONE);
 }
-END_TEST
 
 /* The paper has no liquid, also where a preset is brought to what could have one. */
-START_TEST(test_presets_have_none) {
+TEST(test_presets_have_none) {
   for (int preset = ZP_PRESET_NONE + 1; preset < ZpPreset_COUNT; preset++) {
     Setting list[] = {{"preset", preset},
                       {"actuator.kind", ZP_KIND_ELECTRO_RIBBON},
@@ -53,7 +51,6 @@ START_TEST(test_presets_have_none) {
     ck_assert_int_eq(def.liquid.model, ZP_LIQUID_NONE);
   }
 }
-END_TEST
 
 /* -- studies --------------------------------------------------------------------------------------- */
 
@@ -72,7 +69,7 @@ static const ZpStudy studies[] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_
 
 /* Auto is what it stands for, in every study, with and without what a bead does not know; a note says where it is none.
  */
-START_TEST(test_auto_runs_as_what_it_stands_for) {
+TESTS(test_auto_runs_as_what_it_stands_for, 0, LENGTH_OF(studies)) {
   static const struct {
     const char *key;
     double value;
@@ -101,29 +98,13 @@ START_TEST(test_auto_runs_as_what_it_stands_for) {
     zp_result_destroy(said);
   }
 }
-END_TEST
 
 /* Frequencies have no bead in them and say so; a bath, far heavier than the ribbons, is refused (test_liquid). */
-START_TEST(test_modes_leave_the_bead_out) {
+TEST(test_modes_leave_the_bead_out) {
   ZpActuatorDef bead = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_AUTO}), dry = DEF({"mesh.nodes", 11});
   ZpResult *with = study_of(ZP_STUDY_MODES, &bead), *without = study_of(ZP_STUDY_MODES, &dry);
   ck_same_scalars(with, without);
   ck_assert(notes_with(with, "the bead is ignored") == 1 && notes_with(without, "bead") == 0);
   zp_result_destroy(with);
   zp_result_destroy(without);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("auto liquid");
-  TCase *word = tcase_create("word");
-  tcase_add_test(word, test_auto_is_a_bead_where_one_is_modelled);
-  tcase_add_test(word, test_other_words_stand_for_themselves);
-  tcase_add_test(word, test_presets_have_none);
-  suite_add_tcase(suite, word);
-  TCase *runs = tcase_create("runs");
-  tcase_add_loop_test(runs, test_auto_runs_as_what_it_stands_for, 0, LENGTH_OF(studies));
-  tcase_add_test(runs, test_modes_leave_the_bead_out);
-  suite_add_tcase(suite, runs);
-  return run_suite(suite);
 }

@@ -42,7 +42,7 @@ static void check_thinned(const ZpTable *table, size_t offered) {
   }
 }
 
-START_TEST(test_table_thins) {
+TEST(test_table_thins) {
   static const size_t capacities[] = {2, 3, 7, 10, 64};
   for (size_t c = 0; c < LENGTH_OF(capacities); c++) {
     ZpTable *table = zp_table_create(two_columns, 2, capacities[c]);
@@ -53,9 +53,8 @@ START_TEST(test_table_thins) {
     zp_table_destroy(table);
   }
 }
-END_TEST
 
-START_TEST(test_table_keeps_last) {
+TEST(test_table_keeps_last) {
   ZpTable *table = zp_table_create(two_columns, 2, 10);
   for (size_t i = 0; i < 15; i++) /* stride 2, rows 0 2 .. 14: 8 of 10 */
     offer_square(table, i);
@@ -81,7 +80,6 @@ START_TEST(test_table_keeps_last) {
   zp_table_destroy(table);
   zp_table_destroy(NULL);
 }
-END_TEST
 
 enum { FILM_NODES = 5 };
 
@@ -133,7 +131,7 @@ static void check_frame(const ZpShapes *film, size_t frame, size_t i) {
   ck_assert_double_eq(shape.stress[2 * FILM_NODES - 1], end / 3);
 }
 
-START_TEST(test_film_thins) {
+TEST(test_film_thins) {
   for (size_t ribbons = 1; ribbons <= 2; ribbons++) {
     ZpShapes *film = zp_shapes_create(ribbons, FILM_NODES, 6);
     for (size_t i = 0; i < 100; i++)
@@ -151,11 +149,10 @@ START_TEST(test_film_thins) {
   }
   zp_shapes_destroy(NULL);
 }
-END_TEST
 
 /* -- memory and errors ----------------------------------------------------------------------------- */
 
-START_TEST(test_carver) {
+TEST(test_carver) {
   static const size_t counts[] = {1, 7, 8, 9, 0, 64, 1001};
   enum { ARRAYS = LENGTH_OF(counts) };
   ZpArena measure = {NULL, 0};
@@ -176,9 +173,8 @@ START_TEST(test_carver) {
   }
   zp_free(block);
 }
-END_TEST
 
-START_TEST(test_calloc) {
+TEST(test_calloc) {
   unsigned char *memory = zp_calloc(3, 7);
   ck_assert_uint_eq((uintptr_t)memory % ZP_ALIGNMENT, 0);
   for (int i = 0; i < 21; i++)
@@ -191,9 +187,8 @@ START_TEST(test_calloc) {
   ck_assert_ptr_null(zp_calloc(SIZE_MAX, 1));
   zp_free(NULL);
 }
-END_TEST
 
-START_TEST(test_lanes) {
+TEST(test_lanes) {
   for (size_t n = 0; n < 100; n++) {
     size_t rounded = zp_round_up(n);
     ck_assert_uint_eq(rounded % ZP_LANES, 0);
@@ -203,9 +198,8 @@ START_TEST(test_lanes) {
   ck_assert_double_eq(zp_sum_lanes(lanes), -85);
   ck_assert_double_eq(zp_max_lanes(lanes), 64);
 }
-END_TEST
 
-START_TEST(test_fail) {
+TEST(test_fail) {
   ZpError err = {ZP_OK, ""};
   ck_assert_int_eq(zp_fail(&err, ZP_BAD_INPUT, "%s = %g", "x", 2.5), ZP_BAD_INPUT);
   ck_assert_int_eq(err.status, ZP_BAD_INPUT);
@@ -219,7 +213,6 @@ START_TEST(test_fail) {
   ck_assert_int_eq(zp_fail_memory(&err), ZP_MACHINE);
   ck_assert_str_eq(err.message, "no memory");
 }
-END_TEST
 
 /* -- keys ------------------------------------------------------------------------------------------ */
 
@@ -238,7 +231,7 @@ static void check_key(int *index, const char *name, double field, double def, do
   ++*index;
 }
 
-START_TEST(test_defaults_are_those_of_keys_def) {
+TEST(test_defaults_are_those_of_keys_def) {
   ZpActuatorDef d = zp_actuator_def_default();
   int i = 0;
 #define ZP_GROUP(group)
@@ -260,7 +253,6 @@ START_TEST(test_defaults_are_those_of_keys_def) {
   ZpError err;
   ck_assert_int_eq(zp_def_check(&d, &err), ZP_OK);
 }
-END_TEST
 
 /* Word of a choice key's value. */
 static const char *word_of(const ZpActuatorDef *def, const char *name) {
@@ -290,7 +282,7 @@ static void check_expected(const ZpActuatorDef *def, const Expected *list, size_
 }
 
 /* As promised to users, independent of keys.def. */
-START_TEST(test_defaults_are_those_promised) {
+TEST(test_defaults_are_those_promised) {
   static const Expected promised[] = {
       {"actuator.kind", 0, "electro_ribbon"},
       {"actuator.right_end", 0, "guided"},
@@ -336,9 +328,8 @@ START_TEST(test_defaults_are_those_promised) {
   ZpActuatorDef def = zp_actuator_def_default();
   check_expected(&def, promised, LENGTH_OF(promised));
 }
-END_TEST
 
-START_TEST(test_key_words) {
+TEST(test_key_words) {
   int kind = zp_key_find("actuator.kind");
   ck_assert_int_eq(zp_key_choice(kind, "electro_ribbon"), ZP_KIND_ELECTRO_RIBBON);
   ck_assert_int_eq(zp_key_choice(kind, "ribbon"), ZP_KIND_RIBBON);
@@ -346,9 +337,8 @@ START_TEST(test_key_words) {
   ck_assert_int_eq(zp_key_choice(zp_key_find("load.mass"), "ribbon"), -1);
   ck_assert_int_eq(zp_key_find("load.mas"), -1);
 }
-END_TEST
 
-START_TEST(test_key_nearest) {
+TEST(test_key_nearest) {
   static const char *const pairs[][2] = {
       {"ribbon.lenght", "ribbon.length"},
       {"ribon.width", "ribbon.width"},
@@ -372,10 +362,9 @@ START_TEST(test_key_nearest) {
   word[sizeof word - 1] = 0;
   ck_assert_ptr_nonnull(zp_key_nearest(word));
 }
-END_TEST
 
 /* Names from other programs and papers lead to ours; what is not modelled has no nearest key. */
-START_TEST(test_key_unknown) {
+TEST(test_key_unknown) {
   static const char *const pairs[][2] = {
       {"load.mas", "unknown key; did you mean load.mass?"},
       {"tape.thickness", "unknown key; did you mean insulator.thickness?"},
@@ -429,11 +418,10 @@ START_TEST(test_key_unknown) {
   zp_key_unknown(word, little, sizeof little);
   ck_assert_str_eq(little, "unknown");
 }
-END_TEST
 
 /* -- resolving ------------------------------------------------------------------------------------- */
 
-START_TEST(test_resolve_order) {
+TEST(test_resolve_order) {
   ck_assert_double_eq(zp_actuator_def_default().load.share, 0.5);
   ck_assert_double_eq(DEF({"actuator.kind", ZP_KIND_RIBBON}).load.share, 1); /* kind over default */
   ck_assert_double_eq(
@@ -447,9 +435,8 @@ START_TEST(test_resolve_order) {
   ZpActuatorDef plain = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"preset", ZP_PRESET_NONE});
   ck_assert_double_eq(plain.ribbon.thickness, 50e-6); /* of presets, too */
 }
-END_TEST
 
-START_TEST(test_paper_text) {
+TEST(test_paper_text) {
   static const Expected text[] = {
       {"ribbon.model", 0, "mass_spring"},
       {"contact.model", 0, "sequential"},
@@ -475,9 +462,8 @@ START_TEST(test_paper_text) {
     ck_assert_double_eq(def.damping.drag, drag[i][1]);
   }
 }
-END_TEST
 
-START_TEST(test_paper_code) {
+TEST(test_paper_code) {
   static const Expected code[] = {
       {"ribbon.model", 0, "mass_spring"},
       {"contact.model", 0, "sequential"},
@@ -503,9 +489,8 @@ START_TEST(test_paper_code) {
     ck_assert_double_eq(def.solver.time_step, at[i][3]);
   }
 }
-END_TEST
 
-START_TEST(test_preset_must_be_completed) {
+TEST(test_preset_must_be_completed) {
   ZpActuatorDef def;
   ZpError err;
   const Setting text[] = {{"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 41}, {"damping.drag", 3}};
@@ -525,10 +510,9 @@ START_TEST(test_preset_must_be_completed) {
   ck_assert_double_eq(def.mass_spring.shear_coefficient, 4e4);
   ck_assert_double_eq(def.ribbon.thickness, 100e-6);
 }
-END_TEST
 
 /* Each key at its bounds and beyond; wrong ones leave the Def alone and say what is allowed. */
-START_TEST(test_set_range) {
+TESTS(test_set_range, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   ZpActuatorDef def = zp_actuator_def_default(), before = def;
   ZpError err;
@@ -557,9 +541,8 @@ START_TEST(test_set_range) {
   ck_assert_int_eq(zp_def_set(&def, _i, NAN, NULL), ZP_OK);
   ck_assert(isnan(zp_def_get(&def, _i)));
 }
-END_TEST
 
-START_TEST(test_set_message) {
+TEST(test_set_message) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpError err;
   zp_def_set(&def, zp_key_find("ribbon.thickness"), 1, &err);
@@ -567,10 +550,9 @@ START_TEST(test_set_message) {
   for (size_t i = 0; i < LENGTH_OF(parts); i++)
     ck_assert_msg(strstr(err.message, parts[i]) != NULL, "no '%s' in: %s", parts[i], err.message);
 }
-END_TEST
 
 /* A Def whose fields were assigned is checked when it is used. */
-START_TEST(test_check_ranges) {
+TEST(test_check_ranges) {
   ZpError err;
   ZpActuatorDef def = zp_actuator_def_default();
   def.load.mass = -1;
@@ -586,7 +568,6 @@ START_TEST(test_check_ranges) {
   def.contact.model = (ZpContactModel)ZpContactModel_COUNT;
   ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
 }
-END_TEST
 
 /* Settings that are each right and together wrong, and the key that the message must name. */
 typedef struct Cross {
@@ -704,7 +685,7 @@ static const Cross crosses[] = {
     {{TURNS, {"platform.length", 0.01}, {"load.offset", 6e-3}}, "load.offset = 0.006 m", false, ZP_STUDY_STATIONARY},
 };
 
-START_TEST(test_check_crosses) {
+TESTS(test_check_crosses, 0, LENGTH_OF(crosses)) {
   const Cross *cross = &crosses[_i];
   size_t count = 0;
   while (count < LENGTH_OF(cross->setting) && cross->setting[count].key)
@@ -714,10 +695,9 @@ START_TEST(test_check_crosses) {
   ck_assert_int_eq(zp_study_check(cross->study, &def, &err), cross->right ? ZP_OK : ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, cross->named) != NULL, "no '%s' in: %s", cross->named, err.message);
 }
-END_TEST
 
 /* A limit holds for both signs of the voltage, and for that of each antagonist. */
-START_TEST(test_check_voltages) {
+TEST(test_check_voltages) {
   ZpError err;
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.voltage_limit", 5e3}, {"drive.voltage", 4e3});
   ck_assert_int_eq(zp_def_check_voltage(&def, -5e3, &err), ZP_OK);
@@ -729,11 +709,10 @@ START_TEST(test_check_voltages) {
   ck_assert_ptr_nonnull(
       strstr(err.message, "member 2 of the stack: insulator.thickness = 0 m: 5000 V is a short circuit"));
 }
-END_TEST
 
 /* The load of a series hangs from its last member; parallel members share it; the lower antagonist is the upper one
  * turned over, with its own voltage and without the load. */
-START_TEST(test_members_share_the_load) {
+TEST(test_members_share_the_load) {
   ZpActuatorDef def = DEF({"stack.series", 3}, {"load.force", 2}, {"stack.link_mass", 1e-3});
   for (int k = 1; k <= 3; k++) {
     ZpActuatorDef one = zp_def_member(&def, k);
@@ -758,10 +737,9 @@ START_TEST(test_members_share_the_load) {
     ck_assert(lower.drive.voltage == 6e3 && lower.drive.offset == 2e3 && lower.load.mass == 0);
   }
 }
-END_TEST
 
 /* Both insulators lie between the metals. */
-START_TEST(test_insulation_is_of_both) {
+TEST(test_insulation_is_of_both) {
   ZpActuatorDef def = DEF({"insulator.thickness", 100e-6});
   ck_assert_double_eq(zp_insulation(&def), 200e-6);
   def.lower.insulator.thickness = 160e-6;
@@ -769,11 +747,10 @@ START_TEST(test_insulation_is_of_both) {
   def.lower.insulator.thickness = 0;
   ck_assert_double_eq(zp_insulation(&def), 100e-6);
 }
-END_TEST
 
 /* auto: of motion what the mesh is worth, eq. (18.13), between 1e-4 and an upper bound; of derivatives less; at rest a
  * thousandth of what is given, or of 1e-4. */
-START_TEST(test_tolerances) {
+TEST(test_tolerances) {
   ZpActuatorDef dry = DEF({"mesh.nodes", 201}), wet = DEF({"mesh.nodes", 201}, {"liquid.model", ZP_LIQUID_SUBMERGED});
   ck_near(zp_def_tolerance(&dry), 5. / (200 * 200), 1e-12);
   ck_assert_double_eq(zp_def_tolerance(&wet), 1e-4);
@@ -790,7 +767,6 @@ START_TEST(test_tolerances) {
   ck_assert_double_eq(zp_def_tolerance(&dry), 3e-5);
   ck_near(zp_tolerance_at_rest(&dry), 3e-8, 1e-12);
 }
-END_TEST
 
 /* -- save and restore ------------------------------------------------------------------------------ */
 
@@ -800,7 +776,7 @@ static ZpActuatorDef saved_def(int which) {
                     : DEF({"mesh.nodes", 21}, {"preset", ZP_PRESET_PAPER_CODE});
 }
 
-START_TEST(test_restore_goes_on_bit_for_bit) {
+TESTS(test_restore_goes_on_bit_for_bit, 0, 2) {
   static const double before[] = {20e-3, 33e-3}, after[] = {50e-3, 45e-3};
   ZpActuatorDef def = saved_def(_i);
   ZpModel *model = model_of(&def);
@@ -831,10 +807,9 @@ START_TEST(test_restore_goes_on_bit_for_bit) {
   zp_sim_destroy(other);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A simulation resumes from its saved bytes; damaged ones and those of another actuator are refused. */
-START_TEST(test_saved_state) {
+TEST(test_saved_state) {
   ZpActuatorDef def = saved_def(0);
   ZpModel *model = model_of(&def);
   def.load.mass *= 2;
@@ -863,10 +838,9 @@ START_TEST(test_saved_state) {
   zp_model_destroy(model);
   zp_model_destroy(heavier);
 }
-END_TEST
 
 /* Reading signals, shapes and recording change nothing. */
-START_TEST(test_looking_changes_nothing) {
+TEST(test_looking_changes_nothing) {
   ZpActuatorDef def = saved_def(0);
   ZpModel *model = model_of(&def);
   ZpSim *plain = sim_of(model), *watched = sim_of(model);
@@ -894,45 +868,4 @@ START_TEST(test_looking_changes_nothing) {
   zp_sim_destroy(plain);
   zp_sim_destroy(watched);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("base");
-  TCase *records = tcase_create("records");
-  tcase_add_test(records, test_table_thins);
-  tcase_add_test(records, test_table_keeps_last);
-  tcase_add_test(records, test_film_thins);
-  suite_add_tcase(suite, records);
-  TCase *memory = tcase_create("memory");
-  tcase_add_test(memory, test_carver);
-  tcase_add_test(memory, test_calloc);
-  tcase_add_test(memory, test_lanes);
-  tcase_add_test(memory, test_fail);
-  suite_add_tcase(suite, memory);
-  TCase *keys = tcase_create("keys");
-  tcase_add_test(keys, test_defaults_are_those_of_keys_def);
-  tcase_add_test(keys, test_defaults_are_those_promised);
-  tcase_add_test(keys, test_key_words);
-  tcase_add_test(keys, test_key_nearest);
-  tcase_add_test(keys, test_key_unknown);
-  tcase_add_test(keys, test_resolve_order);
-  tcase_add_test(keys, test_paper_text);
-  tcase_add_test(keys, test_paper_code);
-  tcase_add_test(keys, test_preset_must_be_completed);
-  tcase_add_loop_test(keys, test_set_range, 0, zp_key_count());
-  tcase_add_test(keys, test_set_message);
-  tcase_add_test(keys, test_check_ranges);
-  tcase_add_loop_test(keys, test_check_crosses, 0, LENGTH_OF(crosses));
-  tcase_add_test(keys, test_check_voltages);
-  tcase_add_test(keys, test_members_share_the_load);
-  tcase_add_test(keys, test_insulation_is_of_both);
-  tcase_add_test(keys, test_tolerances);
-  suite_add_tcase(suite, keys);
-  TCase *state = tcase_create("state");
-  tcase_add_loop_test(state, test_restore_goes_on_bit_for_bit, 0, 2);
-  tcase_add_test(state, test_saved_state);
-  tcase_add_test(state, test_looking_changes_nothing);
-  suite_add_tcase(suite, state);
-  return run_suite(suite);
 }

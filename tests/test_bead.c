@@ -15,7 +15,7 @@
 /* -- geometry -------------------------------------------------------------------------------------- */
 
 /* In a wedge of angle a, a volume V wets the length sqrt(2 V / (w a)), and the volume of that length is V again. */
-START_TEST(test_reach_in_a_wedge) {
+TEST(test_reach_in_a_wedge) {
   enum { NODES = 61 };
   const double w = 12.7e-3, angle = 0.1;
   ZpFilmParams film = {.nodes = NODES, .l = 1e-3, .platform = NODES - 1, .platform_end = NODES - 1, .w = w};
@@ -33,7 +33,6 @@ START_TEST(test_reach_in_a_wedge) {
   ck_assert_double_eq(zp_bead_reach(&film, gap, 0, 1.001 * all), zp_bead_longest(&film));
   ck_near(zp_bead_volume(&film, gap, 0, 0.06 + 2e-3), w * angle * 0.06 * (0.03 + 2e-3), 1e-12);
 }
-END_TEST
 
 /* -- at rest --------------------------------------------------------------------------------------- */
 
@@ -100,7 +99,7 @@ static double *full_of(const ZpBand *K) {
 
 /* The wet length depends on all gaps before it, and each force on the wet length: the stiffness includes this in
  * addition to its band. */
-START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
+TESTS(test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases)) {
   const Case *c = &cases[_i];
   ZpActuatorDef def = def_of(c, 7);
   ZpModel *model = model_of(&def);
@@ -135,10 +134,9 @@ START_TEST(test_stiffness_is_the_derivative_of_the_forces) {
   zp_rest_close(&rest);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The derivative of the forces at rest by the voltage, of attraction and of suction, against their differences. */
-START_TEST(test_forces_at_rest_by_voltage) {
+TESTS(test_forces_at_rest_by_voltage, 0, 7) {
   const Case *c = &cases[_i];
   ZpActuatorDef def = def_of(c, 7);
   def.electro.breakdown_cap = false; /* no corner of a law within the difference */
@@ -169,11 +167,10 @@ START_TEST(test_forces_at_rest_by_voltage) {
   zp_rest_close(&rest);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A drop with suction has a hanging equilibrium: before, from 1 uL or so, the result was straight ribbons held together
  * by capillarity. */
-START_TEST(test_drop_with_suction_hangs) {
+TESTS(test_drop_with_suction_hangs, 0, 5) {
   static const double volumes[] = {1e-11, 1e-10, 1e-9, 5e-9, 50e-9};
   for (double suction = 0.25; suction <= 1; suction += 0.25) {
     ZpActuatorDef dry = DEF(), def = DEF(BEAD, {"bead.volume", volumes[_i]}, {"bead.suction", suction});
@@ -182,7 +179,6 @@ START_TEST(test_drop_with_suction_hangs) {
     ck_below(drawn, 2e-3); /* 2 gamma w, 0.5 mN, on lengths of mm, beside 78 mN of the load */
   }
 }
-END_TEST
 
 /* Potential of the field and energy of the wetted surfaces, J: with the whole suction all forces of bead and field are
  * minus their gradient at a fixed volume, without suction at a fixed wet length, m (NULL: that of the volume). */
@@ -196,7 +192,7 @@ static double potential(ZpStatics *s, const double *held, double *r) {
   return zp_plates_totals(&model->plates, &s->member->eval.plates, s->U).potential + surfaces;
 }
 
-START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
+TESTS(test_force_of_a_fixed_volume_has_an_energy, 0, 8) {
   static const double volumes[] = {20e-9, 50e-9, 200e-9, 0.9e-6};
   Case c = {"", volumes[_i % 4], _i < 4 ? 1 : 0, 8e3, ZP_SYMMETRY_HALF};
   ZpActuatorDef def = def_of(&c, 61), dry;
@@ -237,7 +233,6 @@ START_TEST(test_force_of_a_fixed_volume_has_an_energy) {
   zp_model_destroy(model);
   zp_model_destroy(without);
 }
-END_TEST
 
 static double isometric(const Setting *list, size_t count) {
   ZpActuatorDef def = def_with(list, count);
@@ -279,7 +274,7 @@ static const struct {
   double U, separation, volume;
 } wedges[] = {{6e3, 1e-3, 83e-9}, {6e3, 2e-3, 51e-9}, {6e3, 4e-3, 30e-9}, {10e3, 2e-3, 132e-9}, {10e3, 4e-3, 76e-9}};
 
-START_TEST(test_attraction_of_a_wedge) {
+TESTS(test_attraction_of_a_wedge, 0, LENGTH_OF(wedges)) {
   double U = wedges[_i].U, separation = wedges[_i].separation;
   ZpActuatorDef def = DEF(BEAD);
   ZpModel *model = model_of(&def);
@@ -287,11 +282,10 @@ START_TEST(test_attraction_of_a_wedge) {
   ck_near(attraction(model, U, separation, wedges[_i].volume, one) / all, 0.92, 1e-3); /* 1.9e-4 measured */
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Ribbons as stiff as beams keep the wedge shape, so by reciprocity the holding force of the field is the attraction
  * weighted with the displacement of each point per displacement of the platform. */
-START_TEST(test_isometric_force_of_stiff_ribbons) {
+TESTS(test_isometric_force_of_stiff_ribbons, 0, LENGTH_OF(wedges)) {
   Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
   Setting thick = {"ribbon.thickness", 5e-3}, stiff = {"ribbon.young_modulus", 1e12}, bare = {"platform.electrode", 0};
   Setting volume = {"bead.volume", wedges[_i].volume};
@@ -304,10 +298,9 @@ START_TEST(test_isometric_force_of_stiff_ribbons) {
   ck_near(force, expected, 1e-4 + 0.5 * slope * slope); /* the closed form is that of small slopes */
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Without the cap the charge at rest is linear in the voltage, of liquid and of air beyond it. */
-START_TEST(test_charge_is_capacitance_times_voltage) {
+TEST(test_charge_is_capacitance_times_voltage) {
   ZpActuatorDef def = DEF(BEAD, SMALL, {"mesh.nodes", 11}, {"electro.breakdown_cap", 0}, {"drive.voltage", 500},
                           {"isometric.separation", 5e-3});
   ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
@@ -320,10 +313,9 @@ START_TEST(test_charge_is_capacitance_times_voltage) {
   ck_near(shape.insulator_field[0], def.drive.voltage / layers, 1e-12); /* 0 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Flexible ribbons: a bead that fills everything equals a liquid everywhere, and suction adds to the force. */
-START_TEST(test_isometric_force) {
+TESTS(test_isometric_force, 0, LENGTH_OF(wedges)) {
   Setting U = {"drive.voltage", wedges[_i].U}, held = {"isometric.separation", wedges[_i].separation};
   Setting volume = {"bead.volume", wedges[_i].volume};
   double all = ISOMETRIC(U, held), full = ISOMETRIC(U, held, BEAD, {"bead.volume", 1e-3});
@@ -334,16 +326,14 @@ START_TEST(test_isometric_force) {
   ck_assert_double_lt(some, all);
   ck_assert_double_gt(drawn, 1.05 * some);
 }
-END_TEST
 
 /* A bead that fills everything, without a platform: before, the forces contained NaN, which was taken for an
  * equilibrium of straight ribbons. */
-START_TEST(test_full_bead_without_a_platform) {
+TEST(test_full_bead_without_a_platform) {
   Setting none = {"platform.length", 0};
   ZpActuatorDef dry = DEF(none), full = DEF(none, BEAD, {"bead.suction", 1}, {"bead.volume", 1e-3});
   ck_near(settled_value(&full, "opening"), settled_value(&dry, "opening"), 1e-12);
 }
-END_TEST
 
 /* -- in motion ------------------------------------------------------------------------------------- */
 
@@ -370,7 +360,7 @@ static double volume_between(ZpSim *sim, const ZpModel *model) {
 
 /* With sealed edges the volume of the bead is constant to rounding; with open edges it lacks the liquid outside and the
  * lost liquid. */
-START_TEST(test_volume_is_kept) {
+TESTS(test_volume_is_kept, 0, FULL_OR(4, 2)) {
   static const struct { double lateral, share; } row[] = {{0, 1}, {1, 1}, {1, 0.5}, {1, 0}};
   ZpModel *model;
   ZpSim *sim = ZIP_HOLD_RELEASE(&model, {"liquid.lateral_flow", row[_i].lateral}, {"bead.return", row[_i].share});
@@ -386,12 +376,11 @@ START_TEST(test_volume_is_kept) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The energy balances over closing, holding and opening, with and without suction, and the squeezed-out liquid returns.
  * With suction the meniscus of a thin film once drew with megapascals and drove jets of kilojoules; a liquid cavitates.
  */
-START_TEST(test_energy_of_zip_hold_and_release) {
+TESTS(test_energy_of_zip_hold_and_release, 0, FULL_OR(6, 2)) {
   static const struct {
     double viscosity, suction, share, volume;
   } row[] = {{50e-6, 0, 1, 50e-9}, {5e-6, 0, 1, 30e-9},      {1e-3, 0, 1, 200e-9},
@@ -414,11 +403,10 @@ START_TEST(test_energy_of_zip_hold_and_release) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The same over 50 cycles of closing and opening, in a bath and with beads; the imbalance comes from the steps, 1e-3 of
  * their tolerance. */
-START_TEST(test_energy_of_50_cycles) {
+NIGHTLY_TESTS(test_energy_of_50_cycles, 0, 3) {
   static const struct {
     double model, suction, viscosity;
   } row[] = {{ZP_LIQUID_SUBMERGED, 0, 5e-6}, {ZP_LIQUID_BEAD, 0, 5e-6}, {ZP_LIQUID_BEAD, 0.5, 1e-6}};
@@ -440,7 +428,6 @@ START_TEST(test_energy_of_50_cycles) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 typedef struct Run {
   ZpOutcome outcome;
@@ -459,17 +446,16 @@ static Run run_with(const Setting *list, size_t count) {
 #define RUN(...) run_with((const Setting[]){__VA_ARGS__}, sizeof((const Setting[]){__VA_ARGS__}) / sizeof(Setting))
 
 /* A bead that fills everything closes like a bath without added mass and drag outside: the film is the same. */
-START_TEST(test_much_liquid_is_a_bath) {
+TEST(test_much_liquid_is_a_bath) {
   Run bath = RUN({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", 31}, {"liquid.inertia", 0},
                  {"medium.drag_coefficient", 0}, {"solver.tolerance", 7e-5}),
       bead = RUN(BEAD, {"mesh.nodes", 31}, {"liquid.inertia", 0}, {"bead.volume", 1e-5}, {"solver.tolerance", 7e-5});
   printf("bath: %.3f ms, bead: %.3f ms\n", 1e3 * bath.zip_time, 1e3 * bead.zip_time);
   ck_near(bead.zip_time, bath.zip_time, 2e-4); /* 2.1e-5 measured */
 }
-END_TEST
 
 /* With full suction menisci lose no energy except step errors: the film receives what the field supplies. */
-START_TEST(test_suction_takes_what_menisci_lose) {
+TEST(test_suction_takes_what_menisci_lose) {
   Run local = RUN(BEAD, SMALL, {"mesh.nodes", 31}), drawn = RUN(BEAD, SMALL, {"mesh.nodes", 31}, {"bead.suction", 1},
                                                                 {"solver.tolerance", 7e-5}, {"liquid.inertia", 0});
   printf("lost by menisci: %.3f mJ, with suction %.4f mJ\n", 1e3 * local.meniscus, 1e3 * drawn.meniscus);
@@ -477,11 +463,10 @@ START_TEST(test_suction_takes_what_menisci_lose) {
   ck_below(fabs(drawn.meniscus), 0.005 * local.meniscus);
   ck_assert_double_lt(drawn.zip_time, local.zip_time);
 }
-END_TEST
 
 /* While the voltage rises as well: over a step the film receives what the field supplies at the voltages of both its
  * ends. */
-START_TEST(test_suction_takes_what_menisci_lose_under_a_sine) {
+TEST(test_suction_takes_what_menisci_lose_under_a_sine) {
   double lost[2];
   for (int suction = 0; suction < 2; suction++)
     lost[suction] = RUN(BEAD, SMALL, {"mesh.nodes", 11}, {"bead.suction", suction}, {"liquid.inertia", 0},
@@ -492,11 +477,10 @@ START_TEST(test_suction_takes_what_menisci_lose_under_a_sine) {
   ck_assert_double_gt(lost[0], 1e-8);
   ck_below(fabs(lost[1]), 8e-3 * lost[0]); /* 2.7e-3 measured, of second order in the step */
 }
-END_TEST
 
 /* Nothing flows at rest, though the meniscus draws: there is no liquid at the long edges. At 0 V by capillarity alone,
  * from rest on; at 4 kV drag brings it to rest. */
-START_TEST(test_suction_drives_no_flow_at_rest) {
+TESTS(test_suction_drives_no_flow_at_rest, 0, 2) {
   static const double kV[] = {0, 4};
   ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 21}, {"bead.volume", 50e-9}, {"bead.suction", 1},
                           {"medium.kinematic_viscosity", 1e-6}, {"damping.drag", 1}, {"drive.voltage", 1e3 * kV[_i]});
@@ -512,7 +496,6 @@ START_TEST(test_suction_drives_no_flow_at_rest) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The gap where the bead ends, m. */
 static double gap_at_end(ZpSim *sim, const ZpActuatorDef *def) {
@@ -524,7 +507,7 @@ static double gap_at_end(ZpSim *sim, const ZpActuatorDef *def) {
 }
 
 /* It starves when the front has reached its end: there the gap is then as thin as the insulators are for the field. */
-START_TEST(starved_where_the_front_meets_the_end) {
+TEST(starved_where_the_front_meets_the_end) {
   ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 31}, {"bead.volume", 30e-9});
   const double thin = 2 * def.insulator.thickness * def.medium.permittivity / def.insulator.permittivity;
   ZpModel *model = model_of(&def);
@@ -542,21 +525,19 @@ START_TEST(starved_where_the_front_meets_the_end) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A small bead is used up by the film that it leaves behind, and the run says so. */
-START_TEST(test_small_bead_starves) {
+TEST(test_small_bead_starves) {
   Run small = RUN(BEAD, {"mesh.nodes", 31}, {"bead.volume", 30e-9}, {"solver.end_time", 0.3}),
       large = RUN(BEAD, {"mesh.nodes", 31}, {"bead.volume", 200e-9});
   ck_assert(isfinite(small.starved));
   ck_assert(isnan(large.starved));
   ck_assert_int_eq(large.outcome, ZP_ZIPPED);
 }
-END_TEST
 
 /* Tilted, one half is ahead of the other and starves, and menisci draw differently: mirrored, the other half does the
  * same at the same time. */
-START_TEST(test_either_half_starves) {
+TEST(test_either_half_starves) {
   Run tilted[2];
   for (int k = 0; k < 2; k++)
     tilted[k] =
@@ -565,10 +546,9 @@ START_TEST(test_either_half_starves) {
   ck_near(tilted[1].starved, tilted[0].starved, 1e-12);  /* 0 measured */
   ck_near(tilted[1].meniscus, tilted[0].meniscus, 1e-8); /* measured 2.5e-9, of rounding */
 }
-END_TEST
 
 /* The zip time depends neither on the roughness nor on the mesh. */
-START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
+TEST(test_time_does_not_depend_on_roughness_and_mesh) {
   double time = RUN(BEAD, {"solver.tolerance", 1e-4}).zip_time, rough = RUN(BEAD, {"film.roughness", 10e-6}).zip_time,
          fine = RUN(BEAD, {"film.roughness", 0.5e-6}).zip_time, mesh = RUN(BEAD, {"mesh.nodes", 121}).zip_time,
          exact = RUN(BEAD, {"solver.tolerance", 1e-5}).zip_time;
@@ -578,10 +558,9 @@ START_TEST(test_time_does_not_depend_on_roughness_and_mesh) {
   ck_near(mesh, time, 1e-3); /* 2.5e-4 measured */
   ck_near(exact, time, 3e-4);
 }
-END_TEST
 
 /* Faces that part draw the bead back: what a step leaves dry has no pressure at its end. */
-START_TEST(test_no_pressure_where_it_is_dry) {
+TEST(test_no_pressure_where_it_is_dry) {
   ZpModel *model;
   const double step = 1e-3;
   ZpSim *sim = ZIP_HOLD_RELEASE(&model, {"medium.kinematic_viscosity", 5e-6}, {"solver.time_step", step});
@@ -599,11 +578,10 @@ START_TEST(test_no_pressure_where_it_is_dry) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The whole actuator is two halves, to what rounding has become: the two take equal steps, for where steps are chosen
  * rounding sooner or later rejects one of only one of them. */
-START_TEST(test_whole_is_two_halves) {
+TEST(test_whole_is_two_halves) {
   Setting steps = {"solver.time_step", 2.5e-4};
   ZpModel *models[2];
   ZpSim *sims[2] = {
@@ -615,11 +593,11 @@ START_TEST(test_whole_is_two_halves) {
   ck_same_signals(sims, models, signals, LENGTH_OF(signals),
                   8e-9); /* 2.7e-9 measured; 1e-13 more or less of the load's mass moves the opening by up to 1e-8 */
 }
-END_TEST
+ALSO(test_whole_is_two_halves, 0, 1)
 
 /* Where the liquid of each half reaches is liquid between the faces, beyond it air: the field of the insulators at
  * every station is that of the layers in series. */
-START_TEST(test_field_of_each_half) {
+TEST(test_field_of_each_half) {
   static const double U = 6e3, reach[ZP_BEADS] = {12e-3, 25e-3};
   ZpActuatorDef def =
       DEF(BEAD, SMALL, {"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"drive.voltage", U});
@@ -639,10 +617,9 @@ START_TEST(test_field_of_each_half) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A run that is saved and restored on the way takes the same steps as one that is not. */
-START_TEST(test_bead_is_kept_in_a_snapshot) {
+TEST(test_bead_is_kept_in_a_snapshot) {
   ZpModel *model;
   ZpSim *sim = ZIP_HOLD_RELEASE(&model, {"bead.suction", 0.5}), *other = sim_of(model);
   static const char *const signals[] = {"opening", "wet_length", "bead_outside", "meniscus_loss", "liquid_energy"};
@@ -660,9 +637,8 @@ START_TEST(test_bead_is_kept_in_a_snapshot) {
   zp_sim_destroy(other);
   zp_model_destroy(model);
 }
-END_TEST
 
-START_TEST(test_what_is_refused) {
+TESTS(test_what_is_refused, 0, 5) {
   static const struct {
     const char *key;
     double value;
@@ -679,13 +655,12 @@ START_TEST(test_what_is_refused) {
   ck_assert_int_eq(status, ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, other[_i].key));
 }
-END_TEST
 
 /* -- what is shown of it --------------------------------------------------------------------------- */
 
 /* The integral of the attraction along the ribbon is the force, with air beyond the bead; the film ends with the bead,
  * and its thickness and pressure obey the law. */
-START_TEST(test_attraction_and_film_along_the_ribbon) {
+TEST(test_attraction_and_film_along_the_ribbon) {
   ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 121}, {"platform.electrode", 0});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -707,10 +682,9 @@ START_TEST(test_attraction_and_film_along_the_ribbon) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Each member of a series has its own liquid; only that of the uppermost was given. */
-START_TEST(test_liquid_of_a_series) {
+TEST(test_liquid_of_a_series) {
   ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 21}, {"stack.series", 2});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -724,44 +698,4 @@ START_TEST(test_liquid_of_a_series) {
   ck_assert(liquid.wet_length[1] > liquid.wet_length[0] + 1e-4); /* the lowest has begun to zip */
   zp_sim_destroy(sim);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("bead");
-  TCase *c = tcase_create("bead");
-  tcase_add_test(c, test_reach_in_a_wedge);
-  tcase_add_loop_test(c, test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
-  tcase_add_loop_test(c, test_forces_at_rest_by_voltage, 0, 7);
-  tcase_add_loop_test(c, test_force_of_a_fixed_volume_has_an_energy, 0, 8);
-  tcase_add_loop_test(c, test_drop_with_suction_hangs, 0, 5);
-  tcase_add_loop_test(c, test_attraction_of_a_wedge, 0, LENGTH_OF(wedges));
-  tcase_add_loop_test(c, test_isometric_force_of_stiff_ribbons, 0, LENGTH_OF(wedges));
-  tcase_add_loop_test(c, test_isometric_force, 0, LENGTH_OF(wedges));
-  tcase_add_test(c, test_charge_is_capacitance_times_voltage);
-  tcase_add_test(c, test_full_bead_without_a_platform);
-  tcase_add_loop_test(c, test_volume_is_kept, 0, FULL_OR(4, 2));
-  tcase_add_loop_test(c, test_energy_of_zip_hold_and_release, 0, FULL_OR(6, 2));
-  tcase_add_test(c, test_much_liquid_is_a_bath);
-  tcase_add_test(c, test_suction_takes_what_menisci_lose);
-  tcase_add_test(c, test_suction_takes_what_menisci_lose_under_a_sine);
-  tcase_add_loop_test(c, test_suction_drives_no_flow_at_rest, 0, 2);
-  tcase_add_test(c, test_small_bead_starves);
-  tcase_add_test(c, starved_where_the_front_meets_the_end);
-  tcase_add_test(c, test_time_does_not_depend_on_roughness_and_mesh);
-  tcase_add_test(c, test_whole_is_two_halves);
-  tcase_add_test(c, test_field_of_each_half);
-  tcase_add_test(c, test_bead_is_kept_in_a_snapshot);
-  tcase_add_test(c, test_attraction_and_film_along_the_ribbon);
-  tcase_add_test(c, test_liquid_of_a_series);
-  tcase_add_loop_test(c, test_what_is_refused, 0, 5);
-  TCase *halves = tcase_create("halves");
-  suite_add_tcase(suite, halves);
-  tcase_add_test(halves, test_either_half_starves);
-  tcase_add_test(halves, test_whole_is_two_halves);
-  tcase_add_test(halves, test_no_pressure_where_it_is_dry);
-  suite_add_tcase(suite, c);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_energy_of_50_cycles, 0, 3);
-  return run_suite(suite);
 }

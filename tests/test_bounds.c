@@ -325,7 +325,7 @@ static void run_at(int index, double value) {
   run_and_check(study, &def, what);
 }
 
-START_TEST(study_ends_at_the_bounds) {
+NIGHTLY_TESTS(study_ends_at_the_bounds, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   if (key->type == ZP_KEY_TEXT) return;
   if (!zp_key_in_def(_i)) {
@@ -339,7 +339,6 @@ START_TEST(study_ends_at_the_bounds) {
     if (!preset) run_at(_i, word);
   }
 }
-END_TEST
 
 /* zp_def_set refuses `value`, names the key and changes nothing; so does zp_def_check if it is in the Def
  * all the same, as after an assignment in C. */
@@ -362,7 +361,7 @@ static double next_to(const ZpKey *key, double value, double direction) {
   return real ? nextafter(value, direction) : value + (direction > 0 ? 1 : -1);
 }
 
-START_TEST(beyond_the_bounds_is_refused) {
+TESTS(beyond_the_bounds_is_refused, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   bool real = key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO;
   refuse(_i, next_to(key, key->min, -INFINITY));
@@ -374,7 +373,6 @@ START_TEST(beyond_the_bounds_is_refused) {
   if (!real) refuse(_i, key->min + 0.5);
   if (!real) refuse(_i, 1e300);
 }
-END_TEST
 
 /* Where the field of the Def is written to directly, zp_def_check stands guard for all that use a Def. */
 static void refuse_field(ZpActuatorDef *def, const char *name) {
@@ -396,7 +394,7 @@ static const size_t field_of[] = {
 #include "def/keys.def"
 };
 
-START_TEST(bad_fields_are_refused) {
+TESTS(bad_fields_are_refused, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   ZpActuatorDef def = zp_actuator_def_default();
   if (!zp_key_in_def(_i)) return;
@@ -419,7 +417,6 @@ START_TEST(bad_fields_are_refused) {
     refuse_field(&def, key->name);
   }
 }
-END_TEST
 
 /* -- words ----------------------------------------------------------------------------------------------- */
 
@@ -439,7 +436,7 @@ static void refuse_text(int index, const char *text) {
   zp_scenario_destroy(scenario);
 }
 
-START_TEST(wrong_words_are_refused) {
+TESTS(wrong_words_are_refused, 0, zp_key_count()) {
   static const char *const never[] = {"nonsense",
                                       "NaN",
                                       "nan",
@@ -463,10 +460,9 @@ START_TEST(wrong_words_are_refused) {
   if (key->type == ZP_KEY_INT || key->type == ZP_KEY_REAL) refuse_text(_i, "auto");
   if (key->type == ZP_KEY_ENUM) refuse_text(_i, "0");
 }
-END_TEST
 
 /* Numbers beyond the bounds, written with 17 digits: the message has the range in the unit people use. */
-START_TEST(text_beyond_the_bounds_is_refused) {
+TESTS(text_beyond_the_bounds_is_refused, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   ZpError err;
   char text[64];
@@ -482,7 +478,6 @@ START_TEST(text_beyond_the_bounds_is_refused) {
   snprintf(text, sizeof text, "%.17g", next_to(key, key->min, -INFINITY));
   refuse_text(_i, text);
 }
-END_TEST
 
 /* -- pairs of extremes ------------------------------------------------------------------------------------ */
 
@@ -606,11 +601,10 @@ static const char *const combinations[] = {
     "solver.integrator=explicit gravity=1000m/s2 load.mass=1000kg",
 };
 
-START_TEST(study_ends_in_combinations) {
+NIGHTLY_TESTS(study_ends_in_combinations, 0, LENGTH_OF(combinations)) {
   ZpActuatorDef def = def_of_settings(combinations[_i]);
   run_and_check(ZP_STUDY_ACTUATE, &def, combinations[_i]);
 }
-END_TEST
 
 /* Combinations that have no meaning are refused, with a key in the message. */
 static const struct {
@@ -640,7 +634,7 @@ static const struct {
     {"actuator.kind=hinge hinge.rest_angle=1", "hinge.rest_angle"},
 };
 
-START_TEST(contradictions_are_refused) {
+TESTS(contradictions_are_refused, 0, LENGTH_OF(contradictions)) {
   ZpActuatorDef def = def_of_settings(contradictions[_i].settings);
   ZpResult *result;
   ZpError err = {ZP_OK, ""};
@@ -649,11 +643,10 @@ START_TEST(contradictions_are_refused) {
   ck_assert_msg(strstr(err.message, contradictions[_i].named), "%s: \"%s\"", contradictions[_i].settings, err.message);
   ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
 }
-END_TEST
 
 /* A straight actuator without voltage opens under its load: lying closed at the start is not having zipped. At
  * first it falls: g t^2 / 2 = 1.104 mm in 15 ms (measured the same to 4 digits; the ribbons are soft when flat). */
-START_TEST(straight_without_voltage_opens) {
+TEST(straight_without_voltage_opens) {
   ZpActuatorDef def = def_of_settings("initial.state=straight drive.voltage=0 solver.end_time=15ms liquid.model=none");
   ZpResult *result;
   ZpError err;
@@ -663,7 +656,6 @@ START_TEST(straight_without_voltage_opens) {
   ck_assert(isnan(zp_result_get(result, "zip_time_s")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- presets ------------------------------------------------------------------------------------------------ */
 
@@ -679,7 +671,7 @@ static void run_preset(ZpPreset preset, int nodes, double voltage) {
   run_and_check(ZP_STUDY_ACTUATE, &def, what);
 }
 
-START_TEST(presets_end_at_every_size) {
+TEST(presets_end_at_every_size) {
   static const int sizes[] = {21, 61, 130};
   for (int preset = 1; preset < ZpPreset_COUNT; preset++)
     for (size_t k = 0; k < 3; k++) {
@@ -688,10 +680,9 @@ START_TEST(presets_end_at_every_size) {
       if (sizes[k] < 100) run_preset((ZpPreset)preset, sizes[k], 1e6);
     }
 }
-END_TEST
 
 /* A preset that has a value only for some N says so for another, and which key is wanted. */
-START_TEST(presets_ask_for_what_they_lack) {
+TEST(presets_ask_for_what_they_lack) {
   for (int preset = 1; preset < ZpPreset_COUNT; preset++) {
     if (preset == ZP_PRESET_PAPER_FE) continue; /* has what it needs at any N */
     ZpAssignment list[] = {{zp_key_find("preset"), preset}, {zp_key_find("mesh.nodes"), 33}};
@@ -702,24 +693,4 @@ START_TEST(presets_ask_for_what_they_lack) {
                   err.message);
     ck_assert_msg(strstr(err.message, "33"), "%s", err.message);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("bounds");
-  TCase *c = tcase_create("bounds");
-  int keys = zp_key_count();
-  tcase_add_loop_test(c, beyond_the_bounds_is_refused, 0, keys);
-  tcase_add_loop_test(c, bad_fields_are_refused, 0, keys);
-  tcase_add_loop_test(c, wrong_words_are_refused, 0, keys);
-  tcase_add_loop_test(c, text_beyond_the_bounds_is_refused, 0, keys);
-  tcase_add_loop_test(c, contradictions_are_refused, 0, LENGTH_OF(contradictions));
-  tcase_add_test(c, straight_without_voltage_opens);
-  tcase_add_test(c, presets_end_at_every_size);
-  tcase_add_test(c, presets_ask_for_what_they_lack);
-  suite_add_tcase(suite, c);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, study_ends_at_the_bounds, 0, keys);
-  tcase_add_loop_test(nightly, study_ends_in_combinations, 0, LENGTH_OF(combinations));
-  return run_suite(suite);
 }

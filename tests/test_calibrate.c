@@ -82,7 +82,7 @@ static double scalar_of(ZpStudy study, const ZpActuatorDef *def, const char *nam
   return value;
 }
 
-START_TEST(one_key_is_found) {
+TEST(one_key_is_found) {
   ZpActuatorDef def = calibration("one.csv", "ribbon.young_modulus"), truth = def;
   truth.ribbon.young_modulus = 137e9;
   make_data("one.csv", truth, 0);
@@ -96,7 +96,6 @@ START_TEST(one_key_is_found) {
   ck_near(zp_table_get(result->series, 3, "load.mass_kg"), 0.008, 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The correlation of two fitted keys, - J1 J2 / sqrt(J1 J1 J2 J2), with slopes of the strokes by differences. */
 static double correlation_of(const ZpActuatorDef *truth) {
@@ -117,7 +116,7 @@ static double correlation_of(const ZpActuatorDef *truth) {
   return -product[2] / sqrt(product[0] * product[1]);
 }
 
-START_TEST(two_keys_are_found) {
+TEST(two_keys_are_found) {
   ZpActuatorDef def = calibration("two.csv", "ribbon.young_modulus, load.share"), truth = def;
   truth.ribbon.young_modulus = 150e9;
   truth.load.share = 0.4;
@@ -129,10 +128,9 @@ START_TEST(two_keys_are_found) {
   ck_near(zp_result_get(result, "load.share_correlation_1"), correlation_of(&truth), 6e-10); /* 1.9e-10 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Twice the noise: twice the standard error, which covers the error that was made. */
-START_TEST(standard_error_follows_the_noise) {
+TEST(standard_error_follows_the_noise) {
   double error[2];
   for (int i = 0; i < 2; i++) {
     ZpActuatorDef def = calibration("noise.csv", "ribbon.young_modulus"), truth = def;
@@ -147,7 +145,6 @@ START_TEST(standard_error_follows_the_noise) {
   }
   ck_near(error[1], 2 * error[0], 5e-4); /* 1.1e-4 measured */
 }
-END_TEST
 
 /* Opening against voltage, below pull-in: the permittivity of the liquid. */
 /* Derivatives of rows of rest took an evaluation of all rows twice per key. */
@@ -171,7 +168,7 @@ static void derivatives_cost_one_evaluation_of(const ZpActuatorDef *def) {
   zp_fit_close(&one);
 }
 
-START_TEST(derivatives_cost_one_evaluation) {
+TEST(derivatives_cost_one_evaluation) {
   ZpActuatorDef truth = calibration("", ""), strokes = calibration("slopes.csv", "ribbon.young_modulus,ribbon.length");
   make_data("slopes.csv", truth, 0);
   derivatives_cost_one_evaluation_of(&strokes);
@@ -184,10 +181,9 @@ START_TEST(derivatives_cost_one_evaluation) {
   set(&forces, "solver.tolerance", 1e-8);
   derivatives_cost_one_evaluation_of(&forces);
 }
-END_TEST
 
 /* Of zip times, too: of runs with steps of one length, so that differences of runs are as sharp. */
-START_TEST(zip_times_have_derivatives) {
+TEST(zip_times_have_derivatives) {
   write_file("slopes-times.csv", "voltage_kV,zip_time_ms\n9,150\n10,120\n");
   ZpActuatorDef times = calibration("slopes-times.csv", "ribbon.young_modulus,insulator.thickness");
   set(&times, "mesh.nodes", 11);
@@ -196,10 +192,9 @@ START_TEST(zip_times_have_derivatives) {
   set(&times, "solver.tolerance", 1e-7);
   derivatives_cost_one_evaluation_of(&times);
 }
-END_TEST
 
 /* Values have the tolerance of their derivatives: data made with it are met exactly. */
-START_TEST(zip_times_are_of_runs_with_derivatives) {
+TEST(zip_times_are_of_runs_with_derivatives) {
   ZpActuatorDef def = calibration("one-time.csv", "ribbon.young_modulus"), with = def;
   set(&def, "mesh.nodes", 11);
   set(&def, "liquid.model", ZP_LIQUID_SUBMERGED);
@@ -217,9 +212,8 @@ START_TEST(zip_times_are_of_runs_with_derivatives) {
   ck_near(zp_fit_predict(&one, (double[ZP_FIT_MOST]){1}, 0), time, 1e-12);
   zp_fit_close(&one);
 }
-END_TEST
 
-START_TEST(voltage_data) {
+TEST(voltage_data) {
   static const char *const volts[] = {"0", "2", "3", "4"};
   ZpActuatorDef def = calibration("volts.csv", "medium.permittivity"), truth = def;
   ZpResult *result;
@@ -248,11 +242,10 @@ START_TEST(voltage_data) {
   ck_assert_str_eq(result->series->column[0].name, "drive.voltage_V");
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Zip times of an overdamped actuator grow without bound towards its static pull-in: five of them show where it is,
  * though none was measured below 1.1 times that, and though the modulus that they were made with is not known. */
-START_TEST(zip_times_show_the_pull_in) {
+NIGHTLY_TESTS(zip_times_show_the_pull_in, 0, FULL_OR(1, 0)) {
   static const double kilovolts[] = {6.2, 6.6, 7, 7.5, 8};
   ZpActuatorDef def = calibration("zip-times.csv", "ribbon.young_modulus");
   char text[512] = "voltage_kV,zip_time_ms\n";
@@ -278,9 +271,8 @@ START_TEST(zip_times_show_the_pull_in) {
   ck_near(found, pull_in, 1e-4); /* 2.3e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(columns_without_units_are_told) {
+TEST(columns_without_units_are_told) {
   write_file("bare.csv", "load,stroke,sigma\n0.004,0.0061,0.0001\n0.008,0.0112,0.0001\n");
   ZpActuatorDef bare = calibration("bare.csv", "ribbon.young_modulus");
   ZpResult *result = fit(&bare);
@@ -293,11 +285,10 @@ START_TEST(columns_without_units_are_told) {
   ck_assert_uint_eq(result->notes, 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A column that was misspelt, or that calibrate.y did not name, was left out in silence. The names are those of the
  * file, also where data.columns renames others. */
-START_TEST(columns_that_are_not_used_are_told) {
+TEST(columns_that_are_not_used_are_told) {
   write_file("idle.csv", "Datum;Gewicht [g];stroke (mm);\"Bem, kurz\";Sigma (mm);pull_in_voltage_kV;\n"
                          "1.2.;4;6,1;a;0,1;3;\n2.2.;8;11,2;;0,1;6;\n");
   write_file("all.csv", "load_g,drive.voltage_kV,stroke_mm,sigma_stroke_mm\n2,1,3,0.1\n");
@@ -311,9 +302,8 @@ START_TEST(columns_that_are_not_used_are_told) {
                    "columns that are not used: idle.csv: \"Datum\", \"Bem, kurz\", \"pull_in_voltage_kV\"");
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(bounds_are_kept) {
+TEST(bounds_are_kept) {
   ZpActuatorDef def = calibration("bounds.csv", "ribbon.young_modulus"), truth = def;
   truth.ribbon.young_modulus = 100e9;
   make_data("bounds.csv", truth, 0);
@@ -334,10 +324,9 @@ START_TEST(bounds_are_kept) {
   ck_assert(zp_result_get(result, "load.share") <= 1);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Bounds in the key's unit, in place of multiples of the start. */
-START_TEST(bounds_have_units) {
+TEST(bounds_have_units) {
   const char *text[] = {"ribbon.young_modulus = 190 GPa .. 250 GPa", "ribbon.young_modulus = 50 GPa .. 0.25 TPa"};
   const double value[] = {190e9, 100e9};
   for (int i = 0; i < 2; i++) {
@@ -350,7 +339,6 @@ START_TEST(bounds_have_units) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* A ribbon that is bowed at its clip, of curvature 0.2 1/m before the fit. */
 static ZpActuatorDef bowed(const char *file) {
@@ -363,7 +351,7 @@ static ZpActuatorDef bowed(const char *file) {
 }
 
 /* A key may change its sign on the way, here by exact derivatives of strokes, and stop at a negative bound. */
-START_TEST(negative_values_and_bounds) {
+TEST(negative_values_and_bounds) {
   static const double curvature[] = {-0.3, -0.8};
   for (int i = 0; i < 2; i++) {
     ZpActuatorDef def = bowed("bowed.csv"), truth = def;
@@ -376,11 +364,10 @@ START_TEST(negative_values_and_bounds) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Capacitances of the hanging actuator, which have no exact derivatives: differences have a step at a negative value,
  * too. Polished, the fit is as near as they allow; the search before comes to some percent. */
-START_TEST(negative_values_by_differences) {
+TEST(negative_values_by_differences) {
   ZpActuatorDef def = bowed("bowed-capacitance.csv"), truth = def;
   truth.segment_1.curvature = -0.3;
   FILE *file = fopen("bowed-capacitance.csv", "w");
@@ -402,7 +389,6 @@ START_TEST(negative_values_by_differences) {
   ck_assert(isfinite(zp_result_get(result, "segment_1.curvature_standard_error")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- files as spreadsheets and instruments write them ---------------------------------------------- */
 
@@ -446,7 +432,7 @@ static void find_180_GPa(const char *files, const char *columns, size_t rows) {
   zp_result_destroy(result);
 }
 
-START_TEST(files_of_all_kinds) {
+TEST(files_of_all_kinds) {
   write_measured("german.csv", "\xEF\xBB\xBF\"Bemerkung\";\"Gewicht (g)\";\"Hub [mm]\"\r\n", write_german, 0, 4);
   write_measured("tabs.csv", "Stroke (mm)\tLoad [g]\tRemark\n", write_tabs, 0, 4);
   write_measured("quoted.csv", "\"Load (g)\",\"stroke_mm\"\n", write_quoted, 0, 4);
@@ -458,14 +444,13 @@ START_TEST(files_of_all_kinds) {
   find_180_GPa("first.csv; second.csv", "", 4);
   find_180_GPa("first.csv;tabs.csv;german.csv", "Gewicht_g = load_g; Hub [mm] = stroke_mm", 10);
 }
-END_TEST
 
 static void write_newtons(FILE *file, double g, double mm) {
   fprintf(file, "%.17g,%.17g\n", g * 1e-3 * calibration("", "").gravity, mm);
 }
 
 /* "Stroke / mm", as on the axes of pictures, "Stroke in mm" and "pull-in voltage" were unknown; so was a load in N. */
-START_TEST(headings_with_a_slash_an_in_a_hyphen_or_newtons) {
+TEST(headings_with_a_slash_an_in_a_hyphen_or_newtons) {
   write_measured("slash.csv", "Load / g,Stroke / mm\n", write_quoted, 0, 4);
   find_180_GPa("slash.csv", "", 4);
   write_measured("in.csv", "Load in g,Stroke in mm\n", write_quoted, 0, 4);
@@ -479,11 +464,10 @@ START_TEST(headings_with_a_slash_an_in_a_hyphen_or_newtons) {
   def = calibration("hyphen.csv", "ribbon.young_modulus");
   ck_assert_int_eq(zp_data_check(ZP_STUDY_CALIBRATE, &def, NULL), ZP_OK);
 }
-END_TEST
 
 /* Two groups of rows that contradict each other: the mean weighted by 1/sigma^2 comes out, and its standard error is
  * that of the sigmas, whatever the residuals are. */
-START_TEST(standard_deviations_weigh) {
+TEST(standard_deviations_weigh) {
   ZpActuatorDef def = calibration("sigma.csv", "ribbon.young_modulus");
   const double low = stroke(def, 8e-3), s1 = 1e-5, s2 = 3e-5, y1 = low - 2e-5, y2 = low + 4e-5;
   const double mean = (y1 / (s1 * s1) + y2 / (s2 * s2)) / (1 / (s1 * s1) + 1 / (s2 * s2));
@@ -504,10 +488,9 @@ START_TEST(standard_deviations_weigh) {
   ck_near(zp_result_get(result, "reduced_chi_square"), (y2 - y1) * (y2 - y1) / (s1 * s1 + s2 * s2), 1e-11);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Two strokes under one load, 2 d apart: the fit lies between them, its variance is that of two rows and one key. */
-START_TEST(residuals_make_the_standard_error) {
+TEST(residuals_make_the_standard_error) {
   ZpActuatorDef def = calibration("twice.csv", "ribbon.young_modulus"), stiff = def;
   const double y = stroke(def, 8e-3), d = 2e-5, step = 1e-4;
   char text[256];
@@ -521,7 +504,6 @@ START_TEST(residuals_make_the_standard_error) {
   ck_near(zp_table_get(result->series, 1, "residual_m"), -d, 1e-12);                            /* 4.1e-14 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- several kinds of measurement in one fit ------------------------------------------------------- */
 
@@ -543,7 +525,7 @@ static double at_rest(ZpActuatorDef def, ZpFitKind kind, double mass, double vol
 
 /* A stroke and a capacitance that contradict each other. By (12.2) the modulus is off by sum(J r) / sum(J J) with
  * slopes J = (df/dE) / sigma, its standard error is 1 / sqrt(sum(J J)), and what remains is the part of r across J. */
-START_TEST(kinds_weigh_by_their_standard_deviations) {
+TEST(kinds_weigh_by_their_standard_deviations) {
   const ZpFitKind kind[] = {ZP_FIT_STROKE, ZP_FIT_CAPACITANCE};
   const double sigma[] = {2e-6, 1e-14}, off[] = {1, -2}; /* off: in standard deviations */
   ZpActuatorDef def = calibration("two-kinds-1.csv; two-kinds-2.csv", "ribbon.young_modulus"), stiff = def, soft = def;
@@ -582,11 +564,10 @@ START_TEST(kinds_weigh_by_their_standard_deviations) {
   ck_assert(isnan(zp_result_get(result, "residual_rms_m")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A voltage in a second column acts on the row: strokes at rest under load and voltage are met exactly. The notes are
  * those of the highest voltage. */
-START_TEST(voltage_in_a_second_column) {
+TEST(voltage_in_a_second_column) {
   static const double kilovolts[] = {1, 4, 2};
   ZpActuatorDef def = calibration("second.csv", " ");
   set(&def, "mesh.nodes", 9);
@@ -610,7 +591,6 @@ START_TEST(voltage_in_a_second_column) {
   zp_result_destroy(alone);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Three openings, the last of them of another ribbon. */
 static void write_openings(const ZpActuatorDef *first, const ZpActuatorDef *last, const double *kilovolts) {
@@ -624,7 +604,7 @@ static void write_openings(const ZpActuatorDef *first, const ZpActuatorDef *last
 
 /* A stiff ribbon hangs less open and pulls in sooner: one row has no equilibrium at the start of the fit. It counts as
  * twice the largest measured value, so that the fit goes to where all rows have one. */
-START_TEST(row_without_an_equilibrium) {
+TEST(row_without_an_equilibrium) {
   ZpActuatorDef def = calibration("none.csv", "ribbon.young_modulus"), truth = def;
   set(&def, "mesh.nodes", 9);
   set(&def, "output.errors", 0);
@@ -662,11 +642,10 @@ START_TEST(row_without_an_equilibrium) {
   ck_assert(isnan(zp_table_get(result->series, 2, "fitted_m")) && !isnan(zp_table_get(result->series, 1, "fitted_m")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The slope of a capacitance by the share of the load that each half carries. No share is above 1: a difference there
  * is one of smaller shares. At the lower bound it is one of larger shares. */
-START_TEST(differences_stay_inside_the_bounds) {
+TEST(differences_stay_inside_the_bounds) {
   static const double share[] = {0.5, 1, 0.6}, step = 1e-3;
   write_file("shares.csv", "load_g,capacitance_pF\n8,40\n20,30\n");
   for (int i = 0; i < 3; i++) {
@@ -687,7 +666,6 @@ START_TEST(differences_stay_inside_the_bounds) {
     zp_fit_close(&one);
   }
 }
-END_TEST
 
 /* Normal errors, the same on every machine. */
 static double normal(uint64_t *state) {
@@ -709,7 +687,7 @@ static void assert_chi_square(const char *of, double sum, double freedom) {
 
 /* Strokes and capacitances of one file, openings of another, with noise: over 20 seeds the squares of what remains,
  * and of what the keys are off by over their standard errors, are those of normal numbers. */
-START_TEST(intervals_hold_over_seeds) {
+TEST(intervals_hold_over_seeds) {
   enum { SEEDS = 20, LOADS = 4, VOLTS = 3, ROWS = 2 * LOADS + VOLTS, KEYS = 2 };
   ZpActuatorDef def = calibration("seed-1.csv; seed-2.csv", "ribbon.young_modulus, medium.permittivity"), truth;
   set(&def, "mesh.nodes", 9);
@@ -754,10 +732,9 @@ START_TEST(intervals_hold_over_seeds) {
   assert_chi_square("modulus over its standard error, squared", pulls[0], SEEDS);
   assert_chi_square("permittivity over its standard error, squared", pulls[1], SEEDS);
 }
-END_TEST
 
 /* Saved states of the paper's authors at 8 and 61 g, published FE strokes: within 3 %. */
-START_TEST(table_1_of_the_paper) {
+TEST(table_1_of_the_paper) {
   static const struct {
     const char *file;
     double value[3];
@@ -782,7 +759,6 @@ START_TEST(table_1_of_the_paper) {
     zp_scenario_destroy(scenario);
   }
 }
-END_TEST
 
 static void refuse(ZpStudy study, const ZpActuatorDef *def, const char *words) {
   ZpError err = {0};
@@ -799,17 +775,16 @@ static void refuse_file(const char *text, const char *keys, const char *words) {
   refuse(ZP_STUDY_CALIBRATE, &def, words);
 }
 
-START_TEST(bad_numbers_of_studies_are_refused) {
+TEST(bad_numbers_of_studies_are_refused) {
   const char *E = "ribbon.young_modulus";
   refuse_file("load_g,force_N\n8,2\n", E, "calibrate.y");
   refuse_file("load_g,frequency_mm\n8,2\n", E, "calibrate.y");
   refuse_file("time_ms,pull_in_voltage_V\n8,2\n", E, "calibrate.y");
   refuse_file("load_g,pull_in_voltage_kV\n8,12\n", E, "bad.csv:2: the measured pull-in voltage is 12000 V");
 }
-END_TEST
 
 /* Names in data.file and in data.columns that have commas between them. */
-START_TEST(commas_in_place_of_semicolons) {
+TEST(commas_in_place_of_semicolons) {
   write_file("one.csv", "Gewicht,Hub\n4,6\n8,11\n");
   ZpActuatorDef def = calibration("one.csv, two.csv", "ribbon.young_modulus");
   refuse(ZP_STUDY_CALIBRATE, &def, "one.csv, two.csv: cannot be opened");
@@ -818,10 +793,9 @@ START_TEST(commas_in_place_of_semicolons) {
   set_text(&def, "data.columns", "Gewicht = load_g, Hub = stroke_mm");
   refuse(ZP_STUDY_CALIBRATE, &def, "\"load_g, Hub = stroke_mm\": several names are separated by semicolons");
 }
-END_TEST
 
 /* A mixed fit says what is missing, in which column. */
-START_TEST(bad_mixtures_are_refused) {
+TEST(bad_mixtures_are_refused) {
   ZpActuatorDef def = calibration("kind-1.csv; kind-2.csv", "ribbon.young_modulus"), one;
   write_file("kind-1.csv", "load_g,stroke_mm,sigma_mm\n8,2,0.1\n");
   write_file("kind-2.csv", "load_g,frequency_Hz\n8,3\n");
@@ -859,9 +833,8 @@ START_TEST(bad_mixtures_are_refused) {
   set_text(&one, "calibrate.y", "stroke_mm; frequency_mm");
   refuse(ZP_STUDY_CALIBRATE, &one, "kind-3.csv:1: column frequency_mm: unknown; calibrate.y takes stroke, opening");
 }
-END_TEST
 
-START_TEST(files_that_are_no_tables_are_refused) {
+TEST(files_that_are_no_tables_are_refused) {
   const char *E = "ribbon.young_modulus";
   refuse_file("load_g\n8\n", E, "bad.csv:1: not a table: one column; commas, semicolons or tabs");
   refuse_file("load_g,stroke_mm\n8,\n", E, "bad.csv:2: column stroke_mm: an empty cell; remove the row");
@@ -869,9 +842,8 @@ START_TEST(files_that_are_no_tables_are_refused) {
   refuse_file("8,2\n9,3\n", E, "bad.csv: the first row has numbers; it needs names with units, such as load_g");
   refuse_file("\xFF\xFEl", E, "bad.csv: text in UTF-16; save it as CSV in UTF-8");
 }
-END_TEST
 
-START_TEST(bad_input_is_refused) {
+TEST(bad_input_is_refused) {
   const char *E = "ribbon.young_modulus", *good = "load_g,stroke_mm\n8,2\n9,3\n";
   ZpActuatorDef missing = calibration("no such file.csv", E), nameless = calibration("", E);
   refuse(ZP_STUDY_CALIBRATE, &missing, "cannot be opened");
@@ -928,10 +900,9 @@ START_TEST(bad_input_is_refused) {
   refuse_file(good, "damping.drag", "is 0");
   refuse_file(good, "ribbon.width, ribbon.thickness, load.share", "fewer than the 3 keys");
 }
-END_TEST
 
 /* A triangle of height h against the axis, and two lines that cross. */
-START_TEST(area_of_known_curves) {
+TEST(area_of_known_curves) {
   static const ZpColumn columns[] = {{"x_m", "m", ""}, {"y_m", "m", ""}};
   ZpTable *table = zp_table_create(columns, 2, 8);
   zp_table_offer(table, (double[]){0, 0});
@@ -953,10 +924,9 @@ START_TEST(area_of_known_curves) {
   zp_reference_free(&reference);
   zp_table_destroy(table);
 }
-END_TEST
 
 /* The own shape as reference leaves no area; other columns do no harm. */
-START_TEST(area_error_of_stationary) {
+TEST(area_error_of_stationary) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpResult *result;
   ZpError err = {0};
@@ -977,11 +947,10 @@ START_TEST(area_error_of_stationary) {
   write_file("shape.csv", "x_mm,height_mm\n1,2\n1,3\n");
   refuse(ZP_STUDY_STATIONARY, &def, "no column y_m");
 }
-END_TEST
 
 /* Elements that hang under another load, and are drawn beside it, lie on those of the area error, which hang at the
  * same stroke by another gravity. */
-START_TEST(area_error_at_a_stroke) {
+TEST(area_error_at_a_stroke) {
   ZpActuatorDef def = zp_actuator_def_default(), heavy;
   ZpResult *chain;
   set(&def, "ribbon.density", 0);
@@ -1003,10 +972,9 @@ START_TEST(area_error_at_a_stroke) {
   ck_assert_double_lt(area, 1e-5 * whole);
   zp_result_destroy(chain);
 }
-END_TEST
 
 /* Columns that are keys set them for their row; with nothing to fit the rows are only compared. */
-START_TEST(rows_of_different_actuators_are_compared) {
+TEST(rows_of_different_actuators_are_compared) {
   ZpActuatorDef def = calibration("rows.csv", " "), thick = def;
   thick.ribbon.thickness = 100e-6;
   char text[256];
@@ -1019,12 +987,11 @@ START_TEST(rows_of_different_actuators_are_compared) {
   ck_assert_uint_eq(result->series->rows, 2);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Of the published experiments only those of thickness were compared, not the rows of length and width, three of which
  * are far off. All rows are there, as they were read; weightless, ours is twice the guided elastica of half the length
  * under half of the load. (Not so for 20 um, first: at p = 109 the oracle finds another branch.) */
-START_TEST(published_experiments_of_length_and_width_are_compared) {
+TEST(published_experiments_of_length_and_width_are_compared) {
   static const struct {
     double thickness, length, width, load, opening; /* um, mm, mm, g, mm */
   } row[] = {{20, 100, 12.7, 15, 85},  {50, 100, 12.7, 30, 55},    {100, 100, 12.7, 50, 29},
@@ -1051,10 +1018,9 @@ START_TEST(published_experiments_of_length_and_width_are_compared) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* Force against stroke is stroke against force. */
-START_TEST(force_against_stroke) {
+TEST(force_against_stroke) {
   ZpActuatorDef def = calibration("force.csv", "ribbon.young_modulus"), truth = def;
   truth.ribbon.young_modulus = 170e9;
   FILE *file = fopen("force.csv", "w");
@@ -1067,10 +1033,9 @@ START_TEST(force_against_stroke) {
   ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The force on a held platform against voltage and separation: the permittivity of the liquid. */
-START_TEST(held_force_data) {
+TEST(held_force_data) {
   static const double volts[] = {2000, 4000, 6000, 3000, 5000}, mm[] = {1, 2, 4, 6, 3};
   for (int by_separation = 0; by_separation < 2; by_separation++) {
     ZpActuatorDef def = calibration("held.csv", "medium.permittivity"), truth;
@@ -1099,7 +1064,6 @@ START_TEST(held_force_data) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* A number of a study against the load: what the data were made with is found again. */
 static void find_again(const char *column, const char *key, double truth, ZpStudy study, const char *number) {
@@ -1121,16 +1085,15 @@ static void find_again(const char *column, const char *key, double truth, ZpStud
   zp_result_destroy(result);
 }
 
-START_TEST(limits_and_frequencies) {
+TEST(limits_and_frequencies) {
   find_again("pull_in_voltage_V", "insulator.permittivity", 4.1, ZP_STUDY_LIMITS, "pull_in_voltage_V");
   find_again("release_voltage_V", "insulator.permittivity", 4.1, ZP_STUDY_LIMITS, "release_voltage_V");
   find_again("frequency_Hz", "ribbon.young_modulus", 185e9, ZP_STUDY_MODES, "frequency_1_Hz");
 }
-END_TEST
 
 /* Frequencies of a cantilever by the formula of Euler and Bernoulli, f = 1.8751^2 / (2 pi L^2) sqrt(E t^2 / (12 rho)),
  * with 190 GPa. */
-START_TEST(modulus_from_the_frequencies_of_a_cantilever) {
+TEST(modulus_from_the_frequencies_of_a_cantilever) {
   ZpActuatorDef def = calibration("cantilever.csv", "ribbon.young_modulus");
   def.actuator.kind = ZP_KIND_RIBBON;
   def.actuator.right_end = ZP_END_FREE;
@@ -1152,10 +1115,9 @@ START_TEST(modulus_from_the_frequencies_of_a_cantilever) {
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 190e9, 1e-3); /* the mesh's */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The capacitance at rest below pull-in is that of the branch of study equilibrium. */
-START_TEST(capacitances_at_rest) {
+TEST(capacitances_at_rest) {
   ZpActuatorDef def = calibration("capacitance.csv", "medium.permittivity"), truth;
   ZpResult *result;
   set(&def, "mesh.nodes", 15);
@@ -1178,7 +1140,6 @@ START_TEST(capacitances_at_rest) {
   ck_assert_str_eq(result->series->column[1].name, "measured_F");
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A ribbon that swings, slowed by drag, from straight. */
 static ZpActuatorDef swinging(const char *files, const char *keys) {
@@ -1212,7 +1173,7 @@ static void write_swing(const char *path, const ZpActuatorDef *def) {
 }
 
 /* The drag is found again from the stroke over time. */
-START_TEST(drag_is_found_from_a_swing) {
+TEST(drag_is_found_from_a_swing) {
   ZpActuatorDef def = swinging("swing.csv", "damping.drag");
   def.damping.drag = 0.03;
   write_swing("swing.csv", &def);
@@ -1222,10 +1183,9 @@ START_TEST(drag_is_found_from_a_swing) {
   ck_assert_str_eq(result->series->column[0].name, "time_s");
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A capacitance over time is that of the run, row by row. */
-START_TEST(capacitance_of_a_run) {
+TEST(capacitance_of_a_run) {
   ZpActuatorDef def = calibration("charging.csv", " ");
   ZpModel *model;
   ZpSim *sim;
@@ -1245,10 +1205,9 @@ START_TEST(capacitance_of_a_run) {
   ck_assert_double_lt(zp_result_get(result, "residual_rms_F"), 1e-24);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Zip times under two loads: the pull-in that is shown is that of the last one. */
-START_TEST(pull_in_of_the_last_zip_time) {
+TEST(pull_in_of_the_last_zip_time) {
   ZpActuatorDef def = calibration("last.csv", " "), last = def;
   set(&def, "mesh.nodes", 9);
   write_file("last.csv", "load_g,zip_time_ms\n4,10\n6,10\n");
@@ -1259,10 +1218,9 @@ START_TEST(pull_in_of_the_last_zip_time) {
   ck_near(zp_result_get(result, "pull_in_voltage_V"), scalar_of(ZP_STUDY_LIMITS, &last, "pull_in_voltage_V"), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A simulation of a definition that names a checkpoint begins where that was taken, and only for its own model. */
-START_TEST(simulation_begins_at_its_checkpoint) {
+TEST(simulation_begins_at_its_checkpoint) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpModel *model;
   ZpSim *sim;
@@ -1294,10 +1252,9 @@ START_TEST(simulation_begins_at_its_checkpoint) {
   ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "ribbon.thickness is 5e-05 m there, 6e-05 m here"));
 }
-END_TEST
 
 /* A limit of CPU time counts from the start of the study, not from that of the thread. */
-START_TEST(time_limit_counts_from_the_start_of_a_study) {
+TEST(time_limit_counts_from_the_start_of_a_study) {
   ZpActuatorDef def = zp_actuator_def_default();
   set(&def, "mesh.nodes", 9);
   set(&def, "output.errors", 0);
@@ -1306,10 +1263,9 @@ START_TEST(time_limit_counts_from_the_start_of_a_study) {
     continue;
   ck_assert_double_gt(scalar_of(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), 1e3);
 }
-END_TEST
 
 /* Drag and modulus from two runs in time and strokes at rest, all of one kind: they need no standard deviations. */
-START_TEST(rest_and_motion_in_one_fit) {
+TEST(rest_and_motion_in_one_fit) {
   ZpActuatorDef def = swinging("motion.csv; sag.csv; motion.csv", "damping.drag, ribbon.young_modulus");
   def.damping.drag = 0.03;
   write_swing("motion.csv", &def);
@@ -1328,60 +1284,4 @@ START_TEST(rest_and_motion_in_one_fit) {
   ck_assert(isnan(zp_table_get(result->series, 10, "time_s")));
   ck_near(zp_table_get(result->series, 10, "load.mass_kg"), 2e-3, 1e-12);
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("calibrate");
-  TCase *fits = tcase_create("fits"), *kinds = tcase_create("kinds"), *areas = tcase_create("areas");
-  tcase_add_test(fits, one_key_is_found);
-  tcase_add_test(fits, two_keys_are_found);
-  tcase_add_test(fits, standard_error_follows_the_noise);
-  tcase_add_test(fits, derivatives_cost_one_evaluation);
-  tcase_add_test(fits, zip_times_have_derivatives);
-  tcase_add_test(fits, zip_times_are_of_runs_with_derivatives);
-  tcase_add_test(fits, voltage_data);
-  tcase_add_test(fits, columns_without_units_are_told);
-  tcase_add_test(fits, columns_that_are_not_used_are_told);
-  tcase_add_test(fits, headings_with_a_slash_an_in_a_hyphen_or_newtons);
-  tcase_add_test(fits, commas_in_place_of_semicolons);
-  tcase_add_test(fits, files_that_are_no_tables_are_refused);
-  tcase_add_test(fits, bounds_are_kept);
-  tcase_add_test(fits, bounds_have_units);
-  tcase_add_test(fits, negative_values_and_bounds);
-  tcase_add_test(fits, negative_values_by_differences);
-  tcase_add_test(fits, files_of_all_kinds);
-  tcase_add_test(fits, standard_deviations_weigh);
-  tcase_add_test(fits, residuals_make_the_standard_error);
-  tcase_add_test(fits, voltage_in_a_second_column);
-  tcase_add_test(fits, row_without_an_equilibrium);
-  tcase_add_test(fits, differences_stay_inside_the_bounds);
-  tcase_add_test(fits, capacitance_of_a_run);
-  tcase_add_test(fits, pull_in_of_the_last_zip_time);
-  tcase_add_test(fits, simulation_begins_at_its_checkpoint);
-  tcase_add_test(fits, time_limit_counts_from_the_start_of_a_study);
-  tcase_add_test(fits, table_1_of_the_paper);
-  tcase_add_test(fits, rows_of_different_actuators_are_compared);
-  tcase_add_test(fits, published_experiments_of_length_and_width_are_compared);
-  tcase_add_test(fits, force_against_stroke);
-  tcase_add_test(fits, held_force_data);
-  tcase_add_test(fits, limits_and_frequencies);
-  tcase_add_test(fits, modulus_from_the_frequencies_of_a_cantilever);
-  tcase_add_test(fits, capacitances_at_rest);
-  tcase_add_test(fits, drag_is_found_from_a_swing);
-  tcase_add_test(fits, bad_numbers_of_studies_are_refused);
-  tcase_add_test(fits, bad_input_is_refused);
-  tcase_add_test(kinds, kinds_weigh_by_their_standard_deviations);
-  tcase_add_test(kinds, intervals_hold_over_seeds);
-  tcase_add_test(kinds, rest_and_motion_in_one_fit);
-  tcase_add_test(kinds, bad_mixtures_are_refused);
-  tcase_add_test(areas, area_of_known_curves);
-  tcase_add_test(areas, area_error_of_stationary);
-  tcase_add_test(areas, area_error_at_a_stroke);
-  suite_add_tcase(suite, fits);
-  suite_add_tcase(suite, kinds);
-  suite_add_tcase(suite, areas);
-  TCase *nightly = nightly_case(suite);
-  add_long_test(nightly, zip_times_show_the_pull_in);
-  return run_suite(suite);
 }

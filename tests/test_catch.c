@@ -17,7 +17,7 @@ static double run_to(ZpSim *sim, double end_time, const char *signal) {
 
 /* A mass falls on a platform at rest: both continue with the common velocity of equal momentum, and the loss is known.
  * Of a half, of the whole, at the end of one ribbon, and of three side by side, which share the mass. */
-START_TEST(momentum_is_shared) {
+TESTS(momentum_is_shared, 0, 4) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0});
   if (_i == 1) def.actuator.symmetry = ZP_SYMMETRY_NONE;
   if (_i == 2) def.actuator.kind = ZP_KIND_RIBBON, def.load.share = 1;
@@ -36,10 +36,9 @@ START_TEST(momentum_is_shared) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The energy balances over the impact and after it, at rest and in motion. */
-START_TEST(energy_with_a_caught_mass) {
+TESTS(energy_with_a_caught_mass, 0, FULL_OR(6, 3)) {
   ZpActuatorDef def =
       DEF(CAUGHT, {"drive.voltage", 9e3}, {"solver.end_time", 0.15}, {"solver.stop_when_zipped", ZP_WHEN_FALSE});
   if (_i == 1) def.actuator.symmetry = ZP_SYMMETRY_NONE, def.mount.tilt = 0.5;
@@ -56,11 +55,10 @@ START_TEST(energy_with_a_caught_mass) {
     ck_assert_double_gt(loss, 1e-4);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* With damping it comes to rest at the equilibrium of the changed load; the dropped mass is gone. A mass at the free
  * end of a tilted strip pulls along the strip, too. */
-START_TEST(rests_where_the_sum_hangs) {
+TESTS(rests_where_the_sum_hangs, 0, 3) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0}, {"damping.internal", 30e-3}, {"solver.end_time", 20});
   if (_i == 1) def.load.change_mass = -5e-3, def.load.drop_height = 0;
   if (_i == 2)
@@ -72,10 +70,9 @@ START_TEST(rests_where_the_sum_hangs) {
   def.load.change_mass = def.load.drop_height = 0, def.load.change_time = NAN;
   ck_near(found, answered_value(ZP_STUDY_STATIONARY, &def, at), 3e-5); /* 8.5e-6 measured */
 }
-END_TEST
 
 /* The work on the load includes the caught mass from the place where it was caught. */
-START_TEST(work_counts_the_mass) {
+TEST(work_counts_the_mass) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 9e3}, {"load.drop_height", 0}, {"solver.end_time", 0.3});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   size_t rows = result->series->rows, row = 0;
@@ -87,9 +84,8 @@ START_TEST(work_counts_the_mass) {
   ck_near(zp_result_get(result, "mechanical_work_J"), work, 1e-12); /* 2.2e-16 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(what_it_lacks_is_said) {
+TEST(what_it_lacks_is_said) {
   static const struct {
     ZpStudy study;
     Setting setting, other;
@@ -106,17 +102,4 @@ START_TEST(what_it_lacks_is_said) {
     ZpActuatorDef def = DEF(refused[k].setting, refused[k].other);
     ck_refused_by(refused[k].study, &def, refused[k].says);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("catch");
-  TCase *c = tcase_create("catch");
-  tcase_add_loop_test(c, momentum_is_shared, 0, 4);
-  tcase_add_loop_test(c, energy_with_a_caught_mass, 0, FULL_OR(6, 3));
-  tcase_add_loop_test(c, rests_where_the_sum_hangs, 0, 3);
-  tcase_add_test(c, work_counts_the_mass);
-  tcase_add_test(c, what_it_lacks_is_said);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

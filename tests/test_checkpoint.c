@@ -80,7 +80,7 @@ static ZpActuatorDef def_of(int which, double *cut, double *end) {
   }
 }
 
-START_TEST(test_goes_on_to_the_same_bits) {
+TESTS(test_goes_on_to_the_same_bits, 0, 10) {
   double cut, end;
   ZpActuatorDef def = def_of(_i, &cut, &end);
   def.solver.end_time = end;
@@ -106,10 +106,9 @@ START_TEST(test_goes_on_to_the_same_bits) {
   zp_result_destroy(part);
   zp_result_destroy(rest);
 }
-END_TEST
 
 /* Closed, then released: the voltage falls at the checkpoint's time and the run does not end by closing once more. */
-START_TEST(test_another_voltage) {
+TEST(test_another_voltage) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21});
   ZpResult *zip = result_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(zip->outcome, ZP_ZIPPED);
@@ -134,10 +133,9 @@ START_TEST(test_another_voltage) {
   zp_result_destroy(held);
   zp_result_destroy(free_fall);
 }
-END_TEST
 
 /* A force that the program applies is lifted like a load; work and efficiency are those since the run resumed. */
-START_TEST(test_work_since_then) {
+TEST(test_work_since_then) {
   const double force = 0.02, mass = 10e-3;
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"load.mass", mass});
   ZpModel *model = model_of(&def);
@@ -162,7 +160,6 @@ START_TEST(test_work_since_then) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 static bool stop_at_once(void *user, const char *stage, double fraction) {
   (void)user, (void)fraction;
@@ -170,7 +167,7 @@ static bool stop_at_once(void *user, const char *stage, double fraction) {
 }
 
 /* An interrupted run and one out of steps leave a state that is sound and can be resumed. */
-START_TEST(test_bad_ends) {
+TESTS(test_bad_ends, 0, 2) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 21}, {"solver.end_time", 20e-3});
   ZpResult *whole = result_of(ZP_STUDY_ACTUATE, &def), *cut = NULL, *rest = NULL;
   ZpHooks hooks = {.progress = stop_at_once};
@@ -192,10 +189,9 @@ START_TEST(test_bad_ends) {
   zp_result_destroy(cut);
   zp_result_destroy(rest);
 }
-END_TEST
 
 /* A speed beyond all bounds: what is kept is the last state before it. */
-START_TEST(test_diverged) {
+TEST(test_diverged) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 21}, {"solver.end_time", 20e-3});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -215,7 +211,6 @@ START_TEST(test_diverged) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- what must not resume -------------------------------------------------------------------------- */
 
@@ -254,7 +249,7 @@ static void refused(const unsigned char *byte, size_t size, size_t place, const 
   if (place < 32 || place % 97 == 0) refused_as_file(byte, size, reason);
 }
 
-START_TEST(test_cut_short_at_every_byte) {
+TEST(test_cut_short_at_every_byte) {
   size_t size;
   unsigned char *byte = short_run(&size);
   refused(byte, 0, 0, "not a snapshot");
@@ -262,9 +257,8 @@ START_TEST(test_cut_short_at_every_byte) {
     refused(byte, cut, cut, "cut short");
   free(byte);
 }
-END_TEST
 
-START_TEST(test_every_byte_damaged) {
+TEST(test_every_byte_damaged) {
   size_t size;
   unsigned char *byte = short_run(&size);
   for (size_t i = 0; i < size; i++) {
@@ -276,10 +270,9 @@ START_TEST(test_every_byte_damaged) {
   refused(byte, size + 1, 0, "damaged");
   free(byte);
 }
-END_TEST
 
 /* Every key that makes the actuator must be the same, every other may change; a saved state and a file alike. */
-START_TEST(test_another_model) {
+TEST(test_another_model) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
   ZpModel *model = model_of(&def), *changed = model_of(&def);
   ZpSim *sim = sim_of(model), *other = sim_of(changed);
@@ -308,7 +301,6 @@ START_TEST(test_another_model) {
   zp_model_destroy(model);
   zp_model_destroy(changed);
 }
-END_TEST
 
 /* CRC-32 as its definition says, bit by bit. */
 static uint32_t crc_of(const unsigned char *byte, size_t size) {
@@ -350,7 +342,7 @@ static unsigned char *field_called(unsigned char *byte, size_t size, const char 
 }
 
 /* Numbers that no run leaves: by hand, the file is whole. */
-START_TEST(test_no_state) {
+TEST(test_no_state) {
   static const struct {
     const char *field;
     double value;
@@ -402,10 +394,9 @@ START_TEST(test_no_state) {
   }
   free(byte);
 }
-END_TEST
 
 /* Whatever byte is forged, with the right checksum: refused or taken, never a crash, and what is taken can run. */
-START_TEST(test_forged_bytes) {
+TEST(test_forged_bytes) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -422,7 +413,6 @@ START_TEST(test_forged_bytes) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Actuators that use the numbers of a state in different ways. */
 static ZpActuatorDef user_of_numbers(int which) {
@@ -446,7 +436,7 @@ static ZpActuatorDef user_of_numbers(int which) {
 
 /* Every number of the state by values that no run leaves, with the right checksum: refused, or taken and then steps
  * advance. An index from it that is out of bounds stops the sanitizers. */
-START_TEST(test_forged_numbers) {
+TESTS(test_forged_numbers, 0, 5) {
   static const double wrong[] = {-1, 0.5, 3, 1e18, 1e-300, 1e300, -1e300, INFINITY, NAN};
   ZpActuatorDef def = user_of_numbers(_i);
   ZpModel *model = model_of(&def);
@@ -474,10 +464,9 @@ START_TEST(test_forged_numbers) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A controller's samples and outputs so far index the outputs that are pending: -1, and what does not fit the time. */
-START_TEST(test_forged_samples) {
+TEST(test_forged_samples) {
   static const double wrong[] = {-1, 0, 1.5, 2, 4, 1e9, INFINITY, NAN};
   static const char *const name[] = {"control.taken", "control.given"};
   ZpActuatorDef def = user_of_numbers(0);
@@ -503,11 +492,10 @@ START_TEST(test_forged_samples) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A saved state that is cut short at any byte or damaged at any was taken if only its length was right. Now it is
  * refused and the simulation stays where it is. */
-START_TEST(test_damaged_state_changes_nothing) {
+TEST(test_damaged_state_changes_nothing) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -534,11 +522,10 @@ START_TEST(test_damaged_state_changes_nothing) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Padding and numbers that are none (zip_time) have bits of their own in memory: a snapshot has not, and gives all
  * members and arrays back. */
-START_TEST(test_equal_states_give_equal_bytes) {
+TEST(test_equal_states_give_equal_bytes) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -561,10 +548,9 @@ START_TEST(test_equal_states_give_equal_bytes) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The in-memory form and the snapshot lead to the same bits: in a zip, with a held force, implicit and explicit. */
-START_TEST(test_copy_and_snapshot_are_the_same) {
+TESTS(test_copy_and_snapshot_are_the_same, 0, 5) {
   double cut, end;
   ZpActuatorDef def = def_of(_i, &cut, &end);
   ZpModel *model = model_of(&def);
@@ -589,10 +575,9 @@ START_TEST(test_copy_and_snapshot_are_the_same) {
   zp_sim_destroy(restored);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A run that ends where the checkpoint is would be none. */
-START_TEST(test_no_time_left) {
+TEST(test_no_time_left) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
   size_t size;
   ZpError err = {ZP_OK, ""};
@@ -607,17 +592,15 @@ START_TEST(test_no_time_left) {
   free(byte);
   zp_checkpoint_destroy(checkpoint);
 }
-END_TEST
 
 /* What an earlier program wrote says so. */
-START_TEST(test_earlier_file) {
+TEST(test_earlier_file) {
   unsigned char old[64] = {0x89, 'Z', 'P', 'S', '\r', '\n', 0x1A, '\n', 2};
   refused(old, sizeof old, 0, "of version 2 of the format, by zipact 0.1.0; zipact " ZP_VERSION " reads version 10");
 }
-END_TEST
 
 /* A record with other fields than those that are read: what differs is named, and numbers stay as they were. */
-START_TEST(test_other_fields) {
+TESTS(test_other_fields, 0, 6) {
   static const ZpPackKind kind = {"record", 'X', 10};
   static const struct {
     const char *name;
@@ -638,9 +621,8 @@ START_TEST(test_other_fields) {
   ck_assert_msg(!read[_i].says || strstr(err.message, read[_i].says), "%s", err.message);
   ck_assert(read[_i].says ? value[0] == 7 && value[1] == 7 : value[0] == 1 && isnan(value[1]));
 }
-END_TEST
 
-START_TEST(test_keys) {
+TESTS(test_keys, 0, 5) {
   static const struct {
     const char *file;
     ZpInitialState state;
@@ -664,33 +646,4 @@ START_TEST(test_keys) {
   ZpResult *result = NULL;
   ck_assert_int_eq(zp_data_study_run(wrong[_i].study, &def, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, wrong[_i].named) != NULL, "no '%s' in: %s", wrong[_i].named, err.message);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("checkpoint");
-  TCase *same = tcase_create("continuation");
-  tcase_add_loop_test(same, test_goes_on_to_the_same_bits, 0, 10);
-  tcase_add_test(same, test_another_voltage);
-  tcase_add_test(same, test_work_since_then);
-  tcase_add_loop_test(same, test_bad_ends, 0, 2);
-  tcase_add_test(same, test_diverged);
-  tcase_add_test(same, test_equal_states_give_equal_bytes);
-  tcase_add_loop_test(same, test_copy_and_snapshot_are_the_same, 0, 5);
-  suite_add_tcase(suite, same);
-  TCase *refusals = tcase_create("refusals");
-  tcase_add_test(refusals, test_cut_short_at_every_byte);
-  tcase_add_test(refusals, test_every_byte_damaged);
-  tcase_add_test(refusals, test_another_model);
-  tcase_add_test(refusals, test_no_state);
-  tcase_add_test(refusals, test_forged_bytes);
-  tcase_add_loop_test(refusals, test_forged_numbers, 0, 5);
-  tcase_add_test(refusals, test_forged_samples);
-  tcase_add_test(refusals, test_damaged_state_changes_nothing);
-  tcase_add_test(refusals, test_no_time_left);
-  tcase_add_test(refusals, test_earlier_file);
-  tcase_add_loop_test(refusals, test_other_fields, 0, 6);
-  tcase_add_loop_test(refusals, test_keys, 0, 5);
-  suite_add_tcase(suite, refusals);
-  return run_suite(suite);
 }

@@ -61,7 +61,7 @@ static ZpSim *start_there(Held *h, double push, double outside) {
 
 /* -- mathematics -------------------------------------------------------------------------------------- */
 
-START_TEST(logarithm_and_angle) {
+TEST(logarithm_and_angle) {
   uint64_t seed = 1;
   for (int k = 0; k < 2000; k++) {
     double x = ldexp(1 + 0.5 * noise(&seed), k % 120 - 60), a = noise(&seed), b = noise(&seed);
@@ -73,11 +73,10 @@ START_TEST(logarithm_and_angle) {
   ck_assert_double_eq_tol(zp_angle(0, -1), zp_pi, 1e-15);
   ck_assert_double_eq_tol(zp_angle(-2, 0), -0.5 * zp_pi, 1e-15);
 }
-END_TEST
 
 /* Eigenvalues of a companion matrix are the roots of its polynomial, (x - 1) ... (x - 5) (x^2 + 2 x + 5); for a random
  * matrix their sum and that of their squares are the traces. */
-START_TEST(eigenvalues_of_known_matrices) {
+TEST(eigenvalues_of_known_matrices) {
   enum { N = 7, MANY = 60 };
   double polynomial[N + 1] = {1}, A[N * N] = {0}, least = 0;
   const double factor[6][3] = {{-1, 1, 0}, {-2, 1, 0}, {-3, 1, 0}, {-4, 1, 0}, {-5, 1, 0}, {5, 2, 1}};
@@ -120,10 +119,9 @@ START_TEST(eigenvalues_of_known_matrices) {
   ck_assert_double_eq_tol(sum, trace, 1e-12);    /* 6e-14 measured */
   ck_assert_double_eq_tol(sum2, squares, 5e-12); /* 7.5e-13 measured */
 }
-END_TEST
 
 /* Exponential of the matrix of a damped oscillator, also if one part is a million times as fast. */
-START_TEST(exponential_of_known_matrices) {
+TEST(exponential_of_known_matrices) {
   const double a = -0.3, w = 40, stiff = -3e6;
   const double A[9] = {a, w, 0, -w, a, 0, 0, 0, stiff};
   double E[9];
@@ -133,16 +131,14 @@ START_TEST(exponential_of_known_matrices) {
   ck_near(E[3], -exp(a) * sin(w), 1e-12);
   ck_below(fabs(E[8]), 1e-12);
 }
-END_TEST
 
 /* A line that ends level within an element has the same shares at Gauss's points as one that ends at a station. */
-START_TEST(level_ends_within_an_element) {
+TEST(level_ends_within_an_element) {
   const ZpLevelEnds ends = {.count = 2, .of = {{.element = 3, .right = false}, {.element = 8, .right = true}}};
   for (size_t element = 2; element < 10; element++)
     for (int k = 0; k < GAUSS; k++)
       ck_assert_double_eq_tol(zp_gauss_share(&ends, element, gauss_at[k]), zp_gauss_shares(&ends, element)[k], 1e-15);
 }
-END_TEST
 
 /* -- the sampled loop around an integrator, by hand --------------------------------------------------- */
 
@@ -162,7 +158,7 @@ static double polynomial_at(double re, double im, const ZpControl *c, int whole,
   return hypot(left[0] + hold[0] * law[0] - hold[1] * law[1], left[1] + hold[0] * law[1] + hold[1] * law[0]);
 }
 
-START_TEST(loop_around_an_integrator) {
+TESTS(loop_around_an_integrator, 0, 4) {
   static const double delays[] = {0, 1e-3, 0.4e-3, 2.7e-3};
   const double zero[1] = {0}, b[1] = {-1}, one[1] = {1}, delay = delays[_i];
   const ZpLinear integrator = {1, zero, b, one};
@@ -180,10 +176,9 @@ START_TEST(loop_around_an_integrator) {
     ck_near(1 + growth[k].factor, 1 + exp(growth[k].rate * c.period), 1e-12);
   }
 }
-END_TEST
 
 /* The gain at the stability limit, K_p T = 2 without integral and delay. */
-START_TEST(loop_at_its_limit) {
+TEST(loop_at_its_limit) {
   const double zero[1] = {0}, b[1] = {-1}, one[1] = {1};
   const ZpLinear integrator = {1, zero, b, one};
   const ZpControl c = {.sense = 1, .period = 1e-3};
@@ -194,13 +189,12 @@ START_TEST(loop_at_its_limit) {
   ck_assert_double_gt(growth->rate, 0);
   ck_near(growth->frequency, 500, 1e-12);
 }
-END_TEST
 
 /* -- the film, between parallel faces ------------------------------------------------------------------ */
 
 /* In a narrow strip all liquid flows across: drag mu w^3 L / g^3, added mass rho w^3 L / (12 g), except near the ends.
  */
-START_TEST(film_between_parallel_faces) {
+TEST(film_between_parallel_faces) {
   enum { N = 121 };
   const double w = 0.5e-3, L = 60e-3, g = 20e-6;
   ZpFilmParams p = {
@@ -236,7 +230,6 @@ START_TEST(film_between_parallel_faces) {
   ck_near(zp_film_ways_inertia(&ways, flow, flow), mass * g / zp_film_depth(&p, g), 1e-11); /* 1.4e-12 measured */
   free(memory);
 }
-END_TEST
 
 /* -- small motions of actuators ------------------------------------------------------------------------ */
 
@@ -280,7 +273,7 @@ static double static_gain(const Held *h) {
 
 /* The growth at a setpoint agrees with neighbouring equilibria, stable and unstable ones, for every signal and with the
  * resistance of a supply. */
-START_TEST(static_gain_is_that_of_the_branch) {
+TEST(static_gain_is_that_of_the_branch) {
   static const double at[] = {0.02, 0.25, 0.5, 0.9};
   static const ZpControlSignal signals[] = {ZP_CONTROL_CONTRACTION, ZP_CONTROL_OPENING, ZP_CONTROL_STROKE,
                                             ZP_CONTROL_CAPACITANCE};
@@ -303,10 +296,9 @@ START_TEST(static_gain_is_that_of_the_branch) {
       let_go(&h);
     }
 }
-END_TEST
 
 /* A supply's resistance R and its bleeder G divide the voltage: the electrodes get 1 / (1 + R G) of a volt more. */
-START_TEST(bleeder_takes_its_share_of_a_volt) {
+TEST(bleeder_takes_its_share_of_a_volt) {
   const double R = 5e7, bleeder = 2e8;
   ZpActuatorDef def =
       DEF({"mesh.nodes", 9}, {"control.kind", ZP_CONTROL_PI}, {"control.signal", ZP_CONTROL_CONTRACTION},
@@ -320,10 +312,9 @@ START_TEST(bleeder_takes_its_share_of_a_volt) {
   }
   ck_near(gain[1], gain[0] / (1 + R / bleeder), 1e-14); /* 4.4e-16 measured */
 }
-END_TEST
 
 /* At a stable state without damping the eigenvalues are the frequencies of study modes. */
-START_TEST(open_loop_is_that_of_modes) {
+TEST(open_loop_is_that_of_modes) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"damping.internal", 0}, {"control.kind", ZP_CONTROL_PI},
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.05});
   Held h = hold(&def);
@@ -344,11 +335,10 @@ START_TEST(open_loop_is_that_of_modes) {
   zp_result_destroy(modes);
   let_go(&h);
 }
-END_TEST
 
 /* A mass on a spring between plates: with a load far heavier than the ribbons there is one coordinate, and its
  * frequency, or the rate at which it falls, follows from the extra load per displacement. */
-START_TEST(heavy_load_has_one_coordinate) {
+TESTS(heavy_load_has_one_coordinate, 0, 2) {
   const double mass = 61e-3, setpoints[] = {0.05, 0.5};
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"load.mass", mass}, {"ribbon.density", 1}, {"insulator.density", 0},
                           {"drive.voltage", 20e3}, {"damping.internal", 0}, {"control.kind", ZP_CONTROL_PI},
@@ -374,13 +364,12 @@ START_TEST(heavy_load_has_one_coordinate) {
   ck_assert((squared > 0) == (_i == 0));
   let_go(&h);
 }
-END_TEST
 
 /* -- what no gains hold --------------------------------------------------------------------------------- */
 
 /* Without damping the eigenvalues add up to 0, eq. (28.5): without liquid a PI controller holds no state, unstable or
  * stable. Internal damping and the liquid take energy: their sum is below 0. */
-START_TEST(undamped_no_gains_hold) {
+TEST(undamped_no_gains_hold) {
   static const double at[] = {0.1, 0.25, 0.5, 0.75, 0.9};
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"damping.internal", 0}, {"control.kind", ZP_CONTROL_PI},
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", at[_i]});
@@ -404,7 +393,7 @@ START_TEST(undamped_no_gains_hold) {
   ck_assert_double_gt(slowest, 0);
   let_go(&h);
 }
-END_TEST
+ALSO_NIGHTLY(undamped_no_gains_hold, 1, 5)
 
 /* -- against runs in time -------------------------------------------------------------------------------- */
 
@@ -422,7 +411,7 @@ static ZpGrowth growth_of(const double *y, int count, double interval) {
 }
 
 /* An oscillating loop, dry and with a bead: its frequency and its growth or decay are those of the eigenvalue. */
-START_TEST(swings_as_its_eigenvalue_says) {
+TESTS(swings_as_its_eigenvalue_says, 0, 3) {
   enum { SAMPLES = 100 };
   static const struct {
     ZpLiquidModel liquid;
@@ -456,12 +445,11 @@ START_TEST(swings_as_its_eigenvalue_says) {
   zp_sim_destroy(sim);
   let_go(&h);
 }
-END_TEST
 
 /* -- the study -------------------------------------------------------------------------------------------- */
 
 /* What it says of the default actuator in its bead; the same holds and fails in the runs of docs/control.md. */
-START_TEST(study_says_what_is_held) {
+TEST(study_says_what_is_held) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_BEAD}, {"control.kind", ZP_CONTROL_PI},
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.5},
                           {"control.proportional", 8e3}, {"control.integral", 6e4});
@@ -497,12 +485,11 @@ START_TEST(study_says_what_is_held) {
   for (size_t k = 0; k < LENGTH_OF(all); k++)
     zp_result_destroy(all[k]);
 }
-END_TEST
 
 /* While the actuator should close further, a boost of B within a band b of the setpoint s acts as the gain B / (b |s|)
  * beside the proportional one, eq. (28.3): the loop has the eigenvalues of a PI controller with one of both gains, the
  * one that decays less. A small boost damps more, a large one too much. */
-START_TEST(boost_is_a_gain_on_one_side) {
+TESTS(boost_is_a_gain_on_one_side, 0, 2) {
   static const char *const names[] = {"loop_growth_1_per_s", "loop_frequency_1_Hz", "loop_growth_2_per_s",
                                       "loop_frequency_2_Hz", "loop_factor_3",       "loop_factor_4"};
   const double B[] = {750, 2e5}, band = 0.2, setpoint = 0.5;
@@ -523,11 +510,10 @@ START_TEST(boost_is_a_gain_on_one_side) {
   zp_result_destroy(plain);
   zp_result_destroy(steeper);
 }
-END_TEST
 
 /* Without a controller a stable state swings as its slowest mode, which the damping of the ribbons damps least, and in
  * proportion to it. */
-START_TEST(slowest_mode_decays_least) {
+TEST(slowest_mode_decays_least) {
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"damping.internal", 1e-5}, {"control.kind", ZP_CONTROL_PI},
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.05});
   double growth[2];
@@ -543,9 +529,8 @@ START_TEST(slowest_mode_decays_least) {
   ck_assert_double_lt(growth[0], 0);
   ck_near(growth[1], 2 * growth[0], 2.8e-9); /* 9.3e-10 measured */
 }
-END_TEST
 
-START_TEST(what_the_study_refuses) {
+TEST(what_the_study_refuses) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.suction", 0.5}, {"control.kind", ZP_CONTROL_PI},
           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.5});
@@ -555,33 +540,4 @@ START_TEST(what_the_study_refuses) {
   def.control.boost_voltage = 1e3;
   def.setpoint.value = 0;
   ck_refused_by(ZP_STUDY_MODES, &def, "setpoint.value = 0");
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("closed_loop");
-  TCase *parts = tcase_create("parts"), *plants = tcase_create("plants"), *loops = tcase_create("loops");
-  suite_add_tcase(suite, parts);
-  suite_add_tcase(suite, plants);
-  suite_add_tcase(suite, loops);
-  tcase_add_test(parts, logarithm_and_angle);
-  tcase_add_test(parts, eigenvalues_of_known_matrices);
-  tcase_add_test(parts, exponential_of_known_matrices);
-  tcase_add_test(parts, level_ends_within_an_element);
-  tcase_add_loop_test(parts, loop_around_an_integrator, 0, 4);
-  tcase_add_test(parts, loop_at_its_limit);
-  tcase_add_test(parts, film_between_parallel_faces);
-  tcase_add_test(plants, static_gain_is_that_of_the_branch);
-  tcase_add_test(plants, bleeder_takes_its_share_of_a_volt);
-  tcase_add_test(plants, open_loop_is_that_of_modes);
-  tcase_add_loop_test(plants, heavy_load_has_one_coordinate, 0, 2);
-  tcase_add_loop_test(loops, undamped_no_gains_hold, 0, 1);
-  tcase_add_loop_test(loops, swings_as_its_eigenvalue_says, 0, 3);
-  tcase_add_test(loops, study_says_what_is_held);
-  tcase_add_test(loops, slowest_mode_decays_least);
-  tcase_add_loop_test(loops, boost_is_a_gain_on_one_side, 0, 2);
-  tcase_add_test(loops, what_the_study_refuses);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, undamped_no_gains_hold, 1, 5);
-  return run_suite(suite);
 }

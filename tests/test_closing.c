@@ -39,7 +39,7 @@ static size_t last_open(const ZpResult *result) {
 
 /* By definition the contraction is below 99 % just before closed_from_s and not below after it. Rows are records of the
  * run, so the last one below and the next one enclose it. */
-START_TEST(closed_from_is_where_the_contraction_last_reaches_99_percent) {
+TESTS(closed_from_is_where_the_contraction_last_reaches_99_percent, 0, 3) {
   const ZpActuatorDef cases[] = {
       DEF(COARSE, NEVER_EARLY, {"solver.end_time", 0.15}),
       DEF(COARSE, NEVER_EARLY, BEAD(300), {"solver.end_time", 0.4}),
@@ -54,10 +54,9 @@ START_TEST(closed_from_is_where_the_contraction_last_reaches_99_percent) {
   ck_assert_ptr_nonnull(strstr(result->message, "stays closed from"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A bead that is too small closes once and opens again. This is an answer, and the message says both. */
-START_TEST(a_small_bead_reopens) {
+TEST(a_small_bead_reopens) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, BEAD(50), {"solver.end_time", 0.22});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_REOPENED);
@@ -70,11 +69,10 @@ START_TEST(a_small_bead_reopens) {
   ck_assert_ptr_nonnull(strstr(result->message, "open at the end"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without any setting it lifts 8 g at 10 kV and stays closed, its front never without liquid; on other meshes, and
  * under a higher load and a lower voltage, as well. */
-START_TEST(the_default_actuator_stays_closed) {
+TESTS(the_default_actuator_stays_closed, 0, FULL_OR(4, 2)) {
   const Setting varied[] = {{"mesh.nodes", 61}, {"mesh.nodes", 31}, {"load.mass", 10e-3}, {"drive.voltage", 8e3}};
   ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_AUTO}, {"mesh.nodes", 31}, {"solver.end_time", 0.5}, varied[_i]);
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -84,10 +82,9 @@ START_TEST(the_default_actuator_stays_closed) {
   ck_assert(isnan(zp_result_get(result, "starved_time_s")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without a voltage nothing zips: a load that pushes the platform up closes the faces as well. */
-START_TEST(pushing_is_not_zipping) {
+TEST(pushing_is_not_zipping) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 0}, {"damping.drag", 1});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -98,10 +95,9 @@ START_TEST(pushing_is_not_zipping) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* All members of a series are closed from the time of the last one. */
-START_TEST(a_series_is_closed_with_its_last_member) {
+TEST(a_series_is_closed_with_its_last_member) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"solver.end_time", 0.5}, {"load.mass", 5e-3});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   double zip = zp_result_get(result, "zip_time_s");
@@ -111,12 +107,11 @@ START_TEST(a_series_is_closed_with_its_last_member) {
   ck_assert_double_ge(zp_result_get(result, "closed_from_s"), zip);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- the end of a run ------------------------------------------------------------------------------ */
 
 /* A run that ends early has been closed for 0.1 s, in which the contraction changed by less than 1e-4. */
-START_TEST(a_run_ends_early_where_it_stays_closed) {
+TEST(a_run_ends_early_where_it_stays_closed) {
   ZpActuatorDef def = DEF(COARSE);
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   double end = zp_result_get(result, "simulated_time_s"), least = 2, most = -2;
@@ -131,11 +126,10 @@ START_TEST(a_run_ends_early_where_it_stays_closed) {
   ck_below(most - least, 1e-5); /* 2.1e-6 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* An opening that falls evenly changes by as much as it falls within the window, or since the closing. A line that
  * begins before the closing, as those of neighbours in derivatives may, counts from there on. */
-START_TEST(the_window_slides) {
+TEST(the_window_slides) {
   static const double from = 0.3, late = 1e-6, slope = -2e-3;
   ZpStill still;
   ZpOpeningAt last = {from - late, 1e-3};
@@ -150,7 +144,6 @@ START_TEST(the_window_slides) {
     last = now;
   }
 }
-END_TEST
 
 static double end_with(double thickness) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.end_time", 10},
@@ -165,7 +158,7 @@ static double end_with(double thickness) {
 
 /* The actuator creeps towards rest, so the end of the run is a smooth function of a key: between six neighbouring
  * thicknesses it grows by nearly equal amounts. */
-START_TEST(the_early_end_is_continuous_in_a_key) {
+TEST(the_early_end_is_continuous_in_a_key) {
   enum { RUNS = 6 };
   double end[RUNS];
   for (int k = 0; k < RUNS; k++)
@@ -174,10 +167,9 @@ START_TEST(the_early_end_is_continuous_in_a_key) {
   for (int k = 1; k < RUNS; k++)
     ck_assert_double_eq_tol(end[k] - end[k - 1], mean, 0.1 * fabs(mean));
 }
-END_TEST
 
 /* An oscillation of more than 1e-4 about a closed state, or a film that still drains, ends at solver.end_time. */
-START_TEST(a_run_that_creeps_ends_at_its_end_time) {
+TEST(a_run_that_creeps_ends_at_its_end_time) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.end_time", 0.35});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
@@ -185,10 +177,9 @@ START_TEST(a_run_that_creeps_ends_at_its_end_time) {
   ck_assert_double_lt(zp_result_get(result, "closed_from_s"), 0.25);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* solver.stop_when_zipped true ends at the first 99 %, and knows nothing of what follows. */
-START_TEST(a_run_may_end_at_the_first_closing) {
+TEST(a_run_may_end_at_the_first_closing) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, BEAD(50)), first = def;
   first.solver.stop_when_zipped = ZP_WHEN_TRUE;
   def.solver.end_time = 0.2;
@@ -201,10 +192,9 @@ START_TEST(a_run_may_end_at_the_first_closing) {
   zp_result_destroy(result);
   zp_result_destroy(held);
 }
-END_TEST
 
 /* Sequential contact never opens: closing once is closing for good, and ends a run. */
-START_TEST(sequential_contact_ends_where_it_closes) {
+TEST(sequential_contact_ends_where_it_closes) {
   ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}), first = def;
   first.solver.stop_when_zipped = ZP_WHEN_TRUE;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def), *stopped = answer_of(ZP_STUDY_ACTUATE, &first);
@@ -218,10 +208,9 @@ START_TEST(sequential_contact_ends_where_it_closes) {
   zp_result_destroy(result);
   zp_result_destroy(stopped);
 }
-END_TEST
 
 /* A drive that varies, or a controller, keeps the outcome end_time; a supply under a constant drive does not. */
-START_TEST(other_drives_reach_their_end_time) {
+TESTS(other_drives_reach_their_end_time, 0, 2) {
   const ZpActuatorDef cases[] = {
       DEF({"mesh.nodes", 21}, {"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 0.02},
           {"solver.end_time", 0.2}),
@@ -232,12 +221,11 @@ START_TEST(other_drives_reach_their_end_time) {
   ck_assert_double_lt(zp_result_get(result, "closed_from_s"), 0.15);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- in steps and in two parts --------------------------------------------------------------------- */
 
 /* What a program reads while it steps. */
-START_TEST(a_program_sees_it_open_again) {
+TEST(a_program_sees_it_open_again) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -254,11 +242,10 @@ START_TEST(a_program_sees_it_open_again) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A run that is cut after it has closed and resumed ends where the whole run ends, to the same bits. A run that is
  * resumed where it has ended goes on. */
-START_TEST(a_resumed_run_ends_where_the_whole_one_ends) {
+TEST(a_resumed_run_ends_where_the_whole_one_ends) {
   ZpActuatorDef whole = DEF({"mesh.nodes", 21}), cut = whole, rest = whole;
   cut.solver.end_time = 0.1;
   rest.initial.state = ZP_INITIAL_CHECKPOINT;
@@ -277,30 +264,4 @@ START_TEST(a_resumed_run_ends_where_the_whole_one_ends) {
   zp_result_destroy(all);
   zp_result_destroy(part);
   zp_result_destroy(end);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("closing");
-  TCase *since = tcase_create("since when");
-  tcase_add_loop_test(since, closed_from_is_where_the_contraction_last_reaches_99_percent, 0, 3);
-  tcase_add_test(since, a_small_bead_reopens);
-  tcase_add_loop_test(since, the_default_actuator_stays_closed, 0, FULL_OR(4, 2));
-  tcase_add_test(since, a_series_is_closed_with_its_last_member);
-  tcase_add_test(since, pushing_is_not_zipping);
-  suite_add_tcase(suite, since);
-  TCase *ends = tcase_create("end");
-  tcase_add_test(ends, a_run_ends_early_where_it_stays_closed);
-  tcase_add_test(ends, the_window_slides);
-  tcase_add_test(ends, the_early_end_is_continuous_in_a_key);
-  tcase_add_test(ends, a_run_that_creeps_ends_at_its_end_time);
-  tcase_add_test(ends, a_run_may_end_at_the_first_closing);
-  tcase_add_test(ends, sequential_contact_ends_where_it_closes);
-  tcase_add_loop_test(ends, other_drives_reach_their_end_time, 0, 2);
-  suite_add_tcase(suite, ends);
-  TCase *parts = tcase_create("parts");
-  tcase_add_test(parts, a_program_sees_it_open_again);
-  tcase_add_test(parts, a_resumed_run_ends_where_the_whole_one_ends);
-  suite_add_tcase(suite, parts);
-  return run_suite(suite);
 }

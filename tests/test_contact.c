@@ -71,23 +71,21 @@ static void check_meeting(ZpZipState state, size_t i, Motion m) {
   ck_assert_double_eq_tol(s, m.meets, 2e-8 * m.meets + 1e-15);
 }
 
-START_TEST(test_meeting_time) {
+TESTS(test_meeting_time, 0, LENGTH_OF(motions)) {
   check_meeting((ZpZipState){2, false}, 3, motions[_i]);         /* the next pair */
   check_meeting((ZpZipState){0, false}, 1, motions[_i]);         /* after the clip */
   check_meeting((ZpZipState){2, false}, NODES - 1, motions[_i]); /* the platform ahead of the front */
   check_meeting((ZpZipState){NODES - 2, false}, NODES - 1, motions[_i]);
 }
-END_TEST
 
 /* A pair that touches, parts, and comes back within the step meets then: 0 + s - s^2 at s = 1. */
-START_TEST(test_touching_pair_comes_back) {
+TEST(test_touching_pair_comes_back) {
   check_meeting((ZpZipState){2, false}, 3, (Motion){0, 1, -1, 5, 1});
   check_meeting((ZpZipState){2, false}, 3, (Motion){0, 1, -1, 0.9, NAN});
 }
-END_TEST
 
 /* Only the next pair and the platform are looked at; pairs that are joined are not. */
-START_TEST(test_who_may_meet) {
+TEST(test_who_may_meet) {
   Motion m = {1, -1, 0, 2, NAN};
   for (size_t i = 0; i < NODES; i++)
     if (i != 3 && i != NODES - 1) check_meeting((ZpZipState){2, false}, i, m);
@@ -95,9 +93,8 @@ START_TEST(test_who_may_meet) {
   for (size_t i = 0; i < NODES; i++)
     check_meeting((ZpZipState){NODES - 1, true}, i, m);
 }
-END_TEST
 
-START_TEST(test_first_of_two) {
+TEST(test_first_of_two) {
   double y[2 * NODES], vy[2 * NODES], ay[2 * NODES];
   for (int platform_first = 0; platform_first < 2; platform_first++) {
     place(3, (Motion){1, -1, 0, 0, 0}, y, vy, ay);
@@ -111,10 +108,9 @@ START_TEST(test_first_of_two) {
     ck_assert_uint_eq(pair, platform_first ? NODES - 1 : 3);
   }
 }
-END_TEST
 
 /* The time found is where eq. (1) of the paper takes the pair: random motions, by stepping it. */
-START_TEST(test_meeting_is_where_the_step_goes) {
+TEST(test_meeting_is_where_the_step_goes) {
   uint64_t seed = 1;
   int met = 0;
   for (int k = 0; k < 10000; k++) {
@@ -135,7 +131,6 @@ START_TEST(test_meeting_is_where_the_step_goes) {
   }
   ck_assert_int_gt(met, 1000);
 }
-END_TEST
 
 /* -- joining --------------------------------------------------------------------------------------- */
 
@@ -145,7 +140,7 @@ static const double inverse[2 * NODES] = {1, 1, 1 / 2.0, 1 / 3.0, 0, 1 / 3.0, 0,
 static const double together[NODES] = {1 / 2.0, 1 / 5.0, 0, 0, 1 / 2.0, 1 / 2.0};
 static const ZpZipMasses masses = {mass, inverse, together};
 
-START_TEST(test_merge) {
+TEST(test_merge) {
   double v[2 * NODES] = {0, 0, 4, -1, 0, 7, 0, 0};
   double before = 0.5 * 2 * 16 + 0.5 * 3 * 1, lost = zp_zip_merge(1, &masses, v);
   ck_assert_double_eq(v[2], v[3]);
@@ -160,9 +155,8 @@ START_TEST(test_merge) {
   v[2] = v[3] = 5;
   ck_assert_double_eq(zp_zip_merge(1, &masses, v), 0); /* already together */
 }
-END_TEST
 
-START_TEST(test_share) {
+TEST(test_share) {
   double a[2 * NODES];
   for (size_t j = 0; j < 2 * NODES; j++)
     a[j] = inverse[j] * (double)(j + 1); /* forces 1, 2, ... */
@@ -179,7 +173,6 @@ START_TEST(test_share) {
   ck_assert_double_eq(a[10], a[11]);
   ck_near(a[8], 9, 1e-14);
 }
-END_TEST
 
 /* -- transitions ----------------------------------------------------------------------------------- */
 
@@ -188,7 +181,7 @@ static void check_state(ZpZipState state, size_t front, bool platform) {
                 state.front, state.platform, front, platform);
 }
 
-START_TEST(test_closing) {
+TEST(test_closing) {
   ZpZipState state = {0, false};
   for (size_t i = 1; i < NODES - 1; i++) {
     state = zp_zip_after(state, NODES, i);
@@ -202,7 +195,6 @@ START_TEST(test_closing) {
   check_state(state, 3, true);
   check_state(zp_zip_after(state, NODES, 4), NODES - 1, true);
 }
-END_TEST
 
 /* Accelerations that pull pairs `from` and beyond apart, and press the others together. */
 static ZpZipState open_with(ZpZipState state, size_t from) {
@@ -214,7 +206,7 @@ static ZpZipState open_with(ZpZipState state, size_t from) {
   return zp_zip_open(state, NODES, ay);
 }
 
-START_TEST(test_opening) {
+TEST(test_opening) {
   check_state(open_with((ZpZipState){3, false}, 0), 2, false); /* one pair at a time */
   check_state(open_with((ZpZipState){3, false}, 3), 2, false);
   check_state(open_with((ZpZipState){3, false}, 4), 3, false); /* pressed together */
@@ -224,17 +216,15 @@ START_TEST(test_opening) {
   check_state(closed, NODES - 2, false); /* the platform, with the front behind it */
   check_state(open_with((ZpZipState){NODES - 1, true}, NODES), NODES - 1, true);
 }
-END_TEST
 
 /* The front is pulled apart, the platform is pressed together: nothing opens while that is closed. */
-START_TEST(test_front_stays_while_platform_is_closed) {
+TEST(test_front_stays_while_platform_is_closed) {
   double ay[2 * NODES] = {0};
   ay[2 * 3] = 1;
   ay[2 * (NODES - 1)] = -1;
   check_state(zp_zip_open((ZpZipState){3, true}, NODES, ay), 3, true);
   check_state(zp_zip_open((ZpZipState){3, false}, NODES, ay), 2, false);
 }
-END_TEST
 
 /* -- invariants during a run ----------------------------------------------------------------------- */
 
@@ -322,7 +312,7 @@ static void run_and_check(Run *run, double end, size_t zipped, bool powered) {
   }
 }
 
-START_TEST(test_invariants_while_zipping) {
+TEST(test_invariants_while_zipping) {
   ZpActuatorDef def = zipping_def();
   Run run = start_run(&def);
   check_invariants(&run, true);
@@ -332,11 +322,10 @@ START_TEST(test_invariants_while_zipping) {
   ck_assert_double_gt(zp_sim_get(run.sim, "contraction"), 0.99);
   end_run(&run);
 }
-END_TEST
 
 /* The voltage is switched off during the zip: the front returns to the clip and the platform to its hanging height.
  * Drag -c |v| v damps as 1 / t; measured: open after 20 ms, after 2 s 1.2e-4 of the opening from rest. */
-START_TEST(test_opens_without_voltage) {
+TEST(test_opens_without_voltage) {
   ZpActuatorDef def = zipping_def();
   def.damping.drag = 10;
   Run run = start_run(&def);
@@ -359,10 +348,9 @@ START_TEST(test_opens_without_voltage) {
   ck_below(fabs(left), 1e-3);
   end_run(&run);
 }
-END_TEST
 
 /* The same from fully closed, and the joined clip: pair 0 stays. */
-START_TEST(test_opens_from_closed) {
+TEST(test_opens_from_closed) {
   ZpActuatorDef def = zipping_def();
   Run run = start_run(&def);
   run_and_check(&run, 0.15, 99, true);
@@ -373,10 +361,9 @@ START_TEST(test_opens_from_closed) {
   ck_assert_double_gt(zp_sim_get(run.sim, "opening"), 5e-3);
   end_run(&run);
 }
-END_TEST
 
 /* A run ends when the pair joins that is so many places before the last one. */
-START_TEST(test_margin_of_pairs) {
+TEST(test_margin_of_pairs) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 11}, {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
           {"contact.model", ZP_CONTACT_SEQUENTIAL}, {"electro.breakdown_cap", 0}, {"drive.voltage", 15e3},
@@ -388,11 +375,10 @@ START_TEST(test_margin_of_pairs) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Joining within a run loses the relative motion along both axes: m / 2 (dvx^2 + dvy^2) / 2 for two equal masses.
  * Within 1 %, as springs act on the way; one axis alone would be half. */
-START_TEST(test_loss_of_joining) {
+TEST(test_loss_of_joining) {
   const double speed = 10, gap = 1e-6; /* m/s, each node, and m: springs have no time */
   ZpActuatorDef def = zipping_def();
   def.damping.drag = 0;
@@ -412,29 +398,4 @@ START_TEST(test_loss_of_joining) {
   ck_near(lost(&run), 0.5 * (m / 2) * (dv * dv + dv * dv), 0.01);      /* 2.9e-3 measured */
   ck_near(zp_sim_get(run.sim, "contact_loss"), 2 * lost(&run), 1e-14); /* both halves */
   end_run(&run);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("contact");
-  TCase *machine = tcase_create("machine");
-  tcase_add_loop_test(machine, test_meeting_time, 0, LENGTH_OF(motions));
-  tcase_add_test(machine, test_touching_pair_comes_back);
-  tcase_add_test(machine, test_who_may_meet);
-  tcase_add_test(machine, test_first_of_two);
-  tcase_add_test(machine, test_meeting_is_where_the_step_goes);
-  tcase_add_test(machine, test_merge);
-  tcase_add_test(machine, test_share);
-  tcase_add_test(machine, test_closing);
-  tcase_add_test(machine, test_opening);
-  tcase_add_test(machine, test_front_stays_while_platform_is_closed);
-  suite_add_tcase(suite, machine);
-  TCase *runs = tcase_create("runs");
-  tcase_add_test(runs, test_loss_of_joining);
-  tcase_add_test(runs, test_margin_of_pairs);
-  tcase_add_test(runs, test_invariants_while_zipping);
-  tcase_add_test(runs, test_opens_without_voltage);
-  tcase_add_test(runs, test_opens_from_closed);
-  suite_add_tcase(suite, runs);
-  return run_suite(suite);
 }

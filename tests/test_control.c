@@ -50,6 +50,8 @@ static void tear_down(void) {
   zp_model_destroy(model);
 }
 
+AROUND_EACH(set_up, tear_down)
+
 static void connect(double period) {
   const ZpController controller = {period, &one, integrate};
   ck_assert_int_eq(zp_sim_set_controller(sim, &controller, NULL), ZP_OK);
@@ -64,7 +66,7 @@ static void run(ZpSim *of, double end_time) {
 
 /* It is asked at 0, T, 2 T ..., also where the run is cut into pieces that know nothing of T, and nothing depends on
  * how it is cut but rounding of the steps at the cuts. By hand, step by step, it is the same to the last bit. */
-START_TEST(samples_at_equal_intervals) {
+TEST(samples_at_equal_intervals) {
   static const double period = 1e-3;
   ZpSim *by_hand = sim_of(model);
   Integrator other = one;
@@ -83,9 +85,8 @@ START_TEST(samples_at_equal_intervals) {
   ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(by_hand, "opening"));
   zp_sim_destroy(by_hand);
 }
-END_TEST
 
-START_TEST(runs_in_pieces) {
+TEST(runs_in_pieces) {
   connect(1e-3);
   for (int k = 1; k <= 70; k++)
     run(sim, k * 0.7e-3);
@@ -93,10 +94,9 @@ START_TEST(runs_in_pieces) {
   for (int k = 0; k < one.samples; k++)
     ck_assert_double_eq_tol(one.time[k], k * 1e-3, 1e-15);
 }
-END_TEST
 
 /* Without its controller a simulation keeps the last voltage. */
-START_TEST(voltage_stays) {
+TEST(voltage_stays) {
   connect(2e-3);
   run(sim, 0.0111);
   ck_assert_int_eq(one.samples, 6);
@@ -105,7 +105,6 @@ START_TEST(voltage_stays) {
   ck_assert_int_eq(one.samples, 6);
   ck_assert_double_eq(zp_sim_get(sim, "voltage"), one.voltage);
 }
-END_TEST
 
 /* Runs on to 30 ms, goes back to now, and runs again: to the same bits. `kept` [size] is set back, too. */
 static void expect_same_again(ZpSim *of, void *kept, size_t size) {
@@ -124,20 +123,19 @@ static void expect_same_again(ZpSim *of, void *kept, size_t size) {
 }
 
 /* From a snapshot, with the controller's own memory as it was then, at a sample and between two. */
-START_TEST(continues_from_a_snapshot) {
+TESTS(continues_from_a_snapshot, 0, 2) {
   connect(1e-3);
   run(sim, _i ? 10.3e-3 : 10e-3);
   expect_same_again(sim, &one, sizeof one);
   ck_assert_int_eq(one.samples, 30);
 }
-END_TEST
 
 static double not_a_voltage(void *user, ZpSim *of, double time) {
   (void)of;
   return time >= 2e-3 ? *(const double *)user : 1e3;
 }
 
-START_TEST(wrong_voltages) {
+TESTS(wrong_voltages, 0, 4) {
   static const double wrong[] = {NAN, INFINITY, -1, 2e6};
   double voltage = wrong[_i];
   const ZpController controller = {1e-3, &voltage, not_a_voltage};
@@ -147,9 +145,8 @@ START_TEST(wrong_voltages) {
   ck_assert_msg(strstr(info.message, "controller's voltage at 0.002 s") != NULL, "%s", info.message);
   ck_assert_double_eq(zp_sim_get(sim, "time"), 2e-3);
 }
-END_TEST
 
-START_TEST(wrong_controllers) {
+TEST(wrong_controllers) {
   static const double periods[] = {0, -1, NAN, INFINITY, 1e-12};
   ZpError err;
   for (size_t k = 0; k < LENGTH_OF(periods); k++) {
@@ -161,7 +158,6 @@ START_TEST(wrong_controllers) {
   ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_SETPOINT, 1e-3, 0, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, "control.kind") != NULL, "%s", err.message);
 }
-END_TEST
 
 /* -- the law, alone -------------------------------------------------------------------------------- */
 
@@ -183,18 +179,17 @@ static double answer(const ZpControl *c, double setpoint, double signal, ZpContr
 }
 
 /* Constant error e: the voltage is P e + k I T e at sample k from 1 on. */
-START_TEST(law_is_proportional_and_integral) {
+TEST(law_is_proportional_and_integral) {
   ZpControl c = law();
   ZpControlState state = zp_control_start();
   for (int k = 1; k <= 20; k++)
     ck_near(answer(&c, 5e-3, 6e-3, &state), 1e6 * 1e-3 + k * 1e7 * 1e-3 * 1e-3, 1e-12);
   ck_assert_double_eq(answer(&c, 9e-3, 5e-3, &state), 0);
 }
-END_TEST
 
 /* The error is positive where it should close further: openings and strokes that are too large, contractions and
  * capacitances that are too small. */
-START_TEST(sign_of_the_error) {
+TEST(sign_of_the_error) {
   static const ZpControlSignal signal[] = {ZP_CONTROL_OPENING, ZP_CONTROL_STROKE, ZP_CONTROL_CONTRACTION,
                                            ZP_CONTROL_CAPACITANCE};
   static const bool closes_when_above[] = {true, true, false, false};
@@ -207,10 +202,9 @@ START_TEST(sign_of_the_error) {
     ck_assert_double_eq(answer(&c, 0.5, 0.25, &state), closes_when_above[k] ? 0 : 250);
   }
 }
-END_TEST
 
 /* While the output is at a limit the integral stands still: after any time there the output leaves it at once. */
-START_TEST(integral_does_not_wind_up) {
+TEST(integral_does_not_wind_up) {
   ZpControl c = law();
   ZpControlState state = zp_control_start();
   for (int k = 0; k < 1000; k++)
@@ -222,11 +216,10 @@ START_TEST(integral_does_not_wind_up) {
     ck_assert_double_eq(answer(&c, 5e-3, 0, &state), 0);
   ck_assert_double_eq(state.integral, 0);
 }
-END_TEST
 
 /* Eq. (28.3): the boost is full beyond the band, proportional within it, and 0 if the actuator should open; with a
  * setpoint of 0 it is full. Kind pi has none. */
-START_TEST(boost_inside_and_outside_its_band) {
+TEST(boost_inside_and_outside_its_band) {
   ZpActuatorDef def = DEF({"control.kind", ZP_CONTROL_BOOST_PI}, {"control.boost_voltage", 2e3},
                           {"control.boost_band", 0.2}, {"setpoint.value", 5e-3});
   ZpControl c = zp_control_of(&def);
@@ -242,10 +235,9 @@ START_TEST(boost_inside_and_outside_its_band) {
   c = zp_control_of(&def);
   ck_assert_double_eq(answer(&c, 5e-3, 7e-3, &state), 0);
 }
-END_TEST
 
 /* Output k takes effect at k T + delay, in order, for any delay; for whole periods exactly at a sample. */
-START_TEST(outputs_come_late) {
+TESTS(outputs_come_late, 0, 6) {
   static const double delays[] = {0, 0.3e-3, 1e-3, 2.5e-3, 3e-3, 8e-3};
   ZpControl c = law();
   c.delay = delays[_i];
@@ -268,10 +260,9 @@ START_TEST(outputs_come_late) {
   }
   ck_assert_int_ge(given, 30);
 }
-END_TEST
 
 /* Noise: mean 0, the given standard deviation, no correlation; another seed gives other noise. */
-START_TEST(noise_of_samples) {
+TEST(noise_of_samples) {
   enum { COUNT = 20000 };
   ZpControl c = law();
   c.noise = 1e-4;
@@ -293,7 +284,6 @@ START_TEST(noise_of_samples) {
   ck_assert_double_lt(fabs(products / COUNT), 4 / sqrt(COUNT));
   ck_assert(differs);
 }
-END_TEST
 
 /* -- of the model ---------------------------------------------------------------------------------- */
 
@@ -317,7 +307,7 @@ static double ask_twin(void *user, ZpSim *of, double time) {
 }
 
 /* The model's controller does what a program's own would do that has its law, to the last bit. */
-START_TEST(is_one_of_the_program) {
+TEST(is_one_of_the_program) {
   ZpActuatorDef def = controlled(0, 1e-4);
   ZpModel *with = model_of(&def);
   ZpSim *twins = sim_of(with);
@@ -336,10 +326,9 @@ START_TEST(is_one_of_the_program) {
   const char *const signals[] = {"voltage", "opening", "source_energy"};
   ck_same_signals((ZpSim *[]){own, twins}, (ZpModel *[]){without, with}, signals, 3, 0);
 }
-END_TEST
 
 /* The voltage changes where outputs are due, and nowhere else, behind a delay of 1.4 periods. */
-START_TEST(voltage_changes_behind_the_delay) {
+TEST(voltage_changes_behind_the_delay) {
   ZpActuatorDef def = controlled(1.4e-3, 0);
   ZpModel *with = model_of(&def);
   ZpSim *of = sim_of(with);
@@ -355,10 +344,9 @@ START_TEST(voltage_changes_behind_the_delay) {
   zp_sim_destroy(of);
   zp_model_destroy(with);
 }
-END_TEST
 
 /* All that the controller remembers is in a snapshot: outputs that are pending, its integral, its noise. */
-START_TEST(remembers_in_a_snapshot) {
+TESTS(remembers_in_a_snapshot, 0, 2) {
   ZpActuatorDef def = controlled(2.5e-3, 1e-3);
   ZpModel *with = model_of(&def);
   ZpSim *of = sim_of(with);
@@ -368,11 +356,10 @@ START_TEST(remembers_in_a_snapshot) {
   zp_sim_destroy(of);
   zp_model_destroy(with);
 }
-END_TEST
 
 /* Explicit steps have the same controller: it is called at the same times with the same values, as far as both
  * integrators agree. */
-START_TEST(explicit_steps_have_it_too) {
+TEST(explicit_steps_have_it_too) {
   double voltage[2][30];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def = controlled(1.4e-3, 1e-4);
@@ -394,10 +381,9 @@ START_TEST(explicit_steps_have_it_too) {
   for (int sample = 0; sample < 30; sample++)
     ck_near(voltage[1][sample], voltage[0][sample], 3e-6); /* 8.8e-7 measured */
 }
-END_TEST
 
 /* With a controller the setpoint is an input, the voltage is not. */
-START_TEST(setpoint_by_hand) {
+TEST(setpoint_by_hand) {
   ZpActuatorDef def = controlled(0, 0);
   ZpModel *with = model_of(&def);
   ZpSim *of = sim_of(with);
@@ -416,7 +402,6 @@ START_TEST(setpoint_by_hand) {
   zp_sim_destroy(of);
   zp_model_destroy(with);
 }
-END_TEST
 
 enum { STEPPED = 0, UNSTEPPED = 1, UNTRIED = 2 };
 
@@ -431,7 +416,7 @@ static _Noreturn void step_without_system_calls(ZpSim *of) {
 }
 
 /* A control loop in real time: a liquid, a controller, and no system call. Sanitizers make calls of their own. */
-START_TEST(steps_make_no_system_call) {
+TEST(steps_make_no_system_call) {
   ZpActuatorDef def = controlled(1.5e-3, 1e-3);
   def.liquid.model = ZP_LIQUID_BEAD;
   ZpModel *with = model_of(&def);
@@ -445,7 +430,6 @@ START_TEST(steps_make_no_system_call) {
   zp_sim_destroy(of);
   zp_model_destroy(with);
 }
-END_TEST
 
 /* The first time (s) in the rows at which a column is at `level`, on straight lines. */
 static double time_at(const ZpTable *rows, const char *column, double level) {
@@ -476,7 +460,7 @@ static void check_response(const ZpResult *result, double setpoint) {
 }
 
 /* Held against a spring: the final value is the setpoint, with an ideal source and an amplifier; the summary agrees. */
-START_TEST(holds_its_setpoint) {
+TESTS(holds_its_setpoint, 0, 2) {
   ZpActuatorDef def = controlled(0, 0);
   def.load.stiffness = 20;
   def.load.rest_opening = 20e-3;
@@ -496,11 +480,10 @@ START_TEST(holds_its_setpoint) {
   ck_assert_double_gt(zp_result_get(result, "source_energy_J"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Eq. (28.5): without damping the eigenvalues of the loop add up to 0, and no gains hold anything. Half of the
  * contraction is neither reached nor held; with small gains it is not reached, with larger ones it swings. */
-START_TEST(undamped_nothing_is_held) {
+TEST(undamped_nothing_is_held) {
   static const double gains[][2] = {{3e3, 0}, {3e3, 3e3}, {1e4, 1e4}, {3e4, 1e4}};
   ZpActuatorDef def = controlled(0, 0);
   def.mesh.nodes = 7;
@@ -517,10 +500,10 @@ START_TEST(undamped_nothing_is_held) {
                       0.1);
   zp_result_destroy(result);
 }
-END_TEST
+ALSO_NIGHTLY(undamped_nothing_is_held, 1, 4)
 
 /* Out of reach of the voltage, which only closes: the run ends well, and a note says why. */
-START_TEST(out_of_reach) {
+TESTS(out_of_reach, 0, 2) {
   ZpActuatorDef def = controlled(0, 0);
   if (_i == 1) def.setpoint.value = -0.1;
   def.drive.voltage = 500;
@@ -533,10 +516,9 @@ START_TEST(out_of_reach) {
   ck_assert_msg(strstr(result->note[0], _i ? "its limit of 0 V" : "its limit of 500 V") != NULL, "%s", result->note[0]);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Columns have the unit of the signal. */
-START_TEST(units_of_the_signal) {
+TEST(units_of_the_signal) {
   static const char *const names[] = {"setpoint_m", "setpoint_m", "setpoint", "setpoint_F"};
   ZpActuatorDef def = controlled(0, 0);
   for (int k = 0; k < 4; k++) {
@@ -548,11 +530,10 @@ START_TEST(units_of_the_signal) {
     ck_assert_uint_eq(found, 1);
   }
 }
-END_TEST
 
 /* -- what is refused ------------------------------------------------------------------------------- */
 
-START_TEST(wrong_keys) {
+TESTS(wrong_keys, 0, 13) {
   static const struct {
     Setting setting;
     const char *says;
@@ -579,13 +560,11 @@ START_TEST(wrong_keys) {
   ck_assert_int_eq(status, ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, wrong[_i].says) != NULL, "%s", err.message);
 }
-END_TEST
 
-START_TEST(no_controller_in_cycles) {
+TEST(no_controller_in_cycles) {
   ZpActuatorDef def = controlled(0, 0);
   ck_refused_by(ZP_STUDY_CYCLE, &def, "study cycle requires none");
 }
-END_TEST
 
 /* -- numbers of a response ------------------------------------------------------------------------- */
 
@@ -605,18 +584,17 @@ static ZpResponse respond(double zeta, double w) {
 }
 
 /* First-order response: rise time ln 9 and settling time ln 50 time constants; no overshoot. */
-START_TEST(response_of_first_order) {
+TEST(response_of_first_order) {
   ZpResponse r = respond(0, 5);
   ck_near(r.rise_time, log(9) / 5, 5e-6);      /* 1e-6 measured */
   ck_near(r.settling_time, log(50) / 5, 3e-6); /* 7.7e-7 measured */
   ck_assert_double_eq(r.overshoot, 0);
   ck_below(fabs(r.error), 1e-7); /* 2.1e-8 measured */
 }
-END_TEST
 
 /* Second-order response: overshoot exp(-pi zeta / sqrt(1 - zeta^2)); it has settled after the last wave that exceeds 2
  * %. */
-START_TEST(response_of_second_order) {
+TEST(response_of_second_order) {
   double zeta = 0.4, w = 10;
   ZpResponse r = respond(zeta, w);
   ck_near(r.overshoot, exp(-acos(-1) * zeta / sqrt(1 - zeta * zeta)), 1e-5); /* 2.5e-6 measured */
@@ -628,10 +606,9 @@ START_TEST(response_of_second_order) {
   }
   ck_near(r.settling_time, at, 5e-6); /* 1.2e-6 measured */
 }
-END_TEST
 
 /* Without a step, a change or a settled end the numbers are missing. */
-START_TEST(response_that_is_none) {
+TEST(response_that_is_none) {
   for (int k = 0; k < SAMPLES; k++)
     sample[k] = (ZpResponseSample){k * 1e-3, fmin(k * 1e-3, 1), 0.5};
   ZpResponse r = zp_response_of(sample, SAMPLES);
@@ -650,10 +627,9 @@ START_TEST(response_that_is_none) {
   ck_near(r.ripple, 0.25, 1e-5); /* 3.1e-6 measured */
   ck_assert(isnan(zp_response_of(sample, 1).error));
 }
-END_TEST
 
 /* Without gravity the actuator is closed at rest. Its controller integrated what is no number. */
-START_TEST(no_contraction_is_controlled_without_an_opening) {
+TEST(no_contraction_is_controlled_without_an_opening) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"gravity", 0}, {"control.kind", ZP_CONTROL_PI},
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.4});
   ZpModel *model = model_of(&def);
@@ -663,44 +639,4 @@ START_TEST(no_contraction_is_controlled_without_an_opening) {
   ck_assert_ptr_null(sim);
   ck_assert_msg(strstr(err.message, "control.signal = contraction") != NULL, "%s", err.message);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("control");
-  TCase *own = tcase_create("of the program"), *of_model = tcase_create("of the model");
-  suite_add_tcase(suite, own);
-  suite_add_tcase(suite, of_model);
-  tcase_add_checked_fixture(own, set_up, tear_down);
-  tcase_add_test(own, no_contraction_is_controlled_without_an_opening);
-  tcase_add_test(own, samples_at_equal_intervals);
-  tcase_add_test(own, runs_in_pieces);
-  tcase_add_test(own, voltage_stays);
-  tcase_add_loop_test(own, continues_from_a_snapshot, 0, 2);
-  tcase_add_loop_test(own, wrong_voltages, 0, 4);
-  tcase_add_test(own, wrong_controllers);
-  tcase_add_test(of_model, law_is_proportional_and_integral);
-  tcase_add_test(of_model, sign_of_the_error);
-  tcase_add_test(of_model, integral_does_not_wind_up);
-  tcase_add_test(of_model, boost_inside_and_outside_its_band);
-  tcase_add_loop_test(of_model, outputs_come_late, 0, 6);
-  tcase_add_test(of_model, noise_of_samples);
-  tcase_add_test(of_model, is_one_of_the_program);
-  tcase_add_test(of_model, voltage_changes_behind_the_delay);
-  tcase_add_loop_test(of_model, remembers_in_a_snapshot, 0, 2);
-  tcase_add_test(of_model, explicit_steps_have_it_too);
-  tcase_add_test(of_model, setpoint_by_hand);
-  tcase_add_test(of_model, steps_make_no_system_call);
-  tcase_add_loop_test(of_model, holds_its_setpoint, 0, 2);
-  tcase_add_loop_test(of_model, undamped_nothing_is_held, 0, 1);
-  tcase_add_loop_test(of_model, out_of_reach, 0, 2);
-  tcase_add_test(of_model, units_of_the_signal);
-  tcase_add_loop_test(of_model, wrong_keys, 0, 13);
-  tcase_add_test(of_model, no_controller_in_cycles);
-  tcase_add_test(of_model, response_of_first_order);
-  tcase_add_test(of_model, response_of_second_order);
-  tcase_add_test(of_model, response_that_is_none);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, undamped_nothing_is_held, 1, 4);
-  return run_suite(suite);
 }

@@ -8,7 +8,7 @@
 /* Two straight ribbons, the lower one turned by a small angle about a point 0.35 elements right of node 7: from node 8
  * on it lies above the upper one, and the first two nodes there tell the depth. Ribbons that only touch, or that lie
  * apart, do not cross. */
-START_TEST(depth_is_that_of_two_lines) {
+TEST(depth_is_that_of_two_lines) {
   enum { AT = 7 };
   static const double slope = 0.02;
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
@@ -29,11 +29,10 @@ START_TEST(depth_is_that_of_two_lines) {
   zp_free(q);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Only one node overlaps, by 1 um, beside a neighbour far outside: the faces cross twice, and the depth is that of the
  * node, as at a zip front on a coarse mesh. */
-START_TEST(depth_of_one_node_is_its_own) {
+TEST(depth_of_one_node_is_its_own) {
   enum { AT = 6 };
   ZpActuatorDef def = DEF({"mesh.nodes", 11});
   ZpModel *model = model_of(&def);
@@ -46,10 +45,9 @@ START_TEST(depth_of_one_node_is_its_own) {
   zp_free(q);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Two nodes overlap, at two places: the depth is the larger one, wherever it lies. */
-START_TEST(depth_is_the_largest_of_all_places) {
+TEST(depth_is_the_largest_of_all_places) {
   static const size_t place[] = {3, 7};
   ZpActuatorDef def = DEF({"mesh.nodes", 11});
   ZpModel *model = model_of(&def);
@@ -66,11 +64,10 @@ START_TEST(depth_is_the_largest_of_all_places) {
   zp_free(q);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Eq. (9.9): on faces of slope theta nodes that face each other have slid apart by s, at one height. Every gap is 0,
  * and the faces lie inside each other by s sin(theta). */
-START_TEST(gaps_do_not_show_what_has_slid) {
+TEST(gaps_do_not_show_what_has_slid) {
   enum { AT = 7 };
   static const double theta = 0.4, by_node = 2e-5; /* rad; m */
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
@@ -88,11 +85,10 @@ START_TEST(gaps_do_not_show_what_has_slid) {
   zp_free(q);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The short way and the long one, for random ribbons that run to the right, most of them steep, between a clip and
  * a platform. */
-START_TEST(short_way_overlooks_no_crossing) {
+TEST(short_way_overlooks_no_crossing) {
   enum { SHAPES = 300000 };
   ZpActuatorDef def = DEF({"mesh.nodes", 9});
   ZpModel *model = model_of(&def);
@@ -119,11 +115,10 @@ START_TEST(short_way_overlooks_no_crossing) {
   zp_free(q);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A sheet of 12 um that hangs nearly upright: its zip makes steep faces slide. The run ends in the first step in which
  * they lie deeper inside each other than insulators and sheet are thick. */
-START_TEST(run_ends_where_steep_faces_have_slid) {
+TEST(run_ends_where_steep_faces_have_slid) {
   ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 0.24}, {"platform.length", 0.024},
                           {"ribbon.width", 0.03}, {"ribbon.thickness", 12e-6}, {"ribbon.young_modulus", 4.5e9},
                           {"ribbon.density", 1390}, {"insulator.thickness", 27e-6}, {"electro.breakdown_cap", false},
@@ -147,11 +142,10 @@ START_TEST(run_ends_where_steep_faces_have_slid) {
   ck_assert_double_nan(zp_result_get(result, "contraction"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Ribbons that sag steeply beside each other: the only state at drive.voltage has faces inside each other, with any
  * mesh. */
-START_TEST(held_ribbons_that_sag_have_no_force) {
+TEST(held_ribbons_that_sag_have_no_force) {
   ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 0.2155}, {"platform.length", 0.02155},
                           {"ribbon.width", 26.34e-3}, {"ribbon.thickness", 23.76e-6}, {"ribbon.young_modulus", 120e9},
                           {"ribbon.poisson_ratio", 0.34}, {"ribbon.density", 8960}, {"insulator.thickness", 15.38e-6},
@@ -164,10 +158,9 @@ START_TEST(held_ribbons_that_sag_have_no_force) {
   ck_assert_ptr_nonnull(strstr(result->message, "no force at drive.voltage = 3537 V: " ZP_FACES_CROSS));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The reason why a state is refused. */
-START_TEST(impossible_states_are_named) {
+TEST(impossible_states_are_named) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpRest *rest;
@@ -192,11 +185,10 @@ START_TEST(impossible_states_are_named) {
   zp_rest_destroy(rest);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A closed fold that hangs steeply opens from its hinge on, and its faces slide along each other by more and more: gaps
  * of facing stations do not tell where they are. That the search ends there is no release. */
-START_TEST(fold_that_slides_has_no_release) {
+TEST(fold_that_slides_has_no_release) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 0.25}, {"ribbon.thickness", 70e-6},
                           {"ribbon.width", 23e-3}, {"insulator.thickness", 12e-6}, {"load.mass", 0.55e-3},
                           {"drive.voltage", 14e3}, {"mesh.nodes", 61});
@@ -205,21 +197,4 @@ START_TEST(fold_that_slides_has_no_release) {
   ck_assert_double_nan(zp_result_get(result, "release_voltage_V"));
   ck_assert_ptr_nonnull(strstr(result->message, "faces of the closed state came to lie inside each other"));
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("crossing");
-  TCase *states = tcase_create("states");
-  tcase_add_test(states, depth_is_that_of_two_lines);
-  tcase_add_test(states, depth_of_one_node_is_its_own);
-  tcase_add_test(states, depth_is_the_largest_of_all_places);
-  tcase_add_test(states, gaps_do_not_show_what_has_slid);
-  tcase_add_test(states, short_way_overlooks_no_crossing);
-  tcase_add_test(states, run_ends_where_steep_faces_have_slid);
-  tcase_add_test(states, held_ribbons_that_sag_have_no_force);
-  tcase_add_test(states, impossible_states_are_named);
-  tcase_add_test(states, fold_that_slides_has_no_release);
-  suite_add_tcase(suite, states);
-  return run_suite(suite);
 }

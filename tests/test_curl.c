@@ -12,7 +12,7 @@ static double share_of(double theta) {
   return 2 / theta * (cosh(theta) - cos(theta)) / (sinh(theta) + sin(theta));
 }
 
-START_TEST(law_is_the_closed_form) {
+TESTS(law_is_the_closed_form, 0, 11) {
   static const double theta[] = {1e-3, 0.1, 0.7, 2.4, 6, 17, 35, 35.99, 36.01, 60, 400};
   double t = theta[_i], curvature = t * t / sqrt(strip.squared), h = 1e-4 * curvature;
   ZpCurlLaw law = zp_curl_law(&strip, curvature), less = zp_curl_law(&strip, -curvature + h),
@@ -21,10 +21,9 @@ START_TEST(law_is_the_closed_form) {
   ck_near(law.M, (more.W - less.W) / (2 * h), 1e-8); /* 1.5e-9 measured */
   ck_near(law.K, (more.M + less.M) / (2 * h), 3e-8); /* 3.9e-9 measured */
 }
-END_TEST
 
 /* Narrow strips: plane stress; wide strips: only an edge of constant width curls. */
-START_TEST(limits_of_the_law) {
+TEST(limits_of_the_law) {
   double small = 1e-6, large = 1e12;
   ck_near(zp_curl_law(&strip, small).M, strip.EI * small, 1e-12);
   ck_near(zp_curl_law(&strip, small).K, strip.EI, 1e-12);
@@ -32,10 +31,9 @@ START_TEST(limits_of_the_law) {
   ck_assert_double_eq(zp_curl_law(&strip, 0).W, 0);
   ck_assert_double_eq(zp_curl_law(&strip, -3).M, -zp_curl_law(&strip, 3).M);
 }
-END_TEST
 
 /* The mean moment over a step does the work, over short and long steps, and its slope is its derivative. */
-START_TEST(mean_moment_does_the_work) {
+TESTS(mean_moment_does_the_work, 0, 9) {
   static const double way[][2] = {{3, 3.1}, {3, 9}, {-2, 40}, {0, 1}, {5, 5.000001},
                                   {60, 58}, {7, 7}, {2, 5.9}, {2, 6}};
   double from = way[_i][0], to = way[_i][1], h = 1e-5;
@@ -45,7 +43,6 @@ START_TEST(mean_moment_does_the_work) {
   double slope = (zp_curl_mean(&strip, from, to + h).M - zp_curl_mean(&strip, from, to - h).M) / (2 * h);
   ck_near(mean.K, slope, 3e-9); /* 4.3e-10 measured */
 }
-END_TEST
 
 static double sag_of(ZpActuatorDef def, ZpPlane plane) {
   def.ribbon.plane = plane;
@@ -57,7 +54,7 @@ static double sag_of(ZpActuatorDef def, ZpPlane plane) {
 }
 
 /* A narrow strip is in plane stress, a wide strongly bent one in plane strain, for any support of its end. */
-START_TEST(narrow_and_wide_strips) {
+TESTS(narrow_and_wide_strips, 0, 3) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", _i}, {"ribbon.width", 1e-4},
                           {"load.mass", 2e-6}, {"ribbon.length", 0.05}, {"mesh.nodes", 31}, {"output.errors", false});
   double stress = sag_of(def, ZP_PLANE_STRESS), strain = sag_of(def, ZP_PLANE_STRAIN);
@@ -67,7 +64,6 @@ START_TEST(narrow_and_wide_strips) {
   strain = sag_of(def, ZP_PLANE_STRAIN);
   ck_near(sag_of(def, ZP_PLANE_ANTICLASTIC), strain, 3e-4); /* 6.8e-5 measured */
 }
-END_TEST
 
 /* The curvature at which the whole section bears a moment, by bisection. */
 static double curvature_under(double M, double EI, const ZpCurl *curl) {
@@ -80,7 +76,7 @@ static double curvature_under(double M, double EI, const ZpCurl *curl) {
 }
 
 /* A wide, weakly bent cantilever has the curvature of its moment everywhere, between both limits. */
-START_TEST(cantilever_between_both) {
+TEST(cantilever_between_both) {
   static const double w = 0.1, b = 50e-6, L = 0.02, nu = 0.4, E = 200e9, P = 0.002;
   enum { PARTS = 4000 };
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.width", w},
@@ -98,11 +94,10 @@ START_TEST(cantilever_between_both) {
   ck_assert_double_gt(found, 1.03 * -sag_of(def, ZP_PLANE_STRAIN));
   ck_assert_double_lt(found, 0.97 * -sag_of(def, ZP_PLANE_STRESS));
 }
-END_TEST
 
 /* The moments over a step do the work of the energy change, and at rest are its gradient, at the ends and between them.
  */
-START_TEST(energy_in_motion) {
+TESTS(energy_in_motion, 0, 5) {
   ZpActuatorDef def =
       DEF({"actuator.kind", _i < 3 ? ZP_KIND_RIBBON : ZP_KIND_ELECTRO_RIBBON}, {"actuator.right_end", _i % 3},
           {"ribbon.width", 0.05}, {"ribbon.poisson_ratio", 0.45}, {"ribbon.plane", ZP_PLANE_ANTICLASTIC},
@@ -129,10 +124,9 @@ START_TEST(energy_in_motion) {
     ck_below(zp_result_get(result, "energy_error"), 2e-8); /* 2.2e-9 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The frequencies of a flat strip are those of plane stress. */
-START_TEST(flat_strips_vibrate_in_plane_stress) {
+TESTS(flat_strips_vibrate_in_plane_stress, 0, 3) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", _i}, {"ribbon.width", 0.05}, {"load.mass", 0},
           {"gravity", 0}, {"ribbon.plane", ZP_PLANE_ANTICLASTIC}, {"mesh.nodes", 21}, {"output.errors", false});
@@ -143,9 +137,8 @@ START_TEST(flat_strips_vibrate_in_plane_stress) {
   ck_near(zp_result_get(curls, "frequency_3_Hz"), zp_result_get(flat, "frequency_3_Hz"), 1e-12); /* 6e-15 measured */
   zp_result_destroy(curls), zp_result_destroy(flat);
 }
-END_TEST
 
-START_TEST(what_it_lacks_is_said) {
+TEST(what_it_lacks_is_said) {
   static const struct {
     Setting setting;
     const char *says;
@@ -156,24 +149,4 @@ START_TEST(what_it_lacks_is_said) {
     ZpActuatorDef def = DEF({"ribbon.plane", ZP_PLANE_ANTICLASTIC}, refused[k].setting);
     ck_refused(&def, refused[k].says);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("curl");
-  TCase *law = tcase_create("law");
-  tcase_add_loop_test(law, law_is_the_closed_form, 0, 11);
-  tcase_add_test(law, limits_of_the_law);
-  tcase_add_loop_test(law, mean_moment_does_the_work, 0, 9);
-  suite_add_tcase(suite, law);
-  TCase *rest = tcase_create("rest");
-  tcase_add_loop_test(rest, narrow_and_wide_strips, 0, 3);
-  tcase_add_test(rest, cantilever_between_both);
-  tcase_add_loop_test(rest, flat_strips_vibrate_in_plane_stress, 0, 3);
-  tcase_add_test(rest, what_it_lacks_is_said);
-  suite_add_tcase(suite, rest);
-  TCase *motion = tcase_create("motion");
-  tcase_add_loop_test(motion, energy_in_motion, 0, 5);
-  suite_add_tcase(suite, motion);
-  return run_suite(suite);
 }

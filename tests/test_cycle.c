@@ -20,7 +20,7 @@ static void map(const double *x, double *y) {
 }
 
 /* Waiting would take 60 000 evaluations to 1e-8. */
-START_TEST(test_fixed_point_of_slow_swings) {
+TEST(test_fixed_point_of_slow_swings) {
   ZpFixedPoint f;
   ZpArena arena = {NULL, 0};
   zp_fixed_point_reserve(&f, N, N, &arena);
@@ -41,7 +41,6 @@ START_TEST(test_fixed_point_of_slow_swings) {
   ck_assert_int_le(evaluations, 2 * SWINGS + 6);
   zp_free(memory);
 }
-END_TEST
 
 /* -- the study -------------------------------------------------------------------------------------- */
 
@@ -58,7 +57,7 @@ static ZpResult *cycle_of(const ZpActuatorDef *def) {
   }
 
 /* Far below its resonance the actuator follows the drive, far above it moves against it. */
-START_TEST(test_phase_of_an_oscillator) {
+TEST(test_phase_of_an_oscillator) {
   ZpActuatorDef slow = DEF(SINE, {"drive.voltage", 2e3}, {"drive.frequency", 0.3}),
                 fast = DEF(SINE, {"drive.voltage", 2e3}, {"drive.frequency", 12});
   ZpResult *below = cycle_of(&slow), *above = cycle_of(&fast);
@@ -69,11 +68,10 @@ START_TEST(test_phase_of_an_oscillator) {
   zp_result_destroy(below);
   zp_result_destroy(above);
 }
-END_TEST
 
 /* A supply that follows its drive with a first-order lag adds atan(f / bandwidth) to the lag of an oscillator above its
  * resonance, pi: the first harmonic of (1 - a cos)^2 lags as its cosine does. */
-START_TEST(test_lag_beyond_half_a_turn) {
+TEST(test_lag_beyond_half_a_turn) {
   static const double f = 12, bandwidth[] = {30, 12, 5};
   for (size_t k = 0; k < LENGTH_OF(bandwidth); k++) {
     ZpActuatorDef def = DEF(SINE, {"drive.voltage", 1e3}, {"drive.frequency", f}, {"source.model", ZP_SOURCE_AMPLIFIER},
@@ -84,11 +82,10 @@ START_TEST(test_lag_beyond_half_a_turn) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Without weight and load a spring opens the ribbons. On the way up they compress it from its length at the largest
  * opening to that at the least; on the way down it opens them again. */
-START_TEST(test_work_on_a_spring) {
+TEST(test_work_on_a_spring) {
   static const double stiffness = 2, rest = 30e-3;
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 3e3}, {"drive.frequency", 2}, {"damping.internal", 20e-3},
                           {"gravity", 0}, {"load.mass", 0}, {"load.stiffness", stiffness}, {"load.rest_opening", rest});
@@ -100,10 +97,9 @@ START_TEST(test_work_on_a_spring) {
           0.5 * stiffness * ((rest - least) * (rest - least) - (rest - most) * (rest - most)), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The energy from the source per cycle equals the losses per cycle and the area of the loop of charge and voltage. */
-START_TEST(test_energy_of_a_cycle) {
+TEST(test_energy_of_a_cycle) {
   ZpActuatorDef def =
       DEF(SINE, {"drive.voltage", 8e3}, {"drive.frequency", 2}, {"damping.internal", 5e-3}, {"solver.tolerance", 3e-4});
   ZpResult *result = cycle_of(&def);
@@ -130,11 +126,10 @@ START_TEST(test_energy_of_a_cycle) {
           work / zp_result_get(result, "energy_drawn_per_cycle_J"), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* At half of its lowest frequency, 3.69 Hz, an actuator without drag swings with hardly any energy from the source: the
  * load falls as far as it rises, and the note says that it lifts itself. */
-START_TEST(test_efficiency_of_a_load_that_swings) {
+TEST(test_efficiency_of_a_load_that_swings) {
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 100}, {"drive.frequency", 1.8}, {"cycle.method", ZP_CYCLE_LINEAR});
   ZpResult *result = cycle_of(&def);
   double work = zp_result_get(result, "work_per_cycle_J");
@@ -148,12 +143,11 @@ START_TEST(test_efficiency_of_a_load_that_swings) {
   ck_assert_ptr_null(note_of(result, "stored before"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Closed ribbons are a capacitor: under a sine of both signs its current has the amplitude C w U, and twice per cycle
  * the source supplies C U^2 / 2 and recovers it. The voltage is so low that the faces hardly give way. Rows have mean
  * currents over a hundredth of a cycle. */
-START_TEST(test_current_of_a_capacitor) {
+TEST(test_current_of_a_capacitor) {
   const double U = 200, f = 20, half = 3.14159265358979 / 100; /* half of the angle of a row */
   ZpActuatorDef def =
       DEF(SINE, {"drive.voltage", U}, {"drive.offset", -U}, {"drive.frequency", f}, {"gravity", 0}, {"load.mass", 0},
@@ -168,10 +162,9 @@ START_TEST(test_current_of_a_capacitor) {
   ck_below(fabs(zp_result_get(result, "energy_per_cycle_J")), 2e-6 * C * U * U); /* 3.6e-7 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Shooting finds the periodic motion that a long run reaches, with enough damping for such a run. */
-START_TEST(test_shooting_finds_what_waiting_leads_to) {
+TEST(test_shooting_finds_what_waiting_leads_to) {
   ZpActuatorDef def =
       DEF(SINE, {"drive.voltage", 3e3}, {"drive.frequency", 3}, {"damping.internal", 20e-3}, {"cycle.tolerance", 1e-5});
   ZpResult *result = cycle_of(&def);
@@ -192,10 +185,9 @@ START_TEST(test_shooting_finds_what_waiting_leads_to) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The same with liquid: the state includes the oil at the edges of the ribbons. */
-START_TEST(test_liquid_is_waited_for) {
+TESTS(test_liquid_is_waited_for, 1, 2) {
   static const struct { double liquid, frequency; } row[] = {{ZP_LIQUID_SUBMERGED, 3}, {ZP_LIQUID_BEAD, 8}};
   enum { CYCLES = 40 };
   double f = row[_i].frequency, least = 1, most = 0;
@@ -218,13 +210,13 @@ START_TEST(test_liquid_is_waited_for) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
+ALSO_NIGHTLY(test_liquid_is_waited_for, 0, 1)
 
 /* -- small motion ---------------------------------------------------------------------------------- */
 
 /* A dry sine far above the swing: amplitudes are those of the linear modes (stroke: the load's swing, and the clip that
  * follows the force at once), in motion as in the linear answer. The lowest mode alone has 149 um / (f^2 - 13.5). */
-START_TEST(test_small_motion_is_that_of_the_modes) {
+TESTS(test_small_motion_is_that_of_the_modes, 0, 4) {
   static const double row[][2] = {{8, 2.970}, {12, 1.1615}, {20, 0.4074}, {40, 0.1190}}; /* Hz, um */
   for (int method = ZP_CYCLE_MOTION; method <= ZP_CYCLE_LINEAR; method++) {
     double f = row[_i][0];
@@ -242,11 +234,10 @@ START_TEST(test_small_motion_is_that_of_the_modes) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Two routes to small motion: the linear answer, and whole cycles of the simulation. Energies of a dry cycle differ by
  * what contact near the clip loses in long steps. */
-START_TEST(test_linear_answer_is_small_motion) {
+TESTS(test_linear_answer_is_small_motion, 0, 6) {
   static const struct {
     double liquid, waveform, voltage, frequency, lost;
   } row[] = {
@@ -275,10 +266,9 @@ START_TEST(test_linear_answer_is_small_motion) {
   ck_near(energy[0], energy[1], row[_i].lost);
   ck_near(current[0], current[1], 2e-5); /* 4.7e-6 measured */
 }
-END_TEST
 
 /* The linear answer counts where it is exact to cycle.tolerance, and there it agrees with the motion as well. */
-START_TEST(test_method_by_itself) {
+TEST(test_method_by_itself) {
   static const struct {
     double voltage;
     bool linear;
@@ -291,7 +281,6 @@ START_TEST(test_method_by_itself) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Amplitude of a harmonic of the opening, m. */
 static double harmonic_of_opening(const ZpResult *result, int n) {
@@ -308,7 +297,7 @@ static double harmonic_of_opening(const ZpResult *result, int n) {
 
 /* Below a resonance, under a sine of both signs, whose square has one harmonic: motion and equilibrium differ in their
  * mean and in multiples of that harmonic as the linear answer estimates, eq. (24.8). */
-START_TEST(test_second_order_is_that_of_the_motion) {
+TEST(test_second_order_is_that_of_the_motion) {
   enum { STILL, SMALL, WHOLE, ROUTES };
   static const double f = 1.7, U = 2e3;
   ZpResult *result[ROUTES];
@@ -330,10 +319,9 @@ START_TEST(test_second_order_is_that_of_the_motion) {
   for (int k = 0; k < ROUTES; k++)
     zp_result_destroy(result[k]);
 }
-END_TEST
 
 /* Velocities of the linear answer are the slopes of its positions. */
-START_TEST(test_velocities_of_the_linear_answer) {
+TEST(test_velocities_of_the_linear_answer) {
   static const double f = 8;
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 100}, {"drive.frequency", f}, {"cycle.method", ZP_CYCLE_LINEAR});
   ZpResult *result = cycle_of(&def);
@@ -350,13 +338,12 @@ START_TEST(test_velocities_of_the_linear_answer) {
   ck_below(off / most, 3e-3);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- shooting with liquid -------------------------------------------------------------------------- */
 
 /* What several hundred cycles of waiting lead to (in a run of 220 s: 76.6 um at 2 Hz after 441 cycles, 40.3 um at 5 Hz
  * after 600), and in each cycle the source gives what the film takes. */
-START_TEST(test_shooting_with_a_bead) {
+TESTS(test_shooting_with_a_bead, 0, 2) {
   static const double row[][4] = {{2, 76.6, 0.0192, 9.5e-9}, {5, 40.25, 3.171, 1.334e-8}};
   ZpActuatorDef def =
       DEF({"mesh.nodes", 61}, {"bead.volume", 50e-9}, {"liquid.model", ZP_LIQUID_BEAD},
@@ -369,12 +356,11 @@ START_TEST(test_shooting_with_a_bead) {
   ck_near(zp_result_get(result, "energy_per_cycle_J"), row[_i][3], 5e-3); /* 1e-3 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Charges that collect within 170 cycles, at each place at another rate, in an actuator whose swing hardly decays: to
  * the interface voltage that a motion of 200 s reaches. The search foresees impossible states on its way and goes back.
  */
-START_TEST(test_shooting_with_slow_charges) {
+TEST(test_shooting_with_slow_charges) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"insulator.resistivity", 1e12},
                           {"medium.resistivity", 1e10}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 4e3},
                           {"drive.frequency", 9}, {"cycle.most_cycles", 100});
@@ -386,10 +372,9 @@ START_TEST(test_shooting_with_slow_charges) {
   ck_near(least, -1458.94, 3e-4); /* 8.4e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* From far below to far above the swing all cycles are periodic, with positive energies, for little and much oil. */
-START_TEST(test_bode_plot_below_contact) {
+TEST(test_bode_plot_below_contact) {
   static const double liquid[] = {ZP_LIQUID_BEAD, ZP_LIQUID_BEAD, ZP_LIQUID_SUBMERGED},
                       volume[] = {50e-9, 200e-9, 50e-9};
   for (double f = 0.5; f < 60; f *= 2.5) {
@@ -402,10 +387,10 @@ START_TEST(test_bode_plot_below_contact) {
     zp_result_destroy(result);
   }
 }
-END_TEST
+ALSO_NIGHTLY(test_bode_plot_below_contact, 1, 3)
 
 /* Impacts without damping have no periodic motion within a few cycles: that is an answer. */
-START_TEST(test_impacts_are_not_periodic) {
+TEST(test_impacts_are_not_periodic) {
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 10e3}, {"drive.frequency", 5}, {"cycle.most_cycles", 8});
   ZpResult *result = cycle_of(&def);
   ck_assert(zp_result_get(result, "periodic") == 0 && zp_result_get(result, "cycles") == 8);
@@ -419,11 +404,10 @@ START_TEST(test_impacts_are_not_periodic) {
   ck_assert(result->notes > 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A motion that repeats itself in two cycles, in impacts: in a run it is the same two cycles later, and not after one.
  */
-START_TEST(test_repeats_in_two_cycles) {
+TEST(test_repeats_in_two_cycles) {
   static const double f = 5;
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 10e3}, {"drive.frequency", f}, {"damping.internal", 2e-3});
   ZpResult *result = cycle_of(&def);
@@ -441,11 +425,10 @@ START_TEST(test_repeats_in_two_cycles) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Charges that collect over many cycles change the motion from cycle to cycle by less than the tolerance, always in the
  * same direction: it does not repeat itself, neither in one cycle nor in several. */
-START_TEST(test_slow_approach_is_no_repetition) {
+TEST(test_slow_approach_is_no_repetition) {
   ZpActuatorDef def = DEF(SINE, {"mesh.nodes", 9}, {"drive.voltage", 15e3}, {"drive.frequency", 0.5},
                           {"damping.internal", 0.1}, {"insulator.resistivity", 1e13}, {"medium.resistivity", 1e12},
                           {"cycle.tolerance", 0.03}, {"cycle.most_cycles", 24});
@@ -458,10 +441,9 @@ START_TEST(test_slow_approach_is_no_repetition) {
   ck_assert(zp_result_get(result, "periodic") == 0 && isnan(zp_result_get(result, "repeats_in_cycles")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Where it says that the actuator just closes it does, and 3 % above it does not. */
-START_TEST(test_closing_frequency) {
+TEST(test_closing_frequency) {
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 8e3}, {"drive.frequency", 3}, {"damping.internal", 5e-3},
                           {"cycle.closing_frequency", 1});
   ZpResult *result = cycle_of(&def);
@@ -477,9 +459,8 @@ START_TEST(test_closing_frequency) {
   printf("closes up to %.3g Hz\n", f);
   ck_assert(opening[0] == 1 && opening[1] == 0);
 }
-END_TEST
 
-START_TEST(test_refusals) {
+TESTS(test_refusals, 0, 4) {
   static const struct {
     Setting set;
     const char *words;
@@ -492,38 +473,4 @@ START_TEST(test_refusals) {
   ZpError err = {ZP_OK, ""};
   ck_assert(zp_study_check(ZP_STUDY_CYCLE, &def, &err) == ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, wrong[_i].words), "%s", err.message);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("cycle");
-  TCase *points = tcase_create("fixed points"), *cycles = tcase_create("cycles");
-  tcase_add_test(points, test_fixed_point_of_slow_swings);
-  tcase_add_test(cycles, test_phase_of_an_oscillator);
-  tcase_add_test(cycles, test_lag_beyond_half_a_turn);
-  tcase_add_test(cycles, test_work_on_a_spring);
-  tcase_add_test(cycles, test_energy_of_a_cycle);
-  tcase_add_test(cycles, test_efficiency_of_a_load_that_swings);
-  tcase_add_test(cycles, test_current_of_a_capacitor);
-  tcase_add_test(cycles, test_shooting_finds_what_waiting_leads_to);
-  tcase_add_loop_test(cycles, test_liquid_is_waited_for, 1, 2);
-  tcase_add_loop_test(cycles, test_small_motion_is_that_of_the_modes, 0, 4);
-  tcase_add_loop_test(cycles, test_linear_answer_is_small_motion, 0, 6);
-  tcase_add_test(cycles, test_method_by_itself);
-  tcase_add_test(cycles, test_second_order_is_that_of_the_motion);
-  tcase_add_test(cycles, test_velocities_of_the_linear_answer);
-  tcase_add_loop_test(cycles, test_shooting_with_a_bead, 0, 2);
-  tcase_add_test(cycles, test_shooting_with_slow_charges);
-  tcase_add_loop_test(cycles, test_bode_plot_below_contact, 0, 1);
-  tcase_add_test(cycles, test_impacts_are_not_periodic);
-  tcase_add_test(cycles, test_repeats_in_two_cycles);
-  tcase_add_test(cycles, test_slow_approach_is_no_repetition);
-  tcase_add_test(cycles, test_closing_frequency);
-  tcase_add_loop_test(cycles, test_refusals, 0, 4);
-  suite_add_tcase(suite, points);
-  suite_add_tcase(suite, cycles);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_bode_plot_below_contact, 1, 3);
-  tcase_add_loop_test(nightly, test_liquid_is_waited_for, 0, 1);
-  return run_suite(suite);
 }

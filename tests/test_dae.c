@@ -97,7 +97,7 @@ static double solve_error(Shape s, ZpBordered *m, double dense[MOST][MOST]) {
 }
 
 /* Products and solutions equal those of the full matrix. Measured: 1e-15 and below 1e-14. */
-START_TEST(test_bordered_as_dense) {
+TESTS(test_bordered_as_dense, 0, LENGTH_OF(shapes)) {
   Shape s = shapes[_i];
   ZpBordered m;
   void *memory = make_bordered(s, &m);
@@ -112,11 +112,10 @@ START_TEST(test_bordered_as_dense) {
   ck_below(solve_error(s, &m, dense), 1e-12);
   zp_free(memory);
 }
-END_TEST
 
 /* A band that is singular without its border, or nearly singular with a border of one, gives the solution: refinement
  * recovers what elimination loses. */
-START_TEST(test_bordered_singular_band) {
+TEST(test_bordered_singular_band) {
   static const double left[] = {0, 1e-18, 1e-14, 1e-9};
   for (size_t k = 0; k < LENGTH_OF(left); k++) {
     for (size_t which = 2; which < LENGTH_OF(shapes); which++) {
@@ -136,10 +135,9 @@ START_TEST(test_bordered_singular_band) {
     }
   }
 }
-END_TEST
 
 /* A matrix that is singular with its border says so. */
-START_TEST(test_bordered_singular) {
+TEST(test_bordered_singular) {
   ZpBordered m;
   void *memory = make_bordered((Shape){3, 1, 0, 0}, &m);
   for (size_t i = 0; i < 2; i++)
@@ -147,7 +145,6 @@ START_TEST(test_bordered_singular) {
   ck_assert(!zp_bordered_factor(&m));
   zp_free(memory);
 }
-END_TEST
 
 /* -- systems --------------------------------------------------------------------------------------- */
 
@@ -295,7 +292,7 @@ static double charge_error(const Motion *m, double t) {
 
 /* Closed form of the rule, 1 - ((1 - x) / (1 + x))^n with x = h / (2 R C), to rounding; second order in h. Measured
  * ratios 4.00. */
-START_TEST(test_charge_order_two) {
+TEST(test_charge_order_two) {
   double error[4], tau = 1e6 * farad;
   for (int k = 0; k < 4; k++) {
     Motion m;
@@ -311,13 +308,12 @@ START_TEST(test_charge_order_two) {
   for (int k = 0; k < 3; k++)
     ck_near(error[k] / error[k + 1], 4, 2e-3); /* 5e-4 measured */
 }
-END_TEST
 
 /* Adaptive steps over 8 time constants, of 1 ms and of 1 ns, for which the first step tried, 1 us, is far too long: an
  * eighth of the accuracy makes a quarter of the error in twice the steps. Measured: 8, 16 and 32 times the accuracy. */
 static const double resistors[] = {1e6, 1};
 
-START_TEST(test_charge_error_control) {
+TESTS(test_charge_error_control, 0, LENGTH_OF(resistors)) {
   double error[3];
   int64_t steps[3];
   for (int k = 0; k < 3; k++) {
@@ -341,7 +337,6 @@ START_TEST(test_charge_error_control) {
     ck_near((double)steps[k + 1] / (double)steps[k], 2, 0.3); /* 0.071 measured */
   }
 }
-END_TEST
 
 /* -- a capacitor with a plate that moves ----------------------------------------------------------- */
 
@@ -396,7 +391,7 @@ static double plate_energy(const Motion *m) {
 
 /* Work of the source minus heat of the resistor equals the energy of field, spring and motion: exactly, for any step.
  * Measured: 5e-11 of the work. */
-START_TEST(test_plate_balance) {
+TEST(test_plate_balance) {
   for (int fixed = 0; fixed < 2; fixed++) {
     Motion m;
     make_plate(&m);
@@ -419,10 +414,9 @@ START_TEST(test_plate_balance) {
     zp_free(m.memory);
   }
 }
-END_TEST
 
 /* It ends at the equilibrium of force and voltage, and its path is of second order, with both kinds of unknowns. */
-START_TEST(test_plate_order_two) {
+TEST(test_plate_order_two) {
   double at[5][2];
   for (int k = 0; k < 5; k++) {
     Motion m;
@@ -435,7 +429,6 @@ START_TEST(test_plate_order_two) {
     for (size_t i = 0; i < 2; i++)
       ck_near((at[k][i] - at[k + 1][i]) / (at[k + 1][i] - at[k + 2][i]), 4, 0.05); /* 0.027 measured */
 }
-END_TEST
 
 /* -- a volume that stays --------------------------------------------------------------------------- */
 
@@ -526,7 +519,7 @@ static double volume_error(const Motion *m) {
 
 /* Volume and energy are constant to rounding, with fixed and adaptive steps: the pressure, one per step, does the work
  * p (V1 - V0) = 0. Measured: 1e-15 and 1e-13. */
-START_TEST(test_volume_stays) {
+TEST(test_volume_stays) {
   for (int fixed = 0; fixed < 2; fixed++) {
     Motion m;
     make_volume(&m);
@@ -548,7 +541,6 @@ START_TEST(test_volume_stays) {
     zp_free(m.memory);
   }
 }
-END_TEST
 
 /* -- a pendulum ------------------------------------------------------------------------------------ */
 
@@ -582,7 +574,7 @@ static void make_pendulum(Motion *m) {
 
 /* Length and energy are constant to rounding over 100 swings; after a quarter of the period, K(1/2) = 1.854..., it
  * hangs, with an error of second order. Measured: 2e-16, 4e-13; ratios 4.00. */
-START_TEST(test_pendulum) {
+TEST(test_pendulum) {
   static const double quarter = 1.8540746773013719;
   double error[3];
   for (int k = 0; k < 3; k++) {
@@ -609,10 +601,9 @@ START_TEST(test_pendulum) {
   ck_below(stretch, 1e-13);
   zp_free(m.memory);
 }
-END_TEST
 
 /* A multiplier within an unsymmetric band gives the same motion. */
-START_TEST(test_pendulum_in_the_band) {
+TEST(test_pendulum_in_the_band) {
   Motion border, band;
   make_pendulum(&border);
   make_pendulum(&band);
@@ -627,7 +618,6 @@ START_TEST(test_pendulum_in_the_band) {
   zp_free(border.memory);
   zp_free(band.memory);
 }
-END_TEST
 
 /* -- masses coupled by their rates ----------------------------------------------------------------- */
 
@@ -685,7 +675,7 @@ static double pair_error(const Motion *m, double t) {
 }
 
 /* Measured ratios 4.00. */
-START_TEST(test_pair_order_two) {
+TEST(test_pair_order_two) {
   double error[4];
   for (int k = 0; k < 4; k++) {
     Motion m;
@@ -697,7 +687,6 @@ START_TEST(test_pair_order_two) {
   for (int k = 0; k < 3; k++)
     ck_near(error[k] / error[k + 1], 4, 3e-3); /* 9.8e-4 measured */
 }
-END_TEST
 
 static double pair_energy(const Motion *m) {
   double both = m->v[0] + m->v[1];
@@ -706,7 +695,7 @@ static double pair_energy(const Motion *m) {
 }
 
 /* The lost energy is that of the dashpot, to rounding. */
-START_TEST(test_pair_balance) {
+TEST(test_pair_balance) {
   Motion m;
   make_pair(&m);
   m.stepper.fixed = 0.3;
@@ -718,7 +707,6 @@ START_TEST(test_pair_balance) {
   }
   zp_free(m.memory);
 }
-END_TEST
 
 /* The error estimate has the whole inertia: of masses that swing together it chooses the steps of one oscillator of
  * mass 1 + 2 a. Without the added part it would be 2.5 times too small. */
@@ -734,7 +722,7 @@ static void one_tangent(void *self, ZpBordered *J) {
   *zp_bordered_at(J, 0, 0) = 0.5 * stiff;
 }
 
-START_TEST(test_pair_steps_as_one_mass) {
+TEST(test_pair_steps_as_one_mass) {
   Motion pair, one = {.mass = {1 + 2 * added}, .y = {1}, .energy = 1};
   make_pair(&pair);
   pair.y[1] = 1;
@@ -747,10 +735,9 @@ START_TEST(test_pair_steps_as_one_mass) {
   zp_free(pair.memory);
   zp_free(one.memory);
 }
-END_TEST
 
 /* An eighth of the tolerance gives a quarter of the error. */
-START_TEST(test_pair_error_control) {
+TEST(test_pair_error_control) {
   double error[3];
   for (int k = 0; k < 3; k++) {
     Motion m;
@@ -768,11 +755,10 @@ START_TEST(test_pair_error_control) {
   for (int k = 0; k < 2; k++)
     ck_near(error[k] / error[k + 1], 4, 0.05); /* 0.011 measured */
 }
-END_TEST
 
 /* zp_implicit_smooth removes the fraction (x / (1 + x))^5, x = (w h / 2)^2, of the oscillation of the sum, w^2 = k / (1
  * + 2 a) */
-START_TEST(test_pair_smooth) {
+TEST(test_pair_smooth) {
   Motion m;
   make_pair(&m);
   m.stepper.fixed = 2.5;
@@ -782,10 +768,9 @@ START_TEST(test_pair_smooth) {
   ck_near(v[1], v[0], 1e-12);
   zp_free(m.memory);
 }
-END_TEST
 
 /* Only velocities are smoothed: a charge that is coupled to them has none. */
-START_TEST(test_smooth_leaves_other_kinds) {
+TEST(test_smooth_leaves_other_kinds) {
   Motion m;
   make_plate(&m);
   m.stepper.fixed = 0.01;
@@ -795,13 +780,12 @@ START_TEST(test_smooth_leaves_other_kinds) {
   ck_assert(v[0] > 0 && v[0] < 1);
   zp_free(m.memory);
 }
-END_TEST
 
 /* -- the exact tangent ----------------------------------------------------------------------------- */
 
 /* Tangent against finite differences of the residual, for a step that moves all unknowns. Residuals are polynomials of
  * degree 3 at most: rounding and the third derivative are left. The symmetric one of the plate is off by 1e-2. */
-START_TEST(test_exact_tangent) {
+TEST(test_exact_tangent) {
   static void (*const make[])(Motion *) = {make_charge, make_plate, make_volume, make_pendulum, make_pair};
   for (size_t k = 0; k < LENGTH_OF(make); k++) {
     Motion m;
@@ -818,21 +802,19 @@ START_TEST(test_exact_tangent) {
     zp_free(m.memory);
   }
 }
-END_TEST
 
 /* A system without one says so. */
-START_TEST(test_no_exact_tangent) {
+TEST(test_no_exact_tangent) {
   Motion m;
   make_pair(&m);
   m.system.exact = NULL;
   ck_assert(!zp_implicit_exact(&m.system, 1, &m.exact));
   zp_free(m.memory);
 }
-END_TEST
 
 /* Newton's method with the exact, unsymmetric tangent finds the same solution as with the symmetric one, in fewer
  * iterations. */
-START_TEST(test_newton_by_exact) {
+TEST(test_newton_by_exact) {
   Motion by_symmetric, by_exact;
   make_plate(&by_symmetric);
   make_plate(&by_exact);
@@ -847,41 +829,4 @@ START_TEST(test_newton_by_exact) {
   ck_assert_int_lt(by_exact.stepper.counts.iterations, by_symmetric.stepper.counts.iterations);
   zp_free(by_symmetric.memory);
   zp_free(by_exact.memory);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("dae");
-  TCase *matrix = tcase_create("bordered");
-  tcase_add_loop_test(matrix, test_bordered_as_dense, 0, LENGTH_OF(shapes));
-  tcase_add_test(matrix, test_bordered_singular_band);
-  tcase_add_test(matrix, test_bordered_singular);
-  suite_add_tcase(suite, matrix);
-  TCase *charge = tcase_create("charge");
-  tcase_add_test(charge, test_charge_order_two);
-  tcase_add_loop_test(charge, test_charge_error_control, 0, LENGTH_OF(resistors));
-  suite_add_tcase(suite, charge);
-  TCase *plate = tcase_create("plate");
-  tcase_add_test(plate, test_plate_balance);
-  tcase_add_test(plate, test_plate_order_two);
-  suite_add_tcase(suite, plate);
-  TCase *constraint = tcase_create("constraint");
-  tcase_add_test(constraint, test_volume_stays);
-  tcase_add_test(constraint, test_pendulum);
-  tcase_add_test(constraint, test_pendulum_in_the_band);
-  suite_add_tcase(suite, constraint);
-  TCase *pair = tcase_create("pair");
-  tcase_add_test(pair, test_pair_order_two);
-  tcase_add_test(pair, test_pair_balance);
-  tcase_add_test(pair, test_pair_steps_as_one_mass);
-  tcase_add_test(pair, test_pair_error_control);
-  tcase_add_test(pair, test_pair_smooth);
-  tcase_add_test(pair, test_smooth_leaves_other_kinds);
-  suite_add_tcase(suite, pair);
-  TCase *exact = tcase_create("exact");
-  tcase_add_test(exact, test_exact_tangent);
-  tcase_add_test(exact, test_no_exact_tangent);
-  tcase_add_test(exact, test_newton_by_exact);
-  suite_add_tcase(suite, exact);
-  return run_suite(suite);
 }

@@ -30,7 +30,7 @@ static double number_of(const ZpData *data, size_t row, const char *column, cons
 
 /* A spreadsheet's file with a byte order mark, semicolons, decimal commas, remarks, names in other letters, and no end
  * of its last line; another one with points. A column is renamed in both. */
-START_TEST(tables_as_spreadsheets_have_them) {
+TEST(tables_as_spreadsheets_have_them) {
   char *one = put_file("one.csv", "\xEF\xBB\xBF"
                                   "Gewicht;Stroke (mm);note\n# of Monday\n\n1,5;2,25;\"a; b\"\r\n3;-4,5;c"),
        *two = put_file("two.csv", "stroke_m,Gewicht\n0.5,7\n"), paths[256];
@@ -55,7 +55,6 @@ START_TEST(tables_as_spreadsheets_have_them) {
   free(one);
   free(two);
 }
-END_TEST
 
 /* -- waveforms --------------------------------------------------------------------------------------- */
 
@@ -84,7 +83,7 @@ static void expect_rows(const char *text, bool controlled, double time, double v
 
 /* Times and voltages in the units of their columns; setpoints in that of the signal, here an opening. A fault is told
  * with its line. */
-START_TEST(waveforms_of_files) {
+TEST(waveforms_of_files) {
   ZpDriveRows rows;
   ZpError err = {ZP_OK, ""};
   expect_rows("time_ms,voltage_kV\n0,0\n25,7.5\n", false, 25e-3, 7500);
@@ -94,7 +93,6 @@ START_TEST(waveforms_of_files) {
   ck_assert_msg(strstr(err.message, "rows.csv:5:") != NULL, "%s", err.message);
   zp_drive_rows_free(&rows);
 }
-END_TEST
 
 /* -- values ------------------------------------------------------------------------------------------ */
 
@@ -109,7 +107,7 @@ static void expect_value(const char *key, const char *text, double expected) {
 }
 
 /* The ends of each range are in it. */
-START_TEST(ranges_have_their_ends) {
+TEST(ranges_have_their_ends) {
   double value;
   char text[128];
   for (int k = 0; k < zp_key_count(); k++) {
@@ -130,10 +128,9 @@ START_TEST(ranges_have_their_ends) {
   expect_value("mount.tilt", "90 degree", 1.5707963267948966);
   expect_value("mount.tilt", "12.3456789 degree", 12.3456789 * 3.1415926535897932 / 180);
 }
-END_TEST
 
 /* Units differ from SI by a factor, not by an offset; a number is no unit, but 1/... is. */
-START_TEST(units_are_factors) {
+TEST(units_are_factors) {
   ZpUnitScale scale;
   ck_assert_int_ne(zp_unit_scale("celsius", "K", &scale, NULL), ZP_OK);
   ck_assert_int_ne(zp_unit_scale("2 m", "m", &scale, NULL), ZP_OK);
@@ -141,7 +138,6 @@ START_TEST(units_are_factors) {
   ck_assert_int_eq(zp_unit_scale("1/mm", "1/m", &scale, NULL), ZP_OK);
   ck_assert(scale.decimal && scale.exponent == 3);
 }
-END_TEST
 
 /* -- lists and samples --------------------------------------------------------------------------------- */
 
@@ -152,7 +148,7 @@ static void values_of_case(const ZpScenario *scenario, size_t index, double valu
 
 /* A range has both ends and equal steps, or equal ratios; of lists that vary together the shortest counts, and they do
  * not multiply; samples vary fastest. */
-START_TEST(cases_follow_their_lists) {
+TEST(cases_follow_their_lists) {
   double value[4], other[4];
   ZpScenario *scenario =
       SCENARIO("ribbon.length=100 mm .. 400 mm : 4", "ribbon.thickness=20 um .. 80 um : 3 log", "load.mass=[1 g, 2 g]",
@@ -190,10 +186,9 @@ START_TEST(cases_follow_their_lists) {
   zp_scenario_destroy(scenario);
   zp_scenario_destroy(seeded);
 }
-END_TEST
 
 /* A distribution is written as it reads back: the width of a logarithm has no unit. Its ends are in order. */
-START_TEST(distributions_are_written_as_they_read) {
+TEST(distributions_are_written_as_they_read) {
   char *text = NULL;
   size_t size = 0;
   ZpError err;
@@ -211,18 +206,4 @@ START_TEST(distributions_are_written_as_they_read) {
   free(text);
   zp_scenario_destroy(scenario);
   zp_scenario_destroy(again);
-}
-END_TEST
-
-int main(void) {
-  const TTest *const test[] = {tables_as_spreadsheets_have_them, waveforms_of_files,
-                               ranges_have_their_ends,           units_are_factors,
-                               cases_follow_their_lists,         distributions_are_written_as_they_read};
-  Suite *suite = suite_create("data");
-  TCase *tcase = tcase_create("data");
-  suite_add_tcase(suite, tcase);
-  tcase_add_checked_fixture(tcase, make_folder, remove_folder);
-  for (size_t i = 0; i < LENGTH_OF(test); i++)
-    tcase_add_test(tcase, test[i]);
-  return run_suite(suite);
 }

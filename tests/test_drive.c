@@ -14,7 +14,7 @@ static ZpWaveform wave(ZpWaveformKind kind) {
   return (ZpWaveform){.kind = kind, .offset = 2e3, .voltage = 10e3, .rise_time = 3e-3, .frequency = 7.3, .duty = 0.3};
 }
 
-START_TEST(step_and_ramp) {
+TEST(step_and_ramp) {
   ZpWaveform step = wave(ZP_WAVEFORM_STEP), ramp = wave(ZP_WAVEFORM_RAMP);
   ck_assert(zp_waveform_voltage(&step, 0) == 10e3 && zp_waveform_voltage(&step, 5) == 10e3);
   ck_assert(isinf(zp_waveform_next_corner(&step, 0)) && zp_waveform_is_constant(&step));
@@ -26,10 +26,9 @@ START_TEST(step_and_ramp) {
   ramp.offset = ramp.voltage;
   ck_assert(zp_waveform_is_constant(&ramp));
 }
-END_TEST
 
 /* Against libm: 1.4e-15 of the amplitude measured, three roundings of the swing. */
-START_TEST(sine_is_a_sine) {
+TEST(sine_is_a_sine) {
   ZpWaveform w = wave(ZP_WAVEFORM_SINE);
   double worst = 0;
   for (int k = 0; k <= 20000; k++) {
@@ -51,7 +50,6 @@ START_TEST(sine_is_a_sine) {
   }
   ck_near(zp_waveform_period(&w), 1 / 7.3, 1e-15);
 }
-END_TEST
 
 /* From corner to corner through 5000 cycles: each corner occurs once, and the voltages on both sides are exact. */
 static void walk_square(double frequency, double duty, double rise_time) {
@@ -82,15 +80,14 @@ static void walk_square(double frequency, double duty, double rise_time) {
   }
 }
 
-START_TEST(square_corners) {
+TEST(square_corners) {
   walk_square(7.3, 0.3, 0);
   walk_square(49.999, 1.0 / 3, 0);
   walk_square(7.3, 0.3, 3e-3);
   walk_square(1e5, 0.5, 1e-6);
 }
-END_TEST
 
-START_TEST(table_values) {
+TEST(table_values) {
   const double t[] = {1e-3, 2e-3, 2e-3, 5e-3, 5e-3}, U[] = {1e3, 3e3, -4e3, -4e3, 0};
   ZpWaveform w = wave(ZP_WAVEFORM_TABLE);
   w.table = (ZpDriveTable){5, t, U};
@@ -110,10 +107,9 @@ START_TEST(table_values) {
   ck_assert(zp_waveform_is_constant(&w));
   ck_assert(zp_waveform_voltage(&w, 0) == 5 && zp_waveform_voltage(&w, 1e3) == 5);
 }
-END_TEST
 
 /* Of a wave of both signs, which jumps: its largest magnitude, both values at a jump, how often it repeats. */
-START_TEST(square_between_two_signs) {
+TEST(square_between_two_signs) {
   ZpWaveform w = {.kind = ZP_WAVEFORM_SQUARE, .voltage = 4e3, .offset = -10e3, .frequency = 50, .duty = 0.25};
   ck_assert_double_eq(zp_waveform_largest(&w), 10e3);
   ck_assert_double_eq(zp_waveform_voltage_before(&w, 5e-3), 4e3);
@@ -124,9 +120,8 @@ START_TEST(square_between_two_signs) {
   w.kind = ZP_WAVEFORM_RAMP;
   ck_assert(isinf(zp_waveform_period(&w)));
 }
-END_TEST
 
-START_TEST(table_faults) {
+TEST(table_faults) {
   const struct {
     size_t rows, row;
     double t[4], U[4];
@@ -145,7 +140,6 @@ START_TEST(table_faults) {
                   fault ? fault : "no fault", row);
   }
 }
-END_TEST
 
 /* -- a simulation ---------------------------------------------------------------------------------- */
 
@@ -164,7 +158,7 @@ static ZpModel *model_with_table(const ZpActuatorDef *def, size_t rows, const do
 }
 
 /* A ribbon alone has no pairs that meet: all events are corners, also where many fall into what would be a step. */
-START_TEST(steps_end_at_corners) {
+TEST(steps_end_at_corners) {
   enum { CORNERS = 400 };
   double t[CORNERS], U[CORNERS];
   for (int i = 0; i < CORNERS; i++) {
@@ -184,7 +178,6 @@ START_TEST(steps_end_at_corners) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Kinetic energy just after a pulse of 10 kV. */
 static double kick(double length) {
@@ -201,16 +194,15 @@ static double kick(double length) {
 }
 
 /* A pulse far shorter than a step acts for its own length: the velocity is proportional to it. */
-START_TEST(no_pulse_is_missed) {
+TEST(no_pulse_is_missed) {
   double none = kick(0.5e-12), one = kick(20e-9), two = kick(40e-9);
   printf("pulses of 0.5 ps, 20 ns, 40 ns: %.3g, %.3g, %.3g J\n", none, one, two);
   ck_below(none, 1e-3 * one);
   ck_near(two / one, 4, 1e-3); /* 1.2e-4 measured */
 }
-END_TEST
 
 /* Found in review: a rise shorter than any step ended a run as one in which no step converges. */
-START_TEST(corners_within_no_time) {
+TEST(corners_within_no_time) {
   static const double apart[] = {1e-14, 1e-12, 1e-11};
   for (size_t i = 0; i < LENGTH_OF(apart); i++) {
     ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
@@ -224,7 +216,6 @@ START_TEST(corners_within_no_time) {
     zp_model_destroy(model);
   }
 }
-END_TEST
 
 /* |imbalance| and work at the end over the most that the source gave; runs that close nothing. */
 typedef struct Balance {
@@ -250,7 +241,7 @@ static Balance balance_of(const ZpActuatorDef *def) {
 /* Largest energy imbalance with explicit steps of 0.4 and 0.2 us, for each waveform. Measured: step 1.8e-4 and 0.7e-4,
  * ramp 0.9e-5 and 0.4e-5, sine 0.8e-4 and 0.6e-4, one that changes sign 2.8e-4 and 1.2e-4, square 0.8e-4 and 0.3e-4:
  * the steps are of first order, and a changing voltage adds no error. */
-START_TEST(energy_balances) {
+TEST(energy_balances) {
   ZpActuatorDef def[5];
   const char *const name[] = {"step", "ramp", "sine", "sine of both signs", "square"};
   def[0] = driven(ZP_WAVEFORM_STEP, 30e-3);
@@ -279,7 +270,6 @@ START_TEST(energy_balances) {
     ck_near(half.most, whole.most, 1e-4); /* 2.7e-5 measured */
   }
 }
-END_TEST
 
 /* A sine with steps of one length, a row at each: the trapezoids of U dQ of the rows, the integral of the current, and
  * what the simulation says. */
@@ -319,7 +309,7 @@ static Work work_over(double time_step) {
 
 /* The work of the source is the integral of U dQ: its difference from the trapezoidal rule falls with the square of the
  * step. Measured: ratios of 3.92 and 3.97. */
-START_TEST(work_is_integral_of_U_dQ) {
+TEST(work_is_integral_of_U_dQ) {
   double off[3];
   for (int k = 0; k < 3; k++) {
     Work sum = work_over(40e-6 / (1 << k));
@@ -331,7 +321,6 @@ START_TEST(work_is_integral_of_U_dQ) {
   ck_near(off[0] / off[1], 4, 0.03); /* 9.9e-3 measured */
   ck_near(off[1] / off[2], 4, 0.01); /* 2.5e-3 measured */
 }
-END_TEST
 
 /* Energies of a capacitor, and what the source has given it. */
 typedef struct Charging {
@@ -375,7 +364,7 @@ static Charging ramp_by_hand(const ZpActuatorDef *def, int steps, double *imbala
 /* Regression: a ramp to 4 kV set by a program booked no work for its jumps, and its currents did not add up to the
  * charge. Both are now the waveform's but for the charging loss of a jump, C dU^2 / 2, so that a thousand of them lose
  * a thousandth of the work. Measured: 3e-6 off, as the voltage comes half a step early. */
-START_TEST(voltage_by_hand_books_its_work) {
+TEST(voltage_by_hand_books_its_work) {
   enum { STEPS = 1000 };
   ZpActuatorDef def = driven(ZP_WAVEFORM_RAMP, 20e-3);
   def.drive.voltage = 4e3;
@@ -396,11 +385,10 @@ START_TEST(voltage_by_hand_books_its_work) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Without motion and without breakdown the actuator is a capacitor C: n jumps to U take C U^2 / 2 (1 + 1/n), of which
  * the field stores C U^2 / 2. */
-START_TEST(jumps_of_a_capacitor) {
+TEST(jumps_of_a_capacitor) {
   static const int jumps[] = {1, 2, 10};
   for (size_t i = 0; i < LENGTH_OF(jumps); i++) {
     ZpActuatorDef def = driven(ZP_WAVEFORM_RAMP, 1e-3);
@@ -413,10 +401,9 @@ START_TEST(jumps_of_a_capacitor) {
     ck_near(c.loss, c.field / jumps[i], 1e-12);
   }
 }
-END_TEST
 
 /* A voltage present at t = 0 has jumped there; with the cap the field stores less than half. */
-START_TEST(jump_at_the_start) {
+TEST(jump_at_the_start) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 1e-3);
   for (int capped = 0; capped < 2; capped++) {
     def.electro.breakdown_cap = capped;
@@ -436,10 +423,9 @@ START_TEST(jump_at_the_start) {
     zp_model_destroy(model);
   }
 }
-END_TEST
 
 /* A ramp, a hold, a jump, a ramp: the jump does U dQ, and its loss closes the energy balance. */
-START_TEST(account_over_corners) {
+TEST(account_over_corners) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 10e-3);
   const double t[] = {0, 2e-3, 4e-3, 4e-3, 10e-3}, U[] = {0, 6e3, 6e3, 9e3, 7e3};
   ZpModel *model = model_with_table(&def, 5, t, U);
@@ -459,7 +445,6 @@ START_TEST(account_over_corners) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A wave of both signs over `end` seconds. */
 static ZpActuatorDef alternating(ZpWaveformKind kind, double end) {
@@ -473,7 +458,7 @@ static ZpActuatorDef alternating(ZpWaveformKind kind, double end) {
 
 /* Regression: the trapezoidal work with an attraction at the middle voltage lost dC dU^2 / 8 in each step: 0.015 of the
  * work in 3 s. Measured now: 1.6e-8 and 2.4e-8; over 10 s 1.6e-8 and 4.0e-8. */
-START_TEST(alternating_voltage_keeps_energy) {
+TESTS(alternating_voltage_keeps_energy, 0, 2) {
   static const ZpWaveformKind kind[] = {ZP_WAVEFORM_SINE, ZP_WAVEFORM_SQUARE};
   ZpActuatorDef def = alternating(kind[_i], FULL_OR(1, 0.1));
   ZpResult *result;
@@ -484,10 +469,9 @@ START_TEST(alternating_voltage_keeps_energy) {
   ck_below(zp_result_get(result, "energy_error"), 5e-8); /* 9.7e-9 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Regression: a fortieth of the largest voltage limited the steps, whatever the tolerance was. */
-START_TEST(tolerance_rules_the_steps) {
+TESTS(tolerance_rules_the_steps, 0, FULL_OR(1, 0)) {
   static const double tolerance[] = {1e-3, 1e-4, 1e-5};
   double steps[3], opening[3];
   for (size_t i = 0; i < LENGTH_OF(tolerance); i++) {
@@ -505,9 +489,8 @@ START_TEST(tolerance_rules_the_steps) {
   ck_assert_double_gt(steps[2], 1.5 * steps[1]);
   ck_below(fabs(opening[1] - opening[2]), 0.5 * fabs(opening[0] - opening[2]));
 }
-END_TEST
 
-START_TEST(set_by_hand_counts) {
+TEST(set_by_hand_counts) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_SINE, 20e-3);
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -520,7 +503,6 @@ START_TEST(set_by_hand_counts) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The state after 20 steps by hand, each set `often` times, before which another voltage was set that does not last,
  * and looked at where `looks`. */
@@ -543,7 +525,7 @@ static void *state_by_hand(const ZpModel *model, int often, bool looks, int *sol
 
 /* Regression: each call solved the field again, even at an unchanged voltage. Setting a voltage again, replacing it
  * before anything moves, and reading leave every bit as it is. */
-START_TEST(setting_and_reading_change_nothing) {
+TEST(setting_and_reading_change_nothing) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 1e-3);
   for (int field = 0; field < 2; field++) {
     def.electro.model = field ? ZP_ELECTRO_FIELD : ZP_ELECTRO_PLATES;
@@ -558,10 +540,9 @@ START_TEST(setting_and_reading_change_nothing) {
     zp_model_destroy(model);
   }
 }
-END_TEST
 
 /* A state saved during a ramp continues in another simulation with identical bits. */
-START_TEST(restart_inside_a_ramp) {
+TEST(restart_inside_a_ramp) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_SQUARE, 20e-3);
   def.drive.frequency = 100;
   def.drive.rise_time = 3e-3;
@@ -583,10 +564,9 @@ START_TEST(restart_inside_a_ramp) {
   zp_sim_destroy(other);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The field is due anew when the cap moves with the voltage, and only then. */
-START_TEST(field_follows_the_cap) {
+TEST(field_follows_the_cap) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_SINE, 1e-3);
   def.electro.model = ZP_ELECTRO_FIELD;
   for (int capped = 0; capped < 2; capped++) {
@@ -609,10 +589,9 @@ START_TEST(field_follows_the_cap) {
     zp_model_destroy(model);
   }
 }
-END_TEST
 
 /* Only the size of the voltage attracts; the charge has its sign. */
-START_TEST(sign_of_the_voltage) {
+TESTS(sign_of_the_voltage, 0, 2) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 2e-3);
   def.electro.edges = _i;
   const double t[] = {0, 1}, plus[] = {9e3, 9e3}, minus[] = {-9e3, -9e3};
@@ -629,10 +608,9 @@ START_TEST(sign_of_the_voltage) {
   }
   ck_assert(stroke[0] == stroke[1] && charge[0] == -charge[1] && work[0] == work[1]);
 }
-END_TEST
 
 /* A constant drive stops when zipped, any other at end_time. */
-START_TEST(only_a_constant_drive_stops) {
+TEST(only_a_constant_drive_stops) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_STEP, 90e-3);
   ZpResult *step, *ramp, *table;
   ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &step, NULL), ZP_OK);
@@ -651,7 +629,6 @@ START_TEST(only_a_constant_drive_stops) {
   zp_result_destroy(ramp);
   zp_result_destroy(table);
 }
-END_TEST
 
 /* -- inputs by hand -------------------------------------------------------------------------------- */
 
@@ -674,7 +651,7 @@ static void run_to(ZpSim *sim, double time) {
 
 /* Regression: a voltage set by a program could only jump, and the U dQ of a jump loses half. With a rate it does what
  * the same waveform does: 20 ms up to 10 kV, then held. */
-START_TEST(ramp_by_hand_is_the_waveform) {
+TESTS(ramp_by_hand_is_the_waveform, 0, 2) {
   static const char *const signals[] = {"electric_work", "charge", "stroke", "voltage", "field_energy"};
   ZpActuatorDef def = hanging(_i);
   def.drive.waveform = ZP_WAVEFORM_RAMP;
@@ -695,11 +672,10 @@ START_TEST(ramp_by_hand_is_the_waveform) {
   zp_sim_destroy(hand);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A force that rises, stays, falls, jumps: its work is force times displacement, and the energy balances. Explicit
  * steps of the rod have an error of energy of their own, of first order in the step; see energy_balances. */
-START_TEST(load_by_hand_books_its_work) {
+TESTS(load_by_hand_books_its_work, 0, 2) {
   ZpActuatorDef def = hanging(_i);
   def.drive.voltage = 0;
   ZpModel *model = model_of(&def);
@@ -721,11 +697,10 @@ START_TEST(load_by_hand_books_its_work) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A force that rises linearly does the impulse of its mean in each step: without damping the motion has an error of
  * second order in a step of fixed length. With the force of a step's end it would be of first order. */
-START_TEST(rising_load_is_of_second_order) {
+TEST(rising_load_is_of_second_order) {
   ZpActuatorDef def = hanging(true);
   double opening[4];
   def.drive.voltage = 0;
@@ -742,10 +717,9 @@ START_TEST(rising_load_is_of_second_order) {
   ck_near((opening[1] - opening[0]) / (opening[2] - opening[1]), 4, 0.01); /* 4.3e-3 measured */
   ck_near((opening[2] - opening[1]) / (opening[3] - opening[2]), 4, 5e-3); /* 1.7e-3 measured */
 }
-END_TEST
 
 /* Both inputs at once while the actuator zips. */
-START_TEST(inputs_keep_energy_in_a_zip) {
+TEST(inputs_keep_energy_in_a_zip) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -762,11 +736,10 @@ START_TEST(inputs_keep_energy_in_a_zip) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A force equal to the weight of a mass gives the same equilibrium, with either integrator, also for a single ribbon,
  * which carries all of it. Without the force it springs up. */
-START_TEST(load_by_hand_hangs_as_a_mass) {
+TESTS(load_by_hand_hangs_as_a_mass, 0, 3) {
   ZpActuatorDef def = hanging(_i);
   if (_i == 2) def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 21}, {"load.mass", 1e-3});
   def.drive.voltage = 0;
@@ -790,10 +763,9 @@ START_TEST(load_by_hand_hangs_as_a_mass) {
   zp_model_destroy(model);
   zp_model_destroy(other);
 }
-END_TEST
 
 /* During ramps of both inputs a saved state continues with identical bits, and another model takes over the inputs. */
-START_TEST(inputs_are_part_of_the_state) {
+TESTS(inputs_are_part_of_the_state, 0, 2) {
   ZpActuatorDef def = hanging(_i);
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model), *other = sim_of(model), *next = sim_of(model);
@@ -821,10 +793,9 @@ START_TEST(inputs_are_part_of_the_state) {
   zp_sim_destroy(next);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A ramp ends at the limit of its range; even the fastest ramp reaches it. */
-START_TEST(ramps_end_with_their_range) {
+TEST(ramps_end_with_their_range) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"mesh.nodes", 11});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -846,9 +817,8 @@ START_TEST(ramps_end_with_their_range) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
-START_TEST(wrong_inputs) {
+TEST(wrong_inputs) {
   static const struct {
     int input;
     double value, rate;
@@ -887,7 +857,6 @@ START_TEST(wrong_inputs) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- from a scenario ------------------------------------------------------------------------------- */
 
@@ -936,7 +905,7 @@ static const struct {
     {"drive: {waveform: table, file: bare.csv}", {"bare.csv", "not a table"}},
 };
 
-START_TEST(refused) {
+TEST(refused) {
   ZpError err;
   write_file("back.csv", "time_ms,voltage_kV\n0,1\n5,2\n4,0\n");
   write_file("word.csv", "time_ms,voltage_kV\n0,1\n5,nan\n");
@@ -952,10 +921,9 @@ START_TEST(refused) {
   ck_assert_str_eq(verdict("drive: {waveform: table, table: '0: 0, 5 ms: 8 kV'}", &err), "");
   ck_assert_str_eq(verdict("drive: {waveform: square, rise_time: 10 ms, duty: 25 %, frequency: 20 Hz}", &err), "");
 }
-END_TEST
 
 /* The core alone: a table is asked for where there is none, and refused where it is not used. */
-START_TEST(core_asks_for_the_table) {
+TEST(core_asks_for_the_table) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
   ZpModel *model = model_of(&def);
   ZpSim *sim;
@@ -969,9 +937,8 @@ START_TEST(core_asks_for_the_table) {
   def.drive.waveform = ZP_WAVEFORM_STEP;
   ck_assert_int_eq(zp_model_create_driven(&def, &rows, &model, &err), ZP_BAD_INPUT);
 }
-END_TEST
 
-START_TEST(simulation_of_what_the_keys_name) {
+TEST(simulation_of_what_the_keys_name) {
   ZpActuatorDef def = driven(ZP_WAVEFORM_TABLE, 1e-3);
   ZpModel *model;
   ZpSim *sim;
@@ -985,7 +952,6 @@ START_TEST(simulation_of_what_the_keys_name) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Runs a scenario; its written form must stand for the same. */
 static ZpResult *run_scenario(const char *text) {
@@ -1012,7 +978,7 @@ static ZpResult *run_scenario(const char *text) {
   return result;
 }
 
-START_TEST(file_as_text) {
+TEST(file_as_text) {
   write_file("drive.csv", "# recorded\ncurrent,time_ms,voltage_kV\n-,0,0.1\n-,0.7,8.3\n-,1.1,8.3\n-,1.1,0\n");
   ZpResult *text = run_scenario("mesh.nodes: 11\nsolver.end_time: 2 ms\ndrive: {waveform: table, table: "
                                 "'0 s = 100 V, 700 us = 8.3 kV, 1.1 ms = 8300 V, 0.0011 = 0'}");
@@ -1031,49 +997,4 @@ START_TEST(file_as_text) {
   ck_below(error, 1e-8); /* 1.8e-9 measured */
   zp_result_destroy(text);
   zp_result_destroy(file);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("drive");
-  TCase *waveforms = tcase_create("waveforms"), *runs = tcase_create("runs"), *inputs = tcase_create("inputs");
-  tcase_add_test(waveforms, step_and_ramp);
-  tcase_add_test(waveforms, sine_is_a_sine);
-  tcase_add_test(waveforms, square_corners);
-  tcase_add_test(waveforms, table_values);
-  tcase_add_test(waveforms, table_faults);
-  tcase_add_test(waveforms, square_between_two_signs);
-  tcase_add_test(runs, steps_end_at_corners);
-  tcase_add_test(runs, no_pulse_is_missed);
-  tcase_add_test(runs, corners_within_no_time);
-  tcase_add_test(runs, energy_balances);
-  tcase_add_test(runs, work_is_integral_of_U_dQ);
-  tcase_add_test(runs, voltage_by_hand_books_its_work);
-  tcase_add_test(runs, jumps_of_a_capacitor);
-  tcase_add_test(runs, jump_at_the_start);
-  tcase_add_test(runs, account_over_corners);
-  tcase_add_loop_test(runs, alternating_voltage_keeps_energy, 0, 2);
-  if (!SANITIZED) tcase_add_test(runs, tolerance_rules_the_steps);
-  tcase_add_test(runs, setting_and_reading_change_nothing);
-  tcase_add_loop_test(runs, ramp_by_hand_is_the_waveform, 0, 2);
-  tcase_add_loop_test(runs, load_by_hand_books_its_work, 0, 2);
-  tcase_add_test(runs, rising_load_is_of_second_order);
-  tcase_add_test(runs, inputs_keep_energy_in_a_zip);
-  tcase_add_loop_test(runs, load_by_hand_hangs_as_a_mass, 0, 3);
-  tcase_add_loop_test(runs, inputs_are_part_of_the_state, 0, 2);
-  tcase_add_test(runs, ramps_end_with_their_range);
-  tcase_add_test(runs, wrong_inputs);
-  tcase_add_test(runs, set_by_hand_counts);
-  tcase_add_test(runs, restart_inside_a_ramp);
-  tcase_add_test(runs, field_follows_the_cap);
-  tcase_add_loop_test(runs, sign_of_the_voltage, 0, 2);
-  tcase_add_test(runs, only_a_constant_drive_stops);
-  tcase_add_test(inputs, refused);
-  tcase_add_test(inputs, core_asks_for_the_table);
-  tcase_add_test(inputs, simulation_of_what_the_keys_name);
-  tcase_add_test(inputs, file_as_text);
-  suite_add_tcase(suite, waveforms);
-  suite_add_tcase(suite, runs);
-  suite_add_tcase(suite, inputs);
-  return run_suite(suite);
 }

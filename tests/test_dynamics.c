@@ -104,7 +104,7 @@ static double work_of(const Step *s) {
 
 /* Joints bent to 1.8 rad, edges turned as much and stretched by 30 %, a rod with natural curvature: the work is -(E1 -
  * E0) minus the damping. Measured: within 2e-15 of E0 + E1. */
-START_TEST(test_rod_work) {
+TESTS(test_rod_work, 0, LENGTH_OF(kinds)) {
   double worst = 0;
   uint64_t seed = 1;
   for (int k = 0; k < 200; k++) {
@@ -123,11 +123,10 @@ START_TEST(test_rod_work) {
          worst);
   ck_below(worst, 1e-12);
 }
-END_TEST
 
 /* The damping loss follows from the rates of stretching and bending: a rigid rotation has none. Nor does the force on
  * it work. */
-START_TEST(test_rod_turned_as_a_whole) {
+TEST(test_rod_turned_as_a_whole) {
   uint64_t seed = 5;
   Step s;
   make_step(&s, (Kind){1, false, false}, &seed);
@@ -144,11 +143,10 @@ START_TEST(test_rod_turned_as_a_whole) {
     ck_near(s.step.turn[j], 1, 1e-14);
   zp_free(s.memory);
 }
-END_TEST
 
 /* Without damping the step is reversible; with damping its sign follows the motion. Both within 1e-13 of the largest
  * force. */
-START_TEST(test_rod_exchange) {
+TESTS(test_rod_exchange, 0, LENGTH_OF(kinds)) {
   uint64_t seed = 7;
   for (int k = 0; k < 50; k++) {
     Step s;
@@ -174,7 +172,6 @@ START_TEST(test_rod_exchange) {
     zp_free(s.memory);
   }
 }
-END_TEST
 
 /* -- plates over a step ---------------------------------------------------------------------------- */
 
@@ -269,7 +266,7 @@ static double plates_error(Plates *p) {
 
 /* Gaps above, below and across the cap, equal at both ends or differing by rounding only; constant and changing
  * voltages: the work is the loss of the potential. Measured: within 6e-16 of the potential. */
-START_TEST(test_plates_work) {
+TESTS(test_plates_work, 0, LENGTH_OF(laws)) {
   static const double apart[] = {0, 1e-15, 1e-12, 1e-10, 5e-9, 2e-8, 1e-6, 1e-4};
   uint64_t seed = 11;
   Plates p;
@@ -294,7 +291,6 @@ START_TEST(test_plates_work) {
   ck_below(close, 1e-14);
   free_plates(&p);
 }
-END_TEST
 
 /* What closes station i, and what draws the nodes of element i together along x, both ribbons. */
 static double closing(const Plates *p, size_t i) {
@@ -340,7 +336,7 @@ static void check_gap(Plates *p, double U1, size_t i, Worst *worst) {
 }
 
 /* Derivatives with respect to the gaps at the end of the step. Measured: within 4e-9 of the largest. */
-START_TEST(test_plates_derivative) {
+TESTS(test_plates_derivative, 0, LENGTH_OF(laws)) {
   uint64_t seed = 13;
   Plates p;
   make_plates(&p, _i);
@@ -363,13 +359,12 @@ START_TEST(test_plates_derivative) {
   ck_below(worst.along, 1e-8);             /* 1e-9 measured */
   free_plates(&p);
 }
-END_TEST
 
 /* -- a whole actuator over a step ------------------------------------------------------------------ */
 
 /* Without damping all mean forces over a step, those of ribbons and of the field, are those of the step back, for rods
  * as for particles: motion does not know the direction of time. */
-START_TEST(test_forces_of_the_step_back) {
+TESTS(test_forces_of_the_step_back, 0, 2) {
   static const size_t nodes = 11;
   static const double U[] = {6e3, 10e3};
   ZpActuatorDef def = DEF({"mesh.nodes", (double)nodes}, {"liquid.model", ZP_LIQUID_NONE}, {"damping.internal", 0},
@@ -404,7 +399,6 @@ START_TEST(test_forces_of_the_step_back) {
   zp_system_destroy(&eval);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- one ribbon in motion -------------------------------------------------------------------------- */
 
@@ -458,11 +452,10 @@ static double swing(double tolerance) {
 /* Released from straight, it swings under gravity for 100 periods; the energy changes between gravity, motion and
  * bending, and the loss is the residual of Newton's method, which follows the tolerance. Measured: 2.8e-6 of gravity's
  * with 1e-4 and steps of 2 ms, a twelfth of a period; 2.1e-9 with 1e-6 and 0.23 ms. */
-START_TEST(test_swing_keeps_energy) {
+TEST(test_swing_keeps_energy) {
   ck_below(swing(1e-3), 3e-8); /* 4e-9 measured */
   ck_below(swing(7e-5), 1e-8); /* 1.6e-9 measured */
 }
-END_TEST
 
 /* Start it upwards in the shape of (x / L)^2, so gently that it swings as if in a straight line. */
 static void kick(const ZpModel *model, ZpSim *sim, double speed) {
@@ -510,7 +503,7 @@ static Vibration vibrate(const ZpActuatorDef *def, double guess, int skip, int p
  * weight a ribbon that is kicked upwards swings to both sides of it; its stroke is - first, changes sign every half
  * period, and its second differences stay below those of its modes, where a corner's would be twice the step of a
  * crossing. Measured: 0.030 of the largest step. */
-START_TEST(stroke_changes_sign_smoothly) {
+TEST(stroke_changes_sign_smoothly) {
   ZpActuatorDef def = DEF(CANTILEVER, {"load.mass", 0}, {"gravity", 0}, {"initial.state", ZP_INITIAL_STRAIGHT});
   double guess = first_frequency(&def), dt = 1 / guess / 400, last = 0, step = 0, bend = 0, most = 0;
   int crossings = 0, steps = 1100;
@@ -534,11 +527,10 @@ START_TEST(stroke_changes_sign_smoothly) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A small vibration about the hanging shape: study modes linearises the same rod. Measured: off by 2e-5 and 2.6e-5, of
  * which steps of a 400th of the period make pi^2 / 3 / 400^2 = 2e-5. */
-START_TEST(test_frequency_is_that_of_modes) {
+TESTS(test_frequency_is_that_of_modes, 0, FULL_OR(1, 0)) {
   static const double ends[] = {ZP_END_FREE, ZP_END_GUIDED};
   for (size_t k = 0; k < LENGTH_OF(ends); k++) {
     ZpActuatorDef def = DEF(CANTILEVER, {"load.mass", 2e-3}, {"solver.tolerance", 7e-5});
@@ -551,12 +543,11 @@ START_TEST(test_frequency_is_that_of_modes) {
     ck_near(found.frequency, mode, 2e-4); /* 4.1e-5 measured */
   }
 }
-END_TEST
 
 /* Kelvin-Voigt damping: a mode of angular frequency w has the damping ratio w tau / 2, so its logarithmic decrement per
  * period is pi w tau. Without gravity, which is not damped; after two periods the higher modes are gone. Measured: off
  * by 1.5e-4, 4.7e-4. */
-START_TEST(test_decrement) {
+TEST(test_decrement) {
   static const double tau[] = {1e-4, 1e-3};
   for (size_t k = 0; k < LENGTH_OF(tau); k += FULL_OR(1, 2)) {
     ZpActuatorDef def =
@@ -570,7 +561,6 @@ START_TEST(test_decrement) {
     ck_near(found.frequency, mode, 2e-3);
   }
 }
-END_TEST
 
 /* -- two ribbons ----------------------------------------------------------------------------------- */
 
@@ -623,7 +613,7 @@ static void check_zip(const char *name, const Zip *zip) {
 
 /* The zip times of the default actuator agree between tolerances and between meshes. Measured: 75.82 ms, with a
  * tolerance of 1e-4 75.89 ms (0.1 %; 0.5 % when faces pushed as they lay at the step's end). */
-START_TEST(test_zip_time) {
+TESTS(test_zip_time, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def = DEF(IMPLICIT, {"damping.internal", 1e-5}, {"solver.tolerance", 1e-3});
   Zip usual = zip(def);
   check_zip("zip, N = 61, tolerance 1e-3", &usual);
@@ -638,11 +628,10 @@ START_TEST(test_zip_time) {
   ck_near(usual.time, fine.time, 1.5e-3);
   ck_near(usual.time, more.time, 1e-3); /* 3.3e-4 measured */
 }
-END_TEST
 
 /* Regression: at a tolerance of 1e-4 zip times were off by 19 (dry), 33 (beads) and 47 tolerances (bath), and dry ones
  * by 16 at 1e-5, because the damper between faces acted after the step. The error is at most three. */
-START_TEST(tolerance_keeps_its_word) {
+TESTS(tolerance_keeps_its_word, 1, FULL_OR(2, 1)) {
   static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_BEAD, ZP_LIQUID_SUBMERGED};
   const double finest = liquid[_i] == ZP_LIQUID_NONE ? 1e-5 : 1e-4;
   ZpActuatorDef def = DEF({"damping.internal", 1e-5}, {"mesh.nodes", 41}, {"liquid.model", liquid[_i]},
@@ -655,12 +644,13 @@ START_TEST(tolerance_keeps_its_word) {
     ck_below(fabs(off), 3 * tolerance);
   }
 }
-END_TEST
+ALSO_NIGHTLY(tolerance_keeps_its_word, 0, 1)
+ALSO_NIGHTLY(tolerance_keeps_its_word, 2, 3)
 
 /* With the defaults and 61 nodes steps are what the mesh is worth: they move a zip time by at most 2e-3, by steps of a
  * tolerance of 1e-5, and they are few. A dry zip took 6184 iterations at a tolerance of 1e-4, the others 1883 and 1770.
  */
-START_TEST(steps_are_what_the_mesh_is_worth) {
+TESTS(steps_are_what_the_mesh_is_worth, 0, FULL_OR(3, 0)) {
   static const struct {
     ZpLiquidModel liquid;
     double iterations;
@@ -678,12 +668,11 @@ START_TEST(steps_are_what_the_mesh_is_worth) {
   zp_result_destroy(result);
   zp_result_destroy(fine);
 }
-END_TEST
 
 /* Closed faces creep in a film that takes all momentum within a step. Velocities reversed in every step around their
  * mean, which counted as an error however short the step was: 15169 steps for 5 ms. Measured: 1238 and 2790 for 20 ms.
  */
-START_TEST(creep_in_a_bath_takes_few_steps) {
+TESTS(creep_in_a_bath_takes_few_steps, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def =
       DEF({"liquid.model", ZP_LIQUID_SUBMERGED}, {"load.mass", 0}, {"ribbon.length", 27.4e-3},
           {"ribbon.thickness", 99e-6}, {"insulator.thickness", 13e-6}, {"drive.voltage", 9e3},
@@ -702,7 +691,6 @@ START_TEST(creep_in_a_bath_takes_few_steps) {
   }
   ck_near(opening[0], opening[1], 1e-3); /* 3.1e-4 measured */
 }
-END_TEST
 
 /* Relative velocity of the faces at station i. */
 static double parting_of(const ZpModel *model, const double *vy, size_t i) {
@@ -712,7 +700,7 @@ static double parting_of(const ZpModel *model, const double *vy, size_t i) {
 /* The midpoint rule turns velocities around the mean of a step: v1 = 2 w - v0. Where faces lie on each other in a film,
  * it takes a share s^3 of the difference, eq. (18.14), of third order in the step: a film of thickness H takes momentum
  * in the time H^2 / (12 nu). All other stations keep the whole difference. */
-START_TEST(test_share_of_momentum_that_a_film_takes) {
+TEST(test_share_of_momentum_that_a_film_takes) {
   enum { STEPS = 12, NODES_OF_HALF = 21 };
   const double h = 1e-3, nu = 50e-6, roughness = 1e-3;
   ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", NODES_OF_HALF},
@@ -744,11 +732,10 @@ START_TEST(test_share_of_momentum_that_a_film_takes) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Steps of constant length, with lateral edges and drag: the energy balances. Measured: 75.51 ms; with steps of 0.1 ms
  * 75.52 ms; edges pull harder, 73.37 ms; drag 127.1 ms; energy within 3e-7. */
-START_TEST(test_zip_otherwise) {
+TEST(test_zip_otherwise) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   Zip usual = zip(def);
   check_zip("zip, N = 21", &usual);
@@ -766,12 +753,11 @@ START_TEST(test_zip_otherwise) {
   check_zip("drag", &found);
   ck_assert_double_gt(found.time, 1.2 * usual.time);
 }
-END_TEST
 
 /* Where 1 % of the hanging opening is less than the distance at which faces touch, the actuator is closed at that
  * distance. The zip time was then the end of the step in which faces touched: 4.9e-3 late at a tolerance of 1e-4, and
  * 1.4e-3 at 1e-5. Measured: 0.04 tolerances at all three. */
-START_TEST(faces_that_touch_first_tell_the_zip_time) {
+TESTS(faces_that_touch_first_tell_the_zip_time, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"ribbon.length", 30e-3}, {"platform.length", 3e-3},
                           {"ribbon.thickness", 200e-6}, {"load.mass", 2e-3}, {"solver.tolerance", 1e-6});
   double exact = zip(def).time;
@@ -782,24 +768,22 @@ START_TEST(faces_that_touch_first_tell_the_zip_time) {
     ck_below(fabs(off), 0.1 * tolerance); /* 0.032 measured */
   }
 }
-END_TEST
 
 /* Insulators of a high permittivity attract each other over a shorter distance than that of contact by their thickness:
  * faces that are farther apart are open, in motion as at rest. It hangs open by 0.43 um, closes at rest, and its motion
  * never had a zip time. */
-START_TEST(closed_in_motion_is_closed_at_rest) {
+TEST(closed_in_motion_is_closed_at_rest) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"ribbon.length", 18e-3}, {"platform.length", 3e-3},
                           {"ribbon.thickness", 200e-6}, {"load.mass", 2e-3}, {"insulator.permittivity", 1000},
                           {"drive.voltage", 50}, {"solver.end_time", 2e-3});
   ck_assert_double_lt(answered_value(ZP_STUDY_LIMITS, &def, "closing_voltage_V"), 50);
   ck_assert_double_lt(answered_value(ZP_STUDY_ACTUATE, &def, "zip_time_s"), 1e-3);
 }
-END_TEST
 
 /* An actuator that hangs nearly closed closes by a small motion, and its error is relative to that motion. It was
  * relative to the length, so the steps were too long for the motion: the zip times of 200 and 300 um were wrong by
  * 7.5e-3 and 2.9e-3 at a tolerance of 1e-4, now by 4.1e-4 and 3.7e-4. */
-START_TEST(test_error_of_a_small_motion) {
+TEST(test_error_of_a_small_motion) {
   static const double thickness[] = {200e-6, 300e-6};
   for (size_t k = 0; k < sizeof thickness / sizeof thickness[0]; k++) {
     ZpActuatorDef def =
@@ -809,7 +793,6 @@ START_TEST(test_error_of_a_small_motion) {
     ck_near(usual, zip(def).time, 6e-4); /* 1.6e-4 measured */
   }
 }
-END_TEST
 
 /* How late a zip is with equal steps, of `exact`. */
 static double lateness(const ZpActuatorDef *given, double step, double exact) {
@@ -820,19 +803,18 @@ static double lateness(const ZpActuatorDef *given, double step, double exact) {
 
 /* The closing instant is found on the parabola of the platform within a step, so its error is of second order in the
  * step, wherever it lies in the step. On a straight line it would not be, by 2.7e-3 with some 30 steps. */
-START_TEST(test_closing_instant_within_a_step) {
+TEST(test_closing_instant_within_a_step) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 31}, {"damping.internal", 1e-5}, {"ribbon.thickness", 300e-6},
                           {"solver.tolerance", 1.6e-5});
   double fine = zip(def).time;
   ck_below(fabs(lateness(&def, 30e-6, fine) - 4 * lateness(&def, 15e-6, fine)), 2e-3); /* 3.4e-4 measured */
 }
-END_TEST
 
 /* Of a tiny hanging opening, faces touch before 1 % of it is left. The zip time was then beyond the end of the run: 228
  * us, where the run had ended, closed, at 1 us. */
 /* Regression: with thin insulators and no cap an iteration with faces overlapping by the whole thickness found an
  * unbounded attraction there and a false state. */
-START_TEST(faces_do_not_fall_through_thin_insulators) {
+TEST(faces_do_not_fall_through_thin_insulators) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.095996535493478072}, {"ribbon.width", 0.0293876398949647},
           {"ribbon.thickness", 0.00010484438020689578}, {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34},
@@ -845,9 +827,8 @@ START_TEST(faces_do_not_fall_through_thin_insulators) {
   ck_below(zp_result_get(result, "energy_error"), 3e-9); /* 4.3e-10 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(test_zip_time_is_within_the_run) {
+TEST(test_zip_time_is_within_the_run) {
   ZpActuatorDef def = DEF(IMPLICIT, {"load.mass", 0}, {"ribbon.thickness", 250e-6}, {"ribbon.length", 40e-3},
                           {"platform.length", 4e-3});
   ZpModel *model = model_of(&def);
@@ -858,12 +839,11 @@ START_TEST(test_zip_time_is_within_the_run) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Two integrators that share no code except the forces, without damping: midpoint rule with discrete gradients, and
  * symplectic Euler with its smallest steps. Both mechanics. Measured: 77.97 and 77.89 ms (rod), 75.92 and 75.91 ms
  * (mass_spring). */
-START_TEST(test_zip_explicit) {
+NIGHTLY_TESTS(test_zip_explicit, 0, 2) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 0}, {"solver.tolerance", 7e-5},
                           {"ribbon.model", _i ? ZP_RIBBON_MASS_SPRING : ZP_RIBBON_ROD});
   Zip implicit = zip(def);
@@ -874,7 +854,6 @@ START_TEST(test_zip_explicit) {
   ck_near(explicit.time, implicit.time, 2e-3);
   ck_below(explicit.energy_error, 3e-4);
 }
-END_TEST
 
 /* Energy error of study actuate at 12 kV, or through a slow release. */
 static double energy_error_of(const ZpActuatorDef *def, size_t rows, const double *t, const double *U) {
@@ -894,19 +873,17 @@ static double energy_error_of(const ZpActuatorDef *def, size_t rows, const doubl
 /* Found by users: 6e-4 of the work at N = 401. Newton's method stopped while faces met one after the other: so slow a
  * convergence was taken for rounding, or the last correction brought faces into touch. A residual of no length is much
  * work where a fine mesh is stiff. Measured: 1.4e-9. */
-START_TEST(test_energy_on_a_fine_mesh) {
+NIGHTLY_TEST(test_energy_on_a_fine_mesh) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 401}, {"drive.voltage", 12e3});
   ck_below(energy_error_of(&def, 0, NULL, NULL), 2e-9); /* 3.3e-10 measured */
 }
-END_TEST
 
 /* Regression: the same in a slow release, 9e-6 here. Measured: 1e-8. */
-START_TEST(test_energy_of_a_slow_release) {
+TESTS(test_energy_of_a_slow_release, 0, FULL_OR(1, 0)) {
   static const double t[] = {0, 0.2, 0.3, 10.3}, U[] = {10e3, 10e3, 2e3, 0};
   ZpActuatorDef def = DEF(IMPLICIT, {"drive.waveform", ZP_WAVEFORM_TABLE}, {"solver.end_time", 11});
   ck_below(energy_error_of(&def, LENGTH_OF(t), t, U), 2e-8); /* 3.1e-9 measured */
 }
-END_TEST
 
 static double contraction_at(double voltage, double rise_time, double end_time) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 61}, {"drive.voltage", voltage}, {"solver.end_time", end_time});
@@ -925,17 +902,16 @@ static double contraction_at(double voltage, double rise_time, double end_time) 
 
 /* Pull-in in slow motion is that of statics, 5662 V (test_statics). A ramp of 20 s stays open to 0.25 % below it and
  * closes 0.1 % above; a sudden step swings over the barrier from some 5325 V on, 5 % earlier. */
-START_TEST(test_pull_in_in_motion) {
+TESTS(test_pull_in_in_motion, 0, FULL_OR(1, 0)) {
   ck_below(contraction_at(5648, 20, 24), 0.3);
   ck_assert_double_gt(contraction_at(5668, 20, 24), 0.99);
   ck_below(contraction_at(5300, 0, 2), 0.3);
   ck_assert_double_gt(contraction_at(5350, 0, 2), 0.99);
 }
-END_TEST
 
 /* With the computed field its difference from the plates law is held between solutions, which costs energy. Measured:
  * 75.66 ms, 0.2 % off plates; energy within 1.6e-4, far more than that of plates. */
-START_TEST(test_zip_by_field) {
+NIGHTLY_TEST(test_zip_by_field) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   double plates = zip(def).time;
   def.electro.model = ZP_ELECTRO_FIELD;
@@ -947,11 +923,10 @@ START_TEST(test_zip_by_field) {
   ck_below(field.energy_error, 1e-3);
   ck_below(field.overlap, 0.03 * 260e-6);
 }
-END_TEST
 
 /* Zipped, voltage off, damped: it opens to its hanging equilibrium and stays there, and faces never overlap. Measured:
  * off by 2e-5 of the opening or less during the last half second. */
-START_TEST(test_opens_again) {
+TEST(test_opens_again) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 7e-5});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -979,7 +954,6 @@ START_TEST(test_opens_again) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Opening of the state of rest at `voltage` on the branch that hangs. */
 static double opening_at_rest(const ZpModel *model, double voltage) {
@@ -992,7 +966,7 @@ static double opening_at_rest(const ZpModel *model, double voltage) {
 }
 
 /* Below pull-in with strong damping: it comes to rest at the equilibrium of statics. Measured: within 1.2e-6. */
-START_TEST(test_rests_where_statics_does) {
+TEST(test_rests_where_statics_does) {
   ZpActuatorDef def =
       DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-2}, {"solver.tolerance", 7e-5}, {"drive.voltage", 3e3});
   ZpModel *model = model_of(&def);
@@ -1007,10 +981,9 @@ START_TEST(test_rests_where_statics_does) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Saved inside a zip, faces already touching, another simulation resumes from there, to the same bits. */
-START_TEST(test_restart) {
+TESTS(test_restart, 0, 2) {
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"damping.internal", 1e-5});
   if (_i) def.electro.model = ZP_ELECTRO_FIELD;
   if (_i) def.electro.refresh_change = 1;
@@ -1037,11 +1010,10 @@ START_TEST(test_restart) {
   zp_sim_destroy(two);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* One ribbon under a flat electrode, 2 g at its end: below its pull-in, 1757 V, it hangs; above, it closes and stays
  * closed. Measured: energy off by 4e-10 of the work. */
-START_TEST(test_flange) {
+TEST(test_flange) {
   double stroke[2];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def =
@@ -1067,10 +1039,9 @@ START_TEST(test_flange) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Each step of a run has been as long as one of its limits allowed. */
-START_TEST(each_step_has_one_limit) {
+TEST(each_step_has_one_limit) {
   static const char *const limited[] = {"steps_limited_by_time_step", "steps_limited_by_stability",
                                         "steps_limited_by_drag",      "steps_limited_by_event",
                                         "steps_limited_by_error",     "steps_limited_by_end"};
@@ -1087,53 +1058,4 @@ START_TEST(each_step_has_one_limit) {
     ck_near(zp_result_get(result, "mean_time_step_s"), def.solver.end_time / steps, 1e-12);
     zp_result_destroy(result);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("dynamics");
-  TCase *forces = tcase_create("forces");
-  tcase_add_loop_test(forces, test_rod_work, 0, LENGTH_OF(kinds));
-  tcase_add_test(forces, test_rod_turned_as_a_whole);
-  tcase_add_loop_test(forces, test_rod_exchange, 0, LENGTH_OF(kinds));
-  tcase_add_loop_test(forces, test_plates_work, 0, LENGTH_OF(laws));
-  tcase_add_loop_test(forces, test_plates_derivative, 0, LENGTH_OF(laws));
-  tcase_add_loop_test(forces, test_forces_of_the_step_back, 0, 2);
-  suite_add_tcase(suite, forces);
-  TCase *ribbon = tcase_create("ribbon");
-  tcase_add_test(ribbon, test_swing_keeps_energy);
-  if (!SANITIZED) tcase_add_test(ribbon, test_frequency_is_that_of_modes);
-  tcase_add_test(ribbon, stroke_changes_sign_smoothly);
-  tcase_add_test(ribbon, test_decrement);
-  suite_add_tcase(suite, ribbon);
-  TCase *two = tcase_create("two ribbons");
-  tcase_add_test(two, test_zip_otherwise);
-  tcase_add_test(two, each_step_has_one_limit);
-  tcase_add_test(two, test_error_of_a_small_motion);
-  tcase_add_test(two, test_closing_instant_within_a_step);
-  tcase_add_test(two, test_zip_time_is_within_the_run);
-  tcase_add_test(two, faces_do_not_fall_through_thin_insulators);
-  tcase_add_test(two, test_share_of_momentum_that_a_film_takes);
-  if (!SANITIZED) { /* of code that the others run, too */
-    tcase_add_test(two, test_zip_time);
-    tcase_add_loop_test(two, tolerance_keeps_its_word, 1, 2);
-    tcase_add_loop_test(two, steps_are_what_the_mesh_is_worth, 0, 3);
-    tcase_add_test(two, creep_in_a_bath_takes_few_steps);
-    tcase_add_test(two, faces_that_touch_first_tell_the_zip_time);
-    tcase_add_test(two, test_pull_in_in_motion);
-    tcase_add_test(two, test_energy_of_a_slow_release);
-  }
-  tcase_add_test(two, closed_in_motion_is_closed_at_rest);
-  tcase_add_test(two, test_opens_again);
-  tcase_add_test(two, test_rests_where_statics_does);
-  tcase_add_loop_test(two, test_restart, 0, 2);
-  tcase_add_test(two, test_flange);
-  suite_add_tcase(suite, two);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_test(nightly, test_energy_on_a_fine_mesh);
-  tcase_add_test(nightly, test_zip_by_field);
-  tcase_add_loop_test(nightly, test_zip_explicit, 0, 2);
-  tcase_add_loop_test(nightly, tolerance_keeps_its_word, 0, 1);
-  tcase_add_loop_test(nightly, tolerance_keeps_its_word, 2, 3);
-  return run_suite(suite);
 }

@@ -47,7 +47,7 @@ static void same_numbers(const ZpResult *result, const char *json) {
   ck_assert_uint_gt(compared, 5);
 }
 
-START_TEST(scenarios_give_the_same_numbers) {
+TESTS(scenarios_give_the_same_numbers, 0, 5) {
   static const char *const name[] = {"actuate", "stationary", "limits", "isometric", "cycle"};
   char path[256];
   size_t size;
@@ -66,7 +66,6 @@ START_TEST(scenarios_give_the_same_numbers) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* -- states and rows -------------------------------------------------------------------------------- */
 
@@ -75,15 +74,14 @@ static void says(const ZpError *err, const char *reason) {
   ck_assert_msg(strstr(err->message, reason) != NULL, "no '%s' in: %s", reason, err->message);
 }
 
-START_TEST(checkpoint_names_its_version) {
+TEST(checkpoint_names_its_version) {
   ZpError err = {ZP_OK, ""};
   ZpCheckpoint *checkpoint;
   ck_assert_int_eq(zp_checkpoint_read(DATA "checkpoint.zps", &checkpoint, &err), ZP_BAD_INPUT);
   says(&err, "checkpoint.zps: of version 9 of the format, by zipact 0.1.0; ");
 }
-END_TEST
 
-START_TEST(state_of_an_fmu_names_its_version) {
+TEST(state_of_an_fmu_names_its_version) {
   ZpError err = {ZP_OK, ""};
   ZpFmu *fmu;
   size_t size;
@@ -99,17 +97,15 @@ START_TEST(state_of_an_fmu_names_its_version) {
   zp_fmu_destroy(fmu);
   free(byte);
 }
-END_TEST
 
 /* A journal of an unfinished sweep: it is not continued, and not replaced either. */
-START_TEST(journal_names_its_version) {
+TEST(journal_names_its_version) {
   ZpError err = {ZP_OK, ""};
   ZpCampaign *campaign;
   size_t size;
   struct stat kept;
   ZpScenario *scenario = zp_scenario_create();
   char *byte = bytes_of(DATA "journal.sqlite", &size), *path;
-  make_folder();
   path = path_of("journal.sqlite");
   FILE *file = fopen(path, "wb");
   ck_assert_uint_eq(fwrite(byte, 1, size, file), size);
@@ -125,19 +121,5 @@ START_TEST(journal_names_its_version) {
   }
   free(byte);
   free(path);
-  remove_folder();
   zp_scenario_destroy(scenario);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("earlier");
-  TCase *scenarios = tcase_create("scenarios"), *files = tcase_create("files");
-  tcase_add_loop_test(scenarios, scenarios_give_the_same_numbers, 0, 5);
-  tcase_add_test(files, checkpoint_names_its_version);
-  tcase_add_test(files, state_of_an_fmu_names_its_version);
-  tcase_add_test(files, journal_names_its_version);
-  suite_add_tcase(suite, scenarios);
-  suite_add_tcase(suite, files);
-  return run_suite(suite);
 }

@@ -36,7 +36,7 @@ static ZpEdgeLaw law_of(const ZpEdgeParams *p, double largest) {
 /* Capacitance over that of plates, as the law has it: against the independent study (four digits known), and against
  * our own mesh with elements a quarter as large and a tenth at the edges (24, 4, 4, 32, 48 elements, first 3 um),
  * within 7e-5, 1.4e-4, 2.5e-4, 3.6e-4, 5.7e-4. */
-START_TEST(test_capacitance_table) {
+TEST(test_capacitance_table) {
   static const double gap[] = {0, 0.26e-3, 1e-3, 2e-3, 4e-3}, known[] = {1.030, 1.071, 1.165, 1.272, 1.460};
   static const double fine[] = {1.02967, 1.07093, 1.16540, 1.27369, 1.46355};
   ZpEdgeParams p = study_params();
@@ -49,11 +49,10 @@ START_TEST(test_capacitance_table) {
     ck_near(ratio, known[i], 5e-3); /* 3e-3 measured */
   }
 }
-END_TEST
 
 /* Two thin strips in vacuum, w / d = 1 and 10: C / eps0 = 2.11578 and 11.68131 by conformal mapping; the "insulator" is
  * vacuum, too. Off by 5e-4 and 1.4e-4. */
-START_TEST(test_thin_strips) {
+TEST(test_thin_strips) {
   static const double apart[] = {10e-3, 1e-3}, known[] = {2.11578, 11.68131};
   for (size_t k = 0; k < LENGTH_OF(apart); k++) {
     ZpEdgeParams p = {.w = 10e-3, .b = 2.5e-7, .t = apart[k] / 50, .eps_m = 1, .eps_i = 1};
@@ -69,11 +68,10 @@ START_TEST(test_thin_strips) {
     ck_near(C / ZP_EPS0, known[k], 2e-3); /* 5.2e-4 measured */
   }
 }
-END_TEST
 
 /* Wide strips: what their edges add grows with the charge on their backs only, ln 2 / pi for twice the width,
  * whatever lies between them: along an arc of length 2 pi x round the edge falls the voltage. */
-START_TEST(test_wide_strips) {
+TEST(test_wide_strips) {
   for (double gap = 0; gap < 1e-3; gap += FULL_OR(0.3e-3, 1e-3)) {
     double e[3];
     for (int k = 0; k < 3; k++) {
@@ -88,7 +86,6 @@ START_TEST(test_wide_strips) {
     ck_assert_double_eq_tol(e[2] - e[1], log(2) / pi, 0.02); /* 7.9e-3 measured */
   }
 }
-END_TEST
 
 /* -- the fit --------------------------------------------------------------------------------------- */
 
@@ -134,7 +131,7 @@ static void check_fit(const char *name, const ZpEdgeParams *p, double largest, d
 
 /* Measured to 2 L: C' 3e-6, W 9e-5 (default and study), C' 3e-5, W 5e-3 where insulators are half as thick as strips
  * are wide, C' 2e-6, W 2e-5 where they are thin. */
-START_TEST(test_fit_error) {
+NIGHTLY_TESTS(test_fit_error, 0, FULL_OR(1, 0)) {
   ZpEdgeParams p = study_params();
   check_fit("study", &p, 0.1125, 0.09, 1e-5, 1e-4);
   p.b = 50e-6;
@@ -144,10 +141,9 @@ START_TEST(test_fit_error) {
   p = (ZpEdgeParams){.w = 50e-3, .b = 200e-6, .t = 20e-6, .eps_m = 2.75, .eps_i = 3};
   check_fit("wide, thin insulator", &p, 0.2, 0.16, 1e-5, 1e-4);
 }
-END_TEST
 
 /* Derivatives of the law, and its linear continuation at both ends (through the plates law, below). */
-START_TEST(test_value_derivatives) {
+TEST(test_value_derivatives) {
   ZpEdgeParams p = study_params();
   ZpEdgeLaw law = law_of(&p, 0.1);
   double worst1 = 0, worst2 = 0;
@@ -161,7 +157,6 @@ START_TEST(test_value_derivatives) {
   ck_below(worst1, 5e-9); /* 9.5e-10 measured */
   ck_below(worst2, 5e-8); /* 8e-9 measured */
 }
-END_TEST
 
 /* -- the law of force and charge ------------------------------------------------------------------- */
 
@@ -172,7 +167,7 @@ static ZpModel *edge_model(int nodes, bool cap, bool platform, bool edges) {
 }
 
 /* W = dP/dg, q = -dP/dU, and without edges the plates law, also for faces pressed together. Measured 3e-9 and 1e-11. */
-START_TEST(test_law_derivatives) {
+TEST(test_law_derivatives) {
   double worst_W = 0, worst_q = 0;
   for (int cap = 0; cap < 2; cap++) {
     ZpModel *model = edge_model(21, cap, true, true);
@@ -192,11 +187,10 @@ START_TEST(test_law_derivatives) {
   ck_below(worst_W, 1e-9);  /* 1.9e-10 measured */
   ck_below(worst_q, 5e-11); /* 8.1e-12 measured */
 }
-END_TEST
 
 /* At the onset of the cap, at closed faces and at the far end of the law there is no jump, and the capped force is
  * constant. */
-START_TEST(test_law_is_continuous) {
+TEST(test_law_is_continuous) {
   ZpModel *model = edge_model(21, true, true, true);
   const ZpPlatesParams *p = &model->plates;
   for (double U = 2e3; U < 13e3; U += 1.1e3) {
@@ -213,10 +207,9 @@ START_TEST(test_law_is_continuous) {
   }
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Scale and share of the voltage act on the edges as on the plates law; an insulator_offset changes the plates only. */
-START_TEST(test_scales) {
+TEST(test_scales) {
   ZpActuatorDef def = DEF({"electro.edges", 1}, {"electro.force_scale", 6.03}, {"electro.voltage_share", 0.5},
                           {"electro.breakdown_cap", 0}),
                 plain = DEF({"electro.edges", 1}, {"electro.breakdown_cap", 0}),
@@ -236,7 +229,6 @@ START_TEST(test_scales) {
   zp_model_destroy(one);
   zp_model_destroy(other);
 }
-END_TEST
 
 /* -- the polyline ---------------------------------------------------------------------------------- */
 
@@ -309,7 +301,7 @@ static double gradient_error(Pair *pair, double U) {
   return worst / largest;
 }
 
-START_TEST(test_force_is_gradient) {
+TEST(test_force_is_gradient) {
   static const int nodes[] = {4, 9, 10};
   for (int cap = 0; cap < 2; cap++)
     for (size_t n = 0; n < LENGTH_OF(nodes); n += FULL_OR(1, 2)) {
@@ -325,7 +317,6 @@ START_TEST(test_force_is_gradient) {
       free_pair(&pair);
     }
 }
-END_TEST
 
 /* Closing force of station i. */
 static double closing(const Pair *pair, size_t i) {
@@ -334,7 +325,7 @@ static double closing(const Pair *pair, size_t i) {
 
 /* Stiffness against finite differences of forces: with respect to the gap of a station and of its neighbour, and to a
  * length along x. Measured 2e-9 of the largest. */
-START_TEST(test_stiffness) {
+TEST(test_stiffness) {
   enum { N = 21 };
   static const double h = 1e-8;
   double own[N], next[N], along0[N];
@@ -375,11 +366,10 @@ START_TEST(test_stiffness) {
     free_pair(&pair);
   }
 }
-END_TEST
 
 /* Without the cap all forces are proportional to the square of the voltage, so their derivative by it is 2 F / U: on
  * open and on closed faces, at gaps where the edges' law is tabulated. */
-START_TEST(forces_go_with_the_square_of_the_voltage) {
+TEST(forces_go_with_the_square_of_the_voltage) {
   enum { N = 21 };
   static const double U = 5e3, openings[] = {0, 1e-4, 4e-3};
   for (size_t k = 0; k < LENGTH_OF(openings); k++) {
@@ -400,11 +390,10 @@ START_TEST(forces_go_with_the_square_of_the_voltage) {
     free_pair(&pair);
   }
 }
-END_TEST
 
 /* Force and capacitance of the wedges of 1, 2, 4 mm with 100 um strips, flexible part of one half: the edges of the
  * independent study add 0.6 to 0.7 % to the force. */
-START_TEST(test_wedge) {
+TEST(test_wedge) {
   for (double s = 1e-3; s < 5e-3; s *= FULL_OR(2, 8))
     for (int cap = 0; cap < 2; cap++) {
       ZpPlatesTotals t[2];
@@ -424,13 +413,12 @@ START_TEST(test_wedge) {
       ck_assert_double_gt(C, 0.03);
     }
 }
-END_TEST
 
 /* -- in the whole ---------------------------------------------------------------------------------- */
 
 /* With a computed field the total is that field plus the edges: the key adds the same to the forces as with the plates
  * law. */
-START_TEST(test_with_solved_field) {
+TEST(test_with_solved_field) {
   Pair pair[4]; /* plates, plates with edges, field, field with edges */
   double *F[4], energy[4], charge[4];
   for (int k = 0; k < 4; k++) {
@@ -464,7 +452,6 @@ START_TEST(test_with_solved_field) {
     free_pair(&pair[k]);
   }
 }
-END_TEST
 
 static double scalar(const ZpResult *result, const char *name) {
   for (size_t i = 0; i < result->scalars; i++)
@@ -475,7 +462,7 @@ static double scalar(const ZpResult *result, const char *name) {
 /* Pull-in and release of the default actuator, with and without edges. A hanging load is pulled by the ribbons where
  * they are millimetres apart, and there the edges add far more than the 0.7 % of the total force: the pull-in falls by
  * 1.9 %. The pull-in without is that of docs/theory.md. */
-START_TEST(test_pull_in) {
+TEST(test_pull_in) {
   double pull[2], release[2];
   for (int edges = 0; edges < 2; edges++) {
     ZpActuatorDef def = DEF({"electro.edges", edges}, {"mesh.nodes", FULL_OR(61, 21)});
@@ -493,10 +480,9 @@ START_TEST(test_pull_in) {
   ck_assert_double_gt(pull[1], 0.97 * pull[0]);
   ck_assert_double_lt(release[1], release[0]);
 }
-END_TEST
 
 /* A run in time keeps its energy balance: charge and field energy agree with the force. */
-START_TEST(test_run_balances) {
+TEST(test_run_balances) {
   double error[2];
   for (int edges = 0; edges < 2; edges++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"electro.edges", edges}, {"solver.end_time", FULL_OR(30e-3, 5e-3)});
@@ -509,7 +495,6 @@ START_TEST(test_run_balances) {
   }
   ck_below(fabs(error[1]), 2 * fabs(error[0]) + 1e-9); /* 4.6e-10 measured */
 }
-END_TEST
 
 static void refused(const Setting *list, size_t count, const char *word) {
   ZpActuatorDef def = def_with(list, count);
@@ -523,17 +508,16 @@ static void refused(const Setting *list, size_t count, const char *word) {
   refused((const Setting[]){{"electro.edges", 1}, __VA_ARGS__},                                                        \
           sizeof((const Setting[]){{"electro.edges", 1}, __VA_ARGS__}) / sizeof(Setting), word)
 
-START_TEST(test_refused) {
+TEST(test_refused) {
   REFUSED("electro.surface", {"electro.surface", ZP_SURFACE_BEZIER}, {"contact.model", ZP_CONTACT_SEQUENTIAL},
           {"solver.integrator", ZP_INTEGRATOR_EXPLICIT});
   REFUSED("flange", {"actuator.kind", ZP_KIND_FLANGE});
   REFUSED("insulator.thickness", {"insulator.thickness", 0});
 }
-END_TEST
 
 /* Every corner of the keys gives a law or says why not; nothing in it is not a number. The outermost
  * corners first, then all. */
-START_TEST(test_extremes) {
+TEST(test_extremes) {
   static const double w[] = {1e-4, 1}, t[] = {1e-9, 1e-6, 5e-3}, largest[] = {1e-3, 12};
   int made = 0, all = 0;
   for (size_t i = _i ? 0 : 1; i < LENGTH_OF(w); i++)
@@ -554,34 +538,4 @@ START_TEST(test_extremes) {
   printf("%d of %d made\n", made, all);
   ck_assert_int_eq(made, _i ? 8 : 2); /* all but those with insulators of a nanometre */
 }
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("edges");
-  TCase *section = tcase_create("section");
-  tcase_add_test(section, test_capacitance_table);
-  tcase_add_test(section, test_thin_strips);
-  tcase_add_test(section, test_wide_strips);
-  tcase_add_test(section, test_value_derivatives);
-  tcase_add_loop_test(section, test_extremes, 0, 1);
-  suite_add_tcase(suite, section);
-  TCase *law = tcase_create("law");
-  tcase_add_test(law, test_law_derivatives);
-  tcase_add_test(law, test_law_is_continuous);
-  tcase_add_test(law, test_scales);
-  tcase_add_test(law, test_force_is_gradient);
-  tcase_add_test(law, test_stiffness);
-  tcase_add_test(law, forces_go_with_the_square_of_the_voltage);
-  tcase_add_test(law, test_wedge);
-  suite_add_tcase(suite, law);
-  TCase *whole = tcase_create("whole");
-  tcase_add_test(whole, test_with_solved_field);
-  tcase_add_test(whole, test_pull_in);
-  tcase_add_test(whole, test_run_balances);
-  tcase_add_test(whole, test_refused);
-  suite_add_tcase(suite, whole);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_extremes, 1, 2);
-  add_long_test(nightly, test_fit_error);
-  return run_suite(suite);
-}
+ALSO_NIGHTLY(test_extremes, 1, 2)

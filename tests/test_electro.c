@@ -25,7 +25,7 @@ static ZpPlatesParams law_params(bool cap) {
   return p;
 }
 
-START_TEST(test_closed_scalars) {
+TEST(test_closed_scalars) {
   ZpPlatesParams free_law = law_params(false), capped = law_params(true);
   ck_near(free_law.d, 2 * 130e-6 * 2.75 / 4.62, 1e-14); /* 154.8 um */
   ck_near(free_law.d, 154.8e-6, 3e-4);
@@ -42,10 +42,9 @@ START_TEST(test_closed_scalars) {
   ck_near(zp_model_info(model).closed_line_force, 61.8, 1e-3); /* 7.5e-4 measured */
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Line force of a zip front: potential far open minus potential closed. Known to three digits. */
-START_TEST(test_zipping_line_force) {
+TEST(test_zipping_line_force) {
   static const double kV[] = {3, 6, 10}, free_mN[] = {9.0, 36.0, 99.9}, capped_mN[] = {9.0, 27.5, 52.3};
   for (int i = 0; i < 3; i++)
     for (int cap = 0; cap < 2; cap++) {
@@ -56,10 +55,9 @@ START_TEST(test_zipping_line_force) {
       if (!cap) ck_near(front, 0.5 * zp_plates_law(&p, U, 0).q * U, 1e-9); /* 1/2 C' U^2; 1.5e-10 measured */
     }
 }
-END_TEST
 
 /* The cap starts where the field in the liquid reaches 20 MV/m: g = U / E_bd - d, above 3.10 kV. */
-START_TEST(test_cap_is_continuous) {
+TEST(test_cap_is_continuous) {
   ZpPlatesParams p = law_params(true);
   ck_near(p.d * 20e6, 3.10e3, 2e-3); /* 1.5e-3 measured */
   for (double U = 3.2e3; U < 13e3; U += 1.1e3) {
@@ -75,11 +73,10 @@ START_TEST(test_cap_is_continuous) {
     ck_near(zp_plates_law(&p, U, at + 1e-5).W, K / (beyond * beyond), 1e-13);
   }
 }
-END_TEST
 
 /* W = dP/dg and q = -dP/dU. Measured 8e-10 and 2e-12, rounding and h^2 of the
  * central difference. */
-START_TEST(test_law_derivatives) {
+TEST(test_law_derivatives) {
   double worst_W = 0, worst_q = 0;
   for (int cap = 0; cap < 2; cap++) {
     ZpPlatesParams p = law_params(cap);
@@ -97,10 +94,9 @@ START_TEST(test_law_derivatives) {
   ck_below(worst_W, 5e-9);  /* 7.8e-10 measured */
   ck_below(worst_q, 1e-11); /* 1.2e-12 measured */
 }
-END_TEST
 
 /* Scale and voltage share are one formula: the settings of the paper against eqs. (7), (8) evaluated by hand. */
-START_TEST(test_law_of_presets) {
+TEST(test_law_of_presets) {
   ZpActuatorDef text = DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 21});
   ZpModel *model = model_of(&text);
   double U = 5e3, h = 1e-3 + 2 * 130e-6 * 2.75 / 4.62;
@@ -114,10 +110,9 @@ START_TEST(test_law_of_presets) {
   ck_near(zp_plates_law(&model->plates, U, 1e-3).W, 6.6 * 0.5 * ZP_EPS0 * 2.75 * w * U * U / (h * h), 1e-13);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Bare faces: with the cap the force stays bounded down to contact. */
-START_TEST(test_bare_faces) {
+TEST(test_bare_faces) {
   ZpActuatorDef def = DEF({"insulator.thickness", 0});
   ZpModel *model = model_of(&def);
   ck_assert_double_eq(model->plates.d, 0);
@@ -128,7 +123,6 @@ START_TEST(test_bare_faces) {
   }
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- the polyline ---------------------------------------------------------------------------------- */
 
@@ -217,7 +211,7 @@ static Gradient compare_gradient(Pair *pair, double U, double h) {
 
 /* Nodal forces are the negative gradient of the potential in x and y of every node, with and without cap and platform.
  * Measured: 4e-10 of the largest force without cap, 1e-9 with it. */
-START_TEST(test_polyline_force_is_gradient) {
+TEST(test_polyline_force_is_gradient) {
   for (int cap = 0; cap < 2; cap++)
     for (int platform = 0; platform < 2; platform++) {
       double worst_x = 0, worst_y = 0;
@@ -237,7 +231,6 @@ START_TEST(test_polyline_force_is_gradient) {
       ck_below(worst_y, 5e-9); /* 8.4e-10 measured */
     }
 }
-END_TEST
 
 /* Forces are equal and opposite for any shape: exactly along y, to rounding along x. And what the nodes feel is the
  * total of the line. */
@@ -257,7 +250,7 @@ static void check_opposite(const Pair *pair, double total) {
     ck_assert(e->Fx[j] == 0 && e->Fy[j] == 0);
 }
 
-START_TEST(test_polyline_momentum) {
+TEST(test_polyline_momentum) {
   for (uint64_t seed = 1; seed <= 20; seed++) {
     Pair pair = make_pair(default_model(21, seed % 2, true));
     shape_random(&pair, seed);
@@ -266,7 +259,6 @@ START_TEST(test_polyline_momentum) {
     free_pair(&pair);
   }
 }
-END_TEST
 
 /* Total force of the polyline's own shape by a midpoint rule with 400 points per element. */
 static double fine_force(const Pair *pair, double U) {
@@ -287,7 +279,7 @@ static double fine_force(const Pair *pair, double U) {
 /* Three Gauss points against fine quadrature of the same polyline, 1 to 17 mm at 6 kV. Measured, largest over
  * the openings: without cap 6e-4 (N = 21, 17 mm: one element spans a tenfold force), 4e-7, 1e-8; with the kink
  * of the cap inside an element 2.7e-3, 7.4e-4, 3.3e-5. */
-START_TEST(test_quadrature) {
+TEST(test_quadrature) {
   static const int nodes[] = {21, 61, 130};
   static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, limit[2][3] = {{8e-4, 1e-6, 5e-8}, {5e-3, 1.5e-3, 1e-4}};
   for (int cap = 0; cap < 2; cap++)
@@ -304,7 +296,6 @@ START_TEST(test_quadrature) {
       ck_below(worst, limit[cap][n]);
     }
 }
-END_TEST
 
 /* -- the Bezier surface ---------------------------------------------------------------------------- */
 
@@ -340,16 +331,15 @@ static double power(const ZpCubic *cubic, double t) {
 }
 
 /* The power form is the Bernstein form. */
-START_TEST(test_cubic) {
+TEST(test_cubic) {
   const double p[4] = {1, -2, 4, 0.5};
   ZpCubic cubic = zp_bezier_cubic(p[0], p[1], p[2], p[3]);
   for (double t = 0; t <= 1; t += 0.125)
     ck_assert_double_eq_tol(power(&cubic, t), bernstein(p, t), 1e-14);
 }
-END_TEST
 
 /* A cubic sampled at the parameters of the fit comes back, from its ends and end directions. */
-START_TEST(test_fit_recovers_cubic) {
+TEST(test_fit_recovers_cubic) {
   enum { COUNT = 21 };
   const double a = 0.4, b = 0.7, first[2] = {0, 0}, last[2] = {2, -1}, d0[2] = {0.8, 0.6}, d3[2] = {1, 0};
   double px[4] = {first[0], first[0] + a * d0[0], last[0] - b * d3[0], last[0]};
@@ -373,10 +363,9 @@ START_TEST(test_fit_recovers_cubic) {
     ck_assert_double_eq_tol(power(&y, t), bernstein(py, t), 1e-13);
   }
 }
-END_TEST
 
 /* Fewer than two inner points: handles of a third of the chord; ends and directions are kept. */
-START_TEST(test_fit_of_few_points) {
+TEST(test_fit_of_few_points) {
   for (size_t count = 2; count < 4; count++) {
     double B1[6], B2[6], moment[4] = {0};
     ZpBezierBasis basis = {.B1 = B1, .B2 = B2};
@@ -390,7 +379,6 @@ START_TEST(test_fit_of_few_points) {
     ck_near(y.c[1], 5, 1e-14);
   }
 }
-END_TEST
 
 /* Total force of gap = s (3 xi^2 - 2 xi^3) at 6 kV, per strip and half, from the independent study: 1.160/2.104,
  * 0.780/1.436, 0.530/0.988 N with/without cap at 1, 2, 4 mm. They are those of the flexible part, without the
@@ -408,7 +396,7 @@ static void check_wedge(double s, bool cap, double known) {
   free_pair(&pair);
 }
 
-START_TEST(test_wedge_forces) {
+TEST(test_wedge_forces) {
   static const double opening[] = {1e-3, 2e-3, 4e-3}, free_N[] = {2.104, 1.436, 0.988},
                       capped_N[] = {1.160, 0.780, 0.530};
   for (size_t s = 0; s < LENGTH_OF(opening); s++) {
@@ -416,12 +404,11 @@ START_TEST(test_wedge_forces) {
     check_wedge(opening[s], true, capped_N[s]);
   }
 }
-END_TEST
 
 /* Where 90 % of the attraction acts: the first 18.5, 12.2, 8.0, 3.6 mm of wedges of 1, 2, 4, 17 mm. And the
  * cap over the first 10.8, 7.4, 5.2 mm at 6 kV. Both to the station spacing of N = 901, 50 um, and the digits
  * known. */
-START_TEST(test_wedge_profile) {
+TEST(test_wedge_profile) {
   static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, ninety[] = {18.5e-3, 12.2e-3, 8.0e-3, 3.6e-3};
   static const double capped[] = {10.8e-3, 7.4e-3, 5.2e-3};
   for (size_t s = 0; s < LENGTH_OF(opening); s++) {
@@ -439,11 +426,10 @@ START_TEST(test_wedge_profile) {
     free_pair(&pair);
   }
 }
-END_TEST
 
 /* The same surface against a fine quadrature of its formula: the error of two Gauss points. Measured 4e-6, 4e-8, 2e-9.
  */
-START_TEST(test_surface_of_wedge) {
+TEST(test_surface_of_wedge) {
   static const int nodes[] = {21, 61, 130};
   static const double limit[] = {1e-5, 1e-7, 1e-8};
   for (size_t n = 0; n < LENGTH_OF(nodes); n++) {
@@ -458,10 +444,9 @@ START_TEST(test_surface_of_wedge) {
     free_pair(&pair);
   }
 }
-END_TEST
 
 /* Equal and opposite, nothing on closed stations, and each interval's force on its right station. */
-START_TEST(test_surface_momentum) {
+TEST(test_surface_momentum) {
   Pair pair = make_pair(default_model(21, true, true));
   shape_wedge(&pair, 4e-3);
   static const size_t fronts[] = {0, 1, 7, 17, 18, 19, 20};
@@ -483,10 +468,9 @@ START_TEST(test_surface_momentum) {
   }
   free_pair(&pair);
 }
-END_TEST
 
 /* The electrode of the platform adds its flat part to the last station in both surfaces. */
-START_TEST(test_platform_electrode) {
+TEST(test_platform_electrode) {
   double last[2][2];
   for (int platform = 0; platform < 2; platform++) {
     Pair pair = make_pair(default_model(21, true, platform));
@@ -502,14 +486,13 @@ START_TEST(test_platform_electrode) {
     free_pair(&pair);
   }
 }
-END_TEST
 
 /* -- the two surfaces compared --------------------------------------------------------------------- */
 
 /* Force of the Bezier surface over that of the polyline, minus one, on the symmetric wedge: both have the same gap at
  * the nodes and differ by the mesh error of the polyline, of second order in l. Measured without cap at 1, 2, 4 mm: N =
  * 21 0.90, 1.98, 4.22 %, N = 61 0.10, 0.22, 0.47 %, N = 130 0.02, 0.05, 0.10 %. */
-START_TEST(test_surfaces_on_wedge) {
+TEST(test_surfaces_on_wedge) {
   static const int nodes[] = {21, 61, 130};
   static const double limit[] = {0.05, 0.006, 0.0013};
   for (int cap = 0; cap < 2; cap++)
@@ -524,7 +507,6 @@ START_TEST(test_surfaces_on_wedge) {
         free_pair(&pair);
       }
 }
-END_TEST
 
 /* Bezier over polyline, less one, on the shape of `sim`. */
 static double difference_on(ZpSim *sim, int nodes, bool cap, double U) {
@@ -546,7 +528,7 @@ static double difference_on(ZpSim *sim, int nodes, bool cap, double U) {
  * cubic with a horizontal start smooths that away. So the polyline's force converges from below with the first order of
  * l, towards 0.1 N at 3 kV, and the Bezier's hardly depends on N (0.106 N). Measured without cap, any voltage: +83,
  * +24, +12 % at N = 21, 61, 130; with cap at 10 kV +19, +7, +4 %. */
-START_TEST(test_surfaces_on_hanging_shape) {
+TEST(test_surfaces_on_hanging_shape) {
   static const int nodes[] = {21, 61, 130};
   static const double low[] = {0.7, 0.2, 0.09}, high[] = {0.95, 0.28, 0.14}, capped[] = {0.25, 0.1, 0.06};
   for (size_t n = 0; n < LENGTH_OF(nodes); n++) {
@@ -560,35 +542,4 @@ START_TEST(test_surfaces_on_hanging_shape) {
     zp_sim_destroy(sim);
     zp_model_destroy(model);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("electro");
-  TCase *law = tcase_create("law");
-  tcase_add_test(law, test_closed_scalars);
-  tcase_add_test(law, test_zipping_line_force);
-  tcase_add_test(law, test_cap_is_continuous);
-  tcase_add_test(law, test_law_derivatives);
-  tcase_add_test(law, test_law_of_presets);
-  tcase_add_test(law, test_bare_faces);
-  suite_add_tcase(suite, law);
-  TCase *polyline = tcase_create("polyline");
-  tcase_add_test(polyline, test_polyline_force_is_gradient);
-  tcase_add_test(polyline, test_polyline_momentum);
-  tcase_add_test(polyline, test_quadrature);
-  suite_add_tcase(suite, polyline);
-  TCase *bezier = tcase_create("bezier");
-  tcase_add_test(bezier, test_cubic);
-  tcase_add_test(bezier, test_fit_recovers_cubic);
-  tcase_add_test(bezier, test_fit_of_few_points);
-  tcase_add_test(bezier, test_wedge_forces);
-  tcase_add_test(bezier, test_wedge_profile);
-  tcase_add_test(bezier, test_surface_of_wedge);
-  tcase_add_test(bezier, test_surface_momentum);
-  tcase_add_test(bezier, test_platform_electrode);
-  tcase_add_test(bezier, test_surfaces_on_wedge);
-  tcase_add_test(bezier, test_surfaces_on_hanging_shape);
-  suite_add_tcase(suite, bezier);
-  return run_suite(suite);
 }

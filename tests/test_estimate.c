@@ -19,7 +19,7 @@ static bool has(const ZpResult *result, const char *name) {
  * weight the clamped one hands on. Elements 5 / 2 times as long add (5 / 2)^3 - 1 times that second term, of which
  * order two takes 1 / ((5 / 2)^2 - 1): 39 / 14 of it, more than elements 5 / 3 times as long make of it, or both
  * together. */
-START_TEST(cantilever_in_closed_form) {
+TESTS(cantilever_in_closed_form, 0, 3) {
   static const int nodes[] = {21, 41, 61};
   int n = nodes[_i] - 1;
   ZpActuatorDef def = DEF({"output.errors", 1}, {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE},
@@ -30,7 +30,6 @@ START_TEST(cantilever_in_closed_form) {
   ck_assert(!has(result, "opening_error_m"));
   zp_result_destroy(result);
 }
-END_TEST
 
 typedef enum Law { POWERS, RIPPLE, EITHER } Law;
 
@@ -58,7 +57,7 @@ static const Number numbers[] = {
 /* The default actuator against four times as many elements, and in motion a hundredth of the tolerance: the estimate
  * covers the error. Measured: 1.9 times (opening, frequency), 14 times (pull-in, closing), 9 times (release), 8 times
  * (held force), 5 times (zip time), whose errors depend on where among the nodes the front is. */
-START_TEST(estimate_covers_the_error) {
+TESTS(estimate_covers_the_error, 0, FULL_OR(LENGTH_OF(numbers), 0)) {
   const Number *number = &numbers[_i];
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 61});
   ZpResult *result = study_of(number->study, &def);
@@ -72,7 +71,6 @@ START_TEST(estimate_covers_the_error) {
   ck_below(truth, error);
   ck_below(error, number->most * truth);
 }
-END_TEST
 
 /* What the meshes give, of n elements: that of the study, then the coarser ones from the finest to the coarsest. */
 typedef struct Meshes {
@@ -144,7 +142,7 @@ static double by_either(const Meshes *t) {
  * together give most and where one mesh does; (21.3) of releases, where the mesh of 4/5 gives most, that of 7/10, and
  * where all four meshes are on one side and show an order below and above 3.5; (21.3) of a held force; (21.4) of a
  * pull-in whose meshes show an order below two, of two to four, of four to five, a higher one by chance, and none. */
-START_TEST(estimate_is_that_of_the_meshes) {
+TESTS(estimate_is_that_of_the_meshes, 0, 12) {
   static const struct {
     const Number *number;
     double thickness;
@@ -166,12 +164,11 @@ START_TEST(estimate_is_that_of_the_meshes) {
   ck_assert(cases[_i].most > 0 ? order > cases[_i].least && order < cases[_i].most : isnan(order));
   ck_near(error, number->safety * expected, 1e-9); /* 1.8e-10 measured */
 }
-END_TEST
 
 /* Zip times come from half and two fifths of the elements, with 4 and 6.25 times the tolerance. The estimate's own runs
  * solve their steps less exactly, which moves their times by up to an eighth of their tolerance. Measured: the estimate
  * differs by 13 % without liquid, by 0.6 % in a bath and with beads. */
-START_TEST(zip_time_is_estimated_by_half_and_two_fifths) {
+TESTS(zip_time_is_estimated_by_half_and_two_fifths, 0, 3) {
   static const double liquids[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
   static const double share[] = {1, 0.5, 0.4};
   const double elements = 40;
@@ -191,19 +188,17 @@ START_TEST(zip_time_is_estimated_by_half_and_two_fifths) {
          expected);
   ck_near(told, expected, 0.25);
 }
-END_TEST
 
 /* The curve's limits have the same estimates as the limits themselves. */
-START_TEST(equilibrium_has_the_estimates_of_limits) {
+TEST(equilibrium_has_the_estimates_of_limits) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 31});
   for (size_t k = 0; k < 3; k++)
     ck_near(value_of(ZP_STUDY_EQUILIBRIUM, &def, numbers[k].error), value_of(ZP_STUDY_LIMITS, &def, numbers[k].error),
             1e-12); /* 0 measured */
 }
-END_TEST
 
 /* output.errors changes nothing but the estimates themselves. */
-START_TEST(estimates_leave_the_numbers_alone) {
+TESTS(estimates_leave_the_numbers_alone, 0, LENGTH_OF(numbers)) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 31}), without = def;
   without.output.errors = false;
   const Number *number = &numbers[_i];
@@ -218,11 +213,10 @@ START_TEST(estimates_leave_the_numbers_alone) {
   zp_result_destroy(both[0]);
   zp_result_destroy(both[1]);
 }
-END_TEST
 
 /* A ribbon that turns at the clip over a length (9.5) that is shorter than an element: 15 um of aluminium under 0.1 kg.
  * All coarser meshes miss the turn and agree with each other, so that the error is told by finer ones. */
-START_TEST(unresolved_bending_is_estimated_by_finer_meshes) {
+TEST(unresolved_bending_is_estimated_by_finer_meshes) {
   const double w = 10e-3, b = 15e-6, m = 0.1, EI = 70e9 * w * b * b * b / 12;
   ZpActuatorDef def = DEF({"output.errors", 1}, {"ribbon.thickness", b}, {"ribbon.width", w}, {"load.mass", m},
                           {"ribbon.young_modulus", 70e9}, {"ribbon.plane", ZP_PLANE_STRESS}, {"ribbon.density", 0},
@@ -241,12 +235,11 @@ START_TEST(unresolved_bending_is_estimated_by_finer_meshes) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* In motion, a mesh that does not resolve the bend has long steps, too. Those of the finer meshes are shorter, so that
  * the estimate tells the error of both. 126 mm of aluminium of 29 um that closes in 5 ms; measured: 1.2 times the
  * error. */
-START_TEST(finer_meshes_tell_the_error_of_steps) {
+TEST(finer_meshes_tell_the_error_of_steps) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 126.4e-3},
                           {"ribbon.width", 13.6e-3}, {"ribbon.thickness", 28.6e-6}, {"ribbon.young_modulus", 70e9},
                           {"ribbon.poisson_ratio", 0.33}, {"ribbon.density", 2700}, {"platform.length", 12.6e-3},
@@ -262,20 +255,18 @@ START_TEST(finer_meshes_tell_the_error_of_steps) {
   printf("zip time %.6g s, error %.3g, estimated %.3g\n", time, error, told);
   ck_assert_msg(told >= error && told < 2 * error, "told %g, true %g", told, error);
 }
-END_TEST
 
 /* Meshes that would need thousands of elements are not tried: a note says so. */
-START_TEST(hopeless_mesh_has_no_estimate) {
+TEST(hopeless_mesh_has_no_estimate) {
   ZpActuatorDef def = DEF({"output.errors", 1}, {"mesh.nodes", 11}, {"ribbon.thickness", 2e-6}, {"load.mass", 1});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
   ck_assert(isnan(zp_result_get(result, "opening_error_m")));
   ck_assert_ptr_nonnull(note_of(result, "errors are not estimated"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without a coarser mesh, or a number on it, an estimate is missing; the paper's chain has none. */
-START_TEST(estimate_may_be_missing) {
+TEST(estimate_may_be_missing) {
   ZpActuatorDef coarse = DEF({"output.errors", 1}, {"mesh.nodes", 6}),
                 chain = DEF({"output.errors", 1}, {"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}),
                 weak = DEF({"output.errors", 1}, {"drive.voltage", 1e3});
@@ -284,22 +275,4 @@ START_TEST(estimate_may_be_missing) {
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &chain);
   ck_assert(!has(result, "stroke_error_m"));
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("estimate");
-  TCase *c = tcase_create("estimate");
-  tcase_add_loop_test(c, cantilever_in_closed_form, 0, 3);
-  if (!SANITIZED) tcase_add_loop_test(c, estimate_covers_the_error, 0, LENGTH_OF(numbers));
-  tcase_add_loop_test(c, estimate_is_that_of_the_meshes, 0, 12);
-  tcase_add_loop_test(c, zip_time_is_estimated_by_half_and_two_fifths, 0, 3);
-  tcase_add_test(c, equilibrium_has_the_estimates_of_limits);
-  tcase_add_loop_test(c, estimates_leave_the_numbers_alone, 0, LENGTH_OF(numbers));
-  tcase_add_test(c, unresolved_bending_is_estimated_by_finer_meshes);
-  tcase_add_test(c, finer_meshes_tell_the_error_of_steps);
-  tcase_add_test(c, hopeless_mesh_has_no_estimate);
-  tcase_add_test(c, estimate_may_be_missing);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

@@ -29,7 +29,7 @@ static void make_ring(ZpGrid *g, size_t n, double outer) {
   ck_assert(zp_grid_number(g));
 }
 
-START_TEST(test_ring_converges_with_the_fourth_power) {
+TEST(test_ring_converges_with_the_fourth_power) {
   const double exact = 0.5 * 2 * ZP_EPS0 * 1.5707963267948966 / log(3);
   double error[3];
   for (int k = 0; k < 3; k++) {
@@ -44,11 +44,10 @@ START_TEST(test_ring_converges_with_the_fourth_power) {
   ck_assert_double_gt(error[1] / error[2], 12);
   ck_below(error[2], 5e-8); /* 6.9e-9 measured */
 }
-END_TEST
 
 /* The force on every node is the derivative of the energy, free nodes included: there it says that the solution is
  * the stationary one. */
-START_TEST(test_node_forces_are_the_gradient) {
+TEST(test_node_forces_are_the_gradient) {
   ZpGrid g;
   make_ring(&g, 4, 2.5);
   ck_assert_int_eq(zp_grid_solve(&g), ZP_GRID_SOLVED);
@@ -73,16 +72,14 @@ START_TEST(test_node_forces_are_the_gradient) {
   free(Fx);
   zp_grid_destroy(&g);
 }
-END_TEST
 
-START_TEST(test_folded_grid_is_refused) {
+TEST(test_folded_grid_is_refused) {
   ZpGrid g;
   make_ring(&g, 4, 2.5);
   g.x[4 * g.ny + 6] += 1;
   ck_assert_int_eq(zp_grid_solve(&g), ZP_GRID_FOLDED);
   zp_grid_destroy(&g);
 }
-END_TEST
 
 /* -- the cross-section ---------------------------------------------------------------------------- */
 
@@ -150,7 +147,7 @@ static const double openings[] = {1e-3, 2e-3, 4e-3, 17e-3};
 
 /* The plates law against the field: total force on wedges that open to 1, 2, 4, 17 mm. An independent finite-element
  * study (126 000 unknowns) has 1.0000, 1.0000, 1.0001, 1.0008, and 1.0001 to 1.004 where one ribbon stays straight. */
-START_TEST(test_wedges_against_the_plates_law) {
+TEST(test_wedges_against_the_plates_law) {
   static const double theirs[] = {1.0000, 1.0000, 1.0001, 1.0008}, apart[] = {1e-4, 1e-4, 1e-4, 4e-4};
   ZpFieldParams p = wedge_params();
   ZpField f;
@@ -175,11 +172,10 @@ START_TEST(test_wedges_against_the_plates_law) {
     }
   zp_field_destroy(&f);
 }
-END_TEST
 
 /* Turned over, the straight ribbon of a wedge is the other one: fields along the faces stay, in liquid and insulators,
  * and tractions change their places. */
-START_TEST(test_a_wedge_turned_over) {
+TEST(test_a_wedge_turned_over) {
   enum { N = 21, MOST = 400 };
   ZpFieldParams p = wedge_params();
   p.stations = N;
@@ -207,11 +203,10 @@ START_TEST(test_a_wedge_turned_over) {
   ck_assert_double_gt(differ, 1e-2);
   zp_field_destroy(&f);
 }
-END_TEST
 
 /* Default grid against one twice as fine, and the order of the difference: the generalised force of opening is the
  * variational quantity and converges with the fourth power, traction with the second. */
-START_TEST(test_wedge_converges_with_the_mesh) {
+NIGHTLY_TESTS(test_wedge_converges_with_the_mesh, 0, FULL_OR(1, 0)) {
   double force[3], traction[3];
   for (size_t k = 0; k < 3; k++) {
     ZpFieldParams p = wedge_params();
@@ -236,11 +231,10 @@ START_TEST(test_wedge_converges_with_the_mesh) {
   ck_assert_double_gt(fabs((force[1] - force[0]) / (force[2] - force[1])), 8);
   ck_assert_double_gt(fabs((traction[1] - traction[0]) / (traction[2] - traction[1])), 3);
 }
-END_TEST
 
 /* Two thin strips of width w side by side at distance d in vacuum: capacitance per length over eps0 by conformal
  * mapping. Half of the pair, cut in the middle. */
-START_TEST(test_thin_strips_with_fringing) {
+TEST(test_thin_strips_with_fringing) {
   static const double w_over_d[] = {1, 10}, exact[] = {2.11578, 11.68131};
   for (int k = 0; k < 2; k++) {
     double w = 10e-3, d = w / w_over_d[k], t = d / 50;
@@ -258,7 +252,6 @@ START_TEST(test_thin_strips_with_fringing) {
     zp_field_destroy(&f);
   }
 }
-END_TEST
 
 /* A shape that nothing makes easy: both ribbons bent, their stations apart in x, one pair overlaps by so much. */
 static void make_uneven(double *q, size_t nodes, double overlap) {
@@ -278,7 +271,7 @@ static double direction(size_t j, size_t nodes) {
   return j >= 2 * nodes || j < 2 * nodes - 2 ? cos(3.0 * (double)j) : 0;
 }
 
-START_TEST(test_station_forces_are_the_gradient) {
+TEST(test_station_forces_are_the_gradient) {
   enum { N = 21 };
   ZpFieldParams p = wedge_params();
   p.stations = N;
@@ -304,11 +297,10 @@ START_TEST(test_station_forces_are_the_gradient) {
   ck_assert_double_eq_tol((energy[1] - energy[0]) / (2 * h), work, 1e-7 * scale);
   zp_field_destroy(&f);
 }
-END_TEST
 
 /* Liquid in a part of the gap: between bare flat plates the field is uniform in liquid and air, and the energy is
  * linear in the wet length. */
-START_TEST(test_energy_goes_with_the_wet_length) {
+TEST(test_energy_goes_with_the_wet_length) {
   enum { N = 61 };
   const double gap = 1e-3, eps_m = 2.75;
   ZpFieldParams p = wedge_params();
@@ -336,10 +328,9 @@ START_TEST(test_energy_goes_with_the_wet_length) {
   ck_near(energy[1] - energy[0], 0.5 * ZP_EPS0 * (eps_m - 1) * p.w * (21.0 / (N - 1)) * L / gap, 3e-10);
   zp_field_destroy(&f);
 }
-END_TEST
 
 /* A bead that reaches as far as there are faces, in a liquid that lies around them as well, is no bead. */
-START_TEST(test_a_bead_without_end_is_liquid_everywhere) {
+TEST(test_a_bead_without_end_is_liquid_everywhere) {
   enum { N = 21 };
   ZpFieldParams p = wedge_params();
   p.stations = N;
@@ -359,11 +350,10 @@ START_TEST(test_a_bead_without_end_is_liquid_everywhere) {
   ck_assert_double_eq(energy[0], energy[1]);
   zp_field_destroy(&f);
 }
-END_TEST
 
 /* Where no bead is left, air is everywhere: between the faces, behind the strips and around them. Only the clip stays
  * wet between its insulators. */
-START_TEST(test_a_bead_of_no_length_is_air_everywhere) {
+TEST(test_a_bead_of_no_length_is_air_everywhere) {
   enum { N = 21 };
   ZpFieldParams p = wedge_params();
   p.stations = N;
@@ -383,12 +373,11 @@ START_TEST(test_a_bead_of_no_length_is_air_everywhere) {
   }
   ck_near(energy[0], energy[1], 6e-7); /* 2.1e-7 measured */
 }
-END_TEST
 
 /* Its difference from the plates law, also with the cap, for a shape that is partly capped and in which one pair
  * overlaps; the charge is the derivative with respect to the voltage. The same with a bead that ends in an element,
  * where no air breaks down. */
-START_TEST(test_surplus_is_the_gradient) {
+TESTS(test_surplus_is_the_gradient, 0, 2) {
   enum { N = 21 };
   const ZpLiquidModel liquid = _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE;
   ZpActuatorDef def = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", N}, {"liquid.model", liquid});
@@ -427,10 +416,9 @@ START_TEST(test_surplus_is_the_gradient) {
   zp_field_correction_destroy(&s);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The far boundary does not matter: number and grading of the outer elements have no effect. */
-START_TEST(test_outside_does_not_matter) {
+TEST(test_outside_does_not_matter) {
   double force[2];
   for (int k = 0; k < 2; k++) {
     ZpFieldParams p = wedge_params();
@@ -449,10 +437,9 @@ START_TEST(test_outside_does_not_matter) {
   }
   ck_near(force[1], force[0], 1e-6); /* 2.7e-7 measured */
 }
-END_TEST
 
 /* Without electrodes the platform is not attracted, and the ribbons feel the edge that they then have. */
-START_TEST(test_platform_without_electrode) {
+TEST(test_platform_without_electrode) {
   ZpFieldParams p = wedge_params();
   p.electrode = false;
   ZpField f;
@@ -470,9 +457,8 @@ START_TEST(test_platform_without_electrode) {
   ck_assert_double_lt(2 * f.energy - bare, plates);
   zp_field_destroy(&f);
 }
-END_TEST
 
-START_TEST(test_bad_geometry_has_a_reason) {
+TEST(test_bad_geometry_has_a_reason) {
   ZpFieldParams p = wedge_params();
   Wedge wedge;
   make_wedge(&wedge, p.stations, 2e-3, 0.5);
@@ -493,13 +479,12 @@ START_TEST(test_bad_geometry_has_a_reason) {
   ck_assert_int_eq(zp_field_solve(&f, &wedge.faces), ZP_FIELD_FOLDED);
   zp_field_destroy(&f);
 }
-END_TEST
 
 /* -- as a model of the actuator ------------------------------------------------------------------- */
 
 /* Plates with what the field has beyond them is the field: total force of a wedge; and at a capped gap it is what
  * the plates law says, since there the field is that of closed plates. */
-START_TEST(test_surplus_makes_plates_the_field) {
+TEST(test_surplus_makes_plates_the_field) {
   ZpActuatorDef def = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"ribbon.thickness", 100e-6}, {"mesh.nodes", 121},
                           {"electro.breakdown_cap", 0});
   ZpModel *model = model_of(&def);
@@ -525,7 +510,6 @@ START_TEST(test_surplus_makes_plates_the_field) {
   zp_system_destroy(&eval);
   zp_model_destroy(model);
 }
-END_TEST
 
 static ZpResult *study(ZpStudy which, const ZpActuatorDef *def) {
   ZpResult *result = NULL;
@@ -543,7 +527,7 @@ static double value(ZpStudy which, ZpActuatorDef def, const char *name) {
 }
 
 /* Plates law and field give the same pull-in, release, holding force and zip. */
-START_TEST(test_studies_by_field_and_by_plates) {
+NIGHTLY_TEST(test_studies_by_field_and_by_plates) {
   ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 31}), plates = DEF({"mesh.nodes", 31});
   ZpResult *by_field = study(ZP_STUDY_EQUILIBRIUM, &field), *by_plates = study(ZP_STUDY_EQUILIBRIUM, &plates);
   static const char *const names[] = {"pull_in_voltage_V", "release_voltage_V"};
@@ -560,10 +544,9 @@ START_TEST(test_studies_by_field_and_by_plates) {
   ck_near(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"), 1e-3); /* 2.4e-4 measured */
   ck_assert_double_ne(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"));
 }
-END_TEST
 
 /* The same with a bead: equal liquid and air in both models. */
-START_TEST(test_bead_by_field_and_by_plates) {
+NIGHTLY_TESTS(test_bead_by_field_and_by_plates, 0, FULL_OR(1, 0)) {
   ZpActuatorDef plates = DEF({"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"mesh.nodes", 31},
                              {"solver.stop_when_zipped", ZP_WHEN_TRUE}),
                 field = plates;
@@ -577,11 +560,10 @@ START_TEST(test_bead_by_field_and_by_plates) {
   ck_near(held[1], held[0], 3e-4);       /* 8.6e-5 measured */
   ck_assert_double_ne(held[1], held[0]);
 }
-END_TEST
 
 /* Without the cap closed faces lie where both laws have constant gaps; Newton once went to and fro there. Nor may
  * force_scale change a capacitance. */
-START_TEST(test_held_without_cap) {
+NIGHTLY_TEST(test_held_without_cap) {
   ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"electro.breakdown_cap", 0}, {"drive.voltage", 5e3});
   ZpActuatorDef plates = field;
   plates.electro.model = ZP_ELECTRO_PLATES;
@@ -595,10 +577,9 @@ START_TEST(test_held_without_cap) {
   field.electro.force_scale = 4;
   ck_near(value(ZP_STUDY_ISOMETRIC, field, "capacitance_F"), C, 1e-6); /* 1.8e-7 measured */
 }
-END_TEST
 
 /* The number of field solutions in motion has little effect: the held difference is small. */
-START_TEST(test_refresh_in_motion) {
+NIGHTLY_TEST(test_refresh_in_motion) {
   ZpActuatorDef def =
       DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 21}, {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   double coarse, fine;
@@ -611,7 +592,6 @@ START_TEST(test_refresh_in_motion) {
   printf("zip time: refreshed at changes of 0.1 and 0.02: %.6g, %.6g ms\n", 1e3 * coarse, 1e3 * fine);
   ck_near(coarse, fine, 6e-5); /* 2e-5 measured */
 }
-END_TEST
 
 /* What a simulation holds is the solution at the place and voltage where the field was solved last. */
 static void check_held(ZpSim *sim) {
@@ -632,7 +612,7 @@ static void check_held(ZpSim *sim) {
 
 /* A field that is held while the gaps change by a tenth, and one that is solved afresh at every step: the same motion,
  * dry and with a bead, where it adds more than 2 % to the charge. */
-START_TEST(test_held_field_is_that_of_every_step) {
+TESTS(test_held_field_is_that_of_every_step, 0, 2) {
   static const struct {
     const char *name;
     double within;
@@ -662,11 +642,10 @@ START_TEST(test_held_field_is_that_of_every_step) {
     zp_model_destroy(model);
   }
 }
-END_TEST
 
 /* At rest without the cap the charge is linear in the voltage: the held surplus of charge is that of the capacitance.
  */
-START_TEST(test_charge_at_rest_is_capacitance_times_voltage) {
+TEST(test_charge_at_rest_is_capacitance_times_voltage) {
   ZpActuatorDef def =
       DEF({"electro.model", ZP_ELECTRO_FIELD}, {"electro.breakdown_cap", 0}, {"mesh.nodes", 9},
           {"ribbon.length", 40e-3}, {"platform.length", 4e-3}, {"isometric.separation", 4e-3}, {"drive.voltage", 100});
@@ -675,9 +654,8 @@ START_TEST(test_charge_at_rest_is_capacitance_times_voltage) {
           1e-12); /* 4.4e-16 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(test_what_does_not_go_with_field) {
+TEST(test_what_does_not_go_with_field) {
   static const struct {
     Setting bad;
     ZpStudy study;
@@ -691,36 +669,4 @@ START_TEST(test_what_does_not_go_with_field) {
     ck_assert_int_eq(zp_study_check(of[k].study, &def, &err), ZP_BAD_INPUT);
     ck_assert_msg(strstr(err.message, "field") && strstr(err.message, of[k].bad.key), "%s", err.message);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("field");
-  TCase *grid = tcase_create("grid");
-  tcase_add_test(grid, test_ring_converges_with_the_fourth_power);
-  tcase_add_test(grid, test_node_forces_are_the_gradient);
-  tcase_add_test(grid, test_folded_grid_is_refused);
-  tcase_add_test(grid, test_wedges_against_the_plates_law);
-  tcase_add_test(grid, test_a_wedge_turned_over);
-  tcase_add_test(grid, test_thin_strips_with_fringing);
-  tcase_add_test(grid, test_station_forces_are_the_gradient);
-  tcase_add_test(grid, test_energy_goes_with_the_wet_length);
-  tcase_add_test(grid, test_a_bead_without_end_is_liquid_everywhere);
-  tcase_add_test(grid, test_a_bead_of_no_length_is_air_everywhere);
-  tcase_add_loop_test(grid, test_surplus_is_the_gradient, 0, 2);
-  tcase_add_test(grid, test_outside_does_not_matter);
-  tcase_add_test(grid, test_platform_without_electrode);
-  tcase_add_test(grid, test_bad_geometry_has_a_reason);
-  tcase_add_test(grid, test_surplus_makes_plates_the_field);
-  tcase_add_loop_test(grid, test_held_field_is_that_of_every_step, 0, 2);
-  tcase_add_test(grid, test_charge_at_rest_is_capacitance_times_voltage);
-  tcase_add_test(grid, test_what_does_not_go_with_field);
-  suite_add_tcase(suite, grid);
-  TCase *nightly = nightly_case(suite);
-  add_long_test(nightly, test_wedge_converges_with_the_mesh);
-  add_long_test(nightly, test_bead_by_field_and_by_plates);
-  tcase_add_test(nightly, test_studies_by_field_and_by_plates);
-  tcase_add_test(nightly, test_refresh_in_motion);
-  tcase_add_test(nightly, test_held_without_cap);
-  return run_suite(suite);
 }

@@ -322,7 +322,7 @@ static ZpResult *made_up_result(size_t number) {
 
 /* -- tests ---------------------------------------------------------------------------------------- */
 
-START_TEST(run_reads_back) {
+TEST(run_reads_back) {
   ZpScenario *scenario = SCENARIO("mesh.nodes=9");
   ZpResult *result = made_up_result(11);
   result->shapes = made_up_shapes();
@@ -341,10 +341,9 @@ START_TEST(run_reads_back) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* Both members of an actual series at rest, whose frames are numbered, not timed. */
-START_TEST(series_at_rest_reads_back) {
+TEST(series_at_rest_reads_back) {
   ZpScenario *scenario =
       SCENARIO("study=stationary", "mesh.nodes=9", "stack.series=2", "liquid.model=none", "output.errors=false");
   ZpActuatorDef def;
@@ -363,7 +362,6 @@ START_TEST(series_at_rest_reads_back) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* A sweep of more cases than are written at a time: 41 densities of 25 voltages each. Some cases lack a number, one has
  * a number that no other has, and their orders differ. */
@@ -431,7 +429,7 @@ static void check_column(const json_t *rows, size_t place) {
   }
 }
 
-START_TEST(sweep_of_1025_cases_reads_back) {
+TEST(sweep_of_1025_cases_reads_back) {
   static ZpResult *result[CASES];
   ZpScenario *scenario = SCENARIO("ribbon.density=7000 kg/m3 .. 7400 kg/m3 : 41", "drive.voltage=1 kV .. 3.4 kV : 25");
   ck_assert_uint_eq(zp_scenario_count(scenario), CASES);
@@ -450,10 +448,9 @@ START_TEST(sweep_of_1025_cases_reads_back) {
     zp_result_destroy(result[run]);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* Few cases keep their series, each its own. */
-START_TEST(series_of_a_sweep_read_back) {
+TEST(series_of_a_sweep_read_back) {
   ZpScenario *scenario = SCENARIO("drive.voltage=[6 kV, 8 kV]");
   ZpResult *result[] = {made_up_result(3), made_up_result(4)};
   const size_t size = LENGTH_OF(result);
@@ -474,17 +471,4 @@ START_TEST(series_of_a_sweep_read_back) {
   zp_result_destroy(result[0]);
   zp_result_destroy(result[1]);
   zp_scenario_destroy(scenario);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("files");
-  TCase *tcase = tcase_create("files");
-  suite_add_tcase(suite, tcase);
-  tcase_add_checked_fixture(tcase, make_folder, remove_folder);
-  tcase_add_test(tcase, run_reads_back);
-  tcase_add_test(tcase, series_at_rest_reads_back);
-  tcase_add_test(tcase, sweep_of_1025_cases_reads_back);
-  tcase_add_test(tcase, series_of_a_sweep_read_back);
-  return run_suite(suite);
 }

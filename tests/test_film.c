@@ -104,7 +104,7 @@ static void plates(Film *f, double gap, double speed) {
 /* Approaching parallel plates of length l and width w, with an outlet all around: the force over mu l w^3 speed / gap^3
  * is the exact series phi. The strip is half a plate, mirrored at its first station, with an outlet at its last. The
  * second mode stands for all others: within 3.1 % of a plate ten times as wide as long, 0.6 % from twice as wide on. */
-START_TEST(test_plates_of_all_shapes) {
+TESTS(test_plates_of_all_shapes, 0, 6) {
   static const struct {
     double ratio, phi, error;
   } shape[] = {{0.1, 0.0094, 0.032}, {0.25, 0.05265, 0.021}, {0.5, 0.17151, 0.006},
@@ -119,10 +119,9 @@ START_TEST(test_plates_of_all_shapes) {
   if (shape[_i].ratio > 0.1) ck_near(phi, shape[_i].phi, shape[_i].error); /* 0.02 measured where 0.021 is allowed */
   free_film(f);
 }
-END_TEST
 
 /* A long strip (Stefan): mu w^3 speed / gap^3 per length. */
-START_TEST(test_strip) {
+TEST(test_strip) {
   double w = 12.7e-3, gap = 5e-5, speed = 0.02, l = 1;
   Film *f = make_film(201, l, w, true);
   plates(f, gap, speed);
@@ -130,7 +129,6 @@ START_TEST(test_strip) {
   ck_near(force(f) / l, f->params.mu * w * w * w * speed / (gap * gap * gap), 1e-12); /* 1.6e-13 measured */
   free_film(f);
 }
-END_TEST
 
 /* A wedge gap = angle x that closes by turning, sealed at its tip, without lateral flow: force per width
  * 6 mu speed l / angle^3, moment 3/2 mu speed l^2 / angle^3. The tip itself, where the gap is 0, is taken as closed.
@@ -152,7 +150,7 @@ static double wedge(size_t nodes, double *force_error) {
   return moment / (w * 1.5 * 0.048 * speed * l * l / cubed) - 1;
 }
 
-START_TEST(test_wedge) {
+TEST(test_wedge) {
   double coarse, fine, moment = wedge(61, &coarse);
   wedge(121, &fine);
   printf("wedge: moment off by %.1e, force by %.2e, %.2e\n", moment, coarse, fine);
@@ -160,7 +158,6 @@ START_TEST(test_wedge) {
   ck_below(fabs(fine), 0.02);
   ck_near(fine / coarse, 0.5, 0.15); /* the pressure has a logarithm at the tip */
 }
-END_TEST
 
 /* -- the ledger ------------------------------------------------------------------------------------ */
 
@@ -189,7 +186,7 @@ static void draw(Film *f, uint64_t *seed, double change) {
 
 /* The work against the film is its stored energy plus its losses, for any shape and motion, with inertia, jets,
  * cavities, the floor of the roughness and the platform; each loss is at least 0. */
-START_TEST(test_work_is_energy_and_loss) {
+TESTS(test_work_is_energy_and_loss, 0, 4) {
   static const double rho[] = {0, 960, 960, 960}, mu[] = {0.048, 0.048, 0.0005, 5}, change[] = {1e-3, 1e-3, 0.3, 0.03};
   uint64_t seed = 3;
   Film *f = make_film(61, 0.045, 12.7e-3, true);
@@ -214,11 +211,10 @@ START_TEST(test_work_is_energy_and_loss) {
   }
   free_film(f);
 }
-END_TEST
 
 /* Without viscosity, a uniformly closing strip: force per length rho w^3 speed^2 / (6 h^2), from dm/dt with m = rho w^3
  * / (12 h) and from the head of the jets; an opening strip, with loss-free entry: rho w^3 speed^2 / (24 h^2). */
-START_TEST(test_inviscid_strip) {
+TESTS(test_inviscid_strip, 0, 2) {
   static const double closing[] = {1, -1}, part[] = {1.0 / 6, 1.0 / 24};
   double w = 12.7e-3, gap = 1e-6, speed = closing[_i] * 1e-3, l = 1;
   Film *f = make_film(21, l, w, true);
@@ -233,13 +229,12 @@ START_TEST(test_inviscid_strip) {
   ck_near(force(f) / l, part[_i] * 960 * w * w * w * speed * speed / (gap * gap), 3e-5); /* 8.9e-6 measured */
   free_film(f);
 }
-END_TEST
 
 /* -- mass ------------------------------------------------------------------------------------------ */
 
 /* Potential flow around two plates by a boundary method: for the flow between them H / E, and for both moving together
  * the added mass outside of each plate over rho w^2. Far apart each is alone: pi / 4 of it in all. */
-START_TEST(test_masses_of_two_plates) {
+TEST(test_masses_of_two_plates) {
   static const double q[] = {0.01, 0.1, 0.2, 0.5, 1, 2}, inner[] = {1.04, 1.23, 1.39, 1.90, 2.84, 4.99},
                       outer[] = {0.4065, 0.4774, 0.5319, 0.638, 0.718, 0.7635};
   double w = 12.7e-3, pi = 3.14159265358979324;
@@ -255,14 +250,12 @@ START_TEST(test_masses_of_two_plates) {
   ck_near(zp_outer_side(&out) + 2 * between, pi / 4 * 960 * w * w, 1e-10);                   /* 2e-11 measured */
   ck_near(zp_outer_side(&out) + 0.5 * zp_outer_pair(&out, far), pi / 4 * 960 * w * w, 2e-8); /* 2.4e-9 measured */
 }
-END_TEST
 
-START_TEST(test_slope_of_the_pair_is_its_secant) {
+TEST(test_slope_of_the_pair_is_its_secant) {
   ZpOuterParams out = {.w = 12.7e-3, .rho = 960};
   double g0 = 1e-3, g1 = 4e-3;
   ck_near(zp_outer_pair_slope(&out, g0, g1) * (g1 - g0), zp_outer_pair(&out, g1) - zp_outer_pair(&out, g0), 1e-12);
 }
-END_TEST
 
 /* -- time ------------------------------------------------------------------------------------------ */
 
@@ -284,19 +277,18 @@ static double sinking(int steps) {
   return gap * sqrt(25e6 + 2 * P * t / (0.048 * w * w)) - 1;
 }
 
-START_TEST(test_sinking_strip) {
+TEST(test_sinking_strip) {
   double coarse = sinking(2000), fine = sinking(4000);
   printf("sinking strip: off by %.1e, %.1e\n", coarse, fine);
   ck_below(fabs(fine), 2e-6);      /* 3.6e-7 measured */
   ck_near(coarse / fine, 4, 0.05); /* second order; 0.014 measured */
 }
-END_TEST
 
 /* -- cavities -------------------------------------------------------------------------------------- */
 
 /* Plates pulled apart: the pressure stops at minus one atmosphere, and a cavity takes up the missing flow and returns
  * it. */
-START_TEST(test_cavity) {
+TEST(test_cavity) {
   double w = 12.7e-3, gap = 1e-5;
   Film *f = make_film(41, 0.04, w, true);
   f->h = 1e-4;
@@ -316,13 +308,12 @@ START_TEST(test_cavity) {
   ck_assert_double_gt(f->eval.head[20], -1e5);
   free_film(f);
 }
-END_TEST
 
 /* In a short step only inertia resists, so liquid comes in as kappa_k^2 p_k. Both modes must bring as much, because the
  * cavity takes the same of both: p_0 / p_1 = kappa_1^2 / kappa_0^2, whatever the step. With the heads themselves as
  * unknowns of the matrix this ratio would be lost in steps of less than a nanosecond, and no such step would converge
  * where faces that part tear the liquid. */
-START_TEST(test_cavity_in_a_short_step) {
+TESTS(test_cavity_in_a_short_step, 0, 4) {
   static const double step[] = {1e-6, 1e-9, 1e-10, 1e-11};
   Film *f = make_film(41, 0.04, 12.7e-3, true);
   f->params.rho = 950;
@@ -335,7 +326,6 @@ START_TEST(test_cavity_in_a_short_step) {
   ck_near(f->eval.head[20], -1e5, 3e-7); /* 1e-7 measured */
   free_film(f);
 }
-END_TEST
 
 static int cavities(Film *f) {
   zp_film_step(&f->params, &everywhere, f->g0, f->g1, f->h, f->start, f->p, &f->eval);
@@ -347,7 +337,7 @@ static int cavities(Film *f) {
 
 /* Heads fall at three stations. Cavities open there one after the other, and close so when heads rise again. A step
  * begins with those of the state at its start. */
-START_TEST(test_cavities_change_one_by_one) {
+TEST(test_cavities_change_one_by_one) {
   static const size_t torn[] = {5, 9, 12};
   Film *f = make_film(21, 0.04, 12.7e-3, true);
   plates(f, 1e-5, 0);
@@ -370,25 +360,4 @@ START_TEST(test_cavities_change_one_by_one) {
   for (size_t i = 0; i < f->params.nodes; i++)
     ck_assert(f->eval.grows[i] == (i == 7));
   free_film(f);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("film");
-  TCase *forms = tcase_create("closed forms");
-  tcase_add_loop_test(forms, test_plates_of_all_shapes, 0, 6);
-  tcase_add_test(forms, test_strip);
-  tcase_add_test(forms, test_wedge);
-  tcase_add_loop_test(forms, test_inviscid_strip, 0, 2);
-  tcase_add_test(forms, test_masses_of_two_plates);
-  tcase_add_test(forms, test_slope_of_the_pair_is_its_secant);
-  tcase_add_test(forms, test_sinking_strip);
-  suite_add_tcase(suite, forms);
-  TCase *ledger = tcase_create("ledger");
-  tcase_add_loop_test(ledger, test_work_is_energy_and_loss, 0, 4);
-  tcase_add_test(ledger, test_cavity);
-  tcase_add_loop_test(ledger, test_cavity_in_a_short_step, 0, 4);
-  tcase_add_test(ledger, test_cavities_change_one_by_one);
-  suite_add_tcase(suite, ledger);
-  return run_suite(suite);
 }

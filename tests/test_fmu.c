@@ -25,7 +25,20 @@ static void run_command(const char *format, ...) {
   ck_assert_msg(system(command) == 0, "%s", command); // NOLINT: the command is the test's own
 }
 
+/* A test of both versions of FMI; _i is the version. */
+#define VERSION_TESTS(name) TESTS(name, 2, 4)
+
 static char scratch[32]; /* folder of this program's files: others run beside it */
+
+static void name_scratch(void) {
+  snprintf(scratch, sizeof scratch, "fmu-%d", (int)getpid());
+}
+
+static void remove_scratch(void) {
+  run_command("rm -rf %s", scratch);
+}
+
+AROUND_ALL(name_scratch, remove_scratch)
 
 /* The FMU of these settings as FOLDER/arm.fmu. */
 static void write_fmu(const char *folder, int version, const char *settings) {
@@ -164,7 +177,7 @@ static void expect_units(const Fmu *fmu) {
   ck_assert_str_eq(fmu_find(fmu, "load.mass")->display, "g");
 }
 
-START_TEST(description_is_of_the_tables) {
+VERSION_TESTS(description_is_of_the_tables) {
   static const char *const given_keys[] = {"load.mass",         "mesh.nodes",
                                            "liquid.model",      "solver.tolerance",
                                            "source.model",      "source.slew_rate",
@@ -194,7 +207,6 @@ START_TEST(description_is_of_the_tables) {
   ck_assert_str_eq(fmu_find(&fmu, "electrode_voltage")->causality, "output");
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Every function of both standards, without fmi2 and fmi3. */
 static const char *const of_two[] = {"GetTypesPlatform",
@@ -318,7 +330,7 @@ static const char *const of_three[] = {"GetVersion",
                                        "ActivateModelPartition"};
 
 /* Importers load all functions of the standard, also those that an FMU for co-simulation refuses. */
-START_TEST(exports_every_function) {
+VERSION_TESTS(exports_every_function) {
   Fmu fmu = made(_i, SMALL);
   ck_assert_uint_eq(LENGTH_OF(of_two), 44);
   ck_assert_uint_eq(LENGTH_OF(of_three), 75);
@@ -332,10 +344,9 @@ START_TEST(exports_every_function) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* The same scenario gives the same bytes. */
-START_TEST(same_bytes) {
+VERSION_TESTS(same_bytes) {
   char again[64];
   Fmu fmu = made(_i, SMALL);
   snprintf(again, sizeof again, "%s/again", scratch);
@@ -343,7 +354,6 @@ START_TEST(same_bytes) {
   run_command("cmp %s/arm.fmu %s/arm.fmu", fmu.folder, again);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* -- what it computes ------------------------------------------------------------------------------ */
 
@@ -362,7 +372,7 @@ static size_t read_row(FILE *file, double value[SIGNALS]) {
 }
 
 /* The file in the FMU has what the FMU computes, to the last bit. */
-START_TEST(expected_results) {
+VERSION_TESTS(expected_results) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = started(&fmu);
   char path[600];
@@ -384,7 +394,6 @@ START_TEST(expected_results) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 enum { INTERVALS = 100 };
 
@@ -463,14 +472,13 @@ static void expect_actuate(int version, const Input *input, bool straight, const
 #define STEPS " --set solver.tolerance=1e-4"
 
 /* The same input from a CSV file gives what `zipact actuate` gives: dry, in a liquid, behind a supply. */
-START_TEST(agrees_with_actuate) {
+VERSION_TESTS(agrees_with_actuate) {
   expect_actuate(_i, &voltage, false, SMALL STEPS);
   expect_actuate(_i, &voltage, false, LIQUID STEPS);
   expect_actuate(_i, &voltage, false,
                  SMALL STEPS
                  " --set source.model=amplifier --set 'source.slew_rate=1 V/us' --set 'source.current_limit=0.1 mA'");
 }
-END_TEST
 
 static bool file_says(const Fmu *fmu, const char *name, const char *words) {
   char path[600], text[4096] = "";
@@ -500,7 +508,7 @@ static void expect_inputs(const Fmu *fmu, bool controlled) {
 }
 
 /* An FMU plays no waveform: its input begins with what the waveform is at t = 0, and stays there. */
-START_TEST(begins_where_the_waveform_does) {
+VERSION_TESTS(begins_where_the_waveform_does) {
   static const struct {
     const char *settings, *input;
     double first;
@@ -535,10 +543,9 @@ START_TEST(begins_where_the_waveform_does) {
     fmu_close(&fmu);
   }
 }
-END_TEST
 
 /* Every example with a waveform exports; what is refused is a sweep or has several members. */
-START_TEST(examples_export) {
+TEST(examples_export) {
   run_command("mkdir -p %1$s && cd %1$s && for one in $(grep -l 'waveform' " ZP_SOURCE_DIR
               "/examples/*.yaml); do " ZP_COMMAND
               " fmu $one --set output.errors=false --set solver.end_time=1ms --quiet -o example.fmu 2>said.txt || grep "
@@ -546,25 +553,22 @@ START_TEST(examples_export) {
               "contains a single actuator' said.txt || { cat said.txt >&2; exit 1; }; done",
               scratch);
 }
-END_TEST
 
 /* So does one whose plant has a controller, told what is to be held: dry with its delay, in a liquid. */
-START_TEST(agrees_with_actuate_under_control) {
+VERSION_TESTS(agrees_with_actuate_under_control) {
 #define CONTROL                                                                                                        \
   " --set control.kind=pi --set control.signal=contraction --set setpoint.value=0.3 --set 'control.proportional=8 kV'" \
   " --set 'control.integral=200 kV/s'"
   expect_actuate(_i, &setpoint, false, SMALL STEPS CONTROL " --set control.delay=2.4ms");
   expect_actuate(_i, &setpoint, false, LIQUID STEPS CONTROL);
 }
-END_TEST
 
-START_TEST(follows_slopes_of_inputs) {
+TEST(follows_slopes_of_inputs) {
   expect_actuate(2, &voltage, true, SMALL STEPS);
 }
-END_TEST
 
 /* Steps of any size: at the same time the actuator is at the same place, within the error of the solver steps. */
-START_TEST(variable_steps) {
+VERSION_TESTS(variable_steps) {
   Fmu fmu = made(_i, LIQUID " --set solver.tolerance=1.6e-5");
   Instance one = started(&fmu), other = started(&fmu);
   uint64_t seed = 7;
@@ -580,10 +584,9 @@ START_TEST(variable_steps) {
   fmu_free(&other);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Parameters set before initialization take effect; they stay until reset. The start time only shifts. */
-START_TEST(parameters) {
+VERSION_TESTS(parameters) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
   fmu_set(&instance, "load.mass", 0.02);
@@ -614,10 +617,9 @@ START_TEST(parameters) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Before the start every parameter and input may be set, in a run what is tunable and the inputs; outputs never. */
-START_TEST(variability_is_what_may_be_set) {
+VERSION_TESTS(variability_is_what_may_be_set) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
   size_t tunable = 0;
@@ -638,10 +640,9 @@ START_TEST(variability_is_what_may_be_set) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* A gain without a controller is refused as a whole: the gain is as before, and so is the run. */
-START_TEST(refused_tuning_changes_nothing) {
+VERSION_TESTS(refused_tuning_changes_nothing) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = started(&fmu), other = started(&fmu);
   double value[2][SIGNALS];
@@ -659,10 +660,9 @@ START_TEST(refused_tuning_changes_nothing) {
   fmu_free(&other);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* The tolerance that an importer asks for is that of the solver, until a reset. */
-START_TEST(tolerance_of_the_importer) {
+VERSION_TESTS(tolerance_of_the_importer) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
   ck_assert_int_eq(fmu_enter_with(&instance, 0, 3e-3, INFINITY), OK);
@@ -675,10 +675,9 @@ START_TEST(tolerance_of_the_importer) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Gains and the tolerance may change during a run: from then on it equals a run that continues with the new values. */
-START_TEST(tunable_parameters) {
+VERSION_TESTS(tunable_parameters) {
   Fmu fmu = made(_i, SMALL " --set control.kind=pi --set setpoint.value=15mm --set control.proportional=100");
   Instance instance = started(&fmu);
   must_step(&instance, 0, 0.01);
@@ -713,7 +712,6 @@ START_TEST(tunable_parameters) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* -- states ---------------------------------------------------------------------------------------- */
 
@@ -753,7 +751,7 @@ static void expect_round_trip(Instance *instance, Instance *other, double t, dou
   fmu_free_state(instance, &state);
 }
 
-START_TEST(states) {
+VERSION_TESTS(states) {
   Fmu fmu = made(_i, LIQUID);
   Instance instance = started(&fmu), other = new_instance(&fmu);
   uint64_t seed = 3;
@@ -769,10 +767,9 @@ START_TEST(states) {
   fmu_free(&other);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* A state has its parameters: another instance takes them over. What is damaged is refused. */
-START_TEST(states_have_parameters) {
+VERSION_TESTS(states_have_parameters) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu), other = started(&fmu);
   void *state = NULL, *damaged = NULL;
@@ -806,12 +803,11 @@ START_TEST(states_have_parameters) {
   fmu_free(&other);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* The mean current of a step is the charge that has flowed in it, with that of a jump of the voltage before it, over
  * its time. An input that is set does not change it, until the next step. So it is after a return to a state between
  * the jump and the step, whose outputs are those of the new voltage. */
-START_TEST(currents_are_of_whole_steps) {
+VERSION_TESTS(currents_are_of_whole_steps) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = started(&fmu), other = new_instance(&fmu);
   must_step(&instance, 0, 1e-3);
@@ -831,7 +827,6 @@ START_TEST(currents_are_of_whole_steps) {
   fmu_free(&other);
   fmu_close(&fmu);
 }
-END_TEST
 
 static double voltage_after(Instance *instance, double now) {
   must_step(instance, now, 1e-3);
@@ -840,7 +835,7 @@ static double voltage_after(Instance *instance, double now) {
 
 /* The voltage rises by 3 kV in a step of 1 ms at the rate that its importer tells: from before the start, in a run, in
  * another instance, after a return; not after a reset. */
-START_TEST(rates_of_inputs_are_part_of_the_state) {
+TEST(rates_of_inputs_are_part_of_the_state) {
   Fmu fmu = made(2, SMALL);
   const Variable *voltage = fmu_find(&fmu, "voltage");
   Instance instance = new_instance(&fmu), other = new_instance(&fmu);
@@ -863,11 +858,10 @@ START_TEST(rates_of_inputs_are_part_of_the_state) {
   fmu_free(&other);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Steps resolve a rise of the input by the largest voltage of the scenario, whatever it begins with: a rise from 0 V to
  * 9 kV is the same where the scenario has a square wave up to 10 kV and where it has 10 kV from the beginning. */
-START_TEST(steps_are_those_of_the_largest_voltage) {
+TEST(steps_are_those_of_the_largest_voltage) {
   double value[2][SIGNALS];
   for (int k = 0; k < 2; k++) {
     Fmu fmu =
@@ -886,7 +880,6 @@ START_TEST(steps_are_those_of_the_largest_voltage) {
   }
   expect_same(value[0], value[1]);
 }
-END_TEST
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
@@ -951,7 +944,7 @@ static void expect_followers(int version, const bool changed[SIGNALS]) {
   fmu_close(&fmu);
 }
 
-START_TEST(derivatives) {
+VERSION_TESTS(derivatives) {
   bool changed[SIGNALS] = {false};
   expect_derivatives_of(_i, LIQUID, "voltage", 10e3, changed);
   expect_derivatives_of(_i, SMALL " --set source.model=amplifier --set source.resistance=1Mohm", "voltage", 10e3,
@@ -960,19 +953,17 @@ START_TEST(derivatives) {
                         changed);
   expect_followers(_i, changed);
 }
-END_TEST
 
 /* A controller looks at its setpoint when it samples: nothing follows the input at once. */
-START_TEST(setpoint_acts_with_the_next_sample) {
+VERSION_TESTS(setpoint_acts_with_the_next_sample) {
   bool changed[SIGNALS] = {false};
   expect_derivatives_of(_i, SMALL CONTROL, "setpoint", 0.3, changed);
   for (size_t k = 0; k < SIGNALS; k++)
     ck_assert(!changed[k]);
 }
-END_TEST
 
 /* Seeds times the matrix, and the other way round. */
-START_TEST(adjoint_derivatives) {
+TEST(adjoint_derivatives) {
   Fmu fmu = made(3, SMALL);
   Instance instance = started(&fmu);
   double charge, force, adjoint[2];
@@ -996,7 +987,6 @@ START_TEST(adjoint_derivatives) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* -- events ---------------------------------------------------------------------------------------- */
 
@@ -1026,7 +1016,7 @@ static void handle_event(Instance *instance) {
 
 /* A step over a whole zip returns early at the instant of closing; the next step completes it. The time of the
  * importer, which begins with 5 s, goes on. */
-START_TEST(early_return_at_closing) {
+TEST(early_return_at_closing) {
   Fmu fmu = made(3, SMALL);
   Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS), whole = started(&fmu);
   ck_assert(fmu_enter(&instance, 5) == OK && fmu_exit(&instance) == OK);
@@ -1046,10 +1036,9 @@ START_TEST(early_return_at_closing) {
   fmu_free(&whole);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Reaching the current limit of a supply is an event as well. */
-START_TEST(early_return_at_limits) {
+TEST(early_return_at_limits) {
   Fmu fmu = made(3, SMALL
                  " --set source.model=amplifier --set 'source.current_limit=0.1 mA' --set 'source.resistance=1 Mohm'");
   Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS);
@@ -1062,10 +1051,9 @@ START_TEST(early_return_at_limits) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Electrodes without an insulator that touch end the simulation: the FMU asks for that. */
-START_TEST(short_circuit_terminates) {
+VERSION_TESTS(short_circuit_terminates) {
   Fmu fmu = made(_i, " --set actuator.kind=flange --set ribbon.length=45mm --set electro.gap_offset=0.2mm "
                      "--set insulator.thickness=0 --set gravity=0 --set load.mass=0 --set drive.voltage=60 "
                      "--set mesh.nodes=31 --set solver.end_time=1ms");
@@ -1091,7 +1079,6 @@ START_TEST(short_circuit_terminates) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* -- many ------------------------------------------------------------------------------------------ */
 
@@ -1112,7 +1099,7 @@ static size_t allocated(void) {
 
 /* Reset, start, one step, again and again: the same numbers, and no more memory: the least block
  * that malloc gives, of 32 bytes, lost in each round would be 29 kB. */
-START_TEST(resets) {
+VERSION_TESTS(resets) {
   enum { USUAL = 100 };
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
@@ -1130,10 +1117,9 @@ START_TEST(resets) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* After a reset the time begins with 0 s again; FMI 2 may leave the start time out. */
-START_TEST(reset_forgets_the_start_time) {
+TEST(reset_forgets_the_start_time) {
   Fmu fmu = made(2, SMALL);
   Instance instance = new_instance(&fmu);
   ck_assert(fmu_enter(&instance, 5) == OK && fmu_exit(&instance) == OK);
@@ -1148,11 +1134,10 @@ START_TEST(reset_forgets_the_start_time) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* A thousand instances at once, twice: each computes the same, and what they took is given back: the least block lost
  * in each would be 32 kB. */
-START_TEST(instances) {
+NIGHTLY_TESTS(instances, 2, 4) {
   enum { MOST = 1000 };
   const int count = FULL_OR(MOST, 100);
   static Instance instance[MOST];
@@ -1174,7 +1159,6 @@ START_TEST(instances) {
   if (!SANITIZED) ck_assert_uint_le(allocated(), before + kept_for_thread);
   fmu_close(&fmu);
 }
-END_TEST
 
 static void *run_in_thread(void *user) {
   Instance *instance = user;
@@ -1186,7 +1170,7 @@ static void *run_in_thread(void *user) {
   return NULL;
 }
 
-START_TEST(threads) {
+VERSION_TESTS(threads) {
   enum { THREADS = 8 };
   Fmu fmu = made(_i, SMALL);
   Instance instance[THREADS];
@@ -1206,11 +1190,10 @@ START_TEST(threads) {
   }
   fmu_close(&fmu);
 }
-END_TEST
 
 /* -- what it refuses ------------------------------------------------------------------------------- */
 
-START_TEST(wrong_calls) {
+VERSION_TESTS(wrong_calls) {
   Fmu fmu = made(_i, SMALL);
   ck_assert_ptr_null(fmu_instantiate(&fmu, "another token", WHOLE_STEPS).handle);
   Instance instance = new_instance(&fmu);
@@ -1251,10 +1234,9 @@ START_TEST(wrong_calls) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* An importer that gets no instance is told why. */
-START_TEST(refused_instances_say_why) {
+VERSION_TESTS(refused_instances_say_why) {
   static const char *const says[] = {"not for model exchange", "not for scheduled execution", "intermediate"};
   Fmu fmu = made(_i, SMALL);
   for (Other other = OTHER_EXCHANGE; other <= (_i == 2 ? OTHER_EXCHANGE : OTHER_INTERMEDIATE); other++) {
@@ -1265,10 +1247,9 @@ START_TEST(refused_instances_say_why) {
   ck_assert_msg(strstr(last_message, "the token differs") != NULL, "%s", last_message);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* A step beyond the stop time is an error and does nothing; times that were summed up may pass it by their rounding. */
-START_TEST(ends_at_the_stop_time) {
+VERSION_TESTS(ends_at_the_stop_time) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
   ck_assert_int_eq(fmu_enter_until(&instance, 0, 3e-3), OK);
@@ -1284,10 +1265,9 @@ START_TEST(ends_at_the_stop_time) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* Parameters that do not fit one another are found where initialization ends; a reset helps. */
-START_TEST(parameters_that_do_not_fit) {
+VERSION_TESTS(parameters_that_do_not_fit) {
   Fmu fmu = made(_i, SMALL);
   Instance instance = new_instance(&fmu);
   fmu_set(&instance, "platform.length", 0.5); /* longer than the ribbon */
@@ -1301,11 +1281,10 @@ START_TEST(parameters_that_do_not_fit) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* An FMU has a single actuator, or equal ones side by side, and says so both where it is written and where a parameter
  * makes a stack of it. */
-START_TEST(stacks) {
+VERSION_TESTS(stacks) {
   static const char *const members[] = {"stack.series=3", "stack.series=2 --set 'stack.distance=20 mm'",
                                         "stack.parallel=2 --set 'member_2.ribbon.thickness=60 um'"};
   for (size_t k = 0; k < LENGTH_OF(members); k++)
@@ -1321,10 +1300,9 @@ START_TEST(stacks) {
   fmu_free(&instance);
   fmu_close(&fmu);
 }
-END_TEST
 
 /* What the command refuses, and that nothing is written then. */
-START_TEST(wrong_commands) {
+TEST(wrong_commands) {
   static const struct {
     const char *arguments;
     int status;
@@ -1343,60 +1321,4 @@ START_TEST(wrong_commands) {
                 wrong[k].status);
   run_command(ZP_COMMAND " fmu --set drive.waveform=sine --set drive.offset=-2kV -o no.fmu 2>&1 | grep -q "
                          "'drive.offset: the voltage is -2000 V at t = 0'");
-}
-END_TEST
-
-/* A case for each test, so that CK_RUN_CASE can choose one. */
-static void add(Suite *suite, const TTest *test, const char *name, bool loop) {
-  TCase *tcase = tcase_create(name);
-  suite_add_tcase(suite, tcase);
-  if (loop)
-    tcase_add_loop_test(tcase, test, 2, 4);
-  else
-    tcase_add_test(tcase, test);
-}
-
-int main(void) {
-  Suite *suite = suite_create("fmu");
-  add(suite, description_is_of_the_tables, "description_is_of_the_tables", true);
-  add(suite, exports_every_function, "exports_every_function", true);
-  add(suite, same_bytes, "same_bytes", true);
-  add(suite, expected_results, "expected_results", true);
-  add(suite, agrees_with_actuate, "agrees_with_actuate", true);
-  add(suite, agrees_with_actuate_under_control, "agrees_with_actuate_under_control", true);
-  add(suite, begins_where_the_waveform_does, "begins_where_the_waveform_does", true);
-  add(suite, examples_export, "examples_export", false);
-  add(suite, follows_slopes_of_inputs, "follows_slopes_of_inputs", false);
-  add(suite, variable_steps, "variable_steps", true);
-  add(suite, parameters, "parameters", true);
-  add(suite, variability_is_what_may_be_set, "variability_is_what_may_be_set", true);
-  add(suite, tolerance_of_the_importer, "tolerance_of_the_importer", true);
-  add(suite, tunable_parameters, "tunable_parameters", true);
-  add(suite, refused_tuning_changes_nothing, "refused_tuning_changes_nothing", true);
-  add(suite, states, "states", true);
-  add(suite, states_have_parameters, "states_have_parameters", true);
-  add(suite, currents_are_of_whole_steps, "currents_are_of_whole_steps", true);
-  add(suite, rates_of_inputs_are_part_of_the_state, "rates_of_inputs_are_part_of_the_state", false);
-  add(suite, steps_are_those_of_the_largest_voltage, "steps_are_those_of_the_largest_voltage", false);
-  add(suite, derivatives, "derivatives", true);
-  add(suite, setpoint_acts_with_the_next_sample, "setpoint_acts_with_the_next_sample", true);
-  add(suite, adjoint_derivatives, "adjoint_derivatives", false);
-  add(suite, early_return_at_closing, "early_return_at_closing", false);
-  add(suite, early_return_at_limits, "early_return_at_limits", false);
-  add(suite, short_circuit_terminates, "short_circuit_terminates", true);
-  add(suite, stacks, "stacks", true);
-  add(suite, resets, "resets", true);
-  add(suite, reset_forgets_the_start_time, "reset_forgets_the_start_time", false);
-  add(suite, threads, "threads", true);
-  add(suite, wrong_calls, "wrong_calls", true);
-  add(suite, refused_instances_say_why, "refused_instances_say_why", true);
-  add(suite, ends_at_the_stop_time, "ends_at_the_stop_time", true);
-  add(suite, parameters_that_do_not_fit, "parameters_that_do_not_fit", true);
-  add(suite, wrong_commands, "wrong_commands", false);
-  tcase_add_loop_test(nightly_case(suite), instances, 2, 4);
-  char tidy[64];
-  snprintf(scratch, sizeof scratch, "fmu-%d", (int)getpid());
-  snprintf(tidy, sizeof tidy, "rm -rf %s", scratch);
-  int status = run_suite(suite);
-  return system(tidy) || status; // NOLINT: the command is the test's own
 }

@@ -21,7 +21,7 @@ static Beam beam_of(const ZpModel *model) {
 /* Upside down, without voltage, a mass and its own weight press the end of a cantilever onto the face, g beside the
  * clamp: the end carries m g0 + 3 q L / 8 - 3 EI g / L^3, and nothing else touches. Its edge presses the layers
  * together by (9.8), on every mesh alike. */
-START_TEST(end_carries_what_presses_it) {
+TESTS(end_carries_what_presses_it, 0, 3) {
   static const double pi = 3.14159265358979323846, gap = 1e-3;
   static const struct {
     int nodes;
@@ -46,7 +46,6 @@ START_TEST(end_carries_what_presses_it) {
   zp_rest_destroy(rest);
   zp_model_destroy(model);
 }
-END_TEST
 
 enum { CELLS = 2000 };
 
@@ -93,7 +92,7 @@ static double voltage_without_force(const Beam *beam, double gap) {
  * difference from a finer one. If only points inside its last element touched, the end would lie inside the face by a
  * part of an element, and would be released at 399, 331 and 334 V with 21, 41 and 81 nodes at 1 mm, and at 867 to 874 V
  * at 3 mm. */
-START_TEST(end_leaves_where_it_needs_no_force) {
+TESTS(end_leaves_where_it_needs_no_force, 0, 4) {
   static const struct {
     double gap;
     int nodes;
@@ -113,14 +112,4 @@ START_TEST(end_leaves_where_it_needs_no_force) {
   ck_below(fabs(found - fine), told);
   zp_result_destroy(result);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("free end");
-  TCase *end = tcase_create("end");
-  tcase_add_loop_test(end, end_carries_what_presses_it, 0, 3);
-  tcase_add_loop_test(end, end_leaves_where_it_needs_no_force, 0, 4);
-  suite_add_tcase(suite, end);
-  return run_suite(suite);
 }

@@ -9,7 +9,7 @@
 
 /* A ribbon lifted off a film of depth h0 by bending with curvature kappa: speed B h0^(1/2) (kappa / 1.350)^(5/2) / (12
  * mu), B the stiffness over the width; the thinnest film, ahead of the front, is 0.785 h0. Any h0. */
-START_TEST(test_peeling) {
+TEST(test_peeling) {
   static const double h0[] = {1e-7, 1e-6, 1e-5, 1e-4};
   double depth = h0[_i], w = 12.7e-3, mu = 0.048e-6, stiffness = 1.44e-11, kappa = 60; /* no cavities */
   double length = sqrt(1.350 * depth / kappa), base = kappa / 1.350;
@@ -33,14 +33,14 @@ START_TEST(test_peeling) {
   ck_near(thinnest, 0.785 * depth, 2e-3); /* 3.9e-4 measured */
   front_destroy(f);
 }
-END_TEST
+ALSO_NIGHTLY(test_peeling, 1, 4)
 
 /* -- zipping --------------------------------------------------------------------------------------- */
 
 /* Units: l = (EI' d^2 / (2 F))^(1/4), speed F d / (12 mu w l), d; K is the curvature far ahead over that of balance, 2
  * sqrt(F / EI'). Travelling waves of the same equations, solved as boundary-value problems, have these speeds and leave
  * these films. (Far behind, attraction makes a film uneven in the end, which a longer run would show.) */
-START_TEST(test_zipping) {
+TEST(test_zipping) {
   static const double K[] = {0.3, 0.5, 0.7}, speed[] = {0.3030, 0.2476, 0.1411}, film[] = {0.505, 0.3191, 0.1559};
   Front *f = front_create(1, 1.0 / 12, 1, 0.19, false);
   f->F = f->d = 1;
@@ -59,17 +59,4 @@ START_TEST(test_zipping) {
   ck_near(left, film[_i], 0.02);     /* 0.014 measured */
   front_destroy(f);
 }
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("front");
-  TCase *fronts = tcase_create("fronts");
-
-  tcase_add_loop_test(fronts, test_peeling, 0, 1);
-  tcase_add_loop_test(fronts, test_zipping, 0, 1);
-  suite_add_tcase(suite, fronts);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_peeling, 1, 4);
-  tcase_add_loop_test(nightly, test_zipping, 1, 3);
-  return run_suite(suite);
-}
+ALSO_NIGHTLY(test_zipping, 1, 3)

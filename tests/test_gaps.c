@@ -18,7 +18,7 @@ static ZpActuatorDef square_wave(double duty, double rise_time) {
 /* Regression: a rise time of twice the allowed value was accepted unless duty was one half. What fits just so is a wave
  * without a jump that comes to both of its voltages; longer is refused whichever part, the high or the low one, is the
  * shorter. */
-START_TEST(square_wave_rises_within_its_shorter_part) {
+TESTS(square_wave_rises_within_its_shorter_part, 0, 3) {
   static const double duties[] = {0.2, 0.5, 0.8};
   double duty = duties[_i], shorter = fmin(duty, 1 - duty) / 20;
   ZpActuatorDef def = square_wave(duty, shorter);
@@ -35,7 +35,6 @@ START_TEST(square_wave_rises_within_its_shorter_part) {
     ck_assert_ptr_nonnull(strstr(err.message, "drive.rise_time"));
   }
 }
-END_TEST
 
 /* -- contact --------------------------------------------------------------------------------------- */
 
@@ -46,14 +45,13 @@ static size_t front_of(const double *gap, size_t nodes) {
 }
 
 /* The front ends at the first station that is open, whatever touches behind it, and at the platform where none is. */
-START_TEST(front_ends_at_the_first_open_station) {
+TEST(front_ends_at_the_first_open_station) {
   const double open = 1e-3, shut = 1e-7;
   ck_assert_uint_eq(front_of((double[]){0, open, shut, shut}, 4), 0);
   ck_assert_uint_eq(front_of((double[]){0, shut, open, shut}, 4), 1);
   ck_assert_uint_eq(front_of((double[]){0, shut, -shut, open}, 4), 2);
   ck_assert_uint_eq(front_of((double[]){0, shut, shut, shut, shut, shut}, 4), 3);
 }
-END_TEST
 
 /* The closed state at drive.voltage: the point of a branch there with the largest capacitance. */
 static size_t closed_row(const ZpTable *branch, double voltage) {
@@ -86,18 +84,17 @@ static void check_closed(const ZpActuatorDef *def, const char *distance, double 
   zp_result_destroy(result);
 }
 
-START_TEST(closed_faces_lie_on_each_other) {
+TEST(closed_faces_lie_on_each_other) {
   ZpActuatorDef flange = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 21}, {"ribbon.length", 20e-3},
                              {"load.mass", 0.1e-3}, {"electro.breakdown_cap", 0}, {"drive.voltage", 2e3});
   ZpActuatorDef pair = DEF({"mesh.nodes", 21}, {"electro.breakdown_cap", 0});
   check_closed(&flange, "stroke_m", 20e-3);
   check_closed(&pair, "opening_m", 2 * (45e-3 + 5e-3));
 }
-END_TEST
 
 /* Eq. (9.3): from the velocity of two nodes of mass m/2 on layers of stiffness k the damper removes the fraction eta
  * sqrt(k/m) per second; nothing if faces do not overlap. So it is with k by the Gauss points and by the station. */
-START_TEST(damper_takes_what_the_loss_factor_says) {
+TEST(damper_takes_what_the_loss_factor_says) {
   ZpContactParams faces = {.nodes = 3, .l = 1e-3, .depth = 1e-7, .push = 60};
   double push[3], own[3], next[3], stiffness[3], k = 3 * 60 * 1e-3 / 1e-7, m = 1e-5, dt = 1e-12;
   double none[3] = {0};
@@ -110,11 +107,10 @@ START_TEST(damper_takes_what_the_loss_factor_says) {
   ck_assert_double_eq(zp_contact_kept(&eval, 1, m, 1), 1);
   ck_assert_double_eq(zp_contact_kept_at(&faces, open[1], 1, m, 1), 1);
 }
-END_TEST
 
 /* Faces that overlap by the depth push with `push` per length, (9.1): each end of a platform with half an element and
  * its own half of the platform, between which there is no element. */
-START_TEST(both_ends_of_a_platform_push) {
+TEST(both_ends_of_a_platform_push) {
   enum { NODES = 6 };
   ZpContactParams faces = {
       .nodes = NODES, .l = 1e-3, .depth = 1e-7, .push = 60, .flat_length = 2e-3, .platform = 2, .platform_end = 3};
@@ -128,11 +124,10 @@ START_TEST(both_ends_of_a_platform_push) {
     ck_near(push[i], faces.push * ((inner ? 1 : 0.5) * faces.l + (platform ? faces.flat_length : 0)), 1e-12);
   }
 }
-END_TEST
 
 /* Eq. (9.6): over a short span at nearly constant depth the contact force beyond that of the layers is eta sqrt(k m)
  * times the velocity, and from the first touch to a depth it is eta sqrt(k m) / 2 times the velocity in contact. */
-START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
+TEST(damper_in_a_step_is_that_of_the_loss_factor) {
   const double l = 1e-3, depth = 1e-7, m = 1e-5, h = 1e-9, k = 3 * 60 * l / depth;
   ZpContactParams faces = {.nodes = 3, .l = l, .depth = depth, .push = 60, .platform = 3};
   double push[3], own[3], next[3], stiffness[3], damper[3];
@@ -149,7 +144,6 @@ START_TEST(damper_in_a_step_is_that_of_the_loss_factor) {
     ck_near(push[1] - layers, depths[j] * 0.5 * sqrt(k * m) * touching[j] / h, 3e-12); /* 3.9e-13 measured */
   }
 }
-END_TEST
 
 /* Two elements; the edge of their free end presses as so much of their length. */
 #define WITH_FREE_END(length)                                                                                          \
@@ -179,7 +173,7 @@ static double work_of_push(const ZpContactParams *faces, const double *from, con
 
 /* Over a step faces push with the mean that does the work by which the energy of their layers changes: where they stay
  * closed, meet, part, or both within an element; with a free end that presses as a point or without. */
-START_TEST(push_over_a_step_does_the_work_of_the_layers) {
+TESTS(push_over_a_step_does_the_work_of_the_layers, 0, 2) {
   static const double way[][2][3] = {{{-1e-7, -2e-7, -1e-7}, {-2e-7, -1e-7, -1e-7}},
                                      {{5e-8, 5e-8, 5e-8}, {-1e-7, -1e-7, -1e-7}},
                                      {{-1e-7, -1e-7, -1e-7}, {2e-7, 2e-7, 2e-7}},
@@ -195,11 +189,10 @@ START_TEST(push_over_a_step_does_the_work_of_the_layers) {
     ck_below(fabs(work - lost), 1e-6 * 60 * 1e-7 * 1e-3);
   }
 }
-END_TEST
 
 /* Its derivative with respect to the gaps at the end, by finite differences; at rest, where both ends move, it is half
  * of the stiffness. */
-START_TEST(push_over_a_step_has_this_derivative) {
+TESTS(push_over_a_step_has_this_derivative, 0, 2) {
   static const double from[][3] = {{-1e-7, -2e-7, -1e-7}, {5e-8, 5e-8, 5e-8}, {-3e-7, 1e-7, 2e-7}};
   const double to[] = {-1.5e-7, -1e-7, 0.3e-7}, d = 1e-12;
   ZpContactParams faces = WITH_FREE_END(3e-4 * _i);
@@ -222,10 +215,9 @@ START_TEST(push_over_a_step_has_this_derivative) {
   zp_contact_eval(&faces, &(ZpContactSpan){both, both, 0, 0}, &at_more);
   ck_near((push[1] - more[1]) / d, 2 * own[1], 3e-5); /* 7.7e-6 measured */
 }
-END_TEST
 
 /* The contact law does not depend on future voltages: a pull-in is the same however far the curve goes. */
-START_TEST(pull_in_does_not_depend_on_the_largest_voltage) {
+TEST(pull_in_does_not_depend_on_the_largest_voltage) {
   double pull_in[3];
   static const double largest[] = {5.2e3, 10e3, 50e3};
   for (int k = 0; k < 3; k++) {
@@ -239,13 +231,12 @@ START_TEST(pull_in_does_not_depend_on_the_largest_voltage) {
   ck_near(pull_in[1], pull_in[0], 1e-12); /* 0 measured */
   ck_near(pull_in[2], pull_in[0], 1e-12); /* 0 measured */
 }
-END_TEST
 
 /* -- heavy loads ----------------------------------------------------------------------------------- */
 
 /* A floppy ribbon under a load that is applied in steps: it hangs straight down and stretches by its load and half its
  * own weight. What bends at the clamp is sqrt(EI / P) = 5 um of it. */
-START_TEST(floppy_ribbon_hangs_straight_down) {
+TEST(floppy_ribbon_hangs_straight_down) {
   const double L = 10, EA = 200e9 * 12.7e-3 * 1e-6, weight = 7850 * 12.7e-3 * 1e-6 * L * 9.81;
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", L},
                           {"ribbon.thickness", 1e-6}, {"load.mass", 1});
@@ -255,7 +246,6 @@ START_TEST(floppy_ribbon_hangs_straight_down) {
   ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-12); /* 5.1e-15 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- a held platform ------------------------------------------------------------------------------- */
 
@@ -280,7 +270,7 @@ static int times_passed(const ZpTable *branch, double voltage) {
 
 /* On this mesh the branch turns at 6.15 kV, back at 6.03 kV: at 6.1 kV there is a second state, which was not counted
  * if the search ended early. The branch itself, followed further, says how many there are. */
-START_TEST(other_states_are_counted) {
+TEST(other_states_are_counted) {
   ZpResult *here = hold(6.1e3), *further = hold(7e3);
   int states = times_passed(further->series, 6.1e3);
   ck_assert_int_eq(states, 2);
@@ -288,13 +278,12 @@ START_TEST(other_states_are_counted) {
   zp_result_destroy(here);
   zp_result_destroy(further);
 }
-END_TEST
 
 /* -- implicit steps -------------------------------------------------------------------------------- */
 
 /* A wrong matrix of the iteration gives the right motion, at the cost of more iterations: they are two or three a step
  * in free motion, damped or not (measured: 2.9, 2.8). */
-START_TEST(steps_converge_in_three_iterations) {
+TESTS(steps_converge_in_three_iterations, 0, 2) {
   static const double damping[] = {0, 10e-3};
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"mesh.nodes", 21}, {"solver.end_time", 0.5},
@@ -307,24 +296,4 @@ START_TEST(steps_converge_in_three_iterations) {
   ck_below(iterations, 3.2);
   ck_assert_double_eq(zp_result_get(result, "newton_failures"), 0);
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("gaps");
-  TCase *c = tcase_create("gaps");
-  tcase_add_loop_test(c, square_wave_rises_within_its_shorter_part, 0, 3);
-  tcase_add_test(c, front_ends_at_the_first_open_station);
-  tcase_add_test(c, closed_faces_lie_on_each_other);
-  tcase_add_test(c, damper_takes_what_the_loss_factor_says);
-  tcase_add_test(c, both_ends_of_a_platform_push);
-  tcase_add_test(c, damper_in_a_step_is_that_of_the_loss_factor);
-  tcase_add_loop_test(c, push_over_a_step_does_the_work_of_the_layers, 0, 2);
-  tcase_add_loop_test(c, push_over_a_step_has_this_derivative, 0, 2);
-  tcase_add_test(c, pull_in_does_not_depend_on_the_largest_voltage);
-  tcase_add_test(c, floppy_ribbon_hangs_straight_down);
-  tcase_add_test(c, other_states_are_counted);
-  tcase_add_loop_test(c, steps_converge_in_three_iterations, 0, 2);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

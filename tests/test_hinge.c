@@ -30,7 +30,7 @@ static Wedge wedge_of(const ZpActuatorDef *def, double angle) {
 
 /* Held at angles from 0.2 to 40 degrees: the wedge, with gaps from thinner than the insulators to far larger. The
  * plates bend by at most 1e-5 of the angle. At small angles the wedge is that of eq. (30.5). */
-START_TEST(held_plates_are_a_wedge) {
+TESTS(held_plates_are_a_wedge, 0, 4) {
   static const struct { double degrees, voltage; } at[] = {{0.2, 2e3}, {2, 16e3}, {10, 100e3}, {40, 200e3}};
   double angle = at[_i].degrees * pi / 180;
   ZpActuatorDef def = DEF(RIGID, {"mesh.nodes", 101}, {"drive.voltage", at[_i].voltage});
@@ -48,11 +48,10 @@ START_TEST(held_plates_are_a_wedge) {
   if (angle < 0.05)
     ck_near(wedge.capacitance, eps / angle * log(1 + angle * def.ribbon.length / d), 1e-3); /* 2.2e-4 measured */
 }
-END_TEST
 
 /* Convergence of the torque at 10 degrees with three Gauss points: a mesh twice as fine has at most a quarter of the
  * error. */
-START_TEST(torque_converges) {
+TEST(torque_converges) {
   double off[3], angle = 10 * pi / 180;
   for (int k = 0; k < 3; k++) {
     ZpActuatorDef def = DEF(RIGID, {"mesh.nodes", 5 * (1 << k) + 1}, {"drive.voltage", 100e3});
@@ -63,10 +62,9 @@ START_TEST(torque_converges) {
   ck_below(off[1], off[0] / 4);
   ck_below(off[2], off[1] / 4);
 }
-END_TEST
 
 /* A plate of 1.5 mm with a mass at its end against a spring: the angle at which both moments balance, eq. (30.6). */
-START_TEST(plate_hangs_on_its_spring) {
+TESTS(plate_hangs_on_its_spring, 0, 3) {
   static const double rest[] = {0, 0.3, -0.2};
   double k = 5e-3, L = 50e-3, m = 4e-3;
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", L}, {"ribbon.thickness", 1.5e-3},
@@ -79,11 +77,10 @@ START_TEST(plate_hangs_on_its_spring) {
     angle -= (k * (angle - rest[_i]) - moment * cos(angle)) / (k + moment * sin(angle));
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "stroke_m"), L * sin(angle), 5e-5); /* it bends by some 1e-5 */
 }
-END_TEST
 
 /* A flexible, naturally curved strip in series with its spring, eq. (30.1): small deflections by a small load are F L^3
  * / 3 EI + F L^2 / k + kappa L^2 / 2. Elements half as long leave a quarter of the error. */
-START_TEST(strip_stands_in_series_with_its_spring) {
+TESTS(strip_stands_in_series_with_its_spring, 0, 2) {
   double k = 3e-3, L = 50e-3, b = 100e-6, kappa = _i ? 0.05 : 0, F = 1e-5, off[3];
   for (int n = 0; n < 3; n++) {
     ZpActuatorDef def =
@@ -99,11 +96,10 @@ START_TEST(strip_stands_in_series_with_its_spring) {
   ck_near(off[0] / off[1], 4, 0.02); /* 4.6e-3 measured */
   ck_near(off[1] / off[2], 4, 0.05);
 }
-END_TEST
 
 /* Derivatives with respect to its keys equal finite differences: of the angle at rest, of the holding force, of the
  * pull-in. */
-START_TEST(derivatives_are_those_of_differences) {
+TESTS(derivatives_are_those_of_differences, 0, 4) {
   static const struct {
     ZpStudy study;
     const char *name, *key;
@@ -131,21 +127,19 @@ START_TEST(derivatives_are_those_of_differences) {
   ck_near(slope, (value[1] - value[0]) / (2 * of[_i].step), 2e-6); /* 4e-7 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without a spring the lower ribbon hangs straight down: a right angle. */
-START_TEST(free_hinge_hangs_straight_down) {
+TEST(free_hinge_hangs_straight_down) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.4e-3},
           {"ribbon.young_modulus", 1e12}, {"load.mass", 4e-3}, {"drive.voltage", 0}, {"mesh.nodes", 31});
   double stroke = answered_value(ZP_STUDY_STATIONARY, &def, "stroke_m");
   ck_near(stroke, def.ribbon.length, 5e-8); /* 9.6e-9 measured */
 }
-END_TEST
 
 /* Small oscillations: a plate with a mass at its end on a spring has the frequency sqrt(k / I) without gravity; a free
  * plate that hangs down is a physical pendulum, eq. (30.7). */
-START_TEST(swings_as_a_rigid_body) {
+TESTS(swings_as_a_rigid_body, 0, 2) {
   double k = _i ? 0 : 5e-3, L = 50e-3, m = 4e-3;
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", L}, {"ribbon.thickness", 1e-3},
                           {"ribbon.young_modulus", 1e12}, {"load.mass", m}, {"hinge.stiffness", k}, {"mesh.nodes", 31},
@@ -155,10 +149,9 @@ START_TEST(swings_as_a_rigid_body) {
   double expected = sqrt((_i ? moment : k) / inertia) / (2 * pi);
   ck_near(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), expected, 5e-4); /* 1.1e-4 measured */
 }
-END_TEST
 
 /* A large swing on the spring keeps its initial energy. Measured: off by 8e-9 of its largest kinetic energy. */
-START_TEST(swing_keeps_energy) {
+TEST(swing_keeps_energy) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.2e-3},
                           {"load.mass", 4e-3}, {"hinge.stiffness", 5e-3}, {"hinge.rest_angle", 0.5}, {"mesh.nodes", 21},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 0}, {"solver.end_time", 0.5},
@@ -176,11 +169,10 @@ START_TEST(swing_keeps_energy) {
   ck_below(most, 1e-8 * fastest); /* 1.3e-9 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* It zips dry from the hinge outwards, lifts its load, and opens when the voltage is switched off: the energy balances,
  * and the work on the load is its weight times its rise. */
-START_TEST(zips_and_keeps_the_books) {
+TESTS(zips_and_keeps_the_books, 0, 2) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"ribbon.length", 50e-3}, {"ribbon.thickness", 0.1e-3},
           {"load.mass", 0.2e-3}, {"hinge.stiffness", 2e-3}, {"hinge.rest_angle", 0.2}, {"mesh.nodes", 15},
@@ -200,11 +192,10 @@ START_TEST(zips_and_keeps_the_books) {
   }
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Pull-in of a fold from its held plates: the angle at which torque and spring moment are equal and equally steep, eq.
  * (30.8). */
-START_TEST(pull_in_is_that_of_the_wedge) {
+TEST(pull_in_is_that_of_the_wedge) {
   double k = 0.05, rest = 5 * pi / 180, lowest = 0, step = 1e-4;
   ZpActuatorDef def =
       DEF(RIGID, {"hinge.stiffness", k}, {"hinge.rest_angle", rest}, {"mesh.nodes", 101}, {"drive.voltage", 20e3});
@@ -217,13 +208,12 @@ START_TEST(pull_in_is_that_of_the_wedge) {
   }
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), sqrt(lowest), 3e-6); /* 9.3e-7 measured */
 }
-END_TEST
 
 /* -- forces --------------------------------------------------------------------------------------- */
 
 /* The mean force of the spring over a step does the work of its energy change, for any rotation of the first element.
  */
-START_TEST(mean_force_does_the_work) {
+TEST(mean_force_does_the_work) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"hinge.stiffness", 3e-3}, {"hinge.rest_angle", 0.4}, {"mesh.nodes", 5});
   ZpModel *model = model_of(&def);
@@ -251,7 +241,6 @@ START_TEST(mean_force_does_the_work) {
   zp_system_destroy(&eval);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- what is refused ------------------------------------------------------------------------------ */
 
@@ -276,7 +265,7 @@ static const struct {
     {ZP_STUDY_PROFILE, {"mesh.nodes", 21}, "actuator.kind = hinge"},
 };
 
-START_TEST(what_does_not_go_is_refused) {
+TESTS(what_does_not_go_is_refused, 0, LENGTH_OF(refusals)) {
   bool spring = strstr(refusals[_i].named, "hinge.stiffness =") != NULL;
   Setting list[] = {{"actuator.kind", ZP_KIND_HINGE}, refusals[_i].setting, {"hinge.stiffness", spring ? 1e-3 : 0}};
   ZpActuatorDef def = def_with(list, LENGTH_OF(list));
@@ -284,28 +273,4 @@ START_TEST(what_does_not_go_is_refused) {
   ZpError err = {ZP_OK, ""};
   ck_assert_int_eq(zp_study_run(refusals[_i].study, &def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, refusals[_i].named), "no \"%s\" in \"%s\"", refusals[_i].named, err.message);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("hinge");
-  TCase *plates = tcase_create("rigid plates");
-  tcase_add_loop_test(plates, held_plates_are_a_wedge, 0, 4);
-  tcase_add_test(plates, torque_converges);
-  tcase_add_loop_test(plates, plate_hangs_on_its_spring, 0, 3);
-  tcase_add_test(plates, free_hinge_hangs_straight_down);
-  tcase_add_loop_test(plates, strip_stands_in_series_with_its_spring, 0, 2);
-  tcase_add_loop_test(plates, derivatives_are_those_of_differences, 0, 4);
-  tcase_add_loop_test(plates, swings_as_a_rigid_body, 0, 2);
-  tcase_add_test(plates, pull_in_is_that_of_the_wedge);
-  suite_add_tcase(suite, plates);
-  TCase *motion = tcase_create("motion");
-  tcase_add_test(motion, swing_keeps_energy);
-  tcase_add_loop_test(motion, zips_and_keeps_the_books, 0, 2);
-  tcase_add_test(motion, mean_force_does_the_work);
-  suite_add_tcase(suite, motion);
-  TCase *refused = tcase_create("refused");
-  tcase_add_loop_test(refused, what_does_not_go_is_refused, 0, LENGTH_OF(refusals));
-  suite_add_tcase(suite, refused);
-  return run_suite(suite);
 }

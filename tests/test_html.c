@@ -15,21 +15,19 @@ static char written[4096];
     fclose(file);                                                                                                      \
   } while (0)
 
-START_TEST(test_text_is_escaped) {
+TEST(test_text_is_escaped) {
   WRITTEN(zp_html_text(file, "a < b & \"c\" > 50 µm"));
   ck_assert_str_eq(written, "a &lt; b &amp; &quot;c&quot; &gt; 50 µm");
 }
-END_TEST
 
-START_TEST(test_numbers) {
+TESTS(test_numbers, 0, 4) {
   static const char *const pair[][2] = {
       {"12.20", "12.20"}, {"-0.5", "−0.5"}, {"2.4e4", "2.4·10<sup>4</sup>"}, {"-1e-03", "−1·10<sup>−3</sup>"}};
   WRITTEN(zp_html_number(file, pair[_i][0]));
   ck_assert_str_eq(written, pair[_i][1]);
 }
-END_TEST
 
-START_TEST(test_ids_of_a_picture_get_a_prefix) {
+TEST(test_ids_of_a_picture_get_a_prefix) {
   FILE *picture = fopen("picture.svg", "w");
   fputs("<?xml version='1.0'?>\n<svg viewBox='0 0 1 1'>\n<title>Gnuplot</title>\n<g id='a'/><use href='#a' "
         "fill=\"url(#b)\"/>\n"
@@ -41,15 +39,4 @@ START_TEST(test_ids_of_a_picture_get_a_prefix) {
                             "<g id='p-a'/><use href='#p-a' fill=\"url(#p-b)\"/>\n</svg>\n");
   WRITTEN(ck_assert(!zp_html_svg(file, "no-such-picture.svg", "p", "")));
   remove("picture.svg");
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("html");
-  TCase *pieces = tcase_create("pieces");
-  tcase_add_test(pieces, test_text_is_escaped);
-  tcase_add_loop_test(pieces, test_numbers, 0, 4);
-  tcase_add_test(pieces, test_ids_of_a_picture_get_a_prefix);
-  suite_add_tcase(suite, pieces);
-  return run_suite(suite);
 }

@@ -68,7 +68,7 @@ static double energy_at(ZpRest *r, double to) {
 }
 
 /* The holding force is the slope of the energy against the opening, at constant voltage. */
-START_TEST(test_force_is_slope_of_energy) {
+TESTS(test_force_is_slope_of_energy, 0, 12) {
   static const double separations[] = {MM(0.1), MM(2), MM(20), MM(60)};
   static const double voltages[] = {0, KV(3), KV(10)};
   const double s = separations[_i / 3], U = voltages[_i % 3], h = fmin(5e-7, 1e-3 * s);
@@ -86,13 +86,12 @@ START_TEST(test_force_is_slope_of_energy) {
   zp_rest_close(&r);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- a hung load ----------------------------------------------------------------------------------- */
 
 /* Held at the opening under a load, without voltage: the force is the weight. The push of faces depends on
  * drive.voltage: the same for both. */
-START_TEST(test_holds_what_hangs) {
+TESTS(test_holds_what_hangs, 0, 4) {
   static const double grams[] = {0.5, 8, 61, 500};
   ZpActuatorDef hangs = DEF({"load.mass", 1e-3 * grams[_i]});
   ZpActuatorDef held = held_def(value_of(ZP_STUDY_STATIONARY, &hangs, "opening_m"), KV(10), true, 61);
@@ -100,11 +99,10 @@ START_TEST(test_holds_what_hangs) {
   printf("%g g: %+.1e off the weight\n", grams[_i], force / weight - 1);
   ck_near(force, weight, 1e-12); /* 3.8e-15 measured */
 }
-END_TEST
 
 /* Held at the opening under 8 g at 4 kV: the voltage supplies the difference between 8 g and the force of the ribbons.
  */
-START_TEST(test_holds_what_hangs_powered) {
+TEST(test_holds_what_hangs_powered) {
   const double U = KV(4), weight = 9.81 * 8e-3;
   ZpActuatorDef hangs = DEF({"drive.voltage", U});
   ZpModel *model = model_of(&hangs);
@@ -122,10 +120,9 @@ START_TEST(test_holds_what_hangs_powered) {
   ck_near(sum, weight, 1e-12); /* 2.2e-16 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Opening of two guided elasticae, published digits: 30 g open them to 52.839 mm. */
-START_TEST(test_elastica) {
+TEST(test_elastica) {
   ZpActuatorDef def = held_def(MM(52.839), 0, true, 121);
   def.ribbon.plane = ZP_PLANE_STRESS;
   def.ribbon.density = 0;
@@ -133,10 +130,9 @@ START_TEST(test_elastica) {
   printf("elastica at 52.839 mm: %+.1e off\n", force / (9.81 * 30e-3) - 1);
   ck_near(force, 9.81 * 30e-3, 2e-4); /* 4.1e-5 measured */
 }
-END_TEST
 
 /* What hangs there makes no difference at all, nor do a stop and a mass that a motion would drop. */
-START_TEST(test_load_does_not_matter) {
+TEST(test_load_does_not_matter) {
   static const char *const names[] = {"force_N", "force_unpowered_N", "zipped_length_m", "charge_C", "capacitance_F"};
   ZpActuatorDef a = held_def(MM(2), KV(1), true, 61), b = a;
   b.load.mass = 3;
@@ -151,7 +147,6 @@ START_TEST(test_load_does_not_matter) {
   zp_result_destroy(ra);
   zp_result_destroy(rb);
 }
-END_TEST
 
 /* -- peeling --------------------------------------------------------------------------------------- */
 
@@ -181,7 +176,7 @@ static double peel(double d, int nodes, double *open) {
   return off / force - 1;
 }
 
-START_TEST(test_peeling) {
+TESTS(test_peeling, 0, FULL_OR(1, 0)) {
   static const double reach[] = {100e-6, 25e-6, 6.25e-6};
   double off[3], open[3];
   for (int i = 0; i < 3; i++) {
@@ -194,11 +189,10 @@ START_TEST(test_peeling) {
   /* faces open over a length that goes with the root of the reach: the limit without; an element is 0.4 % */
   ck_below(fabs(2 * open[2] - open[1]), 0.015);
 }
-END_TEST
 
 /* -- the mesh -------------------------------------------------------------------------------------- */
 
-START_TEST(test_second_order_unpowered) {
+TESTS(test_second_order_unpowered, 0, FULL_OR(1, 0)) {
   static const int nodes[] = {61, 121, 241};
   double f[3];
   for (int i = 0; i < 3; i++) {
@@ -209,13 +203,12 @@ START_TEST(test_second_order_unpowered) {
   printf("order of the unpowered force: %.4f\n", order);
   ck_assert_double_eq_tol(order, 2, 0.02); /* 4.9e-3 measured */
 }
-END_TEST
 
 /* The forces of docs/theory.md, section 13; the breakdown cap takes of them, and they fall with the separation. */
 /* A small force on a stiff ribbon, whose unpowered force is 30000 times as large. On fine meshes edges are so stiff
  * that rounded positions leave a part of 2e-4 of the force; meshes that differ by two elements show 1.4e-9 of it, their
  * own error's change. */
-START_TEST(small_force_is_not_rounded_away) {
+TEST(small_force_is_not_rounded_away) {
   double force[2];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def =
@@ -228,9 +221,8 @@ START_TEST(small_force_is_not_rounded_away) {
   printf("%.12g, %.12g N: they differ by %.2g\n", force[0], force[1], force[1] / force[0] - 1);
   ck_near(force[1], force[0], 1e-8); /* 1.4e-9 measured */
 }
-END_TEST
 
-START_TEST(test_mesh_powered) {
+TESTS(test_mesh_powered, 0, FULL_OR(1, 0)) {
   static const double separations[] = {MM(1), MM(2), MM(4)};
   for (int k = 0; k < 6; k++) {
     double f[4];
@@ -244,12 +236,11 @@ START_TEST(test_mesh_powered) {
     ck_near(f[1], f[3], 1e-3); /* measured 0.04 % at most */
   }
 }
-END_TEST
 
 /* Without the cap and far open, the front passes nodes in jumps if an element is longer than the wedge: a note reports
  * this, and it vanishes with a finer mesh. What is passed rises in voltage and is stable, what is jumped over lies
  * below. */
-START_TEST(test_jumps) {
+TEST(test_jumps) {
   double force[2];
   for (int k = 0; k < FULL_OR(2, 1); k++) {
     ZpActuatorDef def = held_def(MM(20), KV(10), false, k ? 121 : 61);
@@ -275,7 +266,6 @@ START_TEST(test_jumps) {
   }
   if (!SANITIZED) ck_near(force[0], force[1], 0.05); /* 0.037 measured */
 }
-END_TEST
 
 typedef struct Jumped {
   double force, jumps, others; /* N; counts, of jumps and of other stable states */
@@ -292,7 +282,7 @@ static Jumped jumped_at(ZpActuatorDef def, double voltage) {
 /* However near the voltage is to a limit point, it leads to the state before the jump or to the one behind it. Before
  * it the force falls short of that of the limit by the square root of what is left of the voltage; behind it forces
  * go smoothly with the voltage. */
-START_TEST(test_voltages_beside_a_limit_point) {
+TEST(test_voltages_beside_a_limit_point) {
   ZpActuatorDef def = held_def(MM(20), KV(10), false, 11);
   double low = 5500, high = 5850;
   for (int k = 0; k < 45; k++) {
@@ -308,11 +298,10 @@ START_TEST(test_voltages_beside_a_limit_point) {
   ck_near((jumped_at(def, high + 4 * near).force - behind.force) / (jumped_at(def, high + near).force - behind.force),
           4, 3e-5); /* 4.6e-6 measured */
 }
-END_TEST
 
 /* Far along the branch of this floppy ribbon an unstable state is passed with a rising voltage: it is none that another
  * voltage could lead to. */
-START_TEST(only_stable_states_are_other_ones) {
+TEST(only_stable_states_are_other_ones) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.17655889683713855}, {"ribbon.width", 0.0041004933043827865},
           {"ribbon.thickness", 1.001617762966381e-05}, {"platform.length", 0.017655889683713854},
@@ -320,10 +309,9 @@ START_TEST(only_stable_states_are_other_ones) {
           {"mesh.nodes", 13}, {"isometric.separation", 0.00047141954544906796});
   ck_assert_double_eq(jumped_at(def, 6826.09470470199).others, 0);
 }
-END_TEST
 
 /* The zipped states of a floppy ribbon form an isolated branch: it jumps there, to the same place on any mesh. */
-START_TEST(test_falls) {
+TEST(test_falls) {
   double force[2];
   for (int k = 0; k < FULL_OR(2, 1); k++) {
     ZpActuatorDef def = held_def(MM(2), KV(10), true, k ? 121 : 91);
@@ -338,10 +326,9 @@ START_TEST(test_falls) {
   }
   if (!SANITIZED) ck_near(force[0], force[1], 3e-3); /* 8.8e-4 measured */
 }
-END_TEST
 
 /* The first shape that Newton's method finds here is folded and unstable; it is rejected. */
-START_TEST(test_unpowered_is_stable) {
+TEST(test_unpowered_is_stable) {
   ZpActuatorDef def = held_def(MM(2), 0, true, 241);
   def.ribbon.thickness = 5e-6;
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
@@ -349,10 +336,9 @@ START_TEST(test_unpowered_is_stable) {
   ck_below(fabs(zp_result_get(result, "force_unpowered_N")), 3e-4); /* 7.4e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* For any separation and voltage there is a result, and the platform is at the given opening. */
-START_TEST(test_everywhere) {
+TEST(test_everywhere) {
   static const double separations[] = {1e-6,   3e-6,   1e-5,   1e-4,   MM(0.7), MM(5),
                                        MM(12), MM(25), MM(45), MM(70), MM(88.2)};
   for (size_t i = 0; i < LENGTH_OF(separations); i++)
@@ -364,30 +350,27 @@ START_TEST(test_everywhere) {
       zp_result_destroy(result);
     }
 }
-END_TEST
 
-START_TEST(test_mass_spring) {
+TEST(test_mass_spring) {
   ZpActuatorDef rod = held_def(MM(2), KV(6), true, FULL_OR(121, 61)), chain = rod;
   chain.ribbon.model = ZP_RIBBON_MASS_SPRING;
   double force = value_of(ZP_STUDY_ISOMETRIC, &rod, "force_N"), other = value_of(ZP_STUDY_ISOMETRIC, &chain, "force_N");
   printf("mass_spring: %.5f N, rod %.5f N\n", other, force);
   ck_near(other, force, 0.02); /* 3.9e-3 measured */
 }
-END_TEST
 
-START_TEST(test_no_voltage) {
+TEST(test_no_voltage) {
   ZpActuatorDef def = held_def(MM(2), 0, true, 61);
   ck_assert_double_eq(value_of(ZP_STUDY_ISOMETRIC, &def, "force_N"), 0);
   ck_assert(isnan(value_of(ZP_STUDY_ISOMETRIC, &def, "force"))); /* a name is a whole name */
 }
-END_TEST
 
 /* -- bounds ---------------------------------------------------------------------------------------- */
 
 /* Regression: with thin insulators in air and no cap the attraction of overlapping faces was unbounded, above any
  * contact force, so they passed through each other: 64 kN at N = 21 and 100 V, 11 uF where closed plates allow 13 nF.
  * Faces stay apart, capacitance and force below those of closed ones. */
-START_TEST(test_thin_insulators_stay_apart) {
+TESTS(test_thin_insulators_stay_apart, 0, 9) {
   static const int nodes[] = {21, 31, 61};
   static const double voltages[] = {100, 300, 1000}, separations[] = {1e-6, MM(0.2), MM(2)};
   const double w = 12.7e-3, eps0 = 8.8541878128e-12, closed_gap = 2 * 2e-6 / 4.62;
@@ -408,11 +391,11 @@ START_TEST(test_thin_insulators_stay_apart) {
   }
   zp_result_destroy(result);
 }
-END_TEST
+ALSO_NIGHTLY(test_thin_insulators_stay_apart, 9, 27)
 
 /* Without the breakdown cap the attraction of thin insulators far beyond their breakdown presses faces deeper than 1
  * um: that was taken for faces that overlap, and the branch was given up at 8.6 of 13 kV. */
-START_TEST(insulators_beyond_their_breakdown_are_pressed_not_passed) {
+TEST(insulators_beyond_their_breakdown_are_pressed_not_passed) {
   ZpActuatorDef def = held_def(MM(8.43), KV(13.05), false, 71);
   def.ribbon.length = MM(54.9);
   def.platform.length = MM(5.49);
@@ -427,10 +410,9 @@ START_TEST(insulators_beyond_their_breakdown_are_pressed_not_passed) {
   ck_assert_double_gt(zp_result_get(result, "force_N"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A state that cannot be is told from one that can. */
-START_TEST(test_impossible_states_are_told) {
+TEST(test_impossible_states_are_told) {
   ZpActuatorDef def = held_def(MM(2), KV(1), true, 21);
   ZpModel *model = model_of(&def);
   ZpRest r;
@@ -442,11 +424,10 @@ START_TEST(test_impossible_states_are_told) {
   zp_rest_close(&r);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Found by random designs: with elements longer than the zip front the branch was lost. It is followed on a finer mesh,
  * which the result says. */
-START_TEST(coarse_mesh_is_refined) {
+NIGHTLY_TEST(coarse_mesh_is_refined) {
   ZpActuatorDef def = DEF({"isometric.separation", 5.9e-3}, {"drive.voltage", 4960}, {"mesh.nodes", 32},
                           {"ribbon.length", 0.2009}, {"ribbon.width", 3.94e-3}, {"ribbon.thickness", 10.8e-6},
                           {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38}, {"ribbon.density", 1390},
@@ -461,10 +442,9 @@ START_TEST(coarse_mesh_is_refined) {
   zp_result_destroy(coarse);
   zp_result_destroy(fine);
 }
-END_TEST
 
 /* A random design: lost with 30 nodes, and with 59, where there is more than one element on what bends. */
-START_TEST(coarse_mesh_is_refined_twice) {
+TESTS(coarse_mesh_is_refined_twice, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def = DEF({"isometric.separation", 0.0074693277786100302}, {"drive.voltage", 2872.2404835792363},
                           {"mesh.nodes", 30}, {"ribbon.length", 0.29170161194665811},
                           {"ribbon.width", 0.010404214410051807}, {"ribbon.thickness", 1.751729939629503e-05},
@@ -476,11 +456,10 @@ START_TEST(coarse_mesh_is_refined_twice) {
   ck_assert(notes_with(result, "solved with 117 nodes") == 1);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A random design whose branch passes many limit points, more than two elements lying on what bends: it is not lost.
  * With 145, 193, 241 and 385 nodes its forces differ by 1e-4. */
-START_TEST(resolved_mesh_keeps_its_branch) {
+NIGHTLY_TESTS(resolved_mesh_keeps_its_branch, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def =
       DEF({"isometric.separation", 0.004031457199375383}, {"drive.voltage", 12476.643772279256}, {"mesh.nodes", 97},
           {"ribbon.length", 0.24280858382140899}, {"ribbon.width", 0.010956777649687161},
@@ -493,7 +472,6 @@ START_TEST(resolved_mesh_keeps_its_branch) {
   ck_near(zp_result_get(result, "force_N"), 0.0167995, 2e-3); /* of 385 nodes; measured 8e-4 */
   zp_result_destroy(result);
 }
-END_TEST
 
 static bool stop_half_way(void *user, const char *stage, double fraction) {
   (void)user;
@@ -501,7 +479,7 @@ static bool stop_half_way(void *user, const char *stage, double fraction) {
 }
 
 /* What was found before an interrupt is kept, and is that of a whole run. */
-START_TEST(test_interrupted) {
+TEST(test_interrupted) {
   ZpActuatorDef def = held_def(MM(20), KV(10), false, 11);
   ZpResult *whole = converged_of(ZP_STUDY_ISOMETRIC, &def), *cut = NULL;
   ZpHooks hooks = {.progress = stop_half_way};
@@ -517,7 +495,6 @@ START_TEST(test_interrupted) {
   zp_result_destroy(whole);
   zp_result_destroy(cut);
 }
-END_TEST
 
 /* -- what is refused ------------------------------------------------------------------------------- */
 
@@ -527,7 +504,7 @@ static void check_refused(ZpActuatorDef def, const char *first, const char *seco
   ck_assert_msg(strstr(err.message, first) && strstr(err.message, second), "%s", err.message);
 }
 
-START_TEST(test_refused) {
+TEST(test_refused) {
   ZpActuatorDef def = held_def(MM(88.21), KV(6), true, 61);
   check_refused(def, "isometric.separation = 0.08821 m", "0.0882 m");
   def = held_def(MM(2), KV(6), true, 61);
@@ -537,39 +514,4 @@ START_TEST(test_refused) {
   check_refused(def, "actuator.kind = flange", "electro_ribbon");
   def.actuator.kind = ZP_KIND_RIBBON;
   check_refused(def, "actuator.kind = ribbon", "electro_ribbon");
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("isometric");
-  TCase *force = tcase_create("force");
-  tcase_add_loop_test(force, test_force_is_slope_of_energy, 0, 12);
-  tcase_add_loop_test(force, test_holds_what_hangs, 0, 4);
-  tcase_add_test(force, test_holds_what_hangs_powered);
-  tcase_add_test(force, test_elastica);
-  tcase_add_test(force, test_load_does_not_matter);
-  if (!SANITIZED) tcase_add_test(force, test_peeling);
-  if (!SANITIZED) tcase_add_test(force, test_second_order_unpowered);
-  if (!SANITIZED) tcase_add_test(force, test_mesh_powered);
-  tcase_add_test(force, test_jumps);
-  tcase_add_test(force, test_voltages_beside_a_limit_point);
-  tcase_add_test(force, only_stable_states_are_other_ones);
-  tcase_add_test(force, test_falls);
-  tcase_add_test(force, test_unpowered_is_stable);
-  tcase_add_test(force, test_everywhere);
-  tcase_add_test(force, test_mass_spring);
-  tcase_add_test(force, test_no_voltage);
-  tcase_add_loop_test(force, test_thin_insulators_stay_apart, 0, 9);
-  tcase_add_test(force, test_impossible_states_are_told);
-  tcase_add_test(force, insulators_beyond_their_breakdown_are_pressed_not_passed);
-  tcase_add_test(force, small_force_is_not_rounded_away);
-  add_long_test(force, coarse_mesh_is_refined_twice);
-  tcase_add_test(force, test_interrupted);
-  tcase_add_test(force, test_refused);
-  suite_add_tcase(suite, force);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_thin_insulators_stay_apart, 9, 27);
-  add_long_test(nightly, resolved_mesh_keeps_its_branch);
-  tcase_add_test(nightly, coarse_mesh_is_refined);
-  return run_suite(suite);
 }

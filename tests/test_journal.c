@@ -60,7 +60,7 @@ static void assert_is(const ZpResult *row, double value) {
   ck_assert(row->series->value[0] == value + 1 && row->series->value[1] == value + 2);
 }
 
-START_TEST(result_comes_back_from_its_bytes) {
+TEST(result_comes_back_from_its_bytes) {
   ZpResult *result = result_of(0.25), *back;
   const size_t size = zp_result_save(result, NULL);
   unsigned char *byte = malloc(size);
@@ -87,10 +87,9 @@ START_TEST(result_comes_back_from_its_bytes) {
   free(byte);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Shapes, the map of a field and checkpoints, too: what comes back has the same bytes, of which none may be damaged. */
-START_TEST(everything_comes_back) {
+TESTS(everything_comes_back, 0, 4) {
   const struct {
     ZpStudy study;
     ZpActuatorDef def;
@@ -125,10 +124,9 @@ START_TEST(everything_comes_back) {
   free(again);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Each record is whole, but the numbers are those of a result with other names. */
-START_TEST(numbers_belong_to_their_names) {
+TEST(numbers_belong_to_their_names) {
   ZpResult *one = result_of(1), *other = result_of(1), *back = zp_result_create(ZP_STUDY_LIMITS);
   other->scalar[0].name = "opening_m";
   ZpPacked *a = zp_packed_of(one), *b = zp_packed_of(other);
@@ -145,7 +143,6 @@ START_TEST(numbers_belong_to_their_names) {
   zp_result_destroy(other);
   zp_result_destroy(back);
 }
-END_TEST
 
 static void put(ZpJournal *journal, size_t number, double value) {
   ZpResult *result = result_of(value);
@@ -175,7 +172,7 @@ static size_t rows_in(ZpJournal *journal) {
 }
 
 /* In any order; also by a second process, and after the list of cases has become shorter and longer again. */
-START_TEST(rows_are_found_by_their_numbers) {
+TEST(rows_are_found_by_their_numbers) {
   static const size_t order[] = {0, 1, 4, 6, 5, 0, 6};
   remove("journal/journal.sqlite");
   ZpJournal *journal = journal_in("journal", true, 8);
@@ -204,7 +201,6 @@ START_TEST(rows_are_found_by_their_numbers) {
   ck_assert_uint_eq(rows_in(journal), 3);
   zp_journal_close(journal);
 }
-END_TEST
 
 /* -- hashes ------------------------------------------------------------------------------------------ */
 
@@ -222,7 +218,7 @@ static uint64_t campaign_hash(const ZpActuatorDef *def) {
 }
 
 /* Version and study, by the definition of the hash; then the bytes of files, whatever their name is. */
-START_TEST(campaigns_are_known_by_version_study_and_files) {
+TEST(campaigns_are_known_by_version_study_and_files) {
   ZpActuatorDef def = zp_actuator_def_default();
   const uint64_t bare = fnv(fnv(0xcbf29ce484222325, ZP_VERSION), "calibrate");
   ck_assert_uint_eq(campaign_hash(&def), bare);
@@ -234,10 +230,9 @@ START_TEST(campaigns_are_known_by_version_study_and_files) {
   write_file("hashed.csv", "load_g,stroke_mm\n8,10\n");
   ck_assert_uint_eq(campaign_hash(&def), first);
 }
-END_TEST
 
 /* A case is known by all its keys but those without a result, and by the case before it. */
-START_TEST(cases_are_known_by_their_keys_and_neighbour) {
+TEST(cases_are_known_by_their_keys_and_neighbour) {
   const ZpActuatorDef def = zp_actuator_def_default();
   const uint64_t hash = zp_case_hash(5, &def);
   for (int k = 0; k < 5; k++) {
@@ -251,7 +246,6 @@ START_TEST(cases_are_known_by_their_keys_and_neighbour) {
   }
   ck_assert(zp_case_hash(6, &def) != hash && zp_case_hash(5, &def) == hash);
 }
-END_TEST
 
 /* -- campaigns --------------------------------------------------------------------------------------- */
 
@@ -261,7 +255,7 @@ static double one_second_each(void *user) {
 
 /* Runs of a campaign have a clock; its rows keep no series unless a key asks for them; those of the same cases are
  * counted when it is resumed, once they are known to belong to them. */
-START_TEST(campaign_counts_what_it_computes) {
+TEST(campaign_counts_what_it_computes) {
   ZpScenario *scenario = SCENARIO("study=actuate", "drive.voltage=[0, 6 kV, 8 kV]", "mesh.nodes=5", "liquid.model=none",
                                   "solver.end_time=1 ms", "output.errors=false", "output.series=false");
   double seconds = 0;
@@ -286,10 +280,9 @@ START_TEST(campaign_counts_what_it_computes) {
   }
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* A failed case that the journal has is a failed one. */
-START_TEST(known_failures_are_failures) {
+TEST(known_failures_are_failures) {
   ZpScenario *scenario = SCENARIO("study=actuate", "solver.max_steps=[3, 1000000]", "mesh.nodes=5", "liquid.model=none",
                                   "solver.end_time=1 ms", "output.errors=false");
   const ZpCampaignOptions options = {.jobs = 1, .resume = true};
@@ -304,10 +297,9 @@ START_TEST(known_failures_are_failures) {
   }
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* What another process sends: outcomes, and which numbers are times. */
-START_TEST(results_of_another_process_are_whole) {
+TEST(results_of_another_process_are_whole) {
   ZpScenario *scenario = SCENARIO("study=actuate", "solver.max_steps=[3, 1000000]", "mesh.nodes=5", "liquid.model=none",
                                   "solver.end_time=1 ms", "output.errors=false");
   ZpResult *result[2];
@@ -330,11 +322,10 @@ START_TEST(results_of_another_process_are_whole) {
   free(byte);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* A batch follows its neighbours within a chunk only, as a campaign does: the first case of each chunk is that of a run
  * of its own, to the last bit. */
-START_TEST(chunks_of_a_batch_begin_afresh) {
+TEST(chunks_of_a_batch_begin_afresh) {
   ZpScenario *scenario = SCENARIO("study=limits", "liquid.model=none", "load.mass=2 g .. 20 g : 16", "mesh.nodes=9",
                                   "output.errors=false");
   ZpBatch batch;
@@ -358,10 +349,9 @@ START_TEST(chunks_of_a_batch_begin_afresh) {
   zp_batch_free(&batch);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* Of 700 cases two are wrong: the first is named, for any number of threads. */
-START_TEST(first_wrong_case_is_named) {
+TEST(first_wrong_case_is_named) {
   char list[16000] = "platform.length=[";
   for (int i = 0; i < 700; i++)
     snprintf(list + strlen(list), sizeof list - strlen(list), "%s%g mm", i ? ", " : "",
@@ -376,24 +366,4 @@ START_TEST(first_wrong_case_is_named) {
     ck_assert_msg(strstr(err.message, "95.5") || strstr(err.message, "0.0955"), "%s", err.message);
   }
   zp_scenario_destroy(scenario);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("journal");
-  TCase *rows = tcase_create("rows"), *campaigns = tcase_create("campaigns");
-  tcase_add_test(rows, result_comes_back_from_its_bytes);
-  tcase_add_loop_test(rows, everything_comes_back, 0, 4);
-  tcase_add_test(rows, numbers_belong_to_their_names);
-  tcase_add_test(rows, rows_are_found_by_their_numbers);
-  tcase_add_test(rows, campaigns_are_known_by_version_study_and_files);
-  tcase_add_test(rows, cases_are_known_by_their_keys_and_neighbour);
-  tcase_add_test(campaigns, campaign_counts_what_it_computes);
-  tcase_add_test(campaigns, known_failures_are_failures);
-  tcase_add_test(campaigns, results_of_another_process_are_whole);
-  tcase_add_test(campaigns, chunks_of_a_batch_begin_afresh);
-  tcase_add_test(campaigns, first_wrong_case_is_named);
-  suite_add_tcase(suite, rows);
-  suite_add_tcase(suite, campaigns);
-  return run_suite(suite);
 }

@@ -935,7 +935,7 @@ static bool has_effect(const Effect *effect, double from, double to) {
   return false;
 }
 
-START_TEST(key_acts) {
+TESTS(key_acts, 0, LENGTH_OF(rows)) {
   if (SANITIZED && _i % 4) return; /* test_bounds runs with every key */
   const Row *row = &rows[_i];
   ZpResult *from = run_scene(row->scene, row->key, row->from), *to = run_scene(row->scene, row->key, row->to);
@@ -948,7 +948,6 @@ START_TEST(key_acts) {
   zp_result_destroy(from);
   zp_result_destroy(to);
 }
-END_TEST
 
 /* -- a campaign computes a case again if a key of it has changed ----------------------------------- */
 
@@ -962,12 +961,11 @@ static uint64_t hash_of(const Row *row, const char *value) {
 }
 
 /* What acts is part of a case: a row of the journal counts for the same value only. */
-START_TEST(key_is_part_of_a_case) {
+TESTS(key_is_part_of_a_case, 0, LENGTH_OF(rows)) {
   const Row *row = &rows[_i];
   ck_assert_msg(hash_of(row, row->from) == hash_of(row, row->from), "%s: two hashes of one case", row->key);
   ck_assert_msg(hash_of(row, row->from) != hash_of(row, row->to), "%s: one hash of two cases", row->key);
 }
-END_TEST
 
 /* The only case of a campaign in the present folder, which may have a journal of another. */
 static void compute(const Row *row, const char *value, const char *folder, double *outputs) {
@@ -988,7 +986,7 @@ static void compute(const Row *row, const char *value, const char *folder, doubl
 }
 
 /* A campaign that is resumed after a key has changed has the results of a fresh one. */
-START_TEST(resumed_with_another_value_is_fresh) {
+NIGHTLY_TESTS(resumed_with_another_value_is_fresh, 0, LENGTH_OF(rows)) {
   static const char *const folders[] = {"resumed", "fresh"};
   double outputs[2][EFFECTS];
   for (int k = 0; k < 2; k++) {
@@ -1002,7 +1000,6 @@ START_TEST(resumed_with_another_value_is_fresh) {
     compute(&rows[_i], rows[_i].to, folders[k], outputs[k]);
   ck_assert_mem_eq(outputs[0], outputs[1], sizeof outputs[0]);
 }
-END_TEST
 
 /* -- every key has a row --------------------------------------------------------------------------- */
 
@@ -1016,14 +1013,13 @@ static bool is_of_files(const char *key) {
   return found;
 }
 
-START_TEST(key_has_a_row) {
+TESTS(key_has_a_row, 0, zp_key_count()) {
   const char *key = zp_key(_i)->name;
   bool found = is_of_files(key);
   for (size_t i = 0; i < LENGTH_OF(rows); i++)
     found |= strcmp(rows[i].key, key) == 0 && rows[i].effect[0].output;
   ck_assert_msg(found, "%s has no row: which output does it change, by how much?", key);
 }
-END_TEST
 
 /* -- files ----------------------------------------------------------------------------------------- */
 
@@ -1058,16 +1054,4 @@ static void write_files(void) {
   write_strokes("stiff.csv", 400e9);
 }
 
-int main(void) {
-  Suite *suite = suite_create("keys act");
-  TCase *c = tcase_create("keys");
-  tcase_add_unchecked_fixture(c, write_files, NULL);
-  tcase_add_loop_test(c, key_acts, 0, (int)LENGTH_OF(rows));
-  tcase_add_loop_test(c, key_is_part_of_a_case, 0, (int)LENGTH_OF(rows));
-  tcase_add_loop_test(c, key_has_a_row, 0, zp_key_count());
-  suite_add_tcase(suite, c);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_unchecked_fixture(nightly, write_files, NULL);
-  tcase_add_loop_test(nightly, resumed_with_another_value_is_fresh, 0, (int)LENGTH_OF(rows));
-  return run_suite(suite);
-}
+AROUND_ALL(write_files, NULL)

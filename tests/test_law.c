@@ -93,7 +93,7 @@ static const struct {
 
 /* The row of the damper is the integral of c v^2, and the coefficient has grown. In implicit steps the energy balances
  * with it. */
-START_TEST(row_is_the_integral) {
+TESTS(row_is_the_integral, 0, LENGTH_OF(cases)) {
   ZpActuatorDef def = def_of(cases[_i].is_explicit, cases[_i].symmetry);
   for (int k = 0; k < 2 && cases[_i].stack[k].key; k++)
     zp_def_set(&def, zp_key_find(cases[_i].stack[k].key), cases[_i].stack[k].value, NULL);
@@ -107,7 +107,6 @@ START_TEST(row_is_the_integral) {
   if (!cases[_i].is_explicit) ck_below(run.imbalance, 3.6e-10); /* 1.2e-10 measured */
   end(&run);
 }
-END_TEST
 
 /* The largest imbalance of explicit steps of this length. */
 static double imbalance_with(bool damped, double time_step) {
@@ -125,18 +124,17 @@ static double imbalance_with(bool damped, double time_step) {
 }
 
 /* Explicit steps of half the length have half the imbalance, and the damper adds nothing to it. */
-START_TEST(imbalance_is_of_first_order) {
+TEST(imbalance_is_of_first_order) {
   double without = imbalance_with(false, 0.2e-6), with = imbalance_with(true, 0.2e-6),
          half = imbalance_with(true, 0.1e-6);
   printf("imbalance without %.2e, with %.2e, in half steps %.2e\n", without, with, half);
   ck_below(with, 1.01 * without);
   ck_near(with / half, 2, 1.8e-5); /* 6e-6 measured */
 }
-END_TEST
 
 /* The state, the row and the signal are part of a snapshot, and go on from it to the same bits; one of a model without
  * the damper is refused. */
-START_TEST(continues_from_a_snapshot) {
+TESTS(continues_from_a_snapshot, 0, 2) {
   ZpActuatorDef def = def_of(_i, ZP_SYMMETRY_HALF);
   Run run = begin(&def, true), other = begin(&def, true), bare = begin(&def, false);
   go_to(&run, 10e-3);
@@ -154,7 +152,6 @@ START_TEST(continues_from_a_snapshot) {
   free(bytes);
   end(&run), end(&other), end(&bare);
 }
-END_TEST
 
 static double signal_of(ZpSim *sim, const void *name) {
   return zp_sim_get(sim, name);
@@ -172,7 +169,7 @@ static double lost_with(double mass, const char *signal) {
 }
 
 /* Derivatives of a run follow the row and the state of the damper, too. */
-START_TEST(derivatives_know_the_row) {
+TEST(derivatives_know_the_row) {
   static char signals[][24] = {"damper_loss", "damper_coefficient"};
   const int key = zp_key_find("load.mass");
   const double part = 1e-3;
@@ -189,16 +186,4 @@ START_TEST(derivatives_know_the_row) {
   }
   zp_run_sensitivity_close(&rates);
   end(&run);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("law");
-  TCase *c = tcase_create("damper");
-  tcase_add_loop_test(c, row_is_the_integral, 0, (int)LENGTH_OF(cases));
-  tcase_add_test(c, imbalance_is_of_first_order);
-  tcase_add_loop_test(c, continues_from_a_snapshot, 0, 2);
-  tcase_add_test(c, derivatives_know_the_row);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

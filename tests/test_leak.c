@@ -33,7 +33,7 @@ static double power_at(double t) {
 
 /* Maxwell-Wagner relaxation: field, charge, current and heat after a voltage step, with steps of a sixth, a half and 5
  * time constants: at a constant shape the result is exact for any step. */
-START_TEST(test_step_of_the_voltage) {
+TESTS(test_step_of_the_voltage, 0, 3) {
   static const double step[] = {0.1, 0.3, 3};
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M});
   ZpModel *model = model_of(&def);
@@ -56,7 +56,6 @@ START_TEST(test_step_of_the_voltage) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A value of the present row. The row is kept, so the next mean current begins here. */
 static double read(ZpSim *sim, const char *name) {
@@ -73,7 +72,7 @@ static double read(ZpSim *sim, const char *name) {
 /* The source gives the charge of the electrodes and what the insulators conduct: the integral of the current is that
  * charge plus the integral of the leakage current, here of exponentials. With an ideal source, and behind a resistance
  * too small to last. */
-START_TEST(test_charge_that_is_given) {
+TESTS(test_charge_that_is_given, 0, 2) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M},
                           {"source.model", _i ? ZP_SOURCE_AMPLIFIER : ZP_SOURCE_IDEAL}, {"source.resistance", _i});
   ZpModel *model = model_of(&def);
@@ -92,11 +91,10 @@ START_TEST(test_charge_that_is_given) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Straight ribbons that stay closed, insulators that do not conduct: there is no voltage across a liquid without
  * thickness, so that its conduction gives no heat, although it takes the attraction away. */
-START_TEST(test_no_heat_between_closed_faces) {
+TESTS(test_no_heat_between_closed_faces, 0, 2) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"liquid.model", ZP_LIQUID_NONE},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"electro.breakdown_cap", _i}, {"gravity", 0},
                           {"load.mass", 0}, {"medium.resistivity", 1e12}, {"drive.voltage", 3e3}, {"mesh.nodes", 9});
@@ -112,11 +110,10 @@ START_TEST(test_no_heat_between_closed_faces) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Behind a supply that cannot sink, closed electrodes discharge through their insulators with the time constant of
  * these, because the liquid between them has no thickness. */
-START_TEST(test_leakage_alone) {
+NIGHTLY_TESTS(test_leakage_alone, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
           {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 50}, {"solver.tolerance", 7e-5},
@@ -134,7 +131,6 @@ START_TEST(test_leakage_alone) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
@@ -191,7 +187,7 @@ static double charge(Faces *f) {
 }
 
 /* What passes per length of the faces counts for their mean length over the step. */
-START_TEST(test_passed_charge_is_of_the_mean_length) {
+TEST(test_passed_charge_is_of_the_mean_length) {
   static const double longer = 1.1;
   ZpActuatorDef def =
       DEF({"mesh.nodes", 8}, {"platform.electrode", 0}, {"insulator.resistivity", 1e10}, {"medium.resistivity", 3e10});
@@ -205,11 +201,10 @@ START_TEST(test_passed_charge_is_of_the_mean_length) {
   zp_free(f.memory);
   zp_model_destroy(f.model);
 }
-END_TEST
 
 /* Derivatives of force and charge of a step with respect to voltage and gaps at its end, against finite differences,
  * with the cap and without. */
-START_TEST(test_derivatives) {
+TESTS(test_derivatives, 0, 2) {
   ZpActuatorDef def = DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", _i}, {"insulator.resistivity", 1e10},
                           {"medium.resistivity", 3e10});
   Faces f;
@@ -244,12 +239,11 @@ START_TEST(test_derivatives) {
   zp_free(f.memory);
   zp_model_destroy(f.model);
 }
-END_TEST
 
 /* -- motion ---------------------------------------------------------------------------------------- */
 
 /* Zip, hold and release: the energy from the source is stored, does work, or is heat of a known kind. */
-START_TEST(test_energy_of_zip_hold_and_release) {
+TESTS(test_energy_of_zip_hold_and_release, 1, 5) {
   static const struct {
     int supply, liquid;
     double voltage, rho_i, rho_m, most, rise;
@@ -280,10 +274,10 @@ START_TEST(test_energy_of_zip_hold_and_release) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
+ALSO_NIGHTLY(test_energy_of_zip_hold_and_release, 0, 1)
 
 /* A run whose charges still collect does not end where the actuator is closed. */
-START_TEST(test_leaking_run_goes_on_when_closed) {
+TEST(test_leaking_run_goes_on_when_closed) {
   for (int leaks = 0; leaks < 2; leaks++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"medium.resistivity", leaks ? 1e13 : NAN}, {"solver.end_time", 0.2});
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -292,7 +286,6 @@ START_TEST(test_leaking_run_goes_on_when_closed) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Opening over the hanging one, a second after 4 s at 6 kV of constant or of alternating polarity have ended, and
  * charge that is left then, as a voltage. */
@@ -314,18 +307,17 @@ static double left_open(int waveform, double *left) {
 }
 
 /* Remaining charge holds the actuator closed at 0 V; with an alternating drive it does not accumulate. */
-START_TEST(test_charge_that_stays) {
+TEST(test_charge_that_stays) {
   double constant, alternating;
   ck_below(fabs(left_open(ZP_WAVEFORM_STEP, &constant)), 5e-5); /* 1.6e-5 measured */
   ck_assert(constant > 850);
   ck_assert(left_open(ZP_WAVEFORM_SQUARE, &alternating) > 0.5);
   ck_below(alternating, 0.03 * constant); /* 6.7e-3 measured */
 }
-END_TEST
 
 /* At rest, steps follow the time constant of leakage: an hour takes as many steps as the change of voltage requires,
  * and ends at the closed form. */
-START_TEST(test_an_hour_of_drift) {
+TEST(test_an_hour_of_drift) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", 1e3 * RHO_I}, {"medium.resistivity", 1e3 * RHO_M});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -337,11 +329,10 @@ START_TEST(test_an_hour_of_drift) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The field in the insulator follows from its share of the voltage, eqs. (4.10) and (25.2): with a conducting liquid,
  * the whole voltage; with the voltage off, the field of the charge alone. */
-START_TEST(test_insulator_sees_the_charge) {
+TEST(test_insulator_sees_the_charge) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"medium.resistivity", 1e9});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -355,11 +346,10 @@ START_TEST(test_insulator_sees_the_charge) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Of both halves of an actuator that moves, the currents of all rows add up to what the leakage currents and the charge
  * of the last row say, the powers to the energy; a trace has the sum of the currents. */
-START_TEST(test_recorded_charge_that_is_given) {
+TEST(test_recorded_charge_that_is_given) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 3e3}, {"insulator.resistivity", 1e10},
                           {"output.samples", 200}, {"solver.end_time", 0.02});
   enum { ROWS = 1000 };
@@ -390,12 +380,11 @@ START_TEST(test_recorded_charge_that_is_given) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- input ----------------------------------------------------------------------------------------- */
 
 /* What the interface charge is not known with is refused, with the key that asks for it. */
-START_TEST(test_refused) {
+TESTS(test_refused, 0, 6) {
   static const struct {
     Setting with;
     const char *says;
@@ -411,27 +400,4 @@ START_TEST(test_refused) {
   ck_assert_msg(resolve(&def, all, 2, &err) == ZP_OK, "%s", err.message);
   ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, of[_i].says) != NULL, "%s", err.message);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("leak");
-  TCase *tcase = tcase_create("leak");
-  tcase_add_loop_test(tcase, test_no_heat_between_closed_faces, 0, 2);
-  tcase_add_loop_test(tcase, test_step_of_the_voltage, 0, 3);
-  tcase_add_loop_test(tcase, test_charge_that_is_given, 0, 2);
-  tcase_add_test(tcase, test_recorded_charge_that_is_given);
-  tcase_add_test(tcase, test_passed_charge_is_of_the_mean_length);
-  tcase_add_loop_test(tcase, test_derivatives, 0, 2);
-  tcase_add_loop_test(tcase, test_energy_of_zip_hold_and_release, 1, 5);
-  tcase_add_test(tcase, test_leaking_run_goes_on_when_closed);
-  tcase_add_test(tcase, test_charge_that_stays);
-  tcase_add_test(tcase, test_an_hour_of_drift);
-  tcase_add_test(tcase, test_insulator_sees_the_charge);
-  tcase_add_loop_test(tcase, test_refused, 0, 6);
-  suite_add_tcase(suite, tcase);
-  TCase *nightly = nightly_case(suite);
-  add_long_test(nightly, test_leakage_alone);
-  tcase_add_loop_test(nightly, test_energy_of_zip_hold_and_release, 0, 1);
-  return run_suite(suite);
 }

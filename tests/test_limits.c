@@ -132,7 +132,7 @@ static void open_toy(ToyMarch *f, Toy *t, bool symmetric) {
 
 /* Errors are squared in each iteration, with the stiffness treated as symmetric or not, and with one that is not
  * because of a term of rank one on top of a symmetric band. */
-START_TEST(test_extended_system_converges_quadratically) {
+TESTS(test_extended_system_converges_quadratically, 0, 3) {
   Toy t = {.q = {-0.2, 0.05, 0.1}, .m = 0.9, .across = 1, .lean = _i == 2 ? 0.5 : 0};
   ToyMarch f;
   open_toy(&f, &t, _i != 1);
@@ -150,10 +150,9 @@ START_TEST(test_extended_system_converges_quadratically) {
     if (t.seen[k] < 0.1 && t.seen[k] > 1e-6) ck_below(t.seen[k + 1], 2 * t.seen[k] * t.seen[k]); /* measured 1.5 */
   zp_free(f.memory);
 }
-END_TEST
 
 /* The limit point of a branch that is unstable across it is found, and told to be that. */
-START_TEST(test_unstable_limit_point_is_told) {
+TEST(test_unstable_limit_point_is_told) {
   Toy t = {.q = {-0.2, 0.05, 0.1}, .m = 0.9, .across = -1};
   ToyMarch f;
   open_toy(&f, &t, true);
@@ -166,7 +165,6 @@ START_TEST(test_unstable_limit_point_is_told) {
   ck_assert_int_eq(zp_track(&f.march, 0), ZP_TRACK_LOST);
   zp_free(f.memory);
 }
-END_TEST
 
 static double toy_event(void *self, double *row) {
   row[0] = 1;
@@ -181,7 +179,7 @@ static double toy_branch(double q0) {
 
 /* Along the branch through its limit point: each point costs one factorisation and has the error of one Newton step, or
  * of a second one on request. */
-START_TEST(test_points_in_passing) {
+TESTS(test_points_in_passing, 0, 2) {
   static const double step = 0.02;
   const bool exact = _i == 1;
   Toy t = {.q = {-0.3, 0.027, 0}, .m = toy_branch(-0.3), .across = 1, .accuracy = exact ? 1e-9 : 1};
@@ -204,10 +202,9 @@ START_TEST(test_points_in_passing) {
   ck_below(worst_slope, exact ? 1e-12 : 3e-4); /* 1e-16 and 7.2e-5 measured */
   zp_free(f.memory);
 }
-END_TEST
 
 /* From a stable state far away to the limit point, and past none to where it is asked for. */
-START_TEST(test_march) {
+TEST(test_march) {
   Toy t = {.q = {0.5, 0.075, 0}, .across = 1};
   ToyMarch f;
   t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
@@ -221,7 +218,6 @@ START_TEST(test_march) {
   ck_assert_double_eq_tol(fabs(f.march.fold.null[0]), 1, 1e-12); /* 0 measured */
   zp_free(f.memory);
 }
-END_TEST
 
 /* -- running a study ------------------------------------------------------------------------------- */
 
@@ -303,15 +299,14 @@ static double agrees_with_the_curve(const ZpActuatorDef *def) {
   return pull_in;
 }
 
-START_TEST(test_limits_are_those_of_the_curve) {
+TESTS(test_limits_are_those_of_the_curve, 0, DESIGNS) {
   ZpActuatorDef def = design(_i);
   agrees_with_the_curve(&def);
 }
-END_TEST
 
 /* Regression: with half-cell clamps next to straight pieces the pull-in with 61 nodes was 0.65 % below that of an
  * independent boundary-value code, without the breakdown cap 0.93 %. */
-START_TEST(pull_in_hardly_depends_on_the_mesh) {
+TESTS(pull_in_hardly_depends_on_the_mesh, 0, 2) {
   static const int nodes[] = {41, 61, 121};
   static const double continuum[] = {5107.7, 5661.4};
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
@@ -321,15 +316,13 @@ START_TEST(pull_in_hardly_depends_on_the_mesh) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Some nodes jump long before the actuator closes. A long step along the voltage once passed this limit point. */
-START_TEST(snap_of_a_few_nodes_is_the_pull_in) {
+TEST(snap_of_a_few_nodes_is_the_pull_in) {
   ZpActuatorDef def =
       DEF({"ribbon.thickness", 25e-6}, {"ribbon.length", 150e-3}, {"load.mass", 5e-3}, {"drive.voltage", 12e3});
   ck_near(agrees_with_the_curve(&def), 9922, 2e-4); /* 4.5e-5 measured */
 }
-END_TEST
 
 /* How far the voltage of the hanging branch falls below what it has been on a curve, relative to that. */
 static double fall_along(const ZpTable *curve) {
@@ -344,7 +337,7 @@ static double fall_along(const ZpTable *curve) {
 
 /* A snap on the way to gradual closing: the curve turns back by less than the 0.5 % of a ripple, so that its limit
  * point is no pull-in. */
-START_TEST(small_snap_is_no_pull_in) {
+TEST(small_snap_is_no_pull_in) {
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"drive.voltage", 400}, {"load.mass", 0.0017527291901765613},
                           {"ribbon.thickness", 4.9161614558160775e-05}, {"ribbon.length", 0.03363515595843682},
                           {"insulator.thickness", 8.915831978221488e-05}, {"output.errors", 0});
@@ -358,11 +351,10 @@ START_TEST(small_snap_is_no_pull_in) {
   zp_result_destroy(direct);
   zp_result_destroy(followed);
 }
-END_TEST
 
 /* Where it closes gradually, one state lies at the mark on the way up and on the way down: it releases where it closes,
  * never above that. */
-START_TEST(gradual_closing_is_also_the_release) {
+TEST(gradual_closing_is_also_the_release) {
   const ZpActuatorDef designs[] = {
       DEF({"mesh.nodes", 11}, {"drive.voltage", 499.516}, {"load.mass", 0.67972e-3}, {"ribbon.thickness", 27.17e-6},
           {"ribbon.length", 22.01e-3}, {"insulator.thickness", 38.09e-6}),
@@ -378,12 +370,11 @@ START_TEST(gradual_closing_is_also_the_release) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* A strip between two clamps is closed, at 1 % of its opening, slightly before a limit point: this is the pull-in, as
  * on the curve. Limit points where it jumps and where it would jump back are some millivolts apart. They move smoothly
  * with the gap: a step along the voltage once passed both at most gaps. */
-START_TEST(pull_in_follows_a_gradual_closing) {
+TEST(pull_in_follows_a_gradual_closing) {
   enum { GAPS = 4 };
   double pull_in[GAPS];
   for (int k = 0; k < GAPS; k++) {
@@ -397,16 +388,14 @@ START_TEST(pull_in_follows_a_gradual_closing) {
   double third = pull_in[3] - 3 * pull_in[2] + 3 * pull_in[1] - pull_in[0];
   ck_assert_double_le(fabs(third), 2e-7 * pull_in[0]); /* 1.0e-7 measured */
 }
-END_TEST
 
 /* Regression: two limit points 1 % apart, far below drive.voltage, were passed in one step, so the next one, at 445 V,
  * was reported as the pull-in. */
-START_TEST(curve_meets_both_limit_points_of_a_small_snap) {
+TEST(curve_meets_both_limit_points_of_a_small_snap) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"electro.gap_offset", 0.3e-3});
   ck_near(agrees_with_the_curve(&def), 257.6, 3e-4); /* 9.8e-5 measured */
 }
-END_TEST
 
 /* -- against a staircase of the voltage -------------------------------------------------------------- */
 
@@ -440,7 +429,7 @@ static double by_stairs(const ZpActuatorDef *def, double start, bool up) {
 /* After a jump of some nodes it rests, and closes at a higher voltage: 2 % with 27 nodes, where a fall in long steps
  * once passed the state between; 12 % of a stiff one, where faces that overlapped for a moment on the way once were
  * taken for closed. */
-START_TEST(closing_is_that_of_a_staircase) {
+TESTS(closing_is_that_of_a_staircase, 0, 2) {
   const ZpActuatorDef designs[] = {
       DEF({"ribbon.length", 35.635e-3}, {"ribbon.width", 30.046e-3}, {"ribbon.thickness", 14.209e-6},
           {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38}, {"ribbon.density", 1390},
@@ -458,11 +447,10 @@ START_TEST(closing_is_that_of_a_staircase) {
   ck_near(found, closing, 0.1 * stair); /* of the same stair: 0.024 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A load that the closed actuator just holds (the limit point is a corner of the breakdown cap, at which the state was
  * lost before); flanges without load. */
-START_TEST(release_is_that_of_a_staircase) {
+TESTS(release_is_that_of_a_staircase, 0, 4) {
   const ZpActuatorDef designs[] = {
       DEF({"load.mass", 120e-3}, {"drive.voltage", 12e3}),
       DEF({"load.mass", 100e-3}, {"drive.voltage", 12e3}),
@@ -478,12 +466,11 @@ START_TEST(release_is_that_of_a_staircase) {
   ck_near(found, release, 2 * stair); /* 4.9e-3 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- closed forms ------------------------------------------------------------------------------------ */
 
 /* A guided ribbon over a flat electrode at a distance g far below its length: b = eps0 w U^2 L^4 / (2 EI g^3). */
-START_TEST(test_classical_pull_in) {
+TEST(test_classical_pull_in) {
   const double b = 4.38094, g = 1e-3, L = 0.1, width = 12.7e-3, thick = 1e-3, eps0 = 8.8541878128e-12;
   double EI = 200e9 * width * thick * thick * thick / 12,
          V = sqrt(2 * b * EI * g * g * g / (eps0 * width * L * L * L * L));
@@ -500,11 +487,10 @@ START_TEST(test_classical_pull_in) {
   ck_assert_ptr_nonnull(strstr(result->message, "short circuit"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* All lengths times c, weight per volume over c: the same shapes under c times the voltage and c^2 times the load's
  * weight. */
-START_TEST(test_scaling) {
+TEST(test_scaling) {
   const double c = 1.25;
   ZpActuatorDef def = DEF({"insulator.thickness", 25e-6}), large = def;
   large.ribbon.length *= c;
@@ -523,12 +509,11 @@ START_TEST(test_scaling) {
   zp_result_destroy(one);
   zp_result_destroy(other);
 }
-END_TEST
 
 /* -- the largest load -------------------------------------------------------------------------------- */
 
 /* Under the largest load it closes at drive.voltage, for any load in the scenario. */
-START_TEST(test_largest_load) {
+TEST(test_largest_load) {
   static const double masses[] = {1e-3, 8e-3, 20e-3, 60e-3};
   double largest[LENGTH_OF(masses)];
   for (size_t k = 0; k < LENGTH_OF(masses); k++) {
@@ -546,10 +531,9 @@ START_TEST(test_largest_load) {
   ck_near(zp_result_get(result, "closing_voltage_V"), voltage, 1e-12); /* 4.4e-16 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Contact once got stiffer with the load: 0.6 % off without cap. */
-START_TEST(largest_load_does_not_depend_on_the_load) {
+TEST(largest_load_does_not_depend_on_the_load) {
   ZpActuatorDef light = DEF({"electro.breakdown_cap", false}), heavy = light;
   heavy.load.mass = 1000;
   ZpResult *of_light = limits_of(&light), *of_heavy = limits_of(&heavy);
@@ -557,7 +541,6 @@ START_TEST(largest_load_does_not_depend_on_the_load) {
   zp_result_destroy(of_light);
   zp_result_destroy(of_heavy);
 }
-END_TEST
 
 /* The largest load by its definition: the voltage closes 0.999 of it, and none of some larger ones. No closing voltage
  * is above the voltage asked for: the march once climbed to a crest beyond it. */
@@ -580,7 +563,7 @@ static void check_definition(ZpActuatorDef def, double largest) {
  * held in the neighbour, too; the highest crest is beyond the voltage; long steps of a fall passed over a held front; a
  * crest lies beside a corner of the breakdown cap, a third of a step away; the search ended at another crest if the
  * load itself was the largest. */
-START_TEST(largest_load_is_the_largest_that_closes) {
+TESTS(largest_load_is_the_largest_that_closes, 0, 9) {
   const ZpActuatorDef designs[] = {
       DEF({"drive.voltage", 3600}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"mesh.nodes", 61}),
       DEF({"drive.voltage", 9100}, {"ribbon.length", 80e-3}, {"ribbon.thickness", 25e-6},
@@ -631,11 +614,10 @@ START_TEST(largest_load_is_the_largest_that_closes) {
   zp_result_destroy(cold);
   zp_result_destroy(warm);
 }
-END_TEST
 
 /* Elements are 18 times as long as the front, which passes 91 nodes in 34,664 steps of a fall. Where such a fall ended
  * after 20,000 steps, this load was 0.50 g. */
-START_TEST(front_passes_every_node_of_a_coarse_mesh) {
+NIGHTLY_TEST(front_passes_every_node_of_a_coarse_mesh) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.29133597482441054}, {"ribbon.width", 0.018681133350026146},
           {"ribbon.thickness", 1.8127693362754846e-05}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
@@ -648,11 +630,10 @@ START_TEST(front_passes_every_node_of_a_coarse_mesh) {
   ck_assert_double_lt(answered_value(ZP_STUDY_LIMITS, &def, "closing_voltage_V"), def.drive.voltage);
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg"), largest, 1e-10);
 }
-END_TEST
 
 /* Just above 1.0193 g, where the voltage is a limit point, it does not close; it closes again up to 1.0385 g, above
  * which its closing voltage jumps. */
-START_TEST(larger_load_that_closes_again) {
+TEST(larger_load_that_closes_again) {
   ZpActuatorDef def = DEF({"ribbon.length", 0.1574917229260947}, {"ribbon.width", 0.004515478370925754},
                           {"ribbon.thickness", 7.463166966632059e-05}, {"platform.length", 0.01574917229260947},
                           {"insulator.thickness", 3.482150568880197e-05}, {"load.mass", 0.004062378575871861},
@@ -663,11 +644,10 @@ START_TEST(larger_load_that_closes_again) {
   ck_assert_double_lt(answered_value(ZP_STUDY_LIMITS, &def, "closing_voltage_V"), def.drive.voltage);
   ck_assert_double_gt(largest, def.load.mass);
 }
-END_TEST
 
 /* Its closed state is open by more than 1 % of the opening with which it hangs, even without load. A candidate that no
  * voltage confirmed was once given as the answer. */
-START_TEST(no_largest_load) {
+TEST(no_largest_load) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.12634218193225474}, {"ribbon.width", 0.025633153752887272},
           {"ribbon.thickness", 0.00020709320866311656}, {"platform.length", 0.012634218193225475},
@@ -677,10 +657,9 @@ START_TEST(no_largest_load) {
   ck_assert_double_nan(zp_result_get(result, "max_load_kg"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A sweep of 49 voltages around it, and meshes of 31 and 121 nodes, gave 5.179 to 5.180 g. */
-START_TEST(largest_load_hardly_depends_on_the_mesh) {
+TEST(largest_load_hardly_depends_on_the_mesh) {
   ZpActuatorDef coarse = DEF({"drive.voltage", 3600}, {"mesh.nodes", 31}), fine = coarse;
   fine.mesh.nodes = 61;
   ZpResult *of_coarse = limits_of(&coarse), *of_fine = limits_of(&fine);
@@ -688,11 +667,10 @@ START_TEST(largest_load_hardly_depends_on_the_mesh) {
   zp_result_destroy(of_coarse);
   zp_result_destroy(of_fine);
 }
-END_TEST
 
 /* It closes gradually, where the gap is 1 % of the one with which it hangs under the largest load, not under its own.
  */
-START_TEST(gradual_largest_load_does_not_depend_on_the_load) {
+TEST(gradual_largest_load_does_not_depend_on_the_load) {
   ZpActuatorDef light = DEF({"drive.voltage", 6900}, {"ribbon.length", 30e-3}, {"ribbon.thickness", 100e-6},
                             {"load.mass", 10e-3}, {"mesh.nodes", 31}),
                 heavy = light;
@@ -703,11 +681,10 @@ START_TEST(gradual_largest_load_does_not_depend_on_the_load) {
   zp_result_destroy(of_light);
   zp_result_destroy(of_heavy);
 }
-END_TEST
 
 /* Loads slightly above the largest one: the way up to drive.voltage is nearly vertical, and the largest load is that of
  * an actuator with half of it. The march once gave up where a step went past drive.voltage. */
-START_TEST(load_slightly_above_the_largest) {
+TESTS(load_slightly_above_the_largest, 0, 2) {
   const ZpActuatorDef designs[] = {
       DEF({"ribbon.thickness", 40e-6}, {"mesh.nodes", 21}, {"load.mass", 9.04347826087e-3}),
       DEF({"ribbon.thickness", 50e-6}, {"mesh.nodes", 21}, {"load.mass", 12.1739130435e-3})};
@@ -720,19 +697,17 @@ START_TEST(load_slightly_above_the_largest) {
   zp_result_destroy(of_heavy);
   zp_result_destroy(of_light);
 }
-END_TEST
 
 /* -- what it is for ---------------------------------------------------------------------------------- */
 
 /* mass_kg counts strips and insulators from clip to clip, for a half and a whole actuator alike. */
-START_TEST(mass_in_closed_form) {
+TESTS(mass_in_closed_form, 0, 2) {
   ZpActuatorDef def = DEF({"insulator.density", 1390}, {"mesh.nodes", 31},
                           {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
   ZpResult *result = limits_of(&def);
   ck_near(zp_result_get(result, "mass_kg"), 2 * 0.1 * 12.7e-3 * (50e-6 * 7850 + 130e-6 * 1390), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 static double travel_at(const ZpActuatorDef *def, int key, double value) {
   ZpActuatorDef other = *def;
@@ -744,7 +719,7 @@ static double travel_at(const ZpActuatorDef *def, int key, double value) {
 }
 
 /* travel_m is the decrease of the opening, and its derivatives equal finite differences. */
-START_TEST(travel_and_its_derivatives) {
+TEST(travel_and_its_derivatives) {
   static const char *const keys[] = {"ribbon.thickness", "ribbon.length", "load.mass", "insulator.thickness"};
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"output.errors", 0}, {"solver.tolerance", 1e-9}), hung = def;
   snprintf(def.sensitivity.by, sizeof def.sensitivity.by,
@@ -766,12 +741,11 @@ START_TEST(travel_and_its_derivatives) {
   zp_result_destroy(result);
   zp_result_destroy(open);
 }
-END_TEST
 
 /* -- from a neighbour -------------------------------------------------------------------------------- */
 
 /* Where a search begins does not change what it finds. */
-START_TEST(test_limits_from_a_neighbour) {
+TESTS(test_limits_from_a_neighbour, 1, 2) {
   static const char *const keys[] = {"load.mass", "ribbon.thickness", "ribbon.length", "drive.voltage"};
   ZpActuatorDef def = DEF({"output.errors", true});
   ZpResult *near = limits_of(&def);
@@ -791,10 +765,11 @@ START_TEST(test_limits_from_a_neighbour) {
   ck_assert_double_ge(starts, 9);
   zp_result_destroy(near);
 }
-END_TEST
+ALSO_NIGHTLY(test_limits_from_a_neighbour, 0, 1)
+ALSO_NIGHTLY(test_limits_from_a_neighbour, 2, 4)
 
 /* At low voltages it closes gradually, at high ones by a jump. */
-START_TEST(largest_load_from_gradual_neighbours) {
+TEST(largest_load_from_gradual_neighbours) {
   enum { STEPS = 9 };
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.048412202990474329}, {"ribbon.width", 0.010002352939080739},
@@ -813,7 +788,6 @@ START_TEST(largest_load_from_gradual_neighbours) {
   }
   zp_result_destroy(near);
 }
-END_TEST
 
 static void check_no_neighbour(const ZpActuatorDef *def, const ZpActuatorDef *other) {
   ZpResult *near = limits_of(other), *warm = run(ZP_STUDY_LIMITS, def, near), *cold = limits_of(def);
@@ -826,7 +800,7 @@ static void check_no_neighbour(const ZpActuatorDef *def, const ZpActuatorDef *ot
 }
 
 /* One of another mesh, with other halves or with other joints is no neighbour. */
-START_TEST(test_no_neighbour) {
+TEST(test_no_neighbour) {
   ZpActuatorDef fine = DEF({"mesh.nodes", 41}), coarse = DEF({"mesh.nodes", 31}), half = DEF({"mesh.nodes", 22}),
                 whole = DEF({"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}),
                 parallel = DEF({"mesh.nodes", 11}, {"stack.parallel", 2}, {"member_1.ribbon.thickness", 51e-6}),
@@ -835,12 +809,11 @@ START_TEST(test_no_neighbour) {
   check_no_neighbour(&whole, &half);
   check_no_neighbour(&parallel, &series);
 }
-END_TEST
 
 /* -- where there is none ----------------------------------------------------------------------------- */
 
 /* What does not exist is null, and the message says why. */
-START_TEST(test_no_limit) {
+TEST(test_no_limit) {
   ZpActuatorDef low = DEF({"drive.voltage", 300}), none = DEF({"drive.voltage", 0}), light = DEF({"gravity", 0});
   ZpResult *result = limits_of(&low);
   ck_assert_double_nan(zp_result_get(result, "pull_in_voltage_V"));
@@ -856,47 +829,4 @@ START_TEST(test_no_limit) {
   ZpActuatorDef ribbon = DEF({"actuator.kind", ZP_KIND_RIBBON});
   ck_assert_int_eq(zp_study_run(ZP_STUDY_LIMITS, &ribbon, NULL, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "actuator.kind"));
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("limits");
-  TCase *fold = tcase_create("fold");
-  tcase_add_loop_test(fold, test_extended_system_converges_quadratically, 0, 3);
-  tcase_add_test(fold, test_unstable_limit_point_is_told);
-  tcase_add_loop_test(fold, test_points_in_passing, 0, 2);
-  tcase_add_test(fold, test_march);
-  suite_add_tcase(suite, fold);
-  TCase *study = tcase_create("study");
-  tcase_add_loop_test(study, test_limits_are_those_of_the_curve, 0, DESIGNS);
-  tcase_add_loop_test(study, pull_in_hardly_depends_on_the_mesh, 0, 2);
-  tcase_add_test(study, snap_of_a_few_nodes_is_the_pull_in);
-  tcase_add_test(study, small_snap_is_no_pull_in);
-  tcase_add_test(study, gradual_closing_is_also_the_release);
-  tcase_add_test(study, pull_in_follows_a_gradual_closing);
-  tcase_add_test(study, curve_meets_both_limit_points_of_a_small_snap);
-  tcase_add_loop_test(study, closing_is_that_of_a_staircase, 0, 2);
-  tcase_add_loop_test(study, release_is_that_of_a_staircase, 0, 4);
-  tcase_add_test(study, test_classical_pull_in);
-  tcase_add_test(study, test_scaling);
-  tcase_add_test(study, test_largest_load);
-  tcase_add_test(study, largest_load_does_not_depend_on_the_load);
-  tcase_add_loop_test(study, largest_load_is_the_largest_that_closes, 0, 9);
-  tcase_add_test(study, larger_load_that_closes_again);
-  tcase_add_test(study, no_largest_load);
-  tcase_add_test(study, largest_load_hardly_depends_on_the_mesh);
-  tcase_add_test(study, gradual_largest_load_does_not_depend_on_the_load);
-  tcase_add_loop_test(study, load_slightly_above_the_largest, 0, 2);
-  tcase_add_loop_test(study, mass_in_closed_form, 0, 2);
-  tcase_add_test(study, travel_and_its_derivatives);
-  tcase_add_loop_test(study, test_limits_from_a_neighbour, 1, 2);
-  tcase_add_test(study, largest_load_from_gradual_neighbours);
-  tcase_add_test(study, test_no_neighbour);
-  tcase_add_test(study, test_no_limit);
-  suite_add_tcase(suite, study);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_limits_from_a_neighbour, 0, 1);
-  tcase_add_loop_test(nightly, test_limits_from_a_neighbour, 2, 4);
-  tcase_add_test(nightly, front_passes_every_node_of_a_coarse_mesh);
-  return run_suite(suite);
 }

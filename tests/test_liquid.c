@@ -45,7 +45,7 @@ static Run run_with(const Setting *list, size_t count) {
     "medium.drag_coefficient", 0                                                                                       \
   }
 
-START_TEST(test_film_alone) {
+TEST(test_film_alone) {
   Run film = RUN(FILM_ONLY);
   printf("film only: %.2f ms\n", 1e3 * film.zip_time);
   ck_near(film.zip_time, 131.4e-3, 5e-3);
@@ -53,10 +53,9 @@ START_TEST(test_film_alone) {
   ck_assert_double_eq(film.jets, 0);
   ck_assert_double_eq(film.outer, 0);
 }
-END_TEST
 
 /* In a bath of 50 mm2/s closing takes more than twice as long as without liquid; every loss is above 0. */
-START_TEST(test_submerged) {
+TEST(test_submerged) {
   Run run = RUN({"mesh.nodes", 121}, {"solver.tolerance", 3e-4});
   printf("submerged: %.2f ms, film %.1f um\n", 1e3 * run.zip_time, 1e6 * run.film);
   ck_assert_int_eq(run.outcome, ZP_ZIPPED);
@@ -67,19 +66,17 @@ START_TEST(test_submerged) {
   ck_assert_double_gt(run.jets, 1e-4);
   ck_assert_double_gt(run.outer, 1e-4);
 }
-END_TEST
 
 /* A liquid without viscosity, mass and drag has no effect. */
-START_TEST(test_nothing_of_the_liquid_is_dry) {
+TEST(test_nothing_of_the_liquid_is_dry) {
   ZpActuatorDef dry = DEF({"output.errors", 0}, {"drive.voltage", 7e3});
   Run none = run_of(&dry), thin = RUN(FILM_ONLY, {"drive.voltage", 7e3}, {"medium.kinematic_viscosity", 1e-8});
   printf("dry: %.3f ms, as good as dry: %.3f ms\n", 1e3 * none.zip_time, 1e3 * thin.zip_time);
   ck_near(thin.zip_time, none.zip_time, 2e-3); /* 4.6e-4 measured */
 }
-END_TEST
 
 /* If viscosity dominates, doubling it doubles the time: other effects are 1.5 %, and half of that for each doubling. */
-START_TEST(test_time_is_linear_in_viscosity) {
+TESTS(test_time_is_linear_in_viscosity, 0, FULL_OR(1, 0)) {
   double time[3], nu = 500e-6;
   for (int k = 0; k < 3; k++, nu *= 2)
     time[k] = RUN({"mesh.nodes", 31}, {"medium.kinematic_viscosity", nu}, {"solver.end_time", 10}, FILM_ONLY).zip_time;
@@ -87,26 +84,23 @@ START_TEST(test_time_is_linear_in_viscosity) {
   ck_near(time[1] / time[0], 2, 0.02);  /* 9.8e-3 measured */
   ck_near(time[2] / time[1], 2, 0.006); /* 1e-3 measured */
 }
-END_TEST
 
 /* The closing time does not depend on the roughness. */
-START_TEST(test_time_does_not_depend_on_roughness) {
+TEST(test_time_does_not_depend_on_roughness) {
   double fine = RUN({"film.roughness", 0.5e-6}).zip_time, rough = RUN({"film.roughness", 10e-6}).zip_time;
   ck_near(rough, fine, 0.015); /* 5.7e-3 measured */
 }
-END_TEST
 
 /* It depends on the mesh by at most a hundredth. */
-START_TEST(test_time_does_not_depend_on_the_mesh) {
+TEST(test_time_does_not_depend_on_the_mesh) {
   double coarse = RUN({"mesh.nodes", 61}, {"solver.tolerance", 3e-4}).zip_time,
          fine = RUN({"mesh.nodes", 241}, {"solver.tolerance", 3e-4}).zip_time;
   printf("N = 61: %.2f ms, 241: %.2f ms\n", 1e3 * coarse, 1e3 * fine);
   ck_near(coarse, fine, 3e-4); /* 9.2e-5 measured */
 }
-END_TEST
 
 /* Halving fixed steps: second order. */
-START_TEST(test_second_order_in_time) {
+TEST(test_second_order_in_time) {
   double time[3], step = 4e-4;
   for (int k = 0; k < 3; k++, step *= 0.5)
     time[k] = RUN({"mesh.nodes", 31}, {"solver.time_step", step}).zip_time;
@@ -114,7 +108,6 @@ START_TEST(test_second_order_in_time) {
   printf("steps of 400, 200, 100 us: %.4f %.4f %.4f ms\n", 1e3 * time[0], 1e3 * time[1], 1e3 * time[2]);
   ck_near(order, 4, 0.01); /* 3.2e-3 measured */
 }
-END_TEST
 
 /* -- close to the static pull-in -------------------------------------------------------------------- */
 
@@ -140,7 +133,7 @@ static double time_from(ZpActuatorDef def, const double *q, double U) {
 /* Released at the fold, an actuator closes after a time proportional to the excess voltage to the power -1/4 if inertia
  * dominates, or -1/2 if viscosity dominates: this is the time near the fold; the time from there on is constant and
  * cancels in differences. */
-START_TEST(test_time_close_to_pull_in) {
+TESTS(test_time_close_to_pull_in, 0, 2) {
   static const struct { double model, power; } row[] = {{ZP_LIQUID_NONE, -0.25}, {ZP_LIQUID_SUBMERGED, -0.5}};
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"liquid.model", row[_i].model}, {"medium.kinematic_viscosity", 1e-3},
                           FILM_ONLY, {"film.roughness", 1e-3}, {"solver.tolerance", 3.5e-6});
@@ -159,7 +152,6 @@ START_TEST(test_time_close_to_pull_in) {
   zp_model_destroy(model);
   zp_result_destroy(limits);
 }
-END_TEST
 
 /* -- zip, hold, release ---------------------------------------------------------------------------- */
 
@@ -178,7 +170,7 @@ static ZpSim *zip_hold_release(ZpModel **model, double viscosity, const char *sy
 
 /* The energy balances over closing, holding and opening, in thin and thick liquids, and no film is lost. A film that
  * has been pressed out holds the platform for seconds before it opens. */
-START_TEST(test_energy_of_zip_hold_and_release) {
+TESTS(test_energy_of_zip_hold_and_release, 0, FULL_OR(3, 1)) {
   static const double viscosity[] = {1e-6, 50e-6, 1000e-6};
   ZpModel *model;
   ZpSim *sim = zip_hold_release(&model, viscosity[_i], "half");
@@ -195,10 +187,9 @@ START_TEST(test_energy_of_zip_hold_and_release) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The whole actuator is two halves in the liquid, too. */
-START_TEST(test_whole_is_two_halves) {
+TEST(test_whole_is_two_halves) {
   ZpModel *models[2];
   ZpSim *sims[2] = {zip_hold_release(&models[0], 50e-6, "half"), zip_hold_release(&models[1], 50e-6, "none")};
   static const char *const signals[] = {"opening", "film_across_loss", "jet_loss", "liquid_energy", "outer_drag_loss"};
@@ -206,11 +197,10 @@ START_TEST(test_whole_is_two_halves) {
     ck_assert_int_eq(zp_sim_run(sims[k], 0.5, false, NULL, NULL), ZP_REACHED_END);
   ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1e-8); /* 1.2e-9 measured */
 }
-END_TEST
 
 /* What rows say of the film: its thickness at a quarter of the flexible length, between two stations, and what
  * viscosity takes along and across together. */
-START_TEST(test_rows_of_the_film) {
+TEST(test_rows_of_the_film) {
   ZpActuatorDef def = DEF({"mesh.nodes", 12}, {"liquid.model", ZP_LIQUID_SUBMERGED});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -226,11 +216,10 @@ START_TEST(test_rows_of_the_film) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A run that is saved and restored on the way takes the same steps as one that is not: what the liquid has is a state.
  */
-START_TEST(test_state_of_the_liquid_is_kept) {
+TEST(test_state_of_the_liquid_is_kept) {
   ZpModel *model;
   ZpSim *sim = zip_hold_release(&model, 50e-6, "half"), *other = sim_of(model);
   size_t size = zp_sim_state_size(sim);
@@ -248,10 +237,9 @@ START_TEST(test_state_of_the_liquid_is_kept) {
   zp_sim_destroy(other);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A simulation continues with liquid where one without it was, and vice versa: the liquid starts at rest. */
-START_TEST(test_liquid_comes_and_goes) {
+TESTS(test_liquid_comes_and_goes, 0, 2) {
   ZpActuatorDef def[2] = {DEF({"mesh.nodes", 31}), DEF({"mesh.nodes", 31})};
   def[1].liquid.model = ZP_LIQUID_SUBMERGED;
   ZpModel *models[2] = {model_of(&def[0]), model_of(&def[1])};
@@ -267,12 +255,11 @@ START_TEST(test_liquid_comes_and_goes) {
   for (int k = 0; k < 2; k++)
     zp_model_destroy(models[k]);
 }
-END_TEST
 
 /* -- keys ------------------------------------------------------------------------------------------ */
 
 /* Both ribbons move at one velocity as stiff plates do: each is dragged by c_d rho v^2 / 2 on its face. */
-START_TEST(test_form_drag_of_moving_plates) {
+TEST(test_form_drag_of_moving_plates) {
   static const double v = 0.3, h = 1e-3, drag = 1.7;
   ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_SUBMERGED}, {"mesh.nodes", 9}, {"medium.drag_coefficient", drag});
   ZpModel *model = model_of(&def);
@@ -297,10 +284,9 @@ START_TEST(test_form_drag_of_moving_plates) {
   zp_system_destroy(&e);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* What the film does not know is refused, by the name of the key. */
-START_TEST(test_what_is_refused) {
+TESTS(test_what_is_refused, 0, 4) {
   static const struct {
     const char *key;
     double value;
@@ -315,19 +301,17 @@ START_TEST(test_what_is_refused) {
   ck_assert_ptr_nonnull(strstr(err.message, "liquid.model = submerged"));
   ck_assert_ptr_nonnull(strstr(err.message, other[_i].key));
 }
-END_TEST
 
-START_TEST(test_modes_are_refused) {
+TEST(test_modes_are_refused) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpError err;
   def.liquid.model = ZP_LIQUID_SUBMERGED;
   ck_assert_int_eq(zp_study_check(ZP_STUDY_MODES, &def, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "liquid.model"));
 }
-END_TEST
 
 /* Random liquids and voltages: every run ends with a result, and its energy balances. */
-START_TEST(test_random_designs) {
+TEST(test_random_designs) {
   enum { DESIGNS = FULL_OR(40, 6) };
   uint64_t seed = 17;
   double worst = 0;
@@ -345,35 +329,4 @@ START_TEST(test_random_designs) {
   printf("%d of %d end with an answer; energy off by %.1e at most\n", ended, DESIGNS, worst);
   ck_assert_int_eq(ended, DESIGNS);
   ck_below(worst, 5e-7); /* 1e-7 measured */
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("liquid");
-  TCase *zips = tcase_create("zips");
-
-  tcase_add_test(zips, test_film_alone);
-  tcase_add_test(zips, test_submerged);
-  tcase_add_test(zips, test_nothing_of_the_liquid_is_dry);
-  add_long_test(zips, test_time_is_linear_in_viscosity);
-  tcase_add_test(zips, test_time_does_not_depend_on_roughness);
-  tcase_add_test(zips, test_time_does_not_depend_on_the_mesh);
-  tcase_add_test(zips, test_second_order_in_time);
-  tcase_add_loop_test(zips, test_time_close_to_pull_in, 0, 2);
-  suite_add_tcase(suite, zips);
-  TCase *runs = tcase_create("runs");
-
-  tcase_add_loop_test(runs, test_energy_of_zip_hold_and_release, 0, FULL_OR(3, 1));
-  tcase_add_test(runs, test_whole_is_two_halves);
-  tcase_add_test(runs, test_state_of_the_liquid_is_kept);
-  tcase_add_test(runs, test_rows_of_the_film);
-  tcase_add_loop_test(runs, test_liquid_comes_and_goes, 0, 2);
-  tcase_add_test(runs, test_random_designs);
-  suite_add_tcase(suite, runs);
-  TCase *keys = tcase_create("keys");
-  tcase_add_test(keys, test_form_drag_of_moving_plates);
-  tcase_add_loop_test(keys, test_what_is_refused, 0, 4);
-  tcase_add_test(keys, test_modes_are_refused);
-  suite_add_tcase(suite, keys);
-  return run_suite(suite);
 }

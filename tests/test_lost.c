@@ -14,15 +14,14 @@ static void is_followed(const ZpActuatorDef *def) {
 
 /* 100 g, which the breakdown cap can just hold: the gap of the platform comes to the cap's corner at 3596 V, all of its
  * attraction stops to change there, and the branch turns by more than a right angle. No step had a solution. */
-START_TEST(a_corner_may_turn_the_branch_by_more_than_a_right_angle) {
+TEST(a_corner_may_turn_the_branch_by_more_than_a_right_angle) {
   ZpActuatorDef def = DEF({"load.mass", 0.1}, {"drive.voltage", 12e3});
   is_followed(&def);
 }
-END_TEST
 
 /* At such a corner corrections went to and fro between its two sides, by less than what counts as rounding: points
  * were taken for equilibria that were none, and steps became shorter and shorter. */
-START_TEST(corrections_to_and_fro_over_a_corner_are_no_rounding) {
+TEST(corrections_to_and_fro_over_a_corner_are_no_rounding) {
   ZpActuatorDef def =
       DEF({"ribbon.length", MM(186.38365821770858)}, {"ribbon.width", MM(10.992248333981115)},
           {"ribbon.thickness", UM(11.766399912342666)}, {"ribbon.young_modulus", 70e9}, {"ribbon.poisson_ratio", 0.33},
@@ -31,11 +30,10 @@ START_TEST(corrections_to_and_fro_over_a_corner_are_no_rounding) {
           {"load.mass", 0.0004741342016834085}, {"mesh.nodes", 205}, {"drive.voltage", 11326.67435840982});
   is_followed(&def);
 }
-END_TEST
 
 /* A hairpin: beyond the corner the branch comes back almost as it went there. The sign of the determinant told, but a
  * short step was trusted more, and went back to where it had come from. */
-START_TEST(a_hairpin_is_not_taken_for_a_bifurcation) {
+TEST(a_hairpin_is_not_taken_for_a_bifurcation) {
   ZpActuatorDef def =
       DEF({"ribbon.length", MM(174.72913995695433)}, {"ribbon.width", MM(33.682609709584352)},
           {"ribbon.thickness", UM(75.503814370061199)}, {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34},
@@ -44,11 +42,10 @@ START_TEST(a_hairpin_is_not_taken_for_a_bifurcation) {
           {"drive.voltage", 1743.6511026688893});
   is_followed(&def);
 }
-END_TEST
 
 /* Where faces only just touch, their push (9.1) has a root of third order, to which Newton's method comes by two thirds
  * a correction: 12 corrections were too few. */
-START_TEST(faces_that_just_touch_take_more_corrections) {
+TEST(faces_that_just_touch_take_more_corrections) {
   ZpActuatorDef def = DEF({"ribbon.length", MM(259.22869288758216)}, {"ribbon.width", MM(11.065664665773254)},
                           {"ribbon.thickness", UM(38.394741996017321)}, {"ribbon.young_modulus", 70e9},
                           {"ribbon.poisson_ratio", 0.33}, {"ribbon.density", 2700},
@@ -57,11 +54,10 @@ START_TEST(faces_that_just_touch_take_more_corrections) {
                           {"mesh.nodes", 115}, {"electro.breakdown_cap", false}, {"drive.voltage", 2608.3890756527699});
   is_followed(&def);
 }
-END_TEST
 
 /* About a state with closed faces frequencies were computed without their push, so that what the field pulls together
  * looked unstable: 21 of 300 random designs had none. */
-START_TEST(closed_faces_push_in_a_vibration) {
+TEST(closed_faces_push_in_a_vibration) {
   ZpActuatorDef def =
       DEF({"ribbon.length", MM(20.0174)}, {"ribbon.width", MM(17.7982)}, {"ribbon.thickness", UM(65.6714)},
           {"ribbon.young_modulus", 70e9}, {"ribbon.poisson_ratio", 0.33}, {"ribbon.density", 2700},
@@ -76,11 +72,10 @@ START_TEST(closed_faces_push_in_a_vibration) {
   ck_assert_double_gt(zp_result_get(result, "frequency_1_Hz"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Ribbons of 0.26 m, 24 um thick, whose faces open and close node by node on hundreds of unstable states: the branch
  * was followed through 40000 of them, and then the study failed, though it had found all voltages. */
-START_TEST(voltages_do_not_depend_on_a_branch_that_is_left) {
+TEST(voltages_do_not_depend_on_a_branch_that_is_left) {
   ZpActuatorDef def =
       DEF({"ribbon.length", MM(257.817)}, {"ribbon.width", MM(6.13439)}, {"ribbon.thickness", UM(24.333)},
           {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34}, {"ribbon.density", 8960},
@@ -88,11 +83,10 @@ START_TEST(voltages_do_not_depend_on_a_branch_that_is_left) {
           {"mesh.nodes", 34}, {"drive.voltage", 8299.97});
   is_followed(&def);
 }
-END_TEST
 
 /* 18 um PET under 1e5 times the load that bends it by its length: before, the weight was applied in too large steps,
  * and no equilibrium was found. */
-START_TEST(a_floppy_ribbon_hangs) {
+TEST(a_floppy_ribbon_hangs) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.21625376098785298}, {"ribbon.width", 0.0031007512522075822},
           {"ribbon.thickness", 1.8154074755111463e-05}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
@@ -106,10 +100,9 @@ START_TEST(a_floppy_ribbon_hangs) {
   ck_near(zp_result_get(result, "opening_m"), length * (1 + pull / EA), 1e-3); /* 1.7e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Ribbons that sag by more than the held opening cannot start from a straight shape. */
-START_TEST(a_sagging_ribbon_is_held) {
+TEST(a_sagging_ribbon_is_held) {
   ZpActuatorDef def = DEF({"ribbon.length", MM(289.55)}, {"ribbon.width", MM(25.09)}, {"ribbon.thickness", UM(11.617)},
                           {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34}, {"ribbon.density", 8960},
                           {"platform.length", MM(28.955)}, {"insulator.thickness", UM(10.256)}, {"mesh.nodes", 61},
@@ -119,11 +112,10 @@ START_TEST(a_sagging_ribbon_is_held) {
   ck_near(zp_result_get(result, "opening_m"), MM(6.984), 1e-12); /* 6.6e-15 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The first equilibrium that Newton's method found from straight ribbons was one of folded ribbons, and was told as
  * converged: an opening of 0.86 mm in place of 208 mm. */
-START_TEST(folded_ribbons_do_not_hang) {
+TEST(folded_ribbons_do_not_hang) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.24860145390406665}, {"ribbon.width", MM(38.07427946651043)},
           {"ribbon.thickness", UM(18.099793612775266)}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
@@ -135,10 +127,9 @@ START_TEST(folded_ribbons_do_not_hang) {
   ck_assert_double_gt(zp_result_get(result, "opening_m"), 0.9 * (def.ribbon.length - def.platform.length));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The same where a platform is held: 45 N held it without a voltage. */
-START_TEST(folded_ribbons_are_not_held) {
+TESTS(folded_ribbons_are_not_held, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.28922918210588483}, {"ribbon.width", MM(3.0716343541618693)},
           {"ribbon.thickness", UM(11.598368520728278)}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
@@ -150,11 +141,10 @@ START_TEST(folded_ribbons_are_not_held) {
   ck_below(fabs(zp_result_get(result, "force_unpowered_N")), 3e-4); /* 9e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* 13 jumps on the way, the last of them just below the voltage that was asked for: no equilibrium on that branch was
  * there. */
-START_TEST(a_limit_point_may_be_just_below_the_voltage) {
+NIGHTLY_TESTS(a_limit_point_may_be_just_below_the_voltage, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.1200336615396364}, {"ribbon.width", MM(26.284869619987918)},
           {"ribbon.thickness", UM(18.357024024574153)}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.poisson_ratio", 0.38},
@@ -167,11 +157,10 @@ START_TEST(a_limit_point_may_be_just_below_the_voltage) {
   ck_assert_double_gt(zp_result_get(result, "force_N"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A front that is far shorter than an element passes node by node as the load falls: the search ended after 40 of these
  * ripples, and told no largest load. */
-START_TEST(a_front_may_pass_many_nodes) {
+TEST(a_front_may_pass_many_nodes) {
   ZpActuatorDef def =
       DEF({"ribbon.length", 0.2027688723017764}, {"ribbon.width", 0.003635957385695796},
           {"ribbon.thickness", 1.1008653342774954e-05}, {"ribbon.young_modulus", 120e9}, {"ribbon.poisson_ratio", 0.34},
@@ -182,25 +171,4 @@ START_TEST(a_front_may_pass_many_nodes) {
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_assert_double_gt(zp_result_get(result, "max_load_kg"), 0);
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("lost");
-  TCase *branch = tcase_create("branch");
-  tcase_add_test(branch, a_corner_may_turn_the_branch_by_more_than_a_right_angle);
-  tcase_add_test(branch, corrections_to_and_fro_over_a_corner_are_no_rounding);
-  tcase_add_test(branch, a_hairpin_is_not_taken_for_a_bifurcation);
-  tcase_add_test(branch, faces_that_just_touch_take_more_corrections);
-  tcase_add_test(branch, voltages_do_not_depend_on_a_branch_that_is_left);
-  tcase_add_test(branch, closed_faces_push_in_a_vibration);
-  tcase_add_test(branch, a_floppy_ribbon_hangs);
-  tcase_add_test(branch, a_sagging_ribbon_is_held);
-  tcase_add_test(branch, folded_ribbons_do_not_hang);
-  add_long_test(branch, folded_ribbons_are_not_held);
-  tcase_add_test(branch, a_front_may_pass_many_nodes);
-  suite_add_tcase(suite, branch);
-  TCase *nightly = nightly_case(suite);
-  add_long_test(nightly, a_limit_point_may_be_just_below_the_voltage);
-  return run_suite(suite);
 }

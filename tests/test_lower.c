@@ -23,37 +23,34 @@ static double rises(const ZpActuatorDef *def, double k, double a) {
   return 0.5 * k * a * (L - a) - k * l * l / 12;
 }
 
-START_TEST(bowed_ribbons_open) {
+TESTS(bowed_ribbons_open, 0, 2) {
   static const double k = 0.2, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k});
   if (_i) def.actuator.symmetry = ZP_SYMMETRY_NONE;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-6); /* 1.7e-7 measured */
 }
-END_TEST
 
 /* A bow in three segments, one after the other, is the same bow: of both ribbons, which are mirror images */
-START_TEST(segments_follow_each_other) {
+TEST(segments_follow_each_other) {
   static const double k = 0.2, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a / 3}, {"segment_1.curvature", k}, {"segment_2.length", a / 3},
                           {"segment_2.curvature", k}, {"segment_3.length", a / 3}, {"segment_3.curvature", k},
                           {"segment_2.thickness", 500e-6}, {"segment_3.thickness", 500e-6});
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 2 * rises(&def, k, a), 1e-6); /* 1.7e-7 measured */
 }
-END_TEST
 
 /* Each ribbon has its own curvature; a single curved one opens by half, and parallel ones do not part. (So little that
  * the clips need not pull the straight one.) */
-START_TEST(each_ribbon_has_its_own_curvature) {
+TEST(each_ribbon_has_its_own_curvature) {
   static const double k = 0.02, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4); /* 1.5e-5 measured */
   def.lower.segment_1.curvature = -k;
   ck_below(fabs(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-12); /* 2e-19 measured */
 }
-END_TEST
 
 /* Without weight and load the order of two ribbons does not matter. */
-START_TEST(ribbons_can_be_exchanged) {
+TEST(ribbons_can_be_exchanged) {
   ZpActuatorDef def =
       DEF({"gravity", 0}, {"load.mass", 0}, {"mesh.nodes", 61}, {"segment_1.length", 9e-3}, {"segment_1.curvature", 20},
           {"ribbon.thickness", 70e-6}, {"segment_1.thickness", 70e-6}, {"lower.ribbon.thickness", 50e-6},
@@ -69,13 +66,12 @@ START_TEST(ribbons_can_be_exchanged) {
     ck_near(answered_value(ZP_STUDY_LIMITS, &other, names[k]), value, 5e-11); /* 9.8e-12 measured */
   }
 }
-END_TEST
 
 /* -- insulators -------------------------------------------------------------------------------------- */
 
 /* Two unequal insulators are in series: 100 and 160 um attract as twice 130 um do, and 130 um of permittivity 6 and 3
  * as of 4. */
-START_TEST(insulators_lie_in_series) {
+TEST(insulators_lie_in_series) {
   ZpActuatorDef def = DEF({"insulator.permittivity", 4});
   double alike = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V");
   def.insulator.thickness = 100e-6, def.lower.insulator.thickness = 160e-6;
@@ -84,11 +80,10 @@ START_TEST(insulators_lie_in_series) {
   def.insulator.permittivity = 6, def.lower.insulator.permittivity = 3;
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"), alike, 1e-12);
 }
-END_TEST
 
 /* In closed faces D is the same in both insulators: the one with the smaller strength times permittivity breaks down
  * first; a single layer may insulate both faces. */
-START_TEST(weaker_insulator_breaks_down_first) {
+TEST(weaker_insulator_breaks_down_first) {
   ZpActuatorDef def = DEF({"insulator.thickness", 100e-6}, {"insulator.permittivity", 3},
                           {"insulator.breakdown_field", 100e6}, {"lower.insulator.thickness", 200e-6},
                           {"lower.insulator.permittivity", 5}, {"lower.insulator.breakdown_field", 40e6});
@@ -99,12 +94,11 @@ START_TEST(weaker_insulator_breaks_down_first) {
   def.lower.insulator.thickness = 0;
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "allowed_voltage_V"), 100e6 * 100e-6, 1e-12);
 }
-END_TEST
 
 /* -- stress ------------------------------------------------------------------------------------------ */
 
 /* The yield margin is that of the metal nearest to its yield stress, in whichever ribbon. */
-START_TEST(yield_is_of_each_ribbon) {
+TEST(yield_is_of_each_ribbon) {
   ZpActuatorDef def = DEF({"drive.voltage", 0});
   double stress = answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa");
   def.lower.ribbon.yield_stress = 0.2 * def.ribbon.yield_stress;
@@ -112,11 +106,10 @@ START_TEST(yield_is_of_each_ribbon) {
   ck_below(margin, 0.25 * def.ribbon.yield_stress / stress);
   ck_near(margin * answered_value(ZP_STUDY_STATIONARY, &def, "max_stress_Pa"), 0.2 * def.ribbon.yield_stress, 1e-12);
 }
-END_TEST
 
 /* -- what cannot be ---------------------------------------------------------------------------------- */
 
-START_TEST(what_needs_like_ribbons_is_refused) {
+TEST(what_needs_like_ribbons_is_refused) {
   static const struct {
     Setting lower, asks;
     const char *says;
@@ -133,22 +126,4 @@ START_TEST(what_needs_like_ribbons_is_refused) {
     ZpActuatorDef def = DEF(refused[k].lower, refused[k].asks);
     ck_refused(&def, refused[k].says);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("lower");
-  TCase *bowed = tcase_create("bowed");
-  tcase_add_loop_test(bowed, bowed_ribbons_open, 0, 2);
-  tcase_add_test(bowed, segments_follow_each_other);
-  tcase_add_test(bowed, each_ribbon_has_its_own_curvature);
-  tcase_add_test(bowed, ribbons_can_be_exchanged);
-  suite_add_tcase(suite, bowed);
-  TCase *insulators = tcase_create("insulators");
-  tcase_add_test(insulators, insulators_lie_in_series);
-  tcase_add_test(insulators, weaker_insulator_breaks_down_first);
-  tcase_add_test(insulators, yield_is_of_each_ribbon);
-  tcase_add_test(insulators, what_needs_like_ribbons_is_refused);
-  suite_add_tcase(suite, insulators);
-  return run_suite(suite);
 }

@@ -39,15 +39,14 @@ static double stress_on_a_circle(int nodes) {
   return ratio;
 }
 
-START_TEST(bending_to_a_circle_is_fourth_order) {
+TEST(bending_to_a_circle_is_fourth_order) {
   double coarse = stress_on_a_circle(21) - 1, fine = stress_on_a_circle(41) - 1;
   ck_near(coarse / fine, 16, 2e-3); /* 6e-4 measured */
   ck_below(fabs(coarse), 2e-5);     /* 5e-6 measured */
 }
-END_TEST
 
 /* A strip under a strain has the stress E times this strain everywhere; tape bonded to it does not change that. */
-START_TEST(stretching_is_youngs_modulus_times_strain) {
+TEST(stretching_is_youngs_modulus_times_strain) {
   static const double strain = 1e-3;
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 21}, {"insulator.young_modulus", 5e9});
   ZpModel *model = model_of(&def);
@@ -59,11 +58,10 @@ START_TEST(stretching_is_youngs_modulus_times_strain) {
     ck_near(stress[j], 200e9 * strain, 5e-11); /* rounding of the length over the strain; 6.5e-12 measured */
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A tension that increases linearly along the strip, as under its weight, is exact at the ends, too, half an edge
  * beyond the last known value. */
-START_TEST(tension_at_the_ends_is_extrapolated) {
+TEST(tension_at_the_ends_is_extrapolated) {
   static const double slope = 1e-2; /* of the strain, 1/m */
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
@@ -77,11 +75,10 @@ START_TEST(tension_at_the_ends_is_extrapolated) {
   ck_near(stress[model->nodes - 1], 200e9 * slope * model->L, 1e-11); /* 1.9e-12 measured */
   zp_model_destroy(model);
 }
-END_TEST
 
 /* The moment of a joint is the derivative of the bending energy with respect to the rotation of all that is beyond it.
  */
-START_TEST(moment_is_derivative_of_energy) {
+TEST(moment_is_derivative_of_energy) {
   static const double step = 1e-5;
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 15}, {"actuator.right_end", ZP_END_FREE}, {"segment_1.length", 33e-3},
                           {"segment_1.thickness", 30e-6}, {"segment_1.curvature", 15});
@@ -107,7 +104,6 @@ START_TEST(moment_is_derivative_of_energy) {
   zp_eval_destroy(&eval);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- stress at rest --------------------------------------------------------------------------------------- */
 
@@ -119,7 +115,7 @@ static const struct {
 } cantilevers[] = {
     {ZP_RIBBON_ROD, ZP_PLANE_STRAIN}, {ZP_RIBBON_ROD, ZP_PLANE_STRESS}, {ZP_RIBBON_MASS_SPRING, ZP_PLANE_STRAIN}};
 
-START_TEST(stress_of_a_cantilever) {
+TESTS(stress_of_a_cantilever, 0, LENGTH_OF(cantilevers)) {
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 31}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 2e-6},
                           {"ribbon.model", cantilevers[_i].model}, {"ribbon.plane", cantilevers[_i].plane});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
@@ -131,11 +127,10 @@ START_TEST(stress_of_a_cantilever) {
   ck_near(zp_table_get(result->series, 15, "stress_Pa"), stress / 2, 1e-5); /* half the lever; 1.7e-6 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A naturally curved strip that is held straight is bent all along: the stress of its metal is E' kappa c, c the
  * distance of the outer fibre from the neutral axis, which a stiff tape shifts. */
-START_TEST(stress_of_pure_bending) {
+TEST(stress_of_pure_bending) {
   static const double curvature = 10, tape = 20e9; /* 1/m, Pa */
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 201}, {"segment_1.length", 0.1}, {"segment_1.curvature", curvature});
   double b = def.ribbon.thickness, t = def.insulator.thickness, E = 200e9 / (1 - 0.285 * 0.285);
@@ -148,21 +143,19 @@ START_TEST(stress_of_pure_bending) {
   ck_near(zp_result_get(result, "max_stress_Pa"), E * curvature * c, 1e-10); /* 1.8e-11 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The free end of a limp strip that hangs down carries the load without bending: N / A. */
-START_TEST(stress_of_a_hanging_strip) {
+TEST(stress_of_a_hanging_strip) {
   ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 201}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0.1},
                           {"ribbon.thickness", 10e-6});
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
   ck_near(zp_table_get(result->series, 200, "stress_Pa"), 0.1 * 9.81 / (12.7e-3 * 10e-6), 2e-9); /* 3e-10 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A moment acts on the thickness of each segment; where two segments meet, the thinner one has the higher stress. The
  * joint half an edge from the end of a segment between nodes has it, too. */
-START_TEST(stress_of_segments) {
+TEST(stress_of_segments) {
   static const double ends[] = {50e-3, 51.9e-3, 49.1e-3}; /* at a node; between, nearer to it */
   for (size_t k = 0; k < LENGTH_OF(ends); k++) {
     ZpActuatorDef def = DEF(STRIP, {"mesh.nodes", 21}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 1e-6},
@@ -175,11 +168,10 @@ START_TEST(stress_of_segments) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Stress at the clamps of the actuators of 2018 under the largest published loads, against an independent continuum
  * code, three digits. */
-START_TEST(stress_of_published_actuators) {
+TESTS(stress_of_published_actuators, 0, 3) {
   static const double thickness[] = {20e-6, 50e-6, 100e-6}, load[] = {15e-3, 30e-3, 50e-3};
   static const double stress[] = {589e6, 492e6, 280e6};
   ZpActuatorDef def = DEF({"ribbon.thickness", thickness[_i]}, {"load.mass", load[_i]}, {"platform.length", 0},
@@ -188,12 +180,11 @@ START_TEST(stress_of_published_actuators) {
   ck_near(zp_result_get(result, "max_stress_Pa"), stress[_i], 2e-3); /* 1.6e-3 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- the insulators' field -------------------------------------------------------------------------------- */
 
 /* D is continuous: the charge per length of the uncapped law is eps0 eps_i w E, at every gap. */
-START_TEST(field_in_insulators_carries_the_charge) {
+TEST(field_in_insulators_carries_the_charge) {
   ZpActuatorDef def = DEF({"electro.breakdown_cap", 0});
   ZpModel *model = model_of(&def);
   for (double gap = 0; gap < 5e-3; gap += 0.5e-3) {
@@ -204,7 +195,6 @@ START_TEST(field_in_insulators_carries_the_charge) {
   }
   zp_model_destroy(model);
 }
-END_TEST
 
 #define QUICK                                                                                                          \
   {"mesh.nodes", FULL_OR(31, 15)}, {                                                                                   \
@@ -216,7 +206,7 @@ static const ZpStudy under_voltage[] = {ZP_STUDY_ACTUATE,   ZP_STUDY_EQUILIBRIUM
 
 /* Two ribbons touch at the clip, so their insulators share the whole voltage there: every study gives U / 2t, the
  * margin to 40 MV/m, and an allowed voltage of 10.4 kV. */
-START_TEST(every_study_has_its_margins) {
+TESTS(every_study_has_its_margins, 0, LENGTH_OF(under_voltage)) {
   bool modes = under_voltage[_i] == ZP_STUDY_MODES, solved = under_voltage[_i] == ZP_STUDY_PROFILE;
   double U = modes ? 3e3 : 10e3, tolerance = solved ? 1e-4 : 1e-13;
   ZpActuatorDef def = DEF(QUICK, {"modes.voltage", 3e3});
@@ -239,11 +229,10 @@ START_TEST(every_study_has_its_margins) {
   ck_near(zp_result_get(result, "yield_margin"), 0.99, 1e-13);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A flange that hangs open has a lower field than closed faces, highest at its smallest gap, the clamp; its allowed
  * voltage is that of closed faces. Without insulators there is no margin. */
-START_TEST(open_flange_sees_the_series_law) {
+TEST(open_flange_sees_the_series_law) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 31}, {"ribbon.length", 45e-3}, {"electro.gap_offset", 1e-3},
           {"gravity", 1}, {"load.mass", 0}, {"insulator.thickness", 10e-6}, {"drive.voltage", 100});
@@ -265,7 +254,6 @@ START_TEST(open_flange_sees_the_series_law) {
   ck_assert(zp_result_get(result, "max_stress_Pa") > 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- over time and along branches ------------------------------------------------------------------------- */
 
@@ -285,7 +273,7 @@ static bool is_sampled(const ZpTable *series, size_t row) {
 
 /* The summary has the worst of all steps: of those that are rows of a table long enough for all, and the same where few
  * are. */
-START_TEST(worst_survives_thinning) {
+TEST(worst_survives_thinning) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 23}, {"solver.end_time", 30e-3}, {"solver.tolerance", 1e-4}, {"output.samples", 1000000});
   ZpResult *fine = study_of(ZP_STUDY_ACTUATE, &def);
@@ -304,10 +292,9 @@ START_TEST(worst_survives_thinning) {
   zp_result_destroy(fine);
   zp_result_destroy(thin);
 }
-END_TEST
 
 /* Column, shapes and signal agree at any instant. */
-START_TEST(column_film_and_signal_agree) {
+TEST(column_film_and_signal_agree) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.end_time", 5e-3});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ZpShape last = zp_shapes_get(result->shapes, result->shapes->frames - 1);
@@ -324,10 +311,9 @@ START_TEST(column_film_and_signal_agree) {
   zp_model_destroy(model);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Study limits gives the same if it starts from a neighbour. It looks at the closed state at drive.voltage, too. */
-START_TEST(limits_see_the_same_from_a_neighbour) {
+TEST(limits_see_the_same_from_a_neighbour) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}), near = DEF({"mesh.nodes", 31}, {"load.mass", 8.2e-3});
   ZpResult *cold = study_of(ZP_STUDY_LIMITS, &def), *neighbour = study_of(ZP_STUDY_LIMITS, &near), *warm = NULL;
   ZpStudyInput input = {.neighbour = neighbour};
@@ -338,29 +324,4 @@ START_TEST(limits_see_the_same_from_a_neighbour) {
   zp_result_destroy(cold);
   zp_result_destroy(neighbour);
   zp_result_destroy(warm);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("margins");
-  TCase *shapes = tcase_create("shapes"), *rest = tcase_create("rest"), *studies = tcase_create("studies");
-  tcase_add_test(shapes, bending_to_a_circle_is_fourth_order);
-  tcase_add_test(shapes, stretching_is_youngs_modulus_times_strain);
-  tcase_add_test(shapes, tension_at_the_ends_is_extrapolated);
-  tcase_add_test(shapes, moment_is_derivative_of_energy);
-  tcase_add_test(shapes, field_in_insulators_carries_the_charge);
-  tcase_add_loop_test(rest, stress_of_a_cantilever, 0, LENGTH_OF(cantilevers));
-  tcase_add_test(rest, stress_of_pure_bending);
-  tcase_add_test(rest, stress_of_a_hanging_strip);
-  tcase_add_test(rest, stress_of_segments);
-  tcase_add_loop_test(rest, stress_of_published_actuators, 0, 3);
-  tcase_add_loop_test(studies, every_study_has_its_margins, 0, LENGTH_OF(under_voltage));
-  tcase_add_test(studies, open_flange_sees_the_series_law);
-  tcase_add_test(studies, worst_survives_thinning);
-  tcase_add_test(studies, column_film_and_signal_agree);
-  tcase_add_test(studies, limits_see_the_same_from_a_neighbour);
-  suite_add_tcase(suite, shapes);
-  suite_add_tcase(suite, rest);
-  suite_add_tcase(suite, studies);
-  return run_suite(suite);
 }

@@ -14,7 +14,7 @@ static const double pi = 3.14159265358979323846;
 
 /* Eq. (30.9): under weights w per length and a force F on the lower tip the tips sink by w L^4 / 8 B, and by F L^3 / 3
  * B more. Half as thin a lower ribbon bends eight times as easily. */
-START_TEST(tips_are_those_of_cantilevers) {
+TESTS(tips_are_those_of_cantilevers, 0, 2) {
   double L = 45e-3;
   ZpActuatorDef def = DEF(MOUTH, {"ribbon.thickness", 1e-3}, {"lower.ribbon.thickness", _i ? 0.5e-3 : NAN},
                           {"mesh.nodes", 61}, {"load.mass", 0.5e-3}, {"drive.voltage", 0});
@@ -34,7 +34,6 @@ START_TEST(tips_are_those_of_cantilevers) {
   zp_result_destroy(result);
   zp_model_destroy(model);
 }
-END_TEST
 
 static double pull_in(ZpActuatorKind kind, int nodes) {
   ZpActuatorDef def = DEF(MOUTH, {"actuator.kind", kind}, {"insulator.thickness", 1e-3}, {"insulator.density", 0},
@@ -45,7 +44,7 @@ static double pull_in(ZpActuatorKind kind, int nodes) {
 
 /* The stiffest hinge is a clamp. The joints there differ by an error of the second order in the length of an element,
  * eq. (31.2): what is left of the difference of both pull-ins without it. */
-START_TEST(pull_in_is_that_of_a_fold_that_does_not_turn) {
+TEST(pull_in_is_that_of_a_fold_that_does_not_turn) {
   double missed[2];
   for (int k = 0; k < 2; k++) {
     double mouth = pull_in(ZP_KIND_MOUTH, 80 << k | 1), fold = pull_in(ZP_KIND_HINGE, 80 << k | 1);
@@ -57,10 +56,9 @@ START_TEST(pull_in_is_that_of_a_fold_that_does_not_turn) {
   ck_near(missed[0] / missed[1], 4, 0.05); /* 1.8e-2 measured */
   ck_below(fabs(left), 1e-6);              /* 5.6e-7 measured */
 }
-END_TEST
 
 /* Dry faces that close: the energy balances, and the work on the load is its weight times its rise. */
-START_TEST(zips_and_keeps_the_books) {
+TESTS(zips_and_keeps_the_books, 0, 2) {
   ZpActuatorDef def = DEF(MOUTH, {"mesh.nodes", 15}, {"drive.voltage", 2e3}, {"electro.edges", _i},
                           {"solver.end_time", 0.05}, {"solver.tolerance", 1e-4});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -71,10 +69,9 @@ START_TEST(zips_and_keeps_the_books) {
   ck_near(zp_result_get(result, "mechanical_work_J"), def.load.mass * def.gravity * rise, 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Each ribbon swings as a cantilever, both alike: the lowest frequency is there twice. */
-START_TEST(swings_as_two_cantilevers) {
+TEST(swings_as_two_cantilevers) {
   static const double first = 1.8751040687119611; /* cos x cosh x = -1 */
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_MOUTH}, {"ribbon.length", 45e-3}, {"ribbon.thickness", 0.5e-3},
                           {"load.mass", 0}, {"load.force", 1e-3}, {"gravity", 0}, {"mesh.nodes", 81});
@@ -89,7 +86,6 @@ START_TEST(swings_as_two_cantilevers) {
   zp_result_destroy(result);
   zp_model_destroy(model);
 }
-END_TEST
 
 static const struct {
   ZpStudy study;
@@ -104,7 +100,7 @@ static const struct {
     {ZP_STUDY_ACTUATE, {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}}, "requires solver.integrator implicit"},
     {ZP_STUDY_ACTUATE, {{"liquid.model", ZP_LIQUID_BEAD}}, "with a platform"}};
 
-START_TEST(what_it_does_not_have_is_refused) {
+TESTS(what_it_does_not_have_is_refused, 0, LENGTH_OF(refusals)) {
   ZpActuatorDef def = DEF(MOUTH, refusals[_i].more[0]);
   const Setting also = refusals[_i].more[1];
   if (also.key) ck_assert_int_eq(zp_def_set_number(&def, also.key, also.value, NULL), ZP_OK);
@@ -113,11 +109,10 @@ START_TEST(what_it_does_not_have_is_refused) {
   ck_assert_int_eq(zp_study_run(refusals[_i].study, &def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, refusals[_i].why), "%s", err.message);
 }
-END_TEST
 
 /* The load of a mouth or a fold hangs on the lower ribbon, whose tip rises by twice the amplitude in a cycle; the tip
  * of the upper one moves, too, and is not loaded. */
-START_TEST(work_of_a_cycle_is_that_on_the_load) {
+TESTS(work_of_a_cycle_is_that_on_the_load, 0, 2) {
   ZpActuatorDef def =
       DEF(MOUTH, {"actuator.kind", _i ? ZP_KIND_HINGE : ZP_KIND_MOUTH}, {"mesh.nodes", 11}, {"drive.voltage", 500},
           {"hinge.stiffness", _i ? 2e-3 : 0}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 0.01},
@@ -128,34 +123,14 @@ START_TEST(work_of_a_cycle_is_that_on_the_load) {
   ck_near(zp_result_get(result, "work_per_cycle_J"), weight * risen, 1e-15); /* 2e-16 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Its steep faces have slid into each other 3 ms after it closed: the model ends there, and how long it stays closed is
  * not known. */
-START_TEST(a_run_that_ends_beyond_the_model_tells_no_closed_from) {
+TEST(a_run_that_ends_beyond_the_model_tells_no_closed_from) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_MOUTH}, {"drive.voltage", 8e3}, {"mesh.nodes", 15});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
   ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 0.1);
   ck_assert_double_nan(zp_result_get(result, "closed_from_s"));
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("mouth");
-  TCase *rest = tcase_create("rest");
-  tcase_add_loop_test(rest, tips_are_those_of_cantilevers, 0, 2);
-  tcase_add_test(rest, pull_in_is_that_of_a_fold_that_does_not_turn);
-  tcase_add_test(rest, swings_as_two_cantilevers);
-  suite_add_tcase(suite, rest);
-  TCase *motion = tcase_create("motion");
-  tcase_add_loop_test(motion, zips_and_keeps_the_books, 0, 2);
-  tcase_add_loop_test(motion, work_of_a_cycle_is_that_on_the_load, 0, 2);
-  tcase_add_test(motion, a_run_that_ends_beyond_the_model_tells_no_closed_from);
-  suite_add_tcase(suite, motion);
-  TCase *refused = tcase_create("refused");
-  tcase_add_loop_test(refused, what_it_does_not_have_is_refused, 0, LENGTH_OF(refusals));
-  suite_add_tcase(suite, refused);
-  return run_suite(suite);
 }

@@ -20,7 +20,7 @@ static bool notes(ZpStudy study, const ZpActuatorDef *def, const char *words) {
 static const ZpStudy under_voltage[] = {ZP_STUDY_ACTUATE, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_ISOMETRIC, ZP_STUDY_PROFILE,
                                         ZP_STUDY_MODES};
 
-START_TEST(breakdown_is_noted_in_every_study) {
+TESTS(breakdown_is_noted_in_every_study, 0, LENGTH_OF(under_voltage)) {
   ZpActuatorDef def = DEF(QUICK, {"insulator.thickness", 10e-6});
   if (under_voltage[_i] == ZP_STUDY_MODES) { /* below the pull-in, with an insulator that withstands less */
     def.modes.voltage = 1e3;
@@ -35,10 +35,9 @@ START_TEST(breakdown_is_noted_in_every_study) {
   def.insulator.breakdown_field = 501e6;
   ck_assert(!notes(under_voltage[_i], &def, "field reaches"));
 }
-END_TEST
 
 /* Without cap: 10 kV over what stands for the insulators, 154.8 um, is 64.6 MV/m. */
-START_TEST(uncapped_liquid_is_noted_in_every_study) {
+TESTS(uncapped_liquid_is_noted_in_every_study, 0, LENGTH_OF(under_voltage)) {
   ZpActuatorDef def = DEF(QUICK, {"electro.breakdown_cap", 0}, {"modes.voltage", 4e3});
   double U = under_voltage[_i] == ZP_STUDY_MODES ? 4e3 : 10e3, d = 2 * 130e-6 * 2.75 / 4.62;
   char words[64];
@@ -47,12 +46,11 @@ START_TEST(uncapped_liquid_is_noted_in_every_study) {
   def.electro.breakdown_cap = true;
   ck_assert(!notes(under_voltage[_i], &def, "liquid's field"));
 }
-END_TEST
 
 /* A bowed strip that is laid straight without tension bears only the stress of bending, E k b / 2 over 1 - nu^2 where
  * it is elastic. If that is more than the yield stress, its faces have yielded and bear exactly that, up to rounding.
  */
-START_TEST(yielding_is_noted_where_it_begins) {
+TEST(yielding_is_noted_where_it_begins) {
   enum { STRESSES = 40 };
   static const double k = 30;
   ZpActuatorDef def =
@@ -68,10 +66,9 @@ START_TEST(yielding_is_noted_where_it_begins) {
                   1e-6 * def.ribbon.yield_stress, 1e-6 * elastic);
   }
 }
-END_TEST
 
 /* No voltage, no note; and the default actuator in a mesh that is fine enough has none but that of its zip time. */
-START_TEST(nothing_to_note) {
+TEST(nothing_to_note) {
   ZpActuatorDef def = DEF(QUICK, {"insulator.breakdown_field", 1e3});
   ck_assert(!notes(ZP_STUDY_STATIONARY, &def, " "));
   ck_assert(!notes(ZP_STUDY_MODES, &def, " "));
@@ -83,11 +80,10 @@ START_TEST(nothing_to_note) {
   ck_assert_ptr_nonnull(note_of(result, "zip time is not a prediction"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A flange has its faces apart below its pull-in: the field in its insulators is then far below that of closed ones,
  * which are noted once they touch. */
-START_TEST(flange_is_noted_where_it_touches) {
+TEST(flange_is_noted_where_it_touches) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"mesh.nodes", 31}, {"ribbon.length", 45e-3}, {"electro.gap_offset", 1e-3},
           {"gravity", 0}, {"load.mass", 0}, {"insulator.thickness", 10e-6}, {"drive.voltage", 2e3});
@@ -99,12 +95,11 @@ START_TEST(flange_is_noted_where_it_touches) {
   def.insulator.breakdown_field = 0.9 * between;
   ck_assert(notes(ZP_STUDY_EQUILIBRIUM, &def, "insulator's field"));
 }
-END_TEST
 
 /* -- a start that is nearly closed ------------------------------------------------------------------------ */
 
 /* "closed after 0.46 ms" came from an opening of 7 um, without a word. */
-START_TEST(nearly_closed_start_is_noted) {
+TEST(nearly_closed_start_is_noted) {
   ZpActuatorDef def = DEF({"gravity", 0}, {"mesh.nodes", 31});
   ck_assert(notes(ZP_STUDY_ACTUATE, &def, "starts closed and does not open"));
   ck_assert(notes(ZP_STUDY_EQUILIBRIUM, &def, "is nearly closed"));
@@ -115,11 +110,10 @@ START_TEST(nearly_closed_start_is_noted) {
   def.gravity = 5e-3; /* hangs open by some 10 um */
   ck_assert(notes(ZP_STUDY_ACTUATE, &def, "is nearly closed"));
 }
-END_TEST
 
 /* Straight ribbons were said to zip with the first step: they start closed. Held by the voltage they never zip; let
  * fall they zip when the voltage that comes later closes them. */
-START_TEST(closed_start_is_no_zip) {
+TESTS(closed_start_is_no_zip, 0, 4) {
   static const Setting how[] = {{"solver.integrator", ZP_INTEGRATOR_IMPLICIT},
                                 {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
                                 {"stack.series", 2},
@@ -133,10 +127,9 @@ START_TEST(closed_start_is_no_zip) {
   ck_assert_ptr_null(note_of(held, "bead is too small"));
   zp_result_destroy(held);
 }
-END_TEST
 
 /* Let fall from there they zip once the voltage comes on, here after 20 ms. */
-START_TEST(zip_after_a_fall_from_straight) {
+TEST(zip_after_a_fall_from_straight) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 0},
                           {"drive.offset", 10e3}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 25},
                           {"drive.duty", 0.5}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.end_time", 39e-3});
@@ -148,11 +141,10 @@ START_TEST(zip_after_a_fall_from_straight) {
   ck_assert_ptr_null(note_of(result, "starts"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Efficiencies of -272 % were told: a load let fall from straight ends lower than it began; one that loses half of its
  * mass is lifted by the ribbons. Neither is work of the source. */
-START_TEST(efficiency_is_of_the_source_only) {
+TEST(efficiency_is_of_the_source_only) {
   ZpActuatorDef def = DEF(QUICK, {"drive.voltage", 100}, {"initial.state", ZP_INITIAL_STRAIGHT});
   ZpResult *falls = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_double_lt(zp_result_get(falls, "mechanical_work_J"), 0);
@@ -168,7 +160,6 @@ START_TEST(efficiency_is_of_the_source_only) {
   ck_assert_ptr_nonnull(note_of(rises, "is more than the source gave"));
   zp_result_destroy(rises);
 }
-END_TEST
 
 /* -- meshes ----------------------------------------------------------------------------------------------- */
 
@@ -196,7 +187,7 @@ static int finest_noted(ZpActuatorDef def, int *advised) {
 }
 
 /* The note is correct: the pull-in is off by 1.5 % or more, with the advised mesh by less than 1 %. */
-START_TEST(coarse_front_is_noted) {
+TESTS(coarse_front_is_noted, 0, FULL_OR(2, 0)) {
   ZpActuatorDef def = DEF({"ribbon.thickness", _i ? 100e-6 : 50e-6}, {"load.mass", _i ? 20e-3 : 8e-3});
   int advised = 0, noted = finest_noted(def, &advised);
   double fine = pull_in(def, 121), coarse = pull_in(def, noted) / fine - 1, finer = pull_in(def, advised) / fine - 1;
@@ -207,10 +198,9 @@ START_TEST(coarse_front_is_noted) {
   def.mesh.nodes = advised;
   ck_assert(!notes(ZP_STUDY_EQUILIBRIUM, &def, "mesh.nodes"));
 }
-END_TEST
 
 /* Eq. (9.4), closed form without cap: w = k U^2 / d and W = k U^2 / d^2, so lambda = (EI d^3 / (k U^2))^(1/4). */
-START_TEST(front_length_is_that_of_a_peeled_ribbon) {
+TEST(front_length_is_that_of_a_peeled_ribbon) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 8}, {"electro.breakdown_cap", 0}, {"drive.voltage", 6e3}, {"solver.end_time", 1e-9});
   const double eps0 = 8.8541878128e-12, w = 12.7e-3, b = 50e-6, nu = 0.285, d = 2 * 130e-6 * 2.75 / 4.62;
@@ -219,11 +209,10 @@ START_TEST(front_length_is_that_of_a_peeled_ribbon) {
   snprintf(words, sizeof words, "the zip front, %.3g mm", 1e3 * pow(EI * d * d * d / (k * 36e6), 0.25));
   ck_assert_msg(notes(ZP_STUDY_ACTUATE, &def, words), "no: %s", words);
 }
-END_TEST
 
 /* Two unlike ribbons that part give way in series: their front is that of equal ones with the harmonic mean of both
  * stiffnesses. */
-START_TEST(front_of_unlike_ribbons_is_of_their_mean) {
+TEST(front_of_unlike_ribbons_is_of_their_mean) {
   ZpActuatorDef def = DEF({"mesh.nodes", 8}), mean = def;
   def.lower.ribbon.thickness = 80e-6;
   double upper = pow(def.ribbon.thickness, -3), lower = pow(def.lower.ribbon.thickness, -3);
@@ -233,10 +222,9 @@ START_TEST(front_of_unlike_ribbons_is_of_their_mean) {
   zp_model_destroy(unlike);
   zp_model_destroy(alike);
 }
-END_TEST
 
 /* States of rest know neither a supply's limits nor charge that gathers: they left both out without a word. */
-START_TEST(what_rest_leaves_out_is_noted) {
+TESTS(what_rest_leaves_out_is_noted, 0, 4) {
   static const ZpStudy at_rest[] = {ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.current_limit", 1e-3});
   ck_assert(notes(at_rest[_i], &def, "source.model = amplifier is ignored"));
@@ -247,17 +235,15 @@ START_TEST(what_rest_leaves_out_is_noted) {
   ck_assert(notes(at_rest[_i], &def, "resistivities are ignored"));
   ck_assert(!notes(at_rest[_i], &def, "amplifier"));
 }
-END_TEST
 
 /* 139 ms instead of 75.7 with N = 4, without a word; also where nothing zips. */
-START_TEST(few_elements_are_noted_in_every_study) {
+TESTS(few_elements_are_noted_in_every_study, 0, ZpStudy_COUNT) {
   ZpActuatorDef def = DEF({"mesh.nodes", 6}, {"solver.end_time", 1e-3});
   if (_i == ZP_STUDY_CALIBRATE) return; /* needs data: test_calibrate */
   ck_assert(notes((ZpStudy)_i, &def, "fewer than 6 elements"));
   def.mesh.nodes = 7;
   ck_assert(!notes((ZpStudy)_i, &def, "fewer than 6 elements"));
 }
-END_TEST
 
 /* -- electrodes without insulators ------------------------------------------------------------------------ */
 
@@ -268,7 +254,7 @@ END_TEST
   }
 
 /* Below its pull-in, 39.9 V, a flange needs no insulator; above it closes, and what follows is a short circuit. */
-START_TEST(bare_flange_ends_where_it_touches) {
+TESTS(bare_flange_ends_where_it_touches, 0, 2) {
   ZpActuatorDef def = DEF(BARE_FLANGE, {"drive.voltage", _i ? 60 : 20}, {"solver.end_time", 0.1});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, _i ? ZP_SHORT_CIRCUIT : ZP_REACHED_END);
@@ -282,10 +268,9 @@ START_TEST(bare_flange_ends_where_it_touches) {
   ck_assert((note_of(result, "short circuit") != NULL) == (_i == 1));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* By hand: 0 V is always allowed, another voltage only where electrodes are apart. */
-START_TEST(no_voltage_by_hand_on_bare_electrodes) {
+TEST(no_voltage_by_hand_on_bare_electrodes) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"insulator.thickness", 0}, {"drive.voltage", 0});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -307,10 +292,9 @@ START_TEST(no_voltage_by_hand_on_bare_electrodes) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A table's voltages are not in the Def: they are checked where a simulation is made. */
-START_TEST(no_table_of_voltages_on_bare_electrodes) {
+TEST(no_table_of_voltages_on_bare_electrodes) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"insulator.thickness", 0}, {"drive.waveform", ZP_WAVEFORM_TABLE});
   const double time[] = {0, 1e-3}, voltage[2][2] = {{0, 0}, {0, -1}};
   for (size_t k = 0; k < 2; k++) {
@@ -322,29 +306,4 @@ START_TEST(no_table_of_voltages_on_bare_electrodes) {
     zp_sim_destroy(sim);
     zp_model_destroy(model);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("notes");
-  TCase *c = tcase_create("notes");
-  tcase_add_loop_test(c, breakdown_is_noted_in_every_study, 0, LENGTH_OF(under_voltage));
-  tcase_add_loop_test(c, uncapped_liquid_is_noted_in_every_study, 0, LENGTH_OF(under_voltage));
-  tcase_add_test(c, nothing_to_note);
-  tcase_add_test(c, yielding_is_noted_where_it_begins);
-  tcase_add_test(c, flange_is_noted_where_it_touches);
-  tcase_add_test(c, nearly_closed_start_is_noted);
-  tcase_add_loop_test(c, closed_start_is_no_zip, 0, 4);
-  tcase_add_test(c, zip_after_a_fall_from_straight);
-  tcase_add_test(c, efficiency_is_of_the_source_only);
-  if (!SANITIZED) tcase_add_loop_test(c, coarse_front_is_noted, 0, 2);
-  tcase_add_test(c, front_length_is_that_of_a_peeled_ribbon);
-  tcase_add_test(c, front_of_unlike_ribbons_is_of_their_mean);
-  tcase_add_loop_test(c, what_rest_leaves_out_is_noted, 0, 4);
-  tcase_add_loop_test(c, few_elements_are_noted_in_every_study, 0, ZpStudy_COUNT);
-  tcase_add_loop_test(c, bare_flange_ends_where_it_touches, 0, 2);
-  tcase_add_test(c, no_voltage_by_hand_on_bare_electrodes);
-  tcase_add_test(c, no_table_of_voltages_on_bare_electrodes);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

@@ -5,7 +5,7 @@
 
 #include "io/number.h"
 
-START_TEST(numbers_are_short_and_exact) {
+TEST(numbers_are_short_and_exact) {
   const struct {
     double value;
     const char *text;
@@ -32,9 +32,8 @@ START_TEST(numbers_are_short_and_exact) {
     ck_assert_str_eq(text, known[i].text);
   }
 }
-END_TEST
 
-START_TEST(numbers_read_back) {
+TEST(numbers_read_back) {
   uint64_t bits = 88172645463325252u;
   for (int i = 0; i < 200000; i++) {
     char text[ZP_NUMBER_SIZE];
@@ -48,7 +47,6 @@ START_TEST(numbers_read_back) {
     ck_assert_msg(memcmp(&value, &again, sizeof value) == 0, "%.17g became %s", value, text);
   }
 }
-END_TEST
 
 /* The digits and the exponent of what the C library prints with the fewest of 15, 16, 17 digits that read back, zeros
  * at the end left out; of 0.00123 and 1.23e-03 alike. */
@@ -82,7 +80,7 @@ static void same_as_library(double value) {
                 library);
 }
 
-START_TEST(numbers_are_those_of_the_library) {
+TEST(numbers_are_those_of_the_library) {
   for (int e = -1021; e < 1024; e++) /* about powers of two, below which doubles are denser */
     for (int side = -1; side < 2; side++)
       same_as_library(nextafter(ldexp(1, e), side < 0 ? 0 : side > 0 ? INFINITY : ldexp(1, e)));
@@ -105,7 +103,6 @@ START_TEST(numbers_are_those_of_the_library) {
     }
   }
 }
-END_TEST
 
 /* A locale of our own, with a decimal comma; on a machine that cannot make one, that of the caller. */
 static void take_a_comma(void) {
@@ -118,7 +115,7 @@ static void take_a_comma(void) {
   setlocale(LC_NUMERIC, "xx_XX");
 }
 
-START_TEST(numbers_have_a_point_in_any_locale) {
+TEST(numbers_have_a_point_in_any_locale) {
   char text[ZP_NUMBER_SIZE], own[ZP_NUMBER_SIZE];
   double value;
   take_a_comma();
@@ -130,16 +127,4 @@ START_TEST(numbers_have_a_point_in_any_locale) {
   ck_assert(!zp_number_read("2,5", &value) && !zp_number_read("", &value));
   snprintf(text, sizeof text, "%g", 0.5); /* the locale of the caller is as before */
   ck_assert_str_eq(text, own);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("number");
-  TCase *tcase = tcase_create("number");
-  suite_add_tcase(suite, tcase);
-  tcase_add_test(tcase, numbers_are_short_and_exact);
-  tcase_add_test(tcase, numbers_read_back);
-  tcase_add_test(tcase, numbers_are_those_of_the_library);
-  tcase_add_test(tcase, numbers_have_a_point_in_any_locale);
-  return run_suite(suite);
 }

@@ -276,7 +276,7 @@ static bool same_files(const char *a, const char *b) {
 
 /* The list is tests/data/refused_pairs.tsv: features that a study refuses, alone or together, the studies, and of the
  * first of them the class of the rule, the rule and the message. */
-START_TEST(refused_pairs_are_listed) {
+TEST(refused_pairs_are_listed) {
   static const char fresh[] = "refused_pairs.tsv", kept[] = ZP_SOURCE_DIR "/tests/data/refused_pairs.tsv";
   bool alone[FEATURES][STUDIES];
   FILE *file = fopen(fresh, "w");
@@ -303,7 +303,6 @@ START_TEST(refused_pairs_are_listed) {
          cases);
   ck_assert_msg(same_files(fresh, kept), "refused pairs have changed: compare %s with %s, and replace it", fresh, kept);
 }
-END_TEST
 
 /* Does a simulation of a Def that names no study start? It is refused by a sentence otherwise. */
 static bool starts(const ZpActuatorDef *def, const char *name) {
@@ -355,7 +354,7 @@ static void write_owner(FILE *page, const char *owner, const ZpRules *const *of)
 }
 
 /* docs/rules.md is what this writes. */
-START_TEST(page_of_rules_is_current) {
+TEST(page_of_rules_is_current) {
   static const char fresh[] = "rules.md", kept[] = ZP_SOURCE_DIR "/docs/rules.md";
   FILE *page = fopen(fresh, "w");
   ck_assert_ptr_nonnull(page);
@@ -376,7 +375,6 @@ START_TEST(page_of_rules_is_current) {
   ck_assert_int_eq(fclose(page), 0);
   ck_assert_msg(same_files(fresh, kept), "rules have changed: replace %s by %s", kept, fresh);
 }
-END_TEST
 
 /* -- forces at rest -------------------------------------------------------------------------------- */
 
@@ -1001,22 +999,21 @@ static void check_measured(int a, int b, const char *name) {
 /* -- all of it ------------------------------------------------------------------------------------- */
 
 /* A part of the pairs in `make check`, all at night. */
-#define PAIRS(test, check, thinned)                                                                                    \
-  START_TEST(test) {                                                                                                   \
+#define PAIR_TESTS(test, KIND, check, thinned)                                                                         \
+  KIND(test, 0, FEATURES) {                                                                                            \
     for_pairs(_i, thinned, check);                                                                                     \
-  }                                                                                                                    \
-  END_TEST
+  }
 
-PAIRS(some_refused_pairs_do_not_start, check_start, 24)
-PAIRS(refused_pairs_do_not_start, check_start, 1)
-PAIRS(forces_at_rest_of_some_pairs, check_at_rest, 12)
-PAIRS(forces_at_rest_of_all_pairs, check_at_rest, 1)
-PAIRS(motion_of_some_pairs, check_in_motion, 24)
-PAIRS(motion_of_all_pairs, check_in_motion, 1)
-PAIRS(twice_of_each_feature, check_doubled, FEATURES)
-PAIRS(studies_of_all_pairs, check_studies, 1)
-PAIRS(derivatives_of_each_feature, check_derivatives, FEATURES)
-PAIRS(measurements_of_each_feature, check_measured, FEATURES)
+PAIR_TESTS(some_refused_pairs_do_not_start, TESTS, check_start, 24)
+PAIR_TESTS(refused_pairs_do_not_start, NIGHTLY_TESTS, check_start, 1)
+PAIR_TESTS(forces_at_rest_of_some_pairs, TESTS, check_at_rest, 12)
+PAIR_TESTS(forces_at_rest_of_all_pairs, NIGHTLY_TESTS, check_at_rest, 1)
+PAIR_TESTS(motion_of_some_pairs, TESTS, check_in_motion, 24)
+PAIR_TESTS(motion_of_all_pairs, NIGHTLY_TESTS, check_in_motion, 1)
+PAIR_TESTS(twice_of_each_feature, NIGHTLY_TESTS, check_doubled, FEATURES)
+PAIR_TESTS(studies_of_all_pairs, NIGHTLY_TESTS, check_studies, 1)
+PAIR_TESTS(derivatives_of_each_feature, NIGHTLY_TESTS, check_derivatives, FEATURES)
+PAIR_TESTS(measurements_of_each_feature, NIGHTLY_TESTS, check_measured, FEATURES)
 
 static void read_features(void) {
   give(&of_all, base);
@@ -1026,23 +1023,4 @@ static void read_features(void) {
     give(&parsed[k], features[k].settings);
 }
 
-int main(void) {
-  Suite *suite = suite_create("pairs");
-  TCase *all = tcase_create("all"), *nightly = nightly_case(suite);
-  suite_add_tcase(suite, all);
-  tcase_add_unchecked_fixture(all, read_features, NULL);
-  tcase_add_unchecked_fixture(nightly, read_features, NULL);
-  tcase_add_test(all, refused_pairs_are_listed);
-  tcase_add_loop_test(all, some_refused_pairs_do_not_start, 0, FEATURES);
-  tcase_add_test(all, page_of_rules_is_current);
-  tcase_add_loop_test(all, forces_at_rest_of_some_pairs, 0, FEATURES);
-  tcase_add_loop_test(all, motion_of_some_pairs, 0, FEATURES);
-  tcase_add_loop_test(nightly, refused_pairs_do_not_start, 0, FEATURES);
-  tcase_add_loop_test(nightly, twice_of_each_feature, 0, FEATURES);
-  tcase_add_loop_test(nightly, derivatives_of_each_feature, 0, FEATURES);
-  tcase_add_loop_test(nightly, measurements_of_each_feature, 0, FEATURES);
-  tcase_add_loop_test(nightly, forces_at_rest_of_all_pairs, 0, FEATURES);
-  tcase_add_loop_test(nightly, motion_of_all_pairs, 0, FEATURES);
-  tcase_add_loop_test(nightly, studies_of_all_pairs, 0, FEATURES);
-  return run_suite(suite);
-}
+AROUND_ALL(read_features, NULL)

@@ -46,7 +46,7 @@ static Balance balance_of(const ZpActuatorDef *def, double end_time) {
  * and axial springs, gravity and field exchange energy. All derive from an energy: the error is that of the step, of
  * first order. Measured with auto steps: 8.3e-4 (soft axial springs), 3.7e-5 (stiff), over 0.1 s; ratios of halvings
  * 2.00. */
-START_TEST(test_energy_of_chain) {
+TEST(test_energy_of_chain) {
   ZpActuatorDef def =
       DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.shear_coefficient", 0}, {"drive.voltage", 4e3});
   Balance stiff = balance_of(&def, 0.1);
@@ -67,11 +67,10 @@ START_TEST(test_energy_of_chain) {
   for (int k = 0; k < 3; k++)
     ck_near(error[k] / error[k + 1], 2, 0.01); /* 1.8e-3 measured */
 }
-END_TEST
 
 /* The default actuator closes within 0.1 s, contacts and cap included. The shear law has no potential, yet what
  * that costs over one zip is small. Measured: 3.1e-5 at N = 21, 1.7e-5 at N = 61, falling with the step. */
-START_TEST(test_energy_of_zipping) {
+TEST(test_energy_of_zipping) {
   static const int nodes[] = {21, 61};
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", nodes[_i]});
   Balance b = balance_of(&def, 0.1);
@@ -80,47 +79,43 @@ START_TEST(test_energy_of_zipping) {
   ck_assert_double_gt(b.contact_loss, 0.1 * b.work); /* the impacts are in the balance */
   ck_below(b.error, 1e-4);
 }
-END_TEST
+ALSO_NIGHTLY(test_energy_of_zipping, 1, 2)
 
-START_TEST(energy_of_zipping_by_short_steps) {
+NIGHTLY_TESTS(energy_of_zipping_by_short_steps, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"solver.time_step", 5e-8});
   double fine = balance_of(&def, 0.1).error;
   printf("the same at N = 21 with 50 ns: %.2e\n", fine);
   ck_below(fine, 1e-5); /* measured 5.6e-6 */
 }
-END_TEST
 
 /* The forces of the Bezier surface are not the gradient of the stored energy: the balance is off by several percent of
  * the work. Measured: 6 % at N = 21, 17 % at N = 61. */
-START_TEST(test_energy_of_bezier) {
+TEST(test_energy_of_bezier) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"electro.surface", ZP_SURFACE_BEZIER});
   Balance b = balance_of(&def, 0.1);
   printf("the same with the Bezier surface, N = 21: %.2e\n", b.error);
   ck_assert_double_gt(b.error, 1e-2);
   ck_below(b.error, 0.1);
 }
-END_TEST
 
 /* Free oscillation after a small voltage step below pull-in: no contact, shear law at moderate angles. Measured 6e-5.
  */
-START_TEST(test_energy_below_pull_in) {
+TEST(test_energy_below_pull_in) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"drive.voltage", 3e3});
   Balance b = balance_of(&def, 0.1);
   printf("3 kV, N = 21: energy error %.2e of %.3g uJ\n", b.error, 1e6 * b.work);
   ck_assert_double_eq(b.contact_loss, 0);
   ck_below(b.error, 2e-5); /* 4.5e-6 measured */
 }
-END_TEST
 
 /* Measured 6e-6, with 0.41 of the work lost to drag. */
-START_TEST(test_energy_with_drag) {
+TEST(test_energy_with_drag) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"damping.drag", 0.1});
   Balance b = balance_of(&def, 0.1);
   printf("with drag: energy error %.2e, lost to drag %.2f of the work\n", b.error, b.drag_loss / b.work);
   ck_assert_double_gt(b.drag_loss, 0.02 * b.work);
   ck_below(b.error, 2e-5); /* 4.4e-6 measured */
 }
-END_TEST
 
 /* -- every combination ----------------------------------------------------------------------------- */
 
@@ -161,7 +156,7 @@ static const struct {
     {"springs, explicit", {UNILATERAL, SPRINGS, EXPLICIT}, 2e-4}, /* 5.5e-5 */
 };
 
-START_TEST(test_balance_of_every_combination) {
+NIGHTLY_TESTS(test_balance_of_every_combination, 0, LENGTH_OF(combinations)) {
   ZpActuatorDef def = DEF({"mesh.nodes", FULL_OR(11, 5)}, {"damping.internal", 0}, combinations[_i].setting[0],
                           combinations[_i].setting[1].key ? combinations[_i].setting[1] : combinations[_i].setting[0],
                           combinations[_i].setting[2].key ? combinations[_i].setting[2] : combinations[_i].setting[0],
@@ -173,7 +168,6 @@ START_TEST(test_balance_of_every_combination) {
   ck_assert_double_gt(b.contact_loss, 0.05 * b.work); /* the impacts are in the balance */
   ck_below(b.error, combinations[_i].allowed);
 }
-END_TEST
 
 /* What parabolas beside held slopes, (8.10), add to the capacitance of straight pieces, F; force_scale 1.1. */
 static double added_by_parabolas(const ZpModel *model, const ZpPlatesEval *gaps) {
@@ -187,7 +181,7 @@ static double added_by_parabolas(const ZpModel *model, const ZpPlatesEval *gaps)
 /* Charge, energy and capacitance of a computed field in motion, and at a changed voltage, equal those of the shape
  * computed alone: the held difference follows the shape to second order. Without cap the actuator is a capacitor.
  * Measured: within 2.7e-6. */
-START_TEST(test_solved_field_in_motion) {
+TEST(test_solved_field_in_motion) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, UNILATERAL, FIELD, {"electro.breakdown_cap", false},
                           {"drive.voltage", 4e3}, {"electro.refresh_change", 0.05}, {"electro.force_scale", 1.1});
   ZpModel *model = model_of(&def);
@@ -216,11 +210,10 @@ START_TEST(test_solved_field_in_motion) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A field that cannot be solved, of a ribbon that runs back, ends the run before the next step and says why. It left a
  * force that was no number in the state. */
-START_TEST(test_unsolvable_field_ends_the_run) {
+TESTS(test_unsolvable_field_ends_the_run, 0, 2) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, UNILATERAL, FIELD,
                           {"solver.integrator", _i ? ZP_INTEGRATOR_EXPLICIT : ZP_INTEGRATOR_IMPLICIT});
   ZpModel *model = model_of(&def);
@@ -244,10 +237,9 @@ START_TEST(test_unsolvable_field_ends_the_run) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A run whose energy is off by more than 1e-4 of the work says so. */
-START_TEST(test_imbalance_is_told) {
+TEST(test_imbalance_is_told) {
   for (int wrong = 0; wrong < 2; wrong++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 21}, SEQUENTIAL, EXPLICIT, {"solver.end_time", 0.03},
                             {"electro.surface", wrong ? ZP_SURFACE_BEZIER : ZP_SURFACE_POLYLINE});
@@ -261,10 +253,9 @@ START_TEST(test_imbalance_is_told) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Without voltage there is no field, and the hanging actuator stays where it is. */
-START_TEST(test_no_voltage_no_field) {
+TEST(test_no_voltage_no_field) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"drive.voltage", 0});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -280,7 +271,6 @@ START_TEST(test_no_voltage_no_field) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- drag and free fall ---------------------------------------------------------------------------- */
 
@@ -294,7 +284,7 @@ static ZpActuatorDef strand(double shear, double drag) {
 static const double mu = 7850 * 12.7e-3 * 50e-6, g = 9.81; /* kg/m, m/s2 */
 
 /* Law of one particle: -c |v| v, power c |v|^3. */
-START_TEST(test_drag_law) {
+TEST(test_drag_law) {
   const double c = 3, vx = 0.3, vy = -0.4, v = 0.5, m = mu * 45e-3 / 21;
   ZpActuatorDef def = strand(0, c);
   ZpModel *model = model_of(&def);
@@ -327,11 +317,10 @@ START_TEST(test_drag_law) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A limp strand, released, falls freely except for drag: v = v_t tanh(g t / v_t), v_t = sqrt(m g / c). Its clamp holds
  * the first node only while angles are small. */
-START_TEST(test_terminal_velocity) {
+TEST(test_terminal_velocity) {
   const double c = 10, v_t = sqrt(mu * 45e-3 / 21 * g / c);
   ZpActuatorDef def = strand(0, c);
   def.solver.time_step = 1e-6;
@@ -352,11 +341,10 @@ START_TEST(test_terminal_velocity) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A cantilever released from straight: its free end falls freely until the effect of the clamp arrives. Its first
  * period is 48 ms; measured: 4e-5 off after 0.5 ms, most of it the step's n (n + 1) for n^2. */
-START_TEST(test_free_fall) {
+TEST(test_free_fall) {
   ZpActuatorDef def = strand(NAN, 0);
   def.solver.time_step = 2e-8;
   ZpModel *model = model_of(&def);
@@ -370,7 +358,6 @@ START_TEST(test_free_fall) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- frequency ------------------------------------------------------------------------------------- */
 
@@ -413,7 +400,7 @@ static double frequency(int nodes) {
 /* (beta L)^2 / (2 pi L^2) sqrt(E I / mu) = 32.03 Hz with beta L = 2.365020: clamped, guided. K_S auto is exact
  * for a load at the end, and what the masses (1/N each, the moving end a whole one) are off by goes with the
  * second order of 1/N. Measured: -0.30, -0.07, -0.02 % at N = 11, 21, 41. */
-START_TEST(test_frequency) {
+TESTS(test_frequency, 0, FULL_OR(1, 0)) {
   static const int nodes[] = {11, 21, 41};
   const double EI = 200e9 * 12.7e-3 * pow(50e-6, 3) / 12, beta_L = 2.365020;
   double beam = beta_L * beta_L / (2 * M_PI * 45e-3 * 45e-3) * sqrt(EI / mu), error[LENGTH_OF(nodes)];
@@ -426,14 +413,13 @@ START_TEST(test_frequency) {
     ck_near(error[i] / error[i + 1], 4, 0.25);
   ck_below(fabs(error[2]), 5e-4);
 }
-END_TEST
 
 /* -- determinism ----------------------------------------------------------------------------------- */
 
 static const double presets[] = {ZP_PRESET_NONE, ZP_PRESET_PAPER_TEXT, ZP_PRESET_PAPER_CODE};
 
 /* The same run twice, in models of their own: the same bits. */
-START_TEST(test_same_bits) {
+TESTS(test_same_bits, 0, LENGTH_OF(presets)) {
   ZpActuatorDef def = DEF({"preset", presets[_i]}, {"mesh.nodes", 21});
   char *state[2];
   size_t size = 0;
@@ -451,7 +437,6 @@ START_TEST(test_same_bits) {
   free(state[0]);
   free(state[1]);
 }
-END_TEST
 
 /* -- how runs end ---------------------------------------------------------------------------------- */
 
@@ -473,7 +458,7 @@ static ZpOutcome run_def(const ZpActuatorDef *def, double end, bool stop, const 
   return outcome;
 }
 
-START_TEST(test_good_ends) {
+TEST(test_good_ends) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpRunInfo info;
   check_words(run_def(&def, 10e-3, true, NULL, &info), &info, "end_time", true);
@@ -487,9 +472,8 @@ START_TEST(test_good_ends) {
   check_words(run_def(&def, 1, true, NULL, &info), &info, "zipped", true);
   ck_below(info.simulated_time, 0.1);
 }
-END_TEST
 
-START_TEST(test_reasons_of_steps) {
+TEST(test_reasons_of_steps) {
   ZpRunInfo info;
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"solver.time_step", 1e-7});
   run_def(&def, 1e-3, false, NULL, &info);
@@ -503,10 +487,9 @@ START_TEST(test_reasons_of_steps) {
   ck_assert_int_gt(info.limited[ZP_LIMIT_DRAG], 0);
   ck_assert_str_eq(zp_step_limit_name(ZP_LIMIT_DRAG), "drag");
 }
-END_TEST
 
 /* A limp chain has no stiffness when straight: Newton's method leaves it to damped stepping. */
-START_TEST(test_not_settled) {
+TEST(test_not_settled) {
   ZpActuatorDef def =
       DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.shear_coefficient", 0}, {"solver.max_steps", 100});
   ZpRunInfo info;
@@ -515,9 +498,8 @@ START_TEST(test_not_settled) {
   ck_assert_int_eq(info.settle_steps, 100);
   ck_assert_double_eq(info.simulated_time, 0);
 }
-END_TEST
 
-START_TEST(test_step_limit) {
+TEST(test_step_limit) {
   ZpRunInfo info;
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"mass_spring.axial", ZP_AXIAL_CODE});
   run_def(&def, 0, false, NULL, &info);
@@ -527,7 +509,6 @@ START_TEST(test_step_limit) {
   ck_assert_int_eq(info.steps, enough);
   ck_assert_ptr_nonnull(strstr(info.message, "solver.max_steps"));
 }
-END_TEST
 
 typedef struct Stopper {
   const char *stage;
@@ -543,7 +524,7 @@ static bool stop_in_stage(void *user, const char *stage, double fraction) {
   return ++s->calls == 2;
 }
 
-START_TEST(test_interrupted) {
+TEST(test_interrupted) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpRunInfo info;
   Stopper simulating = {.stage = "simulating"};
@@ -557,13 +538,12 @@ START_TEST(test_interrupted) {
   check_words(run_def(&def, 1, false, &hooks, &info), &info, "interrupted", false);
   ck_assert_int_eq(info.steps, 0);
 }
-END_TEST
 
 static double tick(void *user) {
   return (*(double *)user)++;
 }
 
-START_TEST(test_clock) {
+TEST(test_clock) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpRunInfo info;
   double now = 5;
@@ -571,11 +551,10 @@ START_TEST(test_clock) {
   run_def(&def, 1e-4, false, &hooks, &info);
   ck_assert_double_eq(info.wall_time, 1);
 }
-END_TEST
 
 /* Steps are bounded by stability, so nothing diverges by itself: a state with impossible speeds, and one that is
  * not a number, are told. */
-START_TEST(test_diverged) {
+TEST(test_diverged) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   const double poison[] = {1e6, NAN, -INFINITY};
   ZpModel *model = model_of(&def);
@@ -594,10 +573,9 @@ START_TEST(test_diverged) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A wrong voltage is refused and changes nothing. */
-START_TEST(test_set_voltage) {
+TEST(test_set_voltage) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -615,10 +593,9 @@ START_TEST(test_set_voltage) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A voltage step during motion keeps the energy balance. Measured 4e-4. */
-START_TEST(test_balance_over_voltage_step) {
+TEST(test_balance_over_voltage_step) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -633,43 +610,4 @@ START_TEST(test_balance_over_voltage_step) {
   ck_assert_double_eq(zp_sim_get(sim, "field_energy"), 0);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("physics");
-  TCase *energy = tcase_create("energy");
-  tcase_add_test(energy, test_energy_of_chain);
-  tcase_add_loop_test(energy, test_energy_of_zipping, 0, 1);
-  tcase_add_test(energy, test_energy_of_bezier);
-  tcase_add_test(energy, test_energy_below_pull_in);
-  tcase_add_test(energy, test_energy_with_drag);
-  tcase_add_test(energy, test_solved_field_in_motion);
-  tcase_add_test(energy, test_imbalance_is_told);
-  tcase_add_test(energy, test_no_voltage_no_field);
-  tcase_add_test(energy, test_balance_over_voltage_step);
-  tcase_add_loop_test(energy, test_unsolvable_field_ends_the_run, 0, 2);
-  suite_add_tcase(suite, energy);
-  TCase *motion = tcase_create("motion");
-  tcase_add_test(motion, test_drag_law);
-  tcase_add_test(motion, test_terminal_velocity);
-  tcase_add_test(motion, test_free_fall);
-  if (!SANITIZED) tcase_add_test(motion, test_frequency);
-  tcase_add_loop_test(motion, test_same_bits, 0, LENGTH_OF(presets));
-  suite_add_tcase(suite, motion);
-  TCase *ends = tcase_create("ends");
-  tcase_add_test(ends, test_good_ends);
-  tcase_add_test(ends, test_reasons_of_steps);
-  tcase_add_test(ends, test_not_settled);
-  tcase_add_test(ends, test_step_limit);
-  tcase_add_test(ends, test_interrupted);
-  tcase_add_test(ends, test_clock);
-  tcase_add_test(ends, test_diverged);
-  tcase_add_test(ends, test_set_voltage);
-  suite_add_tcase(suite, ends);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_energy_of_zipping, 1, 2);
-  add_long_test(nightly, energy_of_zipping_by_short_steps);
-  tcase_add_loop_test(nightly, test_balance_of_every_combination, 0, LENGTH_OF(combinations));
-  return run_suite(suite);
 }

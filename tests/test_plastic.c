@@ -31,7 +31,7 @@ static double moment(const ZpPlastic *plastic, double curvature, const double *p
 
 static const double multiples[] = {0.5, 0.99, 1.02, 1.1, 1.3, 1.5, 1.9, 2.4, 3.3, 5, 8, 20, -1.4, -6};
 
-START_TEST(moment_is_the_closed_form) {
+TESTS(moment_is_the_closed_form, 0, LENGTH_OF(multiples)) {
   double x = multiples[_i], p[ZP_FIBRES];
   for (int k = 0; k < 3; k++) {
     double hardening = 10e9 * k;
@@ -42,10 +42,9 @@ START_TEST(moment_is_the_closed_form) {
     ck_near(M, copysign(expected, x), fabs(x) < 1 ? 1e-14 : 2e-3); /* 7.4e-4 measured where 2e-3 is allowed */
   }
 }
-END_TEST
 
 /* Unloaded after it was bent to x. Close to the first yield little is left: there the fibres' share of it is coarse. */
-START_TEST(residual_curvature_is_the_closed_form) {
+TESTS(residual_curvature_is_the_closed_form, 0, 9) {
   static const double over[] = {1.3, 1.5, 1.7, 2, 2.5, 3, 4, 6, 10};
   double x = over[_i], p[ZP_FIBRES];
   ZpPlastic plastic = plastic_of(0, 0, 0);
@@ -54,11 +53,10 @@ START_TEST(residual_curvature_is_the_closed_form) {
   ck_near(zp_plastic_moment(&plastic, p) / plastic.EI / first, x - closed_form(x, 0, plastic.E),
           x < 1.5 ? 2e-2 : 5e-3); /* 5.7e-3 measured where 0.02 is allowed */
 }
-END_TEST
 
 /* The face of the metal, bent to x times the curvature at which it yields, bears s_y + H p, and as much where it is
  * bent as far the other way. Flat again, it yields backwards if it was bent far enough. */
-START_TEST(face_stress_is_the_closed_form) {
+TESTS(face_stress_is_the_closed_form, 0, LENGTH_OF(multiples)) {
   double x = multiples[_i], p[ZP_FIBRES];
   for (int k = 0; k < 3; k++) {
     double hardening = 10e9 * k;
@@ -71,10 +69,9 @@ START_TEST(face_stress_is_the_closed_form) {
     if (fabs(x) > 2.2) ck_near(zp_plastic_stress(&plastic, p, 0), plastic.E * yields / (plastic.E + hardening), 1e-14);
   }
 }
-END_TEST
 
 /* Masing: on unloading the moment falls by twice the moment of half the curvature change from flat; loops close. */
-START_TEST(loops_are_those_of_masing) {
+TESTS(loops_are_those_of_masing, 0, 3) {
   double hardening = 5e9 * _i, p[ZP_FIBRES], back[ZP_FIBRES], again[ZP_FIBRES];
   ZpPlastic plastic = plastic_of(hardening, 0, 0);
   double first = first_curvature(&plastic), unit = plastic.EI * first, top = 3;
@@ -89,7 +86,6 @@ START_TEST(loops_are_those_of_masing) {
   for (int i = 0; i < ZP_FIBRES; i++)
     ck_below(fabs(again[i] - p[i]), 1e-15);
 }
-END_TEST
 
 /* With stiff tape the axis moves as the metal yields: against many thin fibres and an axis found by bisection. */
 typedef struct Thin {
@@ -123,7 +119,7 @@ static double stress_of_faces(const ZpPlastic *plastic, double curvature, double
   return fmin(plastic->E * s, plastic->yields + plastic->hardening * set);
 }
 
-START_TEST(tape_shifts_the_axis) {
+TESTS(tape_shifts_the_axis, 0, LENGTH_OF(multiples)) {
   static const double t = 100e-6, E_t = 8e9;
   double p[ZP_FIBRES], x = fabs(multiples[_i]);
   for (int k = 0; k < 2; k++) {
@@ -135,10 +131,9 @@ START_TEST(tape_shifts_the_axis) {
     ck_near(zp_plastic_stress(&plastic, NULL, curvature), stress_of_faces(&plastic, curvature, thin.axis), 6e-4);
   }
 }
-END_TEST
 
 /* Over any path, with steps of any length: the work of the mean moment is stored or heat, which is never negative. */
-START_TEST(work_is_stored_or_heat) {
+TESTS(work_is_stored_or_heat, 0, 4) {
   uint64_t seed = 7;
   ZpPlastic plastic = plastic_of(_i % 2 ? 30e9 : 0, _i < 2 ? 0 : 130e-6, _i < 2 ? 0 : 5e9);
   double p0[ZP_FIBRES] = {0}, p1[ZP_FIBRES], at = 0, work = 0, heat = 0, scale = 0;
@@ -157,9 +152,8 @@ START_TEST(work_is_stored_or_heat) {
   ck_below(fabs(work - stored - heat) / scale, 1e-13);
   ck_assert_double_gt(heat, 0.1 * work);
 }
-END_TEST
 
-START_TEST(stiffness_is_the_derivative) {
+TESTS(stiffness_is_the_derivative, 0, LENGTH_OF(multiples)) {
   double x = multiples[_i], p0[ZP_FIBRES], p[ZP_FIBRES];
   for (int k = 0; k < 4; k++) {
     ZpPlastic plastic = plastic_of(k % 2 ? 30e9 : 0, k < 2 ? 0 : 130e-6, k < 2 ? 0 : 5e9);
@@ -171,7 +165,6 @@ START_TEST(stiffness_is_the_derivative) {
     ck_below(fabs(zp_plastic_bend(&plastic, p0, x * first, p).K - slope), 5e-8 * plastic.EI); /* 1.1e-8 measured */
   }
 }
-END_TEST
 
 /* -- a rod ----------------------------------------------------------------------------------------- */
 
@@ -186,7 +179,7 @@ static double curvature_under(double M, double EI, double first) {
 }
 
 /* A cantilever under an end load of 1.3 times that at which its clamp yields: small deflections. */
-START_TEST(cantilever_beyond_its_yield) {
+TEST(cantilever_beyond_its_yield) {
   static const double L = 3e-3;
   enum { PARTS = 4000 };
   double EI = E / (1 - nu * nu) * w * b * b * b / 12, first = yields / (E / (1 - nu * nu) * 0.5 * b);
@@ -208,7 +201,6 @@ START_TEST(cantilever_beyond_its_yield) {
   ck_assert_double_gt(found, -1.02 * zp_table_get(result->series, result->series->rows - 1, "y_m"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Clamped, guided, free ends; half and whole actuators, with liquid; bowed ribbons; stiff tape. */
 static ZpActuatorDef moving(int which) {
@@ -227,7 +219,7 @@ static ZpActuatorDef moving(int which) {
 }
 enum { MOVING = 8 };
 
-START_TEST(energy_in_motion) {
+TESTS(energy_in_motion, 0, MOVING) {
   ZpActuatorDef def = moving(_i);
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   double most = 0, worst = 0, before = 0;
@@ -243,10 +235,9 @@ START_TEST(energy_in_motion) {
   ck_assert_double_gt(before, 1e-3 * most);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Motion starts from the equilibrium of statics: hanging ribbons that have yielded stay at rest. */
-START_TEST(what_hangs_stays) {
+TEST(what_hangs_stays) {
   ZpActuatorDef def = moving(3);
   def.ribbon.yield_stress = 60e6, def.drive.voltage = 0, def.load.mass = 15e-3;
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -257,7 +248,6 @@ START_TEST(what_hangs_stays) {
   ck_below(zp_result_get(result, "plastic_loss_J"), 1e-12); /* 8.1e-15 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* How far it is bent, over the curvature at which it yields, under a moment over that at which it yields. */
 static double bent_by(double moment, double hardening, double modulus) {
@@ -271,7 +261,7 @@ static double bent_by(double moment, double hardening, double modulus) {
 
 /* The ends of a weightless half that hangs bear a moment of half its width times its load. Without that moment they
  * would keep the part of their curvature that it does not take back elastically. */
-START_TEST(permanent_curvature_is_what_unloading_leaves) {
+TEST(permanent_curvature_is_what_unloading_leaves) {
   enum { EDGES = 40 };
   const double load = 0.1, yield = 120e6, hardening = 20e9; /* load: on one half */
   ZpActuatorDef def = DEF({"mesh.nodes", EDGES + 1}, {"gravity", 0}, {"load.force", 2 * load}, {"drive.voltage", 0},
@@ -287,10 +277,9 @@ START_TEST(permanent_curvature_is_what_unloading_leaves) {
   ck_near(settled_value(&def, "permanent_curvature"), remains, 4e-3); /* 1.3e-3 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A cantilever is bent to one side only. Its clamp keeps the curvature that unloading does not take back. */
-START_TEST(set_of_a_cantilever) {
+TEST(set_of_a_cantilever) {
   const double L = 3e-3, yield = 0.05 * yields, under = 1.3;
   ZpPlastic plastic = plastic_of(0, 0, 0);
   double first = yield / (plastic.E * 0.5 * b), P = under * plastic.EI * first / L;
@@ -301,7 +290,6 @@ START_TEST(set_of_a_cantilever) {
   ck_near(settled_value(&def, "permanent_curvature"), first * (bent_by(under, 0, plastic.E) - under),
           1.2e-2); /* 5.9e-3 measured: of the first edge */
 }
-END_TEST
 
 /* The largest stress of a model in the shape of another simulation, with the strains of that if both yield. */
 static double stress_in(const ZpActuatorDef *def, const ZpSim *shape, const ZpSim *strains) {
@@ -319,7 +307,7 @@ static double stress_in(const ZpActuatorDef *def, const ZpSim *shape, const ZpSi
 
 /* Ribbons that have yielded are laid straight: in the faces remains what an elastic strip would have had in the bent
  * shape, at the height of the outermost of 16 slices' Gauss points, less what they had there. */
-START_TEST(residual_stress_of_straight_ribbons) {
+TEST(residual_stress_of_straight_ribbons) {
   ZpActuatorDef elastic = DEF({"mesh.nodes", 15}, {"drive.voltage", 0}), bent = elastic;
   bent.ribbon.plasticity = true;
   bent.ribbon.yield_stress = 0.75 * settled_value(&elastic, "max_stress");
@@ -337,7 +325,6 @@ START_TEST(residual_stress_of_straight_ribbons) {
     zp_model_destroy(models[k]);
   }
 }
-END_TEST
 
 /* The signal at the first row from a time on. */
 static double at_time(const ZpResult *result, double t, const char *column) {
@@ -348,7 +335,7 @@ static double at_time(const ZpResult *result, double t, const char *column) {
 }
 
 /* Repeated zips bend the ribbons further, by less in each cycle; without yielding all cycles are equal. */
-START_TEST(ratchet_over_cycles) {
+TEST(ratchet_over_cycles) {
   ZpActuatorDef def =
       DEF({"ribbon.plasticity", true}, {"ribbon.yield_stress", 250e6}, {"ribbon.hardening_modulus", 2e9},
           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.rise_time", 0.2},
@@ -370,10 +357,9 @@ START_TEST(ratchet_over_cycles) {
   ck_assert_double_eq(zp_result_get(result, "plastic_loss_J"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Ribbons below their yield stress move as elastic ones. */
-START_TEST(below_the_yield_stress_it_is_elastic) {
+TEST(below_the_yield_stress_it_is_elastic) {
   ZpActuatorDef def = moving(3);
   def.ribbon.yield_stress = 1.1e9, def.ribbon.hardening_modulus = 0;
   ZpResult *plastic = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -383,11 +369,10 @@ START_TEST(below_the_yield_stress_it_is_elastic) {
   ck_near(zp_result_get(plastic, "max_stress_Pa"), zp_result_get(elastic, "max_stress_Pa"), 1e-12);
   zp_result_destroy(plastic), zp_result_destroy(elastic);
 }
-END_TEST
 
 /* A meter reads strokes as those of ribbons that have not yielded, and a controller acts whatever they do: below the
  * yield stress, both do as with elastic ribbons. Above it the energy balances. */
-START_TEST(meter_and_controller_of_strips_that_may_yield) {
+TESTS(meter_and_controller_of_strips_that_may_yield, 0, 2) {
   static const Setting with[][4] = {
       {{"sense.frequency", 2e3}, {"sense.amplitude", 20}, {"sense.sampling_rate", 16e3}, {"sense.bandwidth", 500}},
       {{"control.kind", ZP_CONTROL_PI},
@@ -411,10 +396,9 @@ START_TEST(meter_and_controller_of_strips_that_may_yield) {
   ck_near(read[1], read[0], 1e-12); /* 0 measured */
   ck_assert_double_gt(fabs(read[2] - read[0]), 1e-5);
 }
-END_TEST
 
 /* Members side by side that are almost equal yield as equal ones do, at rest and while they close. */
-START_TEST(members_side_by_side_yield_as_one) {
+TEST(members_side_by_side_yield_as_one) {
   static const char *const of[] = {"opening_m", "permanent_curvature_per_m", "plastic_loss_J"};
   double found[2][3];
   for (int k = 0; k < 2; k++) {
@@ -434,10 +418,9 @@ START_TEST(members_side_by_side_yield_as_one) {
     ck_near(found[1][i], found[0][i], 7e-7); /* 2.3e-7 measured */
   }
 }
-END_TEST
 
 /* A strip that was made bowed, more than a flat one may be bent, bears no stress as it is, and stays so: a circle. */
-START_TEST(natural_curvature_is_no_strain) {
+TEST(natural_curvature_is_no_strain) {
   static const double k = 20, L = 0.05;
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", L},
                           {"segment_1.length", L}, {"segment_1.curvature", k}, {"gravity", 0}, {"load.mass", 0},
@@ -449,9 +432,8 @@ START_TEST(natural_curvature_is_no_strain) {
   ck_below(zp_result_get(result, "max_stress_Pa"), 5e-3); /* 5.9e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(what_it_lacks_is_said) {
+TEST(what_it_lacks_is_said) {
   static const struct {
     ZpStudy study;
     Setting setting, other;
@@ -470,35 +452,4 @@ START_TEST(what_it_lacks_is_said) {
     ZpActuatorDef def = DEF({"ribbon.plasticity", true}, refused[k].setting, refused[k].other);
     ck_refused_by(refused[k].study, &def, refused[k].says);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("plastic");
-  TCase *law = tcase_create("law");
-  tcase_add_loop_test(law, moment_is_the_closed_form, 0, LENGTH_OF(multiples));
-  tcase_add_loop_test(law, face_stress_is_the_closed_form, 0, LENGTH_OF(multiples));
-  tcase_add_loop_test(law, residual_curvature_is_the_closed_form, 0, 9);
-  tcase_add_loop_test(law, loops_are_those_of_masing, 0, 3);
-  tcase_add_loop_test(law, tape_shifts_the_axis, 0, LENGTH_OF(multiples));
-  tcase_add_loop_test(law, work_is_stored_or_heat, 0, 4);
-  tcase_add_loop_test(law, stiffness_is_the_derivative, 0, LENGTH_OF(multiples));
-  suite_add_tcase(suite, law);
-  TCase *rest = tcase_create("rest");
-  tcase_add_test(rest, cantilever_beyond_its_yield);
-  tcase_add_test(rest, natural_curvature_is_no_strain);
-  tcase_add_test(rest, what_it_lacks_is_said);
-  suite_add_tcase(suite, rest);
-  TCase *motion = tcase_create("motion");
-  tcase_add_loop_test(motion, energy_in_motion, 0, MOVING);
-  tcase_add_test(motion, what_hangs_stays);
-  tcase_add_test(motion, permanent_curvature_is_what_unloading_leaves);
-  tcase_add_test(motion, set_of_a_cantilever);
-  tcase_add_test(motion, residual_stress_of_straight_ribbons);
-  tcase_add_test(motion, ratchet_over_cycles);
-  tcase_add_loop_test(motion, meter_and_controller_of_strips_that_may_yield, 0, 2);
-  tcase_add_test(motion, members_side_by_side_yield_as_one);
-  tcase_add_test(motion, below_the_yield_stress_it_is_elastic);
-  suite_add_tcase(suite, motion);
-  return run_suite(suite);
 }

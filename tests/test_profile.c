@@ -40,7 +40,7 @@ static double scalar(ZpActuatorDef def, const char *name) {
 /* -- against the independent study ----------------------------------------------------------------- */
 
 /* Known to three decimals. */
-START_TEST(test_forces_of_wedges) {
+TEST(test_forces_of_wedges) {
   static const double opening[] = {1e-3, 2e-3, 4e-3}, capped[] = {1.160, 0.780, 0.530}, all[] = {2.104, 1.436, 0.988},
                       length[] = {10.8e-3, 7.4e-3, 5.2e-3};
   for (int i = 0; i < 3; i += FULL_OR(1, 3))
@@ -58,7 +58,6 @@ START_TEST(test_forces_of_wedges) {
       ck_assert_double_eq_tol(scalar(def, "force_N"), all[i], 5.5e-4); /* 4.6e-4 measured */
     }
 }
-END_TEST
 
 /* Force on a wedge with a bead, by midpoints: the law of the liquid as far as it reaches, that of air beyond. */
 static double wedge_with_bead(double opening, double volume, double U) {
@@ -77,7 +76,7 @@ static double wedge_with_bead(double opening, double volume, double U) {
 
 /* Behind the bead the gap is filled with air. Against known numbers, three decimals, and the integral by hand; a bead
  * that fills all is the liquid everywhere. */
-START_TEST(test_forces_of_wedges_with_a_bead) {
+TEST(test_forces_of_wedges_with_a_bead) {
   static const double opening[] = {1e-3, 2e-3, 4e-3}, known[] = {1.018, 0.716, 0.502};
   for (int i = 0; i < 3; i++) {
     ZpActuatorDef def = DEF(CUBIC, {"isometric.separation", opening[i]}, {"drive.voltage", 6e3},
@@ -94,11 +93,10 @@ START_TEST(test_forces_of_wedges_with_a_bead) {
     ck_near(scalar(def, "force_N"), wedge_with_bead(opening[i], 1, 6e3), 1e-6); /* 3.2e-7 measured */
   }
 }
-END_TEST
 
 /* Theirs 1.0000 1.0000 1.0001 1.0008; ours 0.99999 1.00000 1.00005 1.00047, and by virtual work 1e-5, 2e-5,
  * 4e-5, 1.9e-4 more. */
-START_TEST(test_right_law_needs_no_factor) {
+TESTS(test_right_law_needs_no_factor, 0, FULL_OR(1, 0)) {
   static const double opening[] = {1e-3, 2e-3, 4e-3, 17e-3}, factor[] = {1, 1, 1.0001, 1.0008},
                       within[] = {5e-5, 5e-5, 1e-4, 5e-4}, work[] = {2e-5, 4e-5, 8e-5, 4e-4};
   for (int i = 0; i < 4; i++) {
@@ -111,7 +109,6 @@ START_TEST(test_right_law_needs_no_factor) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Column of the table at x, straight between rows. */
 static double at(const ZpTable *table, const char *column, double x) {
@@ -124,7 +121,7 @@ static double at(const ZpTable *table, const char *column, double x) {
 
 /* Ratio to the plates law, which is nearly constant along the ribbon. 90 % of the force acts in the first 12.2 mm.
  * Measured: up to there 0.02 %, up to the platform's edge 0.01 %. */
-START_TEST(test_profile_of_a_wedge) {
+TEST(test_profile_of_a_wedge) {
   ZpActuatorDef def = DEF(CUBIC, {"drive.voltage", 1e3});
   ZpResult *result = run(&def);
   FILE *file = fopen(ZP_SOURCE_DIR "/tests/data/field_profile_symmetric_2mm.csv", "r");
@@ -150,7 +147,6 @@ START_TEST(test_profile_of_a_wedge) {
   ck_below(far, 1e-3);     /* 2.9e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- the paper's factor ---------------------------------------------------------------------------- */
 
@@ -166,7 +162,7 @@ static double gap_cause(double opening) {
 }
 
 /* 6.04, 6.05, 6.06 known; measured 6.0406, 6.0498, 6.0646. */
-START_TEST(test_papers_factor_from_its_causes) {
+TEST(test_papers_factor_from_its_causes) {
   static const double opening[] = {1e-3, 2e-3, 4e-3}, factor[] = {6.04, 6.05, 6.06};
   for (int i = 0; i < 3; i += FULL_OR(1, 3)) {
     ZpActuatorDef def = DEF(CUBIC, {"isometric.separation", opening[i]}, {"profile.paper_factor", true});
@@ -186,10 +182,9 @@ START_TEST(test_papers_factor_from_its_causes) {
   ck_assert(isnan(zp_result_get(result, "paper_factor")));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* All 27 cases: no voltage changes a factor. */
-START_TEST(test_27_cases) {
+TEST(test_27_cases) {
   static const double kV[] = {1, 2, 3, 4, 5, 6, 8, 10, 12}, opening[] = {1e-3, 2e-3, 4e-3};
   for (int i = 0; i < 3; i += FULL_OR(1, 3)) {
     double scale = 0, paper = 0;
@@ -205,10 +200,9 @@ START_TEST(test_27_cases) {
     }
   }
 }
-END_TEST
 
 /* The factor refers to the law as set in the scenario. */
-START_TEST(test_factor_follows_the_scenario) {
+TEST(test_factor_follows_the_scenario) {
   ZpActuatorDef right = DEF(CUBIC), share = DEF(CUBIC, {"electro.voltage_share", 0.5});
   ZpActuatorDef scaled = DEF(CUBIC, {"electro.force_scale", 6.03}, {"electro.voltage_share", 0.5});
   ZpActuatorDef gap = DEF(CUBIC, {"electro.insulator_offset", 182.6e-6});
@@ -222,11 +216,10 @@ START_TEST(test_factor_follows_the_scenario) {
   ck_near(scalar(scaled, "scale_factor"), 4 / 6.03 * one, 1e-14);
   ck_near(scalar(gap, "scale_factor"), true_gap / wide * one, 2e-7); /* 3.8e-8 measured */
 }
-END_TEST
 
 /* -- what must hold by itself ---------------------------------------------------------------------- */
 
-START_TEST(test_goes_with_the_square_of_the_voltage) {
+TEST(test_goes_with_the_square_of_the_voltage) {
   static const char *const forces[] = {"force_N",        "platform_force_N", "force_uncapped_N",
                                        "plates_force_N", "field_force_N",    "virtual_work_force_N"};
   for (int model = ZP_ELECTRO_PLATES; model <= ZP_ELECTRO_FIELD; model++) {
@@ -247,10 +240,9 @@ START_TEST(test_goes_with_the_square_of_the_voltage) {
     zp_result_destroy(c);
   }
 }
-END_TEST
 
 /* Measured 2e-13. */
-START_TEST(test_symmetric_ribbons_are_pulled_alike) {
+TEST(test_symmetric_ribbons_are_pulled_alike) {
   ZpActuatorDef def = DEF(CUBIC, {"isometric.separation", 4e-3});
   ZpResult *result = run(&def);
   double worst = 0;
@@ -262,11 +254,10 @@ START_TEST(test_symmetric_ribbons_are_pulled_alike) {
   ck_below(worst, 1e-12); /* 1.7e-13 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without a bead the plates law is layers in series at each station, with and without breakdown, and its force their
  * integral. The computed field of so flat a wedge is nearly that law's. */
-START_TEST(rows_are_layers_in_series) {
+TEST(rows_are_layers_in_series) {
   ZpActuatorDef def = DEF(CUBIC, {"drive.voltage", 8e3}, {"isometric.separation", 2e-3});
   double eps = def.medium.permittivity, eps_i = def.insulator.permittivity, w = def.ribbon.width, U = 8e3;
   double insulation = 2 * def.insulator.thickness * eps / eps_i, sum = 0, largest = 0, apart = 0;
@@ -297,10 +288,9 @@ START_TEST(rows_are_layers_in_series) {
   ck_near(get(result, "max_field_V_per_m"), largest, 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* In breakdown both models have the force of the capped law, elsewhere the field has its own. */
-START_TEST(test_cap_on_both_models) {
+TEST(test_cap_on_both_models) {
   ZpActuatorDef plates = DEF(CUBIC, {"drive.voltage", 8e3}), field = plates;
   field.electro.model = ZP_ELECTRO_FIELD;
   ZpResult *a = run(&plates), *b = run(&field);
@@ -320,10 +310,9 @@ START_TEST(test_cap_on_both_models) {
   zp_result_destroy(a);
   zp_result_destroy(b);
 }
-END_TEST
 
 /* Scale and share act on both models, but not on the reported field. */
-START_TEST(test_scale_and_share_are_on_the_field) {
+TEST(test_scale_and_share_are_on_the_field) {
   ZpActuatorDef plain = DEF(CUBIC, {"drive.voltage", 2e3}, {"electro.model", ZP_ELECTRO_FIELD}), set = plain;
   set.electro.force_scale = 3;
   set.electro.voltage_share = 0.5;
@@ -332,10 +321,9 @@ START_TEST(test_scale_and_share_are_on_the_field) {
   ck_assert_double_eq(scalar(set, "field_force_N"), scalar(plain, "field_force_N"));
   ck_near(scalar(set, "scale_factor"), scalar(plain, "scale_factor") / 0.75, 1e-13);
 }
-END_TEST
 
 /* Where the faces meet: U over d in the liquid, U over both tapes in them. */
-START_TEST(test_fields_at_the_clip) {
+TEST(test_fields_at_the_clip) {
   ZpActuatorDef def = DEF(CUBIC, {"drive.voltage", 10.5e3});
   ZpResult *result = run(&def);
   ck_near(get(result, "max_field_V_per_m"), 10.5e3 / (2 * 130e-6 * 2.75 / 4.62), 5e-5); /* 1.2e-5 measured */
@@ -350,7 +338,6 @@ START_TEST(test_fields_at_the_clip) {
   ck_assert_ptr_nonnull(strstr(result->note[0], "electro.breakdown_cap is false"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- held shapes ----------------------------------------------------------------------------------- */
 
@@ -371,7 +358,7 @@ static double polyline_force(ZpActuatorDef def, int nodes) {
 /* The stations lie on a smooth curve through the nodes, without kinks at the nodes. Against polylines of 481 and 961
  * nodes, extrapolated. Measured up to 15.6 mm: 9.9e-6 at N = 961, 6.4e-5 at N = 61. A curve through the nodes
  * themselves, beside which a rod's ribbon lies, was 0.5 % off. */
-START_TEST(test_held_shape) {
+TESTS(test_held_shape, 0, FULL_OR(1, 0)) {
   for (int cap = 0; cap < 2; cap++)
     for (double opening = 1e-3; opening < 20e-3; opening *= 2.5) {
       ZpActuatorDef def =
@@ -391,19 +378,17 @@ START_TEST(test_held_shape) {
       zp_result_destroy(fine);
     }
 }
-END_TEST
 
 /* The held platform carries no load, whatever load.mass is. */
-START_TEST(test_load_does_not_count) {
+TEST(test_load_does_not_count) {
   ZpActuatorDef light = DEF(HELD),
                 heavy = DEF(HELD, {"load.mass", 0.1}, {"load.change_mass", -0.05}, {"load.change_time", 0.1});
   ck_near(scalar(heavy, "force_N"), scalar(light, "force_N"), 1e-12);
 }
-END_TEST
 
 /* -- platform, table, map -------------------------------------------------------------------------- */
 
-START_TEST(test_platform) {
+TEST(test_platform) {
   ZpActuatorDef def = DEF(CUBIC, {"drive.voltage", 1e3}), bare = def, without = def;
   ZpResult *result = run(&def);
   double h = 2e-3 + 2 * 130e-6 * 2.75 / 4.62;
@@ -424,7 +409,6 @@ START_TEST(test_platform) {
   ck_near(get(result, "force_N"), all, 3e-8); /* the least gap, at the clip, goes with ribbon.length */
   zp_result_destroy(result);
 }
-END_TEST
 
 static void check_cell(const ZpFieldMap *map, size_t i, size_t j, int *metal, int *tape) {
   size_t cell = i * (map->ny - 1) + j, at = i * map->ny + j;
@@ -439,7 +423,7 @@ static void check_cell(const ZpFieldMap *map, size_t i, size_t j, int *metal, in
   ck_near(map->strength[cell], 5e3 / 260e-6, 3e-5); /* the closed clip; 7.4e-6 measured */
 }
 
-START_TEST(test_map) {
+TEST(test_map) {
   ZpActuatorDef def = DEF(CUBIC, {"drive.voltage", 5e3});
   ZpResult *result = run(&def);
   const ZpFieldMap *map = result->map;
@@ -455,7 +439,6 @@ START_TEST(test_map) {
   ck_assert_double_lt(map->y[0], -5e-3);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- refusals -------------------------------------------------------------------------------------- */
 
@@ -468,7 +451,7 @@ static void refused(ZpActuatorDef def, const char *key, const char *reason) {
                 key, reason);
 }
 
-START_TEST(test_refusals) {
+TEST(test_refusals) {
   ZpActuatorDef def = DEF(CUBIC), bad = def;
   bad.actuator.kind = ZP_KIND_RIBBON;
   refused(bad, "actuator.kind = ribbon", "electro_ribbon");
@@ -496,10 +479,9 @@ START_TEST(test_refusals) {
   bad.isometric.separation = 89e-3;
   refused(bad, "isometric.separation = 0.089 m", "out of reach");
 }
-END_TEST
 
 /* Where the ribbons bulge beyond the clip: an equilibrium that the grid cannot follow is an outcome, no wrong input. */
-START_TEST(test_shape_that_runs_back) {
+TEST(test_shape_that_runs_back) {
   ZpActuatorDef def = DEF(CUBIC);
   def.profile.shape = ZP_PROFILE_HELD;
   def.isometric.separation = 88e-3;
@@ -511,7 +493,6 @@ START_TEST(test_shape_that_runs_back) {
   ck_assert_msg(strstr(result->message, "folds back") && strstr(result->message, "0.088 m"), "%s", result->message);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- every key at its bounds ----------------------------------------------------------------------- */
 
@@ -529,7 +510,7 @@ static void try_out(const ZpActuatorDef *def, const char *what) {
 }
 
 /* It ends, with numbers or a reason, wherever a key stands. */
-START_TEST(test_ends_at_the_bounds) {
+NIGHTLY_TESTS(test_ends_at_the_bounds, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   if (key->type == ZP_KEY_TEXT || !zp_key_in_def(_i)) return;
   for (int shape = ZP_PROFILE_HELD; shape <= ZP_PROFILE_CUBIC; shape++)
@@ -541,33 +522,4 @@ START_TEST(test_ends_at_the_bounds) {
       ck_assert_int_eq(zp_def_set(&def, _i, high ? key->max : key->min, NULL), ZP_OK);
       try_out(&def, what);
     }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("profile");
-  TCase *tests = tcase_create("profile");
-  tcase_add_test(tests, test_forces_of_wedges);
-  tcase_add_test(tests, test_forces_of_wedges_with_a_bead);
-  if (!SANITIZED) tcase_add_test(tests, test_right_law_needs_no_factor);
-  tcase_add_test(tests, test_profile_of_a_wedge);
-  tcase_add_test(tests, test_papers_factor_from_its_causes);
-  tcase_add_test(tests, test_27_cases);
-  tcase_add_test(tests, test_factor_follows_the_scenario);
-  tcase_add_test(tests, test_goes_with_the_square_of_the_voltage);
-  tcase_add_test(tests, test_symmetric_ribbons_are_pulled_alike);
-  tcase_add_test(tests, rows_are_layers_in_series);
-  tcase_add_test(tests, test_cap_on_both_models);
-  tcase_add_test(tests, test_scale_and_share_are_on_the_field);
-  tcase_add_test(tests, test_fields_at_the_clip);
-  if (!SANITIZED) tcase_add_test(tests, test_held_shape);
-  tcase_add_test(tests, test_load_does_not_count);
-  tcase_add_test(tests, test_platform);
-  tcase_add_test(tests, test_map);
-  tcase_add_test(tests, test_refusals);
-  tcase_add_test(tests, test_shape_that_runs_back);
-  suite_add_tcase(suite, tests);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, test_ends_at_the_bounds, 0, zp_key_count());
-  return run_suite(suite);
 }

@@ -73,18 +73,16 @@ static void same_as_here(Elsewhere *elsewhere) {
   zp_scenario_destroy(scenario);
 }
 
-START_TEST(cases_computed_elsewhere_are_the_same) {
+TEST(cases_computed_elsewhere_are_the_same) {
   same_as_here(&(Elsewhere){0});
 }
-END_TEST
 
 /* Others take the cases of a process that is lost. */
-START_TEST(a_lost_process_costs_no_case) {
+TEST(a_lost_process_costs_no_case) {
   same_as_here(&(Elsewhere){.lost = {[1] = true}});
 }
-END_TEST
 
-START_TEST(all_processes_lost_is_an_error) {
+TEST(all_processes_lost_is_an_error) {
   ZpScenario *scenario = sweep();
   ZpError err;
   double sum;
@@ -95,9 +93,8 @@ START_TEST(all_processes_lost_is_an_error) {
   ck_assert_uint_eq(rows, 0);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
-START_TEST(garbled_results_are_an_error) {
+TEST(garbled_results_are_an_error) {
   ZpScenario *scenario = sweep();
   ZpError err;
   double sum;
@@ -107,10 +104,9 @@ START_TEST(garbled_results_are_an_error) {
   ck_assert_ptr_nonnull(strstr(err.message, "cannot be read"));
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* Whole results, but of another study. */
-START_TEST(results_of_another_study_are_an_error) {
+TEST(results_of_another_study_are_an_error) {
   ZpScenario *scenario = sweep(), *other = sweep();
   ZpError err;
   double sum;
@@ -121,17 +117,4 @@ START_TEST(results_of_another_study_are_an_error) {
   ck_assert_ptr_nonnull(strstr(err.message, "cannot be read"));
   zp_scenario_destroy(scenario);
   zp_scenario_destroy(other);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("remote");
-  TCase *part = tcase_create("cases");
-  tcase_add_test(part, cases_computed_elsewhere_are_the_same);
-  tcase_add_test(part, a_lost_process_costs_no_case);
-  tcase_add_test(part, all_processes_lost_is_an_error);
-  tcase_add_test(part, garbled_results_are_an_error);
-  tcase_add_test(part, results_of_another_study_are_an_error);
-  suite_add_tcase(suite, part);
-  return run_suite(suite);
 }

@@ -56,6 +56,9 @@ static void tear_down(void) {
   nftw(base, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
 }
 
+/* Without it the root of the machine is the folder. */
+AROUND_EACH(set_up, tear_down)
+
 /* "base/name"; a few of them live at a time. */
 static char *in_base(const char *name) {
   static char path[4][1280];
@@ -323,7 +326,7 @@ static const char *asked(const char *folder, const char *name, const char *what)
   return text;
 }
 
-START_TEST(single_run_has_all_files) {
+TEST(single_run_has_all_files) {
   static const char *const name[] = {"scenario.yaml",
                                      "summary.json",
                                      "table.csv",
@@ -350,9 +353,8 @@ START_TEST(single_run_has_all_files) {
   ck_assert_str_eq(notices, "");
   count_files("out");
 }
-END_TEST
 
-START_TEST(summary_of_a_run) {
+TEST(summary_of_a_run) {
   write_single("out", NO_PICTURES, made_up(50, 3, true, 8e3, 1), 1.25);
   json_t *json = load_json("out/summary.json");
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "zipped");
@@ -366,9 +368,8 @@ START_TEST(summary_of_a_run) {
   ck_assert_ptr_null(json_object_get(json, "rows"));
   json_decref(json);
 }
-END_TEST
 
-START_TEST(table_of_a_run) {
+TEST(table_of_a_run) {
   size_t size;
   write_single("out", NO_PICTURES, made_up(50, 0, false, 8e3, 1), 1);
   char *text = read_whole(in_base("out/table.csv"), &size), *rest = NULL;
@@ -383,9 +384,8 @@ START_TEST(table_of_a_run) {
   ck_assert_uint_eq(rows, 50);
   free(text);
 }
-END_TEST
 
-START_TEST(same_result_same_bytes) {
+TEST(same_result_same_bytes) {
   write_single("a", NULL, made_up(50, 5, false, 8e3, 1), 1);
   write_single("b", NULL, made_up(50, 5, false, 8e3, 1), 2);
   same_files("a", "b");
@@ -397,9 +397,8 @@ START_TEST(same_result_same_bytes) {
   same_files("b", "c");
   same_files("a", "d");
 }
-END_TEST
 
-START_TEST(table_of_a_sweep) {
+TEST(table_of_a_sweep) {
   size_t size;
   write_sweep("out", "drive.voltage=[6 kV, 8 kV, 10 kV]", 3);
   char *text = read_whole(in_base("out/table.csv"), &size);
@@ -412,9 +411,8 @@ START_TEST(table_of_a_sweep) {
   ck_assert(!exists("out/shapes.pvd") && !exists("out/plots/stroke.svg"));
   ck_assert_str_eq(notices, "");
 }
-END_TEST
 
-START_TEST(summary_of_a_sweep) {
+TEST(summary_of_a_sweep) {
   write_sweep("out", "mesh.nodes=[21, 61]", 2);
   json_t *json = load_json("out/summary.json");
   const json_t *rows = json_object_get(json, "rows"), *row = json_array_get(rows, 1);
@@ -425,9 +423,8 @@ START_TEST(summary_of_a_sweep) {
   ck_assert_uint_eq(json_array_size(json_object_get(json, "notes")), 1);
   json_decref(json);
 }
-END_TEST
 
-START_TEST(old_results_go_and_others_stay) {
+TEST(old_results_go_and_others_stay) {
   write_single("out", NULL, made_up(50, 12, false, 8e3, 1), 1);
   put_file("out/notes.txt", "mine");
   put_file("out/shapes/shape_best.vtp", "mine");
@@ -442,9 +439,8 @@ START_TEST(old_results_go_and_others_stay) {
   ck_assert(exists("out/notes.txt") && exists("out/plots/mine.gp"));
   ck_assert(exists("out/shapes/shape_best.vtp") && exists("out/shapes/shape_00011.vtp"));
 }
-END_TEST
 
-START_TEST(little_to_write) {
+TEST(little_to_write) {
   write_single("one", NULL, made_up(1, 1, false, 8e3, 1), 1);
   write_single("none", NULL, made_up(0, 0, false, 8e3, 1), 1);
   ck_assert(exists("one/shapes.pvd") && !exists("none/shapes.pvd"));
@@ -455,9 +451,8 @@ START_TEST(little_to_write) {
   ck_assert(exists("bare/summary.json") && !exists("bare/table.csv"));
   ck_assert_str_eq(notices, "");
 }
-END_TEST
 
-START_TEST(interrupted_before_the_first_run) {
+TEST(interrupted_before_the_first_run) {
   ZpScenario *scenario = scenario_of("drive.voltage=[6 kV, 8 kV]");
   ZpError err = {0};
   const ZpReport report = {in_base("out"), scenario, NULL, 0, 0.5, NULL, NULL, NULL, 0, NULL, NULL};
@@ -468,18 +463,16 @@ START_TEST(interrupted_before_the_first_run) {
   json_decref(json);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
-START_TEST(kind_ribbon) {
+TEST(kind_ribbon) {
   write_single("out", "actuator.kind=ribbon", made_up(50, 10, true, 0, 1), 1);
   ck_assert(exists("out/plots/stroke.svg") && exists("out/plots/animation.gif"));
   ck_assert(!exists("out/plots/electric.svg"));
   ck_assert_str_eq(notices, "");
 }
-END_TEST
 
 /* Numbers without bounds must not stop the report: what can be drawn is drawn. */
-START_TEST(diverged) {
+TEST(diverged) {
   ZpResult *result = made_up(50, 10, false, 8e3, 1);
   const size_t columns = result->series->columns;
   for (size_t i = 1; i < columns; i++)
@@ -495,7 +488,6 @@ START_TEST(diverged) {
   ck_assert(exists("out/plots/stroke.gp"));
   count_files("out");
 }
-END_TEST
 
 /* That base/name has all of the files, ended by NULL, and that no notice was given. */
 static void check_files(const char *name, const char *const *file) {
@@ -508,7 +500,7 @@ static void check_files(const char *name, const char *const *file) {
   count_files(name);
 }
 
-START_TEST(files_of_rest) {
+NIGHTLY_TEST(files_of_rest) {
   write_study("e", "equilibrium", NULL);
   check_files("e",
               (const char *const[]){"table.csv", "results.h5", "shapes.pvd", "plots/stroke.svg", "plots/charge.svg",
@@ -530,10 +522,9 @@ START_TEST(files_of_rest) {
   check_files("m", (const char *const[]){"table.csv", "shapes.pvd", "plots/modes.svg", NULL});
   ck_assert(!exists("m/plots/stroke.svg") && !exists("s/plots/stroke.svg") && !exists("s/plots/modes.svg"));
 }
-END_TEST
 
 /* Of one list key there is a picture; its runs have none. */
-START_TEST(sweeps_of_rest) {
+TEST(sweeps_of_rest) {
   write_study("s", "stationary", "load.mass=[8 g, 61 g]");
   check_files("s", (const char *const[]){"table.csv", "plots/strokes.svg", NULL});
   write_study("e", "equilibrium", "load.mass=[8 g, 61 g]");
@@ -548,7 +539,6 @@ START_TEST(sweeps_of_rest) {
   ck_assert(!exists("p/plots/profile.svg") && !exists("p/field.vts"));
   ck_assert(!exists("s/plots/shape.svg") && !exists("e/plots/stroke.svg") && !exists("m/plots/modes.svg"));
 }
-END_TEST
 
 static void write_chart(const char *voltages) {
   ZpScenario *scenario = scenario_of(voltages);
@@ -560,7 +550,7 @@ static void write_chart(const char *voltages) {
 
 /* The chart of largest loads said "mkg", drew curves of a second key all alike and named none; over two keys there was
  * no map. */
-START_TEST(design_chart) {
+TEST(design_chart) {
   size_t size;
   write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
   check_files("l", (const char *const[]){"table.csv", "plots/loads.svg", "plots/map.svg", NULL});
@@ -577,7 +567,6 @@ START_TEST(design_chart) {
   write_chart("drive.voltage=[4 kV, 8 kV, 6 kV]"); /* values to and fro make no surface */
   ck_assert(exists("l/plots/loads.svg") && !exists("l/plots/map.svg"));
 }
-END_TEST
 
 /* Has the file base/name this text? */
 static bool file_says(const char *name, const char *text) {
@@ -622,22 +611,20 @@ static int check_labels(const char *name, double left, double right, double top,
 
 /* The label 30 of docs/images/design-chart.svg was on the right edge. A contour that cuts off a small corner has none.
  */
-START_TEST(contour_label_on_the_edge_of_a_map_is_cut) {
+TEST(contour_label_on_the_edge_of_a_map_is_cut) {
   write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
   ck_assert_int_ge(check_labels("l/plots/map.svg", 84, 462, 58.8, 336), 3);
 }
-END_TEST
 
 /* The chart of largest loads said "load 8 g", on which these do not depend. */
-START_TEST(largest_loads_are_those_of_no_load) {
+TEST(largest_loads_are_those_of_no_load) {
   write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
   ck_assert_str_eq(asked("l", "loads", "subtitle"), "N = 15");
   ck_assert_str_eq(asked("l", "map", "subtitle"), "N = 15");
 }
-END_TEST
 
 /* "straight between them" did not say what lies between what, and a hole of a map was not explained. */
-START_TEST(small_print_of_a_map) {
+TEST(small_print_of_a_map) {
   write_chart("drive.voltage=[4 kV, 6 kV, 8 kV]");
   ck_assert(file_says("l/plots/map.svg", ">9 of 9 runs lift a load; linear between the runs<"));
   write_rest("e", "equilibrium",
@@ -645,22 +632,20 @@ START_TEST(small_print_of_a_map) {
                                    "ribbon.thickness=[80 um, 90 um, 100 um, 110 um]", NULL});
   ck_assert(file_says("e/plots/map.svg", " of 16 runs pull in; white: no value; linear between the runs<"));
 }
-END_TEST
 
 /* "factor" and "mesh.nodes" had no unit and did not say so; a unit with a slash was "field strength / MV/m". */
-START_TEST(axes_without_a_unit_say_so) {
+NIGHTLY_TEST(axes_without_a_unit_say_so) {
   write_rest("p", "profile", (const char *const[]){"isometric.separation=[1 mm, 2 mm]", NULL});
   ck_assert(file_says("p/plots/factors.svg", ">factor (dimensionless)<"));
   write_rest("p", "profile", (const char *const[]){NULL});
   ck_assert(file_says("p/plots/profile.svg", ">difference / %<"));
   ck_assert(file_says("p/plots/field.svg", ">field strength / (MV/m)<"));
 }
-END_TEST
 
 /* Of three keys the first has a style of line and the second a shade. Where there are too many curves, each value that
  * is drawn of one key is drawn with all that are drawn of the other, and the picture says how many are left out. Names
  * have at most four digits. */
-START_TEST(shades_of_three_keys) {
+TEST(shades_of_three_keys) {
   write_rest("s", "stationary",
              (const char *const[]){"ribbon.width=[10 mm, 12 mm, 14 mm]", "ribbon.thickness=20 um .. 200 um : 3 log",
                                    "load.mass=[8 g, 20 g]", NULL});
@@ -676,7 +661,6 @@ START_TEST(shades_of_three_keys) {
   ck_assert(file_says("t/plots/strokes.svg", ">10 mm, 20 µm<") && file_says("t/plots/strokes.svg", ">14 mm, 200 µm<"));
   ck_assert(!file_says("s/plots/strokes.svg", "curves are drawn"));
 }
-END_TEST
 
 /* Twelve of the 20 panels of a map, evenly from the first to the last: each has the rows of table.csv in which the
  * third key has its value, in their order. */
@@ -705,7 +689,7 @@ static void check_panels(void) {
 }
 
 /* Ten maps in one picture: none is left out, and all have contours of the same levels. */
-START_TEST(maps_have_one_scale) {
+TEST(maps_have_one_scale) {
   write_rest("m", "stationary",
              (const char *const[]){"ribbon.length=80 mm .. 130 mm : 10", "ribbon.thickness=40 um .. 100 um : 3",
                                    "load.mass=2 g .. 20 g : 3", "mesh.nodes=9", NULL});
@@ -719,10 +703,9 @@ START_TEST(maps_have_one_scale) {
   ck_assert(file_says("n/plots/maps.svg", "; 12 of 20 panels<"));
   check_panels();
 }
-END_TEST
 
 /* An axis for each key and each objective, coloured by the first objective; the front by the rows of its cases. */
-START_TEST(lines_of_cases_and_of_the_front) {
+TEST(lines_of_cases_and_of_the_front) {
   static const size_t best[] = {5, 2};
   static const char *const objective[] = {"stroke_m", "other_m"};
   const ZpOptimum optimum = {
@@ -749,17 +732,15 @@ START_TEST(lines_of_cases_and_of_the_front) {
     zp_result_destroy(result[i]);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* Under 500 g there is neither pull-in nor release: the legend named a curve that has no point. */
-START_TEST(legend_names_what_is_drawn) {
+TEST(legend_names_what_is_drawn) {
   write_rest("e", "equilibrium",
              (const char *const[]){"load.mass=[8 g, 500 g]", "drive.voltage=[6.5 kV, 7 kV]", "liquid.model=none",
                                    "output.errors=false", NULL});
   ck_assert_str_eq(asked("e", "voltages", "|curve|"), "1");
   ck_assert(file_says("e/plots/voltages.svg", ">8 g<") && !file_says("e/plots/voltages.svg", ">500 g<"));
 }
-END_TEST
 
 /* How often a letter stands in the first curve of a picture: M begins a piece, L goes on. */
 static size_t letters_of_curve(const char *name, char letter) {
@@ -775,7 +756,7 @@ static size_t letters_of_curve(const char *name, char letter) {
 }
 
 /* With indices only some of the rows are independent samples. Their line fell to pieces at the others. */
-START_TEST(distribution_with_indices) {
+TEST(distribution_with_indices) {
   write_rest("d", "stationary",
              (const char *const[]){"load.mass=normal(8 g, 0.2 g)", "ribbon.thickness=normal(50 um, 1 um)",
                                    "sampling.count=8", "sampling.indices=true", NULL});
@@ -784,10 +765,9 @@ START_TEST(distribution_with_indices) {
   ck_assert_uint_eq(letters_of_curve("d/plots/distribution.svg", 'L'), 15);
   ck_assert(file_says("d/plots/indices.svg", ">load.mass<") && file_says("d/plots/indices.svg", ">ribbon.thickness<"));
 }
-END_TEST
 
 /* The axes of a fit had no name; a unit such as m2/s had another spelling in its column than in that of a sweep. */
-START_TEST(axes_of_a_fit) {
+TEST(axes_of_a_fit) {
   char file[1100];
   put_file("bench.csv", "medium.kinematic_viscosity_mm2/s,load_g,stroke_mm\n50,8,10\n50,20,20\n");
   snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
@@ -801,7 +781,6 @@ START_TEST(axes_of_a_fit) {
   ck_assert(file_says("g/table.csv", "medium.kinematic_viscosity_m2_per_s,measured_m,"));
   ck_assert(file_says("g/plots/fit.svg", ">medium.kinematic_viscosity / (mm²/s)<"));
 }
-END_TEST
 
 /* Neither a NaN nor infinity may be spelled out where other programs read. */
 static void check_numbers(const char *name) {
@@ -819,7 +798,7 @@ static void check_numbers(const char *name) {
 }
 
 /* Of one kind of measurement the standard deviations were neither in the picture nor in the table. */
-START_TEST(error_bars_of_a_fit) {
+TEST(error_bars_of_a_fit) {
   char file[1100];
   put_file("bench.csv", "load_g,stroke_mm,sigma_mm\n4,6,0.5\n8,10,0.5\n20,20,2\n");
   snprintf(file, sizeof file, "data.file=%s", in_base("bench.csv"));
@@ -831,10 +810,9 @@ START_TEST(error_bars_of_a_fit) {
   ck_assert(file_says("f/table.csv", "load.mass_kg,measured_m,fitted_m,residual_m\n"));
   ck_assert(file_says("f/plots/fit.svg", ">measured<"));
 }
-END_TEST
 
 /* The SVG holds the picture of the field itself; field.vts has the bytes that its head promises. */
-START_TEST(field_of_a_profile) {
+TEST(field_of_a_profile) {
   static const char begin[] = "<AppendedData encoding=\"raw\">\n_", end[] = "\n  </AppendedData>\n</VTKFile>\n";
   size_t size;
   unsigned rows, columns;
@@ -854,9 +832,8 @@ START_TEST(field_of_a_profile) {
   write_study("p", "stationary", NULL); /* over it */
   ck_assert(!exists("p/field.vts") && !exists("p/plots/field.svg"));
 }
-END_TEST
 
-START_TEST(rest_is_the_same_each_time) {
+NIGHTLY_TEST(rest_is_the_same_each_time) {
   const char *const study[] = {"equilibrium", "stationary", "modes", "isometric", "profile"};
   if (SANITIZED) setenv("PATH", "/nowhere", 1); /* the pictures are files_of_rest's */
   for (size_t i = 0; i < 5; i += FULL_OR(1, 2)) {
@@ -873,7 +850,6 @@ START_TEST(rest_is_the_same_each_time) {
   write_study("a", "equilibrium", NULL);
   same_files("a", "equilibrium");
 }
-END_TEST
 
 static void check_frequencies(const json_t *object) {
   const json_t *array = json_object_get(object, "frequencies_Hz");
@@ -884,7 +860,7 @@ static void check_frequencies(const json_t *object) {
   ck_assert_ptr_null(json_object_get(object, "frequency_1_Hz"));
 }
 
-START_TEST(frequencies_are_an_array) {
+TEST(frequencies_are_an_array) {
   size_t size;
   write_study("one", "modes", NULL);
   json_t *json = load_json("one/summary.json");
@@ -901,26 +877,23 @@ START_TEST(frequencies_are_an_array) {
   ck_assert_int_eq(strncmp(text, "load.mass_kg,outcome,frequency_1_Hz,frequency_2_Hz,", 51), 0);
   free(text);
 }
-END_TEST
 
-START_TEST(no_pull_in_is_null) {
+NIGHTLY_TEST(no_pull_in_is_null) {
   write_study("out", "equilibrium", "load.mass=61 g");
   json_t *json = load_json("out/summary.json");
   ck_assert(json_is_null(json_object_get(json, "pull_in_voltage_V")));
   ck_assert_double_gt(json_number_of(json, "release_voltage_V"), 0);
   json_decref(json);
 }
-END_TEST
 
 /* Where insulator and liquid are alike, the pictures of the field could not be drawn: "cb coord of 0". */
-START_TEST(field_of_equal_permittivities) {
+NIGHTLY_TEST(field_of_equal_permittivities) {
   write_study("equal", "profile", "insulator.permittivity=2.75");
   ck_assert_msg(*notices == 0, "%s", notices);
   ck_assert(exists("equal/plots/field.svg") && exists("equal/plots/field_tip.svg"));
 }
-END_TEST
 
-START_TEST(folder_that_cannot_be) {
+TEST(folder_that_cannot_be) {
   ZpError err = {0};
   ZpFolder *folder;
   put_file("file", "mine");
@@ -934,9 +907,8 @@ START_TEST(folder_that_cannot_be) {
   zp_folder_close(folder);
   ck_assert_uint_eq(count_files("a"), 0);
 }
-END_TEST
 
-START_TEST(name_taken_by_a_folder) {
+TEST(name_taken_by_a_folder) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
@@ -950,9 +922,8 @@ START_TEST(name_taken_by_a_folder) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
-START_TEST(summary_to_a_full_device) {
+TEST(summary_to_a_full_device) {
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(5, 2, false, 8e3, 1);
   ZpError err = {0};
@@ -966,7 +937,6 @@ START_TEST(summary_to_a_full_device) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* What a reader of a complete file finds at its end. */
 static void check_complete(const char *name, const char *end) {
@@ -1003,7 +973,7 @@ static bool write_on_small_disk(int kilobytes) {
   return status == ZP_OK;
 }
 
-START_TEST(full_disk) {
+TEST(full_disk) {
   ck_assert_int_eq(mkdir(in_base("disk"), 0777), 0);
   if (mount("none", in_base("disk"), "tmpfs", 0, "size=64k") != 0) return; /* only root may try this */
   ck_assert_int_eq(umount(in_base("disk")), 0);
@@ -1013,9 +983,8 @@ START_TEST(full_disk) {
     enough = write_on_small_disk(kilobytes);
   }
 }
-END_TEST
 
-START_TEST(no_gnuplot) {
+TEST(no_gnuplot) {
   ck_assert_int_eq(setenv("PATH", in_base("nowhere"), 1), 0);
   write_single("out", NULL, made_up(50, 10, false, 8e3, 1), 1);
   ck_assert(exists("out/plots/stroke.gp") && exists("out/plots/shapes.dat") && exists("out/summary.json"));
@@ -1024,9 +993,8 @@ START_TEST(no_gnuplot) {
   ck_assert_msg(strchr(notices, '\n')[1] == 0, "more than one notice: %s", notices);
   count_files("out");
 }
-END_TEST
 
-START_TEST(broken_gnuplot) {
+TEST(broken_gnuplot) {
   ck_assert_int_eq(mkdir(in_base("bin"), 0777), 0);
   put_file("bin/gnuplot", "#!/bin/sh\necho junk\necho '\"stroke.gp\" line 3: it is broken' >&2\nexit 1\n");
   ck_assert_int_eq(chmod(in_base("bin/gnuplot"), 0755), 0);
@@ -1036,7 +1004,6 @@ START_TEST(broken_gnuplot) {
   ck_assert_ptr_nonnull(strstr(notices, "stroke.svg was not drawn: \"stroke.gp\" line 3: it is broken"));
   count_files("out");
 }
-END_TEST
 
 /* -- a gnuplot that hangs blocked for ever, swallowed the first Ctrl-C, and summary.json never came ---------------- */
 
@@ -1077,7 +1044,7 @@ static void draw_two(int jobs, double patience) {
   zp_drawing_draw(&drawing, two, 2);
 }
 
-START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
+TEST(after_a_hanging_gnuplot_no_other_is_started) {
   put_hanging_gnuplot();
   draw_two(1, 8); /* it has started by then */
   ck_assert_ptr_nonnull(
@@ -1087,12 +1054,11 @@ START_TEST(after_a_hanging_gnuplot_no_other_is_started) {
   ck_assert(nothing_runs("plots/started"));
   count_files("plots");
 }
-END_TEST
 
 /* -- pictures that cannot be turned off cost more than the run, and most of that was an animation nobody asked for ----
  */
 
-START_TEST(no_pictures_where_plots_are_off) {
+TEST(no_pictures_where_plots_are_off) {
   write_single("out", NULL, made_up(50, 10, false, 8e3, 1), 1);
   ck_assert(exists("out/plots/stroke.svg") && exists("out/plots/stroke.gp"));
   write_single("out", "output.plots=false", made_up(50, 10, false, 8e3, 1), 1);
@@ -1101,23 +1067,20 @@ START_TEST(no_pictures_where_plots_are_off) {
   ck_assert(!exists("new/plots") && exists("new/table.csv"));
   ck_assert_str_eq(notices, "");
 }
-END_TEST
 
-START_TEST(no_animation_unless_asked) {
+TEST(no_animation_unless_asked) {
   write_single("out", "output.animation=false", made_up(50, 10, false, 8e3, 1), 1);
   ck_assert(exists("out/plots/stroke.svg") && !exists("out/plots/animation.gif") && !exists("out/plots/animation.gp"));
 }
-END_TEST
 
 /* Each gnuplot waits until another one has started: drawn one after the other, they would hang. */
-START_TEST(pictures_are_drawn_at_once) {
+TEST(pictures_are_drawn_at_once) {
   put_gnuplot("#!/bin/sh\n>started.$$\nwhile [ \"$(ls started.* | wc -l)\" -lt 2 ]; do sleep 0.01; done\n"
               "out=${3#*\\'}\necho '<svg> </svg>' >\"${out%\\'}\"\n");
   draw_two(2, 60);
   ck_assert_str_eq(notices, "");
   ck_assert(exists("plots/a.svg") && exists("plots/b.svg"));
 }
-END_TEST
 
 /* Asks to stop once summary.json is there: a report that draws before it writes numbers never ends. */
 static bool stop_with_numbers(void *user, const char *stage, double fraction) {
@@ -1126,7 +1089,7 @@ static bool stop_with_numbers(void *user, const char *stage, double fraction) {
          exists("out/plots/started");
 }
 
-START_TEST(numbers_come_before_pictures) {
+TEST(numbers_come_before_pictures) {
   put_hanging_gnuplot();
   ZpScenario *scenario = scenario_of(NULL);
   ZpResult *result = made_up(50, 10, false, 8e3, 1);
@@ -1140,11 +1103,10 @@ START_TEST(numbers_come_before_pictures) {
   zp_result_destroy(result);
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* -- two runs into one folder mixed their files without a word --------------------------------------------------- */
 
-START_TEST(folder_of_another_run_is_refused) {
+TEST(folder_of_another_run_is_refused) {
   ZpError err = {0};
   ZpFolder *folder, *other;
   char text[64];
@@ -1160,7 +1122,6 @@ START_TEST(folder_of_another_run_is_refused) {
   zp_folder_close(folder);
   ck_assert_uint_eq(count_files("out"), 0);
 }
-END_TEST
 
 /* Take the folder, begin a file, and die. */
 static void die_while_writing(const char *directory) {
@@ -1176,7 +1137,7 @@ static void die_while_writing(const char *directory) {
   _exit(1);
 }
 
-START_TEST(what_a_killed_run_left_is_cleaned_up) {
+TEST(what_a_killed_run_left_is_cleaned_up) {
   const char *const mine[] = {"out/.notes.12.tmp", "out/.a.zipact-12.tmp.bak", "out/x.zipact-12.tmp", "out/12.tmp"};
   int status = 0;
   ZpError err = {0};
@@ -1196,7 +1157,6 @@ START_TEST(what_a_killed_run_left_is_cleaned_up) {
   for (size_t i = 0; i < sizeof mine / sizeof mine[0]; i++)
     ck_assert(exists(mine[i]));
 }
-END_TEST
 
 /* Many processes take a folder in turn; each looks whether it is alone there. */
 static int alone_each_time(const char *directory) {
@@ -1219,7 +1179,7 @@ static int alone_each_time(const char *directory) {
   return 0;
 }
 
-START_TEST(only_one_process_has_a_folder) {
+TEST(only_one_process_has_a_folder) {
   enum { PROCESSES = 6 };
   const char *directory = in_base("out");
   for (int i = 0; i < PROCESSES; i++)
@@ -1230,83 +1190,4 @@ START_TEST(only_one_process_has_a_folder) {
     ck_assert_msg(status == 0, "a process ended with %d", WEXITSTATUS(status));
   }
   ck_assert_int_eq(entries("out"), 0);
-}
-END_TEST
-
-static TCase *case_of(const char *name, const TTest *const *test, size_t count) {
-  TCase *part = tcase_create(name);
-  tcase_add_checked_fixture(part, set_up, tear_down);
-  for (size_t i = 0; i < count; i++)
-    tcase_add_test(part, test[i]);
-  return part;
-}
-
-static TCase *numbers_and_files(void) {
-  const TTest *const test[] = {single_run_has_all_files,
-                               summary_of_a_run,
-                               table_of_a_run,
-                               same_result_same_bytes,
-                               table_of_a_sweep,
-                               summary_of_a_sweep,
-                               old_results_go_and_others_stay,
-                               little_to_write,
-                               interrupted_before_the_first_run,
-                               kind_ribbon,
-                               diverged};
-  return case_of("numbers and files", test, sizeof test / sizeof test[0]);
-}
-
-static TCase *pictures(void) {
-  const TTest *const test[] = {sweeps_of_rest,
-                               design_chart,
-                               shades_of_three_keys,
-                               maps_have_one_scale,
-                               lines_of_cases_and_of_the_front,
-                               contour_label_on_the_edge_of_a_map_is_cut,
-                               largest_loads_are_those_of_no_load,
-                               small_print_of_a_map,
-                               legend_names_what_is_drawn,
-                               distribution_with_indices,
-                               axes_of_a_fit,
-                               error_bars_of_a_fit,
-                               field_of_a_profile,
-                               frequencies_are_an_array};
-  return case_of("pictures", test, sizeof test / sizeof test[0]);
-}
-
-static TCase *failures(void) {
-  const TTest *const test[] = {folder_that_cannot_be,
-                               name_taken_by_a_folder,
-                               summary_to_a_full_device,
-                               full_disk,
-                               no_gnuplot,
-                               broken_gnuplot,
-                               after_a_hanging_gnuplot_no_other_is_started,
-                               no_pictures_where_plots_are_off,
-                               no_animation_unless_asked,
-                               pictures_are_drawn_at_once,
-                               numbers_come_before_pictures,
-                               folder_of_another_run_is_refused,
-                               what_a_killed_run_left_is_cleaned_up,
-                               only_one_process_has_a_folder};
-  return case_of("failures", test, sizeof test / sizeof test[0]);
-}
-
-static Suite *suite_of_report(void) {
-  Suite *suite = suite_create("report");
-  suite_add_tcase(suite, numbers_and_files());
-  suite_add_tcase(suite, pictures());
-  suite_add_tcase(suite, failures());
-  TCase *nightly = nightly_case(suite);
-  tcase_add_checked_fixture(nightly, set_up, tear_down); /* without it the root of the machine is the folder */
-  tcase_add_test(nightly, field_of_equal_permittivities);
-  tcase_add_test(nightly, axes_without_a_unit_say_so);
-  tcase_add_test(nightly, files_of_rest);
-  tcase_add_test(nightly, rest_is_the_same_each_time);
-  tcase_add_test(nightly, no_pull_in_is_null);
-  return suite;
-}
-
-int main(void) {
-  return run_suite(suite_of_report());
 }

@@ -17,7 +17,7 @@
 static const ZpLayer steel = {50e-6, 200e9, 0.285, 7850}, tape = {130e-6, 3e9, 0.4, 1300};
 static const double width = 12.7e-3;
 
-START_TEST(test_single_layer) {
+TEST(test_single_layer) {
   double b = steel.thickness, I = width * b * b * b / 12;
   ZpSection strain = zp_section(&steel, 1, width, 1), stress = zp_section(&steel, 1, width, 0);
   ck_near(strain.EI, 200e9 * I / (1 - 0.285 * 0.285), 1e-14);
@@ -26,7 +26,6 @@ START_TEST(test_single_layer) {
   ck_near(stress.EA, 200e9 * width * b, 1e-14);
   ck_near(strain.mu, 7850 * width * b, 1e-14);
 }
-END_TEST
 
 /* Timoshenko 1925: bending stiffness per width of two layers on each other. */
 static double bimetal(double E1, double h1, double E2, double h2) {
@@ -35,7 +34,7 @@ static double bimetal(double E1, double h1, double E2, double h2) {
   return sum / (12 * (a + b));
 }
 
-START_TEST(test_two_layers) {
+TEST(test_two_layers) {
   const ZpLayer layers[2] = {steel, tape}, turned[2] = {tape, steel};
   ZpSection stress = zp_section(layers, 2, width, 0), strain = zp_section(layers, 2, width, 1);
   double h1 = steel.thickness, h2 = tape.thickness;
@@ -45,10 +44,9 @@ START_TEST(test_two_layers) {
   ck_near(stress.mu, width * (7850 * h1 + 1300 * h2), 1e-14);
   ck_near(zp_section(turned, 2, width, 1).EI, strain.EI, 1e-13); /* whichever side the tape is on */
 }
-END_TEST
 
 /* Two equal layers equal one of twice the thickness; a layer without stiffness adds weight only. */
-START_TEST(test_section_limits) {
+TEST(test_section_limits) {
   const ZpLayer twice[2] = {steel, steel};
   ZpLayer thick = steel, limp = tape;
   thick.thickness *= 2;
@@ -61,7 +59,6 @@ START_TEST(test_section_limits) {
   const ZpLayer nothing = {1e-4, 0, 0, 0};
   ck_assert_double_eq(zp_section(&nothing, 1, width, 1).EI, 0);
 }
-END_TEST
 
 /* -- a ribbon of mass and springs, in units of order one -------------------------------------------- */
 
@@ -125,7 +122,7 @@ static double axial_energy(Ribbon *r) {
 
 /* Force = -dU/dq of the axial springs. Measured: 9e-11 of the largest force, what central differences
  * with h = 1e-5 leave (h^2 and rounding / h). */
-START_TEST(test_axial_force_is_gradient) {
+TEST(test_axial_force_is_gradient) {
   const double h = 1e-5;
   Ribbon r;
   for (size_t ribbons = 1; ribbons <= 2; ribbons++) {
@@ -150,12 +147,11 @@ START_TEST(test_axial_force_is_gradient) {
     free_ribbon(&r);
   }
 }
-END_TEST
 
 /* One joint between two edges of length 1, by hand: both frames act, each with its reaction, and give the
  * end nodes K_S l sin(phi) square to the *other* edge. That is a joint moment M = K_S l^2 sin(phi) cos(phi),
  * at small angles K_S l^2 phi: a discrete elastica with E I / l = K_S l^2. */
-START_TEST(test_joint_moment) {
+TEST(test_joint_moment) {
   const double K_S = 5;
   for (double phi = 1e-6; phi < 1.1; phi *= 10) {
     Ribbon r;
@@ -178,10 +174,9 @@ START_TEST(test_joint_moment) {
     free_ribbon(&r);
   }
 }
-END_TEST
 
 /* A held slope is a joint to a fixed edge: moment K_S l^2 sin(theta) at either end. */
-START_TEST(test_held_slopes) {
+TEST(test_held_slopes) {
   const double K_S = 5, theta = 0.3;
   Ribbon r;
   make_ribbon(&r, 1, 2, 3, K_S, true);
@@ -196,10 +191,9 @@ START_TEST(test_held_slopes) {
   ck_assert_double_eq_tol(r.f[0], 0, 1e-14);
   free_ribbon(&r);
 }
-END_TEST
 
 /* Uniform stretch and rigid motion. */
-START_TEST(test_axial_law) {
+TEST(test_axial_law) {
   const double K_D = 3, stretch = 1.01, turn = 0.7;
   Ribbon r;
   make_ribbon(&r, 1, 9, K_D, 5, false);
@@ -215,10 +209,9 @@ START_TEST(test_axial_law) {
   ck_near(zp_massspring_axial_energy(&r.p, &r.e), 8 * 0.5 * K_D * (stretch - 1) * (stretch - 1), 1e-12);
   free_ribbon(&r);
 }
-END_TEST
 
 /* Two ribbons interleaved are each what one is alone, bit for bit. */
-START_TEST(test_two_ribbons_are_two) {
+TEST(test_two_ribbons_are_two) {
   Ribbon one, two;
   make_ribbon(&two, 2, 21, 3, 5, true);
   shake(&two, 0.3, 11);
@@ -239,7 +232,6 @@ START_TEST(test_two_ribbons_are_two) {
   }
   free_ribbon(&two);
 }
-END_TEST
 
 /* -- momentum -------------------------------------------------------------------------------------- */
 
@@ -257,7 +249,7 @@ static Sum sum_of(const Ribbon *r, const double *both) {
   return sum;
 }
 
-START_TEST(test_forces_of_free_ribbon_sum_to_nothing) {
+TEST(test_forces_of_free_ribbon_sum_to_nothing) {
   for (uint64_t seed = 1; seed <= 100; seed++) {
     Ribbon r;
     make_ribbon(&r, 1 + seed % 2, 4 + seed % 40, 3, 5, false);
@@ -268,7 +260,6 @@ START_TEST(test_forces_of_free_ribbon_sum_to_nothing) {
     free_ribbon(&r);
   }
 }
-END_TEST
 
 static double accelerate_free(void *self, const double *q, const double *v, double *a) {
   (void)v;
@@ -282,7 +273,7 @@ static double accelerate_free(void *self, const double *q, const double *v, doub
 
 /* 1000 steps of a free ribbon with random velocities: momentum is constant to rounding. Measured: 6e-16 of the sum of
  * speeds, random walk of rounding. */
-START_TEST(test_momentum_of_free_ribbon) {
+TEST(test_momentum_of_free_ribbon) {
   Ribbon r;
   make_ribbon(&r, 1, 21, 3, 5, false);
   shake(&r, 0.05, 5);
@@ -304,7 +295,6 @@ START_TEST(test_momentum_of_free_ribbon) {
   ck_below(drift, 2e-14);
   free_ribbon(&r);
 }
-END_TEST
 
 /* -- the shear law has no potential ---------------------------------------------------------------- */
 
@@ -343,7 +333,7 @@ static double curl(double phi) {
 }
 
 /* The asymmetry is proportional to the angle of the joints: none in a straight ribbon. */
-START_TEST(test_curl_of_shear_law) {
+TEST(test_curl_of_shear_law) {
   static const double phi[] = {0, 0.01, 0.1, 0.3};
   double value[LENGTH_OF(phi)];
   for (size_t i = 0; i < LENGTH_OF(phi); i++) {
@@ -354,7 +344,6 @@ START_TEST(test_curl_of_shear_law) {
   ck_assert_double_gt(value[2], 0.01);    /* not conservative */
   ck_near(value[2] / value[1], 10, 1e-3); /* 1.9e-4 measured */
 }
-END_TEST
 
 /* -- beams ----------------------------------------------------------------------------------------- */
 
@@ -380,7 +369,7 @@ static double compliance(int nodes, ZpRightEnd end, double *EI) {
 /* K_S auto has the factor N (N + 1) / (N - 1)^2, with which the linear chain between two held slopes is exactly as
  * stiff as the beam. Measured: 1.3e-6, 5e-7, 6e-7 off, of the order (deflection / L)^2 = 1.6e-6 of geometry at these
  * loads. */
-START_TEST(test_guided_beam_exact) {
+TEST(test_guided_beam_exact) {
   static const int nodes[] = {5, 21, 61};
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
     double EI, measured = compliance(nodes[i], ZP_END_GUIDED, &EI), beam = L * L * L / (12 * EI);
@@ -388,11 +377,10 @@ START_TEST(test_guided_beam_exact) {
     ck_near(measured, beam, 1e-5);
   }
 }
-END_TEST
 
 /* The same K_S in a cantilever: the held slope acts one cell before the clamp and the factor assumes two such ends, so
  * it converges with the first order of l. Measured: 21, 12.5, 6.8, 3.6 % too stiff. */
-START_TEST(test_cantilever_converges) {
+TEST(test_cantilever_converges) {
   static const int nodes[] = {6, 11, 21, 41};
   double error[LENGTH_OF(nodes)];
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
@@ -404,19 +392,17 @@ START_TEST(test_cantilever_converges) {
     ck_near(error[i] / error[i + 1], 2, 0.15);
   ck_below(fabs(error[LENGTH_OF(nodes) - 1]), 0.04);
 }
-END_TEST
 
-START_TEST(test_frequency_bound) {
+TEST(test_frequency_bound) {
   /* a straight chain's axial waves end at 4 K_D / m, its bending waves at 16 K_S / m */
   ZpMassSpringParams axial = {.K_D = 3, .K_S = 0}, shear = {.K_D = 0, .K_S = 5};
   ck_near(zp_massspring_frequency_bound(&axial, 2), sqrt(4 * 3 / 2.0), 1e-14);
   ck_near(zp_massspring_frequency_bound(&shear, 2), sqrt(16 * 5 / 2.0), 1e-14);
 }
-END_TEST
 
 /* The frequency bound holds: the largest eigenvalue of the symmetric part of -J / m of a deformed ribbon, by power
  * iteration, is below it. */
-START_TEST(test_frequency_bound_holds) {
+TEST(test_frequency_bound_holds) {
   Ribbon r;
   make_ribbon(&r, 1, 21, 3, 5, true);
   double q[2 * PLACES], d[2 * PLACES] = {0}, largest = 0;
@@ -447,31 +433,4 @@ START_TEST(test_frequency_bound_holds) {
   ck_below(sqrt(largest), bound);
   ck_assert_double_gt(sqrt(largest), 0.8 * bound); /* and the bound is not idle: 80 = 16 K_S of 92 */
   free_ribbon(&r);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("ribbon");
-  TCase *section = tcase_create("section");
-  tcase_add_test(section, test_single_layer);
-  tcase_add_test(section, test_two_layers);
-  tcase_add_test(section, test_section_limits);
-  suite_add_tcase(suite, section);
-  TCase *forces = tcase_create("forces");
-  tcase_add_test(forces, test_axial_force_is_gradient);
-  tcase_add_test(forces, test_joint_moment);
-  tcase_add_test(forces, test_held_slopes);
-  tcase_add_test(forces, test_axial_law);
-  tcase_add_test(forces, test_two_ribbons_are_two);
-  tcase_add_test(forces, test_forces_of_free_ribbon_sum_to_nothing);
-  tcase_add_test(forces, test_momentum_of_free_ribbon);
-  tcase_add_test(forces, test_curl_of_shear_law);
-  tcase_add_test(forces, test_frequency_bound);
-  tcase_add_test(forces, test_frequency_bound_holds);
-  suite_add_tcase(suite, forces);
-  TCase *beams = tcase_create("beams");
-  tcase_add_test(beams, test_guided_beam_exact);
-  tcase_add_test(beams, test_cantilever_converges);
-  suite_add_tcase(suite, beams);
-  return run_suite(suite);
 }

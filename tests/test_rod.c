@@ -91,7 +91,7 @@ static double difference(const double *at, double h) {
 
 static const double offsets[4] = {-2, -1, 1, 2};
 
-START_TEST(test_force_is_gradient) {
+TESTS(test_force_is_gradient, 0, 4) {
   const double h = 1e-3;
   size_t ribbons = (size_t)_i % 2 + 1;
   for (uint64_t seed = 1; seed <= 5; seed++) {
@@ -111,7 +111,6 @@ START_TEST(test_force_is_gradient) {
     zp_free(r.memory);
   }
 }
-END_TEST
 
 /* -- stiffness ------------------------------------------------------------------------------------- */
 
@@ -141,7 +140,7 @@ static double stiffness_error(double (*K)[2 * MOST], const double (*at)[2 * MOST
   return most;
 }
 
-START_TEST(test_stiffness_is_second_derivative) {
+TESTS(test_stiffness_is_second_derivative, 0, 4) {
   const double h = 1e-3;
   size_t ribbons = (size_t)_i % 2 + 1, n = 2 * ribbons * NODES;
   static double K[2 * MOST][2 * MOST], at[4][2 * MOST], D[3 * PLACES][4];
@@ -169,10 +168,9 @@ START_TEST(test_stiffness_is_second_derivative) {
     zp_free(r.memory);
   }
 }
-END_TEST
 
 /* Forces and moments of a free rod add up to zero, ribbon by ribbon. */
-START_TEST(test_free_rod_keeps_momentum) {
+TEST(test_free_rod_keeps_momentum) {
   for (uint64_t seed = 1; seed <= 5; seed++) {
     Rod r;
     make_rod(&r, 2, true, seed);
@@ -193,10 +191,9 @@ START_TEST(test_free_rod_keeps_momentum) {
     zp_free(r.memory);
   }
 }
-END_TEST
 
 /* A rod in its natural shape has no forces. */
-START_TEST(test_natural_shape) {
+TEST(test_natural_shape) {
   Rod r;
   make_rod(&r, 1, true, 7);
   double angle = 0.2, force[2 * MOST];
@@ -211,7 +208,6 @@ START_TEST(test_natural_shape) {
   ck_below(energy_of(&r), 1e-25);
   zp_free(r.memory);
 }
-END_TEST
 
 /* -- the mass-spring chain's stiffness ------------------------------------------------------------- */
 
@@ -237,7 +233,7 @@ static void chain_forces(Chain *c, double *force) {
   gather(c->eval.Rx, c->eval.Ry, c->params.ribbons, force);
 }
 
-START_TEST(test_chain_stiffness) {
+TESTS(test_chain_stiffness, 0, 4) {
   const double h = 1e-3;
   size_t ribbons = (size_t)_i % 2 + 1, n = 2 * ribbons * NODES;
   static double K[2 * MOST][2 * MOST], at[4][2 * MOST], D[3 * PLACES][4];
@@ -260,7 +256,6 @@ START_TEST(test_chain_stiffness) {
     zp_free(c.shape.memory);
   }
 }
-END_TEST
 
 /* -- band matrices --------------------------------------------------------------------------------- */
 
@@ -315,7 +310,7 @@ static void *random_band(ZpBand *band, Dense a, size_t lower, size_t upper, bool
   return memory;
 }
 
-START_TEST(test_band_lu) {
+TEST(test_band_lu) {
   static const size_t diagonals[][2] = {{1, 1}, {5, 5}, {11, 11}, {2, 7}, {7, 2}, {EQUATIONS - 1, 3}};
   for (size_t c = 0; c < LENGTH_OF(diagonals); c++)
     for (uint64_t seed = 1; seed <= 10; seed++) {
@@ -336,13 +331,12 @@ START_TEST(test_band_lu) {
       zp_free(memory);
     }
 }
-END_TEST
 
 /* LAPACK's banded LU, by its Fortran name. */
 void dgbsv_(const int *n, const int *kl, const int *ku, const int *nrhs, double *ab, const int *ldab, int *ipiv,
             double *b, const int *ldb, int *info);
 
-START_TEST(test_band_is_lapack) {
+TEST(test_band_is_lapack) {
   enum { KL = 11, KU = 11, LD = 2 * KL + KU + 1 };
   static const int n = EQUATIONS, kl = KL, ku = KU, one = 1, ld = LD;
   for (uint64_t seed = 1; seed <= 10; seed++) {
@@ -368,9 +362,8 @@ START_TEST(test_band_is_lapack) {
     zp_free(memory);
   }
 }
-END_TEST
 
-START_TEST(test_band_singular) {
+TEST(test_band_singular) {
   ZpBand band;
   Dense a;
   void *memory = random_band(&band, a, 2, 2, false, 0, 1);
@@ -382,7 +375,6 @@ START_TEST(test_band_singular) {
   ck_assert(!zp_band_factor(&band));
   zp_free(memory);
 }
-END_TEST
 
 /* The upper triangle of the same matrix, alone. */
 static void *upper_of(const ZpBand *band, ZpBand *half) {
@@ -399,7 +391,7 @@ static void *upper_of(const ZpBand *band, ZpBand *half) {
 }
 
 /* Definite matrices of either sign: without pivoting, the same solution. Measured: within 4e-16. */
-START_TEST(test_band_symmetric) {
+TEST(test_band_symmetric) {
   static const size_t widths[] = {0, 1, 2, 3, 4, 5, 11, 23, 24, EQUATIONS - 1};
   double worst = 0;
   for (size_t c = 0; c < LENGTH_OF(widths); c++)
@@ -423,10 +415,9 @@ START_TEST(test_band_symmetric) {
   printf("symmetric band: off by %.1e\n", worst);
   ck_below(worst, 1e-13);
 }
-END_TEST
 
 /* One equation; a pivot of 0 or that is no number, also one that comes up on the way. */
-START_TEST(test_band_symmetric_limits) {
+TEST(test_band_symmetric_limits) {
   ZpBand one;
   double store[64] = {0}, b = 6;
   one = (ZpBand){.n = 1, .upper = 3, .stride = 8, .entries = 32, .a = store};
@@ -442,7 +433,6 @@ START_TEST(test_band_symmetric_limits) {
   *zp_band_at(&two, 0, 0) = *zp_band_at(&two, 0, 1) = *zp_band_at(&two, 1, 1) = 2;
   ck_assert(!zp_band_factor(&two)); /* 2 - 2 * 2 / 2 */
 }
-END_TEST
 
 /* A symmetric band with `rank` random terms u v' on top, and the same dense. If they are symmetric, v is u with a
  * random factor of either sign. */
@@ -475,7 +465,7 @@ static void *random_top(ZpBand *K, Dense a, size_t rank, bool symmetric, double 
 
 /* Low-rank terms on a band change solution, product and sign of the determinant as in the dense matrix; when cleared,
  * they have no effect. */
-START_TEST(test_terms_on_top_of_a_band) {
+TEST(test_terms_on_top_of_a_band) {
   int seen[2] = {0};
   for (size_t rank = 0; rank <= 3; rank++)
     for (uint64_t seed = 1; seed <= 20; seed++) {
@@ -502,11 +492,10 @@ START_TEST(test_terms_on_top_of_a_band) {
     }
   ck_assert(seen[0] && seen[1]);
 }
-END_TEST
 
 /* A term that makes a definite matrix indefinite adds a negative eigenvalue, one that makes up for one takes it away.
  */
-START_TEST(test_negative_eigenvalues_with_a_term) {
+TEST(test_negative_eigenvalues_with_a_term) {
   static const double weights[][3] = {{-3, 1, 1}, {-0.5, 1, 0}, {3, -1, 0}, {0.5, -1, 1}}; /* u v, first pivot, which */
   for (size_t c = 0; c < LENGTH_OF(weights); c++) {
     ZpBand K;
@@ -516,11 +505,10 @@ START_TEST(test_negative_eigenvalues_with_a_term) {
     ck_assert_uint_eq(zp_band_negative(&K), (size_t)weights[c][2]);
   }
 }
-END_TEST
 
 /* Several symmetric terms of either sign on bands that are definite or not: as many negative eigenvalues as the dense
  * matrix has. */
-START_TEST(test_negative_eigenvalues_with_several_terms) {
+TEST(test_negative_eigenvalues_with_several_terms) {
   static const double shifts[] = {-6, 0.5, 6};
   static Dense vectors;
   int seen[EQUATIONS + 1] = {0};
@@ -540,11 +528,10 @@ START_TEST(test_negative_eigenvalues_with_several_terms) {
     }
   ck_assert(seen[0] && seen[1] && seen[2] && seen[3]);
 }
-END_TEST
 
 /* Two parts without a common unknown, each with a term u v' that is not symmetric. Each part has a negative
  * eigenvalue. */
-START_TEST(test_negative_eigenvalues_of_two_parts) {
+TEST(test_negative_eigenvalues_of_two_parts) {
   double a[32] = {0}, u[8] = {-3, -1, 0, 0, 0, 0, -5, 0.5}, v[8] = {1, 0.2, 0, 0, 0, 0, 1, -0.3}, w[12], s[2];
   ZpBand K = {.n = 4, .upper = 3, .stride = 8, .entries = 32, .a = a, .rank = 2, .u = u, .v = v, .w = w, .s = s};
   for (size_t i = 0; i < 4; i++)
@@ -564,11 +551,10 @@ START_TEST(test_negative_eigenvalues_of_two_parts) {
   ck_assert(zp_band_factor(&K));
   ck_assert_uint_eq(zp_band_negative(&K), negative);
 }
-END_TEST
 
 /* Sylvester: the number of negative pivots is that of negative eigenvalues; elimination with and without pivoting
  * solves equally well. */
-START_TEST(test_negative_pivots) {
+TEST(test_negative_pivots) {
   static const double shifts[] = {-20, -1, 0, 0.5, 2, 20};
   static Dense v;
   int seen[EQUATIONS + 1] = {0};
@@ -601,12 +587,11 @@ START_TEST(test_negative_pivots) {
   printf("indefinite band without pivoting: off by %.1e\n", worst);
   ck_below(worst, 1e-12); /* 9.3e-14 measured */
 }
-END_TEST
 
 /* -- eigenvalues ----------------------------------------------------------------------------------- */
 
 /* 2 on the diagonal and -1 beside it: 2 - 2 cos(k pi / (n + 1)), vectors sin(i k pi / (n + 1)). */
-START_TEST(test_eigen_chain) {
+TEST(test_eigen_chain) {
   Dense a = {{0}};
   static Dense v;
   for (size_t i = 0; i < EQUATIONS; i++) {
@@ -622,10 +607,9 @@ START_TEST(test_eigen_chain) {
       ck_assert_double_eq_tol(sign * v[i][k], scale * sin((double)(i + 1) * angle), 1e-12);
   }
 }
-END_TEST
 
 /* Equal eigenvalues, and one row. */
-START_TEST(test_eigen_limits) {
+TEST(test_eigen_limits) {
   double same[9] = {2, 1, 1, 1, 2, 1, 1, 1, 2}, v[9], one = -3, w;
   zp_eigen_symmetric(3, same, v);
   ck_assert_double_eq_tol(same[0], 1, 1e-14);
@@ -637,31 +621,4 @@ START_TEST(test_eigen_limits) {
   zp_eigen_symmetric(1, &one, &w);
   ck_assert_double_eq(one, -3);
   ck_assert_double_eq(w, 1);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("rod");
-  TCase *rod = tcase_create("rod");
-  tcase_add_loop_test(rod, test_force_is_gradient, 0, 4);
-  tcase_add_loop_test(rod, test_stiffness_is_second_derivative, 0, 4);
-  tcase_add_test(rod, test_free_rod_keeps_momentum);
-  tcase_add_test(rod, test_natural_shape);
-  tcase_add_loop_test(rod, test_chain_stiffness, 0, 4);
-  suite_add_tcase(suite, rod);
-  TCase *algebra = tcase_create("algebra");
-  tcase_add_test(algebra, test_band_lu);
-  tcase_add_test(algebra, test_band_is_lapack);
-  tcase_add_test(algebra, test_band_singular);
-  tcase_add_test(algebra, test_band_symmetric);
-  tcase_add_test(algebra, test_band_symmetric_limits);
-  tcase_add_test(algebra, test_terms_on_top_of_a_band);
-  tcase_add_test(algebra, test_negative_eigenvalues_with_a_term);
-  tcase_add_test(algebra, test_negative_eigenvalues_with_several_terms);
-  tcase_add_test(algebra, test_negative_eigenvalues_of_two_parts);
-  tcase_add_test(algebra, test_negative_pivots);
-  tcase_add_test(algebra, test_eigen_chain);
-  tcase_add_test(algebra, test_eigen_limits);
-  suite_add_tcase(suite, algebra);
-  return run_suite(suite);
 }

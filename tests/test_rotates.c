@@ -19,7 +19,7 @@ static double small_tilt(const ZpActuatorDef *def) {
 }
 
 /* Small weight, small deflections: second order in the element length, for any length of the platform. */
-START_TEST(small_tilt_is_that_of_its_closed_form) {
+TESTS(small_tilt_is_that_of_its_closed_form, 0, 3) {
   static const double lengths[] = {2e-3, 10e-3, 40e-3};
   double off[3];
   for (int k = 0; k < 3; k++) {
@@ -32,10 +32,9 @@ START_TEST(small_tilt_is_that_of_its_closed_form) {
   ck_near(off[0] / off[1], 4, 2e-3); /* 6.4e-4 measured */
   ck_near(off[1] / off[2], 4, 2e-3); /* 4.7e-4 measured */
 }
-END_TEST
 
 /* Eq. (19.6): opening and angle under a load in the middle, the left clip held. */
-START_TEST(small_load_beside_a_held_clip_is_as_its_closed_form) {
+TESTS(small_load_beside_a_held_clip_is_as_its_closed_form, 0, 2) {
   double off[3], turned[3];
   for (int k = 0; k < 3; k++) {
     ZpActuatorDef def = turning(10 * (1 << k) + 1, _i ? 2e-3 : 0);
@@ -55,11 +54,10 @@ START_TEST(small_load_beside_a_held_clip_is_as_its_closed_form) {
   ck_near(off[1] / off[2], 4, 5e-3);
   ck_near(turned[1] / turned[2], 4, 2e-2); /* of angles whose error is below 1e-4 */
 }
-END_TEST
 
 /* A spring or a stop acts on the middle of the platform: with the stiffness K of the ribbons the opening is (F + k r) /
  * (K + k), eq. (27.3) or (27.5), and the load off the centre turns the platform as without it. */
-START_TEST(spring_acts_on_the_middle) {
+TESTS(spring_acts_on_the_middle, 0, 2) {
   static const double stiff = 0.05, rest = 2e-6, load = 1e-6;
   ZpActuatorDef plain = turning(11, 3e-3);
   plain.gravity = 0, plain.load.force = load;
@@ -76,7 +74,6 @@ START_TEST(spring_acts_on_the_middle) {
   double tilts = answered_value(ZP_STUDY_MODES, &plain, "frequency_2_Hz");
   ck_near(answered_value(ZP_STUDY_MODES, &def, "frequency_2_Hz"), tilts, 1e-9); /* 3.3e-10 measured */
 }
-END_TEST
 
 /* One node of the one and its image of the other, right clip to left clip. */
 static void check_mirrored(const ZpTable *one, const ZpTable *other, double width) {
@@ -90,7 +87,7 @@ static void check_mirrored(const ZpTable *one, const ZpTable *other, double widt
 }
 
 /* With the load on the other side, or in the middle, or the other clip held, the state is the mirror image. */
-START_TEST(offset_on_the_other_side_is_a_mirror_image) {
+TESTS(offset_on_the_other_side_is_a_mirror_image, 0, 3) {
   double offset = _i == 1 ? 3e-3 : 0;
   ZpActuatorDef right = turning(21, offset), left = turning(21, -offset);
   if (_i == 2) right.actuator.held_clip = ZP_HELD_LEFT, left.actuator.held_clip = ZP_HELD_RIGHT;
@@ -101,10 +98,9 @@ START_TEST(offset_on_the_other_side_is_a_mirror_image) {
   zp_result_destroy(one);
   zp_result_destroy(other);
 }
-END_TEST
 
 /* Both ends of the platform count for whether it is closed: limits do not depend on the side of the load. */
-START_TEST(limits_of_a_mirrored_load_are_equal) {
+TEST(limits_of_a_mirrored_load_are_equal) {
   static const char *const limits[] = {"pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg"};
   ZpActuatorDef right = turning(21, 3.22e-3);
   right.drive.voltage = 2600, right.load.mass = 6.92e-3, right.ribbon.thickness = 95e-6;
@@ -117,11 +113,10 @@ START_TEST(limits_of_a_mirrored_load_are_equal) {
   zp_result_destroy(one);
   zp_result_destroy(other);
 }
-END_TEST
 
 /* Under a load in the middle it hangs like a guided platform, up to the second order of its joints; strips that curl or
  * yield, too. */
-START_TEST(load_in_the_middle_does_not_tilt) {
+TESTS(load_in_the_middle_does_not_tilt, 0, 3) {
   static const double first[] = {5e-3, 5e-3, 6e-2}, next[] = {2e-4, 4e-3, 4e-2};
   double off[3];
   for (int k = 0; k < 3; k++) {
@@ -137,10 +132,9 @@ START_TEST(load_in_the_middle_does_not_tilt) {
   ck_near(off[0] / off[1], 4, first[_i]); /* 2.5e-3, 2.6e-3, 3.1e-2 measured */
   ck_near(off[1] / off[2], 4, next[_i]);  /* 6.3e-5, 2.0e-3, 1.9e-2 measured */
 }
-END_TEST
 
 /* On every mesh the platform keeps its length, except for the stretch of its ribbon, and the load its lever. */
-START_TEST(platform_keeps_its_length) {
+TEST(platform_keeps_its_length) {
   ZpActuatorDef def = turning(21, 4e-3);
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
   const ZpTable *t = result->series;
@@ -150,7 +144,6 @@ START_TEST(platform_keeps_its_length) {
   ck_near(atan2(dy, dx), zp_result_get(result, "angle_rad"), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Largest imbalance of a run over the largest kinetic energy. */
 static double imbalance_of(const ZpActuatorDef *def) {
@@ -165,7 +158,7 @@ static double imbalance_of(const ZpActuatorDef *def) {
 }
 
 /* The platform falls, turns and moves sideways; under voltage one half zips before the other. */
-START_TEST(energy_balances) {
+TESTS(energy_balances, 0, 4) {
   ZpActuatorDef def[] = {
       DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"drive.voltage", 0}, {"damping.internal", 0},
           {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.end_time", 0.1}),
@@ -177,10 +170,9 @@ START_TEST(energy_balances) {
   def[_i].solver.stop_when_zipped = ZP_WHEN_TRUE; /* later rounding of its impacts adds up */
   ck_below(imbalance_of(&def[_i]), 1e-9);         /* 7.8e-10 measured */
 }
-END_TEST
 
 /* An equilibrium stays at rest in motion: both have the same laws. */
-START_TEST(rest_stays_at_rest) {
+TEST(rest_stays_at_rest) {
   ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"drive.voltage", 0});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -191,10 +183,9 @@ START_TEST(rest_stays_at_rest) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Massless ribbons whose platform rotates and swings on the masses at its ends: eqs. (19.4) and (19.5). */
-START_TEST(frequency_of_the_tilt) {
+TEST(frequency_of_the_tilt) {
   static const double half_turn = 3.14159265358979323846;
   ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 81}, {"ribbon.density", 1}, {"gravity", 0});
   ZpActuatorDef weighed = def;
@@ -207,11 +198,10 @@ START_TEST(frequency_of_the_tilt) {
   ck_below(nearest, 2e-4); /* 7.7e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- what is refused ---------------------------------------------------------------------------------- */
 
-START_TEST(what_takes_the_platform_as_level_is_refused) {
+TEST(what_takes_the_platform_as_level_is_refused) {
   static const struct {
     Setting setting;
     const char *words;
@@ -236,23 +226,4 @@ START_TEST(what_takes_the_platform_as_level_is_refused) {
   ck_refused_by(ZP_STUDY_ACTUATE, &def, "platform.rotates = true: motion requires load.change_mass 0 kg");
   ZpActuatorDef held = turning(21, 0);
   ck_refused_by(ZP_STUDY_ISOMETRIC, &held, "platform.rotates = true: study isometric requires false");
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("rotates");
-  TCase *c = tcase_create("rotates");
-  tcase_add_loop_test(c, small_tilt_is_that_of_its_closed_form, 0, 3);
-  tcase_add_loop_test(c, small_load_beside_a_held_clip_is_as_its_closed_form, 0, 2);
-  tcase_add_loop_test(c, spring_acts_on_the_middle, 0, 2);
-  tcase_add_loop_test(c, offset_on_the_other_side_is_a_mirror_image, 0, 3);
-  tcase_add_test(c, limits_of_a_mirrored_load_are_equal);
-  tcase_add_loop_test(c, load_in_the_middle_does_not_tilt, 0, 3);
-  tcase_add_test(c, platform_keeps_its_length);
-  tcase_add_loop_test(c, energy_balances, 0, 4);
-  tcase_add_test(c, rest_stays_at_rest);
-  tcase_add_test(c, frequency_of_the_tilt);
-  tcase_add_test(c, what_takes_the_platform_as_level_is_refused);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

@@ -65,7 +65,7 @@ static void check(const ZpActuatorDef *def, const char *output, const char *key,
 
 /* -- against differences of whole runs ----------------------------------------------------------------- */
 
-START_TEST(zip_in_a_bath) {
+TEST(zip_in_a_bath) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_SUBMERGED;
   def.solver.time_step = 5e-4;
@@ -74,7 +74,6 @@ START_TEST(zip_in_a_bath) {
   check(&def, "viscous_loss_J", "drive.voltage", 1e-6, 1e-7);
   check(&def, "jet_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-6);
 }
-END_TEST
 
 static ZpActuatorDef dry_zip(int nodes, double tolerance) {
   ZpActuatorDef def = motion();
@@ -86,7 +85,7 @@ static ZpActuatorDef dry_zip(int nodes, double tolerance) {
 
 /* Through all landings of faces, with the same steps; with and without the cap of the field. Wider differences of zip
  * times cross corners of landings, narrower ones have rounding. */
-START_TEST(zip_without_liquid) {
+TEST(zip_without_liquid) {
   ZpActuatorDef def = dry_zip(21, 1e-7);
   def.solver.time_step = 5e-5;
   def.electro.breakdown_cap = _i;
@@ -96,28 +95,26 @@ START_TEST(zip_without_liquid) {
   check(&def, "stroke_m", "load.mass", 1e-5, 1.2e-6);
   check(&def, "stroke_m", "insulator.thickness", 1e-5, 1.2e-6);
 }
-END_TEST
+ALSO_NIGHTLY(zip_without_liquid, 1, 2)
 
 /* Runs near choose other steps. The derivative comes nearer to their difference with the tolerance. */
-START_TEST(zip_without_liquid_with_its_own_steps) {
+NIGHTLY_TESTS(zip_without_liquid_with_its_own_steps, 0, FULL_OR(1, 0)) {
   ZpActuatorDef def = dry_zip(41, 1e-5);
   check(&def, "zip_time_s", "drive.voltage", 3e-4, 2e-3);
 }
-END_TEST
 
 /* Regression: at contact the matrix of the iteration lacks much of the exact tangent, so simple passes diverged and
  * found no derivative from 73.7 ms on. */
-START_TEST(derivative_of_every_landing_is_found) {
+TEST(derivative_of_every_landing_is_found) {
   ZpActuatorDef def = dry_zip(21, 1e-3);
   def.solver.stop_when_zipped = ZP_WHEN_TRUE;
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_assert_uint_eq(notes_with(result, "there are no derivatives"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* At an instant that ends a step, neighbouring actuators reach it before or after that step. */
-START_TEST(zip_at_the_end_of_a_step) {
+TEST(zip_at_the_end_of_a_step) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_SUBMERGED;
   def.solver.time_step = 5e-4;
@@ -134,10 +131,9 @@ START_TEST(zip_at_the_end_of_a_step) {
   ck_near(slope_in(result, "zip_time_s", "drive.voltage"), usual, 1e-3); /* 4.5e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The start, a hanging equilibrium, goes with the thickness, too; no step moves far in so short a run. */
-START_TEST(start_of_a_swing) {
+TEST(start_of_a_swing) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_NONE;
   def.drive.voltage = 5e3;
@@ -147,10 +143,9 @@ START_TEST(start_of_a_swing) {
   check(&def, "stroke_m", "ribbon.length", 1e-4, 1e-7);
   check(&def, "contraction", "ribbon.thickness", 1e-4, 1e-6); /* of an opening that goes with the key, too */
 }
-END_TEST
 
 /* Corners that a key moves are ends of steps. */
-START_TEST(corners_move_with_their_key) {
+TEST(corners_move_with_their_key) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_NONE;
   def.drive.voltage = 5e3;
@@ -161,12 +156,11 @@ START_TEST(corners_move_with_their_key) {
   check(&def, "opening_m", "drive.frequency", 1e-3, 1e-3);
   check(&def, "opening_m", "drive.duty", 1e-3, 1e-4);
 }
-END_TEST
 
 /* All steps between two corners scale with them: as in runs with a constant number of steps per period. The last step,
  * cut by the end of the run, is shorter than the others. Rounding of positions, 1e-17 m, over the step of the key,
  * 2.5e-5 Hz, leaves 1e-5. If steps before a corner kept their lengths, it would be 4.6e-5. */
-START_TEST(steps_go_with_their_corners) {
+TEST(steps_go_with_their_corners) {
   static const double period = 4e-3, part = 1e-4;
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_NONE;
@@ -186,11 +180,10 @@ START_TEST(steps_go_with_their_corners) {
   double by_runs = (at[0] - 8 * at[1] + 8 * at[3] - at[4]) / (12 * part * def.drive.frequency);
   ck_near(at[2], by_runs, 2e-5); /* 8.7e-6 measured */
 }
-END_TEST
 
 /* Actuators near the run catch or drop their own mass, with their own velocities, at their own time. Where that
  * changes, the difference is also of other steps: its error is proportional to their square. */
-START_TEST(change_of_the_load_moves_with_its_keys) {
+TEST(change_of_the_load_moves_with_its_keys) {
   static const struct {
     double mass, height;
     const char *key;
@@ -213,11 +206,10 @@ START_TEST(change_of_the_load_moves_with_its_keys) {
     check(&def, "opening_m", row[k].key, 1e-3, row[k].allowed);
   }
 }
-END_TEST
 
 /* Regression: at this voltage the neighbours' voltages were rounded, which counted as jumps, so their accounts of the
  * source's work closed in steps in which the run's did not. The difference grew by two thirds in each of them. */
-START_TEST(work_of_a_constant_source) {
+TEST(work_of_a_constant_source) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_SUBMERGED;
   def.drive.voltage = 9007.5154259162337;
@@ -225,7 +217,6 @@ START_TEST(work_of_a_constant_source) {
   def.solver.end_time = 0.1;
   check(&def, "source_energy_J", "drive.voltage", 1e-4, 2e-8);
 }
-END_TEST
 
 /* -- where a run ends by its state --------------------------------------------------------------------- */
 
@@ -239,17 +230,16 @@ static ZpActuatorDef until_zipped(ZpLiquidModel liquid, int nodes, double time_s
 }
 
 /* The run ends at the instant of closing, and its numbers are of that instant. */
-START_TEST(run_ends_at_its_closing) {
+TESTS(run_ends_at_its_closing, 0, 2) {
   ZpActuatorDef def = until_zipped(_i ? ZP_LIQUID_SUBMERGED : ZP_LIQUID_NONE, 11, 5e-4);
   ZpResult *result = run(&def);
   ck_near(zp_result_get(result, "contraction"), 0.99, 1e-12);
   ck_near(zp_result_get(result, "simulated_time_s"), zp_result_get(result, "zip_time_s"), 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Numbers that are read at the closing move with it. At constant time viscous_loss_J would fall with the viscosity. */
-START_TEST(numbers_at_the_closing_move_with_it) {
+TEST(numbers_at_the_closing_move_with_it) {
   ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 11, 5e-4);
   check(&def, "viscous_loss_J", "medium.kinematic_viscosity", 1e-6, 1e-6);
   check(&def, "source_energy_J", "medium.kinematic_viscosity", 1e-5, 1e-5);
@@ -257,10 +247,9 @@ START_TEST(numbers_at_the_closing_move_with_it) {
   /* rounding of differences, 1.9e-5 measured; 1e-6 is too wide */
   check(&def, "source_energy_J", "ribbon.thickness", 1e-7, 1e-4);
 }
-END_TEST
 
 /* With steps of their own, at the default tolerance, against runs with a tenth of it. */
-START_TEST(numbers_at_the_closing_agree_with_differences) {
+TEST(numbers_at_the_closing_agree_with_differences) {
   ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 21, NAN);
   def.solver.tolerance = 1e-4;
   ZpResult *result = run_by(&def, "medium.kinematic_viscosity");
@@ -269,10 +258,9 @@ START_TEST(numbers_at_the_closing_agree_with_differences) {
   ck_near(rate, difference(&def, "viscous_loss_J", "medium.kinematic_viscosity", 1e-3), 1e-2); /* 2.4e-3 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A run that ends where the actuator has hardly moved for 0.1 s: the instant moves with the key. */
-START_TEST(numbers_at_rest_move_with_the_end) {
+TEST(numbers_at_rest_move_with_the_end) {
   ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 11, 5e-4);
   def.solver.stop_when_zipped = ZP_WHEN_AUTO;
   def.solver.end_time = 10;
@@ -283,9 +271,8 @@ START_TEST(numbers_at_rest_move_with_the_end) {
   check(&def, "viscous_loss_J", "drive.voltage", 1e-5, 4e-7);
   check(&def, "jet_loss_J", "drive.voltage", 1e-5, 5e-8);
 }
-END_TEST
 
-START_TEST(numbers_at_a_short_circuit_move_with_it) {
+TEST(numbers_at_a_short_circuit_move_with_it) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 45e-3}, {"mesh.nodes", 31}, {"insulator.thickness", 0},
           {"electro.gap_offset", 2e-4}, {"gravity", 0}, {"liquid.model", ZP_LIQUID_NONE}, {"load.mass", 0},
@@ -296,11 +283,10 @@ START_TEST(numbers_at_a_short_circuit_move_with_it) {
   zp_result_destroy(result);
   check(&def, "source_energy_J", "drive.voltage", 1e-6, 1e-5);
 }
-END_TEST
 
 /* With derivatives the default tolerance is 2.5e-5: with that number given, the same ones are settled, with nearly the
  * same values. They start from equilibria of another tolerance. */
-START_TEST(default_tolerance_settles_as_its_number) {
+TEST(default_tolerance_settles_as_its_number) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"output.errors", false},
                           {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   ZpResult *by_default = run_by(&def, "drive.voltage");
@@ -319,7 +305,6 @@ START_TEST(default_tolerance_settles_as_its_number) {
   zp_result_destroy(by_default);
   zp_result_destroy(given);
 }
-END_TEST
 
 /* -- the current of a supply ----------------------------------------------------------------------------- */
 
@@ -338,7 +323,7 @@ static ZpActuatorDef supplied(ZpLiquidModel liquid) {
 /* The largest current is at the corner of the ramp. Steps at an impact are so short that the current of a neighbour
  * alone would be larger. After the zip, at 105 ms, closed faces bounce: what remains of a small change then differs
  * with the steps, so the current until then has no derivative. That until 80 ms has one. */
-START_TEST(peak_and_rms_current_with_impacts) {
+NIGHTLY_TEST(peak_and_rms_current_with_impacts) {
   ZpActuatorDef def = supplied(ZP_LIQUID_NONE);
   def.solver.end_time = 0.11;
   def.solver.tolerance = 1e-5;
@@ -351,9 +336,8 @@ START_TEST(peak_and_rms_current_with_impacts) {
   def.solver.end_time = 0.08;
   check(&def, "rms_current_A", "ribbon.thickness", 1e-3, 2e-3); /* 3.7e-4 measured */
 }
-END_TEST
 
-START_TEST(peak_and_rms_current) {
+TEST(peak_and_rms_current) {
   ZpActuatorDef def = supplied(ZP_LIQUID_SUBMERGED);
   def.solver.tolerance = 1e-7; /* of the solution of a step, whose length is given: */
   def.solver.time_step = 5e-5; /* so short that the rate of the voltage limits no step */
@@ -361,10 +345,9 @@ START_TEST(peak_and_rms_current) {
   check(&def, "peak_current_A", "ribbon.thickness", 1e-5, 1e-6);
   check(&def, "rms_current_A", "ribbon.thickness", 1e-5, 1e-6);
 }
-END_TEST
 
 /* Until the closing, whose instant goes with the key, the mean of the squared current is over a time that does, too. */
-START_TEST(rms_current_until_the_closing) {
+TEST(rms_current_until_the_closing) {
   ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 11, 5e-4);
   def.drive.waveform = ZP_WAVEFORM_RAMP; /* its rate limits no step, so that runs near take the same ones */
   def.drive.rise_time = 50e-3;
@@ -372,13 +355,12 @@ START_TEST(rms_current_until_the_closing) {
   def.source.resistance = 1e8;
   check(&def, "rms_current_A", "medium.kinematic_viscosity", 1e-5, 1e-6);
 }
-END_TEST
 
 /* -- closed forms -------------------------------------------------------------------------------------- */
 
 /* A ribbon is released from straight. If all forces are multiplied by c, it takes the same path sqrt(c) times as fast;
  * hence E y_E + g y_g = t v / 2. */
-START_TEST(swing_scales) {
+TEST(swing_scales) {
   ZpActuatorDef def = motion();
   def.actuator.kind = ZP_KIND_RIBBON;
   def.actuator.right_end = ZP_END_FREE;
@@ -394,10 +376,9 @@ START_TEST(swing_scales) {
   ck_near(by_E + by_g, half, 1e-7); /* 2.3e-8 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A closed actuator charges through a resistor: its largest current is V / R, what is lost C V^2 / 2 of any R. */
-START_TEST(charging_through_a_resistor) {
+TEST(charging_through_a_resistor) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_NONE;
   def.initial.state = ZP_INITIAL_STRAIGHT;
@@ -421,11 +402,10 @@ START_TEST(charging_through_a_resistor) {
   ck_below(fabs(slope_in(result, "source_loss_J", "drive.voltage") * V / lost - 2), 1e-4);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- where there are none ------------------------------------------------------------------------------ */
 
-START_TEST(limits_of_a_supply_end_them) {
+TEST(limits_of_a_supply_end_them) {
   ZpActuatorDef def = motion();
   def.liquid.model = ZP_LIQUID_NONE;
   def.source.model = ZP_SOURCE_AMPLIFIER;
@@ -439,11 +419,10 @@ START_TEST(limits_of_a_supply_end_them) {
   ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: a limit of the supply's current begins or ends"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Regression: whether the bead had covered a station was a sum of lengths, which for this ribbon was below the whole by
  * rounding. */
-START_TEST(bead_at_a_node_ends_them) {
+TEST(bead_at_a_node_ends_them) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 300e-9},
                           {"ribbon.length", 0.13607344753018508}, {"ribbon.thickness", 60e-6}, {"drive.voltage", 9e3},
                           {"output.errors", false}, {"solver.end_time", 0.15});
@@ -452,10 +431,9 @@ START_TEST(bead_at_a_node_ends_them) {
   ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: the meniscus of a bead passes a node"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* How contact forces and the bending of strips share a loss depends on the steps within each impact. */
-START_TEST(what_the_steps_do_not_settle_is_null) {
+TEST(what_the_steps_do_not_settle_is_null) {
   ZpActuatorDef def = dry_zip(11, 1e-3);
   def.solver.end_time = 0.1;
   ZpResult *result = run_by(&def, "ribbon.thickness");
@@ -463,9 +441,8 @@ START_TEST(what_the_steps_do_not_settle_is_null) {
   ck_assert_ptr_nonnull(note_of(result, "null because other steps change it by more than 1 %: "));
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(run_without_its_end_has_none) {
+TEST(run_without_its_end_has_none) {
   ZpActuatorDef def = motion();
   ZpError err;
   ZpResult *result;
@@ -478,11 +455,10 @@ START_TEST(run_without_its_end_has_none) {
   ck_assert_ptr_nonnull(note_of(result, "because the run did not reach its end"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Regressions: a key at an end of its range has five neighbours on one side, for which there was no room. A number
  * without a value, as the contraction of what does not hang open, was added twice, and no HDF5 file has two. */
-START_TEST(key_at_an_end_of_its_range) {
+TEST(key_at_an_end_of_its_range) {
   ZpActuatorDef def = motion();
   def.load.mass = def.gravity = 0;
   def.solver.tolerance = 1e-4;
@@ -494,10 +470,9 @@ START_TEST(key_at_an_end_of_its_range) {
   ck_assert_uint_eq(notes_with(result, "there are no derivatives"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Without load a difference must be taken on one side, too. */
-START_TEST(derivative_by_a_load_that_is_not_there) {
+TEST(derivative_by_a_load_that_is_not_there) {
   ZpActuatorDef def = until_zipped(ZP_LIQUID_SUBMERGED, 11, 5e-4);
   def.load.mass = 0;
   def.solver.end_time = 0.01;
@@ -509,9 +484,8 @@ START_TEST(derivative_by_a_load_that_is_not_there) {
   ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 5e-5); /* 1.5e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(refusals) {
+TEST(refusals) {
   static const struct {
     const char *key;
     double value;
@@ -530,44 +504,4 @@ START_TEST(refusals) {
     ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT);
     ck_assert_msg(strstr(err.message, wrong[k].words), "%s", err.message);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("run rates");
-  TCase *tests = tcase_create("run rates");
-  tcase_add_test(tests, zip_in_a_bath);
-  tcase_add_loop_test(tests, zip_without_liquid, 0, 1);
-  tcase_add_test(tests, derivative_of_every_landing_is_found);
-  tcase_add_test(tests, zip_at_the_end_of_a_step);
-  tcase_add_test(tests, start_of_a_swing);
-  tcase_add_test(tests, corners_move_with_their_key);
-  tcase_add_test(tests, steps_go_with_their_corners);
-  tcase_add_test(tests, change_of_the_load_moves_with_its_keys);
-  tcase_add_test(tests, work_of_a_constant_source);
-  tcase_add_test(tests, swing_scales);
-  tcase_add_test(tests, charging_through_a_resistor);
-  tcase_add_test(tests, refusals);
-  suite_add_tcase(suite, tests);
-  TCase *ends = tcase_create("ends");
-  tcase_add_loop_test(ends, run_ends_at_its_closing, 0, 2);
-  tcase_add_test(ends, numbers_at_the_closing_move_with_it);
-  tcase_add_test(ends, numbers_at_the_closing_agree_with_differences);
-  tcase_add_test(ends, numbers_at_rest_move_with_the_end);
-  tcase_add_test(ends, numbers_at_a_short_circuit_move_with_it);
-  tcase_add_test(ends, default_tolerance_settles_as_its_number);
-  tcase_add_test(ends, peak_and_rms_current);
-  tcase_add_test(ends, rms_current_until_the_closing);
-  tcase_add_test(ends, limits_of_a_supply_end_them);
-  tcase_add_test(ends, bead_at_a_node_ends_them);
-  tcase_add_test(ends, what_the_steps_do_not_settle_is_null);
-  tcase_add_test(ends, run_without_its_end_has_none);
-  tcase_add_test(ends, key_at_an_end_of_its_range);
-  tcase_add_test(ends, derivative_by_a_load_that_is_not_there);
-  suite_add_tcase(suite, ends);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, zip_without_liquid, 1, 2);
-  add_long_test(nightly, zip_without_liquid_with_its_own_steps);
-  tcase_add_test(nightly, peak_and_rms_current_with_impacts);
-  return run_suite(suite);
 }

@@ -14,18 +14,17 @@ static ZpDesign design_of(ZpSampling method, size_t count, int dimensions, bool 
 }
 
 /* The first 8 points in the first two dimensions, in eighths: van der Corput's, and the one of polynomial x + 1. */
-START_TEST(sobol_begins_as_published) {
+TEST(sobol_begins_as_published) {
   static const uint32_t first[] = {0, 4, 2, 6, 1, 5, 3, 7}, second[] = {0, 4, 6, 2, 5, 1, 3, 7};
   for (uint32_t i = 0; i < 8; i++) {
     ck_assert_uint_eq(zp_sobol(i, 0), first[i] << 29);
     ck_assert_uint_eq(zp_sobol(i, 1), second[i] << 29);
   }
 }
-END_TEST
 
 /* Keys of a Latin square go up and down independently of each other: ranks of two keys are not related. With 64 points
  * a correlation of independent ones has a standard deviation of 1/8. */
-START_TEST(latin_columns_are_independent) {
+TEST(latin_columns_are_independent) {
   enum { POINTS = 64, KEYS = 4 };
   const ZpDesign design = design_of(ZP_SAMPLING_LATIN_HYPERCUBE, POINTS, KEYS, false);
   for (int a = 0; a < KEYS; a++)
@@ -36,15 +35,13 @@ START_TEST(latin_columns_are_independent) {
       ck_below(fabs(12 * sum / POINTS), 0.5);
     }
 }
-END_TEST
 
 /* With indices a key takes two dimensions of Sobol's points. */
-START_TEST(indices_take_two_dimensions_of_a_key) {
+TEST(indices_take_two_dimensions_of_a_key) {
   const ZpDesign plain = design_of(ZP_SAMPLING_SOBOL, 8, 1, false), indices = design_of(ZP_SAMPLING_SOBOL, 8, 1, true);
   ck_assert_int_eq(zp_design_most(&plain), ZP_SOBOL_DIMENSIONS);
   ck_assert_int_eq(2 * zp_design_most(&indices), ZP_SOBOL_DIMENSIONS);
 }
-END_TEST
 
 /* How many of the design's first 2^bits points lie in each of 2^bits intervals of a dimension: is it 1? */
 static bool is_stratified(const ZpDesign *design, int bits, int dimension) {
@@ -59,17 +56,16 @@ static bool is_stratified(const ZpDesign *design, int bits, int dimension) {
 
 /* Every direction matrix is regular, and scrambling keeps that: any power of two. A wrong direction number breaks it.
  */
-START_TEST(sobol_has_a_point_in_each_interval) {
+TEST(sobol_has_a_point_in_each_interval) {
   const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 1 << 10, ZP_SOBOL_DIMENSIONS, false);
   for (int j = 0; j < ZP_SOBOL_DIMENSIONS; j++)
     for (int bits = 1; bits <= 10; bits++)
       ck_assert_msg(is_stratified(&design, bits, j), "dimension %d, %d bits", j, bits);
 }
-END_TEST
 
 /* The first two dimensions are a (0, 10, 2)-net: each box of 2^-a by 2^-(10 - a) has one of 1024 points. Scrambling
  * that is not nested would lose that. */
-START_TEST(scrambled_points_are_a_net) {
+TEST(scrambled_points_are_a_net) {
   const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 1024, 2, false);
   for (int a = 0; a <= 10; a++) {
     bool seen[1024] = {false};
@@ -81,7 +77,6 @@ START_TEST(scrambled_points_are_a_net) {
     }
   }
 }
-END_TEST
 
 /* Of a smooth function, scrambled points integrate with an error of order count^-3/2, random ones with count^-1/2. */
 static double rms_error(ZpSampling method, size_t count) {
@@ -98,16 +93,15 @@ static double rms_error(ZpSampling method, size_t count) {
   return sqrt(square);
 }
 
-START_TEST(errors_fall_as_theory_says) {
+TEST(errors_fall_as_theory_says) {
   const double sobol = log2(rms_error(ZP_SAMPLING_SOBOL, 64) / rms_error(ZP_SAMPLING_SOBOL, 4096)) / 6;
   const double random = log2(rms_error(ZP_SAMPLING_RANDOM, 64) / rms_error(ZP_SAMPLING_RANDOM, 4096)) / 6;
   ck_assert_msg(sobol > 1.3, "order %g of sobol", sobol);
   ck_assert_msg(random > 0.3 && random < 0.7, "order %g of random", random);
 }
-END_TEST
 
 /* A point in each of as many strata, for any count; columns are permuted differently. */
-START_TEST(latin_hypercube_has_a_point_in_each_stratum) {
+TEST(latin_hypercube_has_a_point_in_each_stratum) {
   static const size_t counts[] = {1, 2, 3, 7, 100, 1000};
   for (size_t k = 0; k < LENGTH_OF(counts); k++) {
     const ZpDesign design = design_of(ZP_SAMPLING_LATIN_HYPERCUBE, counts[k], 3, false);
@@ -124,7 +118,6 @@ START_TEST(latin_hypercube_has_a_point_in_each_stratum) {
     ck_assert_uint_le(same, 3 + counts[k] / 10 * 3);
   }
 }
-END_TEST
 
 /* Is a chi-square with this freedom between what 1 and what 999 of 1000 are below, by Wilson and Hilferty? */
 static void assert_chi_square(const char *of, double sum, double freedom) {
@@ -152,7 +145,7 @@ static double pearson(const ZpDesign *design, int x, int y) {
 
 /* The place of a point does not depend on its number, nor on its place in another column, nor does the point's position
  * inside its stratum depend on either: as chance has it, not more and not less. */
-START_TEST(latin_hypercube_places_are_random) {
+TEST(latin_hypercube_places_are_random) {
   enum { SEEDS = 40, POINTS = 256, TENTHS = 10 };
   double by_number = 0, by_column = 0, inside = 0, tenth[TENTHS] = {0};
   for (uint32_t seed = 1; seed <= SEEDS; seed++) {
@@ -168,9 +161,8 @@ START_TEST(latin_hypercube_places_are_random) {
   assert_chi_square("places by places of another column", by_column, 2 * SEEDS * 49);
   assert_chi_square("positions inside a stratum", inside, TENTHS - 1);
 }
-END_TEST
 
-START_TEST(designs_depend_on_the_seed_only) {
+TEST(designs_depend_on_the_seed_only) {
   for (int method = 0; method < ZpSampling_COUNT; method++) {
     ZpDesign design = design_of((ZpSampling)method, 64, 3, false), other = design;
     other.seed++;
@@ -183,18 +175,16 @@ START_TEST(designs_depend_on_the_seed_only) {
     ck_assert_uint_le(same, 1);
   }
 }
-END_TEST
 
-START_TEST(normal_quantile_inverts_erfc) {
+TEST(normal_quantile_inverts_erfc) {
   static const double shares[] = {1e-12, 1e-6, 0.01, 0.3, 0.5, 0.7, 0.975, 0.999999};
   for (size_t i = 0; i < LENGTH_OF(shares); i++)
     ck_near(0.5 * erfc(-zp_normal_quantile(shares[i]) / sqrt(2)), shares[i], 1e-13);
   ck_near(zp_normal_quantile(0.975), 1.959963984540054, 1e-14);
   ck_assert_double_eq(zp_normal_quantile(0.5), 0);
 }
-END_TEST
 
-START_TEST(quantiles_of_distributions) {
+TEST(quantiles_of_distributions) {
   const ZpDistribution normal = {ZP_DISTRIBUTION_NORMAL, 50, 2}, lognormal = {ZP_DISTRIBUTION_LOGNORMAL, 50, 0.1},
                        uniform = {ZP_DISTRIBUTION_UNIFORM, 2, 6}, by_factors = {ZP_DISTRIBUTION_LOG_UNIFORM, 1, 100};
   const double one = 0.5 * erfc(-1 / sqrt(2)); /* one standard deviation above the mean */
@@ -203,10 +193,9 @@ START_TEST(quantiles_of_distributions) {
   ck_near(zp_quantile(&uniform, 0.25), 3, 1e-15);
   ck_near(zp_quantile(&by_factors, 0.5), 10, 1e-14);
 }
-END_TEST
 
 /* 1 .. 101 in random order, and three missing values. */
-START_TEST(statistics_in_closed_form) {
+TEST(statistics_in_closed_form) {
   const ZpDesign design = design_of(ZP_SAMPLING_RANDOM, 104, 1, false);
   double value[104], work[104];
   for (size_t i = 0; i < 104; i++)
@@ -224,7 +213,6 @@ START_TEST(statistics_in_closed_form) {
   const ZpStatistics none = zp_statistics(&design, value, work);
   ck_assert(none.count == 0 && none.missing == 104 && isnan(none.mean) && isnan(none.quantile[4]));
 }
-END_TEST
 
 /* Ishigami and Homma's function, whose variance and indices are known. */
 static double ishigami(const ZpDesign *design, size_t sample) {
@@ -234,7 +222,7 @@ static double ishigami(const ZpDesign *design, size_t sample) {
   return sin(x[0]) + 7 * sin(x[1]) * sin(x[1]) + 0.1 * x[2] * x[2] * x[2] * x[2] * sin(x[0]);
 }
 
-START_TEST(indices_of_ishigami) {
+TEST(indices_of_ishigami) {
   enum { POINTS = 4096 };
   const double V1 = 0.5 * (1 + 0.1 * pow(pi, 4) / 5) * (1 + 0.1 * pow(pi, 4) / 5), V2 = 49 / 8.0,
                V13 = 0.01 * pow(pi, 8) * (1 / 18.0 - 1 / 50.0), V = V1 + V2 + V13;
@@ -254,11 +242,10 @@ START_TEST(indices_of_ishigami) {
     ck_below(fabs(indices.total.value - total[j]), 0.01); /* 3.9e-3 measured */
   }
 }
-END_TEST
 
 /* A design of few points: a dimension without influence has no share of the variance, one that alone has influence all
  * of it, whatever the points are. */
-START_TEST(idle_dimensions_have_no_share) {
+TEST(idle_dimensions_have_no_share) {
   const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 64, 3, true);
   double value[5 * 64];
   for (size_t i = 0; i < LENGTH_OF(value); i++)
@@ -270,10 +257,9 @@ START_TEST(idle_dimensions_have_no_share) {
     ck_assert(x.total.value == share && x.total.low == share && x.total.high == share);
   }
 }
-END_TEST
 
 /* Of 400 designs of independent points, how many have intervals that hold the true indices of Ishigami's function. */
-START_TEST(intervals_hold_the_true_indices) {
+TEST(intervals_hold_the_true_indices) {
   enum { POINTS = 256, DESIGNS = 400 };
   const double V1 = 0.5 * (1 + 0.1 * pow(pi, 4) / 5) * (1 + 0.1 * pow(pi, 4) / 5), V2 = 49 / 8.0,
                V13 = 0.01 * pow(pi, 8) * (1 / 18.0 - 1 / 50.0), V = V1 + V2 + V13;
@@ -293,10 +279,9 @@ START_TEST(intervals_hold_the_true_indices) {
   const double share = held / (6.0 * DESIGNS);
   ck_assert_msg(share > 0.93 && share < 0.97, "%g of the intervals hold the index", share);
 }
-END_TEST
 
 /* Points without a value are excluded from the indices of the dimensions that need them, not from others. */
-START_TEST(indices_without_some_values) {
+TEST(indices_without_some_values) {
   const ZpDesign design = design_of(ZP_SAMPLING_SOBOL, 256, 2, true);
   static double value[4 * 256];
   for (size_t i = 0; i < LENGTH_OF(value); i++)
@@ -310,29 +295,4 @@ START_TEST(indices_without_some_values) {
   for (size_t i = 0; i < LENGTH_OF(value); i++)
     value[i] = 3;
   ck_assert(isnan(zp_sobol_indices(&design, value, 0).first.value));
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("sample");
-  TCase *points = tcase_create("points"), *numbers = tcase_create("numbers");
-  tcase_add_test(points, sobol_begins_as_published);
-  tcase_add_test(points, sobol_has_a_point_in_each_interval);
-  tcase_add_test(points, latin_columns_are_independent);
-  tcase_add_test(points, indices_take_two_dimensions_of_a_key);
-  tcase_add_test(points, scrambled_points_are_a_net);
-  tcase_add_test(points, errors_fall_as_theory_says);
-  tcase_add_test(points, latin_hypercube_has_a_point_in_each_stratum);
-  tcase_add_test(points, latin_hypercube_places_are_random);
-  tcase_add_test(points, designs_depend_on_the_seed_only);
-  tcase_add_test(numbers, normal_quantile_inverts_erfc);
-  tcase_add_test(numbers, quantiles_of_distributions);
-  tcase_add_test(numbers, statistics_in_closed_form);
-  tcase_add_test(numbers, indices_of_ishigami);
-  tcase_add_test(numbers, idle_dimensions_have_no_share);
-  tcase_add_test(numbers, intervals_hold_the_true_indices);
-  tcase_add_test(numbers, indices_without_some_values);
-  suite_add_tcase(suite, points);
-  suite_add_tcase(suite, numbers);
-  return run_suite(suite);
 }

@@ -77,7 +77,7 @@ static ZpActuatorDef def_of(int i) {
   return def_with(list, count);
 }
 
-START_TEST(dry_actuator_at_rest_keeps_its_shape) {
+TESTS(dry_actuator_at_rest_keeps_its_shape, 0, LENGTH_OF(cases)) {
   static const double factor[] = {1.6, 0.15};
   ZpActuatorDef def = def_of(_i);
   ZpResult *plain = answer_of(cases[_i].study, &def);
@@ -94,13 +94,4 @@ START_TEST(dry_actuator_at_rest_keeps_its_shape) {
     zp_result_destroy(result);
   }
   zp_result_destroy(plain);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("scale");
-  TCase *rest = tcase_create("rest");
-  tcase_add_loop_test(rest, dry_actuator_at_rest_keeps_its_shape, 0, LENGTH_OF(cases));
-  suite_add_tcase(suite, rest);
-  return run_suite(suite);
 }

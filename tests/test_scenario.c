@@ -128,7 +128,20 @@ static const struct {
     {"electro.surface", "bezier", ZP_SURFACE_BEZIER},
 };
 
-START_TEST(test_good_value) {
+/* The first of all, so that the database was not read yet. */
+TEST(test_no_database) {
+  double value;
+  ZpError err = {0};
+  int key = zp_key_find("load.mass");
+  setenv("UDUNITS2_XML_PATH", "/nowhere/units.xml", 1);
+  ck_assert_int_eq(zp_value_parse(key, "1", &value, &err), ZP_OK);
+  ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_MACHINE);
+  ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/units.xml"));
+  unsetenv("UDUNITS2_XML_PATH");
+  ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_OK);
+}
+
+TESTS(test_good_value, 0, LENGTH_OF(good_values)) {
   double value = -1;
   ZpError err = {0};
   int key = zp_key_find(good_values[_i].key);
@@ -136,10 +149,9 @@ START_TEST(test_good_value) {
   ck_assert_msg(zp_value_parse(key, good_values[_i].text, &value, &err) == ZP_OK, "%s", err.message);
   ck_assert_msg(same_bits(value, good_values[_i].value), "%s: %.17g", good_values[_i].text, value);
 }
-END_TEST
 
 /* "130<no-break space>um", as pages and word processors write it, was an unknown unit. */
-START_TEST(test_no_break_space) {
+TEST(test_no_break_space) {
   static const char *const text[] = {"130\u00A0um",   "130\u202Fum", "130\u2009um",        "130\u2007um",
                                      "\u00A0130 um ", "130um\u00A0", "130 \u00A0 \u202Fum"};
   int key = zp_key_find("insulator.thickness");
@@ -155,7 +167,6 @@ START_TEST(test_no_break_space) {
   ck_assert_int_eq(zp_value_parse(key, "\u00A0", &value, &err), ZP_BAD_INPUT);
   ck_assert_int_eq(zp_value_parse(key, "130\u00A0lightyears", &value, &err), ZP_BAD_INPUT);
 }
-END_TEST
 
 /* Values that are refused, and a part of the reason. All messages must name key and value, too. */
 static const struct {
@@ -212,7 +223,7 @@ static const struct {
     {"electro.surface", "auto", "not one of polyline, bezier"},
 };
 
-START_TEST(test_bad_value) {
+TESTS(test_bad_value, 0, LENGTH_OF(bad_values)) {
   double value = -1;
   ZpError err = {0};
   int key = zp_key_find(bad_values[_i].key);
@@ -224,9 +235,8 @@ START_TEST(test_bad_value) {
   ck_assert_double_eq(value, -1);
   ck_assert_int_eq(zp_value_parse(key, bad_values[_i].text, &value, NULL), ZP_BAD_INPUT);
 }
-END_TEST
 
-START_TEST(test_long_value) {
+TEST(test_long_value) {
   char text[5000];
   double value;
   ZpError err = {0};
@@ -235,7 +245,6 @@ START_TEST(test_long_value) {
   ck_assert_int_eq(zp_value_parse(zp_key_find("load.mass"), text, &value, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "longer than"));
 }
-END_TEST
 
 /* Scenarios that are read: one key and its value. */
 static const struct {
@@ -280,11 +289,10 @@ static const struct {
     {"lower:\n  ribbon.density: 1\nribbon:\n  density: 2\n", "lower.ribbon.density", 1},
 };
 
-START_TEST(test_good_text) {
+TESTS(test_good_text, 0, LENGTH_OF(good_texts)) {
   double value = value_in(good_texts[_i].text, good_texts[_i].key);
   ck_assert_msg(same_bits(value, good_texts[_i].value), "%s: %.17g", good_texts[_i].text, value);
 }
-END_TEST
 
 /* Scenarios that are refused, and two parts of the message. */
 static const struct {
@@ -366,7 +374,7 @@ static const struct {
     {"data.file: {from: 1, to: 2, count: 2}", "test.yaml:", "takes one value, not a range"},
 };
 
-START_TEST(test_bad_text) {
+TESTS(test_bad_text, 0, LENGTH_OF(bad_texts)) {
   ZpScenario *s = scenario_of("load.mass: 7 g\nribbon.length: [90 mm, 95 mm]");
   ZpError err = {0};
   ck_assert_int_eq(parse(s, bad_texts[_i].text, &err), ZP_BAD_INPUT);
@@ -378,7 +386,6 @@ START_TEST(test_bad_text) {
   ck_assert_double_eq(def_of(s, 1).ribbon.length, 0.095);
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* Arguments of --set that are refused. */
 static const struct {
@@ -414,7 +421,7 @@ static const struct {
     {"ribbon.model=rod .. rod : 3", "give one value or a list"},
 };
 
-START_TEST(test_bad_argument) {
+TESTS(test_bad_argument, 0, LENGTH_OF(bad_arguments)) {
   ZpScenario *s = scenario_of("drive.voltage: 3 kV");
   ZpError err = {0};
   ck_assert_int_eq(zp_scenario_set(s, bad_arguments[_i].text, &err), ZP_BAD_INPUT);
@@ -422,9 +429,8 @@ START_TEST(test_bad_argument) {
   ck_assert_double_eq(def_of(s, 0).drive.voltage, 3e3);
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(test_layers) {
+TEST(test_layers) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
   ck_assert_int_eq(zp_scenario_set(s, "drive.voltage=5 kV", &err), ZP_OK);
@@ -443,9 +449,8 @@ START_TEST(test_layers) {
   assert_round_trip(s);
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(test_lists) {
+TEST(test_lists) {
   ZpScenario *s = scenario_of("mesh:\n  nodes: [21, 61, 130]\nload.mass:\n- 8 g\n- 0.012\nsolver.time_step: [auto]");
   size_t count = 0;
   ZpError err = {0};
@@ -469,10 +474,9 @@ START_TEST(test_lists) {
   assert_round_trip(s);
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* Distributions, as a mapping, as a word, in --set: the same values, which survive writing. */
-START_TEST(distributions_are_sampled) {
+TEST(distributions_are_sampled) {
   ZpError err = {0};
   size_t count = 0;
   ZpScenario *s = scenario_of("load.mass: [8 g, 20 g]\nribbon.thickness: {normal: 50 um, sigma: 1 um}\n"
@@ -499,11 +503,10 @@ START_TEST(distributions_are_sampled) {
   zp_scenario_destroy(word);
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* Lists that are walked through together make one axis, in the place of the last of them. */
 /* Each material fills every key of its group but resistivity, with a value in its range. */
-START_TEST(materials_fill_their_group) {
+TESTS(materials_fill_their_group, 0, 5) {
   static const struct {
     const char *key;
     int fills;
@@ -530,7 +533,6 @@ START_TEST(materials_fill_their_group) {
     ck_assert_int_eq(filled, word ? of[_i].fills : 0);
   }
 }
-END_TEST
 
 static void assert_written(const ZpScenario *s, const char *part) {
   char *text = written(s);
@@ -545,7 +547,7 @@ static size_t count_varied(const ZpScenario *s) {
 }
 
 /* Keys that a material fills vary as it says; a key that is given does not, or as it says itself. */
-START_TEST(materials_have_tolerances) {
+TEST(materials_have_tolerances) {
   ZpScenario *s = scenario_of("ribbon: {material: brass, density: 8000}\nlower.insulator.material: pdms\n"
                               "sampling: {tolerances: materials, count: 4}\n");
   ck_assert_uint_eq(count_varied(s), 3 + 4);
@@ -562,9 +564,8 @@ START_TEST(materials_have_tolerances) {
   ck_assert_double_eq(def_of(s, 0).ribbon.yield_stress, 430e6);
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(lists_together) {
+TEST(lists_together) {
   ZpError err = {0};
   ZpActuatorDef def;
   ZpScenario *s = scenario_of("ribbon.thickness: [40 um, 50 um, 60 um]\nload.mass: [8 g, 20 g]\n"
@@ -588,7 +589,6 @@ START_TEST(lists_together) {
   ck_assert_uint_eq(zp_scenario_count(s), 12);
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* What is no distribution, and why. */
 static const struct {
@@ -610,7 +610,7 @@ static const struct {
      "more than 1000000 cases"},
 };
 
-START_TEST(bad_spread_says_why) {
+TESTS(bad_spread_says_why, 0, LENGTH_OF(bad_spreads)) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
   ck_assert_int_eq(parse(s, bad_spreads[_i].text, &err), ZP_BAD_INPUT);
@@ -618,7 +618,6 @@ START_TEST(bad_spread_says_why) {
   ck_assert_uint_eq(zp_scenario_count(s), 1);
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* Ranges, in a file and in --set, and the list that says the same. */
 static const struct {
@@ -636,7 +635,7 @@ static const struct {
      "solver.time_step: [1 us, 10 us, 100 us]"},
 };
 
-START_TEST(test_ranges) {
+TESTS(test_ranges, 0, LENGTH_OF(ranges)) {
   ZpScenario *file = scenario_of(ranges[_i].file), *argument = scenario_of(""), *list = scenario_of(ranges[_i].list);
   ZpError err = {0};
   ck_assert_msg(zp_scenario_set(argument, ranges[_i].argument, &err) == ZP_OK, "%s", err.message);
@@ -651,10 +650,9 @@ START_TEST(test_ranges) {
   zp_scenario_destroy(argument);
   zp_scenario_destroy(list);
 }
-END_TEST
 
 /* The preset gives other values at each N: they cannot be written as one. */
-START_TEST(test_preset_with_list) {
+TEST(test_preset_with_list) {
   ZpScenario *s = scenario_of("preset: paper-code\nmesh.nodes: [21, 61, 130]\nload.mass: [8 g, 10 g]");
   ck_assert_double_eq(def_of(s, 0).damping.drag, 10);
   ck_assert_double_eq(def_of(s, 1).damping.drag, 100);
@@ -665,7 +663,6 @@ START_TEST(test_preset_with_list) {
   assert_round_trip(s);
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* Scenarios whose cases vary in ways that a Def common to all must not hide. */
 static const char *const with_cases[] = {
@@ -707,7 +704,7 @@ static ZpActuatorDef def_by_values(const ZpScenario *s, size_t index, const char
 }
 
 /* A case is what its values give without the others, whatever the cases have in common. */
-START_TEST(a_case_is_that_of_its_values) {
+TESTS(a_case_is_that_of_its_values, 0, LENGTH_OF(with_cases)) {
   const char *text = with_cases[_i];
   ZpScenario *s = scenario_of(text);
   ck_assert_uint_gt(zp_scenario_count(s), 3);
@@ -718,9 +715,8 @@ START_TEST(a_case_is_that_of_its_values) {
   }
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(test_def_errors) {
+TEST(test_def_errors) {
   ZpScenario *s = scenario_of("preset: paper-text\nmesh.nodes: [61, 41]");
   ZpActuatorDef def;
   ZpError err = {0};
@@ -736,7 +732,6 @@ START_TEST(test_def_errors) {
   ck_assert_ptr_nonnull(strstr(err.message, "test.yaml: platform.length"));
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* "KEY: [1, 1, ...]" with `count` values, to be freed. */
 static char *list_text(const char *key, size_t count) {
@@ -749,7 +744,7 @@ static char *list_text(const char *key, size_t count) {
   return text;
 }
 
-START_TEST(test_limits) {
+TEST(test_limits) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
   char *text = list_text("load.mass", 20001);
@@ -775,9 +770,8 @@ START_TEST(test_limits) {
   free(text);
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(test_long_names) {
+TEST(test_long_names) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
   char name[3000];
@@ -793,7 +787,6 @@ START_TEST(test_long_names) {
   ck_assert_ptr_nonnull(strstr(err.message, "unknown key"));
   zp_scenario_destroy(s);
 }
-END_TEST
 
 /* Every key at its default, its limits and at values that have no short decimal. */
 static void assert_value_round_trip(int key, double value) {
@@ -805,7 +798,7 @@ static void assert_value_round_trip(int key, double value) {
   ck_assert_msg(same_bits(value, back), "%s: %s: %.17g became %.17g", zp_key(key)->name, text, value, back);
 }
 
-START_TEST(test_value_round_trip) {
+TESTS(test_value_round_trip, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   if (key->type == ZP_KEY_TEXT) return;
   assert_value_round_trip(_i, key->def);
@@ -819,10 +812,9 @@ START_TEST(test_value_round_trip) {
     assert_value_round_trip(_i, fmax(key->min, key->max * pow(10, -12 * share)));
   }
 }
-END_TEST
 
 /* A scenario that sets one key: it need not pass the check of the whole Def to be written. */
-START_TEST(test_scenario_round_trip) {
+TESTS(test_scenario_round_trip, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   if (key->type == ZP_KEY_TEXT) return; /* test_texts */
   double values[] = {key->min, key->max, key->min + (key->max - key->min) / 3};
@@ -845,10 +837,9 @@ START_TEST(test_scenario_round_trip) {
     zp_scenario_destroy(s);
   }
 }
-END_TEST
 
 /* Texts come back as they were, whatever is in them; a file is kept as an absolute path. */
-START_TEST(test_texts) {
+TEST(test_texts) {
   ZpScenario *s = scenario_of("calibrate:\n  fit: a \"b\" \\ c, [d] é\n  x: 'it''s # not a comment'\n  y: "
                               "\"0.5\"\ndata.file: /folder/a b.csv\n");
   char *text = written(s);
@@ -877,9 +868,8 @@ START_TEST(test_texts) {
   zp_scenario_destroy(back);
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(test_print) {
+TEST(test_print) {
   char text[64];
   zp_value_print(zp_key_find("ribbon.length"), 0.1, text, sizeof text);
   ck_assert_str_eq(text, "100 mm");
@@ -896,7 +886,6 @@ START_TEST(test_print) {
   zp_value_print(zp_key_find("mesh.nodes"), 61, text, 2);
   ck_assert_str_eq(text, "6");
 }
-END_TEST
 
 /* What zp_keys_write gives, to be freed. */
 static char *keys_text(ZpKeysFormat format) {
@@ -910,7 +899,7 @@ static char *keys_text(ZpKeysFormat format) {
   return text;
 }
 
-START_TEST(test_keys_yaml) {
+TEST(test_keys_yaml) {
   char *text = keys_text(ZP_KEYS_YAML);
   ZpScenario *s = scenario_of(text);
   ZpActuatorDef def = def_of(s, 0), expected = zp_actuator_def_default();
@@ -918,9 +907,8 @@ START_TEST(test_keys_yaml) {
   zp_scenario_destroy(s);
   free(text);
 }
-END_TEST
 
-START_TEST(test_keys_json) {
+TEST(test_keys_json) {
   char *text = keys_text(ZP_KEYS_JSON);
   json_t *list = json_loads(text, 0, NULL);
   ck_assert_int_eq((int)json_array_size(list), zp_key_count());
@@ -947,9 +935,8 @@ START_TEST(test_keys_json) {
   json_decref(list);
   free(text);
 }
-END_TEST
 
-START_TEST(test_keys_text) {
+TEST(test_keys_text) {
   char *text = keys_text(ZP_KEYS_TEXT);
   for (int i = 0; i < zp_key_count(); i++) {
     ck_assert_ptr_nonnull(strstr(text, zp_key(i)->name));
@@ -959,9 +946,8 @@ START_TEST(test_keys_text) {
   ck_assert_ptr_nonnull(strstr(text, "bezier: "));
   free(text);
 }
-END_TEST
 
-START_TEST(test_full_disk) {
+TEST(test_full_disk) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
   FILE *full = fopen("/dev/full", "w");
@@ -975,9 +961,8 @@ START_TEST(test_full_disk) {
   }
   zp_scenario_destroy(s);
 }
-END_TEST
 
-START_TEST(test_files) {
+TEST(test_files) {
   ZpScenario *s = zp_scenario_create();
   ZpError err = {0};
   ck_assert_int_eq(zp_scenario_read(s, "/nowhere/x.yaml", &err), ZP_BAD_INPUT);
@@ -988,21 +973,6 @@ START_TEST(test_files) {
   ck_assert_ptr_nonnull(strstr(err.message, "1 MB"));
   zp_scenario_destroy(s);
 }
-END_TEST
-
-/* The first of all, so that the database was not read yet. */
-START_TEST(test_no_database) {
-  double value;
-  ZpError err = {0};
-  int key = zp_key_find("load.mass");
-  setenv("UDUNITS2_XML_PATH", "/nowhere/units.xml", 1);
-  ck_assert_int_eq(zp_value_parse(key, "1", &value, &err), ZP_OK);
-  ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_MACHINE);
-  ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/units.xml"));
-  unsetenv("UDUNITS2_XML_PATH");
-  ck_assert_int_eq(zp_value_parse(key, "8 g", &value, &err), ZP_OK);
-}
-END_TEST
 
 static void *parse_often(void *bad) {
   int key = zp_key_find("ribbon.thickness");
@@ -1016,7 +986,7 @@ static void *parse_often(void *bad) {
   return NULL;
 }
 
-START_TEST(test_threads) {
+TEST(test_threads) {
   pthread_t thread[4];
   bool bad[4] = {false};
   for (int i = 0; i < 4; i++)
@@ -1026,10 +996,9 @@ START_TEST(test_threads) {
     ck_assert(!bad[i]);
   }
 }
-END_TEST
 
 /* With a decimal comma, where the machine has such a locale. */
-START_TEST(test_locale) {
+TEST(test_locale) {
   static const char *const names[] = {"de_DE.UTF-8", "fr_FR.UTF-8", "de_DE", "fr_FR"};
   for (size_t i = 0; i < LENGTH_OF(names); i++)
     if (setlocale(LC_ALL, names[i])) break;
@@ -1038,58 +1007,4 @@ START_TEST(test_locale) {
   free(text);
   ck_assert_double_eq(value_in("load.mass: 1.5 g", "load.mass"), 1.5e-3);
   ck_assert_double_eq(value_in("ribbon.length: 2.5 in", "ribbon.length"), 2.5 * 0.0254);
-}
-END_TEST
-
-/* The database of units, read once for all tests of a case, each of which is a process. */
-static void read_units(void) {
-  double value;
-  ck_assert_int_eq(zp_value_parse(zp_key_find("load.mass"), "8 g", &value, NULL), ZP_OK);
-}
-
-int main(void) {
-  Suite *suite = suite_create("scenario");
-  TCase *first = tcase_create("first");
-  tcase_add_test(first, test_no_database);
-  tcase_add_test(first, test_threads);
-  tcase_add_test(first, test_locale);
-  suite_add_tcase(suite, first);
-  TCase *values = tcase_create("values");
-  tcase_add_unchecked_fixture(values, read_units, NULL);
-  tcase_add_loop_test(values, test_good_value, 0, LENGTH_OF(good_values));
-  tcase_add_loop_test(values, test_bad_value, 0, LENGTH_OF(bad_values));
-  tcase_add_test(values, test_no_break_space);
-  tcase_add_test(values, test_long_value);
-  tcase_add_loop_test(values, test_value_round_trip, 0, zp_key_count());
-  tcase_add_test(values, test_print);
-  suite_add_tcase(suite, values);
-  TCase *scenarios = tcase_create("scenarios");
-  tcase_add_unchecked_fixture(scenarios, read_units, NULL);
-  tcase_add_loop_test(scenarios, test_good_text, 0, LENGTH_OF(good_texts));
-  tcase_add_loop_test(scenarios, test_bad_text, 0, LENGTH_OF(bad_texts));
-  tcase_add_loop_test(scenarios, test_bad_argument, 0, LENGTH_OF(bad_arguments));
-  tcase_add_test(scenarios, test_layers);
-  tcase_add_test(scenarios, test_lists);
-  tcase_add_test(scenarios, distributions_are_sampled);
-  tcase_add_loop_test(scenarios, materials_fill_their_group, 0, 5);
-  tcase_add_test(scenarios, materials_have_tolerances);
-  tcase_add_test(scenarios, lists_together);
-  tcase_add_loop_test(scenarios, bad_spread_says_why, 0, LENGTH_OF(bad_spreads));
-  tcase_add_loop_test(scenarios, test_ranges, 0, LENGTH_OF(ranges));
-  tcase_add_test(scenarios, test_preset_with_list);
-  tcase_add_loop_test(scenarios, a_case_is_that_of_its_values, 0, LENGTH_OF(with_cases));
-  tcase_add_test(scenarios, test_def_errors);
-  tcase_add_test(scenarios, test_limits);
-  tcase_add_test(scenarios, test_long_names);
-  tcase_add_test(scenarios, test_texts);
-  tcase_add_loop_test(scenarios, test_scenario_round_trip, 0, zp_key_count());
-  tcase_add_test(scenarios, test_files);
-  suite_add_tcase(suite, scenarios);
-  TCase *keys = tcase_create("keys");
-  tcase_add_test(keys, test_keys_yaml);
-  tcase_add_test(keys, test_keys_json);
-  tcase_add_test(keys, test_keys_text);
-  tcase_add_test(keys, test_full_disk);
-  suite_add_tcase(suite, keys);
-  return run_suite(suite);
 }

@@ -105,7 +105,7 @@ static size_t done_of(const ZpSearch *s) {
 /* -- goals ------------------------------------------------------------------------------------------ */
 
 /* Two outputs and two variables, one of them by factors: the derivatives of a case are those of its goals. */
-START_TEST(slopes_are_those_of_goals) {
+TEST(slopes_are_those_of_goals) {
   Bench b;
   OPEN(&b, "slopes", "study=stationary", "mesh.nodes=9", "output.errors=false", "solver.tolerance=1e-8",
        "optimize.variables=ribbon.thickness = 40 um .. 60 um log; ribbon.width = 10 mm .. 20 mm",
@@ -122,9 +122,8 @@ START_TEST(slopes_are_those_of_goals) {
   }
   close_bench(&b);
 }
-END_TEST
 
-START_TEST(goals_in_closed_form) {
+TEST(goals_in_closed_form) {
   ZpProblem p = {.objectives = 2, .goals = 3};
   const double good[] = {1, 2, -0.5}, first[] = {0.5, 3, 0}, worse[] = {1, 2.5, 0}, misses[] = {0, 0, 0.5},
                touches[] = {1, 2, 0.9e-6}, just[] = {1, 2, 1.1e-6}, none[] = {1, 2, NAN};
@@ -138,14 +137,13 @@ START_TEST(goals_in_closed_form) {
   ck_assert(zp_dominates(&p, good, misses) && !zp_dominates(&p, misses, good) && zp_dominates(&p, misses, none));
   ck_assert(zp_is_better(&p, first, good) && zp_is_better(&p, good, misses) && !zp_is_better(&p, misses, good));
 }
-END_TEST
 
 /* -- local searches --------------------------------------------------------------------------------- */
 
 /* The study has no derivatives of the stress, 3 P L / (w b^2), whose lever L falls by 0.6 of the squared slope of a
  * deflected strip. The greatest is that of the thinnest and narrowest strip; a search for it from the other corner
  * takes differences that stay in the box. */
-START_TEST(differences_stay_in_the_box) {
+TEST(differences_stay_in_the_box) {
   Bench b;
   OPEN(&b, "corner", STRIP, BOTH, "optimize.objective=max max_stress_Pa", "optimize.method=slsqp",
        "optimize.evaluations=40");
@@ -162,11 +160,10 @@ START_TEST(differences_stay_in_the_box) {
           1.5e-6); /* 5.2e-7 measured, of the mesh */
   close_bench(&b);
 }
-END_TEST
 
 /* The widest strip has the least stress where its stroke is large enough: a constraint with derivatives and an
  * objective without. Values of very different size converge in some steps only if derivatives have their scale. */
-START_TEST(derivatives_have_the_scale_of_values) {
+TEST(derivatives_have_the_scale_of_values) {
   Bench b;
   char bound[80];
   const double stroke = 2 * least_stroke();
@@ -184,10 +181,9 @@ START_TEST(derivatives_have_the_scale_of_values) {
   ck_near(best, stroke, 2e-8); /* 6.4e-9 measured */
   close_bench(&b);
 }
-END_TEST
 
 /* Four searches, each with its share of the cases, from sampled points that are far enough from each other. */
-START_TEST(starts_are_apart) {
+TEST(starts_are_apart) {
   enum { SAMPLED = 20, STARTS = 4, SHARE = (80 - SAMPLED) / STARTS };
   Bench b;
   OPEN(&b, "starts", STRIP, BOTH, "optimize.objective=max stroke_m", "optimize.method=cobyla",
@@ -209,7 +205,6 @@ START_TEST(starts_are_apart) {
   }
   close_bench(&b);
 }
-END_TEST
 
 /* -- cells of a box without a design ----------------------------------------------------------------- */
 
@@ -232,7 +227,7 @@ static void exclude(Bench *b, const char *bound, double beyond) {
   ck_near(fabs(cell[3].z[0] - cell[4].z[0]), 2 / 9.0, 1e-13);
 }
 
-START_TEST(cells_are_excluded_as_far_as_slopes_allow) {
+TEST(cells_are_excluded_as_far_as_slopes_allow) {
   static const double beyond[] = {0.1, 0.01, 0.001};
   static const size_t cells[] = {5, 9, 9};
   for (int k = 0; k < 6; k++) {
@@ -243,7 +238,6 @@ START_TEST(cells_are_excluded_as_far_as_slopes_allow) {
     close_bench(&b);
   }
 }
-END_TEST
 
 /* -- generations ------------------------------------------------------------------------------------- */
 
@@ -261,7 +255,7 @@ static void evolve(Bench *b, const char *seed, bool copied[8][2]) {
     }
 }
 
-START_TEST(generations_depend_on_the_seed) {
+TEST(generations_depend_on_the_seed) {
   Bench b[2];
   bool copied[2][8][2];
   evolve(&b[0], "sampling.seed=1", copied[0]);
@@ -271,11 +265,10 @@ START_TEST(generations_depend_on_the_seed) {
   close_bench(&b[0]);
   close_bench(&b[1]);
 }
-END_TEST
 
 /* Much stroke for little stress: the front goes from the widest and thickest strip to the thinnest and narrowest. The
  * place of the stress is always the clamp: as first objective it tells no members apart, the others keep them apart. */
-START_TEST(fronts_reach_both_ends) {
+TEST(fronts_reach_both_ends) {
   enum { MEMBERS = 40 };
   Bench b;
   OPEN(&b, "front", STRIP, BOTH, "optimize.objective=min max_stress_place_m; max stroke_m; min max_stress_Pa",
@@ -301,7 +294,6 @@ START_TEST(fronts_reach_both_ends) {
   ck_assert_double_lt(narrowest, 0.005);
   close_bench(&b);
 }
-END_TEST
 
 /* -- whole optimisations ----------------------------------------------------------------------------- */
 
@@ -322,7 +314,7 @@ static double row_value(const ZpReport *report, size_t row, const char *name) {
 }
 
 /* Rows of the same cases are taken, those of another load are not. The best row is the one that is reported. */
-START_TEST(resumed_rows_are_of_the_same_case) {
+TEST(resumed_rows_are_of_the_same_case) {
 #define CASE(load)                                                                                                     \
   STRIP, BOTH, "optimize.objective=max stroke_m", "optimize.constraints=stroke_m <= 0.2 mm",                           \
       "optimize.evaluations=32", load
@@ -348,10 +340,9 @@ START_TEST(resumed_rows_are_of_the_same_case) {
   zp_optimization_destroy(other);
   zp_optimization_destroy(fresh);
 }
-END_TEST
 
 /* The scenario of the report has the thickness and the width of each of its rows. */
-START_TEST(rows_have_their_variables) {
+TEST(rows_have_their_variables) {
   ZpOptimization *o =
       OPTIMIZE("rows", false, STRIP, BOTH, "optimize.objective=min stroke_m", "optimize.evaluations=16");
   const ZpReport *report = zp_optimization_report(o);
@@ -364,10 +355,9 @@ START_TEST(rows_have_their_variables) {
   }
   zp_optimization_destroy(o);
 }
-END_TEST
 
 /* A run that ends at a limit of steps has numbers, but no answer: no case satisfies anything. */
-START_TEST(failed_cases_have_no_goals) {
+TEST(failed_cases_have_no_goals) {
   ZpOptimization *o =
       OPTIMIZE("failed", false, "study=actuate", "mesh.nodes=5", "liquid.model=none", "output.errors=false",
                "solver.max_steps=3", "optimize.variables=drive.voltage = 6 kV .. 10 kV",
@@ -377,24 +367,4 @@ START_TEST(failed_cases_have_no_goals) {
   ck_assert(!report->optimum->feasible);
   ck_assert_uint_eq(zp_optimization_state(o).failed, report->count);
   zp_optimization_destroy(o);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("search");
-  TCase *parts = tcase_create("parts"), *whole = tcase_create("whole");
-  tcase_add_test(parts, slopes_are_those_of_goals);
-  tcase_add_test(parts, goals_in_closed_form);
-  tcase_add_test(parts, differences_stay_in_the_box);
-  tcase_add_test(parts, derivatives_have_the_scale_of_values);
-  tcase_add_test(parts, starts_are_apart);
-  tcase_add_test(parts, cells_are_excluded_as_far_as_slopes_allow);
-  tcase_add_test(parts, generations_depend_on_the_seed);
-  tcase_add_test(parts, fronts_reach_both_ends);
-  tcase_add_test(whole, resumed_rows_are_of_the_same_case);
-  tcase_add_test(whole, rows_have_their_variables);
-  tcase_add_test(whole, failed_cases_have_no_goals);
-  suite_add_tcase(suite, parts);
-  suite_add_tcase(suite, whole);
-  return run_suite(suite);
 }

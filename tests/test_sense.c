@@ -23,7 +23,7 @@ static void read_line(const ZpMeter *meter, const double charge[2], const double
 
 /* A constant capacitance is read to rounding, for any constant current beside it. One that grows evenly is read in the
  * middle of the window, but for what the last sample misses of it. */
-START_TEST(test_reading) {
+TEST(test_reading) {
   ZpActuatorDef def = DEF(METER);
   ZpMeter meter = zp_meter_of(&def, 1e-9);
   double reading[3], window = zp_meter_window(&meter);
@@ -35,11 +35,10 @@ START_TEST(test_reading) {
   for (int i = 0; i < 3; i++)
     ck_near(reading[i], 1e-10 * (1 + (i + 0.5) * window - 1 / 16e3), 1e-12); /* 2.2e-16 measured */
 }
-END_TEST
 
 /* Other currents count as they are: one that begins within a period adds what its samples have in phase with the
  * sine's current, the sum of cos(2 pi k / N) from their first on. */
-START_TEST(test_current_that_begins) {
+TEST(test_current_that_begins) {
   enum { N = 16, FIRST = 4 };
   const double begins = (FIRST - 0.5) / 16e3, I = 1e-6;
   ZpActuatorDef def = DEF(METER, {"sense.bandwidth", 1e3});
@@ -51,11 +50,10 @@ START_TEST(test_current_that_begins) {
   ck_near(zp_meter_window(&meter), 1e-3, 1e-12);
   ck_near(reading, 1e-10 + 2 * I * sum / (N * 2 * PI * 1e3 * 50), 1e-12);
 }
-END_TEST
 
 /* A current beyond the range of the samples is clipped: the reading for twice the current of the range is the first
  * harmonic of a clipped sine, 2/3 + sqrt(3) / pi of the range. */
-START_TEST(test_range) {
+TEST(test_range) {
   ZpActuatorDef def = DEF(METER, {"sense.bits", 24}, {"sense.sampling_rate", 4e6});
   double most = 2 * PI * 1e3 * 50 * 1e-10, reading;
   def.sense.range = most;
@@ -63,7 +61,6 @@ START_TEST(test_range) {
   read_line(&meter, (double[]){0, 0}, (double[]){2e-10, 2e-10}, 1, &reading);
   ck_near(reading, 1e-10 * (2.0 / 3 + sqrt(3) / PI), 2e-7); /* 6.2e-8 measured */
 }
-END_TEST
 
 static double spread(const ZpMeter *meter, double *first) {
   enum { WINDOWS = 40 };
@@ -77,7 +74,7 @@ static double spread(const ZpMeter *meter, double *first) {
 
 /* White noise in n samples gives the amplitude of the current a noise of sqrt(2 / n) of it. One seed gives one noise.
  */
-START_TEST(test_noise) {
+TEST(test_noise) {
   ZpActuatorDef def = DEF(METER, {"sense.noise", 1e-7});
   ZpMeter meter = zp_meter_of(&def, 1e-9), other = meter;
   double first, again, different;
@@ -89,11 +86,10 @@ START_TEST(test_noise) {
   spread(&other, &different);
   ck_assert(first == again && first != different);
 }
-END_TEST
 
 /* Few bits: the error of a sample is at most half a step, and so, approximately, is that of the amplitude; two more
  * bits reduce it to about a quarter. */
-START_TEST(test_resolution) {
+TEST(test_resolution) {
   double off[2];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def = DEF(METER, {"sense.bits", 6 + 4 * k});
@@ -106,11 +102,10 @@ START_TEST(test_resolution) {
   }
   ck_below(off[1], off[0]);
 }
-END_TEST
 
 /* Slowly up to below pull-in and back, damped: the actuator follows its equilibria, and the meter reads its stroke to
  * well below a thousandth, in the middle of its windows of 0.22 s. */
-START_TEST(test_stroke_along_the_states_of_rest) {
+TEST(test_stroke_along_the_states_of_rest) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 0.2},
                           {"drive.voltage", 5e3}, {"solver.end_time", 5}, {"damping.internal", 5e-3},
                           {"sense.bits", 12}, {"sense.noise", 1e-9}, {"sense.bandwidth", 2});
@@ -126,11 +121,10 @@ START_TEST(test_stroke_along_the_states_of_rest) {
           zp_table_get(result->series, 0, "stroke_m"), 1e-4); /* 2.4e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Ribbons bowed twice, under a spring, are partly closed at 2 kV. Equilibria on the way back from closed ones have the
  * same capacitance at a fifth of the stroke. Readings give the stroke of those through which the actuator has come. */
-START_TEST(test_stroke_of_the_branch_that_it_is_on) {
+TEST(test_stroke_of_the_branch_that_it_is_on) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"liquid.model", ZP_LIQUID_NONE}, {"segment_1.length", 21e-3},
                           {"segment_1.curvature", -16}, {"segment_2.length", 10e-3}, {"segment_2.curvature", 15},
                           {"gravity", 0}, {"load.mass", 0}, {"load.stiffness", 2}, {"load.rest_opening", 15e-3},
@@ -140,10 +134,9 @@ START_TEST(test_stroke_of_the_branch_that_it_is_on) {
   ck_below(zp_result_get(result, "sense_stroke_error"), 8e-3); /* 3.1e-3 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The error while it is held counts from the zip to the end of the voltage: what comes after does not change it. */
-START_TEST(test_held_until_the_release) {
+TEST(test_held_until_the_release) {
   double error[2];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def = DEF(METER, {"mesh.nodes", 9}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1},
@@ -156,10 +149,9 @@ START_TEST(test_held_until_the_release) {
   }
   ck_near(error[1], error[0], 1e-12);
 }
-END_TEST
 
 /* What cannot be read, with the key that says why. */
-START_TEST(test_refused) {
+TESTS(test_refused, 0, 7) {
   static const struct {
     Setting with[3];
     const char *says;
@@ -180,11 +172,10 @@ START_TEST(test_refused) {
   ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, of[_i].says) != NULL, "%s", err.message);
 }
-END_TEST
 
 /* Close to rest at 3 kV the field's capacitance gives the stroke, though the shapes of the path are those of the plates
  * law; the path of fields gives 10.1211 mm. */
-START_TEST(test_stroke_by_the_field) {
+TEST(test_stroke_by_the_field) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 9}, {"electro.model", ZP_ELECTRO_FIELD}, {"drive.voltage", 3e3},
                           {"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 0.02}, {"damping.drag", 3},
                           {"solver.end_time", 0.574});
@@ -196,23 +187,21 @@ START_TEST(test_stroke_by_the_field) {
   ck_near(sensed, 10.1211e-3, 3e-4); /* 2.4e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The equilibria of a meter take no field for each of their steps: 1 ms took 20 s of CPU time, measured 0.04 s. */
-START_TEST(test_field_and_meter_are_quick) {
+TEST(test_field_and_meter_are_quick) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 9}, {"electro.model", ZP_ELECTRO_FIELD}, {"solver.end_time", 1e-3});
   clock_t start = clock();
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   if (!SANITIZED) ck_assert_double_lt((double)(clock() - start) / CLOCKS_PER_SEC, 2);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* It zips, is held, and opens again while the voltage falls evenly from 8 kV at 0.5 s to 0 at 1.48 s; then it hangs.
  * The zip ends when it has closed, the hold with half of the largest voltage, at 0.99 s. Squared errors of the windows
  * of zip, hold and release add up to those of all. Readings come from the branch on which the actuator is: closed, and
  * open again after the release. */
-START_TEST(test_zip_hold_and_release) {
+TEST(test_zip_hold_and_release) {
   static const double t[] = {0, 0.5, 1.48, 2}, U[] = {8e3, 8e3, 0, 0};
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 9}, {"drive.waveform", ZP_WAVEFORM_TABLE}, {"damping.drag", 0.4},
                           {"solver.end_time", t[3]});
@@ -244,7 +233,6 @@ START_TEST(test_zip_hold_and_release) {
   ck_below(hanging, 2e-4); /* the swing that is left */
   zp_result_destroy(result);
 }
-END_TEST
 
 static ZpResult *sensed(double end_time, const ZpCheckpoint *start) {
   ZpActuatorDef def = DEF(METER, {"mesh.nodes", 15}, {"drive.voltage", 5e3}, {"drive.waveform", ZP_WAVEFORM_RAMP},
@@ -260,7 +248,7 @@ static ZpResult *sensed(double end_time, const ZpCheckpoint *start) {
 /* A run that resumes at 40 ms has the readings of the windows of 22 ms that begin afterwards, and they are those of the
  * whole run: the third ends at 66 ms. Errors are those of these windows: their squares are a part of the sum of all
  * four. */
-START_TEST(test_resumed_run_reads_its_own_windows) {
+TEST(test_resumed_run_reads_its_own_windows) {
   ZpResult *part = sensed(0.04, NULL), *whole = sensed(0.1, NULL), *rest = sensed(0.1, part->checkpoint);
   for (size_t k = 0; k < rest->series->rows; k++) {
     double t = zp_table_get(rest->series, k, "time_s"), C = zp_table_get(rest->series, k, "sensed_capacitance_F");
@@ -278,25 +266,4 @@ START_TEST(test_resumed_run_reads_its_own_windows) {
   zp_result_destroy(whole);
   zp_result_destroy(rest);
   zp_result_destroy(none);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("sense");
-  TCase *tcase = tcase_create("sense");
-  tcase_add_test(tcase, test_reading);
-  tcase_add_test(tcase, test_current_that_begins);
-  tcase_add_test(tcase, test_range);
-  tcase_add_test(tcase, test_noise);
-  tcase_add_test(tcase, test_resolution);
-  tcase_add_test(tcase, test_stroke_along_the_states_of_rest);
-  tcase_add_test(tcase, test_stroke_of_the_branch_that_it_is_on);
-  tcase_add_test(tcase, test_held_until_the_release);
-  tcase_add_test(tcase, test_resumed_run_reads_its_own_windows);
-  tcase_add_test(tcase, test_zip_hold_and_release);
-  tcase_add_test(tcase, test_stroke_by_the_field);
-  tcase_add_test(tcase, test_field_and_meter_are_quick);
-  tcase_add_loop_test(tcase, test_refused, 0, 7);
-  suite_add_tcase(suite, tcase);
-  return run_suite(suite);
 }

@@ -96,7 +96,7 @@ static double residual(const Case *c, const double *x, const double *b) {
   return largest;
 }
 
-START_TEST(test_known_factor) {
+TEST(test_known_factor) {
   double worst_factor = 0, worst_residual = 0;
   for (Shape shape = 0; shape < SHAPES; shape++)
     for (size_t k = 0; k < LENGTH_OF(sizes); k++)
@@ -117,13 +117,12 @@ START_TEST(test_known_factor) {
   ck_below(worst_factor, 1e-14);   /* measured: 9e-16 */
   ck_below(worst_residual, 1e-14); /* 1.3e-15 */
 }
-END_TEST
 
 /* LAPACK's Cholesky of a dense matrix, by its Fortran name. */
 void dposv_(const char *uplo, const int *n, const int *nrhs, double *a, const int *lda, double *b, const int *ldb,
             int *info);
 
-START_TEST(test_is_lapack) {
+TEST(test_is_lapack) {
   double worst = 0;
   for (Shape shape = 0; shape < SHAPES; shape++)
     for (size_t k = 0; k < LENGTH_OF(sizes); k++) {
@@ -144,10 +143,9 @@ START_TEST(test_is_lapack) {
   printf("solution off LAPACK's by %.2e\n", worst);
   ck_below(worst, 1e-14); /* measured: 7e-16 */
 }
-END_TEST
 
 /* Each of the right-hand sides that are solved together is what it is alone, bit by bit. */
-START_TEST(test_lanes_are_single_solves) {
+TEST(test_lanes_are_single_solves) {
   for (Shape shape = 0; shape < SHAPES; shape++)
     for (size_t k = 0; k < LENGTH_OF(sizes); k++) {
       uint64_t seed = k + 1;
@@ -171,11 +169,10 @@ START_TEST(test_lanes_are_single_solves) {
       destroy(&c);
     }
 }
-END_TEST
 
 /* -- a grid, its rows one after the other: (-1 -1 4 -1 -1), sin sin is an eigenvector -------------------- */
 
-START_TEST(test_grid) {
+TEST(test_grid) {
   enum { NX = 61, NY = 97, N = NX * NY };
   static size_t first[N];
   static double b[N], expected[N];
@@ -197,12 +194,11 @@ START_TEST(test_grid) {
   ck_below(distance(N, b, expected), 5e-13); /* measured: 5e-14; the condition is 2500 */
   zp_skyline_destroy(&s);
 }
-END_TEST
 
 /* -- what is no such matrix ------------------------------------------------------------------------------ */
 
 /* One wrong number anywhere in a good matrix is detected, and the matrix can be used again afterwards. */
-START_TEST(test_not_positive) {
+TEST(test_not_positive) {
   static const double wrong[] = {-1, 0, -0.0, NAN, INFINITY, -INFINITY};
   Case c = random_case(SPIKES, 37, 5);
   for (size_t i = 0; i < c.n; i++)
@@ -223,10 +219,9 @@ START_TEST(test_not_positive) {
   ck_below(factor_error(&c), 1e-14);
   destroy(&c);
 }
-END_TEST
 
 /* (1 1, 1 1) is exactly singular: as the last rows of a block, where no later row could notice. */
-START_TEST(test_singular) {
+TEST(test_singular) {
   static const size_t first[] = {0, 1, 2, 3, 4, 5, 6, 6};
   ZpSkyline s;
   ck_assert(zp_skyline_create(&s, LENGTH_OF(first), first));
@@ -235,10 +230,9 @@ START_TEST(test_singular) {
   ck_assert(!zp_skyline_factor(&s));
   zp_skyline_destroy(&s);
 }
-END_TEST
 
 /* Places of entries do not overlap, and a block holds no more than its rows need, rounded to whole blocks. */
-START_TEST(test_places) {
+TEST(test_places) {
   static const size_t first[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 8, 10, 9, 12, 12, 14, 14, 15, 16, 17};
   ZpSkyline s;
   ck_assert(zp_skyline_create(&s, LENGTH_OF(first), first));
@@ -252,19 +246,4 @@ START_TEST(test_places) {
       ck_assert_double_eq(*zp_skyline_at(&s, i, j), (double)++found);
   zp_skyline_destroy(&s);
   zp_skyline_destroy(&s); /* harmless */
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("skyline");
-  TCase *solve = tcase_create("solve");
-  tcase_add_test(solve, test_known_factor);
-  tcase_add_test(solve, test_is_lapack);
-  tcase_add_test(solve, test_lanes_are_single_solves);
-  tcase_add_test(solve, test_grid);
-  tcase_add_test(solve, test_not_positive);
-  tcase_add_test(solve, test_singular);
-  tcase_add_test(solve, test_places);
-  suite_add_tcase(suite, solve);
-  return run_suite(suite);
 }

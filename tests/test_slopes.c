@@ -78,7 +78,7 @@ static void check_differences(ZpStudy study, const ZpActuatorDef *given, const c
   zp_result_destroy(result);
 }
 
-START_TEST(strokes_change_as_differences_say) {
+TEST(strokes_change_as_differences_say) {
   ZpActuatorDef two = DEF({"mesh.nodes", 31}), whole = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE});
   ZpActuatorDef springs = DEF({"mesh.nodes", 21}, {"ribbon.model", ZP_RIBBON_MASS_SPRING});
   ZpActuatorDef bowed = DEF({"mesh.nodes", 31}, {"segment_1.length", 0.0103}, {"segment_1.thickness", 80e-6},
@@ -96,7 +96,6 @@ START_TEST(strokes_change_as_differences_say) {
                     "segment_1.length, segment_1.thickness, segment_1.curvature, insulator.thickness, ribbon.length",
                     1e-3, 1e-6);
 }
-END_TEST
 
 /* Several members: side by side, against each other, and in series; a key may be that of one of them. */
 static const char *const by_of_members[] = {"member_1.ribbon.thickness, ribbon.length, load.mass",
@@ -114,22 +113,20 @@ static ZpActuatorDef members(int which) {
   return def[which];
 }
 
-START_TEST(strokes_of_members_change_as_differences_say) {
+TESTS(strokes_of_members_change_as_differences_say, 0, 3) {
   ZpActuatorDef def = members(_i);
   check_differences(ZP_STUDY_STATIONARY, &def, by_of_members[_i], 1e-4, 1e-7);
 }
-END_TEST
 
-START_TEST(limits_of_members_change_as_differences_say) {
+NIGHTLY_TESTS(limits_of_members_change_as_differences_say, 0, 2) {
   ZpActuatorDef def = members(_i);
   check_differences(ZP_STUDY_LIMITS, &def, by_of_members[_i], 1e-4, 2e-6); /* release, a flat fold: 7.3e-7 measured */
   check_differences(ZP_STUDY_MODES, &def, by_of_members[_i], 1e-4, 3e-5);  /* 1e-5 measured */
 }
-END_TEST
 
 /* Of two unequal members the release is a flat limit point beside a corner, which halving finds to 1e-10 of the voltage
  * but only to 1e-5 of the state: the derivative was off by 1.7 %. */
-START_TEST(flat_release_changes_as_differences_say) {
+TEST(flat_release_changes_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"stack.parallel", 2}, {"member_1.ribbon.thickness", 60e-6},
                           {"load.mass", 16e-3}, {"liquid.model", ZP_LIQUID_NONE}, {"solver.tolerance", 1e-9});
   ZpResult *result = run_by(ZP_STUDY_LIMITS, &def, "ribbon.length");
@@ -143,10 +140,9 @@ START_TEST(flat_release_changes_as_differences_say) {
           1.5e-4); /* 6.1e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Pull-in, a jump that closes, release, largest load; the corner of the breakdown cap is somewhere along the ribbon. */
-START_TEST(limits_change_as_differences_say) {
+NIGHTLY_TEST(limits_change_as_differences_say) {
   ZpActuatorDef def = zp_actuator_def_default();
   def.liquid.model = ZP_LIQUID_NONE;
   check_differences(
@@ -155,31 +151,27 @@ START_TEST(limits_change_as_differences_say) {
               "load.mass, medium.breakdown_field"),
       5e-4, 1e-6);
 }
-END_TEST
 
 /* A bead moves with the ribbons: what it does to the forces is no gradient. */
-START_TEST(rests_with_a_bead_change_as_differences_say) {
+TEST(rests_with_a_bead_change_as_differences_say) {
   ZpActuatorDef def = DEF({"liquid.model", ZP_LIQUID_BEAD});
   check_differences(ZP_STUDY_LIMITS, &def, "bead.volume, ribbon.thickness", 5e-4, 1e-6);
 }
-END_TEST
 
 /* The stiffness of the paper's springs is not symmetric: left and right null vector differ. */
-START_TEST(pull_in_of_springs_changes_as_differences_say) {
+TEST(pull_in_of_springs_changes_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"ribbon.model", ZP_RIBBON_MASS_SPRING});
   check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity", 1e-3, 1e-6);
 }
-END_TEST
 
-START_TEST(held_forces_change_as_differences_say) {
+TEST(held_forces_change_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"drive.voltage", 3e3});
   check_differences(ZP_STUDY_ISOMETRIC, &def,
                     "ribbon.thickness, insulator.permittivity, isometric.separation, drive.voltage", 2e-4, 2e-6);
 }
-END_TEST
 
 /* Of a held fold the torque and the angle, too. */
-START_TEST(torques_change_as_differences_say) {
+TEST(torques_change_as_differences_say) {
   ZpActuatorDef fold =
       DEF({"actuator.kind", ZP_KIND_HINGE}, {"mesh.nodes", 21}, {"isometric.separation", 5e-3},
           {"hinge.stiffness", 0.01}, {"hinge.rest_angle", 0.3}, {"ribbon.thickness", 0.2e-3}, {"drive.voltage", 3e3});
@@ -187,9 +179,8 @@ START_TEST(torques_change_as_differences_say) {
                     "ribbon.thickness, ribbon.length, drive.voltage, isometric.separation, medium.permittivity", 1e-3,
                     1e-6); /* 2e-7 measured */
 }
-END_TEST
 
-START_TEST(frequencies_change_as_differences_say) {
+TEST(frequencies_change_as_differences_say) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"modes.voltage", 3e3});
   check_differences(ZP_STUDY_MODES, &def, "ribbon.thickness, load.mass, ribbon.length", 8e-3, 2e-6);
   ZpActuatorDef sprung = DEF({"mesh.nodes", 9}, {"load.stiffness", 5}, {"load.rest_opening", 25e-3});
@@ -199,12 +190,11 @@ START_TEST(frequencies_change_as_differences_say) {
   /* 2e-5, of rounding: the strips are far stiffer than the hinge */
   check_differences(ZP_STUDY_MODES, &fold, "hinge.stiffness, load.mass", 8e-3, 1e-4);
 }
-END_TEST
 
 /* -- closed forms ----------------------------------------------------------------------------------- */
 
 /* F L^3 / (3 E I), of a weightless cantilever that bends little. */
-START_TEST(stroke_of_a_cantilever) {
+TEST(stroke_of_a_cantilever) {
   static const struct {
     const char *key;
     double power;
@@ -218,10 +208,9 @@ START_TEST(stroke_of_a_cantilever) {
     ck_near(exponent(result, &def, "stroke_m", expected[k].key), expected[k].power, 1e-8); /* 1.6e-9 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* t / L^2 sqrt(E / rho). */
-START_TEST(frequencies_of_a_cantilever) {
+TEST(frequencies_of_a_cantilever) {
   ZpActuatorDef def =
       DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"gravity", 0}, {"load.mass", 0});
   ZpResult *result =
@@ -235,11 +224,10 @@ START_TEST(frequencies_of_a_cantilever) {
   }
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The co-energy has one mixed derivative: the force per voltage is the negative charge per opening, (20.5). Holds to
  * rounding on any mesh. */
-START_TEST(force_and_charge_are_reciprocal) {
+TEST(force_and_charge_are_reciprocal) {
   ZpActuatorDef def = DEF({"mesh.nodes", 41}, {"drive.voltage", 4e3});
   ZpResult *result = run_by(ZP_STUDY_ISOMETRIC, &def, "drive.voltage, isometric.separation");
   /* 4.8e-11 measured */
@@ -247,7 +235,6 @@ START_TEST(force_and_charge_are_reciprocal) {
   ck_near(slope_in(result, "opening_m", "isometric.separation"), 1, 2e-11); /* 2.3e-12 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* With all forces c times as large, the voltages grow by the root of c: pull-in, closing at a limit point, and release.
  * A wrong sign at a limit point gives -1/2. */
@@ -266,17 +253,16 @@ static void check_scaling(const ZpActuatorDef *given) {
   zp_result_destroy(result);
 }
 
-START_TEST(limits_scale_with_forces) {
+TEST(limits_scale_with_forces) {
   ZpActuatorDef jumps = DEF({"mesh.nodes", 31}), free = DEF({"mesh.nodes", 31}, {"electro.breakdown_cap", false});
   check_scaling(&jumps);
   check_scaling(&free);
 }
-END_TEST
 
 /* -- closing gradually ------------------------------------------------------------------------------ */
 
 /* It closes after a limit point, gradually, at a share of the gap with which it hangs: that gap changes, too. */
-START_TEST(gradual_closing_changes_as_differences_say) {
+TEST(gradual_closing_changes_as_differences_say) {
   ZpActuatorDef def = DEF({"ribbon.thickness", 200e-6});
   ZpResult *result = run(ZP_STUDY_LIMITS, &def);
   double closing = zp_result_get(result, "closing_voltage_V"), pull_in = zp_result_get(result, "pull_in_voltage_V");
@@ -284,19 +270,17 @@ START_TEST(gradual_closing_changes_as_differences_say) {
   ck_assert_msg(closing > pull_in, "closes by the jump of the pull-in, %g V", closing);
   check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity, gravity", 1e-3, 1e-6);
 }
-END_TEST
 
 /* The largest load changes that gap, too. */
-START_TEST(gradual_largest_load_changes_as_differences_say) {
+TEST(gradual_largest_load_changes_as_differences_say) {
   ZpActuatorDef def = DEF({"drive.voltage", 6900}, {"ribbon.length", 30e-3}, {"ribbon.thickness", 100e-6},
                           {"load.mass", 10e-3}, {"mesh.nodes", 31});
   check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity, gravity", 1e-3, 1e-6);
 }
-END_TEST
 
 /* The closed state under 120 g opens at a corner of the breakdown cap: there is no null vector, and one note says so
  * for all keys. */
-START_TEST(no_derivative_at_a_corner) {
+TEST(no_derivative_at_a_corner) {
   ZpActuatorDef def = DEF({"load.mass", 120e-3}, {"drive.voltage", 12e3});
   ZpResult *result = run_by(ZP_STUDY_LIMITS, &def, "gravity, load.mass, insulator.permittivity");
   ck_assert_uint_eq(notes_with(result, "release_voltage_V has no derivatives"), 1);
@@ -305,11 +289,10 @@ START_TEST(no_derivative_at_a_corner) {
   ck_assert(slope_in(result, "max_load_kg", "gravity") < 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- what is asked ---------------------------------------------------------------------------------- */
 
-START_TEST(what_has_no_derivative_is_refused) {
+TEST(what_has_no_derivative_is_refused) {
   static const struct {
     const char *by, *words;
     ZpStudy study;
@@ -334,11 +317,10 @@ START_TEST(what_has_no_derivative_is_refused) {
   zp_def_set_text(&field, zp_key_find("sensitivity.by"), "gravity", NULL);
   ck_refused_by(ZP_STUDY_LIMITS, &field, "requires electro.model plates");
 }
-END_TEST
 
 /* A platform that is held does not notice the load: its force once had the derivative -1, and keys of its spring and
  * its stop were refused. */
-START_TEST(held_platform_does_not_depend_on_the_load) {
+TEST(held_platform_does_not_depend_on_the_load) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"load.change_time", 5e-3}, {"load.change_mass", 4e-3},
                           {"load.force", 0.02}, {"load.stiffness", 3}, {"load.rest_opening", 3e-3});
   ZpResult *result = run_by(ZP_STUDY_ISOMETRIC, &def,
@@ -349,53 +331,21 @@ START_TEST(held_platform_does_not_depend_on_the_load) {
   ck_assert_double_lt(slope_in(result, "force_unpowered_N", "gravity"), 0);
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(profile_notes_that_it_has_none) {
+TEST(profile_notes_that_it_has_none) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11});
   ZpResult *result = run_by(ZP_STUDY_PROFILE, &def, "gravity");
   ck_assert_uint_eq(notes_with(result, "sensitivity.by is ignored: only stationary"), 1);
   ck_assert_uint_eq(result->sensitivities, 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A key at the end of its range, or at 0, or as large as another key allows, has a derivative from one side. */
-START_TEST(keys_at_their_bounds) {
+TEST(keys_at_their_bounds) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"load.share", 1}, {"platform.length", 0.09});
   ZpResult *result = run_by(ZP_STUDY_STATIONARY, &def, "load.share, platform.length, insulator.young_modulus");
   ck_assert(slope_in(result, "stroke_m", "load.share") > 0);
   ck_assert(slope_in(result, "stroke_m", "platform.length") < 0);
   ck_assert(slope_in(result, "stroke_m", "insulator.young_modulus") < 0);
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("slopes");
-  TCase *tests = tcase_create("slopes");
-  tcase_add_test(tests, strokes_change_as_differences_say);
-  tcase_add_loop_test(tests, strokes_of_members_change_as_differences_say, 0, 3);
-  tcase_add_test(tests, rests_with_a_bead_change_as_differences_say);
-  tcase_add_test(tests, pull_in_of_springs_changes_as_differences_say);
-  tcase_add_test(tests, held_forces_change_as_differences_say);
-  tcase_add_test(tests, torques_change_as_differences_say);
-  tcase_add_test(tests, frequencies_change_as_differences_say);
-  tcase_add_test(tests, stroke_of_a_cantilever);
-  tcase_add_test(tests, frequencies_of_a_cantilever);
-  tcase_add_test(tests, force_and_charge_are_reciprocal);
-  tcase_add_test(tests, limits_scale_with_forces);
-  tcase_add_test(tests, gradual_closing_changes_as_differences_say);
-  tcase_add_test(tests, gradual_largest_load_changes_as_differences_say);
-  tcase_add_test(tests, flat_release_changes_as_differences_say);
-  tcase_add_test(tests, no_derivative_at_a_corner);
-  tcase_add_test(tests, what_has_no_derivative_is_refused);
-  tcase_add_test(tests, held_platform_does_not_depend_on_the_load);
-  tcase_add_test(tests, profile_notes_that_it_has_none);
-  tcase_add_test(tests, keys_at_their_bounds);
-  suite_add_tcase(suite, tests);
-  TCase *nightly = nightly_case(suite);
-  tcase_add_loop_test(nightly, limits_of_members_change_as_differences_say, 0, 2);
-  tcase_add_test(nightly, limits_change_as_differences_say);
-  return run_suite(suite);
 }

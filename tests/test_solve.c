@@ -35,18 +35,17 @@ static double swing_to(double omega, double dt, double t_end) {
 }
 
 /* v += a dt; q += v dt from (1, 0): error of first order in dt. Measured ratios 1.99 to 2.01. */
-START_TEST(test_order_one) {
+TEST(test_order_one) {
   double error[4];
   for (int k = 0; k < 4; k++)
     error[k] = fabs(swing_to(2, 4e-3 / (1 << k), 1) - cos(2.0));
   for (int k = 0; k < 3; k++)
     ck_near(error[k] / error[k + 1], 2, 3e-3); /* 6.7e-4 measured */
 }
-END_TEST
 
 /* The scheme conserves v^2 + w^2 q^2 - w^2 dt q v exactly, so the energy oscillates within w dt / 2 and does not drift:
  * 10,000 periods, w dt = 0.1. */
-START_TEST(test_no_drift) {
+TEST(test_no_drift) {
   Oscillator o = {1, 0.1, 0};
   ZpExplicitSystem system = {1, &o, swing, NULL};
   double q = 1, v = 0, a, worst = 0, worst_kept = 0, kept = 1;
@@ -60,15 +59,13 @@ START_TEST(test_no_drift) {
   printf("oscillator, 10,000 periods: energy within %.3g, kept quantity within %.1e\n", worst, worst_kept);
   ck_assert_int_eq(o.calls, 628319);
 }
-END_TEST
 
-START_TEST(test_unstable_beyond_two) {
+TEST(test_unstable_beyond_two) {
   ck_below(fabs(swing_to(1, 1.99, 2000)), 5); /* bounded; 1.2 measured */
   ck_assert_double_gt(fabs(swing_to(1, 2.01, 2000)), 1e3);
 }
-END_TEST
 
-START_TEST(test_bounds) {
+TEST(test_bounds) {
   Oscillator o = {1, 0.1, 0};
   ZpExplicitSystem system = {1, &o, swing, NULL};
   double q = 1, v = 0, a;
@@ -79,7 +76,6 @@ START_TEST(test_bounds) {
   step = zp_explicit_step(&system, 0.03, &q, &v, &a);
   ck_assert(step.dt == 0.03 && step.limit == ZP_EXPLICIT_END);
 }
-END_TEST
 
 /* -- events ---------------------------------------------------------------------------------------- */
 
@@ -100,7 +96,7 @@ static double ground(void *self, const double *q, const double *v, const double 
 
 /* A ball dropped from 1 m lands exactly on the ground, at the time of the discrete motion, which converges to sqrt(2 /
  * g) with the first order of dt. */
-START_TEST(test_event_cut) {
+TEST(test_event_cut) {
   double late[3];
   for (int k = 0; k < 3; k++) {
     double dt = 1e-3 / (1 << k), q = 1, v = 0, a, t = 0;
@@ -123,10 +119,9 @@ START_TEST(test_event_cut) {
   ck_near(late[0] / late[1], 2, 2e-3); /* 6.6e-4 measured */
   ck_near(late[1] / late[2], 2, 3e-4); /* 8.7e-5 measured */
 }
-END_TEST
 
 /* An event beyond the step, or beyond the end, does not cut it. */
-START_TEST(test_event_beyond) {
+TEST(test_event_beyond) {
   double dt = 1e-3, q = 1, v = 0, a;
   ZpExplicitSystem system = {1, &dt, fall, ground};
   ck_assert_int_eq(zp_explicit_step(&system, 1, &q, &v, &a).limit, ZP_EXPLICIT_BOUND);
@@ -135,7 +130,6 @@ START_TEST(test_event_beyond) {
   ck_assert_int_eq(zp_explicit_step(&system, 1e-10, &q, &v, &a).limit, ZP_EXPLICIT_END);
   ck_assert_double_gt(q, 0);
 }
-END_TEST
 
 /* -- damped stepping ------------------------------------------------------------------------------- */
 
@@ -181,7 +175,7 @@ static ZpRelaxInfo relax_chain(Chain *c, double tolerance, int64_t most, double 
 
 static const double stiffness[][2] = {{1, 1}, {1, 1e3}, {1e-3, 1e3}, {1e6, 1e6}};
 
-START_TEST(test_chain_rests) {
+TESTS(test_chain_rests, 0, LENGTH_OF(stiffness)) {
   Chain c;
   fill_chain(&c, stiffness[_i][0], stiffness[_i][1]);
   double q[CHAIN] = {0}, rest = 0;
@@ -203,9 +197,8 @@ START_TEST(test_chain_rests) {
   printf("that is %.1f periods\n", (double)info.steps * slowest / (2 * M_PI));
   ck_below((double)info.steps * slowest / (2 * M_PI), 8); /* measured 3.2 to 3.9 */
 }
-END_TEST
 
-START_TEST(test_relax_at_rest_at_once) {
+TEST(test_relax_at_rest_at_once) {
   Chain c;
   fill_chain(&c, 1, 1);
   double q[CHAIN], rest = 0;
@@ -215,9 +208,8 @@ START_TEST(test_relax_at_rest_at_once) {
   ck_assert_int_eq(info.end, ZP_RELAX_AT_REST);
   ck_assert_int_eq(info.steps, 0);
 }
-END_TEST
 
-START_TEST(test_relax_step_limit) {
+TEST(test_relax_step_limit) {
   Chain c;
   fill_chain(&c, 1, 1);
   double q[CHAIN] = {0};
@@ -225,9 +217,8 @@ START_TEST(test_relax_step_limit) {
   ck_assert_int_eq(info.end, ZP_RELAX_STEP_LIMIT);
   ck_assert_int_eq(info.steps, 10);
 }
-END_TEST
 
-START_TEST(test_relax_diverges) {
+TEST(test_relax_diverges) {
   Chain c;
   fill_chain(&c, 1, 1);
   c.pseudo_mass = 0.1; /* far beyond stability */
@@ -235,7 +226,6 @@ START_TEST(test_relax_diverges) {
   ZpRelaxInfo info = relax_chain(&c, 1e-9, 1000000, q);
   ck_assert_int_eq(info.end, ZP_RELAX_DIVERGED);
 }
-END_TEST
 
 static bool stop_after_three(void *self, int64_t steps, double residual) {
   (void)steps;
@@ -243,7 +233,7 @@ static bool stop_after_three(void *self, int64_t steps, double residual) {
   return ++((Chain *)self)->looks == 3;
 }
 
-START_TEST(test_relax_stops) {
+TEST(test_relax_stops) {
   Chain c = {.looks = 0};
   fill_chain(&c, 1, 1);
   double q[CHAIN] = {0}, work[5 * CHAIN];
@@ -251,7 +241,6 @@ START_TEST(test_relax_stops) {
   ck_assert_int_eq(zp_relax(&system, 1e-12, 1000000, q, work).end, ZP_RELAX_STOPPED);
   ck_assert_int_eq(c.looks, 3);
 }
-END_TEST
 
 /* -- implicit midpoint rule ------------------------------------------------------------------------ */
 
@@ -339,7 +328,7 @@ static double springs_energy(const Springs *s) {
 
 /* One mass on a spring, the second one decoupled: q = cos(w t), error of second order. The rule turns by 2 atan(w h /
  * 2) a step, exactly. Measured ratios 4.00, off that phase by 5e-14. */
-START_TEST(test_implicit_order_two) {
+TEST(test_implicit_order_two) {
   const double omega = 2;
   double error[4];
   for (int k = 0; k < 4; k++) {
@@ -358,11 +347,10 @@ START_TEST(test_implicit_order_two) {
   for (int k = 0; k < 3; k++)
     ck_near(error[k] / error[k + 1], 4, 5e-4); /* 1.3e-4 measured */
 }
-END_TEST
 
 /* 10,000 steps, w h = 0.4, also with a cubic spring: the energy is constant for any step. Its drift is that of rounding
  * and, where forces are not linear, of what Newton's method leaves. Measured: 1.3e-13, with the cubic part 8e-14. */
-START_TEST(test_implicit_keeps_energy) {
+TEST(test_implicit_keeps_energy) {
   static const double cube[] = {0, 30};
   for (size_t i = 0; i < LENGTH_OF(cube); i++) {
     Springs s;
@@ -379,12 +367,11 @@ START_TEST(test_implicit_keeps_energy) {
     zp_free(s.memory);
   }
 }
-END_TEST
 
 /* Slow mode of a pair joined by a spring 1e8 times stiffer: w = sqrt(1 / 1.5). Steps follow the slow mode, far beyond
  * what the stiff one (w = 1.7e4) allows an explicit rule, and the pair stays together. Measured: 0.027 s a step, 230
  * times 2 / 1.7e4, off by 4.4e-4. */
-START_TEST(test_implicit_stiff) {
+TEST(test_implicit_stiff) {
   Springs s;
   make_springs(&s, 1, 1e8, 0);
   s.stepper.accuracy = 1e-6;
@@ -398,11 +385,10 @@ START_TEST(test_implicit_stiff) {
   ck_below(fabs(springs_energy(&s) / 0.5 - 1), 1e-12); /* 3.3e-14 measured */
   zp_free(s.memory);
 }
-END_TEST
 
 /* The local error is of order h^3, that of a run of order h^2: an eighth of the tolerance gives half the step and a
  * quarter of the error. Measured: ratios of errors 3.8, 3.8, 3.9, of steps 1.94, 1.97, 1.99. */
-START_TEST(test_implicit_error_control) {
+TEST(test_implicit_error_control) {
   double error[4];
   int64_t steps[4];
   for (int k = 0; k < 4; k++) {
@@ -420,10 +406,9 @@ START_TEST(test_implicit_error_control) {
     ck_near((double)steps[k + 1] / (double)steps[k], 2, 0.15);
   }
 }
-END_TEST
 
 /* No force, no step: all as it was. */
-START_TEST(test_implicit_no_force) {
+TEST(test_implicit_no_force) {
   Springs s;
   make_springs(&s, 4, 1, 3);
   for (int i = 0; i < 20; i++)
@@ -443,10 +428,9 @@ START_TEST(test_implicit_no_force) {
   ck_assert_double_gt(springs_step(&s, 1), 0);
   zp_free(s.memory);
 }
-END_TEST
 
 /* Where there is no force over long steps, they are halved until there is. */
-START_TEST(test_implicit_shorter_step) {
+TEST(test_implicit_shorter_step) {
   Springs s;
   make_springs(&s, 4, 0, 0);
   s.stepper.fixed = 0.1;
@@ -456,10 +440,9 @@ START_TEST(test_implicit_shorter_step) {
   ck_assert_int_eq(s.stepper.counts.steps, 1);
   zp_free(s.memory);
 }
-END_TEST
 
 /* A system that says that no shorter step would do is asked once, and left as it was. */
-START_TEST(test_implicit_stops) {
+TEST(test_implicit_stops) {
   Springs s;
   make_springs(&s, 4, 0, 0);
   s.stepper.fixed = 0.1;
@@ -474,10 +457,9 @@ START_TEST(test_implicit_stops) {
   ck_assert_int_eq(s.stepper.end, ZP_END_FOUND);
   zp_free(s.memory);
 }
-END_TEST
 
 /* Positions, velocities and history are all that it remembers. */
-START_TEST(test_implicit_restart) {
+TEST(test_implicit_restart) {
   Springs one, two;
   make_springs(&one, 4, 50, 3);
   make_springs(&two, 4, 50, 3);
@@ -497,10 +479,9 @@ START_TEST(test_implicit_restart) {
   zp_free(one.memory);
   zp_free(two.memory);
 }
-END_TEST
 
 /* Steps end where they must: never beyond `longest`, and a step that is cut leaves the length of the next as it was. */
-START_TEST(test_implicit_cut) {
+TEST(test_implicit_cut) {
   Springs s;
   make_springs(&s, 4, 0, 0);
   for (int i = 0; i < 40; i++)
@@ -510,10 +491,9 @@ START_TEST(test_implicit_cut) {
   ck_assert_double_eq(s.history.next, next);
   zp_free(s.memory);
 }
-END_TEST
 
 /* Fixed steps that fill a time but for rounding do so: no step is left that is too short to be taken. */
-START_TEST(test_implicit_fills_time) {
+TEST(test_implicit_fills_time) {
   for (int n = 3; n < 2000; n += 97) {
     Springs s;
     make_springs(&s, 4, 0, 0);
@@ -523,7 +503,6 @@ START_TEST(test_implicit_fills_time) {
     zp_free(s.memory);
   }
 }
-END_TEST
 
 /* -- rest ------------------------------------------------------------------------------------------ */
 
@@ -562,7 +541,7 @@ static void rest_move(void *self, const double *step, double fraction) {
 }
 
 /* Newton's method goes nowhere from a point that has no residual, and says so. */
-START_TEST(test_newton_without_residual) {
+TEST(test_newton_without_residual) {
   double K[1], r[1];
   ZpNewtonWork work = {.K = {.n = 1, .stride = 1, .a = K}, .r = r};
   Rest rest = {0, 0.5, 0};
@@ -580,40 +559,4 @@ START_TEST(test_newton_without_residual) {
   ck_assert_int_eq(info.end, ZP_NEWTON_DIVERGED);
   ck_assert(isinf(info.residual));
   ck_assert_int_eq(rest.asked, 2);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("solve");
-  TCase *euler = tcase_create("explicit");
-  tcase_add_test(euler, test_order_one);
-  tcase_add_test(euler, test_no_drift);
-  tcase_add_test(euler, test_unstable_beyond_two);
-  tcase_add_test(euler, test_bounds);
-  tcase_add_test(euler, test_event_cut);
-  tcase_add_test(euler, test_event_beyond);
-  suite_add_tcase(suite, euler);
-  TCase *relax = tcase_create("relax");
-  tcase_add_loop_test(relax, test_chain_rests, 0, LENGTH_OF(stiffness));
-  tcase_add_test(relax, test_relax_at_rest_at_once);
-  tcase_add_test(relax, test_relax_step_limit);
-  tcase_add_test(relax, test_relax_diverges);
-  tcase_add_test(relax, test_relax_stops);
-  suite_add_tcase(suite, relax);
-  TCase *implicit = tcase_create("implicit");
-  tcase_add_test(implicit, test_implicit_order_two);
-  tcase_add_test(implicit, test_implicit_keeps_energy);
-  tcase_add_test(implicit, test_implicit_stiff);
-  tcase_add_test(implicit, test_implicit_error_control);
-  tcase_add_test(implicit, test_implicit_no_force);
-  tcase_add_test(implicit, test_implicit_shorter_step);
-  tcase_add_test(implicit, test_implicit_stops);
-  tcase_add_test(implicit, test_implicit_restart);
-  tcase_add_test(implicit, test_implicit_cut);
-  tcase_add_test(implicit, test_implicit_fills_time);
-  suite_add_tcase(suite, implicit);
-  TCase *rest = tcase_create("rest");
-  tcase_add_test(rest, test_newton_without_residual);
-  suite_add_tcase(suite, rest);
-  return run_suite(suite);
 }

@@ -69,7 +69,7 @@ static double largest(const double *x, size_t n) {
 
 /* Derivatives with respect to the voltage at the end equal finite differences, with and without the breakdown cap and
  * lateral edges. A piece at which the cap just sets in has none: gaps are drawn, and none is so near. */
-START_TEST(test_derivatives_by_voltage) {
+TESTS(test_derivatives_by_voltage, 0, 3) {
   static const struct { double cap, edges; } laws[] = {{0, 0}, {1, 0}, {0, 1}};
   uint64_t seed = 5;
   ZpActuatorDef def =
@@ -96,7 +96,6 @@ START_TEST(test_derivatives_by_voltage) {
   zp_free(by.charge);
   free_span(&s);
 }
-END_TEST
 
 /* -- motion --------------------------------------------------------------------------------------- */
 
@@ -121,7 +120,7 @@ static ZpSim *sim_behind(const ZpSource *source, ZpActuatorDef *def, ZpModel **m
 }
 
 /* A closed actuator without weight is a capacitor: U = V (1 - exp(-t / (R C))). Measured 5e-6. */
-START_TEST(test_charging_of_a_closed_actuator) {
+TEST(test_charging_of_a_closed_actuator) {
   Supply supply = {50, 1e8, 0}; /* V: little enough that the layers are not pressed */
   ZpSource source = {.self = &supply, .law = law, .scale = supply.V};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
@@ -138,11 +137,10 @@ START_TEST(test_charging_of_a_closed_actuator) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A supply defined by the user, 10 kV behind 1 GOhm with a cable of 10 pF, equals the built-in one. Both charge the
  * actuator and lose voltage while it closes. */
-START_TEST(test_slow_supply_by_both_routes) {
+TEST(test_slow_supply_by_both_routes) {
   Supply supply = {10e3, 1e9, 10e-12};
   ZpSource source = {.self = &supply, .law = law, .scale = supply.V};
   ZpActuatorDef of[] = {DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5}),
@@ -165,7 +163,6 @@ START_TEST(test_slow_supply_by_both_routes) {
     zp_model_destroy(model[k]);
   }
 }
-END_TEST
 
 /* The opening after 10 ms, before ribbons meet beyond the clip, with a resistance (the ideal source has none). */
 static double opening_behind(double R) {
@@ -189,23 +186,10 @@ static double opening_behind(double R) {
 
 /* With decreasing resistance it approaches the ideal source: the lag of the opening is proportional to R, and the
  * energy of the electrodes balances. */
-START_TEST(test_small_resistance_is_ideal) {
+TEST(test_small_resistance_is_ideal) {
   double ideal = opening_behind(0), less = opening_behind(2.5e6) - ideal, more = opening_behind(1e7) - ideal;
   printf("lag of the opening after 10 ms behind 2.5 and 10 Mohm: %.4f, %.4f um\n", 1e6 * less, 1e6 * more);
   ck_assert(less > 0);
   ck_below(less, 5e-4 * ideal);  /* 1.6e-4 measured */
   ck_near(more / less, 4, 0.05); /* to first order in R; measured 4.17 */
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("source");
-  TCase *derivatives = tcase_create("derivatives"), *motion = tcase_create("motion");
-  tcase_add_loop_test(derivatives, test_derivatives_by_voltage, 0, 3);
-  tcase_add_test(motion, test_charging_of_a_closed_actuator);
-  tcase_add_test(motion, test_slow_supply_by_both_routes);
-  tcase_add_test(motion, test_small_resistance_is_ideal);
-  suite_add_tcase(suite, derivatives);
-  suite_add_tcase(suite, motion);
-  return run_suite(suite);
 }

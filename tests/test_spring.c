@@ -5,7 +5,7 @@
 
 /* Stiff weightless ribbons have the compliance c: under the weight W and a spring k to the opening r they open by o = c
  * (W + k (r - o)), whole actuator or half. */
-START_TEST(spring_and_weight_share_what_gives_way) {
+TESTS(spring_and_weight_share_what_gives_way, 0, 2) {
   static const double k = 300, r = 4e-3;
   ZpActuatorDef def = DEF({"ribbon.thickness", 500e-6}, {"ribbon.density", 0}, {"drive.voltage", 0},
                           {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
@@ -16,11 +16,10 @@ START_TEST(spring_and_weight_share_what_gives_way) {
   def.load.rest_opening = 0.5 * c * W; /* it hangs further open than that: nothing pushes, and nothing pulls */
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * W, 1e-12); /* 0 measured */
 }
-END_TEST
 
 /* A long soft spring is a constant force: the limits are those of an equal load, except for the fraction 1e-3 of its
  * length by which it extends. */
-START_TEST(long_spring_is_a_weight) {
+TEST(long_spring_is_a_weight) {
   static const double extra = 4e-3, r = 10; /* kg, m */
   ZpActuatorDef heavy = DEF({"mesh.nodes", 31}), def = DEF({"mesh.nodes", 31});
   heavy.load.mass += extra;
@@ -34,10 +33,9 @@ START_TEST(long_spring_is_a_weight) {
   ck_near(answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg") + extra,
           answered_value(ZP_STUDY_LIMITS, &heavy, "max_load_kg"), 1e-3); /* 3.3e-4 measured */
 }
-END_TEST
 
 /* Ribbons that would open further than a stop rest on it, and open by o = c (W + k r) / (1 + c k). */
-START_TEST(stop_holds_the_platforms) {
+TESTS(stop_holds_the_platforms, 0, 2) {
   static const double k = 2e4, r = 1e-4;
   ZpActuatorDef def = DEF({"ribbon.thickness", 500e-6}, {"ribbon.density", 0}, {"drive.voltage", 0}, {"load.mass", 0.1},
                           {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
@@ -49,10 +47,9 @@ START_TEST(stop_holds_the_platforms) {
   def.load.stop_opening = 1.5 * c * W;                                           /* it is not reached */
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), c * W, 1e-12); /* 0 measured */
 }
-END_TEST
 
 /* An actuator that swings open against a stop bounces: the depth is limited by its energy, none of which is lost. */
-START_TEST(energy_with_a_stop) {
+TESTS(energy_with_a_stop, 0, 2) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"load.stop_opening", 12e-3}, {"load.stop_stiffness", 300},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 4}, {"solver.end_time", 0.3},
                           {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false}, {"output.samples", 10000});
@@ -70,20 +67,18 @@ START_TEST(energy_with_a_stop) {
   ck_below(zp_result_get(result, "energy_error"), 5e-9); /* 7.2e-10 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* What is held does not feel it: the force of `isometric` is the actuator's. */
-START_TEST(held_platform_does_not_feel_it) {
+TEST(held_platform_does_not_feel_it) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"isometric.separation", 2e-3});
   double force = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N");
   def.load.stiffness = 10, def.load.rest_opening = 20e-3;
   ck_assert_double_eq(answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N"), force);
 }
-END_TEST
 
 /* Zip, release and swings through the opening at which the spring ends: the energy balances, including that of the
  * spring. Dry, in a bath and by explicit steps. */
-START_TEST(energy_with_a_spring) {
+TESTS(energy_with_a_spring, 0, 4) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"load.stiffness", 3}, {"load.rest_opening", 18e-3},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 4}, {"solver.end_time", 0.4});
   if (_i == 1) def.liquid.model = ZP_LIQUID_SUBMERGED, def.drive.frequency = 1, def.solver.end_time = 1.5;
@@ -110,11 +105,10 @@ START_TEST(energy_with_a_spring) {
   ck_below(zp_result_get(result, "energy_error"), _i == 2 ? 1e-4 : 5e-8); /* 4.6e-5 and 1.1e-8 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The mean force over a span does the work of the energy change, also if the spring ends within it, and the stiffness
  * is its derivative. */
-START_TEST(force_does_the_work_of_the_spring) {
+TESTS(force_does_the_work_of_the_spring, 0, 8) {
   static const double opening[][2] = {{1e-3, 2e-3}, {1e-3, 7e-3}, {7e-3, 2e-3}, {6e-3, 8e-3}};
   const double sign = _i < 4 ? 1 : -1;
   ZpActuatorDef def = DEF({"mesh.nodes", 4}, {"gravity", 0}, {"ribbon.young_modulus", 1e6}, {"drive.voltage", 0});
@@ -155,9 +149,8 @@ START_TEST(force_does_the_work_of_the_spring) {
   zp_system_destroy(&e);
   zp_model_destroy(model);
 }
-END_TEST
 
-START_TEST(what_a_spring_lacks_is_said) {
+TEST(what_a_spring_lacks_is_said) {
   static const struct {
     Setting one, other;
     const char *says;
@@ -173,10 +166,9 @@ START_TEST(what_a_spring_lacks_is_said) {
   ZpActuatorDef def = DEF({"load.stiffness", 3}, {"load.rest_opening", 3e-3}, {"actuator.kind", ZP_KIND_FLANGE});
   ck_refused(&def, "actuator.kind electro_ribbon");
 }
-END_TEST
 
 /* A sweep may begin at 0: a key that does nothing there asks for nothing, and what belongs to it may stay. */
-START_TEST(keys_do_nothing_at_zero) {
+TEST(keys_do_nothing_at_zero) {
   static const struct {
     Setting zero, beside;
   } neutral[] = {{{"load.rest_opening", 15e-3}, {"load.stiffness", 0}},
@@ -196,23 +188,4 @@ START_TEST(keys_do_nothing_at_zero) {
   ZpActuatorDef falls = plain; /* from a height that counts only with a mass */
   falls.load.change_time = 1e-3, falls.load.drop_height = 10e-3;
   ck_assert_double_eq(answered_value(ZP_STUDY_ACTUATE, &falls, "opening_m"), opening);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("spring");
-  TCase *rest = tcase_create("rest");
-  tcase_add_loop_test(rest, spring_and_weight_share_what_gives_way, 0, 2);
-  tcase_add_test(rest, long_spring_is_a_weight);
-  tcase_add_loop_test(rest, stop_holds_the_platforms, 0, 2);
-  tcase_add_test(rest, held_platform_does_not_feel_it);
-  tcase_add_test(rest, what_a_spring_lacks_is_said);
-  tcase_add_test(rest, keys_do_nothing_at_zero);
-  suite_add_tcase(suite, rest);
-  TCase *motion = tcase_create("motion");
-  tcase_add_loop_test(motion, energy_with_a_spring, 0, 4);
-  tcase_add_loop_test(motion, energy_with_a_stop, 0, 2);
-  tcase_add_loop_test(motion, force_does_the_work_of_the_spring, 0, 8);
-  suite_add_tcase(suite, motion);
-  return run_suite(suite);
 }

@@ -55,16 +55,15 @@ static const BeamCase beams[] = {
 };
 
 /* The oracle itself knows the published digits. */
-START_TEST(test_oracle) {
+TESTS(test_oracle, 0, LENGTH_OF(beams)) {
   const BeamCase *c = &beams[_i];
   Elastica e = elastica(c->p, c->q, c->end == ZP_END_GUIDED);
   ck_assert(e.found);
   ck_assert_double_eq_tol(e.y, c->y, 6e-6);                   /* 1.4e-6 measured */
   if (!isnan(c->x)) ck_assert_double_eq_tol(e.x, c->x, 6e-6); /* 3.8e-6 measured */
 }
-END_TEST
 
-START_TEST(test_elastica) {
+TESTS(test_elastica, 0, LENGTH_OF(beams)) {
   const BeamCase *c = &beams[_i];
   Elastica e = elastica(c->p, c->q, c->end == ZP_END_GUIDED);
   ZpActuatorDef def = beam(c->end, c->p, c->q, 61);
@@ -76,7 +75,6 @@ START_TEST(test_elastica) {
   ck_near(x, e.x, 5e-5); /* 1.3e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- the actuator's opening ------------------------------------------------------------------------ */
 
@@ -90,12 +88,11 @@ static double opening(double density, double mass, int nodes) {
   return value_of(ZP_STUDY_STATIONARY, &def, "opening_m");
 }
 
-START_TEST(test_opening) {
+TEST(test_opening) {
   ck_near(opening(0, 8e-3, 61), MM(21.226), 1e-4);  /* 2.6e-5 measured */
   ck_near(opening(0, 30e-3, 61), MM(52.839), 3e-4); /* 8.6e-5 measured */
   ck_near(opening(rho, 8e-3, 61), MM(22.27), 1e-3);
 }
-END_TEST
 
 /* -- order of convergence -------------------------------------------------------------------------- */
 
@@ -115,7 +112,7 @@ static double opening_error(int nodes) {
 
 /* The remaining error of second order is bending against the tension T, by T l^2 / 12 in addition to EI: for a strip
  * bent by an end load P at most P l^2 / (12 EI). A clamp that was a held slope over half an edge had 2 l^2 / L^2. */
-START_TEST(test_order_of_deflections) {
+TESTS(test_order_of_deflections, 0, 3) {
   static const int nodes[] = {16, 31, 61, 121};
   static const char *const names[] = {"guided", "free", "actuator"};
   double error[LENGTH_OF(nodes)];
@@ -127,10 +124,9 @@ START_TEST(test_order_of_deflections) {
   for (size_t i = 0; i < LENGTH_OF(nodes); i++)
     ck_below(fabs(error[i]), load[_i] / 12 / pow(nodes[i] - 1, 2) + stretched);
 }
-END_TEST
 
 /* Small deflections of clamped and guided strips under an end load are exact on any mesh. */
-START_TEST(test_small_deflections_are_exact) {
+TESTS(test_small_deflections_are_exact, 0, 2) {
   static const ZpRightEnd ends[] = {ZP_END_GUIDED, ZP_END_FREE};
   static const int nodes[] = {4, 5, 21};
   for (size_t i = 0; i < LENGTH_OF(nodes); i++) {
@@ -139,12 +135,11 @@ START_TEST(test_small_deflections_are_exact) {
     ck_near(value_of(ZP_STUDY_STATIONARY, &def, "stroke_m") / L, exact, 1e-10); /* 1.2e-11 measured */
   }
 }
-END_TEST
 
 /* -- natural curvature, segments ------------------------------------------------------------------- */
 
 /* Curvature alone: an arc, its end at ((sin kL) / k, (1 - cos kL) / k). */
-START_TEST(test_natural_curvature) {
+TEST(test_natural_curvature) {
   const double k = 8;
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
   def.segment_1.length = L;
@@ -156,10 +151,9 @@ START_TEST(test_natural_curvature) {
   ck_near(zp_result_get(result, "stroke_m"), -(1 - cos(k * L)) / k, 2e-4);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Two thicknesses in series under a small load at the end: the compliances add. */
-START_TEST(test_two_segments) {
+TEST(test_two_segments) {
   const double thick = 80e-6, a = 0.4 * L, b = L - a;
   ZpActuatorDef def = beam(ZP_END_FREE, 1e-3, 0, 61);
   def.segment_1.length = a;
@@ -171,7 +165,6 @@ START_TEST(test_two_segments) {
   printf("two segments: %+.1e off\n", y / beam_y - 1);
   ck_near(y, beam_y, 1e-3); /* 1.5e-4 measured */
 }
-END_TEST
 
 /* What a stepped cantilever is off by, its step at `a`, under a load so small that it stays straight. */
 static double step_error(double a, int nodes) {
@@ -188,7 +181,7 @@ static double step_error(double a, int nodes) {
 /* Regression: a segment that ended between nodes counted as if it ended at a node, with errors of +1.8 % and -2.2 % on
  * either side of it, 0.02 % on it. Wherever the step is, the error falls with l^2, and it changes smoothly as the step
  * moves. */
-START_TEST(test_step_between_nodes) {
+TEST(test_step_between_nodes) {
   double least = INFINITY, most = -INFINITY;
   for (int k = 0; k <= 16; k++) {
     double error = step_error((0.4 + k / 480.0) * L, 61); /* eighths of an element */
@@ -204,7 +197,6 @@ START_TEST(test_step_between_nodes) {
   for (int i = 0; i < 3; i++)
     ck_near(error[i] / error[i + 1], 4, 0.02); /* 5.1e-3 measured */
 }
-END_TEST
 
 /* The angle of a joint whose curvature is k. */
 static double turn_of(double k) {
@@ -226,7 +218,7 @@ static double bent_by_unit_moments(const ZpRodParams *rod, size_t j) {
 }
 
 /* On any mesh a rod has the compliance, the natural rotation, the mass and the centre of mass of its segments. */
-START_TEST(test_segments_are_integrated) {
+TEST(test_segments_are_integrated) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.length", L}, {"ribbon.plane", ZP_PLANE_STRESS},
                           {"mesh.nodes", 14}, {"load.mass", 0}, {"segment_1.length", 0.0113},
                           {"segment_1.thickness", 80e-6}, {"segment_1.curvature", 3}, {"segment_2.length", 0.0021},
@@ -258,10 +250,9 @@ START_TEST(test_segments_are_integrated) {
   ck_below(fabs(moment), 1e-12 * rho * width * 50e-6 * L * L);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Each segment is an arc of its own curvature and continues the one before without a kink. */
-START_TEST(test_curvature_of_each_segment) {
+TEST(test_curvature_of_each_segment) {
   const double k[] = {6, -9, 4, 0}, length[] = {0.021, 0.034, 0.017, 0.028};
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 121);
   def.segment_1.length = length[0];
@@ -284,11 +275,10 @@ START_TEST(test_curvature_of_each_segment) {
   ck_near(found_y, y, 3e-4); /* 6.7e-5 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A strip that turns by `turn` from edge to edge is, unloaded, exactly the polygon of such edges, 5/12 of it at the
  * clamp and 13/12 beside it, (8.9). From 50/m on Newton's method did not come there from straight. */
-START_TEST(test_strong_curvature) {
+TESTS(test_strong_curvature, 0, 4) {
   static const double curvatures[] = {-20, 40, 50, 100};
   enum { NODES = 11 };
   const double l = L / (NODES - 1), turn = curvatures[_i] * l;
@@ -306,11 +296,10 @@ START_TEST(test_strong_curvature) {
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "y_m"), y, 1e-9 * L);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* The same with a finer mesh, without load and with 8 g: an equilibrium exists. Without load the end is above the
  * clamp. */
-START_TEST(test_curled_ribbon_is_found) {
+TEST(test_curled_ribbon_is_found) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
   def.segment_1.length = L;
   def.segment_1.curvature = 50;
@@ -318,11 +307,10 @@ START_TEST(test_curled_ribbon_is_found) {
   def.load.mass = 8e-3;
   ck_assert(isfinite(value_of(ZP_STUDY_STATIONARY, &def, "stroke_m")));
 }
-END_TEST
 
 /* -- published strokes ----------------------------------------------------------------------------- */
 
-START_TEST(test_paper_fe) {
+TEST(test_paper_fe) {
   static const double grams[] = {0, 8, 40, 60, 61, 80, 100, 150, 200};
   static const double mm[] = {0.071, 2.592, 11.81, 16.39, 16.60, 20.04, 22.91, 27.75, 30.65};
   for (size_t i = 0; i < LENGTH_OF(grams); i++) {
@@ -333,10 +321,9 @@ START_TEST(test_paper_fe) {
     ck_assert_double_eq_tol(1e3 * stroke, mm[i], fmax(1.5e-3 * mm[i], 5e-4)); /* 6e-4 of them measured */
   }
 }
-END_TEST
 
 /* What damped stepping of the authors' code came to rest at, by Newton's method. */
-START_TEST(test_paper_code) {
+TESTS(test_paper_code, 0, 2) {
   static const double grams[] = {40, 60, 80, 100, 150, 200};
   static const double mm[2][6] = {{12.198, 16.833, 20.584, 23.580, 28.738, 31.890},
                                   {12.261, 16.827, 20.466, 23.338, 28.224, 31.189}};
@@ -348,7 +335,6 @@ START_TEST(test_paper_code) {
                             0.005); /* 7.6e-4 measured */
   }
 }
-END_TEST
 
 /* -- modes ----------------------------------------------------------------------------------------- */
 
@@ -359,7 +345,7 @@ static ZpActuatorDef modes_def(ZpRightEnd end) {
 
 /* The roots beta L within 0.15 %, measured at most 0.006, 0.04, 0.09 %. Lumped masses and second differences lower a
  * root by (beta l)^2 / 24 at least, 0.09 % of the third; a frequency goes with its square. */
-START_TEST(test_modes) {
+TESTS(test_modes, 0, 2) {
   static const double roots[2][3] = {{2.365020, 5.497804, 8.639380}, {1.875104, 4.694091, 7.854757}};
   static const char *const names[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
   ZpActuatorDef def = modes_def(_i ? ZP_END_FREE : ZP_END_GUIDED);
@@ -373,10 +359,9 @@ START_TEST(test_modes) {
   if (_i == 0) ck_near(zp_result_get(result, names[0]), 32.03, 5e-4); /* 1.4e-4 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* A clamped strip swings in its k-th mode with k - 1 nodes: frame k of the shapes. */
-START_TEST(shape_of_a_mode_has_its_nodes) {
+TEST(shape_of_a_mode_has_its_nodes) {
   ZpActuatorDef def = modes_def(ZP_END_FREE);
   ZpResult *result = rest_of(ZP_STUDY_MODES, &def);
   for (size_t k = 1; k <= 4; k++) {
@@ -388,10 +373,9 @@ START_TEST(shape_of_a_mode_has_its_nodes) {
   }
   zp_result_destroy(result);
 }
-END_TEST
 
 /* However few rows are kept, the last one of a branch is at the voltage that was asked for. */
-START_TEST(last_row_is_at_the_voltage) {
+TEST(last_row_is_at_the_voltage) {
   for (int samples = 10; samples <= 14; samples++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"drive.voltage", 4e3}, {"output.samples", samples});
     ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
@@ -400,11 +384,10 @@ START_TEST(last_row_is_at_the_voltage) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* Eq. (11.2): an exact squared frequency lies within the bound of the residual. The reference has thirty rounds more,
  * which derivatives ask for; what its residual leaves is rounding. */
-START_TEST(residual_of_a_mode_bounds_its_error) {
+TEST(residual_of_a_mode_bounds_its_error) {
   ZpActuatorDef def = DEF({"mesh.nodes", 61});
   ZpResult *found = rest_of(ZP_STUDY_MODES, &def);
   ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), "load.mass", NULL), ZP_OK);
@@ -422,10 +405,9 @@ START_TEST(residual_of_a_mode_bounds_its_error) {
   zp_result_destroy(found);
   zp_result_destroy(exact);
 }
-END_TEST
 
 /* The error of the third mode is of order l^2: extrapolated, it is that of the beam. */
-START_TEST(test_modes_converge) {
+TEST(test_modes_converge) {
   static const int nodes[] = {61, 121};
   double f[2], unit = sqrt(bending_stiffness(thickness) / (rho * width * thickness)) / (2 * M_PI * 45e-3 * 45e-3);
   for (int k = 0; k < 2; k++) {
@@ -435,11 +417,10 @@ START_TEST(test_modes_converge) {
   }
   ck_near((4 * f[1] - f[0]) / 3, 8.639380 * 8.639380 * unit, 2e-5); /* 4.9e-6 measured */
 }
-END_TEST
 
 /* Its own outcome instead of "not settled". Newton's method alone would jump: at 5.7, 8 and 10 kV it finds closed
  * states, which are stable, too. */
-START_TEST(test_modes_above_pull_in) {
+TEST(test_modes_above_pull_in) {
   static const double above[] = {5663, 5700, 8e3, 10e3};
   ZpActuatorDef def = DEF({"modes.voltage", 5661.5});
   /* pull-in at 5662.0 V: the lowest frequency falls to 0 there */
@@ -454,7 +435,6 @@ START_TEST(test_modes_above_pull_in) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* -- pull-in --------------------------------------------------------------------------------------- */
 
@@ -502,7 +482,7 @@ static Point limit_of(const ZpActuatorDef *def) {
   return top_of(point);
 }
 
-START_TEST(test_pull_in) {
+TESTS(test_pull_in, 0, 2) {
   static const double b[] = {4.38094, 1.68084}, travel[] = {0.3967, 0.4465};
   const double g = 1e-3;
   ZpActuatorDef def = flange_def(_i ? ZP_END_FREE : ZP_END_GUIDED, b[_i], g);
@@ -516,11 +496,10 @@ START_TEST(test_pull_in) {
   ck_near(-limit.stroke / g, travel[_i], 2e-3);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Regression: without weight the residual was relative to 1 mN, far above the forces of a thin flange: its pull-in
  * became worse with a finer mesh, for any tolerance: 63.41, 63.46, 63.79, 65.09 V for N = 61 to 481. */
-START_TEST(test_weightless_flange_converges) {
+TEST(test_weightless_flange_converges) {
   const double g = 0.2e-3, eps0 = 8.8541878128e-12, length = 45e-3;
   double exact = sqrt(2 * 4.38094 * bending_stiffness(thickness) * g * g * g / (eps0 * width * pow(length, 4)));
   double found[3];
@@ -537,10 +516,9 @@ START_TEST(test_weightless_flange_converges) {
   for (int i = 0; i < 3; i++)
     ck_near(found[i], exact, 3e-5); /* 1.9e-5 measured */
 }
-END_TEST
 
 /* Without weight the stroke starts from 0, and any change of it counted as a jump to another branch. */
-START_TEST(test_weightless_flange_is_raised) {
+TEST(test_weightless_flange_is_raised) {
   ZpActuatorDef def = flange_def(ZP_END_GUIDED, 4.38094, 0.2e-3);
   double V = def.drive.voltage / 1.2;
   def.modes.voltage = 0.99 * V;
@@ -550,7 +528,6 @@ START_TEST(test_weightless_flange_is_raised) {
   ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- the default actuator ---------------------------------------------------------------------------- */
 
@@ -569,7 +546,7 @@ static int turns(const ZpTable *t) {
   return count;
 }
 
-START_TEST(test_mesh_independence) {
+TESTS(test_mesh_independence, 0, FULL_OR(1, 0)) {
   double pull_in[2], release[2];
   for (int k = 0; k < 2; k++) {
     ZpActuatorDef def = voltage_def(8e-3, k ? 241 : 121);
@@ -583,11 +560,10 @@ START_TEST(test_mesh_independence) {
   ck_near(pull_in[0], pull_in[1], 5e-4); /* 1.4e-4 measured */
   ck_near(release[0], release[1], 5e-6); /* 1.5e-6 measured */
 }
-END_TEST
 
 /* Hanging is stable up to pull-in, what connects it to closed is not, closed is. Where the first nodes touch, the
  * voltage along the middle leg may ripple by less than a thousandth and a point there be stable: measured 1 of 170. */
-START_TEST(test_default_branches) {
+TEST(test_default_branches) {
   ZpActuatorDef def = voltage_def(8e-3, 61);
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
   const ZpTable *t = result->series;
@@ -609,10 +585,9 @@ START_TEST(test_default_branches) {
   ck_assert_int_eq(wrong[2], 0);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Under 61 g it hangs open at 10 kV, and stays closed if it is closed. */
-START_TEST(test_heavy_load) {
+TEST(test_heavy_load) {
   ZpActuatorDef def = voltage_def(61e-3, 61);
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
   const ZpTable *t = result->series;
@@ -627,9 +602,8 @@ START_TEST(test_heavy_load) {
   printf("61 g: %s, release %g V\n", result->message, zp_result_get(result, "release_voltage_V"));
   zp_result_destroy(result);
 }
-END_TEST
 
-START_TEST(test_faces_do_not_cross) {
+TEST(test_faces_do_not_cross) {
   static const double grams[] = {8, 61};
   for (size_t i = 0; i < LENGTH_OF(grams); i++) {
     ZpActuatorDef def = voltage_def(1e-3 * grams[i], 61);
@@ -645,7 +619,6 @@ START_TEST(test_faces_do_not_cross) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* -- release --------------------------------------------------------------------------------------- */
 
@@ -666,13 +639,12 @@ static ZpActuatorDef long_def(int nodes) {
 
 /* Regression: the last of all limit points, or of the first 256, was taken for the release: 529, 509, 683, 5764 V for N
  * = 31, 61, 91, 121 where a slow ramp opens at 493 V. */
-START_TEST(test_release_of_a_long_actuator) {
+TESTS(test_release_of_a_long_actuator, 0, FULL_OR(1, 0)) {
   ZpActuatorDef coarse = long_def(61), fine = long_def(91);
   double release[] = {release_of(ZP_STUDY_EQUILIBRIUM, &coarse), release_of(ZP_STUDY_EQUILIBRIUM, &fine)};
   ck_near(release[0], release[1], 0.01); /* 2.2e-3 measured */
   ck_near(release[1], 500, 0.015);       /* 1.6e-3 measured */
 }
-END_TEST
 
 static ZpActuatorDef small_flange(double voltage) {
   return DEF({"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 65e-3}, {"ribbon.thickness", 100e-6},
@@ -682,14 +654,13 @@ static ZpActuatorDef small_flange(double voltage) {
 
 /* The release of a flange does not depend on the voltage at which it was closed; before, at 300 V it was reported as
  * its pull-in. Across the sharp fold of its pull-in the branch is not followed back. */
-START_TEST(test_release_whatever_closed_it) {
+TEST(test_release_whatever_closed_it) {
   static const double voltages[] = {300, 500, 1e3, 3e3};
   for (size_t i = 0; i < LENGTH_OF(voltages); i++) {
     ZpActuatorDef def = small_flange(voltages[i]);
     ck_near(release_of(ZP_STUDY_EQUILIBRIUM, &def), 21.162, 2e-4); /* 5.2e-5 measured */
   }
 }
-END_TEST
 
 /* Voltage at which a slow fall from `high` V, closed, to `low` V opens what the study says it does; slow motion is
  * damped so that it does not shake itself open. Of ribbons that is 99 % of contraction, of a flange a tenth of the way
@@ -721,7 +692,7 @@ static double opened_by_ramp(ZpActuatorDef def, double closing, double high, dou
 }
 
 /* The release of equilibria is the voltage at which a motion under slowly falling voltage opens. */
-START_TEST(test_release_is_that_of_a_slow_ramp) {
+TESTS(test_release_is_that_of_a_slow_ramp, 0, 4) {
   const ZpActuatorDef defs[] = {
       voltage_def(8e-3, 61),
       DEF({"ribbon.length", 89e-3}, {"ribbon.thickness", 100e-6}, {"load.mass", 39e-3}, {"platform.length", 15e-3},
@@ -735,10 +706,9 @@ START_TEST(test_release_is_that_of_a_slow_ramp) {
   printf("release %.4g V, by a ramp %+.2e off\n", release, ramp / release - 1);
   ck_near(ramp, release, 0.01); /* 2.2e-3 measured */
 }
-END_TEST
 
 /* What is never closed has no release, and the message says why. */
-START_TEST(test_no_release) {
+TEST(test_no_release) {
   ZpActuatorDef low = DEF({"drive.voltage", 500});
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &low);
   ck_assert_double_nan(zp_result_get(result, "release_voltage_V"));
@@ -746,12 +716,11 @@ START_TEST(test_no_release) {
   ck_assert_ptr_nonnull(strstr(result->message, "no release: it is not closed at drive.voltage"));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* -- extremes -------------------------------------------------------------------------------------- */
 
 /* Whatever is asked, an outcome and a message. */
-START_TEST(test_extremes) {
+TESTS(test_extremes, 0, 3) {
   static const ZpStudy studies[] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_MODES};
   static const Setting extremes[] = {{"load.mass", 1e3}, {"mesh.nodes", 4}, {"drive.voltage", 0}};
   for (size_t i = 0; i < LENGTH_OF(extremes); i++) {
@@ -766,13 +735,12 @@ START_TEST(test_extremes) {
     zp_result_destroy(result);
   }
 }
-END_TEST
 
 /* -- main ------------------------------------------------------------------------------------------ */
 
 /* Both ends clamped, sagging under its own weight: w L^4 / (384 EI). The nodes are corners of a polygon around the
  * ribbon, (8.8); what weight the edges at the clamps hand on makes an error that goes with l^3. */
-START_TEST(test_order_between_clamps) {
+TEST(test_order_between_clamps) {
   static const int nodes[] = {17, 31, 61};
   double gravity = 1e-3, scaled[3];
   for (int i = 0; i < 3; i++) {
@@ -791,12 +759,11 @@ START_TEST(test_order_between_clamps) {
   ck_near(scaled[0], scaled[2], 0.05); /* 0.039 measured */
   ck_near(scaled[1], scaled[2], 0.05); /* 0.035 measured */
 }
-END_TEST
 
 /* -- a saved point --------------------------------------------------------------------------------- */
 
 /* What a branch goes back to holds its load and its voltage. */
-START_TEST(test_restored_with_load_and_voltage) {
+TEST(test_restored_with_load_and_voltage) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpModel *model = model_of(&def);
   ZpStatics statics;
@@ -814,12 +781,11 @@ START_TEST(test_restored_with_load_and_voltage) {
   zp_statics_destroy(&statics);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- along the load -------------------------------------------------------------------------------- */
 
 /* The branch along the load passes through the equilibria found from straight, and is stable everywhere. */
-START_TEST(test_branch_along_the_load) {
+TEST(test_branch_along_the_load) {
   ZpActuatorDef def = DEF({"load.mass", 0.008});
   ZpModel *model = model_of(&def);
   ZpRest rest;
@@ -842,12 +808,11 @@ START_TEST(test_branch_along_the_load) {
   zp_rest_close(&rest);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Each half of weightless ribbons carries half of the load straight down, and nothing pulls a clip sideways: along the
  * lower ribbon that load and a constant force across it make the tension of each edge. The force across is 0 between
  * equal ribbons; a thicker lower one is pressed together. */
-START_TEST(tension_carries_the_load_along_the_slope) {
+TESTS(tension_carries_the_load_along_the_slope, 0, 2) {
   static const double load = 0.1;
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"gravity", 0}, {"load.force", load});
   if (_i == 1) def.lower.ribbon.thickness = 2 * def.ribbon.thickness;
@@ -869,50 +834,4 @@ START_TEST(tension_carries_the_load_along_the_slope) {
   ck_assert(_i == 0 || across < -1e-2 * load);
   ck_below(worst, 1e-8); /* 3.2e-9 measured */
   zp_result_destroy(result);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("statics");
-  TCase *rest = tcase_create("rest");
-  tcase_add_loop_test(rest, test_oracle, 0, LENGTH_OF(beams));
-  tcase_add_loop_test(rest, test_elastica, 0, LENGTH_OF(beams));
-  tcase_add_test(rest, test_opening);
-  tcase_add_loop_test(rest, test_order_of_deflections, 0, 3);
-  tcase_add_loop_test(rest, test_small_deflections_are_exact, 0, 2);
-  tcase_add_test(rest, test_natural_curvature);
-  tcase_add_test(rest, test_two_segments);
-  tcase_add_test(rest, test_step_between_nodes);
-  tcase_add_test(rest, test_segments_are_integrated);
-  tcase_add_test(rest, test_curvature_of_each_segment);
-  tcase_add_loop_test(rest, test_strong_curvature, 0, 4);
-  tcase_add_test(rest, test_curled_ribbon_is_found);
-  tcase_add_test(rest, test_paper_fe);
-  tcase_add_loop_test(rest, test_paper_code, 0, 2);
-  tcase_add_loop_test(rest, test_modes, 0, 2);
-  tcase_add_test(rest, shape_of_a_mode_has_its_nodes);
-  tcase_add_test(rest, last_row_is_at_the_voltage);
-  tcase_add_test(rest, test_branch_along_the_load);
-  tcase_add_test(rest, test_order_between_clamps);
-  tcase_add_test(rest, test_modes_converge);
-  tcase_add_test(rest, residual_of_a_mode_bounds_its_error);
-  suite_add_tcase(suite, rest);
-  tcase_add_loop_test(rest, tension_carries_the_load_along_the_slope, 0, 2);
-  TCase *voltage = tcase_create("voltage");
-  tcase_add_loop_test(voltage, test_pull_in, 0, 2);
-  tcase_add_test(voltage, test_weightless_flange_converges);
-  tcase_add_test(voltage, test_weightless_flange_is_raised);
-  tcase_add_test(voltage, test_modes_above_pull_in);
-  tcase_add_test(voltage, test_restored_with_load_and_voltage);
-  if (!SANITIZED) tcase_add_test(voltage, test_release_of_a_long_actuator);
-  tcase_add_test(voltage, test_release_whatever_closed_it);
-  tcase_add_loop_test(voltage, test_release_is_that_of_a_slow_ramp, 0, 4);
-  tcase_add_test(voltage, test_no_release);
-  if (!SANITIZED) tcase_add_test(voltage, test_mesh_independence);
-  tcase_add_test(voltage, test_default_branches);
-  tcase_add_test(voltage, test_heavy_load);
-  tcase_add_test(voltage, test_faces_do_not_cross);
-  tcase_add_loop_test(voltage, test_extremes, 0, 3);
-  suite_add_tcase(suite, voltage);
-  return run_suite(suite);
 }

@@ -127,7 +127,7 @@ static const Vibration vibrations[] = {
          {"insulator.thickness", 10e-6}, {"platform.length", 20e-3}, {"load.mass", 20e-6}),
 };
 
-START_TEST(stable_step_is_that_of_the_fastest_vibration) {
+TESTS(stable_step_is_that_of_the_fastest_vibration, 0, LENGTH_OF(vibrations)) {
   const Vibration *v = &vibrations[_i];
   ZpActuatorDef def = def_with(v->setting, v->count);
   Rest r = rest_of(&def, v->faces_press);
@@ -137,7 +137,6 @@ START_TEST(stable_step_is_that_of_the_fastest_vibration) {
   ck_assert_double_le(share, v->most * (1 + 1e-6));
   free_rest(&r);
 }
-END_TEST
 
 /* -- eq. (9) of the paper, node by node ------------------------------------------------------------- */
 
@@ -193,7 +192,7 @@ static void check_bounds(const ZpActuatorDef *def) {
   free_rest(&r);
 }
 
-START_TEST(bounds_are_the_least_of_all_nodes) {
+TEST(bounds_are_the_least_of_all_nodes) {
   ZpActuatorDef one = DEF(ALONE, {"mesh.nodes", 21}, {"damping.drag", 3});
   ZpActuatorDef two = DEF(PAIR, {"mesh.nodes", 21}, {"damping.drag", 3});
   ZpActuatorDef particles = DEF(PAIR, {"mesh.nodes", 21}, {"damping.drag", 3}, {"ribbon.model", ZP_RIBBON_MASS_SPRING});
@@ -201,7 +200,6 @@ START_TEST(bounds_are_the_least_of_all_nodes) {
   check_bounds(&two);
   check_bounds(&particles);
 }
-END_TEST
 
 /* -- drag in a run --------------------------------------------------------------------------------- */
 
@@ -221,7 +219,7 @@ static ZpRunInfo run_to(ZpSim *sim, double end) {
 /* A limp strand that falls at v_t = sqrt(m g / c), with steps so short that drag does not limit them: a run reports the
  * first bounds of eq. (9), the smallest over its rows. From there on without these steps: half of the bound, m / (c
  * v_t), each. */
-START_TEST(drag_bounds_the_steps) {
+TEST(drag_bounds_the_steps) {
   const double c = 1e6, time = 1e-4, m = 7850 * 12.7e-3 * 50e-6 * 45e-3 / 21, v_t = sqrt(m * 9.81 / c);
   ZpActuatorDef def = DEF(ALONE, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", 45e-3}, {"mesh.nodes", 21},
                           {"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mass_spring.axial", ZP_AXIAL_CODE},
@@ -249,10 +247,9 @@ START_TEST(drag_bounds_the_steps) {
   zp_model_destroy(model);
   zp_model_destroy(finer);
 }
-END_TEST
 
 /* A strip released from straight is fastest half way and at rest at the end: the smallest bound is that half way. */
-START_TEST(bounds_are_the_least_of_all_rows) {
+TEST(bounds_are_the_least_of_all_rows) {
   const double c = 1e-4, m = 7850 * 12.7e-3 * 50e-6 * 45e-3 / 21;
   ZpActuatorDef def = DEF(ALONE, {"ribbon.length", 45e-3}, {"mesh.nodes", 21}, {"ribbon.model", ZP_RIBBON_MASS_SPRING},
                           {"mass_spring.axial", ZP_AXIAL_CODE}, {"load.mass", 0}, {"damping.drag", c});
@@ -275,7 +272,6 @@ START_TEST(bounds_are_the_least_of_all_rows) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- the end of a run ------------------------------------------------------------------------------ */
 
@@ -286,22 +282,9 @@ static double two_seconds(void *self, const double *q, const double *v, double *
 }
 
 /* A bound that is just what is left until the end: the end, so that its time is reached exactly. */
-START_TEST(bound_at_the_end_is_the_end) {
+TEST(bound_at_the_end_is_the_end) {
   ZpExplicitSystem system = {1, NULL, two_seconds, NULL};
   double q = 0, v = 1, a;
   ZpExplicitStep step = zp_explicit_step(&system, 2, &q, &v, &a);
   ck_assert(step.dt == 2 && step.limit == ZP_EXPLICIT_END);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("step bounds");
-  TCase *c = tcase_create("steps");
-  tcase_add_loop_test(c, stable_step_is_that_of_the_fastest_vibration, 0, LENGTH_OF(vibrations));
-  tcase_add_test(c, bounds_are_the_least_of_all_nodes);
-  tcase_add_test(c, drag_bounds_the_steps);
-  tcase_add_test(c, bounds_are_the_least_of_all_rows);
-  tcase_add_test(c, bound_at_the_end_is_the_end);
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

@@ -117,7 +117,7 @@ static double worst_entry(ZpStatics *s, const ZpStaticSystem *system, const ZpBa
   return worst / largest;
 }
 
-START_TEST(stiffness_is_the_derivative_of_the_forces) {
+TESTS(stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases)) {
   const Case *c = &cases[_i];
   ZpActuatorDef def = def_with(c->setting, c->count);
   ZpModel *model = model_of(&def);
@@ -138,13 +138,4 @@ START_TEST(stiffness_is_the_derivative_of_the_forces) {
   ck_below(worst, 5e-8); /* 1.4e-8 measured */
   zp_rest_close(&rest);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("stiffness");
-  TCase *c = tcase_create("stiffness");
-  tcase_add_loop_test(c, stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases));
-  suite_add_tcase(suite, c);
-  return run_suite(suite);
 }

@@ -57,7 +57,7 @@ static const char *word_in(const json_t *object, const char *name) {
 /* -- summary.json ----------------------------------------------------------------------------------- */
 
 /* A sweep that was stopped says so, although all its cases so far are good. */
-START_TEST(interrupted_sweep_counts_its_cases) {
+TEST(interrupted_sweep_counts_its_cases) {
   ZpScenario *scenario = SCENARIO("load.mass=[1 g, 2 g, 3 g]");
   ZpResult *result[] = {result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1),
                         result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 0.5)};
@@ -69,9 +69,8 @@ START_TEST(interrupted_sweep_counts_its_cases) {
   json_decref(summary);
   free_results(result, 2, scenario);
 }
-END_TEST
 
-START_TEST(rows_say_which_values_are_automatic) {
+TEST(rows_say_which_values_are_automatic) {
   ZpScenario *scenario = SCENARIO("solver.tolerance=[auto, 1e-5]");
   ZpResult *result[] = {result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1),
                         result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1)};
@@ -81,10 +80,9 @@ START_TEST(rows_say_which_values_are_automatic) {
   json_decref(summary);
   free_results(result, 2, scenario);
 }
-END_TEST
 
 /* Frequencies and their errors are two arrays, and not numbers of their own besides. */
-START_TEST(errors_of_frequencies_are_an_array) {
+TEST(errors_of_frequencies_are_an_array) {
   ZpScenario *scenario = SCENARIO("study=modes");
   ZpResult *result = result_of(ZP_STUDY_MODES, ZP_CONVERGED, "frequency_1_Hz", 20);
   zp_result_add(result, "frequency_2_Hz", "Hz", 50);
@@ -101,9 +99,8 @@ START_TEST(errors_of_frequencies_are_an_array) {
   json_decref(summary);
   free_results(&result, 1, scenario);
 }
-END_TEST
 
-START_TEST(derivatives_stand_by_output_and_key) {
+TEST(derivatives_stand_by_output_and_key) {
   const int mass = zp_key_find("load.mass"), width = zp_key_find("ribbon.width");
   ZpScenario *scenario = SCENARIO("study=stationary");
   ZpResult *result = result_of(ZP_STUDY_STATIONARY, ZP_CONVERGED, "stroke_m", 0.01);
@@ -117,10 +114,9 @@ START_TEST(derivatives_stand_by_output_and_key) {
   json_decref(summary);
   free_results(&result, 1, scenario);
 }
-END_TEST
 
 /* The best cases are those of the rows that the optimum names, in its order. */
-START_TEST(optimum_shows_its_own_cases) {
+TEST(optimum_shows_its_own_cases) {
   static const size_t best[] = {2, 0};
   ZpScenario *scenario = SCENARIO("load.mass=[1 g, 2 g, 3 g]");
   ZpResult *result[3];
@@ -138,10 +134,9 @@ START_TEST(optimum_shows_its_own_cases) {
   json_decref(summary);
   free_results(result, 3, scenario);
 }
-END_TEST
 
 /* The largest number of a sweep is that of the cases to which it applies. */
-START_TEST(largest_is_of_the_cases_where_it_holds) {
+TEST(largest_is_of_the_cases_where_it_holds) {
   ZpScenario *scenario = SCENARIO("load.mass=[1 g, 2 g, 3 g]");
   ZpResult *result[3];
   for (size_t i = 0; i < 3; i++) {
@@ -152,7 +147,6 @@ START_TEST(largest_is_of_the_cases_where_it_holds) {
   ck_assert_double_eq(zp_report_largest(&report, "load_kg", "lifts"), 1);
   free_results(result, 3, scenario);
 }
-END_TEST
 
 /* -- statistics of samples ---------------------------------------------------------------------------- */
 
@@ -189,7 +183,7 @@ static void expect_index(const json_t *about, const char *order, const char *key
 
 /* Mean and indices of each output are those of the samples of this combination. An output that depends on one key has
  * the indices 1 and 0; one of a product has hardly any of first order, and 1 in total. */
-START_TEST(statistics_are_of_their_samples) {
+TEST(statistics_are_of_their_samples) {
   ZpScenario *scenario =
       SCENARIO("ribbon.thickness=uniform(40 um, 60 um)", "load.mass=[2 g, 3 g]", "drive.voltage=uniform(6 kV, 10 kV)",
                "sampling.count=256", "sampling.indices=true", "sampling.method=sobol");
@@ -225,10 +219,9 @@ START_TEST(statistics_are_of_their_samples) {
   free_results(result, count, scenario);
   free(result);
 }
-END_TEST
 
 /* The first case that failed speaks for all; keys of whole numbers are whole; a note of several cases stands once. */
-START_TEST(failed_case_speaks_for_the_sweep) {
+TEST(failed_case_speaks_for_the_sweep) {
   ZpScenario *scenario = SCENARIO("mesh.nodes=[21, 61]");
   ZpResult *result[] = {result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1),
                         result_of(ZP_STUDY_ACTUATE, ZP_DIVERGED, "contraction", 0)};
@@ -242,7 +235,6 @@ START_TEST(failed_case_speaks_for_the_sweep) {
   json_decref(summary);
   free_results(result, 2, scenario);
 }
-END_TEST
 
 /* -- files that go, and one that stays ----------------------------------------------------------------- */
 
@@ -263,7 +255,7 @@ static ZpShapes *shapes_of(size_t frames) {
 }
 
 /* A result over one that had more: its table, its field and its later frames go. */
-START_TEST(files_go_with_their_results) {
+TEST(files_go_with_their_results) {
   const ZpColumn column = {"time_s", "s", "time"};
   ZpScenario *scenario = SCENARIO("mesh.nodes=9");
   ZpResult *result = result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1);
@@ -283,10 +275,9 @@ START_TEST(files_go_with_their_results) {
   ck_assert(is_there("shapes/shape_0001.vtp") && !is_there("shapes/shape_0002.vtp"));
   free_results(&result, 1, scenario);
 }
-END_TEST
 
 /* A summary says that all files are complete: an old one goes first, and none comes where another file fails. */
-START_TEST(summary_goes_before_files_are_written) {
+TEST(summary_goes_before_files_are_written) {
   ZpScenario *scenario = SCENARIO("mesh.nodes=9");
   ZpResult *result = result_of(ZP_STUDY_ACTUATE, ZP_ZIPPED, "contraction", 1);
   ZpError err;
@@ -300,10 +291,9 @@ START_TEST(summary_goes_before_files_are_written) {
   free(path);
   free_results(&result, 1, scenario);
 }
-END_TEST
 
 /* The state at the end of a run in time is a file from which that model can continue. */
-START_TEST(state_at_the_end_is_a_file) {
+TEST(state_at_the_end_is_a_file) {
   ZpScenario *scenario = SCENARIO("mesh.nodes=9", "liquid.model=none", "output.errors=false", "solver.end_time=1 ms");
   ZpActuatorDef def;
   ZpCheckpoint *read = NULL;
@@ -317,21 +307,4 @@ START_TEST(state_at_the_end_is_a_file) {
   free(path);
   zp_checkpoint_destroy(read);
   free_results(&result, 1, scenario);
-}
-END_TEST
-
-int main(void) {
-  const TTest *const test[] = {interrupted_sweep_counts_its_cases, rows_say_which_values_are_automatic,
-                               errors_of_frequencies_are_an_array, derivatives_stand_by_output_and_key,
-                               optimum_shows_its_own_cases,        largest_is_of_the_cases_where_it_holds,
-                               statistics_are_of_their_samples,    failed_case_speaks_for_the_sweep,
-                               files_go_with_their_results,        summary_goes_before_files_are_written,
-                               state_at_the_end_is_a_file};
-  Suite *suite = suite_create("summary");
-  TCase *tcase = tcase_create("summary");
-  suite_add_tcase(suite, tcase);
-  tcase_add_checked_fixture(tcase, make_folder, remove_folder);
-  for (size_t i = 0; i < LENGTH_OF(test); i++)
-    tcase_add_test(tcase, test[i]);
-  return run_suite(suite);
 }

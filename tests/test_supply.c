@@ -9,7 +9,7 @@
 
 /* -- functions of its own -------------------------------------------------------------------------- */
 
-START_TEST(test_decay) {
+TEST(test_decay) {
   double worst = 0;
   for (double e = -12; e < 2.8; e += 0.01) {
     double x = pow(10, e);
@@ -18,7 +18,6 @@ START_TEST(test_decay) {
   ck_below(worst, 5e-16);
   ck_assert(zp_decay(0) == 0 && zp_decay(1e9) == -1);
 }
-END_TEST
 
 /* -- the inner voltage ------------------------------------------------------------------------------ */
 
@@ -48,17 +47,16 @@ static double follow(Follower *f, double end, double h) {
 }
 
 /* A step of 1 kV behind a lag of 100 Hz: an exponential, in one step or in many. */
-START_TEST(test_lag_of_a_step) {
+TEST(test_lag_of_a_step) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 100}, {"drive.voltage", 1e3});
   Follower once = follower_of(&def), often = once;
   double t = 2e-3, expected = 1e3 * (1 - exp(-2 * 3.14159265358979 * 100 * t));
   ck_near(follow(&once, t, 1), expected, 1e-13);
   ck_near(follow(&often, t, 1e-5), expected, 1e-13);
 }
-END_TEST
 
 /* A sine behind a lag of its own frequency: 1 / sqrt 2 of the amplitude, an eighth of a period late. */
-START_TEST(test_lag_of_a_sine) {
+TEST(test_lag_of_a_sine) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 50}, {"drive.frequency", 50},
                           {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 1e3}, {"drive.offset", -1e3});
   Follower f = follower_of(&def);
@@ -68,10 +66,9 @@ START_TEST(test_lag_of_a_sine) {
     ck_below(fabs(V - expected) / 1e3, 1e-12); /* 5.1e-14 measured */
   }
 }
-END_TEST
 
 /* A step behind a lag and a slew rate: a ramp until it meets the exponential, at S t = y(t), then the exponential. */
-START_TEST(test_slew_ends_at_the_right_instant) {
+TEST(test_slew_ends_at_the_right_instant) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 100}, {"drive.voltage", 1e3},
                           {"source.slew_rate", 1e5});
   double rate = 2 * 3.14159265358979323846 * 100, meets = 5e-3;
@@ -82,10 +79,9 @@ START_TEST(test_slew_ends_at_the_right_instant) {
   ck_near(follow(&other, 1.1 * meets, 1), 1e3 * (1 - exp(-1.1 * rate * meets)), 1e-12);
   ck_near(zp_supply_event(&f.supply, &(ZpCommand){&f.waveform, NULL}, f.t, 1, f.at), meets, 1e-12);
 }
-END_TEST
 
 /* A fall that the slew rate limits ends at the right instant as well. */
-START_TEST(test_falling_slew_ends_at_the_right_instant) {
+TEST(test_falling_slew_ends_at_the_right_instant) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5}, {"drive.voltage", 1e3},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 10}, {"drive.duty", 0.5});
   Follower f = follower_of(&def);
@@ -93,10 +89,9 @@ START_TEST(test_falling_slew_ends_at_the_right_instant) {
   ck_near(zp_supply_event(&f.supply, &(ZpCommand){&f.waveform, NULL}, f.t, 0.099, f.at), 0.06, 1e-12);
   ck_assert_double_eq(follow(&f, 0.099, 1), 0);
 }
-END_TEST
 
 /* A sine faster than the slew rate becomes a triangle of that rate; it finally becomes periodic. */
-START_TEST(test_slewed_sine_is_a_triangle) {
+TEST(test_slewed_sine_is_a_triangle) {
   ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5}, {"drive.frequency", 100},
                           {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.voltage", 1e3}, {"drive.offset", -1e3});
   Follower f = follower_of(&def);
@@ -105,7 +100,6 @@ START_TEST(test_slewed_sine_is_a_triangle) {
   follow(&f, 2, 1e-3);
   ck_near(f.most, 0.25 * 1e5 / 100, 1e-12); /* 1.5e-13 measured */
 }
-END_TEST
 
 /* -- charging --------------------------------------------------------------------------------------- */
 
@@ -155,7 +149,7 @@ static double exponential(double t, const Charging *c) {
 }
 
 /* Behind a resistance, with a cable: half of the energy from the source is lost. */
-START_TEST(test_charging_behind_a_resistance) {
+TEST(test_charging_behind_a_resistance) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.capacitance", CABLE}));
   ck_below(worst_error(&c, 0.25 * 1e8 * c.C, exponential), 2e-5); /* 4.7e-6 measured */
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);
@@ -166,11 +160,10 @@ START_TEST(test_charging_behind_a_resistance) {
   ck_near(zp_sim_currents(c.sim, 1).rms, sqrt(0.5 * c.C * V * V / 1e8), 1e-5);
   end_charging(&c);
 }
-END_TEST
 
 /* The summary of a run has the largest current and its root mean square over the run, and how far the supply could
  * go beyond the largest command. */
-START_TEST(currents_of_a_run) {
+TEST(currents_of_a_run) {
   ZpActuatorDef def = DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.voltage_limit", 4 * V});
   Charging c = charging(def);
   double R = def.source.resistance, C = c.C, T = 3 * R * C;
@@ -184,7 +177,6 @@ START_TEST(currents_of_a_run) {
   ck_near(zp_result_get(result, "source_voltage_margin"), 4, 1e-12);
   zp_result_destroy(result);
 }
-END_TEST
 
 static const double LIMIT = 0.03e-6; /* A */
 
@@ -194,7 +186,7 @@ static double limited(double t, const Charging *c) {
   return t < released ? LIMIT * t / c->C : V - (V - left) * exp(-(t - released) / (R * c->C));
 }
 
-START_TEST(test_limit_of_the_current) {
+TEST(test_limit_of_the_current) {
   Charging c = charging(
       DEF(CLOSED_ACTUATOR, {"source.resistance", 1e8}, {"source.capacitance", CABLE}, {"source.current_limit", LIMIT}));
   ck_below(worst_error(&c, 0.1 * 1e8 * c.C, limited), 2e-5); /* 4.7e-6 measured */
@@ -202,21 +194,19 @@ START_TEST(test_limit_of_the_current) {
   ck_near(currents.peak, LIMIT, 1e-12); /* 2.1e-14 measured */
   end_charging(&c);
 }
-END_TEST
 
 static double ramp(double t, const Charging *c) {
   return fmin(V, LIMIT * t / c->C);
 }
 
 /* Without a resistance: a ramp, then V. */
-START_TEST(test_limit_without_resistance) {
+TEST(test_limit_without_resistance) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.capacitance", CABLE}, {"source.current_limit", LIMIT}));
   ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, ramp), 1e-4);      /* 1.3e-5 measured */
   ck_near(zp_sim_get(c.sim, "source_energy"), c.C * V * V, 1e-4);     /* 1.4e-5 measured */
   ck_near(zp_sim_get(c.sim, "source_loss"), 0.5 * c.C * V * V, 1e-4); /* 1e-5 measured */
   end_charging(&c);
 }
-END_TEST
 
 static double slewed(double t, const Charging *c) {
   (void)c;
@@ -228,14 +218,13 @@ static double all_stored(const Charging *c) {
 }
 
 /* A slew rate alone: the electrodes follow the ramp, without losses. */
-START_TEST(test_slew_rate_alone) {
+TEST(test_slew_rate_alone) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.slew_rate", 1e2}));
   ck_below(worst_error(&c, 0.06 * V / 1e2, slewed), 1e-12);          /* 2.7e-16 measured */
   ck_near(zp_sim_get(c.sim, "source_energy"), all_stored(&c), 5e-5); /* the layers give way a little */
   ck_below(fabs(zp_sim_get(c.sim, "source_loss")), 1e-9 * all_stored(&c));
   end_charging(&c);
 }
-END_TEST
 
 static double bled(double t, const Charging *c) {
   return V * exp(-t / (5e8 * c->C));
@@ -243,7 +232,7 @@ static double bled(double t, const Charging *c) {
 
 /* A supply that cannot sink, switched off: the electrodes discharge through the bleeder, in which all of their energy
  * is lost. */
-START_TEST(test_discharge_through_the_bleeder) {
+TEST(test_discharge_through_the_bleeder) {
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.sink_limit", 0}, {"source.bleeder", 5e8}));
   ZpError err;
   ck_assert(zp_outcome_good(zp_sim_step(c.sim, 1e-6, NULL, NULL)));
@@ -253,7 +242,6 @@ START_TEST(test_discharge_through_the_bleeder) {
   ck_near(zp_sim_get(c.sim, "bleeder_loss") - lost, stored, 1e-4);
   end_charging(&c);
 }
-END_TEST
 
 static double falls_by; /* A */
 
@@ -262,7 +250,7 @@ static double falling(double t, const Charging *c) {
 }
 
 /* A flank falls by I / C with the current that the supply sinks at most: as much as it gives, or its own limit. */
-START_TEST(test_falling_flank) {
+TESTS(test_falling_flank, 0, 3) {
   static const double most[] = {LIMIT, LIMIT, INFINITY}, sinks[] = {NAN, 0.5 * LIMIT, LIMIT};
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.current_limit", isinf(most[_i]) ? NAN : most[_i]},
                             {"source.sink_limit", sinks[_i]}, {"source.capacitance", _i == 2 ? 0 : CABLE}));
@@ -273,12 +261,11 @@ START_TEST(test_falling_flank) {
   ck_below(worst_error(&c, 0.06 * V * c.C / LIMIT, falling), 6e-5); /* measured 1.8e-5 */
   end_charging(&c);
 }
-END_TEST
 
 /* The supply jumps to V into its cable and the electrodes: C V^2 leave it, half of which is stored. Behind a resistance
  * too small to last, which takes the other half, the mean of the squared current is that of this heat. Measured 2e-10:
  * the layers give way. */
-START_TEST(test_jump_into_the_cable) {
+TESTS(test_jump_into_the_cable, 0, 2) {
   const double R = _i ? 1 : 0, T = 1e-6;
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.resistance", R}, {"source.capacitance", CABLE}));
   const double electrodes = c.C - CABLE;
@@ -298,10 +285,9 @@ START_TEST(test_jump_into_the_cable) {
   }
   end_charging(&c);
 }
-END_TEST
 
 /* The supply gives what the bleeder takes, V / R, beside the charge of a closed actuator. */
-START_TEST(test_current_of_the_bleeder) {
+TEST(test_current_of_the_bleeder) {
   const double R = 5e8, T = 0.1;
   Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.bleeder", R}));
   ck_assert(zp_outcome_good(zp_sim_run(c.sim, T, false, NULL, NULL)));
@@ -309,11 +295,10 @@ START_TEST(test_current_of_the_bleeder) {
   ck_near(zp_sim_get(c.sim, "bleeder_loss"), V * V * T / R, 1e-12); /* 4.4e-16 measured */
   end_charging(&c);
 }
-END_TEST
 
 /* A jump to U and a ramp on from there: U dQ is C U^2 for the jump and C (V^2 - U^2) / 2 for the ramp. So it is for an
  * ideal source, and for a supply with its cable. Measured 2e-10. */
-START_TEST(test_jump_and_ramp) {
+TESTS(test_jump_and_ramp, 0, 2) {
   const double U = 0.4 * V, cable = _i ? CABLE : 0, T = 1e-6;
   ZpActuatorDef def = DEF(CLOSED_ACTUATOR, {"source.capacitance", cable});
   def.drive.voltage = 0;
@@ -325,7 +310,6 @@ START_TEST(test_jump_and_ramp) {
   ck_near(zp_sim_get(c.sim, "current") * T, c.C * V, 1e-9);
   end_charging(&c);
 }
-END_TEST
 
 /* -- motion ----------------------------------------------------------------------------------------- */
 
@@ -342,7 +326,7 @@ static double opening_after(ZpActuatorDef def, double end, double *voltage) {
 }
 
 /* Ten cycles at 50 Hz: the energy from the source is stored, has done work or is a loss, at the default tolerance. */
-START_TEST(test_cycles_keep_energy) {
+TESTS(test_cycles_keep_energy, 0, 3) {
   static const double liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_BEAD, ZP_LIQUID_SUBMERGED}, allowed[] = {1e-8, 1e-6, 1e-6};
   ZpActuatorDef def = DEF({"liquid.model", liquid[_i]}, {"drive.waveform", ZP_WAVEFORM_SINE}, {"drive.frequency", 50},
                           {"drive.offset", -10e3}, {"solver.end_time", 0.2});
@@ -350,11 +334,10 @@ START_TEST(test_cycles_keep_energy) {
   ck_below(zp_result_get(result, "energy_error"), allowed[_i]);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* An amplifier without limits takes the same steps as the ideal source; a limit that is never reached changes results
  * by rounding only. */
-START_TEST(test_without_limits_it_is_ideal) {
+TEST(test_without_limits_it_is_ideal) {
   ZpActuatorDef ideal = DEF({"mesh.nodes", 21}), free = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}),
                 wide = DEF({"mesh.nodes", 21}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bleeder", 1e18});
   double U, expected = opening_after(ideal, 0.02, &U);
@@ -362,7 +345,6 @@ START_TEST(test_without_limits_it_is_ideal) {
   ck_near(opening_after(wide, 0.02, &U), expected, 3e-11); /* 4.2e-12 measured */
   ck_near(U, 10e3, 1e-14);
 }
-END_TEST
 
 typedef struct Books {
   double given, stored, mechanical, heat, off; /* J; largest imbalance on the way */
@@ -385,7 +367,7 @@ static Books books_of(ZpSim *sim) {
 
 /* Zip and release behind each kind of supply: its energy is stored, does work, or is heat, at any time. Measured
  * 3.6e-10, 1.7e-10, 4.9e-10; with a tolerance of 1e-5 5e-11, 1.2e-11, 3.4e-11. */
-START_TEST(test_energy_behind_supplies) {
+TESTS(test_energy_behind_supplies, 0, 3) {
   static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.voltage", _i == 0 ? 6e3 : 10e3},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 2}, {"drive.duty", 0.4},
@@ -403,7 +385,6 @@ START_TEST(test_energy_behind_supplies) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* What the books call loss of the source is R I^2: both converge to each other with the square of the step. */
 static double heat_apart(double h) {
@@ -424,13 +405,12 @@ static double heat_apart(double h) {
   return apart;
 }
 
-START_TEST(test_loss_is_heat_of_the_resistance) {
+TEST(test_loss_is_heat_of_the_resistance) {
   double coarse = heat_apart(8e-4), fine = heat_apart(2e-4), finest = heat_apart(5e-5);
   printf("loss of the source against R I^2, steps of 800, 200, 50 us: %.2e, %.2e, %.2e\n", coarse, fine, finest);
   ck_below(finest, 1e-6);
   ck_below(fine, 0.1 * coarse); /* of second order; measured 0.047 */
 }
-END_TEST
 
 /* -- what cannot be -------------------------------------------------------------------------------- */
 
@@ -446,7 +426,7 @@ static const char *refusal(ZpActuatorDef def) {
 }
 
 /* A pocket supply to 6 kV gave 10 kV when it was asked to. */
-START_TEST(test_voltage_beyond_the_supply) {
+TEST(test_voltage_beyond_the_supply) {
   const char *says = refusal(DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_POCKET_6KV}));
   ck_assert_str_eq(says, "drive.voltage: 10000 V exceeds source.voltage_limit = 6000 V");
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_POCKET_6KV}, {"drive.voltage", 5e3});
@@ -458,13 +438,12 @@ START_TEST(test_voltage_beyond_the_supply) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A source of 10 kV that cannot sink, without anything else that discharges, or with a wire of 1 fF: with the cap, the
  * charge of closed faces holds no voltage up. Regression: 250 kV were reached, and then this was refused. Opening faces
  * raise their voltage, as with 10 pF; faces that are full do not. Switched off, they stay closed with the charge that
  * they have, which no longer comes from the source. */
-START_TEST(test_charge_that_cannot_leave) {
+TESTS(test_charge_that_cannot_leave, 0, 3) {
   static const double wire[] = {0, 1e-15, 10e-12};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"source.model", ZP_SOURCE_AMPLIFIER},
                           {"source.sink_limit", 0}, {"source.current_limit", 0.3e-3}, {"source.capacitance", wire[_i]},
@@ -486,12 +465,11 @@ START_TEST(test_charge_that_cannot_leave) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A supply that sinks slowly, with a wire of 28 fF, behind faces that are wholly capped: the wire discharges with the
  * current, then the voltage falls on as the charge leaves. Regression: whether the charge could leave depended on the
  * iterate, and no step converged. */
-START_TEST(test_full_faces_discharge) {
+TEST(test_full_faces_discharge) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 10.57e-3},
           {"platform.length", 1.057e-3}, {"ribbon.width", 4.96e-3}, {"ribbon.thickness", 339e-6},
@@ -503,11 +481,10 @@ START_TEST(test_full_faces_discharge) {
   ck_assert(zp_outcome_good(result->outcome));
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Switched off, full faces that cannot discharge at once: their voltage jumps to what the charge needs. Regression: the
  * rate of this jump then limited steps to less than a picosecond, 16 million of them within a millisecond. */
-START_TEST(test_jump_of_full_faces_does_not_last) {
+TEST(test_jump_of_full_faces_does_not_last) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_NONE}, {"ribbon.length", 37.4e-3},
           {"platform.length", 3.74e-3}, {"ribbon.width", 4.7e-3}, {"ribbon.thickness", 222e-6},
@@ -519,11 +496,10 @@ START_TEST(test_jump_of_full_faces_does_not_last) {
   printf("after a jump: %g steps\n", steps);
   ck_below(steps, 5000);
 }
-END_TEST
 
 /* Faces that are wholly capped beside a bleeder have no capacitance, so the bleeder's voltage is that of the step's
  * end. Regression: with the mean of both ends it alternated from step to step, and 51,000 steps did not end. */
-START_TEST(test_bleeder_beside_full_faces) {
+TEST(test_bleeder_beside_full_faces) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"ribbon.length", 43.5e-3}, {"platform.length", 4.35e-3}, {"ribbon.width", 14.08e-3},
           {"ribbon.thickness", 225.4e-6}, {"ribbon.young_modulus", 4.5e9}, {"ribbon.density", 1390},
@@ -536,14 +512,13 @@ START_TEST(test_bleeder_beside_full_faces) {
   printf("beside a bleeder: %g steps\n", steps);
   ck_below(steps, 3000);
 }
-END_TEST
 
 /* -- charge drive ----------------------------------------------------------------------------------- */
 
 /* A wide platform on short ribbons: almost only the platform attracts. A current, far too small for its inertia to
  * matter, charges it: at a given charge the force of plates does not depend on their gap, so the gap falls evenly with
  * the squared charge, past the third at which a given voltage pulls in, with no snap. */
-START_TEST(test_charge_drive_of_plates_has_no_pull_in) {
+TEST(test_charge_drive_of_plates_has_no_pull_in) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 15}, {"platform.length", 0.09}, {"ribbon.thickness", 20e-6}, {"load.mass", 2e-3},
           {"insulator.thickness", 20e-6}, {"electro.breakdown_cap", 0}, {"source.model", ZP_SOURCE_AMPLIFIER},
@@ -578,10 +553,9 @@ START_TEST(test_charge_drive_of_plates_has_no_pull_in) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A run from a snapshot taken in the middle of a limit goes on as if it had not been interrupted. */
-START_TEST(test_snapshot_behind_a_supply) {
+TEST(test_snapshot_behind_a_supply) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"source.bandwidth", 200});
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model), *other = sim_of(model);
@@ -599,13 +573,12 @@ START_TEST(test_snapshot_behind_a_supply) {
   zp_sim_destroy(other);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* -- faces at the breakdown cap --------------------------------------------------------------------- */
 
 /* Closed faces with a limit of the current: a ramp I / C up to the cap. From there on the charge does not grow, so no
  * current flows, and the voltage is that of the command at once. */
-START_TEST(test_voltage_of_capped_faces) {
+TEST(test_voltage_of_capped_faces) {
   const double I = 1e-3, command = 5e3;
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"initial.state", ZP_INITIAL_STRAIGHT},
@@ -624,7 +597,6 @@ START_TEST(test_voltage_of_capped_faces) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 static double imbalance_behind(ZpActuatorDef def) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
@@ -635,7 +607,7 @@ static double imbalance_behind(ZpActuatorDef def) {
 
 /* "No time step converges": faces that close at the cap behind a limit of the current, behind a resistance, with a
  * supply that cannot sink; and with layers of 14 um in air, all of which the cap holds from 18 V on. Energy closes. */
-START_TEST(test_zips_at_the_cap) {
+TESTS(test_zips_at_the_cap, 0, 5) {
   const ZpActuatorDef defs[] = {
       DEF({"mesh.nodes", 21}, {"source.supply", ZP_SUPPLY_LABORATORY_10KV}, {"ribbon.thickness", 200e-6},
           {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9}, {"solver.end_time", 0.03}),
@@ -651,7 +623,6 @@ START_TEST(test_zips_at_the_cap) {
   };
   ck_below(imbalance_behind(defs[_i]), 1e-8); /* 8.9e-9 measured */
 }
-END_TEST
 
 /* A run behind a resistance goes to that of the ideal source with it: the zip time differs by what is in proportion to
  * it, and by the tolerance. */
@@ -665,7 +636,7 @@ static double zip_time_behind(double R) {
   return time;
 }
 
-START_TEST(test_small_resistances_converge) {
+TEST(test_small_resistances_converge) {
   static const double R[] = {1e-3, 1, 1e3};
   double ideal = zip_time_behind(0), lag = (zip_time_behind(1e6) - ideal) / 1e6;
   for (size_t k = 0; k < LENGTH_OF(R); k++) {
@@ -674,11 +645,10 @@ START_TEST(test_small_resistances_converge) {
     ck_below(fabs(off - lag * R[k]), 1e-6 * ideal);
   }
 }
-END_TEST
 
 /* -- what is refused -------------------------------------------------------------------------------- */
 
-START_TEST(test_refusals) {
+TESTS(test_refusals, 0, 7) {
   static const struct {
     Setting set[3];
     const char *words;
@@ -698,18 +668,16 @@ START_TEST(test_refusals) {
   ck_assert(zp_study_check(ZP_STUDY_ACTUATE, &def, &err) == ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, wrong[_i].words), "%s", err.message);
 }
-END_TEST
 
 /* A supply fills its keys; a key that is given overrides it. */
-START_TEST(test_supplies_fill_keys) {
+TEST(test_supplies_fill_keys) {
   ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_CONVERTER_10KV}, {"source.bleeder", 1e9});
   ck_assert(def.source.model == ZP_SOURCE_AMPLIFIER && def.source.current_limit == 0.3e-3);
   ck_assert(def.source.sink_limit == 0 && def.source.bleeder == 1e9 && isnan(def.source.slew_rate));
 }
-END_TEST
 
 /* A newly solved field holds another charge than the field that was held before it. The supply gives the difference. */
-START_TEST(supply_gives_what_a_solved_field_holds) {
+TESTS(supply_gives_what_a_solved_field_holds, 0, 2) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"electro.model", ZP_ELECTRO_FIELD}, {"source.model", ZP_SOURCE_AMPLIFIER},
                           {"source.slew_rate", 2e6});
   if (_i == 1) def.source.slew_rate = NAN, def.source.resistance = 1e7;
@@ -723,48 +691,4 @@ START_TEST(supply_gives_what_a_solved_field_holds) {
   ck_near(zp_sim_get(sim, "source_energy"), parts, 1e-12);
   zp_sim_destroy(sim);
   zp_model_destroy(model);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("supply");
-  TCase *inner = tcase_create("inner"), *charges = tcase_create("charges"), *motion = tcase_create("motion"),
-        *keys = tcase_create("keys");
-  tcase_add_test(inner, test_decay);
-  tcase_add_test(inner, test_lag_of_a_step);
-  tcase_add_test(inner, test_lag_of_a_sine);
-  tcase_add_test(inner, test_slew_ends_at_the_right_instant);
-  tcase_add_test(inner, test_falling_slew_ends_at_the_right_instant);
-  tcase_add_test(inner, test_slewed_sine_is_a_triangle);
-  tcase_add_test(charges, test_charging_behind_a_resistance);
-  tcase_add_test(charges, currents_of_a_run);
-  tcase_add_test(charges, test_limit_of_the_current);
-  tcase_add_test(charges, test_limit_without_resistance);
-  tcase_add_test(charges, test_slew_rate_alone);
-  tcase_add_loop_test(charges, supply_gives_what_a_solved_field_holds, 0, 2);
-  tcase_add_test(charges, test_discharge_through_the_bleeder);
-  tcase_add_loop_test(charges, test_falling_flank, 0, 3);
-  tcase_add_loop_test(charges, test_jump_into_the_cable, 0, 2);
-  tcase_add_test(charges, test_current_of_the_bleeder);
-  tcase_add_loop_test(charges, test_jump_and_ramp, 0, 2);
-  tcase_add_test(motion, test_without_limits_it_is_ideal);
-  tcase_add_test(motion, test_voltage_of_capped_faces);
-  tcase_add_loop_test(motion, test_zips_at_the_cap, 0, 5);
-  tcase_add_test(motion, test_small_resistances_converge);
-  tcase_add_loop_test(motion, test_charge_that_cannot_leave, 0, 3);
-  tcase_add_test(motion, test_full_faces_discharge);
-  tcase_add_test(motion, test_jump_of_full_faces_does_not_last);
-  tcase_add_test(motion, test_bleeder_beside_full_faces);
-  tcase_add_test(keys, test_voltage_beyond_the_supply);
-  tcase_add_loop_test(motion, test_energy_behind_supplies, 0, 3);
-  tcase_add_loop_test(motion, test_cycles_keep_energy, 0, 3);
-  tcase_add_test(motion, test_loss_is_heat_of_the_resistance);
-  tcase_add_test(motion, test_charge_drive_of_plates_has_no_pull_in);
-  tcase_add_test(motion, test_snapshot_behind_a_supply);
-  tcase_add_loop_test(keys, test_refusals, 0, 7);
-  tcase_add_test(keys, test_supplies_fill_keys);
-  TCase *all[] = {inner, charges, motion, keys};
-  for (size_t k = 0; k < LENGTH_OF(all); k++)
-    suite_add_tcase(suite, all[k]);
-  return run_suite(suite);
 }

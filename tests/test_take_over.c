@@ -47,7 +47,7 @@ static void expect_balance(Run *run, double allowed) {
   ck_below(fabs(zp_sim_get(run->sim, "energy_imbalance")) / kinetic, allowed);
 }
 
-START_TEST(test_goes_on_with_another_load) {
+TEST(test_goes_on_with_another_load) {
   Run first = start(0.1, 8e-3), next = start(0.1, 20e-3);
   double own = zp_sim_get(next.sim, "opening");
   zp_sim_run(first.sim, 0.03, false, NULL, NULL);
@@ -59,9 +59,8 @@ START_TEST(test_goes_on_with_another_load) {
   end(&first);
   end(&next);
 }
-END_TEST
 
-START_TEST(test_stretches_to_another_length) {
+TEST(test_stretches_to_another_length) {
   Run first = start(0.1, 8e-3), next = start(0.12, 8e-3);
   zp_sim_run(first.sim, 0.03, false, NULL, NULL);
   double axial = zp_sim_get(first.sim, "axial_energy");
@@ -73,9 +72,8 @@ START_TEST(test_stretches_to_another_length) {
   end(&first);
   end(&next);
 }
-END_TEST
 
-START_TEST(test_the_same_model_goes_on_as_if_nothing_was) {
+TEST(test_the_same_model_goes_on_as_if_nothing_was) {
   Run first = start(0.1, 8e-3), next = start(0.1, 8e-3);
   zp_sim_run(first.sim, 0.03, false, NULL, NULL);
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
@@ -85,9 +83,8 @@ START_TEST(test_the_same_model_goes_on_as_if_nothing_was) {
   end(&first);
   end(&next);
 }
-END_TEST
 
-START_TEST(test_another_mesh_is_refused) {
+TEST(test_another_mesh_is_refused) {
   Run first = start(0.1, 8e-3), next = {.def = first.def};
   next.def.mesh.nodes = 31;
   ZpError err;
@@ -98,7 +95,6 @@ START_TEST(test_another_mesh_is_refused) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 static Run begin(ZpActuatorDef def) {
   Run run = {.def = def};
@@ -108,7 +104,7 @@ static Run begin(ZpActuatorDef def) {
 }
 
 /* The whole stack continues; it took over the uppermost member only, at its own height. */
-START_TEST(test_a_stack_continues_with_all_its_members) {
+TEST(test_a_stack_continues_with_all_its_members) {
   Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2})), next = begin(first.def);
   zp_sim_set_voltage(first.sim, 6e3, NULL);
   zp_sim_run(first.sim, 0.02, false, NULL, NULL);
@@ -122,10 +118,9 @@ START_TEST(test_a_stack_continues_with_all_its_members) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* Its members stay joined at another length. */
-START_TEST(test_a_stack_of_another_length_stays_joined) {
+TEST(test_a_stack_of_another_length_stays_joined) {
   Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2})),
       next = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"ribbon.length", 0.12}));
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
@@ -136,10 +131,9 @@ START_TEST(test_a_stack_of_another_length_stays_joined) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* Neither more of them, nor a single actuator, nor antagonists instead of a series. */
-START_TEST(test_other_members_are_refused) {
+TESTS(test_other_members_are_refused, 0, 3) {
   const ZpActuatorDef others[] = {DEF({"mesh.nodes", 21}, {"stack.series", 3}), DEF({"mesh.nodes", 21}),
                                   DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.03})};
   Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2})), next = begin(others[_i]);
@@ -151,10 +145,9 @@ START_TEST(test_other_members_are_refused) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* Antagonists fit between their mounts at one length only. */
-START_TEST(test_antagonists_keep_their_lengths) {
+TEST(test_antagonists_keep_their_lengths) {
   Run first = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.03})),
       farther = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.032})),
       heavier = begin(DEF({"mesh.nodes", 21}, {"stack.series", 2}, {"stack.distance", 0.03}, {"load.mass", 0.01}));
@@ -167,10 +160,9 @@ START_TEST(test_antagonists_keep_their_lengths) {
   end(&farther);
   end(&heavier);
 }
-END_TEST
 
 /* A ribbon actuator does not become a fold, whose nodes it has. */
-START_TEST(test_other_ends_are_refused) {
+TEST(test_other_ends_are_refused) {
   Run first = begin(DEF({"mesh.nodes", 21})), next = begin(DEF({"mesh.nodes", 21}, {"actuator.kind", ZP_KIND_HINGE}));
   ZpError err;
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT);
@@ -178,10 +170,9 @@ START_TEST(test_other_ends_are_refused) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* A slow supply that replaces the ideal one starts at the present voltage; and vice versa. */
-START_TEST(test_another_supply) {
+TEST(test_another_supply) {
   const ZpActuatorDef ideal = DEF({"mesh.nodes", 21}, {"drive.voltage", 5e3}),
                       slow = DEF({"mesh.nodes", 21}, {"drive.voltage", 5e3}, {"source.supply", ZP_SUPPLY_POCKET_6KV});
   Run first = begin(ideal), next = begin(slow), last = begin(ideal);
@@ -196,10 +187,9 @@ START_TEST(test_another_supply) {
   end(&next);
   end(&last);
 }
-END_TEST
 
 /* A supply that is slewing continues from its present voltage after the load has changed. */
-START_TEST(test_slewing_supply_goes_on) {
+TEST(test_slewing_supply_goes_on) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 9}, {"drive.voltage", 5e3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.slew_rate", 1e5});
   Run first = begin(def);
@@ -216,11 +206,10 @@ START_TEST(test_slewing_supply_goes_on) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* An ideal source that replaces it jumps to the command: U dQ, of which C dU^2 / 2 is lost. One that slews and replaces
  * an ideal source begins where that was. */
-START_TEST(test_slewing_supply_comes_and_goes) {
+TEST(test_slewing_supply_comes_and_goes) {
   ZpActuatorDef ideal = DEF({"mesh.nodes", 9}, {"drive.voltage", 5e3}, {"electro.breakdown_cap", 0}), slow = ideal;
   slow.source.model = ZP_SOURCE_AMPLIFIER;
   slow.source.slew_rate = 1e5;
@@ -241,10 +230,9 @@ START_TEST(test_slewing_supply_comes_and_goes) {
   end(&next);
   end(&last);
 }
-END_TEST
 
 /* Energies and losses count from the take-over on, those of the load and of the supply too. */
-START_TEST(test_books_begin_anew) {
+TEST(test_books_begin_anew) {
   static const char *const books[] = {"load_work",    "internal_loss", "source_energy", "source_loss",
                                       "bleeder_loss", "drag_loss",     "leak_loss",     "electric_work",
                                       "contact_loss", "plastic_loss",  "catch_loss",    "charging_loss"};
@@ -266,11 +254,10 @@ START_TEST(test_books_begin_anew) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* A force that is held over several steps is at once that of the new model, whenever the old one was refreshed: twice
  * as wide, under twice the load, it goes on as one that is like the old one. */
-START_TEST(test_held_force_is_that_of_the_new_model) {
+TEST(test_held_force_is_that_of_the_new_model) {
   ZpActuatorDef def = DEF({"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 21}, {"electro.surface", ZP_SURFACE_BEZIER},
                           {"electro.refresh_period", 1e-3});
   Run first = begin(def), alike = begin(def);
@@ -289,10 +276,9 @@ START_TEST(test_held_force_is_that_of_the_new_model) {
   end(&alike);
   end(&next);
 }
-END_TEST
 
 /* A controller with another period takes its next sample at the first multiple of that at or after the present time. */
-START_TEST(test_samples_at_the_new_period) {
+TEST(test_samples_at_the_new_period) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"control.kind", ZP_CONTROL_PI}, {"control.proportional", 1e5},
                           {"control.period", 1e-3}, {"setpoint.value", 0.01});
   Run first = begin(def);
@@ -309,11 +295,10 @@ START_TEST(test_samples_at_the_new_period) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* A larger bead reaches farther at once: without surface tension it leaves the shape of rest, and is as that of an
  * actuator that began with it. */
-START_TEST(test_another_bead_reaches_farther) {
+TEST(test_another_bead_reaches_farther) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 50e-9},
                           {"medium.surface_tension", 0}, {"drive.voltage", 0});
   Run first = begin(def);
@@ -326,11 +311,10 @@ START_TEST(test_another_bead_reaches_farther) {
   end(&next);
   end(&large);
 }
-END_TEST
 
 /* Liquid that has left for good does not come back: what lies between the faces lacks it, in the model that goes on as
  * in the one before, with a bead of the same size or a larger one. */
-START_TEST(test_lost_liquid_stays_lost) {
+TESTS(test_lost_liquid_stays_lost, 0, 2) {
   const double volume = 50e-9, more = _i ? 20e-9 : 0;
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", volume},
                           {"bead.return", 0}, {"drive.voltage", 8e3});
@@ -349,7 +333,6 @@ START_TEST(test_lost_liquid_stays_lost) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* Kinds of the laws' own numbers that an actuator has. */
 typedef struct Own {
@@ -364,7 +347,7 @@ static ZpActuatorDef with_own(Own own) {
 
 /* Each kind goes on where both models have it, wherever it stands in their states, and begins at 0 where it comes: a
  * strip that has yielded stays bent when a liquid comes or insulators conduct. */
-START_TEST(test_laws_keep_their_own_numbers) {
+TESTS(test_laws_keep_their_own_numbers, 0, 6) {
   static const Own pairs[][2] = {{{ZP_LIQUID_NONE, false, true}, {ZP_LIQUID_BEAD, false, true}},
                                  {{ZP_LIQUID_BEAD, false, true}, {ZP_LIQUID_NONE, false, true}},
                                  {{ZP_LIQUID_NONE, false, true}, {ZP_LIQUID_NONE, true, true}},
@@ -394,10 +377,9 @@ START_TEST(test_laws_keep_their_own_numbers) {
   end(&first);
   end(&next);
 }
-END_TEST
 
 /* After a take-over a run can be saved and restored, with a controller and without one. */
-START_TEST(test_taken_over_is_saved_and_restored) {
+TESTS(test_taken_over_is_saved_and_restored, 0, 4) {
   const ZpActuatorDef alone = DEF({"mesh.nodes", 21}),
                       controlled =
                           DEF({"mesh.nodes", 21}, {"control.kind", ZP_CONTROL_PI}, {"control.proportional", 1e5},
@@ -416,31 +398,4 @@ START_TEST(test_taken_over_is_saved_and_restored) {
   end(&first);
   end(&next);
   end(&again);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("take over");
-  TCase *all = tcase_create("take over");
-  tcase_add_test(all, test_goes_on_with_another_load);
-  tcase_add_test(all, test_stretches_to_another_length);
-  tcase_add_test(all, test_the_same_model_goes_on_as_if_nothing_was);
-  tcase_add_test(all, test_another_mesh_is_refused);
-  tcase_add_test(all, test_another_supply);
-  tcase_add_test(all, test_slewing_supply_goes_on);
-  tcase_add_test(all, test_slewing_supply_comes_and_goes);
-  tcase_add_test(all, test_books_begin_anew);
-  tcase_add_test(all, test_held_force_is_that_of_the_new_model);
-  tcase_add_test(all, test_samples_at_the_new_period);
-  tcase_add_test(all, test_another_bead_reaches_farther);
-  tcase_add_loop_test(all, test_lost_liquid_stays_lost, 0, 2);
-  tcase_add_test(all, test_a_stack_continues_with_all_its_members);
-  tcase_add_test(all, test_a_stack_of_another_length_stays_joined);
-  tcase_add_loop_test(all, test_other_members_are_refused, 0, 3);
-  tcase_add_test(all, test_antagonists_keep_their_lengths);
-  tcase_add_test(all, test_other_ends_are_refused);
-  tcase_add_loop_test(all, test_laws_keep_their_own_numbers, 0, 6);
-  tcase_add_loop_test(all, test_taken_over_is_saved_and_restored, 0, 4);
-  suite_add_tcase(suite, all);
-  return run_suite(suite);
 }

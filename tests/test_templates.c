@@ -33,6 +33,11 @@ static void tear_down(void) {
   ck_assert_int_eq(shell("rm -rf \"$PWD\""), 0);
 }
 
+AROUND_EACH(set_up, tear_down)
+
+/* A test that draws, where gnuplot is. */
+#define DRAWN_TEST(name) TESTS(name, 0, system("command -v gnuplot >/dev/null") == 0)
+
 static void note(const char *message) {
   const size_t used = strlen(notices);
   snprintf(notices + used, sizeof notices - used, "%s\n", message);
@@ -101,14 +106,13 @@ static void write_mine(void) {
   free(folder);
 }
 
-START_TEST(built_in_are_those_of_the_repository) {
+TEST(built_in_are_those_of_the_repository) {
   write_mine();
   ck_assert_int_eq(shell("diff -r mine " ZP_SOURCE_DIR "/plots >&2"), 0);
 }
-END_TEST
 
 /* What a user has edited is not written over. */
-START_TEST(files_that_are_there_stay) {
+TEST(files_that_are_there_stay) {
   ZpError err;
   write_mine();
   put_file("mine/bode.gp", "# mine\n");
@@ -118,9 +122,8 @@ START_TEST(files_that_are_there_stay) {
   ck_assert(says("mine/bode.gp", "# mine"));
   free(folder);
 }
-END_TEST
 
-START_TEST(an_edited_template_changes_the_picture) {
+DRAWN_TEST(an_edited_template_changes_the_picture) {
   write_mine();
   draw(false);
   ck_assert_int_eq(shell("cp out/plots/shape.svg before.svg"), 0);
@@ -132,19 +135,17 @@ START_TEST(an_edited_template_changes_the_picture) {
   ck_assert(says("out/plots/shape.svg", "How it hangs") && !says("out/plots/shape.svg", "Shape at rest"));
   ck_assert(says("before.svg", "Shape at rest"));
 }
-END_TEST
 
 /* One file in the folder is enough, and what all pictures load counts for all. */
-START_TEST(a_shared_template_alone) {
+DRAWN_TEST(a_shared_template_alone) {
   ck_assert_int_eq(shell("mkdir mine && sed 's/#dddddd/#12abef/' " ZP_SOURCE_DIR "/plots/style.gp >mine/style.gp"), 0);
   draw(true);
   ck_assert_str_eq(notices, "");
   ck_assert(says("out/plots/shape.svg", "rgb( 18, 171, 239)") && says("out/plots/shape.svg", "Shape at rest"));
 }
-END_TEST
 
 /* A template may load another one that is the user's alone. */
-START_TEST(a_template_of_ones_own) {
+DRAWN_TEST(a_template_of_ones_own) {
   ck_assert_int_eq(
       shell("mkdir mine && { echo \"load 'hello.gp'\"; cat " ZP_SOURCE_DIR "/plots/shape.gp; } >mine/shape.gp"), 0);
   put_file("mine/hello.gp", "set label 77 'hello' at screen 0.5,0.5");
@@ -152,16 +153,14 @@ START_TEST(a_template_of_ones_own) {
   ck_assert_str_eq(notices, "");
   ck_assert(says("out/plots/shape.svg", "hello"));
 }
-END_TEST
 
-START_TEST(a_script_needs_no_template) {
+DRAWN_TEST(a_script_needs_no_template) {
   write_mine();
   draw(true);
   ck_assert_int_eq(
       shell("rm -r mine && cd out/plots && mv shape.svg drawn.svg && gnuplot shape.gp && cmp shape.svg drawn.svg"), 0);
   ck_assert_int_eq(shell("cd out/plots && gnuplot -e \"out = 'other.svg'\" shape.gp && cmp other.svg drawn.svg"), 0);
 }
-END_TEST
 
 /* Draw with a template that ends in `line`; what is said of it is `words`, with its file and the number of the line. */
 static void check_complaint(const char *line, const char *words) {
@@ -180,14 +179,13 @@ static void check_complaint(const char *line, const char *words) {
   free(lines);
 }
 
-START_TEST(errors_name_file_and_line) {
+DRAWN_TEST(errors_name_file_and_line) {
   check_complaint("set no_such_setting", "Unrecognized option");
   check_complaint("print stroke_m + nothing_of_that_name", "undefined variable: nothing_of_that_name");
 }
-END_TEST
 
 /* Of what a template loads, too; and behind it the template's own lines count on. */
-START_TEST(errors_in_what_is_loaded) {
+DRAWN_TEST(errors_in_what_is_loaded) {
   ck_assert_int_eq(shell("mkdir mine && { cat " ZP_SOURCE_DIR "/plots/style.gp; echo 'print lost'; } >mine/style.gp"),
                    0);
   draw(true);
@@ -195,18 +193,16 @@ START_TEST(errors_in_what_is_loaded) {
   ck_assert_ptr_nonnull(strstr(notices, ": undefined variable: lost"));
   ck_assert_ptr_null(strstr(notices, "shape.gp, line"));
 }
-END_TEST
 
-START_TEST(templates_in_a_circle) {
+DRAWN_TEST(templates_in_a_circle) {
   ck_assert_int_eq(shell("mkdir mine"), 0);
   put_file("mine/shape.gp", "load 'shape.gp'\n");
   draw(true);
   ck_assert_ptr_nonnull(strstr(notices, "shape.svg was not drawn: "));
 }
-END_TEST
 
 /* gnuplot runs templates as programs: a scenario, which may be a stranger's, cannot name them. */
-START_TEST(no_scenario_names_templates) {
+TEST(no_scenario_names_templates) {
   ZpError err = {0};
   static const char text[] = "output: {templates: mine}\n";
   ZpScenario *scenario = zp_scenario_create();
@@ -216,10 +212,9 @@ START_TEST(no_scenario_names_templates) {
   ck_assert_ptr_nonnull(strstr(err.message, "no scenario can name them; use --templates FOLDER"));
   zp_scenario_destroy(scenario);
 }
-END_TEST
 
 /* The label of each axis has a unit, or says that there is none. A template writes it by label() or as "time / ms". */
-START_TEST(axes_have_units) {
+TEST(axes_have_units) {
   static const char *const set[] = {"\nset xlabel ", "\nset ylabel ", "\nset cblabel ", "\n  set xlabel ",
                                     "\n  set ylabel "};
   static const char *const variable[] = {"xlabel\n", "x_label\n", "y_label ",
@@ -236,10 +231,9 @@ START_TEST(axes_have_units) {
         ck_assert_msg(has, "%s: %s", one->name, line);
       }
 }
-END_TEST
 
 /* Each picture has its template, and each template loads only what there is. */
-START_TEST(what_templates_load) {
+TEST(what_templates_load) {
   for (const ZpTemplate *one = zp_templates; one->name; one++)
     for (const char *at = one->text; (at = strstr(at, "load '")) != NULL; at++) {
       char name[64];
@@ -249,31 +243,4 @@ START_TEST(what_templates_load) {
         found = strcmp(other->name, name) == 0;
       ck_assert_msg(found, "%s loads %s", one->name, name);
     }
-}
-END_TEST
-
-int main(void) {
-  const TTest *const all[] = {built_in_are_those_of_the_repository, files_that_are_there_stay, what_templates_load,
-                              axes_have_units, no_scenario_names_templates};
-  const TTest *const drawn[] = {an_edited_template_changes_the_picture,
-                                a_shared_template_alone,
-                                a_template_of_ones_own,
-                                a_script_needs_no_template,
-                                errors_name_file_and_line,
-                                errors_in_what_is_loaded,
-                                templates_in_a_circle};
-  Suite *suite = suite_create("templates");
-  TCase *part = tcase_create("files");
-  tcase_add_checked_fixture(part, set_up, tear_down);
-  for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
-    tcase_add_test(part, all[i]);
-  const bool has_gnuplot = system("command -v gnuplot >/dev/null") == 0;
-  for (size_t i = 0; has_gnuplot && i < sizeof drawn / sizeof drawn[0]; i++)
-    tcase_add_test(part, drawn[i]);
-  suite_add_tcase(suite, part);
-  SRunner *runner = srunner_create(suite);
-  srunner_run_all(runner, CK_NORMAL);
-  const int failed = srunner_ntests_failed(runner);
-  srunner_free(runner);
-  return failed != 0;
 }

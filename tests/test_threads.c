@@ -32,7 +32,7 @@ static void *run_on_model(void *job) {
   return NULL;
 }
 
-START_TEST(test_runs_share_a_model) {
+TESTS(test_runs_share_a_model, 0, 2) {
   static const ZpElectroModel laws[] = {ZP_ELECTRO_PLATES, ZP_ELECTRO_FIELD};
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"electro.model", laws[_i]});
   ZpModel *model = model_of(&def);
@@ -48,7 +48,6 @@ START_TEST(test_runs_share_a_model) {
   }
   zp_model_destroy(model);
 }
-END_TEST
 
 typedef struct Study {
   ZpStudy name;
@@ -70,7 +69,7 @@ static void expect_same_numbers(const ZpResult *one, const ZpResult *two) {
     if (!one->scalar[i].timing) ck_assert_mem_eq(&one->scalar[i].value, &two->scalar[i].value, sizeof(double));
 }
 
-START_TEST(test_studies_beside_each_other) {
+TEST(test_studies_beside_each_other) {
   static const ZpStudy name[THREADS] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_ISOMETRIC, ZP_STUDY_MODES};
   Study study[THREADS];
   for (size_t k = 0; k < THREADS; k++)
@@ -84,7 +83,6 @@ START_TEST(test_studies_beside_each_other) {
     zp_result_destroy(study[k].result);
   }
 }
-END_TEST
 
 static void *parse_units(void *job) {
   static const char text[] = "load: {mass: 9 g}\nribbon: {length: 12 cm, thickness: 50 um}\ndrive: {voltage: 7 kV}\n";
@@ -97,7 +95,7 @@ static void *parse_units(void *job) {
 }
 
 /* The first units of the process: one thread reads the database, the others wait for it. */
-START_TEST(test_units_parsed_at_once) {
+TEST(test_units_parsed_at_once) {
   ZpActuatorDef def[THREADS];
   memset(def, 0, sizeof def);
   at_once(parse_units, def, sizeof(ZpActuatorDef));
@@ -107,15 +105,4 @@ START_TEST(test_units_parsed_at_once) {
     ck_assert_double_eq(def[k].ribbon.thickness, 50e-6);
     ck_assert_double_eq(def[k].drive.voltage, 7e3);
   }
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("threads");
-  TCase *threads = tcase_create("threads");
-  tcase_add_loop_test(threads, test_runs_share_a_model, 0, 2);
-  tcase_add_test(threads, test_studies_beside_each_other);
-  tcase_add_test(threads, test_units_parsed_at_once);
-  suite_add_tcase(suite, threads);
-  return run_suite(suite);
 }

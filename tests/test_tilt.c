@@ -14,7 +14,7 @@ static double place_of(const ZpActuatorDef *def, const char *column, bool last) 
 }
 
 /* A ribbon upside down is its mirror image. */
-START_TEST(upside_down_is_a_mirror_image) {
+TESTS(upside_down_is_a_mirror_image, 0, 3) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", _i}, {"load.mass", 2e-3},
                           {"ribbon.length", 0.05}, {"mesh.nodes", 21});
   double up, down = place_of(&def, "y_m", true);
@@ -26,10 +26,9 @@ START_TEST(upside_down_is_a_mirror_image) {
   /* what solver.tolerance leaves; 2e-9 measured */
   ck_near(answered_value(modes, &def, "frequency_1_Hz"), frequency, 1e-8);
 }
-END_TEST
 
 /* Gravity along a hanging strip: its end moves by weight and load over the axial stiffness. */
-START_TEST(gravity_along_a_strip_stretches_it) {
+TEST(gravity_along_a_strip_stretches_it) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 1},
                           {"ribbon.plane", ZP_PLANE_STRESS}, {"mount.tilt", 0.5 * half_turn}, {"mesh.nodes", 21});
   ZpActuatorDef straight = def;
@@ -42,11 +41,10 @@ START_TEST(gravity_along_a_strip_stretches_it) {
   def.ribbon.length = 0.02;
   ck_below(fabs(place_of(&def, "y_m", true)), 1e-12);
 }
-END_TEST
 
 /* Greenhill: a strip upright on its clamp buckles under its own weight at m g L^3 = 7.8373 E I, where its frequency is
  * 0; the squared frequency falls nearly linearly before. */
-START_TEST(standing_strip_buckles) {
+TEST(standing_strip_buckles) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0},
                           {"mount.tilt", -0.5 * half_turn}, {"mesh.nodes", 61}, {"output.errors", false});
   double b = def.ribbon.thickness, nu = def.ribbon.poisson_ratio, L = def.ribbon.length;
@@ -65,10 +63,9 @@ START_TEST(standing_strip_buckles) {
   ck_assert_msg(!(f * f > 0 && f * f < f2[0]) || !zp_outcome_good(result->outcome), "%g Hz beyond buckling", f);
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Weightless ribbons upside down under a force of twice the load's weight open as they do under the load. */
-START_TEST(force_outweighs_the_load) {
+TESTS(force_outweighs_the_load, 0, 2) {
   ZpActuatorDef def = DEF({"ribbon.density", 0}, {"drive.voltage", 0}, {"mesh.nodes", 31},
                           {"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF});
   double opening = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
@@ -79,10 +76,9 @@ START_TEST(force_outweighs_the_load) {
   def.load.mass = 0, def.load.force *= 0.5;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), opening, 1e-12);
 }
-END_TEST
 
 /* Only the vertical component of the load opens weightless ribbons, and limits what they can lift. */
-START_TEST(guide_takes_what_is_not_vertical) {
+TEST(guide_takes_what_is_not_vertical) {
   ZpActuatorDef def = DEF({"ribbon.density", 0}, {"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE},
                           {"liquid.model", ZP_LIQUID_NONE}, {"output.errors", false});
   double most = answered_value(ZP_STUDY_LIMITS, &def, "max_load_kg");
@@ -101,10 +97,9 @@ START_TEST(guide_takes_what_is_not_vertical) {
                 falls->message);
   zp_result_destroy(falls);
 }
-END_TEST
 
 /* A whole actuator tilted left is the mirror image of one tilted right; upside down it equals its half. */
-START_TEST(leaning_left_mirrors_leaning_right) {
+TEST(leaning_left_mirrors_leaning_right) {
   ZpActuatorDef def = DEF({"mesh.nodes", 31}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 20e-6},
                           {"mount.tilt", half_turn / 4}, {"drive.voltage", 0}, {"output.errors", false});
   ZpActuatorDef other = def;
@@ -126,7 +121,6 @@ START_TEST(leaning_left_mirrors_leaning_right) {
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
           answered_value(ZP_STUDY_STATIONARY, &other, "opening_m"), 1e-12);
 }
-END_TEST
 
 /* Largest difference of an array from the mirror image of another, relative to the largest value. */
 static double unlike_image(const double *a, const double *image, size_t n) {
@@ -140,7 +134,7 @@ static double unlike_image(const double *a, const double *image, size_t n) {
 
 /* In motion as well: gaps, attraction and field along the ribbons; the bead of one half is that of the other half of
  * the image. */
-START_TEST(motion_mirrors_with_beads_and_fields) {
+TESTS(motion_mirrors_with_beads_and_fields, 0, 2) {
   static const double volume[] = {50e-9, 16e-6}; /* to between the stations, to between the platforms */
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 30e-6},
                           {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", volume[_i]}, {"drive.voltage", 6e3});
@@ -169,11 +163,10 @@ START_TEST(motion_mirrors_with_beads_and_fields) {
     zp_model_destroy(model[k]);
   }
 }
-END_TEST
 
 /* Behind a resistance the charge that the electrodes take in each step sets their voltage: with beads that reach unlike
  * far it is that of the mirror image as well. */
-START_TEST(charging_mirrors_with_beads) {
+TEST(charging_mirrors_with_beads) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"ribbon.thickness", 30e-6},
                           {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 20e-9}, {"drive.voltage", 6e3},
                           {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", 1e8});
@@ -190,10 +183,9 @@ START_TEST(charging_mirrors_with_beads) {
   ck_assert_double_gt(fabs(bead[1].reach / bead[0].reach - 1), 1e-3);
   ck_same_signals(sim, model, signals, LENGTH_OF(signals), 1e-12);
 }
-END_TEST
 
 /* The energy balances while a tilted actuator zips, opens and swings under weight and force, dry and in a bath. */
-START_TEST(energy_at_an_angle) {
+TESTS(energy_at_an_angle, 0, 2) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", half_turn / 4},
                           {"load.force", 0.02}, {"liquid.model", _i ? ZP_LIQUID_SUBMERGED : ZP_LIQUID_NONE},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", _i ? 2 : 4},
@@ -206,12 +198,11 @@ START_TEST(energy_at_an_angle) {
   ck_near(zp_result_get(result, "mechanical_work_J"), pull * risen, 1e-12); /* 0 measured */
   zp_result_destroy(result);
 }
-END_TEST
 
 /* Weight that presses the faces together: equal ribbons lie on each other from the platform to the clip. Each carries
  * itself, as one ribbon that is clamped there and guided at its end. The overlap of the faces parts them by less than
  * 1e-4 of their length. */
-START_TEST(ribbons_lie_on_each_other) {
+TESTS(ribbons_lie_on_each_other, 0, 4) {
   static const struct {
     double tilt, length, thickness, width, young_modulus, density, mass;
   } of[] = {{153, 130e-3, 15e-6, 3e-3, 4e9, 1390, 0.1e-3},
@@ -236,32 +227,10 @@ START_TEST(ribbons_lie_on_each_other) {
   ck_below(fabs(zp_result_get(whole, "opening_m")), 2e-6);
   zp_result_destroy(whole), zp_result_destroy(ribbon);
 }
-END_TEST
 
-START_TEST(half_is_vertical) {
+TEST(half_is_vertical) {
   ZpActuatorDef def = DEF({"mount.tilt", 0.1});
   ck_refused(&def, "requires actuator.symmetry none");
   def.mount.tilt = -half_turn;
   ck_assert_int_eq(zp_def_check(&def, NULL), ZP_OK);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("tilt");
-  TCase *rest = tcase_create("rest");
-  tcase_add_loop_test(rest, upside_down_is_a_mirror_image, 0, 3);
-  tcase_add_test(rest, gravity_along_a_strip_stretches_it);
-  tcase_add_test(rest, standing_strip_buckles);
-  tcase_add_loop_test(rest, force_outweighs_the_load, 0, 2);
-  tcase_add_test(rest, guide_takes_what_is_not_vertical);
-  tcase_add_test(rest, leaning_left_mirrors_leaning_right);
-  tcase_add_loop_test(rest, ribbons_lie_on_each_other, 0, 4);
-  tcase_add_test(rest, half_is_vertical);
-  suite_add_tcase(suite, rest);
-  TCase *motion = tcase_create("motion");
-  tcase_add_loop_test(motion, motion_mirrors_with_beads_and_fields, 0, 2);
-  tcase_add_test(motion, charging_mirrors_with_beads);
-  tcase_add_loop_test(motion, energy_at_an_angle, 0, 2);
-  suite_add_tcase(suite, motion);
-  return run_suite(suite);
 }

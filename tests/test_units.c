@@ -35,7 +35,7 @@ static void compare_both_ways(const char *a, const char *b, bool known) {
 }
 
 /* Every unit of a key, and its parts, with every prefix: a prefix belongs to its symbol, so that 1 mm3 is 1e-9 m3. */
-START_TEST(prefixes_belong_to_symbols) {
+TEST(prefixes_belong_to_symbols) {
   for (int k = 0; k < zp_key_count(); k++) {
     const char *unit = zp_key(k)->unit;
     if (!unit || !*unit || strcmp(unit, "1") == 0) continue;
@@ -48,9 +48,8 @@ START_TEST(prefixes_belong_to_symbols) {
     }
   }
 }
-END_TEST
 
-START_TEST(powers_and_products) {
+TEST(powers_and_products) {
   static const struct {
     const char *from, *to;
   } pairs[] = {{"cm3", "m3"},          {"mm3", "m3"},
@@ -72,9 +71,8 @@ START_TEST(powers_and_products) {
   for (size_t i = 0; i < LENGTH_OF(pairs); i++)
     compare(pairs[i].from, pairs[i].to, true);
 }
-END_TEST
 
-START_TEST(other_units_are_refused) {
+TEST(other_units_are_refused) {
   static const char *const wrong[] = {"m2",       "s",  "Hz",   "mm3/s",     "kV",  "xyz", "m m",
                                       "m/",       "/m", "2 m",  "5 mm",      "m 5", "1",   "mm2.",
                                       "kg extra", "m^", "m--2", "mm^999999", "mm@3"};
@@ -82,15 +80,4 @@ START_TEST(other_units_are_refused) {
     compare(wrong[i], "m", false);
   compare("s", "Hz", false);
   compare("m/1", "1/m", false);
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("units");
-  TCase *tests = tcase_create("page");
-  tcase_add_test(tests, prefixes_belong_to_symbols);
-  tcase_add_test(tests, powers_and_products);
-  tcase_add_test(tests, other_units_are_refused);
-  suite_add_tcase(suite, tests);
-  return run_suite(suite);
 }

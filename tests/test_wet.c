@@ -45,7 +45,7 @@ static ZpPlatesTotals totals_of(Faces *f, double U) {
 
 /* Eq. (16.6): parallel faces of which a part is wet have a mean of the attraction, the charge and the capacitance per
  * length in liquid and in air, edges included. Where all is wet, or all is dry, they are those of one medium. */
-START_TEST(parallel_faces_are_two_strips) {
+TEST(parallel_faces_are_two_strips) {
   static const double gap = 1e-3, U = 4e3, share[] = {0, 0.5 / 8, 0.45, 1};
   ZpActuatorDef in_liquid = DEF({"electro.edges", 1}, {"platform.electrode", 0}), in_air = in_liquid;
   in_air.medium.permittivity = 1;
@@ -72,10 +72,9 @@ START_TEST(parallel_faces_are_two_strips) {
   free_faces(&liquid);
   free_faces(&air);
 }
-END_TEST
 
 /* A bead that fills all of the gap: equilibria with lateral edges are those of liquid everywhere. */
-START_TEST(full_bead_is_liquid_everywhere) {
+TEST(full_bead_is_liquid_everywhere) {
   static const char *const of[] = {"pull_in_voltage_V", "release_voltage_V", "max_load_kg"};
   ZpActuatorDef in_liquid = DEF({"electro.edges", 1}, {"mesh.nodes", 15}), with_bead = in_liquid;
   with_bead.liquid.model = ZP_LIQUID_BEAD;
@@ -86,7 +85,6 @@ START_TEST(full_bead_is_liquid_everywhere) {
   zp_result_destroy(full);
   zp_result_destroy(bath);
 }
-END_TEST
 
 /* -- charge between the layers --------------------------------------------------------------------- */
 
@@ -112,7 +110,7 @@ static double per_length(double gap, double Y, bool wet) {
 
 /* Parallel faces, wet up to a place of the sampled points: each part relaxes by its own law, for any step. A place that
  * the bead's end divides has one interface voltage, and the mean of both charges. */
-START_TEST(wet_and_dry_part_relax_by_their_own_laws) {
+TEST(wet_and_dry_part_relax_by_their_own_laws) {
   static const double gap = 300e-6, U = 200, h = 0.4;
   Faces f = {0};
   make_faces(DEF(BEAD, LEAKS, {"electro.breakdown_cap", 0}, {"platform.electrode", 0}), &f);
@@ -137,7 +135,6 @@ START_TEST(wet_and_dry_part_relax_by_their_own_laws) {
   ck_near(all.inverse_gap, totals_of(&f, U).inverse_gap, 1e-12);
   free_faces(&f);
 }
-END_TEST
 
 /* Charges of electrodes at the end of a step, and what has passed. */
 static double given(Faces *f, ZpLeakStep *step) {
@@ -150,7 +147,7 @@ static double given(Faces *f, ZpLeakStep *step) {
 
 /* Derivatives of a step by the voltage and the gaps at its end, where a bead ends within a place, at voltages without a
  * cap, with a cap of the air, and with caps of both. */
-START_TEST(derivatives_of_a_divided_place) {
+TESTS(derivatives_of_a_divided_place, 0, 3) {
   static const double voltage[] = {500, 3e3, 9e3};
   Faces f = {0};
   make_faces(DEF(BEAD, LEAKS), &f);
@@ -189,7 +186,6 @@ START_TEST(derivatives_of_a_divided_place) {
   }
   free_faces(&f);
 }
-END_TEST
 
 /* -- motion ---------------------------------------------------------------------------------------- */
 
@@ -226,7 +222,7 @@ static double signal_after(const ZpActuatorDef *def, double time, const char *si
   return value;
 }
 
-START_TEST(energy_balances) {
+TESTS(energy_balances, 0, 3) {
   ZpActuatorDef def = moving(_i, ZP_SYMMETRY_HALF, NAN);
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
@@ -243,11 +239,10 @@ START_TEST(energy_balances) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Full suction takes what moving menisci release, and it pulls with the charge between the layers, too: what is left is
  * the error of the steps. */
-START_TEST(menisci_are_drawn_by_the_charge) {
+TEST(menisci_are_drawn_by_the_charge) {
   double lost[2];
   for (int suction = 0; suction < 2; suction++) {
     ZpActuatorDef def =
@@ -258,9 +253,8 @@ START_TEST(menisci_are_drawn_by_the_charge) {
   printf("lost by menisci: %.4f mJ, with suction %.5f mJ\n", 1e3 * lost[0], 1e3 * lost[1]);
   ck_below(fabs(lost[1]), 0.05 * lost[0]); /* 0.022 measured */
 }
-END_TEST
 
-START_TEST(whole_is_two_halves) {
+TESTS(whole_is_two_halves, 0, 3) {
   static const char *const signals[] = {"opening", "charge", "meniscus_loss", "wet_length"};
   ZpModel *models[2];
   ZpSim *sims[2];
@@ -271,19 +265,4 @@ START_TEST(whole_is_two_halves) {
     ck_assert_int_eq(zp_sim_run(sims[k], 0.12, false, NULL, NULL), ZP_REACHED_END);
   }
   ck_same_signals(sims, models, signals, LENGTH_OF(signals), 1.2e-10); /* 4.1e-11 measured */
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("wet");
-  TCase *tcase = tcase_create("wet");
-  tcase_add_test(tcase, parallel_faces_are_two_strips);
-  tcase_add_test(tcase, full_bead_is_liquid_everywhere);
-  tcase_add_test(tcase, wet_and_dry_part_relax_by_their_own_laws);
-  tcase_add_loop_test(tcase, derivatives_of_a_divided_place, 0, 3);
-  tcase_add_loop_test(tcase, energy_balances, 0, 3);
-  tcase_add_test(tcase, menisci_are_drawn_by_the_charge);
-  tcase_add_loop_test(tcase, whole_is_two_halves, 0, 3);
-  suite_add_tcase(suite, tcase);
-  return run_suite(suite);
 }

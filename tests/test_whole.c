@@ -58,29 +58,26 @@ static void check_scalars(Both both, const char *const *name, size_t count) {
 #define CHECK_SCALARS(both, ...)                                                                                       \
   check_scalars(both, (const char *const[]){__VA_ARGS__}, LENGTH_OF(((const char *const[]){__VA_ARGS__})))
 
-START_TEST(limits_are_those_of_the_half) {
+TESTS(limits_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   Both both = run_both(ZP_STUDY_LIMITS, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg");
   destroy(both);
 }
-END_TEST
 
-START_TEST(branches_are_those_of_the_half) {
+TESTS(branches_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   Both both = run_both(ZP_STUDY_EQUILIBRIUM, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "points", "max_stress_Pa",
                 "insulator_field_V_per_m");
   destroy(both);
 }
-END_TEST
 
 /* On the coarse mesh it jumps on its way, where both halves lose their stability at once. */
-START_TEST(held_forces_are_those_of_the_half) {
+TESTS(held_forces_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   Both both = run_both(ZP_STUDY_ISOMETRIC, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "force_N", "force_unpowered_N", "charge_C", "capacitance_F", "opening_m");
   check_scalar(both, "jumps", 1);
   destroy(both);
 }
-END_TEST
 
 /* Both halves of a ribbon have the tension of the half, in mirrored order. The rigid platform between them is no
  * ribbon. */
@@ -99,16 +96,15 @@ static void check_tensions(Both both) {
   ck_assert(isnan(zp_table_get(whole, edges, "tension_N")) && isnan(zp_table_get(whole, last, "tension_N")));
 }
 
-START_TEST(rest_is_that_of_the_half) {
+TESTS(rest_is_that_of_the_half, 0, LENGTH_OF(meshes)) {
   Both both = run_both(ZP_STUDY_STATIONARY, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "stroke_m", "opening_m");
   check_tensions(both);
   destroy(both);
 }
-END_TEST
 
 /* Symmetric modes of the whole are those of the half; the others leave the platform at rest. */
-START_TEST(modes_of_the_half_are_modes_of_the_whole) {
+TESTS(modes_of_the_half_are_modes_of_the_whole, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   enum { SYMMETRIC = 4, MODES = 8 };
   static const double of_eigenvalues = 3e-8; /* to which study modes iterates: 3.1e-9 measured */
   Both both = run_both(ZP_STUDY_MODES, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
@@ -120,10 +116,9 @@ START_TEST(modes_of_the_half_are_modes_of_the_whole) {
   }
   destroy(both);
 }
-END_TEST
 
 /* The others are the modes of a half with a fixed platform, as under a very heavy load. */
-START_TEST(modes_that_hold_the_platform) {
+TEST(modes_that_hold_the_platform) {
   enum { HELD = 3, MODES = 8 };
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 1000});
   ZpResult *heavy = run(ZP_STUDY_MODES, &def);
@@ -139,7 +134,6 @@ START_TEST(modes_that_hold_the_platform) {
   zp_result_destroy(heavy);
   zp_result_destroy(whole);
 }
-END_TEST
 
 /* A signal until closing, or during the whole run, within a fraction of a scale. */
 static void check_signal(Both both, const char *column, double scale, bool always, double allowed) {
@@ -177,11 +171,10 @@ static void check_motion(ZpActuatorDef def) {
   destroy(both);
 }
 
-START_TEST(motion_is_that_of_the_half) {
+TEST(motion_is_that_of_the_half) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_HALF, 21);
   check_motion(def);
 }
-END_TEST
 
 /* Segments and keys of the lower ribbon and its insulator, all of them different, are mirrored with the halves. */
 #define UNLIKE_HALVES                                                                                                  \
@@ -192,7 +185,7 @@ END_TEST
     "lower.insulator.permittivity", 3                                                                                  \
   }
 
-START_TEST(unlike_segments_of_both_halves) {
+TEST(unlike_segments_of_both_halves) {
   Both both = run_both(ZP_STUDY_STATIONARY, DEF(UNLIKE_HALVES, {"mesh.nodes", 11}));
   CHECK_SCALARS(both, "stroke_m", "opening_m", "max_stress_Pa", "yield_margin");
   destroy(both);
@@ -203,10 +196,9 @@ START_TEST(unlike_segments_of_both_halves) {
   CHECK_SCALARS(both, "pull_in_voltage_V", "mass_kg", "insulator_field_V_per_m");
   destroy(both);
 }
-END_TEST
 
 /* Segments are mirrored, too, a platform may be short or bare, and the load need not be shared evenly. */
-START_TEST(motion_of_others_is_that_of_the_half) {
+TESTS(motion_of_others_is_that_of_the_half, 0, FULL_OR(4, 1)) {
   ZpActuatorDef def[] = {
       DEF({"mesh.nodes", 15}, {"platform.length", 0}, {"load.share", 0.3}),
       DEF({"mesh.nodes", 15}, {"platform.electrode", 0}, {"electro.edges", 1}, {"drive.voltage", 8e3}),
@@ -216,7 +208,6 @@ START_TEST(motion_of_others_is_that_of_the_half) {
   };
   check_motion(def[_i]);
 }
-END_TEST
 
 /* -- the platform and the clips ---------------------------------------------------------------------- */
 
@@ -227,7 +218,7 @@ static double energy_of(ZpSim *sim) {
 
 /* One half is pushed, the other is not: the platform stays horizontal and in its guide, each clip moves as one body,
  * and the energy is constant. */
-START_TEST(platform_stays_horizontal) {
+TEST(platform_stays_horizontal) {
   ZpActuatorDef def =
       DEF({"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mesh.nodes", 21}, {"damping.internal", 0}, {"drive.voltage", 0});
   ZpModel *model = model_of(&def);
@@ -249,10 +240,9 @@ START_TEST(platform_stays_horizontal) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* What a joint holds has no equation, and what it makes one has one. */
-START_TEST(equations_are_those_of_the_topology) {
+TEST(equations_are_those_of_the_topology) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 4);
   ZpModel *model = model_of(&def);
   ZpAssembly a;
@@ -271,10 +261,9 @@ START_TEST(equations_are_those_of_the_topology) {
   zp_assembly_destroy(&a);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* What only the half has is refused by name. */
-START_TEST(what_knows_the_half_only_is_refused) {
+TEST(what_knows_the_half_only_is_refused) {
   static const struct {
     Setting setting;
     const char *key;
@@ -301,7 +290,6 @@ START_TEST(what_knows_the_half_only_is_refused) {
   ck_assert_int_eq(zp_def_check(&def, NULL), ZP_OK);
   ck_refused_by(ZP_STUDY_ACTUATE, &def, "actuator.symmetry = none");
 }
-END_TEST
 
 /* -- ribbons that are not alike ----------------------------------------------------------------------- */
 
@@ -332,7 +320,7 @@ static Strip strip_of(const ZpActuatorDef *def) {
 
 /* Small deflections of two guided beams in series: each sinks by F L^3 / (12 EI) under its load and by q L^4 / (24 EI)
  * under its own weight; the upper one also carries the lower one. */
-START_TEST(unlike_ribbons_bend_in_series) {
+TESTS(unlike_ribbons_bend_in_series, 0, 2) {
   ZpActuatorDef def = DEF(THICK, {"load.mass", 10e-3}, {"gravity", 1});
   def.actuator.symmetry = _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF;
   ZpModel *model = unlike(&def);
@@ -350,11 +338,10 @@ START_TEST(unlike_ribbons_bend_in_series) {
   zp_rest_destroy(rest);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Under a heavy load it swings as a mass on two springs in series, 12 EI / L^3 each: after a quarter of a period it has
  * stopped, as far from rest as its energy reaches. */
-START_TEST(unlike_ribbons_swing_in_series) {
+TEST(unlike_ribbons_swing_in_series) {
   ZpActuatorDef def = DEF(THICK, {"load.mass", 10}, {"gravity", 0}, {"solver.tolerance", 3.5e-6});
   ZpModel *model = unlike(&def);
   ZpSim *sim = sim_of(model);
@@ -376,7 +363,6 @@ START_TEST(unlike_ribbons_swing_in_series) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* Bent at random about a shape with open faces, what is held left where it is. */
 static void bend(const ZpModel *model, uint64_t *seed, double *q) {
@@ -392,7 +378,7 @@ static void bend(const ZpModel *model, uint64_t *seed, double *q) {
 
 /* Over any span the forces of rod, attraction and contact do the work of their energy changes, with a resultant of
  * zero. */
-START_TEST(unlike_ribbons_keep_energy_and_momentum) {
+TESTS(unlike_ribbons_keep_energy_and_momentum, 0, 2) {
   ZpActuatorDef def = DEF({"actuator.symmetry", _i ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF}, {"mesh.nodes", 9},
                           {"gravity", 0}, {"load.mass", 0}, {"damping.internal", 0});
   ZpModel *model = unlike(&def);
@@ -427,10 +413,9 @@ START_TEST(unlike_ribbons_keep_energy_and_momentum) {
   zp_eval_destroy(&e);
   zp_model_destroy(model);
 }
-END_TEST
 
 /* A zip of the whole actuator with unequal ribbons conserves energy, and the whole zips like its half. */
-START_TEST(unlike_ribbons_zip) {
+TEST(unlike_ribbons_zip) {
   double zip_time[2], opening[2];
   for (int whole = 0; whole < 2; whole++) {
     ZpActuatorDef def = def_of(whole ? ZP_SYMMETRY_NONE : ZP_SYMMETRY_HALF, 21);
@@ -446,32 +431,4 @@ START_TEST(unlike_ribbons_zip) {
   }
   ck_near(opening[1], opening[0], 1e-12);   /* 2.2e-16 measured */
   ck_near(zip_time[1], zip_time[0], 2e-12); /* 2.3e-13 measured */
-}
-END_TEST
-
-int main(void) {
-  Suite *suite = suite_create("whole");
-  TCase *half = tcase_create("half");
-  tcase_add_loop_test(half, limits_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
-  tcase_add_loop_test(half, branches_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
-  tcase_add_loop_test(half, held_forces_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1));
-  tcase_add_loop_test(half, rest_is_that_of_the_half, 0, LENGTH_OF(meshes));
-  tcase_add_loop_test(half, modes_of_the_half_are_modes_of_the_whole, 0, FULL_OR(LENGTH_OF(meshes), 1));
-  tcase_add_test(half, unlike_segments_of_both_halves);
-  tcase_add_test(half, modes_that_hold_the_platform);
-  tcase_add_test(half, motion_is_that_of_the_half);
-  tcase_add_loop_test(half, motion_of_others_is_that_of_the_half, 0, FULL_OR(4, 1));
-  suite_add_tcase(suite, half);
-  TCase *joints = tcase_create("joints");
-  tcase_add_test(joints, platform_stays_horizontal);
-  tcase_add_test(joints, equations_are_those_of_the_topology);
-  tcase_add_test(joints, what_knows_the_half_only_is_refused);
-  suite_add_tcase(suite, joints);
-  TCase *ribbons = tcase_create("unlike");
-  tcase_add_loop_test(ribbons, unlike_ribbons_bend_in_series, 0, 2);
-  tcase_add_test(ribbons, unlike_ribbons_swing_in_series);
-  tcase_add_loop_test(ribbons, unlike_ribbons_keep_energy_and_momentum, 0, 2);
-  tcase_add_test(ribbons, unlike_ribbons_zip);
-  suite_add_tcase(suite, ribbons);
-  return run_suite(suite);
 }

@@ -1,0 +1,63 @@
+/* Compiled into every test: its main(), and a limit of CPU time. Check's own limit is of wall time, which a busy
+ * machine uses up, so it is switched off; ctest's is for what hangs without using the processor. */
+#include "suite.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+
+static TestEntry *first;
+static void (*before_each)(void), (*after_each)(void), (*before_all)(void), (*after_all)(void);
+
+void zp_test_add(TestEntry *entry) {
+  TestEntry **place = &first;
+  while (*place && (*place)->test.line < entry->test.line) /* the compiler orders constructors as it likes */
+    place = &(*place)->next;
+  entry->next = *place;
+  *place = entry;
+}
+
+void zp_test_around_each(void (*before)(void), void (*after)(void)) {
+  before_each = before;
+  after_each = after;
+}
+
+void zp_test_around_all(void (*before)(void), void (*after)(void)) {
+  before_all = before;
+  after_all = after;
+}
+
+__attribute__((constructor)) static void limit_cpu(void) {
+  static const rlim_t most = 600; /* s of each process: Check runs each test in one of its own */
+  struct rlimit limit;
+  setenv("CK_TIMEOUT_MULTIPLIER", "0", 1);
+  if (getrlimit(RLIMIT_CPU, &limit) != 0 || limit.rlim_cur <= most) return;
+  limit.rlim_cur = most;
+  setrlimit(RLIMIT_CPU, &limit);
+}
+
+/* Each test is a case of its own: cases have tags. */
+static void add_case(Suite *suite, const TestEntry *entry) {
+  TCase *tcase = tcase_create(entry->test.name);
+  if (entry->nightly) tcase_set_tags(tcase, "nightly");
+  if (before_each) tcase_add_checked_fixture(tcase, before_each, after_each);
+  _tcase_add_test(tcase, &entry->test, entry->signal, 0, entry->from, entry->to);
+  suite_add_tcase(suite, tcase);
+}
+
+int main(int count, char **argument) {
+  (void)count;
+  setvbuf(stdout, NULL, _IOLBF, 0); /* measured values are printed before a test fails */
+  const char *chosen = getenv("ZP_TEST");
+  Suite *suite = suite_create(argument[0]);
+  for (const TestEntry *entry = first; entry; entry = entry->next)
+    if (!chosen || !strcmp(chosen, entry->test.name)) add_case(suite, entry);
+  SRunner *runner = srunner_create(suite);
+  if (before_all) before_all();
+  srunner_run_all(runner, CK_NORMAL);
+  if (after_all) after_all();
+  int failed = srunner_ntests_failed(runner);
+  srunner_free(runner);
+  return failed != 0;
+}
