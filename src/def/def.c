@@ -68,53 +68,32 @@ static const ZpActuatorDef plain = {
 
 /* Values that a preset or a supply sets, for one number of nodes or (nodes 0) for any. */
 typedef struct PresetValue {
-  int selector; /* ZpPreset or ZpSupplyModel */
+  bool is_supply;
+  int selector; /* ZpPreset or ZpSupplyName */
   const char *key;
   int nodes;
   double value;
 } PresetValue;
 
-#define ZP_PRESET_VALUE(preset, key, value)
-#define ZP_PRESET_AT(preset, key, nodes, value)
-#define ZP_SUPPLY_VALUE(supply, key, value) {supply, key, 0, value},
-static const PresetValue supply_values[] = {
-#include "def/presets.def"
-};
-#undef ZP_SUPPLY_VALUE
-#undef ZP_PRESET_VALUE
-#undef ZP_PRESET_AT
-#define ZP_SUPPLY_VALUE(supply, key, value)
-#define ZP_PRESET_VALUE(preset, key, value)     {preset, key, 0, value},
-#define ZP_PRESET_AT(preset, key, nodes, value) {preset, key, nodes, value},
+#define ZP_PRESET_VALUE(preset, key, value)     {false, preset, key, 0, value},
+#define ZP_PRESET_AT(preset, key, nodes, value) {false, preset, key, nodes, value},
+#define ZP_SUPPLY_VALUE(supply, key, value)     {true, supply, key, 0, value},
 static const PresetValue preset_values[] = {
 #include "def/presets.def"
 };
-#undef ZP_SUPPLY_VALUE
-#undef ZP_PRESET_VALUE
-#undef ZP_PRESET_AT
+enum { PRESET_VALUES = sizeof preset_values / sizeof preset_values[0] };
 
-#define ZP_STRIP(material, name, value, spread, source) {material, name, value, spread, source},
-#define ZP_INSULATOR(material, name, value, spread, source)
-#define ZP_MEDIUM(material, name, value, spread, source)
-static const ZpMaterialValue strip_values[] = {
-#include "def/materials.def"
-};
-#define ZP_STRIP(material, name, value, spread, source)
-#define ZP_INSULATOR(material, name, value, spread, source) {material, name, value, spread, source},
-#define ZP_MEDIUM(material, name, value, spread, source)
-static const ZpMaterialValue insulator_values[] = {
-#include "def/materials.def"
-};
-#define ZP_STRIP(material, name, value, spread, source)
-#define ZP_INSULATOR(material, name, value, spread, source)
-#define ZP_MEDIUM(material, name, value, spread, source) {material, name, value, spread, source},
-static const ZpMaterialValue medium_values[] = {
-#include "def/materials.def"
-};
+/* Values that the materials of a group of keys set. */
+typedef struct MaterialRow {
+  enum { OF_STRIP, OF_INSULATOR, OF_MEDIUM } group;
+  ZpMaterialValue value;
+} MaterialRow;
 
-enum {
-  SUPPLY_VALUES = sizeof supply_values / sizeof supply_values[0],
-  PRESET_VALUES = sizeof preset_values / sizeof preset_values[0]
+#define ZP_STRIP(...)     {OF_STRIP, {__VA_ARGS__}},
+#define ZP_INSULATOR(...) {OF_INSULATOR, {__VA_ARGS__}},
+#define ZP_MEDIUM(...)    {OF_MEDIUM, {__VA_ARGS__}},
+static const MaterialRow material_rows[] = {
+#include "def/materials.def"
 };
 
 int zp_key_count(void) {
@@ -350,37 +329,28 @@ static ZpStatus apply_assignments(ZpActuatorDef *def, const ZpAssignment *list, 
   return status;
 }
 
-/* Apply the values of a preset, including those for `nodes`. */
-static void apply_preset(ZpActuatorDef *def, ZpPreset preset, int nodes) {
+/* Apply the values of a preset, including those for `nodes`, or of a supply. */
+static void apply_values(ZpActuatorDef *def, bool is_supply, int selector, int nodes) {
   for (int i = 0; i < PRESET_VALUES; i++) {
     const PresetValue *p = &preset_values[i];
-    if (p->selector == (int)preset && (p->nodes == 0 || p->nodes == nodes))
+    if (p->is_supply == is_supply && p->selector == selector && (p->nodes == 0 || p->nodes == nodes))
       store(def, &keys[zp_key_find(p->key)], p->value);
   }
 }
 
-/* Apply those of `count` values that belong to `selector`. */
-static void apply_values(ZpActuatorDef *def, const PresetValue *value, int count, int selector) {
-  for (int i = 0; i < count; i++)
-    if (value[i].selector == selector) store(def, &keys[zp_key_find(value[i].key)], value[i].value);
-}
-
-#define VALUES_OF(array) array, sizeof(array) / sizeof(array)[0]
-
-/* Groups that a material fills: the prefix of their keys, the key that names the material, and the table of values. */
+/* Groups that a material fills: the prefix of their keys, the key that names the material, and their rows. */
 typedef struct MaterialGroup {
   const char *prefix;
   size_t offset;
-  const ZpMaterialValue *value;
-  size_t values;
+  int rows;
 } MaterialGroup;
 
 static const MaterialGroup material_groups[] = {
-    {"ribbon.", offsetof(ZpActuatorDef, ribbon.material), VALUES_OF(strip_values)},
-    {"insulator.", offsetof(ZpActuatorDef, insulator.material), VALUES_OF(insulator_values)},
-    {"medium.", offsetof(ZpActuatorDef, medium.material), VALUES_OF(medium_values)},
-    {"lower.ribbon.", offsetof(ZpActuatorDef, lower.ribbon.material), VALUES_OF(strip_values)},
-    {"lower.insulator.", offsetof(ZpActuatorDef, lower.insulator.material), VALUES_OF(insulator_values)},
+    {"ribbon.", offsetof(ZpActuatorDef, ribbon.material), OF_STRIP},
+    {"insulator.", offsetof(ZpActuatorDef, insulator.material), OF_INSULATOR},
+    {"medium.", offsetof(ZpActuatorDef, medium.material), OF_MEDIUM},
+    {"lower.ribbon.", offsetof(ZpActuatorDef, lower.ribbon.material), OF_STRIP},
+    {"lower.insulator.", offsetof(ZpActuatorDef, lower.insulator.material), OF_INSULATOR},
 };
 
 static const MaterialGroup *material_group_of(const char *key) {
@@ -412,9 +382,11 @@ const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
   if (!group) return NULL;
   int material = material_of(def, group);
   const char *name = keys[index].name + strlen(group->prefix);
-  for (size_t i = 0; i < group->values; i++)
-    if (group->value[i].material == material && strcmp(group->value[i].name, name) == 0)
-      return is_filled(name) ? &group->value[i] : NULL;
+  for (size_t i = 0; i < sizeof material_rows / sizeof material_rows[0]; i++) {
+    const ZpMaterialValue *value = &material_rows[i].value;
+    if ((int)material_rows[i].group == group->rows && value->material == material && strcmp(value->name, name) == 0)
+      return is_filled(name) ? value : NULL;
+  }
   return NULL;
 }
 
@@ -453,7 +425,7 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   if (status != ZP_OK) return status;
 
   ZpActuatorDef with_preset = plain;
-  apply_preset(&with_preset, given.preset, given.mesh.nodes);
+  apply_values(&with_preset, false, (int)given.preset, given.mesh.nodes);
   ZpActuatorKind kind =
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
@@ -461,8 +433,8 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   const ZpDevice *device = zp_device_of(kind);
   status = apply_assignments(def, device->given, device->given_count, err);
   if (status != ZP_OK) return status;
-  apply_preset(def, given.preset, given.mesh.nodes);
-  apply_values(def, supply_values, SUPPLY_VALUES, (int)given.source.supply);
+  apply_values(def, false, (int)given.preset, given.mesh.nodes);
+  apply_values(def, true, (int)given.source.supply, 0);
   apply_materials(def, &given);
   return apply_assignments(def, list, count, err);
 }
@@ -480,14 +452,13 @@ static ZpStatus check_square(const char *group, double duty, double frequency, d
                  group, rise_time, shorter, group, group);
 }
 
-static ZpStatus check_drive(const ZpActuatorDef *def, ZpError *err) {
-  if (def->drive.waveform != ZP_WAVEFORM_SQUARE) return ZP_OK;
-  return check_square("drive", def->drive.duty, def->drive.frequency, def->drive.rise_time, err);
-}
-
-static ZpStatus check_setpoint(const ZpActuatorDef *def, ZpError *err) {
-  if (def->setpoint.waveform != ZP_WAVEFORM_SQUARE) return ZP_OK;
-  return check_square("setpoint", def->setpoint.duty, def->setpoint.frequency, def->setpoint.rise_time, err);
+static ZpStatus check_waveforms(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  if (def->drive.waveform == ZP_WAVEFORM_SQUARE)
+    status = check_square("drive", def->drive.duty, def->drive.frequency, def->drive.rise_time, err);
+  if (status == ZP_OK && def->setpoint.waveform == ZP_WAVEFORM_SQUARE)
+    status = check_square("setpoint", def->setpoint.duty, def->setpoint.frequency, def->setpoint.rise_time, err);
+  return status;
 }
 
 bool zp_def_takes_table(const ZpActuatorDef *def) {
@@ -695,8 +666,8 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of numbers that depend on each other, in the order in which they are asked. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,  check_sizes, check_bare,  zp_check_ribbons, zp_check_stack, check_offset,
-    check_change, check_tilt,  check_drive, check_setpoint,   check_control,  check_meter};
+    check_build,  check_sizes, check_bare,      zp_check_ribbons, zp_check_stack, check_offset,
+    check_change, check_tilt,  check_waveforms, check_control,    check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);

@@ -66,37 +66,6 @@ static const OfKind of_kind[ZP_FIT_KINDS] = {
             "no stable equilibrium"),
 };
 
-/* Inverse of J^T J in units of z, by Cholesky; false if the data cannot distinguish the keys. */
-static bool covariance(const ZpFit *fit, const double *J, double C[ZP_FIT_MOST][ZP_FIT_MOST]) {
-  int n = fit->n;
-  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, M[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}};
-  for (int a = 0; a < n; a++)
-    for (int b = 0; b <= a; b++) {
-      double sum = 0, whole = 0;
-      for (size_t i = 0; i < fit->rows; i++)
-        sum += J[i * (size_t)n + (size_t)a] * J[i * (size_t)n + (size_t)b];
-      whole = sum;
-      for (int k = 0; k < b; k++)
-        sum -= L[a][k] * L[b][k];
-      if (a == b && !(sum > 1e-10 * whole)) return false;
-      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
-    }
-  for (int a = 0; a < n; a++) /* M = L^-1 */
-    for (int b = 0; b <= a; b++) {
-      double sum = a == b;
-      for (int k = b; k < a; k++)
-        sum -= L[a][k] * M[k][b];
-      M[a][b] = sum / L[a][a];
-    }
-  for (int a = 0; a < n; a++)
-    for (int b = 0; b < n; b++) {
-      C[a][b] = 0;
-      for (int k = a > b ? a : b; k < n; k++)
-        C[a][b] += M[k][a] * M[k][b];
-    }
-  return true;
-}
-
 static bool at_bound(const ZpFit *fit, const double *z, int k) {
   static const double near = 1e-6;
   double low = fit->lower[k], high = fit->upper[k];
@@ -113,7 +82,7 @@ static const char *key_at_bound(const ZpFit *fit, const double *z) {
 /* The numbers of the summary about the keys; `square`: sum of squared weighted residuals. */
 static void report_keys(const ZpFit *fit, const double *z, const double *J, double square, ZpResult *result) {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
-  bool told_apart = J && covariance(fit, J, C);
+  bool told_apart = J && zp_fit_covariance(fit, J, NULL, 0, 1e-10, C);
   size_t n = (size_t)fit->n;
   double reduced = fit->rows > n ? square / (double)(fit->rows - n) : NAN;
   double variance = fit->sigma ? 1 : reduced; /* of a weighted residual */

@@ -99,4 +99,10 @@ double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row);
  */
 bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J);
 
+/* Inverse of J^T J, whose diagonal is first multiplied by 1 + ridge, in units of z => C, by Cholesky. A key that
+ * `stays` (NULL: none) has no covariance with another. False if a pivot is at most `least` times its diagonal: the data
+ * cannot distinguish the keys. */
+bool zp_fit_covariance(const ZpFit *fit, const double *J, const bool *stays, double ridge, double least,
+                       double C[ZP_FIT_MOST][ZP_FIT_MOST]);
+
 #endif

@@ -319,55 +319,55 @@ bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J) {
   return good;
 }
 
-/* Solve A x = b, n at most ZP_FIT_MOST, by elimination with pivoting; false if A is singular. */
-static bool solve_small(int n, double A[ZP_FIT_MOST][ZP_FIT_MOST], double *b) {
-  for (int k = 0; k < n; k++) {
-    int pivot = k;
-    for (int i = k + 1; i < n; i++)
-      if (fabs(A[i][k]) > fabs(A[pivot][k])) pivot = i;
-    if (!(fabs(A[pivot][k]) > 0)) return false;
-    for (int j = 0; j < n; j++) {
-      double kept = A[k][j];
-      A[k][j] = A[pivot][j], A[pivot][j] = kept;
+bool zp_fit_covariance(const ZpFit *fit, const double *J, const bool *stays, double ridge, double least,
+                       double C[ZP_FIT_MOST][ZP_FIT_MOST]) {
+  int n = fit->n;
+  double L[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, M[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}; /* J^T J = L L^T, M = L^-1 */
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b <= a; b++) {
+      bool both = !stays || (!stays[a] && !stays[b]);
+      double sum = both ? 0 : a == b;
+      for (size_t i = 0; i < fit->rows && both; i++)
+        sum += J[i * (size_t)n + (size_t)a] * J[i * (size_t)n + (size_t)b];
+      double whole = sum *= a == b ? 1 + ridge : 1;
+      for (int k = 0; k < b; k++)
+        sum -= L[a][k] * L[b][k];
+      if (a == b && !(sum > least * whole)) return false;
+      L[a][b] = a == b ? sqrt(sum) : sum / L[b][b];
     }
-    double kept = b[k];
-    b[k] = b[pivot], b[pivot] = kept;
-    for (int i = k + 1; i < n; i++) {
-      double f = A[i][k] / A[k][k];
-      for (int j = k; j < n; j++)
-        A[i][j] -= f * A[k][j];
-      b[i] -= f * b[k];
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b <= a; b++) {
+      double sum = a == b;
+      for (int k = b; k < a; k++)
+        sum -= L[a][k] * M[k][b];
+      M[a][b] = sum / L[a][a];
     }
-  }
-  for (int k = n - 1; k >= 0; k--) {
-    for (int j = k + 1; j < n; j++)
-      b[k] -= A[k][j] * b[j];
-    b[k] /= A[k][k];
-  }
+  for (int a = 0; a < n; a++)
+    for (int b = 0; b < n; b++) {
+      C[a][b] = 0;
+      for (int k = a > b ? a : b; k < n; k++)
+        C[a][b] += M[k][a] * M[k][b];
+    }
   return true;
 }
 
 /* The Gauss-Newton step; a key at its bound stays there if the step would leave the bound. */
 static bool gauss_newton(const ZpFit *fit, const double *z, const double *fitted, const double *J, double *step) {
-  int n = fit->n, free_key[ZP_FIT_MOST] = {0}, used = 0;
-  double A[ZP_FIT_MOST][ZP_FIT_MOST] = {{0}}, b[ZP_FIT_MOST] = {0}, g[ZP_FIT_MOST] = {0};
-  for (int k = 0; k < n; k++) {
+  static const double ridge = 1e-10;
+  double C[ZP_FIT_MOST][ZP_FIT_MOST], g[ZP_FIT_MOST] = {0};
+  bool stays[ZP_FIT_MOST];
+  for (int k = 0; k < fit->n; k++) {
     for (size_t i = 0; i < fit->rows; i++)
-      g[k] -= J[i * (size_t)n + (size_t)k] * zp_fit_residual(fit, fitted, i);
-    bool stays = (z[k] <= fit->lower[k] && g[k] < 0) || (z[k] >= fit->upper[k] && g[k] > 0);
-    if (!stays) free_key[used++] = k;
-    step[k] = 0;
+      g[k] -= J[i * (size_t)fit->n + (size_t)k] * zp_fit_residual(fit, fitted, i);
+    stays[k] = (z[k] <= fit->lower[k] && g[k] < 0) || (z[k] >= fit->upper[k] && g[k] > 0);
+    if (stays[k]) g[k] = 0;
   }
-  for (int a = 0; a < used; a++) {
-    b[a] = g[free_key[a]];
-    for (int c = 0; c < used; c++)
-      for (size_t i = 0; i < fit->rows; i++)
-        A[a][c] += J[i * (size_t)n + (size_t)free_key[a]] * J[i * (size_t)n + (size_t)free_key[c]];
-    A[a][a] *= 1 + 1e-10;
+  if (!zp_fit_covariance(fit, J, stays, ridge, 0, C)) return false;
+  for (int a = 0; a < fit->n; a++) {
+    step[a] = 0;
+    for (int b = 0; b < fit->n; b++)
+      step[a] += C[a][b] * g[b];
   }
-  if (!solve_small(used, A, b)) return false;
-  for (int a = 0; a < used; a++)
-    step[free_key[a]] = b[a];
   return true;
 }
 

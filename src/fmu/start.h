@@ -6,15 +6,11 @@
 
 #include <stdint.h>
 
-#include "def/def.h"
+#include "def/check.h"
 #include <zipact/drive.h>
 
-/* Number of keys, counted by one. */
-#define ZP_EACH_KEY(path, field, text) +1
-enum {
-  ZP_FMU_KEYS = 0
-#include "def/keys.def"
-};
+/* Number of keys. */
+enum { ZP_FMU_KEYS = sizeof(ZpKeyNumbers) };
 
 /* 16 bytes that occur nowhere else in a binary, without a final 0; as text for a source. */
 #define ZP_FMU_MARK "\x93zipact-fmu-v1\r\n"
