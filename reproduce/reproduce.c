@@ -39,12 +39,20 @@ static ZpStatus put_page(const ZpPage *page, FILE *file, ZpError *err) {
   return ZP_OK;
 }
 
-static json_t *row_of(const ZpComparison *c) {
-  return json_pack("{s:s, s:s, s:i, s:f, s:s, s:f, s:o, s:o, s:o, s:s, s:s?}", "place", c->subject->place, "quantity",
-                   c->subject->title, "nodes", c->nodes, "load_g", c->published->load, "unit", c->subject->unit,
-                   "paper", c->published->value, "ours", zp_json_number(c->ours, "1"), "relative_difference",
-                   zp_json_number(c->difference, "1"), "tolerance", zp_json_number(c->tolerance, "1"), "verdict",
-                   zp_verdicts[c->verdict].word, "why", c->reason ? c->reason->title : NULL);
+static void put_row(ZpJson *json, const ZpComparison *c) {
+  zp_json_open(json, NULL, '{');
+  zp_json_text(json, "place", c->subject->place);
+  zp_json_text(json, "quantity", c->subject->title);
+  zp_json_number(json, "nodes", c->nodes, "count");
+  zp_json_number(json, "load_g", c->published->load, "1");
+  zp_json_text(json, "unit", c->subject->unit);
+  zp_json_number(json, "paper", c->published->value, "1");
+  zp_json_number(json, "ours", c->ours, "1");
+  zp_json_number(json, "relative_difference", c->difference, "1");
+  zp_json_number(json, "tolerance", c->tolerance, "1");
+  zp_json_text(json, "verdict", zp_verdicts[c->verdict].word);
+  zp_json_text(json, "why", c->reason ? c->reason->title : NULL);
+  zp_json_close(json, '}');
 }
 
 static const char *message_of(ZpOutcome outcome) {
@@ -53,18 +61,24 @@ static const char *message_of(ZpOutcome outcome) {
 }
 
 static ZpStatus put_summary(const ZpPage *page, FILE *file, ZpError *err) {
-  json_t *verdicts = json_object(), *rows = json_array();
+  ZpJson json = {.file = file};
   const ZpOutcome outcome = page->runs->outcome;
+  zp_json_open(&json, NULL, '{');
+  zp_json_text(&json, "version", ZP_VERSION);
+  zp_json_text(&json, "study", "reproduce");
+  zp_json_text(&json, "outcome", zp_outcome_name(outcome));
+  zp_json_text(&json, "message", message_of(outcome));
+  zp_json_number(&json, "wall_time_s", page->wall_time, "s");
+  zp_json_open(&json, "verdicts", '{');
   for (int i = 0; i < ZP_VERDICT_COUNT; i++)
-    zp_json_set(&verdicts, zp_verdicts[i].word, json_integer((json_int_t)page->comparisons->of[i]));
+    zp_json_number(&json, zp_verdicts[i].word, (double)page->comparisons->of[i], "count");
+  zp_json_close(&json, '}');
+  zp_json_open(&json, "rows", '[');
   for (size_t i = 0; i < page->comparisons->count; i++)
-    zp_json_add(&rows, row_of(&page->comparisons->item[i]));
-  json_t *summary = json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:o}", "version", ZP_VERSION, "study", "reproduce",
-                              "outcome", zp_outcome_name(outcome), "message", message_of(outcome), "wall_time_s",
-                              zp_json_number(page->wall_time, "s"), "verdicts", verdicts, "rows", rows);
-  ZpStatus status = summary ? zp_json_write(summary, false, file, err) : zp_fail_memory(err);
-  json_decref(summary);
-  return status;
+    put_row(&json, &page->comparisons->item[i]);
+  zp_json_close(&json, ']');
+  zp_json_close(&json, '}');
+  return zp_json_finish(&json, err);
 }
 
 static ZpStatus write_file(const ZpPage *page, const char *name,

@@ -2,13 +2,13 @@
 #include <zipact/io.h>
 
 #include <errno.h>
+#include <math.h>
 #include <string.h>
 
 #include <jansson.h>
 
 #include "base/fail.h"
 #include "io/schema.h"
-#include "io/summary.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
@@ -94,7 +94,11 @@ static void write_yaml(FILE *file) {
 
 static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
-  return key->type == ZP_KEY_TEXT ? json_string(key->text) : zp_json_key(index, value);
+  if (key->type == ZP_KEY_TEXT || (key->type == ZP_KEY_REAL_AUTO && isnan(value))) return json_string(key->text);
+  if (key->type == ZP_KEY_BOOL) return json_boolean(value != 0);
+  if (key->type == ZP_KEY_ENUM) return json_string(key->choices[(int)value].word);
+  if (!isfinite(value)) return json_null();
+  return key->type == ZP_KEY_INT ? json_integer((json_int_t)value) : json_real(value);
 }
 
 static json_t *json_of_choices(const ZpKey *key) {

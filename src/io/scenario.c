@@ -11,6 +11,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,19 +131,12 @@ static ZpStatus resolve_varied(const ZpScenario *s, const double *value, ZpActua
   return status;
 }
 
-/* Varied keys of most scenarios; for more, memory is allocated. */
-enum { VARIATIONS_USUAL = 16 };
-
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
-  double usual[VARIATIONS_USUAL], *more = NULL;
-  if (s->plan.variations > VARIATIONS_USUAL) {
-    more = calloc(s->plan.variations, sizeof *more);
-    if (!more) return zp_fail_memory(err);
-  }
-  double *value = more ? more : usual;
+  double *value = calloc(s->plan.variations + 1, sizeof *value);
+  if (!value) return zp_fail_memory(err);
   zp_plan_values(&s->plan, s->held, index, value);
   ZpStatus status = s->has_common ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
-  free(more);
+  free(value);
   return status;
 }
 
@@ -234,6 +228,8 @@ static void close_reader(Reader *reader) {
   free(reader->group_line);
 }
 
+#define GROUP_WITHOUT_VALUE "a group of keys cannot have a value; give one of its keys, such as %s"
+
 /* First key of the group `path`, -1 if it is not a group. */
 static int first_of_group(const char *path) {
   size_t length = strlen(path);
@@ -242,10 +238,26 @@ static int first_of_group(const char *path) {
   return -1;
 }
 
+/* "FILE:LINE: PATH: reason" */
+__attribute__((format(printf, 5, 6))) static ZpStatus fail_at(const Reader *reader, const char *path, int line,
+                                                              ZpError *err, const char *format, ...) {
+  char reason[sizeof err->message];
+  va_list args;
+  va_start(args, format);
+  vsnprintf(reason, sizeof reason, format, args);
+  va_end(args);
+  return zp_source_fail(reader->source, line, err, "%.80s: %s", path, reason);
+}
+
 static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpError *err) {
   char reason[ZP_VALUE_SIZE];
   zp_key_unknown(item->path, reason, sizeof reason);
-  return zp_source_fail(reader->source, item->line, err, "%.80s: %s", item->path, reason);
+  return fail_at(reader, item->path, item->line, err, "%s", reason);
+}
+
+/* `*first`: line in which the item was given first, 0: not yet. */
+static ZpStatus check_first(const Reader *reader, const ZpYamlItem *item, int first, ZpError *err) {
+  return first ? fail_at(reader, item->path, item->line, err, "given twice, first in line %d", first) : ZP_OK;
 }
 
 /* The parts of a range or a distribution are in their own group: parts that remain at its end are a mistake. */
@@ -254,10 +266,8 @@ static ZpStatus check_no_parts(const Reader *reader, int key, int line, ZpError 
   for (size_t i = 0; i < PARTS; i++)
     any |= reader->part[i] != NULL;
   if (!any || reader->part_key == key) return ZP_OK;
-  return zp_source_fail(
-      reader->source, line, err,
-      "%s: write a range as {from: ..., to: ..., count: ...}, a distribution as {normal: ..., sigma: ...}",
-      zp_key(reader->part_key)->name);
+  return fail_at(reader, zp_key(reader->part_key)->name, line, err,
+                 "write a range as {from: ..., to: ..., count: ...}, a distribution as {normal: ..., sigma: ...}");
 }
 
 static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err) {
@@ -265,41 +275,18 @@ static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err)
   int first = first_of_group(item->path);
   if (first < 0) return fail_unknown(reader, item, err);
   int *line = &reader->group_line[first * DEPTHS + (strchr(item->path, '.') != NULL)];
-  if (*line)
-    return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path, *line);
+  ZpStatus status = check_first(reader, item, *line, err);
   *line = item->line;
-  return ZP_OK;
+  return status;
 }
 
-/* "ribbon:" without a value is a group without keys; with a value it is a mistake. */
-static ZpStatus take_value_of_group(Reader *reader, const ZpYamlItem *item, int first, ZpError *err) {
-  if (item->kind == ZP_YAML_VALUE && *item->word == 0) return take_group(reader, item, err);
-  return zp_source_fail(reader->source, item->line, err,
-                        "%s: a group of keys cannot have a value; give one of its keys, such as %s", item->path,
-                        zp_key(first)->name);
-}
+/* -- values ---------------------------------------------------------------------------------------- */
 
-/* Report a wrong value, and its place. */
-static ZpStatus fail_value(const Reader *reader, int key, int line, const char *word, const ZpError *reason, bool alone,
-                           ZpError *err) {
-  if (reason->status == ZP_MACHINE) return zp_fail(err, ZP_MACHINE, "%s", reason->message);
-  if (!reader->source->argument)
-    return zp_source_fail(reader->source, line, err, "%s = \"%.80s\": %s", zp_key(key)->name, word, reason->message);
-  if (alone) return zp_source_fail(reader->source, 0, err, "%s", reason->message);
-  return zp_source_fail(reader->source, 0, err, "\"%.80s\": %s", word, reason->message);
-}
-
-static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  const char *name = zp_key(key)->name;
-  ZpKeyType type = zp_key(key)->type;
-  if (item->kind != ZP_YAML_LIST) return ZP_OK;
-  if (type == ZP_KEY_TEXT)
-    return zp_source_fail(reader->source, item->line, err, "%s: takes one text, not a list", name);
-  if (type == ZP_KEY_BOOL || type == ZP_KEY_ENUM)
-    return zp_source_fail(reader->source, item->line, err, "%s: takes one word, not a list", name);
-  if (item->count == 0)
-    return zp_source_fail(reader->source, item->line, err, "%s: empty list; give at least one value", name);
-  return ZP_OK;
+/* The numbers of a slot; false if there is no memory. */
+static bool make_room(ZpSlot *slot, size_t count) {
+  slot->value = calloc(count, sizeof *slot->value);
+  slot->count = count;
+  return slot->value != NULL;
 }
 
 static bool is_absolute(const char *path) {
@@ -342,81 +329,110 @@ static char *absolute_paths(const ZpSource *source, const char *paths) {
   return whole;
 }
 
-static ZpStatus take_text(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+static ZpStatus read_text(const ZpSource *source, int key, const char *word, ZpSlot *slot, ZpError *reason) {
   const ZpPaths paths = zp_key_paths(key);
-  ZpSlot slot = {.value = calloc(1, sizeof(double)), .count = 1};
-  slot.text = paths == ZP_PATHS_SEVERAL ? absolute_paths(reader->source, item->word)
-              : paths == ZP_PATHS_ONE   ? absolute_path(reader->source, item->word, (int)strlen(item->word))
-                                        : strdup(item->word);
   ZpActuatorDef scratch = zp_actuator_def_default();
-  ZpError reason;
-  ZpStatus status = slot.value && slot.text ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK && zp_def_set_text(&scratch, key, slot.text, &reason) != ZP_OK)
-    status = zp_source_fail(reader->source, item->line, err, "%s", reason.message);
-  if (status != ZP_OK) {
-    free(slot.value);
-    free(slot.text);
-    return status;
-  }
-  *slot.value = NAN;
-  reader->slot[key] = slot;
-  reader->line[key] = item->line;
-  return ZP_OK;
+  slot->text = paths == ZP_PATHS_SEVERAL ? absolute_paths(source, word)
+               : paths == ZP_PATHS_ONE   ? absolute_path(source, word, (int)strlen(word))
+                                         : strdup(word);
+  if (!make_room(slot, 1) || !slot->text) return zp_fail_memory(reason);
+  *slot->value = NAN;
+  return zp_def_set_text(&scratch, key, slot->text, reason);
 }
 
-/* Take the values of a range; messages quote `word`. */
-static ZpStatus take_range(Reader *reader, int key, const ZpRange *range, int line, const char *word, ZpError *err) {
-  ZpSlot slot = {.is_list = true,
-                 .is_bare = (range->from && zp_value_is_bare(key, range->from)) ||
-                            (range->to && zp_value_is_bare(key, range->to))};
-  ZpError reason;
-  if (zp_range_read(key, range, &slot.value, &slot.count, &reason) != ZP_OK)
-    return fail_value(reader, key, line, word, &reason, true, err);
-  reader->slot[key] = slot;
-  reader->line[key] = line;
-  return ZP_OK;
+static ZpStatus read_range(int key, const ZpRange *range, ZpSlot *slot, ZpError *reason) {
+  slot->is_list = true;
+  slot->is_bare =
+      (range->from && zp_value_is_bare(key, range->from)) || (range->to && zp_value_is_bare(key, range->to));
+  return zp_range_read(key, range, &slot->value, &slot->count, reason);
+}
+
+static ZpStatus read_spread(int key, const ZpSpread *spread, ZpSlot *slot, ZpError *reason) {
+  if (!make_room(slot, 1)) return zp_fail_memory(reason);
+  ZpStatus status = zp_spread_read(key, spread, &slot->spread, reason);
+  *slot->value = slot->spread.a;
+  return status;
+}
+
+/* *word: the one that is wrong, if one is. */
+static ZpStatus read_words(int key, const ZpYamlItem *item, const char **word, ZpSlot *slot, ZpError *reason) {
+  ZpStatus status = make_room(slot, item->count) ? ZP_OK : zp_fail_memory(reason);
+  slot->is_list = item->kind == ZP_YAML_LIST;
+  for (size_t i = 0; i < item->count && status == ZP_OK; i++) {
+    if (i > 0) *word += strlen(*word) + 1;
+    slot->is_bare |= zp_value_is_bare(key, *word);
+    status = zp_value_read(key, *word, &slot->value[i], reason);
+  }
+  return status;
 }
 
 static bool takes_spread(int key) {
   return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
 }
 
-/* Take a distribution; messages quote `word`. */
-static ZpStatus take_spread(Reader *reader, int key, const ZpSpread *spread, int line, const char *word, ZpError *err) {
-  ZpSlot slot = {.value = calloc(1, sizeof(double)), .count = 1};
-  ZpError reason;
-  if (!slot.value) return zp_fail_memory(err);
-  if (zp_spread_read(key, spread, &slot.spread, &reason) != ZP_OK) {
-    free(slot.value);
-    return fail_value(reader, key, line, word, &reason, true, err);
-  }
-  *slot.value = slot.spread.a;
-  reader->slot[key] = slot;
-  reader->line[key] = line;
-  return ZP_OK;
-}
-
-/* "normal(50 um, 1 um)" */
-static ZpStatus take_spread_word(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  char copy[ZP_VALUE_SIZE];
-  ZpSpread spread;
-  ZpError reason;
-  snprintf(copy, sizeof copy, "%s", item->word);
-  if (zp_spread_split(copy, &spread, &reason) != ZP_OK)
-    return fail_value(reader, key, item->line, item->word, &reason, true, err);
-  return take_spread(reader, key, &spread, item->line, item->word, err);
-}
-
-/* "10 um .. 200 um : 20" */
-static ZpStatus take_range_word(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+/* A list or one value: "50 um", "10 um .. 200 um : 20", "normal(50 um, 1 um)". */
+static ZpStatus read_value(int key, const ZpYamlItem *item, const char **word, ZpSlot *slot, ZpError *reason) {
+  const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key));
   char copy[ZP_VALUE_SIZE];
   ZpRange range;
-  ZpError reason;
+  ZpSpread spread;
   snprintf(copy, sizeof copy, "%s", item->word);
-  if (zp_range_split(copy, &range, &reason) != ZP_OK)
-    return fail_value(reader, key, item->line, item->word, &reason, true, err);
-  return take_range(reader, key, &range, item->line, item->word, err);
+  if (alone && zp_range_is(copy)) {
+    ZpStatus status = zp_range_split(copy, &range, reason);
+    return status == ZP_OK ? read_range(key, &range, slot, reason) : status;
+  }
+  if (alone && takes_spread(key) && zp_spread_is(copy)) {
+    ZpStatus status = zp_spread_split(copy, &spread, reason);
+    return status == ZP_OK ? read_spread(key, &spread, slot, reason) : status;
+  }
+  return read_words(key, item, word, slot, reason);
 }
+
+/* Report the wrong `word` of a value, which is all of it if `alone`, and its place. */
+static ZpStatus fail_value(const Reader *reader, int key, int line, const char *word, const ZpError *reason, bool alone,
+                           ZpError *err) {
+  if (reason->status == ZP_MACHINE) return zp_fail(err, ZP_MACHINE, "%s", reason->message);
+  if (zp_key(key)->type == ZP_KEY_TEXT || (reader->source->argument && alone))
+    return zp_source_fail(reader->source, line, err, "%s", reason->message);
+  if (!reader->source->argument)
+    return zp_source_fail(reader->source, line, err, "%s = \"%.80s\": %s", zp_key(key)->name, word, reason->message);
+  return zp_source_fail(reader->source, line, err, "\"%.80s\": %s", word, reason->message);
+}
+
+/* Take the slot of a key that was read with this status. */
+static ZpStatus take_slot(Reader *reader, int key, int line, const ZpSlot *slot, ZpStatus status) {
+  if (status == ZP_OK) {
+    reader->slot[key] = *slot;
+    reader->line[key] = line;
+    return ZP_OK;
+  }
+  free(slot->value);
+  free(slot->text);
+  return status;
+}
+
+static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  const ZpKeyType type = zp_key(key)->type;
+  const char *wrong = type == ZP_KEY_TEXT                          ? "takes one text, not a list"
+                      : type == ZP_KEY_BOOL || type == ZP_KEY_ENUM ? "takes one word, not a list"
+                      : item->count == 0                           ? "empty list; give at least one value"
+                                                                   : NULL;
+  return item->kind == ZP_YAML_LIST && wrong ? fail_at(reader, zp_key(key)->name, item->line, err, "%s", wrong) : ZP_OK;
+}
+
+static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
+  ZpSlot slot = {0};
+  ZpError reason;
+  const char *word = item->word;
+  ZpStatus status = check_shape(reader, key, item, err);
+  if (status != ZP_OK) return status;
+  status = zp_key(key)->type == ZP_KEY_TEXT ? read_text(reader->source, key, word, &slot, &reason)
+                                            : read_value(key, item, &word, &slot, &reason);
+  if (status != ZP_OK) status = fail_value(reader, key, item->line, word, &reason, item->kind == ZP_YAML_VALUE, err);
+  return take_slot(reader, key, item->line, &slot, status);
+}
+
+/* -- parts of a range or a distribution ------------------------------------------------------------ */
 
 /* The key in the path of a part, "ribbon.length.from", and the part; -1 if it is not such a path. */
 static int key_of_part(const char *path, size_t *part) {
@@ -433,93 +449,66 @@ static int key_of_part(const char *path, size_t *part) {
 static ZpStatus take_part(Reader *reader, const ZpYamlItem *item, int key, size_t part, ZpError *err) {
   ZpStatus status = check_no_parts(reader, key, item->line, err);
   if (status != ZP_OK) return status;
-  if (item->kind != ZP_YAML_VALUE)
-    return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a list", item->path);
-  if (reader->part[part]) return zp_source_fail(reader->source, item->line, err, "%s: given twice", item->path);
+  if (item->kind != ZP_YAML_VALUE) return fail_at(reader, item->path, item->line, err, "takes one value, not a list");
+  if (reader->part[part]) return fail_at(reader, item->path, item->line, err, "given twice");
   reader->part_key = key;
   reader->part[part] = strdup(item->word);
   return reader->part[part] ? ZP_OK : zp_fail_memory(err);
 }
 
-/* The kind of the distribution whose first part is given. */
-static ZpDistributionKind spread_of_parts(const Reader *reader) {
-  for (size_t i = FIRST_WORD; i < PARTS; i++)
-    if (reader->part[i]) return (ZpDistributionKind)(i - FIRST_WORD + 1);
-  return ZP_DISTRIBUTION_NONE;
-}
-
-/* Check the parts of a distribution; any further part is a mistake. */
-static ZpStatus take_spread_parts(Reader *reader, int key, ZpDistributionKind kind, const ZpYamlItem *item,
-                                  ZpError *err) {
-  const size_t first = FIRST_WORD + (size_t)kind - 1, second = strcmp(zp_spread_second(kind), "to") == 0 ? TO : SIGMA;
-  const ZpSpread spread = {zp_spread_word[kind], reader->part[first], reader->part[second]};
+/* The distribution of the parts, with first part `first`; any further part is a mistake. */
+static ZpStatus find_spread(const Reader *reader, size_t first, const ZpYamlItem *item, ZpSpread *spread,
+                            ZpError *err) {
+  const ZpDistributionKind kind = (ZpDistributionKind)(first - FIRST_WORD + 1);
+  const size_t second = strcmp(zp_spread_second(kind), "to") == 0 ? TO : SIGMA;
+  *spread = (ZpSpread){zp_spread_word[kind], reader->part[first], reader->part[second]};
   for (size_t i = 0; i < PARTS; i++)
     if (reader->part[i] && i != first && i != second)
-      return zp_source_fail(reader->source, item->line, err, "%s: unknown part \"%s\"; write {%s: ..., %s: ...}",
-                            item->path, part_name(i), spread.word, part_name(second));
-  return take_spread(reader, key, &spread, item->line, "{...}", err);
+      return fail_at(reader, item->path, item->line, err, "unknown part \"%s\"; write {%s: ..., %s: ...}", part_name(i),
+                     spread->word, part_name(second));
+  return ZP_OK;
 }
 
 /* The end of {from: ..., to: ..., count: ...} or {normal: ..., sigma: ...}. */
 static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
   const ZpRange range = {reader->part[FROM], reader->part[TO], reader->part[COUNT], reader->part[SPACING]};
-  const ZpDistributionKind kind = spread_of_parts(reader);
-  if (kind != ZP_DISTRIBUTION_NONE && !takes_spread(key))
-    return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a distribution", item->path);
-  if (!zp_value_is_number(zp_key(key)))
-    return zp_source_fail(reader->source, item->line, err, "%s: takes one value, not a range", item->path);
-  if (reader->line[key])
-    return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path,
-                          reader->line[key]);
-  ZpStatus status = kind == ZP_DISTRIBUTION_NONE ? take_range(reader, key, &range, item->line, "{...}", err)
-                                                 : take_spread_parts(reader, key, kind, item, err);
-  drop_parts(reader);
-  return status;
-}
-
-static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  ZpStatus status = check_shape(reader, key, item, err);
+  ZpSlot slot = {0};
+  ZpSpread spread;
+  ZpError reason;
+  size_t first = FIRST_WORD;
+  while (first < PARTS && !reader->part[first])
+    first++;
+  const bool spreads = first < PARTS;
+  if (spreads ? !takes_spread(key) : !zp_value_is_number(zp_key(key)))
+    return fail_at(reader, item->path, item->line, err, "takes one value, not a %s",
+                   spreads ? "distribution" : "range");
+  ZpStatus status = check_first(reader, item, reader->line[key], err);
+  if (status == ZP_OK && spreads) status = find_spread(reader, first, item, &spread, err);
   if (status != ZP_OK) return status;
-  if (zp_key(key)->type == ZP_KEY_TEXT) return take_text(reader, key, item, err);
-  if (item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key)) && zp_range_is(item->word))
-    return take_range_word(reader, key, item, err);
-  if (item->kind == ZP_YAML_VALUE && takes_spread(key) && zp_spread_is(item->word))
-    return take_spread_word(reader, key, item, err);
-  ZpSlot slot = {
-      .value = calloc(item->count, sizeof(double)), .count = item->count, .is_list = item->kind == ZP_YAML_LIST};
-  if (!slot.value) return zp_fail_memory(err);
-  const char *word = item->word;
-  for (size_t i = 0; i < item->count && status == ZP_OK; i++, word += strlen(word) + 1) {
-    ZpError reason;
-    slot.is_bare |= zp_value_is_bare(key, word);
-    if (zp_value_read(key, word, &slot.value[i], &reason) == ZP_OK) continue;
-    status = fail_value(reader, key, item->line, word, &reason, !slot.is_list, err);
-  }
-  if (status != ZP_OK) {
-    free(slot.value);
-    return status;
-  }
-  reader->slot[key] = slot;
-  reader->line[key] = item->line;
-  return ZP_OK;
+  status = spreads ? read_spread(key, &spread, &slot, &reason) : read_range(key, &range, &slot, &reason);
+  if (status != ZP_OK) status = fail_value(reader, key, item->line, "{...}", &reason, true, err);
+  drop_parts(reader);
+  return take_slot(reader, key, item->line, &slot, status);
 }
 
-/* A ZpYamlVisit. */
+/* -- a text ---------------------------------------------------------------------------------------- */
+
+/* A ZpYamlVisit. "ribbon:" without a value is a group without keys; with a value it is a mistake. */
 static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   Reader *reader = user;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
   int key = zp_key_find(item->path);
   if (item->kind == ZP_YAML_GROUP) return key >= 0 ? take_parts(reader, key, item, err) : take_group(reader, item, err);
+  if (key >= 0) {
+    ZpStatus status = check_first(reader, item, reader->line[key], err);
+    return status == ZP_OK ? take_values(reader, key, item, err) : status;
+  }
   size_t part;
-  const int ranged = key < 0 ? key_of_part(item->path, &part) : -1;
+  const int ranged = key_of_part(item->path, &part), first = first_of_group(item->path);
   if (ranged >= 0) return take_part(reader, item, ranged, part, err);
-  int first = key < 0 ? first_of_group(item->path) : -1;
-  if (first >= 0) return take_value_of_group(reader, item, first, err);
-  if (key < 0) return fail_unknown(reader, item, err);
-  if (reader->line[key])
-    return zp_source_fail(reader->source, item->line, err, "%s: given twice, first in line %d", item->path,
-                          reader->line[key]);
-  return take_values(reader, key, item, err);
+  if (first < 0) return fail_unknown(reader, item, err);
+  if (item->kind == ZP_YAML_VALUE && *item->word == 0) return take_group(reader, item, err);
+  return fail_at(reader, item->path, item->line, err, GROUP_WITHOUT_VALUE, zp_key(first)->name);
 }
 
 /* Read a text into a layer. */
@@ -570,11 +559,8 @@ static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) 
   int first = first_of_group(name);
   char reason[ZP_VALUE_SIZE];
   zp_key_unknown(name, reason, sizeof reason);
-  if (first >= 0)
-    zp_source_fail(source, 0, err, "a group of keys cannot have a value; give one of its keys, such as %s",
-                   zp_key(first)->name);
-  else
-    zp_source_fail(source, 0, err, "%s", reason);
+  if (first >= 0) snprintf(reason, sizeof reason, GROUP_WITHOUT_VALUE, zp_key(first)->name);
+  zp_source_fail(source, 0, err, "%s", reason);
   return -1;
 }
 

@@ -12,7 +12,6 @@
 #include "def/def.h"
 #include <zipact/io.h>
 
-#include "io/json.h"
 #include "io/spread.h"
 #include "io/value.h"
 
@@ -33,6 +32,20 @@ static const struct {
     {"Pa", "[mkhMG]?Pa|[mkMG]?N/[mc]?m[\\\\^]?2|m?bar|psi|atm|(?:kilo|mega|giga)?pascals?"},
     {"rad", "[uµm]?rad(?:ians?)?|deg(?:rees?)?|°|grade"},
 };
+
+/* A failure: free the tree. */
+static void drop(json_t **tree) {
+  json_decref(*tree);
+  *tree = NULL;
+}
+
+void zp_json_set(json_t **object, const char *name, json_t *value) {
+  if (json_object_set_new(*object, name, value)) drop(object);
+}
+
+void zp_json_add(json_t **list, json_t *value) {
+  if (json_array_append_new(*list, value)) drop(list);
+}
 
 #define BLANK   "[ \u00A0\u2007\u2009\u202F]*"
 #define DECIMAL "[-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?"
@@ -80,7 +93,7 @@ static json_t *reference(const char *definition) {
 
 /* Add the members of `more`, which is freed, to an object, which becomes NULL on failure. */
 static void merge(json_t **object, json_t *more) {
-  if (!more || json_object_update(*object, more)) zp_json_drop(object);
+  if (!more || json_object_update(*object, more)) drop(object);
   json_decref(more);
 }
 
@@ -92,7 +105,7 @@ static json_t *number_schema(int index) {
   merge(&schema, json_pack("{s:o, s:i, s:o}", "items", value_schema(index), "minItems", 1, "anyOf", any));
   json_t *type = json_object_get(schema, "type");
   if (json_array_append_new(type, json_string("array")) || json_array_append_new(type, json_string("object")))
-    zp_json_drop(&schema);
+    drop(&schema);
   return schema;
 }
 

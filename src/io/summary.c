@@ -1,12 +1,10 @@
 /* summary.json: the results of a study, as one JSON object. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <zipact/version.h>
 
-#include "base/fail.h"
 #include "io/cases.h"
 #include "io/json.h"
 #include "io/report.h"
@@ -28,129 +26,126 @@ static bool is_of(const List *list, const ZpScalar *scalar) {
   return sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 && !scalar->name[end];
 }
 
-static bool is_listed(const ZpResult *result, const ZpScalar *scalar) {
-  bool any = false;
-  for (size_t k = 0; k < LISTS && zp_study_shows(result->study) == ZP_SHOWS_modes; k++)
-    any |= is_of(&lists[k], scalar);
-  return any;
-}
-
-static json_t *list_of(const ZpResult *result, const List *list) {
-  json_t *array = json_array();
-  for (size_t i = 0; i < result->scalars; i++) {
-    const ZpScalar *scalar = &result->scalar[i];
-    if (is_of(list, scalar)) zp_json_add(&array, zp_json_number(scalar->value, scalar->unit));
-  }
-  return array;
-}
-
 /* {output: {key: derivative}} */
-static json_t *sensitivity_of(const ZpResult *result) {
-  json_t *all = json_object();
-  for (size_t i = 0; i < result->sensitivities; i++) {
-    const ZpSensitivity *s = &result->sensitivity[i];
-    if (!json_object_get(all, s->output)) zp_json_set(&all, s->output, json_object());
-    json_t *by = json_object_get(all, s->output);
-    if (json_object_set_new(by, zp_key(s->key)->name, zp_json_number(s->value, "1"))) zp_json_drop(&all);
+static void put_sensitivity(ZpJson *json, const ZpResult *result) {
+  const ZpSensitivity *s = result->sensitivity, *end = s + result->sensitivities;
+  zp_json_open(json, "sensitivity", '{');
+  for (const ZpSensitivity *first = s; first < end; first++) {
+    const ZpSensitivity *before = s;
+    while (before < first && strcmp(before->output, first->output) != 0)
+      before++;
+    if (before < first) continue; /* written with that one */
+    zp_json_open(json, first->output, '{');
+    for (const ZpSensitivity *k = first; k < end; k++)
+      if (strcmp(k->output, first->output) == 0) zp_json_number(json, zp_key(k->key)->name, k->value, "1");
+    zp_json_close(json, '}');
   }
-  return all;
+  zp_json_close(json, '}');
 }
 
-static void set_scalars(json_t **object, const ZpResult *result) {
-  for (size_t k = 0; k < LISTS && zp_study_shows(result->study) == ZP_SHOWS_modes; k++)
-    zp_json_set(object, lists[k].name, list_of(result, &lists[k]));
-  for (size_t i = 0; i < result->scalars; i++) {
-    const ZpScalar *scalar = &result->scalar[i];
-    if (!is_listed(result, scalar)) zp_json_set(object, scalar->name, zp_json_number(scalar->value, scalar->unit));
+static void put_scalars(ZpJson *json, const ZpResult *result) {
+  const ZpScalar *end = result->scalar + result->scalars;
+  const size_t count = zp_study_shows(result->study) == ZP_SHOWS_modes ? LISTS : 0;
+  for (size_t k = 0; k < count; k++) {
+    zp_json_open(json, lists[k].name, '[');
+    for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++)
+      if (is_of(&lists[k], scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
+    zp_json_close(json, ']');
   }
-  if (result->sensitivities > 0) zp_json_set(object, "sensitivity", sensitivity_of(result));
+  for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++) {
+    bool listed = false;
+    for (size_t k = 0; k < count; k++)
+      listed |= is_of(&lists[k], scalar);
+    if (!listed) zp_json_number(json, scalar->name, scalar->value, scalar->unit);
+  }
+  if (result->sensitivities > 0) put_sensitivity(json, result);
 }
 
 /* Largest number of different notes of all runs in the summary: notes with numbers may all differ, and each note is
  * compared with all others. */
 enum { NOTES_MOST = 50 };
 
-/* Add the new notes of a run to the array, up to NOTES_MOST, and a last one that refers to the rows. */
-static void add_notes(json_t **array, const ZpResult *result) {
-  for (size_t i = 0; i < result->notes && json_array_size(*array) <= NOTES_MOST; i++) {
-    bool known = false;
-    for (size_t k = 0; k < json_array_size(*array) && !known; k++)
-      known = strcmp(json_string_value(json_array_get(*array, k)), result->note[i]) == 0;
-    const char *note = json_array_size(*array) < NOTES_MOST ? result->note[i] : "the rows have more notes";
-    if (!known) zp_json_add(array, json_string(note));
+/* Different notes, copied. */
+typedef struct Notes {
+  char *text[NOTES_MOST + 1]; /* the last one refers to the rows */
+  size_t count;
+} Notes;
+
+static void add_notes(ZpJson *json, Notes *notes, const ZpResult *result) {
+  for (size_t i = 0; i < result->notes && notes->count <= NOTES_MOST; i++) {
+    const char *note = notes->count < NOTES_MOST ? result->note[i] : "the rows have more notes";
+    size_t known = 0;
+    while (known < notes->count && strcmp(notes->text[known], result->note[i]) != 0)
+      known++;
+    if (known < notes->count) continue;
+    notes->text[notes->count] = strdup(note);
+    json->bad |= !notes->text[notes->count];
+    notes->count += notes->text[notes->count] != NULL;
   }
 }
 
-json_t *zp_json_key(int key, double value) {
-  const ZpKey *k = zp_key(key);
-  if (k->type == ZP_KEY_BOOL) return json_boolean(value != 0);
-  if (k->type == ZP_KEY_ENUM) return json_string(zp_key_word(key, value));
-  if (k->type == ZP_KEY_REAL_AUTO && isnan(value)) return json_string(k->text);
-  return zp_json_number(value, k->type == ZP_KEY_INT ? "count" : k->unit);
+static void put_notes(ZpJson *json, Notes *notes) {
+  zp_json_open(json, "notes", '[');
+  for (size_t i = 0; i < notes->count; i++) {
+    zp_json_text(json, NULL, notes->text[i]);
+    free(notes->text[i]);
+  }
+  zp_json_close(json, ']');
 }
 
-/* One run of a sweep: a ZpJsonItem. */
-static json_t *row_of(const void *user, size_t run) {
-  const ZpReport *report = user;
+/* One run of a sweep. */
+static void put_row(ZpJson *json, const ZpReport *report, size_t run) {
   size_t keys;
   const int *key = zp_scenario_lists(report->scenario, &keys);
   const ZpResult *result = zp_report_result(report, run);
+  Notes notes = {.count = 0};
   double *value = calloc(keys + 1, sizeof *value);
-  if (!value) return NULL;
+  json->bad |= !value;
+  if (json->bad) return;
   zp_scenario_values(report->scenario, run, value);
-  json_t *row = json_object(), *notes = json_array();
+  zp_json_open(json, NULL, '{');
   for (size_t i = 0; i < keys; i++)
-    zp_json_set(&row, zp_key(key[i])->name, zp_json_key(key[i], value[i]));
+    zp_json_key(json, zp_key(key[i])->name, key[i], value[i]);
   free(value);
-  zp_json_set(&row, "outcome", json_string(zp_outcome_name(result->outcome)));
-  zp_json_set(&row, "message", json_string(result->message));
-  set_scalars(&row, result);
-  add_notes(&notes, result);
-  zp_json_set(&row, "notes", notes);
-  return row;
+  zp_json_text(json, "outcome", zp_outcome_name(result->outcome));
+  zp_json_text(json, "message", result->message);
+  put_scalars(json, result);
+  add_notes(json, &notes, result);
+  put_notes(json, &notes);
+  zp_json_close(json, '}');
 }
 
-/* The run that represents all: the first that failed, otherwise the first. NULL if there is none. Valid until the next
- * call. */
-static const ZpResult *spokesman(const ZpReport *report) {
-  for (size_t i = 0; i < report->count; i++)
-    if (!zp_outcome_good(zp_report_result(report, i)->outcome)) return zp_report_result(report, i);
-  return report->count > 0 ? zp_report_result(report, 0) : NULL;
-}
-
-static void set_end(json_t **object, ZpOutcome outcome, const char *message, double wall_time) {
-  zp_json_set(object, "outcome", json_string(zp_outcome_name(outcome)));
-  zp_json_set(object, "message", json_string(message));
-  zp_json_set(object, "wall_time_s", zp_json_number(wall_time, "s"));
-}
-
-static void set_outcome(json_t **object, const ZpReport *report) {
-  const ZpResult *result = spokesman(report);
+/* The outcome of the run that represents all: the first that failed, otherwise the first. */
+static void put_outcome(ZpJson *json, const ZpReport *report) {
   const size_t cases = zp_scenario_count(report->scenario);
-  char message[96] = "interrupted before the first run";
-  if (result) snprintf(message, sizeof message, "stopped after %zu of %zu cases", report->count, cases);
-  if (report->optimum)
-    set_end(object, report->optimum->outcome, report->optimum->message, report->wall_time);
-  else if (!result || report->count < cases)
-    set_end(object, ZP_INTERRUPTED, message, report->wall_time);
-  else
-    set_end(object, result->outcome, result->message, report->wall_time);
+  size_t failed = 0;
+  while (failed < report->count && zp_outcome_good(zp_report_result(report, failed)->outcome))
+    failed++;
+  const ZpResult *result = report->count > 0 ? zp_report_result(report, failed < report->count ? failed : 0) : NULL;
+  char stopped[96] = "interrupted before the first run";
+  if (result) snprintf(stopped, sizeof stopped, "stopped after %zu of %zu cases", report->count, cases);
+  const bool partly = !result || report->count < cases;
+  const ZpOutcome outcome = report->optimum ? report->optimum->outcome : partly ? ZP_INTERRUPTED : result->outcome;
+  zp_json_text(json, "outcome", zp_outcome_name(outcome));
+  zp_json_text(json, "message", report->optimum ? report->optimum->message : partly ? stopped : result->message);
+  zp_json_number(json, "wall_time_s", report->wall_time, "s");
 }
 
 /* {"feasible": true, "cases": [...]}: the best cases, in the form of the rows. */
-static json_t *optimum_of(const ZpReport *report) {
+static void put_optimum(ZpJson *json, const ZpReport *report) {
   const ZpOptimum *optimum = report->optimum;
-  json_t *object = json_object(), *cases = json_array();
-  zp_json_set(&object, "feasible", json_boolean(optimum->feasible));
-  zp_json_set(&object, "excluded_share", zp_json_number(optimum->excluded, "1"));
+  zp_json_open(json, "optimum", '{');
+  zp_json_bool(json, "feasible", optimum->feasible);
+  zp_json_number(json, "excluded_share", optimum->excluded, "1");
+  zp_json_open(json, "cases", '[');
   for (size_t i = 0; i < optimum->count; i++)
-    zp_json_add(&cases, row_of(report, optimum->row[i]));
-  zp_json_set(&object, "cases", cases);
-  return object;
+    put_row(json, report, optimum->row[i]);
+  zp_json_close(json, ']');
+  zp_json_close(json, '}');
 }
 
 /* The numbers of a sweep as a whole. */
-static void set_largest(json_t **object, const ZpReport *report) {
+static void put_largest(ZpJson *json, const ZpReport *report) {
   static const struct {
     ZpStudy study;
     const char *name, *scalar, *where, *unit;
@@ -159,36 +154,33 @@ static void set_largest(json_t **object, const ZpReport *report) {
 #include <zipact/studies.def>
   };
   for (size_t i = 0; i < sizeof largest / sizeof largest[0] && report->count > 0; i++)
-    if (zp_report_result(report, 0)->study == largest[i].study) {
-      double value = zp_report_largest(report, largest[i].scalar, largest[i].where);
-      zp_json_set(object, largest[i].name, zp_json_number(value, largest[i].unit));
-    }
-}
-
-static json_t *summary_of(const ZpReport *report) {
-  const ZpResult *single = zp_report_single(report);
-  json_t *object = json_object(), *notes = json_array();
-  zp_json_set(&object, "version", json_string(ZP_VERSION));
-  zp_json_set(&object, "study", json_string(zp_report_study(report)));
-  set_outcome(&object, report);
-  if (single) set_scalars(&object, single);
-  if (zp_report_is_sweep(report)) set_largest(&object, report);
-  for (size_t i = 0; i < report->count; i++)
-    add_notes(&notes, zp_report_result(report, i));
-  zp_json_set(&object, "notes", notes);
-  if (zp_scenario_design(report->scenario)) zp_json_set(&object, "statistics", zp_sample_statistics(report));
-  if (report->optimum) zp_json_set(&object, "optimum", optimum_of(report));
-  return object;
+    if (zp_report_result(report, 0)->study == largest[i].study)
+      zp_json_number(json, largest[i].name, zp_report_largest(report, largest[i].scalar, largest[i].where),
+                     largest[i].unit);
 }
 
 static ZpStatus write_summary(const ZpReport *report, bool flat, FILE *file, ZpError *err) {
-  json_t *summary = summary_of(report);
-  if (!summary) return zp_fail_memory(err);
-  ZpStatus status = !flat && zp_report_is_sweep(report)
-                        ? zp_json_write_list(summary, "rows", report->count, row_of, report, file, err)
-                        : zp_json_write(summary, flat, file, err);
-  json_decref(summary);
-  return status;
+  ZpJson json = {.file = file, .flat = flat};
+  const ZpResult *single = zp_report_single(report);
+  const bool sweep = zp_report_is_sweep(report);
+  Notes notes = {.count = 0};
+  zp_json_open(&json, NULL, '{');
+  zp_json_text(&json, "version", ZP_VERSION);
+  zp_json_text(&json, "study", zp_report_study(report));
+  put_outcome(&json, report);
+  if (single) put_scalars(&json, single);
+  if (sweep) put_largest(&json, report);
+  for (size_t i = 0; i < report->count; i++)
+    add_notes(&json, &notes, zp_report_result(report, i));
+  put_notes(&json, &notes);
+  if (zp_scenario_design(report->scenario)) zp_sample_statistics(&json, report);
+  if (report->optimum) put_optimum(&json, report);
+  if (!flat && sweep) zp_json_open(&json, "rows", '[');
+  for (size_t i = 0; i < report->count && !flat && sweep && !ferror(file) && !json.bad; i++)
+    put_row(&json, report, i);
+  if (!flat && sweep) zp_json_close(&json, ']');
+  zp_json_close(&json, '}');
+  return zp_json_finish(&json, err);
 }
 
 ZpStatus zp_summary_write(const ZpReport *report, FILE *file, ZpError *err) {

@@ -27,7 +27,8 @@ enum {
 typedef struct Walk {
   const ZpSource *source;
   struct fy_parser *parser;
-  struct fy_diag *diag; /* collects messages of the parser */
+  struct fy_event *event; /* the one that is read; NULL: none yet */
+  struct fy_diag *diag;   /* collects messages of the parser */
   ZpYamlVisit visit;
   void *user;
   ZpError *err;
@@ -49,19 +50,15 @@ static const struct {
     {"missing comma in flow mapping", "is a brace not closed?"},
 };
 
-static const char *question_of(const char *message) {
-  for (size_t i = 0; i < sizeof questions / sizeof questions[0]; i++)
-    if (strcmp(message, questions[i].message) == 0) return questions[i].question;
-  return NULL;
-}
-
 /* The first error of libfyaml. */
 static ZpStatus fail_syntax(Walk *walk) {
   void *position = NULL;
   const struct fy_diag_error *error = fy_diag_errors_iterate(walk->diag, &position);
   if (!error || !error->msg) return zp_source_fail(walk->source, walk->line, walk->err, "not YAML");
   const char *place = walk->source->argument ? " of the value" : "";
-  const char *question = question_of(error->msg);
+  const char *question = NULL;
+  for (size_t i = 0; i < sizeof questions / sizeof questions[0] && !question; i++)
+    if (strcmp(error->msg, questions[i].message) == 0) question = questions[i].question;
   return zp_source_fail(walk->source, error->line, walk->err, "column %d%s: %s%s%s", error->column, place, error->msg,
                         question ? "; " : "", question ? question : "");
 }
@@ -76,33 +73,26 @@ __attribute__((format(printf, 2, 3))) static ZpStatus fail_here(Walk *walk, cons
   return zp_source_fail(walk->source, walk->line, walk->err, "%.80s%s%s", walk->path, colon, reason);
 }
 
-/* Anchors, aliases and tags. */
-static bool is_decorated(struct fy_event *event) {
-  return event->type == FYET_ALIAS || fy_event_get_anchor_token(event) || fy_event_get_tag_token(event);
-}
-
-/* Next event, to be freed by fy_parser_event_free; NULL with an error filled. */
-static struct fy_event *next_event(Walk *walk, ZpStatus *status) {
-  struct fy_event *event = fy_parser_parse(walk->parser);
-  if (!event) {
-    *status = fail_syntax(walk);
-    return NULL;
-  }
+/* Go to the next event, walk->event. */
+static ZpStatus advance(Walk *walk) {
+  if (walk->event) fy_parser_event_free(walk->parser, walk->event);
+  struct fy_event *event = walk->event = fy_parser_parse(walk->parser);
+  if (!event) return fail_syntax(walk);
   const bool begins = event->type == FYET_SCALAR || event->type == FYET_SEQUENCE_START ||
                       event->type == FYET_MAPPING_START || event->type == FYET_ALIAS;
   struct fy_token *token = begins ? fy_event_get_token(event) : NULL;
   const struct fy_mark *mark = token ? fy_token_start_mark(token) : NULL;
   if (mark) walk->line = mark->line + 1;
-  if (!is_decorated(event)) return event;
-  fy_parser_event_free(walk->parser, event);
-  *status = fail_here(walk, "a scenario cannot have anchors (&), aliases (*) and tags (!)");
-  return NULL;
+  if (event->type == FYET_ALIAS || fy_event_get_anchor_token(event) || fy_event_get_tag_token(event))
+    return fail_here(walk, "a scenario cannot have anchors (&), aliases (*) and tags (!)");
+  return ZP_OK;
 }
 
 /* Add the word of a scalar event to walk->words. */
-static ZpStatus add_word(Walk *walk, struct fy_event *event) {
+static ZpStatus add_word(Walk *walk) {
   size_t length = 0;
-  const char *text = event->scalar.value ? fy_token_get_text(event->scalar.value, &length) : "";
+  struct fy_token *value = walk->event->scalar.value;
+  const char *text = value ? fy_token_get_text(value, &length) : "";
   if (!text) return zp_fail_memory(walk->err);
   if (length >= ZP_VALUE_SIZE) return fail_here(walk, "value longer than %d bytes", ZP_VALUE_SIZE - 1);
   if (memchr(text, 0, length)) return fail_here(walk, "value with a zero byte");
@@ -128,31 +118,53 @@ static ZpStatus visit(Walk *walk, ZpYamlKind kind, int line, size_t count) {
 /* The words of a list up to its end. */
 static ZpStatus read_list(Walk *walk, int line) {
   size_t count = 0;
-  ZpStatus status = ZP_OK;
-  while (status == ZP_OK) {
-    struct fy_event *event = next_event(walk, &status);
-    if (!event) return status;
-    enum fy_event_type type = event->type;
-    if (type == FYET_SCALAR)
-      status = add_word(walk, event);
-    else if (type != FYET_SEQUENCE_END)
-      status = fail_here(walk, "a list holds values only, not lists or groups");
-    fy_parser_event_free(walk->parser, event);
-    if (type == FYET_SEQUENCE_END) return visit(walk, ZP_YAML_LIST, line, count);
-    count++;
+  ZpStatus status = advance(walk);
+  for (; status == ZP_OK && walk->event->type == FYET_SCALAR; count++) {
+    status = add_word(walk);
+    if (status == ZP_OK) status = advance(walk);
   }
-  return status;
+  if (status != ZP_OK) return status;
+  if (walk->event->type == FYET_SEQUENCE_END) return visit(walk, ZP_YAML_LIST, line, count);
+  return fail_here(walk, "a list holds values only, not lists or groups");
 }
 
-static ZpStatus read_mapping(Walk *walk, int depth, int line);
+/* Append the key that is read to walk->path, of which `base` bytes stay. */
+static ZpStatus enter_key(Walk *walk, size_t base) {
+  if (walk->event->type != FYET_SCALAR) return fail_here(walk, "a key must be a word");
+  ZpStatus status = add_word(walk);
+  if (status != ZP_OK) return status;
+  walk->used = 0;
+  if (*walk->words == 0) return fail_here(walk, "empty key");
+  size_t room = sizeof walk->path - base;
+  int length = snprintf(walk->path + base, room, "%s%s", base ? "." : "", walk->words);
+  if (length < 0 || (size_t)length >= room) return fail_here(walk, "key too long");
+  return ZP_OK;
+}
+
+static ZpStatus read_node(Walk *walk, int depth, int line);
+
+/* The pairs of a mapping up to its end; walk->path is its path. */
+static ZpStatus read_mapping(Walk *walk, int depth, int line) {
+  const size_t base = strlen(walk->path);
+  ZpStatus status = advance(walk);
+  while (status == ZP_OK && walk->event->type != FYET_MAPPING_END) {
+    status = enter_key(walk, base);
+    const int line_of_key = walk->line;
+    if (status == ZP_OK) status = advance(walk);
+    if (status == ZP_OK) status = read_node(walk, depth + 1, line_of_key);
+    walk->path[base] = 0;
+    if (status == ZP_OK) status = advance(walk);
+  }
+  return status == ZP_OK ? visit(walk, ZP_YAML_GROUP, line, 0) : status;
+}
 
 /* The value of a key, or the root. */
-static ZpStatus read_node(Walk *walk, struct fy_event *event, int depth, int line) {
-  switch (event->type) {
-  case FYET_SCALAR: {
-    ZpStatus status = add_word(walk, event);
+static ZpStatus read_node(Walk *walk, int depth, int line) {
+  ZpStatus status;
+  switch (walk->event->type) {
+  case FYET_SCALAR:
+    status = add_word(walk);
     return status == ZP_OK ? visit(walk, ZP_YAML_VALUE, line, 1) : status;
-  }
   case FYET_SEQUENCE_START:
     return read_list(walk, line);
   case FYET_MAPPING_START:
@@ -163,92 +175,33 @@ static ZpStatus read_node(Walk *walk, struct fy_event *event, int depth, int lin
   }
 }
 
-/* (path of length `base` in walk, event of a key) => path with that key appended. */
-static ZpStatus enter_key(Walk *walk, struct fy_event *event, size_t base) {
-  if (event->type != FYET_SCALAR) return fail_here(walk, "a key must be a word");
-  ZpStatus status = add_word(walk, event);
-  if (status != ZP_OK) return status;
-  walk->used = 0;
-  if (*walk->words == 0) return fail_here(walk, "empty key");
-  size_t room = sizeof walk->path - base;
-  int length = snprintf(walk->path + base, room, "%s%s", base ? "." : "", walk->words);
-  if (length < 0 || (size_t)length >= room) return fail_here(walk, "key too long");
-  return ZP_OK;
-}
-
-static ZpStatus read_pair(Walk *walk, struct fy_event *key, int depth, size_t base) {
-  ZpStatus status = enter_key(walk, key, base);
-  if (status != ZP_OK) return status;
-  int line = walk->line;
-  struct fy_event *value = next_event(walk, &status);
-  if (!value) return status;
-  status = read_node(walk, value, depth + 1, line);
-  fy_parser_event_free(walk->parser, value);
-  walk->path[base] = 0;
-  return status;
-}
-
-/* Read the pairs of a mapping up to its end; walk->path is its path. */
-static ZpStatus read_mapping(Walk *walk, int depth, int line) {
-  size_t base = strlen(walk->path);
-  ZpStatus status = ZP_OK;
-  while (status == ZP_OK) {
-    struct fy_event *key = next_event(walk, &status);
-    if (!key) return status;
-    bool end = key->type == FYET_MAPPING_END;
-    if (!end) status = read_pair(walk, key, depth, base);
-    fy_parser_event_free(walk->parser, key);
-    if (end) return visit(walk, ZP_YAML_GROUP, line, 0);
-  }
-  return status;
-}
-
-/* Read an event of the given type, without content; ZP_BAD_INPUT if it has another type. */
-static ZpStatus expect(Walk *walk, enum fy_event_type type, const char *otherwise) {
-  ZpStatus status = ZP_OK;
-  struct fy_event *event = next_event(walk, &status);
-  if (!event) return status;
-  if (event->type != type) status = fail_here(walk, "%s", otherwise);
-  fy_parser_event_free(walk->parser, event);
-  return status;
-}
-
-static bool is_empty_scalar(const struct fy_event *event) {
+/* The root of a scenario is keys, or nothing; that of a value is anything but keys. */
+static ZpStatus read_root(Walk *walk, bool is_value) {
+  const struct fy_event *event = walk->event;
+  const bool mapping = event->type == FYET_MAPPING_START;
   size_t length = 0;
-  if (event->type != FYET_SCALAR) return false;
-  if (!event->scalar.value) return true;
-  return fy_token_get_text(event->scalar.value, &length) && length == 0;
+  if (is_value && mapping) return fail_here(walk, "give one value or a list in [ ]");
+  if (is_value || mapping) return read_node(walk, 0, walk->line);
+  const bool empty = event->type == FYET_SCALAR &&
+                     (!event->scalar.value || (fy_token_get_text(event->scalar.value, &length) && length == 0));
+  return empty ? ZP_OK : fail_here(walk, "a scenario consists of lines \"key: value\"");
 }
 
-/* The root of a scenario: keys, or nothing. */
-static ZpStatus read_root(Walk *walk, struct fy_event *event) {
-  if (is_empty_scalar(event)) return ZP_OK;
-  if (event->type != FYET_MAPPING_START) return fail_here(walk, "a scenario consists of lines \"key: value\"");
-  return read_mapping(walk, 0, walk->line);
-}
-
-/* The root of a value: anything but keys. */
-static ZpStatus read_value_root(Walk *walk, struct fy_event *event) {
-  if (event->type == FYET_MAPPING_START) return fail_here(walk, "give one value or a list in [ ]");
-  return read_node(walk, event, 0, walk->line);
+/* The next event must be of a type. */
+static ZpStatus expect(Walk *walk, enum fy_event_type type, const char *otherwise) {
+  ZpStatus status = advance(walk);
+  return status == ZP_OK && walk->event->type != type ? fail_here(walk, "%s", otherwise) : status;
 }
 
 /* One document, or none, and nothing after it. */
 static ZpStatus read_stream(Walk *walk, bool is_value) {
   ZpStatus status = expect(walk, FYET_STREAM_START, "not YAML");
-  if (status != ZP_OK) return status;
-  struct fy_event *event = next_event(walk, &status);
-  if (!event) return status;
-  bool empty = event->type == FYET_STREAM_END;
-  fy_parser_event_free(walk->parser, event);
-  if (empty) return ZP_OK;
-  event = next_event(walk, &status);
-  if (!event) return status;
-  status = is_value ? read_value_root(walk, event) : read_root(walk, event);
-  fy_parser_event_free(walk->parser, event);
+  if (status == ZP_OK) status = advance(walk);
+  if (status != ZP_OK || walk->event->type == FYET_STREAM_END) return status;
+  status = advance(walk);
+  if (status == ZP_OK) status = read_root(walk, is_value);
   if (status == ZP_OK) status = expect(walk, FYET_DOCUMENT_END, "not YAML");
-  if (status == ZP_OK) status = expect(walk, FYET_STREAM_END, "more than one document");
-  return status;
+  return status == ZP_OK ? expect(walk, FYET_STREAM_END, "more than one document") : status;
 }
 
 /* Does the indentation of a line contain a tab, and does text follow it? */
@@ -294,6 +247,7 @@ static ZpStatus open_parser(Walk *walk, const char *text, size_t size) {
 static ZpStatus parse(Walk *walk, const char *text, size_t size, bool is_value) {
   ZpStatus status = open_parser(walk, text, size);
   if (status == ZP_OK) status = read_stream(walk, is_value);
+  if (walk->event) fy_parser_event_free(walk->parser, walk->event);
   if (walk->parser) fy_parser_destroy(walk->parser);
   fy_diag_destroy(walk->diag);
   free(walk->words);
