@@ -1,9 +1,7 @@
 /* Pictures of several runs together, drawn like those of any report: NAME.gp and NAME.dat stay beside NAME.svg. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/fail.h"
 #include "base/table.h"
@@ -104,9 +102,8 @@ enum { FIGURES = sizeof figure / sizeof figure[0] };
 
 static ZpStatus prepare(const ZpDrawing *drawing, const ZpRuns *runs, ZpPicture drawn[FIGURES], size_t *count,
                         ZpError *err) {
-  if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
-    return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
-  ZpStatus status = zp_drawing_file(drawing, "result.gp", put_definitions, runs, err);
+  ZpStatus status = zp_make_folder(drawing->folder, err);
+  if (status == ZP_OK) status = zp_drawing_file(drawing, "result.gp", put_definitions, runs, err);
   for (size_t i = 0; i < FIGURES && status == ZP_OK; i++) {
     status = zp_drawing_remove(drawing, &figure[i].picture, err);
     if (status != ZP_OK || !has_run(runs, figure[i].ours) || !has_run(runs, figure[i].theirs)) continue;

@@ -21,6 +21,15 @@ char *zp_path_join(const char *directory, const char *name) {
   return asprintf(&path, "%s/%s", directory, name) < 0 ? NULL : path;
 }
 
+ZpStatus zp_make_folder(const char *path, ZpError *err) {
+  struct stat info;
+  if (mkdir(path, 0777) == 0) return ZP_OK;
+  int error = errno;
+  if (stat(path, &info) != 0) return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", path, strerror(error));
+  if (S_ISDIR(info.st_mode)) return ZP_OK;
+  return zp_fail(err, ZP_MACHINE, "cannot write results to %s: it is a file, not a folder", path);
+}
+
 static ZpStatus cannot_write(const char *path, int error, ZpError *err) {
   return zp_fail(err, ZP_MACHINE, "cannot write %s: %s", path, strerror(error));
 }

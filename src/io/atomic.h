@@ -44,6 +44,9 @@ ZpStatus zp_atomic_clean(const char *directory, ZpError *err);
 /* Remove the file `name` of an earlier report, if it exists. */
 ZpStatus zp_remove_file(const char *directory, const char *name, ZpError *err);
 
+/* Create a folder, unless it exists. */
+ZpStatus zp_make_folder(const char *path, ZpError *err);
+
 /* "directory/name", to be freed by the caller; NULL if there is no memory. */
 char *zp_path_join(const char *directory, const char *name);
 

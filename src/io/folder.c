@@ -1,8 +1,6 @@
 /* A folder for results, held by one run at a time. */
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include <zipact/io.h>
 
@@ -16,24 +14,15 @@ struct ZpFolder {
   ZpLock *lock;
 };
 
-static ZpStatus make_one(const char *path, ZpError *err) {
-  struct stat info;
-  if (mkdir(path, 0777) == 0) return ZP_OK;
-  int error = errno;
-  if (stat(path, &info) != 0) return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", path, strerror(error));
-  if (S_ISDIR(info.st_mode)) return ZP_OK;
-  return zp_fail(err, ZP_MACHINE, "cannot write results to %s: it is a file, not a folder", path);
-}
-
 /* Create every folder of the path, from the first on. `path` is modified and restored on the way. */
 static ZpStatus make_all(char *path, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (char *slash = strchr(path + 1, '/'); slash && status == ZP_OK; slash = strchr(slash + 1, '/')) {
     *slash = 0;
-    status = make_one(path, err);
+    status = zp_make_folder(path, err);
     *slash = '/';
   }
-  return status == ZP_OK ? make_one(path, err) : status;
+  return status == ZP_OK ? zp_make_folder(path, err) : status;
 }
 
 static ZpStatus make_folders(const char *directory, ZpError *err) {

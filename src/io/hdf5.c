@@ -287,7 +287,7 @@ static void put_columns(Store *store, hid_t group, Columns *c) {
 static void put_table(Store *store, const ZpReport *report) {
   Columns *c = calloc(1, sizeof *c);
   hid_t group = open_group(store, store->file, "table");
-  if (c && zp_cases_open(report, &c->cases)) {
+  if (c && zp_cases_open(report, NULL, &c->cases)) {
     c->set = calloc(c->cases.columns + 1, sizeof *c->set);
     c->value = calloc((c->cases.columns + 1) * BLOCK, sizeof *c->value);
   }

@@ -15,51 +15,34 @@
 
 /* -- columns --------------------------------------------------------------------------------------- */
 
-/* Add a number to column `i`, if it is one. */
-static void add_number(ZpPlot *plot, size_t i, double value) {
-  ZpPlotColumn *column = &plot->column[i];
-  if (!isfinite(value)) return;
-  column->low = fmin(column->low, value);
-  column->high = fmax(column->high, value);
-  column->count++;
-}
-
-/* Append a column. The key that a column shows is the one whose column has the same name. */
-static void add_column(ZpPlot *plot, const char *name, const char *unit, const char *help) {
-  ZpPlotColumn column = {.unit = unit, .help = help, .key = zp_key_count() - 1, .low = NAN, .high = NAN};
-  for (; column.key >= 0; column.key--) {
-    zp_key_column(column.key, column.name, sizeof column.name);
-    if (strcmp(column.name, name) == 0) break;
-  }
-  snprintf(column.name, sizeof column.name, "%s", name);
-  plot->column[plot->columns++] = column;
-}
-
-/* False if there is no memory. */
-static bool add_series(ZpPlot *plot, const ZpTable *table) {
-  plot->column = calloc(table->columns + 1, sizeof *plot->column);
-  for (size_t i = 0; plot->column && i < table->columns; i++) {
-    add_column(plot, table->column[i].name, table->column[i].unit, table->column[i].help);
-    for (size_t row = 0; row < table->rows; row++)
-      add_number(plot, i, table->value[row * table->columns + i]);
-  }
-  return plot->column != NULL;
-}
-
-/* False if there is no memory. */
-static bool add_cases(ZpPlot *plot) {
+/* The columns of table.csv, or of a series. The key that a column shows is the one whose column has the same name. */
+static ZpStatus add_columns(ZpPlot *plot, const ZpTable *series, ZpError *err) {
   ZpCases cases;
-  const bool open = zp_cases_open(plot->report, &cases);
+  const bool open = zp_cases_open(plot->report, series, &cases);
   if (open) plot->column = calloc(cases.columns + 1, sizeof *plot->column);
-  for (size_t i = 0; plot->column && i < cases.columns; i++)
-    add_column(plot, cases.column[i].name, cases.column[i].unit, "");
-  for (size_t run = 0; plot->column && run < plot->report->count; run++) {
-    zp_cases_read(&cases, run);
-    for (size_t i = 0; i < plot->columns; i++)
-      add_number(plot, i, cases.value[i]);
+  for (; plot->column && plot->columns < cases.columns; plot->columns++) {
+    const ZpCaseColumn *from = &cases.column[plot->columns];
+    ZpPlotColumn column = {
+        .unit = from->unit, .help = series ? from->help : "", .key = zp_key_count() - 1, .low = NAN, .high = NAN};
+    for (; column.key >= 0; column.key--) {
+      zp_key_column(column.key, column.name, sizeof column.name);
+      if (strcmp(column.name, from->name) == 0) break;
+    }
+    memcpy(column.name, from->name, sizeof column.name);
+    plot->column[plot->columns] = column;
+  }
+  for (size_t row = 0; plot->column && row < cases.rows; row++) {
+    zp_cases_read(&cases, row);
+    for (size_t i = 0; i < plot->columns; i++) {
+      ZpPlotColumn *column = &plot->column[i];
+      if (!isfinite(cases.value[i])) continue;
+      column->low = fmin(column->low, cases.value[i]);
+      column->high = fmax(column->high, cases.value[i]);
+      column->count++;
+    }
   }
   zp_cases_close(&cases);
-  return plot->column != NULL;
+  return plot->column ? ZP_OK : zp_fail_memory(err);
 }
 
 const ZpPlotColumn *zp_plot_column(const ZpPlot *plot, const char *name) {
@@ -77,8 +60,7 @@ ZpStatus zp_plot_open(const ZpReport *report, ZpPlot *plot, ZpError *err) {
   plot->study = first->study;
   plot->axis = zp_scenario_axes(report->scenario, &plot->axes);
   const bool of_cases = !plot->single && zp_study_shows(plot->study) != ZP_SHOWS_fit;
-  const bool done = of_cases ? add_cases(plot) : !first->series || add_series(plot, first->series);
-  return done ? ZP_OK : zp_fail_memory(err);
+  return of_cases || first->series ? add_columns(plot, of_cases ? NULL : first->series, err) : ZP_OK;
 }
 
 /* -- result.gp ------------------------------------------------------------------------------------- */

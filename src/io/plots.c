@@ -17,11 +17,9 @@
  *   !voltage_V    the rest does not hold
  *
  * The numbers matter more than a picture: they are on the disk before gnuplot runs. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/fail.h"
 #include "io/atomic.h"
@@ -36,15 +34,6 @@ enum { DRAWN_MOST = 10000, PICTURES_MOST = 100, WORDS_SIZE = 512 };
 
 /* -- conditions ------------------------------------------------------------------------------------ */
 
-static bool has_design(const ZpPlot *plot) {
-  return zp_scenario_design(plot->report->scenario) != NULL;
-}
-
-/* Are there runs to draw against the list key that varies fastest: no samples, no optimisation? */
-static bool has_axis(const ZpPlot *plot) {
-  return plot->axes > 0 && !has_design(plot) && !plot->report->optimum;
-}
-
 /* Do the values of a list key increase or decrease, three at least? A surface needs this. */
 static bool is_surface(const ZpPlot *plot, size_t axis) {
   size_t count;
@@ -52,32 +41,6 @@ static bool is_surface(const ZpPlot *plot, size_t axis) {
   for (size_t i = 0; i + 1 < count; i++)
     if (!((value[i + 1] - value[i]) * (value[1] - value[0]) > 0)) return false;
   return count > 2;
-}
-
-static bool has_grid(const ZpPlot *plot, size_t axes) {
-  return has_axis(plot) && plot->axes == axes && plot->report->count == zp_scenario_count(plot->report->scenario) &&
-         is_surface(plot, axes - 2) && is_surface(plot, axes - 1);
-}
-
-static bool has_plane(const ZpPlot *plot) {
-  return has_grid(plot, 2);
-}
-
-static bool has_planes(const ZpPlot *plot) {
-  return has_grid(plot, 3);
-}
-
-/* Three list keys that vary, or two that are drawn or optimised. */
-static bool has_lines(const ZpPlot *plot) {
-  size_t keys = 0;
-  for (size_t i = 0; i < plot->columns; i++)
-    keys += plot->column[i].key >= 0 && plot->column[i].high > plot->column[i].low;
-  return plot->report->count > 2 && keys >= (has_axis(plot) ? 3 : 2);
-}
-
-static bool has_front(const ZpPlot *plot) {
-  const ZpOptimum *optimum = plot->report->optimum;
-  return optimum && optimum->objectives > 1 && optimum->count > 1;
 }
 
 /* Pairs of a column that was set and a column of measurements. */
@@ -91,26 +54,32 @@ static size_t count_panels(const ZpPlot *plot) {
   return set * measured;
 }
 
-static bool has_panel(const ZpPlot *plot) {
-  return count_panels(plot) == 1;
-}
-
-static bool has_panels(const ZpPlot *plot) {
-  return count_panels(plot) > 1;
-}
-
-static const struct {
-  const char *name;
-  bool (*holds)(const ZpPlot *plot);
-} flag[] = {{"samples", has_design}, {"axis", has_axis},   {"plane", has_plane}, {"planes", has_planes},
-            {"lines", has_lines},    {"front", has_front}, {"panel", has_panel}, {"panels", has_panels}};
-
-/* Does a data file have rows? */
+/* Does a data file have rows, or one of these facts hold? */
 static bool has_flag(const ZpPlot *plot, const char *name) {
+  const ZpOptimum *optimum = plot->report->optimum;
+  const bool samples = zp_scenario_design(plot->report->scenario) != NULL;
+  /* runs to draw against the list key that varies fastest, and all of them for a surface over two or three keys */
+  const bool axis = plot->axes > 0 && !samples && !optimum;
+  const bool grid = axis && plot->axes > 1 && plot->report->count == zp_scenario_count(plot->report->scenario) &&
+                    is_surface(plot, plot->axes - 2) && is_surface(plot, plot->axes - 1);
+  size_t varied = 0;
+  for (size_t i = 0; i < plot->columns; i++)
+    varied += plot->column[i].key >= 0 && plot->column[i].high > plot->column[i].low;
+  const struct {
+    const char *name;
+    bool holds;
+  } flag[] = {{"samples", samples},
+              {"axis", axis},
+              {"plane", grid && plot->axes == 2},
+              {"planes", grid && plot->axes == 3},
+              {"lines", plot->report->count > 2 && varied >= (axis ? 3 : 2)}, /* two that are drawn or optimised */
+              {"front", optimum && optimum->objectives > 1 && optimum->count > 1},
+              {"panel", count_panels(plot) == 1},
+              {"panels", count_panels(plot) > 1}};
   for (const ZpPlotData *data = zp_plot_data; data->name; data++)
     if (strcmp(data->name, name) == 0) return data->has(plot);
   for (size_t i = 0; i < sizeof flag / sizeof flag[0]; i++)
-    if (strcmp(flag[i].name, name) == 0) return flag[i].holds(plot);
+    if (strcmp(flag[i].name, name) == 0) return flag[i].holds;
   return false;
 }
 
@@ -199,10 +168,8 @@ static ZpStatus remove_all(const ZpDrawing *drawing, ZpError *err) {
 static ZpStatus write_all(const ZpDrawing *drawing, const ZpPlot *plot, ZpError *err) {
   ZpPicture list[PICTURES_MOST];
   const size_t count = list_pictures(plot, list);
-  ZpStatus status = ZP_OK;
-  if (mkdir(drawing->folder, 0777) != 0 && errno != EEXIST)
-    return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", drawing->folder, strerror(errno));
-  if (count > 0) status = zp_drawing_file(drawing, "result.gp", zp_plot_define, plot, err);
+  ZpStatus status = zp_make_folder(drawing->folder, err);
+  if (count > 0 && status == ZP_OK) status = zp_drawing_file(drawing, "result.gp", zp_plot_define, plot, err);
   for (const ZpPlotData *data = zp_plot_data; data->name && count > 0 && status == ZP_OK; data++)
     if (data->has(plot)) status = zp_drawing_file(drawing, data->name, data->put, plot, err);
   for (size_t i = 0; i < count && status == ZP_OK; i++)

@@ -37,6 +37,12 @@ const char *zp_report_study(const ZpReport *report) {
   return zp_study_name(report->count > 0 ? zp_report_result(report, 0)->study : zp_scenario_study(report->scenario));
 }
 
+static void add_column(ZpCases *cases, const char *name, const char *unit, const char *help) {
+  ZpCaseColumn *column = &cases->column[cases->columns++];
+  *column = (ZpCaseColumn){.unit = unit, .help = help};
+  snprintf(column->name, sizeof column->name, "%s", name);
+}
+
 /* Append the scalars of a result that are no columns yet. False if there is no memory. */
 static bool add_scalars(ZpCases *cases, const ZpResult *result) {
   ZpCaseColumn *column = realloc(cases->column, (cases->columns + result->scalars + 1) * sizeof *column);
@@ -48,24 +54,27 @@ static bool add_scalars(ZpCases *cases, const ZpResult *result) {
     while (known < cases->columns && strcmp(column[known].name, scalar->name) != 0)
       known++;
     if (scalar->timing || known < cases->columns) continue;
-    column[cases->columns] = (ZpCaseColumn){.unit = scalar->unit};
-    snprintf(column[cases->columns++].name, sizeof column->name, "%s", scalar->name);
+    add_column(cases, scalar->name, scalar->unit, NULL);
   }
   return true;
 }
 
-bool zp_cases_open(const ZpReport *report, ZpCases *cases) {
-  *cases = (ZpCases){.report = report};
+bool zp_cases_open(const ZpReport *report, const ZpTable *series, ZpCases *cases) {
+  *cases = (ZpCases){.report = report, .series = series, .rows = series ? series->rows : report->count};
   const int *key = zp_scenario_lists(report->scenario, &cases->keys);
-  cases->column = calloc(cases->keys + 1, sizeof *cases->column);
+  if (series) cases->keys = 0;
+  const size_t first = series ? series->columns : cases->keys;
+  cases->column = calloc(first + 1, sizeof *cases->column);
   bool done = cases->column != NULL;
-  for (; done && cases->columns < cases->keys; cases->columns++) {
-    ZpCaseColumn *column = &cases->column[cases->columns];
-    zp_key_column(key[cases->columns], column->name, sizeof column->name);
-    column->unit = zp_key(key[cases->columns])->unit;
-    column->help = zp_key(key[cases->columns])->help;
+  for (size_t i = 0; done && i < first; i++) {
+    char name[ZP_KEY_COLUMN_SIZE];
+    if (!series) zp_key_column(key[i], name, sizeof name);
+    if (series)
+      add_column(cases, series->column[i].name, series->column[i].unit, series->column[i].help);
+    else
+      add_column(cases, name, zp_key(key[i])->unit, zp_key(key[i])->help);
   }
-  for (size_t i = 0; i < report->count && done; i++)
+  for (size_t i = 0; i < report->count && done && !series; i++)
     done = add_scalars(cases, zp_report_result(report, i));
   cases->value = done ? calloc(cases->columns + 1, sizeof *cases->value) : NULL;
   return cases->value != NULL;
@@ -76,9 +85,13 @@ void zp_cases_close(ZpCases *cases) {
   free(cases->value);
 }
 
-const ZpResult *zp_cases_read(const ZpCases *cases, size_t run) {
-  const ZpResult *result = zp_report_result(cases->report, run);
-  zp_scenario_values(cases->report->scenario, run, cases->value);
+const ZpResult *zp_cases_read(const ZpCases *cases, size_t row) {
+  if (cases->series) {
+    memcpy(cases->value, zp_table_row(cases->series, row), cases->columns * sizeof *cases->value);
+    return NULL;
+  }
+  const ZpResult *result = zp_report_result(cases->report, row);
+  zp_scenario_values(cases->report->scenario, row, cases->value);
   for (size_t i = 0; i < cases->columns - cases->keys; i++) {
     const char *name = cases->column[cases->keys + i].name;
     const bool here = i < result->scalars && strcmp(result->scalar[i].name, name) == 0; /* in most results */

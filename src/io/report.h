@@ -27,21 +27,24 @@ typedef struct ZpCaseColumn {
   const char *unit, *help; /* help NULL: none */
 } ZpCaseColumn;
 
-/* The table of all runs of a report: first the swept keys, where a choice is the number of its word, then the scalars
- * of all runs, in the order of the summary, except those that depend on wall time. */
+/* A table of results. Of all runs of a report, with a row per run: first the swept keys, where a choice is the number
+ * of its word, then the scalars of all runs, in the order of the summary, except those that depend on wall time. Or the
+ * series of one run. */
 typedef struct ZpCases {
   const ZpReport *report;
-  size_t keys, columns;
+  const ZpTable *series; /* NULL: of all runs */
+  size_t keys, columns, rows;
   ZpCaseColumn *column; /* [columns] */
   double *value;        /* [columns] of the row that was read last */
 } ZpCases;
 
-/* False if there is no memory. To be closed in every case. */
-bool zp_cases_open(const ZpReport *report, ZpCases *cases);
+/* `series`: of one run, NULL for all runs. False if there is no memory. To be closed in every case. */
+bool zp_cases_open(const ZpReport *report, const ZpTable *series, ZpCases *cases);
 void zp_cases_close(ZpCases *cases);
 
-/* Read row `run`; NAN for a number that the run does not have. => its result, valid until the next call */
-const ZpResult *zp_cases_read(const ZpCases *cases, size_t run);
+/* Read row `row`; NAN for a number that the run does not have. => its result, valid until the next call; NULL of a
+ * series. */
+const ZpResult *zp_cases_read(const ZpCases *cases, size_t row);
 
 /* The numbers of a shape: of every node of each ribbon, or of every station. */
 typedef struct ZpShapeArray {

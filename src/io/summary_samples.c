@@ -101,7 +101,7 @@ void zp_sample_statistics(ZpJson *json, const ZpReport *report) {
   s.value = calloc(COLUMNS * s.count, sizeof *s.value);
   s.work = calloc(s.count, sizeof *s.work);
   s.indices = calloc((size_t)design->dimensions, sizeof *s.indices);
-  json->bad |= !zp_cases_open(report, &s.cases) || !s.value || !s.work || !s.indices;
+  json->bad |= !zp_cases_open(report, NULL, &s.cases) || !s.value || !s.work || !s.indices;
   zp_json_open(json, "statistics", '[');
   for (size_t start = 0; start + s.count <= report->count && !json->bad; start += s.count)
     put_combination(json, &s, start);

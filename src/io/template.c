@@ -7,7 +7,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <zipact/io.h>
@@ -127,9 +126,7 @@ static ZpStatus write_one(const char *folder, const ZpTemplate *one, ZpError *er
 }
 
 ZpStatus zp_templates_write(const char *folder, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-    status = zp_fail(err, ZP_MACHINE, "%s: cannot be created: %s", folder, strerror(errno));
+  ZpStatus status = zp_make_folder(folder, err);
   for (const ZpTemplate *one = zp_templates; one->name && status == ZP_OK; one++)
     status = write_one(folder, one, err);
   return status;

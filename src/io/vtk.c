@@ -7,7 +7,6 @@
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "base/fail.h"
 #include "base/table.h"
@@ -26,100 +25,118 @@
 /* Those of a shape that are no positions. */
 static const ZpShapeArray *const data_arrays = &zp_shape_arrays[2];
 
-/* Arrays of a frame in the order of their bytes; the offset increases from one to the next. */
-typedef struct Layout {
-  size_t ribbons, nodes, points;
-  size_t lines; /* number of ribbons of all members */
-  uint64_t offset;
-} Layout;
+/* A file: XML that declares arrays, and their bytes, which follow it and are collected meanwhile. */
+typedef struct Vtk {
+  FILE *file, *bytes; /* bytes NULL: there was no memory */
+  char *collected;
+  size_t size;
+} Vtk;
 
-static void declare(FILE *file, Layout *layout, const char *type, const char *name, int components, size_t bytes) {
-  fprintf(
-      file,
-      "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n",
-      type, name, components, (unsigned long long)layout->offset);
-  layout->offset += sizeof(uint64_t) + bytes;
+static void put_int(const Vtk *vtk, size_t value) {
+  int64_t number = (int64_t)value;
+  fwrite(&number, sizeof number, 1, vtk->bytes);
 }
 
-static void write_head(FILE *file, const ZpShape *shape, Layout *l) {
-  fprintf(file,
-          "<?xml version=\"1.0\"?>\n"
-          "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n"
+static void put_reals(const Vtk *vtk, const double *value, size_t count) {
+  fwrite(value, sizeof *value, count, vtk->bytes);
+}
+
+/* Declare an array of `count` points, cells or lines; its numbers, of 8 bytes each, are put next. */
+static void begin_array(const Vtk *vtk, const char *type, const char *name, int components, size_t count) {
+  fprintf(vtk->file,
+          "        <DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%ld\"/>\n",
+          type, name, components, ftell(vtk->bytes));
+  put_int(vtk, 8 * (size_t)components * count);
+}
+
+/* A value of each node, ribbon after ribbon; that of a pair of nodes once for each ribbon. */
+static void put_values(const Vtk *vtk, const ZpShapes *film, const ZpShapeArray *array, const double *value) {
+  begin_array(vtk, "Float64", array->name, 1, film->ribbons * film->nodes);
+  for (size_t r = 0; r < film->ribbons; r++)
+    for (size_t i = 0; i < film->nodes; i++)
+      put_reals(vtk, &value[array->of_nodes ? i * film->ribbons + r : i], 1);
+}
+
+/* A polyline per ribbon. Points are written ribbon after ribbon, so that each polyline has consecutive numbers. */
+static void put_frame(const Vtk *vtk, const ZpShape *shape, const ZpShapes *film) {
+  const size_t ribbons = film->ribbons, nodes = film->nodes, points = ribbons * nodes, lines = ribbons * film->members;
+  fprintf(vtk->file,
           "  <PolyData>\n"
           "    <Piece NumberOfPoints=\"%zu\" NumberOfVerts=\"0\" NumberOfLines=\"%zu\" NumberOfStrips=\"0\" "
           "NumberOfPolys=\"0\">\n"
           "      <PointData>\n",
-          l->points, l->lines);
-  declare(file, l, "Int64", "ribbon", 1, l->points * sizeof(int64_t));
+          points, lines);
+  begin_array(vtk, "Int64", "ribbon", 1, points);
+  for (size_t i = 0; i < points; i++)
+    put_int(vtk, i / nodes);
   for (const ZpShapeArray *array = data_arrays; array->name; array++)
-    if (zp_shape_array(shape, array)) declare(file, l, "Float64", array->name, 1, l->points * sizeof(double));
-  fputs("      </PointData>\n      <Points>\n", file);
-  declare(file, l, "Float64", "Points", 3, 3 * l->points * sizeof(double));
-  fputs("      </Points>\n      <Lines>\n", file);
-  declare(file, l, "Int64", "connectivity", 1, l->points * sizeof(int64_t));
-  declare(file, l, "Int64", "offsets", 1, l->lines * sizeof(int64_t));
-  fputs("      </Lines>\n    </Piece>\n  </PolyData>\n  <AppendedData encoding=\"raw\">\n_", file);
-}
-
-static void put_length(FILE *file, size_t bytes) {
-  uint64_t length = bytes;
-  fwrite(&length, sizeof length, 1, file);
-}
-
-static void put_int(FILE *file, size_t value) {
-  int64_t number = (int64_t)value;
-  fwrite(&number, sizeof number, 1, file);
-}
-
-/* A value of each node, ribbon after ribbon; that of a pair of nodes once for each ribbon. */
-static void put_values(FILE *file, const Layout *l, bool of_nodes, const double *value) {
-  if (!value) return;
-  put_length(file, l->points * sizeof(double));
-  for (size_t r = 0; r < l->ribbons; r++)
-    for (size_t i = 0; i < l->nodes; i++)
-      fwrite(&value[of_nodes ? i * l->ribbons + r : i], sizeof *value, 1, file);
-}
-
-/* Points are written ribbon after ribbon, so that each polyline has consecutive numbers. */
-static void put_points(FILE *file, const Layout *l, const ZpShape *shape) {
-  put_length(file, 3 * l->points * sizeof(double));
-  for (size_t r = 0; r < l->ribbons; r++)
-    for (size_t i = 0; i < l->nodes; i++) {
-      const double point[3] = {shape->x[i * l->ribbons + r], shape->y[i * l->ribbons + r], 0};
-      fwrite(point, sizeof *point, 3, file);
-    }
-}
-
-static void write_frame(FILE *file, const ZpShape *shape, const ZpShapes *film) {
-  size_t ribbons = film->ribbons, nodes = film->nodes, lines = ribbons * film->members;
-  Layout l = {.ribbons = ribbons, .nodes = nodes, .points = ribbons * nodes, .lines = lines};
-  write_head(file, shape, &l);
-  put_length(file, l.points * sizeof(int64_t));
-  for (size_t i = 0; i < l.points; i++)
-    put_int(file, i / nodes);
-  for (const ZpShapeArray *array = data_arrays; array->name; array++)
-    put_values(file, &l, array->of_nodes, zp_shape_array(shape, array));
-  put_points(file, &l, shape);
-  put_length(file, l.points * sizeof(int64_t));
-  for (size_t i = 0; i < l.points; i++)
-    put_int(file, i);
-  put_length(file, lines * sizeof(int64_t));
+    if (zp_shape_array(shape, array)) put_values(vtk, film, array, zp_shape_array(shape, array));
+  fputs("      </PointData>\n      <Points>\n", vtk->file);
+  begin_array(vtk, "Float64", "Points", 3, points);
+  for (size_t r = 0; r < ribbons; r++)
+    for (size_t i = 0; i < nodes; i++)
+      put_reals(vtk, (const double[]){shape->x[i * ribbons + r], shape->y[i * ribbons + r], 0}, 3);
+  fputs("      </Points>\n      <Lines>\n", vtk->file);
+  begin_array(vtk, "Int64", "connectivity", 1, points);
+  for (size_t i = 0; i < points; i++)
+    put_int(vtk, i);
+  begin_array(vtk, "Int64", "offsets", 1, lines);
   for (size_t line = 0; line < lines; line++)
-    put_int(file, (line + 1) * (l.points / lines));
-  fputs("\n  </AppendedData>\n</VTKFile>\n", file);
+    put_int(vtk, (line + 1) * (points / lines));
+  fputs("      </Lines>\n    </Piece>\n  </PolyData>\n", vtk->file);
+}
+
+/* The first index of VTK varies fastest: ours runs across the ribbons. */
+static void put_map(const Vtk *vtk, const ZpFieldMap *map) {
+  const size_t points = map->nx * map->ny, cells = (map->nx - 1) * (map->ny - 1);
+  fprintf(vtk->file,
+          "  <StructuredGrid WholeExtent=\"0 %zu 0 %zu 0 0\">\n    <Piece Extent=\"0 %zu 0 %zu 0 0\">\n      "
+          "<PointData>\n",
+          map->ny - 1, map->nx - 1, map->ny - 1, map->nx - 1);
+  begin_array(vtk, "Float64", "potential", 1, points);
+  put_reals(vtk, map->potential, points);
+  fputs("      </PointData>\n      <CellData>\n", vtk->file);
+  begin_array(vtk, "Float64", "field_strength", 1, cells);
+  put_reals(vtk, map->strength, cells);
+  begin_array(vtk, "Float64", "permittivity", 1, cells);
+  put_reals(vtk, map->permittivity, cells);
+  fputs("      </CellData>\n      <Points>\n", vtk->file);
+  begin_array(vtk, "Float64", "Points", 3, points);
+  for (size_t k = 0; k < points; k++)
+    put_reals(vtk, (const double[]){map->x[k], map->y[k], 0}, 3);
+  fputs("      </Points>\n    </Piece>\n  </StructuredGrid>\n", vtk->file);
+}
+
+/* Write a frame of a film, or a map if `shape` is NULL. */
+static ZpStatus write_vtk(const char *folder, const char *name, const ZpShape *shape, const ZpShapes *film,
+                          const ZpFieldMap *map, ZpError *err) {
+  ZpAtomic out;
+  Vtk vtk = {.collected = NULL};
+  ZpStatus status = zp_atomic_open(&out, folder, name, err);
+  if (status != ZP_OK) return status;
+  vtk.file = out.file;
+  vtk.bytes = open_memstream(&vtk.collected, &vtk.size);
+  fprintf(vtk.file,
+          "<?xml version=\"1.0\"?>\n"
+          "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n",
+          shape ? "PolyData" : "StructuredGrid");
+  if (vtk.bytes && shape) put_frame(&vtk, shape, film);
+  if (vtk.bytes && !shape) put_map(&vtk, map);
+  if (!vtk.bytes || fclose(vtk.bytes) != 0) status = zp_fail_memory(err);
+  fputs("  <AppendedData encoding=\"raw\">\n_", vtk.file);
+  fwrite(vtk.collected, 1, vtk.size, vtk.file);
+  fputs("\n  </AppendedData>\n</VTKFile>\n", vtk.file);
+  free(vtk.collected);
+  return zp_atomic_finish(&out, status, err);
 }
 
 static ZpStatus write_frames(const char *folder, const ZpShapes *shapes, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < shapes->frames && status == ZP_OK; i++) {
-    ZpAtomic out;
     char name[64];
     snprintf(name, sizeof name, "shape_%04zu.vtp", i);
-    status = zp_atomic_open(&out, folder, name, err);
-    if (status != ZP_OK) break;
     const ZpShape shape = zp_shapes_get(shapes, i);
-    write_frame(out.file, &shape, shapes);
-    status = zp_atomic_commit(&out, err);
+    status = write_vtk(folder, name, &shape, shapes, NULL, err);
   }
   return status;
 }
@@ -165,53 +182,9 @@ static ZpStatus write_shapes(const ZpReport *report, const ZpShapes *shapes, con
   ZpStatus status = zp_remove_file(report->directory, "shapes.pvd", err);
   if (status == ZP_OK) status = remove_frames(folder, shapes ? shapes->frames : 0, err);
   if (status != ZP_OK || !shapes) return status;
-  if (mkdir(folder, 0777) != 0 && errno != EEXIST)
-    return zp_fail(err, ZP_MACHINE, "cannot create the folder %s: %s", folder, strerror(errno));
-  status = write_frames(folder, shapes, err);
+  status = zp_make_folder(folder, err);
+  if (status == ZP_OK) status = write_frames(folder, shapes, err);
   return status == ZP_OK ? write_collection(report, shapes, err) : status;
-}
-
-/* -- the field ------------------------------------------------------------------------------------- */
-
-static void put_array(FILE *file, const double *value, size_t count) {
-  put_length(file, count * sizeof(double));
-  fwrite(value, sizeof *value, count, file);
-}
-
-/* The first index of VTK varies fastest: ours runs across the ribbons. */
-static void write_map(FILE *file, const ZpFieldMap *map) {
-  Layout l = {.points = map->nx * map->ny};
-  size_t cells = (map->nx - 1) * (map->ny - 1);
-  fprintf(file,
-          "<?xml version=\"1.0\"?>\n"
-          "<VTKFile type=\"StructuredGrid\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME
-          "\" header_type=\"UInt64\">\n"
-          "  <StructuredGrid WholeExtent=\"0 %zu 0 %zu 0 0\">\n    <Piece Extent=\"0 %zu 0 %zu 0 0\">\n      "
-          "<PointData>\n",
-          map->ny - 1, map->nx - 1, map->ny - 1, map->nx - 1);
-  declare(file, &l, "Float64", "potential", 1, l.points * sizeof(double));
-  fputs("      </PointData>\n      <CellData>\n", file);
-  declare(file, &l, "Float64", "field_strength", 1, cells * sizeof(double));
-  declare(file, &l, "Float64", "permittivity", 1, cells * sizeof(double));
-  fputs("      </CellData>\n      <Points>\n", file);
-  declare(file, &l, "Float64", "Points", 3, 3 * l.points * sizeof(double));
-  fputs("      </Points>\n    </Piece>\n  </StructuredGrid>\n  <AppendedData encoding=\"raw\">\n_", file);
-  put_array(file, map->potential, l.points);
-  put_array(file, map->strength, cells);
-  put_array(file, map->permittivity, cells);
-  put_length(file, 3 * l.points * sizeof(double));
-  for (size_t k = 0; k < l.points; k++)
-    fwrite((const double[]){map->x[k], map->y[k], 0}, sizeof(double), 3, file);
-  fputs("\n  </AppendedData>\n</VTKFile>\n", file);
-}
-
-static ZpStatus write_field(const ZpReport *report, const ZpFieldMap *map, ZpError *err) {
-  ZpAtomic out;
-  if (!map) return zp_remove_file(report->directory, "field.vts", err);
-  ZpStatus status = zp_atomic_open(&out, report->directory, "field.vts", err);
-  if (status != ZP_OK) return status;
-  write_map(out.file, map);
-  return zp_atomic_commit(&out, err);
 }
 
 ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
@@ -221,5 +194,7 @@ ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
   if (!folder) return zp_fail_memory(err);
   ZpStatus status = write_shapes(report, shapes, folder, err);
   free(folder);
-  return status == ZP_OK ? write_field(report, single ? single->map : NULL, err) : status;
+  if (status != ZP_OK) return status;
+  if (!single || !single->map) return zp_remove_file(report->directory, "field.vts", err);
+  return write_vtk(report->directory, "field.vts", NULL, NULL, single->map, err);
 }
