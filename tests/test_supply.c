@@ -692,3 +692,88 @@ TESTS(supply_gives_what_a_solved_field_holds, 0, 2) {
   zp_sim_destroy(sim);
   zp_model_destroy(model);
 }
+
+/* -- several members -------------------------------------------------------------------------------- */
+
+#define SIDE_BY_SIDE                                                                                                   \
+  {"stack.parallel", 2}, {                                                                                             \
+    "member_2.insulator.thickness", 200e-6                                                                             \
+  }
+#define IN_SERIES                                                                                                      \
+  {"stack.series", 2}, {                                                                                               \
+    "member_2.insulator.thickness", 200e-6                                                                             \
+  }
+#define ANTAGONISTS                                                                                                    \
+  {"stack.series", 2}, {                                                                                               \
+    "stack.distance", 20e-3                                                                                            \
+  }
+
+/* At rest under a small voltage members are capacitors. Eq. (23.8): a member with a share r of the voltage counts with
+ * r^2. */
+TESTS(members_charge_as_one_capacitor, 0, 3) {
+  static const Setting with[][3] = {
+      {SIDE_BY_SIDE, {"gravity", 9.81}}, {IN_SERIES, {"gravity", 9.81}}, {ANTAGONISTS, {"stack.voltage_ratio", 0.4}}};
+  static const double share[] = {1, 1, 0.5 * (1 + 0.4 * 0.4)};
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"gravity", 0}, {"source.model", ZP_SOURCE_AMPLIFIER},
+                          {"source.resistance", 1e8}, {"source.capacitance", 1e-12}, {"drive.voltage", V},
+                          {"solver.tolerance", 7e-5}, with[_i][0], with[_i][1], with[_i][2]);
+  Charging c = {.model = model_of(&def)};
+  c.sim = sim_of(c.model);
+  c.C = share[_i] * zp_sim_get(c.sim, "capacitance") + def.source.capacitance;
+  ck_below(worst_error(&c, 0.25 * 1e8 * c.C, exponential), 2.8e-7); /* 9.4e-8 measured */
+  ck_near(zp_sim_currents(c.sim, 1).peak, V / 1e8, 1e-15);          /* 0 measured */
+  end_charging(&c);
+}
+
+static const Setting behind[][2] = {{{"source.slew_rate", 1e6}, {"source.bandwidth", 200}},
+                                    {{"source.current_limit", 20e-6}, {"source.bleeder", 1e10}},
+                                    {{"source.resistance", 1e7}, {"source.capacitance", 100e-12}}};
+
+/* Equal members side by side behind each kind of supply are as one with a multiplicity. */
+TESTS(equal_members_behind_a_supply_are_one, 0, 3) {
+  static const char *const name[] = {"opening_m", "source_energy_J", "peak_current_A", "rms_current_A",
+                                     "max_stress_Pa"};
+  ZpActuatorDef all = DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"solver.end_time", 15e-3},
+                          {"load.mass", 16e-3}, {"drive.voltage", 6e3}, {"source.model", ZP_SOURCE_AMPLIFIER},
+                          {"stack.parallel", 2}, behind[_i][0], behind[_i][1]);
+  ZpActuatorDef equal = all;
+  all.member_1.ribbon.thickness = nextafter(all.ribbon.thickness, 1);
+  ZpResult *system = answer_of(ZP_STUDY_ACTUATE, &all), *one = answer_of(ZP_STUDY_ACTUATE, &equal);
+  for (size_t k = 0; k < LENGTH_OF(name); k++)
+    ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 3.5e-10); /* 1.2e-10 measured */
+  zp_result_destroy(system);
+  zp_result_destroy(one);
+}
+
+/* Unlike members on one supply: its charge is the sum of what they and the cable hold, and its energy is stored, does
+ * work, or is heat. The lower one of two antagonists has its own share of the voltage, or a constant source. */
+TESTS(unlike_members_share_a_supply, 0, 12) {
+  static const Setting with[][3] = {{SIDE_BY_SIDE, {"stack.series", 1}},
+                                    {IN_SERIES, {"stack.link_mass", 0.5e-3}},
+                                    {ANTAGONISTS, {"stack.voltage_ratio", 0.4}},
+                                    {ANTAGONISTS, {"stack.lower_voltage", 1e3}}};
+  const Setting *stack = with[_i % 4], *supply = behind[_i / 4];
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"liquid.model", ZP_LIQUID_NONE}, {"load.mass", 3e-3},
+                          {"drive.voltage", 6e3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"solver.tolerance", 1e-4},
+                          stack[0], stack[1], stack[2], supply[0], supply[1]);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  double start = books_of(sim).mechanical, off = 0;
+  for (int i = 0; i < 20; i++) {
+    ck_assert(zp_outcome_good(zp_sim_run(sim, 3e-3 * (i + 1), false, NULL, NULL)));
+    Books b = books_of(sim);
+    off = fmax(off, fabs(b.given - b.stored - (b.mechanical - start) - b.heat));
+  }
+  ck_below(off / zp_sim_get(sim, "source_energy"), 1.2e-8); /* 4.1e-9 measured */
+  double charge = def.source.capacitance * sim->state->U;
+  for (size_t k = 0; k < 2; k++) {
+    ZpState *state = sim[k].state;
+    charge +=
+        zp_source_share(sim[k].model) * zp_system_electric_now(sim[k].model, state, state->U, &sim[k].eval).charge;
+    ck_near(state->U, zp_member_voltage(sim[k].model, sim->state->U), 1e-15); /* 0 measured */
+  }
+  if (isnan(def.source.bleeder) && _i % 4 != 3)
+    ck_near(sim->state->source_charge, charge, 4e-15); /* 1.3e-15 measured */
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+}

@@ -733,6 +733,7 @@ static ZpStatus fill_one(const ZpActuatorDef *def, const ZpDriveTable *table, bo
                          ZpError *err) {
   size_t rows = table ? table->rows : 0;
   model->def = model->whole = *def;
+  model->ratio = 1;
   derive(model);
   if (hangs) zp_topology_hang(&model->topology);
   Arrays arrays;
@@ -781,9 +782,8 @@ static ZpStatus fill_member(const ZpActuatorDef *def, const ZpDriveTable *table,
   if (status != ZP_OK) return status;
   model->whole = *def;
   model->parallel = parallel;
-  if (parallel) model->ratio = 1;
-  if (opposed) {
-    model->distance = def->stack.distance;
+  if (opposed) model->distance = def->stack.distance;
+  if (opposed && member == 2) {
     model->bias = zp_def_lower_voltage(def, 0);
     model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
   }

@@ -137,7 +137,7 @@ struct ZpModel {
   bool parallel;        /* its lower platform is joined to those of the others, side by side */
   double carried;       /* mass of all members and loads below, kg, of the whole actuator */
   double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
-  double ratio, bias;   /* the lower one's voltage: `ratio` times that of the upper one, plus `bias`, V */
+  double ratio, bias;   /* its voltage: `ratio` times that of the source, which the first one has, plus `bias`, V */
 };
 
 /* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
@@ -255,9 +255,14 @@ static inline bool zp_is_antagonist(const ZpModel *model) {
   return model->distance > 0;
 }
 
-/* Voltage of the lower antagonist where the upper one has `voltage`, V. */
-static inline double zp_antagonist_voltage(const ZpModel *model, double voltage) {
+/* Voltage of a member where the first one has `voltage`, V. */
+static inline double zp_member_voltage(const ZpModel *model, double voltage) {
   return model->ratio * voltage + model->bias;
+}
+
+/* Charge that the source gives for a charge on one part of a member, eq. (23.8). */
+static inline double zp_source_share(const ZpModel *model) {
+  return model->ratio * model->parts;
 }
 
 /* Do all members share one load, at the lower platform of each? */

@@ -91,7 +91,7 @@ ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
   ZpMargins worst = zp_margins_none();
   if (model->s == 2) worst = fields_at(model, voltage, 0, 0);
   for (const ZpModel *m = model + 1; m < model + model->members; m++)
-    zp_margins_join(&worst, fields_at(m, zp_shares_load(m) ? zp_antagonist_voltage(m, voltage) : voltage, 0, 0));
+    zp_margins_join(&worst, fields_at(m, zp_member_voltage(m, voltage), 0, 0));
   return worst;
 }
 

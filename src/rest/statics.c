@@ -320,7 +320,7 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
 }
 
 bool zp_statics_bias(ZpStatics *s) {
-  bool biased = s->member->model->bias == 0 || grow(s, put_bias, 1, 0.05);
+  bool biased = s->member[s->members - 1].model->bias == 0 || grow(s, put_bias, 1, 0.05);
   if (biased) s->bias = 1;
   return biased;
 }
@@ -447,8 +447,8 @@ double zp_statics_closed_length(const ZpStatics *s) {
 }
 
 double zp_statics_member_voltage(const ZpStatics *s, size_t which) {
-  const ZpModel *first = s->member->model;
-  return which == 0 || !s->shared ? s->U : first->ratio * s->U + s->bias * first->bias;
+  const ZpModel *model = s->member[which].model;
+  return model->ratio * s->U + s->bias * model->bias;
 }
 
 bool zp_statics_shorted(const ZpStatics *s) {
@@ -1098,8 +1098,8 @@ void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
     ZpSpan span = span_of(s, k);
     ZpByVoltage by = {.force = m->force};
     zp_system_by_voltage(m->model, &span, &m->eval, &by);
-    for (size_t j = 0; k > 0 && s->shared && j < 2 * m->model->stride; j++)
-      m->force[j] *= s->member->model->ratio;
+    for (size_t j = 0; j < 2 * m->model->stride; j++)
+      m->force[j] *= m->model->ratio;
     zp_assembly_add(&m->assembly, m->force, r_m);
   }
   s->U = here;

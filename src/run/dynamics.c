@@ -4,7 +4,8 @@
 #include <string.h>
 
 static void reserve_equations(ZpDynamics *d, ZpArena *arena) {
-  double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale, &d->sharers};
+  double **of_equations[] = {&d->mass,  &d->q,       &d->v,      &d->history.w, &d->history.a,
+                             &d->scale, &d->sharers, &d->column, &d->row};
   for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
     *of_equations[k] = zp_arena_take(arena, d->system.n);
   d->kind = (ZpUnknown *)(void *)zp_arena_take(arena, d->system.n); /* room for doubles is more than enough */
@@ -71,13 +72,16 @@ static size_t voltage_of(const ZpDynamics *d) {
   return d->system.n - 1;
 }
 
-/* The charge that all electrodes have taken at the end of the step at a voltage, C. */
+/* The charge that all electrodes have taken from the source at the end of the step at its voltage, C, eq. (23.8). */
 static double taken_at(const void *self, double U) {
   const ZpDynamics *d = self;
-  const ZpMovingMember *m = d->member;
-  ZpSpan span = span_of(d, m);
-  ZpElectric end = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, U);
-  return m->model->parts * (end.charge + end.passed - d->charge0);
+  double taken = 0;
+  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    ZpSpan span = span_of(d, m);
+    ZpElectric end = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, zp_member_voltage(m->model, U));
+    taken += zp_source_share(m->model) * (end.charge + end.passed - m->charge0);
+  }
+  return taken;
 }
 
 /* Their capacitance there between the voltages of the step's start and end, or where these are one above it, F. Capped
@@ -105,7 +109,7 @@ static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
   memcpy(m->end, m->start, 2 * model->stride * sizeof *m->end);
   ZpSpan span = span_of(d, m);
   zp_system_begin(model, &span, &m->eval);
-  if (d->source) d->charge0 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_START, m->U0).charge;
+  if (d->source) m->charge0 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_START, m->U0).charge;
   double bending = model->is_rod ? zp_rod_bending_energy(&model->rod, &e->rod_start)
                                  : zp_massspring_shear_energy(&model->shear, &e->spring_start);
   double field = model->field ? zp_plates_totals(&model->plates, &e->plates_start, m->U0).potential : 0;
@@ -129,7 +133,7 @@ static void gather_own(ZpMovingMember *m, const double *q) {
 
 static void add_force(ZpDynamics *d, ZpMovingMember *m, const double *q1, double *f) {
   const ZpModel *model = m->model;
-  m->U1 = d->source ? q1[voltage_of(d)] : end_voltage(d, m);
+  m->U1 = d->source ? zp_member_voltage(model, q1[voltage_of(d)]) : end_voltage(d, m);
   zp_assembly_place(&m->assembly, q1, m->end);
   gather_own(m, q1);
   ZpSpan span = span_of(d, m);
@@ -152,12 +156,12 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   return ZP_END_FOUND;
 }
 
-/* Of one part. Beyond a kink of the charge, where it is capped, the slope would lead anywhere: the chord leads back
- * towards the start of the step. */
-static double capacitance(const ZpDynamics *d) {
+/* By the slope of the charge, as what it is, of one part of the first member. Beyond a kink of the charge, where it is
+ * capped, the slope would lead anywhere: the chord leads back towards the start of the step. */
+static double capacitance(const ZpDynamics *d, double slope) {
   static const double none = 1e-3; /* of the chord */
   const ZpMovingMember *m = d->member;
-  double slope = d->by_voltage.capacitance, chord = d->chord / m->model->parts;
+  double chord = d->chord / m->model->parts;
   bool goes_back = d->law.lacks * (m->U1 - m->U0) < 0;
   return goes_back || slope < none * chord ? fmax(slope, chord) : slope;
 }
@@ -170,18 +174,29 @@ static double least_slope(const ZpDynamics *d) {
 
 /* Row and column of the voltage behind a source, eq. (18.10). */
 static void add_source(ZpDynamics *d, ZpBordered *J) {
-  ZpMovingMember *m = d->member;
   const ZpByVoltage *by = &d->by_voltage;
-  size_t u = voltage_of(d);
-  ZpSpan span = span_of(d, m);
-  zp_system_by_voltage(m->model, &span, &m->eval, &d->by_voltage);
-  zp_assembly_sum(&m->assembly, by->force, J->B);
-  zp_assembly_sum(&m->assembly, by->charge, J->C);
-  for (size_t i = 0; i < u; i++) {
-    J->B[i] = -J->B[i];
-    J->C[i] *= -d->law.by_taken;
+  const double parts = d->member->model->parts;
+  double C = 0;
+  memset(d->column, 0, d->system.n * sizeof *d->column);
+  memset(d->row, 0, d->system.n * sizeof *d->row);
+  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    const double ratio = m->model->ratio, share = zp_source_share(m->model) / parts;
+    ZpSpan span = span_of(d, m);
+    zp_system_by_voltage(m->model, &span, &m->eval, &d->by_voltage);
+    for (size_t k = 0; k < 2 * m->model->stride; k++) {
+      by->force[k] *= ratio;
+      by->charge[k] *= share;
+    }
+    zp_assembly_add(&m->assembly, by->force, d->column);
+    zp_assembly_add(&m->assembly, by->charge, d->row);
+    C += share * ratio * by->capacitance;
   }
-  double slope = -d->law.by_taken * capacitance(d) - d->law.by_voltage / m->model->parts;
+  size_t u = voltage_of(d);
+  for (size_t i = 0; i < u; i++) {
+    *zp_bordered_at(J, i, u) = -d->column[i];
+    *zp_bordered_at(J, u, i) = -d->law.by_taken * d->row[i];
+  }
+  double slope = -d->law.by_taken * capacitance(d, C) - d->law.by_voltage / parts;
   *zp_bordered_at(J, u, u) = fmax(slope, least_slope(d));
 }
 
@@ -395,7 +410,7 @@ static double pushed(const ZpMovingMember *m) {
  * they had before. */
 static void damp_all(ZpDynamics *d) {
   const bool parallel = d->member->model->parallel;
-  double *fall = &d->v[d->system.n - 1], lost = 0;
+  double *fall = &d->v[d->member->assembly.equation[2 * zp_load_node(&d->member->model->topology) + 1]], lost = 0;
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     for (size_t i = 1; i < m->model->nodes; i++) {
       if (!meets(m, i)) continue;
@@ -542,6 +557,7 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
 static void add_voltage(ZpDynamics *d) {
   d->kind[voltage_of(d)] = ZP_FIRST_ORDER;
   d->scale[voltage_of(d)] = d->source->scale / d->member->model->L;
+  d->sharers[voltage_of(d)] = (double)d->members;
 }
 
 static bool create_member(const ZpModel *model, ZpMovingMember *m) {
@@ -786,7 +802,7 @@ void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
 /* Motion, work and losses of one member over a step. */
 static void book(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   book_losses(d, m, state);
-  if (d->source) d->charge1 = electric_at_end(d, m).charge;
+  if (d->source) m->charge1 = electric_at_end(d, m).charge;
   if (m->model->leaks) book_conduction(d, m, state);
   if (m->model->field) book_work(d, m, state);
 }

@@ -18,6 +18,8 @@ typedef struct ZpMovingMember {
   ZpAssembly assembly;
   const ZpState *state;  /* at the start of the present step */
   double U0, U1;         /* voltage at its start and its end, V */
+  double charge0;        /* with a source: charge of one part there, C, */
+  double charge1;        /* and at the end of the last step */
   double *start, *end;   /* [2 stride] coordinates of nodes */
   double *own;           /* [own N] the laws' own unknowns in the present step */
   const double *mean_v;  /* [2 stride] mean velocity over the last step, m/s */
@@ -41,13 +43,12 @@ typedef struct ZpDynamics {
   double t, h, latest;     /* of the present step: start, length, latest end, s */
   size_t fewest;           /* cavities that contradict their heads, at least, in the iteration under way, */
   int trials;              /* and the corrections left to make them fewer */
-  const ZpSource *source;  /* of the only member; NULL: the voltage is given. With a source the last unknown is the
-                              voltage */
-  ZpByVoltage by_voltage;  /* with a source */
-  ZpSourceLaw law;         /* its law at the last residual, and the capacitance of all electrodes there, F */
+  const ZpSource *source; /* of the electrodes of all; NULL: the voltage is given. With a source the last unknown is the
+                             voltage of the first member */
+  ZpByVoltage by_voltage; /* of one member, with a source; work space, as are */
+  double *column, *row;   /* [n] column and row of the voltage in the matrix */
+  ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
   double chord;
-  double charge0;                /* of one part at the start of the step, C */
-  double charge1;                /* of one part at the end of the last step, C */
   bool settles;                  /* without a film, each step removes velocities that are too fast for it, not only
                                     after impacts: for a search of motion that has settled */
   bool filters;                  /* the last step has removed velocities that are too fast for it */
@@ -56,8 +57,8 @@ typedef struct ZpDynamics {
   void *memory;
 } ZpDynamics;
 
-/* For all members, of which this is the first model. `source` must outlive it; NULL: the voltage is given, as always
- * for several members. False if there is no memory. */
+/* For all members, of which this is the first model. `source` must outlive it; NULL: the voltage is given. False if
+ * there is no memory. */
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
 

@@ -26,19 +26,13 @@ static ZpRamp ramp_within(double value, double rate, double t, double least, dou
   return (ZpRamp){value, rate, t, t + left};
 }
 
-/* Voltage of a member where the uppermost one has `voltage`, V: the same, but of the lower antagonist. */
-static double voltage_of(const ZpSim *sim, const ZpSim *member, double voltage) {
-  bool turned = member != sim && zp_is_antagonist(sim->model);
-  return turned ? zp_antagonist_voltage(sim->model, voltage) : voltage;
-}
-
 /* Says that, and why, it is out of range. */
 static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
   bool within = voltage >= key->min && voltage <= key->max;
   ZpStatus status = ZP_OK;
   for (const ZpSim *m = sim; m < sim + sim->members && within && status == ZP_OK; m++)
-    status = zp_def_check_voltage(&m->model->def, voltage_of(sim, m, voltage), err);
+    status = zp_def_check_voltage(&m->model->def, zp_member_voltage(m->model, voltage), err);
   if (within) return status;
   ZpActuatorDef scratch = sim->model->def;
   return zp_def_set(&scratch, sim->drive, voltage, err);
@@ -47,8 +41,8 @@ static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
   const ZpRamp all = voltage;
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    voltage.value = voltage_of(sim, m, all.value);
-    voltage.rate = voltage_of(sim, m, all.rate) - voltage_of(sim, m, 0);
+    voltage.value = zp_member_voltage(m->model, all.value);
+    voltage.rate = m->model->ratio * all.rate;
     m->state->by_hand = true;
     m->state->voltage_input = voltage;
     if (!zp_sim_is_fed(m)) zp_sim_jump(m, voltage.value);

@@ -260,8 +260,8 @@ static void fill_electric(ZpSim *sim, double *now, double *row) {
   ZpBalance account = zp_sim_energy_balance(sim, e);
   bool fed = zp_sim_is_fed(sim);
   double parts = sim->model->parts, passed = state->t - sim->row_time;
-  double given = fed ? state->source_charge / parts : e.charge + state->leaked;
-  sim->own_charge = e.charge;
+  double taken = e.charge + state->leaked;
+  double given = sim->own_charge = fed ? state->source_charge / parts + (1 - sim->model->ratio) * taken : taken;
   fill_leak(sim, row);
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
@@ -336,18 +336,12 @@ static void fill_own_row(ZpSim *sim, unsigned what) {
 
 /* How a signal of a series follows from those of its members, the uppermost first: most are sums. */
 enum { SUM, FIRST, LAST, LARGEST, LEAST };
-static const unsigned char of_series[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
-                                                      [SIGNAL_voltage] = FIRST,
-                                                      [SIGNAL_command] = FIRST,
-                                                      [SIGNAL_source_voltage] = FIRST,
-                                                      [SIGNAL_setpoint] = FIRST,
-                                                      [SIGNAL_measured] = FIRST,
-                                                      [SIGNAL_interface_voltage] = FIRST,
-                                                      [SIGNAL_end_velocity] = LAST,
-                                                      [SIGNAL_film_thickness] = LEAST,
-                                                      [SIGNAL_wet_length] = LEAST,
-                                                      [SIGNAL_insulator_field] = LARGEST,
-                                                      [SIGNAL_max_stress] = LARGEST};
+static const unsigned char of_series[SIGNAL_COUNT] = {
+    [SIGNAL_time] = FIRST,           [SIGNAL_voltage] = FIRST,           [SIGNAL_command] = FIRST,
+    [SIGNAL_source_voltage] = FIRST, [SIGNAL_cable_energy] = FIRST,      [SIGNAL_setpoint] = FIRST,
+    [SIGNAL_measured] = FIRST,       [SIGNAL_interface_voltage] = FIRST, [SIGNAL_end_velocity] = LAST,
+    [SIGNAL_film_thickness] = LEAST, [SIGNAL_wet_length] = LEAST,        [SIGNAL_insulator_field] = LARGEST,
+    [SIGNAL_max_stress] = LARGEST};
 
 /* Antagonists have one load: its position, and the shape, are those of the upper member. */
 static bool is_of_upper(size_t signal) {
@@ -409,10 +403,8 @@ static void fill_row(ZpSim *sim, unsigned what) {
 
 /* The mean current and power of the next row are means from the present row on. */
 static void count_from_here(ZpSim *sim) {
-  const ZpState *state = sim->state;
-  bool fed = zp_sim_is_fed(sim);
-  sim->row_time = state->t;
-  sim->row_charge = fed ? state->source_charge / sim->model->parts : sim->own_charge + state->leaked;
+  sim->row_time = sim->state->t;
+  sim->row_charge = sim->own_charge;
   sim->row_energy = sim->own_energy;
 }
 

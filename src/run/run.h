@@ -115,10 +115,10 @@ struct ZpSim {
   ZpMargins now;                 /* the smallest margins of the materials in the row */
   bool watched;                  /* whether margins are followed over time */
   ZpMargins seen;                /* the smallest margins of this member so far */
-  double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part; behind a
-                                    supply, the charge that it has supplied */
+  double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part, the charge
+                                    that sources have given to it; the first member has all of a supply */
   double row_energy;             /* of that row, for the mean power, of the whole actuator */
-  double own_charge, own_energy; /* of the last row: charge per part and source energy, without the members below */
+  double own_charge, own_energy; /* of the last row: that charge and source energy, without the members below */
   ZpOutcome settled;             /* ZP_REACHED_END once the hanging equilibrium is known */
   int64_t settle_steps;
   double settle_residual;

@@ -175,15 +175,23 @@ static ZpSim *create_straight(const ZpModel *model) {
   return NULL;
 }
 
+/* Voltage of one member that no supply holds back, now. */
+static double voltage_now(const ZpSim *m) {
+  const ZpState *state = m->state;
+  return state->by_hand ? zp_ramp_value(&state->voltage_input, state->t)
+                        : zp_waveform_voltage(&m->model->waveform, state->t);
+}
+
 /* What a simulation starts with. */
 static void start(ZpSim *sim) {
-  const ZpModel *model = sim->model;
-  zp_sim_lay_beads(sim);
-  zp_sim_start_balance(sim);
-  if (model->control.kind != ZP_CONTROL_NONE)
-    zp_sim_start_control(sim);
-  else if (!zp_sim_is_fed(sim))
-    zp_sim_jump(sim, zp_waveform_voltage(&model->waveform, 0));
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    zp_sim_lay_beads(m);
+    zp_sim_start_balance(m);
+  }
+  if (sim->model->control.kind != ZP_CONTROL_NONE) zp_sim_start_control(sim);
+  if (zp_sim_is_fed(sim)) zp_supply_coupling_start(sim);
+  for (ZpSim *m = sim; m < sim + sim->members && !zp_sim_is_fed(sim); m++)
+    zp_sim_jump(m, voltage_now(m));
 }
 
 /* An actuator that does not open has no contraction, which a controller could measure. */
@@ -211,8 +219,7 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
     zp_sim_destroy(sim);
     return status;
   }
-  for (ZpSim *m = sim; m < sim + sim->members; m++)
-    start(m);
+  start(sim);
   zp_sim_start_row(sim);
   *out = sim;
   return ZP_OK;
@@ -473,12 +480,9 @@ ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRu
 /* -- state ---------------------------------------------------------------------------------------- */
 
 static void resume_one(ZpSim *sim) {
-  ZpState *state = sim->state;
-  double voltage = state->by_hand ? zp_ramp_value(&state->voltage_input, state->t)
-                                  : zp_waveform_voltage(&sim->model->waveform, state->t);
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage);
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage_now(sim));
   sim->cut = sim->negative = false;
 }
 

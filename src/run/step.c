@@ -105,15 +105,15 @@ static double resolution(ZpSim *sim) {
 
 /* -- a motion -------------------------------------------------------------------------------------- */
 
-/* Before a motion: complete a jump of the voltage, and update what is held over several steps. If this fails there is
- * no step: a field that cannot be solved ends the run. */
-static bool prepare_step(ZpSim *sim) {
-  ZpState *state = sim->state;
-  if (state->U != state->base_U) zp_sim_close_balance(sim);
-  if (!zp_cached_field_due(sim->model, state)) return true;
-  double charge = zp_sim_is_fed(sim) ? zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge : 0;
-  if (zp_cached_field_refresh(sim->model, state, &sim->eval) != ZP_END_FOUND) return false;
-  if (zp_sim_is_fed(sim)) zp_supply_coupling_renew(sim, charge);
+/* Before a motion of one member: complete a jump of the voltage, and update what is held over several steps. If this
+ * fails there is no step: a field that cannot be solved ends the run. */
+static bool prepare_step(ZpSim *sim, ZpSim *m) {
+  ZpState *state = m->state;
+  if (state->U != state->base_U) zp_sim_close_balance(m);
+  if (!zp_cached_field_due(m->model, state)) return true;
+  double charge = zp_sim_is_fed(sim) ? zp_system_electric_now(m->model, state, state->U, &m->eval).charge : 0;
+  if (zp_cached_field_refresh(m->model, state, &m->eval) != ZP_END_FOUND) return false;
+  if (zp_sim_is_fed(sim)) zp_supply_coupling_renew(sim, m, charge);
   return true;
 }
 
@@ -125,7 +125,6 @@ static void jump_to(ZpSim *sim, double voltage) {
 
 /* The voltage at the time that a step has reached. An explicit step has used the voltage of its start throughout. */
 static void follow_voltage(ZpSim *sim) {
-  if (sim->dynamics.source) return;
   const ZpWaveform *waveform = &sim->model->waveform;
   ZpState *state = sim->state;
   if (state->by_hand) {
@@ -148,7 +147,7 @@ static void note_start(ZpSim *sim) {
 bool zp_sim_prepare(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
     note_start(m);
-    sim->stuck = !prepare_step(m);
+    sim->stuck = !prepare_step(sim, m);
     if (sim->stuck) return false;
   }
   return true;
@@ -156,7 +155,7 @@ bool zp_sim_prepare(ZpSim *sim) {
 
 void zp_sim_arrive(ZpSim *sim) {
   for (size_t k = 0; k < sim->members; k++) {
-    follow_voltage(sim + k);
+    if (!sim->dynamics.source) follow_voltage(sim + k);
     zp_sim_note_end(sim + k, sim->dynamics.member + k);
   }
 }

@@ -253,37 +253,61 @@ static double given(const ZpState *state, double charge) {
   return state->work + state->U * (charge - state->base_charge);
 }
 
-/* Energy that a jump of the voltage takes at once. The part that the electrodes do not keep is their charging loss, or
- * heat of the resistance. */
+/* What a jump of voltages takes at once, of all: charge from the supply, C; work, and the part of it that the
+ * electrodes do not keep, J. */
+typedef struct Jump {
+  double charge, work, lost;
+} Jump;
+
+/* The voltage of one member jumps. If the part that its electrodes do not keep is `heat`, it is that of the source,
+ * else their charging loss. */
+static void jump_one(ZpSim *m, double U, bool heat, Jump *jump) {
+  ZpState *state = m->state;
+  double charge0 = zp_system_electric_now(m->model, state, state->U, &m->eval).charge, work0 = given(state, charge0);
+  double *charging = zp_state_row(m->model, state, &zp_row_charging_loss), loss0 = *charging;
+  zp_sim_jump(m, U);
+  if (state->U != state->base_U) zp_sim_close_balance(m);
+  double lost = *charging - loss0;
+  jump->charge += zp_source_share(m->model) * (state->base_charge - charge0);
+  jump->work += m->model->parts * (given(state, state->base_charge) - work0);
+  jump->lost += m->model->parts * lost;
+  if (!heat) return;
+  state->work -= lost;
+  *charging -= lost;
+}
+
+void zp_supply_coupling_start(ZpSim *sim) {
+  Jump all = {0};
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    jump_one(m, zp_member_voltage(m->model, 0), false, &all);
+  sim->state->source_energy += all.work;
+}
+
+/* To the inner voltage of the supply. */
 static void jump(ZpSim *sim, double V) {
   ZpState *state = sim->state;
-  double parts = sim->model->parts, C = sim->model->supply.capacitance, R = sim->model->supply.resistance,
-         U0 = state->U;
-  double charge0 = zp_system_electric_now(sim->model, state, U0, &sim->eval).charge, work0 = given(state, charge0);
-  double *charging = zp_state_row(sim->model, state, &zp_row_charging_loss), loss0 = *charging;
-  zp_sim_jump(sim, V);
-  if (state->U != state->base_U) zp_sim_close_balance(sim);
-  double work = parts * (given(state, state->base_charge) - work0), lost = *charging - loss0;
-  state->source_charge += parts * (state->base_charge - charge0) + C * (V - U0);
-  state->source_energy += work + C * V * (V - U0);
-  *lost_in_source(sim) += 0.5 * C * (V - U0) * (V - U0);
+  double C = sim->model->supply.capacitance, R = sim->model->supply.resistance, rise = V - state->U;
+  Jump all = {0};
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    jump_one(m, zp_member_voltage(m->model, V), R > 0, &all);
+  state->source_charge += all.charge + C * rise;
+  state->source_energy += all.work + C * V * rise;
+  *lost_in_source(sim) += 0.5 * C * rise * rise;
   if (!(R > 0)) {
     sim->feed.peak = sim->feed.square = INFINITY;
     return;
   }
-  state->work -= lost;
-  *charging -= lost;
-  *lost_in_source(sim) += parts * lost;
-  sim->feed.square += (parts * lost + 0.5 * C * (V - U0) * (V - U0)) / R;
-  sim->feed.peak = fmax(sim->feed.peak, fabs(V - U0) / R);
+  *lost_in_source(sim) += all.lost;
+  sim->feed.square += (all.lost + 0.5 * C * rise * rise) / R;
+  sim->feed.peak = fmax(sim->feed.peak, fabs(rise) / R);
 }
 
-void zp_supply_coupling_renew(ZpSim *sim, double before) {
+void zp_supply_coupling_renew(ZpSim *sim, ZpSim *m, double before) {
   ZpState *state = sim->state;
-  double after = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge;
-  double charge = sim->model->parts * (after - before), V = state->supply.voltage;
+  double change = zp_system_electric_now(m->model, m->state, m->state->U, &m->eval).charge - before;
+  double charge = zp_source_share(m->model) * change, V = state->supply.voltage;
   state->source_charge += charge;
-  state->source_energy += V * charge;
+  state->source_energy += V * charge + m->model->bias * m->model->parts * change;
   *lost_in_source(sim) += (V - state->U) * charge;
 }
 
@@ -292,12 +316,18 @@ static double at_bleeder(const ZpSim *sim) {
   return sim->before->U + sim->feed.bleeds * (sim->state->U - sim->before->U);
 }
 
+/* Charge that one part of a member has taken over the last step, C. */
+static double taken_by(const ZpSim *m, const ZpMovingMember *moved) {
+  return moved->charge1 - moved->charge0 + (m->state->leaked - m->before->leaked);
+}
+
 /* Charge that the supply has delivered over the last step, C. */
 static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
   const ZpSupply *supply = &sim->model->supply;
-  double h = state->t - before->t;
-  double taken = sim->model->parts * (sim->dynamics.charge1 - sim->dynamics.charge0 + (state->leaked - before->leaked));
+  double h = state->t - before->t, taken = 0;
+  for (size_t k = 0; k < sim->members; k++)
+    taken += zp_source_share(sim[k].model) * taken_by(sim + k, sim->dynamics.member + k);
   double bled = h * supply->conductance * at_bleeder(sim);
   double given = taken + supply->capacitance * (state->U - before->U) + bled;
   return state->supply_mode == ZP_SUPPLY_SPILLS ? fmin(fmax(given, -supply->sinks * h), supply->most * h) : given;
@@ -332,13 +362,18 @@ static void note_currents(ZpSim *sim, double mean, double h) {
 static void book(ZpSim *sim) {
   ZpState *state = sim->state;
   const ZpState *before = sim->before;
-  const ZpDynamics *d = &sim->dynamics;
   const double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
-  double electrodes = sim->model->parts * (given(state, d->charge1) - given(before, d->charge0));
+  double electrodes = 0, biased = 0; /* work on those of all; the part of it of constant sources of members */
+  for (size_t k = 0; k < sim->members; k++) {
+    const ZpSim *m = sim + k;
+    const ZpMovingMember *moved = sim->dynamics.member + k;
+    electrodes += m->model->parts * (given(m->state, moved->charge1) - given(m->before, moved->charge0));
+    biased += m->model->bias * m->model->parts * taken_by(m, moved);
+  }
   double bled = h * sim->model->supply.conductance * at_bleeder(sim) * at_bleeder(sim);
   double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
   bool ideal = state->supply_mode == ZP_SUPPLY_FREE && sim->model->supply.resistance == 0;
-  double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge;
+  double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge + biased;
   state->source_charge += charge;
   state->source_energy += energy;
   *lost_in_source(sim) += energy - taken;
@@ -350,10 +385,13 @@ static void book(ZpSim *sim) {
 
 /* Capacitance of electrodes and cable while they charge towards the inner voltage. */
 static double capacitance_now(ZpSim *sim) {
-  const ZpState *state = sim->state;
-  double V = state->supply.voltage, now = zp_system_electric_now(sim->model, state, state->U, &sim->eval).charge,
-         then = zp_system_electric_now(sim->model, state, V, &sim->eval).charge;
-  return sim->model->supply.capacitance + sim->model->parts * (then - now) / (V - state->U);
+  double V = sim->state->supply.voltage, taken = 0;
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    double U = zp_member_voltage(m->model, V), now = m->state->U;
+    taken += zp_source_share(m->model) * (zp_system_electric_now(m->model, m->state, U, &m->eval).charge -
+                                          zp_system_electric_now(m->model, m->state, now, &m->eval).charge);
+  }
+  return sim->model->supply.capacitance + taken / (V - sim->state->U);
 }
 
 /* A jump of the command that no limit of the current holds back, through a resistance too small to last. */
@@ -377,10 +415,11 @@ bool zp_supply_coupling_step(ZpSim *sim, double latest) {
   ZpState *state = sim->state;
   if (latest - state->t < ZP_SUPPLY_SHORTEST) {
     state->supply = followed(sim, state, latest);
-    state->t = latest;
+    for (ZpSim *m = sim; m < sim + sim->members; m++)
+      m->state->t = latest;
     return true;
   }
-  if (!(zp_dynamics_step(&sim->dynamics, &state, latest) > 0)) return false;
+  if (!(zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0)) return false;
   zp_supply_coupling_end(sim);
   return true;
 }
@@ -388,7 +427,7 @@ bool zp_supply_coupling_step(ZpSim *sim, double latest) {
 /* -- what came of it ------------------------------------------------------------------------------- */
 
 ZpCurrents zp_sim_currents(ZpSim *sim, double duration) {
-  bool jumped = isinf(sim->feed.peak) || zp_sim_get(sim, "charging_loss") > 0;
+  bool jumped = isinf(sim->feed.peak) || (!zp_sim_is_fed(sim) && zp_sim_get(sim, "charging_loss") > 0);
   if (jumped || !(duration > 0)) return (ZpCurrents){NAN, NAN};
   return (ZpCurrents){sim->feed.peak, sqrt(sim->feed.square / duration)};
 }

@@ -1,4 +1,5 @@
-/* An actuator behind a supply: how the voltage of its electrodes follows, and the books of what the supply gives. */
+/* The members of an actuator behind a supply: how the voltage of its electrodes follows, and the books of what the
+ * supply gives. */
 #ifndef ZP_SIM_SUPPLY_COUPLING_H
 #define ZP_SIM_SUPPLY_COUPLING_H
 
@@ -44,12 +45,15 @@ void zp_supply_coupling_create(ZpSim *sim);
 /* What the supply is told now, V. */
 double zp_sim_command(const ZpSim *sim);
 
+/* At the start a constant source of its own charges the electrodes of a member, those of the supply have no voltage. */
+void zp_supply_coupling_start(ZpSim *sim);
+
 /* Before a step: jumps of the command arrive. */
 void zp_supply_coupling_arrive(ZpSim *sim);
 
-/* A field that was computed again, or a surface, holds another charge at the same voltage than `before` (of one part,
- * C): the supply gives the difference. */
-void zp_supply_coupling_renew(ZpSim *sim, double before);
+/* A field of a member that was computed again, or a surface, holds another charge at the same voltage than `before` (of
+ * one part, C): the supply gives the difference. */
+void zp_supply_coupling_renew(ZpSim *sim, ZpSim *member, double before);
 
 /* The next event of the supply before `latest`, s. */
 double zp_supply_coupling_event(const ZpSim *sim, double latest);

@@ -36,6 +36,11 @@ static double scale_of(const ZpImplicitSystem *system, size_t i) {
   return system->scale ? system->scale[i] : 1;
 }
 
+/* How many more members than one have an unknown. */
+static double more_of(const ZpImplicitSystem *system, size_t i) {
+  return system->sharers ? fmax(system->sharers[i] - 1, 0) : 0;
+}
+
 /* Root mean square of `counted` unknowns of all parts in their scales; the others are 0. */
 static double rms(const ZpImplicitSystem *system, const double *x, size_t counted) {
   const ZpParts *parts = &system->parts;
@@ -49,7 +54,7 @@ static double rms(const ZpImplicitSystem *system, const double *x, size_t counte
     sum += (double)parts->more * size * size;
   }
   for (size_t i = 0; system->sharers && i < system->n; i++) {
-    double size = x[i] / scale_of(system, i), more = fmax(system->sharers[i] - 1, 0);
+    double size = x[i] / scale_of(system, i), more = more_of(system, i);
     sum += more * size * size;
     counted += (size_t)more;
   }
@@ -257,7 +262,7 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
     if (system->kind[i] == ZP_SECOND_ORDER) continue;
     double share = share_resolved(system, i);
     s->r[i] = share > 0 ? share * first_order_error(s, h, s->q[i] - q[i], i, history) : 0;
-    if (share == 0) counted--;
+    if (share == 0) counted -= 1 + (size_t)more_of(system, i);
   }
   return rms(system, s->r, counted) / s->accuracy;
 }

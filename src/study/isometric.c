@@ -429,7 +429,8 @@ static void run_members(Holder *h, ZpNewtonInfo *info) {
   *info = (ZpNewtonInfo){.iterations = 0};
   hold_members(h, info);
   h->at.rest.statics.bias = 1;
-  for (int level = h->at.model->bias > 0 ? 0 : 1; level <= levels && h->outcome == ZP_CONVERGED; level++) {
+  for (int level = h->at.model[h->at.model->members - 1].bias != 0 ? 0 : 1;
+       level <= levels && h->outcome == ZP_CONVERGED; level++) {
     double U = levels > 0 ? top * level / levels : 0;
     raise_members(h, U, level == levels, info);
     if (h->outcome == ZP_CONVERGED && !join(h, U, 1, info)) h->outcome = ZP_BRANCH_LOST;
