@@ -149,7 +149,7 @@ static ZpStatus find_typed(const ZpFmu *fmu, uint32_t reference, ZpKeyType type,
                            ZpError *err) {
   ZpStatus status = find(fmu, reference, variable, err);
   if (status != ZP_OK || zp_fmu_type(*variable) == type) return status;
-  return zp_fail(err, ZP_BAD_INPUT, "%s: this variable has another type", zp_fmu_name(*variable));
+  return zp_fail(err, ZP_BAD_INPUT, "%s: this variable has another type", zp_fmu_text(*variable).name);
 }
 
 static ZpStatus get_output(ZpFmu *fmu, int index, double *value, ZpError *err) {
@@ -219,14 +219,14 @@ ZpStatus zp_fmu_set(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double value
   if (status != ZP_OK) return status;
   if (variable.role == ZP_FMU_INPUT) return set_input(fmu, (ZpInput)variable.index, value, 0, err);
   if (variable.role == ZP_FMU_PARAMETER) return set_parameter(fmu, variable.index, value, err);
-  return zp_fail(err, ZP_BAD_INPUT, "%s: only inputs and parameters can be set", zp_fmu_name(variable));
+  return zp_fail(err, ZP_BAD_INPUT, "%s: only inputs and parameters can be set", zp_fmu_text(variable).name);
 }
 
 ZpStatus zp_fmu_set_rate(ZpFmu *fmu, uint32_t reference, double rate, ZpError *err) {
   ZpFmuVariable variable;
   ZpStatus status = find(fmu, reference, &variable, err);
   if (status != ZP_OK) return status;
-  if (variable.role != ZP_FMU_INPUT) return zp_fail(err, ZP_BAD_INPUT, "%s: not an input", zp_fmu_name(variable));
+  if (variable.role != ZP_FMU_INPUT) return zp_fail(err, ZP_BAD_INPUT, "%s: not an input", zp_fmu_text(variable).name);
   return set_input(fmu, (ZpInput)variable.index, fmu->input[variable.index], rate, err);
 }
 
@@ -255,8 +255,8 @@ ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], Zp
   ZpFmuVariable input;
   ZpStatus status = find(fmu, by, &input, err);
   if (status == ZP_OK && input.role != ZP_FMU_INPUT)
-    status =
-        zp_fail(err, ZP_BAD_INPUT, "derivatives with respect to %s: available for inputs only", zp_fmu_name(input));
+    status = zp_fail(err, ZP_BAD_INPUT, "derivatives with respect to %s: available for inputs only",
+                     zp_fmu_text(input).name);
   if (status == ZP_OK) status = zp_fmu_prepare(fmu, err);
   if (status == ZP_OK) status = zp_sim_input_slopes(fmu->sim, (ZpInput)input.index, slope, err);
   for (int k = 0; k < ZP_FMU_SIGNALS && status == ZP_OK; k++)
@@ -268,7 +268,7 @@ ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpErro
   ZpFmuVariable output;
   ZpStatus status = find(fmu, reference, &output, err);
   if (status == ZP_OK && output.role != ZP_FMU_OUTPUT)
-    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: available for outputs only", zp_fmu_name(output));
+    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: available for outputs only", zp_fmu_text(output).name);
   if (status == ZP_OK) *signal = output.index;
   return status;
 }

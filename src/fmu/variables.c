@@ -64,37 +64,31 @@ uint32_t zp_fmu_reference(ZpFmuVariable variable) {
   return (uint32_t)(first[variable.role] + variable.index);
 }
 
-const char *zp_fmu_name(ZpFmuVariable variable) {
-  if (variable.role == ZP_FMU_TIME) return "time";
-  if (variable.role == ZP_FMU_INPUT) return zp_input_name((ZpInput)variable.index);
-  if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->name;
+ZpFmuText zp_fmu_text(ZpFmuVariable variable) {
+  static const ZpFmuText of_input[ZP_INPUT_COUNT] = {
+      {NULL, "V",
+       "commanded voltage of the source; it starts at the value that the scenario's waveform has at t = 0, and the "
+       "waveform is not played"},
+      {NULL, "N",
+       "force on the whole actuator in addition to load.mass, without inertia; positive pulls the lower platform down"},
+      {NULL, "1",
+       "setpoint of the controller, in the SI unit of control.signal; it starts at the value that the scenario's "
+       "waveform has at t = 0, and the waveform is not played"}};
+  size_t count;
+  if (variable.role == ZP_FMU_TIME) return (ZpFmuText){"time", "s", "time since the start"};
+  if (variable.role == ZP_FMU_INPUT) {
+    ZpFmuText text = of_input[variable.index];
+    text.name = zp_input_name((ZpInput)variable.index);
+    return text;
+  }
+  if (variable.role == ZP_FMU_PARAMETER) {
+    const ZpKey *key = zp_key(variable.index);
+    return (ZpFmuText){key->name, key->unit, key->help};
+  }
+  const ZpColumn *column = &zp_signal_columns(&count)[variable.index];
   const char *name = zp_signal_name((size_t)variable.index);
-  return strcmp(name, zp_input_name(ZP_INPUT_VOLTAGE)) == 0 ? "electrode_voltage" : name;
-}
-
-const char *zp_fmu_unit(ZpFmuVariable variable) {
-  static const char *const of_input[ZP_INPUT_COUNT] = {"V", "N", "1"};
-  size_t count;
-  if (variable.role == ZP_FMU_TIME) return "s";
-  if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];
-  if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->unit;
-  return zp_signal_columns(&count)[variable.index].unit;
-}
-
-const char *zp_fmu_help(ZpFmuVariable variable) {
-  static const char *const of_input[ZP_INPUT_COUNT] = {
-      "commanded voltage of the source; it starts at the value that the scenario's waveform has at t = 0, and the "
-      "waveform "
-      "is not played",
-      "force on the whole actuator in addition to load.mass, without inertia; positive pulls the lower platform down",
-      "setpoint of the controller, in the SI unit of control.signal; it starts at the value that the scenario's "
-      "waveform "
-      "has at t = 0, and the waveform is not played"};
-  size_t count;
-  if (variable.role == ZP_FMU_TIME) return "time since the start";
-  if (variable.role == ZP_FMU_INPUT) return of_input[variable.index];
-  if (variable.role == ZP_FMU_PARAMETER) return zp_key(variable.index)->help;
-  return zp_signal_columns(&count)[variable.index].help;
+  return (ZpFmuText){strcmp(name, zp_input_name(ZP_INPUT_VOLTAGE)) == 0 ? "electrode_voltage" : name, column->unit,
+                     column->help};
 }
 
 ZpKeyType zp_fmu_type(ZpFmuVariable variable) {

@@ -30,13 +30,12 @@ typedef struct ZpFmuVariable {
 bool zp_fmu_find(uint32_t reference, ZpFmuVariable *variable);
 uint32_t zp_fmu_reference(ZpFmuVariable variable);
 
-/* Its name: "voltage", "opening", "ribbon.length". The voltage between the electrodes is called electrode_voltage,
- * because the input has the name voltage. */
-const char *zp_fmu_name(ZpFmuVariable variable);
-
-/* Its unit and a line of help. Keys without a unit and words: "1". */
-const char *zp_fmu_unit(ZpFmuVariable variable);
-const char *zp_fmu_help(ZpFmuVariable variable);
+/* Its name, "voltage", "opening" or "ribbon.length"; its unit, "1" of keys without one and of words; a line of help.
+ * The voltage between the electrodes is called electrode_voltage, because the input has the name voltage. */
+typedef struct ZpFmuText {
+  const char *name, *unit, *help;
+} ZpFmuText;
+ZpFmuText zp_fmu_text(ZpFmuVariable variable);
 
 /* The type of its values, which selects the getter and setter of the standards: ZP_KEY_REAL, _INT, _BOOL or _ENUM. */
 ZpKeyType zp_fmu_type(ZpFmuVariable variable);

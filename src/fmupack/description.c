@@ -59,13 +59,13 @@ static const char *display_unit(ZpFmuVariable variable) {
 }
 
 static bool has_unit(ZpFmuVariable variable) {
-  return zp_fmu_type(variable) == ZP_KEY_REAL && strcmp(zp_fmu_unit(variable), "1") != 0;
+  return zp_fmu_type(variable) == ZP_KEY_REAL && strcmp(zp_fmu_text(variable).unit, "1") != 0;
 }
 
 /* -- units ----------------------------------------------------------------------------------------- */
 
 static bool same_unit(ZpFmuVariable a, ZpFmuVariable b) {
-  return has_unit(a) && has_unit(b) && strcmp(zp_fmu_unit(a), zp_fmu_unit(b)) == 0;
+  return has_unit(a) && has_unit(b) && strcmp(zp_fmu_text(a).unit, zp_fmu_text(b).unit) == 0;
 }
 
 static bool same_display(ZpFmuVariable a, ZpFmuVariable b) {
@@ -102,7 +102,7 @@ static ZpStatus put_display(FILE *file, const char *shown, const char *unit, ZpE
 static ZpStatus put_unit(FILE *file, const List *list, int first, ZpError *err) {
   ZpBaseUnits powers;
   ZpStatus status = ZP_OK;
-  const char *unit = zp_fmu_unit(list->item[first]);
+  const char *unit = zp_fmu_text(list->item[first]).unit;
   fputs("    <Unit", file);
   put_text(file, "name", unit);
   fputs(">\n", file);
@@ -134,7 +134,7 @@ static ZpStatus put_units(FILE *file, const List *list, ZpError *err) {
 
 /* The type of a key of words has the name of the key; no variable has that name. */
 static void put_type_name(FILE *file, const char *attribute, ZpFmuVariable variable) {
-  fprintf(file, " %s=\"words.%s\"", attribute, zp_fmu_name(variable));
+  fprintf(file, " %s=\"words.%s\"", attribute, zp_fmu_text(variable).name);
 }
 
 static void put_words(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
@@ -174,16 +174,16 @@ static void put_causality(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable varia
 }
 
 static void put_head(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
-  put_text(file, "name", zp_fmu_name(variable));
+  put_text(file, "name", zp_fmu_text(variable).name);
   fprintf(file, " valueReference=\"%u\"", zp_fmu_reference(variable));
-  put_text(file, "description", zp_fmu_help(variable));
+  put_text(file, "description", zp_fmu_text(variable).help);
   put_causality(file, plan, variable);
 }
 
 /* Unit, range. */
 static void put_range(FILE *file, ZpFmuVariable variable) {
   const char *shown = display_unit(variable);
-  if (has_unit(variable)) put_text(file, "unit", zp_fmu_unit(variable));
+  if (has_unit(variable)) put_text(file, "unit", zp_fmu_text(variable).unit);
   if (has_unit(variable) && shown) put_text(file, "displayUnit", shown);
   if (zp_fmu_type(variable) == ZP_KEY_BOOL || zp_fmu_type(variable) == ZP_KEY_ENUM) return;
   bool voltage = variable.role == ZP_FMU_INPUT && variable.index == ZP_INPUT_VOLTAGE;

@@ -106,7 +106,7 @@ static ZpStatus put_expected(const void *of, FILE *file, ZpError *err) {
   if (status != ZP_OK) return status;
   fputs("time", file);
   for (int k = 0; k < ZP_FMU_SIGNALS; k++)
-    if (zp_fmu_is_output(k)) fprintf(file, ",%s", zp_fmu_name((ZpFmuVariable){ZP_FMU_OUTPUT, k}));
+    if (zp_fmu_is_output(k)) fprintf(file, ",%s", zp_fmu_text((ZpFmuVariable){ZP_FMU_OUTPUT, k}).name);
   fputc('\n', file);
   status = zp_fmu_prepare(fmu, err);
   if (status == ZP_OK) put_row(file, fmu);

@@ -128,16 +128,6 @@ ZpSlaveStatus zp_slave_step(ZpSlave *slave, double now, double size, ZpFmuStep *
   return ZP_SLAVE_OK;
 }
 
-ZpSlaveStatus zp_slave_get(ZpSlave *slave, uint32_t reference, ZpKeyType type, double *value) {
-  ZpError err;
-  return zp_slave_after(slave, zp_fmu_get(slave->fmu, reference, type, value, &err), &err);
-}
-
-ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, double value) {
-  ZpError err;
-  return zp_slave_after(slave, zp_fmu_set(slave->fmu, reference, type, value, &err), &err);
-}
-
 ZpSlaveStatus zp_slave_none(const ZpSlave *slave, size_t count) {
   return count == 0 ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, "there is no variable of this type");
 }
@@ -167,37 +157,34 @@ ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *
 
 /* -- states ---------------------------------------------------------------------------------------- */
 
-static ZpSlaveState *make_state(size_t size) {
-  ZpSlaveState *state = zp_calloc(1, sizeof *state);
-  if (!state) return NULL;
-  *state = (ZpSlaveState){size, zp_calloc(1, size)};
-  if (state->byte) return state;
-  zp_free(state);
-  return NULL;
-}
+typedef struct State {
+  size_t size;
+  unsigned char byte[];
+} State;
 
 ZpSlaveStatus zp_slave_free_state(void **place) {
-  ZpSlaveState *state = place ? *place : NULL;
-  if (!state) return ZP_SLAVE_OK;
-  zp_free(state->byte);
-  zp_free(state);
+  if (!place) return ZP_SLAVE_OK;
+  zp_free(*place);
   *place = NULL;
   return ZP_SLAVE_OK;
 }
 
-/* A state of that size in *place. False, with a message, if there is no memory. */
-static bool need_state(const ZpSlave *slave, void **place, size_t size) {
-  const ZpSlaveState *there = *place;
-  if (there && there->size == size) return true;
-  zp_slave_free_state(place);
-  *place = make_state(size);
-  if (!*place) zp_slave_say(slave, ZP_SLAVE_ERROR, "no memory");
-  return *place != NULL;
+/* A state of that size in *place; NULL, with a message, if there is no memory. */
+static State *need_state(const ZpSlave *slave, void **place, size_t size) {
+  State *state = *place;
+  if (state && state->size == size) return state;
+  zp_free(state);
+  *place = state = zp_calloc(1, sizeof *state + size);
+  if (state)
+    state->size = size;
+  else
+    zp_slave_say(slave, ZP_SLAVE_ERROR, "no memory");
+  return state;
 }
 
 ZpSlaveStatus zp_slave_get_state(ZpSlave *slave, void **place) {
-  if (!place || !need_state(slave, place, zp_fmu_state_size(slave->fmu))) return ZP_SLAVE_ERROR;
-  const ZpSlaveState *state = *place;
+  State *state = place ? need_state(slave, place, zp_fmu_state_size(slave->fmu)) : NULL;
+  if (!state) return ZP_SLAVE_ERROR;
   zp_fmu_save(slave->fmu, state->byte);
   return ZP_SLAVE_OK;
 }
@@ -208,21 +195,21 @@ static ZpSlaveStatus refuse_state(const ZpSlave *slave) {
 
 ZpSlaveStatus zp_slave_set_state(ZpSlave *slave, const void *place) {
   ZpError err;
-  const ZpSlaveState *state = place;
+  const State *state = place;
   if (!state) return refuse_state(slave);
   ZpStatus status = zp_fmu_load(slave->fmu, state->byte, state->size, &err);
   return status == ZP_OK ? ZP_SLAVE_OK : zp_slave_say(slave, ZP_SLAVE_ERROR, err.message);
 }
 
 ZpSlaveStatus zp_slave_state_size(const ZpSlave *slave, const void *place, size_t *size) {
-  const ZpSlaveState *state = place;
+  const State *state = place;
   if (!state || !size) return refuse_state(slave);
   *size = state->size;
   return ZP_SLAVE_OK;
 }
 
 ZpSlaveStatus zp_slave_serialize(const ZpSlave *slave, const void *place, void *bytes, size_t size) {
-  const ZpSlaveState *state = place;
+  const State *state = place;
   if (!state || !bytes || size < state->size) return refuse_state(slave);
   memcpy(bytes, state->byte, state->size);
   return ZP_SLAVE_OK;
@@ -231,8 +218,8 @@ ZpSlaveStatus zp_slave_serialize(const ZpSlave *slave, const void *place, void *
 /* zp_slave_set_state checks whether the bytes are a state. */
 ZpSlaveStatus zp_slave_deserialize(ZpSlave *slave, const void *bytes, size_t size, void **place) {
   if (!bytes || !place) return refuse_state(slave);
-  if (!need_state(slave, place, size)) return ZP_SLAVE_ERROR;
-  const ZpSlaveState *state = *place;
+  State *state = need_state(slave, place, size);
+  if (!state) return ZP_SLAVE_ERROR;
   memcpy(state->byte, bytes, size);
   return ZP_SLAVE_OK;
 }

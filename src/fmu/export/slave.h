@@ -31,12 +31,6 @@ struct ZpSlave {
   void (*callback)(void); /* and that function */
 };
 
-/* A state of an instance, with an owner. */
-typedef struct ZpSlaveState {
-  size_t size;
-  unsigned char *byte;
-} ZpSlaveState;
-
 /* A slave in phase instantiated, with the importer data of `like`; NULL, with a message, if the token differs or there
  * is no memory. */
 ZpSlave *zp_slave_create(const ZpSlave *like, const char *name, const char *token);
@@ -76,10 +70,6 @@ ZpSlaveStatus zp_slave_reset(ZpSlave *slave);
 
 /* Step from the current time, which must be `now`, by `size`. */
 ZpSlaveStatus zp_slave_step(ZpSlave *slave, double now, double size, ZpFmuStep *step);
-
-/* Get and set values of variables of one type. */
-ZpSlaveStatus zp_slave_get(ZpSlave *slave, uint32_t reference, ZpKeyType type, double *value);
-ZpSlaveStatus zp_slave_set(ZpSlave *slave, uint32_t reference, ZpKeyType type, double value);
 
 /* Calls for variables of a type that has none, and for derivatives of outputs with respect to time: correct only if
  * they request none. */
