@@ -141,8 +141,7 @@ static double given(Faces *f, ZpLeakStep *step) {
   const ZpModel *m = f->model;
   zp_leak_step(&m->leak, &m->plates, step, &f->eval.leak);
   zp_leak_forces(&m->leak, &m->plates, step, &f->eval.leak, &f->eval.attraction);
-  return zp_leak_totals(&m->leak, &m->plates, step->end, step->U1, f->Z1).charge +
-         zp_leak_passed(&m->plates, step, &f->eval.leak);
+  return zp_leak_totals(&m->leak, &m->plates, step->end, step->U1, f->Z1).charge + zp_leak_passed(&f->eval.leak);
 }
 
 /* Derivatives of a step by the voltage and the gaps at its end, where a bead ends within a place, at voltages without a

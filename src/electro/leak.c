@@ -8,70 +8,61 @@
 
 #include <math.h>
 
+#include "base/kernel.h"
 #include "math/elementary.h"
 
 static size_t places(const ZpPlatesParams *plates) {
   return ZP_PLATES_PLACES * plates->nodes;
 }
 
-static bool is_face(const ZpPlatesPlace *place) {
-  return place->weight > 0 || place->length > 0;
-}
-
 void zp_leak_reserve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpArena *arena) {
   size_t count = places(plates);
-  e->by_gap = zp_arena_take(arena, count);
-  e->by_voltage = zp_arena_take(arena, count);
-  e->passed = (ZpLeakPassed *)(void *)zp_arena_take(arena, count * (sizeof *e->passed / sizeof(double)));
+  e->face = (ZpLeakFace *)(void *)zp_arena_take(arena, count * (sizeof *e->face / sizeof(double) + 1));
   e->piece = (ZpPlatesMean *)(void *)zp_arena_take(arena, count * (sizeof *e->piece / sizeof(double)));
   zp_plates_step_reserve(plates, &e->work, arena);
 }
 
-/* -- what covers a place --------------------------------------------------------------------------- */
+/* -- faces ----------------------------------------------------------------------------------------- */
 
-/* Liquid, or the air beyond a bead: the plates law there, and the share of the place under it. */
-typedef struct Side {
-  const ZpPlatesParams *law;
-  double share;
-  double discharge; /* s there */
-} Side;
-
-/* Where a bead ends both lie side by side, at one gap and one Z. */
-typedef struct Sides {
-  int count;
-  Side of[2];
-} Sides;
-
-static Sides sides_of(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesPlace *place) {
-  Sides sides;
-  sides.count = 0;
-  if (place->wet > 0) sides.of[sides.count++] = (Side){plates, place->wet, p->discharge};
-  if (place->wet < 1) sides.of[sides.count++] = (Side){plates->air, 1 - place->wet, 0};
-  return sides;
+/* Of both ends of a step, with the liquid where it is at its end => whether there are faces at place k. */
+ZP_INLINE bool find_face(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpPlatesEval *start,
+                         const ZpPlatesEval *end, size_t k, ZpLeakFace *face) {
+  if (!zp_plates_has_faces(plates, k)) return false;
+  ZpPlatesPlace place = zp_plates_place(plates, end->cover, k);
+  face->place = k;
+  face->wet = place.wet;
+  face->g1 = zp_plates_place_gap(&place, end), face->length1 = zp_plates_place_length(&place, end);
+  face->g0 = start == end ? face->g1 : zp_plates_place_gap(&place, start);
+  face->length0 = start == end ? face->length1 : zp_plates_place_length(&place, start);
+  const ZpLeakSide liquid = {plates, place.wet, p->discharge}, air = {plates->air, 1 - place.wet, 0};
+  face->sides = place.wet > 0 && place.wet < 1 ? 2 : 1;
+  face->side[0] = place.wet > 0 ? liquid : air;
+  face->side[1] = air;
+  return true;
 }
 
-static ZpPlatesMean sum_of(ZpPlatesMean a, double share, ZpPlatesMean b) {
-  return (ZpPlatesMean){a.W + share * b.W, a.slope + share * b.slope, a.P + share * b.P, a.W1 + share * b.W1};
+static ZpPlatesMean sum_of(double a, ZpPlatesMean A, double b, ZpPlatesMean B) {
+  return (ZpPlatesMean){a * A.W + b * B.W, a * A.slope + b * B.slope, a * A.P + b * B.P, a * A.W1 + b * B.W1};
 }
 
 /* As zp_plates_between, of all sides. */
-static ZpPlatesMean between(const Sides *sides, double Y0, double Y1, double g0, double g1) {
-  ZpPlatesMean sum = {0, 0, 0, 0};
-  for (const Side *side = sides->of; side < sides->of + sides->count; side++)
-    sum = sum_of(sum, side->share, zp_plates_between(side->law, Y0, Y1, g0, g1));
-  return sum;
+static ZpPlatesMean between(const ZpLeakFace *face, double Y0, double Y1, double g0, double g1) {
+  const ZpLeakSide *side = face->side;
+  ZpPlatesMean first = zp_plates_between(side->law, Y0, Y1, g0, g1);
+  if (face->sides == 1) return first;
+  return sum_of(side[0].share, first, side[1].share, zp_plates_between(side[1].law, Y0, Y1, g0, g1));
 }
 
-static ZpPlatesMean between_by_voltage(const Sides *sides, double Y1, double g0, double g1) {
-  ZpPlatesMean sum = {0, 0, 0, 0};
-  for (const Side *side = sides->of; side < sides->of + sides->count; side++)
-    sum = sum_of(sum, side->share, zp_plates_between_by_voltage(side->law, Y1, g0, g1));
-  return sum;
+static ZpPlatesMean between_by_voltage(const ZpLeakFace *face, double Y1, double g0, double g1) {
+  const ZpLeakSide *side = face->side;
+  ZpPlatesMean first = zp_plates_between_by_voltage(side->law, Y1, g0, g1);
+  if (face->sides == 1) return first;
+  return sum_of(side[0].share, first, side[1].share, zp_plates_between_by_voltage(side[1].law, Y1, g0, g1));
 }
 
-static double capacitance_of(const Sides *sides, double Y, double g) {
+static double capacitance_of(const ZpLeakFace *face, double Y, double g) {
   double sum = 0;
-  for (const Side *side = sides->of; side < sides->of + sides->count; side++)
+  for (const ZpLeakSide *side = face->side; side < face->side + face->sides; side++)
     sum += side->share * zp_plates_capacitance(side->law, Y, g);
   return sum;
 }
@@ -87,7 +78,7 @@ typedef struct Charge {
 } Charge;
 
 /* Of the plates law, whose gap may be negative where faces overlap. */
-static Charge charge_in_field(const ZpPlatesParams *p, double g) {
+ZP_INLINE Charge charge_in_field(const ZpPlatesParams *p, double g) {
   double h = g + p->d;
   return (Charge){2 * p->k / h, -2 * p->k / (h * h), p->h_per_volt > 0 ? 2 * p->k / p->h_per_volt : INFINITY, 0};
 }
@@ -98,26 +89,26 @@ typedef struct Charges {
 } Charges;
 
 /* Of conduction: faces that overlap touch. */
-static Charges charges_of(const Sides *sides, double g) {
+ZP_INLINE Charges charges_of(const ZpLeakFace *face, int sides, double g) {
   Charges charges;
-  charges.count = sides->count;
-  for (int k = 0; k < sides->count; k++) {
+  charges.count = sides;
+  for (int k = 0; k < sides; k++) {
     Charge *charge = &charges.of[k];
-    double share = sides->of[k].share;
-    *charge = charge_in_field(sides->of[k].law, g > 0 ? g : 0);
+    double share = face->side[k].share;
+    *charge = charge_in_field(face->side[k].law, g > 0 ? g : 0);
     charge->slope *= share;
     charge->bend *= g > 0 ? share : 0;
     charge->most *= share;
-    charge->discharge = sides->of[k].discharge;
+    charge->discharge = face->side[k].discharge;
   }
   return charges;
 }
 
-static double at(const Charge *charge, double Y) {
+ZP_INLINE double at(const Charge *charge, double Y) {
   return copysign(fmin(charge->slope * fabs(Y), charge->most), Y);
 }
 
-static bool is_held(const Charge *charge, double Y) {
+ZP_INLINE bool is_held(const Charge *charge, double Y) {
   return charge->slope * fabs(Y) > charge->most;
 }
 
@@ -126,23 +117,29 @@ typedef struct Conduction {
   double insulators, gathers;
 } Conduction;
 
-static Conduction conduction(const ZpLeakParams *p, const Charges *charges, double Y, double Z) {
+ZP_INLINE Conduction conduction(const ZpLeakParams *p, const Charges *charges, double Y, double Z) {
   double q = 0, liquid = 0;
-  for (const Charge *charge = charges->of; charge < charges->of + charges->count; charge++) {
-    q += at(charge, Y);
-    liquid += charge->discharge * at(charge, Y);
+  for (int k = 0; k < charges->count; k++) {
+    q += at(&charges->of[k], Y);
+    liquid += charges->of[k].discharge * at(&charges->of[k], Y);
   }
   double through = p->conductance * (q / p->insulators - Z);
   return (Conduction){through, through - liquid};
 }
 
+/* At an instant; `sides` is a constant where this is inlined. */
+ZP_INLINE Conduction conduction_at(const ZpLeakParams *p, const ZpLeakFace *face, int sides, double Y, double Z) {
+  Charges charges = charges_of(face, sides, face->g1);
+  return conduction(p, &charges, Y, Z);
+}
+
 /* Weight of a step's end with which a place of constant gap and voltage relaxes exactly. */
-static double weight_of_end(const ZpLeakParams *p, const Charges *charges, double Y, double h) {
+ZP_INLINE double weight_of_end(const ZpLeakParams *p, const Charges *charges, double Y, double h) {
   double slope = 0, liquid = 0;
-  for (const Charge *charge = charges->of; charge < charges->of + charges->count; charge++) {
-    if (is_held(charge, Y)) continue;
-    slope += charge->slope;
-    liquid += charge->discharge * charge->slope;
+  for (int k = 0; k < charges->count; k++) {
+    if (is_held(&charges->of[k], Y)) continue;
+    slope += charges->of[k].slope;
+    liquid += charges->of[k].discharge * charges->of[k].slope;
   }
   return zp_decay_weight(h * (p->conductance * (1 - slope / p->insulators) + liquid) / p->insulators);
 }
@@ -155,19 +152,20 @@ typedef struct Balance {
 } Balance;
 
 /* Of those that the cap would hold at Y and that still count as free, the one that it holds first; -1: none. */
-static int next_held(const Balance *b, const Charges *charges, double Y) {
+ZP_INLINE int next_held(const Balance *b, const Charges *charges, double Y) {
   int first = -1;
   double least = INFINITY;
   for (int k = 0; k < charges->count; k++) {
+    if (b->held[k] || !is_held(&charges->of[k], Y)) continue;
     double from = charges->of[k].most / charges->of[k].slope;
-    if (b->held[k] || !is_held(&charges->of[k], Y) || !(from < least)) continue;
+    if (!(from < least)) continue;
     first = k;
     least = from;
   }
   return first;
 }
 
-static double slope_of(const Balance *b, const Charges *charges) {
+ZP_INLINE double slope_of(const Balance *b, const Charges *charges) {
   double slope = b->own;
   for (int k = 0; k < charges->count; k++)
     if (!b->held[k]) slope -= b->passes[k] * charges->of[k].slope;
@@ -175,7 +173,7 @@ static double slope_of(const Balance *b, const Charges *charges) {
 }
 
 /* => Y, with `held`. */
-static double solve(Balance *b, const Charges *charges) {
+ZP_INLINE double solve(Balance *b, const Charges *charges) {
   double Y = b->known / slope_of(b, charges);
   for (int k = next_held(b, charges, Y); k >= 0; k = next_held(b, charges, Y)) {
     double known = b->known;
@@ -187,16 +185,11 @@ static double solve(Balance *b, const Charges *charges) {
   return Y;
 }
 
-/* A place at the end of a step. */
-typedef struct End {
-  double Y, by_gap, by_voltage;
-  ZpLeakPassed passed;
-} End;
-
-/* C (Z1 - Z0) = h times the weighted mean of the excess: linear in Y1, or with charges fixed by the cap. */
-static End end_of(const ZpLeakParams *p, const Sides *sides, const ZpLeakStep *step, double Z0, double g0, double g1) {
+/* C (Z1 - Z0) = h times the weighted mean of the excess: linear in Y1, or with charges fixed by the cap => Y1, and what
+ * goes with it. `sides` is a constant where this is inlined. */
+ZP_INLINE double end_of(const ZpLeakParams *p, const ZpLeakStep *step, double Z0, int sides, ZpLeakFace *face) {
   double C = p->insulators, G = p->conductance, Y0 = step->U0 + Z0, U1 = step->U1;
-  Charges charges0 = charges_of(sides, g0), charges = charges_of(sides, g1);
+  Charges charges0 = charges_of(face, sides, face->g0), charges = charges_of(face, sides, face->g1);
   double weight = weight_of_end(p, &charges0, Y0, step->h), h = step->h * weight;
   Conduction before = conduction(p, &charges0, Y0, Z0);
   Balance b = {.own = C + h * G, .known = C * (U1 + Z0) + (step->h - h) * before.gathers + h * G * U1};
@@ -209,49 +202,42 @@ static End end_of(const ZpLeakParams *p, const Sides *sides, const ZpLeakStep *s
     bend += charges.of[k].bend * Y;
     passes += b.passes[k] * (charges.of[k].bend * Y);
   }
-  End end = {.Y = Y, .by_gap = passes * over, .by_voltage = b.own * over};
   double through = conduction(p, &charges, Y, Y - U1).insulators, of_end = h * G;
-  end.passed.charge = (step->h - h) * before.insulators + h * through;
-  end.passed.by_gap = of_end * ((bend + slope * end.by_gap) / C - end.by_gap);
-  end.passed.by_voltage = of_end * (slope * end.by_voltage / C - (end.by_voltage - 1));
-  return end;
+  face->by_gap = passes * over;
+  face->by_voltage = b.own * over;
+  face->passed.charge = (step->h - h) * before.insulators + h * through;
+  face->passed.by_gap = of_end * ((bend + slope * face->by_gap) / C - face->by_gap);
+  face->passed.by_voltage = of_end * (slope * face->by_voltage / C - (face->by_voltage - 1));
+  return Y;
 }
 
 void zp_leak_step(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *e) {
+  e->faces = 0;
   for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, step->end->cover, k);
-    e->Z[k] = step->Z[k];
-    e->passed[k] = (ZpLeakPassed){0, 0, 0};
-    if (!is_face(&place)) continue;
-    double g0 = zp_plates_place_gap(&place, step->start), g1 = zp_plates_place_gap(&place, step->end);
-    Sides sides = sides_of(p, plates, &place);
-    End end = end_of(p, &sides, step, step->Z[k], g0, g1);
-    if (step->h > 0) e->Z[k] = end.Y - step->U1;
-    e->by_gap[k] = end.by_gap;
-    e->by_voltage[k] = end.by_voltage;
-    e->passed[k] = end.passed;
+    ZpLeakFace *face = &e->face[e->faces];
+    double Z0 = e->Z[k] = step->Z[k];
+    if (!find_face(p, plates, step->start, step->end, k, face)) continue;
+    double Y = face->sides == 1 ? end_of(p, step, Z0, 1, face) : end_of(p, step, Z0, 2, face);
+    if (step->h > 0) e->Z[k] = Y - step->U1;
+    e->faces++;
   }
 }
 
 /* -- forces ---------------------------------------------------------------------------------------- */
 
 /* Contribution of the interface charge to the potential, J/m: eq. (25.4). */
-static double of_interface(const ZpLeakParams *p, double U, double Z) {
+ZP_INLINE double of_interface(const ZpLeakParams *p, double U, double Z) {
   return p->insulators * Z * (U + 0.5 * Z);
 }
 
 void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *e,
                     ZpPlatesStep *forces) {
-  for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, step->end->cover, k);
-    if (!is_face(&place)) continue;
-    double g0 = zp_plates_place_gap(&place, step->start), g1 = zp_plates_place_gap(&place, step->end);
-    double Y1 = step->U1 + e->Z[k];
-    Sides sides = sides_of(p, plates, &place);
-    ZpPlatesMean piece = between(&sides, step->U0 + step->Z[k], Y1, g0, g1);
-    piece.slope += between_by_voltage(&sides, Y1, g0, g1).W * e->by_gap[k];
-    piece.P += 0.5 * (of_interface(p, step->U0, step->Z[k]) + of_interface(p, step->U1, e->Z[k]));
-    e->piece[k] = piece;
+  for (const ZpLeakFace *face = e->face; face < e->face + e->faces; face++) {
+    double Z0 = step->Z[face->place], Z1 = e->Z[face->place], Y1 = step->U1 + Z1;
+    ZpPlatesMean piece = between(face, step->U0 + Z0, Y1, face->g0, face->g1);
+    piece.slope += between_by_voltage(face, Y1, face->g0, face->g1).W * face->by_gap;
+    piece.P += 0.5 * (of_interface(p, step->U0, Z0) + of_interface(p, step->U1, Z1));
+    e->piece[face->place] = piece;
   }
   zp_plates_step_of(plates, e->piece, step->start, step->end, forces);
 }
@@ -259,10 +245,9 @@ void zp_leak_forces(const ZpLeakParams *p, const ZpPlatesParams *plates, const Z
 /* -- by the voltage -------------------------------------------------------------------------------- */
 
 /* Derivative of the mean force: half of the law at the end. */
-static ZpPlatesMean force_by_voltage(const ZpLeakParams *p, const Sides *sides, const ZpLeakStep *step,
-                                     const ZpLeakEval *e, size_t k, double g0, double g1) {
-  double Z = e->Z[k], U = step->U1, by_U = e->by_voltage[k];
-  ZpPlatesMean piece = between_by_voltage(sides, U + Z, g0, g1);
+static ZpPlatesMean force_by_voltage(const ZpLeakParams *p, const ZpLeakFace *face, double U, double Z) {
+  double by_U = face->by_voltage;
+  ZpPlatesMean piece = between_by_voltage(face, U + Z, face->g0, face->g1);
   piece.W *= by_U;
   piece.P = piece.P * by_U + 0.5 * p->insulators * ((U + Z) * by_U - U);
   return piece;
@@ -270,54 +255,43 @@ static ZpPlatesMean force_by_voltage(const ZpLeakParams *p, const Sides *sides, 
 
 /* Derivative of the charge q - C Z at the end and of the conducted charge, half of which depends on the x-length
  * there. */
-static ZpPlatesMean charge_piece(const ZpLeakParams *p, const Sides *sides, const ZpLeakStep *step, const ZpLeakEval *e,
-                                 size_t k, double g1) {
-  double Z = e->Z[k], C = p->insulators, Y = step->U1 + Z;
-  ZpPlatesMean at_rest = between_by_voltage(sides, Y, g1, g1); /* half of it */
-  double by_gap = (capacitance_of(sides, Y, g1) - C) * e->by_gap[k] - 2 * at_rest.W + e->passed[k].by_gap;
-  return (ZpPlatesMean){-by_gap, 0, 2 * at_rest.P + C * Z - 0.5 * e->passed[k].charge, 0};
+static ZpPlatesMean charge_piece(const ZpLeakParams *p, const ZpLeakFace *face, double U, double Z) {
+  double C = p->insulators, Y = U + Z;
+  ZpPlatesMean at_rest = between_by_voltage(face, Y, face->g1, face->g1); /* half of it */
+  double by_gap = (capacitance_of(face, Y, face->g1) - C) * face->by_gap - 2 * at_rest.W + face->passed.by_gap;
+  return (ZpPlatesMean){-by_gap, 0, 2 * at_rest.P + C * Z - 0.5 * face->passed.charge, 0};
 }
 
 void zp_leak_by_voltage(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step, ZpLeakEval *e,
                         ZpPlatesByVoltage *by) {
   ZpPlatesStep forces = e->work, charges = e->work;
+  const ZpLeakFace *end = e->face + e->faces;
+  double C = p->insulators, U = step->U1;
   forces.Fx = by->Fx, forces.Fy = by->Fy, charges.Fx = by->Qx, charges.Fy = by->Qy;
   by->capacitance = 0;
-  for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, step->end->cover, k);
-    if (!is_face(&place)) continue;
-    double g0 = zp_plates_place_gap(&place, step->start), g1 = zp_plates_place_gap(&place, step->end);
-    double C = p->insulators, by_U = e->by_voltage[k], length = zp_plates_place_length(&place, step->end);
-    Sides sides = sides_of(p, plates, &place);
-    e->piece[k] = force_by_voltage(p, &sides, step, e, k, g0, g1);
+  for (const ZpLeakFace *face = e->face; face < end; face++) {
+    double Z = e->Z[face->place], by_U = face->by_voltage;
+    e->piece[face->place] = force_by_voltage(p, face, U, Z);
     by->capacitance +=
-        length * (capacitance_of(&sides, step->U1 + e->Z[k], g1) * by_U - C * (by_U - 1) + e->passed[k].by_voltage);
+        face->length1 * (capacitance_of(face, U + Z, face->g1) * by_U - C * (by_U - 1) + face->passed.by_voltage);
   }
   zp_plates_step_of(plates, e->piece, step->start, step->end, &forces);
-  for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, step->end->cover, k);
-    if (!is_face(&place)) continue;
-    Sides sides = sides_of(p, plates, &place);
-    e->piece[k] = charge_piece(p, &sides, step, e, k, zp_plates_place_gap(&place, step->end));
-  }
+  for (const ZpLeakFace *face = e->face; face < end; face++)
+    e->piece[face->place] = charge_piece(p, face, U, e->Z[face->place]);
   zp_plates_step_of(plates, e->piece, step->end, step->end, &charges);
 }
 
 /* -- totals ---------------------------------------------------------------------------------------- */
 
-double zp_leak_passed(const ZpPlatesParams *plates, const ZpLeakStep *step, const ZpLeakEval *e) {
+double zp_leak_passed(const ZpLeakEval *e) {
   double sum = 0;
-  for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, step->end->cover, k);
-    if (!is_face(&place)) continue;
-    double before = zp_plates_place_length(&place, step->start), after = zp_plates_place_length(&place, step->end);
-    sum += 0.5 * (before + after) * e->passed[k].charge;
-  }
+  for (const ZpLeakFace *face = e->face; face < e->face + e->faces; face++)
+    sum += 0.5 * (face->length0 + face->length1) * face->passed.charge;
   return sum;
 }
 
 /* Integral of C Y - q, which is C times the voltage across the liquid, over Y from 0, at a gap g: eq. (25.4), J/m. */
-static double across_side(const ZpLeakParams *p, const ZpPlatesParams *law, double g, double Y) {
+ZP_INLINE double across_side(const ZpLeakParams *p, const ZpPlatesParams *law, double g, double Y) {
   Charge charge = charge_in_field(law, g);
   double free = fmin(fabs(Y), charge.most / charge.slope), held = fabs(Y) - free;
   double sum = 0.5 * p->insulators * g / (g + law->d) * free * free;
@@ -325,29 +299,27 @@ static double across_side(const ZpLeakParams *p, const ZpPlatesParams *law, doub
 }
 
 /* By how much the potential of a place rises as Z goes from Z0 to Z1 at constant gap and voltage, J/m. */
-static double rise(const ZpLeakParams *p, const Sides *sides, double U, double g, double Z0, double Z1) {
+ZP_INLINE double rise(const ZpLeakParams *p, const ZpLeakFace *face, double U, double g, double Z0, double Z1) {
   double sum = 0;
-  for (const Side *side = sides->of; side < sides->of + sides->count; side++)
+  for (int k = 0; k < face->sides; k++) {
+    const ZpLeakSide *side = &face->side[k];
     sum += side->share * (across_side(p, side->law, g, U + Z1) - across_side(p, side->law, g, U + Z0));
+  }
   return sum;
 }
 
-ZpLeakHeat zp_leak_heat(const ZpLeakParams *p, const ZpPlatesParams *plates, const ZpLeakStep *step,
-                        const ZpLeakEval *e) {
+ZpLeakHeat zp_leak_heat(const ZpLeakParams *p, const ZpLeakStep *step, const ZpLeakEval *e) {
   double touching = 0, stored = 0;
-  for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, step->end->cover, k);
-    if (!is_face(&place)) continue;
-    double g0 = zp_plates_place_gap(&place, step->start), g1 = zp_plates_place_gap(&place, step->end);
-    double dx0 = 0.5 * zp_plates_place_length(&place, step->start),
-           dx1 = 0.5 * zp_plates_place_length(&place, step->end);
-    double Z0 = step->Z[k], Z1 = e->Z[k];
-    Sides sides = sides_of(p, plates, &place);
-    touching +=
-        dx0 * rise(p, &sides, step->U1, fmax(g0, 0), Z0, Z1) + dx1 * rise(p, &sides, step->U0, fmax(g1, 0), Z0, Z1);
-    stored += dx0 * rise(p, &sides, step->U1, g0, Z0, Z1) + dx1 * rise(p, &sides, step->U0, g1, Z0, Z1);
+  for (const ZpLeakFace *face = e->face; face < e->face + e->faces; face++) {
+    double g0 = face->g0, g1 = face->g1, dx0 = 0.5 * face->length0, dx1 = 0.5 * face->length1;
+    double Z0 = step->Z[face->place], Z1 = e->Z[face->place];
+    double late = dx0 * rise(p, face, step->U1, g0, Z0, Z1), early = dx1 * rise(p, face, step->U0, g1, Z0, Z1);
+    stored += late + early;
+    if (g0 < 0) late = dx0 * rise(p, face, step->U1, 0, Z0, Z1);
+    if (g1 < 0) early = dx1 * rise(p, face, step->U0, 0, Z0, Z1);
+    touching += late + early;
   }
-  double given = 0.5 * (step->U0 + step->U1) * zp_leak_passed(plates, step, e);
+  double given = 0.5 * (step->U0 + step->U1) * zp_leak_passed(e);
   return (ZpLeakHeat){given - touching, touching - stored};
 }
 
@@ -355,12 +327,11 @@ ZpPlatesTotals zp_leak_totals(const ZpLeakParams *p, const ZpPlatesParams *plate
                               const double *Z) {
   ZpPlatesTotals totals = {0, 0, 0, 0};
   for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, gaps->cover, k);
-    if (!is_face(&place)) continue;
-    double gap = zp_plates_place_gap(&place, gaps), length = zp_plates_place_length(&place, gaps);
-    Sides sides = sides_of(p, plates, &place);
+    ZpLeakFace face;
+    if (!find_face(p, plates, gaps, gaps, k, &face)) continue;
+    double gap = face.g1, length = face.length1;
     ZpPlatesTotals here = {0, 0, 0, 0};
-    for (const Side *side = sides.of; side < sides.of + sides.count; side++) {
+    for (const ZpLeakSide *side = face.side; side < face.side + face.sides; side++) {
       ZpPlatesLaw law = zp_plates_law(side->law, U + Z[k], gap);
       here.force += side->share * law.W;
       here.potential += side->share * law.P;
@@ -380,17 +351,15 @@ ZpLeakNow zp_leak_now(const ZpLeakParams *p, const ZpPlatesParams *plates, const
   ZpLeakNow now = {0, 0, 0, 0};
   double all = 0;
   for (size_t k = 0; k < places(plates); k++) {
-    ZpPlatesPlace place = zp_plates_place(plates, gaps->cover, k);
-    if (!is_face(&place)) continue;
-    double length = zp_plates_place_length(&place, gaps);
-    double gap = zp_plates_place_gap(&place, gaps);
-    Sides sides = sides_of(p, plates, &place);
-    Charges charges = charges_of(&sides, gap);
-    Conduction here = conduction(p, &charges, U + Z[k], Z[k]);
+    ZpLeakFace face;
+    if (!find_face(p, plates, gaps, gaps, k, &face)) continue;
+    double length = face.length1, gap = face.g1;
+    Conduction here =
+        face.sides == 1 ? conduction_at(p, &face, 1, U + Z[k], Z[k]) : conduction_at(p, &face, 2, U + Z[k], Z[k]);
     all += length;
     now.mean += length * Z[k];
     now.current += length * here.insulators;
-    if (place.wet > 0) now.liquid = fmax(now.liquid, fabs(U + Z[k]) / (fmax(gap, 0) + plates->d));
+    if (face.wet > 0) now.liquid = fmax(now.liquid, fabs(U + Z[k]) / (fmax(gap, 0) + plates->d));
     now.fastest = fmax(now.fastest, fabs(here.gathers) / p->insulators);
   }
   now.mean = all > 0 ? now.mean / all : 0;

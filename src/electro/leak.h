@@ -24,11 +24,28 @@ typedef struct ZpLeakPassed {
   double by_voltage; /* F/m */
 } ZpLeakPassed;
 
+/* Liquid, or the air beyond a bead: the plates law there, the share of the place under it, and its discharge. */
+typedef struct ZpLeakSide {
+  const ZpPlatesParams *law;
+  double share, discharge;
+} ZpLeakSide;
+
+/* Faces at a place over a step. Where a bead ends, both sides lie beside each other, at one gap and one Z. */
+typedef struct ZpLeakFace {
+  size_t place;
+  int sides;
+  ZpLeakSide side[2];
+  double wet;                /* share of the place that liquid covers */
+  double g0, g1;             /* gaps at both ends, m */
+  double length0, length1;   /* and lengths, m */
+  double by_gap, by_voltage; /* how U + Z at the end goes with gap, V/m, and voltage there */
+  ZpLeakPassed passed;
+} ZpLeakFace;
+
 typedef struct ZpLeakEval {
-  double *Z;          /* interface voltages where the span ends, V */
-  double *by_gap;     /* U + Z there by the gap, V/m, */
-  double *by_voltage; /* and by the voltage */
-  ZpLeakPassed *passed;
+  double *Z;        /* interface voltages where the span ends, V */
+  ZpLeakFace *face; /* [faces] of the last step, in the order of their places */
+  size_t faces;
   ZpPlatesMean *piece; /* work space */
   ZpPlatesStep work;
 } ZpLeakEval;
@@ -56,7 +73,7 @@ void zp_leak_by_voltage(const ZpLeakParams *params, const ZpPlatesParams *plates
                         ZpLeakEval *eval, ZpPlatesByVoltage *by);
 
 /* Charge that has passed through the insulators, C. */
-double zp_leak_passed(const ZpPlatesParams *plates, const ZpLeakStep *step, const ZpLeakEval *eval);
+double zp_leak_passed(const ZpLeakEval *eval);
 
 /* Where the work goes that neither field nor ribbons receive, eq. (25.8). */
 typedef struct ZpLeakHeat {
@@ -64,8 +81,7 @@ typedef struct ZpLeakHeat {
   double overlap;    /* energy of the field that faces which overlap exchange with the contact between them, J */
 } ZpLeakHeat;
 
-ZpLeakHeat zp_leak_heat(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpLeakStep *step,
-                        const ZpLeakEval *eval);
+ZpLeakHeat zp_leak_heat(const ZpLeakParams *params, const ZpLeakStep *step, const ZpLeakEval *eval);
 
 /* Totals at some gaps, a voltage and interface voltages Z. */
 ZpPlatesTotals zp_leak_totals(const ZpLeakParams *params, const ZpPlatesParams *plates, const ZpPlatesEval *gaps,

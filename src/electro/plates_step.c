@@ -560,11 +560,7 @@ static double wet_share(const ZpPlatesParams *p, const ZpCover *cover, size_t i,
 
 ZpPlatesPlace zp_plates_place(const ZpPlatesParams *p, const ZpCover *cover, size_t at) {
   size_t i = at / ZP_PLATES_PLACES, q = at % ZP_PLATES_PLACES;
-  if (q == GAUSS) {
-    bool platform = i >= p->platform && i <= p->platform_end;
-    return (ZpPlatesPlace){i, 0, 0, platform ? p->flat_length : 0, zp_plates_flat(p, cover, i)};
-  }
-  if (i + 1 == p->nodes) return (ZpPlatesPlace){i, 0, 0, 0, 0};
+  if (q == GAUSS) return (ZpPlatesPlace){i, 0, 0, p->flat_length, zp_plates_flat(p, cover, i)};
   return (ZpPlatesPlace){i, zp_gauss_shares(&p->level, i)[q], gauss_weight[q], 0, wet_share(p, cover, i, q)};
 }
 

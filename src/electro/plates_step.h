@@ -64,11 +64,18 @@ typedef struct ZpPlatesPlace {
   size_t left;   /* station, */
   double right;  /* and the share of the next one in what is sampled */
   double weight; /* of the element's x-length; 0: it has a length of its own, */
-  double length; /* m; 0 as well: there are no faces */
+  double length; /* m */
   double wet;    /* share of the place that liquid covers, 0 .. 1 */
 } ZpPlatesPlace;
 
-/* Place `at` of [ZP_PLATES_PLACES N], with the liquid where `cover` has it; NULL: everywhere. */
+/* Are there faces at place `at` of [ZP_PLATES_PLACES N]? */
+static inline bool zp_plates_has_faces(const ZpPlatesParams *params, size_t at) {
+  size_t station = at / ZP_PLATES_PLACES;
+  if (at % ZP_PLATES_PLACES + 1 < ZP_PLATES_PLACES) return station + 1 < params->nodes;
+  return params->flat_length > 0 && station >= params->platform && station <= params->platform_end;
+}
+
+/* The place there, with the liquid where `cover` has it; NULL: everywhere. */
 ZpPlatesPlace zp_plates_place(const ZpPlatesParams *params, const ZpCover *cover, size_t at);
 
 /* The place at this part of the element right of a station, 0 .. 1, and that of a platform's electrode at a station. */

@@ -739,14 +739,9 @@ static void load(ZpDynamics *d, ZpState *const state[]) {
   d->history.next = state[0]->next_step;
 }
 
-static ZpElectric electric_at_end(const ZpDynamics *d, const ZpMovingMember *m) {
-  ZpSpan span = span_of(d, m);
-  return zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, m->U1);
-}
-
 /* Work of the source on the charge that insulators conduct over the step. */
-static void book_conduction(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) {
-  double passed = electric_at_end(d, m).passed;
+static void book_conduction(const ZpMovingMember *m, ZpState *state) {
+  double passed = zp_leak_passed(&m->eval.leak);
   state->leaked += passed;
   state->work += 0.5 * (m->U0 + m->U1) * passed;
 }
@@ -802,8 +797,11 @@ void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
 /* Motion, work and losses of one member over a step. */
 static void book(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   book_losses(d, m, state);
-  if (d->source) m->charge1 = electric_at_end(d, m).charge;
-  if (m->model->leaks) book_conduction(d, m, state);
+  if (d->source) {
+    ZpSpan span = span_of(d, m);
+    m->charge1 = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, m->U1).charge;
+  }
+  if (m->model->leaks) book_conduction(m, state);
   if (m->model->field) book_work(d, m, state);
 }
 

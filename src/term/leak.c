@@ -54,7 +54,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
   ZpLeakStep step = step_of(model, span, e);
   zp_leak_step(&model->leak, &model->plates, &step, &e->leak);
-  ZpLeakHeat heat = zp_leak_heat(&model->leak, &model->plates, &step, &e->leak);
+  ZpLeakHeat heat = zp_leak_heat(&model->leak, &step, &e->leak);
   row[CONDUCTION] += heat.conduction;
   row[OVERLAP] += heat.overlap;
 }
@@ -74,7 +74,7 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
   sum->charge += totals.charge;
   sum->potential += totals.potential;
   sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
-  if (later) sum->passed += zp_leak_passed(&model->plates, &step, &e->leak);
+  if (later) sum->passed += zp_leak_passed(&e->leak);
 }
 
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
