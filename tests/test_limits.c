@@ -2,7 +2,7 @@
  * which follows the curve, against closed forms, and against itself. */
 #include "check_util.h"
 
-#include "rest/quasistatic.h"
+#include "rest/limits.h"
 #include "rest/rest.h"
 #include "solve/track.h"
 
@@ -811,6 +811,31 @@ TEST(test_no_neighbour) {
 }
 
 /* -- where there is none ----------------------------------------------------------------------------- */
+
+static bool count_and_go_on(const void *calls) {
+  ++*(int *)(size_t)calls;
+  return false;
+}
+
+/* A computed field hides the limit point of a falling load on a very coarse mesh. The track towards it is given up, and
+ * the largest load follows from its definition. */
+NIGHTLY_TEST(a_track_that_creeps_is_given_up) {
+  ZpActuatorDef def = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 5});
+  ZpModel *model = model_of(&def);
+  ZpRest rest;
+  ck_assert(zp_rest_open(&rest, model, NULL, NULL));
+  int calls = 0;
+  rest.statics.stop = count_and_go_on;
+  rest.statics.caller = &calls;
+  ZpLimits *limits = zp_limits_create(&rest);
+  zp_limits_find(&rest, NULL, true, limits);
+  printf("64 residuals %d times, largest load %.10g kg\n", calls, limits->limit[ZP_LIMIT_LOAD].value);
+  ck_near(limits->limit[ZP_LIMIT_LOAD].value, 0.01029370505, 3e-9); /* 316 calls without giving up; 1e-10 */
+  ck_assert_int_lt(calls, 160);                                     /* 83 measured */
+  zp_limits_destroy(limits);
+  zp_rest_close(&rest);
+  zp_model_destroy(model);
+}
 
 /* What does not exist is null, and the message says why. */
 TEST(test_no_limit) {

@@ -17,20 +17,21 @@ typedef enum ZpTrackEnd {
 
 typedef struct ZpTrack {
   ZpFold fold;
-  ZpEvent event;  /* NULL: none */
-  double limit;   /* value of its function at the event */
-  double *q;      /* [n] at the last good point */
-  double *before; /* [n] dq/dm there */
-  double *guess;  /* [n] a step */
-  void *good;     /* the last good point */
-  void *start;    /* the start of the track */
-  ZpFoldTo to;    /* how accurate steps are: rough at first, exact if the branch was lost */
-  double m;       /* parameter at the last good point */
-  double value;   /* value of the event there */
-  double slope;   /* derivative of the event along m there */
-  double flat;    /* 1 / |dq/dm|^2 there */
-  double to_fold; /* distance of the limit point along m; INFINITY: none is expected */
-  bool tried;     /* the solution for it from there has been tried */
+  ZpEvent event;   /* NULL: none */
+  double limit;    /* value of its function at the event */
+  double *q;       /* [n] at the last good point */
+  double *before;  /* [n] dq/dm there */
+  double *guess;   /* [n] a step */
+  void *good;      /* the last good point */
+  void *start;     /* the start of the track */
+  ZpFoldTo to;     /* how accurate steps are: rough at first, exact if the branch was lost */
+  double m;        /* parameter at the last good point */
+  double value;    /* value of the event there */
+  double slope;    /* derivative of the event along m there */
+  double flat;     /* 1 / |dq/dm|^2 there */
+  double to_fold;  /* distance of the limit point along m; INFINITY: none is expected */
+  bool tried;      /* the solution for it from there has been tried */
+  int short_steps; /* in a row, far shorter than the best estimate */
 } ZpTrack;
 
 void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
