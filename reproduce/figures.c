@@ -6,8 +6,8 @@
 #include "base/fail.h"
 #include "base/table.h"
 #include "def/def.h"
-#include "io/atomic.h"
 #include "io/drawing.h"
+#include "io/file.h"
 #include "reproduce/parts.h"
 #include "study/result.h"
 

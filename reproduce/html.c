@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "io/html.h"
+#include "io/file.h"
 
 void zp_html_number(FILE *file, const char *text) {
   const char *exponent = strchr(text, 'e');

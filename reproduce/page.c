@@ -7,7 +7,7 @@
 
 #include <zipact/version.h>
 
-#include "io/atomic.h"
+#include "io/file.h"
 #include "reproduce/html.h"
 #include "reproduce/parts.h"
 

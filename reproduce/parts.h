@@ -4,7 +4,7 @@
 
 #include <zipact/batch.h>
 
-#include "io/template.h"
+#include "io/drawing.h"
 #include "reproduce/reproduce.h"
 
 /* -- runs: scenarios of runs.def, run and reported like any other scenario --------------------------- */

@@ -5,7 +5,7 @@
 #include <zipact/version.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "io/json.h"
 #include "io/number.h"
 #include "io/report.h"

@@ -7,7 +7,7 @@
 
 #include "base/fail.h"
 #include "def/def.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "reproduce/parts.h"
 #include "study/result.h"
 

@@ -14,5 +14,5 @@ foreach(file ${files})
   string(APPEND rows "  {\"${name}\", (const char *)text_${number}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE ${OUTPUT} "/* Made by scripts/embed-templates.cmake. */\n#include \"io/template.h\"\n\n${texts}\n"
+file(WRITE ${OUTPUT} "/* Made by scripts/embed-templates.cmake. */\n#include \"io/drawing.h\"\n\n${texts}\n"
                      "extern const ZpTemplate ${NAME}[];\nconst ZpTemplate ${NAME}[] = {\n${rows}  {0},\n};\n")

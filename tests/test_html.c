@@ -1,7 +1,7 @@
 /* Pieces of HTML: escapes, numbers, ids of pictures. */
 #include "check_util.h"
 
-#include "io/html.h"
+#include "io/file.h"
 #include "reproduce/html.h"
 
 static char written[4096];

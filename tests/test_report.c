@@ -22,8 +22,8 @@
 #include <zipact/io.h>
 
 #include "check_util.h"
-#include "io/atomic.h"
 #include "io/drawing.h"
+#include "io/file.h"
 #include "sanitized.h"
 
 #define NODES    61

@@ -10,7 +10,7 @@
 #include <zipact/io.h>
 
 #include "check_util.h"
-#include "io/template.h"
+#include "io/drawing.h"
 
 static char base[1024], notices[8192];
 

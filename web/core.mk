@@ -7,7 +7,7 @@ rooms := base def math ribbon electro contact liquid paper drive solve actuator 
 left_out := src/term/field.c $(addprefix src/electro/,edges_fit.c field.c grid.c surplus.c) src/math/skyline.c \
   $(addprefix src/study/,profile.c faces.c bookkeeping.c)
 sources := $(filter-out $(left_out),$(sort $(shell find $(addprefix src/,$(rooms)) -name '*.c'))) \
-  $(addprefix src/io/,value.c number.c source.c unit_nouns.c) $(wildcard web/*.c)
+  $(addprefix src/io/,value.c number.c source.c) $(wildcard web/*.c)
 objects := $(sources:%.c=web/build/%.o)
 
 CC := clang --target=wasm32-wasi

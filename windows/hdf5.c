@@ -1,6 +1,6 @@
 /* Instead of src/io/hdf5.c: on Windows there is no results.h5. */
-#include "io/atomic.h"
-#include "io/writers.h"
+#include "io/file.h"
+#include "io/report.h"
 
 ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err) {
   return zp_remove_file(report->directory, "results.h5", err);

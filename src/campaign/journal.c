@@ -19,7 +19,7 @@
 
 #include "base/fail.h"
 #include "base/pack.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "study/result.h"
 
 /* "zipa", and the number of this layout. */

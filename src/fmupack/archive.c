@@ -8,7 +8,7 @@
 #include <zip.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
+#include "io/file.h"
 
 struct ZpArchive {
   zip_t *zip;

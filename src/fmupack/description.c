@@ -12,7 +12,7 @@
 #include "fmu/export/slave.h"
 #include "fmu/variables.h"
 #include "fmupack/base_units.h"
-#include "io/html.h"
+#include "io/file.h"
 #include "io/number.h"
 #include "io/units.h"
 

@@ -9,7 +9,7 @@
 #include <sys/stat.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
+#include "io/file.h"
 
 static bool add(ZpKit *names, char *name) {
   char **item = name ? realloc(names->item, (names->count + 1) * sizeof *item) : NULL;

@@ -11,10 +11,8 @@
 #include "fmu/instance.h"
 #include "fmupack/archive.h"
 #include "fmupack/description.h"
-#include "io/atomic.h"
 #include "io/drive_table.h"
 #include "io/file.h"
-#include "io/html.h"
 #include "io/number.h"
 
 static const double step_size = 1e-3; /* s, of the default experiment */

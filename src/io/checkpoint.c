@@ -6,10 +6,8 @@
 
 #include "base/fail.h"
 #include "def/def.h"
-#include "io/atomic.h"
 #include "io/file.h"
 #include "io/report.h"
-#include "io/writers.h"
 #include "study/result.h"
 
 /* -- out ------------------------------------------------------------------------------------------- */

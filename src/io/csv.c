@@ -6,10 +6,9 @@
 
 #include "base/fail.h"
 #include "base/table.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "io/number.h"
 #include "io/report.h"
-#include "io/writers.h"
 #include "study/result.h"
 
 /* A row of names, or of numbers if there are any. In a table of runs, the outcome is between the keys and the numbers.

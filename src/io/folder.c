@@ -5,7 +5,7 @@
 #include <zipact/io.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "io/lock.h"
 
 #define LOCK_NAME ".zipact-lock"

@@ -13,9 +13,8 @@
 #include <time.h>
 #include <unistd.h>
 
-#include "io/atomic.h"
 #include "io/drawing.h"
-#include "io/template.h"
+#include "io/file.h"
 
 /* Longest file name and message; largest number of processes at once; pause between looks at them, ns. */
 enum { NAME_SIZE = 64, TEXT_SIZE = 1024, JOBS_MOST = 16, PAUSE = 4000000 };

@@ -22,11 +22,9 @@
 
 #include "base/fail.h"
 #include "base/table.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "io/guard.h"
 #include "io/report.h"
-#include "io/shows.h"
-#include "io/writers.h"
 #include "study/result.h"
 
 /* Increment of the file in memory, bytes. */

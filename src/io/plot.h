@@ -9,7 +9,6 @@
 
 #include "def/def.h"
 #include "io/report.h"
-#include "io/shows.h"
 
 /* A column of table.csv. */
 typedef struct ZpPlotColumn {

@@ -22,12 +22,11 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
 #include "io/cases.h"
 #include "io/drawing.h"
+#include "io/file.h"
 #include "io/plot.h"
-#include "io/template.h"
-#include "io/writers.h"
+#include "io/report.h"
 
 /* Cases above which pictures of a sweep are not drawn: more points than a picture can show. */
 enum { DRAWN_MOST = 10000, PICTURES_MOST = 100, WORDS_SIZE = 512 };

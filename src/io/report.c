@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/def.h"
 #include "io/cases.h"
 #include "io/file.h"
 #include "study/result.h"
@@ -153,4 +154,20 @@ static ZpStatus put_scenario(const void *scenario, FILE *file, ZpError *err) {
 
 ZpStatus zp_scenario_text(const ZpScenario *scenario, char **text, size_t *size, ZpError *err) {
   return zp_text_put(put_scenario, scenario, text, size, err);
+}
+
+static const struct {
+  ZpShows shows;
+  const char *word;
+} of[ZpStudy_COUNT] = {
+#define ZP_STUDY(enumerator, word, shows, files, help) [enumerator] = {ZP_SHOWS_##shows, #shows},
+#include <zipact/studies.def>
+};
+
+ZpShows zp_study_shows(ZpStudy study) {
+  return of[study].shows;
+}
+
+const char *zp_study_kind(ZpStudy study) {
+  return of[study].word;
 }

@@ -73,4 +73,40 @@ const char *zp_key_word(int key, double value);
 /* scenario.yaml as text, to be freed by the caller; NULL on failure. */
 ZpStatus zp_scenario_text(const ZpScenario *scenario, char **text, size_t *size, ZpError *err);
 
+/* The kind of results of a study, from studies.def: it determines pictures and words in files. */
+typedef enum ZpShows {
+  ZP_SHOWS_motion,      /* rows and shapes over time */
+  ZP_SHOWS_branch,      /* equilibria along the voltage */
+  ZP_SHOWS_held_branch, /* the same with a held platform: a force instead of a load */
+  ZP_SHOWS_shape,       /* one shape at rest */
+  ZP_SHOWS_modes,       /* the shape at rest, then one shape per mode */
+  ZP_SHOWS_field,       /* forces along one shape, and the field around it */
+  ZP_SHOWS_fit,         /* measured and fitted values */
+  ZP_SHOWS_limits       /* single states, each of them a limit */
+} ZpShows;
+
+ZpShows zp_study_shows(ZpStudy study);
+
+/* Its kind as a word: "held_branch". */
+const char *zp_study_kind(ZpStudy study);
+
+/* -- writers ------------------------------------------------------------------------------------------ */
+
+/* The writers. Each replaces its own files in report->directory and removes those of an earlier report that this one
+ * does not have. */
+ZpStatus zp_csv_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_hdf5_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err);
+ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err);
+
+/* Pictures: first the pictures of an earlier report are removed, and scripts and data of this one are written. When all
+ * numbers are on the disk, gnuplot draws. A notice reports pictures that cannot be drawn. */
+ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err);
+void zp_plots_write(const ZpReport *report, void (*notice)(const char *message));
+
+/* Write "statistics", the distribution of each output over the samples: a list with an object per combination of the
+ * lists' values, with the values of the keys and "outputs". For an interrupted report only complete combinations. */
+struct ZpJson;
+void zp_sample_statistics(struct ZpJson *json, const ZpReport *report);
+
 #endif

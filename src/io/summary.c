@@ -8,8 +8,6 @@
 #include "io/cases.h"
 #include "io/json.h"
 #include "io/report.h"
-#include "io/shows.h"
-#include "io/summary.h"
 #include "study/result.h"
 
 /* frequency_1_Hz, frequency_2_Hz, ..., and their errors: scalars, so that a sweep has columns, but arrays in JSON. */

@@ -4,8 +4,8 @@
 
 #include "def/def.h"
 #include "io/cases.h"
+#include "io/json.h"
 #include "io/report.h"
-#include "io/summary.h"
 #include "sample/statistics.h"
 
 /* Number of outputs that are read at once: a campaign may have more rows than fit into memory, and reading them takes

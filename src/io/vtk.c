@@ -10,10 +10,9 @@
 
 #include "base/fail.h"
 #include "base/table.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "io/number.h"
 #include "io/report.h"
-#include "io/writers.h"
 #include "study/result.h"
 
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__

@@ -11,9 +11,8 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
-#include "io/atomic.h"
+#include "io/file.h"
 #include "io/report.h"
-#include "io/writers.h"
 
 /* The files with all rows or values, the slowest first. */
 enum { SUMMARY, RESULTS, TABLE, SCENARIO, FILES };
