@@ -182,14 +182,16 @@ static ZpResult *run_case(Worker *worker, size_t number, ZpResult *before) {
   return NULL;
 }
 
-/* Compute the hashes of the cases from .. to - 1. True if the journal has all of them. */
-static bool hash_chunk(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[ZP_CHUNK_MOST]) {
+/* Compute the hashes of the cases from .. to - 1, of whole chunks: the first case of a chunk starts from none. True if
+ * the journal has all of them. */
+static bool hash_cases(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[SPAN_MOST]) {
   uint64_t before = c->start;
   bool known = true;
   for (size_t i = from; i < to; i++) {
     ZpActuatorDef def;
     const bool resolved =
         zp_scenario_given(c->scenario, i, &def, NULL) == ZP_OK; /* otherwise the run reports the reason */
+    if ((i - from) % c->chunk == 0) before = c->start;
     before = hash[i - from] = resolved ? zp_case_hash(before, &def) : before;
     known = known && resolved && c->hash[i] == before;
   }
@@ -197,14 +199,10 @@ static bool hash_chunk(const ZpCampaign *c, size_t from, size_t to, uint64_t has
 }
 
 /* A result is sent to the writer when the next one, which starts from it, is finished. */
-static void run_chunk(Worker *worker, size_t from, size_t to) {
+static void run_here(Worker *worker, size_t from, size_t to, const uint64_t *hash) {
   ZpCampaign *c = worker->campaign;
-  uint64_t hash[ZP_CHUNK_MOST];
   ZpResult *before = NULL;
-  const bool known = hash_chunk(c, from, to, hash);
-  for (size_t i = from; known && i < to; i++)
-    hand_over(c, i, hash[i - from], NULL);
-  for (size_t i = from; !known && i < to; i++) {
+  for (size_t i = from; i < to; i++) {
     ZpResult *result = run_case(worker, i, before);
     if (before) hand_over_result(c, i - 1, hash[i - 1 - from], before);
     before = result;
@@ -214,56 +212,48 @@ static void run_chunk(Worker *worker, size_t from, size_t to) {
       result->series = NULL;
     }
   }
-  if (before) hand_over_result(c, to - 1, hash[to - 1 - from], before);
+  hand_over_result(c, to - 1, hash[to - 1 - from], before);
 }
 
-/* -- cases that are computed elsewhere -------------------------------------------------------------- */
-
-/* Compute the hashes of the chunks of a span. True if the journal has all rows. */
-static bool hash_span(const ZpCampaign *c, size_t from, size_t to, uint64_t hash[SPAN_MOST]) {
-  bool known = true;
-  for (size_t start = from; start < to; start += c->chunk) {
-    const size_t end = to - start < c->chunk ? to : start + c->chunk;
-    known = hash_chunk(c, start, end, hash + (start - from)) && known;
-  }
-  return known;
-}
-
-/* Send the results of a span that another process has computed to the writer. False if the campaign ends. */
-static bool run_span(Worker *worker, size_t from, size_t to) {
+/* Send the results of cases that another process has computed to the writer. False if it is lost. */
+static bool run_elsewhere(Worker *worker, size_t from, size_t to, const uint64_t *hash) {
   ZpCampaign *c = worker->campaign;
-  uint64_t hash[SPAN_MOST] = {0};
   ZpResult *result[SPAN_MOST] = {NULL};
   unsigned char *byte = NULL;
   size_t size = 0;
   ZpError err = {ZP_MACHINE, "results of another process cannot be read: no memory, or another version"};
-  const bool known = hash_span(c, from, to, hash);
-  ZpStatus status =
-      known ? ZP_OK : c->options.remote(c->options.remote_user, worker->number, from, to, &byte, &size, &err);
-  const bool lost = status == ZP_OK && !known && !byte;
+  ZpStatus status = c->options.remote(c->options.remote_user, worker->number, from, to, &byte, &size, &err);
+  const bool lost = status == ZP_OK && !byte;
   if (status == ZP_OK && byte && !zp_remote_read(byte, size, c->study, to - from, result)) status = ZP_MACHINE;
   if (status != ZP_OK) fail(c, &err);
   for (size_t i = from; i < to && status == ZP_OK && !lost; i++)
-    if (known)
-      hand_over(c, i, hash[i - from], NULL);
-    else
-      hand_over_result(c, i, hash[i - from], result[i - from]);
+    hand_over_result(c, i, hash[i - from], result[i - from]);
   free(byte); /* which has the names of the results */
-  end_span(c, from, to, lost);
-  return status == ZP_OK && !lost;
+  return !lost;
+}
+
+/* False if the worker takes no more cases. */
+static bool run_span(Worker *worker, size_t from, size_t to) {
+  ZpCampaign *c = worker->campaign;
+  uint64_t hash[SPAN_MOST];
+  const bool known = hash_cases(c, from, to, hash);
+  bool lost = false;
+  for (size_t i = from; known && i < to; i++)
+    hand_over(c, i, hash[i - from], NULL);
+  if (!known && c->options.remote)
+    lost = !run_elsewhere(worker, from, to, hash);
+  else if (!known)
+    run_here(worker, from, to, hash);
+  if (c->options.remote) end_span(c, from, to, lost);
+  return !lost;
 }
 
 static void *work(void *user) {
   Worker *worker = user;
   ZpCampaign *c = worker->campaign;
   size_t from, to;
-  bool goes_on = true;
-  while (goes_on && take_chunk(c, &from, &to)) {
-    if (c->options.remote)
-      goes_on = run_span(worker, from, to);
-    else
-      run_chunk(worker, from, to);
-  }
+  while (take_chunk(c, &from, &to) && run_span(worker, from, to))
+    continue;
   pthread_mutex_lock(&c->lock);
   c->workers--;
   pthread_cond_signal(&c->more);
@@ -327,12 +317,6 @@ static ZpStatus write_rows(ZpCampaign *c, const Row *row, size_t count, ZpStatus
   return status;
 }
 
-static ZpStatus commit(ZpCampaign *c, ZpError *err) {
-  ZpStatus status = zp_journal_commit(c->journal, err);
-  if (status == ZP_OK) c->uncommitted = SIZE_MAX;
-  return status;
-}
-
 static void look_around(ZpCampaign *c, const Worker *worker, size_t workers) {
   double done = (double)c->state.done;
   for (size_t i = 0; i < workers; i++)
@@ -351,7 +335,10 @@ static ZpStatus write_all(ZpCampaign *c, const Worker *worker, size_t workers, Z
     status = write_rows(c, row, count, status, err);
     const bool due = now() - committed >= COMMIT_AFTER || !open;
     if (due) committed = now();
-    if (due && status == ZP_OK) status = commit(c, err);
+    if (due && status == ZP_OK) {
+      status = zp_journal_commit(c->journal, err);
+      if (status == ZP_OK) c->uncommitted = SIZE_MAX;
+    }
     if (status != ZP_OK) atomic_store(&c->stop, true);
     if (now() - looked < PULSE && open) continue;
     looked = now();
@@ -409,17 +396,14 @@ static void take_old_row(void *user, size_t number, uint64_t hash, bool good) {
 
 /* -- open and close --------------------------------------------------------------------------------- */
 
-static bool init_locks(ZpCampaign *c) {
-  pthread_condattr_t attributes;
-  return pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
-         pthread_condattr_init(&attributes) == 0 && pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
-         pthread_cond_init(&c->more, &attributes) == 0;
-}
-
 /* A campaign that can be closed; NULL if there is no memory. */
 static ZpCampaign *create(void) {
+  pthread_condattr_t attributes;
   ZpCampaign *c = calloc(1, sizeof *c);
-  if (c && init_locks(c)) return c;
+  if (c && pthread_mutex_init(&c->lock, NULL) == 0 && pthread_cond_init(&c->room, NULL) == 0 &&
+      pthread_condattr_init(&attributes) == 0 && pthread_condattr_setclock(&attributes, CLOCK_MONOTONIC) == 0 &&
+      pthread_cond_init(&c->more, &attributes) == 0)
+    return c;
   free(c);
   return NULL;
 }

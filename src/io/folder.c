@@ -14,22 +14,17 @@ struct ZpFolder {
   ZpLock *lock;
 };
 
-/* Create every folder of the path, from the first on. `path` is modified and restored on the way. */
-static ZpStatus make_all(char *path, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  for (char *slash = strchr(path + 1, '/'); slash && status == ZP_OK; slash = strchr(slash + 1, '/')) {
+/* Create every folder of the path, from the first on. */
+static ZpStatus make_folders(const char *directory, ZpError *err) {
+  if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the output folder is empty");
+  char *path = strdup(directory);
+  ZpStatus status = path ? ZP_OK : zp_fail_memory(err);
+  for (char *slash = path ? strchr(path + 1, '/') : NULL; slash && status == ZP_OK; slash = strchr(slash + 1, '/')) {
     *slash = 0;
     status = zp_make_folder(path, err);
     *slash = '/';
   }
-  return status == ZP_OK ? zp_make_folder(path, err) : status;
-}
-
-static ZpStatus make_folders(const char *directory, ZpError *err) {
-  if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the output folder is empty");
-  char *path = strdup(directory);
-  if (!path) return zp_fail_memory(err);
-  ZpStatus status = make_all(path, err);
+  if (status == ZP_OK) status = zp_make_folder(path, err);
   free(path);
   return status;
 }

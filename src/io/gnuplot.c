@@ -75,12 +75,6 @@ static int spawn(const char *folder, Work *work) {
   return error;
 }
 
-static void kill_group(const Work *work) {
-  kill(-work->id, SIGKILL);
-  while (waitpid(work->id, NULL, 0) < 0 && errno == EINTR)
-    continue;
-}
-
 /* The first line with a message: not empty, not the mark under a quoted command, not only a warning. */
 static void read_complaint(FILE *errors, char reason[TEXT_SIZE]) {
   char line[TEXT_SIZE];
@@ -167,7 +161,9 @@ static bool look(ZpDrawing *drawing, Work *work, bool stop) {
     return false;
   }
   const bool told = drawing->over && stop; /* of those that were drawn beside it */
-  kill_group(work);
+  kill(-work->id, SIGKILL);
+  while (waitpid(work->id, NULL, 0) < 0 && errno == EINTR)
+    continue;
   drawing->over = true;
   snprintf(reason, sizeof reason, "gnuplot took longer than %g s", drawing->patience);
   give_up(drawing, work, told ? NULL : stop ? "interrupted" : reason);

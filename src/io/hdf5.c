@@ -30,11 +30,6 @@
 /* Increment of the file in memory, bytes. */
 #define GROWTH (1 << 20)
 
-/* Name, unit and meaning of an array, for its attributes. Strings may be NULL. */
-typedef struct Meaning {
-  const char *name, *unit, *help;
-} Meaning;
-
 /* The target of datasets and the properties of new objects. A call that fails sets `bad`, after which nothing is done,
  * so the result is only checked at the end. */
 typedef struct Store {
@@ -68,7 +63,7 @@ static void put_attribute(Store *store, hid_t object, const char *name, const ch
 }
 
 /* A dataset of `rank` dimensions (0: a single value) without values, to be closed. */
-static hid_t open_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, int rank, const hsize_t *size) {
+static hid_t open_array(Store *store, hid_t group, const ZpColumn *meaning, hid_t disk, int rank, const hsize_t *size) {
   if (store->bad) return -1;
   hid_t space = rank ? H5Screate_simple(rank, size, NULL) : H5Screate(H5S_SCALAR);
   hid_t set = H5Dcreate2(group, meaning->name, disk, space, H5P_DEFAULT, store->plain, H5P_DEFAULT);
@@ -80,21 +75,21 @@ static hid_t open_array(Store *store, hid_t group, const Meaning *meaning, hid_t
 }
 
 /* One dataset from `value` of the type `memory`. */
-static void put_array(Store *store, hid_t group, const Meaning *meaning, hid_t disk, hid_t memory, int rank,
+static void put_array(Store *store, hid_t group, const ZpColumn *meaning, hid_t disk, hid_t memory, int rank,
                       const hsize_t *size, const void *value) {
   hid_t set = open_array(store, group, meaning, disk, rank, size);
   if (!store->bad) is_bad(store, H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, value));
   if (set >= 0) H5Dclose(set);
 }
 
-static void put_reals(Store *store, hid_t group, const Meaning *meaning, int rank, const hsize_t *size,
+static void put_reals(Store *store, hid_t group, const ZpColumn *meaning, int rank, const hsize_t *size,
                       const double *value) {
   put_array(store, group, meaning, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, rank, size, value);
 }
 
 static void put_text(Store *store, hid_t group, const char *name, const char *text) {
   hid_t type = text_type(text);
-  if (!is_bad(store, type)) put_array(store, group, &(Meaning){.name = name}, type, type, 0, NULL, text);
+  if (!is_bad(store, type)) put_array(store, group, &(ZpColumn){.name = name}, type, type, 0, NULL, text);
   H5Tclose(type);
 }
 
@@ -121,10 +116,9 @@ static void put_series(Store *store, hid_t parent, const ZpTable *table) {
   hsize_t rows = table->rows;
   double *value = numbers(store, table->rows);
   for (size_t i = 0; i < table->columns && !store->bad; i++) {
-    const ZpColumn *c = &table->column[i];
     for (size_t row = 0; row < table->rows; row++)
       value[row] = clean(table->value[row * table->columns + i]);
-    put_reals(store, group, &(Meaning){c->name, c->unit, c->help}, 1, &rows, value);
+    put_reals(store, group, &table->column[i], 1, &rows, value);
   }
   free(value);
   H5Gclose(group);
@@ -132,7 +126,8 @@ static void put_series(Store *store, hid_t parent, const ZpTable *table) {
 
 /* Write time, voltage and number of closed pairs of each frame. */
 static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStudy study) {
-  static const Meaning moment = {"time", "s", "time of the frame"}, mark = {"time", "1", "number of the frame's state"};
+  static const ZpColumn moment = {"time", "s", "time of the frame"},
+                        mark = {"time", "1", "number of the frame's state"};
   const hsize_t size = shapes->frames;
   double *time = numbers(store, shapes->frames), *voltage = numbers(store, shapes->frames);
   long long *zipped = calloc(shapes->frames + 1, sizeof *zipped);
@@ -144,8 +139,8 @@ static void put_frames(Store *store, hid_t group, const ZpShapes *shapes, ZpStud
     zipped[i] = (long long)shape.zipped;
   }
   put_reals(store, group, zp_study_shows(study) == ZP_SHOWS_motion ? &moment : &mark, 1, &size, time);
-  put_reals(store, group, &(Meaning){"voltage", "V", "voltage between the electrodes"}, 1, &size, voltage);
-  put_array(store, group, &(Meaning){"zipped", "1", "pairs 0 .. zipped are closed; the clip is pair 0"}, H5T_STD_I64LE,
+  put_reals(store, group, &(ZpColumn){"voltage", "V", "voltage between the electrodes"}, 1, &size, voltage);
+  put_array(store, group, &(ZpColumn){"zipped", "1", "pairs 0 .. zipped are closed; the clip is pair 0"}, H5T_STD_I64LE,
             H5T_NATIVE_LLONG, 1, &size, zipped);
   free(time);
   free(voltage);
@@ -166,7 +161,7 @@ static void put_field(Store *store, hid_t group, const ZpShapes *shapes, const Z
       for (size_t n = 0; n < nodes; n++)
         *next++ = clean(from[n * ribbons + r]);
   }
-  put_reals(store, group, &(Meaning){field->name, field->unit, field->help}, field->of_nodes ? 3 : 2,
+  put_reals(store, group, &(ZpColumn){field->name, field->unit, field->help}, field->of_nodes ? 3 : 2,
             field->of_nodes ? with_ribbons : without, value);
   free(value);
 }
@@ -186,12 +181,12 @@ static void put_map(Store *store, hid_t parent, const ZpFieldMap *map) {
   const hsize_t nodes[] = {map->nx, map->ny}, cells[] = {map->nx - 1, map->ny - 1};
   put_reals(
       store, group,
-      &(Meaning){"x", "m", "horizontal position of a node, from the edge of the clip; [i][j], i along the ribbons"}, 2,
+      &(ZpColumn){"x", "m", "horizontal position of a node, from the edge of the clip; [i][j], i along the ribbons"}, 2,
       nodes, map->x);
-  put_reals(store, group, &(Meaning){"y", "m", "height of a node; [i][j]"}, 2, nodes, map->y);
-  put_reals(store, group, &(Meaning){"potential", "V", "potential of a node; [i][j]"}, 2, nodes, map->potential);
-  put_reals(store, group, &(Meaning){"strength", "V/m", "field strength in a cell; [i][j]"}, 2, cells, map->strength);
-  put_reals(store, group, &(Meaning){"permittivity", "1", "relative permittivity of a cell, 0 in metal; [i][j]"}, 2,
+  put_reals(store, group, &(ZpColumn){"y", "m", "height of a node; [i][j]"}, 2, nodes, map->y);
+  put_reals(store, group, &(ZpColumn){"potential", "V", "potential of a node; [i][j]"}, 2, nodes, map->potential);
+  put_reals(store, group, &(ZpColumn){"strength", "V/m", "field strength in a cell; [i][j]"}, 2, cells, map->strength);
+  put_reals(store, group, &(ZpColumn){"permittivity", "1", "relative permittivity of a cell, 0 in metal; [i][j]"}, 2,
             cells, map->permittivity);
   H5Gclose(group);
 }
@@ -202,7 +197,7 @@ static void put_summary(Store *store, hid_t parent, const ZpResult *result) {
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *s = &result->scalar[i];
     const double value = clean(s->value);
-    if (!s->timing) put_reals(store, group, &(Meaning){.name = s->name, .unit = s->unit}, 0, NULL, &value);
+    if (!s->timing) put_reals(store, group, &(ZpColumn){.name = s->name, .unit = s->unit}, 0, NULL, &value);
   }
   H5Gclose(group);
 }
@@ -231,7 +226,7 @@ typedef struct Columns {
 
 static void open_columns(Store *store, hid_t group, Columns *c) {
   const hsize_t rows = c->cases.report->count;
-  const Meaning outcome = {.name = "outcome", .help = "outcome of the run"};
+  const ZpColumn outcome = {.name = "outcome", .help = "outcome of the run"};
   c->type = H5Tcopy(H5T_C_S1);
   if (!is_bad(store, c->type)) is_bad(store, H5Tset_size(c->type, OUTCOME_SIZE));
   for (size_t i = 0; i <= c->cases.columns; i++) {
@@ -239,15 +234,8 @@ static void open_columns(Store *store, hid_t group, Columns *c) {
     if (i == c->cases.keys) c->outcomes = open_array(store, group, &outcome, c->type, 1, &rows);
     if (i < c->cases.columns)
       c->set[i] =
-          open_array(store, group, &(Meaning){column->name, column->unit, column->help}, H5T_IEEE_F64LE, 1, &rows);
+          open_array(store, group, &(ZpColumn){column->name, column->unit, column->help}, H5T_IEEE_F64LE, 1, &rows);
   }
-}
-
-static void close_columns(const Columns *c) {
-  for (size_t i = 0; i < c->cases.columns; i++)
-    if (c->set[i] > 0) H5Dclose(c->set[i]);
-  if (c->outcomes > 0) H5Dclose(c->outcomes);
-  H5Tclose(c->type);
 }
 
 /* Copy row `run` to row `place` of the block. */
@@ -279,7 +267,10 @@ static void put_columns(Store *store, hid_t group, Columns *c) {
       take_row(c, from + i, i);
     put_block(store, c, from, rows);
   }
-  close_columns(c);
+  for (size_t i = 0; i < c->cases.columns; i++)
+    if (c->set[i] > 0) H5Dclose(c->set[i]);
+  if (c->outcomes > 0) H5Dclose(c->outcomes);
+  H5Tclose(c->type);
 }
 
 static void put_table(Store *store, const ZpReport *report) {
@@ -343,7 +334,12 @@ static bool write_image(hid_t file, FILE *out) {
   return true;
 }
 
+/* HDF5 prints its own error stack to stderr unless this is disabled; the setting of the caller is restored. */
 static bool build(const ZpReport *report, const char *scenario, FILE *out) {
+  H5E_auto2_t print = NULL;
+  void *data = NULL;
+  bool saved = H5Eget_auto2(H5E_DEFAULT, &print, &data) >= 0;
+  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
   Store store = {.file = open_memory_file(), .plain = H5Pcreate(H5P_DATASET_CREATE)};
   is_bad(&store, store.file);
   if (!is_bad(&store, store.plain)) is_bad(&store, H5Pset_obj_track_times(store.plain, false));
@@ -351,16 +347,6 @@ static bool build(const ZpReport *report, const char *scenario, FILE *out) {
   bool done = !store.bad && write_image(store.file, out);
   H5Pclose(store.plain);
   H5Fclose(store.file);
-  return done;
-}
-
-/* HDF5 prints its own error stack to stderr unless this is disabled; the setting of the caller is restored. */
-static bool build_silently(const ZpReport *report, const char *scenario, FILE *out) {
-  H5E_auto2_t print = NULL;
-  void *data = NULL;
-  bool saved = H5Eget_auto2(H5E_DEFAULT, &print, &data) >= 0;
-  H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
-  bool done = build(report, scenario, out);
   if (saved) H5Eset_auto2(H5E_DEFAULT, print, data);
   return done;
 }
@@ -380,7 +366,7 @@ static ZpStatus build_guarded(const ZpReport *report, const char *scenario, FILE
   ZpGuard guard;
   ZpStatus status = zp_guard_enter(&guard, "HDF5", room_of(report), err);
   if (status != ZP_OK) return status;
-  bool done = build_silently(report, scenario, out);
+  bool done = build(report, scenario, out);
   zp_guard_leave(&guard);
   if (done) return ZP_OK;
   return zp_fail(err, ZP_MACHINE, "cannot create %s/results.h5: HDF5 could not build it in memory", report->directory);

@@ -119,14 +119,6 @@ static json_t *json_of_key(int index) {
                    json_of_choices(key), "help", key->help);
 }
 
-/* The list of keys, owned by the caller; NULL if there is no memory. */
-static json_t *list_keys(void) {
-  json_t *list = json_array();
-  for (int i = 0; i < zp_key_count(); i++)
-    zp_json_add(&list, json_of_key(i));
-  return list;
-}
-
 /* Write `json`, which is freed; NULL: there was no memory for it. */
 static ZpStatus write_json(json_t *json, FILE *file, ZpError *err) {
   if (!json) return zp_fail_memory(err);
@@ -144,9 +136,13 @@ ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err) {
   case ZP_KEYS_TEXT:
     write_text(file);
     break;
-  case ZP_KEYS_JSON:
-    status = write_json(list_keys(), file, err);
+  case ZP_KEYS_JSON: {
+    json_t *list = json_array();
+    for (int i = 0; i < zp_key_count(); i++)
+      zp_json_add(&list, json_of_key(i));
+    status = write_json(list, file, err);
     break;
+  }
   case ZP_KEYS_SCHEMA:
     status = write_json(zp_schema_make(), file, err);
     break;

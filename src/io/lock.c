@@ -40,12 +40,6 @@ static void read_holder(int fd, char *who, size_t size) {
   zp_text_clean(who);
 }
 
-static ZpStatus fail_held(const ZpLock *lock, const char *directory, ZpError *err) {
-  char who[128];
-  read_holder(lock->fd, who, sizeof who);
-  return zp_fail(err, ZP_MACHINE, "cannot write results to %.300s: %s is writing there", directory, who);
-}
-
 /* Does the open file still have its name, and is it new? The file of a killed run is removed. */
 static bool is_new(const ZpLock *lock) {
   struct stat own, named;
@@ -72,7 +66,11 @@ static ZpStatus try_lock(ZpLock *lock, const char *directory, bool *again, ZpErr
   lock->fd = open(lock->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (lock->fd < 0) return cannot_lock(lock, err);
   lock->held = flock(lock->fd, LOCK_EX | LOCK_NB) == 0;
-  if (!lock->held && errno == EWOULDBLOCK) return fail_held(lock, directory, err);
+  if (!lock->held && errno == EWOULDBLOCK) {
+    char who[128];
+    read_holder(lock->fd, who, sizeof who);
+    return zp_fail(err, ZP_MACHINE, "cannot write results to %.300s: %s is writing there", directory, who);
+  }
   *again = !is_new(lock);
   return *again ? ZP_OK : sign(lock, err);
 }

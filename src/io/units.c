@@ -53,13 +53,6 @@ static bool is_plain_unit(const char *text) {
   return true;
 }
 
-/* Common notations that the database does not have. */
-static void add_names(void) {
-  ut_unit *degree = ut_parse(database, "degree", UT_UTF8);
-  if (degree) ut_map_name_to_unit("deg", UT_UTF8, degree);
-  ut_free(degree);
-}
-
 /* Read the database if it is not in memory, in the C locale, because it contains decimal points. */
 static ZpStatus need_database(ZpError *err) {
   if (database) return ZP_OK;
@@ -71,8 +64,12 @@ static ZpStatus need_database(ZpError *err) {
   int reason = errno;
   uselocale(users);
   freelocale(plain);
-  if (database) add_names();
-  if (database) return ZP_OK;
+  if (database) { /* which lacks a common notation */
+    ut_unit *degree = ut_parse(database, "degree", UT_UTF8);
+    if (degree) ut_map_name_to_unit("deg", UT_UTF8, degree);
+    ut_free(degree);
+    return ZP_OK;
+  }
   ut_status ignored;
   return zp_fail(err, ZP_MACHINE, "cannot read the UDUNITS-2 database %.200s: %s", ut_get_path_xml(NULL, &ignored),
                  reason ? strerror(reason) : "not a unit database");
@@ -94,19 +91,13 @@ static ZpUnitScale scale_of_factor(double factor) {
   return scale;
 }
 
-/* True for y = factor x with a positive finite factor; UDUNITS also has offsets, logarithms, inverses. */
-static bool is_proportional(const cv_converter *converter, double *factor) {
-  *factor = cv_convert_double(converter, 1);
-  double twice = cv_convert_double(converter, 2);
-  return isnormal(*factor) && *factor > 0 && fabs(twice - 2 * *factor) <= 1e-12 * twice;
-}
-
+/* Only y = factor x with a positive finite factor is a scale; UDUNITS also has offsets, logarithms, inverses. */
 static ZpStatus scale_between(ut_unit *from, ut_unit *to, const char *to_text, ZpUnitScale *scale, ZpError *err) {
   cv_converter *converter = ut_get_converter(from, to);
   if (!converter) return zp_unit_fail_dimension(to_text, err);
-  double factor;
-  bool proportional = is_proportional(converter, &factor);
+  const double factor = cv_convert_double(converter, 1), twice = cv_convert_double(converter, 2);
   cv_free(converter);
+  const bool proportional = isnormal(factor) && factor > 0 && fabs(twice - 2 * factor) <= 1e-12 * twice;
   if (!proportional) return zp_unit_fail_dimension(to_text, err);
   *scale = scale_of_factor(factor);
   return ZP_OK;

@@ -123,21 +123,19 @@ static ZpStatus write_all(const ZpReport *report, locale_t plain, void (*notice)
   return status;
 }
 
-/* The locale of the caller may write 0.5 as 0,5: files must not. */
-static ZpStatus write_plainly(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
-  locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-  if (!plain) return zp_fail_memory(err);
-  locale_t before = uselocale(plain);
-  ZpStatus status = write_all(report, plain, notice, err);
-  uselocale(before);
-  freelocale(plain);
-  return status;
-}
-
 ZpStatus zp_report_write(const ZpReport *report, void (*notice)(const char *message), ZpError *err) {
   ZpFolder *own = NULL;
   ZpStatus status = report->folder ? ZP_OK : zp_folder_open(report->directory, &own, err);
-  if (status == ZP_OK) status = write_plainly(report, notice, err);
+  /* The locale of the caller may write 0.5 as 0,5: files must not. */
+  locale_t plain = status == ZP_OK ? newlocale(LC_NUMERIC_MASK, "C", (locale_t)0) : (locale_t)0;
+  if (plain) {
+    locale_t before = uselocale(plain);
+    status = write_all(report, plain, notice, err);
+    uselocale(before);
+    freelocale(plain);
+  } else if (status == ZP_OK) {
+    status = zp_fail_memory(err);
+  }
   zp_folder_close(own);
   return status;
 }
