@@ -37,9 +37,13 @@ __attribute__((constructor)) static void limit_cpu(void) {
   setrlimit(RLIMIT_CPU, &limit);
 }
 
-/* Each test is a case of its own: cases have tags. */
+/* Each test is a case of its own: cases have tags. What runs before all goes with the first one of a kind, since
+ * nothing can be asserted outside a case. */
 static void add_case(Suite *suite, const TestEntry *entry) {
+  static bool begun[2];
   TCase *tcase = tcase_create(entry->test.name);
+  if (before_all && !begun[entry->nightly]) tcase_add_unchecked_fixture(tcase, before_all, NULL);
+  begun[entry->nightly] = true;
   if (entry->nightly) tcase_set_tags(tcase, "nightly");
   if (before_each) tcase_add_checked_fixture(tcase, before_each, after_each);
   _tcase_add_test(tcase, &entry->test, entry->signal, 0, entry->from, entry->to);
@@ -54,7 +58,6 @@ int main(int count, char **argument) {
   for (const TestEntry *entry = first; entry; entry = entry->next)
     if (!chosen || !strcmp(chosen, entry->test.name)) add_case(suite, entry);
   SRunner *runner = srunner_create(suite);
-  if (before_all) before_all();
   srunner_run_all(runner, CK_NORMAL);
   if (after_all) after_all();
   int failed = srunner_ntests_failed(runner);

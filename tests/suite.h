@@ -21,7 +21,8 @@ typedef struct TestEntry {
 
 void zp_test_add(TestEntry *entry);
 
-/* What runs before and after each test of the program, and before the first and after the last. */
+/* What runs before and after each test of the program, and before the first and after the last; after the last nothing
+ * can be asserted. */
 void zp_test_around_each(void (*before)(void), void (*after)(void));
 void zp_test_around_all(void (*before)(void), void (*after)(void));
 
