@@ -54,27 +54,30 @@ static ZpWhich row_of(const ZpPublished *p) {
   return (ZpWhich){.nodes = p->nodes, .load = p->load};
 }
 
-/* The constants of a run's model with this N. False if it was not run. */
-static bool model_of(const ZpRuns *runs, ZpRunId id, int nodes, ZpModelInfo *info) {
+/* A constant of a run's model with this N; NAN if it was not run. */
+static double constant_of(const ZpRuns *runs, ZpRunId id, int nodes, const char *name) {
   ZpModel *model;
-  if (runs->run[id].batch.done == 0) return false;
+  if (runs->run[id].batch.done == 0) return NAN;
   ZpActuatorDef def = zp_runs_def(runs, id, 0);
   def.mesh.nodes = nodes;
-  if (zp_model_create(&def, &model, NULL) != ZP_OK) return false;
-  *info = zp_model_info(model);
+  if (zp_model_create(&def, &model, NULL) != ZP_OK) return NAN;
+  double value = zp_model_get(model, name);
   zp_model_destroy(model);
-  return true;
+  return value;
 }
 
 /* (3.6) with the loads of the two models: a quarter on the chain, all of it on the finite elements. */
 static double shear_from_theory(const ZpRuns *runs, const ZpPublished *p) {
-  ZpModelInfo info;
-  if (!model_of(runs, ZP_RUN_FINITE_ELEMENTS, p->nodes, &info)) return NAN;
-  const double g = zp_runs_def(runs, ZP_RUN_FINITE_ELEMENTS, 0).gravity;
-  const double N = p->nodes, l = info.element_length, Mg = 1e-3 * p->load * g;
-  const double half_weight = info.line_mass * g * info.flexible_length / 2;
-  return info.bending_stiffness / (l * l * l) * N * (N + 1) / ((N - 1) * (N - 1)) * (Mg / 4 + half_weight) /
-         (Mg + half_weight);
+  const ZpRunId id = ZP_RUN_FINITE_ELEMENTS;
+  const double EI = constant_of(runs, id, p->nodes, "bending_stiffness"),
+               l = constant_of(runs, id, p->nodes, "element_length"),
+               L = constant_of(runs, id, p->nodes, "flexible_length"),
+               mu = constant_of(runs, id, p->nodes, "line_mass");
+  if (isnan(l)) return NAN;
+  const double g = zp_runs_def(runs, id, 0).gravity;
+  const double N = p->nodes, Mg = 1e-3 * p->load * g;
+  const double half_weight = mu * g * L / 2;
+  return EI / (l * l * l) * N * (N + 1) / ((N - 1) * (N - 1)) * (Mg / 4 + half_weight) / (Mg + half_weight);
 }
 
 /* mm2 between the chain and the finite elements hung at their stroke in the table. */
@@ -122,7 +125,6 @@ static double ours(ZpSubjectId id, const ZpRuns *runs, const ZpPublished *p) {
   const double fitted_error = 1e3 * of_nodes(runs, table_1(p), p, "residual_rms_m");
   const double mean_step = 1e6 * of_nodes(runs, ZP_RUN_COST, p, "mean_time_step_s");
   const ZpWhich zips = {.load = p->load, .voltage = id == ZP_ZIP_TIME_6_KV ? 6e3 : 10e3};
-  ZpModelInfo info;
   double deviation;
   switch (id) {
   case ZP_FITTED_SHEAR:
@@ -154,7 +156,7 @@ static double ours(ZpSubjectId id, const ZpRuns *runs, const ZpPublished *p) {
   case ZP_FACTOR_BY_FIELD:
     return mean_of_cases(runs, "scale_factor", &deviation);
   case ZP_OUR_AXIAL_SPRING:
-    return model_of(runs, ZP_RUN_TABLE_2_TEXT, p->nodes, &info) ? 1e-6 * info.axial_spring : (double)NAN;
+    return 1e-6 * constant_of(runs, ZP_RUN_TABLE_2_TEXT, p->nodes, "axial_spring");
   case ZP_OUR_COST:
     return mean_step / zp_published(ZP_MEAN_STEP, p->nodes, 0) / of_nodes(runs, ZP_RUN_COST, p, "real_time_factor") /
            60;

@@ -551,29 +551,18 @@ def rule_one_sum(repo, files):
 
 
 # Where x and y of a node stand in an array is known to actuator/ and to the kernels below it, which get arrays. All
-# others read and write views (zp_nodes, zp_forces). These files do not yet; a file leaves the list for good.
-LAYOUT = re.compile(r"\bstride\b|\[2 \* [ijk]( \+ \w+)?\]")
-SEES_VIEWS = ("device", "term", "system", "rest", "run", "study")
-KNOWS_LAYOUT = {
-    "src/run/dynamics.c": 13,
-    "src/rest/plant.c": 16,
-    "src/rest/statics.c": 51,
-    "src/run/paper_motion.c": 15,
-    "src/run/snapshot.c": 3,
-    "src/study/faces.c": 5,
-    "src/study/profile.c": 1,
-}
+# others read and write views (zp_nodes, zp_forces) and name coordinates (zp_x_of, zp_y_of).
+LAYOUT = re.compile(r"\bstride\b|\[2 \* [ijk]( \+ \w+)?\]|\+ (\w+ \* )?zp_lanes\(|\b2 \* (zp_(upper|lower|load_node)\(|node\b|j\b)")
+SEES_VIEWS = ("campaign", "def", "device", "drive", "fit", "fmu", "optimize", "rest", "run", "sample", "solve", "study", "system", "term")
 
 
 def rule_views(repo, files):
     """Only actuator/ and the kernels know the layout of coordinates."""
     for name in files:
-        if folder_of(name) not in SEES_VIEWS or not name.endswith((".c", ".h")):
-            continue
-        found = [line for line, text in enumerate(code_of(read(repo, name)).splitlines(), 1) if LAYOUT.search(text)]
-        where = "%s:%d" % (name, found[-1] if found else 1)
-        yield len(found) <= KNOWS_LAYOUT.get(name, 0), where, "knows where x and y of a node stand: use zp_nodes or zp_forces"
-        yield bool(found) or name not in KNOWS_LAYOUT, where, "needs no line in KNOWS_LAYOUT of tests/rules.py any more"
+        if folder_of(name) in SEES_VIEWS and name.endswith((".c", ".h")):
+            found = [line for line, text in enumerate(code_of(read(repo, name)).splitlines(), 1) if LAYOUT.search(text)]
+            where = "%s:%d" % (name, found[-1] if found else 1)
+            yield not found, where, "knows where x and y of a node stand: use zp_nodes, zp_forces, zp_x_of or zp_y_of"
 
 
 # Clients of the public interface, which does not say what a kind has.

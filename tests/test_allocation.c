@@ -344,9 +344,8 @@ static void assert_no_allocation(const ZpActuatorDef *def, double time, int64_t 
   const ZpColumn *column = zp_signal_columns(&columns);
   ck_assert_msg(zp_model_create(def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s",
                 err.message);
-  ZpModelInfo size = zp_model_info(model);
   ZpTable *series = zp_table_create(column, columns, 16); /* full soon: thinning is part of it */
-  ZpShapes *shapes = zp_shapes_create((size_t)size.ribbons, (size_t)size.nodes, 4);
+  ZpShapes *shapes = zp_shapes_create(model->s, model->nodes, 4);
   zp_sim_record(sim, series, shapes);
   ZpRunInfo info;
   watch(0);

@@ -51,7 +51,8 @@ static void draw(const ZpModel *model, double (*D)[4], double gaps[4][STATIONS])
 TESTS(test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds)) {
   ZpModel *model = model_of_kind((size_t)_i);
   ZpAssembly half, whole;
-  ck_assert(zp_assembly_create(model, 0, true, &half) && zp_assembly_create(model, 0, false, &whole));
+  const ZpTies ties = zp_ties_of(model, 1);
+  ck_assert(zp_assembly_create(&ties, 0, 0, true, &half) && zp_assembly_create(&ties, 0, 0, false, &whole));
   double D[3 * 2 * STATIONS][4] = {{0}}, gaps[4][STATIONS];
   draw(model, D, gaps);
   ZpGapDerivatives of = {gaps[0], gaps[1], gaps[2], gaps[3]};
@@ -74,5 +75,48 @@ TESTS(test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds)) {
     zp_free(memory[k]);
   zp_assembly_destroy(&half);
   zp_assembly_destroy(&whole);
+  zp_model_destroy(model);
+}
+
+static const Setting systems[][3] = {
+    {{"actuator.symmetry", ZP_SYMMETRY_HALF}},
+    {{"actuator.symmetry", ZP_SYMMETRY_NONE}},
+    {{"actuator.symmetry", ZP_SYMMETRY_NONE}, {"platform.rotates", 1}, {"platform.electrode", 0}},
+    {{"actuator.kind", ZP_KIND_HINGE}},
+    {{"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED}},
+    {{"stack.series", 3}},
+    {{"stack.parallel", 3}, {"member_1.ribbon.thickness", 60e-6}},
+    {{"stack.series", 2}, {"stack.distance", 0.05}},
+};
+
+/* Every row ties a coordinate to a free one, all other coordinates have equations of their own, and coordinates that
+ * are placed by any unknowns obey all rows. */
+TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
+  const Setting *of = systems[_i];
+  ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
+  ZpModel *model = model_of(&def);
+  const ZpTies ties = zp_ties_of(model, model->members);
+  ZpAssembly a[3], *all[3] = {&a[0], &a[1], &a[2]};
+  double unknowns[3 * 4 * 12], q[3][4 * 12 + 64] = {{0}};
+  size_t coordinates = 0;
+  uint64_t seed = 3;
+  for (size_t k = 0; k < model->members; k++) {
+    ck_assert(zp_assembly_create(&ties, k, 0, true, &a[k]));
+    coordinates += 2 * model[k].count;
+  }
+  zp_assembly_join(all, model->members, &ties, true);
+  ck_assert_uint_eq(a->n, coordinates - ties.count);
+  for (size_t i = 0; i < a->n; i++)
+    unknowns[i] = noise(&seed);
+  for (size_t k = 0; k < model->members; k++)
+    zp_assembly_place(&a[k], unknowns, q[k]);
+  for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
+    if (tie->factor == 0) continue;
+    double free = *zp_coordinate(model, q[tie->to_member], tie->to);
+    ck_assert(!zp_tie_of(&ties, tie->to_member, tie->to));
+    ck_assert_double_eq(*zp_coordinate(model, q[tie->member], tie->coordinate), tie->factor * free + tie->offset);
+  }
+  for (size_t k = 0; k < model->members; k++)
+    zp_assembly_destroy(&a[k]);
   zp_model_destroy(model);
 }

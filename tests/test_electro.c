@@ -39,7 +39,7 @@ TEST(test_closed_scalars) {
   ck_near(zp_plates_law(&capped, 10e3, 0).W, 0.5 * ZP_EPS0 * eps_m * w * 20e6 * 20e6, 1e-13);
   ck_near(zp_plates_law(&free_law, 10e3, 0).W, 645, 1e-3); /* 8.5e-4 measured */
   ZpModel *model = default_model(21, true, true);
-  ck_near(zp_model_info(model).closed_line_force, 61.8, 1e-3); /* 7.5e-4 measured */
+  ck_near(zp_model_get(model, "closed_line_force"), 61.8, 1e-3); /* 7.5e-4 measured */
   zp_model_destroy(model);
 }
 

@@ -131,7 +131,7 @@ TESTS(stable_step_is_that_of_the_fastest_vibration, 0, LENGTH_OF(vibrations)) {
   const Vibration *v = &vibrations[_i];
   ZpActuatorDef def = def_with(v->setting, v->count);
   Rest r = rest_of(&def, v->faces_press);
-  double share = 0.5 * fastest(&r) * zp_model_info(r.model).stable_time_step;
+  double share = 0.5 * fastest(&r) * r.model->stable_step;
   printf("vibration %d: steps of %.4f of the unstable one\n", _i, share);
   ck_assert_double_ge(share, v->least);
   ck_assert_double_le(share, v->most * (1 + 1e-6));

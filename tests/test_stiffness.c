@@ -84,9 +84,11 @@ static void bend(ZpStatics *s, double gap) {
     if (s->member->assembly.equation[2 * j] >= 0) x[j] += 0.1 * model->l * noise(&seed);
     double rise = gap > 0 ? 0.3 * gap * noise(&seed) : 0.1 * model->l * noise(&seed);
     y[j] = lower ? y[upper] - gap - rise : rise;
-    size_t body = zp_topology_leader(&model->topology, 2 * j) / 2; /* a node of it */
-    if (s->member->assembly.equation[2 * j] >= 0) x[j] = x[body];
-    y[j] = y[body];
+  }
+  const ZpTies ties = zp_ties_of(model, 1);
+  for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
+    double *q = tie->to % 2 ? y : x;
+    q[tie->coordinate / 2] = tie->factor * q[tie->to / 2] + tie->offset;
   }
 }
 

@@ -246,7 +246,8 @@ TEST(equations_are_those_of_the_topology) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 4);
   ZpModel *model = model_of(&def);
   ZpAssembly a;
-  ck_assert(zp_assembly_create(model, 0, true, &a));
+  const ZpTies ties = zp_ties_of(model, 1);
+  ck_assert(zp_assembly_create(&ties, 0, 0, true, &a));
   const ZpTopology *t = &model->topology;
   ck_assert_uint_eq(t->stations, 8);
   ck_assert_uint_eq(a.n, 8 * 4 - 2 * 2 - 2 * 2 - 2 - 1); /* clips, x of platforms, y of the upper, and of the lower */
@@ -366,13 +367,14 @@ TEST(unlike_ribbons_swing_in_series) {
 
 /* Bent at random about a shape with open faces, what is held left where it is. */
 static void bend(const ZpModel *model, uint64_t *seed, double *q) {
-  const ZpTopology *t = &model->topology;
+  const ZpTies ties = zp_ties_of(model, 1);
   for (size_t k = 0; k < 2 * model->count; k++) {
-    size_t leader = zp_topology_leader(t, k), j = k / 2, i = j / t->ribbons;
+    const ZpTie *tie = zp_tie_of(&ties, 0, k);
+    size_t j = k / 2, i = j / model->s;
     double *value = &q[j + k % 2 * model->stride];
     double straight = k % 2 ? -1e-4 * (double)(j % 2) : zp_straight_x(model, i);
     *value = straight + 0.02 * model->l * noise(seed) * (k % 2 ? 0.1 : 1);
-    if (leader < k) *value = q[leader / 2 + leader % 2 * model->stride];
+    if (tie) *value = tie->factor * q[tie->to / 2 + tie->to % 2 * model->stride] + tie->offset;
   }
 }
 

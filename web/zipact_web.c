@@ -32,6 +32,14 @@ enum {
 #undef ZP_SIGNAL
 #undef ZP_ROW
 
+/* Keys that may be auto, and the constant of a model that says which value auto means. */
+static const struct {
+  const char *key, *constant;
+} automatic[] = {{"damping.internal", "internal_damping"},
+                 {"electro.insulator_offset", "insulator_offset"},
+                 {"mass_spring.shear_coefficient", "shear_coefficient"}};
+enum { AUTOMATIC = sizeof automatic / sizeof automatic[0] };
+
 typedef struct ZpWeb {
   char text[TEXT_SIZE];
   ZpAssignment list[MOST_ASSIGNMENTS];
@@ -39,7 +47,7 @@ typedef struct ZpWeb {
   ZpStudy asked; /* with the assignments */
   ZpStudy study; /* of the scenario as resolved */
   ZpActuatorDef def;
-  ZpModelInfo info; /* of the scenario as resolved */
+  double automatic[AUTOMATIC]; /* values that auto means there */
   ZpModel *model;
   ZpSim *sim;
   double row[SIGNALS];
@@ -181,10 +189,11 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
   return ZP_OK;
 }
 
-static ZpStatus derive(const ZpActuatorDef *def, ZpModelInfo *info, ZpError *err) {
+static ZpStatus derive(const ZpActuatorDef *def, double value[AUTOMATIC], ZpError *err) {
   ZpModel *model;
   ZpStatus status = zp_model_create(def, &model, err);
-  if (status == ZP_OK) *info = zp_model_info(model);
+  for (int k = 0; status == ZP_OK && k < AUTOMATIC; k++)
+    value[k] = zp_model_get(model, automatic[k].constant);
   zp_model_destroy(model);
   return status;
 }
@@ -193,31 +202,25 @@ static ZpStatus derive(const ZpActuatorDef *def, ZpModelInfo *info, ZpError *err
 EXPORT int zp_web_resolve(ZpWeb *web) {
   ZpError err;
   ZpActuatorDef def;
-  ZpModelInfo info;
+  double value[AUTOMATIC];
   ZpStatus status = zp_def_resolve(&def, web->list, web->assigned, &err);
   if (status == ZP_OK) status = zp_study_check(web->asked, &def, &err);
   if (status == ZP_OK) status = refuse_left_out(web->asked, &def, &err);
-  if (status == ZP_OK) status = derive(&def, &info, &err);
+  if (status == ZP_OK) status = derive(&def, value, &err);
   if (status == ZP_OK) {
     web->study = web->asked;
     web->def = def;
-    web->info = info;
+    memcpy(web->automatic, value, sizeof value);
   }
   return say(web, status, err.message);
 }
 
 /* Value of a key, SI; if the key is auto, the value that auto means, NAN if it is not a single value. */
 EXPORT double zp_web_key_effective(const ZpWeb *web, int index) {
-  const struct {
-    const char *name;
-    double value;
-  } automatic[] = {{"damping.internal", web->info.internal_damping},
-                   {"electro.insulator_offset", web->info.insulator_offset},
-                   {"mass_spring.shear_coefficient", web->info.shear_coefficient}};
   double value = zp_def_get(&web->def, index);
   if (strcmp(zp_key(index)->name, "liquid.model") == 0) return (double)zp_def_liquid(&web->def);
-  for (size_t i = 0; isnan(value) && i < sizeof automatic / sizeof automatic[0]; i++)
-    if (strcmp(zp_key(index)->name, automatic[i].name) == 0) return automatic[i].value;
+  for (int k = 0; isnan(value) && k < AUTOMATIC; k++)
+    if (strcmp(zp_key(index)->name, automatic[k].key) == 0) return web->automatic[k];
   return value;
 }
 
@@ -321,7 +324,7 @@ EXPORT double zp_web_metal(const ZpWeb *web, int member, int ribbon) {
 }
 
 EXPORT double zp_web_insulator_offset(const ZpWeb *web, int member) {
-  return zp_model_info(member_of(web, member)).insulator_offset;
+  return zp_model_get(member_of(web, member), "insulator_offset");
 }
 
 /* The voltage of a member if the first one has `voltage`, V. */

@@ -12,13 +12,25 @@ static size_t least(size_t a, size_t b) {
   return a < b ? a : b;
 }
 
+/* The first coordinate of a member that always moves as this one: itself, or one that is tied to the same. */
+static size_t leader_of(const ZpTies *ties, size_t member, const ZpTie *tie) {
+  const ZpTie *first = ties->tie;
+  if (tie->to_member == member) return tie->to;
+  while (first->member != member || first->to_member != tie->to_member || first->to != tie->to)
+    first++;
+  return first->coordinate;
+}
+
 /* Station by station: coordinates of its nodes, then unknowns of the laws. */
-static size_t number(const ZpTopology *t, ZpAssembly *a) {
+static size_t number(const ZpTies *ties, size_t member, ZpAssembly *a) {
   int next = 0;
-  for (size_t i = 0; i < t->stations; i++) {
-    for (size_t k = 2 * zp_upper(t, i); k < 2 * zp_upper(t, i + 1); k++) {
-      size_t leader = zp_topology_leader(t, k);
-      a->equation[k] = zp_topology_is_held(t, k) ? -1 : leader < k ? a->equation[leader] : next++;
+  for (size_t i = 0; i < a->nodes; i++) {
+    for (size_t k = 2 * a->s * i; k < 2 * a->s * (i + 1); k++) {
+      const ZpTie *tie = zp_tie_of(ties, member, k);
+      size_t leader = tie ? leader_of(ties, member, tie) : k;
+      a->factor[k] = tie ? tie->factor : 1;
+      a->offset[k] = tie ? tie->offset : 0;
+      a->equation[k] = a->factor[k] == 0 ? -1 : leader < k ? a->equation[leader] : next++;
     }
     for (size_t c = 0; c < a->own; c++)
       a->extra_equation[a->own * i + c] = next++;
@@ -94,22 +106,24 @@ static ZpBandGroups groups_of(const ZpAssembly *a) {
   return groups;
 }
 
-bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *a) {
+bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symmetric, ZpAssembly *a) {
+  const ZpModel *model = ties->first + member;
   *a = (ZpAssembly){.s = model->s,
                     .nodes = model->nodes,
                     .count = model->count,
                     .stride = model->stride,
                     .own = own,
-                    .turned = -1,
                     .symmetric = symmetric};
   a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
   a->first = zp_calloc(model->nodes, sizeof *a->first);
   a->extra_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->extra_equation);
-  if (!a->equation || !a->first || !a->extra_equation) {
+  a->factor = zp_calloc(2 * model->count, sizeof *a->factor);
+  a->offset = zp_calloc(2 * model->count, sizeof *a->offset);
+  if (!a->equation || !a->first || !a->extra_equation || !a->factor || !a->offset) {
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = a->end = number(&model->topology, a);
+  a->n = a->end = number(ties, member, a);
   a->bandwidth = bandwidth_of(a);
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
@@ -125,7 +139,8 @@ bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAsse
 typedef struct Joined {
   size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS];
   size_t ties[ZP_MOST_MEMBERS], tied[ZP_MOST_MEMBERS][2], to[ZP_MOST_MEMBERS][2];
-  bool shared, border;
+  size_t shared;
+  bool border;
   size_t inner; /* with a border: equations that are not shared */
 } Joined;
 
@@ -164,6 +179,8 @@ static size_t joined_bandwidth(const Joined *of, size_t own) {
 
 /* Number the equations of one member among those of all, `n`. */
 static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
+  a->joined = of->shared > 0;
+  a->shared = of->border ? of->shared : 0;
   a->n = n;
   a->begin = of->before[which];
   a->end = a->begin + of->count[which] - of->ties[which];
@@ -177,17 +194,24 @@ static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
     a->first[i] = first_of(a, i);
 }
 
-/* Note the tie of one coordinate, by its equation in its member alone. */
-static void tie(const ZpAssembly *a, const ZpTie *tie, Joined *of) {
-  size_t k = of->ties[tie->member]++;
-  of->tied[tie->member][k] = (size_t)a->equation[tie->coordinate];
-  of->to[tie->member][k] = tie->shared;
+/* Note that an equation of a member alone is a shared one, the next one if none is known of it. */
+static size_t note(const ZpAssembly *a, size_t member, size_t coordinate, size_t shared, Joined *of) {
+  size_t equation = (size_t)a->equation[coordinate], *ties = &of->ties[member];
+  for (size_t k = 0; k < *ties; k++)
+    if (of->tied[member][k] == equation) return of->to[member][k];
+  of->tied[member][*ties] = equation;
+  of->to[member][(*ties)++] = shared;
+  if (shared == of->shared) of->shared++;
+  return shared;
 }
 
 size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const ZpTies *ties, bool border) {
-  Joined of = {.members = members, .shared = ties->count > 0, .border = border};
-  for (size_t k = 0; k < ties->count; k++)
-    tie(a[ties->tie[k].member], &ties->tie[k], &of);
+  Joined of = {.members = members, .border = border};
+  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++)
+    if (t->to_member != t->member) {
+      size_t shared = note(a[t->to_member], t->to_member, t->to, of.shared, &of);
+      note(a[t->member], t->member, t->coordinate, shared, &of);
+    }
   size_t n = of.shared && !border;
   for (size_t which = 0; which < members; which++) {
     of.before[which] = n;
@@ -195,12 +219,9 @@ size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const ZpTies *tie
     n += a[which]->n - of.ties[which];
   }
   of.inner = n;
-  if (border) n += ties->shared;
+  if (border) n += of.shared;
   for (size_t which = 0; which < members; which++)
     join(a[which], &of, which, n);
-  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++)
-    if (t->factor < 0)
-      a[t->member]->turned = a[t->member]->equation[t->coordinate], a[t->member]->turned_from = t->offset;
   return joined_bandwidth(&of, a[0]->bandwidth);
 }
 
@@ -208,6 +229,8 @@ void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
   zp_free(a->first);
   zp_free(a->extra_equation);
+  zp_free(a->factor);
+  zp_free(a->offset);
   *a = (ZpAssembly){0};
 }
 
@@ -220,44 +243,31 @@ static size_t place(const ZpAssembly *a, size_t k) {
 
 void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) equations[a->equation[k]] = zp_assembly_turned(a, a->equation[k], nodes[place(a, k)]);
+    if (a->equation[k] >= 0) equations[a->equation[k]] = a->factor[k] * nodes[place(a, k)];
 }
 
 void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) nodes[place(a, k)] = zp_assembly_turned(a, a->equation[k], equations[a->equation[k]]);
+    if (a->equation[k] >= 0) nodes[place(a, k)] = a->factor[k] * equations[a->equation[k]];
 }
 
 void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nodes) {
-  zp_assembly_scatter(a, equations, nodes);
-  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
-    if (a->equation[2 * j + 1] == a->turned) nodes[a->stride + j] += a->turned_from;
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (a->equation[k] >= 0) nodes[place(a, k)] = zp_assembly_position(a, k, equations);
 }
 
 void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
-  double *x = nodes, *y = nodes + a->stride;
-  for (size_t j = 0; j < a->count; j++) {
-    int of_x = a->equation[2 * j], of_y = a->equation[2 * j + 1];
-    x[j] = of_x >= 0 ? step[of_x] : 0;
-    y[j] = of_y >= 0 ? step[of_y] : 0;
-  }
-  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
-    if (a->equation[2 * j + 1] == a->turned) y[j] = -y[j];
+  for (size_t k = 0; k < 2 * a->count; k++)
+    nodes[place(a, k)] = zp_assembly_change(a, step, k);
 }
 
 void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
-  if (a->equation[k] >= 0) equations[a->equation[k]] += zp_assembly_turned(a, a->equation[k], force);
+  if (a->equation[k] >= 0) equations[a->equation[k]] += a->factor[k] * force;
 }
 
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
-  const double *x = nodes, *y = nodes + a->stride;
-  for (size_t j = 0; j < a->count; j++) {
-    int row_x = a->equation[2 * j], row_y = a->equation[2 * j + 1];
-    if (row_x >= 0) equations[row_x] += x[j];
-    if (row_y >= 0) equations[row_y] += y[j];
-  }
-  for (size_t j = 0; a->turned >= 0 && j < a->count; j++)
-    if (a->equation[2 * j + 1] == a->turned) equations[a->turned] -= 2 * y[j];
+  for (size_t k = 0; k < 2 * a->count; k++)
+    zp_assembly_add_one(a, k, nodes[place(a, k)], equations);
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
@@ -272,24 +282,20 @@ void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equ
 
 /* -- one entry, anywhere ---------------------------------------------------------------------------- */
 
-/* Of members of a system: in the border, or by the height of one that is upside down. */
-static __attribute__((noinline)) void add_joined(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
-  bool turns = (i == a->turned) != (j == a->turned);
-  *zp_band_entry(K, (size_t)i, (size_t)j) += turns ? -value : value;
-}
-
-/* By the coordinates of two equations, i <= j if the matrix is symmetric. */
-ZP_INLINE void add_at(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
-  if (a->turned < 0 && (size_t)j < K->n)
-    *zp_band_at(K, (size_t)i, (size_t)j) += value;
-  else
-    add_joined(a, i, j, value, K);
+/* Of members of a system: in the border, or by a coordinate that another one ties. */
+static __attribute__((noinline)) void add_joined(const ZpAssembly *a, size_t row, size_t column, double value,
+                                                 ZpBand *K) {
+  size_t i = (size_t)a->equation[row], j = (size_t)a->equation[column];
+  *zp_band_entry(K, i, j) += a->factor[row] * a->factor[column] * value;
 }
 
 ZP_INLINE void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
   int i = a->equation[row], j = a->equation[column];
   if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
-  add_at(a, i, j, value, K);
+  if (a->joined)
+    add_joined(a, row, column, value, K);
+  else
+    *zp_band_at(K, (size_t)i, (size_t)j) += value;
 }
 
 /* A derivative by two different coordinates is in two places of the matrix. */
@@ -484,14 +490,14 @@ void zp_assemble_own(const ZpAssembly *a, size_t c, size_t d, double value, ZpBa
   *zp_band_at(K, (size_t)a->extra_equation[c], (size_t)a->extra_equation[d]) += value;
 }
 
-static inline void add_above(const ZpAssembly *a, int i, int j, double value, ZpBand *K) {
-  if (i >= 0 && j >= 0) add_at(a, i < j ? i : j, i < j ? j : i, value, K);
+static inline void add_above(int i, int j, double value, ZpBand *K) {
+  if (i >= 0 && j >= 0) *zp_band_entry(K, (size_t)(i < j ? i : j), (size_t)(i < j ? j : i)) += value;
 }
 
 void zp_assemble_own_by_gap(const ZpAssembly *a, size_t c, size_t station, double value, ZpBand *K) {
-  const int own = a->extra_equation[c], *height = a->equation + 2 * a->s * station + 1;
-  add_above(a, own, height[0], value, K);
-  add_above(a, own, height[2 * (a->s - 1)], -value, K);
+  const size_t upper = 2 * a->s * station + 1, lower = upper + 2 * (a->s - 1);
+  add_above(a->extra_equation[c], a->equation[upper], a->factor[upper] * value, K);
+  add_above(a->extra_equation[c], a->equation[lower], a->factor[lower] * -value, K);
 }
 
 void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
@@ -499,8 +505,9 @@ void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double va
 }
 
 void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
-  int row = a->equation[2 * a->s * station + 1], column = a->equation[2 * (a->s * station + a->s - 1) + 1];
-  add_above(a, row, row, upper, K);
-  add_above(a, column, column, lower, K);
-  add_above(a, row, column, row == column ? 2 * both : both, K);
+  const size_t up = 2 * a->s * station + 1, low = up + 2 * (a->s - 1);
+  const int row = a->equation[up], column = a->equation[low];
+  add_above(row, row, upper, K);
+  add_above(column, column, lower, K);
+  add_above(row, column, a->factor[up] * a->factor[low] * (row == column ? 2 * both : both), K);
 }

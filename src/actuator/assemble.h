@@ -21,15 +21,15 @@ typedef struct ZpAssembly {
   ZpParts parts;       /* halves, and the equations that both have */
   size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
   int *extra_equation; /* [own N] */
-  int turned;          /* the equation whose unknown is minus the coordinate's change: the load's height, of a member
-                          upside down; -1: none */
-  double turned_from;  /* that coordinate where its unknown is 0, m */
+  double *factor, *offset; /* [2 count] a coordinate is this times its unknown plus this, m */
+  bool joined;             /* to other members, */
+  size_t shared;           /* with so many equations in the border */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
                  others following it; else -1 */
 } ZpAssembly;
 
-/* With `own` unknowns of the laws at each station. False if there is no memory. */
-bool zp_assembly_create(const ZpModel *model, size_t own, bool symmetric, ZpAssembly *assembly);
+/* Of a member of the system, with `own` unknowns of the laws at each station. False if there is no memory. */
+bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
 /* Number the equations of members as one system, in which coordinates that are tied have one equation => the number of
@@ -43,15 +43,15 @@ void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double 
 void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
 void zp_assembly_place(const ZpAssembly *assembly, const double *equations, double *nodes);
 
-/* `value` of a coordinate as one of the unknown in its equation, or back. */
-static inline double zp_assembly_turned(const ZpAssembly *a, int equation, double value) {
-  return equation == a->turned ? -value : value;
-}
-
 /* The change of a coordinate by a step [n]; 0 of what is held. */
 static inline double zp_assembly_change(const ZpAssembly *a, const double *step, size_t coordinate) {
   int equation = a->equation[coordinate];
-  return equation >= 0 ? zp_assembly_turned(a, equation, step[equation]) : 0;
+  return equation >= 0 ? a->factor[coordinate] * step[equation] : 0;
+}
+
+/* A coordinate that is not held, by the unknowns [n]. */
+static inline double zp_assembly_position(const ZpAssembly *a, size_t coordinate, const double *equations) {
+  return a->factor[coordinate] * equations[a->equation[coordinate]] + a->offset[coordinate];
 }
 
 /* The changes of all coordinates of nodes => [2 stride]. */

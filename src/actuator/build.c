@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "actuator/model.h"
+#include "actuator/ties.h"
 #include "base/fail.h"
 #include "base/kernel.h"
 #include "def/device.h"
@@ -273,32 +273,28 @@ static double node_mass(const ZpModel *model, size_t j) {
   return ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
 }
 
-/* The arrays of a model: masses and weights of nodes, and for x and y the inverse masses of nodes (1) and of
- * joined pairs (2), true and pseudo (p). */
+/* The arrays of a model. */
 typedef struct Arrays {
   double *rod_l, *rod_S, *rod_B, *rod_k0;   /* ZpRodParams */
   double *shear_B, *per_moment, *per_force; /* ZpStressParams */
-  double *weight, *mass, *pseudo, *x1, *x2, *y1, *y2, *px1, *px2, *py1, *py2;
-  double *time, *voltage; /* ZpDriveTable */
+  double *weight, *mass, *pseudo;           /* [stride] */
+  double *inverse[2][2], *pair[2][2];       /* ZpZipMasses, of true and of pseudo-masses, along x and y */
+  double *time, *voltage;                   /* ZpDriveTable */
 } Arrays;
 
 static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a) {
   ZpArena arena = {block, 0};
-  double **of_nodes[] = {&a->rod_l, &a->rod_S, &a->rod_B, &a->rod_k0, &a->weight,  &a->mass,       &a->pseudo,
-                         &a->x1,    &a->y1,    &a->px1,   &a->py1,    &a->shear_B, &a->per_moment, &a->per_force};
-  double **of_pairs[] = {&a->x2, &a->y2, &a->px2, &a->py2};
+  double **of_nodes[] = {&a->rod_l, &a->rod_S,  &a->rod_B,   &a->rod_k0,     &a->weight,
+                         &a->mass,  &a->pseudo, &a->shear_B, &a->per_moment, &a->per_force};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_arena_take(&arena, model->stride);
-  for (size_t k = 0; k < sizeof of_pairs / sizeof of_pairs[0]; k++)
-    *of_pairs[k] = zp_arena_take(&arena, model->nodes);
+  for (size_t k = 0; k < 4; k++) {
+    a->inverse[k / 2][k % 2] = zp_arena_take(&arena, model->stride);
+    a->pair[k / 2][k % 2] = zp_arena_take(&arena, model->nodes);
+  }
   a->time = zp_arena_take(&arena, rows);
   a->voltage = zp_arena_take(&arena, rows);
   return arena.used;
-}
-
-/* 1 / (m1 + m2) of two joined nodes from 1/m1 and 1/m2; 0 where one is held. */
-static double joined(double inverse1, double inverse2) {
-  return inverse1 > 0 && inverse2 > 0 ? 1 / (1 / inverse1 + 1 / inverse2) : 0;
 }
 
 /* Upper bound of the stiffness of stretching and bending of one edge for its nodes, N/m: the factor is 16 in the middle
@@ -314,33 +310,39 @@ static double pseudo_mass_of(const ZpModel *model) {
   return 0.5 * edge_stiffness(model, fmax(one.EA, other.EA), fmax(one.EI, other.EI));
 }
 
-static void fill_masses(ZpModel *model, Arrays *a) {
+/* Inverse masses along an axis: of nodes, 0 where they are held, and of upper and lower node joined, 0 where one is. */
+static ZpZipMasses masses_along(size_t axis, const ZpModel *model, const ZpTies *ties, const double *mass,
+                                double *inverse, double *pair) {
   const ZpTopology *t = &model->topology;
-  double pseudo = model->pseudo_mass = pseudo_mass_of(model), weight = 0;
-  for (size_t j = 0; j < model->count; j++) {
-    bool held_x = zp_topology_is_held(t, 2 * j), held_y = zp_topology_is_held(t, 2 * j + 1);
-    double mass = node_mass(model, j);
-    a->mass[j] = mass;
-    a->pseudo[j] = pseudo;
-    a->weight[j] = mass * model->def.gravity;
-    a->x1[j] = held_x ? 0 : 1 / mass;
-    a->y1[j] = held_y ? 0 : 1 / mass;
-    a->px1[j] = held_x ? 0 : 1 / pseudo;
-    a->py1[j] = held_y ? 0 : 1 / pseudo;
-    if (!held_y) weight += a->weight[j];
-  }
-  model->total_weight = weight / (double)t->halves + zp_end_share(model) * fabs(model->def.load.force);
+  const size_t member = (size_t)(model - ties->first);
+  for (size_t j = 0; j < model->count; j++)
+    inverse[j] = zp_is_held(ties, member, 2 * j + axis) ? 0 : 1 / mass[j];
   for (size_t i = 0; zp_is_pair(t) && i < model->nodes; i++) {
-    size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
-    a->x2[i] = joined(a->x1[upper], a->x1[lower]);
-    a->y2[i] = joined(a->y1[upper], a->y1[lower]);
-    a->px2[i] = joined(a->px1[upper], a->px1[lower]);
-    a->py2[i] = joined(a->py1[upper], a->py1[lower]);
+    double upper = inverse[zp_upper(t, i)], lower = inverse[zp_lower(t, i)];
+    pair[i] = upper > 0 && lower > 0 ? 1 / (1 / upper + 1 / lower) : 0;
   }
+  return (ZpZipMasses){mass, inverse, pair};
+}
+
+static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {
+  double *const mass[2] = {a->mass, a->pseudo};
+  ZpMasses *const masses[2] = {&model->masses, &model->pseudo};
+  double weight = 0;
+  model->pseudo_mass = pseudo_mass_of(model);
+  for (size_t j = 0; j < model->count; j++) {
+    a->mass[j] = node_mass(model, j);
+    a->pseudo[j] = model->pseudo_mass;
+    a->weight[j] = a->mass[j] * model->def.gravity;
+  }
+  for (size_t k = 0; k < 2; k++) {
+    masses[k]->x = masses_along(0, model, ties, mass[k], a->inverse[k][0], a->pair[k][0]);
+    masses[k]->y = masses_along(1, model, ties, mass[k], a->inverse[k][1], a->pair[k][1]);
+  }
+  for (size_t j = 0; j < model->count; j++)
+    if (model->masses.y.inverse[j] > 0) weight += a->weight[j];
+  model->total_weight = weight / (double)model->topology.halves + zp_end_share(model) * fabs(model->def.load.force);
   model->mass = a->mass;
   model->weight = a->weight;
-  model->masses = (ZpMasses){{a->mass, a->x1, a->x2}, {a->mass, a->y1, a->y2}};
-  model->pseudo = (ZpMasses){{a->pseudo, a->px1, a->px2}, {a->pseudo, a->py1, a->py2}};
 }
 
 static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
@@ -728,14 +730,9 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
 }
 #endif
 
-/* One actuator. If it `hangs`, it does so on the platform of another. */
-static ZpStatus fill_one(const ZpActuatorDef *def, const ZpDriveTable *table, bool hangs, ZpModel *model,
-                         ZpError *err) {
+/* Its arrays. */
+static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *model, ZpError *err) {
   size_t rows = table ? table->rows : 0;
-  model->def = model->whole = *def;
-  model->ratio = 1;
-  derive(model);
-  if (hangs) zp_topology_hang(&model->topology);
   Arrays arrays;
   model->memory = zp_calloc(1, reserve(model, rows, NULL, &arrays));
   ZpStatus status = model->memory ? ZP_OK : zp_fail_memory(err);
@@ -751,7 +748,7 @@ static ZpStatus fill_one(const ZpActuatorDef *def, const ZpDriveTable *table, bo
     fill_chain(model, &arrays);
   fill_plastic(model);
   fill_stress(model, &arrays);
-  fill_masses(model, &arrays);
+  fill_masses(model, ties, &arrays);
   return ZP_OK;
 }
 
@@ -772,31 +769,31 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
                  hangs, most);
 }
 
-/* One member of a stack; those on which the load hangs come first. */
-static ZpStatus fill_member(const ZpActuatorDef *def, const ZpDriveTable *table, int member, ZpModel *model,
-                            ZpError *err) {
-  const ZpActuatorDef one = zp_def_member(def, member);
-  bool opposed = zp_def_antagonist(def), parallel = zp_def_parallel(def), hangs = !opposed && !parallel,
-       follows = !(opposed && member == 2 && !isnan(def->stack.lower_voltage));
-  ZpStatus status = fill_one(&one, follows ? table : NULL, member > 1 && hangs, model, err);
-  if (status != ZP_OK) return status;
+/* One actuator, or one member of a stack. */
+static void derive_member(const ZpActuatorDef *def, size_t member, ZpModel *model) {
+  model->def = model->members > 1 ? zp_def_member(def, (int)member + 1) : *def;
   model->whole = *def;
-  model->parallel = parallel;
-  if (opposed) model->distance = def->stack.distance;
-  if (opposed && member == 2) {
-    model->bias = zp_def_lower_voltage(def, 0);
-    model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
-  }
-  if (hangs && member < zp_def_members(def)) model->carried = mass_from_here(model + 1);
-  return ZP_OK;
+  model->ratio = 1;
+  derive(model);
+  model->parallel = model->members > 1 && zp_def_parallel(def);
+  if (zp_def_antagonist(def)) model->distance = def->stack.distance;
+  if (!zp_def_antagonist(def) || member == 0) return;
+  model->bias = zp_def_lower_voltage(def, 0);
+  model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
 }
 
+/* Members on which the load hangs come first. */
 static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel *model, ZpError *err) {
+  const bool own_voltage = zp_def_antagonist(def) && !isnan(def->stack.lower_voltage);
   ZpStatus status = ZP_OK;
-  if (model->members == 1) return fill_one(def, table, false, model, err);
-  for (size_t k = model->members; k-- > 0 && status == ZP_OK;)
-    status = fill_member(def, table, (int)k + 1, model + k, err);
-  return status == ZP_OK ? check_carried(model, err) : status;
+  for (size_t k = 0; k < model->members; k++)
+    derive_member(def, k, model + k);
+  const ZpTies ties = zp_ties_of(model, model->members);
+  for (size_t k = model->members; k-- > 0 && status == ZP_OK;) {
+    status = fill(&ties, k > 0 && own_voltage ? NULL : table, model + k, err);
+    if (status == ZP_OK && k > 0 && !zp_shares_load(model)) model[k - 1].carried = mass_from_here(model + k);
+  }
+  return status == ZP_OK && model->members > 1 ? check_carried(model, err) : status;
 }
 
 ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err) {
@@ -825,24 +822,6 @@ void zp_model_destroy(ZpModel *model) {
 
 const ZpActuatorDef *zp_model_def(const ZpModel *model) {
   return &model->def;
-}
-
-ZpModelInfo zp_model_info(const ZpModel *model) {
-  ZpSection section = zp_ribbon_section(model, 0);
-  double highest = zp_waveform_largest(&model->waveform);
-  return (ZpModelInfo){.ribbons = (int)model->s,
-                       .nodes = (int)model->nodes,
-                       .flexible_length = model->L,
-                       .element_length = model->l,
-                       .bending_stiffness = section.EI,
-                       .axial_stiffness = section.EA,
-                       .line_mass = section.mu,
-                       .axial_spring = model->spring.K_D,
-                       .shear_coefficient = model->spring.K_S,
-                       .insulator_offset = model->plates.d,
-                       .internal_damping = model->internal_damping,
-                       .closed_line_force = zp_plates_law(&model->plates, highest, 0).W,
-                       .stable_time_step = model->stable_step};
 }
 
 size_t zp_state_size(const ZpModel *model) {

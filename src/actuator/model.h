@@ -340,6 +340,11 @@ static inline ZpForces zp_forces(const ZpModel *model, double *F) {
   return (ZpForces){F, F + model->stride};
 }
 
+/* Coordinate k of q; of k = 0 and 1 x and y of all nodes. */
+static inline double *zp_coordinate(const ZpModel *model, double *q, size_t k) {
+  return q + k / 2 + k % 2 * model->stride;
+}
+
 /* How many numbers x or y has, whole lanes, and both have. */
 static inline size_t zp_lanes(const ZpModel *model) {
   return model->stride;
@@ -446,25 +451,5 @@ size_t zp_state_size(const ZpModel *model);
 
 /* As zp_model_create_driven, but without laws. */
 ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err);
-
-/* Constants that follow from the keys, SI, for information. */
-typedef struct ZpModelInfo {
-  int ribbons;              /* 1 or 2 */
-  int nodes;                /* per ribbon */
-  double flexible_length;   /* L, of one modelled ribbon, m */
-  double element_length;    /* l = L / (N-1), m */
-  double bending_stiffness; /* E I of a ribbon, N m^2 */
-  double axial_stiffness;   /* E A of a ribbon, N */
-  double line_mass;         /* of a ribbon with its insulator, kg/m */
-  double axial_spring;      /* K_D, N/m */
-  double shear_coefficient; /* K_S, N/m */
-  double insulator_offset;  /* d, m */
-  double internal_damping;  /* Kelvin-Voigt time, s */
-  double closed_line_force; /* attraction per length of closed faces at the highest voltage, N/m */
-  double stable_time_step;  /* largest explicit step that is certainly stable, s */
-} ZpModelInfo;
-
-/* The constants of `model`; for a series, those of its uppermost member. */
-ZpModelInfo zp_model_info(const ZpModel *model);
 
 #endif

@@ -1,25 +1,83 @@
 #include "actuator/ties.h"
 
-/* Tie the height of a node. */
-static void add(ZpTies *ties, size_t member, size_t node, ZpTie tie) {
-  tie.member = member;
-  tie.coordinate = 2 * node + 1;
+/* What a joint does with the nodes of its stations. */
+typedef struct Hold {
+  bool held[2][2]; /* of the upper or only ribbon, of the lower one: x, y */
+  bool unites;     /* upper and lower node are one */
+  bool turns;      /* its stations keep only their distance */
+} Hold;
+
+static const Hold hold_of[ZP_JOINT_KINDS] = {
+    [ZP_JOINT_CLIP] = {.unites = true},
+    [ZP_JOINT_HELD] = {.held = {{true, true}, {true, true}}},
+    [ZP_JOINT_CLAMP] = {.held = {{true, true}, {true, true}}},
+    [ZP_JOINT_HINGE] = {.held = {{true, true}, {true, true}}},
+    [ZP_JOINT_PLATFORM] = {.held = {{true, true}, {true, false}}},
+    [ZP_JOINT_TURNING] = {.held = {{true, true}, {false, false}}, .turns = true},
+};
+static const Hold linked = {.held = {{true, false}, {true, false}}}; /* platforms, the upper one on another member */
+
+static void add(ZpTies *ties, ZpTie tie) {
   ties->tie[ties->count++] = tie;
+}
+
+/* A coordinate of the straight actuator, m. */
+static double straight(const ZpModel *model, size_t k) {
+  return k % 2 == 0 ? zp_straight_x(model, k / 2 / model->s) : 0;
+}
+
+/* What is held stays where the straight actuator has it. The rest of a joint moves as its first station does. */
+static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const Hold *hold) {
+  const ZpModel *model = ties->first + member;
+  const size_t s = model->s, first = 2 * s * joint->first, end = 2 * s * (joint->last + 1);
+  for (size_t k = first; k < end; k++) {
+    size_t ribbon = k / 2 % s, to = first + 2 * (hold->unites ? 0 : ribbon) + k % 2;
+    double x = straight(model, k);
+    if (hold->held[ribbon][k % 2])
+      add(ties, (ZpTie){member, k, member, k, 0, x});
+    else if (to < k && !hold->turns)
+      add(ties, (ZpTie){member, k, member, to, 1, x - straight(model, to)});
+  }
 }
 
 /* In series, the lower platform of each and the upper one of the next have one height, eq. (29.2). A load that all
  * share has one height, which the lower of two antagonists sees upside down, eq. (31.3). */
-ZpTies zp_ties_of(const ZpModel *first) {
-  const size_t members = first->members;
+static void add_link(ZpTies *ties, size_t member) {
+  const ZpModel *first = ties->first, *model = first + member;
+  const ZpTopology *t = &model->topology;
   const bool shared = zp_shares_load(first), opposed = zp_is_antagonist(first);
-  ZpTies ties = {.shared = shared ? 1 : members - 1};
+  const size_t node = shared ? zp_load_node(t) : zp_upper(t, t->platform.first), above = shared ? 0 : member - 1;
+  add(ties, (ZpTie){member, 2 * node + 1, above, 2 * zp_load_node(&first[above].topology) + 1, opposed ? -1 : 1,
+                    opposed ? -first->distance : 0});
+}
+
+/* Each row refers to a free coordinate. */
+static void resolve(const ZpTies *ties, ZpTie *tie) {
+  const ZpTie *next;
+  while (tie->factor != 0 && (next = zp_tie_of(ties, tie->to_member, tie->to))) {
+    tie->offset += tie->factor * next->offset;
+    tie->factor *= next->factor;
+    tie->to_member = next->to_member;
+    tie->to = next->to;
+  }
+}
+
+ZpTies zp_ties_of(const ZpModel *first, size_t members) {
+  ZpTies ties = {.first = first, .members = members};
   for (size_t k = 0; k < members; k++) {
     const ZpTopology *t = &first[k].topology;
-    const bool turned = opposed && k > 0;
-    if (!shared && k > 0) add(&ties, k, zp_upper(t, t->platform.first), (ZpTie){.shared = k - 1, .factor = 1});
-    if (shared || k + 1 < members)
-      add(&ties, k, zp_load_node(t),
-          (ZpTie){.shared = shared ? 0 : k, .factor = turned ? -1 : 1, .offset = turned ? -first->distance : 0});
+    const bool hangs = k > 0 && !zp_shares_load(first);
+    if (k > 0) add_link(&ties, k);
+    for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
+      add_joint(&ties, k, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &hold_of[joint->kind]);
   }
+  for (ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++)
+    resolve(&ties, tie);
   return ties;
+}
+
+const ZpTie *zp_tie_of(const ZpTies *ties, size_t member, size_t k) {
+  for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++)
+    if (tie->member == member && tie->coordinate == k) return tie;
+  return NULL;
 }

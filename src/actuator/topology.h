@@ -20,7 +20,6 @@ typedef enum ZpJointKind {
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
   ZP_JOINT_FREE,     /* free to move and to turn */
   ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
-  ZP_JOINT_LINK,     /* the same, but the upper one slides, too, with the lower one of the actuator above */
   ZP_JOINT_TURNING,  /* rigid; the upper one is held and horizontal, the lower one moves and turns in the plane */
   ZP_JOINT_KINDS
 } ZpJointKind;
@@ -47,15 +46,6 @@ typedef struct ZpTopology {
 /* (def) => its topology. */
 ZpTopology zp_topology_of(const ZpActuatorDef *def);
 
-/* The upper platform hangs on another actuator from now on. */
-void zp_topology_hang(ZpTopology *topology);
-
-/* Is a coordinate held, whatever acts on it? */
-bool zp_topology_is_held(const ZpTopology *topology, size_t coordinate);
-
-/* The first coordinate that always is as this one: itself, or one of a node of the same body. */
-size_t zp_topology_leader(const ZpTopology *topology, size_t coordinate);
-
 /* Does what is at this station, if anything, keep this ribbon horizontal? */
 bool zp_topology_holds_slope(const ZpTopology *topology, size_t station, size_t ribbon);
 
@@ -77,8 +67,22 @@ static inline size_t zp_lower(const ZpTopology *t, size_t station) {
   return t->ribbons * station + t->ribbons - 1;
 }
 
+/* Coordinates of a node. */
+static inline size_t zp_x_of(size_t node) {
+  return 2 * node;
+}
+
+static inline size_t zp_y_of(size_t node) {
+  return 2 * node + 1;
+}
+
 static inline bool zp_is_pair(const ZpTopology *t) {
   return t->ribbons == 2;
+}
+
+/* (heights of nodes of two ribbons) => by how much the upper one is above the lower one at a station. */
+static inline double zp_gap_of(const ZpTopology *t, const double *y, size_t station) {
+  return y[zp_upper(t, station)] - y[zp_lower(t, station)];
 }
 
 /* Two ribbons on a hinge? It is the left end, and their right ends are free. */
@@ -103,7 +107,7 @@ static inline bool zp_platform_turns(const ZpTopology *t) {
 
 /* Is there a rigid platform between the ribbons? */
 static inline bool zp_has_platform(const ZpTopology *t) {
-  return t->platform.kind == ZP_JOINT_PLATFORM || t->platform.kind == ZP_JOINT_LINK || zp_platform_turns(t);
+  return t->platform.kind == ZP_JOINT_PLATFORM || zp_platform_turns(t);
 }
 
 /* Is there an angle to tell of: of a fold, or of a platform that turns? */

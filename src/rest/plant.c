@@ -54,7 +54,7 @@ typedef struct Work {
 static size_t reserve(Work *w, void *block) {
   const ZpModel *model = w->model;
   ZpArena arena = {block, 0};
-  size_t n = w->assembly->n, N = model->nodes, stride = 2 * model->stride;
+  size_t n = w->assembly->n, N = model->nodes;
   zp_vibration_reserve(&w->vibration, n, ZP_VIBRATIONS, &arena);
   zp_band_reserve_groups(&w->K, n, 0, w->assembly->bandwidth, w->assembly->groups, &arena);
   if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
@@ -66,8 +66,8 @@ static size_t reserve(Work *w, void *block) {
   w->y = zp_arena_take(&arena, n);
   double **of_nodes[] = {&w->force, &w->moved, &w->by_voltage};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_arena_take(&arena, stride);
-  w->spare = (double(*)[4])(void *)zp_arena_take(&arena, 12 * model->stride);
+    *of_nodes[k] = zp_arena_take(&arena, zp_coordinates(model));
+  w->spare = (double(*)[4])(void *)zp_arena_take(&arena, 12 * zp_lanes(model));
   return arena.used;
 }
 
@@ -95,7 +95,7 @@ static void find_by_voltage(Work *w, double U, double *force) {
   zp_system_by_voltage(w->model, &span, w->eval, &by);
 }
 
-/* Component of the forces on nodes [2 stride] along shape j. */
+/* Component of the forces on nodes along shape j. */
 static double along_shape(Work *w, const double *nodes, size_t j) {
   zp_assembly_sum(w->assembly, nodes, w->x);
   return zp_dot(w->assembly->n, w->x, w->shape + j * w->assembly->n);
@@ -151,8 +151,8 @@ static void find_internal_damping(Work *w) {
   const ZpModel *model = w->model;
   ZpEval *e = w->eval;
   const double *q = w->at->member->q;
-  zp_rod_eval(&model->rod, q, q + model->stride, &e->rod_start);
-  zp_rod_eval(&model->rod, q, q + model->stride, &e->rod);
+  zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod_start);
+  zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod);
   zp_rod_damping(&model->rod, &e->rod_start, &e->rod, &e->rod_step, w->spare, e->D);
   for (size_t k = 0; k < 3 * (model->count - model->s); k++)
     for (size_t c = 0; c < 4; c++)
@@ -163,15 +163,19 @@ static void find_internal_damping(Work *w) {
 
 /* -- the liquid ------------------------------------------------------------------------------------ */
 
+/* How shape j moves all nodes, until the next one. */
+static ZpNodes moved_by(Work *w, size_t j) {
+  zp_assembly_changes(w->assembly, w->shape + j * w->assembly->n, w->moved);
+  return zp_nodes(w->model, w->moved);
+}
+
 /* Of shape j. */
 static double *find_rate(Work *w, size_t j) {
   const ZpTopology *t = &w->model->topology;
   double *rate = w->rate + j * w->model->nodes;
-  memset(w->moved, 0, 2 * w->model->stride * sizeof *w->moved);
-  zp_assembly_scatter(w->assembly, w->shape + j * w->assembly->n, w->moved);
-  const double *y = w->moved + w->model->stride;
+  const double *y = moved_by(w, j).y;
   for (size_t i = 0; i < w->model->nodes; i++)
-    rate[i] = y[zp_upper(t, i)] - y[zp_lower(t, i)];
+    rate[i] = zp_gap_of(t, y, i);
   return rate;
 }
 
@@ -179,14 +183,15 @@ static double *find_rate(Work *w, size_t j) {
  * film's drag in the previous one (Krylov's space). */
 static void find_slow_shapes(Work *w) {
   const ZpTopology *t = &w->model->topology;
-  const size_t N = w->model->nodes, stride = w->model->stride;
+  const size_t N = w->model->nodes;
+  const ZpForces moved = zp_forces(w->model, w->moved);
   for (int k = 0; k < SLOW && w->m < w->assembly->n; k++) {
     double *drag = w->force;
     zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
-    memset(w->moved, 0, 2 * stride * sizeof *w->moved);
+    memset(w->moved, 0, zp_coordinates(w->model) * sizeof *w->moved);
     for (size_t i = 0; i < N; i++) {
-      w->moved[stride + zp_upper(t, i)] += drag[i];
-      w->moved[stride + zp_lower(t, i)] -= drag[i];
+      moved.y[zp_upper(t, i)] += drag[i];
+      moved.y[zp_lower(t, i)] -= drag[i];
     }
     zp_assembly_sum(w->assembly, w->moved, w->y);
     zp_band_solve(w->factors, w->y);
@@ -302,9 +307,7 @@ static void find_signal(Work *w, const ZpSetpointSignal *signal) {
       w->by_signal[j] = w->model->parts * along_shape(w, w->by_voltage, j);
       continue;
     }
-    memset(w->moved, 0, 2 * w->model->stride * sizeof *w->moved);
-    zp_assembly_scatter(w->assembly, w->shape + j * w->assembly->n, w->moved);
-    const double *y = w->moved + w->model->stride;
+    const double *y = moved_by(w, j).y;
     w->by_signal[j] = signal->kind == ZP_CONTROL_STROKE    ? zp_stroke(t, y)
                       : signal->kind == ZP_CONTROL_OPENING ? zp_opening(t, y)
                                                            : -zp_opening(t, y) / signal->hanging;
@@ -315,10 +318,8 @@ static void find_signal(Work *w, const ZpSetpointSignal *signal) {
 
 /* Add the inertia of the liquid outside, which shape j moves, to column j. */
 static void add_outside(Work *w, size_t j) {
-  const size_t nodes = 2 * w->model->stride;
-  memset(w->moved, 0, nodes * sizeof *w->moved);
-  memset(w->force, 0, nodes * sizeof *w->force);
-  zp_assembly_scatter(w->assembly, w->shape + j * w->assembly->n, w->moved);
+  moved_by(w, j);
+  memset(w->force, 0, zp_coordinates(w->model) * sizeof *w->force);
   zp_term_add_outside(w->model, w->eval, w->moved, w->force);
   for (size_t k = 0; k < w->m; k++)
     w->mass[k * (w->m + w->z) + j] += along_shape(w, w->force, k);
@@ -556,7 +557,7 @@ static size_t reserve_small(const Work *w, void *block, ZpSmallMotion *small) {
   small->stiffness = zp_arena_take(&arena, rates * rates);
   small->by_voltage = zp_arena_take(&arena, w->m);
   small->charge = zp_arena_take(&arena, rates);
-  small->shape = zp_arena_take(&arena, w->m * 2 * w->model->stride);
+  small->shape = zp_arena_take(&arena, w->m * zp_coordinates(w->model));
   for (int half = 0; half < ZP_BEADS; half++)
     small->out[half] = zp_arena_take(&arena, rates);
   return arena.used;
@@ -564,7 +565,7 @@ static size_t reserve_small(const Work *w, void *block, ZpSmallMotion *small) {
 
 /* A bead's end acts on the shapes with the volume that shapes displace, and with what has flowed past the edges. */
 static void fill_small(const Work *w, ZpSmallMotion *small) {
-  const size_t rates = small->rates, nodes = 2 * w->model->stride;
+  const size_t rates = small->rates, nodes = zp_coordinates(w->model);
   memcpy(small->mass, w->mass, rates * rates * sizeof *w->mass);
   memcpy(small->damping, w->damping, rates * rates * sizeof *w->damping);
   memcpy(small->by_voltage, w->by_u, w->m * sizeof *w->by_u);

@@ -42,8 +42,8 @@ static void add_gap_row(const ZpRestMember *m, double *row) {
   const ZpTopology *t = &m->model->topology;
   LastToClose last = last_to_close(m->model);
   for (size_t k = 0; k < 2; k++) {
-    zp_assembly_add_one(&m->assembly, 2 * zp_lower(t, last.station[k]) + 1, -0.5, row);
-    if (zp_is_pair(t)) zp_assembly_add_one(&m->assembly, 2 * zp_upper(t, last.station[k]) + 1, 0.5, row);
+    zp_assembly_add_one(&m->assembly, zp_y_of(zp_lower(t, last.station[k])), -0.5, row);
+    if (zp_is_pair(t)) zp_assembly_add_one(&m->assembly, zp_y_of(zp_upper(t, last.station[k])), 0.5, row);
   }
 }
 

@@ -12,15 +12,13 @@
 #include "rest/crossing.h"
 #include "solve/descend.h"
 
-static void reserve_member(ZpRestMember *m, size_t stride, ZpArena *arena) {
-  m->q = zp_arena_take(arena, 2 * stride);
-  m->moved = zp_arena_take(arena, 2 * stride);
-  m->force = zp_arena_take(arena, 2 * stride);
-  m->good = zp_arena_take(arena, 2 * stride);
-  m->tension = zp_arena_take(arena, stride);
-  m->rotation = zp_arena_take(arena, stride);
-  m->stretch = zp_arena_take(arena, stride);
-  m->model = m->own = (ZpModel *)(void *)zp_arena_take(arena, (sizeof *m->own + sizeof(double) - 1) / sizeof(double));
+static void reserve_member(ZpRestMember *m, const ZpModel *model, ZpArena *arena) {
+  double **of_coordinates[] = {&m->q, &m->moved, &m->force, &m->good};
+  double **of_edges[] = {&m->tension, &m->rotation, &m->stretch};
+  for (size_t k = 0; k < sizeof of_coordinates / sizeof of_coordinates[0]; k++)
+    *of_coordinates[k] = zp_arena_take(arena, zp_coordinates(model));
+  for (size_t k = 0; k < sizeof of_edges / sizeof of_edges[0]; k++)
+    *of_edges[k] = zp_arena_take(arena, zp_lanes(model));
 }
 
 static size_t reserve_solution(ZpStatics *s, void *block) {
@@ -35,7 +33,7 @@ static size_t reserve(const ZpModel *model, ZpStatics *s, void *block) {
   s->member = (ZpRestMember *)(void *)zp_arena_take(&arena, s->members * sizeof *s->member / sizeof(double));
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember unused = {0}, *m = block ? &s->member[k] : &unused;
-    reserve_member(m, model->stride, &arena);
+    reserve_member(m, model, &arena);
   }
   return arena.used;
 }
@@ -54,11 +52,10 @@ static void put_on(ZpStatics *s, double share) {
 }
 
 static void lay_straight(ZpStatics *s) {
-  for (size_t k = 0; k < s->members; k++) {
-    ZpRestMember *m = &s->member[k];
-    memset(m->q, 0, 2 * m->model->stride * sizeof *m->q);
-    memset(m->tension, 0, m->model->stride * sizeof *m->tension);
-    for (size_t j = 0; j < m->model->stride; j++)
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    memset(m->q, 0, zp_coordinates(m->model) * sizeof *m->q);
+    memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
+    for (size_t j = 0; j < zp_lanes(m->model); j++)
       m->q[j] = zp_straight_x(m->model, j / m->model->s);
   }
 }
@@ -67,20 +64,24 @@ double zp_statics_factor(const ZpStatics *s, size_t which) {
   return which > 0 && s->distance > 0 ? -1 : 1;
 }
 
-/* Each member is at rest in the frame of the platform that it hangs on. */
-static bool create_member(const ZpModel *model, ZpRestMember *m) {
-  *m->own = *model;
-  ZpTopology *t = &m->own->topology;
-  for (size_t k = 0; k < t->joints; k++)
-    if (t->joint[k].kind == ZP_JOINT_LINK) t->joint[k].kind = ZP_JOINT_PLATFORM;
-  if (t->platform.kind == ZP_JOINT_LINK) t->platform.kind = ZP_JOINT_PLATFORM;
-  return zp_system_create(m->model, true, &m->eval) && zp_assembly_create(m->model, 0, model->is_rod, &m->assembly);
+/* In series each member is at rest in the frame of the platform that it hangs on. */
+static ZpTies ties_of(const ZpStatics *s, size_t which) {
+  return s->shared ? zp_ties_of(s->model, s->members) : zp_ties_of(s->model + which, 1);
+}
+
+static bool create_member(const ZpStatics *s, size_t which) {
+  const ZpModel *model = s->model + which;
+  const ZpTies ties = ties_of(s, which);
+  ZpRestMember *m = &s->member[which];
+  m->model = model;
+  return zp_system_create(model, true, &m->eval) &&
+         zp_assembly_create(&ties, s->shared ? which : 0, 0, model->is_rod, &m->assembly);
 }
 
 /* The equations of all members. */
-static void number(const ZpModel *model, ZpStatics *s) {
+static void number(ZpStatics *s) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
-  const ZpTies ties = s->shared ? zp_ties_of(model) : (ZpTies){0};
+  const ZpTies ties = ties_of(s, 0);
   const ZpAssembly *first = &s->member->assembly;
   s->parts = first->parts;
   s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
@@ -106,11 +107,11 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   bool made = s->memory != NULL;
   if (made) reserve(model, s, s->memory);
   for (size_t k = 0; k < s->members && made; k++) {
-    made = create_member(model + k, &s->member[k]);
+    made = create_member(s, k);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
     s->own_load = (s->shared ? s->own_load : 0) + model[k].def.load.mass;
   }
-  if (made) number(model, s);
+  if (made) number(s);
   if (made) s->solution = zp_calloc(1, reserve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
@@ -152,13 +153,13 @@ enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
 /* The present point => good, and back. */
 static void keep(ZpStatics *s) {
-  for (size_t k = 0; k < s->members; k++)
-    memcpy(s->member[k].good, s->member[k].q, 2 * s->member[k].model->stride * sizeof *s->member[k].q);
+  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    memcpy(m->good, m->q, zp_coordinates(m->model) * sizeof *m->q);
 }
 
 static void go_to_kept(ZpStatics *s) {
-  for (size_t k = 0; k < s->members; k++)
-    memcpy(s->member[k].q, s->member[k].good, 2 * s->member[k].model->stride * sizeof *s->member[k].q);
+  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    memcpy(m->q, m->good, zp_coordinates(m->model) * sizeof *m->q);
 }
 
 void zp_statics_take_tensions(ZpStatics *s) {
@@ -187,8 +188,8 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
       keep(s);
     } else {
       go_to_kept(s);
-      for (size_t k = 0; k < s->members; k++)
-        memset(s->member[k].tension, 0, s->member[k].model->stride * sizeof *s->member[k].tension);
+      for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
+        memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
       step *= 0.25;
     }
   }
@@ -199,7 +200,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
 }
 
 static double opening_of(const ZpRestMember *m) {
-  return zp_opening(&m->model->topology, m->q + m->model->stride);
+  return zp_opening(&m->model->topology, zp_nodes(m->model, m->q).y);
 }
 
 /* Has any gap, insulators included, changed since the last good state by so large a share that this is another
@@ -207,7 +208,7 @@ static double opening_of(const ZpRestMember *m) {
 static bool member_has_jumped(const ZpRestMember *m) {
   static const double jump = 0.25;
   const ZpModel *model = m->model;
-  const double *y = m->good + model->stride;
+  const double *y = zp_nodes(model, m->good).y;
   for (size_t i = 0; i < model->nodes; i++) {
     double before = zp_plates_gap(&model->plates, y, i);
     if (!(fabs(m->eval.plates.gap[i] - before) < jump * (fabs(before) + model->plates.d))) return true;
@@ -221,7 +222,7 @@ static bool has_jumped(const ZpStatics *s) {
   bool jumped = false;
   for (size_t k = 0; k < s->members; k++) {
     const ZpRestMember *m = &s->member[k];
-    double before = zp_opening(&m->model->topology, m->good + m->model->stride);
+    double before = zp_opening(&m->model->topology, zp_nodes(m->model, m->good).y);
     jumped |= fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
     jumped |= member_has_jumped(m);
   }
@@ -395,7 +396,7 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
 }
 
 static double stroke_of(const ZpRestMember *m) {
-  return zp_stroke(&m->model->topology, m->q + m->model->stride);
+  return zp_stroke(&m->model->topology, zp_nodes(m->model, m->q).y);
 }
 
 double zp_statics_member_opening(const ZpStatics *s, size_t which) {
@@ -419,7 +420,7 @@ double zp_statics_opening(const ZpStatics *s) {
 }
 
 double zp_statics_angle(const ZpStatics *s) {
-  return zp_topology_angle(&s->member->model->topology, s->member->q, s->member->q + s->member->model->stride);
+  return zp_topology_angle(&s->member->model->topology, s->member->q, zp_nodes(s->member->model, s->member->q).y);
 }
 
 static size_t front_of(const ZpRestMember *m) {
@@ -455,7 +456,7 @@ bool zp_statics_shorted(const ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++) {
     const ZpModel *model = s->member[k].model;
     if (zp_statics_member_voltage(s, k) == 0 || !model->field || zp_insulation(&model->def) > 0) continue;
-    if (zp_plates_least_gap(&model->plates, s->member[k].q + model->stride) < model->faces.depth) return true;
+    if (zp_plates_least_gap(&model->plates, zp_nodes(model, s->member[k].q).y) < model->faces.depth) return true;
   }
   return false;
 }
@@ -563,7 +564,7 @@ ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeR
                    .voltage = zp_statics_member_voltage(s, which),
                    .zipped = front_of(m),
                    .x = m->q,
-                   .y = m->q + m->model->stride};
+                   .y = zp_nodes(m->model, m->q).y};
   for (int half = 0; m->model->has_bead && half < zp_beads(&m->model->film); half++)
     room.reach[half] = m->eval.reach[half];
   if (m->model->field) shape.gap = m->eval.plates.gap;
@@ -576,8 +577,12 @@ ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeR
 /* The equation of a held platform replaces its balance of forces: the platform is where it is held. A step moves it
  * there while the edges rotate, so there is no closing error to spread along the ribbons. */
 
+static size_t height_of(const ZpRestMember *m) {
+  return (size_t)m->assembly.equation[zp_y_of(zp_load_node(&m->model->topology))];
+}
+
 size_t zp_statics_platform(const ZpStatics *s) {
-  return (size_t)s->member->assembly.equation[2 * zp_load_node(&s->member->model->topology) + 1];
+  return height_of(s->member);
 }
 
 /* The equation has the form of a force, so that the tolerance of forces applies: a stiffness, of each half, times the
@@ -591,7 +596,7 @@ static double holding(const ZpStatics *s) {
 static void hold_platform(ZpStatics *s, double *r) {
   size_t row = zp_statics_platform(s);
   s->reaction = r[row];
-  r[row] = holding(s) * (zp_drop(&s->member->model->topology, s->member->q + s->member->model->stride) - s->opening);
+  r[row] = holding(s) * (zp_drop(&s->member->model->topology, zp_nodes(s->member->model, s->member->q).y) - s->opening);
 }
 
 /* The same for the terms on top of the band. */
@@ -781,7 +786,7 @@ ZP_KERNEL static void edges_under_step(size_t edges, size_t ribbons, const doubl
 /* Rotation and stretch of all edges of a member under a step => m. */
 static void turn(ZpRestMember *m, const double *step) {
   zp_assembly_changes(&m->assembly, step, m->moved);
-  edges_under_step(edge_count(m), m->model->s, m->moved, m->moved + m->model->stride, &m->eval.edges, m->rotation,
+  edges_under_step(edge_count(m), m->model->s, m->moved, zp_nodes(m->model, m->moved).y, &m->eval.edges, m->rotation,
                    m->stretch);
 }
 
@@ -807,7 +812,7 @@ static double gap_share_of(const ZpRestMember *m, double U) {
   const ZpModel *model = m->model;
   const ZpPlatesParams *p = &model->plates;
   const ZpTopology *t = &model->topology;
-  const double *y = m->moved + model->stride;
+  const double *y = zp_nodes(model, m->moved).y;
   double most = 0, least_h = zp_plates_least_h(p, U);
   for (size_t i = 0; i < model->nodes; i++) {
     double change = y[zp_lower(t, i)] - (zp_is_pair(t) ? y[zp_upper(t, i)] : 0);
@@ -861,9 +866,10 @@ ZP_KERNEL static void edges_turned(size_t edges, double fraction, const double *
  * vectors in m->moved. */
 static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
   const ZpModel *model = m->model;
+  const ZpForces moved = zp_forces(model, m->moved);
   turn(m, step);
   edges_turned(edge_count(m), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &m->eval.edges,
-               m->rotation, m->stretch, m->tension, m->moved, m->moved + model->stride);
+               m->rotation, m->stretch, m->tension, moved.x, moved.y);
 }
 
 /* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the
@@ -884,23 +890,25 @@ typedef struct Path {
 
 /* The one that ends at the lower platform of the left or right half: from the upper platform, or from a clip that is
  * held. */
-static Path path_to_platform(const ZpTopology *t, bool right) {
+static Path path_to_platform(const ZpRestMember *m, bool right) {
+  const ZpTopology *t = &m->model->topology;
   size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
-  return zp_topology_is_held(t, 2 * clip) ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
+  return m->assembly.equation[zp_x_of(clip)] < 0 ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
 }
 
 enum { MOST_PATHS = 4 };
 
 /* The paths that place all nodes => how many. */
-static size_t paths_of(const ZpTopology *t, Path path[MOST_PATHS]) {
+static size_t paths_of(const ZpRestMember *m, Path path[MOST_PATHS]) {
+  const ZpTopology *t = &m->model->topology;
   size_t count = 0, last = t->nodes - t->ribbons;
-  if (!zp_is_pair(t) || zp_is_open_pair(t)) {
+  if (!zp_has_platform(t)) {
     for (; count < t->ribbons; count++)
       path[count] = (Path){count, last + count, false};
     return count;
   }
   for (size_t h = 0; h < t->halves; h++) {
-    Path end = path_to_platform(t, h > 0);
+    Path end = path_to_platform(m, h > 0);
     if (!end.returns) path[count++] = (Path){end.turn - 1, end.start - 1, false};
     path[count++] = end;
   }
@@ -933,27 +941,27 @@ static void lay_member(ZpRestMember *m) {
   const int *equation = m->assembly.equation;
   size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
   Path path[MOST_PATHS];
-  size_t paths = paths_of(t, path);
+  size_t paths = paths_of(m, path);
   for (size_t c = 0; c < 2; c++) {
-    double *q = m->q + c * m->model->stride, *d = m->moved + c * m->model->stride;
+    double *q = zp_coordinate(m->model, m->q, c), *d = zp_coordinate(m->model, m->moved, c);
     for (size_t k = 0; k < paths; k++) {
       size_t end = path[k].returns ? path[k].start + 1 : path[k].turn;
       double last = q[end];
       walk(t, path[k], d, q);
-      if (equation[2 * end + c] < 0) spread(t, path[k], q[end] - last, q);
+      if (equation[zp_x_of(end) + c] < 0) spread(t, path[k], q[end] - last, q);
     }
-    if (t->halves == 1 || equation[2 * left + c] < 0) continue;
+    if (t->halves == 1 || equation[zp_x_of(left) + c] < 0) continue;
     double missed = q[right] - q[left] - d[left];
-    spread(t, path_to_platform(t, false), -0.5 * missed, q);
-    spread(t, path_to_platform(t, true), 0.5 * missed, q);
+    spread(t, path_to_platform(m, false), -0.5 * missed, q);
+    spread(t, path_to_platform(m, true), 0.5 * missed, q);
   }
 }
 
 /* Put the lower platform of a half at a height. */
 static void put_platform(ZpRestMember *m, double height) {
   const ZpTopology *t = &m->model->topology;
-  double *y = m->q + m->model->stride;
-  spread(t, path_to_platform(t, false), y[zp_load_node(t)] - height, y);
+  double *y = zp_forces(m->model, m->q).y;
+  spread(t, path_to_platform(m, false), y[zp_load_node(t)] - height, y);
 }
 
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
@@ -995,7 +1003,7 @@ static bool solve_field(ZpRestMember *m, double U) {
   const ZpModel *model = m->model;
   if (U == 0) return true;
   if (model->has_bead) {
-    zp_plates_gaps(&model->plates, m->q, m->q + model->stride, &m->eval.plates);
+    zp_plates_gaps(&model->plates, m->q, zp_nodes(model, m->q).y, &m->eval.plates);
     zp_eval_reach(model, m->eval.plates.gap, NULL, m->eval.reach);
     zp_eval_cover(model, m->eval.reach, &m->eval);
   }
@@ -1098,7 +1106,7 @@ void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
     ZpSpan span = span_of(s, k);
     ZpByVoltage by = {.force = m->force};
     zp_system_by_voltage(m->model, &span, &m->eval, &by);
-    for (size_t j = 0; j < 2 * m->model->stride; j++)
+    for (size_t j = 0; j < zp_coordinates(m->model); j++)
       m->force[j] *= m->model->ratio;
     zp_assembly_add(&m->assembly, m->force, r_m);
   }
@@ -1127,9 +1135,9 @@ static void by_load(void *self, double *r_m) {
     ZpRestMember *m = &s->member[k];
     const ZpModel *model = m->model;
     double per_mass = load_part(s, k) * load_share(s, k) * model->def.gravity;
-    memset(m->force, 0, 2 * model->stride * sizeof *m->force);
+    memset(m->force, 0, zp_coordinates(model) * sizeof *m->force);
     zp_weight_by_hung(model, m->force);
-    for (size_t j = 0; j < 2 * model->stride; j++)
+    for (size_t j = 0; j < zp_coordinates(model); j++)
       m->force[j] *= per_mass;
     zp_assembly_add(&m->assembly, m->force, r_m);
   }
@@ -1146,11 +1154,12 @@ static void position(void *self, double *q) {
 /* Of each member q and tensions; voltage, load, bias. */
 static void save(void *self, void *to) {
   const ZpStatics *s = self;
-  size_t stride = s->member->model->stride;
   double *place = to;
-  for (size_t k = 0; k < s->members; k++, place += 3 * stride) {
-    memcpy(place, s->member[k].q, 2 * stride * sizeof *place);
-    memcpy(place + 2 * stride, s->member[k].tension, stride * sizeof *place);
+  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    size_t coordinates = zp_coordinates(m->model), lanes = zp_lanes(m->model);
+    memcpy(place, m->q, coordinates * sizeof *place);
+    memcpy(place + coordinates, m->tension, lanes * sizeof *place);
+    place += coordinates + lanes;
   }
   place[0] = s->U;
   place[1] = s->load;
@@ -1159,11 +1168,12 @@ static void save(void *self, void *to) {
 
 static void restore(void *self, const void *from) {
   ZpStatics *s = self;
-  size_t stride = s->member->model->stride;
   const double *place = from;
-  for (size_t k = 0; k < s->members; k++, place += 3 * stride) {
-    memcpy(s->member[k].q, place, 2 * stride * sizeof *place);
-    memcpy(s->member[k].tension, place + 2 * stride, stride * sizeof *place);
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    size_t coordinates = zp_coordinates(m->model), lanes = zp_lanes(m->model);
+    memcpy(m->q, place, coordinates * sizeof *place);
+    memcpy(m->tension, place + coordinates, lanes * sizeof *place);
+    place += coordinates + lanes;
   }
   s->U = place[0];
   s->load = place[1];
@@ -1219,7 +1229,7 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .alike = are_alike(s) ? s->members : 0,
                           .save = save,
                           .restore = restore,
-                          .save_size = (3 * s->members * model->stride + 3) * sizeof(double),
+                          .save_size = (s->members * (zp_lanes(model) + zp_coordinates(model)) + 3) * sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
                           .m_scale = of[along].scale};
 }
@@ -1239,11 +1249,6 @@ void zp_statics_masses(const ZpStatics *s, double *mass) {
   memset(mass, 0, s->n * sizeof *mass);
   for (size_t k = 0; k < s->members; k++)
     zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
-}
-
-/* The height of the platform of a member in series. */
-static size_t height_of(const ZpRestMember *m) {
-  return (size_t)m->assembly.equation[2 * zp_load_node(&m->model->topology) + 1];
 }
 
 /* Eq. (29.3): a member moves relative to its upper platform, and with that platform, which moves by `way`. */
@@ -1276,7 +1281,7 @@ double zp_statics_member_force(ZpStatics *s, size_t which) {
   double sum = 0;
   zp_system_force(m->model, &here, &m->eval, m->force);
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    sum += m->force[m->model->stride + zp_lower(t, i)];
+    sum += zp_nodes(m->model, m->force).y[zp_lower(t, i)];
   return m->model->parts * sum + zp_load_pull(m->model);
 }
 

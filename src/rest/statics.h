@@ -10,8 +10,7 @@
 
 /* One of the actuators of the system. */
 typedef struct ZpRestMember {
-  ZpModel *own;         /* a copy of the given one, at rest in the frame of the platform that it hangs on */
-  const ZpModel *model; /* it, for reading */
+  const ZpModel *model;
   ZpEval eval;
   double *q; /* [2 stride] the present point */
   ZpAssembly assembly;

@@ -15,7 +15,7 @@ static void reserve_member(ZpMovingMember *m, ZpArena *arena) {
   const ZpModel *model = m->model;
   double **of_nodes[] = {&m->start, &m->end, &m->force, &m->moved};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
-    *of_nodes[k] = zp_arena_take(arena, 2 * model->stride);
+    *of_nodes[k] = zp_arena_take(arena, zp_coordinates(model));
   m->own = zp_arena_take(arena, zp_extra_unknowns(model));
   m->gap = zp_arena_take(arena, model->nodes);
   m->foreseen = zp_arena_take(arena, model->nodes);
@@ -27,8 +27,8 @@ static size_t reserve(ZpDynamics *d, void *block) {
   reserve_equations(d, &arena);
   for (size_t k = 0; k < d->members; k++)
     reserve_member(&d->member[k], &arena);
-  d->by_voltage.force = zp_arena_take(&arena, 2 * d->member->model->stride);
-  d->by_voltage.charge = zp_arena_take(&arena, 2 * d->member->model->stride);
+  d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
+  d->by_voltage.charge = zp_arena_take(&arena, zp_coordinates(d->member->model));
   return arena.used;
 }
 
@@ -106,7 +106,7 @@ static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
   const ZpModel *model = m->model;
   const ZpEval *e = &m->eval;
   zp_assembly_place(&m->assembly, q0, m->start);
-  memcpy(m->end, m->start, 2 * model->stride * sizeof *m->end);
+  memcpy(m->end, m->start, zp_coordinates(model) * sizeof *m->end);
   ZpSpan span = span_of(d, m);
   zp_system_begin(model, &span, &m->eval);
   if (d->source) m->charge0 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_START, m->U0).charge;
@@ -183,7 +183,7 @@ static void add_source(ZpDynamics *d, ZpBordered *J) {
     const double ratio = m->model->ratio, share = zp_source_share(m->model) / parts;
     ZpSpan span = span_of(d, m);
     zp_system_by_voltage(m->model, &span, &m->eval, &d->by_voltage);
-    for (size_t k = 0; k < 2 * m->model->stride; k++) {
+    for (size_t k = 0; k < zp_coordinates(m->model); k++) {
       by->force[k] *= ratio;
       by->charge[k] *= share;
     }
@@ -245,6 +245,7 @@ static bool is_platform(const ZpMovingMember *m, size_t i) {
  * Both ends of a platform that does not turn have equal pairs. */
 typedef struct Pair {
   int upper, lower;
+  double turned;      /* factor of the lower one: 1, or -1 upside down */
   double upper_share; /* of the pair's mass */
   double reduced;     /* mass of their relative motion, kg */
 } Pair;
@@ -253,7 +254,8 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
   const ZpTopology *t = &m->model->topology;
   const int *equation = m->assembly.equation;
   size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
-  Pair pair = {zp_is_pair(t) ? equation[2 * upper + 1] : -1, equation[2 * lower + 1], 1, 0};
+  Pair pair = {zp_is_pair(t) ? equation[zp_y_of(upper)] : -1, equation[zp_y_of(lower)],
+               m->assembly.factor[zp_y_of(lower)], 1, 0};
   if (pair.lower < 0) return pair;
   double below = m->model->mass[lower] + (is_platform(m, i) ? m->added + m->with[1] : 0);
   pair.reduced = below;
@@ -265,38 +267,34 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
 }
 
 /* How fast the faces of a pair part, by the rates of all unknowns. */
-static double parting(const ZpMovingMember *m, Pair pair, const double *v) {
-  double lower = zp_assembly_turned(&m->assembly, pair.lower, v[pair.lower]);
+static double parting(Pair pair, const double *v) {
+  double lower = pair.turned * v[pair.lower];
   return pair.upper >= 0 ? v[pair.upper] - lower : -lower;
 }
 
 /* Bring both nodes of a pair nearer to each other, in positions or rates x of all unknowns. Their centre of mass stays
  * where it is. */
-static void bring_nearer(const ZpMovingMember *m, Pair pair, double by, double *x) {
-  x[pair.lower] += zp_assembly_turned(&m->assembly, pair.lower, by * (pair.upper >= 0 ? pair.upper_share : 1));
+static void bring_nearer(Pair pair, double by, double *x) {
+  x[pair.lower] += pair.turned * (by * (pair.upper >= 0 ? pair.upper_share : 1));
   if (pair.upper >= 0) x[pair.upper] -= by * (1 - pair.upper_share);
-}
-
-/* Height of a node by the positions of all unknowns. */
-static double height(const ZpMovingMember *m, int equation, const double *q) {
-  const ZpAssembly *a = &m->assembly;
-  return zp_assembly_turned(a, equation, q[equation]) + (equation == a->turned ? a->turned_from : 0);
 }
 
 /* A first guess. Faces that overlap keep their overlap, and faces that would pass through each other overlap a little.
  */
 static void keep_apart(const ZpMovingMember *m, double *q1) {
   const ZpModel *model = m->model;
-  const double *y = m->start + model->stride, little = 0.5 * model->faces.depth;
+  const ZpTopology *t = &model->topology;
+  const double *y = zp_nodes(model, m->start).y, little = 0.5 * model->faces.depth;
   for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(m, i);
     if (pair.lower < 0) continue;
-    double held = zp_is_pair(&model->topology) ? y[zp_upper(&model->topology, i)] : model->plates.flat_height;
-    double overlap = height(m, pair.lower, q1) - (pair.upper >= 0 ? height(m, pair.upper, q1) : held);
+    double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.flat_height;
+    if (pair.upper >= 0) upper = zp_assembly_position(&m->assembly, zp_y_of(zp_upper(t, i)), q1);
+    double overlap = zp_assembly_position(&m->assembly, zp_y_of(zp_lower(t, i)), q1) - upper;
     bool overlapped = m->eval.plates_start.gap[i] < 0;
     if (!(overlap > 0) && !overlapped) continue;
     overlap += overlapped ? m->eval.plates_start.gap[i] : -fmin(little, overlap);
-    bring_nearer(m, pair, -overlap, q1);
+    bring_nearer(pair, -overlap, q1);
   }
 }
 
@@ -327,7 +325,7 @@ static double unforeseen_of_one(const ZpDynamics *d, ZpMovingMember *m, const do
   if (!model->field) return 0;
   gather_own(m, q1);
   if (model->has_film) work += zp_film_unforeseen(&model->film, m->own, &m->eval.film);
-  zp_plates_gaps(&model->plates, m->end, m->end + model->stride, &m->eval.plates);
+  zp_plates_gaps(&model->plates, m->end, zp_nodes(model, m->end).y, &m->eval.plates);
   for (size_t i = 0; i < model->nodes; i++)
     foreseen[i] = faces->push[i] - faces->own[i] * (gap[i] - before[i]);
   for (size_t i = 0; i + 1 < model->nodes; i++) {
@@ -386,8 +384,8 @@ static void damp(ZpDynamics *d, const ZpMovingMember *m, size_t i) {
   if (again) return;
   Pair pair = pair_of(m, i);
   if (pair.lower < 0) return;
-  double lost = (1 - zp_contact_kept(&m->eval.faces, i, pair.reduced, d->h)) * parting(m, pair, d->v);
-  bring_nearer(m, pair, lost, d->v);
+  double lost = (1 - zp_contact_kept(&m->eval.faces, i, pair.reduced, d->h)) * parting(pair, d->v);
+  bring_nearer(pair, lost, d->v);
 }
 
 /* Do faces overlap at the step's end without a film that has slowed them down? In a bath there is a film everywhere. */
@@ -410,7 +408,7 @@ static double pushed(const ZpMovingMember *m) {
  * they had before. */
 static void damp_all(ZpDynamics *d) {
   const bool parallel = d->member->model->parallel;
-  double *fall = &d->v[d->member->assembly.equation[2 * zp_load_node(&d->member->model->topology) + 1]], lost = 0;
+  double *fall = &d->v[d->member->assembly.equation[zp_y_of(zp_load_node(&d->member->model->topology))]], lost = 0;
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     for (size_t i = 1; i < m->model->nodes; i++) {
       if (!meets(m, i)) continue;
@@ -476,7 +474,7 @@ static void settle_film(ZpDynamics *d, const ZpMovingMember *m) {
     double H = zp_film_thickness(film, m->eval.plates.gap[i]), drag = 6 * film->mu * d->h;
     if (pair.lower < 0 || H > thin * film->roughness) continue;
     double share = drag / (drag + film->rho * H * H);
-    bring_nearer(m, pair, share * share * share * (parting(m, pair, d->v) - parting(m, pair, d->history.w)), d->v);
+    bring_nearer(pair, share * share * share * (parting(pair, d->v) - parting(pair, d->history.w)), d->v);
   }
 }
 
@@ -536,11 +534,11 @@ static void add_masses(ZpDynamics *d, ZpMovingMember *m, double added) {
   const int *equation = m->assembly.equation;
   zp_assembly_add_masses(&m->assembly, m->model->mass, d->mass);
   for (size_t j = 0; j < m->model->count && m->model->has_film; j++)
-    if (equation[2 * j + 1] >= 0) d->mass[equation[2 * j + 1]] += liquid_at(m->model, j / m->model->s);
+    if (equation[zp_y_of(j)] >= 0) d->mass[equation[zp_y_of(j)]] += liquid_at(m->model, j / m->model->s);
   m->added = added;
   for (size_t i = t->platform.first; added != 0 && i <= t->platform.last; i++)
     for (size_t c = 0; c < 2; c++) {
-      int row = equation[2 * zp_lower(t, i) + c];
+      int row = equation[zp_x_of(zp_lower(t, i)) + c];
       if (row >= 0) d->mass[row] += added;
     }
   set_dampers(m);
@@ -560,9 +558,30 @@ static void add_voltage(ZpDynamics *d) {
   d->sharers[voltage_of(d)] = (double)d->members;
 }
 
-static bool create_member(const ZpModel *model, ZpMovingMember *m) {
-  m->model = model;
-  return zp_system_create(model, false, &m->eval) && zp_assembly_create(model, model->own, true, &m->assembly);
+static bool create_member(const ZpTies *ties, size_t which, ZpMovingMember *m) {
+  const ZpModel *model = m->model = ties->first + which;
+  return zp_system_create(model, false, &m->eval) && zp_assembly_create(ties, which, model->own, true, &m->assembly);
+}
+
+/* Mass of nodes of other members that moves with the height of a node, kg. */
+static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_t node) {
+  const int equation = m->assembly.equation[zp_y_of(node)];
+  double sum = 0;
+  for (const ZpMovingMember *other = d->member; other < d->member + d->members; other++)
+    for (size_t j = 0; equation >= 0 && other != m && j < other->model->count; j++)
+      if (other->assembly.equation[zp_y_of(j)] == equation) sum += other->model->mass[j];
+  return sum;
+}
+
+/* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
+ * equal part of all that they move, so that equal members are as one. */
+static void find_joined_masses(ZpDynamics *d) {
+  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    const ZpTopology *t = &m->model->topology;
+    double own = m->model->mass[zp_load_node(t)], others = mass_of_others(d, m, zp_load_node(t));
+    m->with[0] = mass_of_others(d, m, zp_upper(t, t->platform.first));
+    m->with[1] = m->model->parallel ? (own + others) / (double)d->members - own : others;
+  }
 }
 
 /* The equations of all members. */
@@ -571,22 +590,8 @@ static void join(ZpDynamics *d, const ZpTies *ties) {
   for (size_t k = 0; k < d->members; k++)
     of[k] = &d->member[k].assembly;
   zp_assembly_join(of, d->members, ties, true);
-  d->shared = ties->shared;
-}
-
-/* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
- * equal part of all that they move, so that equal members are as one. */
-static void find_joined_masses(ZpDynamics *d, const ZpTies *ties) {
-  const bool parallel = d->member->model->parallel;
-  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++) {
-    ZpMovingMember *m = &d->member[t->member];
-    double others = 0, own = m->model->mass[t->coordinate / 2];
-    for (const ZpTie *other = ties->tie; other < ties->tie + ties->count; other++)
-      if (other != t && other->shared == t->shared)
-        others += d->member[other->member].model->mass[other->coordinate / 2];
-    bool lower = t->coordinate == 2 * zp_load_node(&m->model->topology) + 1;
-    m->with[lower] = parallel ? (own + others) / (double)d->members - own : others;
-  }
+  d->shared = of[0]->shared;
+  find_joined_masses(d);
 }
 
 /* The system of all members. */
@@ -612,13 +617,14 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .unforeseen = unforeseen};
 }
 
-static void fill_equations(ZpDynamics *d, const ZpTies *ties) {
+static void fill_equations(ZpDynamics *d) {
   for (size_t i = 0; i < d->system.n; i++)
     d->scale[i] = 1;
   for (size_t k = 0; k < d->members; k++)
     add_own(d, &d->member[k]);
-  for (size_t k = 0; k < ties->count; k++)
-    d->sharers[d->member[ties->tie[k].member].assembly.equation[ties->tie[k].coordinate]] += 1;
+  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
+    for (size_t k = 0; k < 2 * m->model->count && d->shared; k++)
+      if (m->assembly.equation[k] >= (int)(m->assembly.n - d->shared)) d->sharers[m->assembly.equation[k]] += 1;
   weigh(d, NULL);
   d->system.mass = d->mass;
   d->system.sharers = d->shared ? d->sharers : NULL;
@@ -638,19 +644,18 @@ static double error_of_step(const ZpActuatorDef *def) {
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
-  const ZpTies ties = zp_ties_of(model);
+  const ZpTies ties = zp_ties_of(model, model->members);
   *d = (ZpDynamics){.members = model->members, .source = source};
   d->member = zp_calloc(d->members, sizeof *d->member);
   if (!d->member) return false;
   for (size_t k = 0; k < d->members; k++)
-    if (!create_member(model + k, &d->member[k])) return false;
+    if (!create_member(&ties, k, &d->member[k])) return false;
   if (d->members > 1) join(d, &ties);
-  find_joined_masses(d, &ties);
   d->system = system_of(d);
   d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;
   reserve(d, d->memory);
-  fill_equations(d, &ties);
+  fill_equations(d);
   const ZpActuatorDef *def = &model->def;
   d->stepper.balance = 2e-6 * error_of_step(def);
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
@@ -711,7 +716,7 @@ static void load_one(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   m->state = state;
   m->U0 = state->U;
   m->mean_v = zp_state_mean_v(model, state);
-  memcpy(m->start, zp_state_q(model, state), 2 * model->stride * sizeof *m->start);
+  memcpy(m->start, zp_state_q(model, state), zp_coordinates(model) * sizeof *m->start);
   zp_assembly_gather(&m->assembly, zp_state_q(model, state), d->q);
   zp_assembly_gather(&m->assembly, zp_state_v(model, state), d->v);
   zp_assembly_gather(&m->assembly, m->mean_v, d->history.w);
@@ -782,15 +787,15 @@ void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
   add_masses(d, m, zp_state_added(model, state));
   zp_assembly_gather(&m->assembly, zp_state_v(model, state), d->v);
   for (size_t c = 0; c < 2; c++) {
-    int row = m->assembly.equation[2 * zp_load_node(t) + c];
+    int row = m->assembly.equation[zp_x_of(zp_load_node(t)) + c];
     if (row < 0 || each < 0) continue;
-    size_t ends = m->assembly.equation[2 * zp_lower(t, t->platform.last) + c] == row ? zp_load_ends(t) : 1;
+    size_t ends = m->assembly.equation[zp_x_of(zp_lower(t, t->platform.last)) + c] == row ? zp_load_ends(t) : 1;
     double comes = (double)ends * each;
     d->v[row] = (d->mass[row] * d->v[row] + comes * fast * model->fall[c]) / (d->mass[row] + comes);
   }
   zp_assembly_scatter(&m->assembly, d->v, zp_state_v(model, state));
-  memcpy(zp_state_mean_v(model, state), zp_state_v(model, state), 2 * model->stride * sizeof *d->v);
-  memset(zp_state_mean_a(model, state), 0, 2 * model->stride * sizeof *d->v);
+  memcpy(zp_state_mean_v(model, state), zp_state_v(model, state), zp_coordinates(model) * sizeof *d->v);
+  memset(zp_state_mean_a(model, state), 0, zp_coordinates(model) * sizeof *d->v);
   state->last_step = state->next_step = 0;
 }
 
@@ -817,7 +822,7 @@ static void book_impacts(ZpDynamics *d, ZpState *state) {
 /* Store the state at the step's end, and book the work of the load input. */
 static void arrive(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) {
   const ZpModel *model = m->model;
-  const double *y = zp_state_q(model, state) + model->stride;
+  const double *y = zp_state_motion(model, state).y;
   double before = zp_load_at(model, y), hung = mean_load(d, m);
   store(d, m, state);
   state->load_work += hung * (before - zp_load_at(model, y));
@@ -842,7 +847,7 @@ static void book_link(const ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   ZpSpan span = span_of(d, m);
   double mass = model->mass[j] + liquid_at(model, j / model->s);
   zp_system_force(model, &span, &m->eval, m->force);
-  state->link_force = mass * d->history.a[m->assembly.equation[2 * j + 1]] - m->force[model->stride + j];
+  state->link_force = mass * d->history.a[m->assembly.equation[zp_y_of(j)]] - zp_nodes(model, m->force).y[j];
 }
 
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {

@@ -19,7 +19,7 @@ static bool is_unilateral(const ZpModel *model) {
 bool zp_paper_motion_create(const ZpModel *model, ZpEval *eval, ZpPaperMotion *motion) {
   *motion = (ZpPaperMotion){.model = model, .eval = eval, .longest = INFINITY};
   motion->contact = zp_row_number(&model->ledger, &zp_row_contact_loss);
-  motion->a = zp_calloc(2 * model->stride, sizeof *motion->a);
+  motion->a = zp_calloc(zp_coordinates(model), sizeof *motion->a);
   motion->step.a = motion->a;
   return motion->a;
 }
@@ -35,14 +35,16 @@ void zp_paper_motion_destroy(ZpPaperMotion *motion) {
  * attraction and ribbons over the step at the removed velocity, because symplectic steps conserve the energy of
  * velocities half a step later. */
 static double damp(const ZpPaperMotion *m, size_t i, const double *ay, double dt, double *vy) {
+  const ZpTopology *t = &m->model->topology;
   const double *inverse = m->model->masses.y.inverse;
-  double upper = inverse[2 * i], lower = inverse[2 * i + 1], both = upper + lower;
+  const size_t above = zp_upper(t, i), below = zp_lower(t, i);
+  double upper = inverse[above], lower = inverse[below], both = upper + lower;
   if (both == 0) return 0;
-  double apart = vy[2 * i] - vy[2 * i + 1];
+  double apart = vy[above] - vy[below];
   double lost = (1 - zp_contact_kept_at(&m->model->faces, m->eval->plates.gap[i], i, 1 / both, dt)) * apart;
-  double other = (ay[2 * i] - ay[2 * i + 1]) / both - m->eval->faces.push[i];
-  vy[2 * i] -= lost * upper / both;
-  vy[2 * i + 1] += lost * lower / both;
+  double other = (ay[above] - ay[below]) / both - m->eval->faces.push[i];
+  vy[above] -= lost * upper / both;
+  vy[below] += lost * lower / both;
   return 0.5 * ((apart - lost) + apart) * lost / both + 0.5 * dt * other * lost;
 }
 
@@ -51,16 +53,17 @@ static double damp(const ZpPaperMotion *m, size_t i, const double *ay, double dt
 static void damp_faces(ZpPaperMotion *m, double dt) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
-  const double *x = zp_state_q(model, state), *y = x + model->stride, *ay = m->a + model->stride;
+  const ZpTopology *t = &model->topology;
+  const ZpNodes at = zp_nodes(model, zp_state_q(model, state)), a = zp_nodes(model, m->a);
   const double *push = m->eval->faces.push;
-  double *vy = zp_state_v(model, state) + model->stride, *loss = zp_state_ledger(model, state) + m->contact;
+  double *vy = zp_forces(model, zp_state_v(model, state)).y, *loss = zp_state_ledger(model, state) + m->contact;
   for (size_t i = 1; i < model->nodes; i++) {
     if (!(push[i] > 0)) continue;
-    double apart = vy[2 * i] - vy[2 * i + 1] - 0.5 * dt * (ay[2 * i] - ay[2 * i + 1]);
+    double apart = zp_gap_of(t, vy, i) - 0.5 * dt * zp_gap_of(t, a.y, i);
     *loss -= push[i] * apart * dt;
-    *loss += damp(m, i, ay, dt, vy);
+    *loss += damp(m, i, a.y, dt, vy);
   }
-  zp_plates_gaps(&model->plates, x, y, &m->eval->plates);
+  zp_plates_gaps(&model->plates, at.x, at.y, &m->eval->plates);
   state->zip = zp_eval_touching(model, m->eval->plates.gap);
 }
 
@@ -68,17 +71,19 @@ static void damp_faces(ZpPaperMotion *m, double dt) {
 
 static double next_meeting(void *self, const double *q, const double *v, const double *a, double dt) {
   ZpPaperMotion *m = self;
-  size_t stride = m->model->stride;
-  return zp_zip_next(&m->state->zip, m->model->nodes, q + stride, v + stride, a + stride, dt, &m->met);
+  const ZpModel *model = m->model;
+  return zp_zip_next(&m->state->zip, model->nodes, zp_nodes(model, q).y, zp_nodes(model, v).y, zp_nodes(model, a).y, dt,
+                     &m->met);
 }
 
 /* The pair that has met moves as one from now on, and a held electric force must be updated. */
 static void meet(ZpPaperMotion *m) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
-  double *v = zp_state_v(model, state), *loss = zp_state_row(model, state, &zp_row_contact_loss);
-  *loss += zp_zip_merge(m->met, &model->masses.x, v);
-  *loss += zp_zip_merge(m->met, &model->masses.y, v + model->stride);
+  ZpForces v = zp_forces(model, zp_state_v(model, state));
+  double *loss = zp_state_row(model, state, &zp_row_contact_loss);
+  *loss += zp_zip_merge(m->met, &model->masses.x, v.x);
+  *loss += zp_zip_merge(m->met, &model->masses.y, v.y);
   state->zip = zp_zip_after(state->zip, model->nodes, m->met);
   state->refreshed = NAN;
 }
@@ -110,7 +115,7 @@ static double accelerate(void *self, const double *q, const double *v, double *a
   ZpSpan now = zp_span_of(model, m->state, q, v);
   zp_system_accelerations(model, &now, &model->masses, m->eval, a);
   m->opened = m->state->zip;
-  if (is_sequential(model) && m->state->U == 0) m->opened = zp_zip_open(m->opened, model->nodes, a + model->stride);
+  if (is_sequential(model) && m->state->U == 0) m->opened = zp_zip_open(m->opened, model->nodes, zp_nodes(model, a).y);
   zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &m->state->zip, a);
   return bound_step(m);
 }
@@ -136,9 +141,10 @@ static void book(ZpPaperMotion *m, double dt) {
 
 ZpPaperLimit zp_paper_motion_step(ZpPaperMotion *m, ZpState *state, double latest) {
   const ZpModel *model = m->model;
-  double *q = zp_state_q(model, state), *hangs = q + model->stride + zp_load_node(&model->topology);
+  double *q = zp_state_q(model, state);
+  const double *hangs = zp_nodes(model, q).y + zp_load_node(&model->topology);
   double load = zp_state_load(model, state, state->t), before = *hangs;
-  ZpExplicitSystem system = {2 * model->stride, m, accelerate, is_sequential(model) ? next_meeting : NULL};
+  ZpExplicitSystem system = {zp_coordinates(model), m, accelerate, is_sequential(model) ? next_meeting : NULL};
   m->state = state;
   ZpExplicitStep taken = zp_explicit_step(&system, latest - state->t, q, zp_state_v(model, state), m->a);
   state->t = taken.limit == ZP_EXPLICIT_END ? latest : state->t + taken.dt;

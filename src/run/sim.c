@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "actuator/ties.h"
 #include "base/fail.h"
 #include "def/check.h"
 #include "rest/crossing.h"
@@ -500,18 +501,18 @@ void zp_sim_save(const ZpSim *sim, void *bytes) {
   zp_snapshot_write(sim->model, sim->states, bytes);
 }
 
-/* Are the heights that members share the same in all their states? */
+static double coordinate_of(const ZpSim *m, size_t k) {
+  return *zp_coordinate(m->model, zp_state_q(m->model, m->state), k);
+}
+
+/* Are coordinates tied in all states as they are in the model? */
 static bool is_joined(const ZpSim *sim) {
   static const double same = 1e-9; /* of the length */
-  const ZpTies ties = zp_ties_of(sim->model);
-  double first[ZP_MOST_MEMBERS];
-  bool joined = true, known[ZP_MOST_MEMBERS] = {false};
+  const ZpTies ties = zp_ties_of(sim->model, sim->members);
+  bool joined = true;
   for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++) {
-    const ZpSim *m = sim + t->member;
-    double height = t->factor * (zp_state_motion(m->model, m->state).y[t->coordinate / 2] - t->offset);
-    if (!known[t->shared]) first[t->shared] = height;
-    known[t->shared] = true;
-    joined &= fabs(height - first[t->shared]) < same * m->model->L;
+    double follows = t->factor * coordinate_of(sim + t->to_member, t->to) + t->offset;
+    joined &= fabs(coordinate_of(sim + t->member, t->coordinate) - follows) < same * sim->model->L;
   }
   return joined;
 }
@@ -531,7 +532,7 @@ static ZpStatus read_states(ZpSim *sim, const void *bytes, size_t size, ZpError 
   zp_sim_keep_states(sim);
   ZpStatus status = zp_snapshot_read(sim->model, bytes, size, sim->states, reason);
   if (status == ZP_OK && !is_joined(sim))
-    status = zp_fail(reason, ZP_BAD_INPUT, "of another model: its members are joined in another way");
+    status = zp_fail(reason, ZP_BAD_INPUT, "of another model: its nodes are held or joined in another way");
   if (status != ZP_OK) zp_sim_take_states_back(sim);
   return status;
 }

@@ -164,14 +164,13 @@ static void walk_numbers(ZpPack *p, ZpState *state) {
 /* All but the last are of nodes. `data` is that of a state; NULL counts. */
 static void walk_arrays(ZpPack *p, const ZpModel *model, double *data) {
   for (size_t k = 0; k < ARRAYS; k++)
-    zp_pack_field(p, array[k], ZP_REAL, data ? data + 2 * k * model->stride : NULL,
-                  k + 1 < ARRAYS ? 2 * model->stride : zp_extra_unknowns(model) + model->kept);
+    zp_pack_field(p, array[k], ZP_REAL, data ? data + k * zp_coordinates(model) : NULL,
+                  k + 1 < ARRAYS ? zp_coordinates(model) : zp_extra_unknowns(model) + model->kept);
 }
 
 /* The rows of the ledger, behind the arrays. */
 static void walk_rows(ZpPack *p, const ZpModel *model, double *data) {
-  double *row =
-      data ? data + (size_t)(2 * (ARRAYS - 1)) * model->stride + zp_extra_unknowns(model) + model->kept : NULL;
+  double *row = data ? data + (ARRAYS - 1) * zp_coordinates(model) + zp_extra_unknowns(model) + model->kept : NULL;
   for (size_t k = 0; k < model->ledger.rows; k++)
     zp_pack_field(p, model->ledger.row[k]->name, ZP_REAL, row ? row + k : NULL, 1);
 }

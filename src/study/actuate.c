@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "actuator/model.h"
+#include "actuator/shape.h"
 #include "base/fail.h"
 #include "drive/response.h"
 #include "run/margins.h"
@@ -113,7 +113,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   double highest = zp_waveform_largest(&model->waveform), limit = model->def.source.voltage_limit;
   if (model->supply.acts && isfinite(limit) && highest > 0)
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
-  if (zp_model_info(model).ribbons < 2) return;
+  if (!zp_is_pair(&model->topology)) return;
   bool rises = zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology);
   double work = rises ? work_on_load(sim, model, result) : work_along_path(sim, model, result);
   work -= zp_at_end(sim, result, "load_work") - before.load_work;
@@ -168,7 +168,7 @@ static bool was_open(const ZpSim *sim) {
 /* What starts closed, or nearly so. */
 static void note_start(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double opening = zp_table_get(result->series, 0, "opening_m");
-  if (zp_model_info(model).ribbons == 2 && sim->state->t > 0 && !was_open(sim))
+  if (zp_is_pair(&model->topology) && sim->state->t > 0 && !was_open(sim))
     zp_result_note(result, "the actuator starts closed and does not open, so it does not zip: zip_time_s is null");
   else if (opening > 0)
     zp_note_start(result, model, opening);
@@ -282,7 +282,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
                       ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
-  if (zp_model_info(model).ribbons == 2) summarize_actuator(sim, stop, result);
+  if (zp_is_pair(&model->topology)) summarize_actuator(sim, stop, result);
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
   if (model->rod.plastic) summarize_plastic(sim, result);
@@ -394,14 +394,11 @@ static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *m
 
 static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = zp_model_def(model);
-  ZpModelInfo size = zp_model_info(model);
   size_t columns;
   const ZpColumn *column = zp_signal_columns_of(task->def, &columns);
   result->series = zp_table_create(column, columns, (size_t)def->output.samples);
-  result->shapes =
-      zp_shapes_create((size_t)size.ribbons, model->members * (size_t)size.nodes, (size_t)def->output.shapes);
+  result->shapes = zp_model_shapes(model, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
-  result->shapes->members = model->members;
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;

@@ -32,9 +32,10 @@ size_t zp_contact_move_front(ZpStations *s, size_t k, double share) {
 void zp_contact_cubic(double length, double separation, ZpStations *s) {
   for (size_t k = 0; k < s->count; k++) {
     double xi = place(s, k), half = 0.5 * separation * xi * xi * (3 - 2 * xi);
-    s->x[2 * k] = s->x[2 * k + 1] = length * xi;
-    s->y[2 * k] = half;
-    s->y[2 * k + 1] = -half;
+    for (size_t face = 0; face < 2; face++) {
+      s->x[zp_point_of(k, face)] = length * xi;
+      s->y[zp_point_of(k, face)] = face ? -half : half;
+    }
   }
 }
 
@@ -81,8 +82,8 @@ void zp_contact_smooth(size_t nodes, bool rods, const double *x, const double *y
     double u = at - (double)i;
     for (size_t r = 0; r < 2; r++) {
       Line along = {nodes, rods, false, x + r}, across = {nodes, rods, true, y + r};
-      s->x[2 * k + r] = hermite(&along, i, u) - clip;
-      s->y[2 * k + r] = hermite(&across, i, u);
+      s->x[zp_point_of(k, r)] = hermite(&along, i, u) - clip;
+      s->y[zp_point_of(k, r)] = hermite(&across, i, u);
     }
   }
 }

@@ -164,8 +164,8 @@ static void pushes(Scalar z, size_t c, double force) {
 
 /* Its derivative by the gap of station i. */
 static void follows_gap(Scalar z, size_t i, double by_gap) {
-  zp_assembly_add_one(z.assembly, 2 * zp_upper(&z.model->topology, i) + 1, by_gap, z.v);
-  zp_assembly_add_one(z.assembly, 2 * zp_lower(&z.model->topology, i) + 1, -by_gap, z.v);
+  zp_assembly_add_one(z.assembly, zp_y_of(zp_upper(&z.model->topology, i)), by_gap, z.v);
+  zp_assembly_add_one(z.assembly, zp_y_of(zp_lower(&z.model->topology, i)), -by_gap, z.v);
 }
 
 /* Its derivative by dx/ds at the bead's end, through the x of the nodes there. */
@@ -203,6 +203,11 @@ static void head_follows(Scalar z, const ZpEval *e, double U, const End *end) {
   if (!is_below(end)) follows_gap(z, end->at.far, slope.by_far);
 }
 
+static void pushes_apart(Scalar z, size_t i, double force) {
+  pushes(z, zp_y_of(zp_upper(&z.model->topology, i)), force);
+  pushes(z, zp_y_of(zp_lower(&z.model->topology, i)), -force);
+}
+
 /* The attraction depends on the part, because one law ends there and the other begins. */
 static void part_attracts(Scalar z, const ZpEval *e, double U, const End *end) {
   const ZpModel *model = z.model;
@@ -211,25 +216,17 @@ static void part_attracts(Scalar z, const ZpEval *e, double U, const End *end) {
          right = end->at.near < end->at.far ? end->at.far : end->at.near;
   if (left == right) {
     double W = zp_plates_law(&model->plates, U, end->g).W - zp_plates_law(&model->air, U, end->g).W;
-    pushes(z, 2 * zp_upper(t, left) + 1, -model->plates.flat_length * W);
-    pushes(z, 2 * zp_lower(t, left) + 1, model->plates.flat_length * W);
+    pushes_apart(z, left, -model->plates.flat_length * W);
     return;
   }
   ZpPlatesByCover by = zp_plates_by_cover(&model->plates, &e->plates, U, left);
   const double closing[] = {by.A, by.B}, along[] = {0.5 * by.P, -0.5 * by.P};
   const size_t station[] = {left, right};
   for (int m = 0; m < 2; m++) {
-    size_t upper = 2 * zp_upper(t, station[m]), lower = 2 * zp_lower(t, station[m]);
-    pushes(z, upper, along[m]);
-    pushes(z, lower, along[m]);
-    pushes(z, upper + 1, -closing[m]);
-    pushes(z, lower + 1, closing[m]);
+    pushes(z, zp_x_of(zp_upper(t, station[m])), along[m]);
+    pushes(z, zp_x_of(zp_lower(t, station[m])), along[m]);
+    pushes_apart(z, station[m], -closing[m]);
   }
-}
-
-static void pushes_apart(Scalar z, size_t i, double force) {
-  pushes(z, 2 * zp_upper(&z.model->topology, i) + 1, force);
-  pushes(z, 2 * zp_lower(&z.model->topology, i) + 1, -force);
 }
 
 /* The suction on station k depends on its own gap, on the head, and, at the bead's end, on the part. */
@@ -237,7 +234,7 @@ static void suction_at(Scalar part, Scalar head_scalar, const ZpEval *e, const E
                        ZpBand *K) {
   const ZpModel *model = part.model;
   const ZpTopology *t = &model->topology;
-  size_t i = zp_bead_station(&model->film, end->half, k), y[] = {2 * zp_upper(t, i) + 1, 2 * zp_lower(t, i) + 1};
+  size_t i = zp_bead_station(&model->film, end->half, k), y[] = {zp_y_of(zp_upper(t, i)), zp_y_of(zp_lower(t, i))};
   double w = model->film.w, share = wet_share(model, end, k), slope = rise(model, e, i);
   double bend = -w * head * share * zp_film_bend(&model->film, e->plates.gap[i]);
   for (int m = 0; m < 4; m++)

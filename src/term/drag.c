@@ -42,9 +42,10 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 /* Derivative at its present speed; the change with direction is omitted. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   ZpNodes v = zp_nodes(model, e->mean_v);
-  for (size_t k = 0; span->h > 0 && k < 2 * model->count; k++) {
-    double x = v.x[k / 2], y = v.y[k / 2];
-    zp_assemble_entry(assembly, k, k, 2 * model->def.damping.drag * sqrt(x * x + y * y) / span->h, K);
+  for (size_t j = 0; span->h > 0 && j < model->count; j++) {
+    double slope = 2 * model->def.damping.drag * sqrt(v.x[j] * v.x[j] + v.y[j] * v.y[j]) / span->h;
+    zp_assemble_entry(assembly, zp_x_of(j), zp_x_of(j), slope, K);
+    zp_assemble_entry(assembly, zp_y_of(j), zp_y_of(j), slope, K);
   }
 }
 

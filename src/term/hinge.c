@@ -54,7 +54,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   double D[4];
   slope_of(model, span, e, D);
   for (size_t k = 0; k < 4; k++)
-    zp_assemble_entry(assembly, 2 * next + k / 2, 2 * next + k % 2, D[k], K);
+    zp_assemble_entry(assembly, zp_x_of(next) + k / 2, zp_x_of(next) + k % 2, D[k], K);
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {

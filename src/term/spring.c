@@ -81,7 +81,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
 /* Minus the derivative of the force at one end of a platform that turns, whose middle is the mean of both ends. */
 static void follow_middle(const ZpTopology *t, const ZpAssembly *assembly, size_t end, double slope, ZpBand *K) {
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    zp_assemble_entry(assembly, 2 * zp_lower(t, end) + 1, 2 * zp_lower(t, i) + 1, 0.5 * slope, K);
+    zp_assemble_entry(assembly, zp_y_of(zp_lower(t, end)), zp_y_of(zp_lower(t, i)), 0.5 * slope, K);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
