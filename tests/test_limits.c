@@ -346,6 +346,8 @@ TEST(small_snap_is_no_pull_in) {
   printf("a snap of %.2e of the voltage\n", fall);
   ck_assert(fall > 1e-4 && fall < ZP_FOLD_RIPPLE);
   ck_assert(isnan(zp_result_get(direct, "pull_in_voltage_V")));
+  ck_assert_ptr_nonnull(strstr(direct->message, "no pull-in: closes gradually at "));
+  ck_assert_ptr_nonnull(strstr(followed->message, "no pull-in: closes gradually at "));
   ck_near(zp_result_get(direct, "closing_voltage_V"), zp_result_get(followed, "closing_voltage_V"),
           1e-12); /* 0 measured */
   zp_result_destroy(direct);
@@ -808,6 +810,18 @@ TEST(test_no_neighbour) {
   check_no_neighbour(&fine, &coarse);
   check_no_neighbour(&whole, &half);
   check_no_neighbour(&parallel, &series);
+}
+
+/* The table of study equilibrium follows whole branches, but its voltages do not depend on them, nor does the mesh. */
+TESTS(coarse_mesh_has_one_answer, 0, 6) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 5 + _i / 2}, {"liquid.model", ZP_LIQUID_BEAD}, {"bead.volume", 100e-9},
+                          {"bead.suction", _i % 2}, {"output.errors", 0});
+  ZpResult *alone = run(ZP_STUDY_LIMITS, &def, NULL), *beside = run(ZP_STUDY_EQUILIBRIUM, &def, NULL);
+  for (int k = 0; k < 3; k++)
+    same(alone, beside, names[k], 0);
+  ck_assert_uint_eq(notes_with(alone, "solved with"), notes_with(beside, "solved with"));
+  zp_result_destroy(alone);
+  zp_result_destroy(beside);
 }
 
 /* -- where there is none ----------------------------------------------------------------------------- */

@@ -78,37 +78,6 @@ static void record(Finder *f, int kind) {
   zp_equilibria_add(&f->at, (double[COLUMNS + ZP_BEHIND]){kind, s->U, s->load, ZP_STATE_VALUES(s)}, kind, false);
 }
 
-/* ", releases at 855 V" or "; no release: why". */
-static void say(char *text, size_t size, const ZpLimit *limit, const char *found, const char *unit,
-                const char *missing) {
-  size_t used = strlen(text);
-  if (isnan(limit->value))
-    snprintf(text + used, size - used, "; no %s: %s", missing, limit->reason);
-  else
-    snprintf(text + used, size - used, ", %s %.4g %s", found, limit->value, unit);
-}
-
-static void describe(Finder *f, ZpResult *r) {
-  const ZpLimit *limit = f->limits->limit, *pull_in = &limit[ZP_LIMIT_PULL_IN], *closing = &limit[ZP_LIMIT_CLOSING];
-  size_t size = sizeof r->message;
-  const char *trouble = zp_statics_trouble(&f->at.rest.statics);
-  if (isnan(pull_in->value))
-    snprintf(r->message, size, "no pull-in up to %g V", f->at.model->def.drive.voltage);
-  else
-    snprintf(r->message, size, "pulls in at %.4g V", pull_in->value);
-  if (closing->value != pull_in->value && !isnan(closing->value))
-    say(r->message, size, closing, "closes at", "V", "closing");
-  say(r->message, size, &limit[ZP_LIMIT_RELEASE], "releases at", "V", "release");
-  say(r->message, size, &limit[ZP_LIMIT_LOAD], "lifts at most", "kg", "largest load");
-  size_t used = strlen(r->message);
-  if (trouble) snprintf(r->message + used, size - used, ": %s", trouble);
-}
-
-static ZpOutcome outcome_of(const Finder *f) {
-  if (f->at.rest.statics.stopped) return ZP_INTERRUPTED;
-  return zp_limits_lost(f->limits) ? ZP_BRANCH_LOST : ZP_CONVERGED;
-}
-
 /* The derivative of the opening of a state. */
 static double slope_of_opening(Finder *f, ZpRestSensitivity *slope, const double *state, int inputs) {
   zp_rest_go_to(&f->at.rest, state);
@@ -137,6 +106,17 @@ static const ZpLimits *neighbour_of(const Finder *f) {
   return near && near->save == f->limits->save && near->equations == f->limits->equations ? near : NULL;
 }
 
+static void describe(const Finder *f, ZpResult *r) {
+  const ZpStatics *statics = &f->at.rest.statics;
+  bool stopped = statics->stopped, hangs = f->limits->hangs, lost = zp_limits_lost(f->limits);
+  r->outcome = stopped ? ZP_INTERRUPTED : !hangs ? ZP_NOT_SETTLED : lost ? ZP_BRANCH_LOST : ZP_CONVERGED;
+  if (stopped || !hangs)
+    snprintf(r->message, sizeof r->message, "%s",
+             stopped ? "interrupted; the results so far are kept" : zp_statics_no_rest(statics));
+  else
+    zp_describe_limits(statics, f->limits, true, r);
+}
+
 static void run(Finder *f, ZpResult *r) {
   zp_limits_find(&f->at.rest, neighbour_of(f), true, f->limits);
   bool hangs = f->limits->hangs;
@@ -144,10 +124,7 @@ static void run(Finder *f, ZpResult *r) {
   zp_result_add(r, "travel_m", "m", travel_of(f));
   zp_result_add(r, "mass_kg", "kg", mass_of(f->at.model));
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
-  r->outcome = hangs || f->at.rest.statics.stopped ? outcome_of(f) : ZP_NOT_SETTLED;
   describe(f, r);
-  if (!hangs) snprintf(r->message, sizeof r->message, "%s", zp_statics_no_rest(&f->at.rest.statics));
-  if (f->at.rest.statics.stopped) snprintf(r->message, sizeof r->message, "interrupted; the results so far are kept");
   for (int k = 0; hangs && k < ZP_LIMIT_KINDS; k++)
     record(f, k);
   look(f, hangs, f->limits->start);

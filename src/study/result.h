@@ -25,7 +25,7 @@ void zp_result_clear(ZpResult *result);
 struct ZpResult {
   ZpStudy study;
   ZpOutcome outcome;
-  char message[256];            /* one sentence on how it ended */
+  char message[256];        /* one sentence on how it ended */
   char *note[ZP_MAX_NOTES]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
   size_t notes;
   double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest

@@ -1,6 +1,8 @@
 #include "study/sensitivity.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -146,6 +148,40 @@ static const ZpColumn number[ZP_LIMIT_KINDS] = {[ZP_LIMIT_PULL_IN] = {"pull_in_v
 void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpResult *result) {
   for (size_t k = 0; k < count; k++)
     zp_result_add(result, number[order[k]].name, number[order[k]].unit, limits->limit[order[k]].value);
+}
+
+/* Add words to the end of a message. */
+__attribute__((format(printf, 2, 3))) static void say(ZpResult *r, const char *format, ...) {
+  const size_t length = strlen(r->message);
+  va_list values;
+  va_start(values, format);
+  vsnprintf(r->message + length, sizeof r->message - length, format, values);
+  va_end(values);
+}
+
+void zp_describe_limits(const ZpStatics *statics, const ZpLimits *limits, bool load, ZpResult *r) {
+  const ZpLimit *limit = limits->limit, *closing = &limit[ZP_LIMIT_CLOSING], *release = &limit[ZP_LIMIT_RELEASE],
+                *largest = &limit[ZP_LIMIT_LOAD];
+  const double pull_in = limit[ZP_LIMIT_PULL_IN].value;
+  const char *trouble = zp_statics_trouble(statics);
+  r->message[0] = 0;
+  if (!isnan(pull_in))
+    say(r, "pulls in at %.4g V", pull_in);
+  else if (!isnan(closing->value))
+    say(r, "no pull-in: closes gradually at %.4g V", closing->value);
+  else
+    say(r, "no pull-in up to %g V", statics->member->model->def.drive.voltage);
+  if (closing->end == ZP_TRACK_LOST)
+    say(r, "; %s", closing->reason);
+  else if (closing->value < pull_in || closing->value > pull_in)
+    say(r, ", closes at %.4g V", closing->value);
+  if (isnan(release->value))
+    say(r, "; no release: %s", release->reason);
+  else
+    say(r, ", releases at %.4g V", release->value);
+  if (load && isnan(largest->value)) say(r, "; no largest load: %s", largest->reason);
+  if (load && !isnan(largest->value)) say(r, ", lifts at most %.4g kg", largest->value);
+  if (trouble) say(r, ": %s", trouble);
 }
 
 void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,

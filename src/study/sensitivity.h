@@ -23,9 +23,10 @@ typedef void ZpDerive(void *user, ZpRestSensitivity *slope, ZpResult *result);
 ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
 ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
 
-/* Add limits as numbers of a result, in this order; their derivatives by a key, an entry each. The present point is
- * then another. */
+/* Add limits as numbers of a result, in this order. Say in its message what they are, with or without the largest load.
+ * Add their derivatives by a key, an entry each; the present point is then another. */
 void zp_add_limits(const ZpLimits *limits, const ZpLimitKind order[], size_t count, ZpResult *result);
+void zp_describe_limits(const ZpStatics *statics, const ZpLimits *limits, bool load, ZpResult *result);
 void zp_derive_limits(ZpRest *rest, const ZpLimits *limits, const ZpLimitKind order[], size_t count,
                       ZpRestSensitivity *slope, ZpResult *result);
 
