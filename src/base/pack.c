@@ -29,12 +29,6 @@ static void put8(unsigned char *b, uint64_t value) {
   put4(b + 4, value >> 32);
 }
 
-static void put_real(unsigned char *byte, double value) {
-  uint64_t bits;
-  memcpy(&bits, &value, sizeof bits);
-  put8(byte, isnan(value) ? UINT64_C(0x7FF8000000000000) : bits);
-}
-
 double zp_pack_real(const unsigned char *items, size_t k) {
   const uint64_t bits = get8(items + 8 * k);
   double value;
@@ -107,8 +101,11 @@ static void copy_out(ZpFieldType type, const void *items, size_t count, unsigned
   const double *real = items;
   const size_t *size = items;
   if (width_of(type) == 1) memcpy(byte, items, count);
-  for (size_t k = 0; type == ZP_REAL && k < count; k++)
-    put_real(byte + 8 * k, real[k]);
+  for (size_t k = 0; type == ZP_REAL && k < count; k++) {
+    uint64_t bits;
+    memcpy(&bits, &real[k], sizeof bits);
+    put8(byte + 8 * k, isnan(real[k]) ? UINT64_C(0x7FF8000000000000) : bits);
+  }
   for (size_t k = 0; type == ZP_SIZE && k < count; k++)
     put8(byte + 8 * k, size[k]);
 }

@@ -48,13 +48,6 @@ static Thinned of_shapes(ZpShapes *s) {
   return (Thinned){s->value, s->frame_size, &s->frames, &s->stride, &s->offered, s->capacity};
 }
 
-static size_t length_of_names(const ZpColumn *column, size_t columns) {
-  size_t length = 0;
-  for (size_t c = 0; c < columns; c++)
-    length += strlen(column[c].name) + 1;
-  return length;
-}
-
 /* Copy the columns, and behind them their names. */
 static void copy_columns(const ZpColumn *column, size_t columns, ZpColumn *own) {
   char *name = (char *)(own + columns);
@@ -67,7 +60,10 @@ static void copy_columns(const ZpColumn *column, size_t columns, ZpColumn *own) 
 }
 
 ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
-  ZpTable *table = zp_calloc(1, sizeof *table + columns * sizeof *column + length_of_names(column, columns));
+  size_t names = 0;
+  for (size_t c = 0; c < columns; c++)
+    names += strlen(column[c].name) + 1;
+  ZpTable *table = zp_calloc(1, sizeof *table + columns * sizeof *column + names);
   if (!table) return NULL;
   ZpColumn *own = (ZpColumn *)(table + 1);
   copy_columns(column, columns, own);

@@ -33,6 +33,13 @@ typedef struct ZpKeyGroup {
         (int)(offsetof(ZpKeyNumbers, group) + sizeof(((ZpKeyNumbers *)0)->group))                                      \
   }
 
+/* The key of this name; -1, with a message that begins with the key `setting` ("": none) whose text has the name. */
+int zp_key_named(const char *setting, const char *name, ZpError *err);
+
+/* "a, b" => key [most] and their number; 0 of a blank text. ZP_BAD_INPUT: a name is unknown or stands twice, or there
+ * are more than `most`. */
+ZpStatus zp_keys_named(const char *setting, const char *text, int most, int *key, int *count, ZpError *err);
+
 /* Word distance of a name from a key, or from the last part of the key plus 1, whichever is less. */
 int zp_key_distance(const char *name, const char *key);
 

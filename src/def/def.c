@@ -359,12 +359,6 @@ static const MaterialGroup *material_group_of(const char *key) {
   return NULL;
 }
 
-/* A resistivity would add the law of leakage, which not every model supports: it is listed in the table, but the user
- * must set it. */
-static bool is_filled(const char *name) {
-  return strcmp(name, "resistivity") != 0;
-}
-
 bool zp_key_is_material(int index) {
   const ZpKey *key = zp_key(index);
   const char *last = key ? strrchr(key->name, '.') : NULL;
@@ -385,7 +379,7 @@ const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
   for (size_t i = 0; i < sizeof material_rows / sizeof material_rows[0]; i++) {
     const ZpMaterialValue *value = &material_rows[i].value;
     if ((int)material_rows[i].group == group->rows && value->material == material && strcmp(value->name, name) == 0)
-      return is_filled(name) ? value : NULL;
+      return strcmp(name, "resistivity") == 0 ? NULL : value; /* which would add leakage: the user must set it */
   }
   return NULL;
 }
@@ -439,11 +433,6 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   return apply_assignments(def, list, count, err);
 }
 
-/* (name of a choice key, number of a word) => that word. */
-static const char *word_of(const char *key, int choice) {
-  return zp_key(zp_key_find(key))->choices[choice].word;
-}
-
 static ZpStatus check_square(const char *group, double duty, double frequency, double rise_time, ZpError *err) {
   double shorter = fmin(duty, 1 - duty) / frequency;
   if (rise_time <= shorter) return ZP_OK;
@@ -481,7 +470,7 @@ static ZpStatus check_reach(const ZpActuatorDef *def, ZpError *err) {
   if ((signal == ZP_CONTROL_OPENING || signal == ZP_CONTROL_CAPACITANCE) && low < 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "setpoint.value = %g: must be at least 0, because control.signal = %s is never negative", low,
-                   word_of("control.signal", (int)signal));
+                   words_of_ZpControlSignal[signal].word);
   return ZP_OK;
 }
 
@@ -540,15 +529,11 @@ ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
   return zp_rule_fail(zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def), "", &wet, err);
 }
 
-/* The liquid is everywhere unless the scenario asks for a bead. */
-static bool is_bath_by_default(const ZpActuatorDef *def) {
-  return def->electro.edges || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity);
-}
-
 ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def) {
   if (!def) return ZP_LIQUID_NONE;
   if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
-  if (is_bath_by_default(def)) return ZP_LIQUID_NONE;
+  if (def->electro.edges || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity))
+    return ZP_LIQUID_NONE; /* edges and leakage are in a bath unless the scenario asks for a bead */
   return zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def) ? ZP_LIQUID_NONE : ZP_LIQUID_BEAD;
 }
 

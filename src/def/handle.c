@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "def/def.h"
+#include "def/check.h"
 
 #include "base/fail.h"
 #include "base/memory.h"
@@ -24,15 +24,36 @@ void zp_def_destroy(ZpActuatorDef *def) {
   zp_free(def);
 }
 
-/* The index of a key; -1, and the reason, if there is none. */
-static int find(const char *key, ZpError *err) {
-  int index = zp_key_find(key);
+int zp_key_named(const char *setting, const char *name, ZpError *err) {
+  int key = zp_key_find(name);
   char reason[256];
-  if (index < 0) {
-    zp_key_unknown(key, reason, sizeof reason);
-    zp_fail(err, ZP_BAD_INPUT, "%.80s: %s", key, reason);
+  if (key >= 0) return key;
+  zp_key_unknown(name, reason, sizeof reason);
+  zp_fail(err, ZP_BAD_INPUT, "%s%s%.80s: %s", setting, *setting ? ": " : "", name, reason);
+  return -1;
+}
+
+ZpStatus zp_keys_named(const char *setting, const char *text, int most, int *key, int *count, ZpError *err) {
+  *count = 0;
+  for (bool more = text[strspn(text, " ")] != 0; more;) {
+    char name[ZP_TEXT_SIZE];
+    text += strspn(text, " ");
+    const size_t part = strcspn(text, ",");
+    size_t length = part;
+    while (length > 0 && text[length - 1] == ' ')
+      length--;
+    memcpy(name, text, length);
+    name[length] = 0;
+    const int named = zp_key_named(setting, name, err);
+    if (named < 0) return ZP_BAD_INPUT;
+    if (*count == most) return zp_fail(err, ZP_BAD_INPUT, "%s: more than %d keys", setting, most);
+    for (int i = 0; i < *count; i++)
+      if (key[i] == named) return zp_fail(err, ZP_BAD_INPUT, "%s: %s is named twice", setting, name);
+    key[(*count)++] = named;
+    more = text[part] == ',';
+    text += part + more;
   }
-  return index;
+  return ZP_OK;
 }
 
 double zp_def_number(const ZpActuatorDef *def, const char *key) {
@@ -41,7 +62,7 @@ double zp_def_number(const ZpActuatorDef *def, const char *key) {
 }
 
 ZpStatus zp_def_set_number(ZpActuatorDef *def, const char *key, double value, ZpError *err) {
-  int index = find(key, err);
+  int index = zp_key_named("", key, err);
   return index < 0 ? ZP_BAD_INPUT : zp_def_set(def, index, value, err);
 }
 
@@ -74,7 +95,7 @@ static ZpStatus refuse_word(const ZpKey *key, const char *word, ZpError *err) {
 }
 
 ZpStatus zp_def_set_word(ZpActuatorDef *def, const char *key, const char *word, ZpError *err) {
-  int index = find(key, err);
+  int index = zp_key_named("", key, err);
   if (index < 0) return ZP_BAD_INPUT;
   const ZpKey *k = zp_key(index);
   if (k->type == ZP_KEY_TEXT) return zp_def_set_text(def, index, word, err);

@@ -75,13 +75,10 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
 
 /* -- the checker ----------------------------------------------------------------------------------- */
 
-static bool refuses(const ZpRule *rule, const ZpActuatorDef *def) {
-  return holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def);
-}
-
 const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuatorDef *def) {
-  for (size_t i = 0; i < rules->count; i++)
-    if (rules->rule[i].in_motion == in_motion && refuses(&rules->rule[i], def)) return &rules->rule[i];
+  for (const ZpRule *rule = rules->rule; rule < rules->rule + rules->count; rule++)
+    if (rule->in_motion == in_motion && holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def))
+      return rule;
   return NULL;
 }
 

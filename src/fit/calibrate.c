@@ -305,26 +305,20 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);
 }
 
-ZpStatus zp_fit_check(const ZpActuatorDef *def, ZpError *err) {
-  ZpFit fit;
-  ZpStatus status = zp_fit_open(def, &fit, err);
-  zp_fit_close(&fit);
-  return status;
-}
-
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {
   ZpFit fit;
   ZpStatus status = zp_fit_open(def, &fit, err);
+  const bool runs = status == ZP_OK && out;
   fit.hooks = hooks;
-  ZpResult *result = status == ZP_OK ? zp_result_create(ZP_STUDY_CALIBRATE) : NULL;
-  double *fitted = status == ZP_OK ? calloc(fit.rows, sizeof *fitted) : NULL;
-  double *J = status == ZP_OK ? calloc(fit.rows * (size_t)(fit.n + 1), sizeof *J) : NULL;
-  if (status == ZP_OK && (!result || !fitted || !J)) status = zp_fail_memory(err);
-  if (status == ZP_OK) status = solve_and_report(&fit, fitted, J, result, err);
+  ZpResult *result = runs ? zp_result_create(ZP_STUDY_CALIBRATE) : NULL;
+  double *fitted = runs ? calloc(fit.rows, sizeof *fitted) : NULL;
+  double *J = runs ? calloc(fit.rows * (size_t)(fit.n + 1), sizeof *J) : NULL;
+  if (runs && (!result || !fitted || !J)) status = zp_fail_memory(err);
+  if (runs && status == ZP_OK) status = solve_and_report(&fit, fitted, J, result, err);
   free(fitted);
   free(J);
   zp_fit_close(&fit);
-  if (status == ZP_OK)
+  if (runs && status == ZP_OK)
     *out = result;
   else
     zp_result_destroy(result);

@@ -113,7 +113,7 @@ static ZpStatus with_reference(ZpStudy study, const ZpActuatorDef *def, const Zp
 static ZpStatus with_measurements(ZpStudy study, const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **result,
                                   ZpError *err) {
   (void)study;
-  return result ? zp_fit_run(def, hooks, result, err) : zp_fit_check(def, err);
+  return zp_fit_run(def, hooks, result, err);
 }
 
 /* -- which study takes which ------------------------------------------------------------------------- */

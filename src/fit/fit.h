@@ -88,8 +88,7 @@ double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
 /* Find the z [n] with the best fit, and the fitted values [rows]. False if there is no memory or no fit. */
 bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
 
-/* Read and check the input of study calibrate; run it. */
-ZpStatus zp_fit_check(const ZpActuatorDef *def, ZpError *err);
+/* Read and check the input of study calibrate and, unless `out` is NULL, run it. */
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err);
 
 /* Fitted minus measured value, divided by the standard deviation if there is one. */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "fit/fit.h"
 #include "io/range.h"
 
@@ -51,14 +51,6 @@ bool zp_fit_takes(int key) {
   return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
 }
 
-/* Bounds of z: those of the scenario, within the range of the key. */
-static void find_bounds(ZpFit *fit, int i) {
-  const ZpKey *key = zp_key(fit->key[i]);
-  double start = fit->start[i], at_min = key->min / start, at_max = key->max / start;
-  fit->lower[i] = fmax(fit->def->calibrate.lower, fmin(at_min, at_max));
-  fit->upper[i] = fmin(fit->def->calibrate.upper, fmax(at_min, at_max));
-}
-
 /* "ribbon.young_modulus = 100 GPa .. 250 GPa": bounds instead of multiples of the start value. */
 static ZpStatus set_bounds(ZpFit *fit, char *text, ZpError *err) {
   ZpInterval bounds;
@@ -86,40 +78,28 @@ static ZpStatus read_bounds(ZpFit *fit, ZpError *err) {
   return status;
 }
 
-static ZpStatus add_key(ZpFit *fit, const char *name, ZpError *err) {
-  int key = zp_key_find(name);
-  if (key < 0) {
-    char reason[256];
-    zp_key_unknown(name, reason, sizeof reason);
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %.80s: %s", name, reason);
-  }
+static ZpStatus add_key(ZpFit *fit, int key, ZpError *err) {
+  const char *name = zp_key(key)->name;
   if (!zp_fit_takes(key))
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is not a real number and cannot be fitted", name);
-  if (fit->n == ZP_FIT_MOST)
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: more than %d keys; fit fewer at a time", ZP_FIT_MOST);
-  for (int i = 0; i < fit->n; i++)
-    if (fit->key[i] == key) return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is named twice", name);
   double start = zp_def_get(fit->def, key);
   if (isnan(start) || start == 0)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,
                    isnan(start) ? zp_key(key)->text : "0");
+  double at_min = zp_key(key)->min / start, at_max = zp_key(key)->max / start;
   fit->key[fit->n] = key;
   fit->start[fit->n] = start;
-  find_bounds(fit, fit->n++);
+  fit->lower[fit->n] = fmax(fit->def->calibrate.lower, fmin(at_min, at_max));
+  fit->upper[fit->n++] = fmin(fit->def->calibrate.upper, fmax(at_min, at_max));
   return ZP_OK;
 }
 
-/* "a, b" => keys. */
+/* If none is named, model and data are compared. */
 static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
-  char list[ZP_TEXT_SIZE], *rest = list;
-  memcpy(list, fit->def->calibrate.fit, sizeof list);
-  ZpStatus status = ZP_OK;
-  if (strspn(list, " ") == strlen(list)) return ZP_OK; /* nothing is fitted: model and data are compared */
-  for (char *name = strsep(&rest, ","); name && status == ZP_OK; name = strsep(&rest, ",")) {
-    name += strspn(name, " ");
-    name[strcspn(name, " ")] = 0;
-    status = add_key(fit, name, err);
-  }
+  int key[ZP_FIT_MOST], keys;
+  ZpStatus status = zp_keys_named("calibrate.fit", fit->def->calibrate.fit, ZP_FIT_MOST, key, &keys, err);
+  for (int k = 0; k < keys && status == ZP_OK; k++)
+    status = add_key(fit, key[k], err);
   return status;
 }
 

@@ -94,22 +94,18 @@ static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
   return result;
 }
 
-/* The number of that study, SI; NAN if it has none. */
-static double predict_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
-  ZpResult *result = run_study(fit, kind, def);
-  double value = result ? zp_result_get(result, zp_fit_number[kind].number) : NAN;
-  zp_result_destroy(result);
-  return value;
-}
-
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
   ZpActuatorDef def;
   double voltage;
   const ZpFitKind kind = zp_fit_set_of(fit, row)->kind;
   bool set = zp_fit_row(fit, z, row, &def, &voltage);
-  if (set && zp_fit_number[kind].number) return predict_number(fit, kind, &def);
-  ZpModel *model = set ? build(fit, &def) : NULL;
-  double value = model ? measure(fit, kind, model, voltage) : NAN;
+  const bool is_number = zp_fit_number[kind].number != NULL;
+  ZpResult *result = set && is_number ? run_study(fit, kind, &def) : NULL;
+  ZpModel *model = set && !is_number ? build(fit, &def) : NULL;
+  double value = result  ? zp_result_get(result, zp_fit_number[kind].number)
+                 : model ? measure(fit, kind, model, voltage)
+                         : (double)NAN;
+  zp_result_destroy(result);
   zp_model_destroy(model);
   return value;
 }
@@ -166,20 +162,14 @@ double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row) {
   return (fitted[row] - fit->y[row]) * weight(fit, row);
 }
 
-/* The largest measured value of a set. */
-static double largest_of(const ZpFit *fit, const ZpFitSet *of) {
-  double largest = 0;
-  for (size_t i = of->first; i < of->first + of->rows; i++)
-    largest = fmax(largest, fabs(fit->y[i]));
-  return largest;
-}
-
 /* Sum of squares. A row without a value counts as twice the largest measured value of its set. */
 static double squares(const ZpFit *fit, const double *fitted) {
   double sum = 0;
   for (size_t k = 0; k < fit->sets; k++) {
     const ZpFitSet *of = &fit->set[k];
-    const double largest = largest_of(fit, of);
+    double largest = 0;
+    for (size_t i = of->first; i < of->first + of->rows; i++)
+      largest = fmax(largest, fabs(fit->y[i]));
     for (size_t i = of->first; i < of->first + of->rows; i++) {
       double r = isfinite(fitted[i]) ? zp_fit_residual(fit, fitted, i) : 2 * largest * weight(fit, i);
       sum += r * r;

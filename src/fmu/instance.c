@@ -97,10 +97,6 @@ static bool has_input(const ZpFmu *fmu, int input) {
   return zp_fmu_is_input(input, fmu->def.control.kind != ZP_CONTROL_NONE);
 }
 
-static ZpStatus apply_input(ZpFmu *fmu, ZpInput input, ZpError *err) {
-  return zp_sim_set_input(fmu->sim, input, fmu->input[input], fmu->rate[input], err);
-}
-
 /* Read the current signals. */
 static void read_row(ZpFmu *fmu) {
   zp_sim_read(fmu->sim, fmu->row);
@@ -121,7 +117,8 @@ ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err) {
   ZpStatus status = zp_fmu_need_model(fmu, err);
   if (status == ZP_OK) status = zp_sim_restore(fmu->sim, fmu->origin, zp_sim_state_size(fmu->sim), err);
   for (int input = 0; input < ZP_INPUT_COUNT && status == ZP_OK; input++)
-    if (has_input(fmu, input)) status = apply_input(fmu, (ZpInput)input, err);
+    if (has_input(fmu, input))
+      status = zp_sim_set_input(fmu->sim, (ZpInput)input, fmu->input[input], fmu->rate[input], err);
   if (status != ZP_OK) return status;
   fmu->row[ZP_FMU_SIGNAL_current] = fmu->row[ZP_FMU_SIGNAL_power] = 0;
   read_row_again(fmu);

@@ -15,19 +15,12 @@ struct ZpArchive {
   ZpAtomic file;
 };
 
-/* (path) => its folder and its name, both to be freed by the caller. */
-static bool split(const char *path, char **folder, char **name) {
-  const char *slash = strrchr(path, '/');
-  *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
-  *name = strdup(slash ? slash + 1 : path);
-  return *folder && *name;
-}
-
 static ZpStatus reserve(const char *path, ZpAtomic *file, ZpError *err) {
-  char *folder, *name;
-  ZpStatus status = split(path, &folder, &name) ? zp_atomic_reserve(file, folder, name, err) : zp_fail_memory(err);
+  const char *slash = strrchr(path, '/');
+  char *folder = slash ? strndup(path, slash == path ? 1 : (size_t)(slash - path)) : strdup(".");
+  if (!folder) return zp_fail_memory(err);
+  ZpStatus status = zp_atomic_reserve(file, folder, slash ? slash + 1 : path, err);
   free(folder);
-  free(name);
   return status;
 }
 

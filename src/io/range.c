@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "io/value.h"
 
 /* Largest number of values of a range; io/scenario.c limits all lists together. */
@@ -115,12 +116,8 @@ ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval,
   char *name = zp_trim(text), *to = zp_trim(dots + 2), *blank = strrchr(to, ' ');
   interval->by_factors = blank && strcmp(blank + 1, "log") == 0;
   if (interval->by_factors) *blank = 0;
-  interval->key = zp_key_find(name);
-  if (interval->key < 0) {
-    char reason[ZP_VALUE_SIZE];
-    zp_key_unknown(name, reason, sizeof reason);
-    return zp_fail(err, ZP_BAD_INPUT, "%s: %.80s: %s", setting, name, reason);
-  }
+  interval->key = zp_key_named(setting, name, err);
+  if (interval->key < 0) return ZP_BAD_INPUT;
   if (zp_key(interval->key)->type != ZP_KEY_REAL && zp_key(interval->key)->type != ZP_KEY_REAL_AUTO)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not a real number", setting, name);
   char part[ZP_VALUE_SIZE];

@@ -6,17 +6,13 @@
 #include "base/kernel.h"
 #include "math/vector.h"
 
-/* Groups must be blocks, or else rows have room for all diagonals wherever their block begins. */
-static size_t columns_of(size_t upper, ZpBandGroups groups) {
-  if (groups.reach > 0) return groups.reach * ZP_BAND_BLOCK;
-  return (upper / ZP_BAND_BLOCK + 2) * ZP_BAND_BLOCK;
-}
-
 void zp_band_reserve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpArena *arena) {
   bool symmetric = lower == 0;
   size_t blocks = (groups.lead + n + ZP_BAND_BLOCK - 1) / ZP_BAND_BLOCK;
   *band = (ZpBand){.n = n, .lower = lower, .upper = upper, .lead = symmetric ? groups.lead : 0};
-  band->stride = symmetric ? columns_of(upper, groups) : 2 * lower + upper + 1;
+  /* Groups must be blocks, or else rows have room for all diagonals wherever their block begins. */
+  size_t reach = groups.reach > 0 ? groups.reach : upper / ZP_BAND_BLOCK + 2;
+  band->stride = symmetric ? reach * ZP_BAND_BLOCK : 2 * lower + upper + 1;
   band->entries = (symmetric ? blocks * ZP_BAND_BLOCK : n) * band->stride;
   band->a = zp_arena_take(arena, band->entries);
   band->pivot = symmetric ? NULL : (size_t *)(void *)zp_arena_take(arena, n); /* a size_t is no larger than a double */

@@ -19,10 +19,6 @@ enum {
   FOURTH = 3 * LANES
 };
 
-static inline size_t larger(size_t a, size_t b) {
-  return a > b ? a : b;
-}
-
 static inline size_t least(size_t a, size_t b) {
   return a < b ? a : b;
 }
@@ -146,7 +142,7 @@ ZP_KERNEL static bool factor_block(const ZpSkylineBlock *blocks, size_t I) {
   size_t top = I * LANES;
   for (size_t j = own->first; j < top; j += COLUMNS) {
     const ZpSkylineBlock *other = &blocks[j / LANES];
-    size_t first = larger(own->first, other->first), row = j % LANES;
+    size_t first = own->first > other->first ? own->first : other->first, row = j % LANES;
     subtract(j - first, column(own, first), column(other, first) + row, column(own, j));
     divide(column(other, j) + row, column(own, j));
   }

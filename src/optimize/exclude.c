@@ -155,19 +155,16 @@ static void cut(Exclusion *e, Cell *cell, size_t variable) {
   }
 }
 
-static void evaluate(void *user, size_t index) {
-  const Exclusion *e = user;
-  zp_search_evaluate(e->search, e->cell[index].number, e->cell[index].z);
-}
-
+/* Cells to evaluate, from the first one on. */
 typedef struct Wave {
   Exclusion *exclusion;
   size_t first;
 } Wave;
 
-static void evaluate_new(void *user, size_t index) {
+static void evaluate(void *user, size_t index) {
   const Wave *wave = user;
-  evaluate(wave->exclusion, wave->first + index);
+  const Cell *cell = &wave->exclusion->cell[wave->first + index];
+  zp_search_evaluate(wave->exclusion->search, cell->number, cell->z);
 }
 
 /* Cut some cells, each along its variable, and run the new cases. */
@@ -175,7 +172,7 @@ static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *vari
   Wave wave = {e, e->cells};
   for (size_t k = 0; k < count; k++)
     cut(e, &e->cell[chosen[k]], variable[k]);
-  ZpStatus status = zp_search_parallel(e->search, 2 * count, evaluate_new, &wave, err);
+  ZpStatus status = zp_search_parallel(e->search, 2 * count, evaluate, &wave, err);
   if (status != ZP_OK || atomic_load(&e->search->stop)) return status;
   for (size_t k = 0; k < 2 * count; k++)
     learn(e, &e->cell[chosen[k / 2]], &e->cell[wave.first + k], variable[k / 2]);
@@ -187,7 +184,8 @@ static ZpStatus cut_cells(Exclusion *e, const size_t *chosen, const size_t *vari
 /* Cut the whole box once along each variable. */
 static ZpStatus cut_box(Exclusion *e, ZpError *err) {
   const size_t whole = 0;
-  ZpStatus status = zp_search_parallel(e->search, 1, evaluate, e, err);
+  Wave wave = {e, 0};
+  ZpStatus status = zp_search_parallel(e->search, 1, evaluate, &wave, err);
   for (size_t i = 0; i < e->search->problem.variables && status == ZP_OK && !atomic_load(&e->search->stop); i++)
     status = cut_cells(e, &whole, &i, e->cells + 2 <= e->most ? 1 : 0, err);
   return status;

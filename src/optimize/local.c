@@ -47,11 +47,6 @@ static double shown(const Local *local, size_t goal, double value) {
   return is_objective ? value / local->scale : value;
 }
 
-static double give_up(Local *local) {
-  nlopt_force_stop(local->opt);
-  return HUGE_VAL;
-}
-
 /* Derivatives of a goal at a point. False if no cases are left for finite differences. */
 static bool differentiate(Local *local, const ZpPoint *at, size_t goal, double *gradient) {
   const ZpProblem *p = &local->search->problem;
@@ -73,8 +68,10 @@ static bool differentiate(Local *local, const ZpPoint *at, size_t goal, double *
 
 static double goal_at(Local *local, size_t goal, const double *z, double *gradient) {
   const ZpPoint *point = find(local, z);
-  if (!point || (gradient && !differentiate(local, point, goal, gradient))) return give_up(local);
-  return shown(local, goal, point->value[goal]);
+  if (point && (!gradient || differentiate(local, point, goal, gradient)))
+    return shown(local, goal, point->value[goal]);
+  nlopt_force_stop(local->opt);
+  return HUGE_VAL;
 }
 
 /* An nlopt_func. */

@@ -5,60 +5,20 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "base/fail.h"
+#include "def/check.h"
 
 /* -- sensitivity.by --------------------------------------------------------------------------------- */
 
-typedef struct KeyList {
-  int key[ZP_MAX_SENSITIVITY_KEYS], count;
-} KeyList;
-
-static ZpStatus add_key(const ZpActuatorDef *def, const char *name, KeyList *list, ZpError *err) {
-  int key = zp_key_find(name);
-  if (key < 0) {
-    char reason[256];
-    zp_key_unknown(name, reason, sizeof reason);
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %.80s: %s", name, reason);
-  }
-  if (list->count == ZP_MAX_SENSITIVITY_KEYS)
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: more than %d keys", ZP_MAX_SENSITIVITY_KEYS);
-  for (int i = 0; i < list->count; i++)
-    if (list->key[i] == key) return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is named twice", name);
-  list->key[list->count++] = key;
-  return zp_rest_sensitivity_check(def, key, err);
-}
-
-/* "a, b" => keys. */
-static ZpStatus read_keys(const ZpActuatorDef *def, KeyList *list, ZpError *err) {
-  const char *text = def->sensitivity.by, *end = text + strlen(text);
-  *list = (KeyList){.count = 0};
-  if (strspn(text, " ") == strlen(text)) return ZP_OK;
-  for (;;) {
-    char name[ZP_TEXT_SIZE];
-    text += strspn(text, " ");
-    size_t piece = strcspn(text, ","), length = piece;
-    while (length > 0 && text[length - 1] == ' ')
-      length--;
-    memcpy(name, text, length);
-    name[length] = 0;
-    ZpStatus status = add_key(def, name, list, err);
-    text += piece;
-    if (status != ZP_OK || text == end) return status;
-    text++;
-  }
-}
-
 ZpStatus zp_sensitivity_keys(const ZpActuatorDef *def, int *key, int *keys, ZpError *err) {
-  KeyList list;
-  ZpStatus status = read_keys(def, &list, err);
-  memcpy(key, list.key, sizeof list.key);
-  *keys = list.count;
+  ZpStatus status = zp_keys_named("sensitivity.by", def->sensitivity.by, ZP_MAX_SENSITIVITY_KEYS, key, keys, err);
+  for (int k = 0; k < *keys && status == ZP_OK; k++)
+    status = zp_rest_sensitivity_check(def, key[k], err);
   return status;
 }
 
 ZpStatus zp_check_sensitivity(const ZpActuatorDef *def, ZpError *err) {
-  KeyList list;
-  return read_keys(def, &list, err);
+  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
+  return zp_sensitivity_keys(def, key, &keys, err);
 }
 
 void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
@@ -77,10 +37,10 @@ ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, 
 }
 
 ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
-  KeyList list;
-  ZpStatus status = read_keys(&rest->statics.member->model->whole, &list, err);
-  for (int k = 0; k < list.count && status == ZP_OK; k++)
-    status = zp_sensitivity_by(rest, list.key[k], derive, user, result, err);
+  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
+  ZpStatus status = zp_sensitivity_keys(&rest->statics.member->model->whole, key, &keys, err);
+  for (int k = 0; k < keys && status == ZP_OK; k++)
+    status = zp_sensitivity_by(rest, key[k], derive, user, result, err);
   return status;
 }
 
