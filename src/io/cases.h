@@ -5,8 +5,7 @@
 
 #include <zipact/io.h>
 
-#include "sample/design.h"
-#include "sample/distribution.h"
+#include "io/plan.h"
 
 /* The Def of case `index` with its given keys, unchecked. ZP_BAD_INPUT, ZP_MACHINE: it cannot be made, or there is no
  * such case. */

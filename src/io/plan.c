@@ -7,7 +7,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -16,24 +15,6 @@
 #include "io/value.h"
 
 enum { CASES_MOST = 1000000, VALUES_MOST = 20000 };
-
-static size_t key_count(void) {
-  return (size_t)zp_key_count();
-}
-
-bool zp_plan_create(ZpPlan *plan) {
-  *plan = (ZpPlan){.count = 1, .together = 1, .design.count = 1};
-  plan->varied = calloc(key_count(), sizeof *plan->varied);
-  plan->axis = calloc(key_count(), sizeof *plan->axis);
-  plan->tied = calloc(key_count(), sizeof *plan->tied);
-  return plan->varied && plan->axis && plan->tied;
-}
-
-void zp_plan_free(ZpPlan *plan) {
-  free(plan->varied);
-  free(plan->axis);
-  free(plan->tied);
-}
 
 static bool varies(const ZpSlot *slot) {
   return slot->is_list || slot->spread.kind != ZP_DISTRIBUTION_NONE;
@@ -60,9 +41,9 @@ static void tie(ZpPlan *plan, const ZpSlot *const *slot, const char *name) {
     set_problem(plan, name, "has no list of values");
     return;
   }
-  while (first < key_count() && !plan->tied[first])
+  while (first < ZP_KEYS && !plan->tied[first])
     first++;
-  if (first < key_count() && slot[first]->count != slot[key]->count)
+  if (first < ZP_KEYS && slot[first]->count != slot[key]->count)
     set_problem(plan, name, "its list is not as long as those of the other keys");
   plan->tied[key] = true;
 }
@@ -72,7 +53,7 @@ static void find_tied(ZpPlan *plan, const ZpSlot *const *slot) {
   char names[ZP_TEXT_SIZE], *rest = names;
   const char *text = slot[zp_key_find("sampling.together")]->text;
   snprintf(names, sizeof names, "%s", text ? text : "");
-  memset(plan->tied, 0, key_count() * sizeof *plan->tied);
+  memset(plan->tied, 0, sizeof plan->tied);
   plan->problem[0] = 0;
   for (char *name = strsep(&rest, ","); name; name = strsep(&rest, ",")) {
     name += strspn(name, " ");
@@ -86,9 +67,9 @@ static void find_axes(ZpPlan *plan, const ZpSlot *const *slot) {
   size_t tied = 0, seen = 0;
   plan->axes = plan->variations = 0;
   plan->together = 1;
-  for (size_t i = 0; i < key_count(); i++)
+  for (size_t i = 0; i < ZP_KEYS; i++)
     if (plan->tied[i] && (tied++ == 0 || slot[i]->count < plan->together)) plan->together = slot[i]->count;
-  for (size_t i = 0; i < key_count(); i++) {
+  for (size_t i = 0; i < ZP_KEYS; i++) {
     if (varies(slot[i])) plan->varied[plan->variations++] = (int)i;
     seen += plan->tied[i];
     if (slot[i]->is_list && (!plan->tied[i] || seen == tied)) plan->axis[plan->axes++] = (int)i;
@@ -101,14 +82,14 @@ static void find_design(ZpPlan *plan, const ZpSlot *const *slot) {
                             .count = (size_t)value_of(slot, &defaults, "sampling.count"),
                             .seed = (uint32_t)value_of(slot, &defaults, "sampling.seed"),
                             .indices = value_of(slot, &defaults, "sampling.indices") != 0};
-  for (size_t i = 0; i < key_count(); i++)
+  for (size_t i = 0; i < ZP_KEYS; i++)
     plan->design.dimensions += slot[i]->spread.kind != ZP_DISTRIBUTION_NONE;
   if (plan->design.dimensions == 0) plan->design = (ZpDesign){.count = 1};
 }
 
 static ZpStatus count_cases(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err) {
   size_t values = 0, cases = 1;
-  for (size_t i = 0; i < key_count(); i++)
+  for (size_t i = 0; i < ZP_KEYS; i++)
     values += slot[i]->is_list ? slot[i]->count : 0;
   if (values > VALUES_MOST) return zp_fail(err, ZP_BAD_INPUT, "more than %d values in lists", VALUES_MOST);
   for (size_t i = 0; i < plan->axes; i++) {
@@ -129,7 +110,7 @@ static ZpStatus count_cases(ZpPlan *plan, const ZpSlot *const *slot, ZpError *er
 
 /* All cases have the same sampling. */
 static ZpStatus check_sampling(const ZpSlot *const *slot, ZpError *err) {
-  for (size_t i = 0; i < key_count(); i++) {
+  for (size_t i = 0; i < ZP_KEYS; i++) {
     const char *name = zp_key((int)i)->name;
     const bool common = strncmp(name, "sampling.", 9) == 0 || strncmp(name, "optimize.", 9) == 0;
     if (common && varies(slot[i])) return zp_fail(err, ZP_BAD_INPUT, "%s: takes one value, not a list", name);
@@ -168,7 +149,7 @@ void zp_plan_values(const ZpPlan *plan, const ZpSlot *const *slot, size_t index,
 
 size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, const double *value, ZpAssignment *list) {
   size_t used = 0, v = plan->variations;
-  for (size_t i = key_count(); i-- > 0;) {
+  for (size_t i = ZP_KEYS; i-- > 0;) {
     const ZpSlot *s = slot[i];
     const bool is_varied = v > 0 && plan->varied[v - 1] == (int)i;
     if (is_varied) v--;

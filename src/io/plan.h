@@ -5,10 +5,17 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include <zipact/def.h>
+#include "def/def.h"
 
 #include "sample/design.h"
 #include "sample/distribution.h"
+
+/* Number of keys. */
+enum {
+  ZP_KEYS = 0
+#define ZP_EACH_KEY(path, field, text) +1
+#include "def/keys.def"
+};
 
 /* The given value of a key. */
 typedef struct ZpSlot {
@@ -21,22 +28,19 @@ typedef struct ZpSlot {
 } ZpSlot;
 
 typedef struct ZpPlan {
-  int *varied; /* [variations] keys with lists or distributions, in key order */
+  int varied[ZP_KEYS]; /* [variations] keys with lists or distributions, in key order */
   size_t variations;
-  int *axis; /* [axes] keys whose lists are combined: of those that vary together the last one */
+  int axis[ZP_KEYS]; /* [axes] keys whose lists are combined: of those that vary together the last one */
   size_t axes;
-  bool *tied;        /* [keys] varies together with others */
-  size_t together;   /* length of their lists; 1: there are none */
-  ZpDesign design;   /* of the distributions */
-  size_t count;      /* cases */
-  char problem[256]; /* the error of the scenario as a whole, otherwise empty */
+  bool tied[ZP_KEYS]; /* varies together with others */
+  size_t together;    /* length of their lists; 1: there are none */
+  ZpDesign design;    /* of the distributions */
+  size_t count;       /* cases */
+  char problem[256];  /* the error of the scenario as a whole, otherwise empty */
 } ZpPlan;
 
-/* Allocate the plan of a scenario; false if there is no memory. To be freed in every case. */
-bool zp_plan_create(ZpPlan *plan);
-void zp_plan_free(ZpPlan *plan);
-
-/* Make the plan from the given values of each key, slot [keys]. ZP_BAD_INPUT if there are too many values or cases. */
+/* Make the plan from the given values of each key, slot [ZP_KEYS]. ZP_BAD_INPUT if there are too many values or cases.
+ */
 ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err);
 
 /* The values of the varied keys in case `index`, below plan->count => value [variations], in the order of plan->varied.

@@ -29,10 +29,10 @@
 #include "io/yaml.h"
 
 struct ZpScenario {
-  ZpSlot *file;        /* [keys] from files */
-  ZpSlot *set;         /* [keys] from --set; they override those from files */
-  ZpSlot *drawn;       /* [keys] of materials; both others override them. A value is its own distribution */
-  const ZpSlot **held; /* [keys] the slot of the layer that applies */
+  ZpSlot file[ZP_KEYS];        /* from files */
+  ZpSlot set[ZP_KEYS];         /* from --set; they override those from files */
+  ZpSlot drawn[ZP_KEYS];       /* of materials; both others override them. A value is its own distribution */
+  const ZpSlot *held[ZP_KEYS]; /* the slot of the layer that applies */
   ZpPlan plan;
   ZpActuatorDef common; /* the first case; the others set their varied keys in it, unless these affect further keys */
   bool has_common;
@@ -52,31 +52,26 @@ enum { DEPTHS = 2 }; /* groups and nested groups, such as lower and lower.ribbon
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
-  int key;           /* key of --set; -1 if the text contains the keys */
-  ZpSlot *slot;      /* [keys] filled */
-  int *line;         /* [keys] line in which the key was given; 0: not yet */
-  int *group_line;   /* [keys * DEPTHS] line in which the group, and the nested one, was opened whose first key this is;
-                        0: not yet */
-  int part_key;      /* key whose range is being read, if there is a part */
+  int key; /* key of --set; -1 if the text contains the keys */
+  ZpSlot slot[ZP_KEYS];
+  int line[ZP_KEYS];               /* line in which the key was given; 0: not yet */
+  int group_line[ZP_KEYS][DEPTHS]; /* line in which the group, and the nested one, was opened whose first key this is;
+                                    * 0: not yet */
+  int part_key;                    /* key whose range is being read, if there is a part */
   char *part[PARTS]; /* parts of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
 
-static size_t key_count(void) {
-  return (size_t)zp_key_count();
-}
-
-static void free_slots(ZpSlot *slot) {
-  for (size_t i = 0; slot && i < key_count(); i++) {
+static void free_slots(ZpSlot slot[ZP_KEYS]) {
+  for (size_t i = 0; i < ZP_KEYS; i++) {
     free(slot[i].value);
     free(slot[i].text);
   }
-  free(slot);
 }
 
 /* A definition with the given materials and sampling.tolerances, otherwise with defaults. */
 static ZpActuatorDef materials_of(const ZpScenario *s) {
   ZpActuatorDef def = zp_actuator_def_default();
-  for (size_t i = 0; i < key_count(); i++) {
+  for (size_t i = 0; i < ZP_KEYS; i++) {
     const bool asked = zp_key_is_material((int)i) || strcmp(zp_key((int)i)->name, "sampling.tolerances") == 0;
     if (asked && s->held[i]->count) zp_def_set(&def, (int)i, s->held[i]->value[0], NULL);
   }
@@ -86,7 +81,7 @@ static ZpActuatorDef materials_of(const ZpScenario *s) {
 /* Give the distribution of a material to keys that it fills and that are not given. */
 static void draw_materials(ZpScenario *s) {
   const ZpActuatorDef def = materials_of(s);
-  for (size_t i = 0; i < key_count(); i++) {
+  for (size_t i = 0; i < ZP_KEYS; i++) {
     const ZpMaterialValue *filled = zp_material_value(&def, (int)i);
     if (!filled || s->held[i]->count || def.sampling.tolerances != ZP_TOLERANCES_MATERIALS) continue;
     ZpSlot *slot = &s->drawn[i];
@@ -98,7 +93,7 @@ static void draw_materials(ZpScenario *s) {
 
 /* --set wins over the file. */
 static void hold(ZpScenario *s) {
-  for (size_t i = 0; i < key_count(); i++)
+  for (size_t i = 0; i < ZP_KEYS; i++)
     s->held[i] = s->set[i].count ? &s->set[i] : &s->file[i];
   draw_materials(s);
 }
@@ -106,7 +101,7 @@ static void hold(ZpScenario *s) {
 /* Set the texts; nothing else depends on them. */
 static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < key_count() && status == ZP_OK; i++) {
+  for (size_t i = 0; i < ZP_KEYS && status == ZP_OK; i++) {
     const char *text = s->held[i]->text;
     if (text) status = zp_def_set_text(def, (int)i, text, err);
   }
@@ -115,10 +110,8 @@ static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err)
 
 /* Make a case from all given values. */
 static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
-  ZpAssignment *list = calloc(key_count(), sizeof *list);
-  if (!list) return zp_fail_memory(err);
+  ZpAssignment list[ZP_KEYS];
   ZpStatus status = zp_def_resolve(def, list, zp_plan_assign(&s->plan, s->held, value, list), err);
-  free(list);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
 
@@ -132,12 +125,9 @@ static ZpStatus resolve_varied(const ZpScenario *s, const double *value, ZpActua
 }
 
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
-  double *value = calloc(s->plan.variations + 1, sizeof *value);
-  if (!value) return zp_fail_memory(err);
+  double value[ZP_KEYS];
   zp_plan_values(&s->plan, s->held, index, value);
-  ZpStatus status = s->has_common ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
-  free(value);
-  return status;
+  return s->has_common ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
 }
 
 /* Resolve the common values of the cases, unless a varied key determines values of keys that are not given: a preset
@@ -156,33 +146,23 @@ static void find_common(ZpScenario *s) {
 ZpScenario *zp_scenario_create(void) {
   ZpScenario *s = calloc(1, sizeof *s);
   if (!s) return NULL;
-  s->file = calloc(key_count(), sizeof *s->file);
-  s->set = calloc(key_count(), sizeof *s->set);
-  s->drawn = calloc(key_count(), sizeof *s->drawn);
-  s->held = calloc(key_count(), sizeof *s->held);
-  if (zp_plan_create(&s->plan) && s->file && s->set && s->drawn && s->held) {
-    hold(s);
-    find_common(s);
-    return s;
-  }
-  zp_scenario_destroy(s);
-  return NULL;
+  hold(s);
+  zp_plan_make(&s->plan, s->held, NULL); /* which cannot fail: nothing is given */
+  find_common(s);
+  return s;
 }
 
 void zp_scenario_destroy(ZpScenario *s) {
   if (!s) return;
   free_slots(s->file);
   free_slots(s->set);
-  free(s->drawn);
-  free(s->held);
-  zp_plan_free(&s->plan);
   free(s->name);
   free(s);
 }
 
 /* Exchange the slots that were read with those of a layer. */
-static void exchange(const Reader *reader, ZpSlot *layer) {
-  for (size_t i = 0; i < key_count(); i++) {
+static void exchange(Reader *reader, ZpSlot *layer) {
+  for (size_t i = 0; i < ZP_KEYS; i++) {
     if (!reader->line[i]) continue;
     ZpSlot kept = layer[i];
     layer[i] = reader->slot[i];
@@ -191,7 +171,7 @@ static void exchange(const Reader *reader, ZpSlot *layer) {
 }
 
 /* Replace the values of the same keys in `layer` by those that were read. */
-static ZpStatus merge(ZpScenario *s, const Reader *reader, ZpSlot *layer, ZpError *err) {
+static ZpStatus merge(ZpScenario *s, Reader *reader, ZpSlot *layer, ZpError *err) {
   ZpError reason;
   exchange(reader, layer);
   hold(s);
@@ -205,14 +185,6 @@ static ZpStatus merge(ZpScenario *s, const Reader *reader, ZpSlot *layer, ZpErro
   return zp_source_fail(reader->source, 0, err, "%s", reason.message);
 }
 
-static ZpStatus open_reader(Reader *reader, const ZpSource *source, int key, ZpError *err) {
-  *reader = (Reader){.source = source, .key = key};
-  reader->slot = calloc(key_count(), sizeof *reader->slot);
-  reader->line = calloc(key_count(), sizeof *reader->line);
-  reader->group_line = calloc(key_count() * DEPTHS, sizeof *reader->group_line);
-  return reader->slot && reader->line && reader->group_line ? ZP_OK : zp_fail_memory(err);
-}
-
 /* Forget the parts of a range. */
 static void drop_parts(Reader *reader) {
   for (size_t i = 0; i < PARTS; i++) {
@@ -224,8 +196,6 @@ static void drop_parts(Reader *reader) {
 static void close_reader(Reader *reader) {
   drop_parts(reader);
   free_slots(reader->slot);
-  free(reader->line);
-  free(reader->group_line);
 }
 
 #define GROUP_WITHOUT_VALUE "a group of keys cannot have a value; give one of its keys, such as %s"
@@ -274,7 +244,7 @@ static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err)
   if (*item->path == 0) return check_no_parts(reader, -1, item->line, err);
   int first = first_of_group(item->path);
   if (first < 0) return fail_unknown(reader, item, err);
-  int *line = &reader->group_line[first * DEPTHS + (strchr(item->path, '.') != NULL)];
+  int *line = &reader->group_line[first][strchr(item->path, '.') != NULL];
   ZpStatus status = check_first(reader, item, *line, err);
   *line = item->line;
   return status;
@@ -515,9 +485,8 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
 static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, ZpSlot *layer,
                            ZpError *err) {
   ZpSource source = {.name = name};
-  Reader reader;
-  ZpStatus status = open_reader(&reader, &source, -1, err);
-  if (status == ZP_OK) status = zp_yaml_read(&source, text, size, false, take_item, &reader, err);
+  Reader reader = {.source = &source, .key = -1};
+  ZpStatus status = zp_yaml_read(&source, text, size, false, take_item, &reader, err);
   if (status == ZP_OK) status = merge(s, &reader, layer, err);
   close_reader(&reader);
   return status;
@@ -580,9 +549,8 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   if (!equals) return zp_source_fail(&source, 0, err, "give KEY=VALUE");
   int key = key_of_argument(&source, (size_t)(equals - assignment), err);
   if (key < 0) return ZP_BAD_INPUT;
-  Reader reader;
-  ZpStatus status = open_reader(&reader, &source, key, err);
-  if (status == ZP_OK) status = read_argument(&reader, equals + 1, err);
+  Reader reader = {.source = &source, .key = key};
+  ZpStatus status = read_argument(&reader, equals + 1, err);
   if (status == ZP_OK && !reader.line[key]) status = zp_source_fail(&source, 0, err, "empty; give a value");
   if (status == ZP_OK) status = merge(s, &reader, s->set, err);
   close_reader(&reader);
@@ -629,7 +597,7 @@ static bool is_study(size_t key) {
 }
 
 ZpStudy zp_scenario_study(const ZpScenario *s) {
-  for (size_t i = 0; i < key_count(); i++)
+  for (size_t i = 0; i < ZP_KEYS; i++)
     if (is_study(i) && s->held[i]->count) return (ZpStudy)s->held[i]->value[0];
   return (ZpStudy)0;
 }
@@ -752,12 +720,10 @@ ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
   ZpError reason;
   ZpStatus status = resolve(s, 0, &first, &reason);
   if (status != ZP_OK) return say_of(s, 0, status, &reason, err);
-  bool *differs = calloc(key_count(), sizeof *differs);
-  if (!differs) return zp_fail_memory(err);
+  bool differs[ZP_KEYS] = {false};
   status = compare_defs(s, &first, differs, err);
-  if (status == ZP_OK) write_keys(s, &first, differs, file);
-  free(differs);
   if (status != ZP_OK) return status;
+  write_keys(s, &first, differs, file);
   if (fflush(file) || ferror(file))
     return zp_fail(err, ZP_MACHINE, "the scenario cannot be written: %s", strerror(errno));
   return ZP_OK;

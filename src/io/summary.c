@@ -97,14 +97,11 @@ static void put_row(ZpJson *json, const ZpReport *report, size_t run) {
   const int *key = zp_scenario_lists(report->scenario, &keys);
   const ZpResult *result = zp_report_result(report, run);
   Notes notes = {.count = 0};
-  double *value = calloc(keys + 1, sizeof *value);
-  json->bad |= !value;
-  if (json->bad) return;
+  double value[ZP_KEYS];
   zp_scenario_values(report->scenario, run, value);
   zp_json_open(json, NULL, '{');
   for (size_t i = 0; i < keys; i++)
     zp_json_key(json, zp_key(key[i])->name, key[i], value[i]);
-  free(value);
   zp_json_text(json, "outcome", zp_outcome_name(result->outcome));
   zp_json_text(json, "message", result->message);
   put_scalars(json, result);
