@@ -257,17 +257,28 @@ void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nod
 }
 
 void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
-  for (size_t k = 0; k < 2 * a->count; k++)
-    nodes[place(a, k)] = zp_assembly_change(a, step, k);
+  const int *equation = a->equation;
+  const double *factor = a->factor;
+  double *x = nodes, *y = nodes + a->stride;
+  for (size_t j = 0; j < a->count; j++) {
+    int of_x = equation[2 * j], of_y = equation[2 * j + 1];
+    x[j] = of_x >= 0 ? factor[2 * j] * step[of_x] : 0;
+    y[j] = of_y >= 0 ? factor[2 * j + 1] * step[of_y] : 0;
+  }
 }
 
 void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
   if (a->equation[k] >= 0) equations[a->equation[k]] += a->factor[k] * force;
 }
 
-void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
-  for (size_t k = 0; k < 2 * a->count; k++)
-    zp_assembly_add_one(a, k, nodes[place(a, k)], equations);
+void zp_assembly_add(const ZpAssembly *a, const double *restrict nodes, double *restrict equations) {
+  const int *equation = a->equation;
+  const double *factor = a->factor, *x = nodes, *y = nodes + a->stride;
+  for (size_t j = 0; j < a->count; j++) {
+    int of_x = equation[2 * j], of_y = equation[2 * j + 1];
+    if (of_x >= 0) equations[of_x] += factor[2 * j] * x[j];
+    if (of_y >= 0) equations[of_y] += factor[2 * j + 1] * y[j];
+  }
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
