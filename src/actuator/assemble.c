@@ -236,24 +236,28 @@ void zp_assembly_destroy(ZpAssembly *a) {
 
 /* -- values ----------------------------------------------------------------------------------------- */
 
-/* Index of coordinate k in arrays over nodes. */
-static size_t place(const ZpAssembly *a, size_t k) {
-  return k / 2 + (k % 2) * a->stride;
-}
-
 void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equations) {
-  for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) equations[a->equation[k]] = a->factor[k] * nodes[place(a, k)];
+  for (size_t j = 0; j < a->count; j++)
+    for (size_t c = 0; c < 2; c++) {
+      size_t k = 2 * j + c;
+      if (a->equation[k] >= 0) equations[a->equation[k]] = a->factor[k] * nodes[j + c * a->stride];
+    }
 }
 
 void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
-  for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) nodes[place(a, k)] = a->factor[k] * equations[a->equation[k]];
+  for (size_t j = 0; j < a->count; j++)
+    for (size_t c = 0; c < 2; c++) {
+      size_t k = 2 * j + c;
+      if (a->equation[k] >= 0) nodes[j + c * a->stride] = a->factor[k] * equations[a->equation[k]];
+    }
 }
 
 void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nodes) {
-  for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) nodes[place(a, k)] = zp_assembly_position(a, k, equations);
+  for (size_t j = 0; j < a->count; j++)
+    for (size_t c = 0; c < 2; c++) {
+      size_t k = 2 * j + c;
+      if (a->equation[k] >= 0) nodes[j + c * a->stride] = zp_assembly_position(a, k, equations);
+    }
 }
 
 void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
