@@ -99,12 +99,45 @@ static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
     "platform.electrode", 0                                                                                            \
   }
 
+/* What these helpers make is destroyed when the test ends. A test may do it earlier. */
+#define zp_result_destroy(result) zp_result_destroy(zp_test_releases(result))
+#define zp_model_destroy(model)   zp_model_destroy(zp_test_releases(model))
+#define zp_sim_destroy(sim)       zp_sim_destroy(zp_test_releases(sim))
+
+static inline void destroy_result(void *result) {
+  (zp_result_destroy)(result);
+}
+static inline void destroy_model(void *model) {
+  (zp_model_destroy)(model);
+}
+static inline void destroy_sim(void *sim) {
+  (zp_sim_destroy)(sim);
+}
+
+/* Zeros. */
+static inline void *memory_of(size_t size) {
+  void *memory = calloc(1, size);
+  ck_assert_ptr_nonnull(memory);
+  return zp_test_owns(memory, free);
+}
+
+/* An empty one. */
+static inline ZpResult *new_result(ZpStudy study) {
+  ZpResult *result = zp_result_create(study);
+  ck_assert_ptr_nonnull(result);
+  return zp_test_owns(result, destroy_result);
+}
+
 /* What a study of a Def that is in order finds. */
-static inline ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
+static inline ZpResult *study_with(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input) {
   ZpResult *result = NULL;
   ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  return result;
+  ck_assert_msg(zp_study_run(study, def, input, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  return zp_test_owns(result, destroy_result);
+}
+
+static inline ZpResult *study_of(ZpStudy study, const ZpActuatorDef *def) {
+  return study_with(study, def, NULL);
 }
 
 /* The same of a study that must answer. */
@@ -114,11 +147,15 @@ static inline ZpResult *answer_of(ZpStudy study, const ZpActuatorDef *def) {
   return result;
 }
 
+/* The same of a study that must converge. */
+static inline ZpResult *converged_of(ZpStudy study, const ZpActuatorDef *def) {
+  ZpResult *result = study_of(study, def);
+  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
+  return result;
+}
+
 static inline double answered_value(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result = answer_of(study, def);
-  double value = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return value;
+  return zp_result_get(answer_of(study, def), name);
 }
 
 /* The first note of a result that has these words; NULL if there is none. */
@@ -146,35 +183,63 @@ static inline void ck_refused(const ZpActuatorDef *def, const char *words) {
 /* The same by one study. */
 static inline void ck_refused_by(ZpStudy study, const ZpActuatorDef *def, const char *words) {
   ZpError err = {ZP_OK, ""};
+  ZpResult *result = NULL;
   ck_assert_int_eq(zp_study_check(study, def, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, words) != NULL, "no '%s' in: %s", words, err.message);
+  ck_assert_int_eq(zp_study_run(study, def, NULL, NULL, &result, NULL), ZP_BAD_INPUT);
+  ck_assert_ptr_null(result);
 }
 
 static inline ZpModel *model_of(const ZpActuatorDef *def) {
   ZpModel *model = NULL;
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_model_create(def, &model, &err) == ZP_OK, "%s", err.message);
-  return model;
+  return zp_test_owns(model, destroy_model);
+}
+
+static inline ZpModel *driven_model_of(const ZpActuatorDef *def, size_t rows, const double *time,
+                                       const double *voltage) {
+  ZpModel *model = NULL;
+  ZpError err = {ZP_OK, ""};
+  ck_assert_msg(zp_model_create_driven(def, &(ZpDriveTable){rows, time, voltage}, &model, &err) == ZP_OK, "%s",
+                err.message);
+  return zp_test_owns(model, destroy_model);
 }
 
 static inline ZpSim *sim_of(const ZpModel *model) {
   ZpSim *sim = NULL;
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s", err.message);
-  return sim;
+  return zp_test_owns(sim, destroy_sim);
+}
+
+static inline void run_to(ZpSim *sim, double time) {
+  ZpRunInfo info;
+  ck_assert_msg(zp_sim_run(sim, time, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
+}
+
+/* Runs to `end`; another simulation of the model continues from a snapshot of here, to the same bits. */
+static inline void ck_continues(ZpSim *sim, const ZpModel *model, double end) {
+  const size_t size = zp_sim_state_size(sim);
+  void *here = memory_of(size), *once = memory_of(size), *again = memory_of(size);
+  ZpSim *other = sim_of(model);
+  zp_sim_save(sim, here);
+  run_to(sim, end);
+  zp_sim_save(sim, once);
+  ck_assert_int_eq(zp_sim_restore(other, here, size, NULL), ZP_OK);
+  run_to(other, end);
+  zp_sim_save(other, again);
+  ck_assert_mem_eq(once, again, size);
+  ck_assert_int_ne(memcmp(here, once, size), 0);
 }
 
 /* Value of a signal after running to `end_time` from the start. */
 static inline double settled_value(const ZpActuatorDef *def, const char *signal) {
-  ZpModel *model = model_of(def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(def));
   ZpRunInfo info;
   /* a run of no time: tells whether the equilibrium was found */
   ck_assert_msg(zp_sim_run(sim, 0, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
-  double value = zp_sim_get(sim, signal);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
-  return value;
+  return zp_sim_get(sim, signal);
 }
 
 /* Are signals of two simulations the same to this tolerance? Destroys both, and their models. */
@@ -186,6 +251,23 @@ static inline void ck_same_signals(ZpSim *const sims[2], ZpModel *const models[2
     zp_sim_destroy(sims[k]);
     zp_model_destroy(models[k]);
   }
+}
+
+/* The largest magnitude of so many. */
+static inline double largest_of(const double *x, size_t n) {
+  double most = 0;
+  for (size_t k = 0; k < n; k++)
+    most = fmax(most, fabs(x[k]));
+  return most;
+}
+
+/* Is a sum of squares of `freedom` normal numbers between what 1 and what 999 of 1000 are below, by Wilson and
+ * Hilferty? */
+static inline void ck_chi_square(const char *of, double sum, double freedom) {
+  const double mean = 1 - 2 / (9 * freedom), spread = 3.29 * sqrt(2 / (9 * freedom));
+  const double low = freedom * pow(mean - spread, 3), high = freedom * pow(mean + spread, 3);
+  printf("%s: %.1f of %.0f, from %.1f to %.1f\n", of, sum, freedom, low, high);
+  ck_assert_msg(sum > low && sum < high, "%s: %.1f, not from %.1f to %.1f", of, sum, low, high);
 }
 
 /* Uniform in (-1, 1), from a seed, the same everywhere. */

@@ -2,7 +2,7 @@
 #ifndef ZP_TESTS_FILES_UTIL_H
 #define ZP_TESTS_FILES_UTIL_H
 
-#include "check_util.h"
+#include "data_util.h"
 
 #include <unistd.h>
 
@@ -23,26 +23,15 @@ static void remove_folder(void) {
 
 AROUND_EACH(make_folder, remove_folder)
 
-/* "FOLDER/name", to be freed. */
+/* "FOLDER/name". */
 static inline char *path_of(const char *name) {
-  char *path = malloc(strlen(folder) + strlen(name) + 2);
-  ck_assert_ptr_nonnull(path);
+  char *path = memory_of(strlen(folder) + strlen(name) + 2);
   sprintf(path, "%s/%s", folder, name);
   return path;
 }
 
-static inline ZpScenario *scenario_of(const char *const *assignment, size_t count) {
-  ZpScenario *scenario = zp_scenario_create();
-  ZpError err = {ZP_OK, ""};
-  ck_assert_ptr_nonnull(scenario);
-  for (size_t i = 0; i < count; i++)
-    ck_assert_msg(zp_scenario_set(scenario, assignment[i], &err) == ZP_OK, "%s", err.message);
-  return scenario;
-}
 /* A scenario without pictures. */
-#define SCENARIO(...)                                                                                                  \
-  scenario_of((const char *const[]){"output.plots=false", __VA_ARGS__},                                                \
-              LENGTH_OF(((const char *const[]){"", __VA_ARGS__})))
+#define SCENARIO(...) scenario_with((const char *const[]){"output.plots=false", __VA_ARGS__, NULL})
 
 static inline void write_files(const ZpScenario *scenario, ZpResult *const *result, size_t count) {
   ZpError err = {ZP_OK, ""};

@@ -28,6 +28,32 @@ void zp_test_around_all(void (*before)(void), void (*after)(void)) {
   after_all = after;
 }
 
+static struct {
+  void *object;
+  void (*destroy)(void *);
+} owned[1 << 16]; /* not allocated: tests count allocations */
+static size_t owned_count;
+
+void *zp_test_owns(void *object, void (*destroy)(void *)) {
+  ck_assert_uint_lt(owned_count, sizeof owned / sizeof *owned);
+  owned[owned_count].object = object;
+  owned[owned_count++].destroy = destroy;
+  return object;
+}
+
+void *zp_test_releases(void *object) {
+  for (size_t k = owned_count; k-- > 0;)
+    if (owned[k].object == object) owned[k].object = NULL;
+  return object;
+}
+
+static void destroy_owned(void) {
+  while (owned_count > 0) {
+    owned_count--;
+    if (owned[owned_count].object) owned[owned_count].destroy(owned[owned_count].object);
+  }
+}
+
 __attribute__((constructor)) static void limit_cpu(void) {
   static const rlim_t most = 600; /* s of each process: Check runs each test in one of its own */
   struct rlimit limit;
@@ -45,6 +71,7 @@ static void add_case(Suite *suite, const TestEntry *entry) {
   if (before_all && !begun[entry->nightly]) tcase_add_unchecked_fixture(tcase, before_all, NULL);
   begun[entry->nightly] = true;
   if (entry->nightly) tcase_set_tags(tcase, "nightly");
+  tcase_add_checked_fixture(tcase, NULL, destroy_owned);
   if (before_each) tcase_add_checked_fixture(tcase, before_each, after_each);
   _tcase_add_test(tcase, &entry->test, entry->signal, 0, entry->from, entry->to);
   suite_add_tcase(suite, tcase);

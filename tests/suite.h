@@ -26,6 +26,12 @@ void zp_test_add(TestEntry *entry);
 void zp_test_around_each(void (*before)(void), void (*after)(void));
 void zp_test_around_all(void (*before)(void), void (*after)(void));
 
+/* An object of the test that runs, to be destroyed when it ends, the last one first. => the object */
+void *zp_test_owns(void *object, void (*destroy)(void *object));
+
+/* The test destroys it by itself. => the object */
+void *zp_test_releases(void *object);
+
 #define ADD_TEST(name, unique, at_night, ended_by, first, past)                                                        \
   __attribute__((constructor)) static void name##unique(void) {                                                        \
     static TestEntry entry = {{#name, name, __FILE__, __LINE__}, at_night, ended_by, 0, 0, NULL};                      \

@@ -15,9 +15,7 @@ static const double pi = 3.14159265358979323846;
 /* A number in the last row of a study's table. */
 static double last_of(ZpStudy study, const ZpActuatorDef *def, const char *column) {
   ZpResult *result = answer_of(study, def);
-  double value = zp_table_get(result->series, result->series->rows - 1, column);
-  zp_result_destroy(result);
-  return value;
+  return zp_table_get(result->series, result->series->rows - 1, column);
 }
 
 /* -- at rest --------------------------------------------------------------------------------------- */
@@ -45,7 +43,6 @@ TEST(equal_ones_rest_in_the_middle) {
   for (size_t j = 0; j < of_each; j++) /* the lower one is the mirror image */
     ck_below(fabs(shape.y[of_each + j] + shape.y[j] + def.stack.distance),
              1e-12 * def.stack.distance); /* 1.8e-16 measured */
-  zp_result_destroy(result);
 }
 
 /* Beams that hardly bend: each half of an actuator is two of them in a row, so both actuators hold the load by
@@ -62,7 +59,6 @@ TEST(small_stiffness_is_that_of_beams) {
   ck_near(zp_result_get(result, "opening_m") - 0.2e-3, sag, 5e-5);      /* 1.5e-5 measured */
   /* 0 measured */
   ck_near(zp_result_get(result, "opening_m") + zp_result_get(result, "lower_opening_m"), 0.4e-3, 1e-12);
-  zp_result_destroy(result);
 }
 
 /* The stiffness at a voltage is what a small force deflects the load by. */
@@ -77,14 +73,6 @@ TEST(stiffness_is_the_slope_of_the_force) {
   ck_near(last_of(ZP_STUDY_EQUILIBRIUM, &def, "stiffness_N_per_m"), 2 * force / moved, 2e-9); /* 3.6e-10 measured */
 }
 
-/* The largest of so many. */
-static double largest_of(const double *r, size_t n) {
-  double most = 0;
-  for (size_t i = 0; i < n; i++)
-    most = fmax(most, fabs(r[i]));
-  return most;
-}
-
 /* What the branch is told of the voltage is how the forces go with it, of both. */
 TEST(voltage_moves_the_residual) {
   static const double little = 1e-2; /* V */
@@ -97,7 +85,7 @@ TEST(voltage_moves_the_residual) {
   const ZpBranchSystem *system = &both.system;
   ZpStatics *s = &both.statics;
   size_t n = system->at_rest.n;
-  double *up = calloc(3 * n, sizeof *up), *down = up + n, *by = down + n;
+  double *up = memory_of(3 * n * sizeof *up), *down = up + n, *by = down + n;
   system->at_rest.residual(s, by, NULL);
   system->sensitivity(s, by);
   system->set(s, 1500 + little);
@@ -108,9 +96,7 @@ TEST(voltage_moves_the_residual) {
   for (size_t i = 0; i < n; i++)
     up[i] = (up[i] - down[i]) / (2 * little) - by[i];
   ck_below(largest_of(up, n) / most, 5e-11); /* 7e-12 measured */
-  free(up);
   zp_rest_close(&both);
-  zp_model_destroy(model);
 }
 
 /* -- each of them alone ---------------------------------------------------------------------------- */
@@ -169,7 +155,6 @@ TEST(forces_of_each_alone_balance) {
   ck_near(zp_table_get(result->series, last, "lower_voltage_V"), 1.4e3, 1e-12);                  /* 0 measured */
   ck_near(x + y, 20e-3, 1e-12);                                                                  /* 2.2e-16 measured */
   ck_near(pull_of(upper, x, 2e3) - pull_of(lower, y, 1.4e3), def.load.mass * def.gravity, 2e-9); /* 2.5e-10 measured */
-  zp_result_destroy(result);
 }
 ALSO_NIGHTLY(forces_of_each_alone_balance, 1, 2)
 
@@ -190,7 +175,6 @@ TESTS(held_load_takes_the_difference, 0, 2) {
     ck_near(zp_result_get(both, names[k]), k < 2 ? upper - lower : upper + lower, 1.8e-10); /* 6.3e-11 measured */
   }
   ck_near(zp_result_get(both, "lower_opening_m"), 13e-3, 1e-12); /* 3.4e-15 measured */
-  zp_result_destroy(both);
 }
 
 /* Each is closed from its clip as far as it is alone where it is held at its opening and voltage. */
@@ -214,7 +198,6 @@ TEST(each_is_closed_as_far_as_alone) {
     compared++;
   }
   ck_assert_int_eq(compared, 3);
-  zp_result_destroy(result);
 }
 
 /* Half the difference of the force of one alone over a small way (m), N/m. */
@@ -249,7 +232,6 @@ TEST(one_closes_where_the_way_is_highest) {
     highest = fmax(highest, zp_table_get(result->series, row, "voltage_V"));
   ck_assert_double_ge(closing, highest);
   ck_near(closing, highest, 1e-3); /* 1.1e-4 measured */
-  zp_result_destroy(result);
 }
 
 /* While the upper one is closed the lower one hangs at the whole distance, and pulls as a constant force does: the
@@ -270,7 +252,6 @@ static void ck_as_curve(const ZpActuatorDef *def, const ZpResult *limits) {
   for (size_t k = 0; k < LENGTH_OF(names); k++)
     ck_near(zp_result_get(limits, names[k]), zp_result_get(curve, names[k]), 1e-12);             /* 0 measured */
   ck_near(zp_result_get(limits, "max_stress_Pa"), zp_result_get(curve, "max_stress_Pa"), 8e-12); /* 2.3e-12 measured */
-  zp_result_destroy(curve);
 }
 
 /* The load jumps where the forces of both, each of that one alone by study isometric, are equal and have slopes that
@@ -289,7 +270,6 @@ TEST(pull_in_is_where_slopes_cancel) {
   ck_near(pull_of(upper, x, voltage) - pull_of(lower, y, 1.5e3), def.load.mass * def.gravity, 2e-8);
   static const double way = 1e-6; /* m: where one begins to zip the slope changes within a hundredth of a millimetre */
   ck_near(slope_over(&upper, x, voltage, way), -slope_over(&lower, y, 1.5e3, way), 1e-3); /* 1.6e-4 measured */
-  zp_result_destroy(result);
 }
 
 /* While it is closed, and as it opens, the numbers of the limits are those of the states that they have. */
@@ -308,7 +288,6 @@ TEST(limits_have_their_states) {
   ck_assert_double_gt(zp_result_get(result, "travel_m"), 12e-3);
   ZpActuatorDef one = alone(&def, false);
   ck_near(zp_result_get(result, "mass_kg"), 2 * answered_value(ZP_STUDY_LIMITS, &one, "mass_kg"), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* Thick ribbons close without a jump, the upper one or the lower one: where the opening is a hundredth of that without
@@ -328,7 +307,6 @@ TESTS(one_closes_gradually, 0, 2) {
   ck_assert_double_eq(zp_table_get(limits->series, 0, "voltage_V"), zp_result_get(limits, "closing_voltage_V"));
   ck_near(zp_table_get(limits->series, 0, names[_i]), 0.01 * answered_value(ZP_STUDY_STATIONARY, &def, names[_i]),
           1e-12); /* 3e-14 measured */
-  zp_result_destroy(limits);
 }
 
 /* -- small motions --------------------------------------------------------------------------------- */
@@ -373,7 +351,6 @@ TEST(period_of_a_swing_is_that_of_the_mode) {
   ZpResult *curve = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
   double start = zp_table_get(curve->series, 0, "opening_m"),
          rest = zp_table_get(curve->series, curve->series->rows - 1, "opening_m");
-  zp_result_destroy(curve);
   def.solver.end_time = 1.25 / answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz");
   ck_assert_double_eq_tol((answered_value(ZP_STUDY_ACTUATE, &def, "opening_m") - rest) / (rest - start), 0,
                           0.02); /* 0.015 measured */
@@ -392,7 +369,6 @@ TEST(voltage_softens_both) {
   ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
   ck_assert_double_nan(zp_result_get(result, "frequency_1_Hz"));
   ck_assert_msg(strstr(result->message, "modes.voltage"), "%s", result->message);
-  zp_result_destroy(result);
 }
 
 /* Upside down both change their places. */
@@ -415,7 +391,6 @@ TEST(constant_voltage_is_that_ratio) {
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &constant);
   ck_assert_int_eq(result->outcome, ZP_NOT_SETTLED);
   ck_assert_msg(strstr(result->message, "stack.lower_voltage"), "%s", result->message);
-  zp_result_destroy(result);
 }
 
 /* The lower one stays at its constant voltage under any waveform of the upper one, whose keys are not its own. */
@@ -432,7 +407,6 @@ TESTS(constant_voltage_under_any_waveform, 0, 3) {
   ZpModel *model = model_of(&def);
   ck_assert_double_eq(zp_waveform_largest(&model[1].waveform), 2e3);
   ck_assert_double_eq(zp_waveform_voltage(&model[1].waveform, 0.13), 2e3);
-  zp_model_destroy(model);
 }
 
 /* -- in motion ------------------------------------------------------------------------------------- */
@@ -445,7 +419,6 @@ TESTS(at_rest_they_stay, 0, 2) {
   ck_near(zp_result_get(result, "opening_m"), zp_result_get(result, "start_opening_m"), 1e-12); /* 1.2e-15 measured */
   /* 0 measured */
   ck_near(zp_result_get(result, "start_opening_m"), answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* A heavy load between light ribbons is a mass on the spring of both: a small voltage of one makes it swing, and after
@@ -481,7 +454,6 @@ TESTS(energy_of_a_zip_against_the_other, 0, 3) {
     ZpShape shape = zp_shapes_get(film, frame);
     ck_assert_double_eq_tol(shape.y[2 * count - 1], shape.y[count - 1], 1e-15); /* 1.7e-18 measured */
   }
-  zp_result_destroy(result);
 }
 
 /* Without weight either one closes in the same way, with the load and the other one behind it, and ends the run. */
@@ -496,7 +468,6 @@ TEST(either_one_may_close) {
     ck_assert_int_eq(result->outcome, ZP_ZIPPED);
     time[k] = zp_result_get(result, name[k]);
     ck_near(zp_result_get(result, "simulated_time_s"), time[k], 1e-12);
-    zp_result_destroy(result);
   }
   ck_near(time[1], time[0], 1e-12); /* 8.1e-14 measured */
 }

@@ -75,7 +75,6 @@ TESTS(test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds)) {
     zp_free(memory[k]);
   zp_assembly_destroy(&half);
   zp_assembly_destroy(&whole);
-  zp_model_destroy(model);
 }
 
 static const Setting systems[][3] = {
@@ -118,5 +117,4 @@ TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
   }
   for (size_t k = 0; k < model->members; k++)
     zp_assembly_destroy(&a[k]);
-  zp_model_destroy(model);
 }

@@ -94,8 +94,6 @@ TESTS(test_auto_runs_as_what_it_stands_for, 0, LENGTH_OF(studies)) {
     ZpResult *said = study_of(study, &def);
     ck_same_scalars(given, said);
     ck_assert_ptr_null(note_of(said, "liquid.model auto"));
-    zp_result_destroy(given);
-    zp_result_destroy(said);
   }
 }
 
@@ -105,6 +103,4 @@ TEST(test_modes_leave_the_bead_out) {
   ZpResult *with = study_of(ZP_STUDY_MODES, &bead), *without = study_of(ZP_STUDY_MODES, &dry);
   ck_same_scalars(with, without);
   ck_assert(notes_with(with, "the bead is ignored") == 1 && notes_with(without, "bead") == 0);
-  zp_result_destroy(with);
-  zp_result_destroy(without);
 }

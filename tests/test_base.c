@@ -782,7 +782,7 @@ TESTS(test_restore_goes_on_bit_for_bit, 0, 2) {
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model), *other = sim_of(model);
   size_t size = zp_sim_state_size(sim);
-  char *saved = malloc(size), *once = malloc(size), *again = malloc(size);
+  char *saved = memory_of(size), *once = memory_of(size), *again = memory_of(size);
   ck_assert_int_eq(zp_sim_run(sim, before[_i], false, NULL, NULL), ZP_REACHED_END);
   double zipped = zp_sim_get(sim, "zipped_length");
   zp_sim_save(sim, saved);
@@ -800,12 +800,6 @@ TESTS(test_restore_goes_on_bit_for_bit, 0, 2) {
   ck_assert_mem_eq(once, again, size);
   ZpError err;
   ck_assert_int_eq(zp_sim_restore(sim, saved, size - 1, &err), ZP_BAD_INPUT);
-  free(saved);
-  free(once);
-  free(again);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(other);
-  zp_model_destroy(model);
 }
 
 /* A simulation resumes from its saved bytes; damaged ones and those of another actuator are refused. */
@@ -813,10 +807,9 @@ TEST(test_saved_state) {
   ZpActuatorDef def = saved_def(0);
   ZpModel *model = model_of(&def);
   def.load.mass *= 2;
-  ZpModel *heavier = model_of(&def);
-  ZpSim *sim = sim_of(model), *again = sim_of(model), *other = sim_of(heavier);
+  ZpSim *sim = sim_of(model), *again = sim_of(model), *other = sim_of(model_of(&def));
   size_t size = zp_sim_state_size(sim);
-  char *saved = malloc(size), *restored = malloc(size);
+  char *saved = memory_of(size), *restored = memory_of(size);
   ck_assert_int_eq(zp_sim_run(sim, 5e-3, false, NULL, NULL), ZP_REACHED_END);
   zp_sim_save(sim, saved);
   ck_assert_int_eq(zp_sim_restore(again, saved, size, NULL), ZP_OK);
@@ -830,13 +823,6 @@ TEST(test_saved_state) {
     ck_assert_int_eq(zp_sim_restore(again, saved, size, NULL), ZP_BAD_INPUT);
     saved[i] ^= 1;
   }
-  free(saved);
-  free(restored);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(again);
-  zp_sim_destroy(other);
-  zp_model_destroy(model);
-  zp_model_destroy(heavier);
 }
 
 /* Reading signals, shapes and recording change nothing. */
@@ -851,7 +837,7 @@ TEST(test_looking_changes_nothing) {
   zp_sim_record(watched, series, film);
   zp_sim_run(plain, 20e-3, false, NULL, NULL);
   zp_sim_run(watched, 20e-3, false, NULL, NULL);
-  char *one = malloc(size), *two = malloc(size);
+  char *one = memory_of(size), *two = memory_of(size);
   zp_sim_save(plain, one);
   zp_sim_save(watched, two);
   ck_assert_mem_eq(one, two, size);
@@ -861,11 +847,6 @@ TEST(test_looking_changes_nothing) {
   zp_sim_shape(watched);
   zp_sim_save(watched, two);
   ck_assert_mem_eq(one, two, size);
-  free(one);
-  free(two);
   zp_table_destroy(series);
   zp_shapes_destroy(film);
-  zp_sim_destroy(plain);
-  zp_sim_destroy(watched);
-  zp_model_destroy(model);
 }

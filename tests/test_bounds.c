@@ -16,7 +16,7 @@
 #include <zipact/io.h>
 #include <zipact/zipact.h>
 
-#include "check_util.h"
+#include "data_util.h"
 
 static const double most_seconds = FULL_OR(5.0, 100.0); /* a run of these few steps is a hang beyond */
 
@@ -142,14 +142,9 @@ static ZpCheckpoint *start_of(const ZpActuatorDef *def) {
   if (def->initial.state != ZP_INITIAL_CHECKPOINT) return NULL;
   ZpActuatorDef hanging = *def;
   hanging.initial.state = ZP_INITIAL_EQUILIBRIUM;
-  ZpModel *model;
-  ZpSim *sim;
   ZpCheckpoint *start = NULL;
-  ck_assert_int_eq(zp_model_create(&hanging, &model, NULL), ZP_OK);
-  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ZpSim *sim = sim_of(model_of(&hanging));
   ck_assert_int_eq(zp_sim_checkpoint(sim, &start, NULL), ZP_OK);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return start;
 }
 
@@ -430,10 +425,9 @@ static void refuse_text(int index, const char *text) {
   ck_assert_msg(strstr(err.message, key->name), "%s = \"%s\": \"%s\"", key->name, text, err.message);
   ck_assert_double_eq(value, 42);
   snprintf(argument, sizeof argument, "%s=%s", key->name, text);
-  ZpScenario *scenario = zp_scenario_create();
+  ZpScenario *scenario = new_scenario();
   ck_assert_msg(zp_scenario_set(scenario, argument, &err) == ZP_BAD_INPUT, "%s was taken", argument);
   ck_assert_msg(strstr(err.message, key->name), "%s: \"%s\"", argument, err.message);
-  zp_scenario_destroy(scenario);
 }
 
 TESTS(wrong_words_are_refused, 0, zp_key_count()) {
@@ -648,13 +642,10 @@ TESTS(contradictions_are_refused, 0, LENGTH_OF(contradictions)) {
  * first it falls: g t^2 / 2 = 1.104 mm in 15 ms (measured the same to 4 digits; the ribbons are soft when flat). */
 TEST(straight_without_voltage_opens) {
   ZpActuatorDef def = def_of_settings("initial.state=straight drive.voltage=0 solver.end_time=15ms liquid.model=none");
-  ZpResult *result;
-  ZpError err;
-  ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_msg(result->outcome == ZP_REACHED_END, "%s: %s", zp_outcome_name(result->outcome), result->message);
   ck_assert_double_eq_tol(zp_result_get(result, "opening_m"), 9.81 * 15e-3 * 15e-3 / 2, 2.9e-6); /* 9.8e-7 measured */
   ck_assert(isnan(zp_result_get(result, "zip_time_s")));
-  zp_result_destroy(result);
 }
 
 /* -- presets ------------------------------------------------------------------------------------------------ */

@@ -13,7 +13,7 @@
 #include <zipact/io.h>
 #include <zipact/rest.h>
 
-#include "check_util.h"
+#include "data_util.h"
 #include "elastica.h"
 #include "fit/fit.h"
 #include "fit/reference.h"
@@ -39,9 +39,7 @@ static ZpActuatorDef calibration(const char *file, const char *keys) {
 }
 
 static ZpResult *fit_to(ZpOutcome outcome, const ZpActuatorDef *def) {
-  ZpResult *result;
-  ZpError err = {0};
-  ck_assert_msg(zp_data_study_run(ZP_STUDY_CALIBRATE, def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = data_study_of(ZP_STUDY_CALIBRATE, def);
   ck_assert_msg(result->outcome == outcome, "%s: %s", zp_outcome_name(result->outcome), result->message);
   return result;
 }
@@ -52,13 +50,9 @@ static ZpResult *fit(const ZpActuatorDef *def) {
 
 /* Stroke of the hanging default actuator, m. */
 static double stroke(ZpActuatorDef def, double mass) {
-  ZpResult *result;
   def.load.mass = mass;
   *def.data.file = 0;
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &def, NULL, &result, NULL), ZP_OK);
-  double value = zp_result_get(result, "stroke_m");
-  zp_result_destroy(result);
-  return value;
+  return zp_result_get(data_study_of(ZP_STUDY_STATIONARY, &def), "stroke_m");
 }
 
 /* Strokes at seven loads with an error of `noise` that alternates, +-. */
@@ -75,11 +69,7 @@ static void make_data(const char *path, ZpActuatorDef truth, double noise) {
 
 /* A scalar of a study. */
 static double scalar_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result;
-  ck_assert_int_eq(zp_data_study_run(study, def, NULL, &result, NULL), ZP_OK);
-  double value = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return value;
+  return zp_result_get(data_study_of(study, def), name);
 }
 
 TEST(one_key_is_found) {
@@ -94,7 +84,6 @@ TEST(one_key_is_found) {
   ck_assert_double_eq(zp_result_get(result, "data_rows"), 7);
   ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
   ck_near(zp_table_get(result->series, 3, "load.mass_kg"), 0.008, 1e-12);
-  zp_result_destroy(result);
 }
 
 /* The correlation of two fitted keys, - J1 J2 / sqrt(J1 J1 J2 J2), with slopes of the strokes by differences. */
@@ -126,7 +115,6 @@ TEST(two_keys_are_found) {
           1e-10);                                           /* 1.6e-12, on a coarser mesh 1.8e-11 measured */
   ck_near(zp_result_get(result, "load.share"), 0.4, 1e-10); /* 1.2e-12 measured */
   ck_near(zp_result_get(result, "load.share_correlation_1"), correlation_of(&truth), 6e-10); /* 1.9e-10 measured */
-  zp_result_destroy(result);
 }
 
 /* Twice the noise: twice the standard error, which covers the error that was made. */
@@ -141,7 +129,6 @@ TEST(standard_error_follows_the_noise) {
     ck_assert(fabs(zp_result_get(result, "ribbon.young_modulus") - 150e9) < 3 * error[i]);
     ck_assert(error[i] > 1e-5 * 150e9 && error[i] < 0.05 * 150e9);
     ck_near(zp_result_get(result, "residual_rms_m"), (i + 1) * 2e-5, 5e-3); /* 1e-3 measured */
-    zp_result_destroy(result);
   }
   ck_near(error[1], 2 * error[0], 5e-4); /* 1.1e-4 measured */
 }
@@ -216,11 +203,10 @@ TEST(zip_times_are_of_runs_with_derivatives) {
 TEST(voltage_data) {
   static const char *const volts[] = {"0", "2", "3", "4"};
   ZpActuatorDef def = calibration("volts.csv", "medium.permittivity"), truth = def;
-  ZpResult *result;
   char text[400] = "opening_mm,remark,voltage_kV\n";
   truth.medium.permittivity = 2.2;
   set(&truth, "output.samples", 20000);
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_EQUILIBRIUM, &truth, NULL, &result, NULL), ZP_OK);
+  ZpResult *result = data_study_of(ZP_STUDY_EQUILIBRIUM, &truth);
   for (int i = 0; i < 4; i++) {
     double at = 1e3 * atof(volts[i]);
     const ZpTable *t = result->series;
@@ -233,14 +219,12 @@ TEST(voltage_data) {
     size_t used = strlen(text);
     snprintf(text + used, sizeof text - used, "%.9g,some text,%s\n", 1e3 * (o0 + share * (o1 - o0)), volts[i]);
   }
-  zp_result_destroy(result);
   write_file("volts.csv", text);
   set_text(&def, "calibrate.x", "voltage_kV");
   set_text(&def, "calibrate.y", "opening_mm");
   result = fit(&def);
   ck_near(zp_result_get(result, "medium.permittivity"), 2.2, 5e-3); /* 9.3e-4 measured */
   ck_assert_str_eq(result->series->column[0].name, "drive.voltage_V");
-  zp_result_destroy(result);
 }
 
 /* Zip times of an overdamped actuator grow without bound towards its static pull-in: five of them show where it is,
@@ -269,7 +253,6 @@ NIGHTLY_TESTS(zip_times_show_the_pull_in, 0, FULL_OR(1, 0)) {
   printf("pull-in %.2f V, from zip times %.2f V, %s, %g evaluations\n", pull_in, found, result->message,
          zp_result_get(result, "evaluations"));
   ck_near(found, pull_in, 1e-4); /* 2.3e-5 measured */
-  zp_result_destroy(result);
 }
 
 TEST(columns_without_units_are_told) {
@@ -279,11 +262,9 @@ TEST(columns_without_units_are_told) {
   ck_assert_uint_eq(result->notes, 1);
   ck_assert_str_eq(result->note[0],
                    "columns without a unit in their name are read in SI: load in kg, stroke in m, sigma in m");
-  zp_result_destroy(result);
   write_file("bare.csv", "load_g,stroke_mm,sigma_mm\n4,6.1,0.1\n8,11.2,0.1\n");
   result = fit(&bare);
   ck_assert_uint_eq(result->notes, 0);
-  zp_result_destroy(result);
 }
 
 /* A column that was misspelt, or that calibrate.y did not name, was left out in silence. The names are those of the
@@ -300,7 +281,6 @@ TEST(columns_that_are_not_used_are_told) {
   ck_assert_uint_eq(result->notes, 1);
   ck_assert_str_eq(result->note[0],
                    "columns that are not used: idle.csv: \"Datum\", \"Bem, kurz\", \"pull_in_voltage_kV\"");
-  zp_result_destroy(result);
 }
 
 TEST(bounds_are_kept) {
@@ -317,12 +297,10 @@ TEST(bounds_are_kept) {
   ck_assert(isnan(zp_result_get(result, "ribbon.young_modulus_standard_error")));
   ck_assert_uint_eq(result->notes, 1);
   ck_assert_ptr_nonnull(strstr(result->note[0], "bound"));
-  zp_result_destroy(result);
   truth.load.share = 0.5;
   set_text(&def, "calibrate.fit", "load.share"); /* the key's own range ends at 1, not at 5 * 0.5 */
   result = fit_to(ZP_AT_BOUND, &def);
   ck_assert(zp_result_get(result, "load.share") <= 1);
-  zp_result_destroy(result);
 }
 
 /* Bounds in the key's unit, in place of multiples of the start. */
@@ -336,7 +314,6 @@ TEST(bounds_have_units) {
     set_text(&def, "calibrate.bounds", text[i]);
     ZpResult *result = fit_to(i ? ZP_CONVERGED : ZP_AT_BOUND, &def);
     ck_near(zp_result_get(result, "ribbon.young_modulus"), value[i], 1e-10); /* 6.7e-13 measured */
-    zp_result_destroy(result);
   }
 }
 
@@ -361,7 +338,6 @@ TEST(negative_values_and_bounds) {
     double error = zp_result_get(result, "segment_1.curvature_standard_error");
     ck_near(zp_result_get(result, "segment_1.curvature"), i ? -0.5 : -0.3, 1e-3); /* 2e-4 measured */
     ck_assert(isnan(error) == (i == 1));
-    zp_result_destroy(result);
   }
 }
 
@@ -374,20 +350,17 @@ TEST(negative_values_by_differences) {
   fputs("load_g,capacitance_pF\n", file);
   for (int g = 4; g <= 32; g *= 2) {
     truth.load.mass = 1e-3 * g;
-    ZpModel *model;
     ZpRest *rest;
-    ck_assert_int_eq(zp_model_create(&truth, &model, NULL), ZP_OK);
+    ZpModel *model = model_of(&truth);
     ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
     ck_assert(zp_rest_hang(rest, 0));
     fprintf(file, "%d,%.17g\n", g, 1e12 * zp_rest_capacitance(rest));
     zp_rest_destroy(rest);
-    zp_model_destroy(model);
   }
   ck_assert_int_eq(fclose(file), 0);
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "segment_1.curvature"), -0.3, 1e-10); /* 2e-13 measured */
   ck_assert(isfinite(zp_result_get(result, "segment_1.curvature_standard_error")));
-  zp_result_destroy(result);
 }
 
 /* -- files as spreadsheets and instruments write them ---------------------------------------------- */
@@ -429,7 +402,6 @@ static void find_180_GPa(const char *files, const char *columns, size_t rows) {
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-11); /* 1.3e-15 measured */
   ck_assert_uint_eq(result->series->rows, rows);
-  zp_result_destroy(result);
 }
 
 TEST(files_of_all_kinds) {
@@ -459,7 +431,6 @@ TEST(headings_with_a_slash_an_in_a_hyphen_or_newtons) {
   ZpActuatorDef def = calibration("newtons.csv", "ribbon.young_modulus");
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-11); /* 2.2e-16 measured */
-  zp_result_destroy(result);
   write_file("hyphen.csv", "load (g),Pull-in voltage (kV)\n6,4.3\n8,6.2\n");
   def = calibration("hyphen.csv", "ribbon.young_modulus");
   ck_assert_int_eq(zp_data_check(ZP_STUDY_CALIBRATE, &def, NULL), ZP_OK);
@@ -486,7 +457,6 @@ TEST(standard_deviations_weigh) {
   ck_near(zp_result_get(result, "ribbon.young_modulus_standard_error"), error, 3e-4); /* 8.5e-5 measured */
   /* 2.2e-16 measured */
   ck_near(zp_result_get(result, "reduced_chi_square"), (y2 - y1) * (y2 - y1) / (s1 * s1 + s2 * s2), 1e-11);
-  zp_result_destroy(result);
 }
 
 /* Two strokes under one load, 2 d apart: the fit lies between them, its variance is that of two rows and one key. */
@@ -502,24 +472,21 @@ TEST(residuals_make_the_standard_error) {
   ck_near(zp_result_get(result, "ribbon.young_modulus_standard_error"), d / fabs(slope), 3e-4); /* 8.5e-5 measured */
   ck_near(zp_table_get(result->series, 0, "residual_m"), d, 1e-12);                             /* 4.6e-14 measured */
   ck_near(zp_table_get(result->series, 1, "residual_m"), -d, 1e-12);                            /* 4.1e-14 measured */
-  zp_result_destroy(result);
 }
 
 /* -- several kinds of measurement in one fit ------------------------------------------------------- */
 
 /* Stroke or capacitance of the actuator at rest on the branch that hangs. */
 static double at_rest(ZpActuatorDef def, ZpFitKind kind, double mass, double voltage) {
-  ZpModel *model;
   ZpRest *rest;
   def.load.mass = mass;
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
+  ZpModel *model = model_of(&def);
   ck_assert_int_eq(zp_rest_create(model, &rest, NULL), ZP_OK);
   ck_assert(zp_rest_hang(rest, voltage));
   double value = kind == ZP_FIT_CAPACITANCE ? zp_rest_capacitance(rest)
                  : kind == ZP_FIT_OPENING   ? zp_rest_opening(rest)
                                             : zp_rest_stroke(rest);
   zp_rest_destroy(rest);
-  zp_model_destroy(model);
   return value;
 }
 
@@ -562,7 +529,6 @@ TEST(kinds_weigh_by_their_standard_deviations) {
   ck_near(zp_result_get(result, "capacitance_residual_rms_F"), fabs(left), 1e-11);          /* 0 measured */
   ck_near(zp_result_get(result, "capacitance_weighted_rms"), fabs(left) / sigma[1], 1e-11); /* 0 measured */
   ck_assert(isnan(zp_result_get(result, "residual_rms_m")));
-  zp_result_destroy(result);
 }
 
 /* A voltage in a second column acts on the row: strokes at rest under load and voltage are met exactly. The notes are
@@ -585,11 +551,9 @@ TEST(voltage_in_a_second_column) {
   def.drive.voltage = 4e3;
   def.load.mass = 9e-3;
   *def.data.file = 0;
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, &alone, NULL), ZP_OK);
+  alone = data_study_of(ZP_STUDY_EQUILIBRIUM, &def);
   ck_assert_ptr_nonnull(strstr(result->note[0], "longer than the zip front"));
   ck_assert_str_eq(result->note[0], alone->note[0]);
-  zp_result_destroy(alone);
-  zp_result_destroy(result);
 }
 
 /* Three openings, the last of them of another ribbon. */
@@ -620,7 +584,6 @@ TEST(row_without_an_equilibrium) {
   zp_fit_close(&start);
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 180e9, 1e-11); /* 2.2e-16 measured */
-  zp_result_destroy(result);
   write_openings(&def, &truth, kilovolts); /* the others alone are best where the last has none */
   result = fit(&def);
   double sum = 0, size = 0; /* of residual times slope: 0 at the least squares */
@@ -635,12 +598,10 @@ TEST(row_without_an_equilibrium) {
   }
   printf("modulus %g, %g of %g\n", zp_result_get(result, "ribbon.young_modulus"), sum, size);
   ck_assert_double_lt(fabs(sum), 1e-4 * size);
-  zp_result_destroy(result);
   set_text(&def, "calibrate.fit", " ");
   result = fit_to(ZP_NOT_SETTLED, &def);
   ck_assert_str_eq(result->message, "the model gives no value for some rows within the bounds");
   ck_assert(isnan(zp_table_get(result->series, 2, "fitted_m")) && !isnan(zp_table_get(result->series, 1, "fitted_m")));
-  zp_result_destroy(result);
 }
 
 /* The slope of a capacitance by the share of the load that each half carries. No share is above 1: a difference there
@@ -675,14 +636,6 @@ static double normal(uint64_t *state) {
     u[i] = ((double)(*state >> 11) + 0.5) / 9007199254740992.0;
   }
   return sqrt(-2 * log(u[0])) * cos(8 * atan(1) * u[1]);
-}
-
-/* Is a sum of squares of `freedom` normal numbers within what 999 of 1000 are, by Wilson and Hilferty? */
-static void assert_chi_square(const char *of, double sum, double freedom) {
-  const double mean = 1 - 2 / (9 * freedom), spread = 3.29 * sqrt(2 / (9 * freedom));
-  const double low = freedom * pow(mean - spread, 3), high = freedom * pow(mean + spread, 3);
-  printf("%s: %.1f of %.0f, from %.1f to %.1f\n", of, sum, freedom, low, high);
-  ck_assert_msg(sum > low && sum < high, "%s: %.1f, not from %.1f to %.1f", of, sum, low, high);
 }
 
 /* Strokes and capacitances of one file, openings of another, with noise: over 20 seeds the squares of what remains,
@@ -726,11 +679,10 @@ TEST(intervals_hold_over_seeds) {
                           zp_result_get(result, "medium.permittivity") - 2.5};
     pulls[0] += pow(off[0] / zp_result_get(result, "ribbon.young_modulus_standard_error"), 2);
     pulls[1] += pow(off[1] / zp_result_get(result, "medium.permittivity_standard_error"), 2);
-    zp_result_destroy(result);
   }
-  assert_chi_square("chi-square", chi_square, SEEDS * (ROWS - KEYS));
-  assert_chi_square("modulus over its standard error, squared", pulls[0], SEEDS);
-  assert_chi_square("permittivity over its standard error, squared", pulls[1], SEEDS);
+  ck_chi_square("chi-square", chi_square, SEEDS * (ROWS - KEYS));
+  ck_chi_square("modulus over its standard error, squared", pulls[0], SEEDS);
+  ck_chi_square("permittivity over its standard error, squared", pulls[1], SEEDS);
 }
 
 /* Saved states of the paper's authors at 8 and 61 g, published FE strokes: within 3 %. */
@@ -744,7 +696,7 @@ TEST(table_1_of_the_paper) {
     char path[1024];
     ZpError err = {0};
     snprintf(path, sizeof path, "%s%s", ZP_SOURCE_DIR, cases[c].file);
-    ZpScenario *scenario = zp_scenario_create();
+    ZpScenario *scenario = new_scenario();
     ck_assert_msg(zp_scenario_read(scenario, path, &err) == ZP_OK, "%s", err.message);
     ck_assert_uint_eq(zp_scenario_count(scenario), 3);
     for (size_t i = 0; i < 3; i++) {
@@ -754,9 +706,7 @@ TEST(table_1_of_the_paper) {
       ZpResult *result = fit(&def);
       ck_near(zp_result_get(result, "mass_spring.shear_coefficient"), cases[c].value[i], 0.03); /* 0.016 measured */
       ck_assert(isnan(zp_result_get(result, "mass_spring.shear_coefficient_standard_error")));
-      zp_result_destroy(result);
     }
-    zp_scenario_destroy(scenario);
   }
 }
 
@@ -928,20 +878,16 @@ TEST(area_of_known_curves) {
 /* The own shape as reference leaves no area; other columns do no harm. */
 TEST(area_error_of_stationary) {
   ZpActuatorDef def = zp_actuator_def_default();
-  ZpResult *result;
-  ZpError err = {0};
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &def, NULL, &result, &err), ZP_OK);
+  ZpResult *result = data_study_of(ZP_STUDY_STATIONARY, &def);
   ck_assert(isnan(zp_result_get(result, "area_error_m2")));
   FILE *file = fopen("shape.csv", "w");
   fprintf(file, "station,x_m,y_m\n");
   for (size_t i = 0; i < result->series->rows; i++)
     fprintf(file, "-,%.17g,%.17g\n", zp_table_get(result->series, i, "x_m"), zp_table_get(result->series, i, "y_m"));
   fclose(file);
-  zp_result_destroy(result);
   set_text(&def, "data.file", "shape.csv");
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &def, NULL, &result, &err), ZP_OK);
+  result = data_study_of(ZP_STUDY_STATIONARY, &def);
   ck_below(zp_result_get(result, "area_error_m2"), 1e-12);
-  zp_result_destroy(result);
   write_file("shape.csv", "x_mm,y_mm\n1,2\n1,3\n");
   refuse(ZP_STUDY_STATIONARY, &def, "x must increase");
   write_file("shape.csv", "x_mm,height_mm\n1,2\n1,3\n");
@@ -952,14 +898,13 @@ TEST(area_error_of_stationary) {
  * same stroke by another gravity. */
 TEST(area_error_at_a_stroke) {
   ZpActuatorDef def = zp_actuator_def_default(), heavy;
-  ZpResult *chain;
   set(&def, "ribbon.density", 0);
   set(&def, "insulator.density", 0);
   set(&def, "mesh.nodes", 15);
   set(&def, "output.errors", 0);
   heavy = def;
   heavy.load.mass = 3 * def.load.mass;
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_STATIONARY, &heavy, NULL, &chain, NULL), ZP_OK);
+  ZpResult *chain = data_study_of(ZP_STUDY_STATIONARY, &heavy);
   ZpTable *shape = chain->series;
   const double whole = fabs(zp_table_get(shape, shape->rows - 1, "x_m") * zp_table_get(shape, shape->rows - 1, "y_m"));
   size_t x = 0;
@@ -970,7 +915,6 @@ TEST(area_error_at_a_stroke) {
   double area = zp_area_error(chain, def, zp_result_get(chain, "stroke_m"));
   printf("area error %.2g of %.2g m2\n", area, whole);
   ck_assert_double_lt(area, 1e-5 * whole);
-  zp_result_destroy(chain);
 }
 
 /* Columns that are keys set them for their row; with nothing to fit the rows are only compared. */
@@ -985,7 +929,6 @@ TEST(rows_of_different_actuators_are_compared) {
   ZpResult *result = fit(&def);
   ck_below(zp_result_get(result, "residual_rms_m"), 1e-12);
   ck_assert_uint_eq(result->series->rows, 2);
-  zp_result_destroy(result);
 }
 
 /* Of the published experiments only those of thickness were compared, not the rows of length and width, three of which
@@ -1000,7 +943,7 @@ TEST(published_experiments_of_length_and_width_are_compared) {
              {50, 100, 12.7, 30, 60},  {50, 200, 12.7, 9, 120},    {50, 100, 6, 7, 35},
              {50, 100, 12.7, 30, 60},  {50, 100, 25, 40, 55}};
   const size_t rows = sizeof row / sizeof row[0];
-  ZpScenario *scenario = zp_scenario_create();
+  ZpScenario *scenario = new_scenario();
   ZpActuatorDef def = zp_actuator_def_default();
   ck_assert_int_eq(zp_scenario_read(scenario, ZP_SOURCE_DIR "/examples/experiments.yaml", NULL), ZP_OK);
   ck_assert_int_eq(zp_scenario_set(scenario, "ribbon.density=0", NULL), ZP_OK);
@@ -1015,8 +958,6 @@ TEST(published_experiments_of_length_and_width_are_compared) {
     ck_assert(exact.found);
     if (i > 0) ck_near(zp_table_get(result->series, i, "fitted_m"), 2 * half * exact.y, 1e-3);
   }
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* Force against stroke is stroke against force. */
@@ -1031,7 +972,6 @@ TEST(force_against_stroke) {
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 170e9, 1e-11); /* 4.4e-16 measured */
   ck_assert_str_eq(result->series->column[0].name, "load.mass_kg");
-  zp_result_destroy(result);
 }
 
 /* The force on a held platform against voltage and separation: the permittivity of the liquid. */
@@ -1050,10 +990,9 @@ TEST(held_force_data) {
     for (size_t i = 0; i < 5; i += FULL_OR(2, 4)) {
       truth.drive.voltage = volts[i];
       truth.isometric.separation = 1e-3 * mm[i];
-      ck_assert_int_eq(zp_data_study_run(ZP_STUDY_ISOMETRIC, &truth, NULL, &result, NULL), ZP_OK);
+      result = data_study_of(ZP_STUDY_ISOMETRIC, &truth);
       double mN = 1e3 * zp_result_get(result, "force_N"), kV = 1e-3 * volts[i];
       fprintf(file, "%.17g,%.17g,%.17g\n", by_separation ? mm[i] : kV, mN, by_separation ? kV : mm[i]);
-      zp_result_destroy(result);
     }
     ck_assert_int_eq(fclose(file), 0);
     result = fit(&def);
@@ -1061,7 +1000,6 @@ TEST(held_force_data) {
     ck_below(zp_result_get(result, "residual_rms_N"), 1e-11);          /* 1.2e-17 measured */
     ck_assert_str_eq(result->series->column[0].name, by_separation ? "isometric.separation_m" : "drive.voltage_V");
     ck_assert_str_eq(result->series->column[1].name, "measured_N");
-    zp_result_destroy(result);
   }
 }
 
@@ -1082,7 +1020,6 @@ static void find_again(const char *column, const char *key, double truth, ZpStud
   write_file("number.csv", text);
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, key), truth, 1e-9); /* 4.7e-10 measured */
-  zp_result_destroy(result);
 }
 
 TEST(limits_and_frequencies) {
@@ -1113,18 +1050,16 @@ TEST(modulus_from_the_frequencies_of_a_cantilever) {
   ck_assert_int_eq(fclose(file), 0);
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "ribbon.young_modulus"), 190e9, 1e-3); /* the mesh's */
-  zp_result_destroy(result);
 }
 
 /* The capacitance at rest below pull-in is that of the branch of study equilibrium. */
 TEST(capacitances_at_rest) {
   ZpActuatorDef def = calibration("capacitance.csv", "medium.permittivity"), truth;
-  ZpResult *result;
   set(&def, "mesh.nodes", 15);
   truth = def;
   truth.medium.permittivity = 2.4;
   *truth.data.file = 0;
-  ck_assert_int_eq(zp_data_study_run(ZP_STUDY_EQUILIBRIUM, &truth, NULL, &result, NULL), ZP_OK);
+  ZpResult *result = data_study_of(ZP_STUDY_EQUILIBRIUM, &truth);
   double pull_in = zp_result_get(result, "pull_in_voltage_V");
   FILE *file = fopen("capacitance.csv", "w");
   fputs("voltage_V,capacitance_pF\n", file);
@@ -1133,12 +1068,10 @@ TEST(capacitances_at_rest) {
     fprintf(file, "%.17g,%.17g\n", zp_table_get(result->series, row, "voltage_V"),
             1e12 * zp_table_get(result->series, row, "capacitance_F"));
   ck_assert_int_eq(fclose(file), 0);
-  zp_result_destroy(result);
   result = fit(&def);
   ck_assert_uint_gt(result->series->rows, 3);
   ck_near(zp_result_get(result, "medium.permittivity"), 2.4, 3e-10); /* 4.2e-11 measured */
   ck_assert_str_eq(result->series->column[1].name, "measured_F");
-  zp_result_destroy(result);
 }
 
 /* A ribbon that swings, slowed by drag, from straight. */
@@ -1157,10 +1090,7 @@ static ZpActuatorDef swinging(const char *files, const char *keys) {
 
 /* Its strokes over time. */
 static void write_swing(const char *path, const ZpActuatorDef *def) {
-  ZpModel *model;
-  ZpSim *sim;
-  ck_assert_int_eq(zp_model_create(def, &model, NULL), ZP_OK);
-  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ZpSim *sim = sim_of(model_of(def));
   FILE *file = fopen(path, "w");
   fputs("time_ms,stroke_mm\n", file);
   for (int i = 0; i <= 8; i++) {
@@ -1168,8 +1098,6 @@ static void write_swing(const char *path, const ZpActuatorDef *def) {
     fprintf(file, "%d,%.17g\n", 10 * i, 1e3 * zp_sim_get(sim, "stroke"));
   }
   ck_assert_int_eq(fclose(file), 0);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* The drag is found again from the stroke over time. */
@@ -1181,17 +1109,13 @@ TEST(drag_is_found_from_a_swing) {
   ZpResult *result = fit(&def);
   ck_near(zp_result_get(result, "damping.drag"), 0.03, 1e-10); /* 3.5e-13 measured */
   ck_assert_str_eq(result->series->column[0].name, "time_s");
-  zp_result_destroy(result);
 }
 
 /* A capacitance over time is that of the run, row by row. */
 TEST(capacitance_of_a_run) {
   ZpActuatorDef def = calibration("charging.csv", " ");
-  ZpModel *model;
-  ZpSim *sim;
   set(&def, "mesh.nodes", 9);
-  ck_assert_int_eq(zp_model_create(&def, &model, NULL), ZP_OK);
-  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ZpSim *sim = sim_of(model_of(&def));
   FILE *file = fopen("charging.csv", "w");
   fputs("time_ms,capacitance_pF\n", file);
   for (int ms = 1; ms <= 3; ms++) {
@@ -1199,11 +1123,8 @@ TEST(capacitance_of_a_run) {
     fprintf(file, "%d,%.17g\n", ms, 1e12 * zp_sim_get(sim, "capacitance"));
   }
   ck_assert_int_eq(fclose(file), 0);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   ZpResult *result = fit(&def);
   ck_assert_double_lt(zp_result_get(result, "residual_rms_F"), 1e-24);
-  zp_result_destroy(result);
 }
 
 /* Zip times under two loads: the pull-in that is shown is that of the last one. */
@@ -1216,18 +1137,16 @@ TEST(pull_in_of_the_last_zip_time) {
   last.load.mass = 6e-3;
   last.output.errors = false;
   ck_near(zp_result_get(result, "pull_in_voltage_V"), scalar_of(ZP_STUDY_LIMITS, &last, "pull_in_voltage_V"), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* A simulation of a definition that names a checkpoint begins where that was taken, and only for its own model. */
 TEST(simulation_begins_at_its_checkpoint) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpModel *model;
-  ZpSim *sim;
   ZpCheckpoint *checkpoint;
   ZpError err;
   set(&def, "mesh.nodes", 9);
-  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, NULL), ZP_OK);
+  ZpSim *sim = data_sim_of(&def);
   zp_sim_run(sim, 2e-3, false, NULL, NULL);
   ck_assert_int_eq(zp_sim_checkpoint(sim, &checkpoint, NULL), ZP_OK);
   const double taken = zp_checkpoint_time(checkpoint);
@@ -1238,16 +1157,12 @@ TEST(simulation_begins_at_its_checkpoint) {
   zp_checkpoint_destroy(checkpoint);
   zp_sim_run(sim, 4e-3, false, NULL, NULL);
   const double stroke = zp_sim_get(sim, "stroke");
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   set(&def, "initial.state", ZP_INITIAL_CHECKPOINT);
   set_text(&def, "initial.file", "begins.zps");
-  ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, NULL), ZP_OK);
+  sim = data_sim_of(&def);
   ck_assert_double_eq(zp_sim_get(sim, "time"), taken); /* the last step before 2 ms */
   zp_sim_run(sim, 4e-3, false, NULL, NULL);
   ck_near(zp_sim_get(sim, "stroke"), stroke, 3e-7); /* 7e-8: the next step has another length */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   set(&def, "ribbon.thickness", 60e-6);
   ck_assert_int_eq(zp_data_sim_create(&def, NULL, &model, &sim, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "ribbon.thickness is 5e-05 m there, 6e-05 m here"));
@@ -1283,5 +1198,4 @@ TEST(rest_and_motion_in_one_fit) {
   ck_assert_uint_eq(result->series->columns, 5);
   ck_assert(isnan(zp_table_get(result->series, 10, "time_s")));
   ck_near(zp_table_get(result->series, 10, "load.mass_kg"), 2e-3, 1e-12);
-  zp_result_destroy(result);
 }

@@ -1,5 +1,6 @@
 /* Checkpoints: a run that was cut and resumes from its file ends in the same bits as one that was not; what must
  * not resume is refused with the reason. */
+#include "data_util.h"
 #include "state_util.h"
 
 #include <zipact/calibrate.h>
@@ -29,9 +30,7 @@ static void start_from(ZpActuatorDef *def, const char *file) {
 }
 
 static ZpResult *result_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_data_study_run(study, def, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = data_study_of(study, def);
   ck_assert_ptr_nonnull(result->checkpoint);
   return result;
 }
@@ -102,9 +101,6 @@ TESTS(test_goes_on_to_the_same_bits, 0, 10) {
     ck_assert_double_eq(value_at_end(whole, columns[k]), value_at_end(rest, columns[k]));
   ck_assert_double_eq(zp_table_get(rest->series, 0, "time_s"), t);
   ck_assert_double_eq(zp_result_get(rest, "simulated_time_s"), end - t);
-  zp_result_destroy(whole);
-  zp_result_destroy(part);
-  zp_result_destroy(rest);
 }
 
 /* Closed, then released: the voltage falls at the checkpoint's time and the run does not end by closing once more. */
@@ -129,17 +125,13 @@ TEST(test_another_voltage) {
   ck_assert_double_lt(value_at_end(free_fall, "contraction"), 0.9);
   /* 6.8e-10 measured */
   ck_below(fabs(value_at_end(free_fall, "energy_imbalance_J")), 5e-9 * value_at_end(zip, "electric_work_J"));
-  zp_result_destroy(zip);
-  zp_result_destroy(held);
-  zp_result_destroy(free_fall);
 }
 
 /* A force that the program applies is lifted like a load; work and efficiency are those since the run resumed. */
 TEST(test_work_since_then) {
   const double force = 0.02, mass = 10e-3;
   ZpActuatorDef def = DEF(IMPLICIT, {"mesh.nodes", 21}, {"load.mass", mass});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpCheckpoint *checkpoint;
   ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, force, 0, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_run(sim, 60e-3, false, NULL, NULL), ZP_REACHED_END);
@@ -155,10 +147,7 @@ TEST(test_work_since_then) {
   ck_assert(risen > 1e-3 && supplied > 0);
   ck_near(zp_result_get(rest, "mechanical_work_J"), work, 1e-12);
   ck_near(zp_result_get(rest, "efficiency"), work / (zp_result_get(rest, "source_energy_J") - supplied), 1e-12);
-  zp_result_destroy(rest);
   zp_checkpoint_destroy(checkpoint);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 static bool stop_at_once(void *user, const char *stage, double fraction) {
@@ -185,9 +174,6 @@ TESTS(test_bad_ends, 0, 2) {
   start_from(&def, path);
   rest = result_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_mem_eq(whole->checkpoint->byte, rest->checkpoint->byte, rest->checkpoint->size);
-  zp_result_destroy(whole);
-  zp_result_destroy(cut);
-  zp_result_destroy(rest);
 }
 
 /* A speed beyond all bounds: what is kept is the last state before it. */
@@ -198,18 +184,15 @@ TEST(test_diverged) {
   ZpCheckpoint *before = NULL, *after = NULL;
   ck_assert_int_eq(zp_sim_run(sim, 5e-3, false, NULL, NULL), ZP_REACHED_END);
   ck_assert_int_eq(zp_sim_checkpoint(sim, &before, NULL), ZP_OK);
-  ZpState *state = malloc(zp_state_size(model));
+  ZpState *state = memory_of(zp_state_size(model));
   copy_state(sim, state);
   zp_state_v(model, state)[10] = 1e5;
   put_state(sim, state);
   ck_assert_int_eq(zp_sim_run(sim, 20e-3, false, NULL, NULL), ZP_DIVERGED);
   ck_assert_int_eq(zp_sim_checkpoint(sim, &after, NULL), ZP_OK);
   ck_assert_mem_eq(before->byte, after->byte, before->size);
-  free(state);
   zp_checkpoint_destroy(before);
   zp_checkpoint_destroy(after);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* -- what must not resume -------------------------------------------------------------------------- */
@@ -219,9 +202,8 @@ static unsigned char *short_run(size_t *size) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
   ZpResult *result = result_of(ZP_STUDY_ACTUATE, &def);
   write_to(path, result->checkpoint);
-  zp_result_destroy(result);
   FILE *file = fopen(path, "rb");
-  unsigned char *byte = malloc(1 << 16);
+  unsigned char *byte = memory_of(1 << 16);
   *size = fread(byte, 1, 1 << 16, file);
   fclose(file);
   ck_assert_uint_lt(*size, 1 << 16);
@@ -255,7 +237,6 @@ TEST(test_cut_short_at_every_byte) {
   refused(byte, 0, 0, "not a snapshot");
   for (size_t cut = 1; cut < size; cut++)
     refused(byte, cut, cut, "cut short");
-  free(byte);
 }
 
 TEST(test_every_byte_damaged) {
@@ -268,7 +249,6 @@ TEST(test_every_byte_damaged) {
   }
   byte[size] = 0;
   refused(byte, size + 1, 0, "damaged");
-  free(byte);
 }
 
 /* Every key that makes the actuator must be the same, every other may change; a saved state and a file alike. */
@@ -276,7 +256,7 @@ TEST(test_another_model) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
   ZpModel *model = model_of(&def), *changed = model_of(&def);
   ZpSim *sim = sim_of(model), *other = sim_of(changed);
-  unsigned char *saved = malloc(1 << 16), *before = malloc(1 << 16), *after = malloc(1 << 16);
+  unsigned char *saved = memory_of(1 << 16), *before = memory_of(1 << 16), *after = memory_of(1 << 16);
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpKey *key = zp_key(i);
     double value = zp_def_get(&def, i), its = value == key->max ? key->min : key->max;
@@ -295,11 +275,6 @@ TEST(test_another_model) {
     zp_sim_save(sim, after);
     ck_assert_mem_eq(before, after, zp_sim_state_size(sim));
   }
-  free(saved), free(before), free(after);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(other);
-  zp_model_destroy(model);
-  zp_model_destroy(changed);
 }
 
 /* CRC-32 as its definition says, bit by bit. */
@@ -392,14 +367,12 @@ TEST(test_no_state) {
                   err.message);
     zp_checkpoint_destroy(checkpoint);
   }
-  free(byte);
 }
 
 /* Whatever byte is forged, with the right checksum: refused or taken, never a crash, and what is taken can run. */
 TEST(test_forged_bytes) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5}, {"solver.end_time", 1e-3});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   size_t size;
   unsigned char *byte = short_run(&size);
   for (size_t i = 16; i < size; i += 5) {
@@ -409,9 +382,6 @@ TEST(test_forged_bytes) {
     if (zp_sim_restore(sim, byte, size, NULL) == ZP_OK) zp_sim_step(sim, 1e-6, NULL, NULL);
     byte[i] = kept;
   }
-  free(byte);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Actuators that use the numbers of a state in different ways. */
@@ -444,7 +414,7 @@ TESTS(test_forged_numbers, 0, 5) {
   zp_sim_run(sim, 2.5e-3, false, NULL, NULL);
   model->def.solver.max_steps = 2000; /* of 20 us each time */
   size_t size = zp_sim_state_size(sim), own = size / model->members;
-  unsigned char *byte = malloc(size);
+  unsigned char *byte = memory_of(size);
   zp_sim_save(sim, byte);
   unsigned char *item;
   char name[256];
@@ -460,9 +430,6 @@ TESTS(test_forged_numbers, 0, 5) {
           ck_assert_msg(zp_sim_step(sim, 2e-5, NULL, NULL) != ZP_STEP_LIMIT, "%s = %g", name, wrong[w]);
       memcpy(item, kept, width);
     }
-  free(byte);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A controller's samples and outputs so far index the outputs that are pending: -1, and what does not fit the time. */
@@ -470,11 +437,10 @@ TEST(test_forged_samples) {
   static const double wrong[] = {-1, 0, 1.5, 2, 4, 1e9, INFINITY, NAN};
   static const char *const name[] = {"control.taken", "control.given"};
   ZpActuatorDef def = user_of_numbers(0);
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   zp_sim_run(sim, 2.5e-3, false, NULL, NULL); /* samples at 0, 1 and 2 ms; the first output is due at 3 ms */
   size_t size = zp_sim_state_size(sim);
-  unsigned char *byte = malloc(size);
+  unsigned char *byte = memory_of(size);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     for (size_t w = 0; w < LENGTH_OF(wrong); w++) {
       ZpError err;
@@ -488,28 +454,23 @@ TEST(test_forged_samples) {
                 strstr(err.message, "not a state of an actuator"));
       if (fits) zp_sim_run(sim, zp_sim_get(sim, "time") + 1e-6, false, NULL, NULL);
     }
-  free(byte);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A saved state that is cut short at any byte or damaged at any was taken if only its length was right. Now it is
  * refused and the simulation stays where it is. */
 TEST(test_damaged_state_changes_nothing) {
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   size_t size = zp_sim_state_size(sim);
-  unsigned char *saved = malloc(size), *before = malloc(size), *after = malloc(size);
+  unsigned char *saved = memory_of(size), *before = memory_of(size), *after = memory_of(size);
   zp_sim_save(sim, saved);
   zp_sim_run(sim, 1e-3, false, NULL, NULL);
   zp_sim_save(sim, before);
   ZpError err;
   for (size_t i = 0; i < size; i++) {
-    unsigned char *cut = malloc(i + 1); /* of its own size, so that reading beyond it is found */
+    unsigned char *cut = memory_of(i + 1); /* of its own size, so that reading beyond it is found */
     memcpy(cut, saved, i);
     ck_assert_int_eq(zp_sim_restore(sim, cut, i, &err), ZP_BAD_INPUT);
-    free(cut);
     saved[i] ^= (unsigned char)(1 << i % 8);
     ck_assert_int_eq(zp_sim_restore(sim, saved, size, &err), ZP_BAD_INPUT);
     ck_assert_msg(strncmp(err.message, "state: ", 7) == 0, "%s", err.message);
@@ -518,9 +479,6 @@ TEST(test_damaged_state_changes_nothing) {
   zp_sim_save(sim, after);
   ck_assert_mem_eq(before, after, size);
   ck_assert_int_eq(zp_sim_restore(sim, saved, size, NULL), ZP_OK);
-  free(saved), free(before), free(after);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Padding and numbers that are none (zip_time) have bits of their own in memory: a snapshot has not, and gives all
@@ -531,8 +489,8 @@ TEST(test_equal_states_give_equal_bytes) {
   ZpSim *sim = sim_of(model);
   zp_sim_run(sim, 1e-3, false, NULL, NULL);
   size_t size = zp_snapshot_size(model), bytes = zp_state_size(model);
-  ZpState *there = malloc(bytes), *back = malloc(bytes);
-  unsigned char *one = malloc(size), *two = malloc(size);
+  ZpState *there = memory_of(bytes), *back = memory_of(bytes);
+  unsigned char *one = memory_of(size), *two = memory_of(size);
   memset(there, 0xA5, bytes);
   memset(back, 0x5A, bytes);
   zp_snapshot_write(model, sim->states, one);
@@ -544,9 +502,6 @@ TEST(test_equal_states_give_equal_bytes) {
   ck_assert_mem_eq(back->data, sim->state->data, bytes - sizeof *back);
   ck_assert(back->t == 1e-3 && isnan(back->zip_time) && back->was_open == sim->state->was_open);
   ck_assert(back->U == sim->state->U && back->work == sim->state->work && back->base_charge == sim->state->base_charge);
-  free(there), free(back), free(one), free(two);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* The in-memory form and the snapshot lead to the same bits: in a zip, with a held force, implicit and explicit. */
@@ -556,8 +511,8 @@ TESTS(test_copy_and_snapshot_are_the_same, 0, 5) {
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model), *copied = sim_of(model), *restored = sim_of(model);
   size_t size = zp_sim_state_size(sim);
-  void *state = malloc(zp_state_size(model));
-  unsigned char *saved = malloc(size), *one = malloc(size), *two = malloc(size);
+  void *state = memory_of(zp_state_size(model));
+  unsigned char *saved = memory_of(size), *one = memory_of(size), *two = memory_of(size);
   zp_sim_run(sim, cut, false, NULL, NULL);
   copy_state(sim, state);
   zp_sim_save(sim, saved);
@@ -569,11 +524,6 @@ TESTS(test_copy_and_snapshot_are_the_same, 0, 5) {
   zp_sim_save(restored, two);
   ck_assert_mem_eq(one, two, size);
   ck_assert_int_ne(memcmp(one, saved, size), 0);
-  free(state), free(saved), free(one), free(two);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(copied);
-  zp_sim_destroy(restored);
-  zp_model_destroy(model);
 }
 
 /* A run that ends where the checkpoint is would be none. */
@@ -589,7 +539,6 @@ TEST(test_no_time_left) {
   ck_assert_msg(strstr(err.message, "must be larger than") != NULL, "%s", err.message);
   def.solver.end_time = nextafter(def.solver.end_time, 1);
   ck_assert_int_eq(zp_checkpoint_check(checkpoint, &def, NULL), ZP_OK);
-  free(byte);
   zp_checkpoint_destroy(checkpoint);
 }
 
@@ -637,7 +586,7 @@ TESTS(test_keys, 0, 5) {
       {path, ZP_INITIAL_CHECKPOINT, ZP_STUDY_ACTUATE, 0.5e-3, "solver.end_time must be larger than 0.0005 s"},
   };
   size_t size;
-  free(short_run(&size));
+  short_run(&size);
   ZpActuatorDef def = DEF(EXPLICIT, {"mesh.nodes", 5});
   start_from(&def, wrong[_i].file);
   def.initial.state = wrong[_i].state;

@@ -38,7 +38,6 @@ static void find(Held *h) {
 static void let_go(Held *h) {
   zp_plant_destroy(&h->plant);
   zp_rest_close(&h->rest);
-  zp_model_destroy(h->model);
 }
 
 /* -- in time ------------------------------------------------------------------------------------------ */
@@ -260,14 +259,12 @@ static void solve_dense(size_t n, double *A, double *b) {
 /* What a steady volt more does. */
 static double static_gain(const Held *h) {
   size_t n = h->plant.n;
-  double *A = malloc(n * n * sizeof *A), *b = malloc(n * sizeof *b), gain = 0;
+  double *A = memory_of(n * n * sizeof *A), *b = memory_of(n * sizeof *b), gain = 0;
   memcpy(A, h->plant.A, n * n * sizeof *A);
   memcpy(b, h->plant.b, n * sizeof *b);
   solve_dense(n, A, b);
   for (size_t i = 0; i < n; i++)
     gain -= h->plant.c[i] * b[i];
-  free(A);
-  free(b);
   return gain;
 }
 
@@ -332,7 +329,6 @@ TEST(open_loop_is_that_of_modes) {
     ck_near(nearest, wanted, 3e-8); /* 4.9e-9 measured */
   }
   ck_near(zp_result_get(modes, "held_voltage_V"), h.rest.statics.U, 1e-12); /* 0 measured */
-  zp_result_destroy(modes);
   let_go(&h);
 }
 
@@ -432,9 +428,7 @@ TESTS(swings_as_its_eigenvalue_says, 0, 3) {
   ZpSim *sim = start_there(&h, 1e-5 * h.rest.statics.U, 1e-10);
   double y[SAMPLES];
   for (int k = 0; k < SAMPLES; k++) {
-    ZpRunInfo info;
-    ck_assert_msg(zp_sim_run(sim, cases[_i].wait + k * interval, false, NULL, &info) == ZP_REACHED_END, "%s",
-                  info.message);
+    run_to(sim, cases[_i].wait + k * interval);
     y[k] = zp_sim_get(sim, "contraction");
   }
   ZpGrowth seen = growth_of(y, SAMPLES, interval);
@@ -442,7 +436,6 @@ TESTS(swings_as_its_eigenvalue_says, 0, 3) {
          seen.rate, seen.frequency);
   ck_near(seen.frequency, loop[swing].frequency, 1e-3); /* 1.9e-4 measured */
   ck_below(fabs(seen.rate - loop[swing].rate), 2e-3);   /* 5.4e-4 measured */
-  zp_sim_destroy(sim);
   let_go(&h);
 }
 
@@ -481,9 +474,6 @@ TEST(study_says_what_is_held) {
   ZpResult *unknown = study_of(ZP_STUDY_MODES, &def);
   ck_assert_double_nan(zp_result_get(unknown, "held"));
   ck_assert_ptr_nonnull(note_of(unknown, "is not known"));
-  ZpResult *const all[] = {held, lost, enough, weak, nowhere, unknown};
-  for (size_t k = 0; k < LENGTH_OF(all); k++)
-    zp_result_destroy(all[k]);
 }
 
 /* While the actuator should close further, a boost of B within a band b of the setpoint s acts as the gain B / (b |s|)
@@ -506,9 +496,6 @@ TESTS(boost_is_a_gain_on_one_side, 0, 2) {
   ck_assert_int_eq(steeper_is_worse, _i);
   for (size_t k = 0; k < LENGTH_OF(names); k++)
     ck_near(zp_result_get(boosted, names[k]), zp_result_get(steeper_is_worse ? steeper : plain, names[k]), 1e-12);
-  zp_result_destroy(boosted);
-  zp_result_destroy(plain);
-  zp_result_destroy(steeper);
 }
 
 /* Without a controller a stable state swings as its slowest mode, which the damping of the ribbons damps least, and in
@@ -524,7 +511,6 @@ TEST(slowest_mode_decays_least) {
     ck_near(zp_result_get(result, "open_loop_frequency_Hz"), zp_result_get(result, "frequency_1_Hz"),
             1e-7); /* 2.3e-8 measured */
     growth[k] = zp_result_get(result, "open_loop_growth_per_s");
-    zp_result_destroy(result);
   }
   ck_assert_double_lt(growth[0], 0);
   ck_near(growth[1], 2 * growth[0], 2.8e-9); /* 9.3e-10 measured */

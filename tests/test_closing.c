@@ -52,7 +52,6 @@ TESTS(closed_from_is_where_the_contraction_last_reaches_99_percent, 0, 3) {
   ck_assert(time_at(result, row) <= from && from <= time_at(result, row + 1));
   ck_assert_double_lt(time_at(result, row + 1) - time_at(result, row), 1e-3);
   ck_assert_ptr_nonnull(strstr(result->message, "stays closed from"));
-  zp_result_destroy(result);
 }
 
 /* A bead that is too small closes once and opens again. This is an answer, and the message says both. */
@@ -67,7 +66,6 @@ TEST(a_small_bead_reopens) {
   ck_assert_double_lt(zp_result_get(result, "contraction"), 0.99);
   ck_assert_double_eq(zp_result_get(result, "simulated_time_s"), 0.22);
   ck_assert_ptr_nonnull(strstr(result->message, "open at the end"));
-  zp_result_destroy(result);
 }
 
 /* Without any setting it lifts 8 g at 10 kV and stays closed, its front never without liquid; on other meshes, and
@@ -80,20 +78,16 @@ TESTS(the_default_actuator_stays_closed, 0, FULL_OR(4, 2)) {
   ck_assert_double_lt(zp_result_get(result, "closed_from_s"), 0.35);
   ck_assert_double_gt(zp_result_get(result, "contraction"), 0.99);
   ck_assert(isnan(zp_result_get(result, "starved_time_s")));
-  zp_result_destroy(result);
 }
 
 /* Without a voltage nothing zips: a load that pushes the platform up closes the faces as well. */
 TEST(pushing_is_not_zipping) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 0}, {"damping.drag", 1});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ck_assert_int_eq(zp_sim_set_input(sim, ZP_INPUT_LOAD, -3 * def.load.mass * def.gravity, 0, NULL), ZP_OK);
   ck_assert(zp_outcome_good(zp_sim_run(sim, 0.5, false, NULL, NULL)));
   ck_assert_double_gt(zp_sim_get(sim, "contraction"), 0.99);
   ck_assert(isnan(zp_sim_zip_time(sim)));
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* All members of a series are closed from the time of the last one. */
@@ -105,7 +99,6 @@ TEST(a_series_is_closed_with_its_last_member) {
   ck_assert_double_eq(zip,
                       fmax(zp_result_get(result, "member_1_zip_time_s"), zp_result_get(result, "member_2_zip_time_s")));
   ck_assert_double_ge(zp_result_get(result, "closed_from_s"), zip);
-  zp_result_destroy(result);
 }
 
 /* -- the end of a run ------------------------------------------------------------------------------ */
@@ -124,7 +117,6 @@ TEST(a_run_ends_early_where_it_stays_closed) {
     }
   ck_assert_double_ge(least, 0.99);
   ck_below(most - least, 1e-5); /* 2.1e-6 measured */
-  zp_result_destroy(result);
 }
 
 /* An opening that falls evenly changes by as much as it falls within the window, or since the closing. A line that
@@ -149,10 +141,8 @@ static double end_with(double thickness) {
   ZpActuatorDef def = DEF({"mesh.nodes", 11}, {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.end_time", 10},
                           {"medium.kinematic_viscosity", 5e-6}, {"output.errors", false});
   def.ribbon.thickness = thickness;
-  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-  double end = zp_result_get(result, "simulated_time_s");
+  double end = answered_value(ZP_STUDY_ACTUATE, &def, "simulated_time_s");
   ck_assert_double_lt(end, 10);
-  zp_result_destroy(result);
   return end;
 }
 
@@ -175,7 +165,6 @@ TEST(a_run_that_creeps_ends_at_its_end_time) {
   ck_assert_int_eq(result->outcome, ZP_ZIPPED);
   ck_assert_double_eq(zp_result_get(result, "simulated_time_s"), 0.35);
   ck_assert_double_lt(zp_result_get(result, "closed_from_s"), 0.25);
-  zp_result_destroy(result);
 }
 
 /* solver.stop_when_zipped true ends at the first 99 %, and knows nothing of what follows. */
@@ -189,8 +178,6 @@ TEST(a_run_may_end_at_the_first_closing) {
   ck_assert(isnan(zp_result_get(result, "closed_from_s")));
   ck_assert_double_lt(zp_result_get(result, "simulated_time_s"), zip + 1e-3);
   ck_near(zip, zp_result_get(held, "zip_time_s"), 3e-7); /* a step ends there; it is interpolated in a step */
-  zp_result_destroy(result);
-  zp_result_destroy(held);
 }
 
 /* Sequential contact never opens: closing once is closing for good, and ends a run. */
@@ -205,8 +192,6 @@ TEST(sequential_contact_ends_where_it_closes) {
   ck_assert_double_eq(zp_result_get(result, "simulated_time_s"), zp_result_get(stopped, "simulated_time_s"));
   ck_assert_double_eq(zp_result_get(result, "contraction"), zp_result_get(stopped, "contraction"));
   ck_assert_str_eq(result->message, stopped->message);
-  zp_result_destroy(result);
-  zp_result_destroy(stopped);
 }
 
 /* A drive that varies, or a controller, keeps the outcome end_time; a supply under a constant drive does not. */
@@ -219,7 +204,6 @@ TESTS(other_drives_reach_their_end_time, 0, 2) {
   ck_assert_int_eq(result->outcome, _i == 0 ? ZP_REACHED_END : ZP_ZIPPED);
   ck_assert_double_eq(zp_result_get(result, "simulated_time_s"), 0.2);
   ck_assert_double_lt(zp_result_get(result, "closed_from_s"), 0.15);
-  zp_result_destroy(result);
 }
 
 /* -- in steps and in two parts --------------------------------------------------------------------- */
@@ -227,8 +211,7 @@ TESTS(other_drives_reach_their_end_time, 0, 2) {
 /* What a program reads while it steps. */
 TEST(a_program_sees_it_open_again) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   bool opened = false;
   double from = NAN;
   for (double t = 0; t < 0.1; t += 1e-4) {
@@ -239,8 +222,6 @@ TEST(a_program_sees_it_open_again) {
     from = zp_sim_closed_from(sim);
   }
   ck_assert(opened && from > zp_sim_zip_time(sim));
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A run that is cut after it has closed and resumed ends where the whole run ends, to the same bits. A run that is
@@ -251,17 +232,13 @@ TEST(a_resumed_run_ends_where_the_whole_one_ends) {
   rest.initial.state = ZP_INITIAL_CHECKPOINT;
   ZpResult *all = answer_of(ZP_STUDY_ACTUATE, &whole), *part = answer_of(ZP_STUDY_ACTUATE, &cut), *end = NULL;
   ZpStudyInput input = {.start = part->checkpoint};
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &rest, &input, NULL, &end, NULL), ZP_OK);
+  end = study_with(ZP_STUDY_ACTUATE, &rest, &input);
   ck_assert_double_eq(zp_checkpoint_time(all->checkpoint), zp_checkpoint_time(end->checkpoint));
   ck_assert_double_eq(zp_result_get(all, "closed_from_s"), zp_result_get(end, "closed_from_s"));
   ck_assert_double_eq(zp_result_get(all, "contraction"), zp_result_get(end, "contraction"));
-  zp_result_destroy(end);
   input.start = all->checkpoint;
   rest.solver.end_time = zp_checkpoint_time(all->checkpoint) + 0.05;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &rest, &input, NULL, &end, NULL), ZP_OK);
+  end = study_with(ZP_STUDY_ACTUATE, &rest, &input);
   ck_near(zp_result_get(end, "simulated_time_s"), 0.05, 1e-12); /* 2.2e-16 measured */
   ck_assert_int_eq(end->outcome, ZP_ZIPPED);
-  zp_result_destroy(all);
-  zp_result_destroy(part);
-  zp_result_destroy(end);
 }

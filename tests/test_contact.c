@@ -251,14 +251,8 @@ static double lost(const Run *run) {
 static Run start_run(const ZpActuatorDef *def) {
   Run run = {.model = model_of(def)};
   run.sim = sim_of(run.model);
-  run.saved = malloc(zp_state_size(run.model));
+  run.saved = zp_test_owns(malloc(zp_state_size(run.model)), free);
   return run;
-}
-
-static void end_run(Run *run) {
-  free(run->saved);
-  zp_sim_destroy(run->sim);
-  zp_model_destroy(run->model);
 }
 
 /* How far faces may overlap. With voltage: the meeting is found to rounding of positions, and each step may add
@@ -320,7 +314,6 @@ TEST(test_invariants_while_zipping) {
   ck_assert_uint_ge(run.front, 19); /* it did zip; the last pair may stay away from the cap's front */
   ck_assert_double_gt(run.contact_loss, 0);
   ck_assert_double_gt(zp_sim_get(run.sim, "contraction"), 0.99);
-  end_run(&run);
 }
 
 /* The voltage is switched off during the zip: the front returns to the clip and the platform to its hanging height.
@@ -346,7 +339,6 @@ TEST(test_opens_without_voltage) {
   printf("opened after %.1f ms; after 2 s %.1e of the opening from rest\n", 1e3 * free_at, left);
   ck_assert_double_eq(zp_sim_get(run.sim, "zipped_length"), 0);
   ck_below(fabs(left), 1e-3);
-  end_run(&run);
 }
 
 /* The same from fully closed, and the joined clip: pair 0 stays. */
@@ -359,7 +351,6 @@ TEST(test_opens_from_closed) {
   run_and_check(&run, zp_sim_get(run.sim, "time") + 0.1, 99, false);
   ck_assert_uint_eq(run.front, 0);
   ck_assert_double_gt(zp_sim_get(run.sim, "opening"), 5e-3);
-  end_run(&run);
 }
 
 /* A run ends when the pair joins that is so many places before the last one. */
@@ -372,8 +363,6 @@ TEST(test_margin_of_pairs) {
   ZpSim *sim = sim_of(model);
   ck_assert_int_eq(zp_sim_run(sim, 0.3, true, NULL, NULL), ZP_ZIPPED);
   ck_assert_uint_eq(sim->state->zip.front, model->topology.platform.first - 4);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Joining within a run loses the relative motion along both axes: m / 2 (dvx^2 + dvy^2) / 2 for two equal masses.
@@ -397,5 +386,4 @@ TEST(test_loss_of_joining) {
   double m = run.model->mass[2], dv = 2 * speed;
   ck_near(lost(&run), 0.5 * (m / 2) * (dv * dv + dv * dv), 0.01);      /* 2.9e-3 measured */
   ck_near(zp_sim_get(run.sim, "contact_loss"), 2 * lost(&run), 1e-14); /* both halves */
-  end_run(&run);
 }

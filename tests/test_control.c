@@ -45,21 +45,11 @@ static void set_up(void) {
   one = (Integrator){.wanted = 0.02, .gain = 100, .voltage = 1e3};
 }
 
-static void tear_down(void) {
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
-}
-
-AROUND_EACH(set_up, tear_down)
+AROUND_EACH(set_up, NULL)
 
 static void connect(double period) {
   const ZpController controller = {period, &one, integrate};
   ck_assert_int_eq(zp_sim_set_controller(sim, &controller, NULL), ZP_OK);
-}
-
-static void run(ZpSim *of, double end_time) {
-  ZpRunInfo info;
-  ck_assert_msg(zp_sim_run(of, end_time, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
 }
 
 /* -- of the program -------------------------------------------------------------------------------- */
@@ -71,11 +61,11 @@ TEST(samples_at_equal_intervals) {
   ZpSim *by_hand = sim_of(model);
   Integrator other = one;
   connect(period);
-  run(sim, 50 * period);
+  run_to(sim, 50 * period);
   for (int k = 0; k < 50; k++) {
     double t = zp_sim_get(by_hand, "time");
     ck_assert_int_eq(zp_sim_set_voltage(by_hand, integrate(&other, by_hand, t), NULL), ZP_OK);
-    run(by_hand, (k + 1) * period);
+    run_to(by_hand, (k + 1) * period);
   }
   ck_assert_int_eq(one.samples, 50);
   for (int k = 0; k < 50; k++) {
@@ -83,13 +73,12 @@ TEST(samples_at_equal_intervals) {
     ck_assert_double_eq(one.seen[k], other.seen[k]);
   }
   ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(by_hand, "opening"));
-  zp_sim_destroy(by_hand);
 }
 
 TEST(runs_in_pieces) {
   connect(1e-3);
   for (int k = 1; k <= 70; k++)
-    run(sim, k * 0.7e-3);
+    run_to(sim, k * 0.7e-3);
   ck_assert_int_eq(one.samples, 49);
   for (int k = 0; k < one.samples; k++)
     ck_assert_double_eq_tol(one.time[k], k * 1e-3, 1e-15);
@@ -98,34 +87,32 @@ TEST(runs_in_pieces) {
 /* Without its controller a simulation keeps the last voltage. */
 TEST(voltage_stays) {
   connect(2e-3);
-  run(sim, 0.0111);
+  run_to(sim, 0.0111);
   ck_assert_int_eq(one.samples, 6);
   ck_assert_int_eq(zp_sim_set_controller(sim, NULL, NULL), ZP_OK);
-  run(sim, 0.02);
+  run_to(sim, 0.02);
   ck_assert_int_eq(one.samples, 6);
   ck_assert_double_eq(zp_sim_get(sim, "voltage"), one.voltage);
 }
 
 /* Runs on to 30 ms, goes back to now, and runs again: to the same bits. `kept` [size] is set back, too. */
 static void expect_same_again(ZpSim *of, void *kept, size_t size) {
-  char *bytes = malloc(zp_sim_state_size(of)), *memory = malloc(size + 1);
+  char *bytes = memory_of(zp_sim_state_size(of)), *memory = memory_of(size + 1);
   if (kept) memcpy(memory, kept, size);
   zp_sim_save(of, bytes);
-  run(of, 30e-3);
+  run_to(of, 30e-3);
   double opening = zp_sim_get(of, "opening"), voltage = zp_sim_get(of, "voltage");
   ck_assert_int_eq(zp_sim_restore(of, bytes, zp_sim_state_size(of), NULL), ZP_OK);
   if (kept) memcpy(kept, memory, size);
-  run(of, 30e-3);
+  run_to(of, 30e-3);
   ck_assert_double_eq(zp_sim_get(of, "opening"), opening);
   ck_assert_double_eq(zp_sim_get(of, "voltage"), voltage);
-  free(bytes);
-  free(memory);
 }
 
 /* From a snapshot, with the controller's own memory as it was then, at a sample and between two. */
 TESTS(continues_from_a_snapshot, 0, 2) {
   connect(1e-3);
-  run(sim, _i ? 10.3e-3 : 10e-3);
+  run_to(sim, _i ? 10.3e-3 : 10e-3);
   expect_same_again(sim, &one, sizeof one);
   ck_assert_int_eq(one.samples, 30);
 }
@@ -320,8 +307,8 @@ TEST(is_one_of_the_program) {
   const ZpController controller = {twin.law.period, &twin, ask_twin};
   ck_assert_int_eq(zp_sim_set_controller(own, &controller, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_set_controller(twins, &controller, NULL), ZP_BAD_INPUT);
-  run(own, 50e-3);
-  run(twins, 50e-3);
+  run_to(own, 50e-3);
+  run_to(twins, 50e-3);
   ck_assert_double_gt(zp_sim_get(own, "voltage"), 100);
   const char *const signals[] = {"voltage", "opening", "source_energy"};
   ck_same_signals((ZpSim *[]){own, twins}, (ZpModel *[]){without, with}, signals, 3, 0);
@@ -330,31 +317,25 @@ TEST(is_one_of_the_program) {
 /* The voltage changes where outputs are due, and nowhere else, behind a delay of 1.4 periods. */
 TEST(voltage_changes_behind_the_delay) {
   ZpActuatorDef def = controlled(1.4e-3, 0);
-  ZpModel *with = model_of(&def);
-  ZpSim *of = sim_of(with);
-  run(of, 1.399e-3);
+  ZpSim *of = sim_of(model_of(&def));
+  run_to(of, 1.399e-3);
   ck_assert_double_eq(zp_sim_get(of, "voltage"), 0);
   for (int k = 0; k < 20; k++) {
-    run(of, (k + 1.41) * 1e-3);
+    run_to(of, (k + 1.41) * 1e-3);
     double first = zp_sim_get(of, "voltage");
-    run(of, (k + 2.39) * 1e-3);
+    run_to(of, (k + 2.39) * 1e-3);
     ck_assert_double_eq(zp_sim_get(of, "voltage"), first);
     ck_assert_double_ne(first, 0);
   }
-  zp_sim_destroy(of);
-  zp_model_destroy(with);
 }
 
 /* All that the controller remembers is in a snapshot: outputs that are pending, its integral, its noise. */
 TESTS(remembers_in_a_snapshot, 0, 2) {
   ZpActuatorDef def = controlled(2.5e-3, 1e-3);
-  ZpModel *with = model_of(&def);
-  ZpSim *of = sim_of(with);
+  ZpSim *of = sim_of(model_of(&def));
   ck_assert_int_eq(zp_sim_set_input(of, ZP_INPUT_SETPOINT, 0.03, 0.1, NULL), ZP_OK);
-  run(of, _i ? 10.3e-3 : 10e-3);
+  run_to(of, _i ? 10.3e-3 : 10e-3);
   expect_same_again(of, NULL, 0);
-  zp_sim_destroy(of);
-  zp_model_destroy(with);
 }
 
 /* Explicit steps have the same controller: it is called at the same times with the same values, as far as both
@@ -367,15 +348,12 @@ TEST(explicit_steps_have_it_too) {
     def.damping.internal = 0;
     def.solver.integrator = k ? ZP_INTEGRATOR_EXPLICIT : ZP_INTEGRATOR_IMPLICIT;
     def.solver.tolerance = 1.6e-5;
-    ZpModel *with = model_of(&def);
-    ZpSim *of = sim_of(with);
+    ZpSim *of = sim_of(model_of(&def));
     for (int sample = 0; sample < 30; sample++) {
-      run(of, (sample + 1.45) * 1e-3);
+      run_to(of, (sample + 1.45) * 1e-3);
       voltage[k][sample] = zp_sim_get(of, "voltage");
     }
     ck_assert_double_eq(of->state->control.taken, 31);
-    zp_sim_destroy(of);
-    zp_model_destroy(with);
   }
   ck_assert_double_gt(voltage[0][29], 2e3);
   for (int sample = 0; sample < 30; sample++)
@@ -385,22 +363,19 @@ TEST(explicit_steps_have_it_too) {
 /* With a controller the setpoint is an input, the voltage is not. */
 TEST(setpoint_by_hand) {
   ZpActuatorDef def = controlled(0, 0);
-  ZpModel *with = model_of(&def);
-  ZpSim *of = sim_of(with);
+  ZpSim *of = sim_of(model_of(&def));
   ZpError err;
   double slope[128];
   ck_assert_double_eq(zp_sim_get(of, "setpoint"), 0.25);
   ck_assert(isnan(zp_sim_get(of, "measured")));
   ck_assert_int_eq(zp_sim_set_input(of, ZP_INPUT_SETPOINT, 0.01, 0.5, &err), ZP_OK);
-  run(of, 10e-3);
+  run_to(of, 10e-3);
   ck_near(zp_sim_get(of, "setpoint"), 0.015, 1e-12);
   ck_assert_int_eq(zp_sim_input_slopes(of, ZP_INPUT_SETPOINT, slope, &err), ZP_OK);
   ck_assert_int_eq(zp_sim_set_voltage(of, 1e3, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, "set the setpoint") != NULL, "%s", err.message);
   ck_assert_int_eq(zp_sim_set_input(of, ZP_INPUT_SETPOINT, 2e3, 0, &err), ZP_BAD_INPUT);
   ck_assert_int_eq(zp_sim_set_input(of, ZP_INPUT_SETPOINT, NAN, 0, &err), ZP_BAD_INPUT);
-  zp_sim_destroy(of);
-  zp_model_destroy(with);
 }
 
 enum { STEPPED = 0, UNSTEPPED = 1, UNTRIED = 2 };
@@ -419,16 +394,13 @@ static _Noreturn void step_without_system_calls(ZpSim *of) {
 TEST(steps_make_no_system_call) {
   ZpActuatorDef def = controlled(1.5e-3, 1e-3);
   def.liquid.model = ZP_LIQUID_BEAD;
-  ZpModel *with = model_of(&def);
-  ZpSim *of = sim_of(with);
+  ZpSim *of = sim_of(model_of(&def));
   int status = 0;
   pid_t child = SANITIZED ? 0 : fork();
   if (!SANITIZED && child == 0) step_without_system_calls(of);
   if (child > 0) waitpid(child, &status, 0);
   ck_assert_msg(WIFEXITED(status), "killed by signal %d: a system call", WTERMSIG(status));
   ck_assert_int_ne(WEXITSTATUS(status), UNSTEPPED);
-  zp_sim_destroy(of);
-  zp_model_destroy(with);
 }
 
 /* The first time (s) in the rows at which a column is at `level`, on straight lines. */
@@ -478,7 +450,6 @@ TESTS(holds_its_setpoint, 0, 2) {
   check_response(result, def.setpoint.value);
   ck_assert_double_eq(zp_table_get(result->series, result->series->rows - 1, "setpoint"), 0.1);
   ck_assert_double_gt(zp_result_get(result, "source_energy_J"), 0);
-  zp_result_destroy(result);
 }
 
 /* Eq. (28.5): without damping the eigenvalues of the loop add up to 0, and no gains hold anything. Half of the
@@ -498,7 +469,6 @@ TEST(undamped_nothing_is_held) {
   ck_assert(isnan(zp_result_get(result, "settling_time_s")));
   ck_assert_double_gt(fabs(zp_result_get(result, "steady_state_error")) + zp_result_get(result, "steady_state_ripple"),
                       0.1);
-  zp_result_destroy(result);
 }
 ALSO_NIGHTLY(undamped_nothing_is_held, 1, 4)
 
@@ -514,7 +484,6 @@ TESTS(out_of_reach, 0, 2) {
   ck_assert(isnan(zp_result_get(result, "settling_time_s")));
   ck_assert_uint_ge(result->notes, 1);
   ck_assert_msg(strstr(result->note[0], _i ? "its limit of 0 V" : "its limit of 500 V") != NULL, "%s", result->note[0]);
-  zp_result_destroy(result);
 }
 
 /* Columns have the unit of the signal. */
@@ -638,5 +607,4 @@ TEST(no_contraction_is_controlled_without_an_opening) {
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, &err), ZP_BAD_INPUT);
   ck_assert_ptr_null(sim);
   ck_assert_msg(strstr(err.message, "control.signal = contraction") != NULL, "%s", err.message);
-  zp_model_destroy(model);
 }

@@ -27,7 +27,6 @@ TEST(depth_is_that_of_two_lines) {
     q[model->stride + j] = -1e-6 * fabs(q[j] - x0 - at);
   ck_assert_double_eq(zp_crossing_depth(model, q), 0);
   zp_free(q);
-  zp_model_destroy(model);
 }
 
 /* Only one node overlaps, by 1 um, beside a neighbour far outside: the faces cross twice, and the depth is that of the
@@ -43,7 +42,6 @@ TEST(depth_of_one_node_is_its_own) {
   }
   ck_near(zp_crossing_depth(model, q), 1e-6, 1e-12); /* 0 measured */
   zp_free(q);
-  zp_model_destroy(model);
 }
 
 /* Two nodes overlap, at two places: the depth is the larger one, wherever it lies. */
@@ -62,7 +60,6 @@ TEST(depth_is_the_largest_of_all_places) {
     ck_near(zp_crossing_depth(model, q), 3e-6, 1e-12); /* 0 measured */
   }
   zp_free(q);
-  zp_model_destroy(model);
 }
 
 /* Eq. (9.9): on faces of slope theta nodes that face each other have slid apart by s, at one height. Every gap is 0,
@@ -83,7 +80,6 @@ TEST(gaps_do_not_show_what_has_slid) {
   ck_assert(zp_crosses(model, q, 0.999 * depth));
   ck_assert(!zp_crosses(model, q, 1.001 * depth));
   zp_free(q);
-  zp_model_destroy(model);
 }
 
 /* The short way and the long one, for random ribbons that run to the right, most of them steep, between a clip and
@@ -113,7 +109,6 @@ TEST(short_way_overlooks_no_crossing) {
   printf("%d of %d shapes cross\n", crosses, SHAPES);
   ck_assert(crosses > SHAPES / 10 && crosses < SHAPES * 9 / 10);
   zp_free(q);
-  zp_model_destroy(model);
 }
 
 /* A sheet of 12 um that hangs nearly upright: its zip makes steep faces slide. The run ends in the first step in which
@@ -125,9 +120,8 @@ TEST(run_ends_where_steep_faces_have_slid) {
                           {"load.mass", 1e-4}, {"mesh.nodes", 15}, {"drive.voltage", 14e3});
   const double most = 2 * def.insulator.thickness + def.ribbon.thickness;
   ZpModel *model = model_of(&def);
-  ZpSim *sim = NULL;
   ZpRunInfo info;
-  ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_OK);
+  ZpSim *sim = sim_of(model);
   ck_assert_int_eq(zp_sim_run(sim, 0.2, false, NULL, &info), ZP_BEYOND_MODEL);
   double depth = zp_crossing_depth(model, zp_state_q(model, sim->state));
   printf("%s\ndeep by %.3g m of %.3g m\n", info.message, depth, most);
@@ -135,12 +129,9 @@ TEST(run_ends_where_steep_faces_have_slid) {
   ck_assert_ptr_nonnull(strstr(info.message, ZP_FACES_CROSS "; " ZP_LESS_STEEP "; the results so far are kept"));
   ck_assert_str_eq(zp_outcome_name(info.outcome), "beyond_model");
   ck_assert(!zp_outcome_good(info.outcome));
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
   ck_assert_double_nan(zp_result_get(result, "contraction"));
-  zp_result_destroy(result);
 }
 
 /* Ribbons that sag steeply beside each other: the only state at drive.voltage has faces inside each other, with any
@@ -156,7 +147,6 @@ TEST(held_ribbons_that_sag_have_no_force) {
   ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
   ck_assert_double_nan(zp_result_get(result, "force_N"));
   ck_assert_ptr_nonnull(strstr(result->message, "no force at drive.voltage = 3537 V: " ZP_FACES_CROSS));
-  zp_result_destroy(result);
 }
 
 /* The reason why a state is refused. */
@@ -183,7 +173,6 @@ TEST(impossible_states_are_named) {
   ck_assert_int_eq(system.residual(s, r, NULL), ZP_END_FOUND);
   ck_assert_str_eq(zp_statics_fault(s), ZP_FACES_CROSS);
   zp_rest_destroy(rest);
-  zp_model_destroy(model);
 }
 
 /* A closed fold that hangs steeply opens from its hinge on, and its faces slide along each other by more and more: gaps
@@ -196,5 +185,4 @@ TEST(fold_that_slides_has_no_release) {
   ck_assert(zp_outcome_good(result->outcome));
   ck_assert_double_nan(zp_result_get(result, "release_voltage_V"));
   ck_assert_ptr_nonnull(strstr(result->message, "faces of the closed state came to lie inside each other"));
-  zp_result_destroy(result);
 }

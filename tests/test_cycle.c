@@ -45,10 +45,7 @@ TEST(test_fixed_point_of_slow_swings) {
 /* -- the study -------------------------------------------------------------------------------------- */
 
 static ZpResult *cycle_of(const ZpActuatorDef *def) {
-  ZpResult *result;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(ZP_STUDY_CYCLE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  return result;
+  return study_of(ZP_STUDY_CYCLE, def);
 }
 
 #define SINE                                                                                                           \
@@ -65,8 +62,6 @@ TEST(test_phase_of_an_oscillator) {
   ck_below(fabs(zp_result_get(below, "phase_rad")), 1e-4);              /* 1.8e-5 measured */
   ck_below(fabs(zp_result_get(above, "phase_rad") - 3.14159265), 5e-4); /* 1.1e-4 measured */
   ck_below(zp_result_get(above, "stroke_amplitude_m"), 0.2 * zp_result_get(below, "stroke_amplitude_m"));
-  zp_result_destroy(below);
-  zp_result_destroy(above);
 }
 
 /* A supply that follows its drive with a first-order lag adds atan(f / bandwidth) to the lag of an oscillator above its
@@ -79,7 +74,6 @@ TEST(test_lag_beyond_half_a_turn) {
     ZpResult *result = cycle_of(&def);
     ck_assert_msg(zp_result_get(result, "periodic") == 1, "%s", result->message);
     ck_near(zp_result_get(result, "phase_rad"), 3.14159265 + atan(f / bandwidth[k]), 2e-4); /* 4.1e-5 measured */
-    zp_result_destroy(result);
   }
 }
 
@@ -95,7 +89,6 @@ TEST(test_work_on_a_spring) {
   ck_assert(most < rest && least < 0.99 * most);
   ck_near(zp_result_get(result, "work_per_cycle_J"),
           0.5 * stiffness * ((rest - least) * (rest - least) - (rest - most) * (rest - most)), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* The energy from the source per cycle equals the losses per cycle and the area of the loop of charge and voltage. */
@@ -124,7 +117,6 @@ TEST(test_energy_of_a_cycle) {
   ck_near(zp_table_get(rows, last, "time_s"), 1 / def.drive.frequency, 1e-12);
   ck_near(zp_result_get(result, "efficiency_without_recovery"),
           work / zp_result_get(result, "energy_drawn_per_cycle_J"), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* At half of its lowest frequency, 3.69 Hz, an actuator without drag swings with hardly any energy from the source: the
@@ -141,7 +133,6 @@ TEST(test_efficiency_of_a_load_that_swings) {
   ck_assert_ptr_nonnull(note_of(result, "efficiency is null: the load swings"));
   ck_assert_ptr_nonnull(note_of(result, "efficiency_without_recovery is null: the load swings"));
   ck_assert_ptr_null(note_of(result, "stored before"));
-  zp_result_destroy(result);
 }
 
 /* Closed ribbons are a capacitor: under a sine of both signs its current has the amplitude C w U, and twice per cycle
@@ -160,7 +151,6 @@ TEST(test_current_of_a_capacitor) {
   ck_near(zp_result_get(result, "peak_current_A"), amplitude, 1e-3);          /* of the row nearest to it */
   ck_near(zp_result_get(result, "energy_drawn_per_cycle_J"), C * U * U, 1e-4);
   ck_below(fabs(zp_result_get(result, "energy_per_cycle_J")), 2e-6 * C * U * U); /* 3.6e-7 measured */
-  zp_result_destroy(result);
 }
 
 /* Shooting finds the periodic motion that a long run reaches, with enough damping for such a run. */
@@ -168,8 +158,7 @@ TEST(test_shooting_finds_what_waiting_leads_to) {
   ZpActuatorDef def =
       DEF(SINE, {"drive.voltage", 3e3}, {"drive.frequency", 3}, {"damping.internal", 20e-3}, {"cycle.tolerance", 1e-5});
   ZpResult *result = cycle_of(&def);
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double least = 1, most = 0;
   ck_assert(zp_outcome_good(zp_sim_run(sim, 20, false, NULL, NULL)));
   for (int k = 1; k <= 100; k++) {
@@ -181,9 +170,6 @@ TEST(test_shooting_finds_what_waiting_leads_to) {
   ck_near(zp_result_get(result, "opening_max_m") - zp_result_get(result, "opening_min_m"), most - least,
           2e-3); /* 3.7e-4 measured */
   ck_below(zp_result_get(result, "cycles"), 12);
-  zp_result_destroy(result);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* The same with liquid: the state includes the oil at the edges of the ribbons. */
@@ -194,8 +180,7 @@ TESTS(test_liquid_is_waited_for, 1, 2) {
   ZpActuatorDef def = DEF(SINE, {"mesh.nodes", 21}, {"liquid.model", row[_i].liquid}, {"bead.volume", 50e-9},
                           {"drive.frequency", f}, {"solver.tolerance", 1e-4});
   ZpResult *result = cycle_of(&def);
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ck_assert(zp_outcome_good(zp_sim_run(sim, CYCLES / f, false, NULL, NULL)));
   for (int k = 1; k <= 100; k++) {
     ck_assert(zp_outcome_good(zp_sim_run(sim, (CYCLES + 0.01 * k) / f, false, NULL, NULL)));
@@ -206,9 +191,6 @@ TESTS(test_liquid_is_waited_for, 1, 2) {
   ck_assert(zp_result_get(result, "periodic") == 1);
   ck_near(zp_result_get(result, "opening_max_m"), most, 5e-4);  /* 1.1e-4 measured */
   ck_near(zp_result_get(result, "opening_min_m"), least, 5e-4); /* 1.5e-4 measured */
-  zp_result_destroy(result);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 ALSO_NIGHTLY(test_liquid_is_waited_for, 0, 1)
 
@@ -231,7 +213,6 @@ TESTS(test_small_motion_is_that_of_the_modes, 0, 4) {
     ck_below(fabs(amplitude - 149 / (f * f - 13.5)), 0.027);               /* 0.025 measured */
     ck_below(fabs(zp_result_get(result, "phase_rad") - 3.14159265), 1e-3); /* 4.1e-4 measured */
     ck_assert(zp_result_get(result, "energy_per_cycle_J") > 0);
-    zp_result_destroy(result);
   }
 }
 
@@ -257,7 +238,6 @@ TESTS(test_linear_answer_is_small_motion, 0, 6) {
     phase[k] = zp_result_get(result, "phase_rad");
     energy[k] = zp_result_get(result, "energy_per_cycle_J");
     current[k] = zp_result_get(result, "rms_current_A");
-    zp_result_destroy(result);
   }
   printf("amplitude %.4g and %.4g um, energy %.4g and %.4g J\n", 1e6 * amplitude[0], 1e6 * amplitude[1], energy[0],
          energy[1]);
@@ -278,7 +258,6 @@ TEST(test_method_by_itself) {
     ZpResult *result = cycle_of(&def);
     ck_assert(zp_result_get(result, "linear") == row[k].linear);
     ck_assert((zp_result_get(result, "second_order") < 1e-3) == row[k].linear);
-    zp_result_destroy(result);
   }
 }
 
@@ -316,8 +295,6 @@ TEST(test_second_order_is_that_of_the_motion) {
   printf("second order: mean %.3g, swings %.3g, gain %.3g\n", mean / first, swings / first, gain);
   ck_near(zp_result_get(result[SMALL], "second_order"), swings / first + gain * whole * whole,
           5e-2); /* 1.7e-2 measured */
-  for (int k = 0; k < ROUTES; k++)
-    zp_result_destroy(result[k]);
 }
 
 /* Velocities of the linear answer are the slopes of its positions. */
@@ -336,7 +313,6 @@ TEST(test_velocities_of_the_linear_answer) {
     most = fmax(most, fabs(rate));
   }
   ck_below(off / most, 3e-3);
-  zp_result_destroy(result);
 }
 
 /* -- shooting with liquid -------------------------------------------------------------------------- */
@@ -354,7 +330,6 @@ TESTS(test_shooting_with_a_bead, 0, 2) {
   ck_near(1e6 * zp_result_get(result, "stroke_amplitude_m"), row[_i][1], 2e-3);
   ck_below(fabs(zp_result_get(result, "phase_rad") - row[_i][2]), 5e-4);  /* 1.5e-4 measured */
   ck_near(zp_result_get(result, "energy_per_cycle_J"), row[_i][3], 5e-3); /* 1e-3 measured */
-  zp_result_destroy(result);
 }
 
 /* Charges that collect within 170 cycles, at each place at another rate, in an actuator whose swing hardly decays: to
@@ -370,7 +345,6 @@ TEST(test_shooting_with_slow_charges) {
   for (size_t row = 0; row < result->series->rows; row++)
     least = fmin(least, zp_table_get(result->series, row, "interface_voltage_V"));
   ck_near(least, -1458.94, 3e-4); /* 8.4e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* From far below to far above the swing all cycles are periodic, with positive energies, for little and much oil. */
@@ -384,7 +358,6 @@ TEST(test_bode_plot_below_contact) {
     printf("%g Hz: %s\n", f, result->message);
     ck_assert(zp_result_get(result, "periodic") == 1);
     ck_assert(zp_result_get(result, "energy_per_cycle_J") > 0);
-    zp_result_destroy(result);
   }
 }
 ALSO_NIGHTLY(test_bode_plot_below_contact, 1, 3)
@@ -402,7 +375,6 @@ TEST(test_impacts_are_not_periodic) {
   for (size_t k = 0; k < LENGTH_OF(numbers); k++)
     ck_assert_msg(isnan(zp_result_get(result, numbers[k])), "%s", numbers[k]);
   ck_assert(result->notes > 0);
-  zp_result_destroy(result);
 }
 
 /* A motion that repeats itself in two cycles, in impacts: in a run it is the same two cycles later, and not after one.
@@ -412,8 +384,7 @@ TEST(test_repeats_in_two_cycles) {
   ZpActuatorDef def = DEF(SINE, {"drive.voltage", 10e3}, {"drive.frequency", f}, {"damping.internal", 2e-3});
   ZpResult *result = cycle_of(&def);
   ck_assert(zp_result_get(result, "periodic") == 0 && zp_result_get(result, "repeats_in_cycles") == 2);
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double opening[3];
   for (int k = 0; k < 3; k++) {
     ck_assert(zp_outcome_good(zp_sim_run(sim, (zp_result_get(result, "cycles") + k) / f, false, NULL, NULL)));
@@ -421,9 +392,6 @@ TEST(test_repeats_in_two_cycles) {
   }
   ck_near(opening[2], opening[0], 2e-7); /* 7e-8 measured */
   ck_assert_double_gt(fabs(opening[1] - opening[0]), 1e-2 * opening[0]);
-  zp_result_destroy(result);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Charges that collect over many cycles change the motion from cycle to cycle by less than the tolerance, always in the
@@ -439,7 +407,6 @@ TEST(test_slow_approach_is_no_repetition) {
                 after);
   ck_assert_double_gt(-after, 10 * (before - after));
   ck_assert(zp_result_get(result, "periodic") == 0 && isnan(zp_result_get(result, "repeats_in_cycles")));
-  zp_result_destroy(result);
 }
 
 /* Where it says that the actuator just closes it does, and 3 % above it does not. */
@@ -448,13 +415,11 @@ TEST(test_closing_frequency) {
                           {"cycle.closing_frequency", 1});
   ZpResult *result = cycle_of(&def);
   double f = zp_result_get(result, "closing_frequency_Hz"), opening[2];
-  zp_result_destroy(result);
   def.cycle.closing_frequency = false;
   for (int k = 0; k < 2; k++) {
     def.drive.frequency = f * (1 + 0.03 * k);
     result = cycle_of(&def);
     opening[k] = zp_result_get(result, "closes");
-    zp_result_destroy(result);
   }
   printf("closes up to %.3g Hz\n", f);
   ck_assert(opening[0] == 1 && opening[1] == 0);
@@ -470,7 +435,5 @@ TESTS(test_refusals, 0, 4) {
                {{"source.model", ZP_SOURCE_AMPLIFIER}, "requires source.model ideal, but it is amplifier"}};
   ZpActuatorDef def = def_with(&wrong[_i].set, 1);
   def.cycle.method = ZP_CYCLE_LINEAR;
-  ZpError err = {ZP_OK, ""};
-  ck_assert(zp_study_check(ZP_STUDY_CYCLE, &def, &err) == ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, wrong[_i].words), "%s", err.message);
+  ck_refused_by(ZP_STUDY_CYCLE, &def, wrong[_i].words);
 }

@@ -52,8 +52,6 @@ TEST(tables_as_spreadsheets_have_them) {
   ck_assert_int_eq(zp_data_line(first, 1), 5);
   ck_assert_int_eq(zp_data_line(second, 0), 2);
   zp_data_files_destroy(&files);
-  free(one);
-  free(two);
 }
 
 /* -- waveforms --------------------------------------------------------------------------------------- */
@@ -67,7 +65,6 @@ static ZpStatus read_rows(const char *text, bool controlled, ZpDriveRows *rows, 
   } else {
     snprintf(def.drive.file, sizeof def.drive.file, "%s", path);
   }
-  free(path);
   return zp_drive_rows_read(&def, rows, err);
 }
 
@@ -165,7 +162,6 @@ TEST(cases_follow_their_lists) {
   scenario = SCENARIO("load.mass=[1 g, 2 g]", "drive.voltage=[1 kV, 2 kV, 3 kV]",
                       "sampling.together=load.mass, drive.voltage"); /* a later assignment may make them alike */
   ck_assert_uint_eq(zp_scenario_count(scenario), 2);
-  zp_scenario_destroy(scenario);
   scenario = SCENARIO("ribbon.thickness=uniform(40 um, 60 um)", "load.mass=[1 g, 2 g]", "sampling.count=8",
                       "sampling.method=random");
   ZpScenario *seeded = SCENARIO("ribbon.thickness=uniform(40 um, 60 um)", "load.mass=[1 g, 2 g]", "sampling.count=8",
@@ -183,8 +179,6 @@ TEST(cases_follow_their_lists) {
     values_of_case(seeded, i, other);
     ck_assert_double_ne(value[0], other[0]);
   }
-  zp_scenario_destroy(scenario);
-  zp_scenario_destroy(seeded);
 }
 
 /* A distribution is written as it reads back: the width of a logarithm has no unit. Its ends are in order. */
@@ -193,7 +187,7 @@ TEST(distributions_are_written_as_they_read) {
   size_t size = 0;
   ZpError err;
   ZpScenario *scenario = SCENARIO("ribbon.thickness=lognormal(50 um, 0.1)", "load.mass=uniform(1 g, 2 g)"),
-             *again = zp_scenario_create();
+             *again = new_scenario();
   FILE *file = open_memstream(&text, &size);
   ck_assert_int_eq(zp_scenario_write(scenario, file, NULL), ZP_OK);
   fclose(file);
@@ -204,6 +198,4 @@ TEST(distributions_are_written_as_they_read) {
   ck_assert_int_ne(zp_scenario_set(again, "load.mass=uniform(2 g, 1 g)", &err), ZP_OK);
   ck_assert_int_ne(zp_scenario_set(again, "load.mass=uniform(2 g, 2 g)", &err), ZP_OK);
   free(text);
-  zp_scenario_destroy(scenario);
-  zp_scenario_destroy(again);
 }

@@ -219,7 +219,6 @@ static void make_plates(Plates *p, int law) {
 
 static void free_plates(Plates *p) {
   zp_free(p->memory);
-  zp_model_destroy(p->model);
 }
 
 /* Faces `gap` [STATIONS] apart, one after the other some 2 mm on: => coordinates, gaps and lengths of that end. */
@@ -397,7 +396,6 @@ TESTS(test_forces_of_the_step_back, 0, 2) {
   for (int end = 0; end < 2; end++)
     free(q[end]), free(F[end]);
   zp_system_destroy(&eval);
-  zp_model_destroy(model);
 }
 
 /* -- one ribbon in motion -------------------------------------------------------------------------- */
@@ -414,12 +412,7 @@ TESTS(test_forces_of_the_step_back, 0, 2) {
 
 static double first_frequency(const ZpActuatorDef *def) {
   ZpActuatorDef copy = *def;
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(ZP_STUDY_MODES, &copy, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  double frequency = zp_result_get(result, "frequency_1_Hz");
-  zp_result_destroy(result);
-  return frequency;
+  return zp_result_get(study_of(ZP_STUDY_MODES, &copy), "frequency_1_Hz");
 }
 
 /* Largest |imbalance| over the largest energy of gravity on 100 periods from straight. */
@@ -427,8 +420,7 @@ static double swing(double tolerance) {
   ZpActuatorDef def =
       DEF(CANTILEVER, {"load.mass", 0}, {"initial.state", ZP_INITIAL_STRAIGHT}, {"solver.tolerance", tolerance});
   double end = FULL_OR(100, 2) / first_frequency(&def), off = 0, fall = 0, stroke = 0;
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
   ZpTable *series = zp_table_create(column, columns, 100000);
@@ -444,8 +436,6 @@ static double swing(double tolerance) {
          1e3 * stroke, off / fall, 1e3 * end / (double)info.steps, (double)info.iterations / (double)info.steps);
   ck_assert_double_gt(stroke, 0.2e-3);
   zp_table_destroy(series);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return off / fall;
 }
 
@@ -459,7 +449,7 @@ TEST(test_swing_keeps_energy) {
 
 /* Start it upwards in the shape of (x / L)^2, so gently that it swings as if in a straight line. */
 static void kick(const ZpModel *model, ZpSim *sim, double speed) {
-  ZpState *state = malloc(zp_state_size(model));
+  ZpState *state = memory_of(zp_state_size(model));
   copy_state(sim, state);
   double *vy = zp_state_v(model, state) + model->stride;
   for (size_t j = 0; j < model->count; j++) {
@@ -467,7 +457,6 @@ static void kick(const ZpModel *model, ZpSim *sim, double speed) {
     vy[j] = speed * xi * xi;
   }
   put_state(sim, state);
-  free(state);
 }
 
 /* Of a vibration about `rest`: mean frequency between crossings, and what a period takes off the logarithm of its
@@ -494,8 +483,6 @@ static Vibration vibrate(const ZpActuatorDef *def, double guess, int skip, int p
     }
     before = now;
   }
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return (Vibration){periods / (t[1] - t[0]), log(speed[0] / speed[1]) / periods};
 }
 
@@ -524,8 +511,6 @@ TEST(stroke_changes_sign_smoothly) {
   printf("swing to both sides: %d crossings, steps bend by %.3f of the largest\n", crossings, bend / most);
   ck_assert_int_eq(crossings, 2 * steps / 400);
   ck_below(bend, 0.1 * most);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A small vibration about the hanging shape: study modes linearises the same rod. Measured: off by 2e-5 and 2.6e-5, of
@@ -598,8 +583,6 @@ static Zip zip(ZpActuatorDef def) {
     ;
   zip.energy_error /= zp_sim_get(sim, "electric_work");
   zip.contact_loss = zp_sim_get(sim, "contact_loss") / zp_sim_get(sim, "electric_work");
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return zip;
 }
 
@@ -658,15 +641,12 @@ TESTS(steps_are_what_the_mesh_is_worth, 0, FULL_OR(3, 0)) {
   ZpActuatorDef def = DEF({"liquid.model", of[_i].liquid}, {"bead.volume", 5e-8}, {"output.errors", 0},
                           {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   ZpResult *result = NULL, *fine = NULL;
-  ZpError err;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err), ZP_OK);
+  result = study_of(ZP_STUDY_ACTUATE, &def);
   def.solver.tolerance = 1e-5;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &fine, &err), ZP_OK);
+  fine = study_of(ZP_STUDY_ACTUATE, &def);
   double iterations = zp_result_get(result, "newton_iterations");
   ck_near(zp_result_get(result, "zip_time_s"), zp_result_get(fine, "zip_time_s"), 2e-3); /* 1.7e-3 measured */
   ck_assert_double_lt(iterations, of[_i].iterations);
-  zp_result_destroy(result);
-  zp_result_destroy(fine);
 }
 
 /* Closed faces creep in a film that takes all momentum within a step. Velocities reversed in every step around their
@@ -679,15 +659,12 @@ TESTS(creep_in_a_bath_takes_few_steps, 0, FULL_OR(1, 0)) {
           {"electro.breakdown_cap", 0}, {"mesh.nodes", 41}, {"solver.tolerance", 1e-3}, {"solver.end_time", 20e-3});
   double opening[2];
   for (int k = 0; k < 2; k++, def.solver.tolerance = 1e-4) {
-    ZpModel *model = model_of(&def);
-    ZpSim *sim = sim_of(model);
+    ZpSim *sim = sim_of(model_of(&def));
     ZpRunInfo info;
     ck_assert_int_eq(zp_sim_run(sim, def.solver.end_time, false, NULL, &info), ZP_REACHED_END);
     opening[k] = zp_sim_get(sim, "opening");
     printf("creep at a tolerance of %g: %lld steps\n", def.solver.tolerance, (long long)info.steps);
     ck_assert_int_lt((int)info.steps, 4000);
-    zp_sim_destroy(sim);
-    zp_model_destroy(model);
   }
   ck_near(opening[0], opening[1], 1e-3); /* 3.1e-4 measured */
 }
@@ -729,8 +706,6 @@ TEST(test_share_of_momentum_that_a_film_takes) {
   printf("%zu thin films and %zu others: velocities off by %.1e of what films take\n", thin, thick, worst / largest);
   ck_assert(thin > STEPS && thick > STEPS);
   ck_below(worst / largest, 1e-6); /* 2.5e-7 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Steps of constant length, with lateral edges and drag: the energy balances. Measured: 75.51 ms; with steps of 0.1 ms
@@ -825,19 +800,15 @@ TEST(faces_do_not_fall_through_thin_insulators) {
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_msg(result->outcome == ZP_ZIPPED, "%s", result->message);
   ck_below(zp_result_get(result, "energy_error"), 3e-9); /* 4.3e-10 measured */
-  zp_result_destroy(result);
 }
 
 TEST(test_zip_time_is_within_the_run) {
   ZpActuatorDef def = DEF(IMPLICIT, {"load.mass", 0}, {"ribbon.thickness", 250e-6}, {"ribbon.length", 40e-3},
                           {"platform.length", 4e-3});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpRunInfo info;
   ck_assert_int_eq(zp_sim_run(sim, 0.1, true, NULL, &info), ZP_ZIPPED);
   ck_assert_double_le(zp_sim_zip_time(sim), info.simulated_time);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Two integrators that share no code except the forces, without damping: midpoint rule with discrete gradients, and
@@ -857,16 +828,11 @@ NIGHTLY_TESTS(test_zip_explicit, 0, 2) {
 
 /* Energy error of study actuate at 12 kV, or through a slow release. */
 static double energy_error_of(const ZpActuatorDef *def, size_t rows, const double *t, const double *U) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
   ZpDriveTable table = {rows, t, U};
-  ck_assert_msg(
-      zp_study_run(ZP_STUDY_ACTUATE, def, &(ZpStudyInput){.table = rows ? &table : NULL}, NULL, &result, &err) == ZP_OK,
-      "%s", err.message);
+  ZpResult *result = study_with(ZP_STUDY_ACTUATE, def, &(ZpStudyInput){.table = rows ? &table : NULL});
   ck_assert(zp_outcome_good(result->outcome));
   double error = zp_result_get(result, "energy_error");
   printf("N = %d, %g steps: energy error %.1e\n", def->mesh.nodes, zp_result_get(result, "steps"), error);
-  zp_result_destroy(result);
   return error;
 }
 
@@ -891,13 +857,9 @@ static double contraction_at(double voltage, double rise_time, double end_time) 
     def.drive.waveform = ZP_WAVEFORM_RAMP;
     def.drive.rise_time = rise_time;
   }
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ck_assert_int_eq(zp_sim_run(sim, end_time, false, NULL, NULL), ZP_REACHED_END);
-  double contraction = zp_sim_get(sim, "contraction");
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
-  return contraction;
+  return zp_sim_get(sim, "contraction");
 }
 
 /* Pull-in in slow motion is that of statics, 5662 V (test_statics). A ramp of 20 s stays open to 0.25 % below it and
@@ -951,8 +913,6 @@ TEST(test_opens_again) {
   ck_below(error, 1e-9);                                       /* 1.6e-10 measured */
   ck_below(overlap, 1e-12);                                    /* 0 measured */
   ck_assert_double_eq(zp_sim_get(sim, "zipped_length"), 0);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Opening of the state of rest at `voltage` on the branch that hangs. */
@@ -978,8 +938,6 @@ TEST(test_rests_where_statics_does) {
          found / expected - 1, 1e3 * hanging);
   ck_assert_double_gt(hanging, 1.01 * expected);
   ck_near(found, expected, 1e-6); /* 1.9e-7 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Saved inside a zip, faces already touching, another simulation resumes from there, to the same bits. */
@@ -990,7 +948,7 @@ TESTS(test_restart, 0, 2) {
   ZpModel *model = model_of(&def);
   ZpSim *one = sim_of(model), *two = sim_of(model);
   size_t size = zp_sim_state_size(one);
-  void *saved = malloc(size), *end = malloc(size);
+  void *saved = memory_of(size), *end = memory_of(size);
   zp_sim_run(one, 70e-3, true, NULL, NULL);
   ck_assert_double_gt(zp_sim_get(one, "zipped_length"), 0);
   zp_sim_save(one, saved);
@@ -1004,11 +962,6 @@ TESTS(test_restart, 0, 2) {
   zp_sim_run(one, 80e-3, true, NULL, NULL);
   zp_sim_run(two, 80e-3, true, NULL, NULL);
   ck_assert(zp_sim_zip_time(one) == zp_sim_zip_time(two) && zp_sim_zip_time(one) > 74e-3);
-  free(saved);
-  free(end);
-  zp_sim_destroy(one);
-  zp_sim_destroy(two);
-  zp_model_destroy(model);
 }
 
 /* One ribbon under a flat electrode, 2 g at its end: below its pull-in, 1757 V, it hangs; above, it closes and stays
@@ -1020,9 +973,7 @@ TEST(test_flange) {
         DEF({"solver.integrator", ZP_INTEGRATOR_IMPLICIT}, {"actuator.kind", ZP_KIND_FLANGE}, {"ribbon.length", 45e-3},
             {"load.mass", 2e-3}, {"mesh.nodes", 21}, {"damping.internal", 1e-4}, {"drive.voltage", k ? 3e3 : 1e3},
             {"solver.end_time", 1}, {"solver.tolerance", 3e-4});
-    ZpResult *result = NULL;
-    ZpError err = {ZP_OK, ""};
-    ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+    ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
     ck_assert_int_eq(result->outcome, ZP_REACHED_END);
     stroke[k] = zp_result_get(result, "stroke_m");
     size_t last = result->series->rows - 1;
@@ -1036,7 +987,6 @@ TEST(test_flange) {
       ck_assert_double_gt(stroke[0], 0.5 * start);
     else
       ck_below(fabs(stroke[1]), 1e-6);
-    zp_result_destroy(result);
   }
 }
 
@@ -1056,6 +1006,5 @@ TEST(each_step_has_one_limit) {
       sum += zp_result_get(result, limited[i]);
     ck_assert_double_eq(sum, steps);
     ck_near(zp_result_get(result, "mean_time_step_s"), def.solver.end_time / steps, 1e-12);
-    zp_result_destroy(result);
   }
 }

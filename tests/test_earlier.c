@@ -20,7 +20,7 @@ static char *bytes_of(const char *path, size_t *size) {
   *size = fread(byte, 1, MOST - 1, file);
   fclose(file);
   ck_assert_uint_lt(*size, MOST - 1);
-  return byte;
+  return zp_test_owns(byte, free);
 }
 
 /* -- scenarios ------------------------------------------------------------------------------------- */
@@ -52,19 +52,15 @@ TESTS(scenarios_give_the_same_numbers, 0, 5) {
   char path[256];
   size_t size;
   ZpActuatorDef def;
-  ZpResult *result;
   ZpError err = {ZP_OK, ""};
-  ZpScenario *scenario = zp_scenario_create();
+  ZpScenario *scenario = new_scenario();
   snprintf(path, sizeof path, DATA "%s.yaml", name[_i]);
   ck_assert_msg(zp_scenario_read(scenario, path, &err) == ZP_OK, "%s", err.message);
   ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s", err.message);
-  ck_assert_int_eq(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result, &err), ZP_OK);
+  ZpResult *result = study_of(zp_scenario_study(scenario), &def);
   snprintf(path, sizeof path, DATA "%s.json", name[_i]);
   char *json = bytes_of(path, &size);
   same_numbers(result, json);
-  free(json);
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* -- states and rows -------------------------------------------------------------------------------- */
@@ -95,7 +91,6 @@ TEST(state_of_an_fmu_names_its_version) {
   says(&err, "by an FMU of zipact 0.1.0");
   ck_assert_int_eq(fmu->phase, ZP_FMU_INSTANTIATED);
   zp_fmu_destroy(fmu);
-  free(byte);
 }
 
 /* A journal of an unfinished sweep: it is not continued, and not replaced either. */
@@ -104,7 +99,7 @@ TEST(journal_names_its_version) {
   ZpCampaign *campaign;
   size_t size;
   struct stat kept;
-  ZpScenario *scenario = zp_scenario_create();
+  ZpScenario *scenario = new_scenario();
   char *byte = bytes_of(DATA "journal.sqlite", &size), *path;
   path = path_of("journal.sqlite");
   FILE *file = fopen(path, "wb");
@@ -119,7 +114,4 @@ TEST(journal_names_its_version) {
     ck_assert_ptr_null(campaign);
     ck_assert(stat(path, &kept) == 0 && (size_t)kept.st_size == size);
   }
-  free(byte);
-  free(path);
-  zp_scenario_destroy(scenario);
 }

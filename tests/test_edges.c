@@ -181,7 +181,6 @@ TEST(test_law_derivatives) {
         worst_W = fmax(worst_W, fabs(W / law.W - 1));
         worst_q = fmax(worst_q, fabs(q / law.q - 1));
       }
-    zp_model_destroy(model);
   }
   printf("W against dP/dg %.1e, q against -dP/dU %.1e\n", worst_W, worst_q);
   ck_below(worst_W, 1e-9);  /* 1.9e-10 measured */
@@ -205,7 +204,6 @@ TEST(test_law_is_continuous) {
     double cap = places[0];
     if (cap > 0) ck_near(zp_plates_law(p, U, cap / 2).W, zp_plates_law(p, U, 0).W, 1e-14);
   }
-  zp_model_destroy(model);
 }
 
 /* Scale and share of the voltage act on the edges as on the plates law; an insulator_offset changes the plates only. */
@@ -225,9 +223,6 @@ TEST(test_scales) {
     double K = one->plates.k * 36e6, h = g + one->plates.d, h_other = g + 182.6e-6;
     ck_assert_double_eq_tol(c.W - K / (h_other * h_other), b.W - K / (h * h), 1e-12 * b.W);
   }
-  zp_model_destroy(scaled);
-  zp_model_destroy(one);
-  zp_model_destroy(other);
 }
 
 /* -- the polyline ---------------------------------------------------------------------------------- */
@@ -250,7 +245,6 @@ static Pair make_pair(ZpModel *model) {
 static void free_pair(Pair *pair) {
   zp_free(pair->q);
   zp_system_destroy(&pair->eval);
-  zp_model_destroy(pair->model);
 }
 
 /* Symmetric wedge that opens to s at the platform, its nodes moved by `noisy` times something. */
@@ -280,7 +274,7 @@ static void polyline(Pair *pair, double U) {
 static double gradient_error(Pair *pair, double U) {
   static const double h = 1e-9;
   size_t count = pair->model->count, stride = pair->model->stride;
-  double *F = malloc(2 * count * sizeof *F), worst = 0, largest = 0, sum = 0;
+  double *F = memory_of(2 * count * sizeof *F), worst = 0, largest = 0, sum = 0;
   polyline(pair, U);
   memcpy(F, pair->eval.attraction.Fx, count * sizeof *F);
   memcpy(F + count, pair->eval.attraction.Fy, count * sizeof *F);
@@ -296,7 +290,6 @@ static double gradient_error(Pair *pair, double U) {
     worst = fmax(worst, fabs(F[k] + (above - below) / (2 * h)));
     largest = fmax(largest, fabs(F[k]));
   }
-  free(F);
   ck_near(sum, totals_of(pair, U).force, 1e-12);
   return worst / largest;
 }
@@ -466,14 +459,11 @@ TEST(test_pull_in) {
   double pull[2], release[2];
   for (int edges = 0; edges < 2; edges++) {
     ZpActuatorDef def = DEF({"electro.edges", edges}, {"mesh.nodes", FULL_OR(61, 21)});
-    ZpResult *result;
-    ZpError err;
-    ck_assert_int_eq(zp_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, NULL, &result, &err), ZP_OK);
+    ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
     ck_assert_int_eq(result->outcome, ZP_FOLLOWED);
     pull[edges] = scalar(result, "pull_in_voltage_V");
     release[edges] = scalar(result, "release_voltage_V");
     printf("edges %d: pull-in %.0f V, release %.1f V\n", edges, pull[edges], release[edges]);
-    zp_result_destroy(result);
   }
   if (!SANITIZED) ck_near(pull[0], 5662, 3e-5); /* 9.3e-6 measured */
   ck_assert_double_lt(pull[1], 0.99 * pull[0]);
@@ -486,12 +476,9 @@ TEST(test_run_balances) {
   double error[2];
   for (int edges = 0; edges < 2; edges++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"electro.edges", edges}, {"solver.end_time", FULL_OR(30e-3, 5e-3)});
-    ZpResult *result;
-    ZpError err;
-    ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err), ZP_OK);
+    ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
     error[edges] = scalar(result, "energy_error");
     printf("run of 30 ms, edges %d: energy error %.1e\n", edges, error[edges]);
-    zp_result_destroy(result);
   }
   ck_below(fabs(error[1]), 2 * fabs(error[0]) + 1e-9); /* 4.6e-10 measured */
 }

@@ -21,7 +21,6 @@ static ZpModel *default_model(int nodes, bool cap, bool platform) {
 static ZpPlatesParams law_params(bool cap) {
   ZpModel *model = default_model(21, cap, true);
   ZpPlatesParams p = model->plates;
-  zp_model_destroy(model);
   return p;
 }
 
@@ -40,7 +39,6 @@ TEST(test_closed_scalars) {
   ck_near(zp_plates_law(&free_law, 10e3, 0).W, 645, 1e-3); /* 8.5e-4 measured */
   ZpModel *model = default_model(21, true, true);
   ck_near(zp_model_get(model, "closed_line_force"), 61.8, 1e-3); /* 7.5e-4 measured */
-  zp_model_destroy(model);
 }
 
 /* Line force of a zip front: potential far open minus potential closed. Known to three digits. */
@@ -103,12 +101,10 @@ TEST(test_law_of_presets) {
   ck_near(zp_plates_law(&model->plates, U, 1e-3).W, 6.03 * 0.5 * ZP_EPS0 * 2.75 * w * (U / 2) * (U / 2) / (h * h),
           1e-13);
   ck_near(zp_plates_law(&model->plates, 10e3, 0).W, 6.03 * 0.5 * ZP_EPS0 * 2.75 * w * 20e6 * 20e6, 1e-13);
-  zp_model_destroy(model);
   ZpActuatorDef code = DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21});
   model = model_of(&code);
   h = 1e-3 + 182.6e-6;
   ck_near(zp_plates_law(&model->plates, U, 1e-3).W, 6.6 * 0.5 * ZP_EPS0 * 2.75 * w * U * U / (h * h), 1e-13);
-  zp_model_destroy(model);
 }
 
 /* Bare faces: with the cap the force stays bounded down to contact. */
@@ -121,7 +117,6 @@ TEST(test_bare_faces) {
     ck_assert(isfinite(law.W) && isfinite(law.P) && isfinite(law.q));
     if (U > 0) ck_near(law.W, 61.8, 1e-3); /* 7.5e-4 measured */
   }
-  zp_model_destroy(model);
 }
 
 /* -- the polyline ---------------------------------------------------------------------------------- */
@@ -147,7 +142,6 @@ static void free_pair(Pair *pair) {
   zp_free(pair->x);
   zp_free(pair->y);
   zp_system_destroy(&pair->eval);
-  zp_model_destroy(pair->model);
 }
 
 static double wedge_gap(double s, double xi) {
@@ -188,7 +182,7 @@ static Gradient compare_gradient(Pair *pair, double U, double h) {
   const ZpPlatesParams *p = &pair->model->plates;
   ZpPlatesStep *e = &pair->eval.attraction;
   size_t count = pair->model->count, bytes = count * sizeof(double);
-  double *Fx = malloc(bytes), *Fy = malloc(bytes);
+  double *Fx = memory_of(bytes), *Fy = memory_of(bytes);
   zp_plates_rest(p, pair->x, pair->y, U, &pair->eval.plates, e);
   memcpy(Fx, e->Fx, bytes);
   memcpy(Fy, e->Fy, bytes);
@@ -204,8 +198,6 @@ static Gradient compare_gradient(Pair *pair, double U, double h) {
     *worst = fmax(*worst, fabs(F + (above - below) / (2 * h)));
     g.largest = fmax(g.largest, fabs(F));
   }
-  free(Fx);
-  free(Fy);
   return g;
 }
 
@@ -533,13 +525,10 @@ TEST(test_surfaces_on_hanging_shape) {
   static const double low[] = {0.7, 0.2, 0.09}, high[] = {0.95, 0.28, 0.14}, capped[] = {0.25, 0.1, 0.06};
   for (size_t n = 0; n < LENGTH_OF(nodes); n++) {
     ZpActuatorDef def = DEF({"ribbon.model", ZP_RIBBON_MASS_SPRING}, {"mesh.nodes", nodes[n]});
-    ZpModel *model = model_of(&def);
-    ZpSim *sim = sim_of(model);
+    ZpSim *sim = sim_of(model_of(&def));
     double without = difference_on(sim, nodes[n], false, 3e3), with = difference_on(sim, nodes[n], true, 10e3);
     difference_on(sim, nodes[n], true, 6e3);
     ck_assert_msg(without > low[n] && without < high[n], "N = %d: %g", nodes[n], without);
     ck_assert_msg(with > 0 && with < capped[n], "N = %d: %g", nodes[n], with);
-    zp_sim_destroy(sim);
-    zp_model_destroy(model);
   }
 }

@@ -38,8 +38,7 @@ typedef struct Zip {
 static Zip zip_8g(double voltage, double drag) {
   ZpActuatorDef def =
       DEF({"preset", ZP_PRESET_PAPER_CODE}, {"mesh.nodes", 21}, {"drive.voltage", voltage}, {"damping.drag", drag});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
   ZpTable *series = zp_table_create(column, columns, 10000);
@@ -53,8 +52,6 @@ static Zip zip_8g(double voltage, double drag) {
       zip.widest_at = zp_table_get(series, r, "time_s");
     }
   zp_table_destroy(series);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   printf("N = 21, 8 g, %g kV, c = %g: %.2f ms; opening %.3f -> %.3f mm at %.1f ms -> %.3f mm\n", 1e-3 * voltage, drag,
          1e3 * zip.time, 1e3 * zip.start, 1e3 * zip.widest, 1e3 * zip.widest_at, 1e3 * zip.end);
   return zip;
@@ -134,10 +131,7 @@ TEST(test_table_1) {
 
 static double constant_of(ZpPreset preset, int nodes, const char *name) {
   ZpActuatorDef def = DEF({"preset", preset}, {"mesh.nodes", nodes});
-  ZpModel *model = model_of(&def);
-  double value = zp_model_get(model, name);
-  zp_model_destroy(model);
-  return value;
+  return zp_model_get(model_of(&def), name);
 }
 
 /* K_D of eq. (2), 50 um, and as the code ran it, 100 um: their printed digits. */

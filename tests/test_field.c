@@ -53,7 +53,7 @@ TEST(test_node_forces_are_the_gradient) {
   ck_assert_int_eq(zp_grid_solve(&g), ZP_GRID_SOLVED);
   zp_grid_forces(&g, 0, g.columns);
   size_t count = g.nx * g.ny;
-  double *Fx = calloc(2 * count, sizeof *Fx), *Fy = Fx + count, largest = 0;
+  double *Fx = memory_of(2 * count * sizeof *Fx), *Fy = Fx + count, largest = 0;
   memcpy(Fx, g.Fx, count * sizeof *Fx);
   memcpy(Fy, g.Fy, count * sizeof *Fy);
   for (size_t k = 0; k < count; k++)
@@ -69,7 +69,6 @@ TEST(test_node_forces_are_the_gradient) {
       at[k] = here;
       ck_assert_double_eq_tol((energy[1] - energy[0]) / (2 * h), axis ? Fy[k] : Fx[k], 1e-7 * largest);
     }
-  free(Fx);
   zp_grid_destroy(&g);
 }
 
@@ -390,7 +389,7 @@ TESTS(test_surplus_is_the_gradient, 0, 2) {
   ck_assert(zp_field_correction_create(&model->cross_section, &model->plates, model->field_scale, &s));
   double uneven[4 * N], energy[2], U = _i ? 10 : 6e3, h = 1e-9, work = 0, scale = 0;
   size_t stride = model->stride;
-  double *moved = calloc(2 * stride, sizeof *moved);
+  double *moved = memory_of(2 * stride * sizeof *moved);
   make_uneven(uneven, N, _i ? -2e-4 : 1e-6); /* its stations lie apart in x: a closed pair needs the cap */
   for (int side = 0; side < 3; side++) {
     double step = side == 2 ? 0 : side ? h : -h;
@@ -412,9 +411,7 @@ TESTS(test_surplus_is_the_gradient, 0, 2) {
     co_energy[side] = s.energy * at * at;
   }
   ck_near((co_energy[1] - co_energy[0]) / (2 * dU), charge, 5e-8); /* 1.3e-8 measured */
-  free(moved);
   zp_field_correction_destroy(&s);
-  zp_model_destroy(model);
 }
 
 /* The far boundary does not matter: number and grading of the outer elements have no effect. */
@@ -490,7 +487,7 @@ TEST(test_surplus_makes_plates_the_field) {
   ZpModel *model = model_of(&def);
   ZpEval eval;
   ck_assert(zp_system_create(model, true, &eval));
-  double *q = calloc(2 * model->stride, sizeof *q);
+  double *q = memory_of(2 * model->stride * sizeof *q);
   for (size_t i = 0; i < model->nodes; i++) {
     double xi = (double)i / (double)(model->nodes - 1);
     q[2 * i] = q[2 * i + 1] = L * xi;
@@ -506,30 +503,17 @@ TEST(test_surplus_makes_plates_the_field) {
   printf("beyond plates: %.1e of the force on the 2 mm wedge\n",
          beyond / plates_force(&model->cross_section, 2e-3, false));
   ck_below(fabs(beyond), 1e-4 * plates_force(&model->cross_section, 2e-3, false));
-  free(q);
   zp_system_destroy(&eval);
-  zp_model_destroy(model);
-}
-
-static ZpResult *study(ZpStudy which, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(which, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
-  return result;
 }
 
 static double value(ZpStudy which, ZpActuatorDef def, const char *name) {
-  ZpResult *result = study(which, &def);
-  double found = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return found;
+  return answered_value(which, &def, name);
 }
 
 /* Plates law and field give the same pull-in, release, holding force and zip. */
 NIGHTLY_TEST(test_studies_by_field_and_by_plates) {
   ZpActuatorDef field = DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 31}), plates = DEF({"mesh.nodes", 31});
-  ZpResult *by_field = study(ZP_STUDY_EQUILIBRIUM, &field), *by_plates = study(ZP_STUDY_EQUILIBRIUM, &plates);
+  ZpResult *by_field = answer_of(ZP_STUDY_EQUILIBRIUM, &field), *by_plates = answer_of(ZP_STUDY_EQUILIBRIUM, &plates);
   static const char *const names[] = {"pull_in_voltage_V", "release_voltage_V"};
   for (int k = 0; k < 2; k++) {
     double a = zp_result_get(by_field, names[k]), b = zp_result_get(by_plates, names[k]);
@@ -537,8 +521,6 @@ NIGHTLY_TEST(test_studies_by_field_and_by_plates) {
     ck_near(a, b, 2e-3); /* 0.14 % and less than 0.001 % */
     ck_assert_double_ne(a, b);
   }
-  zp_result_destroy(by_field);
-  zp_result_destroy(by_plates);
   field.drive.voltage = plates.drive.voltage = 6e3;
   double held = value(ZP_STUDY_ISOMETRIC, field, "force_N");
   ck_near(held, value(ZP_STUDY_ISOMETRIC, plates, "force_N"), 1e-3); /* 2.4e-4 measured */
@@ -583,10 +565,9 @@ NIGHTLY_TEST(test_refresh_in_motion) {
   ZpActuatorDef def =
       DEF({"electro.model", ZP_ELECTRO_FIELD}, {"mesh.nodes", 21}, {"solver.stop_when_zipped", ZP_WHEN_TRUE});
   double coarse, fine;
-  ZpResult *result = study(ZP_STUDY_ACTUATE, &def);
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   coarse = zp_result_get(result, "zip_time_s");
   ck_below(zp_result_get(result, "energy_error"), 1e-3); /* 4.3e-4 measured */
-  zp_result_destroy(result);
   def.electro.refresh_change = 0.02;
   fine = value(ZP_STUDY_ACTUATE, def, "zip_time_s");
   printf("zip time: refreshed at changes of 0.1 and 0.02: %.6g, %.6g ms\n", 1e3 * coarse, 1e3 * fine);
@@ -638,8 +619,6 @@ TESTS(test_held_field_is_that_of_every_step, 0, 2) {
     for (size_t k = 0; k < LENGTH_OF(signal); k++)
       held[k] = zp_sim_get(sim, signal[k].name);
     ck_assert_double_gt(sim->state->U * sim->state->held_charge * model->parts, 0.02 * zp_sim_get(sim, "charge"));
-    zp_sim_destroy(sim);
-    zp_model_destroy(model);
   }
 }
 
@@ -649,10 +628,9 @@ TEST(test_charge_at_rest_is_capacitance_times_voltage) {
   ZpActuatorDef def =
       DEF({"electro.model", ZP_ELECTRO_FIELD}, {"electro.breakdown_cap", 0}, {"mesh.nodes", 9},
           {"ribbon.length", 40e-3}, {"platform.length", 4e-3}, {"isometric.separation", 4e-3}, {"drive.voltage", 100});
-  ZpResult *result = study(ZP_STUDY_ISOMETRIC, &def);
+  ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
   ck_near(zp_result_get(result, "charge_C"), def.drive.voltage * zp_result_get(result, "capacitance_F"),
           1e-12); /* 4.4e-16 measured */
-  zp_result_destroy(result);
 }
 
 TEST(test_what_does_not_go_with_field) {

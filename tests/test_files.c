@@ -305,7 +305,7 @@ static ZpResult *made_up_result(size_t number) {
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
   double row[64];
-  ZpResult *result = zp_result_create(ZP_STUDY_ACTUATE);
+  ZpResult *result = new_result(ZP_STUDY_ACTUATE);
   ck_assert_ptr_nonnull(result);
   result->outcome = ZP_ZIPPED;
   zp_result_add(result, "contraction", "1", 0.1 + (double)number);
@@ -339,7 +339,6 @@ TEST(run_reads_back) {
   check_table(json_object_get(found, "table.csv"), result->series);
   json_decref(found);
   zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* Both members of an actual series at rest, whose frames are numbered, not timed. */
@@ -388,7 +387,7 @@ static double outcome_of(size_t run) {
 
 /* The number of a case, in order or the other way round; a NAN is missing. */
 static ZpResult *result_of_case(size_t run) {
-  ZpResult *result = zp_result_create(ZP_STUDY_ACTUATE);
+  ZpResult *result = new_result(ZP_STUDY_ACTUATE);
   ck_assert_ptr_nonnull(result);
   result->outcome = (ZpOutcome)outcome_of(run);
   if (run % 2 == 0 && !isnan(contraction_of(run))) zp_result_add(result, "contraction", "1", contraction_of(run));
@@ -444,9 +443,6 @@ TEST(sweep_of_1025_cases_reads_back) {
     check_column(rows, c);
   check_all_were_looked_at(); /* so many cases keep no series of their own */
   json_decref(found);
-  for (size_t run = 0; run < CASES; run++)
-    zp_result_destroy(result[run]);
-  zp_scenario_destroy(scenario);
 }
 
 /* Few cases keep their series, each its own. */
@@ -468,7 +464,4 @@ TEST(series_of_a_sweep_read_back) {
   check_run("/runs/0001", result[1], true);
   check_all_were_looked_at();
   json_decref(found);
-  zp_result_destroy(result[0]);
-  zp_result_destroy(result[1]);
-  zp_scenario_destroy(scenario);
 }

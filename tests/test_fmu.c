@@ -608,15 +608,12 @@ VERSION_TESTS(parameters) {
   double opening = fmu_get(&instance, "opening");
   ZpActuatorDef def = DEF({"load.mass", 0.02}, {"mesh.nodes", 13}, {"liquid.model", 2}, {"platform.electrode", 0},
                           {"solver.tolerance", fmu_find(&fmu, "solver.tolerance")->start});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   zp_sim_run(sim, 1e-3, false, NULL, NULL);
   ck_near(opening, zp_sim_get(sim, "opening"), 1e-12);
   ck_assert_int_eq(fmu_reset(&instance), OK);
   fmu_start(&instance);
   ck_assert_double_eq(fmu_get(&instance, "load.mass"), 8e-3);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   fmu_free(&instance);
   fmu_close(&fmu);
 }
@@ -700,17 +697,14 @@ VERSION_TESTS(tunable_parameters) {
   ZpSim *sim[] = {sim_of(model[0]), sim_of(model[1])};
   ZpError err;
   ck_assert(zp_outcome_good(zp_sim_step(sim[0], 0.01, NULL, NULL)));
-  char *bytes = malloc(zp_sim_state_size(sim[0]));
+  char *bytes = memory_of(zp_sim_state_size(sim[0]));
   zp_sim_save(sim[0], bytes);
   ck_assert_int_eq(zp_sim_restore(sim[1], bytes, zp_sim_state_size(sim[0]), &err), ZP_OK);
   ck_assert(zp_outcome_good(zp_sim_step(sim[1], 0.02, NULL, NULL)));
   ck_near(opening, zp_sim_get(sim[1], "opening"), 1e-12);
   ck_near(voltage, zp_sim_get(sim[1], "voltage"), 1e-12);
   ck_assert(fabs(voltage) > 1e3);
-  free(bytes);
   for (int k = 0; k < 2; k++) {
-    zp_sim_destroy(sim[k]);
-    zp_model_destroy(model[k]);
   }
   fmu_free(&instance);
   fmu_close(&fmu);
@@ -724,11 +718,10 @@ static void copy_state(Instance *from, Instance *to) {
   size_t bytes;
   ck_assert_int_eq(fmu_get_state(from, &state), OK);
   ck_assert_int_eq(fmu_state_size(from, state, &bytes), OK);
-  char *stored = malloc(bytes);
+  char *stored = memory_of(bytes);
   ck_assert_int_eq(fmu_serialize(from, state, stored, bytes), OK);
   ck_assert_int_eq(fmu_deserialize(to, stored, bytes, &copy), OK);
   ck_assert_int_eq(fmu_set_state(to, copy), OK);
-  free(stored);
   fmu_free_state(from, &state);
   fmu_free_state(to, &copy);
 }
@@ -785,7 +778,7 @@ VERSION_TESTS(states_have_parameters) {
   ck_assert_double_eq(fmu_get(&other, "load.mass"), 0.02);
   ck_assert_double_eq(fmu_get(&other, "opening"), fmu_get(&instance, "opening"));
   ck_assert_int_eq(fmu_state_size(&instance, state, &bytes), OK);
-  unsigned char *stored = malloc(bytes);
+  unsigned char *stored = memory_of(bytes);
   ck_assert_int_eq(fmu_serialize(&instance, state, stored, bytes), OK);
   ck_assert_int_ne(fmu_serialize(&instance, state, stored, bytes - 1), OK);
   for (size_t k = 0; k < bytes; k += 1 + bytes / 64) {
@@ -799,7 +792,6 @@ VERSION_TESTS(states_have_parameters) {
   ck_assert_int_eq(fmu_deserialize(&other, stored, 10, &damaged), OK);
   ck_assert_int_ne(fmu_set_state(&other, damaged), OK);
   ck_assert_int_ne(fmu_set_state(&other, NULL), OK);
-  free(stored);
   fmu_free_state(&other, &damaged);
   fmu_free_state(&instance, &state);
   fmu_free(&instance);

@@ -44,7 +44,6 @@ TESTS(end_carries_what_presses_it, 0, 3) {
   ck_near(eval->plates.gap[end], -depth, 3e-5); /* 1.1e-5 measured */
   ck_assert_ptr_null(zp_statics_fault(&rest->statics));
   zp_rest_destroy(rest);
-  zp_model_destroy(model);
 }
 
 enum { CELLS = 2000 };
@@ -110,6 +109,4 @@ TESTS(end_leaves_where_it_needs_no_force, 0, 4) {
   printf("release %.4f +- %.4f V, 161 nodes %.4f V, linear beam %.4f V\n", found, told, fine, expected);
   ck_near(found, expected, 2e-3); /* 1.4e-3 measured */
   ck_below(fabs(found - fine), told);
-  zp_result_destroy(result);
-  zp_model_destroy(model);
 }

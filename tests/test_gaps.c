@@ -74,14 +74,11 @@ static double closed_gap(double U) {
 static void check_closed(const ZpActuatorDef *def, const char *distance, double length) {
   const double d = 2 * 130e-6 * 2.75 / 4.62, U = def->drive.voltage,
                C = ZP_EPS0 * 2.75 * 12.7e-3 * length / (d + closed_gap(U));
-  ZpResult *result;
-  ZpError err;
-  ck_assert_msg(zp_study_run(ZP_STUDY_EQUILIBRIUM, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, def);
   size_t row = closed_row(result->series, U);
   ck_assert_double_eq_tol(zp_table_get(result->series, row, distance), closed_gap(U), 1e-8); /* 3e-9 measured */
   ck_near(zp_table_get(result->series, row, "capacitance_F"), C, 1e-4);                      /* 8.2e-5 measured */
   ck_near(zp_table_get(result->series, row, "charge_C"), C * U, 1e-4);                       /* 8.2e-5 measured */
-  zp_result_destroy(result);
 }
 
 TEST(closed_faces_lie_on_each_other) {
@@ -222,10 +219,7 @@ TEST(pull_in_does_not_depend_on_the_largest_voltage) {
   static const double largest[] = {5.2e3, 10e3, 50e3};
   for (int k = 0; k < 3; k++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 61}, {"electro.breakdown_cap", 0}, {"drive.voltage", largest[k]});
-    ZpResult *result;
-    ck_assert_int_eq(zp_study_run(ZP_STUDY_EQUILIBRIUM, &def, NULL, NULL, &result, NULL), ZP_OK);
-    pull_in[k] = zp_result_get(result, "pull_in_voltage_V");
-    zp_result_destroy(result);
+    pull_in[k] = zp_result_get(study_of(ZP_STUDY_EQUILIBRIUM, &def), "pull_in_voltage_V");
   }
   printf("pull-in without cap: %.9g, %.9g, %.9g V up to 5.2, 10, 50 kV\n", pull_in[0], pull_in[1], pull_in[2]);
   ck_near(pull_in[1], pull_in[0], 1e-12); /* 0 measured */
@@ -240,11 +234,9 @@ TEST(floppy_ribbon_hangs_straight_down) {
   const double L = 10, EA = 200e9 * 12.7e-3 * 1e-6, weight = 7850 * 12.7e-3 * 1e-6 * L * 9.81;
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", L},
                           {"ribbon.thickness", 1e-6}, {"load.mass", 1});
-  ZpResult *result;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_STATIONARY, &def, NULL, NULL, &result, NULL), ZP_OK);
+  ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_near(zp_result_get(result, "stroke_m"), L * (1 + (9.81 + weight / 2) / EA), 1e-12); /* 5.1e-15 measured */
-  zp_result_destroy(result);
 }
 
 /* -- a held platform ------------------------------------------------------------------------------- */
@@ -252,9 +244,7 @@ TEST(floppy_ribbon_hangs_straight_down) {
 static ZpResult *hold(double voltage) {
   ZpActuatorDef def =
       DEF({"mesh.nodes", 21}, {"isometric.separation", 17e-3}, {"drive.voltage", voltage}, {"output.samples", 20000});
-  ZpResult *result;
-  ZpError err;
-  ck_assert_msg(zp_study_run(ZP_STUDY_ISOMETRIC, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   return result;
 }
@@ -275,8 +265,6 @@ TEST(other_states_are_counted) {
   int states = times_passed(further->series, 6.1e3);
   ck_assert_int_eq(states, 2);
   ck_assert_double_eq(zp_result_get(here, "other_states"), states - 1);
-  zp_result_destroy(here);
-  zp_result_destroy(further);
 }
 
 /* -- implicit steps -------------------------------------------------------------------------------- */
@@ -288,12 +276,10 @@ TESTS(steps_converge_in_three_iterations, 0, 2) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"load.mass", 0},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"mesh.nodes", 21}, {"solver.end_time", 0.5},
                           {"damping.internal", damping[_i]});
-  ZpResult *result;
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   double tried = zp_result_get(result, "steps") + zp_result_get(result, "steps_rejected");
   double iterations = zp_result_get(result, "newton_iterations") / tried;
   printf("damping %g s: %.2f iterations a step\n", damping[_i], iterations);
   ck_below(iterations, 3.2);
   ck_assert_double_eq(zp_result_get(result, "newton_failures"), 0);
-  zp_result_destroy(result);
 }

@@ -12,17 +12,8 @@ static ZpActuatorDef held_def(double separation, double voltage, bool cap, int n
              {"mesh.nodes", nodes});
 }
 
-static ZpResult *converged_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = study_of(study, def);
-  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
-  return result;
-}
-
 static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result = converged_of(study, def);
-  double value = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return value;
+  return zp_result_get(converged_of(study, def), name);
 }
 
 /* -- energy ---------------------------------------------------------------------------------------- */
@@ -84,7 +75,6 @@ TESTS(test_force_is_slope_of_energy, 0, 12) {
   printf("%g mm, %g kV: %.9g N, slope of the energy %+.1e off\n", 1e3 * s, 1e-3 * U, reaction, slope / reaction - 1);
   ck_near(slope, reaction, 3e-6); /* 9.5e-7 measured */
   zp_rest_close(&r);
-  zp_model_destroy(model);
 }
 
 /* -- a hung load ----------------------------------------------------------------------------------- */
@@ -112,13 +102,11 @@ TEST(test_holds_what_hangs_powered) {
   ck_assert(zp_statics_ramp_voltage(&r.statics, U));
   ZpActuatorDef held = held_def(zp_statics_opening(&r.statics), U, true, 61);
   zp_rest_close(&r);
-  zp_model_destroy(model);
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &held);
   double sum = zp_result_get(result, "force_N") + zp_result_get(result, "force_unpowered_N");
   printf("8 g at 4 kV: %+.1e off the weight\n", sum / weight - 1);
   ck_assert_double_gt(zp_result_get(result, "force_N"), 1e-3);
   ck_near(sum, weight, 1e-12); /* 2.2e-16 measured */
-  zp_result_destroy(result);
 }
 
 /* Opening of two guided elasticae, published digits: 30 g open them to 52.839 mm. */
@@ -144,8 +132,6 @@ TEST(test_load_does_not_matter) {
   ZpResult *ra = converged_of(ZP_STUDY_ISOMETRIC, &a), *rb = converged_of(ZP_STUDY_ISOMETRIC, &b);
   for (size_t i = 0; i < LENGTH_OF(names); i++)
     ck_assert_double_eq(zp_result_get(ra, names[i]), zp_result_get(rb, names[i]));
-  zp_result_destroy(ra);
-  zp_result_destroy(rb);
 }
 
 /* -- peeling --------------------------------------------------------------------------------------- */
@@ -172,7 +158,6 @@ static double peel(double d, int nodes, double *open) {
   double a = pow(9 * EI * s * s / G, 0.25), force = 12 * EI * s / (a * a * a);
   *open = (MM(45) - zp_result_get(result, "zipped_length_m")) / a - 1;
   double off = zp_result_get(result, "force_N") + zp_result_get(result, "force_unpowered_N");
-  zp_result_destroy(result);
   return off / force - 1;
 }
 
@@ -262,7 +247,6 @@ TEST(test_jumps) {
     ck_assert((notes_with(result, " as the voltage rises, the largest by ") > 0) == (k == 0));
     force[k] = zp_result_get(result, "force_N");
     printf("20 mm, no cap, N = %d: %g jumps, %d states jumped over, %.5f N\n", def.mesh.nodes, jumps, over, force[k]);
-    zp_result_destroy(result);
   }
   if (!SANITIZED) ck_near(force[0], force[1], 0.05); /* 0.037 measured */
 }
@@ -275,7 +259,6 @@ static Jumped jumped_at(ZpActuatorDef def, double voltage) {
   def.drive.voltage = voltage;
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   Jumped at = {zp_result_get(result, "force_N"), zp_result_get(result, "jumps"), zp_result_get(result, "other_states")};
-  zp_result_destroy(result);
   return at;
 }
 
@@ -322,7 +305,6 @@ TEST(test_falls) {
     ck_assert_double_eq(zp_result_get(result, "jumps"), 1);
 
     ck_assert_double_gt(zp_result_get(result, "zipped_length_m"), MM(35));
-    zp_result_destroy(result);
   }
   if (!SANITIZED) ck_near(force[0], force[1], 3e-3); /* 8.8e-4 measured */
 }
@@ -334,7 +316,6 @@ TEST(test_unpowered_is_stable) {
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_double_eq(zp_table_get(result->series, 0, "stable"), 1);
   ck_below(fabs(zp_result_get(result, "force_unpowered_N")), 3e-4); /* 7.4e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* For any separation and voltage there is a result, and the platform is at the given opening. */
@@ -347,7 +328,6 @@ TEST(test_everywhere) {
       ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
       ck_near(zp_result_get(result, "opening_m"), separations[i], 3e-12); /* 4.6e-13 measured */
       ck_assert_double_gt(zp_result_get(result, "force_N"), 0);
-      zp_result_destroy(result);
     }
 }
 
@@ -389,7 +369,6 @@ TESTS(test_thin_insulators_stay_apart, 0, 9) {
     for (size_t k = 0; k < (size_t)def.mesh.nodes; k++)
       ck_assert_double_ge(shape.gap[k], -0.2e-6);
   }
-  zp_result_destroy(result);
 }
 ALSO_NIGHTLY(test_thin_insulators_stay_apart, 9, 27)
 
@@ -408,7 +387,6 @@ TEST(insulators_beyond_their_breakdown_are_pressed_not_passed) {
   printf("%s\n", result->message);
   ck_assert_int_eq(result->outcome, ZP_CONVERGED);
   ck_assert_double_gt(zp_result_get(result, "force_N"), 0);
-  zp_result_destroy(result);
 }
 
 /* A state that cannot be is told from one that can. */
@@ -422,7 +400,6 @@ TEST(test_impossible_states_are_told) {
   r.statics.member->eval.plates.gap[5] = -6e-6;
   ck_assert_str_eq(zp_statics_fault(&r.statics), "the insulators' faces overlap");
   zp_rest_close(&r);
-  zp_model_destroy(model);
 }
 
 /* Found by random designs: with elements longer than the zip front the branch was lost. It is followed on a finer mesh,
@@ -439,8 +416,6 @@ NIGHTLY_TEST(coarse_mesh_is_refined) {
   ck_assert_double_eq(zp_result_get(coarse, "force_N"), zp_result_get(fine, "force_N"));
   ck_assert_uint_eq(coarse->shapes->nodes, 63);
   ck_assert(notes_with(coarse, "solved with 63 nodes") == 1 && notes_with(fine, "solved with") == 0);
-  zp_result_destroy(coarse);
-  zp_result_destroy(fine);
 }
 
 /* A random design: lost with 30 nodes, and with 59, where there is more than one element on what bends. */
@@ -454,7 +429,6 @@ TESTS(coarse_mesh_is_refined_twice, 0, FULL_OR(1, 0)) {
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_uint_eq(result->shapes->nodes, 117);
   ck_assert(notes_with(result, "solved with 117 nodes") == 1);
-  zp_result_destroy(result);
 }
 
 /* A random design whose branch passes many limit points, more than two elements lying on what bends: it is not lost.
@@ -470,7 +444,6 @@ NIGHTLY_TESTS(resolved_mesh_keeps_its_branch, 0, FULL_OR(1, 0)) {
   ZpResult *result = converged_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_uint_eq(result->shapes->nodes, 97);
   ck_near(zp_result_get(result, "force_N"), 0.0167995, 2e-3); /* of 385 nodes; measured 8e-4 */
-  zp_result_destroy(result);
 }
 
 static bool stop_half_way(void *user, const char *stage, double fraction) {
@@ -492,7 +465,6 @@ TEST(test_interrupted) {
   ck_assert_double_eq(zp_result_get(cut, "force_unpowered_N"), zp_result_get(whole, "force_unpowered_N"));
   ck_assert_double_eq(reached, zp_table_get(whole->series, last, "voltage_V"));
   ck_assert_double_eq(zp_table_get(cut->series, last, "force_N"), zp_table_get(whole->series, last, "force_N"));
-  zp_result_destroy(whole);
   zp_result_destroy(cut);
 }
 

@@ -1,6 +1,6 @@
 /* The journal of a campaign: a result comes back from its bytes as it was, rows are found by their numbers, hashes of
  * cases say what a row belongs to; what a campaign counts, and where a case begins. */
-#include "check_util.h"
+#include "data_util.h"
 
 #include <sys/stat.h>
 
@@ -14,13 +14,6 @@
 #include "campaign/remote.h"
 #include "fit/case.h"
 
-static ZpScenario *scenario_with(const char *const *sets) {
-  ZpError err;
-  ZpScenario *scenario = zp_scenario_create();
-  for (; *sets; sets++)
-    ck_assert_msg(zp_scenario_set(scenario, *sets, &err) == ZP_OK, "%s", err.message);
-  return scenario;
-}
 #define SCENARIO(...) scenario_with((const char *const[]){__VA_ARGS__, NULL})
 
 /* So that rows have names of their own. */
@@ -31,7 +24,7 @@ static const char *other_name(double value) {
 /* A result with all that a row keeps; the number's name is that of the column, which has a help. */
 static ZpResult *result_of(double value) {
   static const ZpColumn columns[] = {{"stroke_m", "m", "of the first"}, {"stroke_m", "m", "of the second"}};
-  ZpResult *result = zp_result_create(ZP_STUDY_STATIONARY);
+  ZpResult *result = new_result(ZP_STUDY_STATIONARY);
   result->outcome = ZP_ZIPPED;
   snprintf(result->message, sizeof result->message, "made by hand");
   zp_result_add(result, "stroke_m", "m", value);
@@ -63,7 +56,7 @@ static void assert_is(const ZpResult *row, double value) {
 TEST(result_comes_back_from_its_bytes) {
   ZpResult *result = result_of(0.25), *back;
   const size_t size = zp_result_save(result, NULL);
-  unsigned char *byte = malloc(size);
+  unsigned char *byte = memory_of(size);
   ck_assert_uint_eq(zp_result_save(result, byte), size);
   ck_assert_int_eq(zp_result_load(byte, size, &back, NULL), ZP_OK);
   assert_is(back, 0.25);
@@ -72,20 +65,17 @@ TEST(result_comes_back_from_its_bytes) {
   zp_result_destroy(back);
   for (size_t i = 0; i < size; i++) {
     ZpError err;
-    unsigned char *cut = malloc(i + 1); /* of its own size, so that reading beyond it is found */
+    unsigned char *cut = memory_of(i + 1); /* of its own size, so that reading beyond it is found */
     memcpy(cut, byte, i);
     const bool whole = zp_result_load(cut, i, &back, &err) == ZP_OK; /* without shapes, as in the journal */
     ck_assert_msg(!whole || i == zp_pack_first(byte, size) + zp_pack_first(byte + zp_pack_first(byte, size), size),
                   "%zu of %zu bytes", i, size);
     if (whole) zp_result_destroy(back);
-    free(cut);
     byte[i] ^= (unsigned char)(1 << i % 8);
     ck_assert_int_eq(zp_result_load(byte, size, &back, &err), ZP_BAD_INPUT);
     ck_assert_msg(strncmp(err.message, "result: ", 8) == 0, "%s", err.message);
     byte[i] ^= (unsigned char)(1 << i % 8);
   }
-  free(byte);
-  zp_result_destroy(result);
 }
 
 /* Shapes, the map of a field and checkpoints, too: what comes back has the same bytes, of which none may be damaged. */
@@ -101,9 +91,9 @@ TESTS(everything_comes_back, 0, 4) {
   };
   ZpError err = {ZP_OK, ""};
   ZpResult *result, *back = NULL;
-  ck_assert_msg(zp_study_run(of[_i].study, &of[_i].def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  result = study_of(of[_i].study, &of[_i].def);
   const size_t size = zp_result_save(result, NULL);
-  unsigned char *byte = malloc(size), *again = malloc(size);
+  unsigned char *byte = memory_of(size), *again = memory_of(size);
   zp_result_save(result, byte);
   ck_assert_msg(zp_result_load(byte, size, &back, &err) == ZP_OK, "%s", err.message);
   ck_assert(back->shapes && (back->map != NULL) == (_i == 0) && (back->checkpoint != NULL) == (_i == 3));
@@ -120,14 +110,11 @@ TESTS(everything_comes_back, 0, 4) {
     ck_assert_int_eq(zp_result_load(byte, size, &back, &err), ZP_BAD_INPUT);
     byte[i] ^= (unsigned char)(1 << i % 8);
   }
-  free(byte);
-  free(again);
-  zp_result_destroy(result);
 }
 
 /* Each record is whole, but the numbers are those of a result with other names. */
 TEST(numbers_belong_to_their_names) {
-  ZpResult *one = result_of(1), *other = result_of(1), *back = zp_result_create(ZP_STUDY_LIMITS);
+  ZpResult *one = result_of(1), *other = result_of(1), *back = new_result(ZP_STUDY_LIMITS);
   other->scalar[0].name = "opening_m";
   ZpPacked *a = zp_packed_of(one), *b = zp_packed_of(other);
   ZpNames names;
@@ -139,9 +126,6 @@ TEST(numbers_belong_to_their_names) {
   ck_assert(back->scalars == 0 && back->series == NULL);
   free(a);
   free(b);
-  zp_result_destroy(one);
-  zp_result_destroy(other);
-  zp_result_destroy(back);
 }
 
 static void put(ZpJournal *journal, size_t number, double value) {
@@ -149,7 +133,6 @@ static void put(ZpJournal *journal, size_t number, double value) {
   ZpPacked *packed = zp_packed_of(result);
   ck_assert_int_eq(zp_journal_put(journal, number, 1000 + number, packed, NULL), ZP_OK);
   free(packed);
-  zp_result_destroy(result);
 }
 
 static ZpJournal *journal_in(const char *folder, bool keep, size_t cases) {
@@ -278,7 +261,6 @@ TEST(campaign_counts_what_it_computes) {
     }
     zp_campaign_close(c);
   }
-  zp_scenario_destroy(scenario);
 }
 
 /* A failed case that the journal has is a failed one. */
@@ -295,7 +277,6 @@ TEST(known_failures_are_failures) {
     ck_assert(zp_campaign_state(c).failed == 1 && zp_campaign_state(c).done == 2);
     zp_campaign_close(c);
   }
-  zp_scenario_destroy(scenario);
 }
 
 /* What another process sends: outcomes, and which numbers are times. */
@@ -320,7 +301,6 @@ TEST(results_of_another_process_are_whole) {
     zp_result_destroy(result[k]);
   }
   free(byte);
-  zp_scenario_destroy(scenario);
 }
 
 /* A batch follows its neighbours within a chunk only, as a campaign does: the first case of each chunk is that of a run
@@ -347,7 +327,6 @@ TEST(chunks_of_a_batch_begin_afresh) {
   }
   ck_assert_uint_gt(followed, 0);
   zp_batch_free(&batch);
-  zp_scenario_destroy(scenario);
 }
 
 /* Of 700 cases two are wrong: the first is named, for any number of threads. */
@@ -365,5 +344,4 @@ TEST(first_wrong_case_is_named) {
     ck_assert_int_eq(zp_batch_check_jobs(scenario, jobs, &err), ZP_BAD_INPUT);
     ck_assert_msg(strstr(err.message, "95.5") || strstr(err.message, "0.0955"), "%s", err.message);
   }
-  zp_scenario_destroy(scenario);
 }

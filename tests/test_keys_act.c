@@ -1,7 +1,7 @@
 /* Every key of keys.def acts: in a scene where it is in use another value changes the output that it should, by what
  * a closed form or a law of scaling says, else by far more than rounding; and leaves alone what it should. A new key
  * without a row here fails. */
-#include "check_util.h"
+#include "data_util.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -878,7 +878,7 @@ static void set_all(ZpScenario *scenario, const char *settings) {
 
 /* A scene with key = value; without liquid unless the scene has one. */
 static ZpScenario *scenario_of(const char *scene, const char *key, const char *value) {
-  ZpScenario *scenario = zp_scenario_create();
+  ZpScenario *scenario = new_scenario();
   char setting[256];
   snprintf(setting, sizeof setting, "%s=%s", key, value);
   set_all(scenario, "liquid.model=none");
@@ -902,8 +902,7 @@ static ZpResult *run_scene(const char *scene, const char *key, const char *value
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result, &err) == ZP_OK, "%s %s=%s: %s",
                 scene, key, value, err.message);
-  zp_scenario_destroy(scenario);
-  return result;
+  return zp_test_owns(result, destroy_result);
 }
 
 /* A number of the summary, how much of something there is, or what a column ends with. */
@@ -945,8 +944,6 @@ TESTS(key_acts, 0, LENGTH_OF(rows)) {
     ck_assert_msg(has_effect(effect, a, b), "%s, %s => %s: %s %.10g => %.10g, ratio %.10g, expected %.10g within %g",
                   row->key, row->from, row->to, effect->output, a, b, b / a, effect->expected, effect->tolerance);
   }
-  zp_result_destroy(from);
-  zp_result_destroy(to);
 }
 
 /* -- a campaign computes a case again if a key of it has changed ----------------------------------- */
@@ -956,7 +953,6 @@ static uint64_t hash_of(const Row *row, const char *value) {
   ZpActuatorDef def = def_of(scenario);
   uint64_t start;
   ck_assert_int_eq(zp_campaign_hash(zp_scenario_study(scenario), &def, &start, NULL), ZP_OK);
-  zp_scenario_destroy(scenario);
   return zp_case_hash(start, &def);
 }
 
@@ -982,7 +978,6 @@ static void compute(const Row *row, const char *value, const char *folder, doubl
   for (int k = 0; k < EFFECTS; k++)
     outputs[k] = row->effect[k].output ? zp_result_get(result, row->effect[k].output) : 0;
   zp_campaign_close(campaign);
-  zp_scenario_destroy(scenario);
 }
 
 /* A campaign that is resumed after a key has changed has the results of a fresh one. */
@@ -1028,7 +1023,6 @@ static void write_checkpoint(const char *name, const char *end_time) {
   ZpResult *result = run_scene(HANGING, "solver.end_time", end_time);
   FILE *file = fopen(name, "wb");
   ck_assert(file && zp_checkpoint_write(result->checkpoint, file, NULL) == ZP_OK && fclose(file) == 0);
-  zp_result_destroy(result);
 }
 
 /* Strokes of STRIP at two loads, by P L^3 / (12 E I), in mm; half of them as another column. */

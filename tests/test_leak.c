@@ -36,8 +36,7 @@ static double power_at(double t) {
 TESTS(test_step_of_the_voltage, 0, 3) {
   static const double step[] = {0.1, 0.3, 3};
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double a = 2 * T, area = 0.02 * 12.7e-3, heat = 0, start = zp_sim_get(sim, "electric_work");
   enum { PARTS = 1000 };
   for (int i = 1; i <= 10; i++) {
@@ -53,8 +52,6 @@ TESTS(test_step_of_the_voltage, 0, 3) {
     ck_near(zp_sim_get(sim, "leak_loss"), heat, 1e-6);
   }
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-9 * (zp_sim_get(sim, "electric_work") - start));
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A value of the present row. The row is kept, so the next mean current begins here. */
@@ -75,8 +72,7 @@ static double read(ZpSim *sim, const char *name) {
 TESTS(test_charge_that_is_given, 0, 2) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", RHO_I}, {"medium.resistivity", RHO_M},
                           {"source.model", _i ? ZP_SOURCE_AMPLIFIER : ZP_SOURCE_IDEAL}, {"source.resistance", _i});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   const double start = zp_sim_get(sim, "charge"), a = 2 * T, area = 0.02 * 12.7e-3;
   const double tau = ZP_EPS0 * (EPS_I * GAP + EPS_M * a) / (GAP / RHO_I + a / RHO_M);
   double given = start;
@@ -88,8 +84,6 @@ TESTS(test_charge_that_is_given, 0, 2) {
     const double passed = area / RHO_I * (VOLTS * t - fields * GAP) / a;
     ck_near(given, zp_sim_get(sim, "charge") + passed, 3e-11); /* measured 9e-12 */
   }
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Straight ribbons that stay closed, insulators that do not conduct: there is no voltage across a liquid without
@@ -98,8 +92,7 @@ TESTS(test_no_heat_between_closed_faces, 0, 2) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_ELECTRO_RIBBON}, {"liquid.model", ZP_LIQUID_NONE},
                           {"initial.state", ZP_INITIAL_STRAIGHT}, {"electro.breakdown_cap", _i}, {"gravity", 0},
                           {"load.mass", 0}, {"medium.resistivity", 1e12}, {"drive.voltage", 3e3}, {"mesh.nodes", 9});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double pressed = zp_sim_get(sim, "electric_work");
   for (int i = 0; i < 10; i++) {
     ck_assert(zp_outcome_good(zp_sim_step(sim, 10, NULL, NULL)));
@@ -107,8 +100,6 @@ TESTS(test_no_heat_between_closed_faces, 0, 2) {
   }
   ck_assert_double_gt(fabs(zp_sim_get(sim, "interface_voltage")), 2900);
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 1e-12 * pressed); /* 2.8e-14 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Behind a supply that cannot sink, closed electrodes discharge through their insulators with the time constant of
@@ -118,8 +109,7 @@ NIGHTLY_TESTS(test_leakage_alone, 0, FULL_OR(1, 0)) {
       DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 0}, {"electro.breakdown_cap", 0},
           {"initial.state", ZP_INITIAL_STRAIGHT}, {"drive.voltage", 50}, {"solver.tolerance", 7e-5},
           {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.sink_limit", 0}, {"insulator.resistivity", 1e11});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpError err;
   double tau = 1e11 * EPS_I * ZP_EPS0;
   ck_assert(zp_outcome_good(zp_sim_step(sim, 1e-6, NULL, NULL)));
@@ -128,8 +118,6 @@ NIGHTLY_TESTS(test_leakage_alone, 0, FULL_OR(1, 0)) {
     ck_assert(zp_outcome_good(zp_sim_step(sim, 0.2 * tau, NULL, NULL)));
     ck_below(fabs(zp_sim_get(sim, "voltage") / 50 - exp(-0.2 * i)), 1e-4); /* 7.2e-5 measured */
   }
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
@@ -200,7 +188,6 @@ TEST(test_passed_charge_is_of_the_mean_length) {
   solve(&f);
   ck_near(zp_leak_passed(&f.leak), 0.5 * (1 + longer) * passed, 1e-12);
   zp_free(f.memory);
-  zp_model_destroy(f.model);
 }
 
 /* Derivatives of force and charge of a step with respect to voltage and gaps at its end, against finite differences,
@@ -238,7 +225,6 @@ TESTS(test_derivatives, 0, 2) {
     f.end.gap[i] = gap;
   }
   zp_free(f.memory);
-  zp_model_destroy(f.model);
 }
 
 /* -- motion ---------------------------------------------------------------------------------------- */
@@ -258,8 +244,7 @@ TESTS(test_energy_of_zip_hold_and_release, 1, 5) {
           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 1}, {"drive.voltage", of[_i].voltage},
           {"drive.duty", 0.6}, {"solver.tolerance", 1.5e-4}, {"drive.rise_time", of[_i].rise},
           {"insulator.resistivity", of[_i].rho_i}, {"medium.resistivity", of[_i].rho_m});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double off = 0, heat = 0, closest = 0;
   for (int i = 0; i < 100; i++) {
     ck_assert(zp_outcome_good(zp_sim_run(sim, 0.015 * (i + 1), false, NULL, NULL)));
@@ -272,8 +257,6 @@ TESTS(test_energy_of_zip_hold_and_release, 1, 5) {
          off / zp_sim_get(sim, "electric_work"), heat / zp_sim_get(sim, "electric_work"));
   ck_assert(closest > 0.95 && heat > 0);
   ck_below(off / zp_sim_get(sim, "electric_work"), of[_i].most); /* 2.4e-10, in liquid 2e-9 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 ALSO_NIGHTLY(test_energy_of_zip_hold_and_release, 0, 1)
 
@@ -284,7 +267,6 @@ TEST(test_leaking_run_goes_on_when_closed) {
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
     ck_assert_double_lt(zp_result_get(result, "zip_time_s"), 0.1);
     ck_assert((zp_result_get(result, "simulated_time_s") >= 0.2 * (1 - 1e-9)) == (leaks == 1));
-    zp_result_destroy(result);
   }
 }
 
@@ -293,18 +275,14 @@ TEST(test_leaking_run_goes_on_when_closed) {
 static double left_open(int waveform, double *left) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"drive.waveform", waveform}, {"drive.voltage", 6e3},
                           {"drive.offset", waveform == ZP_WAVEFORM_SQUARE ? -6e3 : 0}, {"medium.resistivity", 2e11});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpError err;
   ck_assert(zp_outcome_good(zp_sim_run(sim, 4, false, NULL, NULL)));
   ck_assert(zp_sim_get(sim, "contraction") > 0.99);
   ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
   ck_assert(zp_outcome_good(zp_sim_run(sim, 5, false, NULL, NULL)));
   *left = fabs(zp_sim_get(sim, "interface_voltage"));
-  double open = 1 - zp_sim_get(sim, "contraction");
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
-  return open;
+  return 1 - zp_sim_get(sim, "contraction");
 }
 
 /* Remaining charge holds the actuator closed at 0 V; with an alternating drive it does not accumulate. */
@@ -320,23 +298,19 @@ TEST(test_charge_that_stays) {
  * and ends at the closed form. */
 TEST(test_an_hour_of_drift) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"insulator.resistivity", 1e3 * RHO_I}, {"medium.resistivity", 1e3 * RHO_M});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpRunInfo info;
   ck_assert(zp_outcome_good(zp_sim_run(sim, 3600, false, NULL, &info)));
   double end = field_at(3.6) * (GAP + 2 * T * EPS_M / EPS_I) - VOLTS;
   ck_below((double)info.steps, 60);                          /* 19 measured */
   ck_near(zp_sim_get(sim, "interface_voltage"), end, 1e-11); /* 1.6e-12 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* The field in the insulator follows from its share of the voltage, eqs. (4.10) and (25.2): with a conducting liquid,
  * the whole voltage; with the voltage off, the field of the charge alone. */
 TEST(test_insulator_sees_the_charge) {
   ZpActuatorDef def = DEF(HELD_PLATE, {"medium.resistivity", 1e9});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpError err;
   ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T + GAP * EPS_I / EPS_M), 1e-12); /* 2.2e-16 measured */
   ck_assert(zp_outcome_good(zp_sim_step(sim, 10, NULL, NULL)));
@@ -344,8 +318,6 @@ TEST(test_insulator_sees_the_charge) {
   ck_assert(zp_sim_set_voltage(sim, 0, &err) == ZP_OK);
   double E_m = VOLTS / (GAP + 2 * T * EPS_M / EPS_I);
   ck_near(zp_sim_get(sim, "insulator_field"), VOLTS / (2 * T) - E_m * EPS_M / EPS_I, 1e-12); /* 0 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Of both halves of an actuator that moves, the currents of all rows add up to what the leakage currents and the charge
@@ -354,8 +326,7 @@ TEST(test_recorded_charge_that_is_given) {
   ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"drive.voltage", 3e3}, {"insulator.resistivity", 1e10},
                           {"output.samples", 200}, {"solver.end_time", 0.02});
   enum { ROWS = 1000 };
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
   ZpTable *series = zp_table_create(column, columns, ROWS);
@@ -378,8 +349,6 @@ TEST(test_recorded_charge_that_is_given) {
   ck_near(zp_table_get(trace, trace->rows - 1, "charge_C"), given, 1e-12);
   zp_table_destroy(series);
   zp_table_destroy(trace);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* -- input ----------------------------------------------------------------------------------------- */

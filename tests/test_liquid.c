@@ -14,9 +14,7 @@ typedef struct Run {
 } Run;
 
 static Run run_of(const ZpActuatorDef *def) {
-  ZpResult *result;
-  ZpError err;
-  ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, def);
   Run run = {result->outcome,
              zp_result_get(result, "zip_time_s"),
              zp_result_get(result, "energy_error"),
@@ -26,7 +24,6 @@ static Run run_of(const ZpActuatorDef *def) {
              zp_result_get(result, "viscous_loss_J"),
              zp_result_get(result, "jet_loss_J"),
              zp_result_get(result, "outer_drag_loss_J")};
-  zp_result_destroy(result);
   return run;
 }
 
@@ -124,10 +121,7 @@ static double time_from(ZpActuatorDef def, const double *q, double U) {
   ZpSim *sim = sim_of(model);
   memcpy(zp_state_q(model, sim->state), q, 2 * model->stride * sizeof *q);
   ck_assert_int_eq(zp_sim_run(sim, 1e3, true, NULL, NULL), ZP_ZIPPED);
-  double time = zp_sim_zip_time(sim);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
-  return time;
+  return zp_sim_zip_time(sim);
 }
 
 /* Released at the fold, an actuator closes after a time proportional to the excess voltage to the power -1/4 if inertia
@@ -137,8 +131,7 @@ TESTS(test_time_close_to_pull_in, 0, 2) {
   static const struct { double model, power; } row[] = {{ZP_LIQUID_NONE, -0.25}, {ZP_LIQUID_SUBMERGED, -0.5}};
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"liquid.model", row[_i].model}, {"medium.kinematic_viscosity", 1e-3},
                           FILM_ONLY, {"film.roughness", 1e-3}, {"solver.tolerance", 3.5e-6});
-  ZpResult *limits = study_of(ZP_STUDY_LIMITS, &def);
-  double U = zp_result_get(limits, "pull_in_voltage_V"), time[3], excess = 1e-4;
+  double U = zp_result_get(study_of(ZP_STUDY_LIMITS, &def), "pull_in_voltage_V"), time[3], excess = 1e-4;
   ZpModel *model = model_of(&def);
   ZpRest rest;
   ck_assert(zp_rest_open(&rest, model, NULL, NULL));
@@ -149,8 +142,6 @@ TESTS(test_time_close_to_pull_in, 0, 2) {
   printf("%g, %g, %g s: power %.4f\n", time[0], time[1], time[2], power);
   ck_below(fabs(power - row[_i].power), 0.01); /* 1.4e-3 measured */
   zp_rest_close(&rest);
-  zp_model_destroy(model);
-  zp_result_destroy(limits);
 }
 
 /* -- zip, hold, release ---------------------------------------------------------------------------- */
@@ -162,9 +153,7 @@ static ZpSim *zip_hold_release(ZpModel **model, double viscosity, const char *sy
   def.drive.waveform = ZP_WAVEFORM_TABLE;
   snprintf(def.drive.table, sizeof def.drive.table, "0 s = 10 kV, 0.3 s = 10 kV, 0.3 s = 0 kV");
   static const double time[] = {0, 0.3, 0.3}, voltage[] = {10e3, 10e3, 0};
-  ZpDriveTable table = {3, time, voltage};
-  ZpError err;
-  ck_assert_msg(zp_model_create_driven(&def, &table, model, &err) == ZP_OK, "%s", err.message);
+  *model = driven_model_of(&def, 3, time, voltage);
   return sim_of(*model);
 }
 
@@ -184,8 +173,6 @@ TESTS(test_energy_of_zip_hold_and_release, 0, FULL_OR(3, 1)) {
          1e3 * zp_sim_get(sim, "opening"));
   ck_below(worst, 2e-7); /* 4e-8 measured */
   ck_assert_double_gt(zp_sim_get(sim, "opening"), 15e-3);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* The whole actuator is two halves in the liquid, too. */
@@ -213,29 +200,15 @@ TEST(test_rows_of_the_film) {
   const double along = zp_sim_get(sim, "film_along_loss"), across = zp_sim_get(sim, "film_across_loss");
   ck_assert(along > 0 && across > 0);
   ck_near(zp_sim_get(sim, "viscous_loss"), along + across, 1e-12);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A run that is saved and restored on the way takes the same steps as one that is not: what the liquid has is a state.
  */
 TEST(test_state_of_the_liquid_is_kept) {
   ZpModel *model;
-  ZpSim *sim = zip_hold_release(&model, 50e-6, "half"), *other = sim_of(model);
-  size_t size = zp_sim_state_size(sim);
-  void *bytes = malloc(size);
-  ck_assert_int_eq(zp_sim_run(sim, 0.12, false, NULL, NULL), ZP_REACHED_END);
-  zp_sim_save(sim, bytes);
-  ck_assert_int_eq(zp_sim_restore(other, bytes, size, NULL), ZP_OK);
-  ck_assert_int_eq(zp_sim_run(sim, 0.16, false, NULL, NULL), ZP_REACHED_END);
-  ck_assert_int_eq(zp_sim_run(other, 0.16, false, NULL, NULL), ZP_REACHED_END);
-  ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(other, "opening"));
-  ck_assert_double_eq(zp_sim_get(sim, "liquid_energy"), zp_sim_get(other, "liquid_energy"));
-  ck_assert_double_eq(zp_sim_get(sim, "film_along_loss"), zp_sim_get(other, "film_along_loss"));
-  free(bytes);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(other);
-  zp_model_destroy(model);
+  ZpSim *sim = zip_hold_release(&model, 50e-6, "half");
+  run_to(sim, 0.12);
+  ck_continues(sim, model, 0.16);
 }
 
 /* A simulation continues with liquid where one without it was, and vice versa: the liquid starts at rest. */
@@ -250,10 +223,6 @@ TESTS(test_liquid_comes_and_goes, 0, 2) {
   ck_assert_double_eq(zp_sim_get(sim, "opening"), zp_sim_get(from, "opening"));
   ck_assert_int_eq(zp_sim_run(sim, 0.04, false, NULL, NULL), ZP_REACHED_END);
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance")), 5e-7 * zp_sim_get(sim, "field_energy"));
-  zp_sim_destroy(from);
-  zp_sim_destroy(sim);
-  for (int k = 0; k < 2; k++)
-    zp_model_destroy(models[k]);
 }
 
 /* -- keys ------------------------------------------------------------------------------------------ */
@@ -266,7 +235,7 @@ TEST(test_form_drag_of_moving_plates) {
   ZpEval e;
   ck_assert(zp_system_create(model, false, &e));
   size_t stride = model->stride;
-  double *q0 = calloc(8 * stride, sizeof *q0), *q1 = q0 + 2 * stride, *v0 = q0 + 4 * stride, *F = q0 + 6 * stride;
+  double *q0 = memory_of(8 * stride * sizeof *q0), *q1 = q0 + 2 * stride, *v0 = q0 + 4 * stride, *F = q0 + 6 * stride;
   double sum = 0;
   for (size_t j = 0; j < model->count; j++) {
     q1[stride + j] = v * h;
@@ -280,9 +249,7 @@ TEST(test_form_drag_of_moving_plates) {
     sum += F[stride + j];
   ck_near(sum, -2 * 0.5 * drag * def.medium.density * v * v * def.ribbon.width * (model->L + 0.5 * def.platform.length),
           1e-12);
-  free(q0);
   zp_system_destroy(&e);
-  zp_model_destroy(model);
 }
 
 /* What the film does not know is refused, by the name of the key. */
@@ -304,10 +271,8 @@ TESTS(test_what_is_refused, 0, 4) {
 
 TEST(test_modes_are_refused) {
   ZpActuatorDef def = zp_actuator_def_default();
-  ZpError err;
   def.liquid.model = ZP_LIQUID_SUBMERGED;
-  ck_assert_int_eq(zp_study_check(ZP_STUDY_MODES, &def, &err), ZP_BAD_INPUT);
-  ck_assert_ptr_nonnull(strstr(err.message, "liquid.model"));
+  ck_refused_by(ZP_STUDY_MODES, &def, "liquid.model");
 }
 
 /* Random liquids and voltages: every run ends with a result, and its energy balances. */

@@ -9,7 +9,6 @@ static void is_followed(const ZpActuatorDef *def) {
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, def);
   printf("%s\n", result->message);
   ck_assert_msg(result->outcome == ZP_FOLLOWED, "%s: %s", zp_outcome_name(result->outcome), result->message);
-  zp_result_destroy(result);
 }
 
 /* 100 g, which the breakdown cap can just hold: the gap of the platform comes to the cap's corner at 3596 V, all of its
@@ -64,13 +63,10 @@ TEST(closed_faces_push_in_a_vibration) {
           {"platform.length", MM(2.00174)}, {"insulator.thickness", UM(340.911)}, {"medium.permittivity", 1},
           {"medium.breakdown_field", 3e6}, {"load.mass", 0.10785e-3}, {"mesh.nodes", 26},
           {"electro.breakdown_cap", false}, {"modes.voltage", 5421.46});
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(ZP_STUDY_MODES, &def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_MODES, &def);
   printf("%s\n", result->message);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s: %s", zp_outcome_name(result->outcome), result->message);
   ck_assert_double_gt(zp_result_get(result, "frequency_1_Hz"), 0);
-  zp_result_destroy(result);
 }
 
 /* Ribbons of 0.26 m, 24 um thick, whose faces open and close node by node on hundreds of unstable states: the branch
@@ -98,7 +94,6 @@ TEST(a_floppy_ribbon_hangs) {
   double EA = def.ribbon.young_modulus / (1 - 0.38 * 0.38) * def.ribbon.width * def.ribbon.thickness;
   double length = def.ribbon.length - def.platform.length, pull = 0.5 * def.load.mass * def.gravity;
   ck_near(zp_result_get(result, "opening_m"), length * (1 + pull / EA), 1e-3); /* 1.7e-4 measured */
-  zp_result_destroy(result);
 }
 
 /* Ribbons that sag by more than the held opening cannot start from a straight shape. */
@@ -110,7 +105,6 @@ TEST(a_sagging_ribbon_is_held) {
   ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_near(zp_result_get(result, "opening_m"), MM(6.984), 1e-12); /* 6.6e-15 measured */
-  zp_result_destroy(result);
 }
 
 /* The first equilibrium that Newton's method found from straight ribbons was one of folded ribbons, and was told as
@@ -125,7 +119,6 @@ TEST(folded_ribbons_do_not_hang) {
   ck_assert_int_eq(result->outcome, ZP_CONVERGED);
   /* so floppy that it hangs down by nearly its length */
   ck_assert_double_gt(zp_result_get(result, "opening_m"), 0.9 * (def.ribbon.length - def.platform.length));
-  zp_result_destroy(result);
 }
 
 /* The same where a platform is held: 45 N held it without a voltage. */
@@ -139,7 +132,6 @@ TESTS(folded_ribbons_are_not_held, 0, FULL_OR(1, 0)) {
   ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_below(fabs(zp_result_get(result, "force_unpowered_N")), 3e-4); /* 9e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* 13 jumps on the way, the last of them just below the voltage that was asked for: no equilibrium on that branch was
@@ -155,7 +147,6 @@ NIGHTLY_TESTS(a_limit_point_may_be_just_below_the_voltage, 0, FULL_OR(1, 0)) {
   ZpResult *result = study_of(ZP_STUDY_ISOMETRIC, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_assert_double_gt(zp_result_get(result, "force_N"), 0);
-  zp_result_destroy(result);
 }
 
 /* A front that is far shorter than an element passes node by node as the load falls: the search ended after 40 of these
@@ -170,5 +161,4 @@ TEST(a_front_may_pass_many_nodes) {
   ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
   ck_assert_double_gt(zp_result_get(result, "max_load_kg"), 0);
-  zp_result_destroy(result);
 }

@@ -656,7 +656,7 @@ static bool is_refused_at_rest(const ZpActuatorDef *def, int a, int b, const cha
 }
 
 /* Run to a time => the state there, which the caller frees. */
-static void *run_to(ZpSim *sim, double time, const char *name) {
+static void *state_at(ZpSim *sim, double time, const char *name) {
   ZpRunInfo info;
   ck_assert_msg(zp_sim_run(sim, time, false, NULL, &info) == ZP_REACHED_END, "%s: %s", name, info.message);
   void *bytes = calloc(1, zp_sim_state_size(sim));
@@ -669,13 +669,13 @@ static void check_continued(const ZpActuatorDef *def, const void *halfway, const
   ZpModel *model = NULL;
   ZpSim *sim = start(def, &model, name);
   size_t size = zp_sim_state_size(sim);
-  void *again = run_to(sim, middle, name);
+  void *again = state_at(sim, middle, name);
   ck_assert_msg(memcmp(again, halfway, size) == 0, "%s: a second run differs", name);
   ZpModel *same = NULL;
   ZpSim *other = start(def, &same, name);
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_sim_restore(other, halfway, size, &err) == ZP_OK, "%s: %s", name, err.message);
-  void *continued = run_to(other, end, name);
+  void *continued = state_at(other, end, name);
   ck_assert_msg(memcmp(continued, finally, size) == 0, "%s: the restored run differs", name);
   free(again), free(continued);
   zp_sim_destroy(sim);
@@ -693,7 +693,7 @@ static void check_in_motion(int a, int b, const char *name) {
   const ZpColumn *column = zp_signal_columns(&columns);
   ZpTable *series = zp_table_create(column, columns, 200);
   zp_sim_record(sim, series, NULL);
-  void *halfway = run_to(sim, middle, name), *finally = run_to(sim, end, name);
+  void *halfway = state_at(sim, middle, name), *finally = state_at(sim, end, name);
   double energy = energy_error(series), books = book_error(series, &def);
   printf("in motion, %s: energy %.1e, books %.1e, zipped %.1f mm\n", name, energy, books,
          1e3 * zp_sim_get(sim, "zipped_length"));
@@ -751,7 +751,7 @@ static double motion_difference(const ZpActuatorDef *one, const ZpActuatorDef *m
   for (int k = 0; k < 2; k++) {
     ZpModel *model = NULL;
     ZpSim *sim = start(def[k], &model, name);
-    free(run_to(sim, middle, name));
+    free(state_at(sim, middle, name));
     for (size_t i = 0; i < LENGTH_OF(of); i++)
       value[k][i] = zp_sim_get(sim, of[i].signal) / (k && of[i].grows ? times : 1);
     zp_sim_destroy(sim);
@@ -985,7 +985,7 @@ static void check_measured(int a, int b, const char *name) {
     *def.sensitivity.by = 0;
     ZpSim *sim = start(&def, &model, name);
     for (int k = 0; k < 2; k++) {
-      free(run_to(sim, time[k], name));
+      free(state_at(sim, time[k], name));
       stroke[k] = zp_sim_get(sim, "stroke");
     }
     moved = residual_of(&def, "time_ms,stroke_mm", time, stroke, name);

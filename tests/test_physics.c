@@ -25,8 +25,7 @@ static ZpTable *new_series(size_t rows) {
   }
 
 static Balance balance_of(const ZpActuatorDef *def, double end_time) {
-  ZpModel *model = model_of(def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(def));
   ZpTable *series = new_series(2000);
   zp_sim_record(sim, series, NULL);
   ck_assert_int_eq(zp_sim_run(sim, end_time, false, NULL, NULL), ZP_REACHED_END);
@@ -37,8 +36,6 @@ static Balance balance_of(const ZpActuatorDef *def, double end_time) {
                .largest_field = largest_in(series, "field_energy_J")};
   b.error = largest_in(series, "energy_imbalance_J") / b.work;
   zp_table_destroy(series);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return b;
 }
 
@@ -207,8 +204,6 @@ TEST(test_solved_field_in_motion) {
   for (int k = 0; k < 3; k++)
     ck_below(worst[k], 1e-5);
   zp_field_destroy(&field);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A field that cannot be solved, of a ribbon that runs back, ends the run before the next step and says why. It left a
@@ -223,7 +218,7 @@ TESTS(test_unsolvable_field_ends_the_run, 0, 2) {
   x[2 * 10] = x[2 * 13];
   sim->state->refreshed = NAN; /* due */
   size_t bytes = zp_state_size(model);
-  ZpState *before = malloc(bytes);
+  ZpState *before = memory_of(bytes);
   memcpy(before, sim->state, bytes);
   for (int k = 0; k < 2; k++) { /* asked again, it says so again */
     ZpRunInfo info;
@@ -233,9 +228,6 @@ TESTS(test_unsolvable_field_ends_the_run, 0, 2) {
     ck_assert_int_eq(info.steps, 0);
     ck_assert_mem_eq(sim->state, before, bytes);
   }
-  free(before);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A run whose energy is off by more than 1e-4 of the work says so. */
@@ -243,22 +235,19 @@ TEST(test_imbalance_is_told) {
   for (int wrong = 0; wrong < 2; wrong++) {
     ZpActuatorDef def = DEF({"mesh.nodes", 21}, SEQUENTIAL, EXPLICIT, {"solver.end_time", 0.03},
                             {"electro.surface", wrong ? ZP_SURFACE_BEZIER : ZP_SURFACE_POLYLINE});
-    ZpResult *result = NULL;
-    ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, NULL), ZP_OK);
+    ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
     double error = zp_result_get(result, "energy_error");
     bool told = notes_with(result, "energy balance") > 0;
     printf("energy error %.1e, told %d\n", error, told);
     ck_assert_int_eq(error > 1e-4, wrong);
     ck_assert_int_eq(told, wrong);
-    zp_result_destroy(result);
   }
 }
 
 /* Without voltage there is no field, and the hanging actuator stays where it is. */
 TEST(test_no_voltage_no_field) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21}, {"drive.voltage", 0});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double opening = zp_sim_get(sim, "opening");
   zp_sim_run(sim, 0.05, false, NULL, NULL);
   static const char *const zeros[] = {"voltage",   "force",        "charge",        "electric_work", "field_energy",
@@ -268,8 +257,6 @@ TEST(test_no_voltage_no_field) {
   /* residual 1e-7 of the weight, released: moves of that order */
   ck_near(zp_sim_get(sim, "opening"), opening, 1e-12); /* 0 measured */
   ck_below(zp_sim_get(sim, "kinetic_energy"), 1e-9 * zp_sim_get(sim, "bending_energy"));
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* -- drag and free fall ---------------------------------------------------------------------------- */
@@ -292,9 +279,9 @@ TEST(test_drag_law) {
   ZpEval eval;
   ck_assert(zp_system_create(model, true, &eval));
   size_t size = zp_state_size(model), stride = model->stride;
-  ZpState *state = malloc(size);
+  ZpState *state = memory_of(size);
   copy_state(sim, state);
-  double *speed = zp_state_v(model, state), *a = malloc(2 * stride * sizeof *a);
+  double *speed = zp_state_v(model, state), *a = memory_of(2 * stride * sizeof *a);
   for (size_t j = 1; j < 21; j++) {
     speed[j] = vx;
     speed[stride + j] = vy;
@@ -311,11 +298,7 @@ TEST(test_drag_law) {
   ck_near(bounds.drag, 2 * m / (c * v), 1e-12);
   ck_near(bounds.axial, 2 * model->l / v, 1e-12); /* 2.1e-15 measured */
   ck_assert_double_eq(bounds.shear, 0);           /* straight */
-  free(a);
-  free(state);
   zp_system_destroy(&eval);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A limp strand, released, falls freely except for drag: v = v_t tanh(g t / v_t), v_t = sqrt(m g / c). Its clamp holds
@@ -324,8 +307,7 @@ TEST(test_terminal_velocity) {
   const double c = 10, v_t = sqrt(mu * 45e-3 / 21 * g / c);
   ZpActuatorDef def = strand(0, c);
   def.solver.time_step = 1e-6;
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   for (int k = 1; k <= 5; k++) {
     double t = 2e-4 * k;
     ck_assert_int_eq(zp_sim_run(sim, t, false, NULL, NULL), ZP_REACHED_END);
@@ -338,8 +320,6 @@ TEST(test_terminal_velocity) {
   zp_sim_run(sim, 11e-3, false, NULL, NULL);
   /* 2.8e-6 measured */
   ck_near(zp_sim_get(sim, "drag_loss") - before, height - zp_sim_get(sim, "gravity_energy"), 1e-5);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A cantilever released from straight: its free end falls freely until the effect of the clamp arrives. Its first
@@ -347,16 +327,13 @@ TEST(test_terminal_velocity) {
 TEST(test_free_fall) {
   ZpActuatorDef def = strand(NAN, 0);
   def.solver.time_step = 2e-8;
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   const double t = 0.5e-3;
   ck_assert_int_eq(zp_sim_run(sim, t, false, NULL, NULL), ZP_REACHED_END);
   double off = zp_sim_get(sim, "stroke") / (g * t * t / 2) - 1;
   printf("free end of a cantilever after 0.5 ms: %.1e off free fall\n", off);
   ck_below(fabs(off), 2e-4);                              /* 4.1e-5 measured */
   ck_near(zp_sim_get(sim, "end_velocity"), -g * t, 1e-3); /* 3.2e-4 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* -- frequency ------------------------------------------------------------------------------------- */
@@ -385,15 +362,12 @@ static double frequency(int nodes) {
   double rest = settled_value(&def, "stroke");
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.output.samples = 10000;
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpTable *series = new_series(10000);
   zp_sim_record(sim, series, NULL);
   ck_assert_int_eq(zp_sim_run(sim, 0.65, false, NULL, NULL), ZP_REACHED_END);
   double f = crossing_frequency(series, rest);
   zp_table_destroy(series);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return f;
 }
 
@@ -424,14 +398,11 @@ TESTS(test_same_bits, 0, LENGTH_OF(presets)) {
   char *state[2];
   size_t size = 0;
   for (int k = 0; k < 2; k++) {
-    ZpModel *model = model_of(&def);
-    ZpSim *sim = sim_of(model);
+    ZpSim *sim = sim_of(model_of(&def));
     zp_sim_run(sim, 30e-3, false, NULL, NULL);
     size = zp_sim_state_size(sim);
     state[k] = malloc(size);
     zp_sim_save(sim, state[k]);
-    zp_sim_destroy(sim);
-    zp_model_destroy(model);
   }
   ck_assert_mem_eq(state[0], state[1], size);
   free(state[0]);
@@ -454,7 +425,6 @@ static ZpOutcome run_def(const ZpActuatorDef *def, double end, bool stop, const 
   ck_assert_int_eq(zp_sim_create(model, hooks, &sim, NULL), ZP_OK);
   ZpOutcome outcome = zp_sim_run(sim, end, stop, hooks, info);
   zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return outcome;
 }
 
@@ -559,7 +529,7 @@ TEST(test_diverged) {
   const double poison[] = {1e6, NAN, -INFINITY};
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
-  ZpState *state = malloc(zp_state_size(model));
+  ZpState *state = memory_of(zp_state_size(model));
   for (size_t k = 0; k < LENGTH_OF(poison); k++) {
     copy_state(sim, state);
     ZpSim *broken = sim_of(model);
@@ -567,18 +537,13 @@ TEST(test_diverged) {
     put_state(broken, state);
     ZpRunInfo info;
     check_words(zp_sim_run(broken, 1e-3, false, NULL, &info), &info, "diverged", false);
-    zp_sim_destroy(broken);
   }
-  free(state);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A wrong voltage is refused and changes nothing. */
 TEST(test_set_voltage) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpError err;
   static const double wrong[] = {-1, NAN, INFINITY, 2e6};
   for (size_t i = 0; i < LENGTH_OF(wrong); i++) {
@@ -590,15 +555,12 @@ TEST(test_set_voltage) {
   ck_assert_double_eq(zp_sim_get(sim, "voltage"), 3e3);
   /* what charging at once loses is in the balance */
   ck_assert_double_eq_tol(zp_sim_get(sim, "energy_imbalance"), 0, 1e-15);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A voltage step during motion keeps the energy balance. Measured 4e-4. */
 TEST(test_balance_over_voltage_step) {
   ZpActuatorDef def = DEF(PAPER_MOTION, {"mesh.nodes", 21});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   zp_sim_run(sim, 30e-3, false, NULL, NULL);
   zp_sim_set_voltage(sim, 4e3, NULL);
   zp_sim_run(sim, 35e-3, false, NULL, NULL);
@@ -608,6 +570,4 @@ TEST(test_balance_over_voltage_step) {
   printf("10 kV, 4 kV, off: energy error %.1e\n", error);
   ck_below(fabs(error), 1e-3);
   ck_assert_double_eq(zp_sim_get(sim, "field_energy"), 0);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }

@@ -16,9 +16,7 @@
   { "ribbon.thickness", 100e-6 }
 
 static ZpResult *run(const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(ZP_STUDY_PROFILE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_PROFILE, def);
   ck_assert_int_eq(result->outcome, ZP_CONVERGED);
   return result;
 }
@@ -32,9 +30,7 @@ static double get(const ZpResult *result, const char *name) {
 /* One number of a run. */
 static double scalar(ZpActuatorDef def, const char *name) {
   ZpResult *result = run(&def);
-  double value = get(result, name);
-  zp_result_destroy(result);
-  return value;
+  return get(result, name);
 }
 
 /* -- against the independent study ----------------------------------------------------------------- */
@@ -53,7 +49,6 @@ TEST(test_forces_of_wedges) {
       ck_assert_double_eq_tol(get(result, "force_N"), capped[i], 5.5e-4);          /* 4.2e-4 measured */
       ck_assert_double_eq_tol(get(result, "force_uncapped_N"), all[i], 5.5e-4);    /* 4.6e-4 measured */
       ck_assert_double_eq_tol(get(result, "capped_length_m"), length[i], 0.55e-4); /* 4.9e-5 measured */
-      zp_result_destroy(result);
       def.electro.breakdown_cap = false;
       ck_assert_double_eq_tol(scalar(def, "force_N"), all[i], 5.5e-4); /* 4.6e-4 measured */
     }
@@ -106,7 +101,6 @@ TESTS(test_right_law_needs_no_factor, 0, FULL_OR(1, 0)) {
            get(result, "virtual_work_difference"));
     ck_assert_double_eq_tol(get(result, "scale_factor"), factor[i], within[i]);
     ck_below(fabs(get(result, "virtual_work_difference")), work[i]);
-    zp_result_destroy(result);
   }
 }
 
@@ -145,7 +139,6 @@ TEST(test_profile_of_a_wedge) {
   ck_below(law_off, 2e-4); /* gaps are printed to 10 nm; 5.3e-5 measured */
   ck_below(near, 5e-4);    /* 1.2e-4 measured */
   ck_below(far, 1e-3);     /* 2.9e-4 measured */
-  zp_result_destroy(result);
 }
 
 /* -- the paper's factor ---------------------------------------------------------------------------- */
@@ -175,12 +168,10 @@ TEST(test_papers_factor_from_its_causes) {
     ck_near(tape, 4.65 / 2.75 * (2.7 / 4.6) * (2.7 / 4.6), 2e-4); /* from the field; measured 9e-5 at 4 mm */
     ck_near(get(result, "paper_factor_gap"), gap_cause(opening[i]), 1e-5);
     ck_near(all, 8 * tape * get(result, "paper_factor_gap"), 1e-14);
-    zp_result_destroy(result);
   }
   ZpActuatorDef plain = DEF(CUBIC);
   ZpResult *result = run(&plain);
   ck_assert(isnan(zp_result_get(result, "paper_factor")));
-  zp_result_destroy(result);
 }
 
 /* All 27 cases: no voltage changes a factor. */
@@ -196,7 +187,6 @@ TEST(test_27_cases) {
       if (k == 0) paper = get(result, "paper_factor");
       ck_assert_double_eq(get(result, "scale_factor"), scale);
       ck_assert_double_eq(get(result, "paper_factor"), paper);
-      zp_result_destroy(result);
     }
   }
 }
@@ -235,9 +225,6 @@ TEST(test_goes_with_the_square_of_the_voltage) {
     ck_near(get(b, "max_field_V_per_m"), 3 * get(a, "max_field_V_per_m"), 1e-13);
     ck_assert_double_eq(get(b, "scale_factor"), get(c, "scale_factor"));
     ck_assert_double_eq(get(b, "force_N"), get(b, "force_uncapped_N"));
-    zp_result_destroy(a);
-    zp_result_destroy(b);
-    zp_result_destroy(c);
   }
 }
 
@@ -252,7 +239,6 @@ TEST(test_symmetric_ribbons_are_pulled_alike) {
                              1));
   printf("upper and lower differ by %.1e\n", worst);
   ck_below(worst, 1e-12); /* 1.7e-13 measured */
-  zp_result_destroy(result);
 }
 
 /* Without a bead the plates law is layers in series at each station, with and without breakdown, and its force their
@@ -286,7 +272,6 @@ TEST(rows_are_layers_in_series) {
   ck_below(apart, 5e-3);                             /* 1.7e-3 measured */
   ck_near(get(result, "plates_force_N"), sum, 1e-6); /* 1.7e-7 measured */
   ck_near(get(result, "max_field_V_per_m"), largest, 1e-12);
-  zp_result_destroy(result);
 }
 
 /* In breakdown both models have the force of the capped law, elsewhere the field has its own. */
@@ -307,8 +292,6 @@ TEST(test_cap_on_both_models) {
   ck_assert_double_gt(get(a, "force_uncapped_N") - get(a, "force_N"), 1);
   ck_near(get(b, "force_N"), get(a, "force_N"), 2e-4); /* the difference of the two where nothing is capped: 5e-5 */
   ck_assert_double_eq(get(b, "field_force_N"), get(b, "force_uncapped_N"));
-  zp_result_destroy(a);
-  zp_result_destroy(b);
 }
 
 /* Scale and share act on both models, but not on the reported field. */
@@ -330,13 +313,11 @@ TEST(test_fields_at_the_clip) {
   ck_near(get(result, "insulator_field_V_per_m"), 10.5e3 / 260e-6, 5e-5);               /* 1.2e-5 measured */
   ck_assert_uint_eq(result->notes, 1);                                                  /* 40.4 MV/m */
   ck_assert_ptr_nonnull(strstr(result->note[0], "insulator's field reaches 40.4 MV/m"));
-  zp_result_destroy(result);
   def.drive.voltage = 6e3;
   def.electro.breakdown_cap = false;
   result = run(&def);
   ck_assert_uint_eq(result->notes, 1);
   ck_assert_ptr_nonnull(strstr(result->note[0], "electro.breakdown_cap is false"));
-  zp_result_destroy(result);
 }
 
 /* -- held shapes ----------------------------------------------------------------------------------- */
@@ -351,7 +332,6 @@ static double polyline_force(ZpActuatorDef def, int nodes) {
   ck_assert(zp_newton_good(zp_statics_hold(&rest.statics, def.isometric.separation).end));
   double force = zp_plates_totals(&model->plates, &rest.statics.member->eval.plates, def.drive.voltage).force;
   zp_rest_close(&rest);
-  zp_model_destroy(model);
   return force;
 }
 
@@ -374,8 +354,6 @@ TESTS(test_held_shape, 0, FULL_OR(1, 0)) {
       ck_near(here, law, 1e-5);
       ck_near(there, law, 1e-4);
       ck_assert_double_eq_tol(get(coarse, "scale_factor"), 1, 1e-3);
-      zp_result_destroy(coarse);
-      zp_result_destroy(fine);
     }
 }
 
@@ -396,18 +374,15 @@ TEST(test_platform) {
   ck_near(get(result, "platform_force_N"), 0.5 * ZP_EPS0 * 2.75 * 12.7e-3 * 1e6 / (h * h) * 5e-3, 1e-12);
   ck_near(zp_table_get(result->series, result->series->rows - 1, "x_m"), 50e-3, 1e-12);
   double all = get(result, "force_N");
-  zp_result_destroy(result);
   bare.platform.electrode = false;
   result = run(&bare);
   ck_assert_double_eq(get(result, "platform_force_N"), 0);
   ck_near(get(result, "force_N"), all, 1e-12);
   ck_near(zp_table_get(result->series, result->series->rows - 1, "x_m"), 45e-3, 1e-12);
-  zp_result_destroy(result);
   without.platform.length = 0;
   without.ribbon.length = 90e-3;
   result = run(&without);
   ck_near(get(result, "force_N"), all, 3e-8); /* the least gap, at the clip, goes with ribbon.length */
-  zp_result_destroy(result);
 }
 
 static void check_cell(const ZpFieldMap *map, size_t i, size_t j, int *metal, int *tape) {
@@ -437,7 +412,6 @@ TEST(test_map) {
   ck_assert_double_lt(map->x[0], -5e-3);
   ck_assert_double_lt(fabs(map->x[0]), 0.1); /* what is metres away is left out */
   ck_assert_double_lt(map->y[0], -5e-3);
-  zp_result_destroy(result);
 }
 
 /* -- refusals -------------------------------------------------------------------------------------- */
@@ -486,12 +460,9 @@ TEST(test_shape_that_runs_back) {
   def.profile.shape = ZP_PROFILE_HELD;
   def.isometric.separation = 88e-3;
   def.ribbon.thickness = 50e-6;
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_PROFILE, &def, NULL, NULL, &result, &err), ZP_OK);
+  ZpResult *result = study_of(ZP_STUDY_PROFILE, &def);
   ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
   ck_assert_msg(strstr(result->message, "folds back") && strstr(result->message, "0.088 m"), "%s", result->message);
-  zp_result_destroy(result);
 }
 
 /* -- every key at its bounds ----------------------------------------------------------------------- */

@@ -1,5 +1,5 @@
 /* Campaigns whose cases are computed elsewhere: here by the same process, through the bytes that travel. */
-#include "check_util.h"
+#include "data_util.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -26,13 +26,9 @@ static ZpStatus remote(void *user, size_t worker, size_t from, size_t to, unsign
 }
 
 static ZpScenario *sweep(void) {
-  ZpError err;
-  ZpScenario *s = zp_scenario_create();
-  static const char *const sets[] = {"study=limits", "load.mass=2 g .. 20 g : 10", "ribbon.thickness=[50 um, 60 um]",
-                                     "mesh.nodes=21", "output.errors=false"};
-  for (size_t i = 0; i < LENGTH_OF(sets); i++)
-    ck_assert_msg(zp_scenario_set(s, sets[i], &err) == ZP_OK, "%s", err.message);
-  return s;
+  return scenario_with((const char *const[]){"study=limits", "load.mass=2 g .. 20 g : 10",
+                                             "ribbon.thickness=[50 um, 60 um]", "mesh.nodes=21", "output.errors=false",
+                                             NULL});
 }
 
 /* Run it => status; *sum: of all pull-in voltages and largest loads, exact, and the rows that there are. */
@@ -70,7 +66,6 @@ static void same_as_here(Elsewhere *elsewhere) {
   ck_assert_msg(run(scenario, elsewhere, &there, &rows, &err) == ZP_OK, "%s", err.message);
   ck_assert_uint_eq(rows, all);
   ck_assert_double_eq(here, there);
-  zp_scenario_destroy(scenario);
 }
 
 TEST(cases_computed_elsewhere_are_the_same) {
@@ -91,7 +86,6 @@ TEST(all_processes_lost_is_an_error) {
   ck_assert_int_eq(run(scenario, &elsewhere, &sum, &rows, &err), ZP_MACHINE);
   ck_assert_ptr_nonnull(strstr(err.message, "--resume"));
   ck_assert_uint_eq(rows, 0);
-  zp_scenario_destroy(scenario);
 }
 
 TEST(garbled_results_are_an_error) {
@@ -102,7 +96,6 @@ TEST(garbled_results_are_an_error) {
   Elsewhere elsewhere = {.scenario = scenario, .garbled = true};
   ck_assert_int_eq(run(scenario, &elsewhere, &sum, &rows, &err), ZP_MACHINE);
   ck_assert_ptr_nonnull(strstr(err.message, "cannot be read"));
-  zp_scenario_destroy(scenario);
 }
 
 /* Whole results, but of another study. */
@@ -115,6 +108,4 @@ TEST(results_of_another_study_are_an_error) {
   ck_assert_int_eq(zp_scenario_set(other, "study=stationary", &err), ZP_OK);
   ck_assert_int_eq(run(scenario, &elsewhere, &sum, &rows, &err), ZP_MACHINE);
   ck_assert_ptr_nonnull(strstr(err.message, "cannot be read"));
-  zp_scenario_destroy(scenario);
-  zp_scenario_destroy(other);
 }

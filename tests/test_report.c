@@ -21,7 +21,7 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
-#include "check_util.h"
+#include "data_util.h"
 #include "io/drawing.h"
 #include "io/file.h"
 #include "sanitized.h"
@@ -82,7 +82,7 @@ static char *read_whole(const char *path, size_t *size) {
   ck_assert_ptr_nonnull(text);
   ck_assert_uint_eq(fread(text, 1, *size, file), *size);
   fclose(file);
-  return text;
+  return zp_test_owns(text, free);
 }
 
 static void put_file(const char *name, const char *text) {
@@ -178,8 +178,7 @@ static ZpResult *made_up(size_t rows, size_t frames, bool ribbon, double voltage
 #define NO_PICTURES "output.plots=false"
 
 static ZpScenario *scenario_of(const char *assignment) {
-  ZpScenario *scenario = zp_scenario_create();
-  ck_assert_ptr_nonnull(scenario);
+  ZpScenario *scenario = new_scenario();
   ZpError err = {0};
   ck_assert_int_eq(zp_scenario_set(scenario, "output.animation=true", &err), ZP_OK);
   if (assignment) ck_assert_msg(zp_scenario_set(scenario, assignment, &err) == ZP_OK, "%s", err.message);
@@ -193,15 +192,12 @@ static void write_single(const char *name, const char *assignment, ZpResult *res
   const ZpReport report = {in_base(name), scenario, &result, 1, wall_time, NULL, NULL, NULL, 0, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* The same of a sweep of `count` runs over the lists that `assignment` gives. */
 static void write_sweep(const char *name, const char *assignment, size_t count) {
   ZpScenario *scenario = scenario_of(assignment);
-  ZpResult **result = calloc(count + 1, sizeof(ZpResult *));
-  ck_assert_ptr_nonnull(result);
+  ZpResult **result = memory_of((count + 1) * sizeof(ZpResult *));
   ck_assert_uint_eq(zp_scenario_count(scenario), count);
   for (size_t i = 0; i < count; i++)
     result[i] = made_up(60, 3, false, 8e3, 1 + 0.5 * (double)i);
@@ -211,30 +207,20 @@ static void write_sweep(const char *name, const char *assignment, size_t count) 
   const ZpReport report = {in_base(name), scenario, result, count, 2.5, NULL, NULL, NULL, 0, NULL, NULL};
   ZpStatus status = zp_report_write(&report, note, &err);
   ck_assert_msg(status == ZP_OK, "%s", err.message);
-  for (size_t i = 0; i < count; i++)
-    zp_result_destroy(result[i]);
-  free(result);
-  zp_scenario_destroy(scenario);
 }
 
-/* Run a scenario, which is freed, and write the report. */
+/* Run a scenario and write the report. */
 static void write_scenario(const char *name, ZpScenario *scenario) {
   ZpError err = {0};
   const size_t count = zp_scenario_count(scenario);
-  ZpResult **result = calloc(count, sizeof(ZpResult *));
-  ck_assert_ptr_nonnull(result);
+  ZpResult **result = memory_of(count * sizeof(ZpResult *));
   for (size_t i = 0; i < count; i++) {
     ZpActuatorDef def;
     ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
-    ck_assert_msg(zp_data_study_run(zp_scenario_study(scenario), &def, NULL, &result[i], &err) == ZP_OK, "%s",
-                  err.message);
+    result[i] = data_study_of(zp_scenario_study(scenario), &def);
   }
   const ZpReport report = {in_base(name), scenario, result, count, 0.5, NULL, NULL, NULL, 0, NULL, NULL};
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
-  for (size_t i = 0; i < count; i++)
-    zp_result_destroy(result[i]);
-  free(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* Run `study` as `assignment` (may be NULL) says, a sweep where it gives a list, and write the report. */
@@ -285,8 +271,6 @@ static int compare_entry(const char *path, const struct stat *info, int kind, st
   snprintf(other, sizeof other, "%s%s", second_root, path + strlen(first_root));
   char *mine = read_whole(path, &size), *theirs = read_whole(other, &other_size);
   ck_assert_msg(size == other_size && memcmp(mine, theirs, size) == 0, "%s and %s differ", path, other);
-  free(mine);
-  free(theirs);
   return 0;
 }
 
@@ -382,7 +366,6 @@ TEST(table_of_a_run) {
   while (strtok_r(NULL, "\n", &rest))
     rows++;
   ck_assert_uint_eq(rows, 50);
-  free(text);
 }
 
 TEST(same_result_same_bytes) {
@@ -406,7 +389,6 @@ TEST(table_of_a_sweep) {
                          "6000,zipped,0.30000000000000004,0.075,123456789\n"
                          "8000,diverged,0.30000000000000004,,123456789\n"
                          "10000,zipped,0.30000000000000004,0.15,123456789\n");
-  free(text);
   ck_assert(exists("out/plots/contraction.svg") && exists("out/plots/zip_time.svg"));
   ck_assert(!exists("out/shapes.pvd") && !exists("out/plots/stroke.svg"));
   ck_assert_str_eq(notices, "");
@@ -461,7 +443,6 @@ TEST(interrupted_before_the_first_run) {
   ck_assert_str_eq(json_string_value(json_object_get(json, "outcome")), "interrupted");
   ck_assert_uint_eq(json_array_size(json_object_get(json, "rows")), 0);
   json_decref(json);
-  zp_scenario_destroy(scenario);
 }
 
 TEST(kind_ribbon) {
@@ -559,8 +540,6 @@ TEST(design_chart) {
   ck_assert(strstr(chart, ">20 MV/m<") && strstr(chart, ">30 MV/m<") && strstr(chart, ">60 MV/m<"));
   ck_assert(strstr(map, ">load / g<") && strstr(map, "rgb(255, 255, 255)"));
   ck_assert(strstr(map, ">drive.voltage / kV<") && strstr(map, ">medium.breakdown_field / (MV/m)<"));
-  free(chart);
-  free(map);
   double voltage, field, load;
   ck_assert_int_eq(sscanf(asked("l", "map", "$map[1]"), "%lf %lf %lf", &voltage, &field, &load), 3);
   ck_assert(voltage == 4e3 && field == 20e6 && load > 5e-3 && load < 8e-3);
@@ -572,9 +551,7 @@ TEST(design_chart) {
 static bool file_says(const char *name, const char *text) {
   size_t size;
   char *whole = read_whole(in_base(name), &size);
-  const bool says = strstr(whole, text) != NULL;
-  free(whole);
-  return says;
+  return strstr(whole, text) != NULL;
 }
 
 static void write_rest(const char *name, const char *study, const char *const *more) {
@@ -605,7 +582,6 @@ static int check_labels(const char *name, double left, double right, double top,
                   y);
     labels++;
   }
-  free(whole);
   return labels;
 }
 
@@ -685,7 +661,6 @@ static void check_panels(void) {
       ck_assert_double_eq_tol(at[2], of[3], 1e-12 * of[3]); /* 4e-17 measured */
     }
   }
-  free(table);
 }
 
 /* Ten maps in one picture: none is left out, and all have contours of the same levels. */
@@ -716,7 +691,7 @@ TEST(lines_of_cases_and_of_the_front) {
   ck_assert_int_eq(zp_scenario_set(scenario, "study=stationary", NULL), ZP_OK);
   ck_assert_int_eq(zp_scenario_set(scenario, "load.mass=[2 g, 4 g]", NULL), ZP_OK);
   for (size_t i = 0; i < 6; i++) {
-    result[i] = zp_result_create(ZP_STUDY_STATIONARY);
+    result[i] = new_result(ZP_STUDY_STATIONARY);
     zp_result_add(result[i], "stroke_m", "m", (double)i + 1);
     zp_result_add(result[i], "other_m", "m", 99 - (double)i);
   }
@@ -728,9 +703,6 @@ TEST(lines_of_cases_and_of_the_front) {
   ck_assert_str_eq(asked("o", "parallel", "colour_axis, axis_low[3], axis_high[3]"), "3 1.0 6.0");
   ck_assert(file_says("o/plots/parallel.svg", ">front<"));
   ck_assert_str_eq(asked("o", "pareto", "front[1], front[2]"), "5 2");
-  for (size_t i = 0; i < 6; i++)
-    zp_result_destroy(result[i]);
-  zp_scenario_destroy(scenario);
 }
 
 /* Under 500 g there is neither pull-in nor release: the legend named a curve that has no point. */
@@ -751,7 +723,6 @@ static size_t letters_of_curve(const char *name, char letter) {
   ck_assert_ptr_nonnull(at);
   for (at += 4; *at && *at != '\''; at++)
     count += *at == letter;
-  free(whole);
   return count;
 }
 
@@ -793,7 +764,6 @@ static void check_numbers(const char *name) {
     for (const char *c = text; (c = strcasestr(c, "nan")) != NULL; c++)
       ck_assert_msg(c > text && (c[-1] >= 'a' && c[-1] <= 'z'), "%s: %.20s", path, c);
     ck_assert_ptr_null(strstr(text, "inf,"));
-    free(text);
   }
 }
 
@@ -820,7 +790,6 @@ TEST(field_of_a_profile) {
   char *svg = read_whole(in_base("p/plots/field.svg"), &size);
   ck_assert_uint_lt(size, 1000000);
   ck_assert_ptr_nonnull(strstr(svg, "data:image/png;base64,"));
-  free(svg);
   char *vts = read_whole(in_base("p/field.vts"), &size);
   const char *extent = strstr(vts, "WholeExtent"), *bytes = strstr(vts, begin);
   ck_assert(extent && bytes);
@@ -828,8 +797,7 @@ TEST(field_of_a_profile) {
   size_t nodes = (rows + 1) * (columns + 1), cells = rows * columns;
   size_t written = size - (size_t)(bytes - vts) - strlen(begin) - strlen(end);
   ck_assert_uint_eq(written, sizeof(double) * (4 + 4 * nodes + 2 * cells)); /* four arrays, each after its length */
-  free(vts);
-  write_study("p", "stationary", NULL); /* over it */
+  write_study("p", "stationary", NULL);                                     /* over it */
   ck_assert(!exists("p/field.vts") && !exists("p/plots/field.svg"));
 }
 
@@ -875,7 +843,6 @@ TEST(frequencies_are_an_array) {
   json_decref(json);
   char *text = read_whole(in_base("two/table.csv"), &size);
   ck_assert_int_eq(strncmp(text, "load.mass_kg,outcome,frequency_1_Hz,frequency_2_Hz,", 51), 0);
-  free(text);
 }
 
 NIGHTLY_TEST(no_pull_in_is_null) {
@@ -919,8 +886,6 @@ TEST(name_taken_by_a_folder) {
   ck_assert_ptr_nonnull(strstr(err.message, "results.h5"));
   ck_assert(!exists("out/summary.json"));
   count_files("out");
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 TEST(summary_to_a_full_device) {
@@ -934,8 +899,6 @@ TEST(summary_to_a_full_device) {
     ck_assert_ptr_nonnull(strstr(err.message, strerror(ENOSPC)));
     fclose(full);
   }
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* What a reader of a complete file finds at its end. */
@@ -945,7 +908,6 @@ static void check_complete(const char *name, const char *end) {
   char *text = read_whole(in_base(name), &size);
   size_t length = strlen(end);
   ck_assert_msg(size >= length && memcmp(text + size - length, end, length) == 0, "%s is not complete", name);
-  free(text);
 }
 
 /* Write to a disk of `kilobytes`; true if it was large enough. */
@@ -968,8 +930,6 @@ static bool write_on_small_disk(int kilobytes) {
   check_complete("disk/out/plots/stroke.svg", "</svg>\n\n");
   check_complete("disk/out/plots/animation.gif", ";");
   ck_assert_int_eq(umount(in_base("disk")), 0);
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
   return status == ZP_OK;
 }
 
@@ -1025,7 +985,6 @@ static bool nothing_runs(const char *started) {
   size_t size;
   char *text = read_whole(in_base(started), &size);
   pid_t group = (pid_t)strtol(text, NULL, 10);
-  free(text);
   ck_assert_int_gt(group, 1);
   for (int i = 0; i < 30000 && kill(-group, 0) == 0; i++) /* its child is someone else's to bury */
     usleep(10000);
@@ -1100,8 +1059,6 @@ TEST(numbers_come_before_pictures) {
   ck_assert_ptr_nonnull(strstr(notices, "was not drawn: interrupted; the rest are not drawn either"));
   ck_assert(nothing_runs("out/plots/started"));
   count_files("out");
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
 }
 
 /* -- two runs into one folder mixed their files without a word --------------------------------------------------- */

@@ -95,8 +95,6 @@ TESTS(offset_on_the_other_side_is_a_mirror_image, 0, 3) {
   check_mirrored(one->series, other->series, right.ribbon.length);
   if (_i) ck_below(zp_result_get(one, "angle_rad"), -0.02);
   ck_near(zp_result_get(one, "opening_m"), zp_result_get(other, "opening_m"), 1e-13);
-  zp_result_destroy(one);
-  zp_result_destroy(other);
 }
 
 /* Both ends of the platform count for whether it is closed: limits do not depend on the side of the load. */
@@ -110,8 +108,6 @@ TEST(limits_of_a_mirrored_load_are_equal) {
   ZpResult *one = study_of(ZP_STUDY_LIMITS, &right), *other = study_of(ZP_STUDY_LIMITS, &left);
   for (size_t k = 0; k < LENGTH_OF(limits); k++)
     ck_near(zp_result_get(one, limits[k]), zp_result_get(other, limits[k]), 1e-13); /* 2.0e-14 measured */
-  zp_result_destroy(one);
-  zp_result_destroy(other);
 }
 
 /* Under a load in the middle it hangs like a guided platform, up to the second order of its joints; strips that curl or
@@ -142,7 +138,6 @@ TEST(platform_keeps_its_length) {
          dy = zp_table_get(t, 21, "y_m") - zp_table_get(t, 20, "y_m");
   ck_near(sqrt(dx * dx + dy * dy), def.platform.length, 2e-8); /* 9.6e-9 measured */
   ck_near(atan2(dy, dx), zp_result_get(result, "angle_rad"), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* Largest imbalance of a run over the largest kinetic energy. */
@@ -153,7 +148,6 @@ static double imbalance_of(const ZpActuatorDef *def) {
     imbalance = fmax(imbalance, fabs(zp_table_get(result->series, row, "energy_imbalance_J")));
     kinetic = fmax(kinetic, zp_table_get(result->series, row, "kinetic_energy_J"));
   }
-  zp_result_destroy(result);
   return imbalance / kinetic;
 }
 
@@ -174,14 +168,11 @@ TESTS(energy_balances, 0, 4) {
 /* An equilibrium stays at rest in motion: both have the same laws. */
 TEST(rest_stays_at_rest) {
   ZpActuatorDef def = DEF(TURNS, {"mesh.nodes", 21}, {"load.offset", 2e-3}, {"drive.voltage", 0});
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpRunInfo info;
   ck_assert_int_eq(zp_sim_run(sim, 0.02, false, NULL, &info), ZP_REACHED_END);
   ck_near(zp_sim_get(sim, "angle"), angle_of(def), 1e-12); /* 1.3e-13 measured */
   ck_below(zp_sim_get(sim, "kinetic_energy"), 1e-24);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Massless ribbons whose platform rotates and swings on the masses at its ends: eqs. (19.4) and (19.5). */
@@ -196,7 +187,6 @@ TEST(frequency_of_the_tilt) {
   for (size_t k = 0; k < 4; k++)
     nearest = fmin(nearest, fabs(zp_table_get(result->series, k, "frequency_Hz") / expected - 1));
   ck_below(nearest, 2e-4); /* 7.7e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* -- what is refused ---------------------------------------------------------------------------------- */

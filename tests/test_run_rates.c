@@ -8,9 +8,7 @@ static ZpActuatorDef motion(void) {
 }
 
 static ZpResult *run(const ZpActuatorDef *def) {
-  ZpError err = {ZP_OK, ""};
-  ZpResult *result;
-  ck_assert_msg(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, def);
   ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
   return result;
 }
@@ -40,7 +38,7 @@ static void go_around(const ZpActuatorDef *def, int key, double step) {
     if (k == 0) continue;
     ck_assert_int_eq(zp_def_set(&near, key, zp_def_get(def, key) + k * step, NULL), ZP_OK);
     zp_result_destroy(around.run[k + 2]);
-    around.run[k + 2] = run(&near);
+    around.run[k + 2] = zp_test_releases(run(&near)); /* for further tests */
   }
 }
 
@@ -60,7 +58,6 @@ static void check(const ZpActuatorDef *def, const char *output, const char *key,
   note_check(__func__, output, key, fabs(rate / by_runs - 1), allowed);
   ck_assert_msg(fabs(rate - by_runs) <= allowed * fabs(by_runs), "%s by %s: %.9g, by differences %.9g", output, key,
                 rate, by_runs);
-  zp_result_destroy(result);
 }
 
 /* -- against differences of whole runs ----------------------------------------------------------------- */
@@ -110,7 +107,6 @@ TEST(derivative_of_every_landing_is_found) {
   def.solver.stop_when_zipped = ZP_WHEN_TRUE;
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_assert_uint_eq(notes_with(result, "there are no derivatives"), 0);
-  zp_result_destroy(result);
 }
 
 /* At an instant that ends a step, neighbouring actuators reach it before or after that step. */
@@ -122,14 +118,12 @@ TEST(zip_at_the_end_of_a_step) {
   double usual = slope_in(result, "zip_time_s", "drive.voltage"), time = zp_result_get(result, "zip_time_s");
   double steps = ceil(time / def.solver.time_step);
   for (int k = 0; k < 8; k++) {
-    zp_result_destroy(result);
     def.solver.time_step = time / steps;
     result = run_by(&def, "drive.voltage");
     time = zp_result_get(result, "zip_time_s");
   }
   ck_below(fabs(time - steps * def.solver.time_step), 1e-12);
   ck_near(slope_in(result, "zip_time_s", "drive.voltage"), usual, 1e-3); /* 4.5e-4 measured */
-  zp_result_destroy(result);
 }
 
 /* The start, a hanging equilibrium, goes with the thickness, too; no step moves far in so short a run. */
@@ -175,7 +169,6 @@ TEST(steps_go_with_their_corners) {
     near.solver.time_step = 0.025 / near.drive.frequency;
     ZpResult *result = run_by(&near, k == 0 ? "drive.frequency" : "");
     at[k + 2] = k == 0 ? slope_in(result, "opening_m", "drive.frequency") : zp_result_get(result, "opening_m");
-    zp_result_destroy(result);
   }
   double by_runs = (at[0] - 8 * at[1] + 8 * at[3] - at[4]) / (12 * part * def.drive.frequency);
   ck_near(at[2], by_runs, 2e-5); /* 8.7e-6 measured */
@@ -235,7 +228,6 @@ TESTS(run_ends_at_its_closing, 0, 2) {
   ZpResult *result = run(&def);
   ck_near(zp_result_get(result, "contraction"), 0.99, 1e-12);
   ck_near(zp_result_get(result, "simulated_time_s"), zp_result_get(result, "zip_time_s"), 1e-12);
-  zp_result_destroy(result);
 }
 
 /* Numbers that are read at the closing move with it. At constant time viscous_loss_J would fall with the viscosity. */
@@ -256,7 +248,6 @@ TEST(numbers_at_the_closing_agree_with_differences) {
   double rate = slope_in(result, "viscous_loss_J", "medium.kinematic_viscosity");
   def.solver.tolerance = 1e-5;
   ck_near(rate, difference(&def, "viscous_loss_J", "medium.kinematic_viscosity", 1e-3), 1e-2); /* 2.4e-3 measured */
-  zp_result_destroy(result);
 }
 
 /* A run that ends where the actuator has hardly moved for 0.1 s: the instant moves with the key. */
@@ -266,7 +257,6 @@ TEST(numbers_at_rest_move_with_the_end) {
   def.solver.end_time = 10;
   ZpResult *result = run(&def);
   ck_assert_double_lt(zp_result_get(result, "simulated_time_s"), 10);
-  zp_result_destroy(result);
   check(&def, "closed_from_s", "drive.voltage", 1e-6, 1e-8);
   check(&def, "viscous_loss_J", "drive.voltage", 1e-5, 4e-7);
   check(&def, "jet_loss_J", "drive.voltage", 1e-5, 5e-8);
@@ -280,7 +270,6 @@ TEST(numbers_at_a_short_circuit_move_with_it) {
           {"output.errors", false});
   ZpResult *result = run(&def);
   ck_assert_int_eq(result->outcome, ZP_SHORT_CIRCUIT);
-  zp_result_destroy(result);
   check(&def, "source_energy_J", "drive.voltage", 1e-6, 1e-5);
 }
 
@@ -302,8 +291,6 @@ TEST(default_tolerance_settles_as_its_number) {
     settled++;
   }
   ck_assert_uint_gt(settled, 0);
-  zp_result_destroy(by_default);
-  zp_result_destroy(given);
 }
 
 /* -- the current of a supply ----------------------------------------------------------------------------- */
@@ -332,7 +319,6 @@ NIGHTLY_TEST(peak_and_rms_current_with_impacts) {
           difference(&def, "peak_current_A", "ribbon.thickness", 1e-3), 5e-5); /* 1.4e-5 measured */
   ck_assert_double_nan(slope_in(result, "rms_current_A", "ribbon.thickness"));
   ck_assert_uint_eq(notes_with(result, "null because other steps change it by more than 1 %"), 1);
-  zp_result_destroy(result);
   def.solver.end_time = 0.08;
   check(&def, "rms_current_A", "ribbon.thickness", 1e-3, 2e-3); /* 3.7e-4 measured */
 }
@@ -374,7 +360,6 @@ TEST(swing_scales) {
   double v = -zp_table_get(result->series, last, "end_velocity_m_per_s");
   double half = 0.5 * def.solver.end_time * v;
   ck_near(by_E + by_g, half, 1e-7); /* 2.3e-8 measured */
-  zp_result_destroy(result);
 }
 
 /* A closed actuator charges through a resistor: its largest current is V / R, what is lost C V^2 / 2 of any R. */
@@ -400,7 +385,6 @@ TEST(charging_through_a_resistor) {
   double lost = zp_result_get(result, "source_loss_J");
   ck_below(fabs(slope_in(result, "source_loss_J", "source.resistance")) * R, 2e-6 * lost); /* 3.5e-7 measured */
   ck_below(fabs(slope_in(result, "source_loss_J", "drive.voltage") * V / lost - 2), 1e-4);
-  zp_result_destroy(result);
 }
 
 /* -- where there are none ------------------------------------------------------------------------------ */
@@ -417,7 +401,6 @@ TEST(limits_of_a_supply_end_them) {
   ZpResult *result = run_by(&def, "drive.voltage");
   ck_assert(isnan(slope_in(result, "charge_C", "drive.voltage")));
   ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: a limit of the supply's current begins or ends"));
-  zp_result_destroy(result);
 }
 
 /* Regression: whether the bead had covered a station was a sum of lengths, which for this ribbon was below the whole by
@@ -429,7 +412,6 @@ TEST(bead_at_a_node_ends_them) {
   ZpResult *result = run_by(&def, "drive.voltage");
   ck_assert(isnan(slope_in(result, "wet_length_m", "drive.voltage")));
   ck_assert_ptr_nonnull(note_of(result, "there are no derivatives: the meniscus of a bead passes a node"));
-  zp_result_destroy(result);
 }
 
 /* How contact forces and the bending of strips share a loss depends on the steps within each impact. */
@@ -439,21 +421,17 @@ TEST(what_the_steps_do_not_settle_is_null) {
   ZpResult *result = run_by(&def, "ribbon.thickness");
   ck_assert(isnan(slope_in(result, "contact_loss_J", "ribbon.thickness")));
   ck_assert_ptr_nonnull(note_of(result, "null because other steps change it by more than 1 %: "));
-  zp_result_destroy(result);
 }
 
 TEST(run_without_its_end_has_none) {
   ZpActuatorDef def = motion();
-  ZpError err;
-  ZpResult *result;
   def.liquid.model = ZP_LIQUID_SUBMERGED;
   def.solver.max_steps = 20;
   ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), "drive.voltage", NULL), ZP_OK);
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, &err), ZP_OK);
+  ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_STEP_LIMIT);
   ck_assert(isnan(slope_in(result, "stroke_m", "drive.voltage")));
   ck_assert_ptr_nonnull(note_of(result, "because the run did not reach its end"));
-  zp_result_destroy(result);
 }
 
 /* Regressions: a key at an end of its range has five neighbours on one side, for which there was no room. A number
@@ -468,7 +446,6 @@ TEST(key_at_an_end_of_its_range) {
     for (size_t k = 0; k < i; k++)
       ck_assert_str_ne(result->scalar[i].name, result->scalar[k].name);
   ck_assert_uint_eq(notes_with(result, "there are no derivatives"), 0);
-  zp_result_destroy(result);
 }
 
 /* Without load a difference must be taken on one side, too. */
@@ -478,11 +455,9 @@ TEST(derivative_by_a_load_that_is_not_there) {
   def.solver.end_time = 0.01;
   ZpResult *result = run_by(&def, "load.mass");
   double rate = slope_in(result, "stroke_m", "load.mass"), none = zp_result_get(result, "stroke_m");
-  zp_result_destroy(result);
   def.load.mass = 1e-7;
   result = run(&def);
   ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 5e-5); /* 1.5e-5 measured */
-  zp_result_destroy(result);
 }
 
 TEST(refusals) {
@@ -497,11 +472,9 @@ TEST(refusals) {
                {"solver.tolerance", 1e-4, "solver.tolerance", "a setting of the computation"}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
     ZpActuatorDef def = motion();
-    ZpError err = {ZP_OK, ""};
     def.liquid.model = ZP_LIQUID_NONE;
     ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), wrong[k].by, NULL), ZP_OK);
     ck_assert_int_eq(zp_def_set(&def, zp_key_find(wrong[k].key), wrong[k].value, NULL), ZP_OK);
-    ck_assert_int_eq(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT);
-    ck_assert_msg(strstr(err.message, wrong[k].words), "%s", err.message);
+    ck_refused_by(ZP_STUDY_ACTUATE, &def, wrong[k].words);
   }
 }

@@ -91,7 +91,5 @@ TESTS(dry_actuator_at_rest_keeps_its_shape, 0, LENGTH_OF(cases)) {
       ck_assert_int_eq(isnan(value), isnan(expected));
       if (!isnan(expected)) ck_near(value, expected, 2e-8); /* 3e-9 measured */
     }
-    zp_result_destroy(result);
   }
-  zp_result_destroy(plain);
 }

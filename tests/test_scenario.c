@@ -12,7 +12,7 @@
 
 #include <zipact/io.h>
 
-#include "check_util.h"
+#include "data_util.h"
 #include "io/cases.h"
 
 static ZpStatus parse(ZpScenario *s, const char *text, ZpError *err) {
@@ -21,9 +21,8 @@ static ZpStatus parse(ZpScenario *s, const char *text, ZpError *err) {
 
 /* A scenario of a text that must be right. */
 static ZpScenario *scenario_of(const char *text) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
-  ck_assert_ptr_nonnull(s);
   ck_assert_msg(parse(s, text, &err) == ZP_OK, "%s: %s", text, err.message);
   return s;
 }
@@ -40,7 +39,6 @@ static double value_in(const char *text, const char *key) {
   ZpScenario *s = scenario_of(text);
   ck_assert_uint_eq(zp_scenario_count(s), 1);
   ZpActuatorDef def = def_of(s, 0);
-  zp_scenario_destroy(s);
   return zp_def_get(&def, zp_key_find(key));
 }
 
@@ -63,7 +61,7 @@ static char *written(const ZpScenario *s) {
   ck_assert_ptr_nonnull(file);
   ck_assert_msg(zp_scenario_write(s, file, &err) == ZP_OK, "%s", err.message);
   ck_assert_int_eq(fclose(file), 0);
-  return text;
+  return zp_test_owns(text, free);
 }
 
 static void assert_round_trip(const ZpScenario *s) {
@@ -77,9 +75,6 @@ static void assert_round_trip(const ZpScenario *s) {
   }
   char *again = written(back);
   ck_assert_str_eq(text, again);
-  free(again);
-  free(text);
-  zp_scenario_destroy(back);
 }
 
 /* Values that are read, and what they are in SI: compared bit by bit. */
@@ -384,7 +379,6 @@ TESTS(test_bad_text, 0, LENGTH_OF(bad_texts)) {
   ck_assert_uint_eq(zp_scenario_count(s), 2); /* as before */
   ck_assert_double_eq(def_of(s, 1).load.mass, 7e-3);
   ck_assert_double_eq(def_of(s, 1).ribbon.length, 0.095);
-  zp_scenario_destroy(s);
 }
 
 /* Arguments of --set that are refused. */
@@ -427,11 +421,10 @@ TESTS(test_bad_argument, 0, LENGTH_OF(bad_arguments)) {
   ck_assert_int_eq(zp_scenario_set(s, bad_arguments[_i].text, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, bad_arguments[_i].message) != NULL, "%s", err.message);
   ck_assert_double_eq(def_of(s, 0).drive.voltage, 3e3);
-  zp_scenario_destroy(s);
 }
 
 TEST(test_layers) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
   ck_assert_int_eq(zp_scenario_set(s, "drive.voltage=5 kV", &err), ZP_OK);
   ck_assert_int_eq(zp_scenario_set(s, "drive.voltage = 6 kV", &err), ZP_OK);
@@ -447,7 +440,6 @@ TEST(test_layers) {
   ck_assert_double_eq(def.ribbon.thickness, 40e-6);
   ck_assert_double_eq(def.electro.force_scale, 6.6);
   assert_round_trip(s);
-  zp_scenario_destroy(s);
 }
 
 TEST(test_lists) {
@@ -472,7 +464,6 @@ TEST(test_lists) {
   ck_assert_int_eq(zp_scenario_set(s, "mesh.nodes=41", &err), ZP_OK);
   ck_assert_uint_eq(zp_scenario_count(s), 2);
   assert_round_trip(s);
-  zp_scenario_destroy(s);
 }
 
 /* Distributions, as a mapping, as a word, in --set: the same values, which survive writing. */
@@ -500,8 +491,6 @@ TEST(distributions_are_sampled) {
   ck_assert_double_eq(def_of(word, 77).ribbon.thickness, def_of(s, 77).ribbon.thickness);
   ck_assert_int_eq(zp_scenario_set(word, "sampling.indices=true", &err), ZP_OK);
   ck_assert_uint_eq(zp_scenario_count(word), 2 * 64 * 4);
-  zp_scenario_destroy(word);
-  zp_scenario_destroy(s);
 }
 
 /* Lists that are walked through together make one axis, in the place of the last of them. */
@@ -537,7 +526,6 @@ TESTS(materials_fill_their_group, 0, 5) {
 static void assert_written(const ZpScenario *s, const char *part) {
   char *text = written(s);
   ck_assert_msg(strstr(text, part) != NULL, "no \"%s\" in %s", part, text);
-  free(text);
 }
 
 static size_t count_varied(const ZpScenario *s) {
@@ -562,7 +550,6 @@ TEST(materials_have_tolerances) {
   ck_assert_int_eq(zp_scenario_set(s, "sampling.tolerances=given", NULL), ZP_OK);
   ck_assert_uint_eq(count_varied(s), 1);
   ck_assert_double_eq(def_of(s, 0).ribbon.yield_stress, 430e6);
-  zp_scenario_destroy(s);
 }
 
 TEST(lists_together) {
@@ -587,7 +574,6 @@ TEST(lists_together) {
   ck_assert_ptr_nonnull(strstr(err.message, "ribbon.width: has no list"));
   ck_assert_int_eq(zp_scenario_set(s, "sampling.together=\"\"", &err), ZP_OK);
   ck_assert_uint_eq(zp_scenario_count(s), 12);
-  zp_scenario_destroy(s);
 }
 
 /* What is no distribution, and why. */
@@ -611,12 +597,11 @@ static const struct {
 };
 
 TESTS(bad_spread_says_why, 0, LENGTH_OF(bad_spreads)) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
   ck_assert_int_eq(parse(s, bad_spreads[_i].text, &err), ZP_BAD_INPUT);
   ck_assert_msg(strstr(err.message, bad_spreads[_i].message) != NULL, "%s: %s", bad_spreads[_i].text, err.message);
   ck_assert_uint_eq(zp_scenario_count(s), 1);
-  zp_scenario_destroy(s);
 }
 
 /* Ranges, in a file and in --set, and the list that says the same. */
@@ -643,12 +628,6 @@ TESTS(test_ranges, 0, LENGTH_OF(ranges)) {
   ck_assert_str_eq(got, wanted);
   ck_assert_str_eq(also, wanted);
   assert_round_trip(file);
-  free(wanted);
-  free(got);
-  free(also);
-  zp_scenario_destroy(file);
-  zp_scenario_destroy(argument);
-  zp_scenario_destroy(list);
 }
 
 /* The preset gives other values at each N: they cannot be written as one. */
@@ -659,9 +638,7 @@ TEST(test_preset_with_list) {
   ck_assert_double_eq(def_of(s, 5).damping.drag, 0.1);
   char *text = written(s);
   ck_assert_ptr_nonnull(strstr(text, "# damping.drag: "));
-  free(text);
   assert_round_trip(s);
-  zp_scenario_destroy(s);
 }
 
 /* Scenarios whose cases vary in ways that a Def common to all must not hide. */
@@ -699,7 +676,6 @@ static ZpActuatorDef def_by_values(const ZpScenario *s, size_t index, const char
   ck_assert_uint_eq(zp_scenario_count(alone), 1);
   ZpActuatorDef def;
   ck_assert_int_eq(zp_scenario_given(alone, 0, &def, NULL), ZP_OK);
-  zp_scenario_destroy(alone);
   return def;
 }
 
@@ -713,7 +689,6 @@ TESTS(a_case_is_that_of_its_values, 0, LENGTH_OF(with_cases)) {
     ck_assert_int_eq(zp_scenario_given(s, k, &def, NULL), ZP_OK);
     assert_same_def(&def, &alone);
   }
-  zp_scenario_destroy(s);
 }
 
 TEST(test_def_errors) {
@@ -726,11 +701,9 @@ TEST(test_def_errors) {
   FILE *file = tmpfile();
   ck_assert_int_eq(zp_scenario_write(s, file, &err), ZP_BAD_INPUT);
   fclose(file);
-  zp_scenario_destroy(s);
   s = scenario_of("platform.length: 1 m");
   ck_assert_int_eq(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "test.yaml: platform.length"));
-  zp_scenario_destroy(s);
 }
 
 /* "KEY: [1, 1, ...]" with `count` values, to be freed. */
@@ -741,21 +714,19 @@ static char *list_text(const char *key, size_t count) {
   for (size_t i = 1; i < count; i++)
     end += sprintf(end, ", 1");
   strcpy(end, "]\n");
-  return text;
+  return zp_test_owns(text, free);
 }
 
 TEST(test_limits) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
   char *text = list_text("load.mass", 20001);
   ck_assert_int_eq(parse(s, text, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "20000 values"));
-  free(text);
   static const char *const keys[] = {"load.mass", "ribbon.length", "gravity"};
   for (size_t i = 0; i < 3; i++) {
     text = list_text(keys[i], 101);
     ck_assert_int_eq(parse(s, text, &err), i < 2 ? ZP_OK : ZP_BAD_INPUT);
-    free(text);
   }
   ck_assert_ptr_nonnull(strstr(err.message, "1000000 combinations"));
   ck_assert_uint_eq(zp_scenario_count(s), 101 * 101);
@@ -768,11 +739,10 @@ TEST(test_limits) {
   memset(text, '[', size);
   ck_assert_int_eq(zp_scenario_parse(s, text, size - 1, "deep.yaml", &err), ZP_BAD_INPUT);
   free(text);
-  zp_scenario_destroy(s);
 }
 
 TEST(test_long_names) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
   char name[3000];
   memset(name, 'n', sizeof name);
@@ -785,7 +755,6 @@ TEST(test_long_names) {
   name[2000] = '=';
   ck_assert_int_eq(zp_scenario_set(s, name, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "unknown key"));
-  zp_scenario_destroy(s);
 }
 
 /* Every key at its default, its limits and at values that have no short decimal. */
@@ -831,10 +800,6 @@ TESTS(test_scenario_round_trip, 0, zp_key_count()) {
     ZpScenario *back = scenario_of(text);
     char *again = written(back);
     ck_assert_str_eq(text, again);
-    free(again);
-    free(text);
-    zp_scenario_destroy(back);
-    zp_scenario_destroy(s);
   }
 }
 
@@ -864,9 +829,6 @@ TEST(test_texts) {
   memset(longest + strlen(longest), 'x', ZP_TEXT_SIZE);
   ck_assert_int_eq(zp_scenario_set(s, longest, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "longer than 255"));
-  free(text);
-  zp_scenario_destroy(back);
-  zp_scenario_destroy(s);
 }
 
 TEST(test_print) {
@@ -896,7 +858,7 @@ static char *keys_text(ZpKeysFormat format) {
   ck_assert_ptr_nonnull(file);
   ck_assert_msg(zp_keys_write(format, file, &err) == ZP_OK, "%s", err.message);
   ck_assert_int_eq(fclose(file), 0);
-  return text;
+  return zp_test_owns(text, free);
 }
 
 TEST(test_keys_yaml) {
@@ -904,8 +866,6 @@ TEST(test_keys_yaml) {
   ZpScenario *s = scenario_of(text);
   ZpActuatorDef def = def_of(s, 0), expected = zp_actuator_def_default();
   assert_same_def(&def, &expected);
-  zp_scenario_destroy(s);
-  free(text);
 }
 
 TEST(test_keys_json) {
@@ -933,7 +893,6 @@ TEST(test_keys_json) {
     }
   }
   json_decref(list);
-  free(text);
 }
 
 TEST(test_keys_text) {
@@ -944,11 +903,10 @@ TEST(test_keys_text) {
   }
   ck_assert_ptr_nonnull(strstr(text, "1 um to 5000 um"));
   ck_assert_ptr_nonnull(strstr(text, "bezier: "));
-  free(text);
 }
 
 TEST(test_full_disk) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
   FILE *full = fopen("/dev/full", "w");
   ck_assert_ptr_nonnull(full);
@@ -959,11 +917,10 @@ TEST(test_full_disk) {
     ck_assert_int_eq(zp_keys_write(format, full, &err), ZP_MACHINE);
     fclose(full);
   }
-  zp_scenario_destroy(s);
 }
 
 TEST(test_files) {
-  ZpScenario *s = zp_scenario_create();
+  ZpScenario *s = new_scenario();
   ZpError err = {0};
   ck_assert_int_eq(zp_scenario_read(s, "/nowhere/x.yaml", &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "/nowhere/x.yaml"));
@@ -971,7 +928,6 @@ TEST(test_files) {
   ck_assert_int_eq(zp_scenario_read(s, "/dev/null", &err), ZP_OK);
   ck_assert_int_eq(zp_scenario_read(s, "/dev/zero", &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "1 MB"));
-  zp_scenario_destroy(s);
 }
 
 static void *parse_often(void *bad) {
@@ -1004,7 +960,6 @@ TEST(test_locale) {
     if (setlocale(LC_ALL, names[i])) break;
   char *text = keys_text(ZP_KEYS_YAML);
   ck_assert_ptr_nonnull(strstr(text, "12.7 mm"));
-  free(text);
   ck_assert_double_eq(value_in("load.mass: 1.5 g", "load.mass"), 1.5e-3);
   ck_assert_double_eq(value_in("ribbon.length: 2.5 in", "ribbon.length"), 2.5 * 0.0254);
 }

@@ -1,7 +1,7 @@
 /* Searches for designs, without the command: values and derivatives of goals, cells of a box that has no design, starts
  * of local searches, generations, what a second call takes from the first. The strip is weightless, clamped and guided,
  * and bends by P L^3 (1 - nu^2) / (E w b^3). */
-#include "check_util.h"
+#include "data_util.h"
 
 #include <sys/stat.h>
 
@@ -36,21 +36,11 @@ typedef struct Bench {
   ZpSearch search;
 } Bench;
 
-static ZpScenario *scenario_with(const char *const *sets) {
-  ZpError err;
-  ZpScenario *scenario = zp_scenario_create();
-  for (; *sets; sets++)
-    ck_assert_msg(zp_scenario_set(scenario, *sets, &err) == ZP_OK, "%s", err.message);
-  return scenario;
-}
-
 /* The goals have the units of a result in the middle of the box. */
 static void resolve_goals(ZpSearch *s) {
-  ZpResult *result;
   ZpError err;
-  ck_assert_int_eq(zp_data_study_run(s->study, &s->def, NULL, &result, &err), ZP_OK);
+  ZpResult *result = data_study_of(s->study, &s->def);
   ck_assert_msg(zp_problem_resolve(&s->problem, result, &err) == ZP_OK, "%s", err.message);
-  zp_result_destroy(result);
 }
 
 /* Nothing is left in it from a test that was killed. */
@@ -304,7 +294,6 @@ static ZpOptimization *optimize(const char *folder, bool resume, const char *con
   const ZpCampaignOptions options = {.jobs = 2, .resume = resume};
   if (!resume) make_empty(folder);
   ck_assert_msg(zp_optimize(scenario, folder, &options, &o, &err) == ZP_OK, "%s", err.message);
-  zp_scenario_destroy(scenario);
   return o;
 }
 #define OPTIMIZE(folder, resume, ...) optimize(folder, resume, (const char *const[]){__VA_ARGS__, NULL})

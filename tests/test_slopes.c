@@ -2,14 +2,6 @@
  * forms, reciprocity and scaling. */
 #include "check_util.h"
 
-static ZpResult *run(ZpStudy study, const ZpActuatorDef *def) {
-  ZpError err = {ZP_OK, ""};
-  ZpResult *result;
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
-  return result;
-}
-
 /* d log output / d log key. */
 static double exponent(const ZpResult *result, const ZpActuatorDef *def, const char *output, const char *key) {
   return slope_in(result, output, key) * zp_def_get(def, zp_key_find(key)) / zp_result_get(result, output);
@@ -17,7 +9,7 @@ static double exponent(const ZpResult *result, const ZpActuatorDef *def, const c
 
 static ZpResult *run_by(ZpStudy study, ZpActuatorDef *def, const char *by) {
   ck_assert_int_eq(zp_def_set_text(def, zp_key_find("sensitivity.by"), by, NULL), ZP_OK);
-  return run(study, def);
+  return answer_of(study, def);
 }
 
 /* -- against differences of the outputs -------------------------------------------------------------- */
@@ -29,21 +21,15 @@ typedef struct Around {
   ZpResult *at[7]; /* none in the middle */
 } Around;
 
-static void leave(Around *around) {
-  for (int k = 0; k < 7; k++)
-    zp_result_destroy(around->at[k]);
-}
-
 static void go_around(Around *around, ZpStudy study, const ZpActuatorDef *def, int key, double part) {
   ZpActuatorDef near = *def;
   double value = zp_def_get(def, key);
-  leave(around);
   *around = (Around){.key = key, .step = part * value};
   ck_assert_int_eq(zp_def_set_text(&near, zp_key_find("sensitivity.by"), "", NULL), ZP_OK);
   for (int k = 0; k < 7; k++) {
     if (k == 3) continue;
     ck_assert_int_eq(zp_def_set(&near, key, value + (k - 3) * around->step, NULL), ZP_OK);
-    around->at[k] = run(study, &near);
+    around->at[k] = answer_of(study, &near);
   }
 }
 
@@ -74,8 +60,6 @@ static void check_differences(ZpStudy study, const ZpActuatorDef *given, const c
                   s->output, zp_key(s->key)->name, s->value, difference);
     note_check(__func__, s->output, zp_key(s->key)->name, fabs(s->value / difference - 1), allowed);
   }
-  leave(&around);
-  zp_result_destroy(result);
 }
 
 TEST(strokes_change_as_differences_say) {
@@ -138,7 +122,6 @@ TEST(flat_release_changes_as_differences_say) {
   }
   ck_near(slope_in(result, "release_voltage_V", "ribbon.length"), (at[1] - at[0]) / (2 * step),
           1.5e-4); /* 6.1e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* Pull-in, a jump that closes, release, largest load; the corner of the breakdown cap is somewhere along the ribbon. */
@@ -206,7 +189,6 @@ TEST(stroke_of_a_cantilever) {
                             "ribbon.length, ribbon.thickness, ribbon.young_modulus, load.mass, gravity, ribbon.width");
   for (size_t k = 0; k < LENGTH_OF(expected); k++)
     ck_near(exponent(result, &def, "stroke_m", expected[k].key), expected[k].power, 1e-8); /* 1.6e-9 measured */
-  zp_result_destroy(result);
 }
 
 /* t / L^2 sqrt(E / rho). */
@@ -233,7 +215,6 @@ TEST(force_and_charge_are_reciprocal) {
   /* 4.8e-11 measured */
   ck_near(slope_in(result, "force_N", "drive.voltage"), -slope_in(result, "charge_C", "isometric.separation"), 3e-10);
   ck_near(slope_in(result, "opening_m", "isometric.separation"), 1, 2e-11); /* 2.3e-12 measured */
-  zp_result_destroy(result);
 }
 
 /* With all forces c times as large, the voltages grow by the root of c: pull-in, closing at a limit point, and release.
@@ -264,9 +245,8 @@ TEST(limits_scale_with_forces) {
 /* It closes after a limit point, gradually, at a share of the gap with which it hangs: that gap changes, too. */
 TEST(gradual_closing_changes_as_differences_say) {
   ZpActuatorDef def = DEF({"ribbon.thickness", 200e-6});
-  ZpResult *result = run(ZP_STUDY_LIMITS, &def);
+  ZpResult *result = answer_of(ZP_STUDY_LIMITS, &def);
   double closing = zp_result_get(result, "closing_voltage_V"), pull_in = zp_result_get(result, "pull_in_voltage_V");
-  zp_result_destroy(result);
   ck_assert_msg(closing > pull_in, "closes by the jump of the pull-in, %g V", closing);
   check_differences(ZP_STUDY_LIMITS, &def, "ribbon.length, insulator.permittivity, gravity", 1e-3, 1e-6);
 }
@@ -287,7 +267,6 @@ TEST(no_derivative_at_a_corner) {
   ck_assert_double_nan(slope_in(result, "release_voltage_V", "gravity"));
   ck_assert_double_nan(slope_in(result, "release_voltage_V", "load.mass"));
   ck_assert(slope_in(result, "max_load_kg", "gravity") < 0);
-  zp_result_destroy(result);
 }
 
 /* -- what is asked ---------------------------------------------------------------------------------- */
@@ -329,7 +308,6 @@ TEST(held_platform_does_not_depend_on_the_load) {
   for (size_t i = 0; i < result->sensitivities; i++)
     if (result->sensitivity[i].key != zp_key_find("gravity")) ck_assert_double_eq(result->sensitivity[i].value, 0);
   ck_assert_double_lt(slope_in(result, "force_unpowered_N", "gravity"), 0);
-  zp_result_destroy(result);
 }
 
 TEST(profile_notes_that_it_has_none) {
@@ -337,7 +315,6 @@ TEST(profile_notes_that_it_has_none) {
   ZpResult *result = run_by(ZP_STUDY_PROFILE, &def, "gravity");
   ck_assert_uint_eq(notes_with(result, "sensitivity.by is ignored: only stationary"), 1);
   ck_assert_uint_eq(result->sensitivities, 0);
-  zp_result_destroy(result);
 }
 
 /* A key at the end of its range, or at 0, or as large as another key allows, has a derivative from one side. */
@@ -347,5 +324,4 @@ TEST(keys_at_their_bounds) {
   ck_assert(slope_in(result, "stroke_m", "load.share") > 0);
   ck_assert(slope_in(result, "stroke_m", "platform.length") < 0);
   ck_assert(slope_in(result, "stroke_m", "insulator.young_modulus") < 0);
-  zp_result_destroy(result);
 }

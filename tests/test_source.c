@@ -37,7 +37,6 @@ static void free_span(Span *s) {
     zp_free(s->F[end]);
   }
   zp_system_destroy(&s->eval);
-  zp_model_destroy(s->model);
 }
 
 static ZpSpan span_to(const Span *s, double U1) {
@@ -58,13 +57,6 @@ static double charge_at(Span *s, size_t k, double moved) {
   double charge = force_at(s, s->U1, s->F[0]);
   s->q[1][k] = kept;
   return charge;
-}
-
-static double largest(const double *x, size_t n) {
-  double most = 0;
-  for (size_t k = 0; k < n; k++)
-    most = fmax(most, fabs(x[k]));
-  return most;
 }
 
 /* Derivatives with respect to the voltage at the end equal finite differences, with and without the breakdown cap and
@@ -88,9 +80,9 @@ TESTS(test_derivatives_by_voltage, 0, 3) {
     worst = fmax(worst, fabs((s.F[1][k] - s.F[0][k]) / (2 * dU) - by.force[k]));
   for (size_t k = 0; k < n; k++)
     worst_charge = fmax(worst_charge, fabs((charge_at(&s, k, dq) - charge_at(&s, k, -dq)) / (2 * dq) - by.charge[k]));
-  ck_below(worst / largest(by.force, n), 5e-8);           /* 1.3e-8 measured */
-  ck_below(worst_charge / largest(by.charge, n), 6.6e-9); /* 2.2e-9 measured */
-  ck_near(by.capacitance, capacitance, 2e-11);            /* 2.4e-12 measured */
+  ck_below(worst / largest_of(by.force, n), 5e-8);           /* 1.3e-8 measured */
+  ck_below(worst_charge / largest_of(by.charge, n), 6.6e-9); /* 2.2e-9 measured */
+  ck_near(by.capacitance, capacitance, 2e-11);               /* 2.4e-12 measured */
   zp_free(F);
   zp_free(by.force);
   zp_free(by.charge);
@@ -110,11 +102,9 @@ static ZpSourceLaw law(void *self, const ZpSourceStep *s) {
 }
 
 static ZpSim *sim_behind(const ZpSource *source, ZpActuatorDef *def, ZpModel **model) {
-  ZpSim *sim;
-  ZpError err;
   def->drive.voltage = 0;
   *model = model_of(def);
-  ck_assert(zp_sim_create(*model, NULL, &sim, &err) == ZP_OK);
+  ZpSim *sim = sim_of(*model);
   ck_assert(zp_sim_connect(sim, source));
   return sim;
 }
@@ -134,8 +124,6 @@ TEST(test_charging_of_a_closed_actuator) {
     worst = fmax(worst, fabs(U - expected) / supply.V);
   }
   ck_below(worst, 1e-4);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* A supply defined by the user, 10 kV behind 1 GOhm with a cable of 10 pF, equals the built-in one. Both charge the
@@ -159,8 +147,6 @@ TEST(test_slow_supply_by_both_routes) {
     printf("%d0 ms: %.3f V, %.5f mm\n", i, U, 1e3 * zp_sim_get(sim[1], "opening"));
   }
   for (int k = 0; k < 2; k++) {
-    zp_sim_destroy(sim[k]);
-    zp_model_destroy(model[k]);
   }
 }
 
@@ -171,16 +157,13 @@ static double opening_behind(double R) {
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"solver.tolerance", 7e-5});
   ZpModel *model;
   ZpSim *sim;
-  ZpError err;
   if (R > 0)
     sim = sim_behind(&source, &def, &model);
   else
-    ck_assert(zp_sim_create(model = model_of(&def), NULL, &sim, &err) == ZP_OK);
+    sim = sim_of(model = model_of(&def));
   ck_assert(zp_outcome_good(zp_sim_run(sim, 0.01, false, NULL, NULL)));
   double opening = zp_sim_get(sim, "opening");
   ck_below(fabs(zp_sim_get(sim, "energy_imbalance") / zp_sim_get(sim, "electric_work")), 3e-9); /* 4.7e-10 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return opening;
 }
 

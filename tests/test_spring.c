@@ -65,7 +65,6 @@ TESTS(energy_with_a_stop, 0, 2) {
   }
   ck_assert_double_gt(most, 1e-6);
   ck_below(zp_result_get(result, "energy_error"), 5e-9); /* 7.2e-10 measured */
-  zp_result_destroy(result);
 }
 
 /* What is held does not feel it: the force of `isometric` is the actuator's. */
@@ -103,7 +102,6 @@ TESTS(energy_with_a_spring, 0, 4) {
   ck_near(zp_result_get(result, "efficiency"), work / source, 1e-12);
   ck_assert(least == 0);
   ck_below(zp_result_get(result, "energy_error"), _i == 2 ? 1e-4 : 5e-8); /* 4.6e-5 and 1.1e-8 measured */
-  zp_result_destroy(result);
 }
 
 /* The mean force over a span does the work of the energy change, also if the spring ends within it, and the stiffness
@@ -121,8 +119,8 @@ TESTS(force_does_the_work_of_the_spring, 0, 8) {
   ck_assert(zp_system_create(model, false, &e));
   const ZpTerm *spring = &zp_term_spring;
   size_t stride = model->stride, node = zp_load_node(&model->topology);
-  double *q0 = calloc(2 * stride, sizeof *q0), *q1 = calloc(2 * stride, sizeof *q1), F[2] = {0, 0};
-  double *force = calloc(2 * stride, sizeof *force);
+  double *q0 = memory_of(2 * stride * sizeof *q0), *q1 = memory_of(2 * stride * sizeof *q1), F[2] = {0, 0};
+  double *force = memory_of(2 * stride * sizeof *force);
   const double *o = opening[_i % 4], k = 0.5 * 3, s0 = fmax(sign * (5e-3 - o[0]), 0);
   for (int side = 0; side < 2; side++) { /* a little before and behind the end */
     double end = o[1] + (side ? 1e-8 : -1e-8), s1 = fmax(sign * (5e-3 - end), 0);
@@ -138,17 +136,15 @@ TESTS(force_does_the_work_of_the_spring, 0, 8) {
   ZpBand K;
   ZpArena size = {NULL, 0};
   zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &size);
-  void *block = calloc(size.used, sizeof(double));
+  void *block = memory_of(size.used * sizeof(double));
   ZpArena arena = {block, 0};
   zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &arena);
   q1[stride + node] = -o[1];
   spring->stiffness(model, &(ZpSpan){.start = q0, .end = q1, .h = 1e-3, .share = 1}, &assembly, &e, &K);
   size_t row = (size_t)assembly.equation[2 * node + 1];
   ck_below(fabs(*zp_band_at(&K, row, row) + (F[1] - F[0]) / 2e-8), 5e-11 * k); /* 5.9e-12 measured */
-  free(block), free(q0), free(q1), free(force);
   zp_assembly_destroy(&assembly);
   zp_system_destroy(&e);
-  zp_model_destroy(model);
 }
 
 TEST(what_a_spring_lacks_is_said) {

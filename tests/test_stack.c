@@ -15,8 +15,6 @@ TEST(weightless_series_pulls_in_as_one) {
   for (size_t k = 0; k < LENGTH_OF(same); k++)
     ck_near(zp_result_get(all, same[k]), zp_result_get(alone, same[k]), 4e-11);         /* 1.1e-11 measured */
   ck_near(zp_result_get(all, "travel_m"), 5 * zp_result_get(alone, "travel_m"), 1e-12); /* 0 measured */
-  zp_result_destroy(alone);
-  zp_result_destroy(all);
   ck_near(answered_value(ZP_STUDY_STATIONARY, &five, "opening_m"),
           5 * answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-12); /* 0 measured */
 }
@@ -50,7 +48,6 @@ TEST(members_carry_those_below) {
   for (size_t j = 0; j < all->shapes->nodes * all->shapes->ribbons; j++)
     lowest = fmin(lowest, shape.y[j]);
   ck_near(-lowest, openings, 1e-12);
-  zp_result_destroy(all);
 }
 
 /* The uppermost of equal members sets the largest load: what it lifts alone, less the members and links below it. If
@@ -183,8 +180,6 @@ TESTS(equal_ones_take_the_steps_of_one, 0, 4) {
   ZpResult *system = answer_of(ZP_STUDY_ACTUATE, &all), *one = answer_of(ZP_STUDY_ACTUATE, &equal);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 1e-9); /* 4.2e-10 measured */
-  zp_result_destroy(system);
-  zp_result_destroy(one);
 }
 
 /* Platforms side by side land together, each with an equal part of the mass: equal ones bounce as one. */
@@ -205,8 +200,6 @@ TEST(equal_ones_land_as_one) {
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 6e-10); /* 2.3e-10 measured */
   ck_near(zp_table_get(system->series, system->series->rows - 1, "contact_loss_J"),
           zp_table_get(one->series, one->series->rows - 1, "contact_loss_J"), 3e-7); /* 9.9e-8 measured */
-  zp_result_destroy(system);
-  zp_result_destroy(one);
 }
 
 static double sum_of(const ZpTable *table, size_t row, const char *number, size_t members) {
@@ -232,7 +225,6 @@ TEST(forces_carry_the_load) {
   for (size_t row = 0; row < result->series->rows; row++)
     /* 2.2e-8 measured */
     ck_near(sum_of(result->series, row, "force_N", 3), def.load.mass * def.gravity + def.load.force, 6.6e-8);
-  zp_result_destroy(result);
 }
 
 /* Each force is the one that holds that member alone at the common opening: alone under it, it opens as far. */
@@ -247,7 +239,6 @@ TEST(force_of_each_is_as_alone) {
     /* 8.6e-11 measured */
     ck_near(answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), zp_result_get(result, "opening_m"), 2.5e-10);
   }
-  zp_result_destroy(result);
 }
 
 /* Each is closed from its clip as far as it is alone where it is held at the common opening and voltage; all of them
@@ -276,7 +267,6 @@ TEST(closed_length_is_the_least_of_all) {
     one.drive.voltage = zp_table_get(t, apart, "voltage_V");
     ck_near(zp_table_get(t, apart, closed[k]), answered_value(ZP_STUDY_ISOMETRIC, &one, "zipped_length_m"), 1e-12);
   }
-  zp_result_destroy(result);
 }
 
 /* Held at one opening, unequal members do not see each other: forces, charges and derivatives are the sums of those of
@@ -295,7 +285,6 @@ TEST(held_ones_pull_as_each_alone) {
     slope += slope_in(result, "force_N", "medium.permittivity");
     one.drive.voltage *= 0.5;
     half_way += answered_value(ZP_STUDY_ISOMETRIC, &one, "force_N");
-    zp_result_destroy(result);
   }
   ZpResult *all = answer_of(ZP_STUDY_ISOMETRIC, &def);
   for (size_t j = 0; j < LENGTH_OF(names); j++)
@@ -306,7 +295,6 @@ TEST(held_ones_pull_as_each_alone) {
     row++;
   ck_assert_double_eq(zp_table_get(all->series, row, "voltage_V"), 0.5 * def.drive.voltage);
   ck_near(zp_table_get(all->series, row, "force_N"), half_way, 1e-12); /* 6.7e-16 measured */
-  zp_result_destroy(all);
 }
 
 /* With members whose keys have nearly equal values, force and stiffness are as many times those of one as with the
@@ -325,8 +313,6 @@ TESTS(equal_ones_are_held_as_one, 0, 2) {
   double slope = slope_in(members, "force_N", "isometric.separation") +
                  slope_in(members, "force_unpowered_N", "isometric.separation");
   ck_near(zp_result_get(members, "stiffness_N_per_m"), slope, 2.4e-11); /* 8.1e-12 measured */
-  zp_result_destroy(factor);
-  zp_result_destroy(members);
 }
 
 /* The stiffness is how the sum of forces goes with the opening: that is what a little more load says. */
@@ -380,7 +366,6 @@ TESTS(energy_and_forces_of_unlike_ones, 0, 3) {
           1e-12); /* 2.2e-16 measured */
   ck_near(work, def.load.mass * (def.gravity * risen + 0.5 * speed * speed),
           _i == 0 ? 2.3e-3 : 3e-5); /* 7.6e-4 and 1.1e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* Without voltage what is at rest stays, and forces remain those of rest. */
@@ -396,8 +381,6 @@ TEST(unlike_ones_at_rest_stay) {
     ck_near(zp_table_get(moved->series, 0, force[k]), zp_result_get(rest, force[k]), 1e-12);      /* 0 measured */
     ck_near(zp_table_get(moved->series, last, force[k]), zp_result_get(rest, force[k]), 3.2e-10); /* 1.1e-10 measured */
   }
-  zp_result_destroy(moved);
-  zp_result_destroy(rest);
 }
 
 /* At a low voltage with much damping motion ends where the equilibrium is. */
@@ -415,8 +398,6 @@ TEST(unlike_ones_come_to_their_equilibrium) {
   for (size_t k = 0; k < LENGTH_OF(same); k++)
     ck_near(zp_table_get(moved->series, last, same[k]), zp_table_get(rest->series, end, same[k]),
             1e-4); /* 3.5e-5 measured */
-  zp_result_destroy(moved);
-  zp_result_destroy(rest);
 }
 
 /* In the impact all that shares the platform is behind the damper, whichever member's faces meet first. A landing
@@ -435,7 +416,6 @@ TESTS(any_member_hits_as_hard, 0, FULL_OR(2, 1)) {
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &one);
     lost[k] = zp_table_get(result->series, result->series->rows - 1, "contact_loss_J");
     ck_below(zp_result_get(result, "energy_error"), 1.9e-8); /* 6.4e-9 measured */
-    zp_result_destroy(result);
   }
   ck_assert_double_gt(lost[0], 0);
   ck_near(lost[1], lost[0], 1.6e-6); /* 5.4e-7 measured */
@@ -470,7 +450,6 @@ TESTS(series_at_rest_stays, 0, 2) {
                           {"liquid.model", _i ? ZP_LIQUID_BEAD : ZP_LIQUID_NONE});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   ck_near(zp_result_get(result, "opening_m"), zp_result_get(result, "start_opening_m"), 1e-12); /* 4.6e-15 measured */
-  zp_result_destroy(result);
 }
 
 /* Stiff light ribbons below a heavy load are a spring: released from straight, two in series open twice as far in
@@ -517,7 +496,6 @@ TESTS(energy_and_links_of_a_zip, 0, 3) {
     }
     ck_assert_double_eq_tol(sum, zp_table_get(result->series, row, "opening_m"), 1e-12);
   }
-  zp_result_destroy(result);
 }
 
 TEST(what_a_stack_lacks_is_said) {
@@ -544,7 +522,6 @@ TEST(what_a_stack_lacks_is_said) {
   ZpModel *model = model_of(&caught);
   ZpSim *sim = NULL;
   ck_assert_int_eq(zp_sim_create(model, NULL, &sim, NULL), ZP_BAD_INPUT); /* a program's own run */
-  zp_model_destroy(model);
 }
 
 /* -- equilibria and modes --------------------------------------------------------------------------- */
@@ -570,8 +547,6 @@ TEST(members_rest_together_as_alone) {
     ck_near(zp_table_get(both->series, row, "opening_m"), 2 * zp_table_get(alone->series, row, "opening_m"), 7e-11);
     ck_assert_double_eq(zp_table_get(both->series, row, "branch"), zp_table_get(alone->series, row, "branch"));
   }
-  zp_result_destroy(alone);
-  zp_result_destroy(both);
 }
 
 /* load.force of a series pulls on each of its members. Two without weight open twice as far as one. */
@@ -600,16 +575,13 @@ TEST(limits_of_a_series_are_those_of_its_members) {
     release = fmax(release, zp_result_get(alone, "release_voltage_V"));
     lifted = fmin(lifted, zp_result_get(alone, "max_load_kg") - (one.load.mass - def.load.mass));
     travel += zp_result_get(alone, "travel_m");
-    zp_result_destroy(alone);
   }
-  zp_model_destroy(model);
   ZpResult *all = answer_of(ZP_STUDY_LIMITS, &def);
   ck_near(zp_result_get(all, "pull_in_voltage_V"), pull_in, 1e-12);
   ck_near(zp_result_get(all, "closing_voltage_V"), closing, 1e-12);
   ck_near(zp_result_get(all, "release_voltage_V"), release, 1e-9); /* 5.2e-10 measured */
   ck_near(zp_result_get(all, "max_load_kg"), lifted, 1e-12);
   ck_near(zp_result_get(all, "travel_m"), travel, 1e-12);
-  zp_result_destroy(all);
 }
 
 /* Light stiff members between equal masses are a chain of equal springs, held at one end: 2 sqrt(k / m) sin of odd
@@ -630,7 +602,6 @@ TEST(chain_of_springs_and_masses) {
   static const char *const name[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
   for (int j = 0; j < 3; j++)
     ck_near(zp_result_get(all, name[j]), 2 * alone * sin((2 * j + 1) * pi / 14), 6e-6); /* 2e-6 measured */
-  zp_result_destroy(all);
 }
 
 /* The numbers of limits are those of the states at them: where a mesh that zips joint by joint makes ripples on the
@@ -646,7 +617,6 @@ TESTS(limits_of_unlike_ones_are_at_their_states, 0, 2) {
     ck_assert_double_eq(zp_table_get(limits->series, k, "voltage_V"), zp_result_get(limits, names[k]));
   double hanging = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
   if (_i) ck_near(zp_table_get(limits->series, 1, "opening_m"), 0.01 * hanging, 1e-12); /* 8.8e-15 measured */
-  zp_result_destroy(limits);
 }
 
 /* Along the points of a branch, from its first on or back from its last: where the voltage, having gone up (`sign` 1)
@@ -672,8 +642,6 @@ TESTS(limits_of_unlike_ones_are_turns_of_their_branch, 0, 2) {
   ck_near(zp_result_get(limits, "pull_in_voltage_V"), first_turn(branch->series, false, 1), 6e-3); /* 2e-3 measured */
   ck_near(zp_result_get(limits, "release_voltage_V"), first_turn(branch->series, true, -1),
           1.2e-3); /* 3.9e-4 measured */
-  zp_result_destroy(branch);
-  zp_result_destroy(limits);
 }
 
 /* Gaps in the shapes of modes are those of the moved ribbons, of each member. */
@@ -688,7 +656,6 @@ TESTS(gaps_of_modes_are_those_of_their_shapes, 0, 2) {
     for (size_t i = 0; i < film->nodes; i++)
       ck_assert_double_eq_tol(shape.gap[i], shape.y[2 * i] - shape.y[2 * i + 1], 1e-12);
   }
-  zp_result_destroy(modes);
 }
 
 /* A member that hardly bends is a mass on the one above it. */
@@ -697,7 +664,6 @@ TEST(stiff_member_is_a_mass) {
                 one = DEF({"mesh.nodes", 31});
   ZpModel *model = model_of(&series);
   one.load.mass += model->carried - series.load.mass;
-  zp_model_destroy(model);
   ck_near(answered_value(ZP_STUDY_MODES, &series, "frequency_1_Hz"),
           answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"), 5.3e-5); /* 1.8e-5 measured */
 }
@@ -712,7 +678,6 @@ TEST(voltage_softens_a_series) {
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
   ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
   ck_assert_double_nan(zp_result_get(result, "frequency_1_Hz"));
-  zp_result_destroy(result);
 }
 
 /* -- ribbons that yield ------------------------------------------------------------------------------ */
@@ -731,14 +696,12 @@ TEST(members_yield) {
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &two);
   ck_assert_double_gt(zp_result_get(result, "plastic_loss_J"), 1e-6);
   ck_below(zp_result_get(result, "energy_error"), 6.7e-9); /* 2.2e-9 measured */
-  zp_result_destroy(result);
   two.drive.voltage = 0;
   two.solver.end_time = 1e-4;
   ZpModel *model = model_of(&two);
   ZpActuatorDef upper = model->def;
   upper.load.mass += model->carried;
   upper.load.force = model[1].def.load.force;
-  zp_model_destroy(model);
   ck_near(answered_value(ZP_STUDY_ACTUATE, &two, "permanent_curvature_per_m"),
           answered_value(ZP_STUDY_ACTUATE, &upper, "permanent_curvature_per_m"), 2e-11); /* 7.1e-12 measured */
 }
@@ -772,7 +735,7 @@ TESTS(states_of_several_are_restored, 0, 2) {
   ZpSim *sim = sim_of(model), *copy = sim_of(model), *wrong = sim_of(unlike);
   opening_after(sim, 8e-3);
   size_t size = zp_sim_state_size(sim);
-  void *bytes = malloc(size);
+  void *bytes = memory_of(size);
   zp_sim_save(sim, bytes);
   ZpError err = {ZP_OK, ""};
   ck_assert_msg(zp_sim_restore(copy, bytes, size, &err) == ZP_OK, "%s", err.message);
@@ -783,12 +746,6 @@ TESTS(states_of_several_are_restored, 0, 2) {
   ck_assert_msg(strstr(err.message, _i ? "joined in another way" : "ribbon.thickness"), "%s", err.message);
   ck_assert_double_eq(zp_sim_get(wrong, "opening"), before);
   ck_assert_int_eq(zp_sim_restore(sim, bytes, size / 2, &err), ZP_BAD_INPUT);
-  free(bytes);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(copy);
-  zp_sim_destroy(wrong);
-  zp_model_destroy(model);
-  zp_model_destroy(unlike);
 }
 
 /* A voltage and a force that a program sets act on all members, and their work is in the balance of energy. */
@@ -809,10 +766,6 @@ TESTS(inputs_of_several_do_work, 0, 2) {
   ck_assert_int_eq(zp_sim_set_input(waved, ZP_INPUT_VOLTAGE, def.drive.voltage, 0, &err), ZP_OK);
   ZpSim *driven = sim_of(model);
   ck_assert_double_eq(opening_after(waved, 10e-3), opening_after(driven, 10e-3));
-  zp_sim_destroy(sim);
-  zp_sim_destroy(waved);
-  zp_sim_destroy(driven);
-  zp_model_destroy(model);
 }
 
 #define METER                                                                                                          \
@@ -845,7 +798,6 @@ TESTS(controller_and_meter_of_members, 0, 2) {
     ck_below(zp_result_get(result, "energy_error"), 7e-10); /* 2.5e-10 measured */
     if (k == 2) /* 4.3e-5 at the last sample, 6.0e-3 in the last window measured */
       ck_near(zp_table_get(result->series, last, read[_i]), signal, _i ? 1.5e-2 : 1e-4);
-    zp_result_destroy(result);
   }
   ck_near(found[0], found[1], 1.3e-6); /* 4.5e-7 measured */
 }
@@ -869,6 +821,4 @@ TESTS(share_is_that_of_the_load, 0, 3) {
   for (size_t k = 0; k < LENGTH_OF(limits); k++)
     ck_near(zp_result_get(result[0][0], limits[k]), zp_result_get(result[0][1], limits[k]), 1e-12);
   ck_near(zp_result_get(result[1][0], motion[0]), zp_result_get(result[1][1], motion[0]), 1e-12);
-  for (int k = 0; k < 4; k++)
-    zp_result_destroy(result[k / 2][k % 2]);
 }

@@ -10,18 +10,9 @@
 
 /* -- running a study ------------------------------------------------------------------------------- */
 
-static ZpResult *rest_of(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = study_of(study, def);
-  ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
-  return result;
-}
-
 /* One number of a study that ends well. */
 static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
-  ZpResult *result = rest_of(study, def);
-  double value = zp_result_get(result, name);
-  zp_result_destroy(result);
-  return value;
+  return zp_result_get(converged_of(study, def), name);
 }
 
 /* -- one ribbon ------------------------------------------------------------------------------------ */
@@ -67,13 +58,12 @@ TESTS(test_elastica, 0, LENGTH_OF(beams)) {
   const BeamCase *c = &beams[_i];
   Elastica e = elastica(c->p, c->q, c->end == ZP_END_GUIDED);
   ZpActuatorDef def = beam(c->end, c->p, c->q, 61);
-  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+  ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   double y = zp_result_get(result, "stroke_m") / L, x = zp_table_get(result->series, 60, "x_m") / L;
   printf("%s, p = %g, q = %g: y %+.1e, x %+.1e off the elastica\n", c->end == ZP_END_FREE ? "free" : "guided", c->p,
          c->q, y / e.y - 1, x / e.x - 1);
   ck_near(y, e.y, 1e-3);
   ck_near(x, e.x, 5e-5); /* 1.3e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* -- the actuator's opening ------------------------------------------------------------------------ */
@@ -144,12 +134,11 @@ TEST(test_natural_curvature) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
   def.segment_1.length = L;
   def.segment_1.curvature = k;
-  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+  ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   ck_near(zp_table_get(result->series, 60, "x_m"), sin(k * L) / k, 3e-5);       /* 7.5e-6 measured */
   ck_near(zp_table_get(result->series, 60, "y_m"), (1 - cos(k * L)) / k, 2e-4); /* 4.1e-5 measured */
   /* the end is above the clamp; 4.1e-5 measured */
   ck_near(zp_result_get(result, "stroke_m"), -(1 - cos(k * L)) / k, 2e-4);
-  zp_result_destroy(result);
 }
 
 /* Two thicknesses in series under a small load at the end: the compliances add. */
@@ -248,7 +237,6 @@ TEST(test_segments_are_integrated) {
   ck_below(fabs(turn), 1e-12);
   ck_below(fabs(mass), 1e-12 * rho * width * 50e-6 * L);
   ck_below(fabs(moment), 1e-12 * rho * width * 50e-6 * L * L);
-  zp_model_destroy(model);
 }
 
 /* Each segment is an arc of its own curvature and continues the one before without a kink. */
@@ -268,12 +256,11 @@ TEST(test_curvature_of_each_segment) {
     y += chord * sin(angle + turned / 2);
     angle += turned;
   }
-  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+  ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   double found_x = zp_table_get(result->series, 120, "x_m"), found_y = zp_table_get(result->series, 120, "y_m");
   printf("three arcs: x %+.1e, y %+.1e off\n", found_x / x - 1, found_y / y - 1);
   ck_near(found_x, x, 1e-5);
   ck_near(found_y, y, 3e-4); /* 6.7e-5 measured */
-  zp_result_destroy(result);
 }
 
 /* A strip that turns by `turn` from edge to edge is, unloaded, exactly the polygon of such edges, 5/12 of it at the
@@ -291,10 +278,9 @@ TESTS(test_strong_curvature, 0, 4) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, NODES);
   def.segment_1.length = L;
   def.segment_1.curvature = curvatures[_i];
-  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+  ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "x_m"), x, 1e-9 * L);
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "y_m"), y, 1e-9 * L);
-  zp_result_destroy(result);
 }
 
 /* The same with a finer mesh, without load and with 8 g: an equilibrium exists. Without load the end is above the
@@ -349,7 +335,7 @@ TESTS(test_modes, 0, 2) {
   static const double roots[2][3] = {{2.365020, 5.497804, 8.639380}, {1.875104, 4.694091, 7.854757}};
   static const char *const names[] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz"};
   ZpActuatorDef def = modes_def(_i ? ZP_END_FREE : ZP_END_GUIDED);
-  ZpResult *result = rest_of(ZP_STUDY_MODES, &def);
+  ZpResult *result = converged_of(ZP_STUDY_MODES, &def);
   double unit = sqrt(bending_stiffness(thickness) / (rho * width * thickness)) / (2 * M_PI * 45e-3 * 45e-3);
   for (size_t k = 0; k < 3; k++) {
     double f = zp_result_get(result, names[k]), exact = roots[_i][k] * roots[_i][k] * unit;
@@ -357,13 +343,12 @@ TESTS(test_modes, 0, 2) {
     ck_near(sqrt(f / exact), 1, 1.5e-3);
   }
   if (_i == 0) ck_near(zp_result_get(result, names[0]), 32.03, 5e-4); /* 1.4e-4 measured */
-  zp_result_destroy(result);
 }
 
 /* A clamped strip swings in its k-th mode with k - 1 nodes: frame k of the shapes. */
 TEST(shape_of_a_mode_has_its_nodes) {
   ZpActuatorDef def = modes_def(ZP_END_FREE);
-  ZpResult *result = rest_of(ZP_STUDY_MODES, &def);
+  ZpResult *result = converged_of(ZP_STUDY_MODES, &def);
   for (size_t k = 1; k <= 4; k++) {
     ZpShape shape = zp_shapes_get(result->shapes, k), rest = zp_shapes_get(result->shapes, 0);
     size_t crossings = 0;
@@ -371,7 +356,6 @@ TEST(shape_of_a_mode_has_its_nodes) {
       crossings += (shape.y[i - 1] - rest.y[i - 1]) * (shape.y[i] - rest.y[i]) < 0;
     ck_assert_uint_eq(crossings, k - 1);
   }
-  zp_result_destroy(result);
 }
 
 /* However few rows are kept, the last one of a branch is at the voltage that was asked for. */
@@ -381,7 +365,6 @@ TEST(last_row_is_at_the_voltage) {
     ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
     ck_assert_uint_le(result->series->rows, (size_t)samples);
     ck_assert_double_eq(zp_table_get(result->series, result->series->rows - 1, "voltage_V"), 4e3);
-    zp_result_destroy(result);
   }
 }
 
@@ -389,9 +372,9 @@ TEST(last_row_is_at_the_voltage) {
  * which derivatives ask for; what its residual leaves is rounding. */
 TEST(residual_of_a_mode_bounds_its_error) {
   ZpActuatorDef def = DEF({"mesh.nodes", 61});
-  ZpResult *found = rest_of(ZP_STUDY_MODES, &def);
+  ZpResult *found = converged_of(ZP_STUDY_MODES, &def);
   ck_assert_int_eq(zp_def_set_text(&def, zp_key_find("sensitivity.by"), "load.mass", NULL), ZP_OK);
-  ZpResult *exact = rest_of(ZP_STUDY_MODES, &def);
+  ZpResult *exact = converged_of(ZP_STUDY_MODES, &def);
   ck_assert_uint_eq(found->series->rows, 8);
   for (size_t j = 0; j < found->series->rows; j++) {
     double ratio = zp_table_get(found->series, j, "frequency_Hz") / zp_table_get(exact->series, j, "frequency_Hz");
@@ -402,8 +385,6 @@ TEST(residual_of_a_mode_bounds_its_error) {
     ck_below(residual, 1e-6);
     ck_below(rest, 3e-11); /* 3.1e-12 measured */
   }
-  zp_result_destroy(found);
-  zp_result_destroy(exact);
 }
 
 /* The error of the third mode is of order l^2: extrapolated, it is that of the beam. */
@@ -432,7 +413,6 @@ TEST(test_modes_above_pull_in) {
     ck_assert(zp_outcome_good(result->outcome));
     ck_assert_str_eq(zp_outcome_name(result->outcome), "pulled_in");
     ck_assert_double_nan(zp_result_get(result, "frequency_1_Hz"));
-    zp_result_destroy(result);
   }
 }
 
@@ -478,7 +458,6 @@ static Point limit_of(const ZpActuatorDef *def) {
     point[2] = (Point){zp_statics_stroke(&rest.statics), rest.statics.U};
   }
   zp_rest_close(&rest);
-  zp_model_destroy(model);
   return top_of(point);
 }
 
@@ -486,15 +465,13 @@ TESTS(test_pull_in, 0, 2) {
   static const double b[] = {4.38094, 1.68084}, travel[] = {0.3967, 0.4465};
   const double g = 1e-3;
   ZpActuatorDef def = flange_def(_i ? ZP_END_FREE : ZP_END_GUIDED, b[_i], g);
-  ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
-  double V = def.drive.voltage / 1.2, found = zp_result_get(result, "pull_in_voltage_V");
+  double V = def.drive.voltage / 1.2, found = zp_result_get(study_of(ZP_STUDY_EQUILIBRIUM, &def), "pull_in_voltage_V");
   Point limit = limit_of(&def);
   printf("%s: b %.5f, travel %.4f g\n", _i ? "free" : "guided", b[_i] * found * found / (V * V),
          -limit.stroke / g);                 /* drawn up */
   ck_near(found * found / (V * V), 1, 5e-4); /* 1.2e-4 measured */
   ck_near(limit.voltage, found, 1e-5);
   ck_near(-limit.stroke / g, travel[_i], 2e-3);
-  zp_result_destroy(result);
 }
 
 /* Regression: without weight the residual was relative to 1 mN, far above the forces of a thin flange: its pull-in
@@ -526,7 +503,6 @@ TEST(test_weightless_flange_is_raised) {
   def.modes.voltage = 1.01 * V;
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
   ck_assert_int_eq(result->outcome, ZP_PULLED_IN);
-  zp_result_destroy(result);
 }
 
 /* -- the default actuator ---------------------------------------------------------------------------- */
@@ -555,7 +531,6 @@ TESTS(test_mesh_independence, 0, FULL_OR(1, 0)) {
     pull_in[k] = zp_result_get(result, "pull_in_voltage_V");
     release[k] = zp_result_get(result, "release_voltage_V");
     printf("N = %d: %s\n", def.mesh.nodes, result->message);
-    zp_result_destroy(result);
   }
   ck_near(pull_in[0], pull_in[1], 5e-4); /* 1.4e-4 measured */
   ck_near(release[0], release[1], 5e-6); /* 1.5e-6 measured */
@@ -583,7 +558,6 @@ TEST(test_default_branches) {
   ck_assert_int_eq(wrong[0], 0);
   ck_assert_int_eq(wrong[1], 0);
   ck_assert_int_eq(wrong[2], 0);
-  zp_result_destroy(result);
 }
 
 /* Under 61 g it hangs open at 10 kV, and stays closed if it is closed. */
@@ -600,7 +574,6 @@ TEST(test_heavy_load) {
   ck_assert_double_gt(zp_table_get(t, closed, "zipped_length_m"), 40e-3);
   ck_below(zp_result_get(result, "release_voltage_V"), 10e3);
   printf("61 g: %s, release %g V\n", result->message, zp_result_get(result, "release_voltage_V"));
-  zp_result_destroy(result);
 }
 
 TEST(test_faces_do_not_cross) {
@@ -616,7 +589,6 @@ TEST(test_faces_do_not_cross) {
     }
     printf("%g g: faces overlap by %.3f um at most\n", grams[i], -1e6 * least);
     ck_assert_double_ge(least, -0.01 * 260e-6); /* of both insulators */
-    zp_result_destroy(result);
   }
 }
 
@@ -628,7 +600,6 @@ static double release_of(ZpStudy study, const ZpActuatorDef *def) {
   printf("%s; closes at %g V\n", result->message, closing);
   ck_assert_msg(result->outcome == ZP_FOLLOWED, "%s", result->message);
   ck_assert(!(release > closing));
-  zp_result_destroy(result);
   return release;
 }
 
@@ -668,15 +639,11 @@ TEST(test_release_whatever_closed_it) {
 static double opened_by_ramp(ZpActuatorDef def, double closing, double high, double low) {
   enum { STEPS = 250 };
   const double slow = 2, end = 6;
-  const ZpDriveTable table = {5, (double[]){0, 0.2, 1, slow, end}, (double[]){closing, closing, 1.5 * high, high, low}};
-  ZpError err;
-  ZpModel *model;
-  ZpSim *sim;
   def.initial.state = ZP_INITIAL_STRAIGHT;
   def.drive.waveform = ZP_WAVEFORM_TABLE;
   def.damping.internal = 1e-3;
-  ck_assert_msg(zp_model_create_driven(&def, &table, &model, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s", err.message);
+  ZpSim *sim = sim_of(
+      driven_model_of(&def, 5, (double[]){0, 0.2, 1, slow, end}, (double[]){closing, closing, 1.5 * high, high, low}));
   double voltage = high, closed = NAN;
   for (int k = 0; k <= STEPS; k++) {
     zp_sim_run(sim, slow + (end - slow) * k / STEPS, false, NULL, NULL);
@@ -686,8 +653,6 @@ static double opened_by_ramp(ZpActuatorDef def, double closing, double high, dou
     voltage = zp_sim_get(sim, "voltage");
     if (fabs(now / closed - 1) > (ribbons ? 0.01 : 0.1)) break;
   }
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   return voltage;
 }
 
@@ -714,7 +679,6 @@ TEST(test_no_release) {
   ck_assert_double_nan(zp_result_get(result, "release_voltage_V"));
   ck_assert_double_nan(zp_result_get(result, "closing_voltage_V"));
   ck_assert_ptr_nonnull(strstr(result->message, "no release: it is not closed at drive.voltage"));
-  zp_result_destroy(result);
 }
 
 /* -- extremes -------------------------------------------------------------------------------------- */
@@ -732,7 +696,6 @@ TESTS(test_extremes, 0, 3) {
     ck_assert(good || i == 0);
     for (size_t k = 0; k < result->scalars; k++)
       ck_assert(!isinf(result->scalar[k].value));
-    zp_result_destroy(result);
   }
 }
 
@@ -748,12 +711,11 @@ TEST(test_order_between_clamps) {
         DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_CLAMPED}, {"ribbon.length", L},
             {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", gravity}, {"load.mass", 0}, {"mesh.nodes", nodes[i]});
     double exact = rho * width * thickness * gravity * L * L * L * L / (384 * bending_stiffness(thickness));
-    ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+    ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
     size_t middle = (size_t)(nodes[i] - 1) / 2;
     double at = zp_table_get(result->series, middle, "y_m"), beside = zp_table_get(result->series, middle - 1, "y_m");
     double sag = -(at + (beside - at) / 6); /* its neighbours are alike */
     scaled[i] = (sag / exact - 1) * pow(nodes[i] - 1, 3);
-    zp_result_destroy(result);
   }
   printf("between clamps: error times (N-1)^3 %.4f, %.4f, %.4f\n", scaled[0], scaled[1], scaled[2]);
   ck_near(scaled[0], scaled[2], 0.05); /* 0.039 measured */
@@ -779,7 +741,6 @@ TEST(test_restored_with_load_and_voltage) {
   ck_assert(statics.U == 123 && statics.load == 0.02 && statics.member->q[7] == 0.5);
   zp_free(saved);
   zp_statics_destroy(&statics);
-  zp_model_destroy(model);
 }
 
 /* -- along the load -------------------------------------------------------------------------------- */
@@ -806,7 +767,6 @@ TEST(test_branch_along_the_load) {
   /* both to a residual of 1e-7; 2.2e-16 measured */
   ck_near(zp_statics_stroke(s), value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"), 1e-12);
   zp_rest_close(&rest);
-  zp_model_destroy(model);
 }
 
 /* Each half of weightless ribbons carries half of the load straight down, and nothing pulls a clip sideways: along the
@@ -816,7 +776,7 @@ TESTS(tension_carries_the_load_along_the_slope, 0, 2) {
   static const double load = 0.1;
   ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"gravity", 0}, {"load.force", load});
   if (_i == 1) def.lower.ribbon.thickness = 2 * def.ribbon.thickness;
-  ZpResult *result = rest_of(ZP_STUDY_STATIONARY, &def);
+  ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   const ZpTable *t = result->series;
   int edges = 0;
   double across = 0, worst = 0;
@@ -833,5 +793,4 @@ TESTS(tension_carries_the_load_along_the_slope, 0, 2) {
   ck_assert_int_eq(edges, def.mesh.nodes - 1);
   ck_assert(_i == 0 || across < -1e-2 * load);
   ck_below(worst, 1e-8); /* 3.2e-9 measured */
-  zp_result_destroy(result);
 }

@@ -37,8 +37,6 @@ static void free_rest(Rest *r) {
   free(r->a);
   free(r->state);
   zp_system_destroy(&r->eval);
-  zp_sim_destroy(r->sim);
-  zp_model_destroy(r->model);
 }
 
 /* Accelerations at q: of ribbons and weight, of faces that press on each other where they do. */
@@ -204,7 +202,7 @@ TEST(bounds_are_the_least_of_all_nodes) {
 /* -- drag in a run --------------------------------------------------------------------------------- */
 
 /* Run on to `end` with rows. */
-static ZpRunInfo run_to(ZpSim *sim, double end) {
+static ZpRunInfo run_with_rows(ZpSim *sim, double end) {
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
   ZpTable *series = zp_table_create(column, columns, 100);
@@ -227,25 +225,19 @@ TEST(drag_bounds_the_steps) {
                           {"solver.end_time", time}); /* rows are as many for any */
   ZpModel *model = model_of(&def);
   def.solver.time_step = 1e-7;
-  ZpModel *finer = model_of(&def);
-  ZpSim *sim = sim_of(model), *start = sim_of(finer);
+  ZpSim *sim = sim_of(model), *start = sim_of(model_of(&def));
   size_t size = zp_sim_state_size(start);
-  void *state = malloc(size);
-  run_to(start, time);
-  ZpRunInfo info = run_to(start, 2 * time);
+  void *state = memory_of(size);
+  run_with_rows(start, time);
+  ZpRunInfo info = run_with_rows(start, 2 * time);
   ck_near(info.smallest_bound[0], 2 * m / (c * v_t), 1e-12);  /* 4.5e-14 measured */
   ck_near(info.smallest_bound[1], 2 * model->l / v_t, 1e-12); /* 4.6e-14 measured */
   ck_assert_double_eq(info.smallest_bound[2], 0);             /* straight */
   zp_sim_save(start, state);
   ck_assert_int_eq(zp_sim_restore(sim, state, size, NULL), ZP_OK);
-  info = run_to(sim, 3 * time);
+  info = run_with_rows(sim, 3 * time);
   ck_assert_double_le(fabs((double)info.steps - ceil(time * c * v_t / m)), 1); /* step */
   ck_assert_int_ge(info.limited[ZP_LIMIT_DRAG], info.steps - 1);
-  free(state);
-  zp_sim_destroy(sim);
-  zp_sim_destroy(start);
-  zp_model_destroy(model);
-  zp_model_destroy(finer);
 }
 
 /* A strip released from straight is fastest half way and at rest at the end: the smallest bound is that half way. */
@@ -269,8 +261,6 @@ TEST(bounds_are_the_least_of_all_rows) {
   ck_near(info.smallest_bound[0], 2 * m / (c * fastest), 2e-4);  /* 5e-5 measured */
   ck_near(info.smallest_bound[1], 2 * model->l / fastest, 2e-2); /* by the node before the end */
   zp_table_destroy(series);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* -- the end of a run ------------------------------------------------------------------------------ */

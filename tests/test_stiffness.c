@@ -139,5 +139,4 @@ TESTS(stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases)) {
   printf("%s: stiffness off by %.1e\n", c->name, worst);
   ck_below(worst, 5e-8); /* 1.4e-8 measured */
   zp_rest_close(&rest);
-  zp_model_destroy(model);
 }

@@ -10,17 +10,11 @@
 /* -- results and what is written of them -------------------------------------------------------------- */
 
 static ZpResult *result_of(ZpStudy study, ZpOutcome outcome, const char *name, double value) {
-  ZpResult *result = zp_result_create(study);
+  ZpResult *result = new_result(study);
   ck_assert_ptr_nonnull(result);
   result->outcome = outcome;
   zp_result_add(result, name, "1", value);
   return result;
-}
-
-static void free_results(ZpResult *const *result, size_t count, ZpScenario *scenario) {
-  for (size_t i = 0; i < count; i++)
-    zp_result_destroy(result[i]);
-  zp_scenario_destroy(scenario);
 }
 
 static json_t *summary_of(const ZpReport *report) {
@@ -67,7 +61,6 @@ TEST(interrupted_sweep_counts_its_cases) {
   json_t *row = json_array_get(json_object_get(summary, "rows"), 0);
   ck_assert(json_is_real(json_object_get(row, "contraction"))); /* also where it is whole */
   json_decref(summary);
-  free_results(result, 2, scenario);
 }
 
 TEST(rows_say_which_values_are_automatic) {
@@ -78,7 +71,6 @@ TEST(rows_say_which_values_are_automatic) {
   ck_assert_str_eq(word_in(json_array_get(rows, 0), "solver.tolerance"), "auto");
   ck_assert_double_eq(number_in(json_array_get(rows, 1), "solver.tolerance"), 1e-5);
   json_decref(summary);
-  free_results(result, 2, scenario);
 }
 
 /* Frequencies and their errors are two arrays, and not numbers of their own besides. */
@@ -97,7 +89,6 @@ TEST(errors_of_frequencies_are_an_array) {
   ck_assert_ptr_null(json_object_get(summary, "frequency_1_Hz"));
   ck_assert_ptr_null(json_object_get(summary, "frequency_1_error_Hz"));
   json_decref(summary);
-  free_results(&result, 1, scenario);
 }
 
 TEST(derivatives_stand_by_output_and_key) {
@@ -112,7 +103,6 @@ TEST(derivatives_stand_by_output_and_key) {
   ck_assert_double_eq(number_in(json_object_get(all, "stroke_m"), "ribbon.width"), -0.25);
   ck_assert_double_eq(number_in(json_object_get(all, "opening_m"), "load.mass"), 3);
   json_decref(summary);
-  free_results(&result, 1, scenario);
 }
 
 /* The best cases are those of the rows that the optimum names, in its order. */
@@ -132,7 +122,6 @@ TEST(optimum_shows_its_own_cases) {
     ck_assert_double_eq(number_in(json_array_get(cases, i), "contraction"), 0.25 * (double)best[i]);
   }
   json_decref(summary);
-  free_results(result, 3, scenario);
 }
 
 /* The largest number of a sweep is that of the cases to which it applies. */
@@ -145,7 +134,6 @@ TEST(largest_is_of_the_cases_where_it_holds) {
   }
   const ZpReport report = {.scenario = scenario, .result = result, .count = 3};
   ck_assert_double_eq(zp_report_largest(&report, "load_kg", "lifts"), 1);
-  free_results(result, 3, scenario);
 }
 
 /* -- statistics of samples ---------------------------------------------------------------------------- */
@@ -188,7 +176,7 @@ TEST(statistics_are_of_their_samples) {
       SCENARIO("ribbon.thickness=uniform(40 um, 60 um)", "load.mass=[2 g, 3 g]", "drive.voltage=uniform(6 kV, 10 kV)",
                "sampling.count=256", "sampling.indices=true", "sampling.method=sobol");
   const size_t count = zp_scenario_count(scenario), half = count / 2;
-  ZpResult **result = calloc(count, sizeof(ZpResult *));
+  ZpResult **result = memory_of(count * sizeof(ZpResult *));
   size_t keys;
   zp_scenario_lists(scenario, &keys);
   ck_assert_uint_eq(keys, 3);
@@ -216,8 +204,6 @@ TEST(statistics_are_of_their_samples) {
     }
   }
   json_decref(summary);
-  free_results(result, count, scenario);
-  free(result);
 }
 
 /* The first case that failed speaks for all; keys of whole numbers are whole; a note of several cases stands once. */
@@ -233,16 +219,13 @@ TEST(failed_case_speaks_for_the_sweep) {
   const json_t *nodes = json_object_get(json_array_get(json_object_get(summary, "rows"), 1), "mesh.nodes");
   ck_assert(json_is_integer(nodes) && json_integer_value(nodes) == 61);
   json_decref(summary);
-  free_results(result, 2, scenario);
 }
 
 /* -- files that go, and one that stays ----------------------------------------------------------------- */
 
 static bool is_there(const char *name) {
   char *path = path_of(name);
-  const bool there = access(path, F_OK) == 0;
-  free(path);
-  return there;
+  return access(path, F_OK) == 0;
 }
 
 static ZpShapes *shapes_of(size_t frames) {
@@ -273,7 +256,6 @@ TEST(files_go_with_their_results) {
   write_files(scenario, &result, 1);
   ck_assert(!is_there("table.csv") && !is_there("field.vts"));
   ck_assert(is_there("shapes/shape_0001.vtp") && !is_there("shapes/shape_0002.vtp"));
-  free_results(&result, 1, scenario);
 }
 
 /* A summary says that all files are complete: an old one goes first, and none comes where another file fails. */
@@ -288,8 +270,6 @@ TEST(summary_goes_before_files_are_written) {
   ck_assert(remove(path) == 0 && mkdir(path, 0777) == 0);
   ck_assert_int_eq(zp_report_write(&report, NULL, &err), ZP_MACHINE);
   ck_assert(!is_there("summary.json"));
-  free(path);
-  free_results(&result, 1, scenario);
 }
 
 /* The state at the end of a run in time is a file from which that model can continue. */
@@ -304,7 +284,5 @@ TEST(state_at_the_end_is_a_file) {
   write_files(scenario, &result, 1);
   ck_assert_msg(zp_checkpoint_read(path, &read, &err) == ZP_OK, "%s", err.message);
   ck_assert_msg(zp_checkpoint_check(read, &def, &err) == ZP_OK, "%s", err.message);
-  free(path);
   zp_checkpoint_destroy(read);
-  free_results(&result, 1, scenario);
 }

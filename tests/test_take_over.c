@@ -18,14 +18,9 @@ static Run start(double length, double load) {
   run.def.mesh.nodes = 21;
   run.def.ribbon.length = length;
   run.def.load.mass = load;
-  ck_assert_int_eq(zp_model_create(&run.def, &run.model, NULL), ZP_OK);
-  ck_assert_int_eq(zp_sim_create(run.model, NULL, &run.sim, NULL), ZP_OK);
+  run.model = model_of(&run.def);
+  run.sim = sim_of(run.model);
   return run;
-}
-
-static void end(Run *run) {
-  zp_sim_destroy(run->sim);
-  zp_model_destroy(run->model);
 }
 
 static void expect_signals(const Run *run, const Run *from, double factor) {
@@ -56,8 +51,6 @@ TEST(test_goes_on_with_another_load) {
   /* contraction refers to the new load's own hanging shape */
   ck_assert_double_eq_tol(zp_sim_get(next.sim, "contraction"), 1 - zp_sim_get(next.sim, "opening") / own, 1e-12);
   expect_balance(&next, 1e-8); /* 1.3e-9 measured */
-  end(&first);
-  end(&next);
 }
 
 TEST(test_stretches_to_another_length) {
@@ -69,8 +62,6 @@ TEST(test_stretches_to_another_length) {
   /* no strain is added: the same tension, along more length */
   ck_assert_double_eq_tol(zp_sim_get(next.sim, "axial_energy"), axial * 0.110 / 0.090, 1e-6 * axial);
   expect_balance(&next, 1e-8); /* 1.3e-9 measured */
-  end(&first);
-  end(&next);
 }
 
 TEST(test_the_same_model_goes_on_as_if_nothing_was) {
@@ -80,8 +71,6 @@ TEST(test_the_same_model_goes_on_as_if_nothing_was) {
   zp_sim_run(first.sim, 0.06, false, NULL, NULL);
   zp_sim_run(next.sim, 0.06, false, NULL, NULL);
   expect_signals(&next, &first, 1);
-  end(&first);
-  end(&next);
 }
 
 TEST(test_another_mesh_is_refused) {
@@ -92,8 +81,6 @@ TEST(test_another_mesh_is_refused) {
   zp_sim_create(next.model, NULL, &next.sim, NULL);
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "mesh.nodes = 31"));
-  end(&first);
-  end(&next);
 }
 
 static Run begin(ZpActuatorDef def) {
@@ -115,8 +102,6 @@ TEST(test_a_stack_continues_with_all_its_members) {
   ZpShape shape = zp_sim_shape(next.sim), other = zp_sim_shape(first.sim);
   for (size_t j = 0; j < 2 * next.model->count; j++)
     ck_assert_double_eq_tol(shape.y[j], other.y[j], 1e-12);
-  end(&first);
-  end(&next);
 }
 
 /* Its members stay joined at another length. */
@@ -128,8 +113,6 @@ TEST(test_a_stack_of_another_length_stays_joined) {
   ZpShape shape = zp_sim_shape(next.sim);
   ck_near(shape.y[nodes - 1], shape.y[2 * nodes - 2], 1e-12);
   expect_balance(&next, 1e-8); /* 1.3e-9 measured */
-  end(&first);
-  end(&next);
 }
 
 /* Neither more of them, nor a single actuator, nor antagonists instead of a series. */
@@ -142,8 +125,6 @@ TESTS(test_other_members_are_refused, 0, 3) {
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "other members"));
   ck_assert_double_eq(zp_sim_get(next.sim, "opening"), opening);
-  end(&first);
-  end(&next);
 }
 
 /* Antagonists fit between their mounts at one length only. */
@@ -156,9 +137,6 @@ TEST(test_antagonists_keep_their_lengths) {
   ck_assert_ptr_nonnull(strstr(err.message, "stack.distance"));
   ck_assert_int_eq(zp_sim_take_over(heavier.sim, first.sim, &err), ZP_OK);
   expect_signals(&heavier, &first, 1);
-  end(&first);
-  end(&farther);
-  end(&heavier);
 }
 
 /* A ribbon actuator does not become a fold, whose nodes it has. */
@@ -167,8 +145,6 @@ TEST(test_other_ends_are_refused) {
   ZpError err;
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "the ends or the platforms differ"));
-  end(&first);
-  end(&next);
 }
 
 /* A slow supply that replaces the ideal one starts at the present voltage; and vice versa. */
@@ -183,9 +159,6 @@ TEST(test_another_supply) {
   ck_assert_int_eq(zp_sim_take_over(last.sim, next.sim, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_run(last.sim, 0.02, false, NULL, NULL), ZP_REACHED_END);
   ck_near(zp_sim_get(last.sim, "voltage"), 5e3, 1e-12); /* 0 measured */
-  end(&first);
-  end(&next);
-  end(&last);
 }
 
 /* A supply that is slewing continues from its present voltage after the load has changed. */
@@ -203,8 +176,6 @@ TEST(test_slewing_supply_goes_on) {
     ck_near(zp_sim_get(next.sim, "source_voltage"), fmin(1e3 * k, 5e3), 1e-12);
     ck_near(zp_sim_get(next.sim, "voltage"), fmin(1e3 * k, 5e3), 1e-12);
   }
-  end(&first);
-  end(&next);
 }
 
 /* An ideal source that replaces it jumps to the command: U dQ, of which C dU^2 / 2 is lost. One that slews and replaces
@@ -226,9 +197,6 @@ TEST(test_slewing_supply_comes_and_goes) {
   ck_near(zp_sim_get(last.sim, "source_voltage"), 5e3, 1e-15);
   ck_assert_int_eq(zp_sim_run(last.sim, 0.031, false, NULL, NULL), ZP_REACHED_END);
   ck_near(zp_sim_get(last.sim, "voltage"), 5e3, 1e-12);
-  end(&first);
-  end(&next);
-  end(&last);
 }
 
 /* Energies and losses count from the take-over on, those of the load and of the supply too. */
@@ -251,8 +219,6 @@ TEST(test_books_begin_anew) {
   for (size_t k = 0; k < LENGTH_OF(books); k++)
     ck_assert_double_eq(zp_sim_get(next.sim, books[k]), 0);
   expect_balance(&next, 5e-6); /* 1.6e-6 measured */
-  end(&first);
-  end(&next);
 }
 
 /* A force that is held over several steps is at once that of the new model, whenever the old one was refreshed: twice
@@ -272,9 +238,6 @@ TEST(test_held_force_is_that_of_the_new_model) {
   zp_sim_run(alike.sim, between + 1e-5, false, NULL, NULL);
   zp_sim_run(next.sim, between + 1e-5, false, NULL, NULL);
   ck_near(zp_sim_get(next.sim, "end_velocity"), zp_sim_get(alike.sim, "end_velocity"), 1e-12);
-  end(&first);
-  end(&alike);
-  end(&next);
 }
 
 /* A controller with another period takes its next sample at the first multiple of that at or after the present time. */
@@ -292,8 +255,6 @@ TEST(test_samples_at_the_new_period) {
   ck_assert_double_eq(zp_sim_get(next.sim, "voltage"), voltage);
   zp_sim_run(next.sim, 10.3e-3, false, NULL, NULL);
   ck_assert_double_ne(zp_sim_get(next.sim, "voltage"), voltage);
-  end(&first);
-  end(&next);
 }
 
 /* A larger bead reaches farther at once: without surface tension it leaves the shape of rest, and is as that of an
@@ -307,9 +268,6 @@ TEST(test_another_bead_reaches_farther) {
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
   ck_near(zp_sim_get(next.sim, "wet_length"), zp_sim_get(large.sim, "wet_length"), 1e-12); /* 0 measured */
   ck_assert_double_gt(zp_sim_get(next.sim, "wet_length"), 1.1 * zp_sim_get(first.sim, "wet_length"));
-  end(&first);
-  end(&next);
-  end(&large);
 }
 
 /* Liquid that has left for good does not come back: what lies between the faces lacks it, in the model that goes on as
@@ -330,8 +288,6 @@ TESTS(test_lost_liquid_stays_lost, 0, 2) {
   double between = zp_bead_volume(&next.model->film, shape.gap, 0, zp_sim_get(next.sim, "wet_length"));
   ck_near(between + lost, volume + more, 1e-13);
   if (more == 0) ck_near(zp_sim_get(next.sim, "wet_length"), zp_sim_get(first.sim, "wet_length"), 1e-12);
-  end(&first);
-  end(&next);
 }
 
 /* Kinds of the laws' own numbers that an actuator has. */
@@ -374,8 +330,6 @@ TESTS(test_laws_keep_their_own_numbers, 0, 6) {
     ck_assert_double_eq(zp_state_own(next.model, to)[i], 0);
   for (size_t i = 0; film && i < film->state; i++)
     ck_assert_double_eq(flows[i], 0);
-  end(&first);
-  end(&next);
 }
 
 /* After a take-over a run can be saved and restored, with a controller and without one. */
@@ -387,15 +341,11 @@ TESTS(test_taken_over_is_saved_and_restored, 0, 4) {
   Run first = begin(_i & 1 ? controlled : alone), next = begin(_i & 2 ? controlled : alone), again = begin(next.def);
   ZpError err = {ZP_OK, ""};
   const size_t size = zp_sim_state_size(next.sim);
-  void *snapshot = malloc(size);
+  void *snapshot = memory_of(size);
   zp_sim_run(first.sim, 0.01, false, NULL, NULL);
   ck_assert_int_eq(zp_sim_take_over(next.sim, first.sim, NULL), ZP_OK);
   ck_assert_int_eq(zp_sim_run(next.sim, 0.012, false, NULL, NULL), ZP_REACHED_END);
   zp_sim_save(next.sim, snapshot);
   ck_assert_msg(zp_sim_restore(again.sim, snapshot, size, &err) == ZP_OK, "%s", err.message);
-  free(snapshot);
   expect_signals(&again, &next, 1);
-  end(&first);
-  end(&next);
-  end(&again);
 }

@@ -9,7 +9,7 @@
 
 #include <zipact/io.h>
 
-#include "check_util.h"
+#include "data_util.h"
 #include "io/drawing.h"
 
 static char base[1024], notices[8192];
@@ -47,13 +47,12 @@ static void note(const char *message) {
 static char *in_base(const char *name) {
   char *path;
   ck_assert_int_gt(asprintf(&path, "%s/%s", base, name), 0);
-  return path;
+  return zp_test_owns(path, free);
 }
 
 static void put_file(const char *name, const char *text) {
   char *path = in_base(name);
   write_file(path, text);
-  free(path);
 }
 
 /* The whole text of base/name, to be freed; NULL if there is none. */
@@ -63,39 +62,30 @@ static char *text_of(const char *name) {
   FILE *file = fopen(path, "r");
   if (file && getdelim(&text, &room, 0, file) < 0) ck_abort_msg("%s is empty", path);
   if (file) fclose(file);
-  free(path);
-  return text;
+  return zp_test_owns(text, free);
 }
 
 static bool says(const char *name, const char *words) {
   char *text = text_of(name);
   ck_assert_msg(text != NULL, "no %s; %s", name, notices);
-  const bool found = strstr(text, words) != NULL;
-  free(text);
-  return found;
+  return strstr(text, words) != NULL;
 }
 
 /* Draw one shape at rest into base/out, with the templates of base/mine where `own` says so. */
 static void draw(bool own) {
   ZpError err = {0};
-  ZpResult *result;
   ZpActuatorDef def;
-  ZpScenario *scenario = zp_scenario_create();
-  ck_assert_ptr_nonnull(scenario);
+  ZpScenario *scenario = new_scenario();
   char *folder = in_base("mine"), *out = in_base("out");
   const char *const set[] = {"study=stationary", "mesh.nodes=15", "output.errors=false"};
   for (size_t i = 0; i < 3; i++)
     ck_assert_msg(zp_scenario_set(scenario, set[i], &err) == ZP_OK, "%s", err.message);
   ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
-  ck_assert_int_eq(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result, &err), ZP_OK);
+  ZpResult *result = study_of(zp_scenario_study(scenario), &def);
   const ZpReport report = {
       .directory = out, .scenario = scenario, .result = &result, .count = 1, .templates = own ? folder : NULL};
   notices[0] = 0;
   ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
-  zp_result_destroy(result);
-  zp_scenario_destroy(scenario);
-  free(folder);
-  free(out);
 }
 
 /* Write the built-in templates to base/mine. */
@@ -103,7 +93,6 @@ static void write_mine(void) {
   ZpError err;
   char *folder = in_base("mine");
   ck_assert_msg(zp_templates_write(folder, &err) == ZP_OK, "%s", err.message);
-  free(folder);
 }
 
 TEST(built_in_are_those_of_the_repository) {
@@ -120,7 +109,6 @@ TEST(files_that_are_there_stay) {
   ck_assert_int_eq(zp_templates_write(folder, &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "exists already"));
   ck_assert(says("mine/bode.gp", "# mine"));
-  free(folder);
 }
 
 DRAWN_TEST(an_edited_template_changes_the_picture) {
@@ -176,7 +164,6 @@ static void check_complaint(const char *line, const char *words) {
   snprintf(expected, sizeof expected, "out/plots/shape.svg was not drawn: template %s/mine/shape.gp, line %d: %s", base,
            atoi(lines), words);
   ck_assert_msg(strstr(notices, expected) != NULL, "%s, not %s", notices, expected);
-  free(lines);
 }
 
 DRAWN_TEST(errors_name_file_and_line) {
@@ -205,12 +192,11 @@ DRAWN_TEST(templates_in_a_circle) {
 TEST(no_scenario_names_templates) {
   ZpError err = {0};
   static const char text[] = "output: {templates: mine}\n";
-  ZpScenario *scenario = zp_scenario_create();
+  ZpScenario *scenario = new_scenario();
   ck_assert_int_eq(zp_scenario_set(scenario, "output.templates=mine", &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "no scenario can name them; use --templates FOLDER"));
   ck_assert_int_eq(zp_scenario_parse(scenario, text, strlen(text), "stranger.yaml", &err), ZP_BAD_INPUT);
   ck_assert_ptr_nonnull(strstr(err.message, "no scenario can name them; use --templates FOLDER"));
-  zp_scenario_destroy(scenario);
 }
 
 /* The label of each axis has a unit, or says that there is none. A template writes it by label() or as "time / ms". */

@@ -8,9 +8,7 @@ static const double half_turn = 3.14159265358979323846;
  */
 static double place_of(const ZpActuatorDef *def, const char *column, bool last) {
   ZpResult *result = study_of(ZP_STUDY_STATIONARY, def);
-  double value = zp_table_get(result->series, last ? result->series->rows - 1 : 0, column);
-  zp_result_destroy(result);
-  return value;
+  return zp_table_get(result->series, last ? result->series->rows - 1 : 0, column);
 }
 
 /* A ribbon upside down is its mirror image. */
@@ -61,7 +59,6 @@ TEST(standing_strip_buckles) {
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
   double f = zp_result_get(result, "frequency_1_Hz");
   ck_assert_msg(!(f * f > 0 && f * f < f2[0]) || !zp_outcome_good(result->outcome), "%g Hz beyond buckling", f);
-  zp_result_destroy(result);
 }
 
 /* Weightless ribbons upside down under a force of twice the load's weight open as they do under the load. */
@@ -95,7 +92,6 @@ TEST(guide_takes_what_is_not_vertical) {
   ck_assert(isnan(zp_result_get(falls, "max_load_kg")));
   ck_assert_msg(strstr(falls->message, "a mass is no load") || note_of(falls, "a mass is no load"), "%s",
                 falls->message);
-  zp_result_destroy(falls);
 }
 
 /* A whole actuator tilted left is the mirror image of one tilted right; upside down it equals its half. */
@@ -114,7 +110,6 @@ TEST(leaning_left_mirrors_leaning_right) {
     leans = fmax(leans, fabs(here - zp_table_get(right->series, rows - 1 - i, "y_m")));
   }
   ck_assert_double_gt(leans, 1e-5);
-  zp_result_destroy(right), zp_result_destroy(left);
   def.mount.tilt = half_turn, def.load.force = 0.2;
   other = def;
   other.actuator.symmetry = ZP_SYMMETRY_HALF;
@@ -159,8 +154,6 @@ TESTS(motion_mirrors_with_beads_and_fields, 0, 2) {
   ck_assert_msg((bead[0].reach > model[0]->L) == (_i == 1) && bead[0].reach < model[0]->L + 0.5 * def.platform.length,
                 "%g of %g", bead[0].reach, model[0]->L);
   for (int k = 0; k < 2; k++) {
-    zp_sim_destroy(sim[k]);
-    zp_model_destroy(model[k]);
   }
 }
 
@@ -196,7 +189,6 @@ TESTS(energy_at_an_angle, 0, 2) {
   double pull = def.load.force + def.load.mass * def.gravity * sqrt(0.5);
   double risen = zp_table_get(result->series, 0, "opening_m") - zp_result_get(result, "opening_m");
   ck_near(zp_result_get(result, "mechanical_work_J"), pull * risen, 1e-12); /* 0 measured */
-  zp_result_destroy(result);
 }
 
 /* Weight that presses the faces together: equal ribbons lie on each other from the platform to the clip. Each carries
@@ -225,7 +217,6 @@ TESTS(ribbons_lie_on_each_other, 0, 4) {
     ck_below(fabs(moved - expected), 2e-5 * one.ribbon.length); /* 6.6e-6 measured */
   }
   ck_below(fabs(zp_result_get(whole, "opening_m")), 2e-6);
-  zp_result_destroy(whole), zp_result_destroy(ribbon);
 }
 
 TEST(half_is_vertical) {

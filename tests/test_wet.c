@@ -27,7 +27,6 @@ static void make_faces(ZpActuatorDef def, Faces *f) {
 
 static void free_faces(Faces *f) {
   zp_system_destroy(&f->eval);
-  zp_model_destroy(f->model);
 }
 
 /* Parallel faces at a gap; with a bead, liquid as far as `reach` elements from the clip. */
@@ -82,8 +81,6 @@ TEST(full_bead_is_liquid_everywhere) {
   ZpResult *full = answer_of(ZP_STUDY_LIMITS, &with_bead), *bath = answer_of(ZP_STUDY_LIMITS, &in_liquid);
   for (size_t k = 0; k < LENGTH_OF(of); k++)
     ck_near(zp_result_get(full, of[k]), zp_result_get(bath, of[k]), 1e-12); /* 2.0e-14 measured */
-  zp_result_destroy(full);
-  zp_result_destroy(bath);
 }
 
 /* -- charge between the layers --------------------------------------------------------------------- */
@@ -212,19 +209,14 @@ static ZpActuatorDef moving(int k, int symmetry, double step) {
 
 /* A signal after a time. */
 static double signal_after(const ZpActuatorDef *def, double time, const char *signal) {
-  ZpModel *model = model_of(def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(def));
   ck_assert_int_eq(zp_sim_run(sim, time, false, NULL, NULL), ZP_REACHED_END);
-  double value = zp_sim_get(sim, signal);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
-  return value;
+  return zp_sim_get(sim, signal);
 }
 
 TESTS(energy_balances, 0, 3) {
   ZpActuatorDef def = moving(_i, ZP_SYMMETRY_HALF, NAN);
-  ZpModel *model = model_of(&def);
-  ZpSim *sim = sim_of(model);
+  ZpSim *sim = sim_of(model_of(&def));
   double worst = 0, closest = 0;
   for (int k = 1; k <= 20; k++) {
     ck_assert_int_eq(zp_sim_run(sim, 0.01 * k, false, NULL, NULL), ZP_REACHED_END);
@@ -235,8 +227,6 @@ TESTS(energy_balances, 0, 3) {
   printf("%d: closest %.3f, energy off by %.1e of the work\n", _i, closest, worst);
   ck_assert_double_gt(closest, 0.8);
   ck_below(worst, 6e-8); /* 2.2e-8 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Full suction takes what moving menisci release, and it pulls with the charge between the layers, too: what is left is

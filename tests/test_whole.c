@@ -17,28 +17,15 @@ typedef struct Both {
   ZpResult *half, *whole;
 } Both;
 
-static ZpResult *run(ZpStudy study, const ZpActuatorDef *def) {
-  ZpResult *result = NULL;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_study_run(study, def, NULL, NULL, &result, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
-  return result;
-}
-
 static Both run_both(ZpStudy study, ZpActuatorDef def) {
   Both both;
   def.actuator.symmetry = ZP_SYMMETRY_HALF;
-  both.half = run(study, &def);
+  both.half = answer_of(study, &def);
   def.actuator.symmetry = ZP_SYMMETRY_NONE;
-  both.whole = run(study, &def);
+  both.whole = answer_of(study, &def);
   ck_assert_int_eq(both.half->outcome, both.whole->outcome);
   ck_assert_str_eq(both.half->message, both.whole->message);
   return both;
-}
-
-static void destroy(Both both) {
-  zp_result_destroy(both.half);
-  zp_result_destroy(both.whole);
 }
 
 /* Half and whole give the same number, or both none. */
@@ -61,14 +48,12 @@ static void check_scalars(Both both, const char *const *name, size_t count) {
 TESTS(limits_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   Both both = run_both(ZP_STUDY_LIMITS, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "max_load_kg");
-  destroy(both);
 }
 
 TESTS(branches_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   Both both = run_both(ZP_STUDY_EQUILIBRIUM, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "pull_in_voltage_V", "closing_voltage_V", "release_voltage_V", "points", "max_stress_Pa",
                 "insulator_field_V_per_m");
-  destroy(both);
 }
 
 /* On the coarse mesh it jumps on its way, where both halves lose their stability at once. */
@@ -76,7 +61,6 @@ TESTS(held_forces_are_those_of_the_half, 0, FULL_OR(LENGTH_OF(meshes), 1)) {
   Both both = run_both(ZP_STUDY_ISOMETRIC, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "force_N", "force_unpowered_N", "charge_C", "capacitance_F", "opening_m");
   check_scalar(both, "jumps", 1);
-  destroy(both);
 }
 
 /* Both halves of a ribbon have the tension of the half, in mirrored order. The rigid platform between them is no
@@ -100,7 +84,6 @@ TESTS(rest_is_that_of_the_half, 0, LENGTH_OF(meshes)) {
   Both both = run_both(ZP_STUDY_STATIONARY, def_of(ZP_SYMMETRY_HALF, meshes[_i]));
   CHECK_SCALARS(both, "stroke_m", "opening_m");
   check_tensions(both);
-  destroy(both);
 }
 
 /* Symmetric modes of the whole are those of the half; the others leave the platform at rest. */
@@ -114,25 +97,22 @@ TESTS(modes_of_the_half_are_modes_of_the_whole, 0, FULL_OR(LENGTH_OF(meshes), 1)
       nearest = fmin(nearest, fabs(zp_table_get(both.whole->series, j, "frequency_Hz") / half - 1));
     ck_below(nearest, of_eigenvalues);
   }
-  destroy(both);
 }
 
 /* The others are the modes of a half with a fixed platform, as under a very heavy load. */
 TEST(modes_that_hold_the_platform) {
   enum { HELD = 3, MODES = 8 };
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"gravity", 0}, {"load.mass", 1000});
-  ZpResult *heavy = run(ZP_STUDY_MODES, &def);
+  ZpResult *heavy = answer_of(ZP_STUDY_MODES, &def);
   def.load.mass = 8e-3;
   def.actuator.symmetry = ZP_SYMMETRY_NONE;
-  ZpResult *whole = run(ZP_STUDY_MODES, &def);
+  ZpResult *whole = answer_of(ZP_STUDY_MODES, &def);
   for (size_t k = 1; k <= HELD; k++) { /* the first one moves the load */
     double held = zp_table_get(heavy->series, k, "frequency_Hz"), nearest = INFINITY;
     for (size_t j = 0; j < MODES; j++)
       nearest = fmin(nearest, fabs(zp_table_get(whole->series, j, "frequency_Hz") / held - 1));
     ck_below(nearest, 3e-7); /* 7.7e-8 measured */
   }
-  zp_result_destroy(heavy);
-  zp_result_destroy(whole);
 }
 
 /* A signal until closing, or during the whole run, within a fraction of a scale. */
@@ -168,7 +148,6 @@ static void check_motion(ZpActuatorDef def) {
     check_signal(both, energy[k], largest_in(both.half->series, "electric_work_J"), false, 3e-7); /* 3.4e-8 measured */
   check_signal(both, "opening_m", largest_in(both.half->series, "opening_m"), true, 2e-7);        /* 9e-9 measured */
   check_signal(both, "stroke_m", largest_in(both.half->series, "stroke_m"), true, 2e-7);          /* 9e-9 measured */
-  destroy(both);
 }
 
 TEST(motion_is_that_of_the_half) {
@@ -188,13 +167,10 @@ TEST(motion_is_that_of_the_half) {
 TEST(unlike_segments_of_both_halves) {
   Both both = run_both(ZP_STUDY_STATIONARY, DEF(UNLIKE_HALVES, {"mesh.nodes", 11}));
   CHECK_SCALARS(both, "stroke_m", "opening_m", "max_stress_Pa", "yield_margin");
-  destroy(both);
   both = run_both(ZP_STUDY_ISOMETRIC, DEF(UNLIKE_HALVES, {"mesh.nodes", 11}, {"drive.voltage", 6e3}));
   CHECK_SCALARS(both, "force_N", "force_unpowered_N", "charge_C", "capacitance_F", "zipped_length_m", "max_stress_Pa");
-  destroy(both);
   both = run_both(ZP_STUDY_LIMITS, DEF(UNLIKE_HALVES, {"mesh.nodes", 11}));
   CHECK_SCALARS(both, "pull_in_voltage_V", "mass_kg", "insulator_field_V_per_m");
-  destroy(both);
 }
 
 /* Segments are mirrored, too, a platform may be short or bare, and the load need not be shared evenly. */
@@ -237,8 +213,6 @@ TEST(platform_stays_horizontal) {
   ck_assert(x[zp_upper(t, clip)] == x[zp_lower(t, clip)] && y[zp_upper(t, clip)] == y[zp_lower(t, clip)]);
   ck_assert_double_gt(fabs(y[zp_upper(t, clip)] - y[zp_upper(t, 0)]), 1e-8); /* the halves do not move alike */
   ck_below(fabs(energy_of(sim) - before) / bending, 2e-8);                   /* 2.2e-9 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* What a joint holds has no equation, and what it makes one has one. */
@@ -260,7 +234,6 @@ TEST(equations_are_those_of_the_topology) {
   ck_assert_int_eq(a.equation[2 * zp_upper(t, 7)], a.equation[2 * zp_lower(t, 7)]);
   ck_assert_int_eq(a.equation[2 * zp_lower(t, 7) + 1], (int)a.n - 1);
   zp_assembly_destroy(&a);
-  zp_model_destroy(model);
 }
 
 /* What only the half has is refused by name. */
@@ -337,7 +310,6 @@ TESTS(unlike_ribbons_bend_in_series, 0, 2) {
   ck_near(zp_rest_stroke(rest), sinks, 2e-5);         /* 3.8e-6 measured */
   ck_near(zp_rest_opening(rest), sinks + clip, 2e-5); /* 4.9e-6 measured */
   zp_rest_destroy(rest);
-  zp_model_destroy(model);
 }
 
 /* Under a heavy load it swings as a mass on two springs in series, 12 EI / L^3 each: after a quarter of a period it has
@@ -361,8 +333,6 @@ TEST(unlike_ribbons_swing_in_series) {
   ck_assert_int_eq(zp_sim_run(sim, quarter, false, NULL, &info), ZP_REACHED_END);
   ck_near(zp_sim_get(sim, "opening"), speed * sqrt(M / k), 5e-4); /* 1.2e-4 measured */
   ck_below(fabs(zp_sim_get(sim, "end_velocity")) / speed, 2e-3);  /* 3.5e-4 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Bent at random about a shape with open faces, what is held left where it is. */
@@ -387,7 +357,7 @@ TESTS(unlike_ribbons_keep_energy_and_momentum, 0, 2) {
   ZpEval e;
   ck_assert(zp_system_create(model, false, &e));
   size_t stride = model->stride, bytes = 2 * stride * sizeof(double);
-  double *q0 = calloc(1, bytes), *q1 = calloc(1, bytes), *F = calloc(1, bytes), work = 0, size = 0;
+  double *q0 = memory_of(bytes), *q1 = memory_of(bytes), *F = memory_of(bytes), work = 0, size = 0;
   uint64_t seed = 3;
   bend(model, &seed, q0);
   bend(model, &seed, q1);
@@ -411,9 +381,7 @@ TESTS(unlike_ribbons_keep_energy_and_momentum, 0, 2) {
   ck_below(fabs(work + after - before) / size, 1e-12); /* 1.5e-14 measured */
   ck_below(fabs(sum[0]) / most, 1e-12);                /* 1.6e-16 measured */
   ck_below(fabs(sum[1]) / most, 1e-12);                /* 7.6e-19 measured */
-  free(q0), free(q1), free(F);
   zp_eval_destroy(&e);
-  zp_model_destroy(model);
 }
 
 /* A zip of the whole actuator with unequal ribbons conserves energy, and the whole zips like its half. */
@@ -428,8 +396,6 @@ TEST(unlike_ribbons_zip) {
     ck_assert_msg(zp_sim_run(sim, 1, true, NULL, &info) == ZP_ZIPPED, "%s", info.message);
     zip_time[whole] = zp_sim_zip_time(sim);
     ck_below(fabs(zp_sim_get(sim, "energy_imbalance")) / zp_sim_get(sim, "electric_work"), 5e-8); /* 6e-9 measured */
-    zp_sim_destroy(sim);
-    zp_model_destroy(model);
   }
   ck_near(opening[1], opening[0], 1e-12);   /* 2.2e-16 measured */
   ck_near(zip_time[1], zip_time[0], 2e-12); /* 2.3e-13 measured */
