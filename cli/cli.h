@@ -96,4 +96,8 @@ void cli_watch_interrupts(void);
 bool cli_interrupted(void);
 double cli_wall_clock(void *unused);
 
+/* Print at most ten numbers of a single run, or a line per case, and the place of the files; `plots`: these include
+ * pictures. */
+void summary_print(const ZpReport *report, bool plots);
+
 #endif

@@ -8,7 +8,6 @@
 #include <zipact/calibrate.h>
 
 #include "cli.h"
-#include "summary.h"
 
 /* Report numbers without a unit, which may be meant in another unit than SI. */
 static void note_bare_numbers(const ZpScenario *scenario) {

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "summary.h"
+#include "cli.h"
 
 enum { MOST_NUMBERS = 10, MOST_ROWS = 100 };
 

@@ -164,77 +164,57 @@ ZpStatus zp_check_place(const char *directory, const char *name, ZpError *err) {
   return status;
 }
 
-/* A new file. An existing file of the same temporary name can only be from a killed process with our process id. */
-static int create(const char *path) {
+/* An empty file under the temporary name, open as atomic->fd. An existing one of that name can only be from a killed
+ * process with our process id. */
+static ZpStatus begin(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
   const int flags = O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC | O_NOFOLLOW;
-  int fd = open(path, flags, 0666);
-  if (fd < 0 && errno == EEXIST && unlink(path) == 0) fd = open(path, flags, 0666);
-  return fd;
+  *atomic = (ZpAtomic){0};
+  ZpStatus status = zp_check_place(directory, name, err);
+  if (status != ZP_OK) return status;
+  if (!make_names(atomic, directory, name)) {
+    forget(atomic);
+    return zp_fail_memory(err);
+  }
+  atomic->fd = open(atomic->temporary, flags, 0666);
+  if (atomic->fd < 0 && errno == EEXIST && unlink(atomic->temporary) == 0)
+    atomic->fd = open(atomic->temporary, flags, 0666);
+  if (atomic->fd >= 0) return ZP_OK;
+  status = cannot_write(atomic->path, errno, err);
+  forget(atomic);
+  return status;
 }
 
 ZpStatus zp_atomic_reserve(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
-  *atomic = (ZpAtomic){0};
-  const ZpStatus place = zp_check_place(directory, name, err);
-  if (place != ZP_OK) return place;
-  if (!make_names(atomic, directory, name)) {
-    forget(atomic);
-    zp_fail_memory(err);
-    return ZP_MACHINE;
-  }
-  int fd = create(atomic->temporary);
-  if (fd < 0) {
-    cannot_write(atomic->path, errno, err);
-    forget(atomic);
-    return ZP_MACHINE;
-  }
-  close(fd); /* nothing was written, so nothing can be lost */
-  return ZP_OK;
+  ZpStatus status = begin(atomic, directory, name, err);
+  if (status == ZP_OK) close(atomic->fd); /* nothing was written, so nothing can be lost */
+  return status;
 }
 
-/* The target of a stream's bytes. A FILE forgets the errno of a write that failed some time before it is closed; this
+/* Takes the bytes of the stream. A FILE forgets the errno of a write that failed some time before it is closed; this
  * does not. */
-typedef struct ZpSink {
-  int fd;
-  int error; /* errno of the first failure, or 0 */
-} ZpSink;
-
-static ssize_t sink_write(void *cookie, const char *data, size_t size) {
-  ZpSink *sink = cookie;
+static ssize_t write_bytes(void *cookie, const char *data, size_t size) {
+  ZpAtomic *atomic = cookie;
   size_t done = 0;
-  while (done < size && !sink->error) {
-    ssize_t written = write(sink->fd, data + done, size - done);
+  while (done < size && !atomic->error) {
+    ssize_t written = write(atomic->fd, data + done, size - done);
     if (written >= 0)
       done += (size_t)written;
     else if (errno != EINTR)
-      sink->error = errno;
+      atomic->error = errno;
   }
   return (ssize_t)done;
 }
 
-/* A stream into the file `path`, which exists; NULL with errno if that fails. */
-static FILE *open_stream(const char *path, ZpSink **sink) {
-  *sink = calloc(1, sizeof **sink);
-  if (!*sink) return NULL;
-  (*sink)->fd = open(path, O_WRONLY | O_CLOEXEC);
-  FILE *file = (*sink)->fd < 0 ? NULL : fopencookie(*sink, "w", (cookie_io_functions_t){.write = sink_write});
-  if (file) {
-    __fsetlocking(file, FSETLOCKING_BYCALLER); /* one thread has it: locks would cost more than most of the writing */
-    return file;
-  }
-  int error = errno;
-  if ((*sink)->fd >= 0) close((*sink)->fd);
-  free(*sink);
-  *sink = NULL;
-  errno = error;
-  return NULL;
-}
-
 ZpStatus zp_atomic_open(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err) {
-  ZpStatus status = zp_atomic_reserve(atomic, directory, name, err);
+  ZpStatus status = begin(atomic, directory, name, err);
   if (status != ZP_OK) return status;
-  atomic->file = open_stream(atomic->temporary, &atomic->sink);
-  if (atomic->file) return ZP_OK;
+  atomic->file = fopencookie(atomic, "w", (cookie_io_functions_t){.write = write_bytes});
+  if (atomic->file) {
+    __fsetlocking(atomic->file, FSETLOCKING_BYCALLER); /* one thread has it: locks would cost more than most writing */
+    return ZP_OK;
+  }
   status = cannot_write(atomic->path, errno, err);
+  close(atomic->fd);
   zp_atomic_abandon(atomic);
   return status;
 }
@@ -242,13 +222,11 @@ ZpStatus zp_atomic_open(ZpAtomic *atomic, const char *directory, const char *nam
 /* Close stream and file => 0, or the errno of the first failure: an early write, the last one, the disk or the
  * close. */
 static int finish_stream(ZpAtomic *atomic) {
-  ZpSink *sink = atomic->sink;
   bool bad = ferror(atomic->file) != 0;
   bad = fclose(atomic->file) != 0 || bad;
-  int error = sink->error ? sink->error : bad ? EIO : 0;
-  if (!error && fsync(sink->fd) != 0) error = errno;
-  if (close(sink->fd) != 0 && !error) error = errno;
-  free(sink);
+  int error = atomic->error ? atomic->error : bad ? EIO : 0;
+  if (!error && fsync(atomic->fd) != 0) error = errno;
+  if (close(atomic->fd) != 0 && !error) error = errno;
   atomic->file = NULL;
   return error;
 }

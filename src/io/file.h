@@ -22,14 +22,12 @@ void zp_html_text(FILE *file, const char *text);
 
 /* -- files that appear when they are complete ------------------------------------------------------- */
 
-struct ZpSink;
-
-/* A file that is being written, under a temporary name. */
+/* A file that is being written, under a temporary name. It stays where it is while `file` is open. */
 typedef struct ZpAtomic {
-  FILE *file;          /* the stream to write to; NULL if another program writes to `temporary` */
-  struct ZpSink *sink; /* behind `file` */
-  char *path;          /* its final name; NULL if nothing is open */
-  char *temporary;     /* its temporary name, in the same folder */
+  FILE *file;      /* the stream to write to; NULL if another program writes to `temporary` */
+  int fd, error;   /* behind `file`, and the errno of its first failure, or 0 */
+  char *path;      /* its final name; NULL if nothing is open */
+  char *temporary; /* its temporary name, in the same folder */
 } ZpAtomic;
 
 /* ZP_MACHINE if `name` is, in `directory`, a special file such as a device, or a link that leads out of the folder. */

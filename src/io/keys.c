@@ -1,4 +1,4 @@
-/* The table of keys as text for people, as JSON for programs, as a scenario to start from. */
+/* The table of keys: as text for people, as JSON for programs, as a scenario to start from, as a JSON schema. */
 #include <zipact/io.h>
 
 #include <errno.h>
@@ -8,7 +8,8 @@
 #include <jansson.h>
 
 #include "base/fail.h"
-#include "io/schema.h"
+#include "def/def.h"
+#include "io/range.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
@@ -92,6 +93,24 @@ static void write_yaml(FILE *file) {
   }
 }
 
+/* -- as JSON --------------------------------------------------------------------------------------- */
+
+/* A failure: free the tree. */
+static void drop(json_t **tree) {
+  json_decref(*tree);
+  *tree = NULL;
+}
+
+/* Put a member into an object, or an item into a list, which takes ownership of it. If there is no memory for one of
+ * them, both are freed and the object or list becomes NULL: so a tree that is not NULL is complete. */
+static void set(json_t **object, const char *name, json_t *value) {
+  if (json_object_set_new(*object, name, value)) drop(object);
+}
+
+static void add(json_t **list, json_t *value) {
+  if (json_array_append_new(*list, value)) drop(list);
+}
+
 static json_t *json_of_value(int index, double value) {
   const ZpKey *key = zp_key(index);
   if (key->type == ZP_KEY_TEXT || (key->type == ZP_KEY_REAL_AUTO && isnan(value))) return json_string(key->text);
@@ -104,7 +123,7 @@ static json_t *json_of_value(int index, double value) {
 static json_t *json_of_choices(const ZpKey *key) {
   json_t *list = json_array();
   for (int i = 0; key->choices && i <= (int)key->max; i++)
-    zp_json_add(&list, json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help));
+    add(&list, json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help));
   return list;
 }
 
@@ -118,6 +137,199 @@ static json_t *json_of_key(int index) {
                    key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices",
                    json_of_choices(key), "help", key->help);
 }
+
+/* -- as a JSON schema --------------------------------------------------------------------------------
+ *
+ * Each key has a definition, to which its dotted name and its place in its group refer. The schema accepts what the
+ * reader of scenarios accepts, and more in one respect: it checks units of a single dimension only (length, mass, ...).
+ * A compound unit, such as kg/m3, is any text, because a schema cannot multiply units. */
+
+/* Customary units of a single dimension, as a regular expression. */
+static const struct {
+  const char *unit, *names;
+} unit_names[] = {
+    {"m", "[npuµmcdk]?m|(?:nano|micro|milli|centi|kilo)?met(?:er|re)s?|in|inch(?:es)?|ft|feet|mil"},
+    {"m3", "[uµmcd]?m[\\\\^]?3|[nuµmcd]?[lL]|(?:micro|milli)?lit(?:er|re)s?"},
+    {"kg", "[nuµmk]?g|(?:micro|milli|kilo)?grams?|t|lb|oz|pounds?|ounces?"},
+    {"s", "[npuµm]?s|(?:nano|micro|milli)?seconds?|min|minutes?|h|hours?|d|days?"},
+    {"Hz", "[mkM]?Hz|(?:milli|kilo)?hertz|1/s"},
+    {"V", "[nuµmkM]?V|(?:milli|kilo)?volts?"},
+    {"A", "[pnuµmk]?A|(?:micro|milli)?amperes?"},
+    {"F", "[pnuµm]?F|(?:pico|nano|micro)?farads?"},
+    {"ohm", "[mkMGT]?(?:ohms?|Ω)"},
+    {"N", "[nuµmk]?N|(?:micro|milli|kilo)?newtons?|lbf|kgf|gf"},
+    {"Pa", "[mkhMG]?Pa|[mkMG]?N/[mc]?m[\\\\^]?2|m?bar|psi|atm|(?:kilo|mega|giga)?pascals?"},
+    {"rad", "[uµm]?rad(?:ians?)?|deg(?:rees?)?|°|grade"},
+};
+
+#define BLANK   "[ \u00A0\u2007\u2009\u202F]*"
+#define DECIMAL "[-+]?(?:[0-9]+[.]?[0-9]*|[.][0-9]+)(?:[eE][-+]?[0-9]+)?"
+
+/* The allowed text after the number of a value. */
+static const char *units_of(const ZpKey *key) {
+  if (key->type == ZP_KEY_INT) return NULL;
+  for (size_t i = 0; i < sizeof unit_names / sizeof unit_names[0]; i++)
+    if (strcmp(key->unit, unit_names[i].unit) == 0) return unit_names[i].names;
+  return "[^0-9 ].*|1/.*"; /* a compound unit; per cent or the unit of a signal after a number without a unit */
+}
+
+/* A pattern for "8 g", a range "1 g .. 9 g : 5", a distribution "normal(8 g, 1 g)", and the word of the key. */
+static void write_pattern(const ZpKey *key, char *text, size_t size) {
+  const char *units = units_of(key);
+  snprintf(text, size, "^" BLANK "(?:" DECIMAL BLANK "(?:%s)?|.*[.][.].*:.*%s%s%s)" BLANK "$", units ? units : "",
+           key->type == ZP_KEY_INT ? "" : "|[a-z]+[(].*,.*[)]", key->type == ZP_KEY_REAL_AUTO ? "|" : "",
+           key->type == ZP_KEY_REAL_AUTO ? key->text : "");
+}
+
+/* The message of an editor for a text that is not a value. */
+static void write_advice(int index, char *text, size_t size) {
+  const ZpKey *key = zp_key(index);
+  char range[ZP_RANGE_SIZE];
+  zp_value_range(index, range, sizeof range);
+  snprintf(text, size, "give a %s%s from %s", key->type == ZP_KEY_INT ? "whole number" : "number",
+           *key->shown ? " with a unit" : "", range);
+}
+
+/* One value of a number key: a number in SI, or a text. Limits apply to numbers, the pattern to texts. */
+static json_t *value_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  char pattern[640], advice[ZP_RANGE_SIZE + 64];
+  write_pattern(key, pattern, sizeof pattern);
+  write_advice(index, advice, sizeof advice);
+  return json_pack("{s:[s, s], s:f, s:f, s:s, s:s}", "type", key->type == ZP_KEY_INT ? "integer" : "number", "string",
+                   "minimum", key->min, "maximum", key->max, "pattern", pattern, "patternErrorMessage", advice);
+}
+
+static json_t *reference(const char *definition) {
+  char path[160];
+  snprintf(path, sizeof path, "#/definitions/%s", definition);
+  return json_pack("{s:s}", "$ref", path);
+}
+
+/* Add the members of `more`, which is freed, to an object, which becomes NULL on failure. */
+static void merge(json_t **object, json_t *more) {
+  if (!more || json_object_update(*object, more)) drop(object);
+  json_decref(more);
+}
+
+/* A value, a list of values, a range or a distribution. */
+static json_t *number_schema(int index) {
+  json_t *schema = value_schema(index), *any = json_pack("[{s:[s, s, s]}]", "type", "number", "string", "array");
+  add(&any, reference("range"));
+  if (zp_key(index)->type != ZP_KEY_INT) add(&any, reference("distribution"));
+  merge(&schema, json_pack("{s:o, s:i, s:o}", "items", value_schema(index), "minItems", 1, "anyOf", any));
+  json_t *type = json_object_get(schema, "type");
+  if (json_array_append_new(type, json_string("array")) || json_array_append_new(type, json_string("object")))
+    drop(&schema);
+  return schema;
+}
+
+/* In YAML true and false are not texts. */
+static json_t *words_schema(const ZpKey *key) {
+  json_t *words = json_array();
+  for (int i = 0; i <= (int)key->max; i++) {
+    const char *word = key->choices[i].word;
+    add(&words, json_string(word));
+    if (strcmp(word, "true") == 0 || strcmp(word, "false") == 0) add(&words, json_boolean(*word == 't'));
+  }
+  return json_pack("{s:o}", "enum", words);
+}
+
+static json_t *type_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  if (zp_value_is_number(key)) return number_schema(index);
+  if (key->type == ZP_KEY_ENUM) return words_schema(key);
+  if (key->type == ZP_KEY_BOOL)
+    return json_pack("{s:[{s:s}, {s:s, s:s}]}", "anyOf", "type", "boolean", "type", "string", "pattern",
+                     "^(?:[yY][eE][sS]|[nN][oO]|[oO][nN]|[oO][fF][fF])$");
+  return json_pack("{s:[s, s]}", "type", "string", "number");
+}
+
+/* "mass hung on the actuator. From 0 g to 1000000 g, default 8 g." with the words of a choice. */
+static json_t *description(int index) {
+  const ZpKey *key = zp_key(index);
+  char text[4096], value[ZP_VALUE_SIZE], range[ZP_RANGE_SIZE] = "";
+  zp_value_print(index, key->def, value, sizeof value);
+  if (zp_value_is_number(key)) zp_value_range(index, range, sizeof range);
+  int used = snprintf(text, sizeof text, "%s. %s%s%sDefault: %s.", key->help, *range ? "Range: " : "", range,
+                      *range ? ". " : "", value);
+  for (int i = 0; key->choices && i <= (int)key->max && used < (int)sizeof text; i++)
+    used += snprintf(text + used, sizeof text - (size_t)used, "\n%s: %s", key->choices[i].word, key->choices[i].help);
+  return json_string(text);
+}
+
+/* The text that an editor inserts. */
+static json_t *default_of(int index) {
+  const ZpKey *key = zp_key(index);
+  char value[ZP_VALUE_SIZE];
+  if (key->type == ZP_KEY_BOOL) return json_boolean(key->def != 0);
+  if (key->type == ZP_KEY_TEXT) return json_string(key->text);
+  if (key->type == ZP_KEY_INT) return json_integer((json_int_t)key->def);
+  zp_value_print(index, key->def, value, sizeof value);
+  return json_string(value);
+}
+
+static json_t *key_schema(int index) {
+  const ZpKey *key = zp_key(index);
+  json_t *schema = json_pack("{s:o, s:o}", "description", description(index), "default", default_of(index));
+  merge(&schema, type_schema(index));
+  if (zp_value_is_number(key)) set(&schema, "x-unit", json_string(key->unit));
+  return schema;
+}
+
+/* The parts of a range or a distribution. */
+static json_t *range_schema(void) {
+  return json_pack("{s:s, s:s, s:b, s:[s, s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}, s:{s:s, s:i, s:i}, s:{s:[s, s]}}}",
+                   "description", "values in equal steps or with equal ratios, both ends included", "type", "object",
+                   "additionalProperties", 0, "required", "from", "to", "count", "properties", "from", "type", "number",
+                   "string", "to", "type", "number", "string", "count", "type", "integer", "minimum", 2, "maximum",
+                   20000, "spacing", "enum", "linear", "log");
+}
+
+static json_t *one_distribution(ZpDistributionKind kind) {
+  const char *first = zp_spread_word[kind], *second = zp_spread_second(kind);
+  return json_pack("{s:s, s:b, s:[s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}}}", "type", "object", "additionalProperties", 0,
+                   "required", first, second, "properties", first, "type", "number", "string", second, "type", "number",
+                   "string");
+}
+
+static json_t *distribution_schema(void) {
+  json_t *kinds = json_array();
+  for (int k = 1; k < ZpDistributionKind_COUNT; k++)
+    add(&kinds, one_distribution((ZpDistributionKind)k));
+  return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
+}
+
+/* The group `path` of `size` bytes ("" for the root): its keys, by the rest of their names, and its groups. */
+static json_t *group_schema(const char *path, size_t size) {
+  json_t *properties = json_object();
+  for (int i = 0; i < zp_key_count(); i++) {
+    const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
+    if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
+    set(&properties, rest, reference(name));
+    for (const char *dot = strchr(rest, '.'); dot && properties; dot = strchr(dot + 1, '.')) {
+      char group[ZP_VALUE_SIZE];
+      snprintf(group, sizeof group, "%.*s", (int)(dot - rest), rest);
+      if (!json_object_get(properties, group)) set(&properties, group, group_schema(name, (size_t)(dot - name)));
+    }
+  }
+  return json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties",
+                   properties);
+}
+
+static json_t *make_schema(void) {
+  json_t *definitions = json_pack("{s:o, s:o}", "range", range_schema(), "distribution", distribution_schema());
+  for (int i = 0; i < zp_key_count(); i++)
+    set(&definitions, zp_key(i)->name, key_schema(i));
+  json_t *schema = json_pack("{s:s, s:s, s:s, s:o}", "$schema", "http://json-schema.org/draft-07/schema#", "title",
+                             "zipact scenario", "description",
+                             "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
+                             "definitions", definitions);
+  merge(&schema, group_schema("", 0));
+  return schema;
+}
+
+/* -- all of them ------------------------------------------------------------------------------------- */
 
 /* Write `json`, which is freed; NULL: there was no memory for it. */
 static ZpStatus write_json(json_t *json, FILE *file, ZpError *err) {
@@ -139,12 +351,12 @@ ZpStatus zp_keys_write(ZpKeysFormat format, FILE *file, ZpError *err) {
   case ZP_KEYS_JSON: {
     json_t *list = json_array();
     for (int i = 0; i < zp_key_count(); i++)
-      zp_json_add(&list, json_of_key(i));
+      add(&list, json_of_key(i));
     status = write_json(list, file, err);
     break;
   }
   case ZP_KEYS_SCHEMA:
-    status = write_json(zp_schema_make(), file, err);
+    status = write_json(make_schema(), file, err);
     break;
   case ZP_KEYS_YAML:
     write_yaml(file);

@@ -104,9 +104,4 @@ ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err);
 ZpStatus zp_plots_prepare(const ZpReport *report, ZpError *err);
 void zp_plots_write(const ZpReport *report, void (*notice)(const char *message));
 
-/* Write "statistics", the distribution of each output over the samples: a list with an object per combination of the
- * lists' values, with the values of the keys and "outputs". For an interrupted report only complete combinations. */
-struct ZpJson;
-void zp_sample_statistics(struct ZpJson *json, const ZpReport *report);
-
 #endif

@@ -24,7 +24,6 @@
 #include "io/plan.h"
 #include "io/range.h"
 #include "io/source.h"
-#include "io/spread.h"
 #include "io/value.h"
 #include "io/yaml.h"
 
