@@ -180,14 +180,6 @@ static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
                  journal->path, (long long)done, (long long)cases);
 }
 
-/* Discard the existing journal. */
-static ZpStatus replace_old(ZpJournal *journal, const char *directory, ZpError *err) {
-  ZpStatus status = refuse_unfinished(journal, err);
-  sqlite3_close(journal->base);
-  journal->base = NULL;
-  return status == ZP_OK ? remove_old(directory, err) : status;
-}
-
 /* Only an empty file gets our tables. */
 static ZpStatus need_tables(ZpJournal *journal, ZpError *err) {
   const sqlite3_int64 tables = ask(journal, "SELECT count(*) FROM sqlite_master");
@@ -201,12 +193,8 @@ static ZpStatus prepare(ZpJournal *journal, const char *sql, sqlite3_stmt **stat
   return answer == SQLITE_OK ? ZP_OK : fail_base(journal, err);
 }
 
-static ZpStatus prepare_get(ZpJournal *journal, ZpError *err) {
-  return prepare(journal, SELECT_ROWS, &journal->get, err);
-}
-
 static ZpStatus prepare_all(ZpJournal *journal, ZpError *err) {
-  ZpStatus status = prepare_get(journal, err);
+  ZpStatus status = prepare(journal, SELECT_ROWS, &journal->get, err);
   if (status == ZP_OK)
     status = prepare(journal, "INSERT OR REPLACE INTO row VALUES(?, ?, ?, ?, ?, ?)", &journal->put, err);
   return status == ZP_OK ? prepare(journal, "INSERT OR REPLACE INTO names VALUES(?, ?)", &journal->put_names, err)
@@ -240,7 +228,12 @@ ZpStatus zp_journal_open(const char *directory, ZpStudy study, bool keep, size_t
   ZpJournal *journal = *out = create(path, study);
   free(path);
   ZpStatus status = journal ? ZP_OK : zp_fail_memory(err);
-  if (status == ZP_OK && !keep) status = replace_old(journal, directory, err);
+  if (status == ZP_OK && !keep) { /* discard the existing one */
+    status = refuse_unfinished(journal, err);
+    sqlite3_close(journal->base);
+    journal->base = NULL;
+    if (status == ZP_OK) status = remove_old(directory, err);
+  }
   if (status == ZP_OK) status = open_base(journal, cases, err);
   if (status == ZP_OK) return ZP_OK;
   zp_journal_close(journal);
@@ -377,7 +370,7 @@ static bool open_rows(void *user, ZpRows *own) {
   ZpJournal *reader = journal->open ? NULL : create(journal->path, journal->row->study);
   const bool open =
       reader && sqlite3_open_v2(reader->path, &reader->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
-      prepare_get(reader, NULL) == ZP_OK;
+      prepare(reader, SELECT_ROWS, &reader->get, NULL) == ZP_OK;
   *own = (ZpRows){.get = get_row, .status = get_status, .user = reader, .close = close_rows};
   if (!open) zp_journal_close(reader);
   return open;

@@ -261,15 +261,13 @@ ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *
 /* -- names ------------------------------------------------------------------------------------------- */
 
 /* Two names are equal if they differ only in the case of letters; the case of the unit counts. */
-static bool same_name(const char *a, const char *b) {
-  const char *unit = strrchr(a, '_');
-  const size_t stem = unit ? (size_t)(unit - a) : strlen(a);
-  return strncasecmp(a, b, stem) == 0 && strcmp(a + stem, b + (strlen(b) < stem ? strlen(b) : stem)) == 0;
-}
-
 static int find_column(const ZpData *data, const char *plain) {
-  for (size_t i = 0; i < data->columns; i++)
-    if (same_name(data->cell[i], plain)) return (int)i;
+  for (size_t i = 0; i < data->columns; i++) {
+    const char *name = data->cell[i], *unit = strrchr(name, '_');
+    const size_t stem = unit ? (size_t)(unit - name) : strlen(name), length = strlen(plain);
+    if (strncasecmp(name, plain, stem) == 0 && strcmp(name + stem, plain + (length < stem ? length : stem)) == 0)
+      return (int)i;
+  }
   return -1;
 }
 

@@ -301,13 +301,6 @@ size_t zp_result_save(const ZpResult *result, void *bytes) {
   return used + p.used;
 }
 
-static ZpStatus read_arrays(const void *bytes, size_t size, ZpResult *result, ZpError *err) {
-  ZpPack p;
-  ZpStatus status = zp_pack_read(&kind_of_arrays, bytes, size, &p, err);
-  if (status == ZP_OK) status = walk_arrays(&p, &result->shapes, &result->map, &result->checkpoint, err);
-  return status == ZP_OK ? zp_pack_end(&p, err) : status;
-}
-
 ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **out, ZpError *err) {
   const unsigned char *byte = bytes;
   const size_t first = zp_pack_first(byte, size), second = zp_pack_first(byte + first, size - first),
@@ -318,7 +311,11 @@ ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **out, ZpError 
   if (!result) return zp_fail_memory(err);
   ZpStatus status = zp_names_read(byte, first, &names, &why);
   if (status == ZP_OK) status = zp_numbers_read(&names, byte + first, second, result, &why);
-  if (status == ZP_OK && both < size) status = read_arrays(byte + both, size - both, result, &why);
+  ZpPack p;
+  const bool arrays = status == ZP_OK && both < size;
+  if (arrays) status = zp_pack_read(&kind_of_arrays, byte + both, size - both, &p, &why);
+  if (arrays && status == ZP_OK) status = walk_arrays(&p, &result->shapes, &result->map, &result->checkpoint, &why);
+  if (arrays && status == ZP_OK) status = zp_pack_end(&p, &why);
   if (status == ZP_OK) return ZP_OK;
   zp_result_destroy(result);
   *out = NULL;
