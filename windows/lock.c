@@ -9,7 +9,7 @@
 #include "base/fail.h"
 #include "io/source.h"
 
-struct ZpLock {
+struct ZpFolder {
   HANDLE file;
 };
 
@@ -35,7 +35,7 @@ static bool sign(HANDLE file) {
   return WriteFile(file, self, (DWORD)length, &written, NULL) && written == (DWORD)length;
 }
 
-ZpStatus zp_lock_take(const char *path, const char *directory, ZpLock **out, ZpError *err) {
+ZpStatus zp_lock_take(const char *path, const char *directory, ZpFolder **out, ZpError *err) {
   HANDLE file =
       CreateFileA(path, GENERIC_WRITE | DELETE, readers, NULL, CREATE_ALWAYS, FILE_FLAG_DELETE_ON_CLOSE, NULL);
   *out = NULL;
@@ -54,11 +54,11 @@ ZpStatus zp_lock_take(const char *path, const char *directory, ZpLock **out, ZpE
   return zp_fail_memory(err);
 }
 
-bool zp_lock_held(const ZpLock *lock) {
-  return lock != NULL;
+bool zp_lock_held(const ZpFolder *folder) {
+  return folder != NULL;
 }
 
-void zp_lock_release(ZpLock *lock) {
-  if (lock) CloseHandle(lock->file);
-  free(lock);
+void zp_folder_close(ZpFolder *folder) {
+  if (folder) CloseHandle(folder->file);
+  free(folder);
 }

@@ -10,10 +10,6 @@
 
 #define LOCK_NAME ".zipact-lock"
 
-struct ZpFolder {
-  ZpLock *lock;
-};
-
 /* Create every folder of the path, from the first on. */
 static ZpStatus make_folders(const char *directory, ZpError *err) {
   if (!directory || !*directory) return zp_fail(err, ZP_MACHINE, "the name of the output folder is empty");
@@ -53,28 +49,17 @@ static ZpStatus clean(const char *directory, ZpError *err) {
   return status;
 }
 
-static ZpStatus open_folder(ZpFolder *folder, const char *directory, ZpError *err) {
+ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *err) {
+  *out = NULL;
   ZpStatus status = make_folders(directory, err);
   if (status == ZP_OK) status = check_places(directory, err);
   if (status != ZP_OK) return status;
   char *path = zp_path_join(directory, LOCK_NAME);
-  status = path ? zp_lock_take(path, directory, &folder->lock, err) : zp_fail_memory(err);
+  status = path ? zp_lock_take(path, directory, out, err) : zp_fail_memory(err);
   free(path);
-  return status == ZP_OK && zp_lock_held(folder->lock) ? clean(directory, err) : status;
-}
-
-ZpStatus zp_folder_open(const char *directory, ZpFolder **out, ZpError *err) {
-  *out = calloc(1, sizeof **out);
-  if (!*out) return zp_fail_memory(err);
-  ZpStatus status = open_folder(*out, directory, err);
+  if (status == ZP_OK && zp_lock_held(*out)) status = clean(directory, err);
   if (status == ZP_OK) return ZP_OK;
   zp_folder_close(*out);
   *out = NULL;
   return status;
-}
-
-void zp_folder_close(ZpFolder *folder) {
-  if (!folder) return;
-  zp_lock_release(folder->lock);
-  free(folder);
 }

@@ -17,13 +17,13 @@
 #include "base/fail.h"
 #include "io/source.h"
 
-struct ZpLock {
+struct ZpFolder {
   char *path; /* of its file */
   int fd;     /* its descriptor */
   bool held;  /* false: the file system has no locks */
 };
 
-static ZpStatus cannot_lock(const ZpLock *lock, ZpError *err) {
+static ZpStatus cannot_lock(const ZpFolder *lock, ZpError *err) {
   return zp_fail(err, ZP_MACHINE, "cannot write %s: %s", lock->path, strerror(errno));
 }
 
@@ -41,7 +41,7 @@ static void read_holder(int fd, char *who, size_t size) {
 }
 
 /* Does the open file still have its name, and is it new? The file of a killed run is removed. */
-static bool is_new(const ZpLock *lock) {
+static bool is_new(const ZpFolder *lock) {
   struct stat own, named;
   if (fstat(lock->fd, &own) != 0 || stat(lock->path, &named) != 0) return false;
   if (own.st_dev != named.st_dev || own.st_ino != named.st_ino) return false;
@@ -50,7 +50,7 @@ static bool is_new(const ZpLock *lock) {
 }
 
 /* Only writing a file reveals missing permissions, read-only disks, quotas and full disks alike. */
-static ZpStatus sign(const ZpLock *lock, ZpError *err) {
+static ZpStatus sign(const ZpFolder *lock, ZpError *err) {
   char host[65] = "", self[128];
   gethostname(host, sizeof host - 1);
   int length = snprintf(self, sizeof self, "process %ld on %s", (long)getpid(), host);
@@ -62,7 +62,7 @@ static ZpStatus sign(const ZpLock *lock, ZpError *err) {
 }
 
 /* One attempt; *again if the file was an old one, or was removed meanwhile. */
-static ZpStatus try_lock(ZpLock *lock, const char *directory, bool *again, ZpError *err) {
+static ZpStatus try_lock(ZpFolder *lock, const char *directory, bool *again, ZpError *err) {
   lock->fd = open(lock->path, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (lock->fd < 0) return cannot_lock(lock, err);
   lock->held = flock(lock->fd, LOCK_EX | LOCK_NB) == 0;
@@ -75,7 +75,7 @@ static ZpStatus try_lock(ZpLock *lock, const char *directory, bool *again, ZpErr
   return *again ? ZP_OK : sign(lock, err);
 }
 
-static ZpStatus take_lock(ZpLock *lock, const char *directory, ZpError *err) {
+static ZpStatus take_lock(ZpFolder *lock, const char *directory, ZpError *err) {
   bool again = true;
   ZpStatus status = ZP_OK;
   while (again && status == ZP_OK) {
@@ -86,8 +86,8 @@ static ZpStatus take_lock(ZpLock *lock, const char *directory, ZpError *err) {
   return status;
 }
 
-ZpStatus zp_lock_take(const char *path, const char *directory, ZpLock **out, ZpError *err) {
-  ZpLock *lock = calloc(1, sizeof *lock);
+ZpStatus zp_lock_take(const char *path, const char *directory, ZpFolder **out, ZpError *err) {
+  ZpFolder *lock = calloc(1, sizeof *lock);
   *out = NULL;
   if (lock) lock->path = strdup(path);
   ZpStatus status = lock && lock->path ? take_lock(lock, directory, err) : zp_fail_memory(err);
@@ -100,11 +100,11 @@ ZpStatus zp_lock_take(const char *path, const char *directory, ZpLock **out, ZpE
   return status;
 }
 
-bool zp_lock_held(const ZpLock *lock) {
+bool zp_lock_held(const ZpFolder *lock) {
   return lock->held;
 }
 
-void zp_lock_release(ZpLock *lock) {
+void zp_folder_close(ZpFolder *lock) {
   if (!lock) return;
   unlink(lock->path); /* before the lock is released: after that it may belong to another run */
   close(lock->fd);

@@ -412,21 +412,18 @@ double zp_unit_apply(const ZpUnitScale *scale, double number, double per) {
 }
 
 ZpStatus zp_quantity_read(const char *text, const char *unit, double *value, ZpError *err) {
-  char number[64] = "";
-  ZpUnitScale scale = {.decimal = true};
-  const size_t length = strspn(text, "+-.0123456789eE");
-  const char *given = text + length + strspn(text + length, " \t");
+  ZpUnitScale scale = {.decimal = true, .factor = 1};
+  Decimal decimal;
+  *value = NAN;
+  if (!scan_decimal(text, &decimal)) return ZP_OK;
+  const char *given = decimal.end + strspn(decimal.end, " \t");
   const bool pure = strcmp(unit, "1") == 0 || strcmp(unit, "count") == 0;
-  if (length < sizeof number) memcpy(number, text, length);
-  if (!zp_number_read(number, value)) {
-    *value = NAN;
-    return ZP_OK;
-  }
   if (pure && strcmp(given, "%") == 0)
     scale.exponent = -2;
   else if (pure && *given)
     return zp_fail(err, ZP_BAD_INPUT, "this output has no unit");
   ZpStatus status = *given && !pure ? zp_unit_scale(given, unit, &scale, err) : ZP_OK;
-  *value = zp_rounded(zp_unit_apply(&scale, *value, 1));
+  *value = zp_rounded(decimal_value(text, &decimal, scale.decimal ? scale.exponent : 0) *
+                      (scale.decimal ? 1 : scale.factor));
   return status;
 }
