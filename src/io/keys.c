@@ -287,7 +287,7 @@ static json_t *range_schema(void) {
 }
 
 static json_t *one_distribution(ZpDistributionKind kind) {
-  const char *first = zp_spread_word[kind], *second = zp_spread_second(kind);
+  const char *first = zp_part_name[zp_part_first(kind)], *second = zp_part_name[zp_part_second(kind)];
   return json_pack("{s:s, s:b, s:[s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}}}", "type", "object", "additionalProperties", 0,
                    "required", first, second, "properties", first, "type", "number", "string", second, "type", "number",
                    "string");

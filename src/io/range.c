@@ -16,6 +16,9 @@
 /* Largest number of values of a range; io/scenario.c limits all lists together. */
 enum { COUNT_MOST = 20000 };
 
+const char *const zp_part_name[ZP_PARTS] = {"from",   "to",        "count",   "spacing",    "sigma",
+                                            "normal", "lognormal", "uniform", "log_uniform"};
+
 bool zp_range_is(const char *text) {
   return strstr(text, "..") != NULL;
 }
@@ -28,18 +31,21 @@ char *zp_trim(char *text) {
   return text;
 }
 
-ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err) {
+ZpStatus zp_range_split(char *text, ZpParts *parts, ZpError *err) {
   char *dots = strstr(text, ".."), *colon = dots ? strchr(dots, ':') : NULL;
+  *parts = (ZpParts){{NULL}};
   if (!colon) /* or YAML has taken the colon, where there were no quotes */
     return zp_fail(err, ZP_BAD_INPUT,
                    "not a range; write \"%.60s : 20\" or \"%.60s : 20 log\", with the number of values and the quotes",
                    zp_trim(text), zp_trim(text));
   *dots = *colon = 0;
-  *range = (ZpRange){.from = zp_trim(text), .to = zp_trim(dots + 2), .count = zp_trim(colon + 1)};
+  parts->text[ZP_PART_FROM] = zp_trim(text);
+  parts->text[ZP_PART_TO] = zp_trim(dots + 2);
+  parts->text[ZP_PART_COUNT] = zp_trim(colon + 1);
   char *blank = strpbrk(colon + 1 + strspn(colon + 1, " \t"), " \t");
   if (!blank) return ZP_OK;
   *blank = 0;
-  range->spacing = zp_trim(blank + 1);
+  parts->text[ZP_PART_SPACING] = zp_trim(blank + 1);
   return ZP_OK;
 }
 
@@ -80,14 +86,14 @@ static ZpStatus fill(int index, double from, double to, bool by_factors, double 
   return ZP_OK;
 }
 
-ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *count, ZpError *err) {
+ZpStatus zp_range_read(int index, const ZpParts *parts, double **value, size_t *count, ZpError *err) {
   double from = 0, to = 0;
   bool by_factors = false;
   *value = NULL;
-  ZpStatus status = read_end(index, "from", range->from, &from, err);
-  if (status == ZP_OK) status = read_end(index, "to", range->to, &to, err);
-  if (status == ZP_OK) status = read_count(range->count, count, err);
-  if (status == ZP_OK) status = read_spacing(range->spacing, from, to, &by_factors, err);
+  ZpStatus status = read_end(index, "from", parts->text[ZP_PART_FROM], &from, err);
+  if (status == ZP_OK) status = read_end(index, "to", parts->text[ZP_PART_TO], &to, err);
+  if (status == ZP_OK) status = read_count(parts->text[ZP_PART_COUNT], count, err);
+  if (status == ZP_OK) status = read_spacing(parts->text[ZP_PART_SPACING], from, to, &by_factors, err);
   if (status == ZP_OK && from == to) status = zp_fail(err, ZP_BAD_INPUT, "both ends of the range are equal");
   if (status != ZP_OK) return status;
   *value = calloc(*count, sizeof **value);
@@ -132,23 +138,29 @@ ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval,
 
 /* -- distributions ------------------------------------------------------------------------------------- */
 
-const char *const zp_spread_word[ZpDistributionKind_COUNT] = {[ZP_DISTRIBUTION_NORMAL] = "normal",
-                                                              [ZP_DISTRIBUTION_LOGNORMAL] = "lognormal",
-                                                              [ZP_DISTRIBUTION_UNIFORM] = "uniform",
-                                                              [ZP_DISTRIBUTION_LOG_UNIFORM] = "log_uniform"};
-
 static bool has_ends(ZpDistributionKind kind) {
   return kind == ZP_DISTRIBUTION_UNIFORM || kind == ZP_DISTRIBUTION_LOG_UNIFORM;
 }
 
-const char *zp_spread_second(ZpDistributionKind kind) {
-  return has_ends(kind) ? "to" : "sigma";
+size_t zp_part_first(ZpDistributionKind kind) {
+  return ZP_PART_NORMAL + (size_t)kind - 1;
+}
+
+size_t zp_part_second(ZpDistributionKind kind) {
+  return has_ends(kind) ? ZP_PART_TO : ZP_PART_SIGMA;
+}
+
+ZpDistributionKind zp_parts_kind(const ZpParts *parts) {
+  for (int k = 1; k < ZpDistributionKind_COUNT; k++)
+    if (parts->text[zp_part_first((ZpDistributionKind)k)]) return (ZpDistributionKind)k;
+  return ZP_DISTRIBUTION_NONE;
 }
 
 static ZpDistributionKind kind_of(const char *word, size_t length) {
-  for (int k = 1; k < ZpDistributionKind_COUNT; k++)
-    if (strlen(zp_spread_word[k]) == length && strncmp(zp_spread_word[k], word, length) == 0)
-      return (ZpDistributionKind)k;
+  for (int k = 1; k < ZpDistributionKind_COUNT; k++) {
+    const char *name = zp_part_name[zp_part_first((ZpDistributionKind)k)];
+    if (strlen(name) == length && strncmp(name, word, length) == 0) return (ZpDistributionKind)k;
+  }
   return ZP_DISTRIBUTION_NONE;
 }
 
@@ -158,16 +170,18 @@ bool zp_spread_is(const char *text) {
   return kind_of(text, length) != ZP_DISTRIBUTION_NONE && *(text + length + strspn(text + length, " ")) == '(';
 }
 
-ZpStatus zp_spread_split(char *text, ZpSpread *spread, ZpError *err) {
+ZpStatus zp_spread_split(char *text, ZpParts *parts, ZpError *err) {
   char *open = strchr(text, '('), *comma = open ? strchr(open, ',') : NULL, *close = comma ? strchr(comma, ')') : NULL;
+  *parts = (ZpParts){{NULL}};
   if (!close || *(close + 1 + strspn(close + 1, " ")))
     return zp_fail(err, ZP_BAD_INPUT, "not a distribution; write \"normal(50 um, 1 um)\"");
   text += strspn(text, " ");
-  text[strcspn(text, " (")] = 0;
+  const ZpDistributionKind kind = kind_of(text, strcspn(text, " ("));
   while (close[-1] == ' ')
     close--;
   *comma = *close = 0;
-  *spread = (ZpSpread){text, open + 1, comma + 1};
+  parts->text[zp_part_first(kind)] = open + 1;
+  parts->text[zp_part_second(kind)] = comma + 1;
   return ZP_OK;
 }
 
@@ -188,21 +202,23 @@ static ZpStatus read_sigma(int index, ZpDistributionKind kind, const char *text,
 
 static ZpStatus check_spread(const ZpDistribution *d, ZpError *err) {
   const bool positive = d->kind == ZP_DISTRIBUTION_LOGNORMAL || d->kind == ZP_DISTRIBUTION_LOG_UNIFORM;
-  if (positive && !(d->a > 0)) return zp_fail(err, ZP_BAD_INPUT, "%s takes values above 0", zp_spread_word[d->kind]);
+  if (positive && !(d->a > 0))
+    return zp_fail(err, ZP_BAD_INPUT, "%s takes values above 0", zp_part_name[zp_part_first(d->kind)]);
   if (has_ends(d->kind) && !(d->a < d->b))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: the second number must be larger than the first", zp_spread_word[d->kind]);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: the second number must be larger than the first",
+                   zp_part_name[zp_part_first(d->kind)]);
   return ZP_OK;
 }
 
-ZpStatus zp_spread_read(int index, const ZpSpread *spread, ZpDistribution *d, ZpError *err) {
-  *d = (ZpDistribution){.kind = kind_of(spread->word, strlen(spread->word))};
-  const char *second = zp_spread_second(d->kind);
-  if (!spread->a || !spread->b)
-    return zp_fail(err, ZP_BAD_INPUT, "write {%s: ..., %s: ...}", zp_spread_word[d->kind], second);
-  ZpStatus status = zp_value_read_part(index, zp_spread_word[d->kind], spread->a, &d->a, err);
+ZpStatus zp_spread_read(int index, const ZpParts *parts, ZpDistribution *d, ZpError *err) {
+  *d = (ZpDistribution){.kind = zp_parts_kind(parts)};
+  const size_t first = zp_part_first(d->kind), second = zp_part_second(d->kind);
+  const char *b = parts->text[second];
+  if (!b) return zp_fail(err, ZP_BAD_INPUT, "write {%s: ..., %s: ...}", zp_part_name[first], zp_part_name[second]);
+  ZpStatus status = zp_value_read_part(index, zp_part_name[first], parts->text[first], &d->a, err);
   if (status != ZP_OK) return status;
-  status = has_ends(d->kind) ? zp_value_read_part(index, second, spread->b, &d->b, err)
-                             : read_sigma(index, d->kind, spread->b, &d->b, err);
+  status = has_ends(d->kind) ? zp_value_read_part(index, zp_part_name[second], b, &d->b, err)
+                             : read_sigma(index, d->kind, b, &d->b, err);
   return status == ZP_OK ? check_spread(d, err) : status;
 }
 
@@ -213,5 +229,5 @@ void zp_spread_print(int index, const ZpDistribution *d, char *text, size_t size
     zp_number_print(d->b, b, sizeof b);
   else
     zp_value_print(index, d->b, b, sizeof b);
-  snprintf(text, size, "%s(%.100s, %.100s)", zp_spread_word[d->kind], a, b);
+  snprintf(text, size, "%s(%.100s, %.100s)", zp_part_name[zp_part_first(d->kind)], a, b);
 }

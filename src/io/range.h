@@ -10,21 +10,40 @@
 
 #include "sample/distribution.h"
 
-/* The parts of a range as written; NULL: not given. */
-typedef struct ZpRange {
-  const char *from, *to, *count;
-  const char *spacing; /* "linear", the default, or "log" */
-} ZpRange;
+/* The parts of a range, {from: 10 um, to: 200 um, count: 20, spacing: log}, and of a distribution, {normal: 50 um,
+ * sigma: 1 um}: the words of distributions, by kind, are the last ones. */
+enum {
+  ZP_PART_FROM,
+  ZP_PART_TO,
+  ZP_PART_COUNT,
+  ZP_PART_SPACING, /* "linear", the default, or "log" */
+  ZP_PART_SIGMA,
+  ZP_PART_NORMAL,
+  ZP_PARTS = ZP_PART_NORMAL + ZpDistributionKind_COUNT - 1
+};
+extern const char *const zp_part_name[ZP_PARTS];
+
+/* As written; NULL: not given. */
+typedef struct ZpParts {
+  char *text[ZP_PARTS];
+} ZpParts;
+
+/* The distribution whose first number is given; ZP_DISTRIBUTION_NONE: the parts are of a range. */
+ZpDistributionKind zp_parts_kind(const ZpParts *parts);
+
+/* The parts with the two numbers of a distribution: mean, median or lower end, then sigma or the upper end. */
+size_t zp_part_first(ZpDistributionKind kind);
+size_t zp_part_second(ZpDistributionKind kind);
 
 /* Is a value written as a range: "10 um .. 200 um : 20"? */
 bool zp_range_is(const char *text);
 
 /* Split such a text into its parts, in place. ZP_BAD_INPUT shows the correct form. */
-ZpStatus zp_range_split(char *text, ZpRange *range, ZpError *err);
+ZpStatus zp_range_split(char *text, ZpParts *parts, ZpError *err);
 
 /* The values of a range of key `index`, both ends included, the others rounded to 12 digits, so that tables show
  * 0.00002 and not 0.000019999999999999998 => *value [*count], to be freed. ZP_BAD_INPUT names the wrong part. */
-ZpStatus zp_range_read(int index, const ZpRange *range, double **value, size_t *count, ZpError *err);
+ZpStatus zp_range_read(int index, const ZpParts *parts, double **value, size_t *count, ZpError *err);
 
 /* The text without blanks at its ends, modified in place. */
 char *zp_trim(char *text);
@@ -39,30 +58,17 @@ typedef struct ZpInterval {
 /* Read an interval, in place; messages name the key `setting` that contains it. ZP_BAD_INPUT gives the reason. */
 ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval, ZpError *err);
 
-/* -- distributions: {normal: 50 um, sigma: 1 um}, or "normal(50 um, 1 um)" ------------------------- */
-
-/* The parts of a distribution as written; NULL: not given. */
-typedef struct ZpSpread {
-  const char *word; /* "normal" */
-  const char *a;    /* its first number, after this word: mean, median or lower end */
-  const char *b;    /* the second, after "sigma" or "to" */
-} ZpSpread;
-
-/* The words of distributions, "normal", ..., by kind; NULL for ZP_DISTRIBUTION_NONE. */
-extern const char *const zp_spread_word[ZpDistributionKind_COUNT];
-
-/* The word before the second number in a mapping: "sigma" or "to". */
-const char *zp_spread_second(ZpDistributionKind kind);
+/* -- distributions ------------------------------------------------------------------------------------- */
 
 /* Is a value written as a distribution: one of the words and a parenthesis? */
 bool zp_spread_is(const char *text);
 
 /* Split such a text into its parts, in place. ZP_BAD_INPUT shows the correct form. */
-ZpStatus zp_spread_split(char *text, ZpSpread *spread, ZpError *err);
+ZpStatus zp_spread_split(char *text, ZpParts *parts, ZpError *err);
 
 /* The distribution of key `index`, whose mean, median or ends must be values of the key. ZP_BAD_INPUT gives the reason.
  */
-ZpStatus zp_spread_read(int index, const ZpSpread *spread, ZpDistribution *distribution, ZpError *err);
+ZpStatus zp_spread_read(int index, const ZpParts *parts, ZpDistribution *distribution, ZpError *err);
 
 /* Write it as a text that reads back to the same bits. */
 void zp_spread_print(int index, const ZpDistribution *distribution, char *text, size_t size);

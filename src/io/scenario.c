@@ -38,14 +38,6 @@ struct ZpScenario {
   char *name; /* name of the last file, NULL if none */
 };
 
-/* The parts of a range and of a distribution, by name. */
-enum { FROM, TO, COUNT, SPACING, SIGMA, FIRST_WORD, PARTS = FIRST_WORD + ZpDistributionKind_COUNT - 1 };
-static const char *const own_part_name[FIRST_WORD] = {"from", "to", "count", "spacing", "sigma"};
-
-static const char *part_name(size_t part) {
-  return part < FIRST_WORD ? own_part_name[part] : zp_spread_word[part - FIRST_WORD + 1];
-}
-
 enum { DEPTHS = 2 }; /* groups and nested groups, such as lower and lower.ribbon */
 
 /* A text being read into slots. */
@@ -57,7 +49,7 @@ typedef struct Reader {
   int group_line[ZP_KEYS][DEPTHS]; /* line in which the group, and the nested one, was opened whose first key this is;
                                     * 0: not yet */
   int part_key;                    /* key whose range is being read, if there is a part */
-  char *part[PARTS]; /* parts of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
+  ZpParts parts; /* of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
 
 static void free_slots(ZpSlot slot[ZP_KEYS]) {
@@ -186,9 +178,9 @@ static ZpStatus merge(ZpScenario *s, Reader *reader, ZpSlot *layer, ZpError *err
 
 /* Forget the parts of a range. */
 static void drop_parts(Reader *reader) {
-  for (size_t i = 0; i < PARTS; i++) {
-    free(reader->part[i]);
-    reader->part[i] = NULL;
+  for (size_t i = 0; i < ZP_PARTS; i++) {
+    free(reader->parts.text[i]);
+    reader->parts.text[i] = NULL;
   }
 }
 
@@ -232,8 +224,8 @@ static ZpStatus check_first(const Reader *reader, const ZpYamlItem *item, int fi
 /* The parts of a range or a distribution are in their own group: parts that remain at its end are a mistake. */
 static ZpStatus check_no_parts(const Reader *reader, int key, int line, ZpError *err) {
   bool any = false;
-  for (size_t i = 0; i < PARTS; i++)
-    any |= reader->part[i] != NULL;
+  for (size_t i = 0; i < ZP_PARTS; i++)
+    any |= reader->parts.text[i] != NULL;
   if (!any || reader->part_key == key) return ZP_OK;
   return fail_at(reader, zp_key(reader->part_key)->name, line, err,
                  "write a range as {from: ..., to: ..., count: ...}, a distribution as {normal: ..., sigma: ...}");
@@ -309,16 +301,16 @@ static ZpStatus read_text(const ZpSource *source, int key, const char *word, ZpS
   return zp_def_set_text(&scratch, key, slot->text, reason);
 }
 
-static ZpStatus read_range(int key, const ZpRange *range, ZpSlot *slot, ZpError *reason) {
-  slot->is_list = true;
-  slot->is_bare =
-      (range->from && zp_value_is_bare(key, range->from)) || (range->to && zp_value_is_bare(key, range->to));
-  return zp_range_read(key, range, &slot->value, &slot->count, reason);
-}
-
-static ZpStatus read_spread(int key, const ZpSpread *spread, ZpSlot *slot, ZpError *reason) {
+/* A range or a distribution. */
+static ZpStatus read_parts(int key, const ZpParts *parts, ZpSlot *slot, ZpError *reason) {
+  const char *from = parts->text[ZP_PART_FROM], *to = parts->text[ZP_PART_TO];
+  slot->is_list = zp_parts_kind(parts) == ZP_DISTRIBUTION_NONE;
+  if (slot->is_list) {
+    slot->is_bare = (from && zp_value_is_bare(key, from)) || (to && zp_value_is_bare(key, to));
+    return zp_range_read(key, parts, &slot->value, &slot->count, reason);
+  }
   if (!make_room(slot, 1)) return zp_fail_memory(reason);
-  ZpStatus status = zp_spread_read(key, spread, &slot->spread, reason);
+  ZpStatus status = zp_spread_read(key, parts, &slot->spread, reason);
   *slot->value = slot->spread.a;
   return status;
 }
@@ -342,19 +334,14 @@ static bool takes_spread(int key) {
 /* A list or one value: "50 um", "10 um .. 200 um : 20", "normal(50 um, 1 um)". */
 static ZpStatus read_value(int key, const ZpYamlItem *item, const char **word, ZpSlot *slot, ZpError *reason) {
   const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key));
+  const bool ranges = alone && zp_range_is(item->word),
+             spreads = alone && takes_spread(key) && zp_spread_is(item->word);
   char copy[ZP_VALUE_SIZE];
-  ZpRange range;
-  ZpSpread spread;
+  ZpParts parts;
+  if (!ranges && !spreads) return read_words(key, item, word, slot, reason);
   snprintf(copy, sizeof copy, "%s", item->word);
-  if (alone && zp_range_is(copy)) {
-    ZpStatus status = zp_range_split(copy, &range, reason);
-    return status == ZP_OK ? read_range(key, &range, slot, reason) : status;
-  }
-  if (alone && takes_spread(key) && zp_spread_is(copy)) {
-    ZpStatus status = zp_spread_split(copy, &spread, reason);
-    return status == ZP_OK ? read_spread(key, &spread, slot, reason) : status;
-  }
-  return read_words(key, item, word, slot, reason);
+  ZpStatus status = ranges ? zp_range_split(copy, &parts, reason) : zp_spread_split(copy, &parts, reason);
+  return status == ZP_OK ? read_parts(key, &parts, slot, reason) : status;
 }
 
 /* Report the wrong `word` of a value, which is all of it if `alone`, and its place. */
@@ -410,8 +397,8 @@ static int key_of_part(const char *path, size_t *part) {
   if (!last) return -1;
   snprintf(name, sizeof name, "%.*s", (int)(last - path), path);
   const int key = zp_key_find(name);
-  for (*part = 0; key >= 0 && *part < PARTS; ++*part)
-    if (strcmp(last + 1, part_name(*part)) == 0) return key;
+  for (*part = 0; key >= 0 && *part < ZP_PARTS; ++*part)
+    if (strcmp(last + 1, zp_part_name[*part]) == 0) return key;
   return -1;
 }
 
@@ -419,42 +406,29 @@ static ZpStatus take_part(Reader *reader, const ZpYamlItem *item, int key, size_
   ZpStatus status = check_no_parts(reader, key, item->line, err);
   if (status != ZP_OK) return status;
   if (item->kind != ZP_YAML_VALUE) return fail_at(reader, item->path, item->line, err, "takes one value, not a list");
-  if (reader->part[part]) return fail_at(reader, item->path, item->line, err, "given twice");
+  if (reader->parts.text[part]) return fail_at(reader, item->path, item->line, err, "given twice");
   reader->part_key = key;
-  reader->part[part] = strdup(item->word);
-  return reader->part[part] ? ZP_OK : zp_fail_memory(err);
-}
-
-/* The distribution of the parts, with first part `first`; any further part is a mistake. */
-static ZpStatus find_spread(const Reader *reader, size_t first, const ZpYamlItem *item, ZpSpread *spread,
-                            ZpError *err) {
-  const ZpDistributionKind kind = (ZpDistributionKind)(first - FIRST_WORD + 1);
-  const size_t second = strcmp(zp_spread_second(kind), "to") == 0 ? TO : SIGMA;
-  *spread = (ZpSpread){zp_spread_word[kind], reader->part[first], reader->part[second]};
-  for (size_t i = 0; i < PARTS; i++)
-    if (reader->part[i] && i != first && i != second)
-      return fail_at(reader, item->path, item->line, err, "unknown part \"%s\"; write {%s: ..., %s: ...}", part_name(i),
-                     spread->word, part_name(second));
-  return ZP_OK;
+  reader->parts.text[part] = strdup(item->word);
+  return reader->parts.text[part] ? ZP_OK : zp_fail_memory(err);
 }
 
 /* The end of {from: ..., to: ..., count: ...} or {normal: ..., sigma: ...}. */
 static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
-  const ZpRange range = {reader->part[FROM], reader->part[TO], reader->part[COUNT], reader->part[SPACING]};
   ZpSlot slot = {0};
-  ZpSpread spread;
   ZpError reason;
-  size_t first = FIRST_WORD;
-  while (first < PARTS && !reader->part[first])
-    first++;
-  const bool spreads = first < PARTS;
+  const ZpDistributionKind kind = zp_parts_kind(&reader->parts);
+  const bool spreads = kind != ZP_DISTRIBUTION_NONE;
   if (spreads ? !takes_spread(key) : !zp_value_is_number(zp_key(key)))
     return fail_at(reader, item->path, item->line, err, "takes one value, not a %s",
                    spreads ? "distribution" : "range");
   ZpStatus status = check_first(reader, item, reader->line[key], err);
-  if (status == ZP_OK && spreads) status = find_spread(reader, first, item, &spread, err);
   if (status != ZP_OK) return status;
-  status = spreads ? read_spread(key, &spread, &slot, &reason) : read_range(key, &range, &slot, &reason);
+  const size_t first = zp_part_first(kind), second = zp_part_second(kind);
+  for (size_t i = 0; i < ZP_PARTS && spreads; i++)
+    if (reader->parts.text[i] && i != first && i != second)
+      return fail_at(reader, item->path, item->line, err, "unknown part \"%s\"; write {%s: ..., %s: ...}",
+                     zp_part_name[i], zp_part_name[first], zp_part_name[second]);
+  status = read_parts(key, &reader->parts, &slot, &reason);
   if (status != ZP_OK) status = fail_value(reader, key, item->line, "{...}", &reason, true, err);
   drop_parts(reader);
   return take_slot(reader, key, item->line, &slot, status);
