@@ -76,7 +76,7 @@ ZP_API ZpResult *zp_result_create(ZpStudy study);
 ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value);
 
 /* Append a number to the summary, a wall time, or a note of one sentence of any length. Beyond 64 numbers and 8 notes
- * they are omitted, a note also without memory. `name` and `unit` must outlive the result. */
+ * they are omitted; a study that has no memory for a note fails. `name` and `unit` must outlive the result. */
 ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);

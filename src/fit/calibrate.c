@@ -302,7 +302,7 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   report_residuals(fit, fitted, result);
   zp_result_add(result, "data_rows", "count", (double)fit->rows);
   zp_result_add(result, "evaluations", "count", fit->evaluations);
-  return fill_table(fit, fitted, result) ? ZP_OK : zp_fail_memory(err);
+  return fill_table(fit, fitted, result) && !result->incomplete ? ZP_OK : zp_fail_memory(err);
 }
 
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err) {

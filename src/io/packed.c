@@ -216,7 +216,7 @@ ZpStatus zp_numbers_read(const ZpNames *names, const void *bytes, size_t size, Z
   result->resolution = next_number(&numbers);
   read_scalars(names->scalars, &numbers, result);
   read_derivatives(names->derivatives, &numbers, result);
-  const bool room = read_series(names->columns, &numbers, result);
+  const bool room = read_series(names->columns, &numbers, result) && !result->incomplete;
   if (room && !numbers.bad && numbers.left == 0) return ZP_OK;
   zp_result_clear(result);
   return room ? zp_fail(err, ZP_BAD_INPUT, "damaged: its numbers are not those of its names") : zp_fail_memory(err);

@@ -25,6 +25,7 @@ void zp_result_forget_states(ZpResult *result) {
 void zp_result_forget_notes(ZpResult *result) {
   while (result->notes > 0)
     zp_free(result->note[--result->notes]);
+  result->incomplete = false;
 }
 
 void zp_result_clear(ZpResult *result) {
@@ -112,6 +113,8 @@ void zp_result_note(ZpResult *result, const char *format, ...) {
   if (note) {
     vsnprintf(note, (size_t)length + 1, format, args);
     result->note[result->notes++] = note;
+  } else if (result->notes < ZP_MAX_NOTES) {
+    result->incomplete = true;
   }
   va_end(again);
   va_end(args);

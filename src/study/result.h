@@ -28,6 +28,7 @@ struct ZpResult {
   char message[256];        /* one sentence on how it ended */
   char *note[ZP_MAX_NOTES]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
   size_t notes;
+  bool incomplete;   /* there was no memory for a note */
   double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest
                       * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
   ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */

@@ -118,6 +118,7 @@ ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInpu
   bool moves = table[study].files == FILES_course;
   status = zp_estimate_errors(&task, run, moves, result, err);
   if (status == ZP_OK && moves) status = zp_rates_settle(&task, run, result, err);
+  if (status == ZP_OK && result->incomplete) status = zp_fail_memory(err);
   if (status == ZP_OK)
     *out = result;
   else
