@@ -123,7 +123,7 @@ bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symm
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = a->end = number(ties, member, a);
+  a->n = number(ties, member, a);
   a->bandwidth = bandwidth_of(a);
   a->parts = parts_of(&model->topology, a->equation);
   for (size_t i = 0; i < model->nodes; i++)
@@ -144,28 +144,21 @@ typedef struct Joined {
   size_t inner; /* with a border: equations that are not shared */
 } Joined;
 
-/* With a border, the equations of each member follow those of the one before, and the shared ones follow all. */
-static size_t place_beside(const Joined *of, size_t which, size_t i) {
-  size_t place = of->before[which] + i;
-  for (size_t k = 0; k < of->ties[which]; k++) {
-    if (of->tied[which][k] == i) return of->inner + of->to[which][k];
-    if (of->tied[which][k] < i) place--;
-  }
-  return place;
-}
-
-/* An equation of one member alone => of all. Of two that share a load, those of the second one follow from its platform
- * back to its clip, so that the matrix stays a narrow band. More than two have the same equations; those of the same
- * number are adjacent.
- */
+/* An equation of one member alone => of all. With a border, those of each member follow those of the one before, and
+ * the shared ones follow all. Of two that share a load, those of the second one follow from its platform back to its
+ * clip, so that the matrix stays a narrow band. More than two have the same equations; those of the same number are
+ * adjacent. */
 static size_t place_of(const Joined *of, size_t which, size_t i) {
-  size_t load = of->tied[which][0], back = of->count[0] + of->count[1] - 1 - i, members = of->members;
-  if (of->border) return place_beside(of, which, i);
-  if (!of->shared) return of->before[which] + i;
-  if (members == 2 && which == 0) return i;
-  if (members == 2) return i == load ? of->tied[0][0] : i < load ? back - 1 : back;
-  if (i < load) return members * i + which;
-  return i == load ? members * load : members * (i - 1) + 1 + which;
+  const size_t members = of->members;
+  size_t own = i; /* its number among those that are not shared */
+  for (size_t k = 0; k < of->ties[which]; k++) {
+    if (of->tied[which][k] == i && of->border) return of->inner + of->to[which][k];
+    if (of->tied[which][k] == i) return (members > 2 ? members : 1) * of->tied[0][0];
+    own -= of->tied[which][k] < i;
+  }
+  if (of->border || !of->shared) return of->before[which] + own;
+  if (members == 2 && which == 1) return of->count[0] + of->count[1] - 2 - own;
+  return (members > 2 ? members * own + which : own) + (own < i);
 }
 
 static size_t joined_bandwidth(const Joined *of, size_t own) {
@@ -182,8 +175,6 @@ static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
   a->joined = of->shared > 0;
   a->shared = of->border ? of->shared : 0;
   a->n = n;
-  a->begin = of->before[which];
-  a->end = a->begin + of->count[which] - of->ties[which];
   a->parts = (ZpParts){0};
   a->groups = (ZpBandGroups){0, 0};
   for (size_t k = 0; k < 2 * a->count; k++)

@@ -13,7 +13,6 @@ typedef struct ZpAssembly {
   size_t count;        /* nodes */
   size_t stride;       /* arrays over nodes: all x, then, so much further, all y */
   size_t n;            /* equations, of all members of a system */
-  size_t begin, end;   /* its own equations, if it shares none */
   size_t bandwidth;    /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
   bool symmetric;      /* only the upper triangle is kept */
   ZpBandGroups groups; /* of a symmetric one: those of a station, or of two of one ribbon, if they fit */

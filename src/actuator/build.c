@@ -174,7 +174,7 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
 
 /* Where the faces are level. Particles of mass_spring have no slope: faces are straight between them. */
 static ZpLevelEnds level_faces(const ZpModel *model) {
-  return model->is_rod ? zp_topology_level_faces(&model->topology) : (ZpLevelEnds){0};
+  return model->is_rod ? zp_topology_level_ends(&model->topology, 0, model->s - 1) : (ZpLevelEnds){0};
 }
 
 /* Length of platform at each station that it has, m. */
@@ -232,19 +232,14 @@ static ZpLeakParams leak_of(const ZpModel *model) {
                         .discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity)};
 }
 
-/* As many grid columns that there are 60 elements along a ribbon even if it has few nodes. */
-static size_t columns_per_edge(size_t nodes) {
-  enum { ALONG = 60 };
-  return 2 * ((ALONG + nodes - 2) / (nodes - 1));
-}
-
 static ZpFieldParams cross_section_of(const ZpModel *model) {
+  enum { ALONG = 60 };             /* elements along a ribbon, at least, even if it has few nodes */
   static const double usual = 0.1; /* m */
   static const double clip = 5e-3; /* m, of that: the field behind it is that of its far end, wherever that is */
   const ZpActuatorDef *def = &model->def;
   double size = def->ribbon.length / usual;
   return (ZpFieldParams){.stations = model->nodes,
-                         .columns = columns_per_edge(model->nodes),
+                         .columns = 2 * ((ALONG + model->nodes - 2) / (model->nodes - 1)),
                          .w = def->ribbon.width,
                          .b = def->ribbon.thickness,
                          .t = def->insulator.thickness,
@@ -392,17 +387,10 @@ static void fill_end(ZpModel *model, size_t ribbon, ZpLevelEnd level, Arrays *a)
 static void fill_ends(ZpModel *model, Arrays *a) {
   ZpLevelEnds levels[2];
   for (size_t ribbon = 0; ribbon < model->s; ribbon++)
-    levels[ribbon] = zp_topology_level_ends(&model->topology, ribbon);
+    levels[ribbon] = zp_topology_level_ends(&model->topology, ribbon, ribbon);
   for (size_t k = 0; k < ZP_MOST_LEVEL_ENDS; k++)
     for (size_t ribbon = 0; ribbon < model->s; ribbon++)
       if (k < levels[ribbon].count) fill_end(model, ribbon, levels[ribbon].of[k], a);
-}
-
-/* Is the joint of node j at the end of its ribbon, and free? */
-static bool is_free_end(const ZpModel *model, size_t j) {
-  size_t station = j / model->s;
-  bool end = station == 0 || station + 1 == model->nodes;
-  return end && !zp_topology_holds_slope(&model->topology, station, j % model->s);
 }
 
 /* A platform that turns does not bend. Its one edge stretches as the ribbon on it does, eq. (19.3). */
@@ -422,7 +410,8 @@ static void fill_rod(ZpModel *model, Arrays *a) {
   for (size_t j = 0; j < model->count; j++) {
     size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
     Share share = node_share(model, j);
-    a->rod_B[j] = is_free_end(model, j) ? 0 : 1 / share.compliance;
+    bool free = (station == 0 || station == last) && !zp_topology_holds_slope(t, station, j % t->ribbons);
+    a->rod_B[j] = free ? 0 : 1 / share.compliance;
     a->rod_k0[j] = natural_curvature(share.turn);
     if (station == last) continue;
     a->rod_l[j] = model->l;
@@ -506,12 +495,6 @@ static double compliance_of(const ZpActuatorDef *def) {
   return fmax(def->insulator.thickness, thinnest) / E;
 }
 
-/* Stiffness of all layers in series, per length of ribbon, N/m^2. */
-static double layer_stiffness(const ZpModel *model, const ZpActuatorDef *lower) {
-  const ZpActuatorDef *def = &model->def;
-  return def->ribbon.width / (compliance_of(def) + (model->s > 1 ? compliance_of(lower) : 0));
-}
-
 /* Largest attraction of closed faces short of a breakdown, N/m: that of the liquid if the law is capped, else that of
  * the insulators. */
 static double largest_attraction(const ZpModel *model) {
@@ -530,19 +513,15 @@ static double settling_time(const ZpModel *model) {
   return part * model->L * model->L * sqrt(section.mu / section.EI);
 }
 
-/* Length of the faces at the gap of each end of the platform, m. A free end may touch alone, as a point, eq. (9.8): its
- * edge presses the layers together over as long a part of them as they are thick. */
-static double point_length(const ZpModel *model) {
-  return zp_ends_free(&model->topology) ? zp_insulation(&model->def) : platform_length(model);
-}
-
-/* Eq. (9.2). */
+/* Eq. (9.2). A free end may touch alone, as a point, eq. (9.8): its edge presses the layers together over as long a
+ * part of them as they are thick. */
 static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
   static const double part = 1.0 / 150; /* of the liquid thickness that stands for the insulators */
   const ZpActuatorDef *def = &model->def;
   double range = zp_contact_range(zp_insulation(def));
   double depth = fmin(fmax(part * model->plates.d, zp_contact_range(0)), range);
-  double stiffest = layer_stiffness(model, lower) * depth / 3;
+  double layers = compliance_of(def) + (model->s > 1 ? compliance_of(lower) : 0);
+  double stiffest = def->ribbon.width / layers * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
@@ -555,7 +534,7 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
                            .platform = model->topology.platform.first,
                            .platform_end = model->topology.platform.last,
                            .level = level_faces(model),
-                           .flat_length = point_length(model)};
+                           .flat_length = zp_ends_free(&model->topology) ? zp_insulation(def) : platform_length(model)};
 }
 
 /* Air beyond a bead. Eq. (8) of the paper caps its attraction even if that of the liquid is not capped. */
@@ -568,13 +547,6 @@ static ZpPlatesParams air_of(const ZpModel *model) {
   air.relative /= def->medium.permittivity;
   air.h_per_volt = def->electro.voltage_share / def->air.breakdown_field;
   return air;
-}
-
-static ZpBeadParams bead_of(const ZpActuatorDef *def) {
-  return (ZpBeadParams){.volume = def->bead.volume,
-                        .suction = def->bead.suction,
-                        .returned = def->bead.returned,
-                        .tension = def->medium.surface_tension};
 }
 
 /* Eqs. (22.1) to (22.3). */
@@ -669,7 +641,10 @@ static void derive(ZpModel *model) {
   model->has_film = model->field && zp_def_liquid(def) != ZP_LIQUID_NONE;
   model->has_bead = model->has_film && zp_def_liquid(def) == ZP_LIQUID_BEAD;
   model->cross_section = cross_section_of(model);
-  model->bead = bead_of(def);
+  model->bead = (ZpBeadParams){.volume = def->bead.volume,
+                               .suction = def->bead.suction,
+                               .returned = def->bead.returned,
+                               .tension = def->medium.surface_tension};
   model->air = air_of(model);
   if (model->has_bead) model->plates.air = &model->air;
   model->outer = outer_of(def);

@@ -59,8 +59,8 @@ void zp_eval_destroy(ZpEval *e) {
 
 ZpCachedField zp_state_beyond(const ZpModel *model, const ZpState *state) {
   if (!model->field_solved) return (ZpCachedField){0};
-  const double *F = state->data + 4 * model->stride;
-  return (ZpCachedField){F, F + 2 * model->stride, state->held_energy, state->held_charge, state->held_capacitance};
+  const double *F = zp_held_force(model, state);
+  return (ZpCachedField){F, F + zp_coordinates(model), state->held_energy, state->held_charge, state->held_capacitance};
 }
 
 ZpCachedField zp_eval_beyond(const ZpEval *e) {

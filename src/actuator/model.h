@@ -374,13 +374,9 @@ static inline double *zp_state_held_at(const ZpModel *model, ZpState *state) {
   return state->data + 6 * model->stride;
 }
 
-/* Both for reading. */
-static inline ZpNodes zp_held_force(const ZpModel *model, const ZpState *state) {
-  return zp_nodes(model, state->data + 4 * model->stride);
-}
-
-static inline ZpNodes zp_held_place(const ZpModel *model, const ZpState *state) {
-  return zp_nodes(model, state->data + 6 * model->stride);
+/* For reading. */
+static inline const double *zp_held_force(const ZpModel *model, const ZpState *state) {
+  return state->data + 4 * model->stride;
 }
 
 /* Of all stations. */

@@ -95,11 +95,6 @@ ZpMargins zp_margins_at_clip(const ZpModel *model, double voltage) {
   return worst;
 }
 
-void zp_shape_turn_over(const ZpModel *model, double *y) {
-  for (size_t j = 0; j < model->count; j++)
-    y[j] = -model->distance - y[j];
-}
-
 /* -- several ------------------------------------------------------------------------------------------ */
 
 void zp_many_reserve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpArena *arena) {
@@ -109,14 +104,16 @@ void zp_many_reserve(ZpManyShapes *all, size_t members, size_t nodes, size_t sta
     all->array[k] = zp_arena_take(arena, members * (k < ZP_NODE_ARRAYS ? nodes : stations));
 }
 
-double *zp_many_put(const ZpManyShapes *all, size_t member, const ZpShape *one) {
+void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, const ZpShape *one) {
   const double *const from[ZP_SHAPE_ARRAYS] = {one->x,   one->y,          one->stress,
                                                one->gap, one->line_force, one->insulator_field};
   for (size_t k = 0; k < ZP_SHAPE_ARRAYS; k++) {
     size_t size = k < ZP_NODE_ARRAYS ? all->nodes : all->stations;
     memcpy(all->array[k] + member * size, from[k], size * sizeof *from[k]);
   }
-  return all->array[1] + member * all->nodes;
+  double *y = all->array[1] + member * all->nodes;
+  for (size_t j = 0; member > 0 && zp_is_antagonist(first) && j < all->nodes; j++)
+    y[j] = -first->distance - y[j];
 }
 
 void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons) {

@@ -25,9 +25,6 @@ bool zp_shape_is_wet(const ZpModel *model, const ZpShapeRoom *room, size_t i);
 /* A shape whose time, voltage, positions and, with electrodes, gaps are known => the rest of it, in `room`. */
 void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape);
 
-/* Heights of the lower one of two antagonists, in its own frame upside down => as they are below the upper one. */
-void zp_shape_turn_over(const ZpModel *model, double *y);
-
 /* Shapes of several actuators as one, as if the stations of one followed on those of another. */
 enum { ZP_NODE_ARRAYS = 3, ZP_SHAPE_ARRAYS = 6 };
 typedef struct ZpManyShapes {
@@ -37,8 +34,8 @@ typedef struct ZpManyShapes {
 
 void zp_many_reserve(ZpManyShapes *all, size_t members, size_t nodes, size_t stations, ZpArena *arena);
 
-/* Copy a member's shape to its place => its heights there. */
-double *zp_many_put(const ZpManyShapes *all, size_t member, const ZpShape *one);
+/* Copy a member's shape to its place, that of a lower antagonist, which its own frame has upside down, as it is. */
+void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, const ZpShape *one);
 
 /* Hang a member that was put on the one above it. */
 void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons);

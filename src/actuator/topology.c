@@ -27,8 +27,7 @@ static void add_level(size_t element, bool right, ZpLevelEnds *ends) {
   ends->of[ends->count++] = (ZpLevelEnd){element, right};
 }
 
-/* Elements beside joints that keep ribbons first .. last horizontal. */
-static ZpLevelEnds level_beside(const ZpTopology *t, size_t first, size_t last) {
+ZpLevelEnds zp_topology_level_ends(const ZpTopology *t, size_t first, size_t last) {
   ZpLevelEnds ends = {0};
   for (size_t k = 0; k < t->joints; k++) {
     const ZpJoint *joint = &t->joint[k];
@@ -38,14 +37,6 @@ static ZpLevelEnds level_beside(const ZpTopology *t, size_t first, size_t last) 
     if (joint->last + 1 < t->stations) add_level(joint->last, false, &ends);
   }
   return ends;
-}
-
-ZpLevelEnds zp_topology_level_ends(const ZpTopology *t, size_t ribbon) {
-  return level_beside(t, ribbon, ribbon);
-}
-
-ZpLevelEnds zp_topology_level_faces(const ZpTopology *t) {
-  return level_beside(t, 0, t->ribbons - 1);
 }
 
 /* Direction of the line from node `from` to node `to`, rad. */

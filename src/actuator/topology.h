@@ -49,10 +49,8 @@ ZpTopology zp_topology_of(const ZpActuatorDef *def);
 /* Does what is at this station, if anything, keep this ribbon horizontal? */
 bool zp_topology_holds_slope(const ZpTopology *topology, size_t station, size_t ribbon);
 
-/* Elements of a ribbon at one station of which something keeps it horizontal: beside a clip, a clamp, a guide, a
- * platform; and those where the faces are so, because something keeps all ribbons horizontal. */
-ZpLevelEnds zp_topology_level_ends(const ZpTopology *topology, size_t ribbon);
-ZpLevelEnds zp_topology_level_faces(const ZpTopology *topology);
+/* Elements beside a clip, a clamp, a guide, a platform, which keeps ribbons first .. last horizontal. */
+ZpLevelEnds zp_topology_level_ends(const ZpTopology *topology, size_t first, size_t last);
 
 /* The station, or element (by its left station), of the left half that mirrors this one; itself if it is there. */
 size_t zp_topology_station_image(const ZpTopology *topology, size_t station);
@@ -147,11 +145,6 @@ static inline double zp_stroke(const ZpTopology *t, const double *y) {
 /* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */
 static inline double zp_opening(const ZpTopology *t, const double *y) {
   return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - zp_platform_middle(t, y) : NAN;
-}
-
-/* How far the load's nodes are below what is held, the upper platform or the hinge, m. */
-static inline double zp_drop(const ZpTopology *t, const double *y) {
-  return zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y);
 }
 
 #endif

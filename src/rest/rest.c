@@ -47,8 +47,7 @@ ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins) {
     shape = zp_statics_shape(s, k, time, rest->shape_room[k]);
     if (margins) zp_margins_join(margins, zp_margins_of(model, &shape));
     if (s->members == 1) return shape;
-    double *y = zp_many_put(&rest->shapes, k, &shape);
-    if (k > 0 && s->distance > 0) zp_shape_turn_over(model, y);
+    zp_many_put(&rest->shapes, s->model, k, &shape);
   }
   for (size_t k = 0; k < s->members && !s->shared; k++)
     zp_many_hang(&rest->shapes, k, s->member->model->s);

@@ -595,8 +595,9 @@ static double holding(const ZpStatics *s) {
 
 static void hold_platform(ZpStatics *s, double *r) {
   size_t row = zp_statics_platform(s);
+  double drop = zp_has_platform(&s->member->model->topology) ? opening_of(s->member) : stroke_of(s->member);
   s->reaction = r[row];
-  r[row] = holding(s) * (zp_drop(&s->member->model->topology, zp_nodes(s->member->model, s->member->q).y) - s->opening);
+  r[row] = holding(s) * (drop - s->opening);
 }
 
 /* The same for the terms on top of the band. */

@@ -498,10 +498,8 @@ static ZpShape join_shapes(ZpSim *sim) {
   ZpShape shape = sim->shape;
   if (sim->members == 1) return shape;
   size_t member = 0;
-  for (ZpSim *m = sim; m < sim + sim->members; m++, member++) {
-    double *y = zp_many_put(&sim->all, member, &m->shape);
-    if (m != sim && zp_is_antagonist(sim->model)) zp_shape_turn_over(m->model, y);
-  }
+  for (ZpSim *m = sim; m < sim + sim->members; m++, member++)
+    zp_many_put(&sim->all, sim->model, member, &m->shape);
   zp_many_give(&sim->all, &shape);
   return shape;
 }

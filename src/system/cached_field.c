@@ -7,7 +7,7 @@
 
 /* Has any gap, insulators included, changed by more than this share since the last refresh? */
 static bool gaps_changed(const ZpModel *model, const ZpState *state, double share) {
-  const double *y = zp_state_motion(model, state).y, *then = zp_held_place(model, state).y;
+  const double *y = zp_state_motion(model, state).y, *then = zp_nodes(model, zp_state_beyond(model, state).at).y;
   for (size_t i = 0; i < model->nodes; i++) {
     double gap = zp_plates_gap(&model->plates, y, i), before = zp_plates_gap(&model->plates, then, i);
     if (fabs(gap - before) > share * (before + model->plates.d)) return true;

@@ -30,7 +30,7 @@ void zp_bezier_attract(const ZpModel *model, const ZpState *state, const double 
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (!span->paper) return;
-  const double *Fy = zp_held_force(model, span->paper).y;
+  const double *Fy = zp_nodes(model, zp_held_force(model, span->paper)).y;
   if (!(model->def.electro.refresh_period > 0)) {
     zp_bezier_attract(model, span->paper, span->end, e);
     Fy = e->attraction.Fy;
