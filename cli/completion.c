@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "words.h"
+#include "cli.h"
 
 #define SHELLS "bash zsh fish"
 

@@ -2,7 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "words.h"
+#include "cli.h"
 
 enum { LINE = 110, HELP_COLUMN = 28 }; /* characters per line; column of the help */
 

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "words.h"
+#include "cli.h"
 
 /* Largest value of --jobs. */
 enum { JOBS_MOST = 1024 };

@@ -4,7 +4,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-#include "words.h"
+#include "cli.h"
 
 /* A text in which the special characters of troff are escaped. */
 static void write_text(FILE *file, const char *text) {

@@ -1,5 +1,5 @@
 /* The words of the command line: its tables. */
-#include "words.h"
+#include "cli.h"
 
 #include <string.h>
 

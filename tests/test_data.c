@@ -2,9 +2,9 @@
  * waveforms and setpoints of files, lines of faults, samples and lists of a scenario. */
 #include "files_util.h"
 
-#include "io/cases.h"
 #include "io/data.h"
 #include "io/drive_table.h"
+#include "io/plan.h"
 #include "io/units.h"
 
 /* FOLDER/name with this text => its path, to be freed. */

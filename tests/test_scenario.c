@@ -13,7 +13,7 @@
 #include <zipact/io.h>
 
 #include "data_util.h"
-#include "io/cases.h"
+#include "io/plan.h"
 
 static ZpStatus parse(ZpScenario *s, const char *text, ZpError *err) {
   return zp_scenario_parse(s, text, strlen(text), "test.yaml", err);

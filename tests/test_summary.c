@@ -4,7 +4,7 @@
 #include <jansson.h>
 #include <sys/stat.h>
 
-#include "io/cases.h"
+#include "io/plan.h"
 #include "io/report.h"
 
 /* -- results and what is written of them -------------------------------------------------------------- */

@@ -25,7 +25,7 @@
 #include "campaign/remote.h"
 #include "def/def.h"
 #include "fit/case.h"
-#include "io/cases.h"
+#include "io/plan.h"
 
 /* Interval at which the writer wakes; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };

@@ -8,8 +8,8 @@
 #include "base/fail.h"
 #include "def/def.h"
 #include "fit/case.h"
-#include "io/cases.h"
 #include "io/guard.h"
+#include "io/plan.h"
 #include "io/report.h"
 #include "study/result.h"
 

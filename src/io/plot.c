@@ -8,8 +8,8 @@
 
 #include "base/fail.h"
 #include "base/table.h"
-#include "io/cases.h"
 #include "io/number.h"
+#include "io/plan.h"
 #include "io/units.h"
 #include "study/result.h"
 

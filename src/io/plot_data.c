@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "base/table.h"
-#include "io/cases.h"
 #include "io/number.h"
+#include "io/plan.h"
 #include "io/plot.h"
 #include "sample/statistics.h"
 #include "study/result.h"

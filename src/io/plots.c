@@ -22,9 +22,9 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "io/cases.h"
 #include "io/drawing.h"
 #include "io/file.h"
+#include "io/plan.h"
 #include "io/plot.h"
 #include "io/report.h"
 

@@ -7,8 +7,8 @@
 
 #include "base/fail.h"
 #include "def/def.h"
-#include "io/cases.h"
 #include "io/file.h"
+#include "io/plan.h"
 #include "study/result.h"
 
 bool zp_report_is_sweep(const ZpReport *report) {

@@ -19,7 +19,6 @@
 
 #include "base/fail.h"
 #include "def/def.h"
-#include "io/cases.h"
 #include "io/file.h"
 #include "io/plan.h"
 #include "io/range.h"

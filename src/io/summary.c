@@ -5,8 +5,8 @@
 
 #include <zipact/version.h>
 
-#include "io/cases.h"
 #include "io/json.h"
+#include "io/plan.h"
 #include "io/report.h"
 #include "sample/statistics.h"
 #include "study/result.h"
