@@ -11,7 +11,7 @@
 #include "base/pack.h"
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
-#include "campaign/remote.h"
+#include "io/packed.h"
 #include "fit/case.h"
 
 #define SCENARIO(...) scenario_with((const char *const[]){__VA_ARGS__, NULL})
@@ -287,7 +287,7 @@ TEST(results_of_another_process_are_whole) {
   unsigned char *byte;
   size_t size;
   ck_assert_int_eq(zp_campaign_compute(scenario, 0, 2, NULL, &byte, &size, NULL), ZP_OK);
-  ck_assert(zp_remote_read(byte, size, ZP_STUDY_ACTUATE, 2, result));
+  ck_assert(zp_results_read(byte, size, ZP_STUDY_ACTUATE, 2, result));
   ck_assert(result[0]->outcome == ZP_STEP_LIMIT && result[1]->outcome == ZP_REACHED_END);
   for (int k = 0; k < 2; k++) {
     size_t times = 0;

@@ -22,10 +22,11 @@
 #include "base/fail.h"
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
-#include "campaign/remote.h"
 #include "def/def.h"
 #include "fit/case.h"
+#include "io/packed.h"
 #include "io/plan.h"
+#include "study/result.h"
 
 /* Interval at which the writer wakes; longest time until rows are committed, ms. */
 enum { PULSE = 100, COMMIT_AFTER = 500 };
@@ -198,6 +199,11 @@ static bool hash_cases(const ZpCampaign *c, size_t from, size_t to, uint64_t has
   return known;
 }
 
+static void drop_series(ZpResult *result) {
+  zp_table_destroy(result->series);
+  result->series = NULL;
+}
+
 /* A result is sent to the writer when the next one, which starts from it, is finished. */
 static void run_here(Worker *worker, size_t from, size_t to, const uint64_t *hash) {
   ZpCampaign *c = worker->campaign;
@@ -207,10 +213,7 @@ static void run_here(Worker *worker, size_t from, size_t to, const uint64_t *has
     if (before) hand_over_result(c, i - 1, hash[i - 1 - from], before);
     before = result;
     if (!result) return;
-    if (!c->keeps_series) {
-      zp_table_destroy(result->series);
-      result->series = NULL;
-    }
+    if (!c->keeps_series) drop_series(result);
   }
   hand_over_result(c, to - 1, hash[to - 1 - from], before);
 }
@@ -224,7 +227,7 @@ static bool run_elsewhere(Worker *worker, size_t from, size_t to, const uint64_t
   ZpError err = {ZP_MACHINE, "results of another process cannot be read: no memory, or another version"};
   ZpStatus status = c->options.remote(c->options.remote_user, worker->number, from, to, &byte, &size, &err);
   const bool lost = status == ZP_OK && !byte;
-  if (status == ZP_OK && byte && !zp_remote_read(byte, size, c->study, to - from, result)) status = ZP_MACHINE;
+  if (status == ZP_OK && byte && !zp_results_read(byte, size, c->study, to - from, result)) status = ZP_MACHINE;
   if (status != ZP_OK) fail(c, &err);
   for (size_t i = from; i < to && status == ZP_OK && !lost; i++)
     hand_over_result(c, i, hash[i - from], result[i - from]);
@@ -463,4 +466,48 @@ void zp_campaign_close(ZpCampaign *c) {
   free(c->hash);
   free(c->mark);
   free(c);
+}
+
+/* -- the process that computes them; the bytes of each result follow those of the one before --------- */
+
+/* Append a result. False if there is no memory. */
+static bool put_result(FILE *out, const ZpResult *result) {
+  ZpPacked *packed = zp_packed_of(result);
+  const bool put = packed && fwrite(packed->byte, 1, packed->size, out) == packed->size;
+  free(packed);
+  return put;
+}
+
+/* Run the cases one after the other and append their results. */
+static ZpStatus compute_all(const ZpScenario *scenario, size_t from, size_t to, const ZpHooks *hooks, FILE *out,
+                            ZpError *err) {
+  ZpResult *before = NULL;
+  ZpStatus status = ZP_OK;
+  const bool keeps_series = zp_scenario_keeps_series(scenario);
+  for (size_t i = from; i < to && status == ZP_OK; i++) {
+    ZpResult *result = NULL;
+    status = zp_case_run_or_say(scenario, i, before, hooks, &result, err);
+    zp_result_destroy(before);
+    before = result;
+    if (status != ZP_OK) break;
+    if (!keeps_series) drop_series(result);
+    if (!put_result(out, result)) status = zp_fail_memory(err);
+  }
+  zp_result_destroy(before);
+  return status;
+}
+
+ZpStatus zp_campaign_compute(const ZpScenario *scenario, size_t from, size_t to, const ZpHooks *hooks,
+                             unsigned char **byte, size_t *size, ZpError *err) {
+  char *results = NULL;
+  *byte = NULL;
+  FILE *out = open_memstream(&results, size);
+  if (!out) return zp_fail_memory(err);
+  ZpStatus status = compute_all(scenario, from, to, hooks, out, err);
+  if (fclose(out) != 0 && status == ZP_OK) status = zp_fail_memory(err);
+  if (status == ZP_OK)
+    *byte = (unsigned char *)results;
+  else
+    free(results);
+  return status;
 }

@@ -321,3 +321,20 @@ ZpStatus zp_result_load(const void *bytes, size_t size, ZpResult **out, ZpError 
   *out = NULL;
   return zp_fail(err, status, "result: %.480s", why.message);
 }
+
+bool zp_results_read(const unsigned char *byte, size_t size, ZpStudy study, size_t count, ZpResult **result) {
+  size_t used = 0, read = 0;
+  bool good = true;
+  while (good && read < count) {
+    const size_t names = zp_pack_first(byte + used, size - used),
+                 both = names + zp_pack_first(byte + used + names, size - used - names);
+    good = zp_result_load(byte + used, both, &result[read], NULL) == ZP_OK;
+    read += good;
+    used += both;
+    good = good && result[read - 1]->study == study;
+  }
+  if (good && used == size) return true;
+  while (read > 0)
+    zp_result_destroy(result[--read]);
+  return false;
+}

@@ -38,4 +38,9 @@ ZpStatus zp_names_read(const void *bytes, size_t size, ZpNames *names, ZpError *
  * ZP_MACHINE if there is no memory. */
 ZpStatus zp_numbers_read(const ZpNames *names, const void *bytes, size_t size, ZpResult *result, ZpError *err);
 
+/* Read the bytes of zp_campaign_compute, which must outlive the results => `count` new results of `study` in result
+ * [count], which the caller frees. False if the bytes are not such results, or there is no memory; then there are none.
+ */
+bool zp_results_read(const unsigned char *byte, size_t size, ZpStudy study, size_t count, ZpResult **result);
+
 #endif
