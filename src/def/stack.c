@@ -187,8 +187,6 @@ static const ZpRule rule[] = {
                "a stop acts between the platforms of a single actuator"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "heights that members share are unknowns of implicit steps"),
-    ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(load.change_mass, 0),
-                   "an impact is modelled on the platform of a single actuator"),
 };
 
 static const ZpRules rules = ZP_RULES_OF(rule);

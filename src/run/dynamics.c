@@ -776,27 +776,37 @@ static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) 
   state->next_step = d->history.next;
 }
 
-/* Each coordinate of the load's nodes keeps its momentum: the impact does not affect the strips. */
-void zp_dynamics_change_load(ZpDynamics *d, ZpState *state) {
-  ZpMovingMember *m = d->member;
+/* What falls on one member. Each coordinate of the load's nodes keeps its momentum: the impact does not affect the
+ * strips. */
+static void catch_mass(ZpDynamics *d, const ZpMovingMember *m) {
   const ZpModel *model = m->model;
   const ZpTopology *t = &model->topology;
   double each = zp_end_share(model) * model->def.load.change_mass;
   double fast = sqrt(2 * model->def.gravity * model->def.load.drop_height);
-  memset(d->mass, 0, d->system.n * sizeof *d->mass);
-  add_masses(d, m, zp_state_added(model, state));
-  zp_assembly_gather(&m->assembly, zp_state_v(model, state), d->v);
-  for (size_t c = 0; c < 2; c++) {
-    int row = m->assembly.equation[zp_x_of(zp_load_node(t)) + c];
-    if (row < 0 || each < 0) continue;
+  for (size_t c = 0; c < 2 && each > 0; c++) {
+    size_t coordinate = zp_x_of(zp_load_node(t)) + c;
+    int row = m->assembly.equation[coordinate];
+    if (row < 0) continue;
     size_t ends = m->assembly.equation[zp_x_of(zp_lower(t, t->platform.last)) + c] == row ? zp_load_ends(t) : 1;
-    double comes = (double)ends * each;
-    d->v[row] = (d->mass[row] * d->v[row] + comes * fast * model->fall[c]) / (d->mass[row] + comes);
+    double comes = (double)ends * each, falls = m->assembly.factor[coordinate] * fast * model->fall[c];
+    d->v[row] = (d->mass[row] * d->v[row] + comes * falls) / (d->mass[row] + comes);
+    d->mass[row] += comes;
   }
-  zp_assembly_scatter(&m->assembly, d->v, zp_state_v(model, state));
-  memcpy(zp_state_mean_v(model, state), zp_state_v(model, state), zp_coordinates(model) * sizeof *d->v);
-  memset(zp_state_mean_a(model, state), 0, zp_coordinates(model) * sizeof *d->v);
-  state->last_step = state->next_step = 0;
+}
+
+void zp_dynamics_change_load(ZpDynamics *d, ZpState *const state[]) {
+  weigh(d, state);
+  for (size_t k = 0; k < d->members; k++)
+    zp_assembly_gather(&d->member[k].assembly, zp_state_v(d->member[k].model, state[k]), d->v);
+  for (size_t k = 0; k < d->members; k++)
+    catch_mass(d, &d->member[k]);
+  for (size_t k = 0; k < d->members; k++) {
+    const ZpModel *model = d->member[k].model;
+    zp_assembly_scatter(&d->member[k].assembly, d->v, zp_state_v(model, state[k]));
+    memcpy(zp_state_mean_v(model, state[k]), zp_state_v(model, state[k]), zp_coordinates(model) * sizeof *d->v);
+    memset(zp_state_mean_a(model, state[k]), 0, zp_coordinates(model) * sizeof *d->v);
+    state[k]->last_step = state[k]->next_step = 0;
+  }
 }
 
 /* Motion, work and losses of one member over a step. */

@@ -62,9 +62,9 @@ typedef struct ZpDynamics {
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
 
-/* The mass load.change_mass arrives with the velocity of its fall, or leaves: change the velocities of the state. For
- * one actuator. */
-void zp_dynamics_change_load(ZpDynamics *dynamics, ZpState *state);
+/* The mass load.change_mass arrives with the velocity of its fall, or leaves: change the velocities of the
+ * states [members]. */
+void zp_dynamics_change_load(ZpDynamics *dynamics, ZpState *const state[]);
 
 /* Take one step that ends at `latest`, s, or earlier => the states [members] at its end, with time, losses, and the
  * work of the source if the voltage has changed. The account of the voltage must be closed (state->base_U == state->U).

@@ -7,7 +7,7 @@
 
 /* The instant of a change of the load that is still to come, s; else INFINITY. */
 double zp_sim_load_due(const ZpSim *sim) {
-  const ZpActuatorDef *def = &sim->model->def;
+  const ZpActuatorDef *def = &sim->model->whole;
   const bool waits = def->load.change_mass != 0 && !isnan(def->load.change_time) && !sim->state->load_changed;
   return waits ? def->load.change_time : INFINITY;
 }
@@ -23,19 +23,25 @@ static double energy_of_mass(const ZpModel *model, const ZpState *state) {
   return 0.5 * mass * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
 }
 
+/* What one member stores, J per part. */
+static double stored(ZpSim *m) {
+  double row[ZP_MOST_ROWS] = {0};
+  zp_system_now(m->model, m->state, &m->eval, row);
+  return zp_system_stored(m->model, row);
+}
+
 void zp_sim_change_load(ZpSim *sim) {
-  const ZpModel *model = sim->model;
-  ZpState *state = sim->state;
-  size_t j = zp_load_node(&model->topology);
-  double before[ZP_MOST_ROWS] = {0}, after[ZP_MOST_ROWS] = {0};
-  zp_system_now(model, state, &sim->eval, before);
-  double brought = energy_of_mass(model, state);
-  zp_dynamics_change_load(&sim->dynamics, state);
-  state->load_changed = true;
-  state->changed_x = zp_state_motion(model, state).x[j];
-  state->changed_y = zp_state_motion(model, state).y[j];
-  zp_system_now(model, state, &sim->eval, after);
-  *zp_state_row(model, state, &zp_row_catch_loss) +=
-      zp_system_stored(model, before) + brought - zp_system_stored(model, after);
-  *zp_state_row(model, state, &zp_row_kinetic_energy) += brought;
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    double brought = energy_of_mass(m->model, m->state);
+    *zp_state_row(m->model, m->state, &zp_row_catch_loss) += stored(m) + brought;
+    *zp_state_row(m->model, m->state, &zp_row_kinetic_energy) += brought;
+  }
+  zp_dynamics_change_load(&sim->dynamics, sim->states);
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    size_t j = zp_load_node(&m->model->topology);
+    m->state->load_changed = true;
+    m->state->changed_x = zp_state_motion(m->model, m->state).x[j];
+    m->state->changed_y = zp_state_motion(m->model, m->state).y[j];
+    *zp_state_row(m->model, m->state, &zp_row_catch_loss) -= stored(m);
+  }
 }

@@ -50,23 +50,26 @@ static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
-/* Work booked before a run that resumes, J. */
+/* Work on a caught mass from then on, or on a dropped mass until then, J; to be added to that on load.mass. */
+static double work_on_change(const ZpSim *sim) {
+  double work = 0;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
+    ZpMotion motion = zp_state_motion(m->model, m->state);
+    size_t j = zp_load_node(&m->model->topology);
+    double along = motion.x[j] - m->state->changed_x, up = motion.y[j] - m->state->changed_y;
+    work -= m->model->parts * zp_state_hung(m->model, m->state) * (m->model->fall[0] * along + m->model->fall[1] * up);
+  }
+  return work;
+}
+
+/* Work before a run that resumes, J. */
 typedef struct Booked {
-  double energy, load_work;
+  double energy, load_work, on_change;
 } Booked;
 
 static Booked booked_before(ZpSim *sim, bool resumes) {
-  if (!resumes) return (Booked){0, 0};
-  return (Booked){zp_sim_get(sim, "source_energy"), zp_sim_get(sim, "load_work")};
-}
-
-/* Work on a caught mass from then to the end, or on a dropped mass until then, J; to be added to that on load.mass. */
-static double work_on_change(ZpSim *sim, const ZpModel *model) {
-  const ZpState *state = sim->state;
-  ZpMotion motion = zp_state_motion(model, state);
-  size_t j = zp_load_node(&model->topology);
-  double along = motion.x[j] - state->changed_x, up = motion.y[j] - state->changed_y;
-  return -model->parts * zp_state_hung(model, state) * (model->fall[0] * along + model->fall[1] * up);
+  if (!resumes) return (Booked){0, 0, 0};
+  return (Booked){zp_sim_get(sim, "source_energy"), zp_sim_get(sim, "load_work"), work_on_change(sim)};
 }
 
 /* Work on a load that does not only rise: at a free end, where a spring of a hinge is not part of it, and that of a
@@ -76,7 +79,7 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
   ZpShape start = zp_shapes_get(result->shapes, 0);
   double along = zp_load_at(model, motion.x) - zp_load_at(model, start.x),
          up = zp_load_at(model, motion.y) - zp_load_at(model, start.y);
-  return zp_load_work(model, along, up) + work_on_change(sim, model);
+  return zp_load_work(model, along, up);
 }
 
 /* Work against pull and springs of the load from start to end, J. */
@@ -86,7 +89,7 @@ static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *res
          compressed = zp_at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
   for (const ZpModel *m = zp_lowest(model); m < model + model->members; m++) /* those that carry the load */
     pull += zp_load_pull(m);
-  return pull * risen + compressed + work_on_change(sim, zp_lowest(model));
+  return pull * risen + compressed;
 }
 
 /* Work on the load over the energy from the source, J. */
@@ -116,7 +119,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (!zp_is_pair(&model->topology)) return;
   bool rises = zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology);
   double work = rises ? work_on_load(sim, model, result) : work_along_path(sim, model, result);
-  work -= zp_at_end(sim, result, "load_work") - before.load_work;
+  work += work_on_change(sim) - before.on_change - (zp_at_end(sim, result, "load_work") - before.load_work);
   zp_result_add(result, "mechanical_work_J", "J", work);
   add_efficiency(result, work, energy - before.energy);
 }
@@ -286,7 +289,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
   if (model->has_film) summarize_liquid(sim, result);
   if (model->leaks) summarize_leak(sim, result);
   if (model->rod.plastic) summarize_plastic(sim, result);
-  if (!isnan(model->def.load.change_time))
+  if (!isnan(model->whole.load.change_time))
     zp_result_add(result, "catch_loss_J", "J", zp_at_end(sim, result, "catch_loss"));
   if (model->has_bead) summarize_bead(sim, result);
   summarize_laws(sim, result);
