@@ -9,12 +9,46 @@
 #include "math/elementary.h"
 #include "ribbon/rod_plastic.h"
 
+enum { METAL, TAPE, LAYERS };
+
+static void layers_of(const ZpActuatorDef *def, double thickness, ZpLayer layer[LAYERS]) {
+  layer[METAL] = (ZpLayer){thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density};
+  layer[TAPE] = (ZpLayer){def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density};
+}
+
 static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
-  ZpLayer layers[2] = {
-      {thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density},
-      {def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density},
-  };
-  return zp_section(layers, 2, def->ribbon.width, def->ribbon.plane != ZP_PLANE_STRESS);
+  ZpLayer layer[LAYERS];
+  layers_of(def, thickness, layer);
+  return zp_section(layer, LAYERS, def->ribbon.width, def->ribbon.plane != ZP_PLANE_STRESS);
+}
+
+bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *rate) {
+  static const struct {
+    int key, layer;
+    ZpLayerNumber by;
+  } of[] = {{ZP_KEY(ribbon.thickness), METAL, ZP_LAYER_THICKNESS},
+            {ZP_KEY(ribbon.young_modulus), METAL, ZP_LAYER_MODULUS},
+            {ZP_KEY(ribbon.density), METAL, ZP_LAYER_DENSITY},
+            {ZP_KEY(insulator.thickness), TAPE, ZP_LAYER_THICKNESS},
+            {ZP_KEY(insulator.young_modulus), TAPE, ZP_LAYER_MODULUS},
+            {ZP_KEY(insulator.density), TAPE, ZP_LAYER_DENSITY}};
+  const ZpActuatorDef def = ribbon > 0 ? zp_def_lower(&model->def) : model->def;
+  const ZpSection section = zp_ribbon_section(model, ribbon);
+  const double w = def.ribbon.width;
+  ZpLayer layer[LAYERS];
+  key = zp_def_key_of_ribbon(&model->def, ribbon > 0, key);
+  *rate = (ZpSection){0};
+  if (key < 0) return true;
+  if (key == ZP_KEY(ribbon.width))
+    *rate = (ZpSection){.EA = section.EA / w, .EI = section.EI / w, .mu = section.mu / w};
+  if (key == ZP_KEY(ribbon.width)) return true;
+  layers_of(&def, def.ribbon.thickness, layer);
+  for (size_t k = 0; model->ribbon[ribbon].is_uniform && k < sizeof of / sizeof of[0]; k++)
+    if (key == of[k].key) {
+      *rate = zp_section_by(layer, LAYERS, w, def.ribbon.plane != ZP_PLANE_STRESS, of[k].layer, of[k].by);
+      return true;
+    }
+  return false;
 }
 
 /* Fibres of the metal, for a ribbon of one thickness. */
@@ -252,9 +286,9 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
                          .mesh = zp_field_mesh(size)};
 }
 
-/* Mass of the ribbon at a node. The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the
- * edges beside them, which keeps the centre of mass. */
-static double ribbon_mass(const ZpModel *model, size_t j) {
+/* The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the edges beside them, which keeps
+ * the centre of mass. */
+double zp_ribbon_mass(const ZpModel *model, size_t j) {
   return model->is_rod ? node_share(model, j).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
@@ -265,7 +299,7 @@ static double node_mass(const ZpModel *model, size_t j) {
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
   double part = carries ? zp_load_part(model, station) : 0;
-  return ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
+  return zp_ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
 }
 
 /* The arrays of a model. */
@@ -470,7 +504,7 @@ static void fill_stress(ZpModel *model, Arrays *a) {
  * stiffest and as light as its lightest. */
 static double frequency_bound(const ZpModel *model) {
   double stiffest = 0;
-  if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, ribbon_mass(model, 0));
+  if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, zp_ribbon_mass(model, 0));
   const bool alike = model->ribbon[0].is_uniform && model->ribbon[1].is_uniform; /* the first edges stand for all */
   const size_t elements = alike ? 1 : zp_half_elements(&model->topology);
   for (size_t j = 0; j < model->s * elements; j++) {

@@ -38,6 +38,7 @@ static size_t reserve(const ZpModel *model, ZpEval *e, void *block) {
     *stations[k] = zp_arena_take(&arena, model->nodes);
   e->D = (double(*)[4])(void *)zp_arena_take(&arena, 12 * model->stride);
   e->mean_v = zp_arena_take(&arena, 2 * model->stride);
+  e->unused = zp_arena_take(&arena, 2 * model->stride);
   e->none = zp_arena_take(&arena, model->stride);
   return arena.used;
 }

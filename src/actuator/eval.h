@@ -51,6 +51,7 @@ typedef struct ZpEval {
   ZpGapDerivatives gaps;        /* sum of the terms that depend on gaps */
   double (*D)[4];               /* [3 edges] stiffness of edges */
   double *mean_v;               /* [2 stride] of a span, m/s */
+  double *unused;               /* [2 stride] of forces that are computed for the sake of other laws */
   const double *none;           /* [stride] zeros */
   double drag_power;            /* lost now, W */
   double drag_rate;             /* largest |v| / m, 1 / (kg s/m), from which the drag bound follows */

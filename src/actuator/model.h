@@ -210,6 +210,13 @@ static inline ZpSection zp_ribbon_section(const ZpModel *model, size_t ribbon) {
   return model->ribbon[ribbon].place[ZP_REST].section;
 }
 
+/* Derivatives of a ribbon's EA, EI and mu by a key of the model, where all of its places have one section, or by the
+ * width; the others are 0. False: they have no closed form. */
+bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *rate);
+
+/* Mass of the ribbon at node j, without what hangs there, kg. */
+double zp_ribbon_mass(const ZpModel *model, size_t j);
+
 /* The fraction of the load that each modelled end carries on which it hangs. */
 static inline double zp_end_share(const ZpModel *model) {
   return model->def.load.share / model->def.stack.parallel;

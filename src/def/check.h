@@ -49,6 +49,10 @@ ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err);
 /* The Def of the lower ribbon: that of the upper one with the keys that lower.* gives. */
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def);
 
+/* The key of the Def of ribbon 0, the upper or only one, or 1, the lower one, that changes with `key` of `def`; -1:
+ * none. */
+int zp_def_key_of_ribbon(const ZpActuatorDef *def, int ribbon, int key);
+
 /* The actuator without its load: neither mass, force, spring, stop nor impact. load.share and load.offset stay. */
 ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def);
 

@@ -1,6 +1,7 @@
 /* The lower of two ribbons: the values of the keys lower.*, and their conditions on other keys. */
 #include <math.h>
 #include <stddef.h>
+#include <stdio.h>
 
 #include "base/fail.h"
 #include "def/device.h"
@@ -20,6 +21,15 @@ ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
     if (is_given(def, key))
       zp_def_set(&lower, zp_key_find(zp_key(key)->name + sizeof prefix - 1), zp_def_get(def, key), NULL);
   return lower;
+}
+
+int zp_def_key_of_ribbon(const ZpActuatorDef *def, int ribbon, int key) {
+  char name[ZP_TEXT_SIZE];
+  bool is_lower = key >= lower_keys.first && key < lower_keys.end;
+  if (is_lower) return ribbon == 0 ? -1 : zp_key_find(zp_key(key)->name + sizeof prefix - 1);
+  snprintf(name, sizeof name, "%s%s", prefix, zp_key(key)->name);
+  int own = ribbon == 0 ? -1 : zp_key_find(name);
+  return own >= 0 && is_given(def, own) ? -1 : key;
 }
 
 double zp_insulation(const ZpActuatorDef *def) {

@@ -506,6 +506,22 @@ void zp_plates_rest_by_voltage(const ZpPlatesParams *p, const ZpPlatesEval *e, d
   forces_of_charges(p, e, e, U, 1, &lent);
 }
 
+/* The law is one of g + d: d grows as all gaps do at once. */
+void zp_plates_rest_by_offset(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, ZpPlatesStep *step, double *Fx,
+                              double *Fy) {
+  ZpPlatesStep lent = *step;
+  lent.Fx = Fx;
+  lent.Fy = Fy;
+  for (size_t i = 0; i + 1 < p->nodes; i++) {
+    lent.A[i] = 2 * (lent.own_A[i] + lent.next[i]); /* the step's are half of the derivatives */
+    lent.B[i] = 2 * (lent.own_B[i] + lent.next[i]);
+    lent.P[i] = 2 * (lent.along0[i] + lent.along1[i]);
+  }
+  act_all(p, &lent);
+  for (size_t i = p->platform; p->flat_length > 0 && i <= p->platform_end; i++)
+    attract(Fy, i, p->flat_length * zp_plates_slope(p, U, e->gap[i]));
+}
+
 void zp_plates_by_voltage(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPlatesEval *e1, double U1,
                           ZpPlatesStep *step, ZpPlatesByVoltage *by) {
   ZpPlatesStep lent = *step;

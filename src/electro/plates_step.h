@@ -40,6 +40,10 @@ void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *star
 void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
                                double *Fx, double *Fy);
 
+/* At rest, without air => how the forces go with d: Fx, Fy [stride], N/m. `step` lends its parts as above. */
+void zp_plates_rest_by_offset(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
+                              double *Fx, double *Fy);
+
 /* The law between two gaps and two voltages at one place, where voltages differ from place to place. */
 typedef struct ZpPlatesMean {
   double W;     /* mean force on the gap per length, N/m; of a charge: minus its derivative by the gap */

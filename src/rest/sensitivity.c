@@ -60,19 +60,19 @@ static size_t reserve(ZpRestSensitivity *p, void *block) {
 }
 
 ZpStatus zp_rest_sensitivity_open(ZpRestSensitivity *p, ZpStatics *at, int key, ZpError *err) {
-  *p = (ZpRestSensitivity){.at = at, .key = key};
+  *p = (ZpRestSensitivity){.at = at, .key = key, .exact = true};
   p->memory = zp_calloc(1, reserve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   reserve(p, p->memory);
   ZpStatus status = zp_finite_difference_open(&p->by, at->model, key, part, err);
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS && status == ZP_OK; k++)
-    if (p->by.model[k] && !zp_statics_create(p->by.model[k], &p->near[k])) status = zp_fail_memory(err);
+  for (int k = 0; k < p->by.count && status == ZP_OK; k++)
+    if (!zp_statics_create(p->by.near[k].model, &p->near[k])) status = zp_fail_memory(err);
   return status;
 }
 
 void zp_rest_sensitivity_close(ZpRestSensitivity *p) {
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (p->by.model[k]) zp_statics_destroy(&p->near[k]);
+  for (int k = 0; k < p->by.count; k++)
+    zp_statics_destroy(&p->near[k]);
   zp_finite_difference_close(&p->by);
   zp_free(p->memory);
   p->memory = NULL;
@@ -111,14 +111,15 @@ static double *of_member(const ZpRestSensitivity *p, double *numbers, size_t whi
 /* Actuator k at the coordinates that the last solution gives. */
 static ZpStatics *place_along(ZpRestSensitivity *p, int k) {
   ZpStatics *near = place(p, k);
+  const double offset = p->by.near[k].offset;
   size_t lanes = zp_lanes(p->at->member->model);
   for (size_t which = 0; which < near->members; which++) {
     const ZpRestMember *at = &p->at->member[which];
     const double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
     for (size_t i = 0; i < 2 * lanes; i++)
-      near->member[which].q[i] = at->q[i] + p->by.offset[k] * rate[i];
+      near->member[which].q[i] = at->q[i] + offset * rate[i];
     for (size_t j = 0; j < lanes; j++)
-      near->member[which].tension[j] = at->tension[j] + p->by.offset[k] * tension[j];
+      near->member[which].tension[j] = at->tension[j] + offset * tension[j];
   }
   return near;
 }
@@ -135,28 +136,59 @@ static void add_scaling(ZpRestSensitivity *p, size_t which, const ZpRestMember *
   for (size_t i = 0; i < 2 * lanes; i++)
     rate[i] += weight * (near->q[i] - at->q[i]);
   for (size_t j = 0; j < edges; j++)
-    tension[j] += weight * near->eval.edges.T[j];
+    tension[j] += weight * (near->eval.edges.T[j] - at->eval.edges.T[j]);
+}
+
+/* Do coordinates keep their places as the key changes? */
+static bool stay(const ZpRestSensitivity *p, size_t which) {
+  const ZpRestMember *at = &p->at->member[which], *near = &p->near[0].member[which];
+  return memcmp(at->q, near->q, zp_coordinates(at->model) * sizeof *at->q) == 0;
+}
+
+/* Derivatives of a member's forces, at the coordinates that the neighbours are at, and of its tensions. */
+static void add_forces(ZpRestSensitivity *p, size_t which) {
+  ZpRestMember *at = &p->at->member[which];
+  const ZpSpan here = zp_statics_span(p->at, which);
+  ZpNear near[ZP_DIFFERENCE_POINTS];
+  ZpSpan rate = {0}; /* of the inputs */
+  for (int k = 0; k < p->by.count; k++) {
+    const ZpRestMember *m = &p->near[k].member[which];
+    const ZpSpan there = zp_statics_span(&p->near[k], which);
+    const double weight = p->by.near[k].weight;
+    near[k] = (ZpNear){m->model, &p->near[k].member[which].eval, m->q, weight, m->force};
+    rate.U1 += weight * (there.U1 - here.U1);
+    rate.hung += weight * (there.hung - here.hung);
+    rate.load += weight * (there.load - here.load);
+  }
+  const int key = stay(p, which) ? zp_key_of_neighbour(at->model, near[0].model, p->by.near[0].offset) : -1;
+  p->exact &= zp_system_by_key(at->model, &here, &at->eval, key, near, p->by.count, at->moved, at->force);
+  zp_weight_by_load(at->model, rate.hung, rate.load, at->force);
+  zp_assembly_add(&at->assembly, at->force, p->by_key);
+  if (rate.U1 != 0) {
+    ZpByVoltage by = {.force = at->force};
+    zp_system_by_voltage(at->model, &here, &at->eval, &by);
+    for (size_t i = 0; i < zp_coordinates(at->model); i++)
+      at->force[i] *= rate.U1;
+    zp_assembly_add(&at->assembly, at->force, p->by_key);
+  }
+  for (int k = 0; k < p->by.count; k++)
+    add_scaling(p, which, &p->near[k].member[which], near[k].weight);
 }
 
 /* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
  * reaction. */
 static void differentiate(ZpRestSensitivity *p) {
   ZpStatics *at = p->at;
-  size_t lanes = at->members * zp_lanes(at->member->model), n = at->n;
+  size_t lanes = at->members * zp_lanes(at->member->model);
+  double away = 0; /* of the held platform from where it is held */
   memset(p->rate, 0, 2 * lanes * sizeof *p->rate);
   memset(p->tension, 0, lanes * sizeof *p->tension);
-  memset(p->by_key, 0, n * sizeof *p->by_key);
-  p->reaction = 0;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
-    if (!p->by.model[k]) continue;
-    const ZpStatics *near = place(p, k);
-    residual(&p->near[k], p->row);
-    for (size_t i = 0; i < n; i++)
-      p->by_key[i] += p->by.weight[k] * p->row[i];
-    for (size_t which = 0; which < at->members; which++)
-      add_scaling(p, which, &near->member[which], p->by.weight[k]);
-    p->reaction += p->by.weight[k] * near->reaction;
-  }
+  memset(p->by_key, 0, at->n * sizeof *p->by_key);
+  for (int k = 0; k < p->by.count; k++)
+    away += p->by.near[k].weight * zp_statics_away(place(p, k));
+  for (size_t which = 0; which < at->members; which++)
+    add_forces(p, which);
+  p->reaction = zp_statics_hold_rate(at, away, p->by_key);
 }
 
 /* -- solutions ------------------------------------------------------------------------------------ */
@@ -212,11 +244,10 @@ bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
 
 double zp_rest_sensitivity_of(ZpRestSensitivity *p, ZpOutput output, void *user) {
   double sum = 0;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
-    if (!p->by.model[k]) continue;
+  for (int k = 0; k < p->by.count; k++) {
     ZpStatics *near = place_along(p, k);
     residual(near, p->row);
-    sum += p->by.weight[k] * output(near, user);
+    sum += p->by.near[k].weight * output(near, user);
   }
   return sum;
 }
@@ -257,11 +288,10 @@ double zp_rest_sensitivity_of_event(ZpRestSensitivity *p, int inputs, const ZpBr
   size_t n = p->at->n;
   if (!solve_both(p, inputs, branch)) return NAN;
   double direct = 0;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
-    if (!p->by.model[k]) continue;
+  for (int k = 0; k < p->by.count; k++) {
     ZpStatics *near = place(p, k);
     residual(near, p->row);
-    direct += p->by.weight[k] * event(near, NULL);
+    direct += p->by.near[k].weight * event(near, NULL);
   }
   event(p->at, p->row);
   return (rate - direct - zp_dot(n, p->row, p->by_key)) / (zp_dot(n, p->row, p->by_parameter) - by_parameter);

@@ -1,13 +1,13 @@
-/* Derivatives of equilibria by a key, without differences of equilibria: from the forces of actuators whose key is
- * slightly larger or smaller, at the same coordinates, and the exact stiffness. Theory, section 20.
+/* Derivatives of equilibria by a key, without differences of equilibria: from that of the forces at the same
+ * coordinates (system/by_key.h), and the exact stiffness. Theory, section 20.
  *
  * For electro.model plates only, because the stiffness of a computed field is not known. */
 #ifndef ZP_REST_SENSITIVITY_H
 #define ZP_REST_SENSITIVITY_H
 
-#include "rest/finite_difference.h"
 #include "rest/statics.h"
 #include "solve/fold.h"
+#include "system/by_key.h"
 
 /* Inputs of a state that its definition sets: load.mass, drive.voltage, modes.voltage, the opening
  * isometric.separation at which the platform is held. Others stay as they are. */
@@ -20,6 +20,7 @@ typedef struct ZpRestSensitivity {
   ZpStatics *at;                        /* the state */
   int key;                              /* key of the derivatives */
   int inputs;                           /* those that move with the key */
+  bool exact;                           /* the forces of all solutions so far had derivatives in closed form */
   ZpFiniteDifference by;                /* actuators with a slightly larger or smaller key */
   ZpStatics near[ZP_DIFFERENCE_POINTS]; /* states of these */
   double *motion;                       /* [2 stride] the part of dq/dp beyond the stretching of all coordinates */

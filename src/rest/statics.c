@@ -593,11 +593,23 @@ static double holding(const ZpStatics *s) {
   return soft * (double)model->topology.halves * model->axial_stiffness;
 }
 
+double zp_statics_away(const ZpStatics *s) {
+  if (!is_held(s)) return 0;
+  return (zp_has_platform(&s->member->model->topology) ? opening_of(s->member) : stroke_of(s->member)) - s->opening;
+}
+
 static void hold_platform(ZpStatics *s, double *r) {
   size_t row = zp_statics_platform(s);
-  double drop = zp_has_platform(&s->member->model->topology) ? opening_of(s->member) : stroke_of(s->member);
   s->reaction = r[row];
-  r[row] = holding(s) * (drop - s->opening);
+  r[row] = holding(s) * zp_statics_away(s);
+}
+
+double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
+  size_t row = zp_statics_platform(s);
+  double reaction = r_m[row];
+  if (!is_held(s)) return 0;
+  r_m[row] = holding(s) * away;
+  return reaction;
 }
 
 /* The same for the terms on top of the band. */
@@ -652,8 +664,7 @@ static double hung_on(const ZpStatics *s, size_t which) {
   return model->carried + share * s->load - share * last->def.load.mass;
 }
 
-/* The present point of a member. */
-static ZpSpan span_of(const ZpStatics *s, size_t which) {
+ZpSpan zp_statics_span(const ZpStatics *s, size_t which) {
   const ZpRestMember *m = &s->member[which];
   const ZpActuatorDef *def = &m->model->def;
   ZpSpan span = zp_span_at(m->q);
@@ -697,7 +708,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
   memset(r, 0, s->n * sizeof *r);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    ZpSpan here = span_of(s, k);
+    ZpSpan here = zp_statics_span(s, k);
     zp_system_force(m->model, &here, &m->eval, m->force);
     zp_assembly_add(&m->assembly, m->force, r);
   }
@@ -715,7 +726,7 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
   zp_band_clear(K);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    ZpSpan here = span_of(s, k);
+    ZpSpan here = zp_statics_span(s, k);
     own.rank = zp_bead_rank(m->model);
     if (beside_edges)
       zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &own);
@@ -1093,18 +1104,13 @@ static void set_load(void *self, double load) {
   ((ZpStatics *)self)->load = load;
 }
 
-/* A platform that is held stays where it is. */
-static void hold_rate(const ZpStatics *s, double *r_m) {
-  if (is_held(s)) r_m[zp_statics_platform(s)] = 0;
-}
-
 void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
   const double here = s->U;
   s->U = U;
   memset(r_m, 0, s->n * sizeof *r_m);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    ZpSpan span = span_of(s, k);
+    ZpSpan span = zp_statics_span(s, k);
     ZpByVoltage by = {.force = m->force};
     zp_system_by_voltage(m->model, &span, &m->eval, &by);
     for (size_t j = 0; j < zp_coordinates(m->model); j++)
@@ -1112,7 +1118,7 @@ void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
     zp_assembly_add(&m->assembly, m->force, r_m);
   }
   s->U = here;
-  hold_rate(s, r_m);
+  zp_statics_hold_rate(s, 0, r_m);
 }
 
 static void by_voltage(void *self, double *r_m) {
@@ -1137,12 +1143,10 @@ static void by_load(void *self, double *r_m) {
     const ZpModel *model = m->model;
     double per_mass = load_part(s, k) * load_share(s, k) * model->def.gravity;
     memset(m->force, 0, zp_coordinates(model) * sizeof *m->force);
-    zp_weight_by_hung(model, m->force);
-    for (size_t j = 0; j < zp_coordinates(model); j++)
-      m->force[j] *= per_mass;
+    zp_weight_by_load(model, per_mass, 0, m->force);
     zp_assembly_add(&m->assembly, m->force, r_m);
   }
-  hold_rate(s, r_m);
+  zp_statics_hold_rate(s, 0, r_m);
 }
 
 /* The height of the load is that of the first one. */
@@ -1278,7 +1282,7 @@ void zp_statics_weigh_series(void *self, const double *u, double *mu) {
 double zp_statics_member_force(ZpStatics *s, size_t which) {
   ZpRestMember *m = &s->member[which];
   const ZpTopology *t = &m->model->topology;
-  ZpSpan here = span_of(s, which);
+  ZpSpan here = zp_statics_span(s, which);
   double sum = 0;
   zp_system_force(m->model, &here, &m->eval, m->force);
   for (size_t i = t->platform.first; i <= t->platform.last; i++)

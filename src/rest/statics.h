@@ -71,6 +71,16 @@ ZpNewtonInfo zp_statics_solve(ZpStatics *statics, int most);
 typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_SQUARE, ZP_ALONG_LOAD } ZpAlong;
 ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
+/* The present point of a member as a span, with the inputs there. */
+ZpSpan zp_statics_span(const ZpStatics *statics, size_t which);
+
+/* How far a held platform is from where it is held, m; 0: it is free. */
+double zp_statics_away(const ZpStatics *statics);
+
+/* The equation of a held platform takes the place of its balance in a derivative r_m [n] of the residual, with the
+ * derivative of that distance. => derivative of the force that holds it; 0: it is free. */
+double zp_statics_hold_rate(const ZpStatics *statics, double away, double *r_m);
+
 /* Derivative of the forces by the voltage, at voltage U and the last residual => r_m [n], N/V. */
 void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
 

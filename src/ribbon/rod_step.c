@@ -196,6 +196,14 @@ void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
   edge_forces(p, edges, s);
 }
 
+void zp_rod_step_scale(const ZpRodParams *p, const double axial[2], const double bending[2], ZpRodStep *s) {
+  for (size_t j = 0; j < edge_count(p); j++)
+    s->T[j] *= axial[j % p->ribbons];
+  for (size_t j = 0; j < edge_count(p) + p->ribbons; j++)
+    s->M[j] *= bending[j % p->ribbons];
+  edge_forces(p, edge_count(p), s);
+}
+
 double zp_rod_step_loss(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, double damping) {
   double sum = 0;
   for (size_t j = 0; j < edge_count(p); j++) {

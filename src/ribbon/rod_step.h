@@ -36,6 +36,10 @@ void zp_rod_step_begin(const ZpRodParams *params, const ZpRodEval *start, ZpRodS
 void zp_rod_step(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping,
                  ZpRodStep *step);
 
+/* Forces of the last zp_rod_step if the stretching and bending stiffness of each ribbon were multiplied by a factor =>
+ * T, M, Rx, Ry. */
+void zp_rod_step_scale(const ZpRodParams *params, const double axial[2], const double bending[2], ZpRodStep *step);
+
 /* What internal damping takes over the step, J. */
 double zp_rod_step_loss(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping);
 

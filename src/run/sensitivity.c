@@ -30,11 +30,10 @@ static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *e
 static ZpStatus create_near(ZpRunSensitivity *rates, ZpKeyRates *of, ZpError *err) {
   const ZpModel *model = rates->sim->model;
   bool straight = model->def.initial.state == ZP_INITIAL_STRAIGHT;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
-    if (!of->by.model[k]) continue;
-    zp_state_along(model, rates->sim->state, of->rate, of->by.offset[k], rates->before);
+  for (int k = 0; k < of->by.count; k++) {
+    zp_state_along(model, rates->sim->state, of->rate, of->by.near[k].offset, rates->before);
     double *q = straight ? NULL : zp_state_q(model, rates->before);
-    of->near[k] = zp_sim_create_at(of->by.model[k], q, rates->before->opening0);
+    of->near[k] = zp_sim_create_at(of->by.near[k].model, q, rates->before->opening0);
     if (!of->near[k]) return zp_fail_memory(err);
     of->near[k]->dynamics.lead = &rates->sim->dynamics;
   }
@@ -44,8 +43,8 @@ static ZpStatus create_near(ZpRunSensitivity *rates, ZpKeyRates *of, ZpError *er
 static void take_rate(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
   const ZpModel *model = rates->sim->model;
   memset(of->rate, 0, zp_state_size(model));
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (of->near[k]) zp_state_add_rate(model, rates->sim->state, of->near[k]->state, of->by.weight[k], of->rate);
+  for (int k = 0; k < of->by.count; k++)
+    zp_state_add_rate(model, rates->sim->state, of->near[k]->state, of->by.near[k].weight, of->rate);
 }
 
 static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRates *of, ZpError *err) {
@@ -87,11 +86,12 @@ ZpStatus zp_run_sensitivity_open(ZpRunSensitivity *rates, ZpSim *sim, const int 
 }
 
 void zp_run_sensitivity_close(ZpRunSensitivity *rates) {
-  for (size_t k = 0; rates->key && k < rates->keys; k++) {
-    for (int i = 0; i < ZP_DIFFERENCE_POINTS; i++)
-      zp_sim_destroy(rates->key[k].near[i]);
-    zp_finite_difference_close(&rates->key[k].by);
-    zp_free(rates->key[k].rate);
+  for (size_t j = 0; rates->key && j < rates->keys; j++) {
+    ZpKeyRates *of = &rates->key[j];
+    for (int k = 0; k < of->by.count; k++)
+      zp_sim_destroy(of->near[k]);
+    zp_finite_difference_close(&of->by);
+    zp_free(of->rate);
   }
   zp_free(rates->key);
   zp_free(rates->before);
@@ -124,7 +124,7 @@ static void begin_near(const ZpRunSensitivity *rates, ZpKeyRates *of, int k, boo
   const ZpSim *sim = rates->sim;
   ZpSim *near = of->near[k];
   double t = time_of(rates, of, k, sim->state->t);
-  zp_state_along(sim->model, sim->state, of->rate, of->by.offset[k], near->state);
+  zp_state_along(sim->model, sim->state, of->rate, of->by.near[k].offset, near->state);
   near->state->t = t;
   set_voltage(sim, near);
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
@@ -140,10 +140,9 @@ void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time) {
   bool at_corner = sim->state->t >= rates->to;
   memcpy(rates->before, sim->state, zp_state_size(sim->model));
   rates->taken = sim->dynamics.stepper.counts.steps;
-  for (size_t j = 0; j < rates->keys; j++)
-    for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-      if (rates->key[j].near[k] && !isfinite(rates->key[j].lost))
-        begin_near(rates, &rates->key[j], k, at_corner, end_time);
+  for (ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
+    for (int k = 0; k < of->by.count && !isfinite(of->lost); k++)
+      begin_near(rates, of, k, at_corner, end_time);
   if (!at_corner) return;
   rates->from = sim->state->t;
   rates->to = corner_of(sim, end_time);
@@ -189,7 +188,7 @@ static bool takes_matrix(const ZpRunSensitivity *rates) {
 }
 
 static double end_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k) {
-  return time_of(rates, of, k, rates->sim->state->t) + of->by.offset[k] * of->late;
+  return time_of(rates, of, k, rates->sim->state->t) + of->by.near[k].offset * of->late;
 }
 
 /* The dynamics of all points of a key, from their present states to the end of the run's step. */
@@ -197,15 +196,14 @@ static bool move(ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   _Static_assert((int)ZP_DIFFERENCE_STEPS == (int)ZP_DIFFERENCE_POINTS, "one step per point");
   ZpDifferenceSteps steps = {.q1 = sim->dynamics.q, .lead = &sim->dynamics.history, .work = rates->work};
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
+  for (int k = 0; k < of->by.count; k++) {
     ZpSim *near = of->near[k];
-    if (!near) continue;
     double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
     if (!zp_sim_prepare(near)) return false;
     zp_dynamics_begin(d, near->states, latest);
     steps.near[steps.count++] = (ZpDifferenceStep){
-        &d->stepper, of->by.offset[k], of->by.weight[k], latest - near->state->t, d->q, d->v, &d->history};
+        &d->stepper, of->by.near[k].offset, of->by.near[k].weight, latest - near->state->t, d->q, d->v, &d->history};
   }
   return zp_implicit_follow(&steps, takes_matrix(rates), rates->motion);
 }
@@ -231,12 +229,11 @@ static double closing_near(const ZpRunSensitivity *rates, const ZpSim *near, dou
 /* Take the neighbours from the start of the run's step to its end. */
 static bool follow_step(ZpRunSensitivity *rates, ZpKeyRates *of, bool moves) {
   const ZpState *now = rates->sim->state, *before = rates->before;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (of->near[k]) memcpy(of->near[k]->state, of->near[k]->before, zp_state_size(of->near[k]->model));
+  for (int k = 0; k < of->by.count; k++)
+    memcpy(of->near[k]->state, of->near[k]->before, zp_state_size(of->near[k]->model));
   if (moves && !move(rates, of)) return false;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++) {
+  for (int k = 0; k < of->by.count; k++) {
     ZpSim *near = of->near[k];
-    if (!near) continue;
     if (moves)
       arrive(near);
     else
@@ -253,12 +250,26 @@ static bool follow_step(ZpRunSensitivity *rates, ZpKeyRates *of, bool moves) {
   return true;
 }
 
-/* Derivative at the end of the step of what is left until the run ends. */
-static double rate_of_left(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
+/* Derivative of a number of the neighbours at the end of the step. */
+static double rate_of(const ZpKeyRates *of, double (*number)(ZpSim *near, const void *user), const void *user) {
   double sum = 0;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (of->near[k]) sum += of->by.weight[k] * zp_sim_left(of->near[k], rates->sim->landing);
+  for (int k = 0; k < of->by.count; k++)
+    sum += of->by.near[k].weight * number(of->near[k], user);
   return sum;
+}
+
+/* Until the run ends. */
+static double left_of(ZpSim *near, const void *landing) {
+  return zp_sim_left(near, *(const ZpLanding *)landing);
+}
+
+static double length_of(ZpSim *near, const void *unused) {
+  (void)unused;
+  return near->state->t - near->before->t;
+}
+
+static double current_of(ZpSim *near, const void *which) {
+  return near->feed.current[*(const int *)which];
 }
 
 /* The last step of a run that ends at an event, eq. (20.10): it ends where nothing is left in the neighbours, too. What
@@ -266,19 +277,13 @@ static double rate_of_left(const ZpRunSensitivity *rates, const ZpKeyRates *of) 
 static bool follow_landing(ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   if (!follow_step(rates, of, true)) return false;
-  double first = rate_of_left(rates, of), trial = first * (sim->state->t - rates->before->t) / sim->left_before;
+  double first = rate_of(of, left_of, &sim->landing),
+         trial = first * (sim->state->t - rates->before->t) / sim->left_before;
   if (first == 0) return true;
   of->late = trial;
   if (!follow_step(rates, of, true)) return false;
-  of->late = trial * first / (first - rate_of_left(rates, of));
+  of->late = trial * first / (first - rate_of(of, left_of, &sim->landing));
   return isfinite(of->late) && follow_step(rates, of, true);
-}
-
-static double rate_of_current(const ZpKeyRates *of, int which) {
-  double sum = 0;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (of->near[k]) sum += of->by.weight[k] * of->near[k]->feed.current[which];
-  return sum;
 }
 
 /* (three currents, the largest in the middle) => the derivative at the vertex of the parabola through them. */
@@ -299,11 +304,11 @@ static void follow_peak(const ZpRunSensitivity *rates, ZpKeyRates *of) {
   const int which = sim->model->supply.resistance > 0 ? ZP_CURRENT_AT_END : ZP_CURRENT_MEAN;
   double start = rates->before->t, end = sim->state->t;
   ZpCurrentRate now = {which == ZP_CURRENT_MEAN ? 0.5 * (start + end) : end, feed->current[which],
-                       rate_of_current(of, which)};
+                       rate_of(of, current_of, &which)};
   bool passed = of->at_peak && feed->largest == ZP_SUPPLY_CURRENTS && start != rates->from && !isnan(of->last[1].t);
   if (passed) of->peak = copysign(1, of->last[0].I) * rate_at_vertex(of->last[1], of->last[0], now);
   if (feed->largest < ZP_SUPPLY_CURRENTS)
-    of->peak = copysign(1, feed->current[feed->largest]) * rate_of_current(of, feed->largest);
+    of->peak = copysign(1, feed->current[feed->largest]) * rate_of(of, current_of, &feed->largest);
   of->at_peak = feed->largest == which;
   of->last[1] = of->last[0];
   of->last[0] = now;
@@ -312,10 +317,9 @@ static void follow_peak(const ZpRunSensitivity *rates, ZpKeyRates *of) {
 /* Derivatives of the square's integral and of the peak, from those of the currents of the run's step. A difference of
  * the neighbours' peaks would compare instants at which only one of them has a peak. */
 static void follow_currents(const ZpRunSensitivity *rates, ZpKeyRates *of) {
-  double mean = rates->sim->feed.current[ZP_CURRENT_MEAN], h = rates->sim->state->t - rates->before->t, dh = 0;
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (of->near[k]) dh += of->by.weight[k] * (of->near[k]->state->t - of->near[k]->before->t);
-  of->square += 2 * mean * rate_of_current(of, ZP_CURRENT_MEAN) * h + mean * mean * dh;
+  const int of_step = ZP_CURRENT_MEAN;
+  double mean = rates->sim->feed.current[of_step], h = rates->sim->state->t - rates->before->t;
+  of->square += 2 * mean * rate_of(of, current_of, &of_step) * h + mean * mean * rate_of(of, length_of, NULL);
   follow_peak(rates, of);
 }
 
@@ -342,11 +346,7 @@ void zp_run_sensitivity_follow(ZpRunSensitivity *rates) {
 
 double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),
                       const void *user) {
-  const ZpKeyRates *of = &rates->key[k];
-  double sum = 0;
-  for (int i = 0; i < ZP_DIFFERENCE_POINTS; i++)
-    if (of->near[i]) sum += of->by.weight[i] * number(of->near[i], user);
-  return sum;
+  return rate_of(&rates->key[k], number, user);
 }
 
 ZpCurrents zp_run_rate_of_currents(const ZpRunSensitivity *rates, size_t k) {

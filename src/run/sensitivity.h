@@ -4,8 +4,8 @@
 #ifndef ZP_SIM_SENSITIVITY_H
 #define ZP_SIM_SENSITIVITY_H
 
-#include "rest/finite_difference.h"
 #include "run/run.h"
+#include "system/by_key.h"
 
 /* A current of the run, its time and its derivative. */
 typedef struct ZpCurrentRate {

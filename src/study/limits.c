@@ -90,8 +90,8 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   Finder *f = user;
   double mass = 0, travel = NAN;
   zp_derive_limits(&f->at.rest, f->limits, order, ZP_LIMIT_KINDS, slope, result);
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (slope->by.model[k]) mass += slope->by.weight[k] * mass_of(slope->by.model[k]);
+  for (int k = 0; k < slope->by.count; k++)
+    mass += slope->by.near[k].weight * mass_of(slope->by.near[k].model);
   if (f->limits->closes)
     travel = slope_of_opening(f, slope, f->limits->start, ZP_SETS_LOAD) -
              slope_of_opening(f, slope, f->limits->closed, ZP_SETS_LOAD | ZP_SETS_VOLTAGE);

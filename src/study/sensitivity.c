@@ -28,10 +28,29 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
                    "compute derivatives");
 }
 
+/* One note names all keys. */
+static void note_difference(ZpResult *result, const char *key) {
+  static const char begin[] = "sensitivity: differences of fourth order stand for derivatives of some forces, by ";
+  for (size_t k = 0; k < result->notes; k++) {
+    char *note = result->note[k];
+    if (strncmp(note, begin, sizeof begin - 1) != 0) continue;
+    size_t size = strlen(note) + strlen(key) + sizeof ", ";
+    char *longer = zp_calloc(size, 1);
+    result->incomplete |= !longer;
+    if (!longer) return;
+    snprintf(longer, size, "%s, %s", note, key);
+    zp_free(note);
+    result->note[k] = longer;
+    return;
+  }
+  zp_result_note(result, "%s%s", begin, key);
+}
+
 ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
   ZpRestSensitivity slope;
   ZpStatus status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
   if (status == ZP_OK) derive(user, &slope, result);
+  if (status == ZP_OK && !slope.exact) note_difference(result, zp_key(key)->name);
   zp_rest_sensitivity_close(&slope);
   return status;
 }
@@ -57,10 +76,10 @@ static double rate_of_closed(ZpRest *rest, ZpRestSensitivity *slope, const doubl
   double hanging = zp_closing_gap(&rest->statics, NULL), rate, sum = 0;
   if (!zp_rest_sensitivity_solve(slope, inputs)) return NAN;
   rate = zp_rest_sensitivity_of(slope, closing_gap, NULL);
-  for (int k = 0; k < ZP_DIFFERENCE_POINTS; k++)
-    if (slope->by.model[k])
-      sum +=
-          slope->by.weight[k] * zp_closed_opening(slope->near[k].member->model, hanging + slope->by.offset[k] * rate);
+  for (int k = 0; k < slope->by.count; k++) {
+    const ZpNeighbour *near = &slope->by.near[k];
+    sum += near->weight * zp_closed_opening(near->model, hanging + near->offset * rate);
+  }
   return sum;
 }
 

@@ -52,6 +52,18 @@ void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double
     law->term->force(model, span, e, F);
 }
 
+static bool is_among(const ZpTerms *terms, const ZpTerm *term) {
+  for (size_t k = 0; k < terms->count; k++)
+    if (terms->term[k] == term) return true;
+  return false;
+}
+
+void zp_system_force_without(const ZpModel *model, const ZpSpan *span, const ZpTerms *without, ZpEval *e, double *F) {
+  memset(F, 0, zp_coordinates(model) * sizeof *F);
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
+    law->term->force(model, span, e, is_among(without, law->term) ? e->unused : F);
+}
+
 static void clear_gaps(const ZpModel *model, const ZpGapDerivatives *gaps) {
   double *const all[] = {gaps->own, gaps->next, gaps->along0, gaps->along1};
   for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)

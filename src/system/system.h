@@ -23,6 +23,15 @@ void zp_system_begin(const ZpModel *model, const ZpSpan *span, ZpEval *eval);
 /* F = sum of the forces of all terms over the span, N. */
 void zp_system_force(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *F);
 
+/* Some laws. */
+typedef struct ZpTerms {
+  const ZpTerm *term[ZP_MOST_TERMS];
+  size_t count;
+} ZpTerms;
+
+/* The same sum without some laws, which are evaluated nevertheless, because others may need what they find. */
+void zp_system_force_without(const ZpModel *model, const ZpSpan *span, const ZpTerms *without, ZpEval *eval, double *F);
+
 /* K += -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
  * symmetric. */
 void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval,

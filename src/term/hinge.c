@@ -28,14 +28,30 @@ static double moment_of(const ZpModel *model, const ZpSpan *span, const ZpEval *
 
 /* The rod has computed the turn of the element over the span, and the mean derivative of the angle by the element's
  * vector. The work of their moment is exactly the decrease of the energy. */
-static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+static void add_moment(const ZpModel *model, const ZpEval *e, double moment, double *F) {
   size_t j = edge_of(model), next = j + model->s;
-  double moment = moment_of(model, span, e), Fx = moment * e->rod_step.gx[j], Fy = moment * e->rod_step.gy[j];
+  double Fx = moment * e->rod_step.gx[j], Fy = moment * e->rod_step.gy[j];
   ZpForces to = zp_forces(model, F);
   to.x[next] += Fx;
   to.y[next] += Fy;
   to.x[j] -= Fx;
   to.y[j] -= Fy;
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  add_moment(model, e, moment_of(model, span, e), F);
+}
+
+/* The spring of the key and half an element are in series. */
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  const double k = model->hinge.stiffness, share = k / model->def.hinge.stiffness;
+  if (key == ZP_KEY(hinge.stiffness))
+    add_moment(model, e, share * share / k * moment_of(model, span, e), F);
+  else if (key == ZP_KEY(hinge.rest_angle))
+    add_moment(model, e, -k * span->share, F);
+  else
+    return false;
+  return true;
 }
 
 /* Minus the derivative of R by the element's vector, eq. (30.3); at rest both ends of the span move. */
@@ -76,4 +92,5 @@ const ZpTerm zp_term_hinge = {.name = "hinge",
                               .force = force,
                               .stiffness = stiffness,
                               .now = energy,
+                              .by_key = by_key,
                               .rules = ZP_RULES_OF(rule)};

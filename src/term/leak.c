@@ -90,6 +90,10 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   sum->capacitance += by->capacitance;
 }
 
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  return !span->memory && zp_term_plates.by_key(model, span, e, key, F);
+}
+
 #define ZP_LEAK(resistivity)                                                                                           \
   ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),                      \
       ZP_RULE(PHYSICS, ZP_SET(resistivity), ZP_ABOVE(insulator.thickness, 0),                                          \
@@ -123,4 +127,5 @@ const ZpTerm zp_term_leak = {.name = "leak",
                              .loss = loss,
                              .electric = electric,
                              .by_voltage = by_voltage,
+                             .by_key = by_key,
                              .rules = ZP_RULES_OF(rule)};

@@ -63,6 +63,47 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   sum->capacitance += by->capacitance;
 }
 
+/* Derivatives of the law's coefficient, over it, and of its d by a key. */
+typedef struct Rate {
+  double k, d; /* 1 and m over the unit of the key */
+} Rate;
+
+/* Of the insulator of one ribbon. */
+static double offset_by_insulator(const ZpModel *model, int ribbon, int key) {
+  const ZpActuatorDef def = ribbon ? zp_def_lower(&model->def) : model->def;
+  const double t = def.insulator.thickness, eps = def.insulator.permittivity;
+  key = zp_def_key_of_ribbon(&model->def, ribbon, key);
+  return key == ZP_KEY(insulator.thickness)      ? def.medium.permittivity / eps
+         : key == ZP_KEY(insulator.permittivity) ? -def.medium.permittivity * t / (eps * eps)
+                                                 : 0;
+}
+
+static Rate rate_of(const ZpModel *model, int key) {
+  const ZpActuatorDef *def = &model->def;
+  const bool insulated = isnan(def->electro.insulator_offset);
+  Rate rate = {0, insulated ? offset_by_insulator(model, 0, key) + offset_by_insulator(model, 1, key) : 0};
+  if (key == ZP_KEY(ribbon.width)) rate.k = 1 / def->ribbon.width;
+  if (key == ZP_KEY(electro.force_scale)) rate.k = 1 / def->electro.force_scale;
+  if (key == ZP_KEY(medium.permittivity))
+    rate = (Rate){1 / def->medium.permittivity, insulated ? model->series.thickness : 0};
+  return rate;
+}
+
+/* Of the law without lateral edges, air, and the authors' switch. */
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  const Rate rate = rate_of(model, key);
+  const ZpPlatesParams *p = &model->plates;
+  ZpPlatesByVoltage *by = &e->by_voltage;
+  if ((rate.k == 0 && rate.d == 0) || p->edges || p->air || p->h_switch_per_volt > 0 || span->paper) return false;
+  zp_plates_rest_by_offset(p, &e->plates, span->U1, &e->attraction, by->Fx, by->Fy);
+  for (size_t j = 0; j < zp_lanes(model); j++) {
+    by->Fx[j] = rate.k * e->attraction.Fx[j] + rate.d * by->Fx[j];
+    by->Fy[j] = rate.k * e->attraction.Fy[j] + rate.d * by->Fy[j];
+  }
+  zp_term_add(model, by->Fx, by->Fy, F);
+  return true;
+}
+
 static const ZpRule rule[] = {
     /* lateral edges */
     ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_LACKS(PLATE),
@@ -86,4 +127,5 @@ const ZpTerm zp_term_plates = {.name = "plates",
                                .stiffness = stiffness,
                                .electric = electric,
                                .by_voltage = by_voltage,
+                               .by_key = by_key,
                                .rules = ZP_RULES_OF(rule)};

@@ -68,6 +68,22 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
 }
 
+/* Stretching and bending are proportional to the stiffness of a ribbon, but for curling and yielding. */
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  double axial[2], bending[2];
+  (void)span;
+  for (size_t r = 0; r < model->s; r++) {
+    const ZpSection section = zp_ribbon_section(model, r);
+    ZpSection rate;
+    if (model->ribbon[r].curl.EI > 0 || model->rod.plastic || !zp_ribbon_by_key(model, r, key, &rate)) return false;
+    axial[r] = rate.EA / section.EA;
+    bending[r] = rate.EI / section.EI;
+  }
+  zp_rod_step_scale(&model->rod, axial, bending, &e->rod_step);
+  zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
+  return true;
+}
+
 static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_rod_eval(&model->rod, now->end, zp_nodes(model, now->end).y, &e->rod);
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
@@ -117,4 +133,5 @@ const ZpTerm zp_term_rod = {.name = "rod",
                             .stiffness = stiffness,
                             .now = hold,
                             .loss = loss,
+                            .by_key = by_key,
                             .rules = ZP_RULES_OF(rule)};

@@ -64,18 +64,39 @@ static double slope_of(const Spring *spring, Way way, bool still) {
   return (push_of(spring, way) - spring->side * spring->k * way.s1) / way.opened;
 }
 
-static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
-  (void)e;
+static void add_push(const ZpModel *model, double push, double *F) {
   const ZpTopology *t = &model->topology;
-  double push = 0, *Fy = zp_forces(model, F).y;
-  for (int k = 0; k < SPRINGS; k++) {
-    Spring spring = spring_of(model, k);
-    if (spring.k > 0) push += span->share * push_of(&spring, way_of(model, &spring, span));
-  }
+  double *Fy = zp_forces(model, F).y;
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     Fy[zp_upper(t, i)] += push;
     Fy[zp_lower(t, i)] -= push;
   }
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  (void)e;
+  double push = 0;
+  for (int k = 0; k < SPRINGS; k++) {
+    Spring spring = spring_of(model, k);
+    if (spring.k > 0) push += span->share * push_of(&spring, way_of(model, &spring, span));
+  }
+  add_push(model, push, F);
+}
+
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  static const struct {
+    int stiffness, rest;
+  } of[SPRINGS] = {{ZP_KEY(load.stiffness), ZP_KEY(load.rest_opening)},
+                   {ZP_KEY(load.stop_stiffness), ZP_KEY(load.stop_opening)}};
+  (void)e;
+  for (int k = 0; k < SPRINGS; k++) {
+    const Spring spring = spring_of(model, k), unit = {zp_end_share(model), spring.rest, spring.side};
+    if (key != of[k].stiffness && key != of[k].rest) continue;
+    const Way way = way_of(model, &spring, span);
+    add_push(model, span->share * (key == of[k].rest ? slope_of(&spring, way, true) : push_of(&unit, way)), F);
+    return true;
+  }
+  return false;
 }
 
 /* Minus the derivative of the force at one end of a platform that turns, whose middle is the mean of both ends. */
@@ -126,4 +147,5 @@ const ZpTerm zp_term_spring = {.name = "spring",
                                .force = force,
                                .stiffness = stiffness,
                                .now = energy,
+                               .by_key = by_key,
                                .rules = ZP_RULES_OF(rule)};

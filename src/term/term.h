@@ -90,6 +90,10 @@ typedef struct ZpTerm {
   /* sum += derivatives of mean force and charge by the voltage, at the last force: of a step whose voltage at the end
    * is unknown, or at rest. NULL: they are 0. */
   void (*by_voltage)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, ZpByVoltage *sum);
+  /* F += derivative of the last force of a still span by a key at fixed coordinates and inputs, N over its unit, in
+   * closed form; false: there is none for this key, and F is as it was. The last force is then gone. NULL: there is
+   * none for any key. Differences of forces replace it (system/by_key.h). */
+  bool (*by_key)(const ZpModel *model, const ZpSpan *span, ZpEval *eval, int key, double *F);
   /* Compute a held force, which is too expensive to compute for every span, at coordinates q and voltage U. If this
    * fails, eval->fault gives the reason. NULL: the term has no held force. */
   bool (*solve)(const ZpModel *model, const double *q, double U, ZpEval *eval);
@@ -97,8 +101,8 @@ typedef struct ZpTerm {
   ZpRules rules;
 } ZpTerm;
 
-/* F += derivative of the forces by the weight ZpSpan.hung, N/N. */
-void zp_weight_by_hung(const ZpModel *model, double *F);
+/* F += change of the forces by as much of ZpSpan.hung and ZpSpan.load. */
+void zp_weight_by_load(const ZpModel *model, double hung, double load, double *F);
 
 #define ZP_TERM(name) extern const ZpTerm zp_term_##name;
 #include "term/terms.def"

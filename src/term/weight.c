@@ -38,8 +38,40 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   add_load(model, span->hung, span->load + span->share * constant_of(model), F);
 }
 
-void zp_weight_by_hung(const ZpModel *model, double *F) {
-  add_load(model, 1, 0, F);
+void zp_weight_by_load(const ZpModel *model, double hung, double load, double *F) {
+  add_load(model, hung, load, F);
+}
+
+/* Of the ribbons, by a key of their sections; a node's mass is proportional to its ribbon's. */
+static bool add_ribbons(const ZpModel *model, double share, int key, double *F) {
+  ZpForces to = zp_forces(model, F);
+  ZpSection rate[2];
+  for (size_t r = 0; r < model->s; r++)
+    if (zp_ribbon_section(model, r).mu == 0 || !zp_ribbon_by_key(model, r, key, &rate[r])) return false;
+  for (size_t j = 0; j < model->count; j++) {
+    const size_t r = j % model->s;
+    double weight = zp_ribbon_mass(model, j) * model->def.gravity * rate[r].mu / zp_ribbon_section(model, r).mu;
+    to.x[j] += share * model->fall[0] * weight;
+    to.y[j] += share * model->fall[1] * weight;
+  }
+  return true;
+}
+
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  (void)e;
+  const double carried = span->share * zp_load_share(model);
+  ZpForces to = zp_forces(model, F);
+  if (key == ZP_KEY(gravity)) {
+    add(zp_lanes(model), span->share * model->fall[0], model->mass, to.x);
+    add(zp_lanes(model), span->share * model->fall[1], model->mass, to.y);
+  } else if (key == ZP_KEY(load.mass)) {
+    add_load(model, carried * model->def.gravity, 0, F);
+  } else if (key == ZP_KEY(load.force)) {
+    add_load(model, 0, carried, F);
+  } else {
+    return add_ribbons(model, span->share, key, F);
+  }
+  return true;
 }
 
 static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
@@ -69,4 +101,5 @@ const ZpTerm zp_term_weight = {.name = "weight",
                                .row = {&zp_row_gravity_energy, &zp_row_catch_loss},
                                .force = force,
                                .now = energy,
+                               .by_key = by_key,
                                .rules = ZP_RULES_OF(rule)};
