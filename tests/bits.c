@@ -210,7 +210,7 @@ static void print_elementary(void) {
 static void print_skyline(void) {
   enum { N = 75 };
   size_t first[N];
-  double b[N], lanes[(N + ZP_LANES) * ZP_LANES];
+  double b[N];
   uint64_t seed = 1;
   for (size_t i = 0; i < N; i++)
     first[i] = (size_t)((double)i * (0.5 + 0.5 * next_random(&seed)));
@@ -221,15 +221,11 @@ static void print_skyline(void) {
       *zp_skyline_at(&s, i, j) = next_random(&seed);
     *zp_skyline_at(&s, i, i) = N;
     b[i] = next_random(&seed);
-    for (size_t side = 0; side < ZP_LANES; side++)
-      lanes[i * ZP_LANES + side] = next_random(&seed);
   }
   if (!zp_skyline_factor(&s)) exit(1);
   zp_skyline_solve(&s, b);
-  zp_skyline_solve_lanes(&s, lanes);
   put_array("skyline", s.a, s.tiles * ZP_LANES * ZP_LANES);
   put_array("skyline, solved", b, N);
-  put_array("skyline, sides", lanes, N * ZP_LANES);
   zp_skyline_destroy(&s);
 }
 

@@ -144,32 +144,6 @@ TEST(test_is_lapack) {
   ck_below(worst, 1e-14); /* measured: 7e-16 */
 }
 
-/* Each of the right-hand sides that are solved together is what it is alone, bit by bit. */
-TEST(test_lanes_are_single_solves) {
-  for (Shape shape = 0; shape < SHAPES; shape++)
-    for (size_t k = 0; k < LENGTH_OF(sizes); k++) {
-      uint64_t seed = k + 1;
-      Case c = random_case(shape, sizes[k], seed);
-      size_t places = zp_round_up(c.n) * ZP_LANES;
-      double *together = numbers(places), *b = numbers(places), *alone = numbers(c.n);
-      for (size_t i = 0; i < places; i++)
-        together[i] = b[i] = i < c.n * ZP_LANES ? noise(&seed) : NAN; /* whatever stands behind the rows */
-      ck_assert(zp_skyline_factor(&c.s));
-      zp_skyline_solve_lanes(&c.s, together);
-      for (size_t side = 0; side < ZP_LANES; side++) {
-        for (size_t i = 0; i < c.n; i++)
-          alone[i] = b[i * ZP_LANES + side];
-        zp_skyline_solve(&c.s, alone);
-        for (size_t i = 0; i < c.n; i++)
-          ck_assert_mem_eq(&together[i * ZP_LANES + side], &alone[i], sizeof *alone);
-      }
-      zp_free(together);
-      zp_free(b);
-      zp_free(alone);
-      destroy(&c);
-    }
-}
-
 /* -- a grid, its rows one after the other: (-1 -1 4 -1 -1), sin sin is an eigenvector -------------------- */
 
 TEST(test_grid) {

@@ -49,8 +49,4 @@ bool zp_skyline_factor(ZpSkyline *s);
 /* Solve with the factor: b [n] => x, in place. */
 void zp_skyline_solve(const ZpSkyline *s, double *b);
 
-/* ZP_LANES right-hand sides at once, with the same bits, each for a third or less of the time. Row i of side r
- * is b[i * ZP_LANES + r]; there is room for zp_round_up(n) rows, the last of which become 0. */
-void zp_skyline_solve_lanes(const ZpSkyline *s, double *b);
-
 #endif
