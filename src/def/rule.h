@@ -38,7 +38,6 @@ typedef enum ZpTest {
   ZP_TEST_SEVERAL,    /* several members: zp_def_members */
   ZP_TEST_HAS,        /* the device of this actuator.kind has any of a set of ZP_DEVICE_ bits */
   ZP_TEST_LACKS,      /* it has none of them */
-  ZP_TEST_UNEQUAL,    /* parallel members that differ: zp_def_parallel */
   ZP_TEST_NEVER       /* never holds */
 } ZpTest;
 
@@ -66,7 +65,6 @@ typedef struct ZpCondition {
 #define ZP_HAS(device)            ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_##device)
 #define ZP_LACKS(device)          ZP_CONDITION(actuator.kind, LACKS, ZP_DEVICE_##device)
 #define ZP_SEVERAL                ZP_CONDITION(stack.series, SEVERAL, 0)
-#define ZP_UNEQUAL                ZP_CONDITION(stack.parallel, UNEQUAL, 0)
 #define ZP_BIT(word)              (1 << (word))
 
 /* If `when` and `also` hold, `needs` must hold. */

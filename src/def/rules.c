@@ -66,8 +66,6 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
     return key_of(c, def) >= 0;
   case ZP_TEST_SEVERAL:
     return zp_def_members(def) > 1;
-  case ZP_TEST_UNEQUAL:
-    return zp_def_parallel(def);
   default:
     return holds_for(c, value_of(def, c->key));
   }
@@ -126,74 +124,50 @@ static void show_value(int key, double value, char text[VALUE]) {
     snprintf(text, VALUE, "%g%s%s", value, pure ? "" : " ", pure ? "" : k->unit);
 }
 
-/* The bits of all words of a choice key but one. */
-static unsigned others(int key, double word) {
-  return ((2U << (unsigned)zp_key(key)->max) - 1) & ~(1U << (unsigned)word);
-}
-
-/* The bits of the kinds for which a condition on their devices holds. */
-static unsigned kinds_of(const ZpCondition *c) {
+/* The words of a choice key for which a condition holds: "ramp, sine or square". */
+static void show_words(const ZpCondition *c, char text[VALUE]) {
+  const ZpKey *key = zp_key(c->key);
   unsigned bits = 0;
-  for (int kind = 0; kind < ZpActuatorKind_COUNT; kind++)
-    if (holds_for(c, kind)) bits |= 1U << (unsigned)kind;
-  return bits;
-}
-
-/* "ramp, sine or square" */
-static void show_words(int key, unsigned bits, char text[VALUE]) {
   size_t used = 0;
   text[0] = 0;
+  for (int word = 0; word <= (int)key->max; word++)
+    if (holds_for(c, word)) bits |= 1U << (unsigned)word;
   for (int word = 0; bits >> word; word++) {
     if (!(bits >> word & 1)) continue;
     const char *between = used == 0 ? "" : bits >> word == 1 ? " or " : ", ";
-    used += (size_t)snprintf(text + used, VALUE - used, "%s%s", between, zp_key(key)->choices[word].word);
+    used += (size_t)snprintf(text + used, VALUE - used, "%s%s", between, key->choices[word].word);
   }
 }
 
 void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
-  const char *name = zp_key(c->key)->name;
+  static const char *const before[] = {[ZP_TEST_IS_NOT] = " other than",
+                                       [ZP_TEST_ABOVE] = " above",
+                                       [ZP_TEST_AT_LEAST] = " at least",
+                                       [ZP_TEST_AT_MOST] = " at most",
+                                       [ZP_TEST_NEVER] = ""};
+  const ZpKey *key = zp_key(c->key);
+  const bool is_set_of_words = key->type == ZP_KEY_ENUM && c->test != ZP_TEST_UNSET;
   char value[VALUE];
-  if (c->test == ZP_TEST_IS_NOT && zp_key(c->key)->type == ZP_KEY_ENUM) {
-    show_words(c->key, others(c->key, c->value), value);
-    snprintf(text, size, "%s %s", name, value);
-    return;
-  }
+  if (is_set_of_words)
+    show_words(c, value);
+  else
+    show_value(c->key, c->test == ZP_TEST_UNSET ? key->def : c->value, value);
   switch (c->test) {
   case ZP_TEST_ANY:
   case ZP_TEST_NEVER:
-    snprintf(text, size, "%s", "");
-    break;
-  case ZP_TEST_HAS:
-  case ZP_TEST_LACKS:
-    show_words(c->key, kinds_of(c), value);
-    snprintf(text, size, "%s %s", name, value);
-    break;
-  case ZP_TEST_ONE_OF:
-    show_words(c->key, (unsigned)c->value, value);
-    snprintf(text, size, "%s %s", name, value);
+    *text = 0;
     break;
   case ZP_TEST_SET:
-    snprintf(text, size, "%s", name);
+    snprintf(text, size, "%s", key->name);
     break;
   case ZP_TEST_SET_WITHIN:
-    snprintf(text, size, "%s to %s", name, zp_key((int)c->value)->name);
+    snprintf(text, size, "%s to %s", key->name, zp_key((int)c->value)->name);
     break;
   case ZP_TEST_SEVERAL:
     snprintf(text, size, "stack with several members");
     break;
-  case ZP_TEST_UNEQUAL:
-    snprintf(text, size, "%s with unequal members", name);
-    break;
-  default: {
-    static const char *const word[] = {[ZP_TEST_IS] = " ",
-                                       [ZP_TEST_UNSET] = " ",
-                                       [ZP_TEST_IS_NOT] = " other than ",
-                                       [ZP_TEST_ABOVE] = " above ",
-                                       [ZP_TEST_AT_LEAST] = " at least ",
-                                       [ZP_TEST_AT_MOST] = " at most "};
-    show_value(c->key, c->test == ZP_TEST_UNSET ? zp_key(c->key)->def : c->value, value);
-    snprintf(text, size, "%s%s%s", name, word[c->test], value);
-  }
+  default:
+    snprintf(text, size, "%s%s %s", key->name, is_set_of_words || !before[c->test] ? "" : before[c->test], value);
   }
 }
 
@@ -201,7 +175,7 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
 static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[WORDS]) {
   int key = key_of(c, def);
   char value[VALUE];
-  bool unequal = zp_def_parallel(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_UNEQUAL);
+  bool unequal = zp_def_parallel(def) && c->test == ZP_TEST_SEVERAL;
   show_value(key, value_of(def, key), value);
   if (zp_key(key)->type == ZP_KEY_TEXT)
     snprintf(text, WORDS, "%s", zp_key(key)->name);
