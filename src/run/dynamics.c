@@ -657,7 +657,8 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   reserve(d, d->memory);
   fill_equations(d);
   const ZpActuatorDef *def = &model->def;
-  d->stepper.balance = 2e-6 * error_of_step(def);
+  d->error = error_of_step(def);
+  d->stepper.balance = 2e-6 * d->error;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
   return true;
 }
@@ -706,7 +707,7 @@ static double far(const ZpModel *model, const ZpState *state) {
 static void set_accuracy(ZpDynamics *d, const ZpState *state) {
   const ZpModel *model = d->member->model;
   double reference = far(model, state);
-  d->stepper.accuracy = error_of_step(&model->def) * reference;
+  d->stepper.accuracy = d->error * reference;
   if (d->source) d->scale[voltage_of(d)] = d->source->scale * of_length / reference;
 }
 

@@ -49,6 +49,7 @@ typedef struct ZpDynamics {
   double *column, *row;   /* [n] column and row of the voltage in the matrix */
   ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
   double chord;
+  double error;                  /* of a step, at most, as a share of the reference length, eq. (18.12) */
   bool settles;                  /* without a film, each step removes velocities that are too fast for it, not only
                                     after impacts: for a search of motion that has settled */
   bool filters;                  /* the last step has removed velocities that are too fast for it */
