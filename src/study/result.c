@@ -22,19 +22,6 @@ void zp_result_forget_states(ZpResult *result) {
   result->limits = NULL;
 }
 
-void zp_result_forget_notes(ZpResult *result) {
-  while (result->notes > 0)
-    zp_free(result->note[--result->notes]);
-  result->incomplete = false;
-}
-
-void zp_result_clear(ZpResult *result) {
-  zp_table_destroy(result->series);
-  result->series = NULL;
-  result->scalars = result->sensitivities = 0;
-  zp_result_forget_notes(result);
-}
-
 void zp_result_destroy(ZpResult *result) {
   if (!result) return;
   zp_result_clear(result);

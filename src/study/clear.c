@@ -1,0 +1,16 @@
+/* Parts of a result are taken away. */
+#include "base/memory.h"
+#include "study/result.h"
+
+void zp_result_forget_notes(ZpResult *result) {
+  while (result->notes > 0)
+    zp_free(result->note[--result->notes]);
+  result->incomplete = false;
+}
+
+void zp_result_clear(ZpResult *result) {
+  zp_table_destroy(result->series);
+  result->series = NULL;
+  result->scalars = result->sensitivities = 0;
+  zp_result_forget_notes(result);
+}
