@@ -290,14 +290,6 @@ static bool closes_as_neighbour(Finder *f) {
 
 /* -- the limits ------------------------------------------------------------------------------------- */
 
-/* Under its own load. */
-static bool hang_first(Finder *f) {
-  ZpLimits *limits = f->limits;
-  if (f->near && f->near->hangs) take(f, f->near->start);
-  limits->hangs = hang(f, limits->start, &limits->hanging);
-  return limits->hangs;
-}
-
 /* A voltage that rises to drive.voltage. */
 static ZpQuasistaticEnd raise_voltage(Finder *f) {
   ZpLimit *limit = f->limits->limit;
@@ -406,7 +398,9 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   const ZpModel *model = rest->statics.member->model;
   Finder f = {.rest = rest, .model = model, .near = near, .limits = limits, .top = model->def.drive.voltage};
   none_from(&f, 0, "without a voltage there is none");
-  if (!hang_first(&f) || !model->field || f.top == 0) return;
+  if (near && near->hangs) take(&f, near->start);
+  limits->hangs = hang(&f, limits->start, &limits->hanging);
+  if (!limits->hangs || !model->field || f.top == 0) return;
   none_from(&f, 0, "it hangs closed");
   if (limits->hanging <= zp_closed_opening(model, 0)) return;
   ZpQuasistaticEnd up = raise_voltage(&f);

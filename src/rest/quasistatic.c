@@ -233,14 +233,6 @@ static double depth_of(ZpRest *r, const Side *side, double m) {
   return side->sign * (1 - (along_load(r) ? ratio : sqrt(ratio)));
 }
 
-/* If the branch rises again after its lowest point, its distance from the limit is least there: this is the limit's
- * room. */
-static void go_below(ZpRest *r, Side *side, ZpLimit *limit, double m) {
-  double below = depth_of(r, side, m);
-  if (below < side->deepest) limit->room = fmin(limit->room, below);
-  side->deepest = fmax(side->deepest, below);
-}
-
 /* A point of the branch, `at` steps from the limit: the parameter and its derivative by the steps. */
 typedef struct Place {
   double at, m, slope;
@@ -342,7 +334,9 @@ static ZpAround look(ZpRest *r, ZpLimit *limit, double sign, double whole) {
     if (around != ZP_NOTHING_HIGHER) return around;
     if (is_higher(&side, here.m))
       return go_to_point(r, limit, &side, here.at) ? climb_on(r, side.m, sign) : ZP_OUT_OF_SIGHT;
-    go_below(r, &side, limit, here.m);
+    double below = depth_of(r, &side, here.m);
+    if (below < side.deepest) limit->room = fmin(limit->room, below); /* it rises again after its lowest point */
+    side.deepest = fmax(side.deepest, below);
     step = fmin(2 * step, 1);
     last = here;
   }
@@ -381,25 +375,11 @@ static ZpAround climb(ZpRest *r, ZpLimit *limit, double sign) {
   return around;
 }
 
-/* The track has lost the branch while it was stable: fall to a state a little further. False if this would close or
- * open the actuator, because no limit point was found there. */
-static bool go_on_from_lost(ZpRest *r, double sign) {
-  return fall(r, sign, FROM_LOST) && zp_quasistatic_is_closed(r) == r->was_closed;
-}
-
 /* -- a slow change -------------------------------------------------------------------------------- */
 
 /* Is the present point a closed state that cannot be? Beyond it nothing tells when the actuator opens. */
 static bool has_become_impossible(ZpRest *r) {
   return r->was_closed && zp_quasistatic_is_closed(r) && zp_statics_fault(&r->statics);
-}
-
-/* From a crest beyond `target` back to the stable state before it. A lower crest of the same ripple comes before the
- * target, and the actuator falls from there into that state. */
-static ZpQuasistaticEnd stop_before(ZpRest *r, double target) {
-  r->track.fold.system->set(&r->statics, target);
-  return zp_newton_good(zp_statics_relax_until(&r->statics, NULL, NULL).end) ? ZP_QUASISTATIC_ARRIVED
-                                                                             : ZP_QUASISTATIC_LOST;
 }
 
 /* Change the parameter slowly to `target`, or until the actuator closes or opens: that limit is `at`. The first limit
@@ -413,14 +393,20 @@ static ZpQuasistaticEnd change(ZpRest *r, double target, double enough, ZpLimit 
     if (zp_statics_asked_to_stop(&r->statics)) return ZP_QUASISTATIC_STOPPED;
     ZpTrackEnd end = zp_track(&r->track, target);
     if (end == ZP_TRACK_ARRIVED) return ZP_QUASISTATIC_ARRIVED;
-    if (end == ZP_TRACK_LOST && !go_on_from_lost(r, sign)) return ZP_QUASISTATIC_LOST;
-    if (end == ZP_TRACK_LOST) continue;
+    if (end == ZP_TRACK_LOST) { /* while it was stable: resume from a state a little further */
+      if (!fall(r, sign, FROM_LOST) || zp_quasistatic_is_closed(r) != r->was_closed) return ZP_QUASISTATIC_LOST;
+      continue;
+    }
     zp_quasistatic_note(r, at, end);
     if (has_become_impossible(r)) return ZP_QUASISTATIC_IMPOSSIBLE;
     if (end == ZP_TRACK_EVENT) return ZP_QUASISTATIC_CHANGED;
     if (climb(r, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(r) - enough) >= 0) return ZP_QUASISTATIC_BEYOND;
-    if (sign * (parameter(r) - target) > 0) return stop_before(r, target);
+    if (sign * (parameter(r) - target) > 0) { /* a lower crest of this ripple is before it: fall from there */
+      r->track.fold.system->set(&r->statics, target);
+      bool stays = zp_newton_good(zp_statics_relax_until(&r->statics, NULL, NULL).end);
+      return stays ? ZP_QUASISTATIC_ARRIVED : ZP_QUASISTATIC_LOST;
+    }
     double m = parameter(r), gap = open_gap(&r->statics);
     bool found = fall_from(r, at, sign), jumped = zp_quasistatic_is_closed(r) != r->was_closed;
     bool is_first = first && first->end == ZP_TRACK_ARRIVED;
@@ -481,13 +467,6 @@ static double gap_above_overlap(void *self, double *row) {
   return zp_closing_gap(self, row) + 2 * s->member->closed;
 }
 
-/* The actuator has closed gradually: is there a limit point further up, before faces overlap by as much as they were
- * apart? Two that are close to each other are seen along the gap only. */
-static void seek_pull_in(ZpRest *r, double top, ZpLimit *pull_in) {
-  r->track.event = gap_above_overlap;
-  if (zp_track(&r->track, top * top) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
-}
-
 ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pull_in, ZpLimit *closing) {
   static const char *const lost = "the hanging state was lost as the voltage rose";
   zp_limit_none(pull_in, "no limit point up to drive.voltage");
@@ -498,7 +477,11 @@ ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pul
   if (end == ZP_QUASISTATIC_LOST && isnan(pull_in->value)) lose(pull_in, lost);
   if (end == ZP_QUASISTATIC_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
   bool gradually = end == ZP_QUASISTATIC_CHANGED && closing->end == ZP_TRACK_EVENT;
-  if (gradually && isnan(pull_in->value)) seek_pull_in(r, top, pull_in);
+  if (!gradually || !isnan(pull_in->value)) return end;
+  /* Is there a limit point further up, before faces overlap by as much as they were apart? Two that are close to each
+   * other are seen along the gap only. */
+  r->track.event = gap_above_overlap;
+  if (zp_track(&r->track, top * top) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
   return end;
 }
 

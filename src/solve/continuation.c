@@ -27,19 +27,14 @@ void zp_branch_reserve(ZpBranch *b, const ZpBranchSystem *system, ZpNewtonWork *
   b->saved_before = zp_arena_take(arena, saved);
 }
 
-/* Negative eigenvalues for motions in which equal parts move alike, as they do along a branch. The common unknowns are
- * coupled to each part in the same way. So each eigenvalue of a part alone occurs once for each part, and at most one
- * more belongs to them together. */
-static size_t negative_of_part(const ZpParts *parts, size_t negative) {
-  return (negative + parts->more) / (1 + parts->more);
-}
-
-/* Is the determinant of the factored stiffness negative, for motions in which equal parts and systems move alike? Where
- * others change its sign another branch crosses this one, which goes on. */
+/* Is the determinant of the factored stiffness negative, for motions in which equal parts and systems move alike, as
+ * they do along a branch? Where others change its sign another branch crosses this one, which goes on. The common
+ * unknowns are coupled to each part in the same way. So each eigenvalue of a part alone occurs once for each part, and
+ * at most one more belongs to them together. */
 static bool is_negative(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
-  size_t negative = zp_band_negative(&b->newton->K) / (sys->alike > 0 ? sys->alike : 1);
-  return negative_of_part(&sys->at_rest.parts, negative) % 2 == 1;
+  size_t negative = zp_band_negative(&b->newton->K) / (sys->alike > 0 ? sys->alike : 1), more = sys->at_rest.parts.more;
+  return (negative + more) / (1 + more) % 2 == 1;
 }
 
 /* K^-1 x => x, of which only what moves equal systems alike. Where another branch crosses, rounding would lead to it.

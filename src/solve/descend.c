@@ -3,13 +3,6 @@
 
 #include <math.h>
 
-static double largest_diagonal(const ZpBand *K) {
-  double largest = 0;
-  for (size_t i = 0; i < K->n; i++)
-    largest = fmax(largest, fabs(*zp_band_at(K, i, i)));
-  return largest;
-}
-
 /* K + c, factored, with a c that makes it positive definite. *c becomes 0 if K alone is so. => false if no c is
  * enough */
 static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewtonWork *work) {
@@ -42,7 +35,8 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
     bool floor = !close && zp_closing_stalled(&closing, info.residual, tolerance);
     if (info.iterations == 0) {
       system->stiffness(system->self, &work->K, NULL);
-      stiffest = largest_diagonal(&work->K);
+      for (size_t i = 0; i < work->K.n; i++)
+        stiffest = fmax(stiffest, fabs(*zp_band_at(&work->K, i, i)));
       c = at_first * stiffest;
     }
     info.end = ZP_NEWTON_SINGULAR;

@@ -114,14 +114,11 @@ static bool polish(ZpTrack *m) {
   return zp_newton_good(zp_newton(rest, m->fold.tolerance, MOST, m->fold.newton).end) && is_stable(m);
 }
 
-/* The same, as accurate as a step on the way needs it. */
-static bool settle(ZpTrack *m) {
-  return m->to == ZP_FOLD_EXACT ? polish(m) : zp_fold_rest(&m->fold) && m->fold.negative == 0;
-}
-
 /* One step along m. */
 static bool try_step(ZpTrack *m, double dm, double way) {
-  return predict(m, way, dm) && settle(m) && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
+  if (!predict(m, way, dm)) return false;
+  bool stable = m->to == ZP_FOLD_EXACT ? polish(m) : zp_fold_rest(&m->fold) && m->fold.negative == 0;
+  return stable && agrees(m, 0.5 * dm, 0.5 * dm) && value_agrees(m, dm);
 }
 
 /* -- along the event's value ------------------------------------------------------------------------ */
@@ -129,11 +126,6 @@ static bool try_step(ZpTrack *m, double dm, double way) {
 /* The scale of the event's value: below a thousandth of its limit it does not count. */
 static double scale(const ZpTrack *m) {
   return fmax(fabs(m->value), 1e-3 * fabs(m->limit));
-}
-
-/* Does the value change faster than the parameter, relative to both? */
-static bool is_steep(const ZpTrack *m) {
-  return m->event && fabs(m->slope * m->m) > scale(m);
 }
 
 static bool solve_at(ZpTrack *m, double value, ZpFoldTo to) {
@@ -205,23 +197,21 @@ static bool solve_between(ZpTrack *m, double sign, double value) {
   return between && fabs(gone - parabola) < part * fabs(gone);
 }
 
-/* The limit point that the step to `value` has passed. */
-static bool find_fold(ZpTrack *m, double sign, double value, double far) {
-  static const double close = 1e-3; /* of m: nearer, halving is surer */
-  if (solve_between(m, sign, value)) return true;
-  return fabs(far) <= close * fabs(m->m) && halve(m, sign, value) && refine(m);
-}
-
 typedef enum Step { STEP_GOOD, STEP_TOO_LONG, STEP_FOLD, STEP_EVENT } Step;
 
 /* One step along the value of the event, which changes to `value`. */
 static Step step_along_value(ZpTrack *m, double sign, double value) {
-  static const double off = 0.25;  /* of the change of m: with more, it has turned twice on the way */
-  static const double tiny = 1e-6; /* of m: less does not matter, and where the stiffness jumps no step agrees */
+  static const double close = 1e-3; /* of m: nearer to a limit point, halving is surer */
+  static const double off = 0.25;   /* of the change of m: with more, it has turned twice on the way */
+  static const double tiny = 1e-6;  /* of m: less does not matter, and where the stiffness jumps no step agrees */
   double far = (value - m->value) / m->slope;
   if (!predict(m, far, far) || !solve_at(m, value, value == m->limit ? ZP_FOLD_EXACT : m->to)) return STEP_TOO_LONG;
   double gone = parameter(m) - m->m, half = 0.5 * (value - m->value);
-  if (m->fold.negative > 0 || sign * gone < 0) return find_fold(m, sign, value, gone) ? STEP_FOLD : STEP_TOO_LONG;
+  if (m->fold.negative > 0 || sign * gone < 0) { /* it has passed the limit point */
+    bool found =
+        solve_between(m, sign, value) || (fabs(gone) <= close * fabs(m->m) && halve(m, sign, value) && refine(m));
+    return found ? STEP_FOLD : STEP_TOO_LONG;
+  }
   if (m->to == ZP_FOLD_EXACT && !is_stable(m)) return STEP_TOO_LONG;
   m->event(m->fold.system->at_rest.self, m->guess);
   double slope = zp_dot(m->fold.system->at_rest.n, m->guess, m->fold.along), from = half / m->slope, to = half / slope;
@@ -251,17 +241,6 @@ static double longest_step(ZpTrack *m, double target, double grown) {
   return fmin(h, part * m->to_fold);
 }
 
-/* Along the parabola of the limit point ahead, or along the tangent. */
-static double way_of(const ZpTrack *m, double h) {
-  double x = h / m->to_fold;
-  return x < 0.9 ? h * 2 / (1 + sqrt(1 - x)) : h;
-}
-
-/* Has the event been passed? */
-static bool is_past(const ZpTrack *m, double before) {
-  return m->event && (before - m->limit) * (m->event(m->fold.system->at_rest.self, m->guess) - m->limit) < 0;
-}
-
 /* One step along m, of at most `part` of the best estimate. */
 static Step step_along_m(ZpTrack *m, double sign, double target, double part) {
   static const double close = 0.35; /* of m at the limit point */
@@ -271,9 +250,11 @@ static Step step_along_m(ZpTrack *m, double sign, double target, double part) {
     if (try_fold(m, sign, m->to_fold) && sign * (target - parameter(m)) > 0) return STEP_FOLD;
     go_back(m);
   }
-  double h = fmin(part, 1) * longest_step(m, target, fmax(part, 1));
-  if (!try_step(m, sign * h, sign * way_of(m, h))) return STEP_TOO_LONG;
-  if (!is_past(m, m->value)) return STEP_GOOD;
+  double h = fmin(part, 1) * longest_step(m, target, fmax(part, 1)), x = h / m->to_fold, before = m->value;
+  double way = x < 0.9 ? h * 2 / (1 + sqrt(1 - x)) : h; /* along the parabola of the limit point ahead */
+  if (!try_step(m, sign * h, sign * way)) return STEP_TOO_LONG;
+  bool past = m->event && (before - m->limit) * (m->event(m->fold.system->at_rest.self, m->guess) - m->limit) < 0;
+  if (!past) return STEP_GOOD;
   go_back(m);
   return step_along_value(m, sign, m->limit);
 }
@@ -311,8 +292,9 @@ static ZpTrackEnd track(ZpTrack *m, double target) {
   keep(m, true);
   for (int k = 0; k < MOST && part > shortest && !creeps(m); k++) {
     if (sign * (target - m->m) <= rounding * fabs(target)) return polish(m) ? ZP_TRACK_ARRIVED : ZP_TRACK_LOST;
-    Step step = is_steep(m) ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1)))
-                            : step_along_m(m, sign, target, part);
+    bool steep = m->event && fabs(m->slope * m->m) > scale(m); /* the value changes faster, relative to both */
+    Step step =
+        steep ? step_along_value(m, sign, next_value(m, sign, fmin(part, 1))) : step_along_m(m, sign, target, part);
     bool beyond = step != STEP_TOO_LONG && sign * (parameter(m) - target) > 0;
     if (beyond) {
       go_back(m);

@@ -201,36 +201,22 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
                                : "the zip time is not a prediction: the drag of the liquid is not modelled");
 }
 
-/* What the liquid has done. */
-static void summarize_liquid(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "film_thickness_m", "m", zp_at_end(sim, result, "film_thickness"));
-  zp_result_add(result, "viscous_loss_J", "J", zp_at_end(sim, result, "viscous_loss"));
-  zp_result_add(result, "film_along_loss_J", "J", zp_at_end(sim, result, "film_along_loss"));
-  zp_result_add(result, "film_across_loss_J", "J", zp_at_end(sim, result, "film_across_loss"));
-  zp_result_add(result, "jet_loss_J", "J", zp_at_end(sim, result, "jet_loss"));
-  zp_result_add(result, "outer_drag_loss_J", "J", zp_at_end(sim, result, "outer_drag_loss"));
+/* Add what these signals, up to NULL, are at the end. */
+static void add_at_end(ZpSim *sim, ZpResult *result, const char *const *signal) {
+  size_t count;
+  const ZpColumn *column = zp_signal_columns(&count);
+  for (; *signal; signal++)
+    for (size_t k = 0; k < count; k++)
+      if (strcmp(zp_signal_name(k), *signal) == 0)
+        zp_result_add(result, column[k].name, column[k].unit, zp_at_end(sim, result, *signal));
 }
 
-/* The energy lost by leakage, and the remaining charge. */
-static void summarize_leak(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "leak_loss_J", "J", zp_at_end(sim, result, "leak_loss"));
-  zp_result_add(result, "leak_current_A", "A", zp_at_end(sim, result, "leak_current"));
-  zp_result_add(result, "interface_voltage_V", "V", zp_at_end(sim, result, "interface_voltage"));
-}
-
-/* What has yielded. */
-static void summarize_plastic(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "plastic_loss_J", "J", zp_at_end(sim, result, "plastic_loss"));
-  zp_result_add(result, "permanent_curvature_per_m", "1/m", zp_at_end(sim, result, "permanent_curvature"));
-}
-
-static void summarize_bead(ZpSim *sim, ZpResult *result) {
-  zp_result_add(result, "meniscus_loss_J", "J", zp_at_end(sim, result, "meniscus_loss"));
-  zp_result_add(result, "wet_length_m", "m", zp_at_end(sim, result, "wet_length"));
-  zp_result_add(result, "bead_outside_m3", "m3", zp_at_end(sim, result, "bead_outside"));
-  zp_result_add(result, "bead_lost_m3", "m3", zp_at_end(sim, result, "bead_lost"));
-  zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
-}
+static const char *const of_film[] =
+    {"film_thickness", "viscous_loss", "film_along_loss", "film_across_loss", "jet_loss", "outer_drag_loss", NULL},
+                         *const of_leak[] = {"leak_loss", "leak_current", "interface_voltage", NULL},
+                         *const of_yielding[] = {"plastic_loss", "permanent_curvature", NULL},
+                         *const of_catch[] = {"catch_loss", NULL},
+                         *const of_bead[] = {"meniscus_loss", "wet_length", "bead_outside", "bead_lost", NULL};
 
 /* Losses and signals of laws that signals.def does not list. */
 static void summarize_laws(ZpSim *sim, ZpResult *result) {
@@ -286,12 +272,12 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
   if (zp_is_pair(&model->topology)) summarize_actuator(sim, stop, result);
-  if (model->has_film) summarize_liquid(sim, result);
-  if (model->leaks) summarize_leak(sim, result);
-  if (model->rod.plastic) summarize_plastic(sim, result);
-  if (!isnan(model->whole.load.change_time))
-    zp_result_add(result, "catch_loss_J", "J", zp_at_end(sim, result, "catch_loss"));
-  if (model->has_bead) summarize_bead(sim, result);
+  if (model->has_film) add_at_end(sim, result, of_film);
+  if (model->leaks) add_at_end(sim, result, of_leak);
+  if (model->rod.plastic) add_at_end(sim, result, of_yielding);
+  if (!isnan(model->whole.load.change_time)) add_at_end(sim, result, of_catch);
+  if (model->has_bead) add_at_end(sim, result, of_bead);
+  if (model->has_bead) zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
   summarize_laws(sim, result);
   summarize_members(sim, model, result);
   zp_result_add(result, "stroke_m", "m", zp_at_end(sim, result, "stroke"));

@@ -222,15 +222,6 @@ static double size_of_response(const Cycles *c) {
   return fmax(c->response.size, rounding * c->far);
 }
 
-static double rate_of_response(const Cycles *c) {
-  return fmax(c->response.rate, size_of_response(c) / c->period);
-}
-
-static double energy_of_response(const Cycles *c) {
-  static const double rounding = 1e-9;
-  return fmax(fabs(c->response.spent), rounding * c->response.drawn);
-}
-
 /* Distance of the newest start from the one `back` cycles before. */
 static double distance(const Cycles *c, int back) {
   const double *a = c->mark[0].q, *b = c->mark[back].q;
@@ -240,28 +231,27 @@ static double distance(const Cycles *c, int back) {
   most /= size_of_response(c);
   for (int k = 0; k < SLOW; k++)
     most = fmax(most, fabs(c->mark[0].slow[k] - c->mark[back].slow[k]));
-  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / rate_of_response(c));
-}
-
-/* Sum of all further changes, eq. (24.1), if each is smaller than the previous one by the same factor. */
-static double still_to_go(const Cycles *c) {
-  static const double slowest = 1 - 1e-4;
-  double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0;
-  return c->moved[0] / (1 - fmin(share, slowest));
+  double fast = fmax(c->response.rate, size_of_response(c) / c->period);
+  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / fast);
 }
 
 /* Does the cycle store next to nothing, eq. (24.2)? */
 static bool keeps_nothing(const Cycles *c) {
-  return fabs(c->response.kept) < 10 * c->model->def.cycle.tolerance * energy_of_response(c);
+  static const double rounding = 1e-9;
+  double energy = fmax(fabs(c->response.spent), rounding * c->response.drawn);
+  return fabs(c->response.kept) < 10 * c->model->def.cycle.tolerance * energy;
 }
 
 /* Number of cycles in which the motion repeats itself; 0: it does not yet. */
 static int repeats_in(Cycles *c) {
+  static const double slowest = 1 - 1e-4;
   double tolerance = c->model->def.cycle.tolerance;
   c->moved[1] = c->moved[0];
   c->moved[0] = distance(c, 1);
   if (c->done < 3) return 0;
-  if (still_to_go(c) < tolerance && keeps_nothing(c)) return 1;
+  /* all further changes, eq. (24.1), if each is smaller than the previous one by the same factor */
+  double share = c->moved[1] > 0 ? c->moved[0] / c->moved[1] : 0, ahead = c->moved[0] / (1 - fmin(share, slowest));
+  if (ahead < tolerance && keeps_nothing(c)) return 1;
   for (int back = 2; back < HISTORY && back < c->done; back++)
     if (distance(c, back) < tolerance && c->moved[0] > 10 * tolerance) return back;
   return 0;
@@ -283,10 +273,6 @@ static double *carried_of(const Cycles *c) {
   return zp_state_mean_v(c->model, c->sim->state);
 }
 
-static double *leaked_of(const Cycles *c) {
-  return zp_law_state(c->model, &zp_term_leak, c->sim->state);
-}
-
 /* Unit of a velocity, larger for a small mass, so that squares are like energies. */
 static double speed_of(const Cycles *c, size_t k) {
   double mass = c->model->mass[k % zp_lanes(c->model)];
@@ -301,7 +287,7 @@ static void read_state(const Cycles *c, double *x) {
     x[n + k] = v[k] / speed_of(c, k);
   }
   for (size_t k = 0; k < leaked; k++)
-    x[2 * n + k] = leaked_of(c)[k] / c->highest;
+    x[2 * n + k] = zp_law_state(c->model, &zp_term_leak, c->sim->state)[k] / c->highest;
   memcpy(x + deciding(c->model), carried_of(c), carried(c->model) * sizeof *x);
 }
 
@@ -480,14 +466,6 @@ static double work_in_row(const Cycles *c, int k) {
   return zp_load_pull(c->model) * risen + compressed;
 }
 
-/* Their sum on the way up, J; on the way down it is returned. */
-static double work_of(const Cycles *c) {
-  double work = 0;
-  for (int k = 0; k < PHASES; k++)
-    work += fmax(work_in_row(c, k), 0);
-  return work;
-}
-
 /* A number of a cycle that is not of a periodic motion says nothing: NAN. */
 static void add_periodic(const Cycles *c, ZpResult *result, const char *name, const char *unit, double value) {
   zp_result_add(result, name, unit, c->repeats == 1 ? value : NAN);
@@ -508,11 +486,6 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, c->sim->state->opening0));
 }
 
-/* Energy lost in a cycle of the periodic motion, which the source gives, J; jumps of the voltage take a part of it. */
-static double energy_of(const Cycles *c, double jumps) {
-  return c->linear ? c->small.energy + jumps : c->response.spent;
-}
-
 /* Work on the load over what the source gives in a cycle. */
 static void add_efficiency(const Cycles *c, ZpResult *result, const char *name, double work, double energy) {
   add_periodic(c, result, name, "1", energy > 0 && work <= energy ? work / energy : NAN);
@@ -524,11 +497,13 @@ static void add_efficiency(const Cycles *c, ZpResult *result, const char *name, 
 }
 
 static void summarize_energy(const Cycles *c, ZpResult *result) {
-  double work = work_of(c), square = 0, jumps = at(c, PHASES, "charging_loss_J") - at(c, 0, "charging_loss_J"),
-         energy = energy_of(c, jumps);
+  double work = 0, square = 0, jumps = at(c, PHASES, "charging_loss_J") - at(c, 0, "charging_loss_J"),
+         energy = c->linear ? c->small.energy + jumps : c->response.spent;
   Range current = range_of(c, "current_A");
-  for (int k = 1; k <= PHASES; k++)
+  for (int k = 1; k <= PHASES; k++) {
+    work += fmax(work_in_row(c, k - 1), 0); /* on the way up; on the way down it is returned */
     square += at(c, k, "current_A") * at(c, k, "current_A") / PHASES;
+  }
   add_periodic(c, result, "energy_per_cycle_J", "J", energy);
   add_periodic(c, result, "energy_drawn_per_cycle_J", "J", c->response.drawn);
   add_periodic(c, result, "work_per_cycle_J", "J", work);
@@ -560,19 +535,14 @@ static void describe(const Cycles *c, ZpResult *result) {
              c->done, c->moved[0]);
 }
 
-/* Rows count from the start of their cycle. */
-static void rebase_time(const Cycles *c) {
-  double start = at(c, 0, "time_s");
-  for (size_t k = 0; k < c->rows->rows; k++)
-    c->rows->value[k * c->rows->columns] -= start;
-}
-
 static void summarize(const Cycles *c, ZpResult *result) {
   describe(c, result);
   if (c->info.outcome != ZP_REACHED_END) return;
   summarize_motion(c, result);
   summarize_energy(c, result);
-  rebase_time(c);
+  double start = at(c, 0, "time_s"); /* rows count from the start of their cycle */
+  for (size_t k = 0; k < c->rows->rows; k++)
+    c->rows->value[k * c->rows->columns] -= start;
   zp_result_add(result, "steps", "count", (double)c->steps);
   ZpMargins seen = zp_sim_margins(c->sim);
   zp_add_margins(result, c->model, &seen);
@@ -618,19 +588,14 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   return c->rows && c->way_back && c->memory;
 }
 
-/* Has the definition a linear answer? */
-static bool has_linear(const ZpActuatorDef *def) {
-  ZpActuatorDef linear = *def;
-  linear.cycle.method = ZP_CYCLE_LINEAR;
-  return !zp_rules_find(&zp_rules_cycle, false, &linear);
-}
-
 /* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
 static bool choose(Cycles *c) {
   const ZpActuatorDef *def = &c->model->def;
   bool failed = false;
+  ZpActuatorDef linear = *def;
+  linear.cycle.method = ZP_CYCLE_LINEAR;
   c->small.curvature = NAN;
-  if (def->cycle.method == ZP_CYCLE_MOTION || !has_linear(def)) return true;
+  if (def->cycle.method == ZP_CYCLE_MOTION || zp_rules_find(&zp_rules_cycle, false, &linear)) return true;
   bool found = zp_linear_cycle_open(c->model, c->hooks, &c->small, &failed);
   c->linear = found && (def->cycle.method == ZP_CYCLE_LINEAR || c->small.curvature < def->cycle.tolerance);
   if (def->cycle.method != ZP_CYCLE_LINEAR || found || failed) return !failed;
@@ -728,12 +693,6 @@ static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpE
   return ZP_OK;
 }
 
-/* A step is repeated as a sine. */
-static ZpActuatorDef with_periodic_drive(ZpActuatorDef def) {
-  if (def.drive.waveform == ZP_WAVEFORM_STEP) def.drive.waveform = ZP_WAVEFORM_SINE;
-  return def;
-}
-
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(control.kind, ZP_CONTROL_NONE),
             "it finds the periodic motion under a periodic voltage; for a controller use study actuate with a periodic "
@@ -768,7 +727,8 @@ ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef def = with_periodic_drive(*task->def);
+  ZpActuatorDef def = *task->def;
+  if (def.drive.waveform == ZP_WAVEFORM_STEP) def.drive.waveform = ZP_WAVEFORM_SINE; /* a step is repeated as a sine */
   const ZpTask driven = {.def = &def, .hooks = task->hooks};
   ZpModel *model;
   ZpStatus status = zp_model_create(&def, &model, err);

@@ -1,5 +1,3 @@
-#include "study/hold.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,6 +6,7 @@
 #include "def/check.h"
 #include "drive/control_loop.h"
 #include "rest/plant.h"
+#include "study/studies.h"
 
 enum { TOLD = 4 };
 

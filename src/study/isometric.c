@@ -18,7 +18,6 @@
 #include "def/device.h"
 #include "rest/crossing.h"
 #include "study/equilibria.h"
-#include "study/held.h"
 #include "study/sensitivity.h"
 
 static const ZpColumn columns[] = {
@@ -216,13 +215,6 @@ static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
   return false;
 }
 
-/* If that fails too, a limit point is just below: the state falls from there to an equilibrium at `top`. */
-static bool settle_beyond(Holder *h, ZpNewtonInfo *info) {
-  h->at.rest.system.restore(&h->at.rest.statics, h->before);
-  *info = zp_statics_relax(&h->at.rest.statics, h->top);
-  return zp_newton_good(info->end) && is_answer(h);
-}
-
 /* Further along the branch: other stable states at `top`. */
 static void count_others(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
@@ -305,7 +297,13 @@ static void raise_voltage(Holder *h, double top, bool last, ZpNewtonInfo *info) 
   double taken = h->at.rest.branch.taken;
   if (last) count_others(h);
   h->at.rest.system.restore(&h->at.rest.statics, h->near);
-  if (settle(h, info) || settle_closer(h, taken, info) || settle_beyond(h, info))
+  bool found = settle(h, info) || settle_closer(h, taken, info);
+  if (!found) { /* a limit point is just below: the state falls from there */
+    h->at.rest.system.restore(&h->at.rest.statics, h->before);
+    *info = zp_statics_relax(&h->at.rest.statics, h->top);
+    found = zp_newton_good(info->end) && is_answer(h);
+  }
+  if (found)
     record(h, true, last);
   else
     h->outcome = h->cross ? ZP_BEYOND_MODEL : ZP_BRANCH_LOST;
@@ -323,12 +321,6 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
   } else {
     h->outcome = ZP_NOT_SETTLED;
   }
-}
-
-static void run_one(Holder *h, ZpNewtonInfo *info) {
-  double voltage = h->at.model->def.drive.voltage;
-  hold_unpowered(h, info);
-  if (h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, voltage, true, info);
 }
 
 /* -- several members ------------------------------------------------------------------------------ */
@@ -357,12 +349,6 @@ static ZpStatus open_members(Holder *h, const ZpActuatorDef *bare, ZpError *err)
     one->at.rest.statics.caller = h->at.rest.statics.caller;
   }
   return status;
-}
-
-static void close_members(Holder *h) {
-  for (size_t k = 0; h->member && k < h->at.rest.statics.members; k++)
-    zp_equilibria_close(&h->member[k].at);
-  zp_free(h->member);
 }
 
 /* All are where each is alone: settle as one system at voltage U of the first one, V, with a share of the lower one's
@@ -499,25 +485,17 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
                             found ? zp_rest_sensitivity_of(slope, zp_output_angle, NULL) : NAN);
 }
 
-/* Is it a key of the load? That is removed, so nothing depends on it. */
-static bool is_of_load(int key) {
-  static const ZpKeyGroup load = ZP_KEY_GROUP(load);
-  return key >= load.first && key < load.end;
-}
-
-static void derive_by_load(int key, ZpResult *r) {
+static ZpStatus derive_all(Holder *h, ZpError *err) {
   static const char *const outputs[] = {"force_N",       "force_unpowered_N", "opening_m", "charge_C",
                                         "capacitance_F", "torque_N_m",        "angle_rad"};
-  for (size_t k = 0; k < sizeof outputs / sizeof outputs[0]; k++)
-    if (zp_result_has(r, outputs[k])) zp_result_add_sensitivity(r, outputs[k], key, 0);
-}
-
-static ZpStatus derive_all(Holder *h, ZpError *err) {
+  static const ZpKeyGroup load = ZP_KEY_GROUP(load); /* which is removed, so that nothing depends on it */
   int key[ZP_MAX_SENSITIVITY_KEYS], keys;
   ZpStatus status = zp_sensitivity_keys(h->at.task->def, key, &keys, err);
   for (int k = 0; k < keys && status == ZP_OK; k++)
-    if (is_of_load(key[k]))
-      derive_by_load(key[k], h->at.result);
+    if (key[k] >= load.first && key[k] < load.end)
+      for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
+        if (zp_result_has(h->at.result, outputs[i])) zp_result_add_sensitivity(h->at.result, outputs[i], key[k], 0);
+      }
     else
       status = zp_sensitivity_by(&h->at.rest, key[k], derive, h, h->at.result, err);
   return status;
@@ -526,10 +504,12 @@ static ZpStatus derive_all(Holder *h, ZpError *err) {
 static void run(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
   ZpNewtonInfo info;
+  double voltage = h->at.model->def.drive.voltage;
   if (h->member)
     run_members(h, &info);
   else
-    run_one(h, &info);
+    hold_unpowered(h, &info);
+  if (!h->member && h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, voltage, true, &info);
   if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);
   describe_all(h);
@@ -602,7 +582,9 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
   if (status == ZP_OK) status = open_members(&h, &bare, err);
   if (status == ZP_OK) run(&h);
   if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = derive_all(&h, err);
-  close_members(&h);
+  for (size_t k = 0; h.member && k < h.at.rest.statics.members; k++)
+    zp_equilibria_close(&h.member[k].at);
+  zp_free(h.member);
   zp_equilibria_close(&h.at);
   return status;
 }

@@ -51,12 +51,6 @@ static double opening_at(Finder *f, const double *state) {
   return zp_statics_opening(&f->at.rest.statics);
 }
 
-/* How far the load rises from hanging without voltage to closed at drive.voltage, m. NAN where it does not close. */
-static double travel_of(Finder *f) {
-  const ZpLimits *limits = f->limits;
-  return limits->hangs && limits->closes ? opening_at(f, limits->start) - opening_at(f, limits->closed) : (double)NAN;
-}
-
 void zp_limits_destroy(ZpLimits *limits) {
   if (!limits) return;
   zp_free(limits->memory);
@@ -99,13 +93,6 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   zp_result_add_sensitivity(result, "mass_kg", slope->key, mass);
 }
 
-/* A case whose states have another form, as one with another mesh, kind or other members, is no neighbour. */
-static const ZpLimits *neighbour_of(const Finder *f) {
-  const ZpResult *neighbour = f->at.task->input.neighbour;
-  const ZpLimits *near = neighbour ? neighbour->limits : NULL;
-  return near && near->save == f->limits->save && near->equations == f->limits->equations ? near : NULL;
-}
-
 static void describe(const Finder *f, ZpResult *r) {
   const ZpStatics *statics = &f->at.rest.statics;
   bool stopped = statics->stopped, hangs = f->limits->hangs, lost = zp_limits_lost(f->limits);
@@ -118,10 +105,15 @@ static void describe(const Finder *f, ZpResult *r) {
 }
 
 static void run(Finder *f, ZpResult *r) {
-  zp_limits_find(&f->at.rest, neighbour_of(f), true, f->limits);
+  const ZpResult *neighbour = f->at.task->input.neighbour;
+  const ZpLimits *near = neighbour ? neighbour->limits : NULL;
+  bool alike = near && near->save == f->limits->save && near->equations == f->limits->equations; /* in their states */
+  zp_limits_find(&f->at.rest, alike ? near : NULL, true, f->limits);
   bool hangs = f->limits->hangs;
   zp_add_limits(f->limits, order, ZP_LIMIT_KINDS, r);
-  zp_result_add(r, "travel_m", "m", travel_of(f));
+  bool travels = hangs && f->limits->closes; /* from hanging without voltage to closed at drive.voltage */
+  zp_result_add(r, "travel_m", "m",
+                travels ? opening_at(f, f->limits->start) - opening_at(f, f->limits->closed) : (double)NAN);
   zp_result_add(r, "mass_kg", "kg", mass_of(f->at.model));
   zp_result_add(r, "warm_starts", "count", f->limits->warm);
   describe(f, r);

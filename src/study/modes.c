@@ -8,7 +8,6 @@
 #include "def/check.h"
 #include "rest/vibration.h"
 #include "study/equilibria.h"
-#include "study/hold.h"
 #include "study/sensitivity.h"
 
 static const double two_pi = 6.283185307179586;
@@ -38,14 +37,6 @@ static void reserve(void *user, ZpArena *arena) {
 /* How many modes are told of? */
 static size_t count(const ZpVibration *v) {
   return v->m < MODES ? v->m : MODES;
-}
-
-/* The error of a vector is the square root of that of its frequency: results that depend on it to first order need more
- * rounds. */
-static void refine(Problem *p) {
-  enum { ROUNDS = 30 };
-  for (int round = 0; round < ROUNDS; round++)
-    zp_vibration_iterate(&p->vibration);
 }
 
 static void move_member(ZpRestMember *m, const double *u, double amplitude) {
@@ -157,6 +148,7 @@ static bool find_equilibrium(Problem *p) {
 }
 
 static void run(Problem *p) {
+  enum { ROUNDS = 30 }; /* more for derivatives: the error of a vector is the square root of that of its frequency */
   ZpVibration *v = &p->vibration;
   ZpStatics *s = &p->at.rest.statics;
   ZpResult *result = p->at.result;
@@ -174,7 +166,8 @@ static void run(Problem *p) {
     snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz", sqrt(v->omega2[0]) / two_pi);
   else
     snprintf(result->message, sizeof result->message, "the eigenvalue iteration has not converged");
-  if (found && *s->member->model->def.sensitivity.by) refine(p);
+  for (int round = 0; found && *s->member->model->def.sensitivity.by && round < ROUNDS; round++)
+    zp_vibration_iterate(v);
   if (found) report(p);
 }
 
@@ -207,12 +200,6 @@ ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }
 
-static void note_bead(ZpResult *result, const ZpActuatorDef *def) {
-  if (zp_def_liquid(def) != ZP_LIQUID_BEAD) return;
-  zp_result_note(result, "the bead is ignored: frequencies are those of the ribbons without its mass and drag%s",
-                 def->modes.voltage > 0 ? ", with the liquid's permittivity everywhere" : "");
-}
-
 /* Frequencies are those without the mass of a liquid: of a bead, which lies near the clip, where little moves. */
 ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef dry = *task->def;
@@ -226,7 +213,9 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   if (status == ZP_OK) {
     run(p);
     zp_equilibria_note(&p->at, dry.modes.voltage);
-    note_bead(result, task->def);
+    if (zp_def_liquid(task->def) == ZP_LIQUID_BEAD)
+      zp_result_note(result, "the bead is ignored: frequencies are those of the ribbons without its mass and drag%s",
+                     dry.modes.voltage > 0 ? ", with the liquid's permittivity everywhere" : "");
   }
   if (status == ZP_OK && result->outcome == ZP_CONVERGED)
     status = zp_sensitivity_of(&p->at.rest, derive, p, result, err);

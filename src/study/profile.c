@@ -12,9 +12,7 @@
 #include "electro/field.h"
 #include "liquid/bead.h"
 #include "rest/rest.h"
-#include "study/bookkeeping.h"
 #include "study/faces.h"
-#include "study/held.h"
 #include "study/notes.h"
 #include "study/sensitivity.h"
 #include "study/studies.h"
@@ -187,8 +185,11 @@ static void lay(Profiler *p, const double *q) {
 }
 
 /* The unpowered shape. *found tells whether there is one; false if there is no memory. */
-static bool hold(Profiler *p, bool *found) {
+static bool find_shape(Profiler *p, bool *found) {
   const ZpModel *model = p->model;
+  *found = model->def.profile.shape != ZP_PROFILE_HELD;
+  if (*found) lay(p, NULL);
+  if (*found) return true;
   ZpRest rest;
   bool opened = zp_rest_open(&rest, model, NULL, NULL);
   if (opened) {
@@ -201,13 +202,6 @@ static bool hold(Profiler *p, bool *found) {
   }
   zp_rest_close(&rest);
   return opened;
-}
-
-static bool find_shape(Profiler *p, bool *found) {
-  if (p->model->def.profile.shape == ZP_PROFILE_HELD) return hold(p, found);
-  lay(p, NULL);
-  *found = true;
-  return true;
 }
 
 /* -- the profile ----------------------------------------------------------------------------------- */
@@ -290,13 +284,6 @@ static double integrate_law(const Profiler *p, const Law *law, double U, size_t 
     sum += simpson(at[2].x - at[0].x, at_row(p, law, U, k), at_row(p, law, U, k + 1), at_row(p, law, U, k + 2));
   }
   return sum;
-}
-
-static double largest_in_liquid(const Profiler *p) {
-  double most = 0;
-  for (size_t k = 0; k < p->rows; k++)
-    if (is_wet(p, k)) most = fmax(most, p->row[k][LIQUID]);
-  return most;
 }
 
 /* The kink of the cap needs finer steps than the field: this many for two intervals. */
@@ -391,6 +378,9 @@ static void summarize(const Profiler *p) {
   ZpResult *r = p->result;
   const ZpFieldTotals *t = &p->totals;
   size_t end = p->rows - 1;
+  double most = 0; /* in liquid */
+  for (size_t k = 0; k < p->rows; k++)
+    if (is_wet(p, k)) most = fmax(most, p->row[k][LIQUID]);
   double U2 = p->U * p->U, plates = integrate(p, PLATES, 0, p->last), field = integrate(p, FIELD, 0, p->last);
   zp_result_add(r, "force_N", "N", limited_force(p, 0, p->last));
   zp_result_add(r, "platform_force_N", "N", limited_force(p, p->last, end));
@@ -400,31 +390,89 @@ static void summarize(const Profiler *p) {
   zp_result_add(r, "virtual_work_force_N", "N", 0.5 * (t->upper_work + t->lower_work) * U2);
   zp_result_add(r, "virtual_work_difference", "1", difference(p));
   zp_result_add(r, "scale_factor", "1", field_over(p, &p->free));
-  zp_result_add(r, "max_field_V_per_m", "V/m", largest_in_liquid(p));
+  zp_result_add(r, "max_field_V_per_m", "V/m", most);
   zp_result_add(r, "capped_length_m", "m", capped_length(p));
   if (p->model->has_bead) zp_result_add(r, "wet_length_m", "m", p->wet_length);
   zp_result_add(r, "capacitance_F", "F", 2 * p->model->parts * p->field.energy);
   zp_result_add(r, "equations", "count", (double)p->field.grid.K.n);
 }
 
-static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
-  ZpPaperFactor factor;
-  ZpResult *r = p->result;
-  if (!zp_paper_factor(&p->params, &p->faces, &factor)) return zp_fail_memory(err);
-  zp_result_add(r, "paper_factor", "1", zp_paper_factor_product(&factor));
-  zp_result_add(r, "paper_factor_voltage", "1", factor.voltage);
-  zp_result_add(r, "paper_factor_half", "1", factor.half);
-  zp_result_add(r, "paper_factor_tape", "1", factor.tape);
-  zp_result_add(r, "paper_factor_gap", "1", factor.gap);
-  return ZP_OK;
+/* -- the factor of the paper ------------------------------------------------------------------------ */
+
+/* Letters of docs/theory.md, section 15:
+ *   E_t   field in the tape at the metal, V/m       g   gap of the faces, m
+ *   d     liquid thickness that stands for both tapes, m
+ * Everything at 1 V, over the flexible part of one ribbon. */
+
+/* Permittivities in the authors' programs, of liquid and tape: in the finite-element model, in the plates law, and of
+ * the tape in the expression for the finite-element force. */
+static const double fe_liquid = 2.7, fe_tape = 4.6, law_liquid = 2.75, law_tape = 4.62, expression_tape = 4.65;
+
+/* Share of the voltage in their law. */
+static const double share = 0.5;
+
+/* E_t^2 at xi of element column c, mean of both ribbons. */
+static double tape_field(const ZpField *f, size_t c, double xi) {
+  const ZpFieldMesh *m = &f->params.mesh;
+  size_t lower = m->outside + m->strip, upper = f->grid.rows - lower - 1;
+  double E[2], sum = 0;
+  zp_grid_gradient(&f->grid, c, lower, xi, -1, E);
+  sum += E[0] * E[0] + E[1] * E[1];
+  zp_grid_gradient(&f->grid, c, upper, xi, 1, E);
+  sum += E[0] * E[0] + E[1] * E[1];
+  return 0.5 * sum;
 }
 
-/* The fields in the materials, from the solved field. */
-static void look(Profiler *p) {
-  for (size_t k = 0; k < p->rows; k++) {
-    double liquid = is_wet(p, k) ? p->row[k][LIQUID] : NAN;
-    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], liquid, NAN, NAN, NAN});
+/* Their finite-element force: eps0 eps w E_t^2 without 1/2, by Simpson's rule. */
+static double reading(const ZpField *f) {
+  double sum = 0;
+  for (size_t i = f->first; i + 2 <= f->last; i += 2) {
+    const ZpFieldProfile *p = f->profile + (i - f->first);
+    sum += (p[2].x - p[0].x) / 6 * (tape_field(f, i / 2, -1) + 4 * tape_field(f, i / 2, 0) + tape_field(f, i / 2, 1));
   }
+  return ZP_EPS0 * expression_tape * f->params.w * sum;
+}
+
+static double paper_law_at(const ZpField *f, double d, double g) {
+  return 0.5 * ZP_EPS0 * law_liquid * f->params.w / ((g + d) * (g + d));
+}
+
+/* Force by their plates law with this d, without their share. */
+static double paper_law(const ZpField *f, double d) {
+  double sum = 0;
+  for (size_t i = f->first; i + 2 <= f->last; i += 2) {
+    const ZpFieldProfile *p = f->profile + (i - f->first);
+    sum += (p[2].x - p[0].x) / 6 *
+           (paper_law_at(f, d, p[0].gap) + 4 * paper_law_at(f, d, p[1].gap) + paper_law_at(f, d, p[2].gap));
+  }
+  return sum;
+}
+
+/* Add the factor that the paper found between its finite-element force and its plates law, found again the way its
+ * authors found it, and the four causes that it is the product of. All are NAN where the field with the materials of
+ * their model has no solution. */
+static ZpStatus keep_the_papers_books(const Profiler *p, ZpError *err) {
+  ZpField field;
+  ZpFieldParams theirs = p->params;
+  ZpResult *r = p->result;
+  theirs.eps_m = theirs.eps_out = fe_liquid;
+  theirs.eps_i = fe_tape;
+  if (!zp_field_create(&theirs, &field)) return zp_fail_memory(err);
+  double none = zp_field_solve(&field, &p->faces) == ZP_FIELD_SOLVED ? 1 : NAN, tape = NAN, gap = NAN;
+  if (!isnan(none)) {
+    double t = theirs.t, right = 2 * t * fe_liquid / fe_tape, slipped = 2 * t - t * law_liquid / law_tape;
+    zp_field_profile(&field);
+    tape = 0.5 * reading(&field) / paper_law(&field, right);
+    gap = paper_law(&field, right) / paper_law(&field, slipped);
+  }
+  zp_field_destroy(&field);
+  double voltage = none / (share * share), half = none * 2;
+  zp_result_add(r, "paper_factor", "1", voltage * half * tape * gap);
+  zp_result_add(r, "paper_factor_voltage", "1", voltage); /* their law takes half of the voltage */
+  zp_result_add(r, "paper_factor_half", "1", half);       /* their finite-element force lacks the 1/2 */
+  zp_result_add(r, "paper_factor_tape", "1", tape);       /* it reads the field in the tape, not in the liquid */
+  zp_result_add(r, "paper_factor_gap", "1", gap);         /* their law's gap is too wide: a sign in it slipped */
+  return ZP_OK;
 }
 
 static void note(const Profiler *p) {
@@ -514,7 +562,10 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   ZpResult *r = p->result;
   record(p);
   summarize(p);
-  look(p);
+  for (size_t k = 0; k < p->rows; k++) {
+    double liquid = is_wet(p, k) ? p->row[k][LIQUID] : NAN;
+    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], liquid, NAN, NAN, NAN});
+  }
   note(p);
   r->outcome = ZP_CONVERGED;
   snprintf(r->message, sizeof r->message,

@@ -95,18 +95,16 @@ static double derive_event(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kin
                                       zp_closing_gap, closed, by_load);
 }
 
-static double derive_fold(ZpRest *rest, const ZpLimit *limit, bool load, ZpRestSensitivity *slope) {
-  zp_rest_go_to(rest, limit->state);
-  return zp_rest_sensitivity_of_fold(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
-                                     limit->null);
-}
-
 static double derive_limit(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpRestSensitivity *slope) {
   const ZpLimit *limit = &limits->limit[kind];
   bool load = kind == ZP_LIMIT_LOAD;
   double rate = NAN;
   if (isnan(limit->value)) return NAN;
-  if (limit->end == ZP_TRACK_FOLD) rate = derive_fold(rest, limit, load, slope);
+  if (limit->end == ZP_TRACK_FOLD) {
+    zp_rest_go_to(rest, limit->state);
+    rate = zp_rest_sensitivity_of_fold(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
+                                       limit->null);
+  }
   if (limit->end == ZP_TRACK_EVENT) rate = derive_event(rest, limits, kind, slope);
   return load ? rate : rate / (2 * limit->value);
 }

@@ -109,15 +109,10 @@ ZpStatus zp_check_stationary(const ZpActuatorDef *def, ZpError *err) {
 
 /* Without voltage a bead acts only by the suction of its menisci. Without suction it is omitted, because equations with
  * a bead take five times the work. It is kept for derivatives, one of which may be by the suction. */
-static ZpActuatorDef as_it_acts(const ZpActuatorDef *def) {
-  ZpActuatorDef acting = *def;
-  bool pulls = def->bead.suction > 0 || *def->sensitivity.by != 0;
-  if (zp_def_liquid(def) == ZP_LIQUID_BEAD && !pulls) acting.liquid.model = ZP_LIQUID_NONE;
-  return acting;
-}
-
 ZpStatus zp_study_stationary(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef def = as_it_acts(task->def);
+  ZpActuatorDef def = *task->def;
+  bool pulls = def.bead.suction > 0 || *def.sensitivity.by != 0;
+  if (zp_def_liquid(&def) == ZP_LIQUID_BEAD && !pulls) def.liquid.model = ZP_LIQUID_NONE;
   ZpEquilibria at = {.task = task, .result = result, .stage = "hanging", .shapes = 2};
   ZpStatus status = zp_equilibria_open(&at, &def, NULL, NULL, err);
   size_t members = status == ZP_OK ? at.model->members : 0;

@@ -21,6 +21,14 @@ bool zp_task_stops(const ZpTask *task, const char *stage, double fraction);
 /* Does a result have a number of this name? It may be null. */
 bool zp_result_has(const ZpResult *result, const char *name);
 
+/* isometric.separation is within the reach of ribbons that are held there. */
+ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err);
+
+/* Can a controller hold its setpoint? Small motions about the equilibrium that the setpoint determines, with the
+ * controller and without it (docs/theory.md, section 28): add their numbers and what they say to a result; nothing
+ * without a controller. */
+ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err);
+
 /* What fills a result: a zp_study_WORD. */
 typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);
 

@@ -78,18 +78,16 @@ static ZpStatus solve(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpResul
   return status;
 }
 
-/* May a finer mesh have an answer? On a coarse one a branch is lost, or faces at rest cross each other. */
-static bool needs_finer(ZpStudy study, const ZpResult *result) {
-  return result->outcome == ZP_BRANCH_LOST || (result->outcome == ZP_BEYOND_MODEL && !is_motion(study));
-}
-
 /* Solve on the requested mesh; if that has no answer, on one with half as long elements, and once more => the result,
  * and the mesh that it belongs to in `def`. */
 static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task, ZpActuatorDef *def, ZpResult **result,
                                ZpError *err) {
   enum { MOST = 2 };
   ZpStatus status = solve(run, study, task, result, err);
-  for (int k = 0; k < MOST && status == ZP_OK && needs_finer(study, *result); k++) {
+  for (int k = 0; k < MOST && status == ZP_OK; k++) {
+    ZpOutcome outcome = (*result)->outcome;
+    bool crosses = outcome == ZP_BEYOND_MODEL && !is_motion(study);
+    if (outcome != ZP_BRANCH_LOST && !crosses) break;
     ZpActuatorDef finer = *def;
     finer.mesh.nodes = 2 * def->mesh.nodes - 1;
     if (zp_def_check(&finer, NULL) != ZP_OK) break;
