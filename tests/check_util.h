@@ -63,6 +63,20 @@ static inline void note_check_at(const char *file, int line, const char *place, 
     ck_assert_msg(below_value < below_limit, "%s = %.4g, must be below %.4g", #value, below_value, below_limit);       \
   } while (0)
 
+/* A call that must succeed, ck_ok(zp_def_check(&def, &err)), and one that must fail with a message that has these
+ * words: both have an `err` of their own. */
+#define ck_ok(call)                                                                                                    \
+  do {                                                                                                                 \
+    ZpError err = {ZP_OK, ""};                                                                                         \
+    ck_assert_msg((call) == ZP_OK, "%s", err.message);                                                                 \
+  } while (0)
+#define ck_says(call, status, words)                                                                                   \
+  do {                                                                                                                 \
+    ZpError err = {ZP_OK, ""};                                                                                         \
+    ck_assert_int_eq(call, status);                                                                                    \
+    ck_assert_msg(strstr(err.message, words) != NULL, "no '%s' in: %s", words, err.message);                           \
+  } while (0)
+
 /* A key and its value, SI; NAN for auto. */
 typedef struct Setting {
   const char *key;

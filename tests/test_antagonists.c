@@ -2,7 +2,6 @@
  * on a spring, and their energy. docs/theory.md, section 31. */
 #include "check_util.h"
 
-#include "actuator/model.h"
 #include "rest/rest.h"
 
 static const double pi = 3.14159265358979323846;
@@ -400,10 +399,9 @@ TESTS(constant_voltage_under_any_waveform, 0, 3) {
       {{"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 5}, {"drive.duty", 0.3}, {"drive.rise_time", 1e-3}},
       {{"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 1e-2}, {"drive.offset", 1e3}}};
   ZpActuatorDef def = DEF(BOTH, {"drive.voltage", 5e3}, {"stack.lower_voltage", 2e3}, {"solver.end_time", 1e-3});
-  ZpError err = {ZP_OK, ""};
   for (size_t k = 0; k < LENGTH_OF(of[_i]) && of[_i][k].key; k++)
     ck_assert_int_eq(zp_def_set(&def, zp_key_find(of[_i][k].key), of[_i][k].value, NULL), ZP_OK);
-  ck_assert_msg(zp_study_check(ZP_STUDY_ACTUATE, &def, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_study_check(ZP_STUDY_ACTUATE, &def, &err));
   ZpModel *model = model_of(&def);
   ck_assert_double_eq(zp_waveform_largest(&model[1].waveform), 2e3);
   ck_assert_double_eq(zp_waveform_voltage(&model[1].waveform, 0.13), 2e3);

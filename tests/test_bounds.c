@@ -5,16 +5,7 @@
  * not say that it may not exist. That the numbers are also right is for other tests. */
 #include <float.h>
 #include <limits.h>
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <time.h>
-
-#include <check.h>
-
-#include <zipact/io.h>
-#include <zipact/zipact.h>
 
 #include "data_util.h"
 
@@ -374,8 +365,7 @@ static void refuse_field(ZpActuatorDef *def, const char *name) {
   ZpError err = {ZP_OK, ""};
   ZpModel *model = (ZpModel *)def;
   ZpResult *result = (ZpResult *)def;
-  ck_assert_int_eq(zp_def_check(def, &err), ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, name), "%s: \"%s\"", name, err.message);
+  ck_says(zp_def_check(def, &err), ZP_BAD_INPUT, name);
   ck_assert_int_eq(zp_model_create(def, &model, &err), ZP_BAD_INPUT);
   ck_assert_ptr_null(model);
   ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, def, NULL, NULL, &result, &err), ZP_BAD_INPUT);
@@ -482,14 +472,13 @@ static ZpActuatorDef def_of_settings(const char *settings) {
   snprintf(copy, sizeof copy, "%s", settings);
   for (char *word = strtok_r(copy, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
     char *equals = strchr(word, '=');
-    ZpError err;
     double value;
     ck_assert_ptr_nonnull(equals);
     *equals = 0;
     int key = zp_key_find(word);
     ck_assert_msg(key >= 0, "%s", word);
-    ck_assert_msg(zp_value_parse(key, equals + 1, &value, &err) == ZP_OK, "%s", err.message);
-    ck_assert_msg(zp_def_set(&def, key, value, &err) == ZP_OK, "%s", err.message);
+    ck_ok(zp_value_parse(key, equals + 1, &value, &err));
+    ck_ok(zp_def_set(&def, key, value, &err));
   }
   return def;
 }

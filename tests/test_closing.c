@@ -1,8 +1,6 @@
 /* When an actuator is closed: the first closing, bounces, and closing for good. */
 #include "check_util.h"
 
-#include <string.h>
-
 #include <zipact/checkpoint.h>
 #include <zipact/sim.h>
 

@@ -5,7 +5,6 @@
  * the loss of an inelastic impact, m1 m2 / (m1 + m2) dv^2 / 2, and the invariants of paper/zip.h. */
 #include "state_util.h"
 
-#include "actuator/model.h"
 #include "paper/zip.h"
 
 /* -- meetings -------------------------------------------------------------------------------------- */

@@ -52,11 +52,10 @@ TESTS(scenarios_give_the_same_numbers, 0, 5) {
   char path[256];
   size_t size;
   ZpActuatorDef def;
-  ZpError err = {ZP_OK, ""};
   ZpScenario *scenario = new_scenario();
   snprintf(path, sizeof path, DATA "%s.yaml", name[_i]);
-  ck_assert_msg(zp_scenario_read(scenario, path, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_scenario_read(scenario, path, &err));
+  ck_ok(zp_scenario_def(scenario, 0, &def, &err));
   ZpResult *result = study_of(zp_scenario_study(scenario), &def);
   snprintf(path, sizeof path, DATA "%s.json", name[_i]);
   char *json = bytes_of(path, &size);

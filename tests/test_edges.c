@@ -26,8 +26,7 @@ static double plates_capacitance(const ZpEdgeParams *p, double gap) {
 
 static ZpEdgeLaw law_of(const ZpEdgeParams *p, double largest) {
   ZpEdgeLaw law;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_edges_make(p, largest, &law, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_edges_make(p, largest, &law, &err));
   return law;
 }
 

@@ -346,8 +346,7 @@ TEST(series_at_rest_reads_back) {
   ZpScenario *scenario =
       SCENARIO("study=stationary", "mesh.nodes=9", "stack.series=2", "liquid.model=none", "output.errors=false");
   ZpActuatorDef def;
-  ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_scenario_def(scenario, 0, &def, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_scenario_def(scenario, 0, &def, &err));
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_uint_eq(result->shapes->members, 2);
   ck_assert(result->shapes->facing && result->shapes->stressed);

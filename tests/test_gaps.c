@@ -23,7 +23,7 @@ TESTS(square_wave_rises_within_its_shorter_part, 0, 3) {
   double duty = duties[_i], shorter = fmin(duty, 1 - duty) / 20;
   ZpActuatorDef def = square_wave(duty, shorter);
   ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_def_check(&def, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_def_check(&def, &err));
   ZpWaveform wave = zp_waveform_of(&def, NULL);
   ck_near(zp_waveform_voltage(&wave, shorter), 5e3, 1e-12);     /* 0 measured */
   ck_near(zp_waveform_voltage(&wave, 0.05 - 1e-12), 1e3, 3e-9); /* 4e-10 measured */

@@ -95,7 +95,7 @@ TESTS(everything_comes_back, 0, 4) {
   const size_t size = zp_result_save(result, NULL);
   unsigned char *byte = memory_of(size), *again = memory_of(size);
   zp_result_save(result, byte);
-  ck_assert_msg(zp_result_load(byte, size, &back, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_result_load(byte, size, &back, &err));
   ck_assert(back->shapes && (back->map != NULL) == (_i == 0) && (back->checkpoint != NULL) == (_i == 3));
   ck_assert(back->shapes->facing == (_i != 1) && back->shapes->members == (_i == 2 ? 2 : 1));
   ck_assert(back->shapes->stressed == result->shapes->stressed && back->shapes->stressed == (_i != 0));
@@ -137,9 +137,8 @@ static void put(ZpJournal *journal, size_t number, double value) {
 
 static ZpJournal *journal_in(const char *folder, bool keep, size_t cases) {
   ZpJournal *journal;
-  ZpError err;
   mkdir(folder, 0777);
-  ck_assert_msg(zp_journal_open(folder, ZP_STUDY_STATIONARY, keep, cases, &journal, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_journal_open(folder, ZP_STUDY_STATIONARY, keep, cases, &journal, &err));
   return journal;
 }
 
@@ -243,14 +242,13 @@ TEST(campaign_counts_what_it_computes) {
                                   "solver.end_time=1 ms", "output.errors=false", "output.series=false");
   double seconds = 0;
   const ZpCampaignOptions options = {.jobs = 2, .resume = true, .clock = one_second_each, .user = &seconds};
-  ZpError err;
   mkdir("counted", 0777);
   remove("counted/journal.sqlite");
   for (int again = 0; again < 2; again++) {
     ZpCampaign *c;
-    ck_assert_msg(zp_campaign_open(scenario, "counted", &options, &c, &err) == ZP_OK, "%s", err.message);
+    ck_ok(zp_campaign_open(scenario, "counted", &options, &c, &err));
     ck_assert_uint_eq(zp_campaign_count(c), 0);
-    ck_assert_msg(zp_campaign_run(c, &err) == ZP_OK, "%s", err.message);
+    ck_ok(zp_campaign_run(c, &err));
     const ZpCampaignState state = zp_campaign_state(c);
     ck_assert(state.done == 3 && state.failed == 0 && state.resumed == (again ? 3 : 0));
     ck_assert_uint_eq(zp_campaign_count(c), 3);

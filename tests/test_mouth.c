@@ -2,7 +2,6 @@
  * hinge does not turn. Section 30.1 of docs/theory.md. */
 #include "check_util.h"
 
-#include "actuator/model.h"
 #include "state_util.h"
 
 static const double pi = 3.14159265358979323846;

@@ -8,7 +8,6 @@
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
 
-#include "actuator/model.h"
 #include "def/device.h"
 #include "rest/rest.h"
 #include "study/studies.h"

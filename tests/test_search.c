@@ -5,7 +5,6 @@
 
 #include <sys/stat.h>
 
-#include <zipact/calibrate.h>
 #include <zipact/optimize.h>
 
 #include "campaign/case_hash.h"
@@ -38,9 +37,8 @@ typedef struct Bench {
 
 /* The goals have the units of a result in the middle of the box. */
 static void resolve_goals(ZpSearch *s) {
-  ZpError err;
   ZpResult *result = data_study_of(s->study, &s->def);
-  ck_assert_msg(zp_problem_resolve(&s->problem, result, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_problem_resolve(&s->problem, result, &err));
 }
 
 /* Nothing is left in it from a test that was killed. */
@@ -60,7 +58,7 @@ static void open_bench(Bench *b, const char *folder, const char *const *sets) {
   s->options = &b->options;
   ck_assert_int_eq(zp_scenario_def(b->scenario, 0, &s->def, &err), ZP_OK);
   s->study = zp_scenario_study(b->scenario);
-  ck_assert_msg(zp_problem_read(&s->def, &s->problem, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_problem_read(&s->def, &s->problem, &err));
   resolve_goals(s);
   s->room = 2 * s->problem.evaluations;
   s->excluded = NAN;
@@ -69,7 +67,7 @@ static void open_bench(Bench *b, const char *folder, const char *const *sets) {
   ck_assert_int_eq(pthread_mutex_init(&s->lock, NULL), 0);
   make_empty(folder);
   ck_assert_int_eq(zp_campaign_hash(s->study, &s->def, &s->start, &err), ZP_OK);
-  ck_assert_msg(zp_journal_open(folder, s->study, false, s->room, &s->journal, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_journal_open(folder, s->study, false, s->room, &s->journal, &err));
 }
 #define OPEN(bench, folder, ...) open_bench(bench, folder, (const char *const[]){__VA_ARGS__, NULL})
 
@@ -288,12 +286,11 @@ TEST(fronts_reach_both_ends) {
 /* -- whole optimisations ----------------------------------------------------------------------------- */
 
 static ZpOptimization *optimize(const char *folder, bool resume, const char *const *sets) {
-  ZpError err;
   ZpOptimization *o;
   ZpScenario *scenario = scenario_with(sets);
   const ZpCampaignOptions options = {.jobs = 2, .resume = resume};
   if (!resume) make_empty(folder);
-  ck_assert_msg(zp_optimize(scenario, folder, &options, &o, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_optimize(scenario, folder, &options, &o, &err));
   return o;
 }
 #define OPTIMIZE(folder, resume, ...) optimize(folder, resume, (const char *const[]){__VA_ARGS__, NULL})

@@ -20,10 +20,9 @@ static ZpResult *result_of(ZpStudy study, ZpOutcome outcome, const char *name, d
 static json_t *summary_of(const ZpReport *report) {
   char *text = NULL;
   size_t size = 0;
-  ZpError err = {ZP_OK, ""};
   json_error_t error;
   FILE *file = open_memstream(&text, &size);
-  ck_assert_msg(zp_summary_write(report, file, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_summary_write(report, file, &err));
   fclose(file);
   json_t *summary = json_loads(text, 0, &error);
   ck_assert_msg(summary != NULL, "%s", error.text);
@@ -282,7 +281,7 @@ TEST(state_at_the_end_is_a_file) {
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   char *path = path_of("checkpoint.zps");
   write_files(scenario, &result, 1);
-  ck_assert_msg(zp_checkpoint_read(path, &read, &err) == ZP_OK, "%s", err.message);
-  ck_assert_msg(zp_checkpoint_check(read, &def, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_checkpoint_read(path, &read, &err));
+  ck_ok(zp_checkpoint_check(read, &def, &err));
   zp_checkpoint_destroy(read);
 }

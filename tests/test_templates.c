@@ -1,13 +1,8 @@
 /* Templates of pictures: those built in are those of plots/, a folder of the user's takes the place of some, a script
  * needs none of them, and what is wrong in one is said with its file and line. */
-#include <check.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-#include <zipact/io.h>
 
 #include "data_util.h"
 #include "io/drawing.h"
@@ -79,20 +74,19 @@ static void draw(bool own) {
   char *folder = in_base("mine"), *out = in_base("out");
   const char *const set[] = {"study=stationary", "mesh.nodes=15", "output.errors=false"};
   for (size_t i = 0; i < 3; i++)
-    ck_assert_msg(zp_scenario_set(scenario, set[i], &err) == ZP_OK, "%s", err.message);
+    ck_ok(zp_scenario_set(scenario, set[i], &err));
   ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
   ZpResult *result = study_of(zp_scenario_study(scenario), &def);
   const ZpReport report = {
       .directory = out, .scenario = scenario, .result = &result, .count = 1, .templates = own ? folder : NULL};
   notices[0] = 0;
-  ck_assert_msg(zp_report_write(&report, note, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_report_write(&report, note, &err));
 }
 
 /* Write the built-in templates to base/mine. */
 static void write_mine(void) {
-  ZpError err;
   char *folder = in_base("mine");
-  ck_assert_msg(zp_templates_write(folder, &err) == ZP_OK, "%s", err.message);
+  ck_ok(zp_templates_write(folder, &err));
 }
 
 TEST(built_in_are_those_of_the_repository) {
@@ -102,12 +96,10 @@ TEST(built_in_are_those_of_the_repository) {
 
 /* What a user has edited is not written over. */
 TEST(files_that_are_there_stay) {
-  ZpError err;
   write_mine();
   put_file("mine/bode.gp", "# mine\n");
   char *folder = in_base("mine");
-  ck_assert_int_eq(zp_templates_write(folder, &err), ZP_BAD_INPUT);
-  ck_assert_ptr_nonnull(strstr(err.message, "exists already"));
+  ck_says(zp_templates_write(folder, &err), ZP_BAD_INPUT, "exists already");
   ck_assert(says("mine/bode.gp", "# mine"));
 }
 
@@ -190,13 +182,12 @@ DRAWN_TEST(templates_in_a_circle) {
 
 /* gnuplot runs templates as programs: a scenario, which may be a stranger's, cannot name them. */
 TEST(no_scenario_names_templates) {
-  ZpError err = {0};
   static const char text[] = "output: {templates: mine}\n";
   ZpScenario *scenario = new_scenario();
-  ck_assert_int_eq(zp_scenario_set(scenario, "output.templates=mine", &err), ZP_BAD_INPUT);
-  ck_assert_ptr_nonnull(strstr(err.message, "no scenario can name them; use --templates FOLDER"));
-  ck_assert_int_eq(zp_scenario_parse(scenario, text, strlen(text), "stranger.yaml", &err), ZP_BAD_INPUT);
-  ck_assert_ptr_nonnull(strstr(err.message, "no scenario can name them; use --templates FOLDER"));
+  ck_says(zp_scenario_set(scenario, "output.templates=mine", &err), ZP_BAD_INPUT,
+          "no scenario can name them; use --templates FOLDER");
+  ck_says(zp_scenario_parse(scenario, text, strlen(text), "stranger.yaml", &err), ZP_BAD_INPUT,
+          "no scenario can name them; use --templates FOLDER");
 }
 
 /* The label of each axis has a unit, or says that there is none. A template writes it by label() or as "time / ms". */

@@ -200,10 +200,9 @@ static ZpActuatorDef moving(int k, int symmetry, double step) {
                        {"solver.time_step", step}};
   size_t count = 6;
   ZpActuatorDef def;
-  ZpError err = {ZP_OK, ""};
   for (size_t i = 0; i < 4 && with[k][i].key && count < MOST; i++)
     all[count++] = with[k][i];
-  ck_assert_msg(resolve(&def, all, count, &err) == ZP_OK, "%s", err.message);
+  ck_ok(resolve(&def, all, count, &err));
   return def;
 }
 
