@@ -174,11 +174,9 @@ typedef struct TableColumn {
 } TableColumn;
 
 typedef struct Table {
-  const char *name, *caption, *corner; /* mark of page.html; caption; title of the labels */
-  const char *format;
-  double factor; /* from SI */
-  bool by_row;   /* the rows are runs, not values of a key */
-  bool error;    /* show the error against the converged finite elements, relative to the number, in per cent */
+  const char *name, *caption, *corner, *format; /* see tables.def */
+  double factor;
+  bool by_row, error;
   const TableRow *row;
   TableColumn column[7];
 } Table;
@@ -202,75 +200,10 @@ static const TableRow voltages[] = {{"5&nbsp;kV", {.load = NAN, .voltage = 5e3},
 static const TableRow openings[] = {
     {"ours", {.load = NAN}, ZP_RUN_FIG_10}, {"their program, N = 61", {.load = NAN}, ZP_RUN_FIG_10_CODE}, {0}};
 
+#define ZP_OWN_TABLE(name, caption, corner, format, factor, by_row, error, rows, ...)                                  \
+  {name, caption, corner, format, factor, by_row, error, rows, {__VA_ARGS__}},
 static const Table tables[] = {
-    {"errors",
-     "error of our chain against the converged finite elements / %",
-     "load",
-     "%.2f",
-     1,
-     false,
-     true,
-     loads,
-     {{"N&nbsp;=&nbsp;21", "stroke_m", ZP_RUN_TABLE_2_21, 21, 0},
-      {"N&nbsp;=&nbsp;61", "stroke_m", ZP_RUN_TABLE_2_61, 61, 0},
-      {"N&nbsp;=&nbsp;130", "stroke_m", ZP_RUN_TABLE_2_130, 130, 0}}},
-    {"strokes",
-     "stroke of the text's actuator, 50 µm / mm",
-     "load",
-     "%.2f",
-     1e3,
-     false,
-     false,
-     loads,
-     {{"N&nbsp;=&nbsp;21", "stroke_m", ZP_RUN_TABLE_2_TEXT, 21, 0},
-      {"N&nbsp;=&nbsp;61", "stroke_m", ZP_RUN_TABLE_2_TEXT, 61, 0},
-      {"N&nbsp;=&nbsp;130", "stroke_m", ZP_RUN_TABLE_2_TEXT, 130, 0}}},
-    {"forces",
-     "force at 6 kV / N",
-     "separation",
-     "%.4f",
-     1,
-     false,
-     false,
-     separations,
-     {{"with breakdown", "force_N", ZP_RUN_FIG_8, 0, 20e6},
-      {"without", "force_N", ZP_RUN_FIG_8, 0, 1e9},
-      {"the paper's text", "force_N", ZP_RUN_FIG_8_PAPER, 0, 0}}},
-    {"zip-times",
-     "zip time / ms",
-     "voltage",
-     "%.1f",
-     1e3,
-     false,
-     false,
-     voltages,
-     {{"ours", "zip_time_s", ZP_RUN_FIG_9, 0, 0},
-      {"their program, N = 21", "zip_time_s", ZP_RUN_FIG_9_CODE_21, 0, 0},
-      {"N = 61", "zip_time_s", ZP_RUN_FIG_9_CODE_61, 0, 0},
-      {"their text, N = 21", "zip_time_s", ZP_RUN_FIG_9_TEXT, 0, 0}}},
-    {"openings",
-     "opening / mm",
-     "",
-     "%.3f",
-     1e3,
-     true,
-     false,
-     openings,
-     {{"at the start", "start_opening_m", 0, 0, 0}, {"widest", "widest_opening_m", 0, 0, 0}}},
-    {"causes",
-     "the factor and its causes",
-     "opening",
-     "%.3f",
-     1,
-     false,
-     false,
-     separations,
-     {{"field / plates", "scale_factor", ZP_RUN_FACTOR, 0, 0},
-      {"voltage", "paper_factor_voltage", ZP_RUN_FACTOR, 0, 0},
-      {"half", "paper_factor_half", ZP_RUN_FACTOR, 0, 0},
-      {"tape", "paper_factor_tape", ZP_RUN_FACTOR, 0, 0},
-      {"gap", "paper_factor_gap", ZP_RUN_FACTOR, 0, 0},
-      {"product", "paper_factor", ZP_RUN_FACTOR, 0, 0}}},
+#include "reproduce/tables.def"
 };
 
 static double cell_of(const ZpRuns *runs, const Table *table, const TableRow *row, const TableColumn *column) {
