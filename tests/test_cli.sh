@@ -45,6 +45,12 @@ zp_drawing() { # the same with what PATH has
 }
 
 status_is() { [ "$status" -eq "$1" ] || { echo "    status $status, not $1"; false; }; }
+ends() { # STATUS DESCRIPTION WORDS...: the command of these words ends with that status
+  expected=$1 title=$2
+  shift 2
+  zp "$@"
+  ok "$title" status_is "$expected"
+}
 says() { grep -q -e "$1" stderr || { echo "    stderr does not have: $1"; false; }; }
 prints() { grep -q -e "$1" stdout || { echo "    stdout does not have: $1"; false; }; }
 is_empty() { [ ! -s "$1" ]; }
@@ -85,57 +91,46 @@ complete() { # DIR: every file of a report is there and whole
 
 # -- words ---------------------------------------------------------------------------------------------
 
-zp --version
-ok "--version" status_is 0
+ends 0 "--version" --version
 ok "--version prints name and number" grep -Eqx 'zipact [0-9]+\.[0-9]+\.[0-9]+' stdout
 for help in --help -h help; do
-  zp $help
-  ok "$help" status_is 0
+  ends 0 "$help" $help
   ok "$help names the studies" prints actuate
   ok "$help goes to stdout only" is_empty stderr
 done
 for study in actuate run; do
-  zp $study --help
-  ok "$study --help" status_is 0
+  ends 0 "$study --help" $study --help
   ok "$study --help names --set" prints '--set KEY=VALUE'
 done
 zp help limits
 ok "help STUDY" prints '^zipact limits '
-zp keys --help
-ok "keys --help" status_is 0
+ends 0 "keys --help" keys --help
 ok "keys --help names its options" prints '^zipact keys \[--yaml\] \[--json\]'
 ok "keys --help names no others" [ "$(grep -c -e '--set' stdout)" -eq 0 ]
 zp fmu --help
 ok "fmu --help: a letter for -o and -h only" [ "$(grep -c -E '^  -[a-z], --' stdout)" -eq 2 ]
 ok "fmu --help: --set has none" prints '^  --set KEY=VALUE'
 
-zp keys
-ok "keys" status_is 0
+ends 0 "keys" keys
 ok "keys has load.mass with its default" prints '^load\.mass .*8 g'
-zp keys --json
-ok "keys --json" status_is 0
+ends 0 "keys --json" keys --json
 ok "keys --json is a list of whole entries" json stdout \
   'len(d) > 40 and all(set(k) == {"key", "type", "unit", "default", "min", "max", "choices", "help"} for k in d)'
 ok "keys --json is in SI" json stdout '[k["default"] for k in d if k["key"] == "load.mass"] == [0.008]'
-zp keys --yaml
-ok "keys --yaml" status_is 0
+ends 0 "keys --yaml" keys --yaml
 cp stdout starter.yaml
-zp run starter.yaml $short -o starter
-ok "the starter scenario runs" status_is 0
-zp actuate $short -o defaults
-ok "defaults run" status_is 0
+ends 0 "the starter scenario runs" run starter.yaml $short -o starter
+ends 0 "defaults run" actuate $short -o defaults
 ok "the starter scenario is the defaults" cmp -s starter/scenario.yaml defaults/scenario.yaml
 ok "the starter scenario gives the table of the defaults" cmp -s starter/table.csv defaults/table.csv
 
 mkdir manual
-zp man -o manual
-ok "man" status_is 0
+ends 0 "man" man -o manual
 ok "man: a page for each study and command, and one for all" [ "$(ls manual/*.1 | wc -l)" -eq $((1 + $("$zipact" --help | grep -c -E '^  [a-z]'))) ]
 ok "man: a page has what --help has" grep -q 'print a scenario with all keys' manual/zipact-keys.1
 ok "man: what is bold ends" [ "$(cat manual/*.1 | grep -o '\\fB' | wc -l)" -eq "$(cat manual/*.1 | grep -o '\\fR' | wc -l)" ]
 ok "man: a page refers to the others, not to itself" [ "$(grep -c -F 'zipact\-keys (1)' manual/zipact-keys.1)" -eq 0 -a "$(grep -c -F 'zipact\-keys (1)' manual/zipact-run.1)" -eq 1 ]
-zp man -o a/b/c
-ok "3: man: no such folder" status_is 3
+ends 3 "3: man: no such folder" man -o a/b/c
 ok "3: man: says where" says 'a/b/c/zipact\.1'
 if command -v groff >/dev/null; then
   ok "man: groff has no warnings" [ -z "$(for page in manual/*.1; do groff -man -ww -Tutf8 "$page" 2>&1 >/dev/null; done)" ]
@@ -163,8 +158,7 @@ fi
 
 # -- status 0 to 3 -----------------------------------------------------------------------------------------
 
-zp actuate $short --set drive.voltage=0 --json -o never
-ok "0: it never zips, which is an answer" status_is 0
+ends 0 "0: it never zips, which is an answer" actuate $short --set drive.voltage=0 --json -o never
 ok "0: outcome end_time, zip time null" json stdout 'd["outcome"] == "end_time" and d["zip_time_s"] is None'
 
 # a limp chain has no stiffness when straight, so it is settled by steps
@@ -173,17 +167,14 @@ zp actuate --set ribbon.model=mass_spring --set mass_spring.shear_coefficient=0 
 ok "1: no equilibrium within max_steps" status_is 1
 ok "1: --json prints all the same" json stdout 'd["outcome"] == "not_settled" and "1000" in d["message"]'
 ok "1: what was reached is kept" complete not-settled
-zp actuate $short --set solver.time_step=1e-9 --set solver.end_time=10 --set solver.max_steps=10000 --json -o limited
-ok "1: too many steps" status_is 1
+ends 1 "1: too many steps" actuate $short --set solver.time_step=1e-9 --set solver.end_time=10 --set solver.max_steps=10000 --json -o limited
 ok "1: outcome step_limit" json stdout 'd["outcome"] == "step_limit" and d["steps"] == 10000'
 ok "1: the rows until then are kept" [ "$(wc -l <limited/table.csv)" -gt 2 ]
 chain="--set ribbon.model=mass_spring --set electro.force_scale=1000 --set electro.breakdown_cap=false"
-zp actuate $short $chain --set drive.voltage=1MV --json -o diverged
-ok "1: diverged" status_is 1
+ends 1 "1: diverged" actuate $short $chain --set drive.voltage=1MV --json -o diverged
 ok "1: outcome diverged" json stdout 'd["outcome"] == "diverged"'
 ok "1: its files are whole" complete diverged
-zp actuate $short $chain --set "drive.voltage=[0, 1 MV]" --json -o one-bad
-ok "1: one bad row of a sweep" status_is 1
+ends 1 "1: one bad row of a sweep" actuate $short $chain --set "drive.voltage=[0, 1 MV]" --json -o one-bad
 ok "1: both rows are there" json stdout '[r["outcome"] for r in d["rows"]] == ["end_time", "diverged"]'
 
 refused() { # DESCRIPTION PATTERN ARGUMENT...: wrong input, said why, nothing written
@@ -191,8 +182,7 @@ refused() { # DESCRIPTION PATTERN ARGUMENT...: wrong input, said why, nothing wr
   pattern=$2
   shift 2
   rm -rf refused out/actuate
-  zp "$@"
-  ok "2: $what" status_is 2
+  ends 2 "2: $what" "$@"
   ok "2: $what: message" says "$pattern"
   ok "2: $what: nothing on stdout" is_empty stdout
   ok "2: $what: one line" [ "$(wc -l <stderr)" -le 2 ]
@@ -277,17 +267,13 @@ printf 'study: fly\n' >bad.yaml
 refused "unknown study in a file" 'bad\.yaml:1: study.*actuate' run bad.yaml -o refused
 
 : >a-file
-zp actuate $short -o a-file
-ok "3: -o is a file" status_is 3
+ends 3 "3: -o is a file" actuate $short -o a-file
 ok "3: says which" says 'a-file.*not a folder'
 ok "3: the file stays" is_empty a-file
-zp actuate $short -o a-file/below
-ok "3: -o below a file" status_is 3
-zp actuate $short -o /proc/zipact-cannot-be
-ok "3: -o where nothing can be made" status_is 3
+ends 3 "3: -o below a file" actuate $short -o a-file/below
+ends 3 "3: -o where nothing can be made" actuate $short -o /proc/zipact-cannot-be
 ok "3: says where" says '/proc/zipact-cannot-be'
-zp actuate $short -o ''
-ok "3: -o is empty" status_is 3
+ends 3 "3: -o is empty" actuate $short -o ''
 zp_closed() { PATH=/nowhere "$zipact" "$@" >&- 2>stderr; status=$?; }
 zp_closed actuate $short --json -o closed-output
 ok "a closed standard output: 3" status_is 3
@@ -316,35 +302,29 @@ printf 'name,secret\nme,hidden\n' >private.csv
 for file in private private.csv; do
   for words in "calibrate --set data.file=$file" "stationary --set data.file=$file" "calibrate --set data.file=$file --set data.columns=a=load_g" \
     "actuate --set drive.waveform=table --set drive.file=$file" "actuate --set initial.state=checkpoint --set initial.file=$file"; do
-    zp $words -o reading
-    ok "$words: 2" status_is 2
+    ends 2 "$words: 2" $words -o reading
     ok "$words: no message quotes a file that is not a table" [ -z "$(grep -E 'secret|hidden' stderr)" ]
   done
 done
 mkdir outside leads
 for name in plots shapes journal.sqlite table.csv; do
   ln -s ../outside "leads/$name"
-  zp actuate $short -o leads
-  ok "3: $name is a link that leads out of the folder" status_is 3
+  ends 3 "3: $name is a link that leads out of the folder" actuate $short -o leads
   ok "3: $name: says so" says "leads/$name: it is a link that leads out of its folder"
   rm "leads/$name"
 done
 ok "nothing is written there" [ -z "$(ls outside)" ]
 mkdir leads/inside && ln -s inside leads/plots
-zp actuate $short -o leads
-ok "a link inside the folder is allowed" status_is 0
+ends 0 "a link inside the folder is allowed" actuate $short -o leads
 mkfifo pipe.fmu leads/journal.sqlite
-zp actuate $short -o leads
-ok "3: a special file in the folder" status_is 3
+ends 3 "3: a special file in the folder" actuate $short -o leads
 ok "3: a special file: says so" says 'journal.sqlite: it is a special file'
-zp fmu -o pipe.fmu
-ok "3: an FMU as a special file" status_is 3
+ends 3 "3: an FMU as a special file" fmu -o pipe.fmu
 ok "3: the special file stays" [ -p pipe.fmu ]
 rm -rf pipe.fmu leads private private.csv
 if [ "$(id -u)" -ne 0 ]; then
   mkdir locked && chmod 555 locked
-  zp actuate $short -o locked/here
-  ok "3: no right to write" status_is 3
+  ends 3 "3: no right to write" actuate $short -o locked/here
   ok "3: says so" says 'locked/here.*ermission'
   chmod 755 locked
 fi
@@ -460,20 +440,16 @@ ok "130: and leaves a whole report" complete hanging-twice
 PATH=/nowhere "$zipact" actuate $long --quiet -o held >/dev/null 2>&1 &
 pid=$!
 wait_for_file held/.zipact-lock
-zp actuate $short -o held
-ok "3: another run has the folder" status_is 3
+ends 3 "3: another run has the folder" actuate $short -o held
 ok "3: says which process" says "held: process $pid on .* is writing there"
-zp stationary $short -o held
-ok "3: another study, too" status_is 3
+ends 3 "3: another study, too" stationary $short -o held
 ok "3: nothing was written" is_absent held/scenario.yaml
-zp actuate $short -o beside-held
-ok "another folder is free" status_is 0
+ends 0 "another folder is free" actuate $short -o beside-held
 kill -KILL $pid
 wait $pid 2>/dev/null
 echo half >held/.table.csv.zipact-$pid.tmp
 echo mine >held/.mine.csv.12.tmp
-zp actuate $short -o held
-ok "a killed run is not in the way" status_is 0
+ends 0 "a killed run is not in the way" actuate $short -o held
 ok "what it left is gone" [ -z "$(find held -name '.*zipact*')" ]
 ok "what is not ours stays" grep -q mine held/.mine.csv.12.tmp
 rm held/.mine.csv.12.tmp
@@ -481,8 +457,7 @@ mkdir -p held-report
 PATH=/nowhere "$zipact" reproduce --quiet -o held-report >/dev/null 2>&1 &
 pid=$!
 wait_for_file held-report/.zipact-lock
-zp reproduce -o held-report
-ok "3: another reproduce has the folder" status_is 3
+ends 3 "3: another reproduce has the folder" reproduce -o held-report
 ok "3: says which process, too" says "held-report: process $pid on"
 kill -INT $pid
 wait $pid
@@ -494,8 +469,7 @@ zp actuate $short --set solver.end_time=4ms -o whole
 zp actuate $short -o cut
 ok "a run leaves a checkpoint" is_file cut/checkpoint.zps
 from="--set initial.state=checkpoint --set initial.file=cut/checkpoint.zps"
-zp actuate $short $from --set solver.end_time=4ms -o rest
-ok "resumes from it" status_is 0
+ends 0 "resumes from it" actuate $short $from --set solver.end_time=4ms -o rest
 ok "to the same state" cmp whole/checkpoint.zps rest/checkpoint.zps
 ok "and the same last row" [ "$(tail -1 whole/table.csv | cut -d, -f1-8)" = "$(tail -1 rest/table.csv | cut -d, -f1-8)" ]
 ok "scenario.yaml has the file's whole path" grep -q "file: .*/cut/checkpoint.zps" rest/scenario.yaml
@@ -505,22 +479,18 @@ mkdir -p sub
 printf 'initial: {state: checkpoint, file: ../cut/checkpoint.zps}\n' >sub/on.yaml
 zp actuate sub/on.yaml $short --set solver.end_time=4ms -o rest-again
 ok "a scenario names it from its own folder" cmp rest/checkpoint.zps rest-again/checkpoint.zps
-zp actuate $short $from --set 'solver.end_time=[3 ms, 4 ms]' -o cut
-ok "a sweep from it into its own folder" status_is 0
+ends 0 "a sweep from it into its own folder" actuate $short $from --set 'solver.end_time=[3 ms, 4 ms]' -o cut
 ok "leaves it there" is_file cut/checkpoint.zps
-zp actuate $short $from --set ribbon.thickness=60um -o refused
-ok "2: another model" status_is 2
+ends 2 "2: another model" actuate $short $from --set ribbon.thickness=60um -o refused
 ok "2: names the key and both values" says 'ribbon.thickness is 5e-05 m there, 6e-05 m here'
 head -c 999 cut/checkpoint.zps >short.zps
-zp actuate $short $from --set initial.file=short.zps -o refused
-ok "2: cut short" status_is 2
+ends 2 "2: cut short" actuate $short $from --set initial.file=short.zps -o refused
 ok "2: says where it ends" says 'short.zps: cut short: 999 of [0-9]* bytes'
 ok "2: nothing was written" is_absent refused
 
 # -- streams ----------------------------------------------------------------------------------------------------
 
-zp actuate $short --quiet -o quiet
-ok "--quiet" status_is 0
+ends 0 "--quiet" actuate $short --quiet -o quiet
 ok "--quiet prints nothing" is_empty stdout
 ok "--quiet says nothing" is_empty stderr
 zp actuate --quiet --set load.mass=x -o quiet
@@ -534,21 +504,17 @@ ok "without gnuplot: status 0" status_is 0
 ok "without gnuplot: the scripts stay" is_file missing-gnuplot/plots/stroke.gp
 
 # -- templates of pictures ------------------------------------------------------------------------------------------
-zp plots
-ok "plots without a folder: status 2" status_is 2
+ends 2 "plots without a folder: status 2" plots
 ok "plots without a folder: says what it needs" says 'plots needs a folder to write to: -o FOLDER'
 zp plots -o mine-too --quiet
 ok "plots --quiet prints nothing" is_empty stdout
-zp plots -o mine
-ok "plots: status 0" status_is 0
+ends 0 "plots: status 0" plots -o mine
 ok "plots: says how to draw with them" prints '^zipact STUDY --templates mine draws'
 ok "plots writes the templates" is_file mine/stroke.gp
-zp plots -o mine
-ok "plots does not write over them: status 2" status_is 2
+ends 2 "plots does not write over them: status 2" plots -o mine
 ok "plots does not write over them: says so" says 'mine/.*: exists already'
 echo '# edited' >>mine/stroke.gp
-zp actuate $short --templates mine -o edited
-ok "--templates: status 0" status_is 0
+ends 0 "--templates: status 0" actuate $short --templates mine -o edited
 ok "--templates: the script has what was edited" grep -q '^# edited' edited/plots/stroke.gp
 ok "--templates is not in scenario.yaml, which others may run" [ -z "$(grep templates edited/scenario.yaml)" ]
 mkdir evil
@@ -558,8 +524,7 @@ zp_drawing run stranger.yaml -o stranger
 ok "a scenario names templates: status 2" status_is 2
 ok "a scenario names templates: says where they belong" says '--templates FOLDER'
 ok "a scenario names templates: none of their commands ran" is_absent escaped
-zp actuate $short --templates nowhere -o nothing
-ok "--templates of no folder: status 2" status_is 2
+ends 2 "--templates of no folder: status 2" actuate $short --templates nowhere -o nothing
 ok "--templates of no folder: says so" says '--templates: there is no folder nowhere'
 
 cat >terminal.py <<'END'
@@ -617,8 +582,7 @@ ok "an estimated error has the unit of its number: $error" prints "^  pull-in  *
 zp stationary --set mesh.nodes=5 --set 'load.mass=1 g .. 9 g : 103' --no-plots -o rows-shown
 ok "a hundred rows of 103, and how many more" [ "$(grep -c '^  load.mass = ' stdout)" -eq 100 ]
 ok "a hundred rows of 103: three more" prints '^  \.\.\. and 3 more rows in table\.csv'
-zp stationary --set mesh.nodes=5 --jobs 1024 -o most-jobs
-ok "--jobs 1024 is allowed" status_is 0
+ends 0 "--jobs 1024 is allowed" stationary --set mesh.nodes=5 --jobs 1024 -o most-jobs
 printf 'study: limits\nmesh: {nodes: 5}\nload: {mass: 9 g}\n' >a=b.yaml
 zp stationary a=b.yaml --json -o named
 ok "a scenario with = in its name; the word before it says which study" json stdout 'd["study"] == "stationary"'
@@ -630,8 +594,7 @@ rm -f default.fmu
 # -- preset < file < --set ------------------------------------------------------------------------------------------
 
 printf 'mesh: {nodes: 21}\nribbon: {thickness: 80 um}\nsolver: {end_time: 1 ms}\npreset: paper-code\n' >order.yaml
-zp run order.yaml -o order
-ok "a preset runs" status_is 0
+ends 0 "a preset runs" run order.yaml -o order
 ok "the preset gives what the file does not" grep -q 'force_scale: 6.6' order/scenario.yaml
 ok "the file wins over the preset, wherever it is written" grep -q 'thickness: 80 um' order/scenario.yaml
 zp run order.yaml --set 'ribbon.thickness=70 um' -o order
@@ -645,8 +608,7 @@ ok "the later --set wins" grep -q 'mass: 2 g' order/scenario.yaml
 
 # -- sweeps ------------------------------------------------------------------------------------------------------------
 
-zp actuate $short --set 'drive.voltage=[0, 1 kV, 2 kV]' --set 'load.mass=[8 g, 20 g]' --json -o sweep
-ok "a sweep" status_is 0
+ends 0 "a sweep" actuate $short --set 'drive.voltage=[0, 1 kV, 2 kV]' --set 'load.mass=[8 g, 20 g]' --json -o sweep
 ok "the product of the lists, the last key fastest" json stdout \
   '[(r["load.mass"], r["drive.voltage"]) for r in d["rows"]] == [(m, u) for m in (0.008, 0.02) for u in (0, 1000, 2000)]'
 ok "one row of table.csv each" [ "$(wc -l <sweep/table.csv)" -eq 7 ]
@@ -678,8 +640,7 @@ same_report() { # DIR DIR
 zp_drawing actuate $short --set drive.voltage=5kV -o twice-a
 zp_drawing actuate $short --set drive.voltage=5kV -o twice-b
 ok "same input, same bytes, pictures and all" same_report twice-a twice-b
-zp run twice-a/scenario.yaml -o rerun
-ok "scenario.yaml runs again" status_is 0
+ends 0 "scenario.yaml runs again" run twice-a/scenario.yaml -o rerun
 ok "to the same table" cmp twice-a/table.csv rerun/table.csv
 ok "to the same results.h5" cmp twice-a/results.h5 rerun/results.h5
 ok "and to itself" cmp twice-a/scenario.yaml rerun/scenario.yaml
@@ -711,19 +672,15 @@ ok "and no checkpoint" is_absent foreign/checkpoint.zps
 
 # -- no NaN in any file ----------------------------------------------------------------------------------------------------------
 
-zp actuate --set actuator.kind=ribbon $short -o ribbon
-ok "kind ribbon" status_is 0
-zp actuate $short --set load.mass=0 --set gravity=0 --set drive.voltage=0 -o nothing
-ok "no load, no weight, no voltage" status_is 0
+ends 0 "kind ribbon" actuate --set actuator.kind=ribbon $short -o ribbon
+ends 0 "no load, no weight, no voltage" actuate $short --set load.mass=0 --set gravity=0 --set drive.voltage=0 -o nothing
 zp_drawing actuate $short --no-plots -o bare
 ok "--no-plots: 0" status_is 0
 ok "--no-plots: no folder for pictures" is_absent bare/plots
 ok "--no-plots: says nothing of plots/" [ -z "$(grep plots/ stdout)" ]
-zp keys --no-plots
-ok "--no-plots of keys: 2" status_is 2
+ends 2 "--no-plots of keys: 2" keys --no-plots
 for jobs in 0 -1 two 1e3 2000 ''; do
-  zp actuate $short --jobs "$jobs" -o wrong-jobs
-  ok "--jobs '$jobs': 2" status_is 2
+  ends 2 "--jobs '$jobs': 2" actuate $short --jobs "$jobs" -o wrong-jobs
   ok "--jobs '$jobs': says what it takes" says "jobs takes a number from 1 to 1024"
   ok "--jobs '$jobs': nothing written" is_absent wrong-jobs
 done
