@@ -850,24 +850,11 @@ void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
   load(d, state);
 }
 
-/* Force with which the load that members side by side share pulls the platform of one up, eq. (29.5): what the motion
- * of its own mass takes beyond its own forces. */
-static void book_link(const ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
-  const ZpModel *model = m->model;
-  size_t j = zp_load_node(&model->topology);
-  ZpSpan span = span_of(d, m);
-  double mass = model->mass[j] + liquid_at(model, j / model->s);
-  zp_system_force(model, &span, &m->eval, m->force);
-  state->link_force = mass * d->history.a[m->assembly.equation[zp_y_of(j)]] - zp_nodes(model, m->force).y[j];
-}
-
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   release_cavities(d);
   for (size_t k = 0; k < d->members; k++)
     book(d, &d->member[k], state[k]);
   book_impacts(d, state[0]);
-  for (size_t k = 0; k < d->members && d->member->model->parallel; k++)
-    book_link(d, &d->member[k], state[k]);
   for (size_t k = 0; k < d->members; k++)
     arrive(d, &d->member[k], state[k]);
 }
@@ -878,4 +865,18 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   double taken = zp_implicit_step(&d->stepper, latest - state[0]->t, d->q, d->v, &d->history);
   if (taken > 0) zp_dynamics_end(d, state);
   return taken;
+}
+
+/* What the motion of its own mass takes beyond its own forces, eq. (29.5). */
+void zp_dynamics_book_link(ZpDynamics *d, size_t which, ZpState *before, ZpState *state) {
+  ZpMovingMember *m = &d->member[which];
+  const ZpModel *model = m->model;
+  size_t j = zp_load_node(&model->topology);
+  m->state = before;
+  m->mean_v = zp_state_mean_v(model, before);
+  ZpSpan span = span_of(d, m);
+  span.beyond = zp_state_beyond(model, state);
+  double mass = model->mass[j] + liquid_at(model, j / model->s);
+  zp_system_force(model, &span, &m->eval, m->force);
+  state->link_force = mass * d->history.a[m->assembly.equation[zp_y_of(j)]] - zp_nodes(model, m->force).y[j];
 }

@@ -77,4 +77,8 @@ double zp_dynamics_step(ZpDynamics *dynamics, ZpState *const state[], double lat
 void zp_dynamics_begin(ZpDynamics *dynamics, ZpState *const state[], double latest);
 void zp_dynamics_end(ZpDynamics *dynamics, ZpState *const state[]);
 
+/* Note in the state of a member, where the last step has ended, the force with which the load that members side by side
+ * share pulls its platform up; `before` is its state at the start of the step. */
+void zp_dynamics_book_link(ZpDynamics *dynamics, size_t which, ZpState *before, ZpState *state);
+
 #endif

@@ -129,6 +129,7 @@ struct ZpSim {
   bool stuck;                     /* no step succeeded */
   bool negative;                  /* a row has had a negative capacitance */
   const char *fault;              /* why the model does not describe where the last run ended; NULL: it does */
+  bool links_due;                 /* zp_sim_book_links has something to do */
   bool stops_at_events;           /* the run ends at the first event */
   bool at_event;                  /* the last step has ended at an event */
   ZpStop stop;                    /* where the run under way ends before its end time */
@@ -167,6 +168,10 @@ void zp_sim_see_one(ZpSim *sim);
 
 /* Take one step of a run, at most to `end_time`, and count it (step.c). */
 void zp_sim_advance(ZpSim *sim, double end_time, ZpRunInfo *info);
+
+/* Complete the states after a step, where they are looked at: note the forces of links between members side by side,
+ * which take one more evaluation of all forces (step.c). */
+void zp_sim_book_links(ZpSim *sim);
 
 /* Note which events have happened in the last step of one member (closing.c). */
 void zp_sim_note_end(ZpSim *sim, const ZpMovingMember *moved);

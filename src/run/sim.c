@@ -118,6 +118,7 @@ void zp_sim_passed(const ZpSim *sim, ZpState *state[]) {
 
 /* A longer run passes through the present state, too, unless the end of this run has cut its last step short. */
 static void keep(ZpSim *sim) {
+  zp_sim_book_links(sim);
   if (sim->cut || diverged(sim)) return;
   for (ZpSim *m = sim; m < sim + sim->members; m++)
     memcpy(m->kept, m->state, zp_state_size(m->model));
@@ -441,6 +442,7 @@ ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHoo
     keep(sim);
     sim->stop = stop;
     info.outcome = advance(sim, end_time, hooks, &info);
+    zp_sim_book_links(sim);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
     sim->fault = diverged(sim) || sim->stuck ? NULL : fault_of(sim);
     if (sim->fault) info.outcome = ZP_BEYOND_MODEL;

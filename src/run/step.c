@@ -172,10 +172,18 @@ static void return_to_start(ZpSim *sim) {
 
 /* A step that ends at `latest` or before; false if none was found. */
 static bool take(ZpSim *sim, double latest, ZpStepLimit *limit) {
+  sim->links_due = false;
   if (!zp_sim_prepare(sim)) return false;
   sim->stuck = !sim->stepping->step(sim, latest, limit);
   if (!sim->stuck) zp_sim_arrive(sim);
+  sim->links_due = !sim->stuck && sim->model->parallel && !sim->stepping->fine;
   return !sim->stuck;
+}
+
+void zp_sim_book_links(ZpSim *sim) {
+  for (size_t k = 0; sim->links_due && k < sim->members; k++)
+    zp_dynamics_book_link(&sim->dynamics, k, sim[k].before, sim[k].state);
+  sim->links_due = false;
 }
 
 /* Instants in a step, s, and what is left at them: before and at or after the end of the run. */
