@@ -550,19 +550,19 @@ def rule_one_sum(repo, files):
         yield not found, "%s:%d" % (name, line_at(code, found.start()) if found else 1), "adds to a force: that is a term's"
 
 
-# Where x and y of a node stand in an array is known to actuator/ and to the kernels below it, which get arrays. All
+# Where x and y of a node stand in an array is known to actuator/, and where both nodes of a pair do to base/pair.h. All
 # others read and write views (zp_nodes, zp_forces) and name coordinates (zp_x_of, zp_y_of).
-LAYOUT = re.compile(r"\bstride\b|\[2 \* [ijk]( \+ \w+)?\]|\+ (\w+ \* )?zp_lanes\(|\b2 \* (zp_(upper|lower|load_node)\(|node\b|j\b)")
-SEES_VIEWS = ("campaign", "def", "device", "drive", "fit", "fmu", "optimize", "rest", "run", "sample", "solve", "study", "system", "term")
+LAYOUT = re.compile(r"\bstride\b|\[2 \* [ijk]( \+ \w+)?\]|\+ (\w+ \* )?zp_lanes\(|\b2 \* (zp_(upper|lower|load_node)\(|(node|j)( \+|[,\]]))")
+OWN_LAYOUT = ("actuator", "base", "io", "math")
 
 
 def rule_views(repo, files):
-    """Only actuator/ and the kernels know the layout of coordinates."""
+    """Only actuator/ and base/pair.h know the layout of coordinates; base/table.h and math/ have strides of their own."""
     for name in files:
-        if folder_of(name) in SEES_VIEWS and name.endswith((".c", ".h")):
+        if name.startswith("src/") and folder_of(name) not in OWN_LAYOUT and name.endswith((".c", ".h")):
             found = [line for line, text in enumerate(code_of(read(repo, name)).splitlines(), 1) if LAYOUT.search(text)]
             where = "%s:%d" % (name, found[-1] if found else 1)
-            yield not found, where, "knows where x and y of a node stand: use zp_nodes, zp_forces, zp_x_of or zp_y_of"
+            yield not found, where, "knows where x and y of a node stand: use zp_nodes, zp_forces, zp_x_of, zp_y_of, or base/pair.h"
 
 
 # Clients of the public interface, which does not say what a kind has.

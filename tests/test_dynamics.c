@@ -75,7 +75,7 @@ static void shape_end(Step *s, size_t end, double angle, double stretch, uint64_
 static void make_step(Step *s, Kind kind, uint64_t *seed) {
   *s = (Step){
       .params = {
-          .ribbons = kind.ribbons, .nodes = NODES, .stride = PLACES, .l = s->l, .S = s->S, .B = s->B, .k0 = s->k0}};
+          .ribbons = kind.ribbons, .nodes = NODES, .lanes = PLACES, .l = s->l, .S = s->S, .B = s->B, .k0 = s->k0}};
   set_params(s, kind, seed);
   ZpArena arena = {NULL, 0};
   reserve(s, &arena);

@@ -75,7 +75,7 @@ static void make_ribbon(Ribbon *r, size_t ribbons, size_t nodes, double K_D, dou
   memset(r, 0, sizeof *r);
   r->p = (ZpMassSpringParams){.ribbons = ribbons,
                               .nodes = nodes,
-                              .stride = PLACES,
+                              .lanes = PLACES,
                               .l = 1,
                               .K_D = K_D,
                               .K_S = K_S,

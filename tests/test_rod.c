@@ -33,7 +33,7 @@ static void reserve(Rod *r, ZpArena *arena) {
  * `free_ends`: no slope is held. */
 static void make_rod(Rod *r, size_t ribbons, bool free_ends, uint64_t seed) {
   *r = (Rod){
-      .params = {.ribbons = ribbons, .nodes = NODES, .stride = PLACES, .l = r->l, .S = r->S, .B = r->B, .k0 = r->k0}};
+      .params = {.ribbons = ribbons, .nodes = NODES, .lanes = PLACES, .l = r->l, .S = r->S, .B = r->B, .k0 = r->k0}};
   size_t count = ribbons * NODES;
   for (size_t j = 0; j < PLACES; j++) {
     size_t station = j / ribbons;

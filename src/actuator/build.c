@@ -197,7 +197,7 @@ static ZpMassSpringParams spring_of(const ZpModel *model) {
   double text = section.EA * elements / model->L, code = section.EA / (elements * model->L);
   return (ZpMassSpringParams){.ribbons = model->s,
                               .nodes = model->nodes,
-                              .stride = model->stride,
+                              .lanes = model->stride,
                               .l = model->l,
                               .K_D = def->mass_spring.axial == ZP_AXIAL_TEXT ? text : code,
                               .K_S = isnan(K_S) ? zp_massspring_shear_coefficient(section.EI, model->l, def->mesh.nodes)
@@ -241,7 +241,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
   double share = def->electro.voltage_share, offset = def->electro.insulator_offset;
   double eps_m = def->medium.permittivity, d = isnan(offset) ? model->series.thickness * eps_m : offset;
   return (ZpPlatesParams){.nodes = model->nodes,
-                          .stride = model->stride,
+                          .lanes = model->stride,
                           .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
                           .relative = 1,
                           .d = d,
@@ -378,7 +378,7 @@ static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
   const ZpJoint *platform = &model->topology.platform;
   return (ZpRodParams){.ribbons = model->s,
                        .nodes = model->nodes,
-                       .stride = model->stride,
+                       .lanes = model->stride,
                        .l = a->rod_l,
                        .S = a->rod_S,
                        .B = a->rod_B,

@@ -7,9 +7,9 @@ static size_t reserve(ZpFieldCorrection *s, void *block) {
   ZpArena arena = {block, 0};
   zp_plates_reserve(&s->plates, &s->eval, &arena);
   zp_plates_step_reserve(&s->plates, &s->attraction, &arena);
-  s->q = zp_arena_take(&arena, 2 * s->plates.stride);
-  s->floored = zp_arena_take(&arena, 2 * s->plates.stride);
-  s->F = zp_arena_take(&arena, 2 * s->plates.stride);
+  s->q = zp_arena_take(&arena, 2 * s->plates.lanes);
+  s->floored = zp_arena_take(&arena, 2 * s->plates.lanes);
+  s->F = zp_arena_take(&arena, 2 * s->plates.lanes);
   s->cover.part = zp_arena_take(&arena, s->plates.nodes);
   return arena.used;
 }
@@ -84,31 +84,28 @@ static double capped_gap(const ZpFieldCorrection *s) {
  * closed. Air breaks down in gaps of millimetres, next to wet ones that are closed. Moving such pairs apart would
  * distort the ribbons, so all stay where they are. */
 static void part_capped(ZpFieldCorrection *s) {
-  size_t stride = s->plates.stride;
-  double *y = s->floored + stride, narrowest = narrowest_of(s), capped = fmax(capped_gap(s), narrowest);
-  memcpy(s->floored, s->q, 2 * stride * sizeof *s->q);
+  double *y = s->floored + s->plates.lanes, narrowest = narrowest_of(s), capped = fmax(capped_gap(s), narrowest);
+  memcpy(s->floored, s->q, 2 * s->plates.lanes * sizeof *s->q);
   for (size_t i = 1; i < s->plates.nodes; i++) {
     double least = is_wet(s, i) ? capped : narrowest;
-    double apart = 0.5 * fmax(least - (y[2 * i] - y[2 * i + 1]), 0);
-    y[2 * i] += apart;
-    y[2 * i + 1] -= apart;
+    zp_part_pair(y, i, 0.5 * fmax(least - zp_apart(y, i), 0));
   }
 }
 
 /* Remove the part of the forces on a pair that would move it apart, beyond their mean => that part, N/V^2. */
 static double hold_apart(double *Fy, size_t i) {
-  double mean = 0.5 * (Fy[2 * i] + Fy[2 * i + 1]), opening = Fy[2 * i] - mean;
-  Fy[2 * i] = Fy[2 * i + 1] = mean;
+  double mean = 0.5 * (Fy[zp_up(i)] + Fy[zp_down(i)]), opening = Fy[zp_up(i)] - mean;
+  zp_set_pair(Fy, i, mean, mean);
   return opening;
 }
 
 /* Forces that would move capped pairs further apart do no work on them, but change the charge with the voltage's cap.
  * Pairs that are only closed keep their forces, so that contact causes no jump. */
 static void hold_capped(ZpFieldCorrection *s) {
-  double *Fy = s->F + s->plates.stride, *y = s->q + s->plates.stride, opening = 0;
+  double *Fy = s->F + s->plates.lanes, *y = s->q + s->plates.lanes, opening = 0;
   double capped = capped_gap(s), capped_in_air = s->U * s->air_h_per_volt - s->air.d;
   for (size_t i = 1; i < s->plates.nodes; i++) {
-    double gap = y[2 * i] - y[2 * i + 1];
+    double gap = zp_apart(y, i);
     if (is_wet(s, i) && gap < capped) opening += hold_apart(Fy, i);
     if (!is_wet(s, i) && gap < capped_in_air) hold_apart(Fy, i);
   }
@@ -116,11 +113,11 @@ static void hold_capped(ZpFieldCorrection *s) {
 }
 
 static void subtract_plates(ZpFieldCorrection *s) {
-  size_t stride = s->plates.stride;
-  zp_plates_rest(&s->plates, s->floored, s->floored + stride, 1, &s->eval, &s->attraction);
+  size_t lanes = s->plates.lanes;
+  zp_plates_rest(&s->plates, s->floored, s->floored + lanes, 1, &s->eval, &s->attraction);
   for (size_t k = 0; k < 2 * s->plates.nodes; k++) {
     s->F[k] = s->scale * s->field.Fx[k] - s->attraction.Fx[k];
-    s->F[stride + k] = s->scale * s->field.Fy[k] - s->attraction.Fy[k];
+    s->F[lanes + k] = s->scale * s->field.Fy[k] - s->attraction.Fy[k];
   }
   ZpPlatesTotals plates = zp_plates_totals(&s->plates, &s->eval, 1);
   s->energy = s->scale * s->field.energy + plates.potential;
@@ -128,7 +125,7 @@ static void subtract_plates(ZpFieldCorrection *s) {
 }
 
 ZpFieldEnd zp_field_correction_solve(ZpFieldCorrection *s, const double *q, double voltage, const ZpCover *cover) {
-  size_t stride = s->plates.stride, bytes = 2 * stride * sizeof *q;
+  size_t lanes = s->plates.lanes, bytes = 2 * lanes * sizeof *q;
   double U = voltage != 0 ? fabs(voltage) : 1;
   bool same_cap = U == s->U || (s->h_per_volt == 0 && s->air_h_per_volt == 0), same_cover = !round_cover(s, cover);
   if (same_cap && same_cover && memcmp(s->q, q, bytes) == 0) return ZP_FIELD_SOLVED;
@@ -136,7 +133,7 @@ ZpFieldEnd zp_field_correction_solve(ZpFieldCorrection *s, const double *q, doub
   s->U = U;
   if (s->plates.air) zp_field_cover(&s->field, &s->cover);
   part_capped(s);
-  const double *x = s->floored, *y = x + stride;
+  const double *x = s->floored, *y = x + lanes;
   ZpFieldEnd end = s->end = zp_field_solve(&s->field, &(ZpContact){x, y, x + 1, y + 1, 2});
   s->solutions++;
   if (end == ZP_FIELD_SOLVED) {

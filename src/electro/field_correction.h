@@ -20,11 +20,11 @@ typedef struct ZpFieldCorrection {
   double h_per_volt;     /* of the cap, as in ZpPlatesParams, */
   double air_h_per_volt; /* and beyond a bead */
   double U;              /* V, and */
-  double *q;       /* [2 stride] where it was solved: x, then y, of interleaved upper and lower nodes; NAN: nowhere */
-  double *floored; /* [2 stride] that with no gap below where the cap sets in */
-  double *F;       /* [2 stride] field less plates, force on each node in that order, N/V^2; 0 at first */
-  double energy;   /* the same of the co-energies, J/V^2: F is its gradient */
-  double charge;   /* the same of the charges, C/V */
+  double *q;          /* [2 lanes] where it was solved: x, then y, of interleaved upper and lower nodes; NAN: nowhere */
+  double *floored;    /* [2 lanes] that with no gap below where the cap sets in */
+  double *F;          /* [2 lanes] field less plates, force on each node in that order, N/V^2; 0 at first */
+  double energy;      /* the same of the co-energies, J/V^2: F is its gradient */
+  double charge;      /* the same of the charges, C/V */
   double capacitance; /* of the field less that of plates, without any scale, F */
   ZpFieldEnd end;     /* how the last solution ended */
   int solutions;      /* how often the field was solved */

@@ -61,11 +61,11 @@ ZP_KERNEL static void gaps(size_t nodes, const double *restrict x, const double 
                            double *restrict dx) {
   ZP_SIMD
   for (size_t i = 0; i < nodes; i++)
-    gap[i] = y[2 * i] - y[2 * i + 1];
+    gap[i] = zp_apart(y, i);
   size_t elements = nodes - 1;
   ZP_SIMD
   for (size_t i = 0; i < elements; i++)
-    dx[i] = 0.5 * ((x[2 * i + 2] - x[2 * i]) + (x[2 * i + 3] - x[2 * i + 1]));
+    dx[i] = 0.5 * ((x[zp_up(i + 1)] - x[zp_up(i)]) + (x[zp_down(i + 1)] - x[zp_down(i)]));
 }
 
 static void gaps_below_flat(const ZpPlatesParams *p, const double *x, const double *y, ZpPlatesEval *e) {

@@ -11,6 +11,7 @@
 #include <stddef.h>
 
 #include "base/memory.h"
+#include "base/pair.h"
 #include "math/cover.h"
 #include "math/level.h"
 
@@ -18,7 +19,7 @@
 
 typedef struct ZpPlatesParams {
   size_t nodes;                  /* N stations */
-  size_t stride;                 /* places of arrays over the nodes of both ribbons, at least 2 N */
+  size_t lanes;                  /* places of arrays over the nodes of both ribbons, at least 2 N */
   double k;                      /* scale * eps0 eps_m w share^2 / 2: W = k U^2 / (g + d)^2, N m^2/(V^2 m) */
   double relative;               /* permittivity over that of the liquid: 1, of air below it */
   double d;                      /* liquid thickness that stands for both insulators, m */
@@ -83,7 +84,7 @@ void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double 
 
 /* (y of interleaved upper and lower nodes; flat: of one ribbon's) => the gap of station i, m. */
 static inline double zp_plates_gap(const ZpPlatesParams *params, const double *y, size_t i) {
-  return params->flat ? params->flat_height - y[i] : y[2 * i] - y[2 * i + 1];
+  return params->flat ? params->flat_height - y[i] : zp_apart(y, i);
 }
 
 /* The same => the smallest gap of facing nodes, m. */

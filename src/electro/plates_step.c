@@ -10,8 +10,8 @@
 #include "math/gauss.h"
 
 void zp_plates_step_reserve(const ZpPlatesParams *p, ZpPlatesStep *s, ZpArena *arena) {
-  s->Fx = zp_arena_take(arena, p->stride);
-  s->Fy = zp_arena_take(arena, p->stride);
+  s->Fx = zp_arena_take(arena, p->lanes);
+  s->Fy = zp_arena_take(arena, p->lanes);
   double **arrays[] = {&s->own, &s->next, &s->along0, &s->along1, &s->A, &s->B, &s->P, &s->own_A, &s->own_B};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_arena_take(arena, p->nodes);
@@ -265,9 +265,8 @@ static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along
     s->Fy[i] = closing;
     return;
   }
-  s->Fx[2 * i] = s->Fx[2 * i + 1] = along;
-  s->Fy[2 * i] = -closing;
-  s->Fy[2 * i + 1] = closing;
+  zp_set_pair(s->Fx, i, along, along);
+  zp_set_pair(s->Fy, i, -closing, closing);
 }
 
 /* Between the ends of a platform there is no element: what the kernels over all elements have sampled there has no
@@ -299,8 +298,7 @@ static void stations(const ZpPlatesParams *p, ZpPlatesStep *s) {
 
 /* The platform's electrode at station i pulls the ribbons together. */
 static void attract(double *Fy, size_t i, double W) {
-  Fy[2 * i] -= W;
-  Fy[2 * i + 1] += W;
+  zp_part_pair(Fy, i, -W);
 }
 
 /* The platform's electrode, at both its ends where it has two. */
@@ -347,7 +345,7 @@ void zp_plates_step(const ZpPlatesParams *p, const ZpPlatesEval *e0, const ZpPla
 void zp_plates_by_voltage_reserve(const ZpPlatesParams *p, ZpPlatesByVoltage *by, ZpArena *arena) {
   double **arrays[] = {&by->Fx, &by->Fy, &by->Qx, &by->Qy};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
-    *arrays[k] = zp_arena_take(arena, p->stride);
+    *arrays[k] = zp_arena_take(arena, p->lanes);
 }
 
 /* Since dP/dU = -q, eq. (18.3) by the voltage has differences of the charge in place of those of the potential. */

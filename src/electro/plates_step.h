@@ -8,7 +8,7 @@
 
 /* Written by zp_plates_step. */
 typedef struct ZpPlatesStep {
-  double *Fx, *Fy; /* [stride] force on upper [2 i] and lower node [2 i + 1] of station i (flat: on [i]), N; 0 beyond */
+  double *Fx, *Fy; /* [lanes] force on upper [2 i] and lower node [2 i + 1] of station i (flat: on [i]), N; 0 beyond */
   double *own, *next;      /* [N], [N-1] derivative by the end's gaps, half of that by the point at rest: of a station's
                               force,      with the next, N/m */
   double *along0, *along1; /* [N-1] by an element's x-length and the gap of its left and right station, N/m */
@@ -25,8 +25,8 @@ void zp_plates_step(const ZpPlatesParams *params, const ZpPlatesEval *start, con
 
 /* How the step goes with the voltage at its end. */
 typedef struct ZpPlatesByVoltage {
-  double *Fx, *Fy;    /* [stride] derivative of the mean force by that voltage, N/V */
-  double *Qx, *Qy;    /* [stride] of the charge at the end by its coordinates, C/m */
+  double *Fx, *Fy;    /* [lanes] derivative of the mean force by that voltage, N/V */
+  double *Qx, *Qy;    /* [lanes] of the charge at the end by its coordinates, C/m */
   double capacitance; /* of that charge by that voltage, F */
 } ZpPlatesByVoltage;
 
@@ -36,7 +36,7 @@ void zp_plates_by_voltage_reserve(const ZpPlatesParams *params, ZpPlatesByVoltag
 void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *start, const ZpPlatesEval *end, double U1,
                           ZpPlatesStep *step, ZpPlatesByVoltage *by);
 
-/* At rest => how the forces go with the voltage: Fx, Fy [stride], N/V. `step` lends its parts as above. */
+/* At rest => how the forces go with the voltage: Fx, Fy [lanes], N/V. `step` lends its parts as above. */
 void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
                                double *Fx, double *Fy);
 

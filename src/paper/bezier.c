@@ -4,6 +4,8 @@
 
 #include <math.h>
 
+#include "base/pair.h"
+
 ZpCubic zp_bezier_cubic(double p0, double p1, double p2, double p3) {
   return (ZpCubic){{p0, 3 * (p1 - p0), 3 * (p0 - 2 * p1 + p2), p3 - p0 + 3 * (p1 - p2)}};
 }
@@ -14,8 +16,8 @@ void zp_bezier_basis(ZpBezierBasis *basis, size_t count) {
   for (size_t i = 0; i < count; i++) {
     double t = (double)i / (double)(count - 1), u = 1 - t;
     double B0 = u * u * u, B1 = 3 * t * u * u, B2 = 3 * t * t * u, B3 = t * t * t;
-    basis->B1[2 * i] = basis->B1[2 * i + 1] = B1;
-    basis->B2[2 * i] = basis->B2[2 * i + 1] = B2;
+    zp_set_pair(basis->B1, i, B1, B1);
+    zp_set_pair(basis->B2, i, B2, B2);
     basis->B11 += B1 * B1;
     basis->B12 += B1 * B2;
     basis->B22 += B2 * B2;

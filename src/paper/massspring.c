@@ -18,12 +18,12 @@ static size_t edge_count(const ZpMassSpringParams *p) {
 
 void zp_massspring_reserve(const ZpMassSpringParams *p, ZpMassSpringEval *e, ZpArena *arena) {
   size_t margin = ZP_ALIGNMENT / sizeof(double);
-  e->dpx = zp_arena_take(arena, p->stride);
-  e->dpy = zp_arena_take(arena, p->stride);
-  e->T = zp_arena_take(arena, p->stride);
+  e->dpx = zp_arena_take(arena, p->lanes);
+  e->dpy = zp_arena_take(arena, p->lanes);
+  e->T = zp_arena_take(arena, p->lanes);
   double **with_margin[] = {&e->ux, &e->uy, &e->Rx, &e->Ry};
   for (int k = 0; k < 4; k++) {
-    double *array = zp_arena_take(arena, margin + p->stride);
+    double *array = zp_arena_take(arena, margin + p->lanes);
     *with_margin[k] = array ? array + margin : NULL;
   }
   if (!arena->base) return;

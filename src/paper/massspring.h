@@ -12,7 +12,7 @@
 typedef struct ZpMassSpringParams {
   size_t ribbons;   /* s */
   size_t nodes;     /* N, nodes per ribbon */
-  size_t stride;    /* length of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  size_t lanes;     /* length of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
   double l;         /* rest length of an edge, m */
   double K_D;       /* axial spring, N/m, eq. (3.2) */
   double K_S;       /* shear spring, N/m, eq. (3.4) */
@@ -25,13 +25,13 @@ typedef struct ZpMassSpringEval {
   double *dpx, *dpy; /* [edges] node i+1 - node i, m */
   double *ux, *uy;   /* [-s .. edges + s) unit directions of the edges; outside the edges: the held slope, or 0 */
   double *T;         /* [edges] tension, N */
-  double *Rx, *Ry;   /* [-s .. stride) force of edge on its right node, N; outside the edges: 0 */
+  double *Rx, *Ry;   /* [-s .. lanes) force of edge on its right node, N; outside the edges: 0 */
 } ZpMassSpringEval;
 
 /* Take the arrays of `eval` from `arena`, whose block must be zeroed. */
 void zp_massspring_reserve(const ZpMassSpringParams *params, ZpMassSpringEval *eval, ZpArena *arena);
 
-/* (positions [stride]) => edge directions, tensions and edge forces. The force on node j is R[j - s] - R[j]. */
+/* (positions [lanes]) => edge directions, tensions and edge forces. The force on node j is R[j - s] - R[j]. */
 void zp_massspring_eval(const ZpMassSpringParams *params, const double *x, const double *y, ZpMassSpringEval *eval);
 
 /* Stiffness at the last eval: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row by row. It is not symmetric,

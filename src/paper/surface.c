@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/kernel.h"
+#include "base/pair.h"
 
 enum { GAUSS = 2 };
 static const double gauss_at[GAUSS] = {0.21132486540518712, 0.78867513459481287}; /* weights 1/2 */
@@ -106,10 +106,8 @@ ZP_KERNEL static void intervals(size_t count, size_t padded, const double *gap, 
 
 ZP_KERNEL static void spread(size_t count, const double *restrict closing, double *restrict Fy) {
   ZP_SIMD
-  for (size_t i = 0; i < count; i++) {
-    Fy[2 * i] = -closing[i];
-    Fy[2 * i + 1] = closing[i];
-  }
+  for (size_t i = 0; i < count; i++)
+    zp_set_pair(Fy, i, -closing[i], closing[i]);
 }
 
 void zp_surface_bezier(const ZpPlatesParams *p, const ZpBezierSurface *surface, const double *x, const double *y,

@@ -2,9 +2,12 @@
 
 #include <math.h>
 
+#include "base/pair.h"
+
 static void share(size_t i, const ZpZipMasses *masses, double *a) {
-  double force = a[2 * i] * masses->mass[2 * i] + a[2 * i + 1] * masses->mass[2 * i + 1];
-  a[2 * i] = a[2 * i + 1] = force * masses->pair[i];
+  size_t up = zp_up(i), down = zp_down(i);
+  double force = a[up] * masses->mass[up] + a[down] * masses->mass[down];
+  a[up] = a[down] = force * masses->pair[i];
 }
 
 void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, double *a) {
@@ -29,7 +32,7 @@ static double first_meeting(double g, double w, double c, double dt) {
 }
 
 static double meeting(size_t i, const double *y, const double *vy, const double *ay, double dt) {
-  return first_meeting(y[2 * i] - y[2 * i + 1], vy[2 * i] - vy[2 * i + 1], ay[2 * i] - ay[2 * i + 1], dt);
+  return first_meeting(zp_apart(y, i), zp_apart(vy, i), zp_apart(ay, i), dt);
 }
 
 double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const double *vy, const double *ay,
@@ -53,10 +56,11 @@ double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const
 }
 
 double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity) {
-  double upper = masses->inverse[2 * i], lower = masses->inverse[2 * i + 1], sum = upper + lower;
+  size_t up = zp_up(i), down = zp_down(i);
+  double upper = masses->inverse[up], lower = masses->inverse[down], sum = upper + lower;
   if (sum == 0) return 0;
-  double difference = velocity[2 * i] - velocity[2 * i + 1];
-  velocity[2 * i] = velocity[2 * i + 1] = (lower * velocity[2 * i] + upper * velocity[2 * i + 1]) / sum;
+  double difference = velocity[up] - velocity[down];
+  velocity[up] = velocity[down] = (lower * velocity[up] + upper * velocity[down]) / sum;
   return 0.5 * difference * difference / sum;
 }
 
@@ -69,7 +73,7 @@ ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i) {
 }
 
 static bool pulled_apart(size_t i, const double *ay) {
-  return ay[2 * i] > ay[2 * i + 1];
+  return ay[zp_up(i)] > ay[zp_down(i)];
 }
 
 ZpZipState zp_zip_open(ZpZipState state, size_t nodes, const double *ay) {

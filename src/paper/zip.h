@@ -20,7 +20,7 @@
  *   4. Only pair z+1 and the platform are looked at: ribbons may pass through each other elsewhere, a
  *      limit of the paper's model.
  *
- * Arrays hold upper and lower node of pair i at [2 i] and [2 i + 1].
+ * Arrays hold both nodes of a pair as base/pair.h says.
  */
 #ifndef ZP_PAPER_ZIP_H
 #define ZP_PAPER_ZIP_H

@@ -17,10 +17,10 @@ void zp_rod_reserve(const ZpRodParams *p, ZpRodEval *e, ZpArena *arena) {
   size_t margin = ZP_ALIGNMENT / sizeof(double);
   double **plain[] = {&e->dpx, &e->dpy, &e->T, &e->half, &e->k};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
-    *plain[i] = zp_arena_take(arena, p->stride);
+    *plain[i] = zp_arena_take(arena, p->lanes);
   double **with_margin[] = {&e->ux, &e->uy, &e->inverse};
   for (size_t i = 0; i < sizeof with_margin / sizeof with_margin[0]; i++) {
-    double *array = zp_arena_take(arena, margin + p->stride);
+    double *array = zp_arena_take(arena, margin + p->lanes);
     *with_margin[i] = array ? array + margin : NULL;
   }
   if (!arena->base) return;

@@ -25,11 +25,11 @@ enum { ZP_ROD_MOST_ENDS = 8 };
 typedef struct ZpRodParams {
   size_t ribbons;          /* s */
   size_t nodes;            /* N per ribbon */
-  size_t stride;           /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
-  const double *l;         /* [stride] rest lengths of edges, m */
-  const double *S;         /* [stride] stretching stiffness EA / l of edges, N/m */
-  const double *B;         /* [stride] bending stiffness of joints, EI over their length of rod, N m */
-  const double *k0;        /* [stride] natural curvature k of joints */
+  size_t lanes;            /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  const double *l;         /* [lanes] rest lengths of edges, m */
+  const double *S;         /* [lanes] stretching stiffness EA / l of edges, N/m */
+  const double *B;         /* [lanes] bending stiffness of joints, EI over their length of rod, N m */
+  const double *k0;        /* [lanes] natural curvature k of joints */
   size_t rigid, rigid_end; /* stations between which edges are rigid and horizontal, as held slopes are; equal: none */
   bool lower_turns;        /* but that of the second ribbon: there it is an edge as others, which turns and stretches */
   size_t ends;
@@ -44,9 +44,9 @@ typedef struct ZpRodEval {
   double *dpx, *dpy; /* edges, m; rigid: 1, 0 */
   double *ux, *uy;   /* their unit vectors; outside: horizontal */
   double *inverse;   /* 1 / length; outside: 0, a held slope does not turn */
-  double *T;         /* [stride] tension of edges, N */
-  double *half;      /* [stride] tan(phi / 2) of joints */
-  double *k;         /* [stride] their discrete curvature, eq. (8.2) */
+  double *T;         /* [lanes] tension of edges, N */
+  double *half;      /* [lanes] tan(phi / 2) of joints */
+  double *k;         /* [lanes] their discrete curvature, eq. (8.2) */
 } ZpRodEval;
 
 void zp_rod_reserve(const ZpRodParams *params, ZpRodEval *eval, ZpArena *arena);
@@ -61,7 +61,7 @@ static inline double zp_rod_curvature(double half) {
   return half * (4 + 2 / (1 + half * half)) * (1.0 / 3);
 }
 
-/* (positions [stride]) => all of eval. */
+/* (positions [lanes]) => all of eval. */
 void zp_rod_eval(const ZpRodParams *params, const double *x, const double *y, ZpRodEval *eval);
 
 /* Energies at the last eval, J. */

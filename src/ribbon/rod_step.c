@@ -20,11 +20,11 @@ static size_t edge_count(const ZpRodParams *p) {
 void zp_rod_step_reserve(const ZpRodParams *p, ZpRodStep *s, ZpArena *arena) {
   double **plain[] = {&s->tx, &s->ty, &s->T, &s->M, &s->slope, &s->stiffness, &s->tension, &s->endx, &s->endy};
   for (size_t i = 0; i < sizeof plain / sizeof plain[0]; i++)
-    *plain[i] = zp_arena_take(arena, p->stride);
+    *plain[i] = zp_arena_take(arena, p->lanes);
   size_t margin = ZP_ALIGNMENT / sizeof(double); /* one edge more before the first: a held slope, that never turns */
   double **with_margin[] = {&s->gx, &s->gy, &s->turn, &s->Rx, &s->Ry};
   for (size_t i = 0; i < sizeof with_margin / sizeof with_margin[0]; i++) {
-    double *array = zp_arena_take(arena, margin + p->stride);
+    double *array = zp_arena_take(arena, margin + p->lanes);
     *with_margin[i] = array ? array + margin : NULL;
   }
 }
@@ -173,7 +173,7 @@ ZP_KERNEL static void foresee(const ZpRodParams *p, size_t padded, const ZpRodEv
 }
 
 void zp_rod_step_begin(const ZpRodParams *p, const ZpRodEval *e0, ZpRodStep *s) {
-  memcpy(s->T, e0->T, p->stride * sizeof *s->T);
+  memcpy(s->T, e0->T, p->lanes * sizeof *s->T);
   s->begun = false;
 }
 

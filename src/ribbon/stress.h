@@ -13,7 +13,7 @@ typedef struct ZpStressParams {
   const double *per_force;  /* [nodes * ribbons] likewise, Pa/N */
 } ZpStressParams;
 
-/* (positions [stride]; plastic strains as of rod_plastic.h, NULL: none) => stress [nodes * ribbons] at the nodes: the
+/* (positions [lanes]; plastic strains as of rod_plastic.h, NULL: none) => stress [nodes * ribbons] at the nodes: the
  * largest over the section, Pa, at least 0. */
 void zp_stress(const ZpStressParams *params, const double *x, const double *y, const double *strain, double *stress);
 

@@ -2,6 +2,8 @@
 
 #include <math.h>
 
+#include "base/pair.h"
+
 /* Number of station k over that of the last, where no station is moved. */
 static double number(const ZpStations *s, size_t k) {
   double even = (double)k / (double)(s->count - 1), front = (double)s->front / (double)(s->count - 1);
@@ -32,10 +34,8 @@ size_t zp_contact_move_front(ZpStations *s, size_t k, double share) {
 void zp_contact_cubic(double length, double separation, ZpStations *s) {
   for (size_t k = 0; k < s->count; k++) {
     double xi = place(s, k), half = 0.5 * separation * xi * xi * (3 - 2 * xi);
-    for (size_t face = 0; face < 2; face++) {
-      s->x[zp_point_of(k, face)] = length * xi;
-      s->y[zp_point_of(k, face)] = face ? -half : half;
-    }
+    zp_set_pair(s->x, k, length * xi, length * xi);
+    zp_set_pair(s->y, k, half, -half);
   }
 }
 
@@ -50,7 +50,7 @@ typedef struct Line {
  * have if it were not held: a fifth of the step to its neighbour further back. */
 static double on_ribbon(const Line *line, size_t i) {
   static const double back = 0.2;
-  const double *at = line->at + 2 * i;
+  const double *at = line->at + zp_up(i);
   size_t last = line->nodes - 1;
   if (!line->rod || i == 0 || i == last) return at[0];
   double left = at[-2], here = at[0], right = at[2];
@@ -82,8 +82,8 @@ void zp_contact_smooth(size_t nodes, bool rods, const double *x, const double *y
     double u = at - (double)i;
     for (size_t r = 0; r < 2; r++) {
       Line along = {nodes, rods, false, x + r}, across = {nodes, rods, true, y + r};
-      s->x[zp_point_of(k, r)] = hermite(&along, i, u) - clip;
-      s->y[zp_point_of(k, r)] = hermite(&across, i, u);
+      s->x[zp_up(k) + r] = hermite(&along, i, u) - clip;
+      s->y[zp_up(k) + r] = hermite(&across, i, u);
     }
   }
 }

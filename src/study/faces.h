@@ -5,18 +5,13 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Points of the upper face and of the lower one, at zp_point_of; the clip's edge is at x = 0. */
+/* Pairs of points (base/pair.h) of the upper and the lower face; the clip's edge is at x = 0. */
 typedef struct ZpStations {
   size_t count;  /* odd */
   double *x, *y; /* [2 count] m */
   size_t front;  /* a station that is moved; 0: none */
   double moved;  /* from front / (count - 1) to here, and all others in proportion */
 } ZpStations;
-
-/* Number of the point of station k on face 0, the upper one, or 1. */
-static inline size_t zp_point_of(size_t k, size_t face) {
-  return 2 * k + face;
-}
 
 /* A wedge over `length`: gap = separation (3 xi^2 - 2 xi^3), symmetric about y = 0. */
 void zp_contact_cubic(double length, double separation, ZpStations *stations);

@@ -136,13 +136,13 @@ static void lay_stations(Profiler *p, const double *q) {
 
 /* Length of a face from station k to the next, m. */
 static double chord(const Profiler *p, size_t k, size_t face) {
-  const size_t here = zp_point_of(k, face), next = zp_point_of(k + 1, face);
+  const size_t here = zp_up(k) + face, next = zp_up(k + 1) + face;
   double dx = p->stations.x[next] - p->stations.x[here], dy = p->stations.y[next] - p->stations.y[here];
   return sqrt(dx * dx + dy * dy);
 }
 
 static double thickness(const Profiler *p, size_t k) {
-  return zp_film_thickness(&p->model->film, p->stations.y[zp_point_of(k, 0)] - p->stations.y[zp_point_of(k, 1)]);
+  return zp_film_thickness(&p->model->film, zp_apart(p->stations.y, k));
 }
 
 /* A bead at rest, eq. (22.16) => the last station that liquid wets, where its meniscus shall be; what of the volume is
