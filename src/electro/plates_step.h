@@ -40,7 +40,7 @@ void zp_plates_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *star
 void zp_plates_rest_by_voltage(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
                                double *Fx, double *Fy);
 
-/* At rest, without air => how the forces go with d: Fx, Fy [stride], N/m. `step` lends its parts as above. */
+/* At rest, without air => how the forces go with d: Fx, Fy [lanes], N/m. `step` lends its parts as above. */
 void zp_plates_rest_by_offset(const ZpPlatesParams *params, const ZpPlatesEval *eval, double U, ZpPlatesStep *step,
                               double *Fx, double *Fy);
 
