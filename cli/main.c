@@ -145,16 +145,11 @@ static int check_words(const Command *command, const Options *o) {
   return EXIT_DONE;
 }
 
-/* Is this the name of a scenario rather than of a study? */
-static bool is_scenario(const char *word) {
-  const char *ending = strrchr(word, '.');
-  return ending && (strcmp(ending, ".yaml") == 0 || strcmp(ending, ".yml") == 0);
-}
-
 static int fail_word(const char *word) {
   if (*word == '-') return fail_usage("a study or command comes before ", word);
   if (is_assignment(word) || names_key(word)) return fail_assignment(word, "zipact STUDY ");
-  if (is_scenario(word)) {
+  const char *ending = strrchr(word, '.');
+  if (ending && (strcmp(ending, ".yaml") == 0 || strcmp(ending, ".yml") == 0)) {
     fprintf(stderr, "zipact: %s: to run a scenario write zipact run %s\n", word, word);
     return EXIT_INPUT;
   }

@@ -34,14 +34,6 @@ static double wall_clock(void) {
   return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* stdout is discarded, because ours may carry JSON. */
-static int set_files(posix_spawn_file_actions_t *actions, const char *folder, int errors) {
-  int error = posix_spawn_file_actions_addopen(actions, 0, "/dev/null", O_RDONLY, 0);
-  if (!error) error = posix_spawn_file_actions_addopen(actions, 1, "/dev/null", O_WRONLY, 0);
-  if (!error) error = posix_spawn_file_actions_adddup2(actions, errors, 2);
-  return error ? error : posix_spawn_file_actions_addchdir_np(actions, folder);
-}
-
 /* Its own group, and default signal handling, whatever this process ignores or blocks. */
 static int set_attributes(posix_spawnattr_t *attributes) {
   sigset_t all, none;
@@ -66,7 +58,11 @@ static int spawn(const char *folder, Work *work) {
   if (error) return error;
   error = posix_spawnattr_init(&attributes);
   if (!error) {
-    error = set_files(&actions, folder, fileno(work->errors));
+    /* stdout is discarded, because ours may carry JSON. */
+    error = posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+    if (!error) error = posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    if (!error) error = posix_spawn_file_actions_adddup2(&actions, fileno(work->errors), 2);
+    if (!error) error = posix_spawn_file_actions_addchdir_np(&actions, folder);
     if (!error) error = set_attributes(&attributes);
     if (!error) error = posix_spawnp(&work->id, "gnuplot", &actions, &attributes, argument, environ);
     posix_spawnattr_destroy(&attributes);

@@ -120,22 +120,18 @@ static json_t *json_of_value(int index, double value) {
   return key->type == ZP_KEY_INT ? json_integer((json_int_t)value) : json_real(value);
 }
 
-static json_t *json_of_choices(const ZpKey *key) {
-  json_t *list = json_array();
-  for (int i = 0; key->choices && i <= (int)key->max; i++)
-    add(&list, json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help));
-  return list;
-}
-
 /* One key; NULL if there is no memory. json_pack takes ownership of the values and frees them on failure. */
 static json_t *json_of_key(int index) {
   static const char *const type[] = {"real", "real_auto", "int", "bool", "enum", "text"};
   const ZpKey *key = zp_key(index);
   json_t *least = zp_value_is_number(key) ? json_of_value(index, key->min) : json_null();
   json_t *most = zp_value_is_number(key) ? json_of_value(index, key->max) : json_null();
+  json_t *choices = json_array();
+  for (int i = 0; key->choices && i <= (int)key->max; i++)
+    add(&choices, json_pack("{s:s, s:s}", "word", key->choices[i].word, "help", key->choices[i].help));
   return json_pack("{s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:s}", "key", key->name, "type", type[key->type], "unit",
-                   key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices",
-                   json_of_choices(key), "help", key->help);
+                   key->unit, "default", json_of_value(index, key->def), "min", least, "max", most, "choices", choices,
+                   "help", key->help);
 }
 
 /* -- as a JSON schema --------------------------------------------------------------------------------
@@ -286,17 +282,15 @@ static json_t *range_schema(void) {
                    20000, "spacing", "enum", "linear", "log");
 }
 
-static json_t *one_distribution(ZpDistributionKind kind) {
-  const char *first = zp_part_name[zp_part_first(kind)], *second = zp_part_name[zp_part_second(kind)];
-  return json_pack("{s:s, s:b, s:[s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}}}", "type", "object", "additionalProperties", 0,
-                   "required", first, second, "properties", first, "type", "number", "string", second, "type", "number",
-                   "string");
-}
-
 static json_t *distribution_schema(void) {
   json_t *kinds = json_array();
-  for (int k = 1; k < ZpDistributionKind_COUNT; k++)
-    add(&kinds, one_distribution((ZpDistributionKind)k));
+  for (int k = 1; k < ZpDistributionKind_COUNT; k++) {
+    const char *first = zp_part_name[zp_part_first((ZpDistributionKind)k)],
+               *second = zp_part_name[zp_part_second((ZpDistributionKind)k)];
+    add(&kinds, json_pack("{s:s, s:b, s:[s, s], s:{s:{s:[s, s]}, s:{s:[s, s]}}}", "type", "object",
+                          "additionalProperties", 0, "required", first, second, "properties", first, "type", "number",
+                          "string", second, "type", "number", "string"));
+  }
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 

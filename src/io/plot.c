@@ -161,13 +161,6 @@ static void define_lists(const ZpPlot *plot, FILE *file) {
   }
 }
 
-/* Samples of a combination of the lists' values, of which in `blocks` successive rows the first are independent. */
-static void define_samples(const ZpDesign *design, FILE *file) {
-  define_count(file, "", "samples", zp_design_samples(design));
-  define_count(file, "", "blocks", zp_design_blocks(design));
-  define_count(file, "", "independent", design->indices ? ZP_BLOCK_FIRST : 1);
-}
-
 /* `front`: the rows of the best cases, from 0. */
 static void define_optimum(const ZpOptimum *optimum, FILE *file) {
   fputs("objectives = '", file);
@@ -204,6 +197,10 @@ void zp_plot_define(const void *of, FILE *file) {
   define_columns(plot, file);
   define_lists(plot, file);
   if (plot->single) define_run(plot->single, file);
-  if (design) define_samples(design, file);
+  if (design) { /* samples of a combination of the lists' values, of which in `blocks` rows the first are independent */
+    define_count(file, "", "samples", zp_design_samples(design));
+    define_count(file, "", "blocks", zp_design_blocks(design));
+    define_count(file, "", "independent", design->indices ? ZP_BLOCK_FIRST : 1);
+  }
   if (plot->report->optimum) define_optimum(plot->report->optimum, file);
 }

@@ -230,18 +230,16 @@ static ZpStatus fail_word(const ZpKey *key, const char *text, ZpError *err) {
                  key->choices[nearest].word);
 }
 
-static ZpStatus read_word(int index, const char *text, double *value, ZpError *err) {
-  int place = zp_key_choice(index, text);
-  if (place < 0) return fail_word(zp_key(index), text, err);
-  *value = place;
-  return ZP_OK;
-}
-
 static ZpStatus read_trimmed(int index, const char *text, double *value, ZpError *err) {
   const ZpKey *key = zp_key(index);
   if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "this key takes a text, not a value");
   if (key->type == ZP_KEY_BOOL) return read_bool(text, value, err);
-  if (key->type == ZP_KEY_ENUM) return read_word(index, text, value, err);
+  if (key->type == ZP_KEY_ENUM) {
+    const int place = zp_key_choice(index, text);
+    if (place < 0) return fail_word(key, text, err);
+    *value = place;
+    return ZP_OK;
+  }
   if (*text == 0) return fail_number(index, "empty", err);
   bool automatic = key->type == ZP_KEY_REAL_AUTO;
   if (automatic && strcmp(text, key->text) == 0) {

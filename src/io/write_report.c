@@ -33,12 +33,6 @@ typedef struct Writer {
   pthread_t thread;
 } Writer;
 
-static ZpStatus write_scenario(const ZpReport *report, ZpError *err) {
-  ZpAtomic out;
-  ZpStatus status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
-  return status == ZP_OK ? zp_atomic_finish(&out, zp_scenario_write(report->scenario, out.file, err), err) : status;
-}
-
 /* Write everything; the file gets its name last. */
 static ZpStatus write_summary(const ZpReport *report, ZpAtomic *summary, ZpError *err) {
   ZpStatus status = zp_atomic_open(summary, report->directory, "summary.json", err);
@@ -48,9 +42,12 @@ static ZpStatus write_summary(const ZpReport *report, ZpAtomic *summary, ZpError
 }
 
 static ZpStatus write_file(Files *files, size_t file, const ZpReport *report, ZpError *err) {
+  ZpAtomic out;
   if (file == SUMMARY) return write_summary(report, &files->summary, err);
-  if (file == SCENARIO) return write_scenario(report, err);
-  return file == TABLE ? zp_csv_write(report, err) : zp_hdf5_write(report, err);
+  if (file == TABLE) return zp_csv_write(report, err);
+  if (file == RESULTS) return zp_hdf5_write(report, err);
+  ZpStatus status = zp_atomic_open(&out, report->directory, "scenario.yaml", err);
+  return status == ZP_OK ? zp_atomic_finish(&out, zp_scenario_write(report->scenario, out.file, err), err) : status;
 }
 
 /* Write files without a writer, until one fails. */
