@@ -41,6 +41,8 @@ typedef struct Work {
   double *flow;  /* [m + z][4 N] */
   double *force, *moved, *zeros, *x, *y, *by_voltage;
   double (*spare)[4]; /* [3 edges] */
+  double *nodes;      /* [m][2 stride] how shapes move all nodes, for motions of second order, */
+  double second[RATES * RATES], charge[RATES], none[RATES]; /* with the stiffness and the charge of all rates */
   double stiffness[SHAPES * SHAPES];
   double mass[RATES * RATES], damping[RATES * RATES];
   double by_u[SHAPES], by_signal[SHAPES]; /* force by the voltage, N/V, which is charge by eta; signal by eta */
@@ -59,6 +61,7 @@ static size_t reserve(Work *w, void *block) {
   zp_band_reserve_groups(&w->K, n, 0, w->assembly->bandwidth, w->assembly->groups, &arena);
   if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
   w->shape = zp_arena_take(&arena, SHAPES * n);
+  w->nodes = zp_arena_take(&arena, SHAPES * zp_coordinates(model));
   w->rate = zp_arena_take(&arena, SHAPES * N);
   w->flow = zp_arena_take(&arena, (size_t)RATES * ZP_FILM_FLOWS * N);
   w->zeros = zp_arena_take(&arena, ZP_FILM_STATE * N);
@@ -549,39 +552,29 @@ void zp_plant_destroy(ZpPlant *plant) {
 
 /* -- as equations of second order -------------------------------------------------------------------- */
 
-static size_t reserve_small(const Work *w, void *block, ZpSmallMotion *small) {
-  ZpArena arena = {block, 0};
-  const size_t rates = w->m + w->z;
-  small->mass = zp_arena_take(&arena, rates * rates);
-  small->damping = zp_arena_take(&arena, rates * rates);
-  small->stiffness = zp_arena_take(&arena, rates * rates);
-  small->by_voltage = zp_arena_take(&arena, w->m);
-  small->charge = zp_arena_take(&arena, rates);
-  small->shape = zp_arena_take(&arena, w->m * zp_coordinates(w->model));
-  for (int half = 0; half < ZP_BEADS; half++)
-    small->out[half] = zp_arena_take(&arena, rates);
-  return arena.used;
-}
-
 /* A bead's end acts on the shapes with the volume that shapes displace, and with what has flowed past the edges. */
-static void fill_small(const Work *w, ZpSmallMotion *small) {
-  const size_t rates = small->rates, nodes = zp_coordinates(w->model);
-  memcpy(small->mass, w->mass, rates * rates * sizeof *w->mass);
-  memcpy(small->damping, w->damping, rates * rates * sizeof *w->damping);
-  memcpy(small->by_voltage, w->by_u, w->m * sizeof *w->by_u);
-  memcpy(small->charge, w->by_u, w->m * sizeof *w->by_u);
+static void find_second_order(Work *w, ZpSmallMotion *small) {
+  const size_t rates = small->rates = w->m + w->z, nodes = zp_coordinates(w->model);
+  small->shapes = w->m;
+  small->mass = w->mass;
+  small->damping = w->damping;
+  small->stiffness = w->second;
+  small->by_voltage = w->by_u;
+  small->charge = w->charge;
+  small->shape = w->nodes;
+  memcpy(w->charge, w->by_u, w->m * sizeof *w->by_u);
   for (size_t k = 0; k < w->m; k++) {
-    zp_assembly_scatter(w->assembly, w->shape + k * w->assembly->n, small->shape + k * nodes);
+    zp_assembly_changes(w->assembly, w->shape + k * w->assembly->n, w->nodes + k * nodes);
     for (size_t j = 0; j < w->m; j++)
-      small->stiffness[k * rates + j] = w->stiffness[k * w->m + j];
+      w->second[k * rates + j] = w->stiffness[k * w->m + j];
   }
-  for (const End *end = w->end; end < w->end + w->ends; end++) {
-    memcpy(small->out[end->half], end->out, rates * sizeof *end->out);
+  for (End *end = w->end; end < w->end + w->ends; end++) {
+    small->out[end->half] = end->out;
     for (size_t r = 0; r < rates; r++) {
       double back = ((r < w->m ? end->volume_by[r] : 0) + end->out[r]) / end->section;
-      small->charge[r] -= end->charge_by * back;
+      w->charge[r] -= end->charge_by * back;
       for (size_t k = 0; k < w->m; k++)
-        small->stiffness[k * rates + r] += end->force_by[k] * back;
+        w->second[k * rates + r] += end->force_by[k] * back;
     }
   }
 }
@@ -589,23 +582,16 @@ static void fill_small(const Work *w, ZpSmallMotion *small) {
 bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small) {
   const ZpSetpointSignal signal = {.kind = ZP_CONTROL_OPENING};
   Work *w;
-  *small = (ZpSmallMotion){0};
   bool done = open_linear(rest, &signal, &w);
-  if (done) {
-    small->shapes = w->m;
-    small->rates = w->m + w->z;
-    small->memory = zp_calloc(1, reserve_small(w, NULL, small));
-    done = small->memory != NULL;
-  }
-  if (done) {
-    reserve_small(w, small->memory, small);
-    fill_small(w, small);
-  }
-  close_linear(w);
-  return done;
+  *small = (ZpSmallMotion){.memory = w};
+  if (!done) return false;
+  for (int half = 0; half < ZP_BEADS; half++)
+    small->out[half] = w->none;
+  find_second_order(w, small);
+  return true;
 }
 
 void zp_small_motion_destroy(ZpSmallMotion *small) {
-  zp_free(small->memory);
+  close_linear(small->memory);
   small->memory = NULL;
 }
