@@ -10,28 +10,17 @@
  * What is allocated through the wrappers is kept in a list, so that a leak shows without a sanitizer. */
 #include <dirent.h>
 #include <locale.h>
-#include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <check.h>
 #include <jansson.h>
 
 #include <zipact/calibrate.h>
 #include <zipact/io.h>
-#include <zipact/zipact.h>
 
-#include "actuator/model.h"
-#include "def/def.h"
+#include "check_util.h"
 #include "math/skyline.h"
-#include "run/info.h"
-#include "sanitized.h"
-#include "study/result.h"
-#include "suite.h"
 
 /* -- the wrappers ---------------------------------------------------------------------------------- */
 
@@ -218,34 +207,29 @@ static ZpActuatorDef short_def(void) {
   return def;
 }
 
-static ZpStatus create_model(ZpError *err, bool *whole) {
-  ZpActuatorDef def = short_def();
+static ZpStatus try_model(const ZpActuatorDef *def, const ZpDriveTable *table, ZpError *err, bool *whole) {
   ZpModel *model = NULL;
-  ZpStatus status = zp_model_create(&def, &model, err);
+  ZpStatus status = table ? zp_model_create_driven(def, table, &model, err) : zp_model_create(def, &model, err);
   *whole = (model != NULL) == (status == ZP_OK);
   zp_model_destroy(model);
   return status;
+}
+
+static ZpStatus create_model(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  return try_model(&def, NULL, err, whole);
 }
 
 static ZpStatus create_driven_model(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
   def.drive.waveform = ZP_WAVEFORM_TABLE;
-  ZpDriveTable table = {2, (const double[]){0, 1}, (const double[]){100, 200}};
-  ZpModel *model = NULL;
-  ZpStatus status = zp_model_create_driven(&def, &table, &model, err);
-  *whole = (model != NULL) == (status == ZP_OK);
-  zp_model_destroy(model);
-  return status;
+  return try_model(&def, &(ZpDriveTable){2, (const double[]){0, 1}, (const double[]){100, 200}}, err, whole);
 }
 
 static ZpStatus create_model_with_edges(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
   def.electro.edges = true;
-  ZpModel *model = NULL;
-  ZpStatus status = zp_model_create(&def, &model, err);
-  *whole = (model != NULL) == (status == ZP_OK);
-  zp_model_destroy(model);
-  return status;
+  return try_model(&def, NULL, err, whole);
 }
 
 static ZpModel *shared_model; /* made while no one watches */
@@ -258,35 +242,34 @@ static ZpStatus create_sim(ZpError *err, bool *whole) {
   return status;
 }
 
-static ZpStatus run_study(ZpError *err, bool *whole) {
-  ZpActuatorDef def = short_def();
+static ZpStatus try_study(ZpStudy study, const ZpActuatorDef *def, ZpError *err, bool *whole) {
   ZpResult *result = NULL;
-  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, err);
+  const bool by_table = def->drive.waveform == ZP_WAVEFORM_TABLE, goes_on = def->initial.state == ZP_INITIAL_CHECKPOINT;
+  ZpStatus status = by_table || goes_on ? zp_data_study_run(study, def, NULL, &result, err)
+                                        : zp_study_run(study, def, NULL, NULL, &result, err);
   *whole = (result != NULL) == (status == ZP_OK);
-  if (result) *whole = result->outcome == ZP_REACHED_END && result->series && result->shapes;
+  if (result)
+    *whole = result->outcome == (study == ZP_STUDY_ACTUATE ? ZP_REACHED_END : ZP_CONVERGED) && result->series &&
+             result->shapes && (study != ZP_STUDY_PROFILE || result->map) &&
+             (!by_table || zp_table_get(result->series, 1, "voltage_V") > 0) && (!goes_on || result->checkpoint);
   zp_result_destroy(result);
   return status;
+}
+
+static ZpStatus run_study(ZpError *err, bool *whole) {
+  ZpActuatorDef def = short_def();
+  return try_study(ZP_STUDY_ACTUATE, &def, err, whole);
 }
 
 static ZpStatus run_isometric(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
-  ZpResult *result = NULL;
-  ZpStatus status = zp_study_run(ZP_STUDY_ISOMETRIC, &def, NULL, NULL, &result, err);
-  *whole = (result != NULL) == (status == ZP_OK);
-  if (result) *whole = result->outcome == ZP_CONVERGED && result->series && result->shapes;
-  zp_result_destroy(result);
-  return status;
+  return try_study(ZP_STUDY_ISOMETRIC, &def, err, whole);
 }
 
 static ZpStatus run_profile(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
-  ZpResult *result = NULL;
   def.profile.paper_factor = true;
-  ZpStatus status = zp_study_run(ZP_STUDY_PROFILE, &def, NULL, NULL, &result, err);
-  *whole = (result != NULL) == (status == ZP_OK);
-  if (result) *whole = result->outcome == ZP_CONVERGED && result->series && result->shapes && result->map;
-  zp_result_destroy(result);
-  return status;
+  return try_study(ZP_STUDY_PROFILE, &def, err, whole);
 }
 
 TEST(core_survives_every_failure) {
@@ -337,13 +320,10 @@ TEST(skyline_survives_every_failure) {
 
 /* (def, simulated time, least number of steps that this must take) */
 static void assert_no_allocation(const ZpActuatorDef *def, double time, int64_t least_steps) {
-  ZpModel *model = NULL;
-  ZpSim *sim = NULL;
-  ZpError err;
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
-  ck_assert_msg(zp_model_create(def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s",
-                err.message);
+  ZpModel *model = model_of(def);
+  ZpSim *sim = sim_of(model);
   ZpTable *series = zp_table_create(column, columns, 16); /* full soon: thinning is part of it */
   ZpShapes *shapes = zp_shapes_create(model->s, model->nodes, 4);
   zp_sim_record(sim, series, shapes);
@@ -358,8 +338,6 @@ static void assert_no_allocation(const ZpActuatorDef *def, double time, int64_t 
   ck_assert_uint_gt(series->stride, 1);
   zp_table_destroy(series);
   zp_shapes_destroy(shapes);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 TEST(steps_allocate_nothing) {
@@ -373,20 +351,11 @@ TEST(steps_allocate_nothing) {
   assert_no_allocation(&def, 4e-3, 1000);
 }
 
-static ZpActuatorDef explicit_def(void) {
+static ZpStatus run_explicit(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
   def.solver.integrator = ZP_INTEGRATOR_EXPLICIT;
   def.contact.model = ZP_CONTACT_SEQUENTIAL;
-  return def;
-}
-
-static ZpStatus run_explicit(ZpError *err, bool *whole) {
-  ZpActuatorDef def = explicit_def();
-  ZpResult *result = NULL;
-  ZpStatus status = zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, NULL, &result, err);
-  *whole = (result != NULL) == (status == ZP_OK);
-  zp_result_destroy(result);
-  return status;
+  return try_study(ZP_STUDY_ACTUATE, &def, err, whole);
 }
 
 TEST(explicit_survives_every_failure) {
@@ -405,9 +374,6 @@ TEST(implicit_steps_allocate_nothing) {
 /* A control loop steps again and again, in a liquid, with the model's controller. */
 TEST(controlled_steps_allocate_nothing) {
   ZpActuatorDef def = short_def();
-  ZpModel *model = NULL;
-  ZpSim *sim = NULL;
-  ZpError err;
   def.drive.voltage = 8e3;
   def.liquid.model = ZP_LIQUID_BEAD;
   def.control.kind = ZP_CONTROL_BOOST_PI;
@@ -416,8 +382,7 @@ TEST(controlled_steps_allocate_nothing) {
   def.control.delay = 2.5e-3;
   def.control.noise = 1e-5;
   def.setpoint.value = 1e-3;
-  ck_assert_msg(zp_model_create(&def, &model, &err) == ZP_OK && zp_sim_create(model, NULL, &sim, &err) == ZP_OK, "%s",
-                err.message);
+  ZpSim *sim = sim_of(model_of(&def));
   ZpOutcome outcome = ZP_REACHED_END;
   watch(0);
   for (int k = 0; k < 100 && outcome == ZP_REACHED_END; k++)
@@ -426,8 +391,6 @@ TEST(controlled_steps_allocate_nothing) {
   ck_assert_int_eq(outcome, ZP_REACHED_END);
   ck_assert_msg(ledger.calls == 0, "%ld allocations", ledger.calls);
   ck_assert(zp_sim_get(sim, "voltage") > 0);
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* The whole life: sagging, zipping pair after pair, closed. */
@@ -492,32 +455,27 @@ static ZpScenario *in_peace(const char *text) {
   return scenario;
 }
 
-static void destroy_in_peace(ZpScenario *scenario) {
+/* Was a scenario of one case, 5 g, changed to `count` cases, the last one of `mass`, or not at all? */
+static ZpStatus changed(ZpScenario *scenario, ZpStatus status, size_t count, double mass, bool *whole) {
+  *whole = status == ZP_OK ? is_untouched(scenario, count, mass) : is_untouched(scenario, 1, 5e-3);
   zp_scenario_destroy(scenario); /* the ledger must see what is freed */
+  return status;
 }
 
 static ZpStatus parse_scenario(ZpError *err, bool *whole) {
   ZpScenario *scenario = in_peace("load: {mass: 5 g}\n");
   ZpStatus status = zp_scenario_parse(scenario, scenario_text, strlen(scenario_text), "memory.yaml", err);
-  *whole = status == ZP_OK ? is_untouched(scenario, 6, 30e-3) : is_untouched(scenario, 1, 5e-3);
-  destroy_in_peace(scenario);
-  return status;
+  return changed(scenario, status, 6, 30e-3, whole);
 }
 
 static ZpStatus read_scenario(ZpError *err, bool *whole) {
   ZpScenario *scenario = in_peace("load: {mass: 5 g}\n");
-  ZpStatus status = zp_scenario_read(scenario, "memory.yaml", err);
-  *whole = status == ZP_OK ? is_untouched(scenario, 6, 30e-3) : is_untouched(scenario, 1, 5e-3);
-  destroy_in_peace(scenario);
-  return status;
+  return changed(scenario, zp_scenario_read(scenario, "memory.yaml", err), 6, 30e-3, whole);
 }
 
 static ZpStatus set_scenario(ZpError *err, bool *whole) {
   ZpScenario *scenario = in_peace("load: {mass: 5 g}\n");
-  ZpStatus status = zp_scenario_set(scenario, "load.mass=[1 g, 2 g, 7 g]", err);
-  *whole = status == ZP_OK ? is_untouched(scenario, 3, 7e-3) : is_untouched(scenario, 1, 5e-3);
-  destroy_in_peace(scenario);
-  return status;
+  return changed(scenario, zp_scenario_set(scenario, "load.mass=[1 g, 2 g, 7 g]", err), 3, 7e-3, whole);
 }
 
 static ZpStatus take_def(ZpError *err, bool *whole) {
@@ -525,7 +483,7 @@ static ZpStatus take_def(ZpError *err, bool *whole) {
   ZpActuatorDef def = {0};
   ZpStatus status = zp_scenario_def(scenario, 5, &def, err);
   *whole = status != ZP_OK || (def.load.mass == 30e-3 && def.drive.voltage == 10e3);
-  destroy_in_peace(scenario);
+  zp_scenario_destroy(scenario);
   return status;
 }
 
@@ -541,14 +499,9 @@ static bool from_file;
 /* Study actuate driven by a table from the scenario or from a file. */
 static ZpStatus run_by_table(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
-  ZpResult *result = NULL;
   def.drive.waveform = ZP_WAVEFORM_TABLE;
   strcpy(from_file ? def.drive.file : def.drive.table, from_file ? "memory.csv" : "0 = 0, 10 us = 100 V");
-  ZpStatus status = zp_data_study_run(ZP_STUDY_ACTUATE, &def, NULL, &result, err);
-  *whole = (result != NULL) == (status == ZP_OK);
-  if (result) *whole = result->outcome == ZP_REACHED_END && zp_table_get(result->series, 1, "voltage_V") > 0;
-  zp_result_destroy(result);
-  return status;
+  return try_study(ZP_STUDY_ACTUATE, &def, err, whole);
 }
 
 TEST(table_survives_every_failure) {
@@ -578,17 +531,12 @@ static ZpStatus write_checkpoint(FILE *file, ZpError *err) {
 /* Study actuate from the checkpoint of its own start. */
 static ZpStatus run_from_checkpoint(ZpError *err, bool *whole) {
   ZpActuatorDef def = short_def();
-  ZpResult *result = NULL;
   def.initial.state = ZP_INITIAL_CHECKPOINT;
   strcpy(def.initial.file, "memory.zps");
   FILE *file = fopen(def.initial.file, "wb");
   ZpStatus status = file ? write_checkpoint(file, err) : ZP_MACHINE;
-  if (file && fclose(file) == 0 && status == ZP_OK)
-    status = zp_data_study_run(ZP_STUDY_ACTUATE, &def, NULL, &result, err);
-  *whole = (result != NULL) == (status == ZP_OK);
-  if (result) *whole = result->outcome == ZP_REACHED_END && result->checkpoint;
-  zp_result_destroy(result);
-  return status;
+  *whole = true;
+  return file && fclose(file) == 0 && status == ZP_OK ? try_study(ZP_STUDY_ACTUATE, &def, err, whole) : status;
 }
 
 TEST(checkpoint_survives_every_failure) {
@@ -663,7 +611,7 @@ static ZpStatus write_text(Writer tested, ZpError *err, bool *whole) {
 static ZpStatus write_scenario(FILE *file, ZpError *err) {
   ZpScenario *scenario = in_peace(scenario_text);
   ZpStatus status = zp_scenario_write(scenario, file, err);
-  destroy_in_peace(scenario);
+  zp_scenario_destroy(scenario);
   return status;
 }
 
@@ -737,10 +685,8 @@ static void make_report(const char *text) {
   ck_assert_uint_le(count, 8);
   for (size_t i = 0; i < count; i++) {
     ZpActuatorDef def;
-    ZpError err;
-    ck_assert_msg(zp_scenario_def(scenario, i, &def, &err) == ZP_OK, "%s", err.message);
-    ck_assert_msg(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err) == ZP_OK, "%s",
-                  err.message);
+    ck_ok(zp_scenario_def(scenario, i, &def, &err));
+    ck_ok(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err));
   }
   shared_report = (ZpReport){report_folder, scenario, result, count, 0.25, NULL, NULL, NULL, 0, NULL, NULL};
 }
