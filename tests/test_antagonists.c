@@ -496,7 +496,6 @@ TEST(what_antagonists_lack_is_said) {
       {{{"stack.lower_voltage", 1e3}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
       {{{"stack.voltage_ratio", 0.5}, {"mesh.nodes", 21}}, ZP_STUDY_STATIONARY, "requires stack.distance"},
       {{{"stack.series", 2}, {"stack.distance", 0.2}}, ZP_STUDY_STATIONARY, "span at most"},
-      {{{"stack.series", 2}, {"stack.distance", 0.02}}, ZP_STUDY_CYCLE, "study cycle"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"isometric.separation", 0.02}},
        ZP_STUDY_ISOMETRIC,
        "below stack.distance"},

@@ -283,6 +283,14 @@ static inline const ZpModel *zp_lowest(const ZpModel *first) {
   return zp_shares_load(first) ? first : first + first->members - 1;
 }
 
+/* Pull of the load of all members, of which this is the first one, N. */
+static inline double zp_total_pull(const ZpModel *first) {
+  double pull = 0;
+  for (const ZpModel *model = zp_lowest(first); model < first + first->members; model++)
+    pull += zp_load_pull(model);
+  return pull;
+}
+
 /* Mass that each end which the load hangs on has beyond its share of load.mass, kg. */
 static inline double zp_state_added(const ZpModel *model, const ZpState *state) {
   return state->load_changed ? zp_end_share(model) * model->def.load.change_mass : 0;

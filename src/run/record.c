@@ -385,17 +385,22 @@ static size_t put_member(const ZpSim *sim, double *place) {
   return sim->model->parallel ? NUMBERS_PARALLEL : 1;
 }
 
+double zp_sim_hanging(const ZpSim *sim) {
+  double sum = sim->state->opening0;
+  for (const ZpSim *m = sim + 1; m < sim + sim->members && !zp_shares_load(sim->model); m++)
+    sum += m->state->opening0;
+  return sum;
+}
+
 /* The same of all members, and numbers of each. */
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
   if (sim->members == 1) return;
-  const bool shared = zp_shares_load(sim->model);
-  double *row = sim->row, *place = row + SIGNAL_COUNT, whole = sim->state->opening0;
+  double *row = sim->row, *place = row + SIGNAL_COUNT, whole = zp_sim_hanging(sim);
   place += put_member(sim, place);
   for (ZpSim *m = sim + 1; m < sim + sim->members; m++) {
     fill_own_row(m, what);
     place += put_member(m, place);
-    if (!shared) whole += m->state->opening0;
     join_row(sim->model, row, m->row);
   }
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;

@@ -199,6 +199,9 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 /* Place the beads of the state by its gaps: at rest, with all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 
+/* Opening where all hang, in series the sum over the members, m. */
+double zp_sim_hanging(const ZpSim *sim);
+
 /* The member that carries the load. */
 ZpSim *zp_sim_loaded(ZpSim *sim);
 

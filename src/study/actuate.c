@@ -85,11 +85,8 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
 /* Work against pull and springs of the load from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - zp_at_end(sim, result, "opening");
-  double pull = 0,
-         compressed = zp_at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  for (const ZpModel *m = zp_lowest(model); m < model + model->members; m++) /* those that carry the load */
-    pull += zp_load_pull(m);
-  return pull * risen + compressed;
+  double compressed = zp_at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
+  return zp_total_pull(model) * risen + compressed;
 }
 
 /* Work on the load over the energy from the source, J. */

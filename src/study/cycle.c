@@ -23,9 +23,10 @@ enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the 
 
 /* What is compared between two starts of cycles. */
 typedef struct Mark {
-  double *q;         /* m */
-  double rate;       /* of the opening, m/s */
-  double slow[SLOW]; /* volume outside the faces over that of the bead; interface voltage over the drive's */
+  double *q;                          /* of all members, m */
+  double rate;                        /* of the opening, m/s */
+  double slow[ZP_MOST_MEMBERS][SLOW]; /* volume outside the faces over that of the bead; interface voltage over the
+                                         drive's */
 } Mark;
 
 /* How large the motion of a cycle is. */
@@ -51,13 +52,13 @@ typedef struct Cycles {
   double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with: */
   double heaviest;            /* the largest mass, kg */
   Response response;          /* of the last cycle */
-  Edge edge[ZP_BEADS];        /* likewise */
-  Mark mark[HISTORY];         /* the newest first */
+  Edge edge[ZP_MOST_MEMBERS][ZP_BEADS]; /* likewise */
+  Mark mark[HISTORY];                   /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before, relative to the response */
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
   ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open or closed */
   double *start, *end, *next; /* states at a cycle's start, at its end, and where the next one starts, as vectors */
-  ZpState *way_back;          /* the state at a cycle's end, if the next one starts elsewhere: */
+  void *way_back;             /* a snapshot of a cycle's end, if the next one starts elsewhere: */
   bool foreseen;              /* at a fixed point that the search foresees */
   int64_t steps_of[PHASES];   /* in each row of a cycle */
   bool refills;               /* each cycle starts with the same liquid at the edges */
@@ -76,22 +77,24 @@ typedef struct Cycles {
 
 /* The row at a phase of the cycle under way; the first and the last are its ends. */
 static void keep_row(Cycles *c) {
-  ZpMotion motion = zp_state_motion(c->model, c->sim->state);
-  c->load[c->rows->rows][0] = zp_load_at(c->model, motion.x);
-  c->load[c->rows->rows][1] = zp_load_at(c->model, motion.y);
+  const ZpSim *loaded = zp_sim_loaded(c->sim);
+  ZpMotion motion = zp_state_motion(loaded->model, loaded->state);
+  c->load[c->rows->rows][0] = zp_load_at(loaded->model, motion.x);
+  c->load[c->rows->rows][1] = zp_load_at(loaded->model, motion.y);
   zp_sim_read(c->sim, c->rows->value + c->rows->rows * c->rows->columns);
   c->rows->rows++;
   zp_sim_see(c->sim);
 }
 
 static void see_edges(Cycles *c, bool starts) {
-  for (int half = 0; half < ZP_BEADS; half++) {
-    Edge *edge = &c->edge[half];
-    double outside = c->sim->state->bead[half].outside;
-    if (starts) *edge = (Edge){outside, outside, outside};
-    edge->least = fmin(edge->least, outside);
-    edge->most = fmax(edge->most, outside);
-  }
+  for (size_t k = 0; k < c->sim->members; k++)
+    for (int half = 0; half < ZP_BEADS; half++) {
+      Edge *edge = &c->edge[k][half];
+      double outside = c->sim[k].state->bead[half].outside;
+      if (starts) *edge = (Edge){outside, outside, outside};
+      edge->least = fmin(edge->least, outside);
+      edge->most = fmax(edge->most, outside);
+    }
 }
 
 /* => false if the run ended before: c->info says how. */
@@ -204,15 +207,27 @@ static Response response_of(const Cycles *c) {
 
 /* -- is it periodic? -------------------------------------------------------------------------------- */
 
+/* Coordinates of all members. */
+static size_t positions(const ZpSim *sim) {
+  size_t sum = 0;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    sum += zp_coordinates(m->model);
+  return sum;
+}
+
 static void take_mark(Cycles *c) {
-  const ZpModel *model = c->model;
   Mark oldest = c->mark[HISTORY - 1];
+  double *q = oldest.q;
   memmove(c->mark + 1, c->mark, (HISTORY - 1) * sizeof *c->mark);
-  memcpy(oldest.q, zp_state_q(model, c->sim->state), zp_coordinates(model) * sizeof *oldest.q);
-  for (int k = 0; k < ZP_BEADS; k++)
-    oldest.slow[k] = model->has_bead ? c->sim->state->bead[k].outside / model->bead.volume : 0;
-  oldest.slow[ZP_BEADS] = model->leaks ? zp_sim_get(c->sim, "interface_voltage") / c->highest : 0;
-  oldest.rate = zp_platform_middle(&model->topology, zp_state_motion(model, c->sim->state).vy);
+  for (size_t k = 0; k < c->sim->members; k++) {
+    ZpSim *m = c->sim + k;
+    memcpy(q, zp_state_q(m->model, m->state), zp_coordinates(m->model) * sizeof *q);
+    q += zp_coordinates(m->model);
+    for (int half = 0; half < ZP_BEADS; half++)
+      oldest.slow[k][half] = m->model->has_bead ? m->state->bead[half].outside / m->model->bead.volume : 0;
+    oldest.slow[k][ZP_BEADS] = zp_sim_leak(m).mean / c->highest;
+  }
+  oldest.rate = zp_sim_get(c->sim, "end_velocity");
   c->mark[0] = oldest;
 }
 
@@ -226,11 +241,12 @@ static double size_of_response(const Cycles *c) {
 static double distance(const Cycles *c, int back) {
   const double *a = c->mark[0].q, *b = c->mark[back].q;
   double most = 0;
-  for (size_t k = 0; k < zp_coordinates(c->model); k++)
+  for (size_t k = 0; k < positions(c->sim); k++)
     most = fmax(most, fabs(a[k] - b[k]));
   most /= size_of_response(c);
-  for (int k = 0; k < SLOW; k++)
-    most = fmax(most, fabs(c->mark[0].slow[k] - c->mark[back].slow[k]));
+  for (size_t k = 0; k < c->sim->members; k++)
+    for (int i = 0; i < SLOW; i++)
+      most = fmax(most, fabs(c->mark[0].slow[k][i] - c->mark[back].slow[k][i]));
   double fast = fmax(c->response.rate, size_of_response(c) / c->period);
   return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / fast);
 }
@@ -259,70 +275,99 @@ static int repeats_in(Cycles *c) {
 
 /* -- shooting --------------------------------------------------------------------------------------- */
 
-/* A state as a vector: what decides, in units of its own (positions, velocities, interface voltages), then what is
- * carried along: rates of the last step, and what the laws know beyond positions. */
-static size_t deciding(const ZpModel *model) {
-  return 2 * zp_coordinates(model) + (model->leaks ? zp_law(model, &zp_term_leak)->state : 0);
+/* A state as a vector: what decides, in units of its own (positions of all members, velocities, interface voltages),
+ * then what is carried along: rates of the last step, and what the laws know beyond positions. */
+static size_t leaked(const ZpModel *model) {
+  return model->leaks ? zp_law(model, &zp_term_leak)->state : 0;
 }
 
-static size_t carried(const ZpModel *model) {
+static size_t deciding(const ZpSim *sim) {
+  size_t sum = 2 * positions(sim);
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    sum += leaked(m->model);
+  return sum;
+}
+
+static size_t carried_by(const ZpModel *model) {
   return 2 * zp_coordinates(model) + zp_extra_unknowns(model) + model->kept;
 }
 
-static double *carried_of(const Cycles *c) {
-  return zp_state_mean_v(c->model, c->sim->state);
+static size_t carried(const ZpSim *sim) {
+  size_t sum = 0;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    sum += carried_by(m->model);
+  return sum;
 }
 
 /* Unit of a velocity, larger for a small mass, so that squares are like energies. */
-static double speed_of(const Cycles *c, size_t k) {
-  double mass = c->model->mass[k % zp_lanes(c->model)];
+static double speed_of(const Cycles *c, const ZpModel *model, size_t k) {
+  double mass = model->mass[k % zp_lanes(model)];
   return mass > 0 ? c->fast * sqrt(c->heaviest / mass) : c->fast;
 }
 
+/* Where the numbers of one member stand in a vector; the next one's follow. */
+typedef struct Place {
+  size_t q, v, leaked, carried;
+} Place;
+
+static Place first_place(const ZpSim *sim) {
+  return (Place){0, positions(sim), 2 * positions(sim), deciding(sim)};
+}
+
+static Place next_place(Place at, const ZpModel *model) {
+  size_t n = zp_coordinates(model);
+  return (Place){at.q + n, at.v + n, at.leaked + leaked(model), at.carried + carried_by(model)};
+}
+
 static void read_state(const Cycles *c, double *x) {
-  size_t n = zp_coordinates(c->model), leaked = deciding(c->model) - 2 * n;
-  const double *q = zp_state_q(c->model, c->sim->state), *v = zp_state_v(c->model, c->sim->state);
-  for (size_t k = 0; k < n; k++) {
-    x[k] = q[k] / c->far;
-    x[n + k] = v[k] / speed_of(c, k);
+  Place at = first_place(c->sim);
+  for (ZpSim *m = c->sim; m < c->sim + c->sim->members; at = next_place(at, m->model), m++) {
+    const double *q = zp_state_q(m->model, m->state), *v = zp_state_v(m->model, m->state);
+    const double *of_leak = zp_law_state(m->model, &zp_term_leak, m->state);
+    for (size_t k = 0; k < zp_coordinates(m->model); k++) {
+      x[at.q + k] = q[k] / c->far;
+      x[at.v + k] = v[k] / speed_of(c, m->model, k);
+    }
+    for (size_t k = 0; k < leaked(m->model); k++)
+      x[at.leaked + k] = of_leak[k] / c->highest;
+    memcpy(x + at.carried, zp_state_mean_v(m->model, m->state), carried_by(m->model) * sizeof *x);
   }
-  for (size_t k = 0; k < leaked; k++)
-    x[2 * n + k] = zp_law_state(c->model, &zp_term_leak, c->sim->state)[k] / c->highest;
-  memcpy(x + deciding(c->model), carried_of(c), carried(c->model) * sizeof *x);
 }
 
 /* Liquid at the edges goes its own way from cycle to cycle. Where it runs dry in every cycle, it does so by jumps from
  * step to step. The motion hardly depends on it then; so, if half of the cycles have led nowhere, each of the others
  * starts with the same amount, enough for a cycle: after one in which it has nearly run dry, with more by its range. */
 static void refill(Cycles *c) {
-  for (int half = 0; c->model->has_bead && half < ZP_BEADS; half++) {
-    const Edge *edge = &c->edge[half];
-    double range = edge->most - edge->least;
-    c->sim->state->bead[half].outside = edge->start + (edge->least < 0.25 * range ? range : 0);
-  }
+  for (size_t k = 0; k < c->sim->members; k++)
+    for (int half = 0; c->sim[k].model->has_bead && half < ZP_BEADS; half++) {
+      const Edge *edge = &c->edge[k][half];
+      double range = edge->most - edge->least;
+      c->sim[k].state->bead[half].outside = edge->start + (edge->least < 0.25 * range ? range : 0);
+    }
 }
 
 /* The next cycle starts there, with a new account of energy. */
 static void write_state(Cycles *c, const double *x) {
-  size_t n = zp_coordinates(c->model);
-  ZpState *state = c->sim->state;
-  double *q = zp_state_q(c->model, state), *v = zp_state_v(c->model, state);
-  memcpy(carried_of(c), x + deciding(c->model), carried(c->model) * sizeof *x);
-  for (size_t k = 0; k < n; k++) {
-    q[k] = c->far * x[k];
-    v[k] = speed_of(c, k) * x[n + k];
-  }
+  Place at = first_place(c->sim);
   if (c->refills) refill(c);
-  zp_sim_lay_beads(c->sim);
-  if (state->U != state->base_U) zp_sim_close_balance(c->sim);
-  zp_sim_start_balance(c->sim);
+  for (ZpSim *m = c->sim; m < c->sim + c->sim->members; at = next_place(at, m->model), m++) {
+    double *q = zp_state_q(m->model, m->state), *v = zp_state_v(m->model, m->state);
+    memcpy(zp_state_mean_v(m->model, m->state), x + at.carried, carried_by(m->model) * sizeof *x);
+    for (size_t k = 0; k < zp_coordinates(m->model); k++) {
+      q[k] = c->far * x[at.q + k];
+      v[k] = speed_of(c, m->model, k) * x[at.v + k];
+    }
+    zp_sim_lay_beads(m);
+    if (m->state->U != m->state->base_U) zp_sim_close_balance(m);
+    zp_sim_start_balance(m);
+  }
   zp_sim_start_row(c->sim);
 }
 
 /* An actuator that stays open, or closed, moves smoothly from start to start, with little damping of its swing. So a
  * few cycles predict what thousands would lead to. */
 static bool stays(const Cycles *c) {
-  double hanging = c->sim->state->opening0;
+  double hanging = zp_sim_hanging(c->sim);
   Range opening = range_of(c, "opening_m");
   return opening.least > 0.1 * hanging || opening.most < zp_closed_opening(c->sim->model, hanging);
 }
@@ -333,15 +378,15 @@ static int shoot(Cycles *c) {
   static const double farthest = 0.5; /* of the units of what decides; a farther point is not used */
   double ahead = 0, other = 0;
   zp_fixed_point_next(&c->shooting, c->start, c->end, c->next);
-  for (size_t k = 0; k < deciding(c->model); k++) {
-    double *most = k < zp_coordinates(c->model) ? &ahead : &other;
+  for (size_t k = 0; k < deciding(c->sim); k++) {
+    double *most = k < positions(c->sim) ? &ahead : &other;
     *most = fmax(*most, fabs(c->next[k] - c->start[k]));
   }
   double away = ahead * c->far / size_of_response(c);
   if (c->shooting.pairs >= 2 && fmax(away, c->moved[0]) < c->model->def.cycle.tolerance && keeps_nothing(c)) return 1;
   c->foreseen = fmax(ahead, other) < farthest;
   if (!c->foreseen) return 0;
-  memcpy(c->way_back, c->sim->state, zp_state_size(c->model));
+  zp_sim_save(c->sim, c->way_back);
   write_state(c, c->next);
   return 0;
 }
@@ -349,8 +394,7 @@ static int shoot(Cycles *c) {
 /* From a state that is none of an actuator, where the search has led, back to where the cycle before has ended. */
 static bool go_back(Cycles *c) {
   if (!c->foreseen || (c->info.outcome != ZP_DIVERGED && c->info.outcome != ZP_BEYOND_MODEL)) return false;
-  memcpy(c->sim->state, c->way_back, zp_state_size(c->model));
-  zp_sim_resume(c->sim);
+  zp_sim_restore(c->sim, c->way_back, zp_sim_state_size(c->sim), NULL);
   zp_fixed_point_forget(&c->shooting);
   c->foreseen = false;
   if (c->frozen_at > 0) c->frozen_at = c->sim->dynamics.stepper.fixed = 0;
@@ -463,7 +507,7 @@ static double work_in_row(const Cycles *c, int k) {
   if (!zp_has_platform(&c->model->topology)) return zp_load_work(c->model, to[0] - from[0], to[1] - from[1]);
   double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m");
   double compressed = at(c, k + 1, "spring_energy_J") - at(c, k, "spring_energy_J");
-  return zp_load_pull(c->model) * risen + compressed;
+  return zp_total_pull(c->model) * risen + compressed;
 }
 
 /* A number of a cycle that is not of a periodic motion says nothing: NAN. */
@@ -483,7 +527,7 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   add_periodic(c, result, "opening_max_m", "m", opening.most);
   add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
   add_periodic(c, result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, c->sim->state->opening0));
+  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, zp_sim_hanging(c->sim)));
 }
 
 /* Work on the load over what the source gives in a cycle. */
@@ -553,20 +597,20 @@ static void summarize(const Cycles *c, ZpResult *result) {
     zp_result_note(result,
                    "bead: the motion is that with enough liquid at the edges of the ribbons; over a cycle that "
                    "liquid changes by %.2g uL at a front",
-                   1e9 * (c->sim->state->bead[0].outside - c->edge[0].start));
+                   1e9 * (c->sim->state->bead[0].outside - c->edge[0][0].start));
 }
 
 /* -- the study -------------------------------------------------------------------------------------- */
 
 static size_t reserve(Cycles *c, void *block) {
-  size_t n = deciding(c->model) + carried(c->model);
+  size_t n = deciding(c->sim) + carried(c->sim);
   ZpArena arena = {block, 0};
   for (int k = 0; k < HISTORY; k++)
-    c->mark[k].q = zp_arena_take(&arena, zp_coordinates(c->model));
+    c->mark[k].q = zp_arena_take(&arena, positions(c->sim));
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
     *of_states[k] = zp_arena_take(&arena, n);
-  zp_fixed_point_reserve(&c->shooting, n, deciding(c->model), &arena);
+  zp_fixed_point_reserve(&c->shooting, n, deciding(c->sim), &arena);
   return arena.used;
 }
 
@@ -578,11 +622,12 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   c->period = zp_waveform_period(&model->waveform);
   c->highest = fmax(zp_waveform_largest(&model->waveform), 1);
   c->far = fmax(c->sim->state->opening0, model->faces.depth);
-  for (size_t j = 0; j < zp_lanes(model); j++)
-    c->heaviest = fmax(c->heaviest, model->mass[j]);
+  for (const ZpModel *m = model; m < model + model->members; m++)
+    for (size_t j = 0; j < zp_lanes(m); j++)
+      c->heaviest = fmax(c->heaviest, m->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
   result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
-  c->way_back = zp_calloc(1, zp_state_size(model));
+  c->way_back = zp_calloc(1, zp_sim_state_size(c->sim));
   c->memory = zp_calloc(1, reserve(c, NULL));
   if (c->memory) reserve(c, c->memory);
   return c->rows && c->way_back && c->memory;
@@ -703,13 +748,14 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(load.change_mass), "the load is periodic, too; use study actuate"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it opens and closes"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "let study actuate run for some periods of the drive"),
     ZP_RULE_STARTS,
     /* the linear answer */
     ZP_RULE(EQUATION, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
             "the shear law of mass_spring has no energy"),
     ZP_RULE(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
             "the stiffness of a computed field is not available"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_SEVERAL, ZP_NEVER,
+               "small motion behind a voltage is modelled with a single actuator; use motion"),
     ZP_RULE(PHYSICS, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(source.model, ZP_SOURCE_IDEAL),
             "the limits of a supply are not linear"),
     ZP_RULE_IF(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(liquid.model, ZP_LIQUID_BEAD),
