@@ -85,7 +85,7 @@ typedef struct Progress {
 } Progress;
 ZpHooks cli_hooks(Progress *progress);
 
-/* The same for a campaign: shows progress, rate, remaining time and number of failed cases. */
+/* Draw the state of a campaign: progress, rate, remaining time and number of failed cases. */
 void cli_draw_campaign(Progress *progress, const ZpCampaignState *state);
 void cli_progress_end(Progress *progress);
 
@@ -134,7 +134,7 @@ const char *word_nearest(const char *word, bool option);
 /* The argument as help shows it, "[SCENARIO.yaml]"; "" for none. */
 const char *word_argument(Argument argument);
 
-/* What `zipact --help` and `zipact WORD --help` print. */
+/* Text of `zipact --help` and `zipact WORD --help`. */
 void help_print(void);
 void help_print_command(const Command *command);
 

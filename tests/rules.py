@@ -604,6 +604,24 @@ def rule_plain_words(repo, files):
                 "%d: %s (%s)" % each for each in found)
 
 
+LEANS = re.compile(r"/\*[\s*]*(What|The same|And|It)\b")
+
+
+def comments_of(text):
+    """(line, comment) of each comment of C, none of which stands inside a string."""
+    for match in re.finditer(r'"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])*\'|/\*.*?\*/', text, re.S):
+        if match.group(0).startswith("/*"):
+            yield line_at(text, match.start()), match.group(0)
+
+
+def rule_comments_stand_alone(repo, files):
+    """A comment can be read without its neighbour: it does not begin with What, The same, And or It."""
+    for name in files:
+        if name.startswith(("src/", "include/", "cli/")) and name.endswith((".c", ".h", ".def")):
+            found = [line for line, comment in comments_of(read(repo, name)) if LEANS.match(comment)]
+            yield not found, "%s:%d" % (name, found[0] if found else 1), "say what the comment is about: %s" % found
+
+
 RULES = [
     rule_limits_in_cpu_time,
     rule_no_products,
@@ -627,6 +645,7 @@ RULES = [
     rule_kinds,
     rule_readme_is_short,
     rule_plain_words,
+    rule_comments_stand_alone,
 ]
 
 
@@ -650,6 +669,8 @@ def self_test():
     assert not include_is_right("math", "<", "zipact/sim.h")
     assert include_is_right("run", '"', "solve/explicit.h") and include_is_right("io", "<", "zipact/io.h")
     assert ASKS_FOR_STUDY.search("status = zp_study_run(") and not ASKS_FOR_STUDY.search("if (study == ")
+    told = [comment for _, comment in comments_of('a("/* It */"); /* It is. */ b(/* Items */);\n/*\n * And so on. */')]
+    assert [bool(LEANS.match(comment)) for comment in told] == [True, False, True], told
     assert not include_is_right("cli", '"', "io/report.h") and not include_is_right("io", '"', "run/run.h")
 
 

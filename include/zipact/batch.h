@@ -12,7 +12,7 @@ extern "C" {
 /* Check every Def of `scenario`. ZP_BAD_INPUT as zp_scenario_def and zp_data_check. */
 ZP_API ZpStatus zp_batch_check(const ZpScenario *scenario, ZpError *err);
 
-/* The same in `jobs` threads; 0: as many as there are processors. The error is that of the first wrong case. */
+/* zp_batch_check in `jobs` threads; 0: as many as there are processors. The error is that of the first wrong case. */
 ZP_API ZpStatus zp_batch_check_jobs(const ZpScenario *scenario, int jobs, ZpError *err);
 
 /* The runs of a scenario. */

@@ -24,7 +24,7 @@ ZP_API void zp_scenario_destroy(ZpScenario *scenario);
  * also for a missing file; ZP_MACHINE if it cannot be read. On failure `scenario` is unchanged. */
 ZP_API ZpStatus zp_scenario_read(ZpScenario *scenario, const char *path, ZpError *err);
 
-/* The same from `size` bytes in memory; `name` replaces the file in messages. */
+/* Read a scenario from `size` bytes in memory; `name` replaces the file in messages. */
 ZP_API ZpStatus zp_scenario_parse(ZpScenario *scenario, const char *text, size_t size, const char *name, ZpError *err);
 
 /* As zp_scenario_parse, but its values override files and --set, until the next --set. */

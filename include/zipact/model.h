@@ -16,8 +16,8 @@ typedef struct ZpModel ZpModel;
  * `err` gives the reason (ZP_BAD_INPUT, or ZP_MACHINE if there is no memory). */
 ZP_API ZpStatus zp_model_create(const ZpActuatorDef *def, ZpModel **model, ZpError *err);
 
-/* The same with the rows of `table`, which are copied. They belong to drive.waveform, or with a controller to
- * setpoint.waveform, which must be table. NULL: as zp_model_create. ZP_BAD_INPUT with the fault of
+/* A model that is driven by the rows of `table`, which are copied. They belong to drive.waveform, or with a controller
+ * to setpoint.waveform, which must be table. NULL: as zp_model_create. ZP_BAD_INPUT with the fault of
  * zp_drive_table_fault. */
 ZP_API ZpStatus zp_model_create_driven(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **model,
                                        ZpError *err);

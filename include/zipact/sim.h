@@ -53,7 +53,7 @@ typedef struct ZpHooks {
   double (*clock)(void *user);
 } ZpHooks;
 
-/* What limits a time step. Steps are counted by it. */
+/* Limits of a time step, by which steps are counted. */
 typedef enum ZpStepLimit {
   ZP_LIMIT_TIME_STEP, /* solver.time_step */
   ZP_LIMIT_STABILITY, /* the stiffest spring */
@@ -121,9 +121,9 @@ ZP_API ZpOutcome zp_sim_run(ZpSim *sim, double end_time, bool stop_when_zipped, 
  * step, and such a sequence excites vibrations near the stability limit until the numbers diverge. */
 ZP_API ZpOutcome zp_sim_step(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
-/* The same, but the run ends with ZP_EVENT after the first step in which the actuator has closed, an input has reached
- * the end of its range, the voltage had a corner, or the supply has reached or left a limit. Until then the steps are
- * those of zp_sim_step. */
+/* A zp_sim_step that ends with ZP_EVENT after the first step in which the actuator has closed, an input has reached the
+ * end of its range, the voltage had a corner, or the supply has reached or left a limit. Until then the steps are those
+ * of zp_sim_step. */
 ZP_API ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRunInfo *info);
 
 /* Set the voltage from now on, V; drive.waveform has no effect any more. An ideal source charges the electrodes at
@@ -133,7 +133,7 @@ ZP_API ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hook
  * drive.voltage, and as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
-/* What a program can change while a simulation runs. */
+/* Inputs that a program can change while a simulation runs. */
 typedef enum ZpInput {
   ZP_INPUT_VOLTAGE,  /* "voltage": voltage between the electrodes, V; range of drive.voltage */
   ZP_INPUT_LOAD,     /* "load": a force on the whole actuator, N, in addition to the weight of load.mass, without

@@ -345,7 +345,7 @@ ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t per, siz
   y[2 * per] -= jr[3];
 }
 
-/* The same for nodes near held and joined ones, and both triangles where the matrix has two. */
+/* Edges of nodes near held and joined ones, and both triangles where the matrix has two. */
 static void edges_of_node(const ZpAssembly *a, size_t i, size_t j, const double (*D)[4], ZpBand *K) {
   static const double none[4] = {0};
   size_t s = a->s, N = a->nodes;

@@ -1,4 +1,4 @@
-/* What follows from a state and is thrown away: work space of the terms, energies, step bounds. */
+/* Quantities that follow from a state and are thrown away: work space of the terms, energies, step bounds. */
 #ifndef ZP_ACTUATOR_EVAL_H
 #define ZP_ACTUATOR_EVAL_H
 
@@ -7,12 +7,12 @@
 #include "base/end.h"
 #include "electro/field_correction.h"
 
-/* What both mechanics say of their edges; [-s .. edges + s) where the mechanics has it so. */
+/* Edges of either mechanics; [-s .. edges + s) where the mechanics has it so. */
 typedef struct ZpEdges {
   const double *dpx, *dpy, *ux, *uy, *T, *Rx, *Ry;
 } ZpEdges;
 
-/* What a solved field has beyond plates, found last at some coordinates; it goes with U^2. */
+/* Correction of a solved field to plates, found last at some coordinates; it goes with U^2. */
 typedef struct ZpCachedField {
   const double *F;                    /* [2 stride] force, N/V^2; NULL: there is none */
   const double *at;                   /* [2 stride] the coordinates */
@@ -71,7 +71,7 @@ void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, 
 /* Joined pairs move as one. */
 void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
 
-/* What a solved field has beyond plates, as it was found last. */
+/* Correction of a solved field to plates, as it was found last. */
 ZpCachedField zp_eval_beyond(const ZpEval *eval);
 
 /* Which stations are closed at these gaps, from the clip on, the clip not counted; the platform is if all are. */
@@ -83,8 +83,7 @@ typedef struct ZpStepBounds {
 } ZpStepBounds;
 ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, const ZpEval *eval);
 
-/* What an imbalance is measured by: the weight of what moves, at least 1 mN, for what weighs nothing has a scale, too;
- * N. */
+/* Force scale of residuals: the moving weight, at least 1 mN; N. */
 double zp_eval_weight_scale(const ZpModel *model);
 
 /* (accelerations under model->pseudo) => largest force left over zp_eval_weight_scale; NAN if any is. */

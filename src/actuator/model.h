@@ -37,7 +37,7 @@ typedef struct ZpMasses {
   ZpZipMasses x, y;
 } ZpMasses;
 
-/* What a ribbon is along a part of it, to `end` from its left end, m. */
+/* Section of a ribbon along a part of it, to `end` from its left end, m. */
 typedef struct ZpPlace {
   ZpSection section;
   double curvature; /* natural, 1/m */
@@ -238,12 +238,12 @@ static inline double zp_load_at(const ZpModel *model, const double *q) {
   return sum / (double)zp_load_ends(t);
 }
 
-/* And the modelled part: load.share at each end. */
+/* Share of the load that the modelled part carries: load.share at each end. */
 static inline double zp_load_share(const ZpModel *model) {
   return (double)zp_load_ends(&model->topology) * zp_end_share(model);
 }
 
-/* What the load of the whole actuator pulls down with, N: load.force, and as much of its weight as acts downwards. */
+/* Force of the whole actuator's load downwards, N: load.force and the part of its weight that acts downwards. */
 static inline double zp_load_pull(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);

@@ -1,4 +1,4 @@
-/* What is known of the stations of a shape beyond where they are, and the worst that its materials see. */
+/* Quantities at the stations of a shape beyond their places, and the worst that its materials see. */
 #ifndef ZP_ACTUATOR_SHAPE_H
 #define ZP_ACTUATOR_SHAPE_H
 

@@ -1,6 +1,6 @@
 #include "actuator/ties.h"
 
-/* What a joint does with the nodes of its stations. */
+/* Directions in which a joint holds or joins the nodes of its stations. */
 typedef struct Hold {
   bool held[2][2]; /* of the upper or only ribbon, of the lower one: x, y */
   bool unites;     /* upper and lower node are one */
@@ -26,7 +26,7 @@ static double straight(const ZpModel *model, size_t k) {
   return k % 2 == 0 ? zp_straight_x(model, k / 2 / model->s) : 0;
 }
 
-/* What is held stays where the straight actuator has it. The rest of a joint moves as its first station does. */
+/* A held coordinate stays where the straight actuator has it. The rest of a joint moves as its first station does. */
 static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const Hold *hold) {
   const ZpModel *model = ties->first + member;
   const size_t s = model->s, first = 2 * s * joint->first, end = 2 * s * (joint->last + 1);

@@ -1,6 +1,6 @@
-/* What an actuator consists of: how many ribbons, how many stations along them, what joins and holds them at their
- * ends, and where the platform is. The one place that says so: all others ask for the platform, the clip or the nodes
- * of a station. docs/theory.md, section 19.
+/* Parts of an actuator: how many ribbons, how many stations along them, what joins and holds them at their ends, and
+ * where the platform is. The one place that says so: all others ask for the platform, the clip or the nodes of a
+ * station. docs/theory.md, section 19.
  *
  * Stations are numbered from left to right. Node j = station * ribbons + ribbon; of two ribbons, 0 is the upper one.
  * Coordinate k = 2 j is x of node j, 2 j + 1 its y. */

@@ -14,7 +14,7 @@ static inline ZpStatus zp_status_after(ZpStatus status, int filled) {
   return status;
 }
 
-/* The same for the failure that needs no words of its own. */
+/* zp_fail where memory is missing. */
 #define zp_fail_memory(err) zp_fail(err, ZP_MACHINE, "no memory")
 
 #endif

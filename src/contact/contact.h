@@ -32,7 +32,7 @@ double zp_contact_range(double insulation);
 /* Loss factor of the layers, as of a soft tape: their damper takes it at the frequency of the layers' own stiffness. */
 #define ZP_FACES_LOSS_FACTOR 0.5
 
-/* What faces do at some gaps. */
+/* Forces of faces at some gaps. */
 typedef struct ZpContactEval {
   double *push;       /* [N] on each station, N, positive opens */
   double *own, *next; /* [N], [N-1] its derivatives, sign turned: by the station's gap, by the next one's, N/m */
@@ -49,7 +49,7 @@ typedef struct ZpContactSpan {
   double rate;               /* one over the time that they take, 1/s; 0: rest */
 } ZpContactSpan;
 
-/* The same over a time h, s; 0: rest. */
+/* The way between two arrays of gaps in a time h, s; 0: rest. */
 ZpContactSpan zp_contact_span(const ZpContactParams *params, const double *start, const double *end, double h);
 
 /* => all of eval: the mean push of the span, its derivatives by the gaps at the end. At rest both ends move: the
@@ -63,7 +63,7 @@ void zp_contact_damp(const ZpContactParams *params, size_t i, double reduced_mas
  * dt. */
 double zp_contact_kept(const ZpContactEval *eval, size_t i, double reduced_mass, double dt);
 
-/* The same with the k_c of eq. (9.6), by the gap of the station alone, m. */
+/* zp_contact_kept with the k_c of eq. (9.6), by the gap of the station alone, m. */
 double zp_contact_kept_at(const ZpContactParams *params, double gap, size_t i, double reduced_mass, double dt);
 
 /* How many stations from the first clip to the platform are closed, the clip not counted. */

@@ -20,7 +20,7 @@ typedef struct ZpControl {
   int seed;
 } ZpControl;
 
-/* What of it evolves. Sample k is due at k period, its output a delay later. */
+/* Evolving part of a controller. Sample k is due at k period, its output a delay later. */
 typedef struct ZpControlState {
   double taken;                         /* samples so far, a whole number, */
   double given;                         /* and outputs */

@@ -21,11 +21,11 @@ typedef struct ZpGrowth {
 /* States of a controller, at most. */
 enum { ZP_LOOP_OWN = ZP_CONTROL_DELAY + 2 };
 
-/* What grows fastest first: of the system alone, as a controller with a constant output leaves it, [n], and of the
- * loop, [n + ZP_LOOP_OWN], whose controller acts at once by `proportional` (V per unit of the signal). Conjugate
- * eigenvalues are told once; of each, as many as `neutral` says, which neither grow nor decay by nature, are left out.
- * => how many there are; 0 if they are not found: a motion grows beyond all numbers within a period, or
- * the iteration does not converge. `work` has room for zp_loop_work(n) doubles. */
+/* Eigenvalues, the one that grows fastest first: of the system alone, as a controller with a constant output leaves it,
+ * [n], and of the loop, [n + ZP_LOOP_OWN], whose controller acts at once by `proportional` (V per unit of the signal).
+ * Conjugate eigenvalues are told once; of each, as many as `neutral` says, which neither grow nor decay by nature, are
+ * left out. => how many there are; 0 if they are not found: a motion grows beyond all numbers within a period, or the
+ * iteration does not converge. `work` has room for zp_loop_work(n) doubles. */
 size_t zp_loop_work(size_t n);
 size_t zp_open_loop(const ZpControl *control, const ZpLinear *system, size_t neutral, ZpGrowth *growth, double *work);
 size_t zp_closed_loop(const ZpControl *control, const ZpLinear *system, double proportional, size_t neutral,

@@ -23,7 +23,7 @@ typedef struct ZpSupply {
 
 ZpSupply zp_supply_of(const ZpActuatorDef *def);
 
-/* What a supply is told: the waveform, or what a program has set by hand. */
+/* Command to a supply: the waveform, or what a program has set by hand. */
 typedef struct ZpCommand {
   const ZpWaveform *waveform;
   const ZpRamp *by_hand; /* NULL: the waveform */
@@ -32,7 +32,7 @@ typedef struct ZpCommand {
 /* The command from time t on, V; at a jump behind it. */
 double zp_command_voltage(const ZpCommand *command, double t);
 
-/* What of a supply evolves. */
+/* Evolving part of a supply. */
 typedef struct ZpSupplyState {
   double lagged;  /* the command behind the lag, V */
   double voltage; /* inner voltage, V */

@@ -40,11 +40,11 @@ double zp_waveform_next_corner(const ZpWaveform *w, double t);
 /* Its rate just after t, V/s. */
 double zp_waveform_rate(const ZpWaveform *w, double t);
 
-/* What a lag of first order with `rate` (1/s) has made of the voltage at `to` from `lagged` (V) at `from`; there is no
- * corner between. Eq. (23.1). */
+/* Voltage at `to` behind a lag of first order with `rate` (1/s), from `lagged` (V) at `from`; there is no corner
+ * between. Eq. (23.1). */
 double zp_waveform_lag(const ZpWaveform *w, double rate, double from, double to, double lagged);
 
-/* The same of a straight line that begins at `voltage` and changes by `slope` (V/s) for a time h. */
+/* Voltage behind that lag of a straight line that begins at `voltage` and changes by `slope` (V/s) for a time h. */
 double zp_lag_line(double rate, double voltage, double slope, double h, double lagged);
 
 /* Does the voltage stay as it is at t = 0? */
@@ -58,7 +58,7 @@ double zp_waveform_largest(const ZpWaveform *w);
  * quarter will do, so that no wave is left out. INFINITY where it stays. */
 double zp_waveform_resolution(const ZpWaveform *w, double t);
 
-/* The same for what has this largest value and this rate, per second. */
+/* Longest step for a quantity with this largest value and this rate, per second, s. */
 double zp_ramp_resolution(double largest, double rate);
 
 /* INFINITY if it does not repeat itself, s. */

@@ -1,5 +1,5 @@
-/* What the field beyond the lateral edges of two strips that face each other adds to the plates law. Per length of
- * the strips the capacitance depends on their gap alone where that changes slowly; the field of the cross-section
+/* Contribution to the plates law of the field beyond the lateral edges of two strips that face each other. Per length
+ * of the strips the capacitance depends on their gap alone where that changes slowly; the field of the cross-section
  * across the strips is solved at some gaps once, and a smooth law goes through them, docs/theory.md section 16. */
 #ifndef ZP_ELECTRO_EDGES_H
 #define ZP_ELECTRO_EDGES_H

@@ -1,8 +1,8 @@
-/* What the solved field has beyond the plates law, on the nodes of two ribbons. The plates law follows the ribbons at
+/* Correction of the plates law by the solved field, on the nodes of two ribbons. The plates law follows the ribbons at
  * every step; this is small and varies slowly, so it may be held for a while. Where the breakdown cap holds the force,
- * nothing is added: both are taken with no gap below that at which it sets in, eq. (14.7). Per U^2: without
- * cap it does not depend on U. With a bead, liquid fills the gap by whole elements in both laws, and air lies around;
- * where air breaks down beyond it, nothing is added either, eq. (14.8). */
+ * nothing is added: both are taken with no gap below that at which it sets in, eq. (14.7). Per U^2: without cap it does
+ * not depend on U. With a bead, liquid fills the gap by whole elements in both laws, and air lies around; where air
+ * breaks down beyond it, nothing is added either, eq. (14.8). */
 #ifndef ZP_ELECTRO_FIELD_CORRECTION_H
 #define ZP_ELECTRO_FIELD_CORRECTION_H
 

@@ -124,7 +124,7 @@ static void add_piece(const ZpPlatesParams *p, double U, double gap, double leng
   totals->inverse_gap += length * zp_plates_inverse_gap(p, gap);
 }
 
-/* What add_piece adds, without edges, at the Gauss points of some elements. */
+/* Sums of add_piece, without edges, at the Gauss points of some elements. */
 typedef struct Pieces {
   double W[GAUSS][ZP_LANES], P[GAUSS][ZP_LANES], q[GAUSS][ZP_LANES], inverse[GAUSS][ZP_LANES];
 } Pieces;

@@ -87,7 +87,7 @@ static inline double zp_plates_gap(const ZpPlatesParams *params, const double *y
   return params->flat ? params->flat_height - y[i] : zp_apart(y, i);
 }
 
-/* The same => the smallest gap of facing nodes, m. */
+/* (y as for zp_plates_gap) => the smallest gap of facing nodes, m. */
 double zp_plates_least_gap(const ZpPlatesParams *params, const double *y);
 
 /* Integrals over the polyline at the gaps of the last eval. */

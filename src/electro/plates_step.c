@@ -59,7 +59,7 @@ ZP_INLINE Between between(double K, double h_c, double h0, double h1, bool still
   return (Between){W, slope, 0.5 * (P0 + P1), W1};
 }
 
-/* The same for the law with lateral edges, for which there is no such quotient in closed form. */
+/* Force between two gaps by the law with lateral edges, for which there is no such quotient in closed form. */
 static Between between_with_edges(const ZpPlatesParams *p, double U, double share, double g0, double g1) {
   static const double near =
       1e-8; /* m: closer, the difference of P is rounding, the mean force is exact to its square */
@@ -408,7 +408,7 @@ static void parts_of_charges_at(const ZpPlatesParams *p, const ZpPlatesEval *e0,
   s->P[i] = share * P;
 }
 
-/* The same for all elements in equilibrium, under the law of plates alone. */
+/* Parts of the charges of all elements in equilibrium, under the law of plates alone. */
 ZP_KERNEL static void parts_of_charges_at_rest(size_t count, double d, double h_c, double per_volt,
                                                const ZpPlatesEval *e, const ZpPlatesStep *s) {
   const double *restrict gap = e->gap, *restrict dx = e->dx;
@@ -437,7 +437,7 @@ static void alike_charges(const ZpPlatesParams *law, const ZpPlatesEval *e, doub
   parts_of_charges_at_rest(count, law->d, zp_plates_least_h(law, U), share * (2 * law->k * U), &from, &to);
 }
 
-/* The same with liquid where the cover has it. */
+/* Charges with liquid where the cover has it. */
 static void covered_charges(const ZpPlatesParams *p, const ZpPlatesEval *e, double U, double share, ZpPlatesStep *s) {
   for (size_t i = 0, count; i + 1 < p->nodes; i += count > 0 ? count : 1) {
     count = alike_from(p, e->cover, i);

@@ -16,7 +16,7 @@ size_t zp_case_chunk(const ZpScenario *scenario);
 ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
                      ZpResult **result, ZpError *err);
 
-/* The same, except that a case with impossible input has a result that gives the reason. */
+/* zp_case_run, except that a case with impossible input has a result that gives the reason. */
 ZpStatus zp_case_run_or_say(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
                             ZpResult **result, ZpError *err);
 

@@ -1,4 +1,4 @@
-/* What studies read from files. */
+/* Files that studies read. */
 #ifndef ZP_FIT_DATA_H
 #define ZP_FIT_DATA_H
 

@@ -51,7 +51,7 @@ static double piece(double w, double d0, double d1) {
   return 0.5 * w * (d0 * d0 + d1 * d1) / (fabs(d0) + fabs(d1));
 }
 
-/* The same over one edge of our curve, divided at the points of the reference. */
+/* Area between the reference and one edge of our curve, divided at the points of the reference. */
 static double edge(const ZpReference *r, double x0, double y0, double x1, double y1) {
   double from = fmax(x0, r->x[0]), to = fmin(x1, r->x[r->count - 1]), slope = (y1 - y0) / (x1 - x0), area = 0;
   size_t i = 0;

@@ -237,7 +237,7 @@ static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def,
   return good;
 }
 
-/* The same for the number of a study. */
+/* Derivatives of the number of a study with respect to the fitted keys => row [n]. */
 static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *row) {
   int found = 0;
   name_keys(fit, def);

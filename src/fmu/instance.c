@@ -103,8 +103,8 @@ static void read_row(ZpFmu *fmu) {
   fmu->stale = false;
 }
 
-/* The same without motion: mean current and power remain those of the last step, because a jump of an input now counts
- * in the next step. */
+/* Read the signals without motion: mean current and power remain those of the last step, because a jump of an input now
+ * counts in the next step. */
 static void read_row_again(ZpFmu *fmu) {
   double current = fmu->row[ZP_FMU_SIGNAL_current], power = fmu->row[ZP_FMU_SIGNAL_power];
   read_row(fmu);

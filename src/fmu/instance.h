@@ -51,7 +51,8 @@ ZpStatus zp_fmu_reset(ZpFmu *fmu, ZpError *err);
  * contradict each other, or reports that there is no hanging equilibrium. */
 ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err);
 
-/* The same, and start a run at the inputs, unless it is done already. ZP_BAD_INPUT also if an input is out of range. */
+/* Build the model and start a run at the inputs, unless it is done already. ZP_BAD_INPUT also if an input is out of
+ * range. */
 ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err);
 
 /* Prepare the simulation where initialization ends. Inputs that were set before are no jumps of the run, so the first

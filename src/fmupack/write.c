@@ -143,7 +143,7 @@ static ZpStatus put_start_source(const void *plan, FILE *file, ZpError *err) {
   (void)err;
   char text[ZP_NUMBER_SIZE];
   fprintf(file,
-          "/* What this FMU begins with. */\n#include <math.h>\n\n#include \"fmu/start.h\"\n\n"
+          "/* Start values of this FMU. */\n#include <math.h>\n\n#include \"fmu/start.h\"\n\n"
           "const volatile ZpFmuStart zp_fmu_start = {\n  .mark = ZP_FMU_MARK,\n  .size = sizeof(ZpFmuStart),\n  "
           ".layout = UINT64_C(%llu),\n"
           "  .token = \"%s\",\n  .value = {\n",

@@ -34,9 +34,8 @@ typedef struct ZpDataFiles {
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err);
 void zp_data_destroy(ZpData *data);
 
-/* The same for several files whose paths are separated by semicolons. `renamed`, the value of data.columns: "name in
- * the file = name in zipact; ..."; each renames a column in all files that have it. To be destroyed whatever the status
- * is. */
+/* Read several files whose paths are separated by semicolons. `renamed`, the value of data.columns: "name in the file =
+ * name in zipact; ..."; each renames a column in all files that have it. To be destroyed whatever the status is. */
 ZpStatus zp_data_read_all(const char *key, const char *paths, const char *renamed, ZpDataFiles *files, ZpError *err);
 void zp_data_files_destroy(ZpDataFiles *files);
 

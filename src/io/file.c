@@ -231,7 +231,7 @@ static int finish_stream(ZpAtomic *atomic) {
   return error;
 }
 
-/* The same for a file that another program wrote. */
+/* Bring a file that another program wrote to the disk => 0, or the errno of the failure. */
 static int sync_path(const char *path) {
   int fd = open(path, O_RDONLY | O_CLOEXEC);
   if (fd < 0) return errno;

@@ -37,7 +37,7 @@ ZpStatus zp_check_place(const char *directory, const char *name, ZpError *err);
  * the reason. */
 ZpStatus zp_atomic_open(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err);
 
-/* The same for a file that another program will write: the file exists and is empty, and `file` is NULL. */
+/* Reserve a place for a file that another program will write: the file exists and is empty, and `file` is NULL. */
 ZpStatus zp_atomic_reserve(ZpAtomic *atomic, const char *directory, const char *name, ZpError *err);
 
 /* Bring the file to the disk and give it its name. In every case the file is closed and no temporary file remains.

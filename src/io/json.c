@@ -18,7 +18,7 @@ static void begin_line(const ZpJson *json) {
   if (!json->flat) fprintf(json->file, "\n%*s", 2 * json->depth, "");
 }
 
-/* What stands before a member. */
+/* Comma, line break and name before a member. */
 static void begin(ZpJson *json, const char *name) {
   if (json->begun) fputs(json->flat ? ", " : ",", json->file);
   if (json->depth > 0) begin_line(json);

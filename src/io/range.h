@@ -1,5 +1,5 @@
-/* What may stand instead of a value or a list: a range, with first and last value, number of values, equal steps or
- * equal ratios; an interval; a distribution. */
+/* Texts that may stand instead of a value or a list: a range, with first and last value, number of values, equal steps
+ * or equal ratios; an interval; a distribution. */
 #ifndef ZP_IO_RANGE_H
 #define ZP_IO_RANGE_H
 

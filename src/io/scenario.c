@@ -271,7 +271,7 @@ static char *absolute_path(const ZpSource *source, const char *path, int length)
   return whole;
 }
 
-/* The same for several paths, separated by semicolons. */
+/* Absolute paths of several that are separated by semicolons. */
 static char *absolute_paths(const ZpSource *source, const char *paths) {
   char *whole = strdup("");
   while (whole && *paths) {

@@ -38,7 +38,7 @@ typedef struct Walk {
   size_t used, capacity;   /* bytes */
 } Walk;
 
-/* What is probably wrong where libfyaml's message, which names rules of YAML, does not tell. */
+/* Probable mistakes behind messages of libfyaml that name rules of YAML. */
 static const struct {
   const char *message, *question;
 } questions[] = {

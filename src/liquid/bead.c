@@ -93,7 +93,7 @@ double zp_bead_thickness(const ZpFilmParams *p, const ZpBeadPlace *place, const 
   return between(place, zp_film_thickness(p, gap[place->near]), zp_film_thickness(p, gap[place->far]));
 }
 
-/* What is at hand in a step like the last one, over what the film would take of it. */
+/* Liquid at hand in a step like the last one, over that which the film would take. */
 static double supply_of(double outside, double comes, double wanted) {
   double at_hand = 0.5 * outside + comes;
   if (!(at_hand > 0)) return 0;

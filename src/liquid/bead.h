@@ -38,7 +38,7 @@ double zp_bead_reach(const ZpFilmParams *film, const double *gap, int half, doub
  * far, m: n d + (f - n) d^2 / (2 l) = area => d, m. */
 double zp_bead_within(double near, double far, double l, double area);
 
-/* And back: the volume between the faces as far as `reach`, m^3. */
+/* Volume between the faces as far as `reach`, m^3. */
 double zp_bead_volume(const ZpFilmParams *film, const double *gap, int half, double reach);
 
 /* (wet length of each half) => cover. */

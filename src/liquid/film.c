@@ -137,7 +137,7 @@ static double flat(const ZpFilmParams *p, const ZpCover *cover, size_t i) {
   return is_platform(p, i) ? p->flat_length * (cover ? cover->flat[half_of(p, i)] : 1) : 0;
 }
 
-/* What two pieces beside a station, and its flat faces, have of it, m. */
+/* Length of a station's cell in the two pieces beside it and in its flat faces, m. */
 static double length_between(const ZpFilmPiece *left, const ZpFilmPiece *right, double flat_length) {
   return left->cell[1][0] + left->cell[1][1] + right->cell[0][0] + right->cell[0][1] + flat_length;
 }
@@ -451,7 +451,7 @@ static double grown(const ZpFilmParams *p, const double *rise, const double *sta
   return over_cell(p, e, rise, i) - zp_film_wet(e, i) * (e->end[cavity_at(i)] - start[cavity_at(i)]);
 }
 
-/* What flows out of it in mode k, m^2/s. */
+/* Outflow of a cell in mode k, m^2/s. */
 static double outflow(const ZpFilmEval *e, size_t i, int k) {
   double sum = zp_film_wet(e, i) * e->leak[zp_film_mode_at(i, k)] + e->flow[zp_film_mode_at(i, k)];
   return i > 0 ? sum - e->flow[zp_film_mode_at(i - 1, k)] : sum;

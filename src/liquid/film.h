@@ -53,7 +53,7 @@ typedef struct ZpFilmPiece {
 /* The piece of an element of length l of which `part` is wet, from its right end or its left one. */
 ZpFilmPiece zp_film_piece(double l, double part, bool from_right);
 
-/* What holds the film at its free ends over a step. */
+/* Conditions at the free ends of the film over a step. */
 typedef struct ZpFilmEnds {
   const ZpCover *cover; /* where liquid is; NULL: everywhere */
   const double *open;   /* [N] share of the long edges at a station where liquid can pass, 0 to 1; NULL: 1 */
@@ -118,7 +118,7 @@ void zp_film_turn_one(const ZpFilmParams *params, const double *heads, const ZpF
  * beyond what its matrix foresaw. */
 double zp_film_unforeseen(const ZpFilmParams *params, const double *heads, const ZpFilmEval *eval);
 
-/* What the film loses over that step, J: each is 0 or more. */
+/* Losses of the film over a step, J: each is 0 or more. */
 typedef struct ZpFilmLoss {
   double along, across; /* to viscosity */
   double jets;          /* to jets at the long edges, and to cavities that collapse */
@@ -151,7 +151,7 @@ double zp_film_energy_among(const ZpFilmParams *params, const ZpCover *cover, co
 /* Length of the faces at station i, m. */
 double zp_film_length(const ZpFilmParams *params, size_t i);
 
-/* What flows out at the long edges in the cell of station i, mean over the step, m^3/s. */
+/* Outflow at the long edges in the cell of station i, mean over the step, m^3/s. */
 double zp_film_edge_flow(const ZpFilmParams *params, const ZpFilmEval *eval, size_t i);
 
 /* Flow out over the long edges at the heads of the step if these were open and inertia did not count, m^3/s. */

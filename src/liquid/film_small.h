@@ -39,7 +39,7 @@ void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag)
 double zp_film_ways_inertia(const ZpFilmWays *ways, const double *f, const double *g);
 double zp_film_ways_resistance(const ZpFilmWays *ways, const double *f, const double *g);
 
-/* What flows past the long edges at stations `first` to `last`, m^3/s. */
+/* Flow past the long edges at stations `first` to `last`, m^3/s. */
 double zp_film_ways_out(const ZpFilmWays *ways, const double *flow, size_t first, size_t last);
 
 #endif

@@ -12,7 +12,7 @@ typedef struct ZpOuterParams {
 /* Moved by the outer face of one ribbon, kg/m. */
 double zp_outer_side(const ZpOuterParams *params);
 
-/* What a pair moves beyond that with its mean velocity, since liquid goes through the gap, too: kg/m; and the secant of
+/* Liquid that a pair moves beyond that with its mean velocity, since some goes through the gap, kg/m; and the secant of
  * it between two gaps, kg/m^2. */
 double zp_outer_pair(const ZpOuterParams *params, double gap);
 double zp_outer_pair_slope(const ZpOuterParams *params, double g0, double g1);

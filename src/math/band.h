@@ -13,9 +13,8 @@
 
 #include "base/memory.h"
 
-/* What is known of a symmetric matrix beside its bandwidth: its equations come in groups of four, of which the first
- * one has `lead` fewer, and a group meets the `reach` - 1 groups that follow it at most. reach = 0: that is not known.
- */
+/* Structure of a symmetric matrix beside its bandwidth: its equations come in groups of four, of which the first one
+ * has `lead` fewer, and a group meets the `reach` - 1 groups that follow it at most. reach = 0: that is not known. */
 typedef struct ZpBandGroups {
   size_t lead, reach;
 } ZpBandGroups;
@@ -38,7 +37,7 @@ typedef struct ZpBand {
   double *corner;      /* [border * border] and rows among themselves */
 } ZpBand;
 
-/* What a matrix looks like, whatever its size. */
+/* Form of a matrix, whatever its size. */
 typedef struct ZpBandForm {
   size_t bandwidth; /* diagonals above the main one, and below */
   bool symmetric;   /* the band is: only its upper triangle is kept */

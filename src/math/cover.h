@@ -1,4 +1,4 @@
-/* What lies along a line of elements only as far as some place from each of its ends. */
+/* A layer along a line of elements that reaches only as far as some place from each of its ends. */
 #ifndef ZP_MATH_COVER_H
 #define ZP_MATH_COVER_H
 

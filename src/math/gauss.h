@@ -20,8 +20,7 @@ static inline const double *zp_gauss_shares(const ZpLevelEnds *ends, size_t elem
   return gauss_at;
 }
 
-/* The same where a line with a level end at its left or right station begins or ends inside an element: the share at x,
- * 0 .. 1. */
+/* Share at x where a line with a level end at its left or right station begins or ends inside an element, 0 .. 1. */
 static inline double zp_gauss_share(const ZpLevelEnds *ends, size_t element, double x) {
   for (size_t k = 0; k < ends->count; k++)
     if (ends->of[k].element == element) return ends->of[k].right ? 1 - 1.2 * (1 - x) * (1 - x) : 1.2 * x * x;

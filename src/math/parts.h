@@ -19,7 +19,7 @@ static inline double zp_parts_unknowns(const ZpParts *parts, size_t n) {
   return (double)(n + parts->more * parts->count);
 }
 
-/* What the other parts add to a sum of a[i] b[i] over all unknowns. */
+/* Addition of the other parts to a sum of a[i] b[i] over all unknowns. */
 static inline double zp_parts_dot(const ZpParts *parts, const double *a, const double *b) {
   double sum = 0;
   for (size_t k = 0; k < parts->count; k++)

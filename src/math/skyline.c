@@ -104,7 +104,7 @@ ZP_CHECKED_WHOLE static inline void subtract(size_t count, const double *restric
   }
 }
 
-/* What is left of c, solved with the triangle t of the rows q. */
+/* Solve the rest of c with the triangle t of the rows q. */
 static inline void divide(const double *restrict t, double *restrict c) {
   const double *t0 = t, *t1 = t + SECOND, *t2 = t + THIRD, *t3 = t + FOURTH;
   ZP_SIMD
@@ -120,7 +120,7 @@ static inline void divide(const double *restrict t, double *restrict c) {
   }
 }
 
-/* The same where c meets the diagonal, in row `row` of the block. Rows above it get numbers that nothing uses. */
+/* Factor c where it meets the diagonal, in row `row` of the block. Rows above it get numbers that nothing uses. */
 static inline bool factor_triangle(size_t row, double *c) {
   for (size_t j = 0; j < COLUMNS; j++) {
     double *l = c + j * LANES, pivot = l[row + j];

@@ -59,7 +59,7 @@ ZpStatus zp_search_sample(ZpSearch *search, size_t count, ZpError *err);
 /* Run NLopt's searches from the best of `sampled` points, with cases up to problem.evaluations. */
 ZpStatus zp_search_local(ZpSearch *search, size_t sampled, ZpError *err);
 
-/* The same from case `start` alone, with cases `first` .. room - 1. */
+/* Run one of NLopt's searches from case `start`, with cases `first` .. room - 1. */
 ZpStatus zp_search_local_from(ZpSearch *search, size_t start, size_t first, ZpError *err);
 
 /* Is there a design that satisfies all constraints, if no case does? Takes cases problem.evaluations .. room - 1: finds

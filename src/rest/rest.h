@@ -41,7 +41,7 @@ void zp_rest_go_to(ZpRest *rest, const double *state);
  * zp_branch_advance. False if the stiffness is singular there. */
 bool zp_rest_follow(ZpRest *rest, bool growing);
 
-/* The same with steps of arc length from `first` to `longest`. */
+/* zp_rest_follow with steps of arc length from `first` to `longest`. */
 bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest);
 
 /* From the present point, which is close, to the equilibrium at `voltage`, V. */

@@ -349,8 +349,7 @@ static void open_to(ZpStatics *s, double opening) {
   s->distance = opening / s->held_at * s->member->model->distance;
 }
 
-/* The same while weight is applied too: ribbons that sag by more than the opening have no straight shape to start
- * from. */
+/* Open while weight is applied too: ribbons that sag by more than the opening have no straight shape to start from. */
 static void open_and_put_on(ZpStatics *s, double opening) {
   open_to(s, opening);
   s->share = opening / s->held_at;
@@ -612,7 +611,7 @@ double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
   return reaction;
 }
 
-/* The same for the terms on top of the band. */
+/* Hold an unknown in the terms on top of the band. */
 static void hold_top(ZpBand *K, size_t row, double move, double *r) {
   size_t n = K->n;
   for (size_t k = 0; k < K->rank; k++) {

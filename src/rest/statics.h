@@ -148,7 +148,7 @@ ZpNewtonInfo zp_statics_close(ZpStatics *statics, double voltage);
  * against a resistance ends. If it succeeds, the equilibrium is stable. */
 ZpNewtonInfo zp_statics_relax(ZpStatics *statics, double voltage);
 
-/* The same at the present voltage, at most until `enough(user)` is true at the present point. */
+/* Relax at the present voltage, at most until `enough(user)` is true at the present point. */
 ZpNewtonInfo zp_statics_relax_until(ZpStatics *statics, bool (*enough)(void *user), void *user);
 
 /* The present point: height of the clip or clamp over the right end of the lower or only ribbon, signed, m; distance

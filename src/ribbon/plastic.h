@@ -26,8 +26,8 @@ typedef struct ZpPlastic {
 ZpPlastic zp_plastic(const ZpLayer *metal, const ZpSection *section, double width, int plane_strain, double yields,
                      double hardening);
 
-/* What plasticity takes of the elastic moment EI times the curvature: itself, N m, and its derivative by the
- * curvature, N m^2. */
+/* Moment that plasticity takes from the elastic one, EI times the curvature, N m, and its derivative by the curvature,
+ * N m^2. */
 typedef struct ZpPlasticMoment {
   double M, K;
 } ZpPlasticMoment;

@@ -58,7 +58,7 @@ ZP_KERNEL static void joint_curvatures(size_t s, size_t padded, const ZpRodEval 
   }
 }
 
-/* What lies beyond the last edges, and rigid edges, where kernels over whole lanes have written. */
+/* Restore places beyond the last edges, and rigid edges, where kernels over whole lanes have written. */
 static void hold_slopes(const ZpRodParams *p, const ZpRodEval *e) {
   size_t edges = edge_count(p);
   for (size_t j = edges; j < edges + p->ribbons; j++) {

@@ -4,7 +4,7 @@
 
 #include "ribbon/rod_step.h"
 
-/* What curling saves of the bending energy at the last eval, J; 0 where nothing curls. */
+/* Bending energy that curling saves at the last eval, J; 0 where nothing curls. */
 double zp_rod_curl_energy(const ZpRodParams *params, const ZpRodEval *eval);
 
 /* Take from moments and stiffnesses of the step's joints what curling saves between both ends. */

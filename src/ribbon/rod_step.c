@@ -85,8 +85,8 @@ ZP_KERNEL static void edges_at_rest(const ZpRodParams *p, size_t padded, const Z
   mean_edges(p, padded, e, e, 0, true, s);
 }
 
-/* What lies beyond the last edges, where the kernel over whole lanes has written: held slopes never turn; and rigid
- * edges, which do not stretch either: they have the length 1 and no tension at both ends. */
+/* Restore places beyond the last edges, where the kernel over whole lanes has written: held slopes never turn; and
+ * rigid edges, which do not stretch either: they have the length 1 and no tension at both ends. */
 static void hold_slopes(const ZpRodParams *p, const ZpRodStep *s) {
   for (size_t j = edge_count(p); j < edge_count(p) + p->ribbons; j++)
     s->turn[j] = s->gx[j] = s->gy[j] = 0;

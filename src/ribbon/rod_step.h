@@ -40,7 +40,7 @@ void zp_rod_step(const ZpRodParams *params, const ZpRodEval *start, const ZpRodE
  * T, M, Rx, Ry. */
 void zp_rod_step_scale(const ZpRodParams *params, const double axial[2], const double bending[2], ZpRodStep *step);
 
-/* What internal damping takes over the step, J. */
+/* Loss by internal damping over the step, J. */
 double zp_rod_step_loss(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, double damping);
 
 /* Derivative by the end's edges at the last zp_rod_step: D[3 j + m] = -dR_j / d(edge j + (m - 1) s), m = 0, 1, 2, row

@@ -29,7 +29,7 @@ double zp_bending_modulus(const ZpLayer *layer, int plane_strain);
  * is, as eq. (2) of the paper does; plane strain stiffens bending only. */
 ZpSection zp_section(const ZpLayer *layer, int count, double width, int plane_strain);
 
-/* What of a layer changes. */
+/* Property of a layer that changes. */
 typedef enum ZpLayerNumber { ZP_LAYER_THICKNESS, ZP_LAYER_MODULUS, ZP_LAYER_DENSITY } ZpLayerNumber;
 
 /* Derivatives of EA, EI and mu by a number of layer `which`; the others are 0. */

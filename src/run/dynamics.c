@@ -777,7 +777,7 @@ static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) 
   state->next_step = d->history.next;
 }
 
-/* What falls on one member. Each coordinate of the load's nodes keeps its momentum: the impact does not affect the
+/* Catch a mass on one member. Each coordinate of the load's nodes keeps its momentum: the impact does not affect the
  * strips. */
 static void catch_mass(ZpDynamics *d, const ZpMovingMember *m) {
   const ZpModel *model = m->model;
@@ -867,7 +867,7 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
   return taken;
 }
 
-/* What the motion of its own mass takes beyond its own forces, eq. (29.5). */
+/* Set the force of the link to a member: its own mass times its acceleration, minus its own forces, eq. (29.5). */
 void zp_dynamics_book_link(ZpDynamics *d, size_t which, ZpState *before, ZpState *state) {
   ZpMovingMember *m = &d->member[which];
   const ZpModel *model = m->model;

@@ -23,7 +23,7 @@ static double energy_of_mass(const ZpModel *model, const ZpState *state) {
   return 0.5 * mass * (m.vx[j] * m.vx[j] + m.vy[j] * m.vy[j]);
 }
 
-/* What one member stores, J per part. */
+/* Energy that one member stores, J per part. */
 static double stored(ZpSim *m) {
   double row[ZP_MOST_ROWS] = {0};
   zp_system_now(m->model, m->state, &m->eval, row);

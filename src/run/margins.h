@@ -1,4 +1,4 @@
-/* What the materials of a simulated actuator have seen. */
+/* Largest stresses and fields that the materials of a simulated actuator have seen. */
 #ifndef ZP_SIM_MARGINS_H
 #define ZP_SIM_MARGINS_H
 

@@ -6,7 +6,7 @@
 #include "solve/explicit.h"
 #include "system/system.h"
 
-/* What limited the size of a step. */
+/* Limits of the size of a step. */
 typedef enum ZpPaperLimit {
   ZP_PAPER_STABILITY, /* the stable step of the model */
   ZP_PAPER_ASKED,     /* solver.time_step */

@@ -69,7 +69,7 @@ static const ZpColumn columns_parallel[] = {
 #include "run/columns.def"
     PARALLEL_MEMBERS};
 
-/* The same where the controller holds a length, and where it holds a capacitance. */
+/* Signals of a controller of a length, and of one of a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_of_length[] = {
 #include "run/columns.def"
@@ -245,7 +245,7 @@ static void fill_books(const ZpSim *sim, double *now, double *row) {
                                  model->parts * zp_system_taken(model, zp_state_ledger(model, sim->state), now);
 }
 
-/* What the insulators conduct, and the charge on their faces. */
+/* Current through the insulators, and the charge on their faces. */
 static void fill_leak(ZpSim *sim, double *row) {
   const ZpModel *model = sim->model;
   ZpLeakNow now = zp_sim_leak(sim);
@@ -392,7 +392,7 @@ double zp_sim_hanging(const ZpSim *sim) {
   return sum;
 }
 
-/* The same of all members, and numbers of each. */
+/* Signals of all members together, and numbers of each. */
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
   if (sim->members == 1) return;

@@ -184,7 +184,7 @@ static double voltage_now(const ZpSim *m) {
                         : zp_waveform_voltage(&m->model->waveform, state->t);
 }
 
-/* What a simulation starts with. */
+/* Initial state of a simulation. */
 static void start(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
     zp_sim_lay_beads(m);

@@ -253,8 +253,8 @@ static double given(const ZpState *state, double charge) {
   return state->work + state->U * (charge - state->base_charge);
 }
 
-/* What a jump of voltages takes at once, of all: charge from the supply, C; work, and the part of it that the
- * electrodes do not keep, J. */
+/* A jump of voltages of all members: charge from the supply, C; its work, and the part of it that the electrodes do not
+ * keep, J. */
 typedef struct Jump {
   double charge, work, lost;
 } Jump;

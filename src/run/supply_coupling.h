@@ -42,7 +42,7 @@ bool zp_sim_is_fed(const ZpSim *sim);
 
 void zp_supply_coupling_create(ZpSim *sim);
 
-/* What the supply is told now, V. */
+/* Command to the supply now, V. */
 double zp_sim_command(const ZpSim *sim);
 
 /* At the start a constant source of its own charges the electrodes of a member, those of the supply have no voltage. */

@@ -73,7 +73,7 @@ static void take_state(ZpSim *sim, const ZpSim *from) {
   state->opening0 = opening0;
 }
 
-/* What drives a member from now on. */
+/* Take over the drive of a member. */
 static void take_drive(ZpSim *sim, const ZpSim *from) {
   ZpState *state = sim->state;
   zp_sim_lay_beads(sim);

@@ -19,7 +19,7 @@ typedef struct ZpDistribution {
 /* The value below which a share (0 .. 1, both excluded) of the distribution lies. */
 double zp_quantile(const ZpDistribution *distribution, double share);
 
-/* The same of the normal distribution of mean 0 and standard deviation 1. */
+/* The quantile of the normal distribution of mean 0 and standard deviation 1. */
 double zp_normal_quantile(double share);
 
 #endif

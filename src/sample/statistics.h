@@ -1,4 +1,4 @@
-/* What the samples of an output say of its distribution, and of which key it follows from. */
+/* Distribution of an output from its samples, and the keys from which it follows. */
 #ifndef ZP_SAMPLE_STATISTICS_H
 #define ZP_SAMPLE_STATISTICS_H
 

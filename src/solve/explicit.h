@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-/* What the stepping sees of a problem. */
+/* Interface of a problem to the stepping. */
 typedef struct ZpExplicitSystem {
   size_t n;   /* coordinates */
   void *self; /* handed to the functions below */
@@ -15,7 +15,7 @@ typedef struct ZpExplicitSystem {
   double (*next_event)(void *self, const double *q, const double *v, const double *a, double dt);
 } ZpExplicitSystem;
 
-/* What set the size of a step. */
+/* Limits of the size of a step. */
 typedef enum ZpExplicitLimit { ZP_EXPLICIT_BOUND, ZP_EXPLICIT_END, ZP_EXPLICIT_EVENT } ZpExplicitLimit;
 
 typedef struct ZpExplicitStep {

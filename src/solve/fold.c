@@ -168,7 +168,7 @@ static bool step_to_rest(ZpFold *f) {
   return true;
 }
 
-/* What is solved for. */
+/* Target of a search for a fold. */
 typedef struct Goal {
   enum { TO_FOLD, TO_EVENT, TO_REST } kind;
   ZpEvent event;

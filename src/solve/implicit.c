@@ -100,7 +100,8 @@ static double rounded_work(const ZpImplicit *s, size_t i, double stiffness, doub
   return stiffness * (s->reach * scale_of(s->system, i)) * moved;
 }
 
-/* The same for all unknowns, from the sum of their squares. Equal parts are rounded alike, so their works add up. */
+/* Work on all unknowns by the rounding of their positions, from the sum of their squares. Equal parts are rounded
+ * alike, so their works add up. */
 static double rounding_of(ZpImplicit *s, const double *q, double squares) {
   const ZpParts *parts = &s->system->parts;
   double all = (double)(1 + parts->more);
@@ -121,7 +122,7 @@ static ZpEnd left_over(ZpImplicit *s, double h, const double *q, const double *v
   return end;
 }
 
-/* The same, and the Jacobian factored. */
+/* Compute the imbalance and factor the Jacobian. */
 static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v, Imbalance *imbalance) {
   const ZpImplicitSystem *system = s->system;
   double work = 0, turnover = 0, rounding = 0;

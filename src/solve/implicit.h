@@ -67,7 +67,7 @@ typedef struct ZpImplicitSystem {
   double (*unforeseen)(void *self, const double *y1);
 } ZpImplicitSystem;
 
-/* What evolves besides q and v: the last step, from which the guess and the error of the next one follow. */
+/* Evolving part besides q and v: the last step, from which the guess and the error of the next one follow. */
 typedef struct ZpImplicitHistory {
   double *w, *a;     /* [n] mean rate and mean acceleration of the last step; 0 for algebraic unknowns */
   double last, next; /* length of the last step, 0 if there is none; length of the next step to try, s */

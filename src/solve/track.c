@@ -178,9 +178,8 @@ static bool halve(ZpTrack *m, double sign, double value) {
   return isfinite(before);
 }
 
-/* The same if the limit point is smooth: solve it as such, starting where the tangents at both ends make the branch
- * turn. If a parabola does not lead there from the last good point, it is the crest of a ripple beyond the one that was
- * passed. */
+/* Solve a smooth limit point as such, starting where the tangents at both ends make the branch turn. If a parabola does
+ * not lead there from the last good point, it is the crest of a ripple beyond the one that was passed. */
 static bool solve_between(ZpTrack *m, double sign, double value) {
   static const double part = 0.3;
   double here = 1 / m->slope, there = turn_of(m), at = m->value + (value - m->value) * here / (here - there);

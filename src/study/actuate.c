@@ -142,7 +142,7 @@ static void summarize_steps(const ZpRunInfo *info, ZpResult *result) {
                        info->wall_time > 0 ? info->simulated_time / info->wall_time : NAN);
 }
 
-/* What may help where the energy of a run does not balance. */
+/* Advice where the energy of a run does not balance. */
 static const char *remedy(const ZpActuatorDef *def) {
   if (def->electro.surface == ZP_SURFACE_BEZIER || def->ribbon.model == ZP_RIBBON_MASS_SPRING)
     return "mass_spring and bezier have no energy, so it cannot balance";
@@ -165,7 +165,7 @@ static bool was_open(const ZpSim *sim) {
   return false;
 }
 
-/* What starts closed, or nearly so. */
+/* Note an actuator that starts closed, or nearly so. */
 static void note_start(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
   double opening = zp_table_get(result->series, 0, "opening_m");
   if (zp_is_pair(&model->topology) && sim->state->t > 0 && !was_open(sim))

@@ -21,7 +21,7 @@
 enum { PHASES = 100, HISTORY = 5 }; /* rows of a cycle; number of starts that are stored */
 enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the edges, and remaining charge */
 
-/* What is compared between two starts of cycles. */
+/* Numbers that are compared between two starts of cycles. */
 typedef struct Mark {
   double *q;                          /* of all members, m */
   double rate;                        /* of the opening, m/s */

@@ -29,7 +29,7 @@ static const Estimated estimated[] = {
 };
 enum { COUNT = sizeof estimated / sizeof estimated[0] };
 
-/* What the meshes give for each row above; NAN where they give none. */
+/* Results of the meshes for each row above; NAN where they give none. */
 typedef struct Findings {
   double elements[MESHES], f[COUNT][MESHES];
   bool free_end; /* a ribbon has one: where it leaves as a point, errors are of order two */

@@ -11,7 +11,7 @@
 /* Add the stress of the metal, with a note where it yields. */
 void zp_add_stress(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
-/* The same, and what the insulators see, with a note where they or, without cap, the liquid break down. */
+/* Add stresses and the fields in the insulators, with a note where these or, without cap, the liquid break down. */
 void zp_add_margins(ZpResult *result, const ZpModel *model, const ZpMargins *seen);
 
 /* The mesh for `voltage`, the highest (V), 0 for none => result->resolution, with a note where it is too coarse. */

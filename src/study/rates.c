@@ -106,7 +106,7 @@ static void add_key(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
   if (is_of(model, FED)) add_currents(rates, k, result);
 }
 
-/* What ends the derivatives by all keys ends them at once. */
+/* Has a failure ended the derivatives by all keys, which end at once? */
 static bool all_lost(const ZpRunSensitivity *rates) {
   for (size_t k = 0; k < rates->keys; k++)
     if (rates->key[k].lost != rates->key[0].lost) return false;

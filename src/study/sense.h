@@ -8,7 +8,7 @@
 /* Is a meter asked for? */
 bool zp_senses(const ZpActuatorDef *def);
 
-/* What a simulation has to keep for it, from its start on; NULL if there is no memory. */
+/* Record that a simulation keeps for the meter, from its start on; NULL if there is no memory. */
 ZpTable *zp_sense_trace(void);
 
 /* (trace of a whole run, sim at its end) => numbers of the summary, columns of the series. Finds the

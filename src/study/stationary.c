@@ -96,7 +96,7 @@ static void run(ZpEquilibria *at) {
   zp_shapes_offer(result->shapes, &shape);
 }
 
-/* It has no voltage. */
+/* Study stationary has no voltage. */
 static const ZpRule rule[] = {
     ZP_RULE_STARTS,
     ZP_RULE_DERIVATIVES,

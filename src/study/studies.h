@@ -8,7 +8,7 @@
 
 #include "def/rule.h"
 
-/* What a study is given. */
+/* Input of a study. */
 typedef struct ZpTask {
   const ZpActuatorDef *def; /* checked */
   ZpStudyInput input;
@@ -29,7 +29,7 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err);
  * without a controller. */
 ZpStatus zp_add_hold(const ZpActuatorDef *def, ZpResult *result, ZpError *err);
 
-/* What fills a result: a zp_study_WORD. */
+/* Function that fills a result: a zp_study_WORD. */
 typedef ZpStatus (*ZpStudyRun)(const ZpTask *task, ZpResult *result, ZpError *err);
 
 /* The zip time of study actuate and nothing else, in less time: no rows and no shapes, and energy does not balance. */

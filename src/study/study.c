@@ -8,7 +8,7 @@
 #include "study/estimate.h"
 #include "study/rates.h"
 
-/* What a study takes from files. */
+/* Files that a study takes. */
 enum { FILES_none, FILES_course, FILES_reference, FILES_measurements };
 
 /* A study at work. */

@@ -105,7 +105,7 @@ void zp_system_accelerations(const ZpModel *model, const ZpSpan *span, const ZpM
   divide(zp_lanes(model), masses->x.inverse, masses->y.inverse, of.x, of.y);
 }
 
-/* What a law has now in its rows. */
+/* Add the present values of a law's rows. */
 static void add_rows(const ZpModel *model, const ZpLaw *law, const ZpSpan *now, ZpEval *e, double *ledger) {
   double row[ZP_ROWS_OF_TERM];
   for (size_t k = 0; k < law->rows; k++)

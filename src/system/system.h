@@ -29,7 +29,7 @@ typedef struct ZpTerms {
   size_t count;
 } ZpTerms;
 
-/* The same sum without some laws, which are evaluated nevertheless, because others may need what they find. */
+/* Forces of all terms without some laws, which are evaluated nevertheless, because others may need what they find. */
 void zp_system_force_without(const ZpModel *model, const ZpSpan *span, const ZpTerms *without, ZpEval *eval, double *F);
 
 /* K += -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
@@ -37,7 +37,7 @@ void zp_system_force_without(const ZpModel *model, const ZpSpan *span, const ZpT
 void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval,
                              ZpBand *K);
 
-/* The same of all terms but those of edges (ZpTerm.of_edges). */
+/* Stiffness of all terms but those of edges (ZpTerm.of_edges). */
 void zp_system_add_stiffness_beside_edges(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly,
                                           ZpEval *eval, ZpBand *K);
 
@@ -55,8 +55,8 @@ void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *eval, dou
 /* Sum of all energies in a ledger, J. */
 double zp_system_stored(const ZpModel *model, const double *ledger);
 
-/* What one part has taken since its ledger was opened, J: the rise of all energies, and all losses. It is the work of
- * source and load if the energy balances. */
+/* Energy that one part has taken since its ledger was opened, J: the rise of all energies, and all losses. It is the
+ * work of source and load if the energy balances. */
 double zp_system_taken(const ZpModel *model, const double *start, const double *now);
 
 /* Add what the terms have lost over a span, at its last force, to the ledger of the state. Edges are damped in implicit
@@ -69,7 +69,7 @@ void zp_system_inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e
 /* Electric totals at the start or the end of a span, with the gaps found last, at voltage U. */
 ZpElectric zp_system_electric(const ZpModel *model, const ZpSpan *span, const ZpEval *eval, ZpSpanEnd at, double U);
 
-/* The same for a state. */
+/* Electric quantities of a state. */
 ZpElectric zp_system_electric_now(const ZpModel *model, const ZpState *state, double U, ZpEval *eval);
 
 /* Derivatives of the last force and of the charge by the voltage at the end of the span => sum, whose arrays belong to

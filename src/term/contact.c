@@ -30,6 +30,6 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
-/* What impacts lose is booked by those who make the steps. */
+/* The code that makes the steps books the losses of impacts. */
 const ZpTerm zp_term_contact = {
     .name = "contact", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness};

@@ -40,7 +40,7 @@ typedef struct Way {
   double s0, s1, opened;
 } Way;
 
-/* It neither ends nor begins on the way. */
+/* Does the contact neither end nor begin on the way? */
 static bool is_even(Way way) {
   return (way.s0 > 0) == (way.s1 > 0);
 }
