@@ -455,15 +455,6 @@ static double impact(ZpDynamics *d) {
   return loss - kinetic_energy(d);
 }
 
-/* A meniscus that passes a station gives it a film at once. Where the film's resistance far exceeds the inertia of the
- * ribbons, the difference of velocities from the mean of the step would reverse in every step. The part of it that is
- * too fast for the step is removed => the loss, J. */
-static double filter_menisci(ZpDynamics *d) {
-  double before = kinetic_energy(d);
-  zp_implicit_filter(&d->stepper, d->h, d->history.w, d->v);
-  return before - kinetic_energy(d);
-}
-
 /* A film of thickness H takes momentum in the time H^2 / (12 nu). Where a step is longer, relative velocities of faces
  * would reverse in every step around their mean, so each station loses a share of that difference, eq. (18.14). */
 static void settle_film(ZpDynamics *d, const ZpMovingMember *m) {
@@ -476,14 +467,6 @@ static void settle_film(ZpDynamics *d, const ZpMovingMember *m) {
     double share = drag / (drag + film->rho * H * H);
     bring_nearer(pair, share * share * share * (parting(pair, d->v) - parting(pair, d->history.w)), d->v);
   }
-}
-
-/* => the loss, J. */
-static double settle_films(ZpDynamics *d) {
-  double before = kinetic_energy(d);
-  for (size_t k = 0; k < d->members; k++)
-    settle_film(d, &d->member[k]);
-  return before - kinetic_energy(d);
 }
 
 /* -- creation -------------------------------------------------------------------------------------- */
@@ -745,19 +728,6 @@ static void load(ZpDynamics *d, ZpState *const state[]) {
   d->history.next = state[0]->next_step;
 }
 
-/* Work of the source on the charge that insulators conduct over the step. */
-static void book_conduction(const ZpMovingMember *m, ZpState *state) {
-  double passed = zp_leak_passed(&m->eval.leak);
-  state->leaked += passed;
-  state->work += 0.5 * (m->U0 + m->U1) * passed;
-}
-
-static void book_losses(const ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
-  gather_own(m, d->q);
-  ZpSpan span = span_of(d, m);
-  zp_system_book(m->model, &span, &m->eval, state);
-}
-
 /* Motion and the laws' own numbers at the end of the step => state. */
 static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) {
   const ZpModel *model = m->model;
@@ -812,22 +782,35 @@ void zp_dynamics_change_load(ZpDynamics *d, ZpState *const state[]) {
 
 /* Motion, work and losses of one member over a step. */
 static void book(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
-  book_losses(d, m, state);
-  if (d->source) {
-    ZpSpan span = span_of(d, m);
-    m->charge1 = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, m->U1).charge;
+  const ZpModel *model = m->model;
+  gather_own(m, d->q);
+  ZpSpan span = span_of(d, m);
+  zp_system_book(model, &span, &m->eval, state);
+  if (d->source) m->charge1 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_END, m->U1).charge;
+  if (model->leaks) { /* the source works on what insulators conduct */
+    double passed = zp_leak_passed(&m->eval.leak);
+    state->leaked += passed;
+    state->work += 0.5 * (m->U0 + m->U1) * passed;
   }
-  if (m->model->leaks) book_conduction(m, state);
-  if (m->model->field) book_work(d, m, state);
+  if (model->field) book_work(d, m, state);
 }
 
-/* Impacts and menisci change the velocities of all members; their losses are booked with the first one. */
+/* Impacts and menisci change the velocities of all members; their losses are booked with the first one. A meniscus that
+ * passes a station gives it a film at once. Where the film's resistance far exceeds the inertia of the ribbons, the
+ * difference of velocities from the mean of the step would reverse in every step, so the part of it that is too fast
+ * for the step is removed. */
 static void book_impacts(ZpDynamics *d, ZpState *state) {
   const ZpModel *model = d->member->model;
   if (!model->field) return;
   *zp_state_row(model, state, &zp_row_contact_loss) += impact(d);
-  if (model->has_film)
-    *zp_state_row(model, state, &zp_row_film_across_loss) += model->has_bead ? filter_menisci(d) : settle_films(d);
+  if (!model->has_film) return;
+  double before = kinetic_energy(d);
+  if (model->has_bead)
+    zp_implicit_filter(&d->stepper, d->h, d->history.w, d->v);
+  else
+    for (size_t k = 0; k < d->members; k++)
+      settle_film(d, &d->member[k]);
+  *zp_state_row(model, state, &zp_row_film_across_loss) += before - kinetic_energy(d);
 }
 
 /* Store the state at the step's end, and book the work of the load input. */

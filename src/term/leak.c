@@ -21,13 +21,10 @@ static bool create(const ZpModel *model, ZpEval *e) {
   return true;
 }
 
-static const ZpPlatesEval *start_of(const ZpSpan *span, const ZpEval *e) {
-  return zp_span_is_still(span) ? &e->plates : &e->plates_start;
-}
-
 static ZpLeakStep step_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e) {
   const double *Z = zp_law_memory(model, &zp_term_leak, span->memory);
-  return (ZpLeakStep){start_of(span, e), &e->plates, span->U0, span->U1, span->h, Z};
+  const ZpPlatesEval *start = zp_span_is_still(span) ? &e->plates : &e->plates_start;
+  return (ZpLeakStep){start, &e->plates, span->U0, span->U1, span->h, Z};
 }
 
 static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
