@@ -198,20 +198,15 @@ static bool find_below_most(Finder *f, double load, ZpLimit *limit) {
   return false;
 }
 
-/* Is the first limit that the voltage meets under this load, if there is any, above the one asked for? */
-static bool meets_none(Finder *f, double load) {
-  if (!hang_under(f, load)) return false;
-  return zp_quasistatic_first(f->rest, far * f->top, &f->limits->at) == ZP_TRACK_ARRIVED ||
-         f->limits->at.value > f->top;
-}
-
 /* Does it close under any of these larger loads? Then `least` is that one. Where the voltage does not even meet a limit
  * point, it meets none under larger loads. */
 static bool closes_above(Finder *f, double load, bool *first) {
   static const double more[] = {1e-3, 1e-2, 3e-2, 0.1, 0.3};
   bool closes = false, none = false;
   for (size_t k = 0; k < sizeof more / sizeof more[0] && !closes && !none; k++) {
-    none = meets_none(f, load * (1 + more[k]));
+    bool hangs = hang_under(f, load * (1 + more[k]));
+    none = hangs && (zp_quasistatic_first(f->rest, far * f->top, &f->limits->at) == ZP_TRACK_ARRIVED ||
+                     f->limits->at.value > f->top);
     *first = none && k == 0;
     closes = !none && closes_under(f, load * (1 + more[k]));
   }

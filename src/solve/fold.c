@@ -162,12 +162,6 @@ static bool step_to_event(ZpFold *f, ZpEvent event, double wanted) {
   return true;
 }
 
-static bool step_to_rest(ZpFold *f) {
-  balance(f);
-  step(f, 0, 0);
-  return true;
-}
-
 /* Target of a search for a fold. */
 typedef struct Goal {
   enum { TO_FOLD, TO_EVENT, TO_REST } kind;
@@ -179,7 +173,10 @@ typedef struct Goal {
 static bool step_to(ZpFold *f, const Goal *goal) {
   if (!zp_fold_tangent(f)) return false;
   if (goal->kind == TO_FOLD) return step_to_fold(f);
-  return goal->kind == TO_EVENT ? step_to_event(f, goal->event, goal->wanted) : step_to_rest(f);
+  if (goal->kind == TO_EVENT) return step_to_event(f, goal->event, goal->wanted);
+  balance(f);
+  step(f, 0, 0);
+  return true;
 }
 
 /* Was the last step so small that the point is accurate enough? The change by the next step, extrapolated from the last

@@ -135,6 +135,5 @@ void zp_equilibria_note(ZpEquilibria *at, double voltage) {
   zp_margins_join(&at->margins, zp_margins_at_clip(at->model, voltage));
   zp_add_margins(at->result, at->model, &at->margins);
   zp_note_mesh(at->result, at->model, voltage);
-  zp_note_rest(at->result, at->model);
-  if (at->column) zp_note_no_controller(at->result, at->model);
+  zp_note_rest(at->result, at->model, at->column != NULL);
 }

@@ -94,13 +94,7 @@ void zp_note_liquid(ZpResult *result, const ZpModel *model) {
 
 /* -- what rest leaves out -------------------------------------------------------------------------- */
 
-void zp_note_no_controller(ZpResult *result, const ZpModel *model) {
-  if (model->control.kind == ZP_CONTROL_NONE) return;
-  zp_result_note(result, "control.kind is ignored: these are states at given voltages; use study actuate to run the "
-                         "controller, and modes to find out whether it holds a state");
-}
-
-void zp_note_rest(ZpResult *result, const ZpModel *model) {
+void zp_note_rest(ZpResult *result, const ZpModel *model, bool at_voltages) {
   zp_note_liquid(result, model);
   if (model->supply.acts)
     zp_result_note(result, "source.model = amplifier is ignored: at rest the electrodes have drive.voltage; use study "
@@ -108,6 +102,9 @@ void zp_note_rest(ZpResult *result, const ZpModel *model) {
   if (model->leaks)
     zp_result_note(result, "resistivities are ignored: these are states just after the voltage is switched on, before "
                            "charge accumulates between insulators and liquid; use study actuate to include it");
+  if (at_voltages && model->control.kind != ZP_CONTROL_NONE)
+    zp_result_note(result, "control.kind is ignored: these are states at given voltages; use study actuate to run the "
+                           "controller, and modes to find out whether it holds a state");
 }
 
 /* -- the start ------------------------------------------------------------------------------------- */

@@ -21,9 +21,8 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage);
 void zp_note_liquid(ZpResult *result, const ZpModel *model);
 
 /* Note what studies of rest leave out: a bead that is not modelled, the supply's own limits, and charge that gathers;
- * and a controller. */
-void zp_note_rest(ZpResult *result, const ZpModel *model);
-void zp_note_no_controller(ZpResult *result, const ZpModel *model);
+ * and, if states are at given voltages (`at_voltages`), a controller. */
+void zp_note_rest(ZpResult *result, const ZpModel *model, bool at_voltages);
 
 /* Note a start that is nearly closed: opening of the platforms (m; NAN: there are none). */
 void zp_note_start(ZpResult *result, const ZpModel *model, double opening);
