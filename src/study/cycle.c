@@ -190,11 +190,13 @@ static void energies_of(const Cycles *c, double *given, double *taken) {
 
 /* Energy stored at the end of a cycle less that at its start, J. */
 static double kept(const Cycles *c) {
-  static const char *const stores[] = {"kinetic_energy_J", "axial_energy_J", "bending_energy_J", "gravity_energy_J",
-                                       "spring_energy_J",  "field_energy_J", "liquid_energy_J",  "cable_energy_J"};
-  double sum = 0;
-  for (size_t k = 0; k < sizeof stores / sizeof stores[0]; k++)
-    sum += at(c, PHASES, stores[k]) - at(c, 0, stores[k]);
+  const ZpLedger *ledger = &c->model->ledger;
+  double sum = at(c, PHASES, "cable_energy_J") - at(c, 0, "cable_energy_J"); /* the supply's */
+  for (size_t k = 0; k < ledger->rows; k++) {
+    double change = at(c, PHASES, ledger->row[k]->column) - at(c, 0, ledger->row[k]->column);
+    bool shown = !isnan(change); /* the row of a program's own law has no column */
+    if (shown && ledger->row[k]->kind == ZP_ROW_STORED) sum += change;
+  }
   return sum;
 }
 
