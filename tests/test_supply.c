@@ -707,4 +707,6 @@ TESTS(unlike_members_share_a_supply, 0, 12) {
   }
   if (isnan(def.source.bleeder) && _i % 4 != 3)
     ck_near(sim->state->source_charge, charge, 4e-15); /* 1.3e-15 measured */
+  double current = zp_sim_currents(sim, 1).rms, heat = _i / 4 == 2 ? def.source.resistance * current * current : 0;
+  if (heat > 0) ck_near(zp_sim_get(sim, "source_loss"), heat, 1.3e-4); /* 4.4e-5 measured */
 }
