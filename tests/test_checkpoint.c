@@ -159,6 +159,7 @@ TESTS(test_bad_ends, 0, 2) {
   ZpHooks hooks = {.progress = stop_at_once};
   if (_i == 0) {
     ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, NULL, &hooks, &cut, NULL), ZP_OK);
+    zp_test_owns(cut, destroy_result);
     ck_assert_int_eq(cut->outcome, ZP_INTERRUPTED);
   } else if (_i == 1) {
     def.solver.max_steps = 12345;
