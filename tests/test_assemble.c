@@ -111,6 +111,7 @@ TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
     zp_assembly_place(&a[k], unknowns, q[k]);
   for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
     if (tie->factor == 0) continue;
+    if (tie->to_member != tie->member) ck_assert_uint_eq(tie->to_member, zp_shares_load(model) ? 0 : tie->member - 1);
     double free = *zp_coordinate(model, q[tie->to_member], tie->to);
     ck_assert(!zp_tie_of(&ties, tie->to_member, tie->to));
     ck_assert_double_eq(*zp_coordinate(model, q[tie->member], tie->coordinate), tie->factor * free + tie->offset);
