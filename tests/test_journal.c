@@ -11,8 +11,8 @@
 #include "base/pack.h"
 #include "campaign/case_hash.h"
 #include "campaign/journal.h"
-#include "io/packed.h"
 #include "fit/case.h"
+#include "io/packed.h"
 
 #define SCENARIO(...) scenario_with((const char *const[]){__VA_ARGS__, NULL})
 
