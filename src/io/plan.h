@@ -9,15 +9,11 @@
 
 #include "def/def.h"
 
+#include "def/check.h"
 #include "sample/design.h"
 #include "sample/distribution.h"
 
-/* Number of keys. */
-enum {
-  ZP_KEYS = 0
-#define ZP_EACH_KEY(path, field, text) +1
-#include "def/keys.def"
-};
+enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
 
 /* The given value of a key. */
 typedef struct ZpSlot {

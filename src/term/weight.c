@@ -45,7 +45,7 @@ void zp_weight_by_load(const ZpModel *model, double hung, double load, double *F
 /* Of the ribbons, by a key of their sections; a node's mass is proportional to its ribbon's. */
 static bool add_ribbons(const ZpModel *model, double share, int key, double *F) {
   ZpForces to = zp_forces(model, F);
-  ZpSection rate[2];
+  ZpSection rate[2] = {{0}};
   for (size_t r = 0; r < model->s; r++)
     if (zp_ribbon_section(model, r).mu == 0 || !zp_ribbon_by_key(model, r, key, &rate[r])) return false;
   for (size_t j = 0; j < model->count; j++) {
