@@ -149,7 +149,7 @@ static bool stay(const ZpRestSensitivity *p, size_t which) {
 static void add_forces(ZpRestSensitivity *p, size_t which) {
   ZpRestMember *at = &p->at->member[which];
   const ZpSpan here = zp_statics_span(p->at, which);
-  ZpNear near[ZP_DIFFERENCE_POINTS];
+  ZpNear near[ZP_DIFFERENCE_POINTS] = {{0}};
   ZpSpan rate = {0}; /* of the inputs */
   for (int k = 0; k < p->by.count; k++) {
     const ZpRestMember *m = &p->near[k].member[which];

@@ -48,12 +48,12 @@ static bool add_ribbons(const ZpModel *model, double share, int key, double *F) 
   ZpSection rate[2] = {{0}};
   for (size_t r = 0; r < model->s; r++)
     if (zp_ribbon_section(model, r).mu == 0 || !zp_ribbon_by_key(model, r, key, &rate[r])) return false;
-  for (size_t j = 0; j < model->count; j++) {
-    const size_t r = j % model->s;
-    double weight = zp_ribbon_mass(model, j) * model->def.gravity * rate[r].mu / zp_ribbon_section(model, r).mu;
-    to.x[j] += share * model->fall[0] * weight;
-    to.y[j] += share * model->fall[1] * weight;
-  }
+  for (size_t r = 0; r < model->s; r++)
+    for (size_t j = r; j < model->count; j += model->s) {
+      double weight = zp_ribbon_mass(model, j) * model->def.gravity * rate[r].mu / zp_ribbon_section(model, r).mu;
+      to.x[j] += share * model->fall[0] * weight;
+      to.y[j] += share * model->fall[1] * weight;
+    }
   return true;
 }
 
