@@ -481,6 +481,14 @@ def rule_head_comment(repo, files):
             yield read(repo, name).startswith("/*"), name + ":1", "no comment at its head"
 
 
+def rule_guards(repo, files):
+    """The guard of a header of src/ is named after its path."""
+    for name in files:
+        if name.startswith("src/") and name.endswith(".h"):
+            guard = "ZP_" + re.sub("[/.]", "_", name[len("src/") :]).upper()
+            yield "\n#ifndef %s\n#define %s\n" % (guard, guard) in read(repo, name), name + ":1", "its guard is not " + guard
+
+
 def rule_limits_in_cpu_time(repo, files):
     """No test is limited in wall time, which a busy machine uses up: tests/suite.c limits its CPU time."""
     for name in files:
@@ -639,6 +647,7 @@ RULES = [
     rule_equations_are_checked,
     rule_short_functions,
     rule_head_comment,
+    rule_guards,
     rule_a_study_is_known_to_its_own_file,
     rule_one_sum,
     rule_views,

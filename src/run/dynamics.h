@@ -3,8 +3,8 @@
  *
  * Several actuators are one system: the equations of its members one after the other, then, in the border, the
  * coordinates that they share. Sections 29 and 31. */
-#ifndef ZP_REST_DYNAMICS_H
-#define ZP_REST_DYNAMICS_H
+#ifndef ZP_RUN_DYNAMICS_H
+#define ZP_RUN_DYNAMICS_H
 
 #include "actuator/assemble.h"
 #include "solve/implicit.h"

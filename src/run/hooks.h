@@ -1,6 +1,6 @@
 /* Hooks of a caller, asked. */
-#ifndef ZP_SIM_HOOKS_H
-#define ZP_SIM_HOOKS_H
+#ifndef ZP_RUN_HOOKS_H
+#define ZP_RUN_HOOKS_H
 
 #include <math.h>
 

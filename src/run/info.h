@@ -1,6 +1,6 @@
 /* The inside of what a run tells of itself, which only the library and its tests see. */
-#ifndef ZP_SIM_INFO_H
-#define ZP_SIM_INFO_H
+#ifndef ZP_RUN_INFO_H
+#define ZP_RUN_INFO_H
 
 #include <zipact/sim.h>
 

@@ -1,6 +1,6 @@
 /* Largest stresses and fields that the materials of a simulated actuator have seen. */
-#ifndef ZP_SIM_MARGINS_H
-#define ZP_SIM_MARGINS_H
+#ifndef ZP_RUN_MARGINS_H
+#define ZP_RUN_MARGINS_H
 
 #include "run/info.h"
 

@@ -1,7 +1,7 @@
 /* Motion of an actuator with the numerics of the paper: symplectic Euler with the bounds of eq. (9), and sequential
  * zipping with meetings inside a step; for comparison also unilateral contact. docs/theory.md, sections 6 and 10. */
-#ifndef ZP_SIM_PAPER_MOTION_H
-#define ZP_SIM_PAPER_MOTION_H
+#ifndef ZP_RUN_PAPER_MOTION_H
+#define ZP_RUN_PAPER_MOTION_H
 
 #include "solve/explicit.h"
 #include "system/system.h"

@@ -1,6 +1,6 @@
 /* The inside of a simulation, shared by the files of run/. */
-#ifndef ZP_SIM_SIM_INTERNAL_H
-#define ZP_SIM_SIM_INTERNAL_H
+#ifndef ZP_RUN_RUN_H
+#define ZP_RUN_RUN_H
 
 #include "run/info.h"
 

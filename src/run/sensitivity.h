@@ -1,8 +1,8 @@
 /* Derivatives of a whole run by keys, forward through its accepted steps. Beside the run go actuators near it, whose
  * key is a little larger or smaller, each at the run's state plus its share of the derivatives; after a step these
  * follow from where they end. docs/theory.md, section 20. */
-#ifndef ZP_SIM_SENSITIVITY_H
-#define ZP_SIM_SENSITIVITY_H
+#ifndef ZP_RUN_SENSITIVITY_H
+#define ZP_RUN_SENSITIVITY_H
 
 #include "run/run.h"
 #include "system/by_key.h"

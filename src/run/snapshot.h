@@ -1,8 +1,8 @@
 /* A snapshot: the state of a simulation as bytes that may come back from anywhere. The one format of saved states,
  * files, pickles: what differs or is damaged is refused, for the kernels would follow it beyond their arrays. Inside
  * one simulation a plain copy of the ZpState is the same. */
-#ifndef ZP_SIM_SNAPSHOT_H
-#define ZP_SIM_SNAPSHOT_H
+#ifndef ZP_RUN_SNAPSHOT_H
+#define ZP_RUN_SNAPSHOT_H
 
 #include "actuator/model.h"
 

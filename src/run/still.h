@@ -1,7 +1,7 @@
 /* How far an opening has moved lately, while the actuator is closed: over a window of time that slides with it. So the
  * instant at which a run ends is a continuous function of keys. */
-#ifndef ZP_SIM_STILL_H
-#define ZP_SIM_STILL_H
+#ifndef ZP_RUN_STILL_H
+#define ZP_RUN_STILL_H
 
 #include "actuator/model.h"
 

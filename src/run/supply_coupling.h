@@ -1,7 +1,7 @@
 /* The members of an actuator behind a supply: how the voltage of its electrodes follows, and the books of what the
  * supply gives. */
-#ifndef ZP_SIM_SUPPLY_COUPLING_H
-#define ZP_SIM_SUPPLY_COUPLING_H
+#ifndef ZP_RUN_SUPPLY_COUPLING_H
+#define ZP_RUN_SUPPLY_COUPLING_H
 
 #include "run/info.h"
 
