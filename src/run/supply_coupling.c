@@ -259,10 +259,11 @@ typedef struct Jump {
   double charge, work, lost;
 } Jump;
 
-/* The voltage of one member jumps. If the part that its electrodes do not keep is `heat`, it is that of the source,
- * else their charging loss. */
+/* The voltage of one member jumps, unless it is constant. If the part that its electrodes do not keep is `heat`, it is
+ * that of the source, else their charging loss. */
 static void jump_one(ZpSim *m, double U, bool heat, Jump *jump) {
   ZpState *state = m->state;
+  if (U == state->U) return;
   double charge0 = zp_system_electric_now(m->model, state, state->U, &m->eval).charge, work0 = given(state, charge0);
   double *charging = zp_state_row(m->model, state, &zp_row_charging_loss), loss0 = *charging;
   zp_sim_jump(m, U);
