@@ -81,6 +81,28 @@ TEST(equal_members_catch_as_one) {
   zp_result_destroy(one);
 }
 
+/* Forces of unlike members carry the load and what it has caught, or what is left of it. Eq. (29.5). */
+TESTS(forces_carry_what_is_caught, 0, 2) {
+  ZpActuatorDef def = DEF(CAUGHT, UNLIKE_SIDE_BY_SIDE, {"drive.voltage", 6e3}, {"liquid.model", ZP_LIQUID_NONE},
+                          {"mesh.nodes", 9}, {"solver.tolerance", 1e-6});
+  if (_i == 1) def.load.change_mass = -2e-3, def.load.drop_height = 0;
+  size_t columns;
+  const ZpColumn *column = zp_signal_columns_of(&def, &columns);
+  ZpTable *series = zp_table_create(column, columns, 1000);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  zp_sim_record(sim, series, NULL);
+  run_to(sim, 30e-3);
+  double up = zp_nodes(model, zp_state_mean_a(model, sim->state)).y[zp_load_node(&model->topology)];
+  ck_assert_double_gt(fabs(up), 0.1);
+  ck_near(zp_table_get(series, series->rows - 1, "member_1_force_N") +
+              zp_table_get(series, series->rows - 1, "member_2_force_N"),
+          (def.load.mass + def.load.change_mass) * (def.gravity + up), 4.7e-8); /* 1.6e-8 measured */
+  zp_sim_destroy(sim);
+  zp_model_destroy(model);
+  zp_table_destroy(series);
+}
+
 /* Energy balances over the impact on unlike members and after it, dry and with beads, and where the mass is dropped. */
 TESTS(energy_of_members_that_catch, 0, 9) {
   ZpActuatorDef def =

@@ -859,7 +859,7 @@ void zp_dynamics_book_link(ZpDynamics *d, size_t which, ZpState *before, ZpState
   m->mean_v = zp_state_mean_v(model, before);
   ZpSpan span = span_of(d, m);
   span.beyond = zp_state_beyond(model, state);
-  double mass = model->mass[j] + liquid_at(model, j / model->s);
+  double mass = model->mass[j] + m->added + liquid_at(model, j / model->s);
   zp_system_force(model, &span, &m->eval, m->force);
   state->link_force = mass * d->history.a[m->assembly.equation[zp_y_of(j)]] - zp_nodes(model, m->force).y[j];
 }

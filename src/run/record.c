@@ -373,9 +373,10 @@ static double force_of(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
   const double *up = zp_nodes(model, zp_state_mean_a(model, sim->state)).y;
-  double inertia = zp_load_share(model) * model->def.load.mass * zp_load_at(model, up);
-  double input = zp_ramp_value(&state->load_input, state->t);
-  return zp_load_pull(model) + input + model->parts * (inertia - state->link_force);
+  double caught = (double)zp_load_ends(&model->topology) * zp_state_added(model, state);
+  double inertia = (zp_load_share(model) * model->def.load.mass + caught) * zp_load_at(model, up);
+  double hung = -model->fall[1] * zp_state_hung(model, state), input = zp_ramp_value(&state->load_input, state->t);
+  return zp_load_pull(model) + input + model->parts * (hung + inertia - state->link_force);
 }
 
 /* Signals of one member alone, in addition to those of all => their number. */
