@@ -604,9 +604,9 @@ static void hold_platform(ZpStatics *s, double *r) {
 }
 
 double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
+  if (!is_held(s)) return 0;
   size_t row = zp_statics_platform(s);
   double reaction = r_m[row];
-  if (!is_held(s)) return 0;
   r_m[row] = holding(s) * away;
   return reaction;
 }
