@@ -1,9 +1,9 @@
 /* The inside of a model, a state and an eval: what actuator/, run/ and study/ share.
  *
- * Node i of ribbon r is at [i * s + r] (topology.h). Arrays over nodes have `stride`
- * places, a multiple of ZP_LANES, so that kernels need no remainder, over edges either; places beyond `count` hold
- * nodes that lie on the prolonged ribbon, weigh nothing and never move. Coordinates q hold all x, then all y, `stride`
- * apart; velocities v and accelerations a likewise.
+ * Node i of ribbon r is at [i * s + r] (topology.h). Arrays over nodes have `stride` places, a multiple of ZP_LANES, so
+ * that kernels need no remainder, over edges either; places beyond `count` hold nodes that lie on the prolonged ribbon,
+ * weigh nothing and never move. Coordinates q hold all x, then all y, `stride` apart; velocities v and accelerations a
+ * likewise.
  */
 #ifndef ZP_ACTUATOR_MODEL_H
 #define ZP_ACTUATOR_MODEL_H
@@ -185,8 +185,8 @@ typedef struct ZpState {
   double source_energy;    /* and energy, J */
   double leaked;           /* per part: charge that has passed through the insulators, C */
   ZpBead bead[ZP_BEADS];   /* of each half */
-  double link_force;       /* one of those side by side: what links push its platform up with, the mean over the last
-                              step, N per part */
+  double link_force;       /* of members side by side: force with which links push this one's platform up, the mean
+                              over the last step, N per part */
   double starved_time;     /* when a zip front had outrun its bead, s; NAN: it has not */
   double U_rate,
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
@@ -277,8 +277,8 @@ static inline bool zp_shares_load(const ZpModel *model) {
   return zp_is_antagonist(model) || model->parallel;
 }
 
-/* The member of a series on which the load hangs: the lowest one, of those that share it the first
- * one. */
+/* The member on which the load hangs: of a series the lowest one, of members that share the load the first one, whose
+ * height is that of the load. */
 static inline const ZpModel *zp_lowest(const ZpModel *first) {
   return zp_shares_load(first) ? first : first + first->members - 1;
 }

@@ -1,7 +1,3 @@
-/* Writing a file under a temporary name in its own folder. So a reader never sees half of it, and after a failure the
- * old file is still there. rename() replaces the file in one step, but only within one file system: hence the same
- * folder. The data are brought to the disk before the rename, because some file systems report a full disk only
- * then. */
 #include "io/file.h"
 
 #include <dirent.h>
@@ -71,7 +67,12 @@ void zp_html_text(FILE *file, const char *text) {
   }
 }
 
-/* -- files that appear when they are complete ------------------------------------------------------- */
+/* -- files that appear when they are complete -------------------------------------------------------
+ *
+ * A file is written under a temporary name in its own folder. So a reader never sees half of it, and after a failure
+ * the old file is still there. rename() replaces the file in one step, but only within one file system: hence the same
+ * folder. The data are brought to the disk before the rename, because some file systems report a full disk only
+ * then. */
 
 char *zp_path_join(const char *directory, const char *name) {
   char *path = NULL;

@@ -269,7 +269,7 @@ static void refine(FieldPath *p, size_t from, size_t to) {
   refine(p, middle, to);
 }
 
-/* The rows of one branch from `first` whose capacitance is within the range of the readings => the row after them */
+/* The rows of one branch from `first` whose capacitance is within the range of the readings => the row after them. */
 static size_t take_branch(FieldPath *p, size_t first, size_t rows, const double range[2]) {
   size_t end = first;
   while (end < rows && *cell(p, end, p->branch) == *cell(p, first, p->branch) &&
