@@ -198,4 +198,6 @@ TEST(what_it_lacks_is_said) {
     ZpActuatorDef def = DEF(refused[k].setting, refused[k].other);
     ck_refused_by(refused[k].study, &def, refused[k].says);
   }
+  ZpActuatorDef def = DEF(UNLIKE_SIDE_BY_SIDE, {"load.change_time", 1e-3}, {"load.change_mass", -9e-3});
+  ck_refused_by(ZP_STUDY_ACTUATE, &def, "load.change_mass = -0.009 kg: cannot drop more than load.mass = 0.008 kg");
 }

@@ -649,10 +649,11 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
   return ZP_OK;
 }
 
-/* Checks of numbers that depend on each other, in the order in which they are asked. */
+/* Checks of numbers that depend on each other, in the order in which they are asked: of the mass that members of a
+ * stack share before those of the members. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,  check_sizes, check_bare,      zp_check_ribbons, zp_check_stack, check_offset,
-    check_change, check_tilt,  check_waveforms, check_control,    check_meter};
+    check_build,  check_sizes, check_bare,      zp_check_ribbons, check_change, zp_check_stack,
+    check_offset, check_tilt,  check_waveforms, check_control,    check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);
