@@ -475,3 +475,14 @@ TESTS(losses_of_members_in_a_cycle, 0, 3) {
   ck_near(zp_result_get(result, "energy_per_cycle_J"), lost, 1e-6); /* 3.5e-7 measured */
   zp_result_destroy(result);
 }
+
+/* The linear answer is that of a single actuator: however small the motion of several members is, it is searched. */
+TEST(small_motion_of_members_is_searched) {
+  ZpActuatorDef def = many((Setting){"stack.series", 2}, (Setting){"member_2.ribbon.thickness", 60e-6});
+  def.cycle.method = ZP_CYCLE_AUTO;
+  def.drive.voltage = 1e3;
+  ZpResult *result = answer_of(ZP_STUDY_CYCLE, &def);
+  ck_assert(zp_result_get(result, "linear") == 0 && zp_result_get(result, "periodic") == 1);
+  ck_assert_double_gt(zp_result_get(result, "stroke_amplitude_m"), 1e-7);
+  zp_result_destroy(result);
+}
