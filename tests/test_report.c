@@ -144,9 +144,7 @@ static void add_scalar(ZpResult *result, const char *name, const char *unit, dou
 static ZpResult *made_up(size_t rows, size_t frames, bool ribbon, double voltage, double slowness) {
   size_t columns;
   const ZpColumn *column = zp_signal_columns(&columns);
-  ZpResult *result = calloc(1, sizeof *result);
-  ck_assert_ptr_nonnull(result);
-  result->study = ZP_STUDY_ACTUATE;
+  ZpResult *result = new_result(ZP_STUDY_ACTUATE);
   result->outcome = ZP_ZIPPED;
   strcpy(result->message, "zipped after 75 ms");
   zp_result_note(result, "the field in the insulator was above insulator.breakdown_field");

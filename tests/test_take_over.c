@@ -75,8 +75,8 @@ TEST(test_the_same_model_goes_on_as_if_nothing_was) {
 TEST(test_another_mesh_is_refused) {
   Run first = start(0.1, 8e-3), next = {.def = first.def};
   next.def.mesh.nodes = 31;
-  zp_model_create(&next.def, &next.model, NULL);
-  zp_sim_create(next.model, NULL, &next.sim, NULL);
+  next.model = model_of(&next.def);
+  next.sim = sim_of(next.model);
   ck_says(zp_sim_take_over(next.sim, first.sim, &err), ZP_BAD_INPUT, "mesh.nodes = 31");
 }
 
