@@ -74,9 +74,11 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
 /* -- the checker ----------------------------------------------------------------------------------- */
 
 const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuatorDef *def) {
-  for (const ZpRule *rule = rules->rule; rule < rules->rule + rules->count; rule++)
+  for (size_t k = 0; k < rules->count; k++) {
+    const ZpRule *rule = &rules->rule[k];
     if (rule->in_motion == in_motion && holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def))
       return rule;
+  }
   return NULL;
 }
 
