@@ -67,22 +67,24 @@ static bool stop_hanging(const void *hooks) {
   return zp_hooks_stop(hooks, "settling", 0);
 }
 
-/* By Newton's method. *found is false if it finds nothing (a chain without bending stiffness has no stiffness when
- * straight). => false if there is no memory. */
+/* The equilibrium of all members, by Newton's method => rest, which is closed in any case. *found is false if it finds
+ * nothing (a chain without bending stiffness has no stiffness when straight). => false if there is no memory. */
+static bool find_rest(ZpSim *sim, const ZpHooks *hooks, ZpRest *rest, bool *found) {
+  if (!zp_rest_open(rest, sim->model, NULL, NULL)) return false;
+  rest->statics.stop = stop_hanging;
+  rest->statics.caller = hooks;
+  const ZpNewtonInfo info = zp_statics_find_rest(&rest->statics);
+  *found = zp_newton_good(info.end);
+  sim->settle_steps = info.iterations;
+  sim->settle_residual = info.residual;
+  if (rest->statics.stopped) sim->settled = ZP_INTERRUPTED;
+  return true;
+}
+
 static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
-  const ZpModel *model = sim->model;
   ZpRest rest;
-  bool opened = zp_rest_open(&rest, model, NULL, NULL);
-  if (opened) {
-    rest.statics.stop = stop_hanging;
-    rest.statics.caller = hooks;
-    ZpNewtonInfo info = zp_statics_find_rest(&rest.statics);
-    *found = zp_newton_good(info.end);
-    sim->settle_steps = info.iterations;
-    sim->settle_residual = info.residual;
-    if (rest.statics.stopped) sim->settled = ZP_INTERRUPTED;
-    memcpy(q, rest.statics.member->q, zp_coordinates(model) * sizeof *q);
-  }
+  const bool opened = find_rest(sim, hooks, &rest, found);
+  if (opened) memcpy(q, rest.statics.member->q, zp_coordinates(sim->model) * sizeof *q);
   zp_rest_close(&rest);
   return opened;
 }
@@ -151,19 +153,13 @@ static void hang_below(const ZpSim *above, ZpSim *sim) {
 /* Members in series then hang on each other. */
 static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   ZpRest rest;
-  bool opened = zp_rest_open(&rest, sim->model, NULL, NULL);
-  if (opened) {
-    rest.statics.stop = stop_hanging;
-    rest.statics.caller = hooks;
-    ZpNewtonInfo info = zp_statics_find_rest(&rest.statics);
-    sim->settle_steps = info.iterations;
-    sim->settle_residual = info.residual;
-    if (!zp_newton_good(info.end)) sim->settled = rest.statics.stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-    for (size_t k = 0; k < sim->members; k++)
-      start_member(sim + k, &rest.statics, k);
-    for (size_t k = 1; k < sim->members && !zp_shares_load(sim->model); k++)
-      hang_below(sim + k - 1, sim + k);
-  }
+  bool found = false;
+  const bool opened = find_rest(sim, hooks, &rest, &found);
+  if (!found && sim->settled == ZP_REACHED_END) sim->settled = ZP_NOT_SETTLED;
+  for (size_t k = 0; opened && k < sim->members; k++)
+    start_member(sim + k, &rest.statics, k);
+  for (size_t k = 1; opened && k < sim->members && !zp_shares_load(sim->model); k++)
+    hang_below(sim + k - 1, sim + k);
   zp_rest_close(&rest);
   return opened;
 }

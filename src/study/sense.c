@@ -247,6 +247,17 @@ static void solve_row(FieldPath *p, size_t row) {
   p->ratio[row] = capacitance_of(p->rest, &shape, p->force) / *cell(p, row, p->capacitance);
 }
 
+/* Row k of the line through two solved ones. */
+static double on_line(const FieldPath *p, size_t from, size_t to, size_t k) {
+  double share = (double)(k - from) / (double)(to - from);
+  return p->ratio[from] + share * (p->ratio[to] - p->ratio[from]);
+}
+
+static void interpolate(FieldPath *p, size_t from, size_t to) {
+  for (size_t k = from + 1; k < to; k++)
+    p->ratio[k] = on_line(p, from, to, k);
+}
+
 /* The rows between two solved ones. The ratio is smooth along a branch, so it is linear where the row in the middle
  * lies on the line. */
 static void refine(FieldPath *p, size_t from, size_t to) {
@@ -255,18 +266,14 @@ static void refine(FieldPath *p, size_t from, size_t to) {
   size_t middle = (from + to) / 2;
   if (middle == from) return;
   solve_row(p, middle);
-  double share = (double)(middle - from) / (double)(to - from);
-  double off = p->ratio[middle] - p->ratio[from] - share * (p->ratio[to] - p->ratio[from]);
+  double off = p->ratio[middle] - on_line(p, from, to, middle);
   if (to - from <= LONGEST && fabs(off) < straight * p->ratio[middle]) {
-    for (size_t k = from + 1; k < to; k++) {
-      size_t left = k < middle ? from : middle, right = k < middle ? middle : to;
-      share = (double)(k - left) / (double)(right - left);
-      p->ratio[k] = p->ratio[left] + share * (p->ratio[right] - p->ratio[left]);
-    }
-    return;
+    interpolate(p, from, middle);
+    interpolate(p, middle, to);
+  } else {
+    refine(p, from, middle);
+    refine(p, middle, to);
   }
-  refine(p, from, middle);
-  refine(p, middle, to);
 }
 
 /* The rows of one branch from `first` whose capacitance is within the range of the readings => the row after them. */

@@ -60,6 +60,7 @@ static bool is_among(const ZpTerms *terms, const ZpTerm *term) {
 
 void zp_system_force_without(const ZpModel *model, const ZpSpan *span, const ZpTerms *without, ZpEval *e, double *F) {
   memset(F, 0, zp_coordinates(model) * sizeof *F);
+  memset(e->unused, 0, zp_coordinates(model) * sizeof *e->unused);
   for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
     law->term->force(model, span, e, is_among(without, law->term) ? e->unused : F);
 }
