@@ -113,7 +113,7 @@ static inline ZpActuatorDef def_with(const Setting *list, size_t count) {
     "platform.electrode", 0                                                                                            \
   }
 
-/* What these helpers make is destroyed when the test ends. A test may do it earlier. */
+/* Objects that these helpers make are destroyed when the test ends. A test may do it earlier. */
 #define zp_result_destroy(result) zp_result_destroy(zp_test_releases(result))
 #define zp_model_destroy(model)   zp_model_destroy(zp_test_releases(model))
 #define zp_sim_destroy(sim)       zp_sim_destroy(zp_test_releases(sim))
@@ -128,14 +128,14 @@ static inline void destroy_sim(void *sim) {
   (zp_sim_destroy)(sim);
 }
 
-/* Zeros. */
+/* Memory of this size, in bytes, full of zeros. */
 static inline void *memory_of(size_t size) {
   void *memory = calloc(1, size);
   ck_assert_ptr_nonnull(memory);
   return zp_test_owns(memory, free);
 }
 
-/* An empty one. */
+/* A result of a study with nothing in it yet. */
 static inline ZpResult *new_result(ZpStudy study) {
   ZpResult *result = zp_result_create(study);
   ck_assert_ptr_nonnull(result);
@@ -161,7 +161,7 @@ static inline ZpResult *answer_of(ZpStudy study, const ZpActuatorDef *def) {
   return result;
 }
 
-/* The same of a study that must converge. */
+/* The result of a study that must converge. */
 static inline ZpResult *converged_of(ZpStudy study, const ZpActuatorDef *def) {
   ZpResult *result = study_of(study, def);
   ck_assert_msg(result->outcome == ZP_CONVERGED, "%s", result->message);
@@ -232,11 +232,21 @@ static inline void run_to(ZpSim *sim, double time) {
   ck_assert_msg(zp_sim_run(sim, time, false, NULL, &info) == ZP_REACHED_END, "%s", info.message);
 }
 
-/* Runs to `end`; another simulation of the model continues from a snapshot of here, to the same bits. */
+/* A signal of two simulations is the same number, or of neither one. */
+static inline void ck_same_signal(ZpSim *one, ZpSim *other, const char *name) {
+  double a = zp_sim_get(one, name), b = zp_sim_get(other, name);
+  ck_assert_msg(a == b || (isnan(a) && isnan(b)), "%s: %.17g and %.17g", name, a, b);
+}
+
+/* Runs to `end`; another simulation of the model continues from a snapshot of here, to the same bits. Its signals and
+ * the rows of its ledger tell what a snapshot lacks. */
 static inline void ck_continues(ZpSim *sim, const ZpModel *model, double end) {
   const size_t size = zp_sim_state_size(sim);
   void *here = memory_of(size), *once = memory_of(size), *again = memory_of(size);
   ZpSim *other = sim_of(model);
+  size_t signals;
+  zp_signal_columns(&signals);
+  zp_sim_start_row(sim);
   zp_sim_save(sim, here);
   run_to(sim, end);
   zp_sim_save(sim, once);
@@ -245,6 +255,10 @@ static inline void ck_continues(ZpSim *sim, const ZpModel *model, double end) {
   zp_sim_save(other, again);
   ck_assert_mem_eq(once, again, size);
   ck_assert_int_ne(memcmp(here, once, size), 0);
+  for (size_t k = 0; k < signals; k++)
+    ck_same_signal(sim, other, zp_signal_name(k));
+  for (size_t k = 0; k < model->ledger.rows; k++)
+    ck_same_signal(sim, other, model->ledger.row[k]->name);
 }
 
 /* Value of a signal after running to `end_time` from the start. */
@@ -267,7 +281,7 @@ static inline void ck_same_signals(ZpSim *const sims[2], ZpModel *const models[2
   }
 }
 
-/* The largest magnitude of so many. */
+/* The largest magnitude of n numbers. */
 static inline double largest_of(const double *x, size_t n) {
   double most = 0;
   for (size_t k = 0; k < n; k++)

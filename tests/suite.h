@@ -1,9 +1,11 @@
 /* A test is a function that its program runs by itself, without a list of them: main() is in suite.c.
  *   TEST(name) {...}                once
  *   TESTS(name, from, to) {...}     for each _i from `from` to below `to`
- *   NIGHTLY_TEST, NIGHTLY_TESTS     tests that take long and find little that shorter ones do not: `make check` leaves
- * them out by their tag ALSO(name, from, to), ALSO_NIGHTLY(name, from, to)   further values of a test ZP_TEST=NAME runs
- * the test of this name alone. */
+ *   NIGHTLY_TEST, NIGHTLY_TESTS     take long and find little that shorter ones do not: their tag keeps them out of
+ *                                   `make check`
+ *   ALSO, ALSO_NIGHTLY(name, from, to)   further _i of a test
+ *
+ * ZP_TEST=NAME runs the test of this name alone. */
 #ifndef ZP_TESTS_SUITE_H
 #define ZP_TESTS_SUITE_H
 
@@ -21,8 +23,8 @@ typedef struct TestEntry {
 
 void zp_test_add(TestEntry *entry);
 
-/* What runs before and after each test of the program, and before the first and after the last; after the last nothing
- * can be asserted. */
+/* Functions that run before and after each test of the program, and before the first and after the last one, when
+ * nothing can be asserted any more. */
 void zp_test_around_each(void (*before)(void), void (*after)(void));
 void zp_test_around_all(void (*before)(void), void (*after)(void));
 

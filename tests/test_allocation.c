@@ -535,7 +535,7 @@ static ZpStatus run_from_checkpoint(ZpError *err, bool *whole) {
   strcpy(def.initial.file, "memory.zps");
   FILE *file = fopen(def.initial.file, "wb");
   ZpStatus status = file ? write_checkpoint(file, err) : ZP_MACHINE;
-  *whole = true;
+  *whole = status != ZP_OK;
   return file && fclose(file) == 0 && status == ZP_OK ? try_study(ZP_STUDY_ACTUATE, &def, err, whole) : status;
 }
 

@@ -88,8 +88,8 @@ static const Setting systems[][3] = {
     {{"stack.series", 2}, {"stack.distance", 0.05}},
 };
 
-/* Every row ties a coordinate to a free one, all other coordinates have equations of their own, and coordinates that
- * are placed by any unknowns obey all rows. */
+/* Every row holds a coordinate or ties it to a free one, all other coordinates have equations of their own, and
+ * coordinates that are placed by any unknowns obey the rows that tie. */
 TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
   const Setting *of = systems[_i];
   ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
@@ -110,7 +110,10 @@ TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
   for (size_t k = 0; k < model->members; k++)
     zp_assembly_place(&a[k], unknowns, q[k]);
   for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
-    if (tie->factor == 0) continue;
+    if (tie->factor == 0) {
+      ck_assert_int_eq(a[tie->member].equation[tie->coordinate], -1); /* held */
+      continue;
+    }
     if (tie->to_member != tie->member) ck_assert_uint_eq(tie->to_member, zp_shares_load(model) ? 0 : tie->member - 1);
     double free = *zp_coordinate(model, q[tie->to_member], tie->to);
     ck_assert(!zp_tie_of(&ties, tie->to_member, tie->to));

@@ -63,8 +63,6 @@ TESTS(momentum_is_shared_by_members, 0, 3) {
   zp_sim_change_load(sim);
   ck_near(zp_sim_get(sim, "end_velocity"), -comes * fallen / (m + comes), 3.5e-14);           /* 1.2e-14 measured */
   ck_near(zp_sim_get(sim, "catch_loss"), m * comes / (m + comes) * fallen * fallen, 3.5e-14); /* 1.2e-14 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
 }
 
 /* Equal members side by side catch as one with a multiplicity does. */
@@ -77,8 +75,6 @@ TEST(equal_members_catch_as_one) {
   ZpResult *system = answer_of(ZP_STUDY_ACTUATE, &all), *one = answer_of(ZP_STUDY_ACTUATE, &equal);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 5.7e-12); /* 1.9e-12 measured */
-  zp_result_destroy(system);
-  zp_result_destroy(one);
 }
 
 /* Forces of unlike members carry the load and what it has caught, or what is left of it. Eq. (29.5). */
@@ -94,12 +90,10 @@ TESTS(forces_carry_what_is_caught, 0, 2) {
   zp_sim_record(sim, series, NULL);
   run_to(sim, 30e-3);
   double up = zp_nodes(model, zp_state_mean_a(model, sim->state)).y[zp_load_node(&model->topology)];
-  ck_assert_double_gt(fabs(up), 0.1);
+  ck_assert_double_gt(fabs(up), 3.2); /* 9.3 measured */
   ck_near(zp_table_get(series, series->rows - 1, "member_1_force_N") +
               zp_table_get(series, series->rows - 1, "member_2_force_N"),
           (def.load.mass + def.load.change_mass) * (def.gravity + up), 4.7e-8); /* 1.6e-8 measured */
-  zp_sim_destroy(sim);
-  zp_model_destroy(model);
   zp_table_destroy(series);
 }
 
@@ -115,24 +109,20 @@ TESTS(energy_of_members_that_catch, 0, 9) {
   if (_i / 3 == 2)
     ck_below(fabs(loss), 1.3e-18); /* 4.3e-19 measured */
   else
-    ck_assert_double_gt(loss, 1e-5);
-  zp_result_destroy(result);
+    ck_assert_double_gt(loss, 1e-5); /* 1.03e-5 measured */
 }
 
 /* A run that resumes after the catch counts the work on the mass from where it resumes. */
 TESTS(work_of_a_run_that_resumes, 0, 2) {
   ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 6e3}, {"solver.end_time", 40e-3}, {"mesh.nodes", 9},
                           {"liquid.model", ZP_LIQUID_NONE}, {"stack.series", 1 + _i});
-  ZpResult *first = answer_of(ZP_STUDY_ACTUATE, &def), *rest = NULL;
+  ZpResult *first = answer_of(ZP_STUDY_ACTUATE, &def);
   def.solver.end_time = 60e-3;
   def.initial.state = ZP_INITIAL_CHECKPOINT;
-  ZpStudyInput input = {.start = first->checkpoint};
-  ck_assert_int_eq(zp_study_run(ZP_STUDY_ACTUATE, &def, &input, NULL, &rest, NULL), ZP_OK);
+  ZpResult *rest = study_with(ZP_STUDY_ACTUATE, &def, &(ZpStudyInput){.start = first->checkpoint});
   double risen = zp_result_get(rest, "start_opening_m") - zp_result_get(rest, "opening_m");
   ck_near(zp_result_get(rest, "mechanical_work_J"), (def.load.mass + def.load.change_mass) * def.gravity * risen,
           6e-16); /* 2.2e-16 measured */
-  zp_result_destroy(first);
-  zp_result_destroy(rest);
 }
 
 /* The energy balances over the impact and after it, at rest and in motion. */

@@ -250,7 +250,7 @@ static double lost(const Run *run) {
 static Run start_run(const ZpActuatorDef *def) {
   Run run = {.model = model_of(def)};
   run.sim = sim_of(run.model);
-  run.saved = zp_test_owns(malloc(zp_state_size(run.model)), free);
+  run.saved = memory_of(zp_state_size(run.model));
   return run;
 }
 

@@ -456,11 +456,9 @@ TEST(equal_members_cycle_as_one) {
   ck_assert(zp_result_get(one, "periodic") == 1);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 1.2e-9); /* 4.0e-10 measured */
-  zp_result_destroy(system);
-  zp_result_destroy(one);
 }
 
-/* What the source gives in a cycle is what all members lose in it: side by side, in series, and antagonists. */
+/* The energy that the source gives in a cycle is what all members lose in it: side by side, in series, antagonists. */
 TESTS(losses_of_members_in_a_cycle, 0, 3) {
   static const char *const loss[] = {"internal_loss_J", "contact_loss_J", "drag_loss_J", "charging_loss_J"};
   static const Setting stack[][2] = {{{"stack.parallel", 2}, {"member_2.ribbon.thickness", 60e-6}},
@@ -473,7 +471,6 @@ TESTS(losses_of_members_in_a_cycle, 0, 3) {
     lost += zp_table_get(result->series, result->series->rows - 1, loss[k]) - zp_table_get(result->series, 0, loss[k]);
   ck_assert(zp_result_get(result, "periodic") == 1);
   ck_near(zp_result_get(result, "energy_per_cycle_J"), lost, 1e-6); /* 3.5e-7 measured */
-  zp_result_destroy(result);
 }
 
 /* The linear answer is that of a single actuator: however small the motion of several members is, it is searched. */
@@ -483,6 +480,5 @@ TEST(small_motion_of_members_is_searched) {
   def.drive.voltage = 1e3;
   ZpResult *result = answer_of(ZP_STUDY_CYCLE, &def);
   ck_assert(zp_result_get(result, "linear") == 0 && zp_result_get(result, "periodic") == 1);
-  ck_assert_double_gt(zp_result_get(result, "stroke_amplitude_m"), 1e-7);
-  zp_result_destroy(result);
+  ck_assert_double_gt(zp_result_get(result, "stroke_amplitude_m"), 1e-7); /* 3.0e-7 measured */
 }

@@ -111,15 +111,15 @@ TESTS(work_of_a_cycle_is_that_on_the_load, 0, 2) {
   ZpResult *result = answer_of(ZP_STUDY_CYCLE, &def);
   double weight = def.load.mass * def.gravity, risen = 2 * zp_result_get(result, "stroke_amplitude_m");
   printf("work: %.3e off\n", zp_result_get(result, "work_per_cycle_J") / (weight * risen) - 1);
-  ck_near(zp_result_get(result, "work_per_cycle_J"), weight * risen, 1e-15); /* 2e-16 measured */
+  ck_near(zp_result_get(result, "work_per_cycle_J"), weight * risen, 6e-16); /* 2.2e-16 measured */
 }
 
-/* Its steep faces have slid into each other 3 ms after it closed: the model ends there, and how long it stays closed is
- * not known. */
+/* Steep faces of a mouth have slid into each other 3 ms after it closed: the model ends there, and how long it stays
+ * closed is not known. */
 TEST(a_run_that_ends_beyond_the_model_tells_no_closed_from) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_MOUTH}, {"drive.voltage", 8e3}, {"mesh.nodes", 15});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_int_eq(result->outcome, ZP_BEYOND_MODEL);
-  ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 0.1);
+  ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 0.1); /* 0.111 measured */
   ck_assert_double_nan(zp_result_get(result, "closed_from_s"));
 }

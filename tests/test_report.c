@@ -47,7 +47,7 @@ static void tear_down(void) {
   nftw(base, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
 }
 
-/* Without it the root of the machine is the folder. */
+/* Without set_up() the folder of a test is the root of the machine. */
 AROUND_EACH(set_up, tear_down)
 
 /* "base/name"; a few of them live at a time. */

@@ -678,7 +678,8 @@ TESTS(equal_members_behind_a_supply_are_one, 0, 3) {
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 3.5e-10); /* 1.2e-10 measured */
 }
 
-/* What the supply has given less what is stored, does work and is heat, at most over 60 ms, over what it has given. */
+/* The largest imbalance of the books of a supply over 60 ms, over what it has given: what is neither stored, nor work,
+ * nor heat. */
 static double books_off(ZpSim *sim) {
   double start = books_of(sim).mechanical, off = 0;
   for (int i = 0; i < 20; i++) {

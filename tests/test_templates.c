@@ -70,11 +70,9 @@ static bool says(const char *name, const char *words) {
 static void draw(bool own) {
   ZpError err = {0};
   ZpActuatorDef def;
-  ZpScenario *scenario = new_scenario();
+  ZpScenario *scenario =
+      scenario_with((const char *const[]){"study=stationary", "mesh.nodes=15", "output.errors=false", NULL});
   char *folder = in_base("mine"), *out = in_base("out");
-  const char *const set[] = {"study=stationary", "mesh.nodes=15", "output.errors=false"};
-  for (size_t i = 0; i < 3; i++)
-    ck_ok(zp_scenario_set(scenario, set[i], &err));
   ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
   ZpResult *result = study_of(zp_scenario_study(scenario), &def);
   const ZpReport report = {
