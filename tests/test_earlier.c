@@ -82,7 +82,7 @@ TEST(state_of_an_fmu_names_its_version) {
   size_t size;
   const ZpActuatorDef def = DEF({"mesh.nodes", 5}, {"liquid.model", ZP_LIQUID_NONE});
   ZpFmuStart start = {.layout = zp_fmu_keys_mark(), .token = "test"};
-  for (int key = 0; key < ZP_FMU_KEYS; key++)
+  for (int key = 0; key < ZP_KEYS; key++)
     start.value[key] = zp_fmu_has_number(key) ? zp_def_get(&def, key) : 0;
   char *byte = bytes_of(DATA "state.fmu", &size);
   ck_assert_int_eq(zp_fmu_create(&start, &fmu, NULL), ZP_OK);

@@ -114,7 +114,7 @@ TESTS(test_force_is_gradient, 0, 4) {
 
 /* -- stiffness ------------------------------------------------------------------------------------- */
 
-/* What edges feel of edges, as actuator/statics.c puts it together: K[row][column] of node coordinates. */
+/* What edges feel of edges, as actuator/assemble.c puts it together: K[row][column] of node coordinates. */
 static void assemble(const double (*D)[4], size_t ribbons, double (*K)[2 * MOST]) {
   memset(K, 0, 2 * MOST * sizeof *K);
   ptrdiff_t s = (ptrdiff_t)ribbons, edges = s * (NODES - 1);

@@ -4,8 +4,8 @@
 # field: its line of terms.def and its study are left out, with all that only they need. Without -fno-slp-vectorize,
 # clang 14 gives wrong factors of band matrices of a fixed width (src/math/band.c); the tests against the command find that.
 rooms := base def math ribbon electro contact liquid paper drive solve actuator device term system rest run study
-left_out := src/term/field.c $(addprefix src/electro/,edges_fit.c field.c grid.c surplus.c) src/math/skyline.c \
-  $(addprefix src/study/,profile.c faces.c bookkeeping.c)
+left_out := src/term/field.c $(addprefix src/electro/,edges_fit.c field.c field_correction.c grid.c) src/math/skyline.c \
+  $(addprefix src/study/,profile.c faces.c)
 sources := $(filter-out $(left_out),$(sort $(shell find $(addprefix src/,$(rooms)) -name '*.c'))) \
   $(addprefix src/io/,value.c number.c source.c) $(wildcard web/*.c)
 objects := $(sources:%.c=web/build/%.o)

@@ -68,7 +68,7 @@ void zp_assembly_add_masses(const ZpAssembly *assembly, const double *mass, doub
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
-/* Below, a matrix with a border (zp_bordered_band) takes what belongs in the columns of its border, too.
+/* Below, a matrix with a border (math/bordered.h) takes what belongs in the columns of its border, too.
  *
  * K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and, of a symmetric
  * matrix, at c and the gap of a station: at its upper height, and the opposite at its lower one. A matrix that keeps

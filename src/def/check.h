@@ -22,6 +22,9 @@ typedef struct ZpKeyNumbers {
 #include "def/keys.def"
 } ZpKeyNumbers;
 
+/* Number of keys, as a constant. */
+enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
+
 /* The keys of a group: first .. end - 1. */
 typedef struct ZpKeyGroup {
   const char *name;

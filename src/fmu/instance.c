@@ -55,7 +55,7 @@ void zp_fmu_destroy(ZpFmu *fmu) {
 /* Was the model built with these parameters? */
 static bool is_built(const ZpFmu *fmu) {
   if (!fmu->sim) return false;
-  for (int key = 0; key < ZP_FMU_KEYS; key++) {
+  for (int key = 0; key < ZP_KEYS; key++) {
     double wanted = zp_def_get(&fmu->def, key), has = zp_def_get(zp_model_def(fmu->model), key);
     if (wanted != has && !(isnan(wanted) && isnan(has))) return false;
   }

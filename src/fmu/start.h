@@ -9,9 +9,6 @@
 #include "def/check.h"
 #include <zipact/drive.h>
 
-/* Number of keys. */
-enum { ZP_FMU_KEYS = sizeof(ZpKeyNumbers) };
-
 /* 16 bytes that occur nowhere else in a binary, without a final 0; as text for a source. */
 #define ZP_FMU_MARK "\x93zipact-fmu-v1\r\n"
 
@@ -23,7 +20,7 @@ typedef struct ZpFmuStart {
   uint64_t size;                 /* size of this block, bytes: that of a binary of another version may differ */
   uint64_t layout;               /* zp_fmu_keys_mark of the program with which the binary was built */
   char token[ZP_FMU_TOKEN_SIZE]; /* GUID of FMI 2, instantiation token of FMI 3 */
-  double value[ZP_FMU_KEYS];     /* of each key, as zp_def_get; 0 for keys without a number */
+  double value[ZP_KEYS];         /* of each key, as zp_def_get; 0 for keys without a number */
 } ZpFmuStart;
 
 /* A number made of the names, types and words of all keys: two programs with the same number mean the same by a list of

@@ -17,7 +17,7 @@ typedef struct Kept {
   ZpFmu fmu;
   size_t phase;
   ZpRowStart row_start;
-  double parameter[ZP_FMU_KEYS]; /* 0 of a key without a number */
+  double parameter[ZP_KEYS]; /* 0 of a key without a number */
 } Kept;
 
 static void walk(ZpPack *p, Kept *kept) {
@@ -32,13 +32,13 @@ static void walk(ZpPack *p, Kept *kept) {
   zp_pack_field(p, "inputs", ZP_REAL, kept->fmu.input, ZP_INPUT_COUNT);
   zp_pack_field(p, "rates", ZP_REAL, kept->fmu.rate, ZP_INPUT_COUNT);
   zp_pack_field(p, "outputs", ZP_REAL, kept->fmu.row, ZP_FMU_SIGNALS);
-  zp_pack_field(p, "parameters", ZP_REAL, kept->parameter, ZP_FMU_KEYS);
+  zp_pack_field(p, "parameters", ZP_REAL, kept->parameter, ZP_KEYS);
 }
 
 static Kept kept_of(const ZpFmu *fmu) {
   Kept kept = {.fmu = *fmu, .phase = fmu->phase};
   if (fmu->prepared) kept.row_start = zp_sim_row_start(fmu->sim);
-  for (int key = 0; key < ZP_FMU_KEYS; key++)
+  for (int key = 0; key < ZP_KEYS; key++)
     if (zp_fmu_has_number(key)) kept.parameter[key] = zp_def_get(&fmu->def, key);
   return kept;
 }

@@ -52,7 +52,7 @@ bool zp_fmu_find(uint32_t reference, ZpFmuVariable *variable) {
     *variable = (ZpFmuVariable){ZP_FMU_INPUT, place - FIRST_INPUT};
   else if (place >= FIRST_OUTPUT && place < FIRST_OUTPUT + ZP_FMU_SIGNALS && zp_fmu_is_output(place - FIRST_OUTPUT))
     *variable = (ZpFmuVariable){ZP_FMU_OUTPUT, place - FIRST_OUTPUT};
-  else if (place >= FIRST_PARAMETER && place < FIRST_PARAMETER + ZP_FMU_KEYS)
+  else if (place >= FIRST_PARAMETER && place < FIRST_PARAMETER + ZP_KEYS)
     *variable = (ZpFmuVariable){ZP_FMU_PARAMETER, place - FIRST_PARAMETER};
   else
     return false;

@@ -16,7 +16,7 @@
 #include "io/number.h"
 #include "io/units.h"
 
-enum { MOST_VARIABLES = 1 + ZP_INPUT_COUNT + ZP_FMU_SIGNALS + ZP_FMU_KEYS };
+enum { MOST_VARIABLES = 1 + ZP_INPUT_COUNT + ZP_FMU_SIGNALS + ZP_KEYS };
 
 /* The variables of a plan, in order. */
 typedef struct List {
@@ -31,7 +31,7 @@ static void list_variables(const ZpFmuPlan *plan, List *list) {
     if (zp_fmu_is_input(k, plan->controlled)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_INPUT, k};
   for (int k = 0; k < ZP_FMU_SIGNALS; k++)
     if (zp_fmu_is_output(k)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_OUTPUT, k};
-  for (int k = 0; k < ZP_FMU_KEYS; k++)
+  for (int k = 0; k < ZP_KEYS; k++)
     if (zp_fmu_is_parameter(k, plan->start->value[k])) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_PARAMETER, k};
 }
 

@@ -75,7 +75,7 @@ static ZpStatus fill_start(ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) 
   memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
   start->size = sizeof *start;
   start->layout = zp_fmu_keys_mark();
-  for (int key = 0; key < ZP_FMU_KEYS; key++)
+  for (int key = 0; key < ZP_KEYS; key++)
     if (zp_fmu_has_number(key)) start->value[key] = zp_def_get(def, key);
   make_token(start, start->token);
   return ZP_OK;
@@ -148,7 +148,7 @@ static ZpStatus put_start_source(const void *plan, FILE *file, ZpError *err) {
           ".layout = UINT64_C(%llu),\n"
           "  .token = \"%s\",\n  .value = {\n",
           (unsigned long long)start->layout, start->token);
-  for (int key = 0; key < ZP_FMU_KEYS; key++) {
+  for (int key = 0; key < ZP_KEYS; key++) {
     zp_number_print(start->value[key], text, sizeof text);
     fprintf(file, "    /* %s */ %s,\n", zp_key(key)->name, isnan(start->value[key]) ? "NAN" : text);
   }

@@ -9,7 +9,7 @@
  *   a sweep:  /table/COLUMN          as table.csv, one value per run
  *             /runs/0000/series, summary of each run, where its results keep their series
  *
- * HDF5 builds the file in memory and zp_atomic writes its bytes: HDF5 never meets a full disk, from which
+ * HDF5 builds the file in memory and a ZpAtomic takes its bytes: HDF5 never meets a full disk, from which
  * it does not recover, and the reason is the system's own. Results are read once, in order: a block of rows of all
  * columns is in memory besides the file. Times of objects are not kept and every NaN
  * has the same bits, so the same numbers give the same bytes. */

@@ -7,13 +7,9 @@
 
 #include <zipact/io.h>
 
-#include "def/def.h"
-
 #include "def/check.h"
 #include "sample/design.h"
 #include "sample/distribution.h"
-
-enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
 
 /* The given value of a key. */
 typedef struct ZpSlot {

@@ -69,11 +69,12 @@ bool zp_cases_open(const ZpReport *report, const ZpTable *series, ZpCases *cases
   bool done = cases->column != NULL;
   for (size_t i = 0; done && i < first; i++) {
     char name[ZP_KEY_COLUMN_SIZE];
-    if (!series) zp_key_column(key[i], name, sizeof name);
-    if (series)
+    if (series) {
       add_column(cases, series->column[i].name, series->column[i].unit, series->column[i].help);
-    else
-      add_column(cases, name, zp_key(key[i])->unit, zp_key(key[i])->help);
+      continue;
+    }
+    zp_key_column(key[i], name, sizeof name);
+    add_column(cases, name, zp_key(key[i])->unit, zp_key(key[i])->help);
   }
   for (size_t i = 0; i < report->count && done && !series; i++)
     done = add_scalars(cases, zp_report_result(report, i));

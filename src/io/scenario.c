@@ -215,7 +215,7 @@ static ZpStatus fail_unknown(const Reader *reader, const ZpYamlItem *item, ZpErr
   return fail_at(reader, item->path, item->line, err, "%s", reason);
 }
 
-/* `*first`: line in which the item was given first, 0: not yet. */
+/* `first`: line in which the item was given first, 0: not yet. */
 static ZpStatus check_first(const Reader *reader, const ZpYamlItem *item, int first, ZpError *err) {
   return first ? fail_at(reader, item->path, item->line, err, "given twice, first in line %d", first) : ZP_OK;
 }

@@ -49,8 +49,10 @@ static bool is_load(const char *line, size_t length, char name[NAME_SIZE]) {
   return (size_t)end + strspn(line + end, " \t\r\n") >= length;
 }
 
-/* A line that loads what is no template stays. */
-static ZpStatus write_nested(const char *folder, const char *name, int depth, FILE *script, ZpError *err) {
+/* Write the template `name` to a script, with what it loads in place of the lines that load it: a script needs no other
+ * template. A line that loads what is no template stays. `folder` is looked into first; NULL is none. The script's own
+ * template has depth 1. ZP_MACHINE if a file of `folder` cannot be read. */
+static ZpStatus write_template(const char *folder, const char *name, int depth, FILE *script, ZpError *err) {
   const char *text = NULL;
   char *path, *own, loaded[NAME_SIZE];
   ZpStatus status = find_text(folder, name, &own, &text, &path, err);
@@ -62,7 +64,7 @@ static ZpStatus write_nested(const char *folder, const char *name, int depth, FI
   for (int number = 2; text && *text && status == ZP_OK; number++, text += length) {
     length = strcspn(text, "\n") + 1;
     if (depth < NESTED_MOST && is_load(text, length, loaded)) {
-      status = write_nested(folder, loaded, depth + 1, script, err);
+      status = write_template(folder, loaded, depth + 1, script, err);
       fprintf(script, "#line %d %s\n", number, path);
     } else {
       fprintf(script, "%.*s\n", (int)length - 1, text);
@@ -72,10 +74,6 @@ static ZpStatus write_nested(const char *folder, const char *name, int depth, FI
   free(path);
   free(own);
   return status;
-}
-
-ZpStatus zp_template_write(const char *folder, const char *name, FILE *script, ZpError *err) {
-  return write_nested(folder, name, 1, script, err);
 }
 
 /* The template and the line in it of line `wanted` of a script; false if it is of none. */
@@ -144,7 +142,7 @@ ZpStatus zp_drawing_script(const ZpDrawing *drawing, const ZpPicture *picture, Z
           "# Made by zipact " ZP_VERSION "; draw again with: gnuplot %s\n"
           "if (!exists('out')) out = '%s.%s'\nload 'result.gp'\n",
           name, picture->name, picture->extension);
-  status = zp_template_write(drawing->templates, picture->template, out.file, err);
+  status = write_template(drawing->templates, picture->template, 1, out.file, err);
   return zp_atomic_finish(&out, status, err);
 }
 

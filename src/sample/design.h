@@ -12,7 +12,7 @@ typedef struct ZpDesign {
   size_t count;   /* points */
   uint32_t seed;  /* another seed, other points */
   int dimensions; /* of the cube */
-  bool indices;   /* each point comes with those that Sobol indices take: see zp_design_block */
+  bool indices;   /* each point comes with those that Sobol indices take: see zp_design_blocks */
 } ZpDesign;
 
 /* With indices, a point of the design is dimensions + 2 samples (Saltelli 2010): A, B, which are independent, and for
