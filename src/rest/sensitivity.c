@@ -59,12 +59,18 @@ static size_t reserve(ZpRestSensitivity *p, void *block) {
   return arena.used;
 }
 
+/* A platform that is held carries no load, so nothing depends on its keys: there are no neighbours. */
+static bool depends_on(const ZpStatics *at, int key) {
+  static const ZpKeyGroup load = ZP_KEY_GROUP(load);
+  return isnan(at->opening) || key < load.first || key >= load.end;
+}
+
 ZpStatus zp_rest_sensitivity_open(ZpRestSensitivity *p, ZpStatics *at, int key, ZpError *err) {
   *p = (ZpRestSensitivity){.at = at, .key = key, .exact = true};
   p->memory = zp_calloc(1, reserve(p, NULL));
   if (!p->memory) return zp_fail_memory(err);
   reserve(p, p->memory);
-  ZpStatus status = zp_finite_difference_open(&p->by, at->model, key, part, err);
+  ZpStatus status = depends_on(at, key) ? zp_finite_difference_open(&p->by, at->model, key, part, err) : ZP_OK;
   for (int k = 0; k < p->by.count && status == ZP_OK; k++)
     if (!zp_statics_create(p->by.near[k].model, &p->near[k])) status = zp_fail_memory(err);
   return status;
@@ -186,7 +192,7 @@ static void differentiate(ZpRestSensitivity *p) {
   memset(p->by_key, 0, at->n * sizeof *p->by_key);
   for (int k = 0; k < p->by.count; k++)
     away += p->by.near[k].weight * zp_statics_away(place(p, k));
-  for (size_t which = 0; which < at->members; which++)
+  for (size_t which = 0; which < at->members && p->by.count > 0; which++)
     add_forces(p, which);
   p->reaction = zp_statics_hold_rate(at, away, p->by_key);
 }

@@ -485,22 +485,6 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
                             found ? zp_rest_sensitivity_of(slope, zp_output_angle, NULL) : NAN);
 }
 
-static ZpStatus derive_all(Holder *h, ZpError *err) {
-  static const char *const outputs[] = {"force_N",       "force_unpowered_N", "opening_m", "charge_C",
-                                        "capacitance_F", "torque_N_m",        "angle_rad"};
-  static const ZpKeyGroup load = ZP_KEY_GROUP(load); /* which is removed, so that nothing depends on it */
-  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
-  ZpStatus status = zp_sensitivity_keys(h->at.task->def, key, &keys, err);
-  for (int k = 0; k < keys && status == ZP_OK; k++)
-    if (key[k] >= load.first && key[k] < load.end)
-      for (size_t i = 0; i < sizeof outputs / sizeof outputs[0]; i++) {
-        if (zp_result_has(h->at.result, outputs[i])) zp_result_add_sensitivity(h->at.result, outputs[i], key[k], 0);
-      }
-    else
-      status = zp_sensitivity_by(&h->at.rest, key[k], derive, h, h->at.result, err);
-  return status;
-}
-
 static void run(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
   ZpNewtonInfo info;
@@ -581,7 +565,7 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
   ZpStatus status = zp_equilibria_open(&h.at, &bare, reserve, &h, err);
   if (status == ZP_OK) status = open_members(&h, &bare, err);
   if (status == ZP_OK) run(&h);
-  if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = derive_all(&h, err);
+  if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = zp_sensitivity_of(&h.at.rest, derive, &h, result, err);
   for (size_t k = 0; h.member && k < h.at.rest.statics.members; k++)
     zp_equilibria_close(&h.member[k].at);
   zp_free(h.member);

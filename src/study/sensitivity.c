@@ -28,38 +28,29 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def) {
                    "compute derivatives");
 }
 
-/* One note names all keys. */
-static void note_difference(ZpResult *result, const char *key) {
-  static const char begin[] = "sensitivity: differences of fourth order stand for derivatives of some forces, by ";
-  for (size_t k = 0; k < result->notes; k++) {
-    char *note = result->note[k];
-    if (strncmp(note, begin, sizeof begin - 1) != 0) continue;
-    size_t size = strlen(note) + strlen(key) + sizeof ", ";
-    char *longer = zp_calloc(size, 1);
-    result->incomplete |= !longer;
-    if (!longer) return;
-    snprintf(longer, size, "%s, %s", note, key);
-    zp_free(note);
-    result->note[k] = longer;
-    return;
-  }
-  zp_result_note(result, "%s%s", begin, key);
-}
-
-ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
-  ZpRestSensitivity slope;
-  ZpStatus status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
-  if (status == ZP_OK) derive(user, &slope, result);
-  if (status == ZP_OK && !slope.exact) note_difference(result, zp_key(key)->name);
-  zp_rest_sensitivity_close(&slope);
-  return status;
+/* The note of keys by which some forces have no derivative in closed form. */
+static void note_differences(ZpResult *result, const ZpKey *const key[], int keys) {
+  char names[ZP_MAX_SENSITIVITY_KEYS * 64];
+  for (int k = 0, length = 0; k < keys; k++)
+    length += snprintf(names + length, sizeof names - (size_t)length, "%s%s", k > 0 ? ", " : "", key[k]->name);
+  if (keys > 0)
+    zp_result_note(result, "sensitivity: differences of fourth order stand for derivatives of some forces, by %s",
+                   names);
 }
 
 ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
-  int key[ZP_MAX_SENSITIVITY_KEYS], keys;
-  ZpStatus status = zp_sensitivity_keys(&rest->statics.member->model->whole, key, &keys, err);
-  for (int k = 0; k < keys && status == ZP_OK; k++)
-    status = zp_sensitivity_by(rest, key[k], derive, user, result, err);
+  const ZpKey *by_difference[ZP_MAX_SENSITIVITY_KEYS];
+  int key[ZP_MAX_SENSITIVITY_KEYS], keys, differences = 0;
+  ZpStatus status = zp_keys_named("sensitivity.by", rest->statics.member->model->whole.sensitivity.by,
+                                  ZP_MAX_SENSITIVITY_KEYS, key, &keys, err);
+  for (int k = 0; k < keys && status == ZP_OK; k++) {
+    ZpRestSensitivity slope;
+    status = zp_rest_sensitivity_open(&slope, &rest->statics, key[k], err);
+    if (status == ZP_OK) derive(user, &slope, result);
+    if (status == ZP_OK && !slope.exact) by_difference[differences++] = zp_key(key[k]);
+    zp_rest_sensitivity_close(&slope);
+  }
+  note_differences(result, by_difference, differences);
   return status;
 }
 

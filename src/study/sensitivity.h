@@ -19,8 +19,8 @@ void zp_note_no_sensitivity(ZpResult *result, const ZpActuatorDef *def);
 /* Adds the derivatives by a key. */
 typedef void ZpDerive(void *user, ZpRestSensitivity *slope, ZpResult *result);
 
-/* Call `derive` with derivatives of states of `rest` by `key` prepared, or for each key of sensitivity.by. */
-ZpStatus zp_sensitivity_by(ZpRest *rest, int key, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
+/* For each key of sensitivity.by, which has been checked, call `derive` with derivatives of states of `rest` prepared.
+ */
 ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err);
 
 /* Add limits as numbers of a result, in this order. Say in its message what they are, with or without the largest load.
