@@ -82,8 +82,16 @@ int main(int count, char **argument) {
   setvbuf(stdout, NULL, _IOLBF, 0); /* measured values are printed before a test fails */
   const char *chosen = getenv("ZP_TEST");
   Suite *suite = suite_create(argument[0]);
-  for (const TestEntry *entry = first; entry; entry = entry->next)
-    if (!chosen || !strcmp(chosen, entry->test.name)) add_case(suite, entry);
+  int cases = 0;
+  for (const TestEntry *entry = first; entry; entry = entry->next) {
+    if (chosen && strcmp(chosen, entry->test.name) != 0) continue;
+    add_case(suite, entry);
+    cases++;
+  }
+  if (cases == 0) {
+    fprintf(stderr, "%s has no test %s\n", argument[0], chosen ? chosen : "");
+    return 2;
+  }
   SRunner *runner = srunner_create(suite);
   srunner_run_all(runner, CK_NORMAL);
   if (after_all) after_all();

@@ -553,6 +553,8 @@ TEST(lists_together) {
   ck_says(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT, "its list is not as long");
   ck_assert_int_eq(zp_scenario_set(s, "sampling.together=ribbon.width", &err), ZP_OK);
   ck_says(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT, "ribbon.width: has no list");
+  ck_assert_int_eq(zp_scenario_set(s, "sampling.together=ribbon.length,", &err), ZP_OK);
+  ck_says(zp_scenario_def(s, 0, &def, &err), ZP_BAD_INPUT, "sampling.together: a comma has no key");
   ck_assert_int_eq(zp_scenario_set(s, "sampling.together=\"\"", &err), ZP_OK);
   ck_assert_uint_eq(zp_scenario_count(s), 12);
 }

@@ -445,11 +445,11 @@ TEST(what_has_no_derivative_is_refused) {
                {"study", "study is not a real number", ZP_STUDY_STATIONARY},
                {"ribbon.plane", "ribbon.plane is not a real number", ZP_STUDY_MODES},
                {"gravity, gravity", "gravity is named twice", ZP_STUDY_LIMITS},
-               {"gravity,", "unknown key", ZP_STUDY_LIMITS},
+               {"gravity,", "a comma has no key on one of its sides", ZP_STUDY_LIMITS},
                {"solver.tolerance", "a setting of the computation", ZP_STUDY_EQUILIBRIUM},
                {"electro.insulator_offset", "is auto: give it a number", ZP_STUDY_ISOMETRIC},
                {"load.change_time", "is none: give it a number", ZP_STUDY_ISOMETRIC},
-               {",", "unknown key", ZP_STUDY_ISOMETRIC}};
+               {",", "a comma has no key on one of its sides", ZP_STUDY_ISOMETRIC}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
     ZpActuatorDef def = zp_actuator_def_default();
     ZpError err = {ZP_OK, ""};

@@ -22,6 +22,7 @@ ZpStatus zp_keys_named(const char *setting, const char *text, int most, int *key
     size_t length = part;
     while (length > 0 && text[length - 1] == ' ')
       length--;
+    if (length == 0) return zp_fail(err, ZP_BAD_INPUT, "%s: a comma has no key on one of its sides", setting);
     memcpy(name, text, length);
     name[length] = 0;
     const int named = zp_key_named(setting, name, err);

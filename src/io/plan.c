@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "def/def.h"
 #include "io/range.h"
 #include "io/value.h"
@@ -26,40 +27,33 @@ static double value_of(const ZpSlot *const *slot, const ZpActuatorDef *defaults,
   return slot[key]->count ? slot[key]->value[0] : zp_def_get(defaults, key);
 }
 
-static void set_problem(ZpPlan *plan, const char *key, const char *what) {
-  if (!plan->problem[0]) snprintf(plan->problem, sizeof plan->problem, "sampling.together: %.80s: %s", key, what);
+static void set_problem(ZpPlan *plan, int key, const char *what) {
+  if (!plan->problem.status)
+    zp_fail(&plan->problem, ZP_BAD_INPUT, "sampling.together: %s: %s", zp_key(key)->name, what);
 }
 
-static void tie(ZpPlan *plan, const ZpSlot *const *slot, const char *name) {
-  const int key = zp_key_find(name);
+static void tie(ZpPlan *plan, const ZpSlot *const *slot, int key) {
   size_t first = 0;
-  if (key < 0) {
-    set_problem(plan, name, "unknown key");
-    return;
-  }
   if (!slot[key]->is_list) {
-    set_problem(plan, name, "has no list of values");
+    set_problem(plan, key, "has no list of values");
     return;
   }
   while (first < ZP_KEYS && !plan->tied[first])
     first++;
   if (first < ZP_KEYS && slot[first]->count != slot[key]->count)
-    set_problem(plan, name, "its list is not as long as those of the other keys");
+    set_problem(plan, key, "its list is not as long as those of the other keys");
   plan->tied[key] = true;
 }
 
 /* Read sampling.together. */
 static void find_tied(ZpPlan *plan, const ZpSlot *const *slot) {
-  char names[ZP_TEXT_SIZE], *rest = names;
   const char *text = slot[zp_key_find("sampling.together")]->text;
-  snprintf(names, sizeof names, "%s", text ? text : "");
+  int key[ZP_KEYS], count;
   memset(plan->tied, 0, sizeof plan->tied);
-  plan->problem[0] = 0;
-  for (char *name = strsep(&rest, ","); name; name = strsep(&rest, ",")) {
-    name += strspn(name, " ");
-    name[strcspn(name, " ")] = 0;
-    if (*name) tie(plan, slot, name);
-  }
+  plan->problem = (ZpError){0};
+  if (zp_keys_named("sampling.together", text ? text : "", ZP_KEYS, key, &count, &plan->problem) != ZP_OK) return;
+  for (int k = 0; k < count; k++)
+    tie(plan, slot, key[k]);
 }
 
 /* A list multiplies the number of cases; of lists that vary together only the shortest does. */

@@ -30,7 +30,7 @@ typedef struct ZpPlan {
   size_t together;    /* length of their lists; 1: there are none */
   ZpDesign design;    /* of the distributions */
   size_t count;       /* cases */
-  char problem[256];  /* the error of the scenario as a whole, otherwise empty */
+  ZpError problem;    /* the error of the scenario as a whole, otherwise all 0 */
 } ZpPlan;
 
 /* Make the plan from the given values of each key, slot [ZP_KEYS]. ZP_BAD_INPUT if there are too many values or cases.

@@ -592,7 +592,7 @@ static ZpStatus say_of(const ZpScenario *s, size_t index, ZpStatus status, const
 static ZpStatus check_case(const ZpScenario *s, size_t index, ZpError *err) {
   if (index >= s->plan.count)
     return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->plan.count);
-  return s->plan.problem[0] ? fail_whole(s, ZP_BAD_INPUT, "", s->plan.problem, err) : ZP_OK;
+  return s->plan.problem.status ? fail_whole(s, ZP_BAD_INPUT, "", s->plan.problem.message, err) : ZP_OK;
 }
 
 ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {

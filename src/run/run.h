@@ -126,7 +126,7 @@ struct ZpSim {
   ZpDynamics dynamics;            /* of implicit steps */
   ZpPaperMotion paper;            /* of the paper's steps */
   ZpStepStart step_start;         /* of the last step */
-  bool stuck;                     /* no step succeeded */
+  bool step_failed;               /* no step succeeded */
   bool negative;                  /* a row has had a negative capacitance */
   const char *fault;              /* why the model does not describe where the last run ended; NULL: it does */
   bool links_due;                 /* zp_sim_book_links has something to do */

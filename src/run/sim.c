@@ -328,7 +328,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
     if (!zp_sim_control(sim)) return ZP_BAD_ARGUMENT;
     keep_before_cut(sim, end_time);
     zp_sim_advance(sim, end_time, info);
-    if (sim->stuck) return ZP_DIVERGED;
+    if (sim->step_failed) return ZP_DIVERGED;
     if (!sim->stepping->fine && fault_of(sim)) return ZP_BEYOND_MODEL;
     bool sample = recording && state->t >= next_sample;
     if (!sample && !sim->stepping->fine) zp_sim_see(sim); /* a record sees, too */
@@ -375,7 +375,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     if (sim->eval.fault)
       snprintf(text, size, "the field could not be solved before %g s: %s; the results so far are kept", t,
                sim->eval.fault);
-    else if (sim->stuck)
+    else if (sim->step_failed)
       snprintf(text, size,
                "the solver failed at %g s: no time step converges, however short; the results so far are kept", t);
     else
@@ -444,7 +444,7 @@ ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHoo
     info.outcome = advance(sim, end_time, hooks, &info);
     zp_sim_book_links(sim);
     if (info.outcome != ZP_DIVERGED) zp_sim_close_record(sim);
-    sim->fault = diverged(sim) || sim->stuck ? NULL : fault_of(sim);
+    sim->fault = diverged(sim) || sim->step_failed ? NULL : fault_of(sim);
     if (sim->fault) info.outcome = ZP_BEYOND_MODEL;
   }
   info.wall_time = clock ? hooks->clock(hooks->user) - start_clock : NAN;

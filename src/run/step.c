@@ -147,8 +147,8 @@ static void note_start(ZpSim *sim) {
 bool zp_sim_prepare(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
     note_start(m);
-    sim->stuck = !prepare_step(sim, m);
-    if (sim->stuck) return false;
+    sim->step_failed = !prepare_step(sim, m);
+    if (sim->step_failed) return false;
   }
   return true;
 }
@@ -174,10 +174,10 @@ static void return_to_start(ZpSim *sim) {
 static bool take(ZpSim *sim, double latest, ZpStepLimit *limit) {
   sim->links_due = false;
   if (!zp_sim_prepare(sim)) return false;
-  sim->stuck = !sim->stepping->step(sim, latest, limit);
-  if (!sim->stuck) zp_sim_arrive(sim);
-  sim->links_due = !sim->stuck && sim->model->parallel && !sim->stepping->fine;
-  return !sim->stuck;
+  sim->step_failed = !sim->stepping->step(sim, latest, limit);
+  if (!sim->step_failed) zp_sim_arrive(sim);
+  sim->links_due = !sim->step_failed && sim->model->parallel && !sim->stepping->fine;
+  return !sim->step_failed;
 }
 
 void zp_sim_book_links(ZpSim *sim) {
@@ -216,7 +216,7 @@ static void land(ZpSim *sim, ZpLanding landing, ZpStepLimit *limit) {
     if (sim->state->t != b.late || b.left_late < -least) return_to_start(sim);
   }
   if (inside) sim->landing = landing;
-  if (sim->state->t == b.late && !sim->stuck) return;
+  if (sim->state->t == b.late && !sim->step_failed) return;
   return_to_start(sim);
   take(sim, b.late, limit);
 }
@@ -274,6 +274,6 @@ void zp_sim_advance(ZpSim *sim, double end_time, ZpRunInfo *info) {
   Step step = begin(sim, end_time);
   if (!sim->stepping->fine) keep_start(sim);
   take(sim, step.latest, &step.limit);
-  if (!sim->stuck) end_at_event(sim, &step);
-  if (!sim->stuck) count(sim, &step, end_time, info);
+  if (!sim->step_failed) end_at_event(sim, &step);
+  if (!sim->step_failed) count(sim, &step, end_time, info);
 }
