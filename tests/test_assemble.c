@@ -3,6 +3,7 @@
 #include "check_util.h"
 
 #include "actuator/assemble.h"
+#include "math/vector.h"
 
 enum { NODES = 9, STATIONS = 2 * NODES };
 
@@ -87,6 +88,78 @@ static const Setting systems[][3] = {
     {{"stack.parallel", 3}, {"member_1.ribbon.thickness", 60e-6}},
     {{"stack.series", 2}, {"stack.distance", 0.05}},
 };
+
+/* (13.6): where the row of a held platform puts its ends, the opening is the given one: by zp_opening with a platform,
+ * else the end of the lower ribbon is so far below its left end. */
+TESTS(held_platform_is_at_its_opening, 0, LENGTH_OF(systems)) {
+  const Setting *of = systems[_i];
+  ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
+  ZpModel *model = model_of(&def);
+  const ZpTies ties = zp_ties_of(model, model->members);
+  const ZpTie *row = zp_tie_of_held(&ties);
+  const ZpModel *held = model + row->member;
+  const ZpTopology *t = &held->topology;
+  double y[4 * 12] = {0}, s = 7e-3, upper = 0.2;
+  const size_t left = zp_lower(t, 0), top = zp_upper(t, t->platform.first);
+  y[zp_has_platform(t) ? top : left] = row->factor == 0 ? 0 : upper; /* of a series, the platform above it */
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    y[zp_lower(t, i)] = zp_tie_place(row, upper, s);
+  ck_assert_uint_eq(row->coordinate, zp_y_of(zp_lower(t, t->platform.first)));
+  ck_assert_double_eq_tol(zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y), s, 1e-16);
+  ck_assert(row->factor == 0 || row->to_member != row->member); /* it hangs on what is held, or on another member */
+}
+
+/* A matrix of random entries with a dominant diagonal, and a term on top. */
+static void *random_band(ZpBand *K, size_t n, ZpBandForm form) {
+  ZpArena arena = {NULL, 0};
+  uint64_t seed = 5;
+  zp_band_reserve_form(K, n, form, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_band_reserve_form(K, n, form, &arena);
+  zp_band_clear(K);
+  for (size_t i = 0; i < n; i++)
+    for (size_t j = i; j < n && j <= i + form.bandwidth; j++) {
+      *zp_band_at(K, i, j) = noise(&seed) + (i == j ? 9 : 0);
+      if (!form.symmetric && j > i) *zp_band_at(K, j, i) = noise(&seed);
+    }
+  for (size_t i = 0; i < n * form.rank; i++) {
+    K->u[i] = noise(&seed);
+    K->v[i] = noise(&seed);
+  }
+  return memory;
+}
+
+/* The solution with a prescribed unknown obeys all other equations as they were, and the row that was replaced is that
+ * of the matrix. */
+TESTS(prescribed_unknown_is_eliminated, 0, 4) {
+  enum { N = 11 };
+  ZpBand K, given;
+  ZpBandForm form = {3, _i % 2 == 0, (size_t)_i / 2, {0, 0}};
+  void *memory[2] = {random_band(&K, N, form), random_band(&given, N, form)};
+  for (size_t unknown = 0; unknown < N; unknown++) {
+    const double diagonal = 2, move = 0.7;
+    double b[N], x[N], product[N], row[N];
+    memcpy(K.a, given.a, K.entries * sizeof *K.a);
+    for (size_t i = 0; i < N * form.rank; i++) {
+      K.u[i] = given.u[i];
+      K.v[i] = given.v[i];
+    }
+    for (size_t i = 0; i < N; i++)
+      b[i] = x[i] = cos((double)i);
+    x[unknown] = diagonal * move;
+    zp_band_prescribe(&K, unknown, diagonal, move, x, row);
+    ck_assert(zp_band_factor(&K));
+    zp_band_solve(&K, x);
+    zp_band_multiply(&given, x, product);
+    ck_assert_double_eq_tol(x[unknown], move, 1e-15);
+    for (size_t i = 0; i < N; i++)
+      if (i != unknown) ck_assert_double_eq_tol(product[i], b[i], 5e-15);
+    ck_assert_double_eq_tol(zp_dot(N, row, x), product[unknown], 5e-15);
+  }
+  for (int k = 0; k < 2; k++)
+    zp_free(memory[k]);
+}
 
 /* Every row holds a coordinate or ties it to a free one, all other coordinates have equations of their own, and
  * coordinates that are placed by any unknowns obey the rows that tie. */

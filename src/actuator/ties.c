@@ -34,9 +34,9 @@ static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const H
     size_t ribbon = k / 2 % s, to = first + 2 * (hold->unites ? 0 : ribbon) + k % 2;
     double x = straight(model, k);
     if (hold->held[ribbon][k % 2])
-      add(ties, (ZpTie){member, k, member, k, 0, x});
+      add(ties, (ZpTie){member, k, member, k, 0, x, 0});
     else if (to < k && !hold->turns)
-      add(ties, (ZpTie){member, k, member, to, 1, x - straight(model, to)});
+      add(ties, (ZpTie){member, k, member, to, 1, x - straight(model, to), 0});
   }
 }
 
@@ -47,8 +47,17 @@ static void add_link(ZpTies *ties, size_t member) {
   const ZpTopology *t = &model->topology;
   const bool shared = zp_shares_load(first), opposed = zp_is_antagonist(first);
   const size_t node = shared ? zp_load_node(t) : zp_upper(t, t->platform.first), above = shared ? 0 : member - 1;
-  add(ties, (ZpTie){member, 2 * node + 1, above, 2 * zp_load_node(&first[above].topology) + 1, opposed ? -1 : 1,
-                    opposed ? -first->distance : 0});
+  add(ties, (ZpTie){member, zp_y_of(node), above, zp_y_of(zp_load_node(&first[above].topology)), opposed ? -1 : 1,
+                    opposed ? -first->distance : 0, 0});
+}
+
+/* The lower platform is so far below the upper one, or the free end of the lower of two ribbons below its left end, eq.
+ * (13.6). */
+static ZpTie held_row(const ZpModel *first, size_t members) {
+  const size_t member = zp_shares_load(first) ? 0 : members - 1;
+  const ZpTopology *t = &first[member].topology;
+  const size_t from = zp_has_platform(t) ? zp_upper(t, t->platform.first) : zp_lower(t, 0);
+  return (ZpTie){member, zp_y_of(zp_load_node(t)), member, zp_y_of(from), 1, 0, -1};
 }
 
 /* Each row refers to a free coordinate. */
@@ -71,7 +80,8 @@ ZpTies zp_ties_of(const ZpModel *first, size_t members) {
     for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
       add_joint(&ties, k, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &hold_of[joint->kind]);
   }
-  for (ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++)
+  ties.tie[ties.count] = held_row(first, members);
+  for (ZpTie *tie = ties.tie; tie <= ties.tie + ties.count; tie++)
     resolve(&ties, tie);
   return ties;
 }

@@ -1,30 +1,44 @@
 /* The affine constraints on coordinates of nodes, of one actuator or of several as one system. Joints hold nodes or
- * make them one; links and a shared load tie heights of several members. docs/theory.md, sections 19, 29 and 31. */
+ * make them one; links and a shared load tie heights of several members; a study may hold the platform at an opening.
+ * docs/theory.md, sections 13, 19, 29 and 31. */
 #ifndef ZP_ACTUATOR_TIES_H
 #define ZP_ACTUATOR_TIES_H
 
 #include "actuator/model.h"
 
-/* A coordinate is `factor` times a free one plus `offset`. Coordinate 2 j is x of node j, 2 j + 1 its y. */
+/* A coordinate is `factor` times a free one plus `offset` plus `by_input` times an input, the opening at which the
+ * platform is held. Coordinate 2 j is x of node j, 2 j + 1 its y. */
 typedef struct ZpTie {
   size_t member, coordinate; /* the tied one */
   size_t to_member, to;      /* the free one */
   double factor, offset;     /* 1, -1, or 0 of one that is held; m */
+  double by_input;           /* 0 of a row that always acts; another one acts while its input has a value */
 } ZpTie;
 
-enum { ZP_MOST_TIES = 16 * ZP_MOST_MEMBERS };
+enum { ZP_MOST_TIES = 16 * ZP_MOST_MEMBERS + 1 };
 
 typedef struct ZpTies {
   const ZpModel *first;
   size_t members, count;
-  ZpTie tie[ZP_MOST_TIES]; /* member by member */
+  ZpTie tie[ZP_MOST_TIES]; /* member by member; after these `count`, which always act, that of a held platform */
 } ZpTies;
 
 /* (consecutive members of a system, all of them or one alone) => their ties. All are in one frame but the lower one of
  * antagonists, which is upside down. Alone, a member of a series is in the frame of its upper platform. */
 ZpTies zp_ties_of(const ZpModel *first, size_t members);
 
-/* The row of a coordinate; NULL: it is free. */
+/* Where a row puts its coordinate if the free one is at `to`, m. */
+static inline double zp_tie_place(const ZpTie *tie, double to, double input) {
+  return tie->factor * to + tie->offset + tie->by_input * input;
+}
+
+/* The row that holds the platform while a study gives an opening: that on which the load of all hangs. Its coordinate
+ * has an equation. */
+static inline const ZpTie *zp_tie_of_held(const ZpTies *ties) {
+  return ties->tie + ties->count;
+}
+
+/* The row that always acts on a coordinate; NULL: it is free. */
 const ZpTie *zp_tie_of(const ZpTies *ties, size_t member, size_t coordinate);
 
 static inline bool zp_is_held(const ZpTies *ties, size_t member, size_t coordinate) {

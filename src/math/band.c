@@ -423,6 +423,37 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
   }
 }
 
+/* Prescribe an unknown of the terms on top of the band. */
+static void prescribe_top(ZpBand *band, size_t unknown, double move, double *r, double *row) {
+  size_t n = band->n;
+  for (size_t k = 0; k < band->rank; k++) {
+    double *u = band->u + k * n, *v = band->v + k * n, factor = u[unknown];
+    for (size_t i = 0; i < n; i++)
+      row[i] += factor * v[i];
+    u[unknown] = 0;
+    for (size_t i = 0; r && i < n; i++)
+      r[i] -= u[i] * v[unknown] * move;
+    v[unknown] = 0;
+  }
+}
+
+void zp_band_prescribe(ZpBand *band, size_t unknown, double diagonal, double move, double *r, double *row) {
+  size_t first = unknown - least(unknown, band->upper), end = zp_band_end(band, unknown);
+  memset(row, 0, band->n * sizeof *row);
+  prescribe_top(band, unknown, move, r, row);
+  for (size_t i = first; i < end; i++) {
+    if (i == unknown || zp_band_end(band, i) <= unknown) continue;
+    bool kept = band->lower > 0 || i < unknown; /* only the upper triangle of a symmetric matrix is stored */
+    double *in_column = kept ? zp_band_at(band, i, unknown) : zp_band_at(band, unknown, i);
+    double *in_row = band->lower > 0 ? zp_band_at(band, unknown, i) : in_column;
+    if (r) r[i] -= *in_column * move;
+    row[i] += *in_row;
+    *in_column = *in_row = 0;
+  }
+  row[unknown] += *zp_band_at(band, unknown, unknown);
+  *zp_band_at(band, unknown, unknown) = diagonal;
+}
+
 static size_t negative_pivots(const ZpBand *band) {
   size_t negative = 0;
   for (size_t i = 0; i < band->n; i++)

@@ -89,6 +89,11 @@ bool zp_band_factor(ZpBand *band);
 /* The matrix, not factored, times x [n] => y [n]. */
 void zp_band_multiply(const ZpBand *band, const double *x, double *y);
 
+/* Prescribe an unknown of a matrix that is not factored: its row becomes `diagonal` at the unknown and 0 elsewhere. If
+ * the unknown changes by `move`, its column times that is subtracted from r [n] and becomes 0; r NULL: it becomes 0.
+ * => the row as it was, [n]. */
+void zp_band_prescribe(ZpBand *band, size_t unknown, double diagonal, double move, double *r, double *row);
+
 /* Solve with the factors: b => x, in place. */
 void zp_band_solve(const ZpBand *band, double *b);
 

@@ -33,7 +33,7 @@ static const ZpRestMember *deciding(const ZpStatics *s) {
   for (size_t k = 1; k < s->members; k++) {
     const ZpRestMember *m = &s->member[k];
     bool nearer = gap_of(m) - m->closed < gap_of(found) - found->closed;
-    if (nearer == (s->distance > 0)) found = m;
+    if (nearer == s->opposed) found = m;
   }
   return found;
 }

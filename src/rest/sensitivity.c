@@ -225,17 +225,6 @@ static void add_motion(ZpRestSensitivity *p, size_t which) {
   }
 }
 
-/* The force that holds the platform changes as the platform's equation would change if it were free. */
-static void add_reaction(ZpRestSensitivity *p) {
-  ZpStatics *at = p->at;
-  double opening = at->opening;
-  at->opening = NAN;
-  stiffness(p, NULL);
-  at->opening = opening;
-  zp_band_multiply(&p->at->newton.K, p->by_key, p->row);
-  p->reaction -= p->row[zp_statics_platform(at)];
-}
-
 bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
   p->inputs = inputs;
   differentiate(p);
@@ -244,7 +233,7 @@ bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
   zp_band_solve(&p->at->newton.K, p->by_key);
   for (size_t which = 0; which < p->at->members; which++)
     add_motion(p, which);
-  if (!isnan(p->at->opening)) add_reaction(p);
+  if (zp_statics_holds(p->at)) p->reaction -= zp_dot(p->at->n, p->at->row, p->by_key);
   return true;
 }
 

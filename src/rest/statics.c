@@ -9,6 +9,7 @@
 #include "def/check.h"
 #include "def/tolerance.h"
 #include "math/elementary.h"
+#include "math/vector.h"
 #include "rest/crossing.h"
 #include "solve/descend.h"
 
@@ -24,7 +25,7 @@ static void reserve_member(ZpRestMember *m, const ZpModel *model, ZpArena *arena
 static size_t reserve_solution(ZpStatics *s, void *block) {
   ZpArena arena = {block, 0};
   zp_newton_reserve(&s->newton, s->n, s->form, &arena);
-  s->product = zp_arena_take(&arena, s->n);
+  s->row = zp_arena_take(&arena, s->n);
   return arena.used;
 }
 
@@ -36,10 +37,6 @@ static size_t reserve(const ZpModel *model, ZpStatics *s, void *block) {
     reserve_member(m, model, &arena);
   }
   return arena.used;
-}
-
-static bool is_held(const ZpStatics *s) {
-  return !isnan(s->opening);
 }
 
 static size_t edge_count(const ZpRestMember *m) {
@@ -58,10 +55,6 @@ static void lay_straight(ZpStatics *s) {
     for (size_t j = 0; j < zp_lanes(m->model); j++)
       m->q[j] = zp_straight_x(m->model, j / m->model->s);
   }
-}
-
-double zp_statics_factor(const ZpStatics *s, size_t which) {
-  return which > 0 && s->distance > 0 ? -1 : 1;
 }
 
 /* In series each member is at rest in the frame of the platform that it hangs on. */
@@ -83,6 +76,7 @@ static void number(ZpStatics *s) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
   const ZpTies ties = ties_of(s, 0);
   const ZpAssembly *first = &s->member->assembly;
+  s->held = *zp_tie_of_held(&ties);
   s->parts = first->parts;
   s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
   for (size_t k = 0; k < s->members; k++) {
@@ -101,7 +95,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   *s = (ZpStatics){.model = model,
                    .members = model->members,
                    .shared = zp_shares_load(model),
-                   .distance = model->distance,
+                   .opposed = zp_is_antagonist(model),
                    .force = zp_lowest(model)->def.load.force};
   s->memory = zp_calloc(1, reserve(model, s, NULL));
   bool made = s->memory != NULL;
@@ -119,7 +113,7 @@ bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
   }
   reserve_solution(s, s->solution);
   s->load = s->own_load;
-  s->bias = s->share = s->suction = 1;
+  s->bias = s->share = s->suction = s->nearer = 1;
   s->opening = NAN;
   lay_straight(s);
   return true;
@@ -223,7 +217,7 @@ static bool has_jumped(const ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++) {
     const ZpRestMember *m = &s->member[k];
     double before = zp_opening(&m->model->topology, zp_nodes(m->model, m->good).y);
-    jumped |= fabs(opening_of(m) - before) > part * (s->distance > 0 ? s->distance : m->model->L);
+    jumped |= fabs(opening_of(m) - before) > part * (s->opposed ? s->model->distance : m->model->L);
     jumped |= member_has_jumped(m);
   }
   return jumped;
@@ -293,7 +287,7 @@ static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info) {
   ZpNewtonInfo contact = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, contact) || zp_statics_fault(s)) {
     go_to_kept(s);
-    if (is_held(s))
+    if (zp_statics_holds(s))
       contact = zp_statics_relax(s, 0);
     else
       contact = zp_statics_close(s, 0);
@@ -311,7 +305,7 @@ static void put_bias(ZpStatics *s, double whole, double share) {
 static ZpNewtonInfo hang_between(ZpStatics *s) {
   double load = s->load;
   s->bias = 0;
-  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * s->distance);
+  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * s->model->distance);
   s->opening = NAN;
   s->load = load;
   if (!zp_newton_good(info.end)) return info;
@@ -331,7 +325,7 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
 }
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
-  if (s->distance > 0) return hang_between(s);
+  if (s->opposed) return hang_between(s);
   s->U = s->suction = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
@@ -346,13 +340,13 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
 /* Antagonists are held as they would be between mounts so much nearer to each other. */
 static void open_to(ZpStatics *s, double opening) {
   s->opening = opening;
-  s->distance = opening / s->held_at * s->member->model->distance;
+  s->nearer = opening / s->held_at;
 }
 
 /* Open while weight is applied too: ribbons that sag by more than the opening have no straight shape to start from. */
 static void open_and_put_on(ZpStatics *s, double opening) {
   open_to(s, opening);
-  s->share = opening / s->held_at;
+  s->share = s->nearer;
 }
 
 void zp_statics_hold_at(ZpStatics *s, double opening) {
@@ -428,7 +422,7 @@ static size_t front_of(const ZpRestMember *m) {
 
 size_t zp_statics_front(const ZpStatics *s) {
   size_t least = front_of(s->member);
-  for (size_t k = 1; k < s->members && !(s->distance > 0); k++)
+  for (size_t k = 1; k < s->members && !s->opposed; k++)
     least = front_of(&s->member[k]) < least ? front_of(&s->member[k]) : least;
   return least;
 }
@@ -573,8 +567,9 @@ ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeR
 
 /* -- the held platform ---------------------------------------------------------------------------- */
 
-/* The equation of a held platform replaces its balance of forces: the platform is where it is held. A step moves it
- * there while the edges rotate, so there is no closing error to spread along the ribbons. */
+/* While a study gives an opening, the row of a held platform takes the place of its balance of forces: the platform is
+ * where the row puts it. A step moves it there while the edges rotate, so there is no closing error to spread along the
+ * ribbons. */
 
 static size_t height_of(const ZpRestMember *m) {
   return (size_t)m->assembly.equation[zp_y_of(zp_load_node(&m->model->topology))];
@@ -584,7 +579,7 @@ size_t zp_statics_platform(const ZpStatics *s) {
   return height_of(s->member);
 }
 
-/* The equation has the form of a force, so that the tolerance of forces applies: a stiffness, of each half, times the
+/* The row has the form of a force, so that the tolerance of forces applies: a stiffness, of each half, times the
  * remaining distance. */
 static double holding(const ZpStatics *s) {
   static const double soft = 1e-3; /* of the stiffest, so that the rounding of y does not count */
@@ -593,50 +588,17 @@ static double holding(const ZpStatics *s) {
 }
 
 double zp_statics_away(const ZpStatics *s) {
-  if (!is_held(s)) return 0;
-  return (zp_has_platform(&s->member->model->topology) ? opening_of(s->member) : stroke_of(s->member)) - s->opening;
-}
-
-static void hold_platform(ZpStatics *s, double *r) {
-  size_t row = zp_statics_platform(s);
-  s->reaction = r[row];
-  r[row] = holding(s) * zp_statics_away(s);
+  const ZpRestMember *m = s->member;
+  if (!zp_statics_holds(s)) return 0;
+  return zp_tie_place(&s->held, 0, s->opening) - *zp_coordinate(m->model, m->q, s->held.coordinate);
 }
 
 double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
-  if (!is_held(s)) return 0;
+  if (!zp_statics_holds(s)) return 0;
   size_t row = zp_statics_platform(s);
   double reaction = r_m[row];
   r_m[row] = holding(s) * away;
   return reaction;
-}
-
-/* Hold an unknown in the terms on top of the band. */
-static void hold_top(ZpBand *K, size_t row, double move, double *r) {
-  size_t n = K->n;
-  for (size_t k = 0; k < K->rank; k++) {
-    double *u = K->u + k * n, *v = K->v + k * n;
-    u[row] = 0;
-    for (size_t i = 0; r && i < n; i++)
-      r[i] -= u[i] * v[row] * move;
-    v[row] = 0;
-  }
-}
-
-/* Its row and column are cleared, once the effect of its motion on the forces of the others is in r. */
-static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
-  size_t row = zp_statics_platform(s), end = zp_band_end(K, row);
-  double move = r ? r[row] / holding(s) : 0;
-  hold_top(K, row, move, r);
-  for (size_t i = row > K->upper ? row - K->upper : 0; i < end; i++) {
-    if (i == row || zp_band_end(K, i) <= row) continue;
-    bool kept = K->lower > 0 || i < row; /* only the upper triangle of a symmetric matrix is stored */
-    double *in_column = kept ? zp_band_at(K, i, row) : zp_band_at(K, row, i);
-    if (r) r[i] -= *in_column * move;
-    *in_column = 0;
-    if (K->lower > 0) *zp_band_at(K, row, i) = 0;
-  }
-  *zp_band_at(K, row, row) = holding(s);
 }
 
 /* -- residual ------------------------------------------------------------------------------------- */
@@ -644,7 +606,7 @@ static void hold_equation(const ZpStatics *s, ZpBand *K, double *r) {
 /* The part of the load that hangs on a member: of those side by side an equal share; of antagonists all of it on the
  * upper one; in series all of it on each. */
 static double load_part(const ZpStatics *s, size_t which) {
-  if (s->distance > 0) return which == 0;
+  if (s->opposed) return which == 0;
   return s->shared ? 1 / (double)s->members : 1;
 }
 
@@ -711,7 +673,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
     zp_system_force(m->model, &here, &m->eval, m->force);
     zp_assembly_add(&m->assembly, m->force, r);
   }
-  if (is_held(s)) hold_platform(s, r);
+  s->reaction = zp_statics_hold_rate(s, zp_statics_away(s), r);
   double largest = largest_of(s, r);
   if (size) *size = largest / s->scale;
   return isfinite(largest) ? ZP_END_FOUND : ZP_END_SHORTER;
@@ -739,7 +701,9 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
 static void stiffness(void *self, ZpBand *K, double *r) {
   ZpStatics *s = self;
   add_members(s, false, K);
-  if (is_held(s)) hold_equation(s, K, r);
+  if (!zp_statics_holds(s)) return;
+  size_t platform = zp_statics_platform(s);
+  zp_band_prescribe(K, platform, holding(s), r ? r[platform] / holding(s) : 0, r, s->row);
 }
 
 /* The exact stiffness is that with the tensions of the present point. */
@@ -748,22 +712,12 @@ static void exact_residual(ZpStatics *s, double *r) {
   zp_statics_take_tensions(s);
 }
 
-/* Decrease of the force on the platform in a step, as if it were free. */
-static double fall_along(ZpStatics *s, const double *step, ZpBand *K) {
-  double opening = s->opening;
-  s->opening = NAN;
-  stiffness(s, K, NULL);
-  s->opening = opening;
-  zp_band_multiply(K, step, s->product);
-  return s->product[zp_statics_platform(s)];
-}
-
 double zp_statics_holding(ZpStatics *s) {
   exact_residual(s, s->newton.r);
   stiffness(s, &s->newton.K, s->newton.r);
   if (!zp_band_factor(&s->newton.K)) return s->reaction;
   zp_band_solve(&s->newton.K, s->newton.r);
-  return s->reaction - fall_along(s, s->newton.r, &s->newton.K);
+  return s->reaction - zp_dot(s->n, s->row, s->newton.r);
 }
 
 double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
@@ -968,35 +922,52 @@ static void lay_member(ZpRestMember *m) {
   }
 }
 
+static size_t load_coordinate(const ZpRestMember *m) {
+  return zp_y_of(zp_load_node(&m->model->topology));
+}
+
+static double load_height(const ZpRestMember *m) {
+  return *zp_coordinate(m->model, m->q, load_coordinate(m));
+}
+
 /* Put the lower platform of a half at a height. */
 static void put_platform(ZpRestMember *m, double height) {
-  const ZpTopology *t = &m->model->topology;
-  double *y = zp_forces(m->model, m->q).y;
-  spread(t, path_to_platform(m, false), y[zp_load_node(t)] - height, y);
+  spread(&m->model->topology, path_to_platform(m, false), load_height(m) - height, zp_forces(m->model, m->q).y);
+}
+
+double zp_statics_factor(const ZpStatics *s, size_t which) {
+  const ZpRestMember *m = &s->member[which];
+  return m->assembly.factor[load_coordinate(m)];
+}
+
+/* The offset of the row that ties a member's platform to that of the first one, m. */
+static double offset_of(const ZpStatics *s, size_t which) {
+  const ZpRestMember *m = &s->member[which];
+  return s->nearer * m->assembly.offset[load_coordinate(m)];
 }
 
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
 static void meet(ZpStatics *s) {
   if (!s->shared) return;
-  double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = -opening_of(s->member);
+  double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = load_height(s->member);
   for (size_t k = 1; k < s->members; k++) {
-    missed[k] = first + zp_statics_factor(s, k) * opening_of(&s->member[k]) + s->distance;
+    double factor = zp_statics_factor(s, k);
+    missed[k] = first - factor * load_height(&s->member[k]) + factor * offset_of(s, k);
     mean += missed[k] / (double)s->members;
   }
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    put_platform(m, zp_statics_factor(s, k) * (missed[k] - mean) - opening_of(m));
+    put_platform(m, load_height(m) + zp_statics_factor(s, k) * (missed[k] - mean));
   }
 }
 
+/* A row with a factor of 1 or -1 says of either coordinate where it puts the other one. */
 void zp_statics_rejoin(ZpStatics *s) {
-  bool opposed = s->distance > 0;
   for (size_t k = 1; k < s->members && s->shared; k++) {
-    double first = opening_of(s->member), other = opening_of(&s->member[k]);
-    if (opposed && first > other)
-      put_platform(s->member, other - s->distance);
-    else
-      put_platform(&s->member[k], opposed ? first - s->distance : -first);
+    double first = load_height(s->member), other = load_height(&s->member[k]);
+    bool follows = s->opposed && first < other;
+    double height = zp_statics_factor(s, k) * (follows ? other : first) + offset_of(s, k);
+    put_platform(follows ? s->member : &s->member[k], height);
   }
 }
 

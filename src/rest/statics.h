@@ -37,15 +37,17 @@ typedef struct ZpStatics {
   double force;        /* load.force, N */
   double share;        /* share of weight and natural curvature that acts: 1, or less while they are applied */
   double suction;      /* share of the suction at menisci that acts: 1, or less while it is applied */
-  double distance;     /* of antagonists: what their openings sum up to, m; 0: there are none */
-  double opening;      /* at which the lower platform, or the end of a fold below its hinge, is held, m; NAN: free */
+  bool opposed;        /* they are antagonists */
+  double nearer;       /* share of the distance of their mounts: 1, or less while an opening is approached */
+  ZpTie held;          /* the row of a held platform, */
+  double opening;      /* and its input, m; NAN: it does not act */
   double held_at;      /* final value of this opening while it is approached, m */
   double reaction;     /* force that holds it there, N, one part, positive downwards; of the last residual */
   double careful;      /* factor by which steps of a fall are shorter */
   bool contact_acts;   /* faces push on each other; if false they may pass through each other (to find a start) */
   double scale;        /* force that a residual is relative to, N */
   ZpNewtonWork newton; /* work space of Newton's method: the last stiffness, mostly factored, and unbalanced forces */
-  double *product;     /* [n] work space */
+  double *row;         /* [n] of the last stiffness while the platform was held: its row as if it were free */
   bool (*stop)(const void *caller); /* called now and then; true stops. NULL: none */
   const void *caller;
   int unasked;  /* residuals since `stop` was called */
@@ -73,6 +75,11 @@ ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 
 /* The present point of a member as a span, with the inputs there. */
 ZpSpan zp_statics_span(const ZpStatics *statics, size_t which);
+
+/* Does a study hold the platform? */
+static inline bool zp_statics_holds(const ZpStatics *statics) {
+  return !isnan(statics->opening);
+}
 
 /* How far a held platform is from where it is held, m; 0: it is free. */
 double zp_statics_away(const ZpStatics *statics);

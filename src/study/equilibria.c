@@ -53,12 +53,12 @@ static void member_values(ZpRest *rest, double *values) {
     *values = (double)zp_closed_members(s);
     return;
   }
-  if (s->distance > 0) {
+  if (s->opposed) {
     *values++ = zp_statics_member_voltage(s, 1);
     *values++ = zp_statics_member_opening(s, 1);
     *values++ = zp_statics_member_closed(s, 1);
   }
-  for (size_t k = 0; k < s->members && !(s->distance > 0); k++) {
+  for (size_t k = 0; k < s->members && !s->opposed; k++) {
     *values++ = zp_statics_member_force(s, k);
     *values++ = zp_statics_member_closed(s, k);
   }
