@@ -77,6 +77,23 @@ bool zp_rest_follow(ZpRest *rest, bool growing) {
   return zp_rest_follow_by(rest, growing, first_step, longest_step);
 }
 
+/* A voltage that the branch is to reach, V. */
+typedef struct Goal {
+  const ZpStatics *statics;
+  double voltage;
+} Goal;
+
+static bool is_beyond(void *user) {
+  const Goal *goal = user;
+  return goal->statics->U > goal->voltage;
+}
+
+ZpNewtonInfo zp_rest_reach(ZpRest *rest, double voltage) {
+  Goal goal = {&rest->statics, voltage};
+  zp_branch_approach(&rest->branch, is_beyond, &goal);
+  return zp_rest_settle(rest, voltage);
+}
+
 ZpNewtonInfo zp_rest_settle(ZpRest *rest, double voltage) {
   enum { MOST = 30 };
   rest->statics.U = voltage;

@@ -44,6 +44,10 @@ bool zp_rest_follow(ZpRest *rest, bool growing);
 /* zp_rest_follow with steps of arc length from `first` to `longest`. */
 bool zp_rest_follow_by(ZpRest *rest, bool growing, double first, double longest);
 
+/* After a step of the branch that has passed `voltage`, V, to the equilibrium there. It may be another one if a limit
+ * point was before. */
+ZpNewtonInfo zp_rest_reach(ZpRest *rest, double voltage);
+
 /* From the present point, which is close, to the equilibrium at `voltage`, V. */
 ZpNewtonInfo zp_rest_settle(ZpRest *rest, double voltage);
 

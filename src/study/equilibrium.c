@@ -35,11 +35,6 @@ static void record(Follower *f, int branch) {
   f->points++;
 }
 
-static bool is_beyond_top(void *user) {
-  const Follower *f = user;
-  return f->at.rest.statics.U > f->at.model->def.drive.voltage;
-}
-
 /* -- branches ------------------------------------------------------------------------------------- */
 
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
@@ -56,8 +51,7 @@ static bool follow(Follower *f, bool growing, int mark) {
     if (zp_statics_shorted(s)) f->shorted = s->U;
     if (zp_statics_shorted(s)) return true;
     bool passed = s->U > top;
-    if (passed) zp_branch_approach(branch, is_beyond_top, f);
-    if (passed && !zp_newton_good(zp_rest_settle(&f->at.rest, top).end)) return false;
+    if (passed && !zp_newton_good(zp_rest_reach(&f->at.rest, top).end)) return false;
     record(f, mark);
     if (passed || zp_statics_asked_to_stop(s)) return true;
   }

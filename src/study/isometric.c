@@ -36,11 +36,11 @@ typedef struct Holder {
   ZpEquilibria at;
   struct Holder *member; /* [members] of several: each alone, without rows of its own; NULL: it is one */
   bool is_member;
-  double top;          /* voltage to which it is raised, V */
-  void *before, *near; /* points of the branch: before the last step; the nearer to drive.voltage of its two ends */
-  bool rising;         /* before the last step */
-  void *edge;          /* before the last turn */
-  void *unpowered_state;
+  double top;             /* voltage to which it is raised, V */
+  double *before, *after; /* points of the branch: before and after its last step */
+  double *edge;           /* before its last turn */
+  double *answer;         /* the state found */
+  double *unpowered_state;
   double unpowered;        /* force that holds the platform without voltage, N, whole actuator; NAN: not found */
   double unpowered_moment; /* of a fold: its moment about the hinge, N m */
   double highest;          /* voltage that the branch has reached, V */
@@ -56,7 +56,7 @@ typedef struct Holder {
 
 static void reserve(void *user, ZpArena *arena) {
   Holder *h = user;
-  void **const point[] = {&h->before, &h->edge, &h->near, &h->unpowered_state};
+  double **const point[] = {&h->before, &h->after, &h->edge, &h->answer, &h->unpowered_state};
   for (size_t k = 0; k < sizeof point / sizeof point[0]; k++)
     *point[k] = zp_arena_take(arena, zp_rest_save_size(&h->at.rest));
 }
@@ -135,34 +135,25 @@ static void look_at(Holder *h, double direction, bool *turned) {
   *turned = false;
 }
 
-/* How following the branch ends. */
-typedef enum End { ARRIVED, INTERRUPTED, TURNED_FOR_GOOD, LOST } End;
-
-/* Follow the branch until it has reached `top` within its last step. If it turns back or is lost, `edge` is the
+/* Follow the branch until it has reached `top` within its last step. Else it has turned back or was lost: `edge` is the
  * state from which it is released. */
-static End follow(Holder *h) {
+static bool follow(Holder *h, bool *turned) {
   ZpStatics *s = &h->at.rest.statics;
-  bool turned = false;
-  h->at.rest.system.save(s, h->edge);
-  if (!zp_rest_follow(&h->at.rest, true)) return LOST;
+  *turned = false;
+  zp_rest_save(&h->at.rest, h->edge);
+  if (!zp_rest_follow(&h->at.rest, true)) return false;
   for (int k = 0; k < MOST_POINTS; k++) {
     double direction = h->at.rest.branch.direction_m;
-    h->rising = direction > 0;
-    h->at.rest.system.save(s, h->before);
+    zp_rest_save(&h->at.rest, h->before);
     bool further = zp_branch_advance(&h->at.rest.branch) && s->U >= 0 && is_possible(h);
-    if (!further && !turned) memcpy(h->edge, h->before, h->at.rest.system.save_size);
-    if (!further) return turned ? TURNED_FOR_GOOD : LOST;
-    look_at(h, direction, &turned);
-    if (fmax(h->highest, s->U) > h->top) {
-      h->at.rest.system.save(s, h->near);
-      if (s->U < h->top)
-        memcpy(h->near, h->before, h->at.rest.system.save_size); /* reached and turned back within this step */
-      return ARRIVED;
-    }
+    if (!further && !*turned) memcpy(h->edge, h->before, h->at.rest.system.save_size);
+    if (!further) return false;
+    look_at(h, direction, turned);
+    if (fmax(h->highest, s->U) > h->top) return true;
     record(h, s->U == h->highest, false);
-    if (zp_statics_asked_to_stop(s)) return INTERRUPTED;
+    if (zp_statics_asked_to_stop(s)) return false;
   }
-  return turned ? TURNED_FOR_GOOD : LOST;
+  return false;
 }
 
 /* Release at the last turn, or where the branch was lost, just above the voltage there. A fall that does not converge,
@@ -172,7 +163,7 @@ static bool fall(Holder *h, bool turned) {
   ZpStatics *s = &h->at.rest.statics;
   bool found = false;
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
-    h->at.rest.system.restore(s, h->edge);
+    zp_rest_go_to(&h->at.rest, h->edge);
     double U = fmin((1 + above[k]) * h->highest + least * h->at.model->def.drive.voltage, h->top);
     found = zp_newton_good(zp_statics_relax(s, U).end) && is_possible(h);
   }
@@ -183,41 +174,18 @@ static bool fall(Holder *h, bool turned) {
 }
 
 /* Raise the voltage over all turns. */
-static End rise(Holder *h) {
+static bool rise(Holder *h) {
   enum { MOST = 100 };
-  End end = follow(h);
-  for (int k = 0; k < MOST && (end == TURNED_FOR_GOOD || end == LOST) && fall(h, end == TURNED_FOR_GOOD); k++)
-    end = follow(h);
-  return end;
-}
-
-/* The state at `top` from the present point near it. */
-static bool settle(Holder *h, ZpNewtonInfo *info) {
-  int iterations = info->iterations;
-  *info = zp_rest_settle(&h->at.rest, h->top);
-  info->iterations += iterations;
-  return zp_newton_good(info->end) && is_stable(h) && is_answer(h);
-}
-
-/* If that fails, limit points are near: repeat the branch's last step in shorter and shorter ones. */
-static bool settle_closer(Holder *h, double taken, ZpNewtonInfo *info) {
-  enum { TIMES = 4, FINER = 8 };
-  ZpStatics *s = &h->at.rest.statics;
-  double step = taken;
-  for (int level = 0, most = 4 * FINER; level < TIMES; level++, most *= FINER) {
-    step /= FINER;
-    h->at.rest.system.restore(s, h->before);
-    if (!zp_rest_follow_by(&h->at.rest, h->rising, step, step)) return false;
-    for (int k = 0; k < most && s->U < h->top; k++)
-      if (!zp_branch_advance(&h->at.rest.branch)) return false;
-    if (settle(h, info)) return true;
-  }
-  return false;
+  bool turned, arrived = follow(h, &turned);
+  for (int k = 0; k < MOST && !arrived && fall(h, turned); k++)
+    arrived = follow(h, &turned);
+  return arrived;
 }
 
 /* Further along the branch: other stable states at `top`. */
 static void count_others(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
+  h->at.rest.system.restore(s, h->after);
   for (int k = 0; k < MOST_BEYOND; k++) {
     bool below = s->U < h->top;
     if (!zp_branch_advance(&h->at.rest.branch) || s->U < 0 || s->U > look_beyond * h->top) return;
@@ -287,26 +255,41 @@ static void describe(const Holder *h, char *message, size_t size) {
     snprintf(message, size, "%g V pull with %.4g N", top, zp_result_get(h->at.result, "force_N"));
 }
 
+/* Has this led to the answer? */
+static bool is_settled(Holder *h, ZpNewtonInfo found, ZpNewtonInfo *info) {
+  *info = found;
+  return zp_newton_good(found.end) && is_stable(h) && is_answer(h);
+}
+
+/* To the state at `top`, which the branch has reached within its last step: from the nearer end of the step, along the
+ * step, or, where a limit point is just below, by a fall. */
+static bool settle(Holder *h, ZpNewtonInfo *info) {
+  ZpRest *rest = &h->at.rest;
+  zp_rest_save(rest, h->after);
+  if (rest->statics.U < h->top) rest->system.restore(&rest->statics, h->before); /* reached and turned back */
+  if (is_settled(h, zp_rest_settle(rest, h->top), info)) return true;
+  bool found = is_settled(h, zp_rest_reach(rest, h->top), info);
+  if (!found) zp_rest_go_to(rest, h->before);
+  if (!found && !is_settled(h, zp_statics_relax(&rest->statics, h->top), info)) return false;
+  zp_rest_save(rest, h->after);
+  zp_rest_follow(rest, true);
+  return true;
+}
+
 /* From the present state to the one at this voltage, V, the first time that a rising voltage reaches it. `last`: look
  * for others there. */
 static void raise_voltage(Holder *h, double top, bool last, ZpNewtonInfo *info) {
+  ZpRest *rest = &h->at.rest;
   h->top = top;
-  End end = rise(h);
-  if (end != ARRIVED) h->outcome = ZP_BRANCH_LOST;
-  if (end != ARRIVED) return;
-  double taken = h->at.rest.branch.taken;
-  if (last) count_others(h);
-  h->at.rest.system.restore(&h->at.rest.statics, h->near);
-  bool found = settle(h, info) || settle_closer(h, taken, info);
-  if (!found) { /* a limit point is just below: the state falls from there */
-    h->at.rest.system.restore(&h->at.rest.statics, h->before);
-    *info = zp_statics_relax(&h->at.rest.statics, h->top);
-    found = zp_newton_good(info->end) && is_answer(h);
-  }
-  if (found)
-    record(h, true, last);
-  else
-    h->outcome = h->cross ? ZP_BEYOND_MODEL : ZP_BRANCH_LOST;
+  bool arrived = rise(h), found = arrived && settle(h, info);
+  if (!found) h->outcome = arrived && h->cross ? ZP_BEYOND_MODEL : ZP_BRANCH_LOST;
+  if (!found) return;
+  record(h, true, last);
+  if (!last) return;
+  zp_rest_save(rest, h->answer);
+  count_others(h);
+  rest->system.restore(&rest->statics, h->answer);
+  if (rest->system.at_rest.refresh) rest->system.at_rest.refresh(&rest->statics);
 }
 
 /* To the unpowered state. */
@@ -316,7 +299,7 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
   if (zp_newton_good(info->end)) {
     h->unpowered = holding(h);
     h->unpowered_moment = moment(h);
-    h->at.rest.system.save(s, h->unpowered_state);
+    zp_rest_save(&h->at.rest, h->unpowered_state);
     record(h, true, false);
   } else {
     h->outcome = ZP_NOT_SETTLED;
@@ -377,7 +360,7 @@ static void hold_members(Holder *h, ZpNewtonInfo *info) {
   if (h->outcome == ZP_CONVERGED && !join(h, 0, 0, info)) h->outcome = ZP_NOT_SETTLED;
   if (h->outcome != ZP_CONVERGED) return;
   h->unpowered = holding(h);
-  h->at.rest.system.save(s, h->unpowered_state);
+  zp_rest_save(&h->at.rest, h->unpowered_state);
   record(h, true, false);
 }
 
@@ -459,19 +442,17 @@ static double moment_slope(Holder *h, ZpRestSensitivity *slope) {
   return h->at.model->parts * (slope->reaction * arm + reaction * zp_rest_sensitivity_of(slope, lever, NULL));
 }
 
-/* From the state at drive.voltage, `near` being a copy of it. */
 static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
   static const struct {
     const char *name;
     ZpOutput output;
   } others[] = {{"opening_m", zp_output_opening}, {"charge_C", charge}, {"capacitance_F", capacitance}};
   Holder *h = user;
-  ZpStatics *s = &h->at.rest.statics;
-  h->at.rest.system.restore(s, h->unpowered_state);
+  zp_rest_go_to(&h->at.rest, h->unpowered_state);
   bool rests = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
   double unpowered = rests ? h->at.model->parts * slope->reaction : NAN;
   double moment_without = rests ? moment_slope(h, slope) : NAN;
-  h->at.rest.system.restore(s, h->near);
+  zp_rest_go_to(&h->at.rest, h->answer);
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
   double torque = found ? moment_slope(h, slope) - moment_without : NAN;
   zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->at.model->parts * slope->reaction - unpowered : NAN);
@@ -499,7 +480,7 @@ static void run(Holder *h) {
   describe_all(h);
   note(h);
   h->at.result->outcome = h->outcome;
-  h->at.rest.system.save(s, h->near);
+  zp_rest_save(&h->at.rest, h->answer);
 }
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
