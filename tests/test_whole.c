@@ -236,6 +236,37 @@ TEST(equations_are_those_of_the_topology) {
   zp_assembly_destroy(&a);
 }
 
+/* (19.7): where mirror rows place the whole by any unknowns of a half, the table of the whole holds. */
+TEST(half_is_the_whole_with_mirror_rows) {
+  enum { N = 4 };
+  ZpActuatorDef defs[2] = {def_of(ZP_SYMMETRY_HALF, N), def_of(ZP_SYMMETRY_NONE, N)};
+  ZpModel *half = model_of(&defs[0]), *whole = model_of(&defs[1]);
+  const ZpTies ties = zp_ties_of(half, 1), of_whole = zp_ties_of(whole, 1);
+  ZpAssembly a, b;
+  ck_assert(zp_assembly_create(&ties, 0, 0, true, &a) && zp_assembly_create(&of_whole, 0, 0, true, &b));
+  double unknowns[4 * N], q[4 * 4 * N + 64] = {0}, mirrored[2 * 4 * 4 * N + 64] = {0},
+                                        X = zp_straight_x(whole, 2 * N - 1);
+  for (size_t i = 0; i < a.n; i++)
+    unknowns[i] = 1e-3 * sin((double)i);
+  for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++)
+    *zp_coordinate(half, q, tie->coordinate) = tie->offset; /* what is held */
+  zp_assembly_place(&a, unknowns, q);
+  for (size_t j = 0; j < 2 * N; j++)
+    for (size_t c = 0; c < 2; c++) {
+      const size_t other = 4 * N - 2 + j % 2 - (j - j % 2); /* of the same ribbon */
+      double here = *zp_coordinate(half, q, 2 * j + c);
+      *zp_coordinate(whole, mirrored, 2 * j + c) = here;
+      *zp_coordinate(whole, mirrored, 2 * other + c) = c == 0 ? X - here : here;
+    }
+  for (const ZpTie *tie = of_whole.tie; tie < of_whole.tie + of_whole.count; tie++)
+    ck_assert_double_eq_tol(*zp_coordinate(whole, mirrored, tie->coordinate),
+                            tie->factor * *zp_coordinate(whole, mirrored, tie->to) + tie->offset, 1e-16);
+  ck_assert_uint_eq(b.n, 2 * a.n - 1); /* both halves have the height of the platform in common */
+  ck_assert_uint_eq(a.parts.more, 0);
+  zp_assembly_destroy(&a);
+  zp_assembly_destroy(&b);
+}
+
 /* What only the half has is refused by name. */
 TEST(what_knows_the_half_only_is_refused) {
   static const struct {

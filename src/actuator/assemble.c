@@ -38,14 +38,16 @@ static size_t number(const ZpTies *ties, size_t member, ZpAssembly *a) {
   return (size_t)next;
 }
 
-/* Two halves share the platform's coordinates that are not held. With a platform that turns they are not alike, and the
- * whole is one part. */
-static ZpParts parts_of(const ZpTopology *t, const int *equation) {
-  if (zp_platform_turns(t)) return (ZpParts){0};
-  ZpParts parts = {.more = t->halves - 1};
-  size_t first = 2 * zp_upper(t, t->platform.first), end = 2 * zp_upper(t, t->platform.first + 1);
-  for (size_t k = first; parts.more && k < end; k++)
-    if (equation[k] >= 0) parts.common[parts.count++] = (size_t)equation[k];
+/* Two halves that mirror each other have in common what a row ties across their platform, eq. (19.1). No row does so
+ * where the platform turns: the whole is then one part. */
+static ZpParts parts_of(const ZpTies *ties, size_t member, const ZpAssembly *a) {
+  ZpParts parts = {0};
+  for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++) {
+    bool own = tie->member == member && tie->to_member == member && tie->factor != 0;
+    if (own && tie->coordinate / (2 * a->s) != tie->to / (2 * a->s))
+      parts.common[parts.count++] = (size_t)a->equation[tie->coordinate];
+  }
+  parts.more = parts.count > 0;
   return parts;
 }
 
@@ -125,7 +127,7 @@ bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symm
   }
   a->n = number(ties, member, a);
   a->bandwidth = bandwidth_of(a);
-  a->parts = parts_of(&model->topology, a->equation);
+  a->parts = parts_of(ties, member, a);
   for (size_t i = 0; i < model->nodes; i++)
     a->first[i] = first_of(a, i);
   a->groups = groups_of(a);
