@@ -1,6 +1,9 @@
-/* The coordinates are the lowest vibrations without liquid, with the bead held, and the shape in which a slow voltage
- * bends the actuator. Each has a flow, the one where viscosity dominates. The difference to the flow where inertia
- * dominates is an unknown of its own (Galerkin's method, which keeps energies and losses positive).
+/* The coordinates are, of each member by itself, the lowest vibrations without liquid, with the bead at rest, and the
+ * shape in which a slow voltage bends it. Each has a flow, the one where viscosity dominates. The difference to the
+ * flow where inertia dominates is an unknown of its own (Galerkin's method, which keeps energies and losses positive).
+ *
+ * Members that share a load share one coordinate, the height of their platforms. In series the shapes of a member are
+ * those relative to the platform that it hangs on, which joins the members by their masses.
  *
  * State: coordinates eta [m]; rates of them and of the flows of their own, w [m + z]; volume at the edges of each bead
  * that ends [beads]; behind a lag, the supply's inner voltage; behind a resistance, the voltage of the electrodes. */
@@ -25,40 +28,68 @@ typedef struct End {
   double out[RATES];           /* derivative of the flow past the edges by w, m^2 */
 } End;
 
-typedef struct Work {
+/* A member by itself: its shapes, and what its laws do in them. */
+typedef struct Member {
   const ZpModel *model;
-  ZpStatics *at;
-  ZpEval *eval; /* of the state, as the equations are */
-  const ZpAssembly *assembly;
+  ZpEval *eval;     /* of the state */
+  const double *q;  /* [2 stride] its position */
+  double U, factor; /* its voltage, V; its height over that of the first one, where both share a load */
+  ZpAssembly assembly;
   ZpVibration vibration;
-  ZpBand K, *factors; /* the stiffness; its factors, later the damping */
+  ZpBand K, factors; /* the stiffness with the bead held; factors of that with a bead at rest, later the damping */
   ZpBead bead[ZP_BEADS];
   ZpCover cover;
   ZpFilmWays ways;
-  size_t m, z;   /* shapes, flows of their own */
-  double *shape; /* [m][n] */
-  double *rate;  /* [m][N] of the gaps */
-  double *flow;  /* [m + z][4 N] */
+  size_t m, z;         /* shapes, flows of their own */
+  size_t shape_at;     /* coordinate of its first shape that it does not share; the others follow, */
+  size_t flow_at;      /* rate of its first flow, likewise */
+  bool shares;         /* its first shape is that of all */
+  double *shape;       /* [m][n] */
+  double *rate;        /* [m][N] of the gaps */
+  double *flow;        /* [m + z][4 N] */
+  double *nodes;       /* [m][2 stride] how shapes move all nodes */
+  double mass[SHAPES]; /* of shapes, without liquid; they are orthogonal */
+  double lift[SHAPES]; /* rise of the platform by shapes */
+  double below;        /* mass that hangs on the platform in series, without liquid, kg, */
   double *force, *moved, *zeros, *x, *y, *by_voltage;
   double (*spare)[4]; /* [3 edges] */
-  double *nodes;      /* [m][2 stride] how shapes move all nodes, for motions of second order, */
-  double second[RATES * RATES], charge[RATES], none[RATES]; /* with the stiffness and the charge of all rates */
-  double stiffness[SHAPES * SHAPES];
-  double mass[RATES * RATES], damping[RATES * RATES];
-  double by_u[SHAPES], by_signal[SHAPES]; /* force by the voltage, N/V, which is charge by eta; signal by eta */
   size_t ends;
   End end[ZP_BEADS];
   void *memory;
+} Member;
+
+typedef struct Work {
+  ZpStatics *at;
+  size_t members;
+  Member *member;
+  size_t m, rates, ends; /* of all: shapes, rates, beads that end */
+  double *stiffness;     /* [rates * rates] of them all, row by row, at last with the ends of beads */
+  double *mass, *damping;
+  double *by_u, *by_signal; /* [m] force by the voltage of the source, N/V, which is charge by eta; signal by eta */
+  double *charge;           /* [rates] the same, also through where beads end */
+  double *x, *push;         /* [rates] work space */
+  void *memory;
 } Work;
+
+/* Coordinate of a shape of a member; number of a rate, of a shape or of a flow of its own, among those of all. */
+static size_t coordinate_of(const Member *w, size_t j) {
+  return w->shares && j == 0 ? 0 : w->shape_at + j - w->shares;
+}
+
+static size_t rate_of(const Member *w, size_t r) {
+  return r < w->m ? coordinate_of(w, r) : w->flow_at + r - w->m;
+}
 
 /* -- work space ------------------------------------------------------------------------------------ */
 
-static size_t reserve(Work *w, void *block) {
+static size_t reserve(Member *w, void *block) {
   const ZpModel *model = w->model;
   ZpArena arena = {block, 0};
-  size_t n = w->assembly->n, N = model->nodes;
+  size_t n = w->assembly.n, N = model->nodes;
   zp_vibration_reserve(&w->vibration, n, ZP_VIBRATIONS, &arena);
-  zp_band_reserve_groups(&w->K, n, 0, w->assembly->bandwidth, w->assembly->groups, &arena);
+  zp_band_reserve_groups(&w->K, n, 0, w->assembly.bandwidth, w->assembly.groups, &arena);
+  const ZpBandForm form = {w->assembly.bandwidth, true, zp_bead_rank(model), w->assembly.groups};
+  zp_band_reserve_form(&w->factors, n, form, &arena);
   if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
   w->shape = zp_arena_take(&arena, SHAPES * n);
   w->nodes = zp_arena_take(&arena, SHAPES * zp_coordinates(model));
@@ -77,21 +108,21 @@ static size_t reserve(Work *w, void *block) {
 /* -- the ribbons ----------------------------------------------------------------------------------- */
 
 /* The present point at voltage U, with liquid up to `bead`. */
-static ZpSpan span_of(const Work *w, double U) {
-  ZpSpan span = zp_span_at(w->at->member->q);
+static ZpSpan span_of(const Member *w, double U) {
+  ZpSpan span = zp_span_at(w->q);
   span.U0 = span.U1 = U;
   span.bead = w->bead;
   return span;
 }
 
 /* Forces and derived quantities there => eval. */
-static void look(Work *w, double U) {
+static void look(Member *w, double U) {
   ZpSpan span = span_of(w, U);
   zp_system_force(w->model, &span, w->eval, w->force);
 }
 
 /* Forces by the voltage at U, N/V. */
-static void find_by_voltage(Work *w, double U, double *force) {
+static void find_by_voltage(Member *w, double U, double *force) {
   ZpSpan span = span_of(w, U);
   ZpByVoltage by = {.force = force};
   look(w, U);
@@ -99,13 +130,13 @@ static void find_by_voltage(Work *w, double U, double *force) {
 }
 
 /* Component of the forces on nodes along shape j. */
-static double along_shape(Work *w, const double *nodes, size_t j) {
-  zp_assembly_sum(w->assembly, nodes, w->x);
-  return zp_dot(w->assembly->n, w->x, w->shape + j * w->assembly->n);
+static double along_shape(Member *w, const double *nodes, size_t j) {
+  zp_assembly_sum(&w->assembly, nodes, w->x);
+  return zp_dot(w->assembly.n, w->x, w->shape + j * w->assembly.n);
 }
 
 /* Add the part of x that is orthogonal to all shapes before, scaled to mass 1. */
-static void add_shape(Work *w, const double *x) {
+static void add_shape(Member *w, const double *x) {
   const ZpVibration *v = &w->vibration;
   double *shape = w->shape + w->m * v->n, before = zp_vibration_inner(v, x, x);
   memcpy(shape, x, v->n * sizeof *shape);
@@ -114,66 +145,69 @@ static void add_shape(Work *w, const double *x) {
   if (!(after > 1e-12 * before)) return;
   for (size_t i = 0; i < v->n; i++)
     shape[i] /= sqrt(after);
-  w->m++;
+  w->mass[w->m] = 1;
+  zp_assembly_changes(&w->assembly, shape, w->nodes + w->m++ * zp_coordinates(w->model));
 }
 
 /* All shapes, each of mass 1, and the exact stiffness at this state. */
-static void find_shapes(Work *w) {
+static void find_shapes(Member *w) {
   ZpVibration *v = &w->vibration;
-  size_t n = w->assembly->n;
-  ZpSpan span = span_of(w, w->at->U);
+  size_t n = w->assembly.n;
+  ZpSpan span = span_of(w, w->U);
   look(w, span.U1);
   span.tension = w->eval->edges.T;
-  zp_band_clear(&w->K);
-  zp_system_add_stiffness(w->model, &span, w->assembly, w->eval, &w->K);
-  memcpy(w->factors->a, w->K.a, w->K.entries * sizeof *w->K.a);
-  zp_band_factor(w->factors);
-  v->K = w->factors;
+  zp_band_clear(&w->factors);
+  zp_system_add_stiffness(w->model, &span, &w->assembly, w->eval, &w->factors);
+  memcpy(w->K.a, w->factors.a, w->K.entries * sizeof *w->K.a);
+  zp_band_factor(&w->factors);
+  v->K = &w->factors;
   memset(v->mass, 0, n * sizeof *v->mass);
-  zp_assembly_add_masses(w->assembly, w->model->mass, v->mass);
+  zp_assembly_add_masses(&w->assembly, w->model->mass, v->mass);
+  if (w->below > 0) v->mass[w->assembly.equation[zp_y_of(zp_load_node(&w->model->topology))]] += w->below;
   zp_vibration_start(v);
   zp_vibration_solve(v, v->m - v->m / 3);
   for (size_t j = 0; j < v->m; j++)
     add_shape(w, v->u + j * n);
   find_by_voltage(w, span.U1, w->by_voltage);
-  zp_assembly_sum(w->assembly, w->by_voltage, w->y);
-  zp_band_solve(w->factors, w->y);
+  zp_assembly_sum(&w->assembly, w->by_voltage, w->y);
+  zp_band_solve(&w->factors, w->y);
   if (w->m < n) add_shape(w, w->y);
 }
 
-static void project(Work *w, const ZpBand *K, double *reduced, size_t columns) {
+/* reduced [rates * rates] += K of a member by its shapes. */
+static void project(const Work *all, const Member *w, const ZpBand *K, double *reduced) {
   for (size_t j = 0; j < w->m; j++) {
-    zp_band_multiply(K, w->shape + j * w->assembly->n, w->y);
+    zp_band_multiply(K, w->shape + j * w->assembly.n, w->y);
     for (size_t k = 0; k < w->m; k++)
-      reduced[k * columns + j] += zp_dot(w->assembly->n, w->shape + k * w->assembly->n, w->y);
+      reduced[coordinate_of(w, k) * all->rates + coordinate_of(w, j)] +=
+          zp_dot(w->assembly.n, w->shape + k * w->assembly.n, w->y);
   }
 }
 
 /* Of the rods => factors. */
-static void find_internal_damping(Work *w) {
+static void find_internal_damping(Member *w) {
   const ZpModel *model = w->model;
   ZpEval *e = w->eval;
-  const double *q = w->at->member->q;
+  const double *q = w->q;
   zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod_start);
   zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod);
   zp_rod_damping(&model->rod, &e->rod_start, &e->rod, &e->rod_step, w->spare, e->D);
   for (size_t k = 0; k < 3 * (model->count - model->s); k++)
     for (size_t c = 0; c < 4; c++)
       e->D[k][c] *= model->internal_damping;
-  zp_band_clear(w->factors);
-  zp_assemble_edges(w->assembly, (const double(*)[4])e->D, w->factors);
+  zp_band_clear(&w->factors);
+  zp_assemble_edges(&w->assembly, (const double(*)[4])e->D, &w->factors);
 }
 
 /* -- the liquid ------------------------------------------------------------------------------------ */
 
-/* How shape j moves all nodes, until the next one. */
-static ZpNodes moved_by(Work *w, size_t j) {
-  zp_assembly_changes(w->assembly, w->shape + j * w->assembly->n, w->moved);
-  return zp_nodes(w->model, w->moved);
+/* How shape j moves all nodes. */
+static ZpNodes moved_by(const Member *w, size_t j) {
+  return zp_nodes(w->model, w->nodes + j * zp_coordinates(w->model));
 }
 
 /* Of shape j. */
-static double *find_rate(Work *w, size_t j) {
+static double *find_rate(Member *w, size_t j) {
   const ZpTopology *t = &w->model->topology;
   double *rate = w->rate + j * w->model->nodes;
   const double *y = moved_by(w, j).y;
@@ -184,11 +218,11 @@ static double *find_rate(Work *w, size_t j) {
 
 /* A viscous film lets the actuator creep in shapes that are not vibrations. Each of them is the static response to the
  * film's drag in the previous one (Krylov's space). */
-static void find_slow_shapes(Work *w) {
+static void find_slow_shapes(Member *w) {
   const ZpTopology *t = &w->model->topology;
   const size_t N = w->model->nodes;
   const ZpForces moved = zp_forces(w->model, w->moved);
-  for (int k = 0; k < SLOW && w->m < w->assembly->n; k++) {
+  for (int k = 0; k < SLOW && w->m < w->assembly.n; k++) {
     double *drag = w->force;
     zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
     memset(w->moved, 0, zp_coordinates(w->model) * sizeof *w->moved);
@@ -196,19 +230,19 @@ static void find_slow_shapes(Work *w) {
       moved.y[zp_upper(t, i)] += drag[i];
       moved.y[zp_lower(t, i)] -= drag[i];
     }
-    zp_assembly_sum(w->assembly, w->moved, w->y);
-    zp_band_solve(w->factors, w->y);
+    zp_assembly_sum(&w->assembly, w->moved, w->y);
+    zp_band_solve(&w->factors, w->y);
     add_shape(w, w->y);
   }
 }
 
-static double *flow_of(const Work *w, size_t r) {
+static double *flow_of(const Member *w, size_t r) {
   return w->flow + r * ZP_FILM_FLOWS * w->model->nodes;
 }
 
 /* A flow without a change of any gap: the flow where inertia dominates less that where viscosity does, orthogonal to
  * those before. */
-static void add_own_flow(Work *w, size_t j, int k) {
+static void add_own_flow(Member *w, size_t j, int k) {
   static const double least = 1e-6;
   size_t all = ZP_FILM_FLOWS * w->model->nodes;
   const double *viscous = flow_of(w, j);
@@ -232,7 +266,7 @@ static void add_own_flow(Work *w, size_t j, int k) {
   w->z++;
 }
 
-static void find_flows(Work *w) {
+static void find_flows(Member *w) {
   const ZpModel *model = w->model;
   for (size_t j = 0; j < w->m; j++)
     for (int k = 0; k < ZP_FILM_MODES; k++)
@@ -245,7 +279,7 @@ static void find_flows(Work *w) {
 /* -- where a bead ends ----------------------------------------------------------------------------- */
 
 /* Volume between the faces as far as `reach` with gaps changed by `amount` times those of shape j. */
-static double volume(Work *w, int half, size_t j, double amount) {
+static double volume(Member *w, int half, size_t j, double amount) {
   const double *gap = w->eval->plates.gap;
   for (size_t i = 0; i < w->model->nodes; i++)
     w->moved[i] = gap[i] + amount * w->rate[j * w->model->nodes + i];
@@ -253,22 +287,22 @@ static double volume(Work *w, int half, size_t j, double amount) {
 }
 
 /* Largest change of a gap in shape j. */
-static double largest_rate(const Work *w, size_t j) {
+static double largest_rate(const Member *w, size_t j) {
   double largest = 0;
   for (size_t i = 0; i < w->model->nodes; i++)
     largest = fmax(largest, fabs(w->rate[j * w->model->nodes + i]));
   return largest;
 }
 
-static ZpElectric electric(Work *w, double U) {
+static ZpElectric electric(Member *w, double U) {
   ZpSpan span = span_of(w, U);
   zp_term_gaps(w->model, &span, w->eval);
   return zp_system_electric(w->model, &span, w->eval, ZP_SPAN_END, U);
 }
 
 /* By differences over a reach of a hundredth of an element. */
-static void move_end(Work *w, End *end, const ZpSetpointSignal *signal) {
-  const double U = w->at->U, reach = w->bead[end->half].reach, by = 0.01 * w->model->l;
+static void move_end(Member *w, End *end, const ZpSetpointSignal *signal) {
+  const double U = w->U, reach = w->bead[end->half].reach, by = 0.01 * w->model->l;
   for (int sign = -1; sign <= 1; sign += 2) {
     w->bead[end->half].reach = reach + sign * by;
     look(w, U);
@@ -282,7 +316,7 @@ static void move_end(Work *w, End *end, const ZpSetpointSignal *signal) {
   look(w, U);
 }
 
-static void find_end(Work *w, int half, const ZpSetpointSignal *signal) {
+static void find_end(Member *w, int half, const ZpSetpointSignal *signal) {
   static const double little = 1e-7; /* m */
   const ZpFilmParams *film = &w->model->film;
   End *end = &w->end[w->ends++];
@@ -300,51 +334,160 @@ static void find_end(Work *w, int half, const ZpSetpointSignal *signal) {
                        : zp_film_ways_out(&w->ways, flow_of(w, r), 0, zp_beads(film) > 1 ? middle : N - 1);
 }
 
+/* -- one member ------------------------------------------------------------------------------------ */
+
+/* Turn the shapes, so that the first one raises the platform by `factor` and no other moves it (Householder). */
+static void turn_to_platform(Member *w) {
+  const size_t n = w->assembly.n, node = zp_load_node(&w->model->topology);
+  double v[SHAPES] = {0};
+  for (size_t j = 0; j < w->m; j++)
+    v[j] = moved_by(w, j).y[node];
+  const double raised = copysign(sqrt(zp_dot(w->m, v, v)), v[0]);
+  v[0] += raised;
+  const double square = zp_dot(w->m, v, v);
+  for (size_t i = 0; i < n; i++) {
+    double along = 0;
+    for (size_t j = 0; j < w->m; j++)
+      along += v[j] * w->shape[j * n + i];
+    for (size_t j = 0; j < w->m; j++)
+      w->shape[j * n + i] -= 2 * along / square * v[j];
+    w->shape[i] *= -w->factor / raised;
+  }
+  w->mass[0] = 1 / (raised * raised);
+  for (size_t j = 0; j < w->m; j++)
+    zp_assembly_changes(&w->assembly, w->shape + j * n, w->nodes + j * zp_coordinates(w->model));
+}
+
+/* Shapes and flows. */
+static void find_motions(Member *w) {
+  const ZpModel *model = w->model;
+  for (int half = 0; half < ZP_BEADS; half++)
+    w->bead[half].reach = w->eval->reach[half];
+  find_shapes(w);
+  look(w, w->U);
+  w->cover = w->eval->cover;
+  if (model->has_film) {
+    zp_film_ways(&model->film, model->has_bead ? &w->cover : NULL, w->eval->plates.gap, w->zeros, &w->eval->film,
+                 &w->ways);
+    find_slow_shapes(w);
+  }
+  if (w->shares) turn_to_platform(w);
+  for (size_t j = 0; j < w->m; j++) {
+    w->lift[j] = moved_by(w, j).y[zp_load_node(&model->topology)];
+    find_rate(w, j);
+  }
+  if (model->has_film) find_flows(w);
+}
+
 /* -- the signal ------------------------------------------------------------------------------------ */
 
-static void find_signal(Work *w, const ZpSetpointSignal *signal) {
+/* Of members that share a load the first one has the stroke and the opening of all. */
+static void find_signal(const Work *all, Member *w, const ZpSetpointSignal *signal) {
   const ZpTopology *t = &w->model->topology;
-  if (signal->kind == ZP_CONTROL_CAPACITANCE) find_by_voltage(w, 1, w->by_voltage); /* U dC / dq, at 1 V */
-  for (size_t j = 0; j < w->m; j++) {
-    if (signal->kind == ZP_CONTROL_CAPACITANCE) {
-      w->by_signal[j] = w->model->parts * along_shape(w, w->by_voltage, j);
+  const bool electric = signal->kind == ZP_CONTROL_CAPACITANCE;
+  if (electric) find_by_voltage(w, 1, w->by_voltage); /* U dC / dq, at 1 V */
+  for (size_t j = 0; j < w->m && (electric || !w->shares || w == all->member); j++) {
+    double *by = &all->by_signal[coordinate_of(w, j)];
+    if (electric) {
+      *by += w->model->parts * along_shape(w, w->by_voltage, j);
       continue;
     }
     const double *y = moved_by(w, j).y;
-    w->by_signal[j] = signal->kind == ZP_CONTROL_STROKE    ? zp_stroke(t, y)
-                      : signal->kind == ZP_CONTROL_OPENING ? zp_opening(t, y)
-                                                           : -zp_opening(t, y) / signal->hanging;
+    *by += signal->kind == ZP_CONTROL_STROKE    ? zp_stroke(t, y)
+           : signal->kind == ZP_CONTROL_OPENING ? zp_opening(t, y)
+                                                : -zp_opening(t, y) / signal->hanging;
   }
 }
 
 /* -- together -------------------------------------------------------------------------------------- */
 
-/* Add the inertia of the liquid outside, which shape j moves, to column j. */
-static void add_outside(Work *w, size_t j) {
-  moved_by(w, j);
+/* Inertia of a member without that of the film at an acceleration of its nodes => force. */
+static void find_inertia(Member *w, const double *a) {
+  const ZpNodes of = zp_nodes(w->model, a);
+  const ZpForces force = zp_forces(w->model, w->force);
   memset(w->force, 0, zp_coordinates(w->model) * sizeof *w->force);
-  zp_term_add_outside(w->model, w->eval, w->moved, w->force);
-  for (size_t k = 0; k < w->m; k++)
-    w->mass[k * (w->m + w->z) + j] += along_shape(w, w->force, k);
+  for (size_t j = 0; j < w->model->count; j++) {
+    force.x[j] = w->model->mass[j] * of.x[j];
+    force.y[j] = w->model->mass[j] * of.y[j];
+  }
+  if (zp_term_outer.acts(w->model)) zp_term_add_outside(w->model, w->eval, a, w->force);
 }
 
-/* Inertia and losses of rates r and s. */
-static void find_rate_laws(Work *w) {
-  const size_t rates = w->m + w->z;
-  memset(w->mass, 0, sizeof w->mass);
-  memset(w->damping, 0, sizeof w->damping);
+/* Upward momentum of all nodes for that. */
+static double momentum(Member *w, const double *a) {
+  double sum = 0;
+  find_inertia(w, a);
+  for (size_t j = 0; j < w->model->count; j++)
+    sum += zp_nodes(w->model, w->force).y[j];
+  return sum;
+}
+
+/* Mass of a member that rises as a whole, kg. */
+static double whole_mass(Member *w) {
+  memset(w->moved, 0, zp_coordinates(w->model) * sizeof *w->moved);
+  for (size_t j = 0; j < w->model->count; j++)
+    zp_forces(w->model, w->moved).y[j] = 1;
+  return momentum(w, w->moved);
+}
+
+/* In series each platform lifts all members below, eq. (29.3). */
+static void join_masses(Work *all) {
+  double under = 0;
+  for (Member *w = all->member + all->members; w-- > all->member;) {
+    for (size_t s = 0; s < w->m; s++) {
+      double rises = momentum(w, moved_by(w, s).x) + w->lift[s] * under;
+      size_t column = coordinate_of(w, s);
+      for (size_t r = 0; r < w->m; r++)
+        all->mass[coordinate_of(w, r) * all->rates + column] += w->lift[r] * w->lift[s] * (under - w->below);
+      for (const Member *above = all->member; above < w; above++)
+        for (size_t r = 0; r < above->m; r++) {
+          size_t row = coordinate_of(above, r);
+          all->mass[row * all->rates + column] += above->lift[r] * rises;
+          all->mass[column * all->rates + row] += above->lift[r] * rises;
+        }
+    }
+    under += whole_mass(w);
+  }
+}
+
+/* Add the inertia of the liquid outside, which shape j moves, to its column. */
+static void add_outside(const Work *all, Member *w, size_t j) {
+  memset(w->force, 0, zp_coordinates(w->model) * sizeof *w->force);
+  zp_term_add_outside(w->model, w->eval, moved_by(w, j).x, w->force);
+  for (size_t k = 0; k < w->m; k++)
+    all->mass[coordinate_of(w, k) * all->rates + coordinate_of(w, j)] += along_shape(w, w->force, k);
+}
+
+/* Inertia and losses of the rates of a member. */
+static void find_rate_laws(const Work *all, Member *w) {
   find_internal_damping(w);
-  project(w, w->factors, w->damping, rates);
+  project(all, w, &w->factors, all->damping);
   for (size_t j = 0; j < w->m; j++)
-    w->mass[j * rates + j] = 1;
+    all->mass[coordinate_of(w, j) * (all->rates + 1)] += w->mass[j];
   if (!w->model->has_film) return;
-  for (size_t r = 0; r < rates; r++)
-    for (size_t s = 0; s < rates; s++) {
-      w->mass[r * rates + s] += zp_film_ways_inertia(&w->ways, flow_of(w, r), flow_of(w, s));
-      w->damping[r * rates + s] += zp_film_ways_resistance(&w->ways, flow_of(w, r), flow_of(w, s));
+  for (size_t r = 0; r < w->m + w->z; r++)
+    for (size_t s = 0; s < w->m + w->z; s++) {
+      size_t at = rate_of(w, r) * all->rates + rate_of(w, s);
+      all->mass[at] += zp_film_ways_inertia(&w->ways, flow_of(w, r), flow_of(w, s));
+      all->damping[at] += zp_film_ways_resistance(&w->ways, flow_of(w, r), flow_of(w, s));
     }
   for (size_t j = 0; zp_term_outer.acts(w->model) && j < w->m; j++)
-    add_outside(w, j);
+    add_outside(all, w, j);
+}
+
+/* The end of a bead follows the volume that shapes displace and, where `flows`, what has flowed past the edges => by
+ * one of its rates, 1. */
+static double end_moves(const Member *w, const End *end, size_t r, bool flows) {
+  return ((r < w->m ? end->volume_by[r] : 0) + (flows ? end->out[r] : 0)) / end->section;
+}
+
+static void add_ends(const Work *all, bool flows) {
+  for (const Member *w = all->member; w < all->member + all->members; w++)
+    for (const End *end = w->end; end < w->end + w->ends; end++)
+      for (size_t r = 0; r < w->m + w->z; r++)
+        for (size_t k = 0; k < w->m; k++)
+          all->stiffness[coordinate_of(w, k) * all->rates + rate_of(w, r)] +=
+              end->force_by[k] * end_moves(w, end, r, flows);
 }
 
 /* M = L L' in place. */
@@ -375,7 +518,7 @@ typedef struct Layout {
 
 static Layout lay_out(const Work *w, const ZpSupply *supply) {
   Layout at = {.rates = w->m};
-  at.edges = at.rates + w->m + w->z;
+  at.edges = at.rates + w->rates;
   at.inner = at.edges + w->ends;
   at.electrodes = at.inner + (supply->acts && isfinite(supply->rate));
   at.n = at.electrodes + (supply->acts && supply->resistance > 0);
@@ -384,78 +527,80 @@ static Layout lay_out(const Work *w, const ZpSupply *supply) {
 
 /* Forces on eta [m] over the inertia => the rates' rows of a column, whose rows are `step` apart. */
 static void add_column(const Work *w, const Layout *at, const double *force, double *to, size_t step) {
-  double x[RATES] = {0};
-  memcpy(x, force, w->m * sizeof *x);
-  solve(w->m + w->z, w->mass, x);
-  for (size_t r = 0; r < w->m + w->z; r++)
-    to[(at->rates + r) * step] += x[r];
+  memset(w->x, 0, w->rates * sizeof *w->x);
+  memcpy(w->x, force, w->m * sizeof *w->x);
+  solve(w->rates, w->mass, w->x);
+  for (size_t r = 0; r < w->rates; r++)
+    to[(at->rates + r) * step] += w->x[r];
+}
+
+/* Column of the liquid at the edges of a bead, row of what flows there. */
+static void fill_edge(const Work *w, const Member *of, const End *end, size_t row, const Layout *at, ZpPlant *plant) {
+  memset(w->push, 0, w->m * sizeof *w->push);
+  for (size_t k = 0; k < of->m; k++)
+    w->push[coordinate_of(of, k)] = -end->force_by[k] / end->section;
+  add_column(w, at, w->push, plant->A + row, at->n);
+  for (size_t r = 0; r < of->m + of->z; r++)
+    plant->A[row * at->n + at->rates + rate_of(of, r)] = end->out[r];
 }
 
 static void fill_motion(const Work *w, const Layout *at, ZpPlant *plant) {
-  const size_t rates = w->m + w->z, n = at->n;
+  const size_t rates = w->rates, n = at->n;
   for (size_t j = 0; j < w->m; j++) {
-    double push[SHAPES];
     plant->A[j * n + at->rates + j] = 1;
-    for (size_t k = 0; k < w->m; k++) {
-      push[k] = -w->stiffness[k * w->m + j];
-      for (size_t e = 0; e < w->ends; e++)
-        push[k] -= w->end[e].force_by[k] * w->end[e].volume_by[j] / w->end[e].section;
-    }
-    add_column(w, at, push, plant->A + j, n);
+    for (size_t k = 0; k < w->m; k++)
+      w->push[k] = -w->stiffness[k * rates + j];
+    add_column(w, at, w->push, plant->A + j, n);
   }
   for (size_t s = 0; s < rates; s++) {
-    double x[RATES];
     for (size_t r = 0; r < rates; r++)
-      x[r] = -w->damping[r * rates + s];
-    solve(rates, w->mass, x);
+      w->x[r] = -w->damping[r * rates + s];
+    solve(rates, w->mass, w->x);
     for (size_t r = 0; r < rates; r++)
-      plant->A[(at->rates + r) * n + at->rates + s] = x[r];
-  }
-  for (size_t e = 0; e < w->ends; e++) {
-    double push[SHAPES];
-    for (size_t k = 0; k < w->m; k++)
-      push[k] = -w->end[e].force_by[k] / w->end[e].section;
-    add_column(w, at, push, plant->A + at->edges + e, n);
-    for (size_t r = 0; r < rates; r++)
-      plant->A[(at->edges + e) * n + at->rates + r] = w->end[e].out[r];
+      plant->A[(at->rates + r) * n + at->rates + s] = w->x[r];
   }
 }
 
 /* Derivatives of the signal by eta and by the liquid at the edges, which lets the bead end nearer to the clip. */
-static void fill_signal(const Work *w, const Layout *at, ZpPlant *plant) {
+static void fill_beads(const Work *w, const Layout *at, ZpPlant *plant) {
+  size_t row = at->edges;
   memcpy(plant->c, w->by_signal, w->m * sizeof *plant->c);
-  for (size_t e = 0; e < w->ends; e++) {
-    const End *end = &w->end[e];
-    for (size_t j = 0; j < w->m; j++)
-      plant->c[j] -= end->by_signal * end->volume_by[j] / end->section;
-    plant->c[at->edges + e] = -end->by_signal / end->section;
+  for (const Member *of = w->member; of < w->member + w->members; of++)
+    for (const End *end = of->end; end < of->end + of->ends; end++, row++) {
+      fill_edge(w, of, end, row, at, plant);
+      for (size_t j = 0; j < of->m; j++)
+        plant->c[coordinate_of(of, j)] -= end->by_signal * end_moves(of, end, j, false);
+      plant->c[row] = -end->by_signal / end->section;
+    }
+}
+
+/* Derivative of the charge of all electrodes by the voltage of the source, F. */
+static double capacitance(const Work *w) {
+  const double by = 1e-4 * fmax(w->at->U, 1);
+  double sum = 0;
+  for (Member *of = w->member; of < w->member + w->members; of++) {
+    double apart = of->model->ratio * by, more = electric(of, of->U + apart).charge;
+    sum += zp_source_share(of->model) * (more - electric(of, of->U - apart).charge) / (2 * by);
   }
+  return sum;
 }
 
 /* Row of the voltage of the electrodes behind a resistance: (C_p + dQ/dU) U' = (V - U) / R - G U - dQ/dt at that U. */
-static void fill_electrodes(Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
-  const double U = w->at->U, by = 1e-4 * fmax(U, 1), parts = w->model->parts;
-  const size_t n = at->n, row = at->electrodes;
-  double more = electric(w, U + by).charge, charge = more - electric(w, U - by).charge;
-  double capacitance = supply->capacitance + parts * charge / (2 * by);
-  double *A = plant->A + row * n;
-  for (size_t j = 0; j < w->m; j++)
-    A[at->rates + j] -= parts * w->by_u[j] / capacitance;
-  for (size_t e = 0; e < w->ends; e++)
-    for (size_t r = 0; r < w->m + w->z; r++) {
-      const End *end = &w->end[e];
-      double grown = end->out[r] + (r < w->m ? end->volume_by[r] : 0);
-      A[at->rates + r] += parts * end->charge_by * grown / end->section / capacitance;
-    }
-  A[row] = -(1 / supply->resistance + supply->conductance) / capacitance;
+static void fill_electrodes(const Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
+  const double all = supply->capacitance + capacitance(w);
+  const size_t row = at->electrodes;
+  double *A = plant->A + row * at->n;
+  for (size_t r = 0; r < w->rates; r++)
+    A[at->rates + r] -= w->member->model->parts * w->charge[r] / all;
+  A[row] = -(1 / supply->resistance + supply->conductance) / all;
   if (at->inner < at->electrodes)
-    A[at->inner] = 1 / supply->resistance / capacitance;
+    A[at->inner] = 1 / supply->resistance / all;
   else
-    plant->b[row] = 1 / supply->resistance / capacitance;
+    plant->b[row] = 1 / supply->resistance / all;
 }
 
 /* Effect of the voltage, through the supply. */
-static void fill_voltage(Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
+static void fill_voltage(const Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
   const size_t n = at->n;
   bool lags = at->inner < at->electrodes, resists = at->electrodes < n;
   if (lags) {
@@ -469,7 +614,7 @@ static void fill_voltage(Work *w, const ZpSupply *supply, const Layout *at, ZpPl
     add_column(w, at, w->by_u, plant->b, 1);
 }
 
-static bool fill(Work *w, const ZpSupply *supply, ZpPlant *plant) {
+static bool fill(const Work *w, const ZpSupply *supply, ZpPlant *plant) {
   Layout at = lay_out(w, supply);
   ZpArena arena = {NULL, 0};
   for (int pass = 0; pass < 2; pass++) {
@@ -481,59 +626,111 @@ static bool fill(Work *w, const ZpSupply *supply, ZpPlant *plant) {
   }
   plant->n = at.n;
   plant->neutral = w->ends;
-  factor(w->m + w->z, w->mass);
+  factor(w->rates, w->mass);
+  add_ends(w, false);
   fill_motion(w, &at, plant);
-  fill_signal(w, &at, plant);
+  fill_beads(w, &at, plant);
   fill_voltage(w, supply, &at, plant);
   return true;
 }
 
-static void linearize(Work *w, const ZpSetpointSignal *signal) {
-  const ZpModel *model = w->model;
-  for (int half = 0; half < ZP_BEADS; half++)
-    w->bead[half].reach = w->at->member->eval.reach[half];
-  find_shapes(w);
-  look(w, w->at->U);
-  w->cover = w->eval->cover;
-  if (model->has_film) {
-    zp_film_ways(&model->film, model->has_bead ? &w->cover : NULL, w->eval->plates.gap, w->zeros, &w->eval->film,
-                 &w->ways);
-    find_slow_shapes(w);
-    for (size_t j = 0; j < w->m; j++)
-      find_rate(w, j);
-    find_flows(w);
+/* -- work space of all ----------------------------------------------------------------------------- */
+
+/* Of one member, and its motions. False if there is no memory. */
+static bool open_member(Work *all, size_t which) {
+  const ZpStatics *at = all->at;
+  ZpRestMember *m = &at->member[which];
+  const ZpTies ties = zp_ties_of(m->model, 1);
+  Member *w = &all->member[which];
+  *w = (Member){.model = m->model,
+                .eval = &m->eval,
+                .q = m->q,
+                .U = zp_statics_member_voltage(at, which),
+                .factor = zp_statics_factor(at, which),
+                .shares = at->shared,
+                .below = at->shared ? 0 : m->model->carried / m->model->parts};
+  if (!zp_assembly_create(&ties, 0, 0, true, &w->assembly)) return false;
+  w->memory = zp_calloc(1, reserve(w, NULL));
+  if (!w->memory) return false;
+  reserve(w, w->memory);
+  find_motions(w);
+  return true;
+}
+
+/* Number the coordinates of all, then the flows. */
+static void number(Work *all) {
+  all->m = all->at->shared;
+  for (Member *w = all->member; w < all->member + all->members; w++) {
+    w->shape_at = all->m;
+    all->m += w->m - w->shares;
   }
-  project(w, &w->K, w->stiffness, w->m);
-  for (size_t j = 0; j < w->m; j++)
-    w->by_u[j] = along_shape(w, w->by_voltage, j);
-  find_signal(w, signal);
-  look(w, w->at->U);
+  all->rates = all->m;
+  for (Member *w = all->member; w < all->member + all->members; w++) {
+    w->flow_at = all->rates;
+    all->rates += w->z;
+  }
+}
+
+static size_t reserve_all(Work *all, void *block) {
+  ZpArena arena = {block, 0};
+  double **of_pairs[] = {&all->stiffness, &all->mass, &all->damping},
+         **of_rates[] = {&all->by_u, &all->by_signal, &all->charge, &all->x, &all->push};
+  for (size_t k = 0; k < sizeof of_pairs / sizeof of_pairs[0]; k++)
+    *of_pairs[k] = zp_arena_take(&arena, all->rates * all->rates);
+  for (size_t k = 0; k < sizeof of_rates / sizeof of_rates[0]; k++)
+    *of_rates[k] = zp_arena_take(&arena, all->rates);
+  return arena.used;
+}
+
+/* Add what a member does in its coordinates. */
+static void add_member(Work *all, Member *w, const ZpSetpointSignal *signal) {
+  const ZpModel *model = w->model;
+  project(all, w, &w->K, all->stiffness);
+  for (size_t j = 0; j < w->m; j++) {
+    double force = model->ratio * along_shape(w, w->by_voltage, j);
+    all->by_u[coordinate_of(w, j)] += force;
+    all->charge[coordinate_of(w, j)] += force;
+  }
+  find_signal(all, w, signal);
+  look(w, w->U);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++)
     if (w->bead[half].reach < zp_bead_longest(&model->film)) find_end(w, half, signal);
-  find_rate_laws(w);
+  for (const End *end = w->end; end < w->end + w->ends; end++)
+    for (size_t r = 0; r < w->m + w->z; r++)
+      all->charge[rate_of(w, r)] -= model->ratio * end->charge_by * end_moves(w, end, r, true);
+  all->ends += w->ends;
+  find_rate_laws(all, w);
 }
 
 /* Work space with everything about the present point of `rest`; false if there is no memory. To be closed in any case.
  */
 static bool open_linear(ZpRest *rest, const ZpSetpointSignal *signal, Work **out) {
-  ZpRestMember *m = rest->statics.member;
-  Work *w = *out = zp_calloc(1, sizeof *w);
-  if (!w) return false;
-  *w = (Work){.model = m->model,
-              .at = &rest->statics,
-              .eval = &m->eval,
-              .assembly = &m->assembly,
-              .factors = &rest->statics.newton.K};
-  w->memory = zp_calloc(1, reserve(w, NULL));
-  if (!w->memory) return false;
-  reserve(w, w->memory);
-  linearize(w, signal);
+  Work *all = *out = zp_calloc(1, sizeof *all);
+  if (!all) return false;
+  *all = (Work){.at = &rest->statics, .members = rest->statics.members};
+  all->member = zp_calloc(all->members, sizeof *all->member);
+  bool done = all->member != NULL;
+  for (size_t k = 0; k < all->members && done; k++)
+    done = open_member(all, k);
+  if (!done) return false;
+  number(all);
+  all->memory = zp_calloc(1, reserve_all(all, NULL));
+  if (!all->memory) return false;
+  reserve_all(all, all->memory);
+  for (Member *w = all->member; w < all->member + all->members; w++)
+    add_member(all, w, signal);
+  if (all->members > 1 && !all->at->shared) join_masses(all);
   return true;
 }
 
-static void close_linear(Work *w) {
-  if (w) zp_free(w->memory);
-  zp_free(w);
+static void close_linear(Work *all) {
+  for (size_t k = 0; all && all->member && k < all->members; k++) {
+    zp_free(all->member[k].memory);
+    zp_assembly_destroy(&all->member[k].assembly);
+  }
+  if (all) zp_free(all->member);
+  if (all) zp_free(all->memory);
+  zp_free(all);
 }
 
 bool zp_plant_create(ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
@@ -552,46 +749,69 @@ void zp_plant_destroy(ZpPlant *plant) {
 
 /* -- as equations of second order -------------------------------------------------------------------- */
 
-/* A bead's end acts on the shapes with the volume that shapes displace, and with what has flowed past the edges. */
-static void find_second_order(Work *w, ZpSmallMotion *small) {
-  const size_t rates = small->rates = w->m + w->z, nodes = zp_coordinates(w->model);
-  small->shapes = w->m;
-  small->mass = w->mass;
-  small->damping = w->damping;
-  small->stiffness = w->second;
-  small->by_voltage = w->by_u;
-  small->charge = w->charge;
-  small->shape = w->nodes;
-  memcpy(w->charge, w->by_u, w->m * sizeof *w->by_u);
-  for (size_t k = 0; k < w->m; k++) {
-    zp_assembly_changes(w->assembly, w->shape + k * w->assembly->n, w->nodes + k * nodes);
-    for (size_t j = 0; j < w->m; j++)
-      w->second[k * rates + j] = w->stiffness[k * w->m + j];
-  }
-  for (End *end = w->end; end < w->end + w->ends; end++) {
-    small->out[end->half] = end->out;
-    for (size_t r = 0; r < rates; r++) {
-      double back = ((r < w->m ? end->volume_by[r] : 0) + end->out[r]) / end->section;
-      w->charge[r] -= end->charge_by * back;
-      for (size_t k = 0; k < w->m; k++)
-        w->second[k * rates + r] += end->force_by[k] * back;
-    }
-  }
-}
-
 bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small) {
   const ZpSetpointSignal signal = {.kind = ZP_CONTROL_OPENING};
   Work *w;
   bool done = open_linear(rest, &signal, &w);
   *small = (ZpSmallMotion){.memory = w};
   if (!done) return false;
-  for (int half = 0; half < ZP_BEADS; half++)
-    small->out[half] = w->none;
-  find_second_order(w, small);
+  add_ends(w, true);
+  *small = (ZpSmallMotion){w->m, w->rates, w->mass, w->damping, w->stiffness, w->by_u, w->by_signal, w->charge, w};
   return true;
 }
 
 void zp_small_motion_destroy(ZpSmallMotion *small) {
   close_linear(small->memory);
   small->memory = NULL;
+}
+
+/* How far the platform of a member rises beyond its upper one. */
+static double raised_by(const Member *of, const double *x) {
+  double sum = 0;
+  for (size_t j = 0; j < of->m; j++)
+    sum += of->lift[j] * x[coordinate_of(of, j)];
+  return sum;
+}
+
+void zp_small_motion_nodes(const ZpSmallMotion *small, size_t which, const double *x, double share, double *nodes) {
+  const Work *w = small->memory;
+  const Member *of = &w->member[which];
+  const size_t coordinates = zp_coordinates(of->model);
+  double lifted = 0;
+  memset(nodes, 0, coordinates * sizeof *nodes);
+  for (size_t j = 0; j < of->m; j++) {
+    const double moved = share * x[coordinate_of(of, j)];
+    for (size_t i = 0; i < coordinates; i++)
+      nodes[i] += moved * of->nodes[j * coordinates + i];
+  }
+  for (const Member *above = w->member; above < of && !above->shares; above++)
+    lifted += share * raised_by(above, x);
+  for (size_t i = 0; i < of->model->count; i++)
+    zp_forces(of->model, nodes).y[i] += lifted;
+}
+
+void zp_small_motion_add(const ZpSmallMotion *small, size_t which, const double *nodes, double weight,
+                         double *by_shape) {
+  const Work *w = small->memory;
+  const Member *of = &w->member[which];
+  const size_t coordinates = zp_coordinates(of->model);
+  double whole = 0;
+  for (size_t j = 0; j < of->m; j++)
+    for (size_t i = 0; i < coordinates; i++)
+      by_shape[coordinate_of(of, j)] += weight * nodes[i] * of->nodes[j * coordinates + i];
+  for (size_t i = 0; i < of->model->count; i++)
+    whole += zp_nodes(of->model, nodes).y[i];
+  for (const Member *above = w->member; above < of && !above->shares; above++)
+    for (size_t j = 0; j < above->m; j++)
+      by_shape[coordinate_of(above, j)] += weight * whole * above->lift[j];
+}
+
+double zp_small_motion_out(const ZpSmallMotion *small, size_t which, int half, const double *x) {
+  const Work *w = small->memory;
+  const Member *of = &w->member[which];
+  double sum = 0;
+  for (const End *end = of->end; end < of->end + of->ends; end++)
+    for (size_t r = 0; r < of->m + of->z && end->half == half; r++)
+      sum += end->out[r] * x[rate_of(of, r)];
+  return sum;
 }

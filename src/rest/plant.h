@@ -1,7 +1,7 @@
-/* Small motions of an actuator about an equilibrium, stable or not, as a linear system x' = A x + b u with the signal
- * y = c x. u is the change of the command to the supply, or of the voltage of the electrodes. The system includes the
- * ribbons, their internal damping, the film of liquid with its inertia, the meniscus of the bead, and the supply.
- * docs/theory.md, section 28. */
+/* Small motions of an actuator, or of several as one system, about an equilibrium, stable or not, as a linear system
+ * x' = A x + b u with the signal y = c x. u is the change of the command to the supply, or of the voltage of the
+ * source. The system includes the ribbons, their internal damping, the film of liquid with its inertia, the meniscus of
+ * the bead, and the supply. docs/theory.md, section 28. */
 #ifndef ZP_REST_PLANT_H
 #define ZP_REST_PLANT_H
 
@@ -26,16 +26,25 @@ void zp_plant_destroy(ZpPlant *plant);
 typedef struct ZpSmallMotion {
   size_t shapes, rates;
   double *mass, *damping, *stiffness; /* [rates * rates], row by row */
-  double *by_voltage;                 /* [shapes] forces by the voltage of the electrodes, N/V */
-  double *charge;                     /* [rates] charge of one part by x, also through where beads end, C/m */
-  double *shape;                      /* [shapes][2 stride] the nodes */
-  double *out[ZP_BEADS];              /* [rates] what flows past the edges of a bead that ends, by the rates, m^2; 0 of
-                                         any other */
+  double *by_voltage;                 /* [shapes] forces by the voltage of the source, N/V */
+  double *by_opening;                 /* [shapes] opening of the whole by x */
+  double *charge; /* [rates] charge that the source gives to one part of each member by x, also through where beads end,
+                     C/m */
   void *memory;
 } ZpSmallMotion;
 
 /* About the present point of `rest`, as above. */
 bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small);
 void zp_small_motion_destroy(ZpSmallMotion *small);
+
+/* `share` times x [rates] => how the nodes of a member move [2 stride], in series also with the platforms above it. */
+void zp_small_motion_nodes(const ZpSmallMotion *small, size_t which, const double *x, double share, double *nodes);
+
+/* `weight` times forces on the nodes of a member => += on the shapes. */
+void zp_small_motion_add(const ZpSmallMotion *small, size_t which, const double *nodes, double weight,
+                         double *by_shape);
+
+/* x or w [rates] => what flows past the edges of a bead of a member that ends, m^3 or m^3/s; 0 of any other. */
+double zp_small_motion_out(const ZpSmallMotion *small, size_t which, int half, const double *x);
 
 #endif

@@ -37,7 +37,7 @@ bool zp_setpoint_find(ZpRest *rest, ZpSetpointSignal *signal, double value) {
   static const double near = 1e-5, finer = 1e-3; /* near: of the way */
   ZpStatics *s = &rest->statics;
   ZpBranch *branch = &rest->branch;
-  if (!zp_newton_good(zp_statics_find_rest(s).end)) return false;
+  if (!zp_newton_good(zp_statics_find_rest(s).end) || !zp_statics_bias(s)) return false;
   signal->hanging = zp_statics_opening(s);
   Way way = {rest, signal, zp_setpoint_signal(rest, signal), value};
   if (way.start == value || !zp_rest_follow(rest, true)) return false;

@@ -196,6 +196,9 @@ void zp_sim_close(ZpSim *sim, ZpOpeningAt start);
  * there is no memory. */
 bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks);
 
+/* Lower members in series until each hangs on the one above. */
+void zp_sim_hang(ZpSim *sim);
+
 /* Place the beads of the state by its gaps: at rest, with all liquid that is not outside or lost. */
 void zp_sim_lay_beads(ZpSim *sim);
 

@@ -150,7 +150,11 @@ static void hang_below(const ZpSim *above, ZpSim *sim) {
     y[j] += fall;
 }
 
-/* Members in series then hang on each other. */
+void zp_sim_hang(ZpSim *sim) {
+  for (size_t k = 1; k < sim->members && !zp_shares_load(sim->model); k++)
+    hang_below(sim + k - 1, sim + k);
+}
+
 static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   ZpRest rest;
   bool found = false;
@@ -158,8 +162,7 @@ static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   if (!found && sim->settled == ZP_REACHED_END) sim->settled = ZP_NOT_SETTLED;
   for (size_t k = 0; opened && k < sim->members; k++)
     start_member(sim + k, &rest.statics, k);
-  for (size_t k = 1; opened && k < sim->members && !zp_shares_load(sim->model); k++)
-    hang_below(sim + k - 1, sim + k);
+  if (opened) zp_sim_hang(sim);
   zp_rest_close(&rest);
   return opened;
 }

@@ -122,20 +122,23 @@ static bool run_cycle(Cycles *c) {
 /* Move the ribbons to a phase of the cycle, at the voltage in the middle between both, so that the source does its work
  * along the way; then let the voltage glide and jump. */
 static void put(Cycles *c, double turns) {
-  const ZpWaveform *w = &c->model->waveform;
-  double t = turns * c->period, before = zp_waveform_voltage_before(w, t);
-  zp_sim_glide(c->sim, 0.5 * (c->sim->state->U + before));
+  double t = turns * c->period;
+  for (ZpSim *m = c->sim; m < c->sim + c->sim->members; m++)
+    zp_sim_glide(m, 0.5 * (m->state->U + zp_waveform_voltage_before(&m->model->waveform, t)));
   zp_linear_cycle_put(&c->small, turns, c->sim);
-  c->sim->state->t = t;
-  zp_sim_glide(c->sim, before);
-  zp_sim_jump(c->sim, zp_waveform_voltage(w, t));
-  if (c->sim->state->U != c->sim->state->base_U) zp_sim_close_balance(c->sim);
+  for (ZpSim *m = c->sim; m < c->sim + c->sim->members; m++) {
+    m->state->t = t;
+    zp_sim_glide(m, zp_waveform_voltage_before(&m->model->waveform, t));
+    zp_sim_jump(m, zp_waveform_voltage(&m->model->waveform, t));
+    if (m->state->U != m->state->base_U) zp_sim_close_balance(m);
+  }
 }
 
 /* The first cycle begins at the state of the linear answer. */
 static void start_linear(Cycles *c) {
   zp_linear_cycle_put(&c->small, 0, c->sim);
-  zp_sim_start_balance(c->sim);
+  for (ZpSim *m = c->sim; m < c->sim + c->sim->members; m++)
+    zp_sim_start_balance(m);
   zp_sim_start_row(c->sim);
 }
 
@@ -756,8 +759,6 @@ static const ZpRule rule[] = {
             "the shear law of mass_spring has no energy"),
     ZP_RULE(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
             "the stiffness of a computed field is not available"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_SEVERAL, ZP_NEVER,
-               "small motion behind a voltage is modelled with a single actuator; use motion"),
     ZP_RULE(PHYSICS, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(source.model, ZP_SOURCE_IDEAL),
             "the limits of a supply are not linear"),
     ZP_RULE_IF(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(liquid.model, ZP_LIQUID_BEAD),

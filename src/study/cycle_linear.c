@@ -105,85 +105,58 @@ static void at_phase(const ZpLinearCycle *l, double turns, bool rate, double *x)
   }
 }
 
-/* share times the shapes => q. */
-static void combine(const ZpLinearCycle *l, const double *x, double share, double *q) {
-  const size_t nodes = zp_coordinates(l->model);
-  memset(q, 0, nodes * sizeof *q);
-  for (size_t j = 0; j < l->small.shapes; j++)
-    for (size_t i = 0; i < nodes; i++)
-      q[i] += share * x[j] * l->small.shape[j * nodes + i];
-}
-
-/* Volume that has flowed over the long edges of a bead, m^3. */
-static double outside(const ZpLinearCycle *l, int half, const double *x) {
-  double sum = 0;
-  for (size_t r = 0; r < l->small.rates; r++)
-    sum += l->small.out[half][r] * x[r];
-  return sum;
-}
-
 /* How much must be there at the mean, so that the edges never run dry: twice the range in a cycle before the least. */
-static double outside_reserve(ZpLinearCycle *l, int half) {
+static double outside_reserve(ZpLinearCycle *l, size_t which, int half) {
   double least = 0, most = 0;
   for (int k = 0; k < PHASES; k++) {
     at_phase(l, (double)k / PHASES, false, l->x);
-    least = fmin(least, outside(l, half, l->x));
-    most = fmax(most, outside(l, half, l->x));
+    double outside = zp_small_motion_out(&l->small, which, half, l->x);
+    least = fmin(least, outside);
+    most = fmax(most, outside);
   }
   return (most - least) - least;
 }
 
 /* -- the motion of second order --------------------------------------------------------------------- */
 
-static double opening_of(const ZpLinearCycle *l, size_t j) {
-  return zp_opening(&l->model->topology, zp_nodes(l->model, l->small.shape + j * zp_coordinates(l->model)).y);
-}
-
 /* Amplitude of the opening in a harmonic of x, m. */
 static double amplitude(const ZpLinearCycle *l, const ZpComplex *x) {
   ZpComplex sum = {0, 0};
   for (size_t j = 0; j < l->small.shapes; j++) {
-    sum.re += opening_of(l, j) * x[j].re;
-    sum.im += opening_of(l, j) * x[j].im;
+    sum.re += l->small.by_opening[j] * x[j].re;
+    sum.im += l->small.by_opening[j] * x[j].im;
   }
   return sqrt(sum.re * sum.re + sum.im * sum.im);
 }
 
-/* The forces of all laws at rest, `share` of the motion at a phase away from the mean => force. */
-static void find_force(ZpLinearCycle *l, double share, double u) {
+/* The forces of all laws of a member at rest, `share` of the motion at a phase away from the mean => force. */
+static void find_force(ZpLinearCycle *l, size_t which, double share, double u) {
   ZpStatics *s = &l->rest.statics;
-  const ZpModel *model = s->member->model;
-  combine(l, l->x, share, l->q);
+  ZpRestMember *m = &s->member[which];
+  const ZpModel *model = m->model;
+  zp_small_motion_nodes(&l->small, which, l->x, share, l->q);
   for (size_t i = 0; i < zp_coordinates(model); i++)
-    l->q[i] += s->member->q[i];
+    l->q[i] += m->q[i];
   ZpBead bead[ZP_BEADS] = {{0}};
   ZpSpan span = zp_span_at(l->q);
-  span.U0 = span.U1 = sqrt(fmax(l->mean + share * u, 0));
+  span.U0 = span.U1 = zp_member_voltage(model, sqrt(fmax(l->mean + share * u, 0)));
   if (model->has_bead) {
     double reach[ZP_BEADS];
-    zp_plates_gaps(&model->plates, l->q, zp_nodes(model, l->q).y, &s->member->eval.plates);
+    zp_plates_gaps(&model->plates, l->q, zp_nodes(model, l->q).y, &m->eval.plates);
     for (int half = 0; half < zp_beads(&model->film); half++)
-      bead[half].outside = share * outside(l, half, l->x);
-    zp_eval_reach(model, s->member->eval.plates.gap, bead, reach);
+      bead[half].outside = share * zp_small_motion_out(&l->small, which, half, l->x);
+    zp_eval_reach(model, m->eval.plates.gap, bead, reach);
     for (int half = 0; half < ZP_BEADS; half++)
       bead[half].reach = reach[half];
     span.bead = bead;
   }
-  zp_system_force(model, &span, &s->member->eval, l->force);
+  zp_system_force(model, &span, &m->eval, l->force);
 }
 
-static void add_along_shapes(const ZpLinearCycle *l, double weight, double *sum) {
-  const size_t nodes = zp_coordinates(l->model);
-  for (size_t j = 0; j < l->small.shapes; j++)
-    for (size_t i = 0; i < nodes; i++)
-      sum[j] += weight * l->force[i] * l->small.shape[j * nodes + i];
-}
-
-/* Form drag of the liquid outside at the present rates. */
-static void find_drag(ZpLinearCycle *l, double turns) {
-  const ZpModel *model = l->model;
-  at_phase(l, turns, true, l->x);
-  combine(l, l->x, 1, l->q);
+/* Form drag of the liquid outside a member at the rates in l->x => force. */
+static void find_drag(ZpLinearCycle *l, size_t which) {
+  const ZpModel *model = l->model + which;
+  zp_small_motion_nodes(&l->small, which, l->x, 1, l->q);
   memset(l->force, 0, zp_coordinates(model) * sizeof *l->force);
   for (size_t j = 0; j < model->count; j++) {
     double v = zp_nodes(model, l->q).y[j], length = zp_film_length(&model->film, j / model->s);
@@ -199,31 +172,41 @@ static void find_bent(ZpLinearCycle *l, double turns, double *sum) {
   const double share = fmin(0.5, 0.5 * l->mean / fmax(fabs(u), 1e-300)), per = 1 / (share * share);
   memset(sum, 0, l->small.shapes * sizeof *sum);
   at_phase(l, turns, false, l->x);
-  find_force(l, share, u);
-  add_along_shapes(l, 0.5 * per, sum);
-  find_force(l, -share, u);
-  add_along_shapes(l, 0.5 * per, sum);
-  find_force(l, 0, 0);
-  add_along_shapes(l, -per, sum);
+  for (size_t k = 0; k < l->model->members; k++) {
+    find_force(l, k, share, u);
+    zp_small_motion_add(&l->small, k, l->force, 0.5 * per, sum);
+    find_force(l, k, -share, u);
+    zp_small_motion_add(&l->small, k, l->force, 0.5 * per, sum);
+    find_force(l, k, 0, 0);
+    zp_small_motion_add(&l->small, k, l->force, -per, sum);
+  }
   if (!l->model->has_film || l->model->has_bead) return;
-  find_drag(l, turns);
-  add_along_shapes(l, 1, sum);
+  at_phase(l, turns, true, l->x);
+  for (size_t k = 0; k < l->model->members; k++) {
+    find_drag(l, k);
+    zp_small_motion_add(&l->small, k, l->force, 1, sum);
+  }
 }
 
-/* Largest relative change of a wet film. */
-static double largest_strain(ZpLinearCycle *l) {
-  const ZpModel *model = l->model;
-  ZpStatics *s = &l->rest.statics;
+/* Largest relative change of the wet film of a member at a phase. */
+static double strain_of(ZpLinearCycle *l, size_t which) {
+  const ZpModel *model = l->model + which;
+  ZpRestMember *m = &l->rest.statics.member[which];
   const double *y = zp_nodes(model, l->q).y;
   double most = 0;
-  for (int k = 0; k < PHASES; k++) {
-    at_phase(l, (double)k / PHASES, false, l->x);
-    combine(l, l->x, 1, l->q);
-    zp_plates_gaps(&model->plates, s->member->q, zp_nodes(model, s->member->q).y, &s->member->eval.plates);
-    for (size_t i = 0; i < model->nodes; i++) {
-      double change = y[zp_upper(&model->topology, i)] - y[zp_lower(&model->topology, i)];
-      most = fmax(most, fabs(change) / zp_film_thickness(&model->film, s->member->eval.plates.gap[i]));
-    }
+  zp_small_motion_nodes(&l->small, which, l->x, 1, l->q);
+  zp_plates_gaps(&model->plates, m->q, zp_nodes(model, m->q).y, &m->eval.plates);
+  for (size_t i = 0; i < model->nodes; i++)
+    most = fmax(most, fabs(zp_gap_of(&model->topology, y, i)) / zp_film_thickness(&model->film, m->eval.plates.gap[i]));
+  return most;
+}
+
+static double largest_strain(ZpLinearCycle *l) {
+  double most = 0;
+  for (int phase = 0; phase < PHASES; phase++) {
+    at_phase(l, (double)phase / PHASES, false, l->x);
+    for (size_t k = 0; k < l->model->members; k++)
+      most = fmax(most, strain_of(l, k));
   }
   return most;
 }
@@ -346,22 +329,28 @@ void zp_linear_cycle_close(ZpLinearCycle *l) {
   zp_rest_close(&l->rest);
 }
 
-void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
-  const ZpModel *model = l->model;
-  const size_t nodes = zp_coordinates(model);
-  ZpState *state = sim->state;
-  double *q = zp_state_q(model, state), *v = zp_state_v(model, state);
+/* Of one member, in series relative to the platform that it hangs on at rest. */
+static void put_member(ZpLinearCycle *l, size_t which, double turns, ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  double *q = zp_state_q(model, sim->state);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++) {
-    double mean = outside_reserve(l, half);
+    double mean = outside_reserve(l, which, half);
     at_phase(l, turns, false, l->x);
-    state->bead[half].outside = mean + outside(l, half, l->x);
-    state->bead[half].supply = 1;
+    sim->state->bead[half].outside = mean + zp_small_motion_out(&l->small, which, half, l->x);
+    sim->state->bead[half].supply = 1;
   }
   at_phase(l, turns, true, l->x);
-  combine(l, l->x, 1, v);
+  zp_small_motion_nodes(&l->small, which, l->x, 1, zp_state_v(model, sim->state));
   at_phase(l, turns, false, l->x);
-  combine(l, l->x, 1, q);
-  for (size_t i = 0; i < nodes; i++)
-    q[i] += l->rest.statics.member->q[i];
-  zp_sim_lay_beads(sim);
+  zp_small_motion_nodes(&l->small, which, l->x, 1, q);
+  for (size_t i = 0; i < zp_coordinates(model); i++)
+    q[i] += l->rest.statics.member[which].q[i];
+}
+
+void zp_linear_cycle_put(ZpLinearCycle *l, double turns, ZpSim *sim) {
+  for (size_t k = 0; k < sim->members; k++)
+    put_member(l, k, turns, sim + k);
+  zp_sim_hang(sim);
+  for (size_t k = 0; k < sim->members; k++)
+    zp_sim_lay_beads(sim + k);
 }

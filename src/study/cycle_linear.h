@@ -28,7 +28,7 @@ typedef struct ZpLinearCycle {
 bool zp_linear_cycle_open(const ZpModel *model, const ZpHooks *hooks, ZpLinearCycle *linear, bool *failed);
 void zp_linear_cycle_close(ZpLinearCycle *linear);
 
-/* Positions, velocities and liquid at the edges, `turns` after the start of a cycle, of a simulation of the model. */
+/* Positions, velocities and liquid at the edges, `turns` after the start of a cycle, of a simulation of all members. */
 void zp_linear_cycle_put(ZpLinearCycle *linear, double turns, ZpSim *sim);
 
 #endif
