@@ -2,9 +2,11 @@
  * during runs of the actuator.
  *
  * Against: closed-form roots of the relative motion g + w s + c s^2 of one step, conservation of momentum and
- * the loss of an inelastic impact, m1 m2 / (m1 + m2) dv^2 / 2, and the invariants of paper/zip.h. */
+ * the loss of an inelastic impact, m1 m2 / (m1 + m2) dv^2 / 2, rows of pairs that switch, and the invariants of
+ * paper/zip.h. */
 #include "state_util.h"
 
+#include "actuator/ties.h"
 #include "paper/zip.h"
 
 /* -- meetings -------------------------------------------------------------------------------------- */
@@ -137,37 +139,45 @@ TEST(test_meeting_is_where_the_step_goes) {
 static const double mass[2 * NODES] = {1, 1, 2, 3, 2, 3, 2, 3, 1, 1, 1, 1};
 static const double inverse[2 * NODES] = {1, 1, 1 / 2.0, 1 / 3.0, 0, 1 / 3.0, 0, 0, 1, 1, 1, 1};
 static const double together[NODES] = {1 / 2.0, 1 / 5.0, 0, 0, 1 / 2.0, 1 / 2.0};
-static const ZpZipMasses masses = {mass, inverse, together};
+static const ZpMasses masses = {{mass, inverse, together}, {mass, inverse, together}};
+static const ZpModel model = {.nodes = NODES, .stride = 2 * NODES, .topology = {.ribbons = 2}};
+
+/* Pair i joins along x. */
+static double join_pair(size_t i, double *v) {
+  const ZpTie row = zp_tie_of_pair(&model, i, 0);
+  return zp_tie_join(&row, &masses.x, v);
+}
 
 TEST(test_merge) {
   double v[2 * NODES] = {0, 0, 4, -1, 0, 7, 0, 0};
-  double before = 0.5 * 2 * 16 + 0.5 * 3 * 1, lost = zp_zip_merge(1, &masses, v);
+  double before = 0.5 * 2 * 16 + 0.5 * 3 * 1, lost = join_pair(1, v);
   ck_assert_double_eq(v[2], v[3]);
   ck_near(5 * v[2], 2 * 4.0 - 3, 1e-14);                /* momentum */
   ck_near(lost, 0.5 * (2 * 3 / 5.0) * 25, 1e-14);       /* reduced mass */
   ck_near(lost, before - 0.5 * 5 * v[2] * v[2], 1e-14); /* what is missing */
-  lost = zp_zip_merge(2, &masses, v);                   /* against a held node */
+  lost = join_pair(2, v);                               /* against a held node */
   ck_assert(v[4] == 0 && v[5] == 0);
   ck_near(lost, 0.5 * 3 * 49, 1e-14);
-  ck_assert_double_eq(zp_zip_merge(3, &masses, v), 0); /* nothing moves */
+  ck_assert_double_eq(join_pair(3, v), 0); /* nothing moves */
   ck_assert(v[6] == 0 && v[7] == 0);
   v[2] = v[3] = 5;
-  ck_assert_double_eq(zp_zip_merge(1, &masses, v), 0); /* already together */
+  ck_assert_double_eq(join_pair(1, v), 0); /* already together */
 }
 
 TEST(test_share) {
-  double a[2 * NODES];
+  double a[4 * NODES];
   for (size_t j = 0; j < 2 * NODES; j++)
-    a[j] = inverse[j] * (double)(j + 1); /* forces 1, 2, ... */
+    a[j] = a[2 * NODES + j] = inverse[j] * (double)(j + 1); /* forces 1, 2, ... */
   ZpZipState state = {2, false};
-  zp_zip_share(&state, NODES, &masses, a);
+  zp_ties_share(&model, &masses, &state, a);
+  ck_assert_mem_eq(a, a + 2 * NODES, 2 * NODES * sizeof *a); /* along y as along x */
   ck_assert(a[0] == a[1] && a[2] == a[3]);
   ck_near(a[2], (3 + 4) / 5.0, 1e-14);
   ck_assert(a[4] == 0 && a[5] == 0); /* held */
   ck_near(a[8], 9, 1e-14);           /* not joined */
   ck_near(a[11], 12, 1e-14);
   state.platform = true;
-  zp_zip_share(&state, NODES, &masses, a);
+  zp_ties_share(&model, &masses, &state, a);
   ck_near(a[10], (11 + 12) / 2.0, 1e-14);
   ck_assert_double_eq(a[10], a[11]);
   ck_near(a[8], 9, 1e-14);

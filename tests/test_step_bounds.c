@@ -45,7 +45,7 @@ static void accelerate(Rest *r, const double *q, double *a) {
   ZpSpan now = zp_span_of(model, r->state, q, zp_state_v(model, r->state));
   zp_system_accelerations(model, &now, &model->masses, &r->eval, a);
   static const ZpZipState clip_only = {0, false};
-  zp_eval_share(model, &model->masses, &clip_only, a);
+  zp_ties_share(model, &model->masses, &clip_only, a);
 }
 
 static double length_of(const double *v, size_t n) {

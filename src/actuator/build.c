@@ -307,7 +307,7 @@ typedef struct Arrays {
   double *rod_l, *rod_S, *rod_B, *rod_k0;   /* ZpRodParams */
   double *shear_B, *per_moment, *per_force; /* ZpStressParams */
   double *weight, *mass, *pseudo;           /* [stride] */
-  double *inverse[2][2], *pair[2][2];       /* ZpZipMasses, of true and of pseudo-masses, along x and y */
+  double *inverse[2][2], *pair[2][2];       /* ZpAxisMasses, of true and of pseudo-masses, along x and y */
   double *time, *voltage;                   /* ZpDriveTable */
 } Arrays;
 
@@ -339,18 +339,19 @@ static double pseudo_mass_of(const ZpModel *model) {
   return 0.5 * edge_stiffness(model, fmax(one.EA, other.EA), fmax(one.EI, other.EI));
 }
 
-/* Inverse masses along an axis: of nodes, 0 where they are held, and of upper and lower node joined, 0 where one is. */
-static ZpZipMasses masses_along(size_t axis, const ZpModel *model, const ZpTies *ties, const double *mass,
-                                double *inverse, double *pair) {
-  const ZpTopology *t = &model->topology;
+/* Inverse masses along an axis: of nodes, 0 where they are held, and of both nodes of a station as one, 0 where one
+ * is. */
+static ZpAxisMasses masses_along(size_t axis, const ZpModel *model, const ZpTies *ties, const double *mass,
+                                 double *inverse, double *pair) {
   const size_t member = (size_t)(model - ties->first);
   for (size_t j = 0; j < model->count; j++)
     inverse[j] = zp_is_held(ties, member, 2 * j + axis) ? 0 : 1 / mass[j];
-  for (size_t i = 0; zp_is_pair(t) && i < model->nodes; i++) {
-    double upper = inverse[zp_upper(t, i)], lower = inverse[zp_lower(t, i)];
-    pair[i] = upper > 0 && lower > 0 ? 1 / (1 / upper + 1 / lower) : 0;
+  for (size_t i = 0; i < model->nodes; i++) {
+    const ZpTie row = zp_tie_of_pair(model, i, axis);
+    double one = inverse[row.coordinate / 2], other = inverse[row.to / 2];
+    pair[i] = one > 0 && other > 0 ? 1 / (1 / one + 1 / other) : 0;
   }
-  return (ZpZipMasses){mass, inverse, pair};
+  return (ZpAxisMasses){mass, inverse, pair};
 }
 
 static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {

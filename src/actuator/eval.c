@@ -81,12 +81,6 @@ void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, 
   }
 }
 
-void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a) {
-  if (!zp_is_pair(&model->topology)) return;
-  zp_zip_share(zip, model->nodes, &masses->x, a);
-  zp_zip_share(zip, model->nodes, &masses->y, a + model->stride);
-}
-
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
   size_t front = zp_contact_front(&model->faces, gap);
   return (ZpZipState){front, front == model->topology.platform.first};

@@ -68,9 +68,6 @@ void zp_eval_cover(const ZpModel *model, const double reach[ZP_BEADS], ZpEval *e
 /* (gaps [N]; what of each bead is outside and lost, NULL: nothing) => wet lengths, m. */
 void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, double reach[ZP_BEADS]);
 
-/* Joined pairs move as one. */
-void zp_eval_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *zip, double *a);
-
 /* Correction of a solved field to plates, as it was found last. */
 ZpCachedField zp_eval_beyond(const ZpEval *eval);
 

@@ -32,9 +32,16 @@
 #include "ribbon/section.h"
 #include "ribbon/stress.h"
 
-/* 1 / mass of nodes and of joined pairs along x and y, 0 where held. For true and for pseudo-masses. */
+/* Masses along one axis. */
+typedef struct ZpAxisMasses {
+  const double *mass;    /* [stride] of each node, kg */
+  const double *inverse; /* [stride] 1 / mass; 0 where the node is held */
+  const double *pair;    /* [nodes] 1 / mass of both nodes of a station; 0 where one is held */
+} ZpAxisMasses;
+
+/* For true and for pseudo-masses. */
 typedef struct ZpMasses {
-  ZpZipMasses x, y;
+  ZpAxisMasses x, y;
 } ZpMasses;
 
 /* Section of a ribbon along a part of it, to `end` from its left end, m. */

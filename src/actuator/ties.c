@@ -1,5 +1,7 @@
 #include "actuator/ties.h"
 
+#include "base/pair.h"
+
 /* Directions in which a joint holds or joins the nodes of its stations. */
 typedef struct Hold {
   bool held[2][2]; /* of the upper or only ribbon, of the lower one: x, y */
@@ -90,4 +92,31 @@ const ZpTie *zp_tie_of(const ZpTies *ties, size_t member, size_t k) {
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++)
     if (tie->member == member && tie->coordinate == k) return tie;
   return NULL;
+}
+
+static void share(size_t first, size_t end, const ZpAxisMasses *masses, double *a) {
+  for (size_t i = first; i < end; i++) {
+    size_t up = zp_up(i), down = zp_down(i);
+    double force = a[up] * masses->mass[up] + a[down] * masses->mass[down];
+    a[up] = a[down] = force * masses->pair[i];
+  }
+}
+
+void zp_ties_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *act, double *a) {
+  const ZpForces along = zp_forces(model, a);
+  const size_t end = model->nodes, joined = act->front + 1, beyond = act->platform && joined < end ? end - 1 : end;
+  if (!zp_is_pair(&model->topology)) return;
+  share(0, joined, &masses->x, along.x);
+  share(0, joined, &masses->y, along.y);
+  share(beyond, end, &masses->x, along.x);
+  share(beyond, end, &masses->y, along.y);
+}
+
+double zp_tie_join(const ZpTie *tie, const ZpAxisMasses *masses, double *velocity) {
+  size_t up = tie->coordinate / 2, down = tie->to / 2;
+  double upper = masses->inverse[up], lower = masses->inverse[down], sum = upper + lower;
+  if (sum == 0) return 0;
+  double difference = velocity[up] - velocity[down];
+  velocity[up] = velocity[down] = (lower * velocity[up] + upper * velocity[down]) / sum;
+  return 0.5 * difference * difference / sum;
 }

@@ -38,6 +38,21 @@ static inline const ZpTie *zp_tie_of_held(const ZpTies *ties) {
   return ties->tie + ties->count;
 }
 
+/* The row that makes both nodes of a station one along x (axis 0) or y (1), with the offset that they have where it
+ * begins to act, eq. (5.1). That of a clip always acts. Those of sequential contact switch during a run: paper/zip.h
+ * says which of them act. */
+static inline ZpTie zp_tie_of_pair(const ZpModel *model, size_t station, size_t axis) {
+  const ZpTopology *t = &model->topology;
+  return (ZpTie){0, 2 * zp_upper(t, station) + axis, 0, 2 * zp_lower(t, station) + axis, 1, 0, 0};
+}
+
+/* (accelerations of free nodes [2 stride]) => pairs whose rows act share theirs, eq. (5.3): those of stations 0 to the
+ * front, and the last one with the platform. */
+void zp_ties_share(const ZpModel *model, const ZpMasses *masses, const ZpZipState *act, double *acceleration);
+
+/* The row of a pair begins to act: both nodes have one velocity along its axis. => kinetic energy lost, J. */
+double zp_tie_join(const ZpTie *tie, const ZpAxisMasses *masses, double *velocity);
+
 /* The row that always acts on a coordinate; NULL: it is free. */
 const ZpTie *zp_tie_of(const ZpTies *ties, size_t member, size_t coordinate);
 

@@ -4,18 +4,6 @@
 
 #include "base/pair.h"
 
-static void share(size_t i, const ZpZipMasses *masses, double *a) {
-  size_t up = zp_up(i), down = zp_down(i);
-  double force = a[up] * masses->mass[up] + a[down] * masses->mass[down];
-  a[up] = a[down] = force * masses->pair[i];
-}
-
-void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, double *a) {
-  for (size_t i = 0; i <= state->front; i++)
-    share(i, masses, a);
-  if (state->platform) share(nodes - 1, masses, a);
-}
-
 /* First s in [0, dt] at which g + w s + c s^2 <= 0 and decreases, or dt. */
 static double first_meeting(double g, double w, double c, double dt) {
   bool touching = g <= 0;
@@ -53,15 +41,6 @@ double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const
     }
   }
   return dt;
-}
-
-double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity) {
-  size_t up = zp_up(i), down = zp_down(i);
-  double upper = masses->inverse[up], lower = masses->inverse[down], sum = upper + lower;
-  if (sum == 0) return 0;
-  double difference = velocity[up] - velocity[down];
-  velocity[up] = velocity[down] = (lower * velocity[up] + upper * velocity[down]) / sum;
-  return 0.5 * difference * difference / sum;
 }
 
 ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i) {

@@ -1,4 +1,5 @@
-/* The paper's sequential zipping: pairs of facing nodes join one after the other, from the clip on.
+/* The paper's sequential zipping: pairs of facing nodes join one after the other, from the clip on. It says which rows
+ * of pairs act (actuator/ties.h), which make them move as one.
  *
  * State: `front` z, the last joined pair, and `platform`, whether the platforms' faces have met.
  *
@@ -28,28 +29,15 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Masses along one axis. */
-typedef struct ZpZipMasses {
-  const double *mass;    /* [2 N] of each node, kg */
-  const double *inverse; /* [2 N] 1 / mass; 0 where the node is held */
-  const double *pair;    /* [N] 1 / mass of two joined nodes; 0 where one is held */
-} ZpZipMasses;
-
 typedef struct ZpZipState {
   size_t front;  /* z */
   bool platform; /* the platforms' faces have met */
 } ZpZipState;
 
-/* (accelerations of free nodes along one axis) => joined pairs share theirs: the pair moves as one. */
-void zp_zip_share(const ZpZipState *state, size_t nodes, const ZpZipMasses *masses, double *acceleration);
-
 /* Time until the next meeting if velocity changes by acceleration * step and position by the new velocity * step (eq.
  * (1) of the paper), at most `dt`; *pair becomes the pair that meets, otherwise it is unchanged. */
 double zp_zip_next(const ZpZipState *state, size_t nodes, const double *y, const double *vy, const double *ay,
                    double dt, size_t *pair);
-
-/* Join pair i: common velocity along one axis. => kinetic energy lost, J. */
-double zp_zip_merge(size_t i, const ZpZipMasses *masses, double *velocity);
 
 /* The state after pair i has met. */
 ZpZipState zp_zip_after(ZpZipState state, size_t nodes, size_t i);

@@ -6,8 +6,6 @@
 #include "base/kernel.h"
 #include "def/rule.h"
 
-static const ZpZipState clip_only = {0, false};
-
 static bool is_sequential(const ZpModel *model) {
   return model->field && model->def.contact.model == ZP_CONTACT_SEQUENTIAL;
 }
@@ -76,14 +74,15 @@ static double next_meeting(void *self, const double *q, const double *v, const d
                      &m->met);
 }
 
-/* The pair that has met moves as one from now on, and a held electric force must be updated. */
+/* The rows of the pair that has met act from now on, and a held electric force must be updated. */
 static void meet(ZpPaperMotion *m) {
   const ZpModel *model = m->model;
   ZpState *state = m->state;
   ZpForces v = zp_forces(model, zp_state_v(model, state));
   double *loss = zp_state_row(model, state, &zp_row_contact_loss);
-  *loss += zp_zip_merge(m->met, &model->masses.x, v.x);
-  *loss += zp_zip_merge(m->met, &model->masses.y, v.y);
+  const ZpTie along = zp_tie_of_pair(model, m->met, 0), up = zp_tie_of_pair(model, m->met, 1);
+  *loss += zp_tie_join(&along, &model->masses.x, v.x);
+  *loss += zp_tie_join(&up, &model->masses.y, v.y);
   state->zip = zp_zip_after(state->zip, model->nodes, m->met);
   state->refreshed = NAN;
 }
@@ -116,7 +115,8 @@ static double accelerate(void *self, const double *q, const double *v, double *a
   zp_system_accelerations(model, &now, &model->masses, m->eval, a);
   m->opened = m->state->zip;
   if (is_sequential(model) && m->state->U == 0) m->opened = zp_zip_open(m->opened, model->nodes, zp_nodes(model, a).y);
-  zp_eval_share(model, &model->masses, is_unilateral(model) ? &clip_only : &m->state->zip, a);
+  const ZpZipState act = is_sequential(model) ? m->state->zip : (ZpZipState){0, false}; /* else the clip's alone */
+  zp_ties_share(model, &model->masses, &act, a);
   return bound_step(m);
 }
 

@@ -25,7 +25,7 @@ static void accelerate(void *self, const double *q, double *a) {
   ZpSpan hanging_still = zp_span_at(q);
   hanging_still.faces_pass = true;
   zp_system_accelerations(sim->model, &hanging_still, &sim->model->pseudo, &sim->eval, a);
-  zp_eval_share(sim->model, &sim->model->pseudo, &hanging, a);
+  zp_ties_share(sim->model, &sim->model->pseudo, &hanging, a);
   settling->a = a;
 }
 
