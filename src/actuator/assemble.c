@@ -43,8 +43,8 @@ static size_t number(const ZpTies *ties, size_t member, ZpAssembly *a) {
 static ZpParts parts_of(const ZpTies *ties, size_t member, const ZpAssembly *a) {
   ZpParts parts = {0};
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++) {
-    bool own = tie->member == member && tie->to_member == member && tie->factor != 0;
-    if (own && tie->coordinate / (2 * a->s) != tie->to / (2 * a->s))
+    if (tie->member != member || tie->factor == 0) continue;
+    if (leader_of(ties, member, tie) / (2 * a->s) != tie->coordinate / (2 * a->s))
       parts.common[parts.count++] = (size_t)a->equation[tie->coordinate];
   }
   parts.more = parts.count > 0;
