@@ -3,6 +3,7 @@
 #include "check_util.h"
 
 #include "actuator/assemble.h"
+#include "actuator/place.h"
 #include "math/vector.h"
 
 enum { NODES = 9, STATIONS = 2 * NODES };
@@ -107,6 +108,45 @@ TESTS(held_platform_is_at_its_opening, 0, LENGTH_OF(systems)) {
   ck_assert_uint_eq(row->coordinate, zp_y_of(zp_lower(t, t->platform.first)));
   ck_assert_double_eq_tol(zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y), s, 1e-16);
   ck_assert(row->factor == 0 || row->to_member != row->member); /* it hangs on what is held, or on another member */
+}
+
+/* (10.8): nodes that edges of any vectors place obey the rows, and no free coordinate could bring the edges nearer to
+ * their vectors: the gradient of the sum of squares is 0. The ends of a platform that turns move as one. */
+TESTS(placed_nodes_differ_least_from_their_edges, 0, 5) {
+  const Setting *of = systems[_i];
+  ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
+  ZpModel *model = model_of(&def);
+  const ZpTopology *t = &model->topology;
+  const ZpTies ties = zp_ties_of(model, 1);
+  ZpAssembly a;
+  ck_assert(zp_assembly_create(&ties, 0, 0, true, &a));
+  double d[4 * 12 + 64] = {0}, q[4 * 12 + 64] = {0}, f[4 * 12 + 64] = {0}, gradient[4 * 12];
+  uint64_t seed = 11;
+  for (size_t j = 0; j < model->count; j++)
+    *zp_coordinate(model, q, 2 * j) = zp_straight_x(model, j / model->s);
+  for (size_t k = 0; k < 2 * (model->count - model->s); k++)
+    *zp_coordinate(model, d, k) = 1e-3 * noise(&seed);
+  for (size_t k = 0; k < 4 && t->halves == 2; k++) /* the platform is rigid */
+    *zp_coordinate(model, d, 4 * t->platform.first + k) = k % 2 == 0 ? def.platform.length : 0;
+  zp_place_edges(model, &a, d, q);
+  for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++)
+    ck_assert_double_eq_tol(*zp_coordinate(model, q, tie->coordinate),
+                            tie->factor * *zp_coordinate(model, q, tie->to) + tie->offset, 1e-16);
+  for (size_t k = 0; k < 2 * (model->count - model->s); k++) {
+    const size_t next = k + 2 * model->s;
+    double differs = *zp_coordinate(model, q, next) - *zp_coordinate(model, q, k) - *zp_coordinate(model, d, k);
+    *zp_coordinate(model, f, next) += differs;
+    *zp_coordinate(model, f, k) -= differs;
+  }
+  for (size_t c = 0; c < 2 && zp_platform_turns(t); c++) {
+    double *left = zp_coordinate(model, f, 2 * zp_lower(t, t->platform.first) + c);
+    *left += *zp_coordinate(model, f, 2 * zp_lower(t, t->platform.last) + c);
+    *zp_coordinate(model, f, 2 * zp_lower(t, t->platform.last) + c) = 0;
+  }
+  zp_assembly_sum(&a, f, gradient);
+  for (size_t i = 0; i < a.n; i++)
+    ck_assert_double_eq_tol(gradient[i], 0, 1e-16);
+  zp_assembly_destroy(&a);
 }
 
 /* A matrix of random entries with a dominant diagonal, and a term on top. */

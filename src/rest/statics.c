@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "actuator/place.h"
 #include "actuator/resolution.h"
 #include "base/kernel.h"
 #include "def/check.h"
@@ -837,102 +838,12 @@ static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
                m->rotation, m->stretch, m->tension, moved.x, moved.y);
 }
 
-/* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the
- * right from their left nodes. */
-static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
-  for (size_t j = from; j < to; j += s)
-    q[j + s] = q[j] + d[j];
-  for (size_t j = from; j > to; j -= s)
-    q[j - s] = q[j] - d[j - s];
-}
-
-/* A chain of nodes: along one ribbon from `start` to `turn`. If it `returns`, the latter is a clip, and the chain goes
- * on from the clip's lower node back to the one below its start. */
-typedef struct Path {
-  size_t start, turn;
-  bool returns;
-} Path;
-
-/* The one that ends at the lower platform of the left or right half: from the upper platform, or from a clip that is
- * held. */
-static Path path_to_platform(const ZpRestMember *m, bool right) {
-  const ZpTopology *t = &m->model->topology;
-  size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
-  return m->assembly.equation[zp_x_of(clip)] < 0 ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
-}
-
-enum { MOST_PATHS = 4 };
-
-/* The paths that place all nodes => how many. */
-static size_t paths_of(const ZpRestMember *m, Path path[MOST_PATHS]) {
-  const ZpTopology *t = &m->model->topology;
-  size_t count = 0, last = t->nodes - t->ribbons;
-  if (!zp_has_platform(t)) {
-    for (; count < t->ribbons; count++)
-      path[count] = (Path){count, last + count, false};
-    return count;
-  }
-  for (size_t h = 0; h < t->halves; h++) {
-    Path end = path_to_platform(m, h > 0);
-    if (!end.returns) path[count++] = (Path){end.turn - 1, end.start - 1, false};
-    path[count++] = end;
-  }
-  return count;
-}
-
-/* Place its nodes at the ends of edges `d`. */
-static void walk(const ZpTopology *t, Path path, const double *d, double *q) {
-  lay(d, t->ribbons, path.start, path.turn, q);
-  if (!path.returns) return;
-  q[path.turn + 1] = q[path.turn];
-  lay(d, t->ribbons, path.turn + 1, path.start + 1, q);
-}
-
-/* Spread a closing error at its end along it. */
-static void spread(const ZpTopology *t, Path path, double missed, double *q) {
-  bool up = path.turn > path.start;
-  size_t edges = (up ? path.turn - path.start : path.start - path.turn) / t->ribbons, all = (1 + path.returns) * edges;
-  for (size_t k = 0; k <= edges; k++) {
-    size_t j = up ? path.start + t->ribbons * k : path.start - t->ribbons * k;
-    q[j] -= missed * ((double)k / (double)all);
-    if (path.returns) q[j + 1] -= missed * ((double)(all - k) / (double)all);
-  }
-}
-
-/* Place all nodes at the ends of the edges in m->moved. What misses a held end is spread along its path. What the lower
- * platforms of two halves miss each other by, each half takes half of. */
-static void lay_member(ZpRestMember *m) {
-  const ZpTopology *t = &m->model->topology;
-  const int *equation = m->assembly.equation;
-  size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
-  Path path[MOST_PATHS];
-  size_t paths = paths_of(m, path);
-  for (size_t c = 0; c < 2; c++) {
-    double *q = zp_coordinate(m->model, m->q, c), *d = zp_coordinate(m->model, m->moved, c);
-    for (size_t k = 0; k < paths; k++) {
-      size_t end = path[k].returns ? path[k].start + 1 : path[k].turn;
-      double last = q[end];
-      walk(t, path[k], d, q);
-      if (equation[zp_x_of(end) + c] < 0) spread(t, path[k], q[end] - last, q);
-    }
-    if (t->halves == 1 || equation[zp_x_of(left) + c] < 0) continue;
-    double missed = q[right] - q[left] - d[left];
-    spread(t, path_to_platform(m, false), -0.5 * missed, q);
-    spread(t, path_to_platform(m, true), 0.5 * missed, q);
-  }
-}
-
 static size_t load_coordinate(const ZpRestMember *m) {
   return zp_y_of(zp_load_node(&m->model->topology));
 }
 
 static double load_height(const ZpRestMember *m) {
   return *zp_coordinate(m->model, m->q, load_coordinate(m));
-}
-
-/* Put the lower platform of a half at a height. */
-static void put_platform(ZpRestMember *m, double height) {
-  spread(&m->model->topology, path_to_platform(m, false), load_height(m) - height, zp_forces(m->model, m->q).y);
 }
 
 double zp_statics_factor(const ZpStatics *s, size_t which) {
@@ -957,7 +868,7 @@ static void meet(ZpStatics *s) {
   }
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    put_platform(m, load_height(m) + zp_statics_factor(s, k) * (missed[k] - mean));
+    zp_place_platform(m->model, &m->assembly, load_height(m) + zp_statics_factor(s, k) * (missed[k] - mean), m->q);
   }
 }
 
@@ -967,7 +878,8 @@ void zp_statics_rejoin(ZpStatics *s) {
     double first = load_height(s->member), other = load_height(&s->member[k]);
     bool follows = s->opposed && first < other;
     double height = zp_statics_factor(s, k) * (follows ? other : first) + offset_of(s, k);
-    put_platform(follows ? s->member : &s->member[k], height);
+    ZpRestMember *m = follows ? s->member : &s->member[k];
+    zp_place_platform(m->model, &m->assembly, height, m->q);
   }
 }
 
@@ -975,7 +887,7 @@ static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   for (size_t k = 0; k < s->members; k++) {
     turn_edges(&s->member[k], step, fraction);
-    lay_member(&s->member[k]);
+    zp_place_edges(s->member[k].model, &s->member[k].assembly, s->member[k].moved, s->member[k].q);
   }
   meet(s);
 }

@@ -1,0 +1,90 @@
+#include "actuator/place.h"
+
+/* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the
+ * right from their left nodes. */
+static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {
+  for (size_t j = from; j < to; j += s)
+    q[j + s] = q[j] + d[j];
+  for (size_t j = from; j > to; j -= s)
+    q[j - s] = q[j] - d[j - s];
+}
+
+/* A chain of nodes: along one ribbon from `start` to `turn`. If it `returns`, the latter is a clip, and the chain goes
+ * on from the clip's lower node back to the one below its start. */
+typedef struct Path {
+  size_t start, turn;
+  bool returns;
+} Path;
+
+/* The one that ends at the lower platform of the left or right half: from the upper platform, or from a clip that is
+ * held. */
+static Path path_to_platform(const ZpTopology *t, const int *equation, bool right) {
+  size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
+  return equation[zp_x_of(clip)] < 0 ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
+}
+
+enum { MOST_PATHS = 4 };
+
+/* The paths that place all nodes => how many. */
+static size_t paths_of(const ZpTopology *t, const int *equation, Path path[MOST_PATHS]) {
+  size_t count = 0, last = t->nodes - t->ribbons;
+  if (!zp_has_platform(t)) {
+    for (; count < t->ribbons; count++)
+      path[count] = (Path){count, last + count, false};
+    return count;
+  }
+  for (size_t h = 0; h < t->halves; h++) {
+    Path end = path_to_platform(t, equation, h > 0);
+    if (!end.returns) path[count++] = (Path){end.turn - 1, end.start - 1, false};
+    path[count++] = end;
+  }
+  return count;
+}
+
+/* Place its nodes at the ends of edges `d`. */
+static void walk(const ZpTopology *t, Path path, const double *d, double *q) {
+  lay(d, t->ribbons, path.start, path.turn, q);
+  if (!path.returns) return;
+  q[path.turn + 1] = q[path.turn];
+  lay(d, t->ribbons, path.turn + 1, path.start + 1, q);
+}
+
+/* Spread a closing error at its end along it. */
+static void spread(const ZpTopology *t, Path path, double missed, double *q) {
+  bool up = path.turn > path.start;
+  size_t edges = (up ? path.turn - path.start : path.start - path.turn) / t->ribbons, all = (1 + path.returns) * edges;
+  for (size_t k = 0; k <= edges; k++) {
+    size_t j = up ? path.start + t->ribbons * k : path.start - t->ribbons * k;
+    q[j] -= missed * ((double)k / (double)all);
+    if (path.returns) q[j + 1] -= missed * ((double)(all - k) / (double)all);
+  }
+}
+
+void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const double *edges, double *nodes) {
+  const ZpTopology *t = &model->topology;
+  const int *equation = assembly->equation;
+  size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
+  Path path[MOST_PATHS];
+  size_t paths = paths_of(t, equation, path);
+  for (size_t c = 0; c < 2; c++) {
+    const double *d = c == 0 ? zp_nodes(model, edges).x : zp_nodes(model, edges).y;
+    double *q = zp_coordinate(model, nodes, c);
+    for (size_t k = 0; k < paths; k++) {
+      size_t end = path[k].returns ? path[k].start + 1 : path[k].turn;
+      double last = q[end];
+      walk(t, path[k], d, q);
+      if (equation[zp_x_of(end) + c] < 0) spread(t, path[k], q[end] - last, q);
+    }
+    if (t->halves == 1 || equation[zp_x_of(left) + c] < 0) continue;
+    double missed = q[right] - q[left] - d[left];
+    spread(t, path_to_platform(t, equation, false), -0.5 * missed, q);
+    spread(t, path_to_platform(t, equation, true), 0.5 * missed, q);
+  }
+}
+
+void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double height, double *nodes) {
+  const ZpTopology *t = &model->topology;
+  double *y = zp_forces(model, nodes).y, missed = y[zp_load_node(t)] - height;
+  for (size_t h = 0; h < t->halves; h++)
+    spread(t, path_to_platform(t, assembly->equation, h > 0), missed, y);
+}

@@ -1,0 +1,16 @@
+/* Nodes where the rows of the table of constraints and the vectors of edges want them: all rows hold, and edges differ
+ * from the given ones as little as they can, eq. (10.8). docs/theory.md, section 10. */
+#ifndef ZP_ACTUATOR_PLACE_H
+#define ZP_ACTUATOR_PLACE_H
+
+#include "actuator/assemble.h"
+
+/* Place all nodes [2 stride] at the ends of edges, of which those of node j and of the next one of its ribbon is at j.
+ * What misses a held end is spread along the ribbons that lead there. What the lower platforms of two halves miss each
+ * other by, each half takes half of. */
+void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const double *edges, double *nodes);
+
+/* Move the lower platform to a height; the edges that lead there take equal parts of its way. */
+void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double height, double *nodes);
+
+#endif
