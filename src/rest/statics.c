@@ -44,11 +44,6 @@ static size_t edge_count(const ZpRestMember *m) {
   return m->model->count - m->model->s;
 }
 
-/* Apply this share of weight and natural curvature. */
-static void put_on(ZpStatics *s, double share) {
-  s->share = share;
-}
-
 static void lay_straight(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
     memset(m->q, 0, zp_coordinates(m->model) * sizeof *m->q);
@@ -162,10 +157,9 @@ void zp_statics_take_tensions(ZpStatics *s) {
     memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
 }
 
-/* Start from the straight shape and let the load that `put` sets grow to `whole`, first by the share `step`, if the
- * equilibrium is too far away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a
- * first share. */
-static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double), double whole, double step) {
+/* Start from the straight shape and let what acts by these shares grow, first by `step`, if the equilibrium is too far
+ * away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a first share. */
+static ZpNewtonInfo step_by_step(ZpStatics *s, double *one, double *other, double step) {
   static const double shortest = 1e-8;
   double reached = 0;
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
@@ -174,7 +168,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
   keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
-    put(s, share * whole);
+    *one = *other = share;
     info = zp_statics_solve(s, STEP_ITERATIONS);
     iterations += info.iterations;
     if (zp_newton_good(info.end)) {
@@ -188,7 +182,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, void (*put)(ZpStatics *, double),
       step *= 0.25;
     }
   }
-  put(s, whole);
+  *one = *other = 1;
   info.iterations = iterations;
   if (reached < 1) info.end = ZP_NEWTON_SLOW;
   return info;
@@ -231,15 +225,16 @@ static void go_back(ZpStatics *s) {
   zp_statics_take_tensions(s);
 }
 
-/* Follow the branch from a stable equilibrium while `put(whole, share)` increases a load, in shares of at most
- * `longest`, to 1. False if the branch ends before; the present point is then its last equilibrium. */
-static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double whole, double longest) {
+/* Follow the branch from a stable equilibrium while an input grows to `whole`, or its square does, in shares of at most
+ * `longest`: forces are proportional to the square of a voltage. False if the branch ends before; the present point is
+ * then its last equilibrium. */
+static bool grow(ZpStatics *s, double *input, double whole, bool square, double longest) {
   static const double shortest = 1e-6;
   double reached = 0, step = longest;
   keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
-    put(s, whole, share);
+    *input = whole * (square ? sqrt(share) : share);
     ZpNewtonEnd end = zp_statics_solve(s, MOST_ITERATIONS).end;
     if (zp_newton_good(end) && zp_statics_stable(s) && !has_jumped(s)) {
       reached = share;
@@ -253,20 +248,11 @@ static bool grow(ZpStatics *s, void (*put)(ZpStatics *, double, double), double 
   return reached == 1;
 }
 
-/* Shares of the square of the voltage, to which the force is proportional. */
-static void put_voltage(ZpStatics *s, double whole, double share) {
-  s->U = whole * sqrt(share);
-}
-
-static void put_suction(ZpStatics *s, double whole, double share) {
-  s->suction = whole * share;
-}
-
 /* Continue from the equilibrium without suction at the menisci to the one with it. Where that branch ends, suction
  * draws the faces together. */
 static ZpNewtonInfo let_menisci_draw(ZpStatics *s, ZpNewtonInfo info) {
   bool draw = s->member->model->bead.suction > 0 && zp_newton_good(info.end),
-       grown = draw && grow(s, put_suction, 1, 1);
+       grown = draw && grow(s, &s->suction, 1, false, 1);
   s->suction = 1;
   return draw && !grown ? zp_statics_relax(s, 0) : info;
 }
@@ -297,11 +283,6 @@ static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info) {
   return contact;
 }
 
-/* Shares of the square of the lower antagonist's own voltage. */
-static void put_bias(ZpStatics *s, double whole, double share) {
-  s->bias = whole * sqrt(share);
-}
-
 /* Antagonists, from where both are held half way. */
 static ZpNewtonInfo hang_between(ZpStatics *s) {
   double load = s->load;
@@ -316,7 +297,7 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
 }
 
 bool zp_statics_bias(ZpStatics *s) {
-  bool biased = s->member[s->members - 1].model->bias == 0 || grow(s, put_bias, 1, 0.05);
+  bool biased = s->member[s->members - 1].model->bias == 0 || grow(s, &s->bias, 1, true, 0.05);
   if (biased) s->bias = 1;
   return biased;
 }
@@ -330,7 +311,7 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   s->U = s->suction = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
-  if (!is_found(s, info)) info = step_by_step(s, put_on, 1, 0.01);
+  if (!is_found(s, info)) info = step_by_step(s, &s->share, &s->share, 0.01);
   if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */
   info = let_faces_push(s, info);
   info = let_menisci_draw(s, info);
@@ -338,22 +319,10 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   return info;
 }
 
-/* Antagonists are held as they would be between mounts so much nearer to each other. */
-static void open_to(ZpStatics *s, double opening) {
-  s->opening = opening;
-  s->nearer = opening / s->held_at;
-}
-
-/* Open while weight is applied too: ribbons that sag by more than the opening have no straight shape to start from. */
-static void open_and_put_on(ZpStatics *s, double opening) {
-  open_to(s, opening);
-  s->share = s->nearer;
-}
-
 void zp_statics_hold_at(ZpStatics *s, double opening) {
   s->U = 0;
   s->load = 0;
-  s->opening = s->held_at = opening;
+  s->opening = opening;
   s->contact_acts = true;
 }
 
@@ -369,14 +338,15 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
   s->suction = 0;
   lay_straight(s);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
-  if (!is_found(s, info)) info = step_by_step(s, open_to, opening, 0.05);
-  if (!is_found(s, info)) info = step_by_step(s, open_and_put_on, opening, 0.01);
+  if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
+  /* ribbons that sag by more than the opening have no straight shape to start from */
+  if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->share, 0.01);
   info = let_faces_push(s, info);
   return let_menisci_draw(s, info);
 }
 
 bool zp_statics_ramp_voltage(ZpStatics *s, double voltage) {
-  return grow(s, put_voltage, voltage, 0.05) && !zp_statics_fault(s);
+  return grow(s, &s->U, voltage, true, 0.05) && !zp_statics_fault(s);
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
@@ -591,7 +561,7 @@ static double holding(const ZpStatics *s) {
 double zp_statics_away(const ZpStatics *s) {
   const ZpRestMember *m = s->member;
   if (!zp_statics_holds(s)) return 0;
-  return zp_tie_place(&s->held, 0, s->opening) - *zp_coordinate(m->model, m->q, s->held.coordinate);
+  return zp_tie_place(&s->held, 0, s->nearer * s->opening) - *zp_coordinate(m->model, m->q, s->held.coordinate);
 }
 
 double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {

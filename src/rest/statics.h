@@ -38,10 +38,9 @@ typedef struct ZpStatics {
   double share;        /* share of weight and natural curvature that acts: 1, or less while they are applied */
   double suction;      /* share of the suction at menisci that acts: 1, or less while it is applied */
   bool opposed;        /* they are antagonists */
-  double nearer;       /* share of the distance of their mounts: 1, or less while an opening is approached */
+  double nearer;       /* share of the opening, and of the distance of mounts: 1, or less while it is approached */
   ZpTie held;          /* the row of a held platform, */
   double opening;      /* and its input, m; NAN: it does not act */
-  double held_at;      /* final value of this opening while it is approached, m */
   double reaction;     /* force that holds it there, N, one part, positive downwards; of the last residual */
   double careful;      /* factor by which steps of a fall are shorter */
   bool contact_acts;   /* faces push on each other; if false they may pass through each other (to find a start) */
