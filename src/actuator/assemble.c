@@ -237,14 +237,6 @@ void zp_assembly_gather(const ZpAssembly *a, const double *nodes, double *equati
     }
 }
 
-void zp_assembly_scatter(const ZpAssembly *a, const double *equations, double *nodes) {
-  for (size_t j = 0; j < a->count; j++)
-    for (size_t c = 0; c < 2; c++) {
-      size_t k = 2 * j + c;
-      if (a->equation[k] >= 0) nodes[j + c * a->stride] = a->factor[k] * equations[a->equation[k]];
-    }
-}
-
 void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nodes) {
   for (size_t j = 0; j < a->count; j++)
     for (size_t c = 0; c < 2; c++) {

@@ -36,10 +36,9 @@ void zp_assembly_destroy(ZpAssembly *assembly);
  * one, at most one coordinate is shared, and is inside the band. */
 size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const ZpTies *ties, bool border);
 
-/* Values of nodes [2 stride] => of equations [n], and back; what is held stays as it is there. Values are changes or
- * rates; positions are placed. */
+/* Changes or rates of nodes [2 stride] => of equations [n]; positions of equations => of nodes, where what is held
+ * stays as it is. */
 void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double *equations);
-void zp_assembly_scatter(const ZpAssembly *assembly, const double *equations, double *nodes);
 void zp_assembly_place(const ZpAssembly *assembly, const double *equations, double *nodes);
 
 /* The change of a coordinate by a step [n]; 0 of what is held. */
@@ -53,7 +52,7 @@ static inline double zp_assembly_position(const ZpAssembly *a, size_t coordinate
   return a->factor[coordinate] * equations[a->equation[coordinate]] + a->offset[coordinate];
 }
 
-/* The changes of all coordinates of nodes => [2 stride]. */
+/* Changes or rates of equations => of all coordinates of nodes [2 stride], 0 of what is held. */
 void zp_assembly_changes(const ZpAssembly *assembly, const double *step, double *nodes);
 
 /* equations [n] += forces on nodes [2 stride], summed over what has the same equation; += a force on one coordinate. */

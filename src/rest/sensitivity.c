@@ -215,8 +215,7 @@ static void add_motion(ZpRestSensitivity *p, size_t which) {
   const ZpEdges *e = &m->eval.edges;
   double *rate = of_member(p, p->rate, which, 2), *tension = of_member(p, p->tension, which, 1);
   const double *x = p->motion, *y = zp_nodes(model, x).y;
-  memset(p->motion, 0, zp_coordinates(model) * sizeof *p->motion);
-  zp_assembly_scatter(&m->assembly, p->by_key, p->motion); /* what is held stays 0 */
+  zp_assembly_changes(&m->assembly, p->by_key, p->motion);
   for (size_t i = 0; i < zp_coordinates(model); i++)
     rate[i] += p->motion[i];
   for (size_t j = 0; j < model->count - model->s; j++) {

@@ -490,7 +490,7 @@ static void inertia(void *self, const double *a, double *f) {
   ZpDynamics *d = self;
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
     ZpSpan span = span_of(d, m);
-    zp_assembly_scatter(&m->assembly, a, m->moved);
+    zp_assembly_changes(&m->assembly, a, m->moved);
     zp_system_inertia(m->model, &span, &m->eval, m->moved, m->force);
     zp_assembly_add(&m->assembly, m->force, f);
   }
@@ -732,9 +732,9 @@ static void load(ZpDynamics *d, ZpState *const state[]) {
 static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) {
   const ZpModel *model = m->model;
   zp_assembly_place(&m->assembly, d->q, zp_state_q(model, state));
-  zp_assembly_scatter(&m->assembly, d->v, zp_state_v(model, state));
-  zp_assembly_scatter(&m->assembly, d->history.w, zp_state_mean_v(model, state));
-  zp_assembly_scatter(&m->assembly, d->history.a, zp_state_mean_a(model, state));
+  zp_assembly_changes(&m->assembly, d->v, zp_state_v(model, state));
+  zp_assembly_changes(&m->assembly, d->history.w, zp_state_mean_v(model, state));
+  zp_assembly_changes(&m->assembly, d->history.a, zp_state_mean_a(model, state));
   memcpy(zp_state_own(model, state), m->own, zp_extra_unknowns(model) * sizeof *m->own);
   memcpy(zp_state_own(model, state) + zp_extra_unknowns(model), m->eval.memory_end, model->kept * sizeof *m->own);
   state->t = end_time(d);
@@ -773,7 +773,7 @@ void zp_dynamics_change_load(ZpDynamics *d, ZpState *const state[]) {
     catch_mass(d, &d->member[k]);
   for (size_t k = 0; k < d->members; k++) {
     const ZpModel *model = d->member[k].model;
-    zp_assembly_scatter(&d->member[k].assembly, d->v, zp_state_v(model, state[k]));
+    zp_assembly_changes(&d->member[k].assembly, d->v, zp_state_v(model, state[k]));
     memcpy(zp_state_mean_v(model, state[k]), zp_state_v(model, state[k]), zp_coordinates(model) * sizeof *d->v);
     memset(zp_state_mean_a(model, state[k]), 0, zp_coordinates(model) * sizeof *d->v);
     state[k]->last_step = state[k]->next_step = 0;

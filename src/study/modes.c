@@ -42,7 +42,7 @@ static size_t count(const ZpVibration *v) {
 static void move_member(ZpRestMember *m, const double *u, double amplitude) {
   const ZpModel *model = m->model;
   memset(m->moved, 0, zp_coordinates(model) * sizeof *m->moved);
-  zp_assembly_scatter(&m->assembly, u, m->moved);
+  zp_assembly_changes(&m->assembly, u, m->moved);
   for (size_t i = 0; i < zp_coordinates(model); i++)
     m->q[i] += amplitude * m->moved[i];
   if (model->field) zp_plates_gaps(&model->plates, m->q, zp_nodes(model, m->q).y, &m->eval.plates);
