@@ -33,15 +33,21 @@ static double contact_energy(const ZpContactParams *p, const double *gap) {
   return sum + p->flat_length * contact_energy_at(p, gap[p->nodes - 1]);
 }
 
-static double energy(ZpRest *r) {
-  ZpStatics *s = &r->statics;
-  const ZpModel *model = s->member->model;
-  double sum = zp_rod_stretching_energy(&model->rod, &s->member->eval.rod) +
-               zp_rod_bending_energy(&model->rod, &s->member->eval.rod);
+static double energy_of(const ZpRestMember *m, double U) {
+  const ZpModel *model = m->model;
+  double sum = zp_rod_stretching_energy(&model->rod, &m->eval.rod) + zp_rod_bending_energy(&model->rod, &m->eval.rod);
   for (size_t j = 0; j < model->count; j++)
-    sum += model->weight[j] * s->member->q[model->stride + j];
-  return sum + zp_plates_totals(&model->plates, &s->member->eval.plates, s->U).potential +
-         contact_energy(&model->faces, s->member->eval.plates.gap);
+    sum += model->weight[j] * m->q[model->stride + j];
+  return sum + zp_plates_totals(&model->plates, &m->eval.plates, U).potential +
+         contact_energy(&model->faces, m->eval.plates.gap);
+}
+
+static double energy(ZpRest *r) {
+  const ZpStatics *s = &r->statics;
+  double sum = 0;
+  for (size_t k = 0; k < s->members; k++)
+    sum += energy_of(&s->member[k], s->U);
+  return sum;
 }
 
 static void raise_to(ZpRest *r, double voltage) {
@@ -74,6 +80,27 @@ TESTS(test_force_is_slope_of_energy, 0, 12) {
   double up = energy_at(&r, s + h), down = energy_at(&r, s - h), slope = (up - down) / (2 * h);
   printf("%g mm, %g kV: %.9g N, slope of the energy %+.1e off\n", 1e3 * s, 1e-3 * U, reaction, slope / reaction - 1);
   ck_near(slope, reaction, 3e-6); /* 9.5e-7 measured */
+  zp_rest_close(&r);
+}
+
+/* The force at the end of a series, whose links are free, is that slope, too, and the stiffness is its own slope. */
+TESTS(force_of_a_series_is_slope_of_energy, 0, 4) {
+  static const double voltages[] = {0, KV(1.5)};
+  const double s = MM(30), U = voltages[_i % 2], h = 5e-6;
+  ZpActuatorDef def = held_def(s, fmax(U, 1), true, 31);
+  def.stack.series = 2 + _i / 2;
+  def.stack.link_mass = 0.3e-3;
+  def.member_2.ribbon.thickness = 60e-6;
+  def.load.mass = 0;
+  ZpRest r;
+  ck_assert(zp_rest_open_held(&r, model_of(&def), NULL, NULL));
+  ck_assert(zp_newton_good(zp_statics_hold(&r.statics, s).end));
+  if (U > 0) raise_to(&r, U);
+  ck_assert(zp_statics_stable(&r.statics));
+  double reaction = r.statics.reaction, stiffness = zp_statics_load_stiffness(&r.statics) / r.statics.model->parts;
+  double up = energy_at(&r, s + h), more = r.statics.reaction, down = energy_at(&r, s - h), less = r.statics.reaction;
+  ck_near((up - down) / (2 * h), reaction, 3e-6);
+  ck_near((more - less) / (2 * h), stiffness, 3e-6);
   zp_rest_close(&r);
 }
 

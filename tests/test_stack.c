@@ -314,6 +314,101 @@ TESTS(equal_ones_are_held_as_one, 0, 2) {
   ck_near(zp_result_get(members, "stiffness_N_per_m"), slope, 2.4e-11); /* 8.1e-12 measured */
 }
 
+/* -- a series whose end is held -------------------------------------------------------------------- */
+
+/* Members that are alike, without weight, are held apart so many times as far by the force of one, as long as its force
+ * grows with the opening. */
+TESTS(series_is_held_by_the_force_of_one, 2, 4) {
+  static const char *const sums[] = {"charge_C", "capacitance_F", "opening_m"}, *const equal[] = {"force_N",
+                                                                                                  "force_unpowered_N"};
+  ZpActuatorDef one = DEF({"gravity", 0}, {"mesh.nodes", 31}, {"drive.voltage", 2e3}, {"isometric.separation", 8e-3}),
+                all = one;
+  all.stack.series = _i;
+  all.isometric.separation *= _i;
+  ZpResult *alone = answer_of(ZP_STUDY_ISOMETRIC, &one), *series = answer_of(ZP_STUDY_ISOMETRIC, &all);
+  for (size_t k = 0; k < LENGTH_OF(equal); k++)
+    ck_near(zp_result_get(series, equal[k]), zp_result_get(alone, equal[k]), 5e-15); /* 1.8e-15 measured */
+  for (size_t k = 0; k < LENGTH_OF(sums); k++)
+    ck_near(zp_result_get(series, sums[k]), _i * zp_result_get(alone, sums[k]), 3e-15); /* 1.1e-15 measured */
+}
+
+/* Where the force of one has no slope any more, two that are alike part: one closes and the other opens as far. The
+ * force is that of the other, alone. */
+TEST(alike_ones_part_where_the_force_has_no_slope) {
+  ZpActuatorDef one = DEF({"gravity", 0}, {"mesh.nodes", 31}, {"isometric.separation", 8e-3}), two = one;
+  two.stack.series = 2;
+  two.isometric.separation = 16e-3;
+  two.drive.voltage = 3e3;
+  ZpResult *both = answer_of(ZP_STUDY_ISOMETRIC, &two);
+  const ZpTable *t = both->series;
+  double parted = 0;
+  for (size_t row = 0; row < t->rows; row++)
+    if (fabs(zp_table_get(t, row, "member_1_opening_m") - 8e-3) < 1e-6) parted = zp_table_get(t, row, "voltage_V");
+  snprintf(one.sensitivity.by, sizeof one.sensitivity.by, "isometric.separation");
+  for (int k = 0; k < 2; k++) {
+    one.drive.voltage = (k ? 1.0005 : 0.9995) * parted; /* 2e-5 measured */
+    ZpResult *alone = answer_of(ZP_STUDY_ISOMETRIC, &one);
+    ck_assert((slope_in(alone, "force_N", "isometric.separation") +
+                   slope_in(alone, "force_unpowered_N", "isometric.separation") <
+               0) == k);
+  }
+  double first = zp_table_get(t, t->rows - 1, "member_1_opening_m"),
+         open = fmax(first, two.isometric.separation - first);
+  ck_assert_double_eq(zp_table_get(t, t->rows - 1, "closed_members"), 1);
+  ck_assert_uint_eq(notes_with(both, "where a member of a series closes, the others open"), 1);
+  ZpActuatorDef other = one;
+  other.isometric.separation = open;
+  other.drive.voltage = two.drive.voltage;
+  ZpResult *alone = answer_of(ZP_STUDY_ISOMETRIC, &other);
+  ck_near(zp_result_get(both, "force_N") + zp_result_get(both, "force_unpowered_N"),
+          zp_result_get(alone, "force_N") + zp_result_get(alone, "force_unpowered_N"), 6e-14); /* 2.2e-14 measured */
+}
+
+static ZpActuatorDef unlike_series(void) {
+  return DEF({"stack.series", 3}, {"stack.link_mass", 0.3e-3}, {"member_2.ribbon.thickness", 80e-6},
+             {"member_3.insulator.thickness", 110e-6}, {"mesh.nodes", 21}, {"isometric.separation", 30e-3},
+             {"drive.voltage", 1.5e3});
+}
+
+/* Each member, alone at its opening, pulls with the weight below it more than the next one. Eq. (13.7). */
+TEST(members_of_a_held_series_have_one_tension) {
+  ZpActuatorDef def = unlike_series();
+  ZpResult *all = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  static const char *const openings[] = {"member_1_opening_m", "member_2_opening_m", "member_3_opening_m"};
+  double end = zp_result_get(all, "force_N") + zp_result_get(all, "force_unpowered_N");
+  def.load.mass = 0;
+  ZpModel *model = model_of(&def);
+  for (int k = 0; k < 3; k++) {
+    ZpActuatorDef one = zp_def_member(&def, k + 1);
+    one.isometric.separation = zp_result_get(all, openings[k]);
+    ZpResult *alone = answer_of(ZP_STUDY_ISOMETRIC, &one);
+    double pull = zp_result_get(alone, "force_N") + zp_result_get(alone, "force_unpowered_N");
+    double below = def.gravity * (model[k].carried + (k < 2 ? def.stack.link_mass : 0));
+    ck_near(pull, end + below, 2.7e-12); /* 9.5e-13 measured */
+  }
+}
+
+/* Held where it hangs, without voltage and with one, a series needs the weight of its load. */
+TEST(held_series_carries_what_hangs) {
+  ZpActuatorDef def = unlike_series();
+  def.load.mass = 4e-3;
+  ZpRest *rest;
+  ck_assert_int_eq(zp_rest_create(model_of(&def), &rest, NULL), ZP_OK);
+  ck_assert(zp_rest_hang(rest, 0));
+  def.isometric.separation = zp_rest_opening(rest);
+  double weight = def.load.mass * def.gravity;
+  ck_near(answered_value(ZP_STUDY_ISOMETRIC, &def, "force_unpowered_N"), weight, 1e-12); /* 4.4e-16 measured */
+  ck_assert(zp_rest_hang(rest, def.drive.voltage));
+  def.isometric.separation = zp_rest_opening(rest);
+  ZpResult *held = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  ck_near(zp_result_get(held, "force_N") + zp_result_get(held, "force_unpowered_N"), weight,
+          1e-12); /* 2.2e-16 measured */
+  ck_assert_double_gt(zp_result_get(held, "force_N"), 1e-5);
+  zp_rest_destroy(rest);
+}
+
+/* -- side by side ---------------------------------------------------------------------------------- */
+
 /* The stiffness is how the sum of forces goes with the opening: that is what a little more load says. */
 TEST(stiffness_side_by_side_is_the_slope) {
   static const double little = 1e-5; /* N */
@@ -506,7 +601,7 @@ TEST(what_a_stack_lacks_is_said) {
       {{"stack.parallel", 2}, {"actuator.kind", ZP_KIND_RIBBON}, ZP_STUDY_STATIONARY, "actuator.kind electro_ribbon"},
       {{"stack.series", 2}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, ZP_STUDY_ACTUATE, "actuator.symmetry half"},
       {{"stack.series", 2}, {"load.stop_opening", 1e-2}, ZP_STUDY_LIMITS, "between the platforms of a single actuator"},
-      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_ISOMETRIC, "at one force their separations add up"},
+      {{"stack.series", 2}, {"isometric.separation", 177e-3}, ZP_STUDY_ISOMETRIC, "of all members = 0.1764 m"},
       {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_PROFILE, "use stack.series 1"},
       {{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}, ZP_STUDY_LIMITS, "stack.series of at least 3"},
       {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series at least 2"},

@@ -729,7 +729,7 @@ TEST(test_restored_with_load_and_voltage) {
   ZpActuatorDef def = zp_actuator_def_default();
   ZpModel *model = model_of(&def);
   ZpStatics statics;
-  ck_assert(zp_statics_create(model, &statics));
+  ck_assert(zp_statics_create(model, false, &statics));
   ZpBranchSystem system = zp_statics_branch(&statics, ZP_ALONG_LOAD);
   void *saved = zp_calloc(1, system.save_size);
   statics.U = 123;

@@ -143,33 +143,39 @@ typedef struct Joined {
   size_t ties[ZP_MOST_MEMBERS], tied[ZP_MOST_MEMBERS][2], to[ZP_MOST_MEMBERS][2];
   size_t shared;
   bool border;
-  size_t inner; /* with a border: equations that are not shared */
+  size_t inner; /* equations that are not shared */
 } Joined;
 
+/* How many equations of all members, in the order of their numbers, come before this one. */
+static size_t before(const Joined *of, size_t which, size_t own) {
+  size_t sum = 0;
+  for (size_t k = 0; k < of->members; k++)
+    sum += least(own + (k < which), of->count[k] - of->ties[k]);
+  return sum;
+}
+
 /* An equation of one member alone => of all. With a border, those of each member follow those of the one before, and
- * the shared ones follow all. Of two that share a load, those of the second one follow from its platform back to its
- * clip, so that the matrix stays a narrow band. More than two have the same equations; those of the same number are
- * adjacent. */
+ * the shared ones follow all. Without one, those of the second of two follow from its platform back to its clip, behind
+ * the shared one, so that the matrix stays a narrow band; of more than two, those of the same number are adjacent. */
 static size_t place_of(const Joined *of, size_t which, size_t i) {
-  const size_t members = of->members;
   size_t own = i; /* its number among those that are not shared */
   for (size_t k = 0; k < of->ties[which]; k++) {
-    if (of->tied[which][k] == i && of->border) return of->inner + of->to[which][k];
-    if (of->tied[which][k] == i) return (members > 2 ? members : 1) * of->tied[0][0];
+    if (of->tied[which][k] == i) return of->border || of->members > 2 ? of->inner + of->to[which][k] : of->tied[0][0];
     own -= of->tied[which][k] < i;
   }
   if (of->border || !of->shared) return of->before[which] + own;
-  if (members == 2 && which == 1) return of->count[0] + of->count[1] - 2 - own;
-  return (members > 2 ? members * own + which : own) + (own < i);
+  if (of->members > 2) return before(of, which, own);
+  return which == 1 ? of->inner - own : i;
 }
 
-static size_t joined_bandwidth(const Joined *of, size_t own) {
-  size_t beyond = 0;
-  if (of->border || !of->shared) return own;
-  if (of->members > 2) return of->members * own + of->members - 1;
-  for (size_t which = 0; which < of->members; which++)
-    beyond += of->count[which] - 1 - of->tied[which][0];
-  return own + beyond;
+/* The largest distance between the equations of two stations that couple. */
+static size_t reach_of(const ZpAssembly *a) {
+  size_t most = 0;
+  for (size_t i = 0; i < a->nodes; i++) {
+    int first = outermost(a, i, i + 3, -1);
+    if (first >= 0) most = wider(most, first, outermost(a, i, i + 3, 1));
+  }
+  return most;
 }
 
 /* Number the equations of one member among those of all, `n`. */
@@ -205,17 +211,18 @@ size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const ZpTies *tie
       size_t shared = note(a[t->to_member], t->to_member, t->to, of.shared, &of);
       note(a[t->member], t->member, t->coordinate, shared, &of);
     }
-  size_t n = of.shared && !border;
+  size_t n = 0, bandwidth = a[0]->bandwidth;
   for (size_t which = 0; which < members; which++) {
     of.before[which] = n;
     of.count[which] = a[which]->n;
     n += a[which]->n - of.ties[which];
   }
   of.inner = n;
-  if (border) n += of.shared;
-  for (size_t which = 0; which < members; which++)
-    join(a[which], &of, which, n);
-  return joined_bandwidth(&of, a[0]->bandwidth);
+  for (size_t which = 0; which < members; which++) {
+    join(a[which], &of, which, n + of.shared);
+    if (of.shared && !border && reach_of(a[which]) > bandwidth) bandwidth = reach_of(a[which]);
+  }
+  return bandwidth;
 }
 
 void zp_assembly_destroy(ZpAssembly *a) {

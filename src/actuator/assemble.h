@@ -33,7 +33,7 @@ void zp_assembly_destroy(ZpAssembly *assembly);
 
 /* Number the equations of members as one system, in which coordinates that are tied have one equation => the number of
  * diagonals above the main one. In a border, the shared ones come last, and each member has a band of its own. Without
- * one, at most one coordinate is shared, and is inside the band. */
+ * one they are inside the band, and of two members at most one coordinate is shared. */
 size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const ZpTies *ties, bool border);
 
 /* Changes or rates of nodes [2 stride] => of equations [n]; positions of equations => of nodes, where what is held

@@ -53,13 +53,13 @@ static void add_link(ZpTies *ties, size_t member) {
                     opposed ? -first->distance : 0, 0});
 }
 
-/* The lower platform is so far below the upper one, or the free end of the lower of two ribbons below its left end, eq.
- * (13.6). */
+/* The lower platform is so far below the upper one, of a series the lowest below the uppermost, or the free end of the
+ * lower of two ribbons below its left end, eq. (13.6). */
 static ZpTie held_row(const ZpModel *first, size_t members) {
   const size_t member = zp_shares_load(first) ? 0 : members - 1;
-  const ZpTopology *t = &first[member].topology;
+  const ZpTopology *t = &first->topology;
   const size_t from = zp_has_platform(t) ? zp_upper(t, t->platform.first) : zp_lower(t, 0);
-  return (ZpTie){member, zp_y_of(zp_load_node(t)), member, zp_y_of(from), 1, 0, -1};
+  return (ZpTie){member, zp_y_of(zp_load_node(&first[member].topology)), 0, zp_y_of(from), 1, 0, -1};
 }
 
 /* Each row refers to a free coordinate. */

@@ -8,10 +8,11 @@
 /* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
 static const double first_step = 0.01, longest_step = 0.1;
 
-bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user) {
+static bool create(ZpRest *rest, const ZpModel *model, bool held, void (*reserve)(void *user, ZpArena *arena),
+                   void *user) {
   ZpArena arena = {NULL, 0};
   *rest = (ZpRest){0};
-  if (!zp_statics_create(model, &rest->statics)) return false;
+  if (!zp_statics_create(model, held, &rest->statics)) return false;
   rest->system = zp_statics_branch(&rest->statics, ZP_ALONG_VOLTAGE);
   rest->square = zp_statics_branch(&rest->statics, ZP_ALONG_SQUARE);
   rest->load = zp_statics_branch(&rest->statics, ZP_ALONG_LOAD);
@@ -31,6 +32,14 @@ bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user
     if (reserve) reserve(user, &arena);
   }
   return true;
+}
+
+bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user) {
+  return create(rest, model, false, reserve, user);
+}
+
+bool zp_rest_open_held(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user) {
+  return create(rest, model, true, reserve, user);
 }
 
 void zp_rest_close(ZpRest *rest) {

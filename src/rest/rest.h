@@ -25,6 +25,9 @@ struct ZpRest {
  * is called twice with `user`. False if there is no memory. `rest` must not be moved, and must be closed, also if this
  * fails. */
 bool zp_rest_open(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user);
+
+/* zp_rest_open for a platform that is held, zp_statics_hold: it may be the end of a series. */
+bool zp_rest_open_held(ZpRest *rest, const ZpModel *model, void (*reserve)(void *user, ZpArena *arena), void *user);
 void zp_rest_close(ZpRest *rest);
 
 /* The present shape with any `time`, of several members as if they were one; valid until the point moves. *margins

@@ -72,7 +72,7 @@ ZpStatus zp_rest_sensitivity_open(ZpRestSensitivity *p, ZpStatics *at, int key, 
   reserve(p, p->memory);
   ZpStatus status = depends_on(at, key) ? zp_finite_difference_open(&p->by, at->model, key, part, err) : ZP_OK;
   for (int k = 0; k < p->by.count && status == ZP_OK; k++)
-    if (!zp_statics_create(p->by.near[k].model, &p->near[k])) status = zp_fail_memory(err);
+    if (!zp_statics_create(p->by.near[k].model, at->linked, &p->near[k])) status = zp_fail_memory(err);
   return status;
 }
 

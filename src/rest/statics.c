@@ -53,9 +53,13 @@ static void lay_straight(ZpStatics *s) {
   }
 }
 
-/* In series each member is at rest in the frame of the platform that it hangs on. */
+/* Do rows of ties join the members? If not, each is at rest in the frame of the platform that it hangs on. */
+static bool is_joined(const ZpStatics *s) {
+  return s->shared || s->linked;
+}
+
 static ZpTies ties_of(const ZpStatics *s, size_t which) {
-  return s->shared ? zp_ties_of(s->model, s->members) : zp_ties_of(s->model + which, 1);
+  return is_joined(s) ? zp_ties_of(s->model, s->members) : zp_ties_of(s->model + which, 1);
 }
 
 static bool create_member(const ZpStatics *s, size_t which) {
@@ -64,7 +68,7 @@ static bool create_member(const ZpStatics *s, size_t which) {
   ZpRestMember *m = &s->member[which];
   m->model = model;
   return zp_system_create(model, true, &m->eval) &&
-         zp_assembly_create(&ties, s->shared ? which : 0, 0, model->is_rod, &m->assembly);
+         zp_assembly_create(&ties, is_joined(s) ? which : 0, 0, model->is_rod, &m->assembly);
 }
 
 /* The equations of all members. */
@@ -87,10 +91,11 @@ static void number(ZpStatics *s) {
   s->n = first->n;
 }
 
-bool zp_statics_create(const ZpModel *model, ZpStatics *s) {
+bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
   *s = (ZpStatics){.model = model,
                    .members = model->members,
                    .shared = zp_shares_load(model),
+                   .linked = held && model->members > 1 && !zp_shares_load(model),
                    .opposed = zp_is_antagonist(model),
                    .force = zp_lowest(model)->def.load.force};
   s->memory = zp_calloc(1, reserve(model, s, NULL));
@@ -547,7 +552,7 @@ static size_t height_of(const ZpRestMember *m) {
 }
 
 size_t zp_statics_platform(const ZpStatics *s) {
-  return height_of(s->member);
+  return height_of(s->member + s->held.member);
 }
 
 /* The row has the form of a force, so that the tolerance of forces applies: a stiffness, of each half, times the
@@ -559,7 +564,7 @@ static double holding(const ZpStatics *s) {
 }
 
 double zp_statics_away(const ZpStatics *s) {
-  const ZpRestMember *m = s->member;
+  const ZpRestMember *m = s->member + s->held.member;
   if (!zp_statics_holds(s)) return 0;
   return zp_tie_place(&s->held, 0, s->nearer * s->opening) - *zp_coordinate(m->model, m->q, s->held.coordinate);
 }
@@ -575,23 +580,25 @@ double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
 /* -- residual ------------------------------------------------------------------------------------- */
 
 /* The part of the load that hangs on a member: of those side by side an equal share; of antagonists all of it on the
- * upper one; in series all of it on each. */
+ * upper one; in series all of it on each, or on the last one if links carry the rest. */
 static double load_part(const ZpStatics *s, size_t which) {
   if (s->opposed) return which == 0;
+  if (s->linked) return which + 1 == s->members;
   return s->shared ? 1 / (double)s->members : 1;
 }
 
 /* The part of the load's mass and force that the modelled part of a member carries: in series that of the lowest one,
  * on which it hangs. */
 static double load_share(const ZpStatics *s, size_t which) {
-  return zp_load_share(s->member[s->shared ? which : s->members - 1].model);
+  return zp_load_share(s->member[is_joined(s) ? which : s->members - 1].model);
 }
 
 /* Mass that hangs on a member in addition to its own load, kg: in series also what hangs below it. What is not carried
  * in the share that the member has of its own load counts as so much more or less. */
 static double hung_on(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->member[which].model, *last = s->member[s->members - 1].model;
-  if (s->shared) return load_part(s, which) * s->load - model->def.load.mass;
+  if (s->linked && model != last) return 0;
+  if (is_joined(s)) return load_part(s, which) * s->load - model->def.load.mass;
   double share = model == last ? 1 : load_share(s, which) / zp_load_share(model);
   return model->carried + share * s->load - share * last->def.load.mass;
 }
@@ -602,7 +609,7 @@ ZpSpan zp_statics_span(const ZpStatics *s, size_t which) {
   ZpSpan span = zp_span_at(m->q);
   span.U0 = span.U1 = zp_statics_member_voltage(s, which);
   span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
-  if (!s->shared) span.load = load_share(s, which) * (s->force - def->load.force);
+  if (!is_joined(s)) span.load = load_share(s, which) * (s->force - def->load.force);
   span.share = s->share;
   span.suction = s->suction;
   span.faces_pass = !s->contact_acts;
@@ -827,8 +834,20 @@ static double offset_of(const ZpStatics *s, size_t which) {
   return s->nearer * m->assembly.offset[load_coordinate(m)];
 }
 
+/* Each member of a series hangs on the platform of the one above. */
+static void hang_members(ZpStatics *s) {
+  for (size_t k = 1; k < s->members; k++) {
+    const ZpTopology *t = &s->member[k].model->topology;
+    double *y = zp_forces(s->member[k].model, s->member[k].q).y;
+    double fall = load_height(&s->member[k - 1]) - y[zp_upper(t, t->platform.first)];
+    for (size_t j = 0; j < s->member[k].model->count; j++)
+      y[j] += fall;
+  }
+}
+
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
 static void meet(ZpStatics *s) {
+  if (s->linked) hang_members(s);
   if (!s->shared) return;
   double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = load_height(s->member);
   for (size_t k = 1; k < s->members; k++) {
@@ -844,6 +863,7 @@ static void meet(ZpStatics *s) {
 
 /* A row with a factor of 1 or -1 says of either coordinate where it puts the other one. */
 void zp_statics_rejoin(ZpStatics *s) {
+  if (s->linked) hang_members(s);
   for (size_t k = 1; k < s->members && s->shared; k++) {
     double first = load_height(s->member), other = load_height(&s->member[k]);
     bool follows = s->opposed && first < other;
@@ -1060,7 +1080,7 @@ static bool is_same(const ZpActuatorDef *one, const ZpActuatorDef *other) {
 
 /* Members in series that are the same and carry the same weight reach their limit points all at once. */
 static bool are_alike(const ZpStatics *s) {
-  if (s->shared) return false;
+  if (is_joined(s)) return false;
   for (size_t k = 1; k < s->members; k++)
     if (carried_weight(s, k) != carried_weight(s, 0) || !is_same(&s->member[k].model->def, &s->member->model->def))
       return false;

@@ -26,7 +26,8 @@ typedef struct ZpStatics {
   const ZpModel *model; /* the given one: the first of its members */
   size_t members;       /* actuators that are one system */
   ZpRestMember *member; /* [members]; from the uppermost down */
-  bool shared;          /* they have one load: its height is an unknown of all. In series each has its own frame */
+  bool shared;          /* they have one load: its height is an unknown of all */
+  bool linked;          /* of a series: heights of its links are unknowns of all; else each has its own frame */
   size_t n;             /* equations of all */
   ZpBandForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
@@ -54,8 +55,9 @@ typedef struct ZpStatics {
   void *memory, *solution;
 } ZpStatics;
 
-/* Allocate and start straight, without voltage. False if there is no memory. */
-bool zp_statics_create(const ZpModel *model, ZpStatics *statics);
+/* Allocate and start straight, without voltage. `held`: the end of a series may be held, so that the force in its links
+ * is not known. False if there is no memory. */
+bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *statics);
 void zp_statics_destroy(ZpStatics *statics);
 
 /* Call `stop`. After it has returned true once, the answer stays true. */
@@ -94,7 +96,7 @@ void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
 void zp_statics_take_tensions(ZpStatics *statics);
 
 /* Where members that share a load have it at different heights, put it at that of the first one; of antagonists the one
- * that is more open follows, since closed faces would be parted. */
+ * that is more open follows, since closed faces would be parted. Linked ones hang on each other again. */
 void zp_statics_rejoin(ZpStatics *statics);
 
 /* Is the present equilibrium stable? For a rod: the stiffness has no negative eigenvalue. For mass_spring, whose shear

@@ -99,7 +99,9 @@ ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*r
   if (at->column) at->result->series = make_table(at);
   at->result->shapes = zp_model_shapes(at->model, at->shapes);
   bool made = at->result->shapes && (!at->column || at->result->series);
-  if (!made || !zp_rest_open(&at->rest, at->model, reserve, user)) return zp_fail_memory(err);
+  made = made && (at->held ? zp_rest_open_held(&at->rest, at->model, reserve, user)
+                           : zp_rest_open(&at->rest, at->model, reserve, user));
+  if (!made) return zp_fail_memory(err);
   at->rest.statics.stop = asked_to_stop;
   at->rest.statics.caller = at;
   return ZP_OK;

@@ -31,6 +31,7 @@ typedef struct ZpEquilibria {
   const ZpColumn *column; /* the study's columns; NULL: its table is another */
   size_t columns;
   size_t rows, shapes; /* most of them that the result keeps */
+  bool held;           /* the platform will be held */
   ZpModel *model;
   ZpRest rest;
   ZpMargins margins; /* what materials have seen */

@@ -98,8 +98,9 @@ static void record(Holder *h, bool passed, bool last) {
 
 /* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces. */
 static bool is_possible(Holder *h) {
-  const ZpPlatesParams *plates = &h->at.rest.statics.member->model->plates;
-  double most = zp_plates_law(plates, h->at.rest.statics.U, 0).W * zp_contact_length(h->at.model);
+  double most = 0;
+  for (const ZpModel *model = h->at.model; model < h->at.model + h->at.model->members; model++)
+    most = fmax(most, zp_plates_law(&model->plates, h->at.rest.statics.U, 0).W * zp_contact_length(model));
   h->fault = zp_statics_fault_of_stations(&h->at.rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
@@ -136,7 +137,8 @@ static void look_at(Holder *h, double direction, bool *turned) {
 }
 
 /* Follow the branch until it has reached `top` within its last step. Else it has turned back or was lost: `edge` is the
- * state from which it is released. */
+ * state from which it is released. A series has many branches, and moves to one that is near: it is released where its
+ * state becomes unstable, at a turn or where equal members cease to be alike. */
 static bool follow(Holder *h, bool *turned) {
   ZpStatics *s = &h->at.rest.statics;
   *turned = false;
@@ -146,10 +148,12 @@ static bool follow(Holder *h, bool *turned) {
     double direction = h->at.rest.branch.direction_m;
     zp_rest_save(&h->at.rest, h->before);
     bool further = zp_branch_advance(&h->at.rest.branch) && s->U >= 0 && is_possible(h);
-    if (!further && !*turned) memcpy(h->edge, h->before, h->at.rest.system.save_size);
-    if (!further) return false;
-    look_at(h, direction, turned);
-    if (fmax(h->highest, s->U) > h->top) return true;
+    if (further) look_at(h, direction, turned);
+    if (further && fmax(h->highest, s->U) > h->top) return true;
+    bool unstable = further && s->linked && s->U != h->highest;
+    if (!*turned && (!further || unstable)) memcpy(h->edge, h->before, h->at.rest.system.save_size);
+    *turned |= unstable;
+    if (!further || unstable) return false;
     record(h, s->U == h->highest, false);
     if (zp_statics_asked_to_stop(s)) return false;
   }
@@ -221,10 +225,10 @@ static void note(Holder *h) {
   zp_equilibria_note(&h->at, h->at.model->def.drive.voltage);
   if (h->jumps > 0)
     zp_result_note(
-        r,
-        "%d jump%s as the voltage rises, the largest by %.3g N; a wedge shorter than an element causes such jumps: "
-        "increase mesh.nodes to see whether they are real",
-        h->jumps, h->jumps == 1 ? "" : "s", h->leap);
+        r, "%d jump%s as the voltage rises, the largest by %.3g N; %s", h->jumps, h->jumps == 1 ? "" : "s", h->leap,
+        h->at.rest.statics.linked ? "where a member of a series closes, the others open"
+                                  : "a wedge shorter than an element causes such jumps: increase mesh.nodes to see "
+                                    "whether they are real");
   if (h->others > 0)
     zp_result_note(
         r,
@@ -299,6 +303,7 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
   if (zp_newton_good(info->end)) {
     h->unpowered = holding(h);
     h->unpowered_moment = moment(h);
+    zp_quasistatic_start(&h->at.rest); /* from now on a gap tells which members of a series are closed */
     zp_rest_save(&h->at.rest, h->unpowered_state);
     record(h, true, false);
   } else {
@@ -317,7 +322,7 @@ static ZpActuatorDef alone(const ZpActuatorDef *def, int member) {
 
 static ZpStatus open_members(Holder *h, const ZpActuatorDef *bare, ZpError *err) {
   size_t members = h->at.rest.statics.members;
-  if (members == 1) return ZP_OK;
+  if (members == 1 || h->at.rest.statics.linked) return ZP_OK;
   h->member = zp_calloc(members, sizeof *h->member);
   if (!h->member) return zp_fail_memory(err);
   ZpStatus status = ZP_OK;
@@ -483,34 +488,48 @@ static void run(Holder *h) {
   zp_rest_save(&h->at.rest, h->answer);
 }
 
-ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
+static ZpStatus check_reach(double separation, double longest, const char *of, ZpError *err) {
   static const double most = 0.98; /* of the length of both halves: beyond it, ribbons are stretched more than bent */
+  if (separation <= most * longest) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m", separation, most,
+                 of, most * longest);
+}
+
+static double length_of(const ZpActuatorDef *def) {
+  return def->ribbon.length - (zp_def_has(def, ZP_DEVICE_PLATFORM) ? def->platform.length : 0);
+}
+
+ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
-  double longest = most * (def->ribbon.length - (platform ? def->platform.length : 0));
-  if (def->isometric.separation > longest)
-    return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m",
-                   def->isometric.separation, most, platform ? "(ribbon.length - platform.length)" : "ribbon.length",
-                   longest);
-  return ZP_OK;
+  return check_reach(def->isometric.separation, length_of(def),
+                     platform ? "(ribbon.length - platform.length)" : "ribbon.length", err);
+}
+
+/* The end of a series is held within the reach of all together. */
+static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
+  double longest = 0;
+  for (int member = 1; member <= zp_def_members(def); member++) {
+    ZpActuatorDef one = zp_def_member(def, member);
+    longest += length_of(&one);
+  }
+  return check_reach(def->isometric.separation, longest, "(ribbon.length - platform.length) of all members", err);
 }
 
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it holds a platform, or the free end of the lower of two ribbons"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_NEVER,
-               "members in series share the force, not the opening: as one closes, another opens; hold each alone, "
-               "without the stack: at one force their separations add up"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
 };
 const ZpRules zp_rules_isometric = ZP_RULES_OF(rule);
 
-/* The lower platform is held within the reach of each. */
+/* A lower platform that members share is held within the reach of each. */
 static ZpStatus check_all_held(const ZpActuatorDef *def, ZpError *err) {
   const double least = zp_key(ZP_KEY(isometric.separation))->min;
   ZpStatus status = ZP_OK;
   if (zp_def_members(def) == 1) return zp_check_held(def, err);
+  if (!zp_def_antagonist(def) && !zp_def_parallel(def)) return check_series(def, err);
   if (zp_def_antagonist(def) && !(def->stack.distance - def->isometric.separation > least))
     return zp_fail(err, ZP_BAD_INPUT,
                    "isometric.separation = %g m: below stack.distance = %g m, so that the lower one opens",
@@ -533,7 +552,8 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
 /* The load does not count: it is removed before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
   ZpActuatorDef bare = zp_def_unloaded(task->def);
-  Holder h = {.at = {.task = task,
+  Holder h = {.at = {.held = true,
+                     .task = task,
                      .result = result,
                      .stage = "raising the voltage",
                      .top = bare.drive.voltage,
