@@ -2,22 +2,8 @@
 
 #include "base/pair.h"
 
-/* Directions in which a joint holds or joins the nodes of its stations. */
-typedef struct Hold {
-  bool held[2][2]; /* of the upper or only ribbon, of the lower one: x, y */
-  bool unites;     /* upper and lower node are one */
-  bool turns;      /* its stations keep only their distance */
-} Hold;
-
-static const Hold hold_of[ZP_JOINT_KINDS] = {
-    [ZP_JOINT_CLIP] = {.unites = true},
-    [ZP_JOINT_HELD] = {.held = {{true, true}, {true, true}}},
-    [ZP_JOINT_CLAMP] = {.held = {{true, true}, {true, true}}},
-    [ZP_JOINT_HINGE] = {.held = {{true, true}, {true, true}}},
-    [ZP_JOINT_PLATFORM] = {.held = {{true, true}, {true, false}}},
-    [ZP_JOINT_TURNING] = {.held = {{true, true}, {false, false}}, .turns = true},
-};
-static const Hold linked = {.held = {{true, false}, {true, false}}}; /* platforms, the upper one on another member */
+/* Of platforms, the upper one on another member. */
+static const ZpJointWay linked = {.held = {{true, false}, {true, false}}};
 
 static void add(ZpTies *ties, ZpTie tie) {
   ties->tie[ties->count++] = tie;
@@ -29,15 +15,15 @@ static double straight(const ZpModel *model, size_t k) {
 }
 
 /* A held coordinate stays where the straight actuator has it. The rest of a joint moves as its first station does. */
-static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const Hold *hold) {
+static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const ZpJointWay *way) {
   const ZpModel *model = ties->first + member;
   const size_t s = model->s, first = 2 * s * joint->first, end = 2 * s * (joint->last + 1);
   for (size_t k = first; k < end; k++) {
-    size_t ribbon = k / 2 % s, to = first + 2 * (hold->unites ? 0 : ribbon) + k % 2;
+    size_t ribbon = k / 2 % s, to = first + 2 * (way->unites ? 0 : ribbon) + k % 2;
     double x = straight(model, k);
-    if (hold->held[ribbon][k % 2])
+    if (way->held[ribbon][k % 2])
       add(ties, (ZpTie){member, k, member, k, 0, x, 0});
-    else if (to < k && !hold->turns)
+    else if (to < k && !way->turns)
       add(ties, (ZpTie){member, k, member, to, 1, x - straight(model, to), 0});
   }
 }
@@ -80,7 +66,7 @@ ZpTies zp_ties_of(const ZpModel *first, size_t members) {
     const bool hangs = k > 0 && !zp_shares_load(first);
     if (k > 0) add_link(&ties, k);
     for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
-      add_joint(&ties, k, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &hold_of[joint->kind]);
+      add_joint(&ties, k, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &zp_joint_way[joint->kind]);
   }
   ties.tie[ties.count] = held_row(first, members);
   for (ZpTie *tie = ties.tie; tie <= ties.tie + ties.count; tie++)

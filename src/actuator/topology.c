@@ -3,11 +3,13 @@
 #include "def/device.h"
 #include "math/elementary.h"
 
-/* Which ribbons a joint keeps horizontal: the upper or only one, the lower one. */
-static const bool slope_of[ZP_JOINT_KINDS][2] = {
-    [ZP_JOINT_CLIP] = {true, true},     [ZP_JOINT_HELD] = {true, true},     [ZP_JOINT_CLAMP] = {true, true},
-    [ZP_JOINT_HINGE] = {true, false},   [ZP_JOINT_GUIDE] = {true, true},    [ZP_JOINT_FREE] = {false, false},
-    [ZP_JOINT_PLATFORM] = {true, true}, [ZP_JOINT_TURNING] = {true, false},
+const ZpJointWay zp_joint_way[ZP_JOINT_KINDS] = {
+    [ZP_JOINT_CLIP] = {.level = {true, true}, .unites = true},
+    [ZP_JOINT_CLAMP] = {.level = {true, true}, .held = {{true, true}, {true, true}}},
+    [ZP_JOINT_HINGE] = {.level = {true, false}, .held = {{true, true}, {true, true}}},
+    [ZP_JOINT_GUIDE] = {.level = {true, true}},
+    [ZP_JOINT_PLATFORM] = {.level = {true, true}, .held = {{true, true}, {true, false}}},
+    [ZP_JOINT_TURNING] = {.level = {true, false}, .held = {{true, true}, {false, false}}, .turns = true},
 };
 
 ZpTopology zp_topology_of(const ZpActuatorDef *def) {
@@ -19,7 +21,7 @@ ZpTopology zp_topology_of(const ZpActuatorDef *def) {
 
 bool zp_topology_holds_slope(const ZpTopology *t, size_t station, size_t ribbon) {
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
-    if (joint->first <= station && station <= joint->last) return slope_of[joint->kind][ribbon];
+    if (joint->first <= station && station <= joint->last) return zp_joint_way[joint->kind].level[ribbon];
   return false;
 }
 
@@ -31,8 +33,8 @@ ZpLevelEnds zp_topology_level_ends(const ZpTopology *t, size_t first, size_t las
   ZpLevelEnds ends = {0};
   for (size_t k = 0; k < t->joints; k++) {
     const ZpJoint *joint = &t->joint[k];
-    const bool *slope = slope_of[joint->kind];
-    if (!slope[first] || !slope[last]) continue;
+    const bool *level = zp_joint_way[joint->kind].level;
+    if (!level[first] || !level[last]) continue;
     if (joint->first > 0) add_level(joint->first - 1, true, &ends);
     if (joint->last + 1 < t->stations) add_level(joint->last, false, &ends);
   }

@@ -14,7 +14,6 @@
 
 typedef enum ZpJointKind {
   ZP_JOINT_CLIP,     /* both nodes are one; horizontal */
-  ZP_JOINT_HELD,     /* a clip that is held; horizontal */
   ZP_JOINT_CLAMP,    /* held; horizontal */
   ZP_JOINT_HINGE,    /* both nodes are one, held; the upper ribbon horizontal, the lower one free to turn */
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
@@ -23,6 +22,15 @@ typedef enum ZpJointKind {
   ZP_JOINT_TURNING,  /* rigid; the upper one is held and horizontal, the lower one moves and turns in the plane */
   ZP_JOINT_KINDS
 } ZpJointKind;
+
+/* Ways in which a joint acts on the nodes of its stations; [0]: on the upper or only ribbon, [1]: on the lower one. */
+typedef struct ZpJointWay {
+  bool level[2];   /* the ribbon stays horizontal there */
+  bool held[2][2]; /* x and y are held; other ones move with those of the first station */
+  bool unites;     /* upper and lower node are one */
+  bool turns;      /* nodes that are not held keep only their distance */
+} ZpJointWay;
+extern const ZpJointWay zp_joint_way[ZP_JOINT_KINDS];
 
 /* One body holds the stations first .. last. */
 typedef struct ZpJoint {

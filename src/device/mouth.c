@@ -4,7 +4,7 @@
 
 static void lay(const ZpActuatorDef *def, ZpTopology *t) {
   t->stations = (size_t)def->mesh.nodes;
-  zp_join(t, ZP_JOINT_HELD, 0, 0);
+  zp_join(t, ZP_JOINT_CLAMP, 0, 0);
   zp_join(t, ZP_JOINT_FREE, t->stations - 1, t->stations - 1);
   t->platform = t->joint[1];
 }
