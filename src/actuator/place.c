@@ -88,3 +88,11 @@ void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double 
   for (size_t h = 0; h < t->halves; h++)
     spread(t, path_to_platform(t, assembly->equation, h > 0), missed, y);
 }
+
+void zp_place_below(const ZpModel *above, const double *nodes_above, const ZpModel *model, double *nodes) {
+  const ZpTopology *t = &model->topology;
+  double *y = zp_forces(model, nodes).y;
+  double fall = zp_nodes(above, nodes_above).y[zp_load_node(&above->topology)] - y[zp_upper(t, t->platform.first)];
+  for (size_t j = 0; j < zp_lanes(model); j++)
+    y[j] += fall;
+}

@@ -836,13 +836,8 @@ static double offset_of(const ZpStatics *s, size_t which) {
 
 /* Each member of a series hangs on the platform of the one above. */
 static void hang_members(ZpStatics *s) {
-  for (size_t k = 1; k < s->members; k++) {
-    const ZpTopology *t = &s->member[k].model->topology;
-    double *y = zp_forces(s->member[k].model, s->member[k].q).y;
-    double fall = load_height(&s->member[k - 1]) - y[zp_upper(t, t->platform.first)];
-    for (size_t j = 0; j < s->member[k].model->count; j++)
-      y[j] += fall;
-  }
+  for (ZpRestMember *m = s->member + 1; m < s->member + s->members; m++)
+    zp_place_below(m[-1].model, m[-1].q, m->model, m->q);
 }
 
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "actuator/place.h"
 #include "def/tolerance.h"
 #include "rest/rest.h"
 #include "ribbon/rod_plastic.h"
@@ -140,19 +141,9 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
-/* Lower a member until its upper platform is where the lower one of the member above is. */
-static void hang_below(const ZpSim *above, ZpSim *sim) {
-  double *y = zp_forces(sim->model, zp_state_q(sim->model, sim->state)).y;
-  const ZpTopology *t = &sim->model->topology;
-  double fall = zp_state_motion(above->model, above->state).y[zp_load_node(&above->model->topology)] -
-                y[zp_upper(t, t->platform.first)];
-  for (size_t j = 0; j < zp_lanes(sim->model); j++)
-    y[j] += fall;
-}
-
 void zp_sim_hang(ZpSim *sim) {
-  for (size_t k = 1; k < sim->members && !zp_shares_load(sim->model); k++)
-    hang_below(sim + k - 1, sim + k);
+  for (ZpSim *m = sim + 1; m < sim + sim->members && !zp_shares_load(sim->model); m++)
+    zp_place_below(m[-1].model, zp_state_q(m[-1].model, m[-1].state), m->model, zp_state_q(m->model, m->state));
 }
 
 static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
