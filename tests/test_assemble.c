@@ -126,7 +126,7 @@ TESTS(placed_nodes_differ_least_from_their_edges, 0, 5) {
     *zp_coordinate(model, q, 2 * j) = zp_straight_x(model, j / model->s);
   for (size_t k = 0; k < 2 * (model->count - model->s); k++)
     *zp_coordinate(model, d, k) = 1e-3 * noise(&seed);
-  for (size_t k = 0; k < 4 && t->halves == 2; k++) /* the platform is rigid */
+  for (size_t k = 0; k < 4 && zp_halves(t) == 2; k++) /* the platform is rigid */
     *zp_coordinate(model, d, 4 * t->platform.first + k) = k % 2 == 0 ? def.platform.length : 0;
   zp_place_edges(model, &a, d, q);
   for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++)

@@ -42,7 +42,7 @@ TESTS(momentum_is_shared, 0, 4) {
   size_t j = zp_load_node(&model->topology);
   double m = model->mass[j], comes = def.load.share * def.load.change_mass / def.stack.parallel,
          after = comes * fallen / (m + comes);
-  double loss = 0.5 * m * comes / (m + comes) * fallen * fallen * model->parts * (double)zp_load_ends(&model->topology);
+  double loss = 0.5 * m * comes / (m + comes) * fallen * fallen * model->parts * (double)zp_halves(&model->topology);
   ck_below(fabs(value_at(sim, 20e-3, "end_velocity")), 1e-12); /* 1.4e-14 measured */
   zp_sim_change_load(sim);
   ck_near(zp_sim_get(sim, "end_velocity"), -after, 1e-12); /* 6.6e-14 measured */

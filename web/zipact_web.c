@@ -297,7 +297,7 @@ EXPORT int zp_web_members(ZpWeb *web) {
 /* Modelled halves of each: 1, which has a mirror image, or 2; 0 of a hinge, which has neither. */
 EXPORT int zp_web_halves(ZpWeb *web) {
   const ZpTopology *topology = &web->model->topology;
-  return zp_is_open_pair(topology) ? 0 : (int)topology->halves;
+  return zp_is_open_pair(topology) ? 0 : (int)zp_halves(topology);
 }
 
 /* Stations of each ribbon. */

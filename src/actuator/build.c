@@ -370,7 +370,8 @@ static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {
   }
   for (size_t j = 0; j < model->count; j++)
     if (model->masses.y.inverse[j] > 0) weight += a->weight[j];
-  model->total_weight = weight / (double)model->topology.halves + zp_end_share(model) * fabs(model->def.load.force);
+  model->total_weight =
+      weight / (double)zp_halves(&model->topology) + zp_end_share(model) * fabs(model->def.load.force);
   model->mass = a->mass;
   model->weight = a->weight;
 }
@@ -655,7 +656,7 @@ static void derive(ZpModel *model) {
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
   model->flat = zp_def_has(def, ZP_DEVICE_PLATE);
-  model->parts = platform ? 2 / (double)t->halves * def->stack.parallel : 1;
+  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel : 1;
   model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);
   ZpActuatorDef lower = zp_def_lower(def);

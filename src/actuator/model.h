@@ -242,12 +242,12 @@ static inline double zp_load_at(const ZpModel *model, const double *q) {
   double sum = 0;
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
     sum += zp_load_part(model, i) * q[zp_lower(t, i)];
-  return sum / (double)zp_load_ends(t);
+  return sum / (double)zp_halves(t);
 }
 
 /* Share of the load that the modelled part carries: load.share at each end. */
 static inline double zp_load_share(const ZpModel *model) {
-  return (double)zp_load_ends(&model->topology) * zp_end_share(model);
+  return (double)zp_halves(&model->topology) * zp_end_share(model);
 }
 
 /* Force of the whole actuator's load downwards, N: load.force and the part of its weight that acts downwards. */
@@ -305,7 +305,7 @@ static inline double zp_state_added(const ZpModel *model, const ZpState *state) 
 
 /* Its weight, of the modelled part, N. */
 static inline double zp_state_hung(const ZpModel *model, const ZpState *state) {
-  return (double)zp_load_ends(&model->topology) * zp_state_added(model, state) * model->def.gravity;
+  return (double)zp_halves(&model->topology) * zp_state_added(model, state) * model->def.gravity;
 }
 
 /* The part of the load input that the modelled part carries at time t, N, as load.share says of the mass. */
@@ -341,7 +341,7 @@ static inline double zp_closed_opening(const ZpModel *model, double hanging) {
 
 /* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
 static inline double zp_contact_length(const ZpModel *model) {
-  return model->parts * (double)model->topology.halves * (model->L + model->plates.flat_length);
+  return model->parts * (double)zp_halves(&model->topology) * (model->L + model->plates.flat_length);
 }
 
 /* Views of coordinates of all nodes, or of velocities and forces along them: only this room knows where x and y stand.

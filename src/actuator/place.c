@@ -33,7 +33,7 @@ static size_t paths_of(const ZpTopology *t, const int *equation, Path path[MOST_
       path[count] = (Path){count, last + count, false};
     return count;
   }
-  for (size_t h = 0; h < t->halves; h++) {
+  for (size_t h = 0; h < zp_halves(t); h++) {
     Path end = path_to_platform(t, equation, h > 0);
     if (!end.returns) path[count++] = (Path){end.turn - 1, end.start - 1, false};
     path[count++] = end;
@@ -75,7 +75,7 @@ void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const doub
       walk(t, path[k], d, q);
       if (equation[zp_x_of(end) + c] < 0) spread(t, path[k], q[end] - last, q);
     }
-    if (t->halves == 1 || equation[zp_x_of(left) + c] < 0) continue;
+    if (zp_halves(t) == 1 || equation[zp_x_of(left) + c] < 0) continue;
     double missed = q[right] - q[left] - d[left];
     spread(t, path_to_platform(t, equation, false), -0.5 * missed, q);
     spread(t, path_to_platform(t, equation, true), 0.5 * missed, q);
@@ -85,7 +85,7 @@ void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const doub
 void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double height, double *nodes) {
   const ZpTopology *t = &model->topology;
   double *y = zp_forces(model, nodes).y, missed = y[zp_load_node(t)] - height;
-  for (size_t h = 0; h < t->halves; h++)
+  for (size_t h = 0; h < zp_halves(t); h++)
     spread(t, path_to_platform(t, assembly->equation, h > 0), missed, y);
 }
 

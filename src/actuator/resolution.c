@@ -18,7 +18,7 @@ static double hanging_length(const ZpModel *model) {
   for (size_t j = 0; j < model->count; j++)
     hangs += model->weight[j];
   double EI = fmin(zp_ribbon_section(model, 0).EI, zp_ribbon_section(model, 1).EI);
-  return hangs > 0 ? sqrt(EI * (double)model->topology.halves / hangs) : INFINITY;
+  return hangs > 0 ? sqrt(EI * (double)zp_halves(&model->topology) / hangs) : INFINITY;
 }
 
 double zp_mesh_resolution(const ZpModel *model, double voltage) {

@@ -13,7 +13,7 @@ const ZpJointWay zp_joint_way[ZP_JOINT_KINDS] = {
 };
 
 ZpTopology zp_topology_of(const ZpActuatorDef *def) {
-  ZpTopology t = {.ribbons = zp_def_has(def, ZP_DEVICE_PAIR) ? 2 : 1, .halves = 1};
+  ZpTopology t = {.ribbons = zp_def_has(def, ZP_DEVICE_PAIR) ? 2 : 1};
   zp_device_of(def->actuator.kind)->lay(def, &t);
   t.nodes = t.ribbons * t.stations;
   return t;

@@ -44,7 +44,6 @@ typedef struct ZpTopology {
   size_t ribbons;  /* 1 or 2 */
   size_t stations; /* of each ribbon */
   size_t nodes;    /* of all */
-  size_t halves;   /* modelled: 1, or 2 from clip to clip; 1 of one ribbon */
   size_t joints;
   ZpJoint joint[ZP_MOST_JOINTS];
   ZpJoint platform; /* the one that the load hangs on; of one ribbon and of a hinge the right end. Of a half, a half of
@@ -126,8 +125,8 @@ static inline size_t zp_load_node(const ZpTopology *t) {
   return zp_lower(t, t->platform.first);
 }
 
-/* How many ends of ribbons the load hangs on. */
-static inline size_t zp_load_ends(const ZpTopology *t) {
+/* How many halves are modelled, each with an end of ribbons on which the load hangs: 2 from clip to clip, else 1. */
+static inline size_t zp_halves(const ZpTopology *t) {
   return t->platform.last - t->platform.first + 1;
 }
 

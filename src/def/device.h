@@ -10,7 +10,7 @@ struct ZpTopology;
 typedef struct ZpDevice {
   unsigned has;        /* bits ZP_DEVICE_* of def/rule.h */
   const char *touches; /* where its electrodes touch at rest: "clip"; NULL: it has none */
-  /* Stations, joints, halves, and the joint that the load hangs on; the rest is 0 before. */
+  /* Stations, joints, and the joint that the load hangs on; the rest is 0 before. */
   void (*lay)(const ZpActuatorDef *def, struct ZpTopology *topology);
   const ZpAssignment *given; /* its defaults, where they differ from keys.def */
   size_t given_count;

@@ -3,14 +3,12 @@
 
 static void lay(const ZpActuatorDef *def, ZpTopology *t) {
   ZpHeldClip held = def->actuator.held_clip;
-  size_t nodes = (size_t)def->mesh.nodes;
-  t->halves = def->actuator.symmetry == ZP_SYMMETRY_NONE ? 2 : 1;
-  t->stations = t->halves * nodes;
+  size_t nodes = (size_t)def->mesh.nodes, halves = def->actuator.symmetry == ZP_SYMMETRY_NONE ? 2 : 1;
+  t->stations = halves * nodes;
   zp_join(t, held == ZP_HELD_LEFT ? ZP_JOINT_CLAMP : ZP_JOINT_CLIP, 0, 0);
-  zp_join(t, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes - 1, nodes + t->halves - 2);
+  zp_join(t, def->platform.rotates ? ZP_JOINT_TURNING : ZP_JOINT_PLATFORM, nodes - 1, nodes + halves - 2);
   t->platform = t->joint[1];
-  if (t->halves == 2)
-    zp_join(t, held == ZP_HELD_RIGHT ? ZP_JOINT_CLAMP : ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
+  if (halves == 2) zp_join(t, held == ZP_HELD_RIGHT ? ZP_JOINT_CLAMP : ZP_JOINT_CLIP, t->stations - 1, t->stations - 1);
 }
 
 static const ZpRule rule[] = {

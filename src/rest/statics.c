@@ -560,7 +560,7 @@ size_t zp_statics_platform(const ZpStatics *s) {
 static double holding(const ZpStatics *s) {
   static const double soft = 1e-3; /* of the stiffest, so that the rounding of y does not count */
   const ZpModel *model = s->member->model;
-  return soft * (double)model->topology.halves * model->axial_stiffness;
+  return soft * (double)zp_halves(&model->topology) * model->axial_stiffness;
 }
 
 double zp_statics_away(const ZpStatics *s) {

@@ -758,7 +758,7 @@ static void catch_mass(ZpDynamics *d, const ZpMovingMember *m) {
     size_t coordinate = zp_x_of(zp_load_node(t)) + c;
     int row = m->assembly.equation[coordinate];
     if (row < 0) continue;
-    size_t ends = m->assembly.equation[zp_x_of(zp_lower(t, t->platform.last)) + c] == row ? zp_load_ends(t) : 1;
+    size_t ends = m->assembly.equation[zp_x_of(zp_lower(t, t->platform.last)) + c] == row ? zp_halves(t) : 1;
     double comes = (double)ends * each, falls = m->assembly.factor[coordinate] * fast * model->fall[c];
     d->v[row] = (d->mass[row] * d->v[row] + comes * falls) / (d->mass[row] + comes);
     d->mass[row] += comes;

@@ -373,7 +373,7 @@ static double force_of(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const ZpState *state = sim->state;
   const double *up = zp_nodes(model, zp_state_mean_a(model, sim->state)).y;
-  double caught = (double)zp_load_ends(&model->topology) * zp_state_added(model, state);
+  double caught = (double)zp_halves(&model->topology) * zp_state_added(model, state);
   double inertia = (zp_load_share(model) * model->def.load.mass + caught) * zp_load_at(model, up);
   double hung = -model->fall[1] * zp_state_hung(model, state), input = zp_ramp_value(&state->load_input, state->t);
   return zp_load_pull(model) + input + model->parts * (hung + inertia - state->link_force);
@@ -527,7 +527,7 @@ static void fill_liquid(ZpSim *sim, double *thickness, double *pressure, double 
     thickness[i] = wet ? zp_film_thickness(&model->film, shape.gap[i]) : 0;
     pressure[i] = wet ? share[0] * head[0] + share[1] * head[1] : 0;
   }
-  for (size_t half = 0; half < model->topology.halves; half++)
+  for (size_t half = 0; half < zp_halves(&model->topology); half++)
     wet_length[half] = sim->shape_room.reach[half];
 }
 
@@ -538,7 +538,7 @@ ZpLiquid zp_sim_liquid(ZpSim *sim) {
   if (!model->has_film) return (ZpLiquid){NULL, NULL, NULL};
   for (ZpSim *m = sim; m < sim + sim->members; m++, member++)
     fill_liquid(m, room->thickness + member * model->nodes, room->pressure + member * model->nodes,
-                room->wet_length + member * model->topology.halves);
+                room->wet_length + member * zp_halves(&model->topology));
   return (ZpLiquid){room->thickness, room->pressure, room->wet_length};
 }
 

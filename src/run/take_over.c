@@ -7,7 +7,7 @@
 
 /* Ends, halves and platforms of the same kinds? */
 static bool are_alike(const ZpTopology *a, const ZpTopology *b) {
-  if (a->halves != b->halves || a->joints != b->joints || a->platform.kind != b->platform.kind) return false;
+  if (zp_halves(a) != zp_halves(b) || a->joints != b->joints || a->platform.kind != b->platform.kind) return false;
   for (size_t k = 0; k < a->joints; k++)
     if (a->joint[k].kind != b->joint[k].kind) return false;
   return true;

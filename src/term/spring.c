@@ -125,7 +125,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
   for (int k = 0; k < SPRINGS; k++) {
     Spring spring = spring_of(model, k);
     double s = spring.k > 0 ? deformed(model, &spring, now->end) : 0;
-    row[0] += 0.5 * (double)zp_load_ends(&model->topology) * spring.k * s * s;
+    row[0] += 0.5 * (double)zp_halves(&model->topology) * spring.k * s * s;
   }
 }
 

@@ -16,7 +16,7 @@ ZP_KERNEL static void add(size_t lanes, double share, const double *weight, doub
 /* Weight that hangs on the load's nodes, and a force down, N, both of the modelled part. */
 static void add_load(const ZpModel *model, double hung, double down, double *F) {
   const ZpTopology *t = &model->topology;
-  double ends = (double)zp_load_ends(t);
+  double ends = (double)zp_halves(t);
   ZpForces to = zp_forces(model, F);
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     double part = zp_load_part(model, i) / ends;

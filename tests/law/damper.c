@@ -76,7 +76,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *eval, double *row) {
   double v = velocity(model, span);
-  row[LOST] += (double)zp_load_ends(&model->topology) * coefficient(model, span) * v * v * span->h;
+  row[LOST] += (double)zp_halves(&model->topology) * coefficient(model, span) * v * v * span->h;
   eval->memory_end[zp_law(model, &zp_term_damper)->at] = gained(model, span) + span->h * grows * v * v;
 }
 
