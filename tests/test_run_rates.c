@@ -460,6 +460,22 @@ TEST(derivative_by_a_load_that_is_not_there) {
   ck_near(rate, (zp_result_get(result, "stroke_m") - none) / def.load.mass, 5e-5); /* 1.5e-5 measured */
 }
 
+/* The strip has yielded in the hanging state already, by an amount that moves with the keys, and yields more as it
+ * swings up. */
+TEST(strip_that_yields) {
+  static const char *const key[] = {"drive.voltage", "ribbon.thickness", "ribbon.yield_stress", "load.mass"};
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.ribbon.plasticity = true;
+  def.ribbon.yield_stress = 60e6;
+  def.solver.time_step = 1e-4;
+  def.solver.end_time = 0.03;
+  for (size_t k = 0; k < LENGTH_OF(key); k++) {
+    check(&def, "stroke_m", key[k], 1e-5, 2.5e-4);     /* 8.1e-5 measured: it hardly moves with the voltage */
+    check(&def, "plastic_loss_J", key[k], 1e-5, 6e-5); /* 1.9e-5 measured: fibres begin to yield one by one */
+  }
+}
+
 TEST(refusals) {
   static const struct {
     const char *key;
@@ -468,7 +484,6 @@ TEST(refusals) {
   } wrong[] = {{"control.kind", ZP_CONTROL_PI, "gravity", "control.kind"},
                {"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "requires solver.integrator implicit"},
                {"stack.series", 2, "gravity", "stack.series"},
-               {"ribbon.plasticity", 1, "gravity", "ribbon.plasticity"},
                {"solver.tolerance", 1e-4, "solver.tolerance", "a setting of the computation"}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
     ZpActuatorDef def = motion();

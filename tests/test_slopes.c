@@ -109,6 +109,14 @@ NIGHTLY_TESTS(limits_of_members_change_as_differences_say, 0, 2) {
   check_differences(ZP_STUDY_MODES, &def, by_of_members[_i], 1e-4, 3e-5);  /* 1e-5 measured */
 }
 
+/* Each member in series moves with the platform that it hangs on, so its masses are not diagonal. */
+TEST(frequencies_in_series_change_as_differences_say) {
+  ZpActuatorDef def = members(2);
+  def.mesh.nodes = 11;
+  check_differences(ZP_STUDY_MODES, &def, "member_2.ribbon.thickness, stack.link_mass, load.mass", 2e-3,
+                    9e-6); /* 2.9e-6 of the frequencies measured, which end at 1e-7 */
+}
+
 /* Of two unequal members the release is a flat limit point beside a corner, which halving finds to 1e-10 of the voltage
  * but only to 1e-5 of the state: the derivative was off by 1.7 %. */
 TEST(flat_release_changes_as_differences_say) {
@@ -380,6 +388,37 @@ TEST(frequencies_of_a_cantilever) {
     ck_near(exponent(result, &def, first[k], "ribbon.density"), -0.5, 3e-11);     /* 3.8e-12 measured */
   }
   zp_result_destroy(result);
+}
+
+/* A mass at the end of a cantilever without mass: sqrt(3 EI / (m L^3)). */
+TEST(frequency_of_a_mass_on_a_spring) {
+  static const struct {
+    const char *key;
+    double power;
+  } expected[] = {
+      {"ribbon.length", -1.5}, {"ribbon.thickness", 1.5}, {"ribbon.young_modulus", 0.5}, {"load.mass", -0.5}};
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"gravity", 0},
+                          {"ribbon.density", 1e-3}, {"load.mass", 1e-3});
+  ZpResult *result = run_by(ZP_STUDY_MODES, &def, "ribbon.length, ribbon.thickness, ribbon.young_modulus, load.mass");
+  for (size_t k = 0; k < LENGTH_OF(expected); k++)
+    ck_near(exponent(result, &def, "frequency_1_Hz", expected[k].key), expected[k].power, 1e-6);
+}
+
+/* The error of a central difference falls to a quarter when its step is halved. */
+TEST(differences_of_frequencies_approach_the_derivative) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 9}, {"modes.voltage", 3e3}, {"solver.tolerance", 1e-9});
+  ZpResult *result = run_by(ZP_STUDY_MODES, &def, "ribbon.thickness");
+  const double rate = slope_in(result, "frequency_1_Hz", "ribbon.thickness");
+  Around around;
+  go_around(&around, ZP_STUDY_MODES, &def, ZP_KEY(ribbon.thickness), 0.02);
+  double wrong[2];
+  for (int k = 0; k < 2; k++) {
+    const ZpResult *more = around.at[4 + k], *less = around.at[2 - k];
+    wrong[k] =
+        (zp_result_get(more, "frequency_1_Hz") - zp_result_get(less, "frequency_1_Hz")) / (2 * (k + 1) * around.step) -
+        rate;
+  }
+  ck_near(wrong[1] / wrong[0], 4, 1e-2);
 }
 
 /* The co-energy has one mixed derivative: the force per voltage is the negative charge per opening, (20.5). Holds to

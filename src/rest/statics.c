@@ -1123,9 +1123,10 @@ void zp_statics_masses(const ZpStatics *s, double *mass) {
     zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
 }
 
-/* Eq. (29.3): a member moves relative to its upper platform, and with that platform, which moves by `way`. */
-void zp_statics_weigh_series(void *self, const double *u, double *mu) {
+/* Eq. (29.3): in series a member moves relative to its upper platform, and with that platform, which moves by `way`. */
+void zp_statics_weigh(void *self, const double *u, double *mu) {
   ZpStatics *s = self;
+  const bool hang = s->members > 1 && !s->shared;
   double momentum[ZP_MOST_MEMBERS] = {0}, way = 0, below = 0;
   memset(mu, 0, s->n * sizeof *mu);
   for (size_t k = 0; k < s->members; k++) {
@@ -1138,9 +1139,9 @@ void zp_statics_weigh_series(void *self, const double *u, double *mu) {
       momentum[k] += moved.y[j];
     }
     zp_assembly_add(&m->assembly, m->moved, mu);
-    way += u[height_of(m)];
+    if (hang) way += u[height_of(m)];
   }
-  for (size_t k = s->members; k-- > 0;) {
+  for (size_t k = s->members; hang && k-- > 0;) {
     mu[height_of(&s->member[k])] += below;
     below += momentum[k];
   }

@@ -173,9 +173,9 @@ bool zp_statics_shorted(const ZpStatics *statics);
 /* Moving masses by equations => mass [n], kg. */
 void zp_statics_masses(const ZpStatics *statics, double *mass);
 
-/* Of members in series, each in the frame of the platform that it hangs on: the mass matrix times u => mu, both [n].
+/* The mass matrix times u => mu, both [n]; members in series are each in the frame of the platform that they hang on.
  * `statics` is a ZpStatics. */
-void zp_statics_weigh_series(void *statics, const double *u, double *mu);
+void zp_statics_weigh(void *statics, const double *u, double *mu);
 
 /* Closed length of one half, from the clip, m: of members that share a load what is closed in all of them, of
  * antagonists that of the upper one; in series their sum. */

@@ -147,6 +147,9 @@ struct ZpSim {
  * its hanging equilibrium. NULL: there is no memory. */
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 
+/* Start at rest at coordinates q [2 stride], bent there from the natural shape for the first time (settle.c). */
+void zp_sim_start_at(ZpSim *sim, const double *q);
+
 /* Would a run end in the present state? */
 bool zp_sim_stops(const ZpSim *sim, ZpStop stop);
 

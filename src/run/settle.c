@@ -106,7 +106,7 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
 }
 
 /* Strain that has become plastic on the way is permanent. */
-static void start_at(ZpSim *sim, const double *q) {
+void zp_sim_start_at(ZpSim *sim, const double *q) {
   const ZpModel *model = sim->model;
   ZpSpan there = zp_span_at(q);
   memcpy(zp_state_q(model, sim->state), q, zp_coordinates(model) * sizeof *q);
@@ -126,7 +126,7 @@ static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
   if (!found && sim->settled == ZP_REACHED_END) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
-  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) start_at(sim, q);
+  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) zp_sim_start_at(sim, q);
   return true;
 }
 
@@ -136,7 +136,7 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const double *q = rest->member[which].q;
   sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
-  start_at(sim, q);
+  zp_sim_start_at(sim, q);
   if (model->parallel)
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }

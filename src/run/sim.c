@@ -231,7 +231,7 @@ ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0) 
   ZpSim *sim = create_straight(model);
   if (!sim) return NULL;
   sim->state->opening0 = opening0;
-  if (q) memcpy(zp_state_q(model, sim->state), q, zp_coordinates(model) * sizeof *q);
+  if (q) zp_sim_start_at(sim, q);
   sim->settled = ZP_REACHED_END;
   start(sim);
   return sim;

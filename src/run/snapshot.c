@@ -138,7 +138,7 @@ void zp_state_along(const ZpModel *model, const ZpState *at, const ZpState *rate
   for (const Number *n = number; n < number + NUMBERS; n++)
     for (size_t j = 0; is_real(n) && j < n->count; j++)
       ((double *)place_of(near, n))[j] = item_of(at, n, j) + offset * item_of(rate, n, j);
-  for (size_t i = 0; i < data_of(model); i++)
+  for (size_t i = 0, count = data_of(model); i < count; i++)
     near->data[i] = at->data[i] + offset * rate->data[i];
 }
 
@@ -150,7 +150,7 @@ void zp_state_add_rate(const ZpModel *model, const ZpState *at, const ZpState *n
   for (const Number *n = number; n < number + NUMBERS; n++)
     for (size_t j = 0; is_real(n) && j < n->count; j++)
       ((double *)place_of(rate, n))[j] += weight * beyond(item_of(near, n, j), item_of(at, n, j));
-  for (size_t i = 0; i < data_of(model); i++)
+  for (size_t i = 0, count = data_of(model); i < count; i++)
     rate->data[i] += weight * beyond(near->data[i], at->data[i]);
 }
 

@@ -402,8 +402,6 @@ static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_UNSET(sensitivity.by), "the derivatives of a run follow a single actuator"),
     ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(control.kind, ZP_CONTROL_NONE),
             "a controller's samples and limits are not differentiated"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(ribbon.plasticity, false),
-            "the derivatives do not follow a strip that yields"),
     ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT),
             "a checkpoint does not contain its derivatives by a key"),
     ZP_RULE_IF(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(source.model, ZP_SOURCE_AMPLIFIER),

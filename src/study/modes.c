@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "math/vector.h"
 #include "rest/vibration.h"
 #include "study/equilibria.h"
 #include "study/sensitivity.h"
@@ -87,21 +88,16 @@ typedef struct Mode {
 /* u' (K - omega^2 m) u of a neighbouring actuator: its derivative is that of omega^2. */
 static double stiffness_of_mode(ZpStatics *s, void *user) {
   const Mode *mode = user;
-  double sum = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);
-  zp_statics_masses(s, mode->work);
-  for (size_t i = 0; i < s->n; i++)
-    sum -= mode->omega2 * mode->work[i] * mode->u[i] * mode->u[i];
-  return sum;
+  double stiffness = zp_statics_stiffness_along(s, mode->u, mode->K, mode->work);
+  zp_statics_weigh(s, mode->u, mode->work);
+  return stiffness - mode->omega2 * zp_dot(s->n, mode->u, mode->work);
 }
 
 static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   Problem *p = user;
   ZpStatics *s = &p->at.rest.statics;
   p->at.rest.system.restore(s, p->equilibrium);
-  bool found = !p->vibration.weigh &&
-               zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE); /* of lumped masses */
-  if (p->vibration.weigh)
-    zp_result_note(result, "frequencies of members in series have no derivatives: their mass matrix is not diagonal");
+  bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE);
   for (size_t j = 0; j < count(&p->vibration); j++) {
     Mode mode = {&p->at.rest.statics.newton.K, p->at.rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
@@ -155,7 +151,7 @@ static void run(Problem *p) {
   if (!find_equilibrium(p)) return;
   v->K = &s->newton.K;
   if (s->members > 1 && !s->shared) {
-    v->weigh = zp_statics_weigh_series;
+    v->weigh = zp_statics_weigh;
     v->self = s;
   }
   zp_statics_masses(s, v->mass);

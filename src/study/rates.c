@@ -19,7 +19,7 @@ ZpStatus zp_rates_open(ZpRunSensitivity *rates, ZpSim *sim, ZpError *err) {
 /* -- numbers --------------------------------------------------------------------------------------- */
 
 /* Models that have a number. */
-typedef enum Of { ANY, PAIRS, TURNING, WITH_FIELD, FED, WITH_FILM, WITH_BEAD, LEAKING, DAMPED } Of;
+typedef enum Of { ANY, PAIRS, TURNING, WITH_FIELD, FED, WITH_FILM, WITH_BEAD, LEAKING, DAMPED, YIELDING } Of;
 
 static bool is_of(const ZpModel *model, Of of) {
   const bool is[] = {[ANY] = true,
@@ -30,7 +30,8 @@ static bool is_of(const ZpModel *model, Of of) {
                      [WITH_FILM] = model->has_film,
                      [WITH_BEAD] = model->has_bead,
                      [LEAKING] = model->leaks,
-                     [DAMPED] = model->internal_damping > 0};
+                     [DAMPED] = model->internal_damping > 0,
+                     [YIELDING] = model->rod.plastic};
   return is[of];
 }
 
@@ -45,6 +46,7 @@ static const EndNumber at_end[] = {{"opening_m", "m", "opening", PAIRS},
                                    {"angle_rad", "rad", "angle", TURNING},
                                    {"stroke_m", "m", "stroke", ANY},
                                    {"internal_loss_J", "J", "internal_loss", DAMPED},
+                                   {"plastic_loss_J", "J", "plastic_loss", YIELDING},
                                    {"contact_loss_J", "J", "contact_loss", WITH_FIELD},
                                    {"viscous_loss_J", "J", "viscous_loss", WITH_FILM},
                                    {"film_along_loss_J", "J", "film_along_loss", WITH_FILM},
