@@ -349,6 +349,28 @@ def check_gap(zipact, scratch):
     ok("a gap: the journal has those behind it", rows_so_far(folder) == [0, 2])
 
 
+def has_open(process, path):
+    """Has the process a file open?"""
+    try:
+        return any(link.exists() and link.samefile(path) for link in pathlib.Path("/proc/%d/fd" % process.pid).iterdir())
+    except OSError:  # it has ended
+        return False
+
+
+def check_locked(zipact, scratch):
+    """Another program that locks the journal for a moment delays a campaign, no more."""
+    folder = scratch / "locked"
+    folder.mkdir()
+    other = sqlite3.connect(folder / "journal.sqlite", isolation_level=None)
+    other.execute("BEGIN EXCLUSIVE")
+    process = subprocess.Popen(zipact.command("rest", folder, "--resume"), stdout=subprocess.DEVNULL)
+    while process.poll() is None and not has_open(process, folder / "journal.sqlite"):
+        time.sleep(0.01)
+    time.sleep(0.2)
+    other.close()
+    ok("a locked journal: waited for", process.wait() == 0 and len(rows_of(folder)) == 600)
+
+
 def check_broken_files(zipact, scratch):
     """A file that cannot be written is named, whichever thread writes it, and summary.json stays away: it says that all others are complete."""
     for name in ("table.csv", "results.h5"):
@@ -465,6 +487,7 @@ def main():
     check_unfinished(zipact, scratch)
     check_interrupt(zipact, scratch)
     check_gap(zipact, scratch)
+    check_locked(zipact, scratch)
     check_broken_files(zipact, scratch)
     check_full_disk(zipact, scratch)
     check_failures(zipact, scratch)

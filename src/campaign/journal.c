@@ -166,11 +166,17 @@ static ZpStatus check_layout(ZpJournal *journal, ZpError *err) {
   return status;
 }
 
+/* Another program may read the journal at any time: wait for its lock. */
+static bool open_file(ZpJournal *journal, int flags) {
+  enum { PATIENCE = 10000 }; /* ms */
+  const bool open = sqlite3_open_v2(journal->path, &journal->base, open_flags | flags, NULL) == SQLITE_OK;
+  if (open) sqlite3_busy_timeout(journal->base, PATIENCE);
+  return open;
+}
+
 /* The rows of an unfinished campaign took time to compute: only the user may discard them. */
 static ZpStatus refuse_unfinished(ZpJournal *journal, ZpError *err) {
-  if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE, NULL) != SQLITE_OK ||
-      !is_journal(journal))
-    return ZP_OK;
+  if (!open_file(journal, SQLITE_OPEN_READWRITE) || !is_journal(journal)) return ZP_OK;
   const sqlite3_int64 done = ask(journal, "SELECT count(*) FROM row");
   const sqlite3_int64 cases = ask(journal, "SELECT value FROM about WHERE name = 'cases'");
   if (done <= 0 || done >= cases) return ZP_OK;
@@ -205,7 +211,7 @@ static ZpStatus open_base(ZpJournal *journal, size_t cases, ZpError *err) {
   char sql[160];
   snprintf(sql, sizeof sql, "DELETE FROM row WHERE number >= %zu; INSERT OR REPLACE INTO about VALUES('cases', '%zu')",
            cases, cases);
-  if (sqlite3_open_v2(journal->path, &journal->base, open_flags | SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, NULL))
+  if (!open_file(journal, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE))
     return journal->base ? fail_base(journal, err) : zp_fail_memory(err);
   ZpStatus status = need_tables(journal, err);
   if (status == ZP_OK) status = run(journal, "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL", err);
@@ -369,8 +375,7 @@ static bool open_rows(void *user, ZpRows *own) {
   const ZpJournal *journal = user;
   ZpJournal *reader = journal->open ? NULL : create(journal->path, journal->row->study);
   const bool open =
-      reader && sqlite3_open_v2(reader->path, &reader->base, open_flags | SQLITE_OPEN_READONLY, NULL) == SQLITE_OK &&
-      prepare(reader, SELECT_ROWS, &reader->get, NULL) == ZP_OK;
+      reader && open_file(reader, SQLITE_OPEN_READONLY) && prepare(reader, SELECT_ROWS, &reader->get, NULL) == ZP_OK;
   *own = (ZpRows){.get = get_row, .status = get_status, .user = reader, .close = close_rows};
   if (!open) zp_journal_close(reader);
   return open;

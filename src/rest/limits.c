@@ -45,9 +45,10 @@ static void narrow(Finder *f, double load, bool closes, double voltage) {
 }
 
 /* Hang without voltage under this load, kg; from then on the actuator counts as closed as under this load. False if it
- * does not hang. */
+ * does not hang. From the state under another load, ribbons that weigh more than the load could end up lying on each
+ * other. */
 static bool hang_under(Finder *f, double load) {
-  f->rest->system.restore(&f->rest->statics, f->limits->hung);
+  zp_statics_lay_straight(&f->rest->statics);
   f->rest->statics.load = load;
   double gap;
   return hang(f, f->limits->hung, &gap);
@@ -149,7 +150,8 @@ static void drop_load(Finder *f, ZpLimit *limit) {
 
 /* -- by definition ---------------------------------------------------------------------------------- */
 
-/* From the limit at a higher or lower voltage => the load with a limit at this voltage, kg; NAN: it was not found. */
+/* From the limit at a higher or lower voltage => the load with a limit at this voltage, kg; NAN: it was not found. A
+ * load that is known may itself be the largest. */
 static double follow(Finder *f) {
   ZpRest *rest = f->rest;
   zp_rest_go_to(rest, f->limits->at.state);
@@ -157,7 +159,7 @@ static double follow(Finder *f) {
   bool found = f->limits->at.end == ZP_TRACK_FOLD ? zp_quasistatic_fold_of_load(rest, f->limits->at.null)
                                                   : go_to_event(f, rest->track.limit);
   double load = rest->statics.load;
-  return found && load > f->least && load < f->most ? load : (double)NAN;
+  return found && load > (1 - same) * f->least && load < (1 + same) * f->most ? load : (double)NAN;
 }
 
 /* Between the loads that are known, by the voltages that close it under them if these are known, too. */
@@ -360,7 +362,6 @@ static bool lift_as_neighbour(Finder *f) {
 /* The largest load. The search starts where a load that falls at drive.voltage meets its first limit. */
 static void lift(Finder *f, bool closes) {
   ZpLimit *limit = &f->limits->limit[ZP_LIMIT_LOAD];
-  memcpy(f->limits->hung, f->limits->start, f->rest->system.save_size);
   f->least = 0;
   f->most = INFINITY;
   f->at_least = f->at_most = NAN;

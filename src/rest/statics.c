@@ -44,7 +44,7 @@ static size_t edge_count(const ZpRestMember *m) {
   return m->model->count - m->model->s;
 }
 
-static void lay_straight(ZpStatics *s) {
+void zp_statics_lay_straight(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
     memset(m->q, 0, zp_coordinates(m->model) * sizeof *m->q);
     memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
@@ -116,7 +116,7 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
   s->load = s->own_load;
   s->bias = s->share = s->suction = s->nearer = 1;
   s->opening = NAN;
-  lay_straight(s);
+  zp_statics_lay_straight(s);
   return true;
 }
 
@@ -169,7 +169,7 @@ static ZpNewtonInfo step_by_step(ZpStatics *s, double *one, double *other, doubl
   double reached = 0;
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   int iterations = 0;
-  lay_straight(s);
+  zp_statics_lay_straight(s);
   keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
@@ -341,7 +341,7 @@ ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
   zp_statics_hold_at(s, opening);
   s->contact_acts = false;
   s->suction = 0;
-  lay_straight(s);
+  zp_statics_lay_straight(s);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
   /* ribbons that sag by more than the opening have no straight shape to start from */
@@ -355,12 +355,12 @@ bool zp_statics_ramp_voltage(ZpStatics *s, double voltage) {
 }
 
 ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
-  lay_straight(s);
+  zp_statics_lay_straight(s);
   s->U = voltage;
   s->contact_acts = true;
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (zp_newton_good(info.end) && zp_statics_stable(s)) return info;
-  lay_straight(s);
+  zp_statics_lay_straight(s);
   return zp_statics_relax(s, voltage);
 }
 

@@ -60,6 +60,9 @@ typedef struct ZpStatics {
 bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *statics);
 void zp_statics_destroy(ZpStatics *statics);
 
+/* The straight shape, in which all coordinates of nodes are known. */
+void zp_statics_lay_straight(ZpStatics *statics);
+
 /* Call `stop`. After it has returned true once, the answer stays true. */
 bool zp_statics_asked_to_stop(ZpStatics *statics);
 
