@@ -185,6 +185,78 @@ TESTS(motion_of_others_is_that_of_the_half, 0, FULL_OR(4, 1)) {
   check_motion(def[_i]);
 }
 
+/* -- in a stack -------------------------------------------------------------------------------------- */
+
+static const Setting stack[][3] = {
+    {{"stack.series", 2}, {"stack.link_mass", 1e-3}, {"member_2.ribbon.thickness", 60e-6}},
+    {{"stack.parallel", 2}, {"member_1.insulator.thickness", 150e-6}, {"load.share", 0.3}},
+    {{"stack.series", 2}, {"stack.distance", 30e-3}, {"stack.voltage_ratio", 0.5}},
+    {{"stack.series", 2}, {"stack.distance", 30e-3}, {"stack.lower_voltage", 1e3}},
+};
+
+static ZpActuatorDef stack_of(int k, int nodes) {
+  return DEF({"mesh.nodes", nodes}, {"drive.voltage", 6e3}, stack[k][0], stack[k][1], stack[k][2]);
+}
+
+/* Whole actuators in series, side by side and as antagonists rest as their halves do. */
+TESTS(whole_members_rest_as_halves, 0, LENGTH_OF(stack)) {
+  ZpActuatorDef def = stack_of(_i, 15);
+  Both both = run_both(ZP_STUDY_STATIONARY, def);
+  CHECK_SCALARS(both, "stroke_m", "opening_m", "max_stress_Pa");
+  both = run_both(ZP_STUDY_LIMITS, def);
+  CHECK_SCALARS(both, "mass_kg");
+  check_scalar(both, "pull_in_voltage_V", 1e3);
+  check_scalar(both, "release_voltage_V", 1e3);
+  check_scalar(both, "closing_voltage_V", 1e3);
+  both = run_both(ZP_STUDY_EQUILIBRIUM, def);
+  CHECK_SCALARS(both, "points");
+  both = run_both(ZP_STUDY_ISOMETRIC, def);
+  CHECK_SCALARS(both, "force_N", "charge_C", "capacitance_F");
+}
+
+/* They take the same steps until rounding has grown, from bounce to bounce. */
+TESTS(whole_members_move_as_halves, 0, LENGTH_OF(stack)) {
+  ZpActuatorDef def = stack_of(_i, 9);
+  def.drive.voltage = 8e3;
+  def.solver.end_time = 25e-3;
+  def.solver.tolerance = 1e-3;
+  Both both = run_both(ZP_STUDY_ACTUATE, def);
+  CHECK_SCALARS(both, "steps");
+  check_signal(both, "opening_m", largest_in(both.half->series, "opening_m"), true, 1.3e-7);
+  check_signal(both, "charge_C", largest_in(both.half->series, "charge_C"), true, 1.3e-7); /* 4.3e-8 measured */
+}
+
+/* Halves that differ, in the weight of a tilted stack: energy balances while it moves. The order in which members side
+ * by side are named, and the side to which the stack leans, make no difference to it. */
+TESTS(tilted_members_move_together, 0, LENGTH_OF(stack)) {
+  ZpResult *result[2];
+  for (int k = 0; k < 2; k++) {
+    ZpActuatorDef def = stack_of(_i, 9);
+    def.actuator.symmetry = ZP_SYMMETRY_NONE;
+    def.mount.tilt = k ? -0.3 : 0.3;
+    def.solver.end_time = 30e-3;
+    if (_i == 1 && k) {
+      def.member_2.insulator.thickness = def.member_1.insulator.thickness;
+      def.member_1.insulator.thickness = NAN;
+    }
+    result[k] = answer_of(ZP_STUDY_ACTUATE, &def);
+    ck_below(zp_result_get(result[k], "energy_error"), 1e-6);
+  }
+  ck_near(zp_result_get(result[0], "opening_m"), zp_result_get(result[1], "opening_m"), 7.1e-11); /* 2.4e-11 measured */
+}
+
+/* Antagonists are mirrored where gravity is: one at the tilt pi - a opens as the other one at a. */
+TEST(tilted_antagonists_change_places) {
+  double opening[2];
+  for (int k = 0; k < 2; k++) {
+    ZpActuatorDef def = DEF({"mesh.nodes", 15}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"stack.series", 2},
+                            {"stack.distance", 30e-3}, {"mount.tilt", k ? acos(-1) - 0.5 : 0.5});
+    opening[k] = answered_value(ZP_STUDY_STATIONARY, &def, "opening_m");
+  }
+  ck_assert_double_gt(opening[0], opening[1] + 1e-3);
+  ck_near(opening[0] + opening[1], 30e-3, 1e-12); /* 2.2e-16 measured */
+}
+
 /* -- the platform and the clips ---------------------------------------------------------------------- */
 
 static double energy_of(ZpSim *sim) {

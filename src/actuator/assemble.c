@@ -154,17 +154,25 @@ static size_t before(const Joined *of, size_t which, size_t own) {
   return sum;
 }
 
+/* Of two halves, which end at the platform, the second one can follow from there back to its clip. */
+static bool alternate(const Joined *of) {
+  return of->members > 2 || of->tied[0][0] < of->count[0] - of->ties[0];
+}
+
 /* An equation of one member alone => of all. With a border, those of each member follow those of the one before, and
- * the shared ones follow all. Without one, those of the second of two follow from its platform back to its clip, behind
- * the shared one, so that the matrix stays a narrow band; of more than two, those of the same number are adjacent. */
+ * the shared ones follow all. Without one, those of the second of two halves follow from its platform back to its clip,
+ * behind the shared one, so that the matrix stays a narrow band; else those of the same number are adjacent, with the
+ * shared ones among those of the platform. */
 static size_t place_of(const Joined *of, size_t which, size_t i) {
+  const size_t first = of->tied[0][0];
   size_t own = i; /* its number among those that are not shared */
   for (size_t k = 0; k < of->ties[which]; k++) {
-    if (of->tied[which][k] == i) return of->border || of->members > 2 ? of->inner + of->to[which][k] : of->tied[0][0];
+    if (of->tied[which][k] == i && of->border) return of->inner + of->to[which][k];
+    if (of->tied[which][k] == i) return alternate(of) ? before(of, 0, first) + of->to[which][k] : first;
     own -= of->tied[which][k] < i;
   }
   if (of->border || !of->shared) return of->before[which] + own;
-  if (of->members > 2) return before(of, which, own);
+  if (alternate(of)) return before(of, which, own) + (own < first ? 0 : of->shared);
   return which == 1 ? of->inner - own : i;
 }
 
@@ -183,8 +191,9 @@ static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
   a->joined = of->shared > 0;
   a->shared = of->border ? of->shared : 0;
   a->n = n;
-  a->parts = (ZpParts){0};
   a->groups = (ZpBandGroups){0, 0};
+  for (size_t k = 0; k < a->parts.count; k++)
+    a->parts.common[k] = place_of(of, which, a->parts.common[k]);
   for (size_t k = 0; k < 2 * a->count; k++)
     if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
   for (size_t c = 0; c < a->own * a->nodes; c++)

@@ -116,9 +116,10 @@ void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, c
     y[j] = -first->distance - y[j];
 }
 
-void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons) {
-  double *y = all->array[1] + member * all->nodes, fall = -y[all->nodes - ribbons];
-  if (member > 0) fall += y[-1];
+void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member) {
+  const ZpTopology *t = &first[member].topology;
+  double *y = all->array[1] + member * all->nodes, fall = -y[zp_upper(t, t->platform.first)];
+  if (member > 0) fall += (y - all->nodes)[zp_load_node(&first[member - 1].topology)];
   for (size_t j = 0; j < all->nodes; j++)
     y[j] += fall;
 }

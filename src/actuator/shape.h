@@ -38,7 +38,7 @@ void zp_many_reserve(ZpManyShapes *all, size_t members, size_t nodes, size_t sta
 void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, const ZpShape *one);
 
 /* Hang a member that was put on the one above it. */
-void zp_many_hang(const ZpManyShapes *all, size_t member, size_t ribbons);
+void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member);
 
 /* All that were put => the shape's arrays. */
 void zp_many_give(const ZpManyShapes *all, ZpShape *shape);

@@ -48,11 +48,11 @@ double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage) {
   return isnan(def->stack.lower_voltage) ? def->stack.voltage_ratio * voltage : def->stack.lower_voltage;
 }
 
-/* The lower one of two antagonists as it is turned upside down: gravity points from its platform to its mount, and the
- * load is the other's. */
+/* The lower one of two antagonists as it is mirrored upside down: gravity points from its platform to its mount, and
+ * the load is the other's. */
 static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
-  double upside_down = zp_key(zp_key_find("mount.tilt"))->max;
-  one->mount.tilt = fabs(def->mount.tilt) < 0.5 * upside_down ? upside_down : 0;
+  const double upside_down = zp_key(zp_key_find("mount.tilt"))->max;
+  one->mount.tilt = copysign(upside_down - fabs(def->mount.tilt), def->mount.tilt);
   one->load = zp_def_unloaded(def).load;
   one->drive.offset *= def->stack.voltage_ratio;
   if (!isnan(def->stack.lower_voltage)) one->drive = zp_actuator_def_default().drive; /* a step, which stays constant */
@@ -174,8 +174,10 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET(stack.distance), ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT),
             "straight ribbons do not reach the load"),
     /* several members */
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF),
-            "links are modelled between the platforms of symmetric halves"),
+    ZP_RULE_IF(EQUATION, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_IS(platform.rotates, false),
+               "a platform that turns would turn the member that hangs on it"),
+    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(platform.rotates, false),
+            "one height joins the platforms of members, not an angle"),
     ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "links are modelled between rods"),
     ZP_RULE(EQUATION, ZP_SEVERAL, ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
             "the paper's zipping has the order of a single actuator"),

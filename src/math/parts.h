@@ -6,7 +6,7 @@
 
 #include <stddef.h>
 
-enum { ZP_MOST_COMMON = 2 };
+enum { ZP_MOST_COMMON = 16 };
 
 typedef struct ZpParts {
   size_t more;                   /* parts beyond the first: 0 where the system is one */

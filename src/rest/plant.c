@@ -1,6 +1,7 @@
-/* The coordinates are, of each member by itself, the lowest vibrations without liquid, with the bead at rest, and the
- * shape in which a slow voltage bends it. Each has a flow, the one where viscosity dominates. The difference to the
- * flow where inertia dominates is an unknown of its own (Galerkin's method, which keeps energies and losses positive).
+/* The coordinates are, of each member by itself, the lowest vibrations without liquid, with the bead at rest, the
+ * shape in which a slow voltage bends it and, of antagonists, that in which a force on the platform does. Each has a
+ * flow, the one where viscosity dominates. The difference to the flow where inertia dominates is an unknown of its own
+ * (Galerkin's method, which keeps energies and losses positive).
  *
  * Members that share a load share one coordinate, the height of their platforms. In series the shapes of a member are
  * those relative to the platform that it hangs on, which joins the members by their masses.
@@ -16,7 +17,7 @@
 #include "math/vector.h"
 #include "rest/vibration.h"
 
-enum { SLOW = 16, SHAPES = ZP_VIBRATIONS + 1 + SLOW, OWN_FLOWS = ZP_FILM_MODES * SHAPES, RATES = SHAPES + OWN_FLOWS };
+enum { SLOW = 16, SHAPES = ZP_VIBRATIONS + 2 + SLOW, OWN_FLOWS = ZP_FILM_MODES * SHAPES, RATES = SHAPES + OWN_FLOWS };
 
 /* A bead that ends before the middle of the actuator. */
 typedef struct End {
@@ -358,12 +359,21 @@ static void turn_to_platform(Member *w) {
     zp_assembly_changes(&w->assembly, w->shape + j * n, w->nodes + j * zp_coordinates(w->model));
 }
 
+/* A force on the platform, as of another member at the same load. */
+static void add_deflection(Member *w) {
+  memset(w->y, 0, w->assembly.n * sizeof *w->y);
+  w->y[w->assembly.equation[zp_y_of(zp_load_node(&w->model->topology))]] = 1;
+  zp_band_solve(&w->factors, w->y);
+  if (w->m < w->assembly.n) add_shape(w, w->y);
+}
+
 /* Shapes and flows. */
 static void find_motions(Member *w) {
   const ZpModel *model = w->model;
   for (int half = 0; half < ZP_BEADS; half++)
     w->bead[half].reach = w->eval->reach[half];
   find_shapes(w);
+  if (zp_is_antagonist(w->model)) add_deflection(w);
   look(w, w->U);
   w->cover = w->eval->cover;
   if (model->has_film) {

@@ -71,13 +71,22 @@ static bool create_member(const ZpStatics *s, size_t which) {
          zp_assembly_create(&ties, is_joined(s) ? which : 0, 0, model->is_rod, &m->assembly);
 }
 
+/* Add the unknowns that the halves of one member have in common. */
+static void add_common(const ZpParts *one, ZpParts *all) {
+  for (size_t k = 0; k < one->count; k++) {
+    bool known = false;
+    for (size_t i = 0; i < all->count; i++)
+      known |= all->common[i] == one->common[k];
+    if (!known) all->common[all->count++] = one->common[k];
+  }
+}
+
 /* The equations of all members. */
 static void number(ZpStatics *s) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
   const ZpTies ties = ties_of(s, 0);
   const ZpAssembly *first = &s->member->assembly;
   s->held = *zp_tie_of_held(&ties);
-  s->parts = first->parts;
   s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
@@ -88,6 +97,9 @@ static void number(ZpStatics *s) {
     s->form.bandwidth = zp_assembly_join(of, s->members, &ties, false);
     s->form.groups = (ZpBandGroups){0, 0};
   }
+  s->parts.more = first->parts.more;
+  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    add_common(&m->assembly.parts, &s->parts);
   s->n = first->n;
 }
 

@@ -546,14 +546,14 @@ static bool create_member(const ZpTies *ties, size_t which, ZpMovingMember *m) {
   return zp_system_create(model, false, &m->eval) && zp_assembly_create(ties, which, model->own, true, &m->assembly);
 }
 
-/* Mass of nodes of other members that moves with the height of a node, kg. */
+/* Mass of nodes of other members that moves with the height of a node, of each half, kg. */
 static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_t node) {
   const int equation = m->assembly.equation[zp_y_of(node)];
   double sum = 0;
   for (const ZpMovingMember *other = d->member; other < d->member + d->members; other++)
     for (size_t j = 0; equation >= 0 && other != m && j < other->model->count; j++)
       if (other->assembly.equation[zp_y_of(j)] == equation) sum += other->model->mass[j];
-  return sum;
+  return sum / (double)m->model->topology.halves;
 }
 
 /* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
@@ -586,7 +586,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .border = d->shared + voltage,
                             .bandwidth = assembly->bandwidth,
                             .groups = assembly->groups,
-                            .parts = assembly->parts,
+                            .parts = d->members > 1 ? (ZpParts){0} : assembly->parts,
                             .self = d,
                             .begin = begin,
                             .residual = force,
@@ -600,14 +600,22 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .unforeseen = unforeseen};
 }
 
+/* Each half of each member has the heights of its platforms. */
+static void count_sharers(ZpDynamics *d, const ZpMovingMember *m) {
+  const ZpTopology *t = &m->model->topology;
+  for (size_t j = zp_upper(t, t->platform.first); j <= zp_lower(t, t->platform.last); j++) {
+    int height = m->assembly.equation[zp_y_of(j)];
+    if (height >= 0) d->sharers[height] += 1;
+  }
+}
+
 static void fill_equations(ZpDynamics *d) {
   for (size_t i = 0; i < d->system.n; i++)
     d->scale[i] = 1;
   for (size_t k = 0; k < d->members; k++)
     add_own(d, &d->member[k]);
-  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
-    for (size_t k = 0; k < 2 * m->model->count && d->shared; k++)
-      if (m->assembly.equation[k] >= (int)(m->assembly.n - d->shared)) d->sharers[m->assembly.equation[k]] += 1;
+  for (const ZpMovingMember *m = d->member; m < d->member + d->members && d->shared; m++)
+    count_sharers(d, m);
   weigh(d, NULL);
   d->system.mass = d->mass;
   d->system.sharers = d->shared ? d->sharers : NULL;
@@ -854,12 +862,16 @@ double zp_dynamics_step(ZpDynamics *d, ZpState *const state[], double latest) {
 void zp_dynamics_book_link(ZpDynamics *d, size_t which, ZpState *before, ZpState *state) {
   ZpMovingMember *m = &d->member[which];
   const ZpModel *model = m->model;
-  size_t j = zp_load_node(&model->topology);
+  const ZpTopology *t = &model->topology;
   m->state = before;
   m->mean_v = zp_state_mean_v(model, before);
   ZpSpan span = span_of(d, m);
   span.beyond = zp_state_beyond(model, state);
-  double mass = model->mass[j] + m->added + liquid_at(model, j / model->s);
   zp_system_force(model, &span, &m->eval, m->force);
-  state->link_force = mass * d->history.a[m->assembly.equation[zp_y_of(j)]] - zp_nodes(model, m->force).y[j];
+  state->link_force = 0;
+  for (size_t i = t->platform.first; i <= t->platform.last; i++) {
+    const size_t j = zp_lower(t, i);
+    double mass = model->mass[j] + m->added + liquid_at(model, i);
+    state->link_force += mass * d->history.a[m->assembly.equation[zp_y_of(j)]] - zp_nodes(model, m->force).y[j];
+  }
 }
