@@ -553,7 +553,7 @@ static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_
   for (const ZpMovingMember *other = d->member; other < d->member + d->members; other++)
     for (size_t j = 0; equation >= 0 && other != m && j < other->model->count; j++)
       if (other->assembly.equation[zp_y_of(j)] == equation) sum += other->model->mass[j];
-  return sum / (double)m->model->topology.halves;
+  return sum / (double)zp_halves(&m->model->topology);
 }
 
 /* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
