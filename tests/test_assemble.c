@@ -122,8 +122,7 @@ TESTS(placed_nodes_differ_least_from_their_edges, 0, 5) {
   ck_assert(zp_assembly_create(&ties, 0, 0, true, &a));
   double d[4 * 12 + 64] = {0}, q[4 * 12 + 64] = {0}, f[4 * 12 + 64] = {0}, gradient[4 * 12];
   uint64_t seed = 11;
-  for (size_t j = 0; j < model->count; j++)
-    *zp_coordinate(model, q, 2 * j) = zp_straight_x(model, j / model->s);
+  zp_place_straight(model, q);
   for (size_t k = 0; k < 2 * (model->count - model->s); k++)
     *zp_coordinate(model, d, k) = 1e-3 * noise(&seed);
   for (size_t k = 0; k < 4 && zp_halves(t) == 2; k++) /* the platform is rigid */

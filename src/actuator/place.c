@@ -1,5 +1,13 @@
 #include "actuator/place.h"
 
+void zp_place_straight(const ZpModel *model, double *nodes) {
+  const ZpForces to = zp_forces(model, nodes);
+  for (size_t j = 0; j < zp_lanes(model); j++) {
+    to.x[j] = zp_straight_x(model, j / model->s);
+    to.y[j] = 0;
+  }
+}
+
 /* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the
  * right from their left nodes. */
 static void lay(const double *d, size_t s, size_t from, size_t to, double *q) {

@@ -46,10 +46,8 @@ static size_t edge_count(const ZpRestMember *m) {
 
 void zp_statics_lay_straight(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
-    memset(m->q, 0, zp_coordinates(m->model) * sizeof *m->q);
+    zp_place_straight(m->model, m->q);
     memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
-    for (size_t j = 0; j < zp_lanes(m->model); j++)
-      m->q[j] = zp_straight_x(m->model, j / m->model->s);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "actuator/place.h"
 #include "actuator/ties.h"
 #include "base/fail.h"
 #include "def/check.h"
@@ -76,11 +77,6 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
              sim->row && make_shape_room(sim);
   return own && (!uppermost || (sim->stepping->create(sim) && make_liquid_room(sim)));
-}
-
-static void lay_straight(const ZpModel *model, double *q) {
-  for (size_t j = 0; j < zp_lanes(model); j++)
-    q[j] = zp_straight_x(model, j / model->s);
 }
 
 void zp_sim_lay_beads(ZpSim *sim) {
@@ -156,7 +152,7 @@ static bool create_one(const ZpModel *model, bool uppermost, ZpSim *sim) {
   if (!allocate(sim, uppermost)) return false;
   ZpState *state = sim->state;
   state->zip_time = state->closed_from = state->refreshed = state->starved_time = NAN;
-  lay_straight(model, zp_state_q(model, state));
+  zp_place_straight(model, zp_state_q(model, state));
   return true;
 }
 
