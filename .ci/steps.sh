@@ -59,8 +59,8 @@ finish() {
 unless_forbidden="setarch $(uname -m) -R"
 $unless_forbidden true 2>/dev/null || unless_forbidden=""
 
-# Names the sources; random designs without an answer, which a step adds, are none.
-sources() { (git rev-parse HEAD && git diff HEAD -- . ':!tests/designs.txt') | sha1sum | cut -c 1-12; }
+# Names the sources; random designs without an answer, which a step adds, and results are none.
+sources() { (git rev-parse HEAD && git diff HEAD -- . ':!tests/designs.txt' ':!.ci/weekly.txt') | sha1sum | cut -c 1-12; }
 
 # each FOLDER [--again] STEP...: runs the steps, each a function, that have not passed with the same sources; --again runs all.
 # What a step prints is in FOLDER/STEP.log; the summary is printed and kept in FOLDER/summary. Status 1 if a step has failed;
