@@ -140,11 +140,11 @@ static const double mass[2 * NODES] = {1, 1, 2, 3, 2, 3, 2, 3, 1, 1, 1, 1};
 static const double inverse[2 * NODES] = {1, 1, 1 / 2.0, 1 / 3.0, 0, 1 / 3.0, 0, 0, 1, 1, 1, 1};
 static const double together[NODES] = {1 / 2.0, 1 / 5.0, 0, 0, 1 / 2.0, 1 / 2.0};
 static const ZpMasses masses = {{mass, inverse, together}, {mass, inverse, together}};
-static const ZpModel model = {.nodes = NODES, .stride = 2 * NODES, .topology = {.ribbons = 2}};
+static const ZpModel two_ribbons = {.nodes = NODES, .stride = 2 * NODES, .topology = {.ribbons = 2}};
 
 /* Pair i joins along x. */
 static double join_pair(size_t i, double *v) {
-  const ZpTie row = zp_tie_of_pair(&model, i, 0);
+  const ZpTie row = zp_tie_of_pair(&two_ribbons, i, 0);
   return zp_tie_join(&row, &masses.x, v);
 }
 
@@ -169,7 +169,7 @@ TEST(test_share) {
   for (size_t j = 0; j < 2 * NODES; j++)
     a[j] = a[2 * NODES + j] = inverse[j] * (double)(j + 1); /* forces 1, 2, ... */
   ZpZipState state = {2, false};
-  zp_ties_share(&model, &masses, &state, a);
+  zp_ties_share(&two_ribbons, &masses, &state, a);
   ck_assert_mem_eq(a, a + 2 * NODES, 2 * NODES * sizeof *a); /* along y as along x */
   ck_assert(a[0] == a[1] && a[2] == a[3]);
   ck_near(a[2], (3 + 4) / 5.0, 1e-14);
@@ -177,7 +177,7 @@ TEST(test_share) {
   ck_near(a[8], 9, 1e-14);           /* not joined */
   ck_near(a[11], 12, 1e-14);
   state.platform = true;
-  zp_ties_share(&model, &masses, &state, a);
+  zp_ties_share(&two_ribbons, &masses, &state, a);
   ck_near(a[10], (11 + 12) / 2.0, 1e-14);
   ck_assert_double_eq(a[10], a[11]);
   ck_near(a[8], 9, 1e-14);
