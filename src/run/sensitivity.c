@@ -187,7 +187,16 @@ static bool takes_matrix(const ZpRunSensitivity *rates) {
   return rates->sim->model->has_bead || rates->sim->dynamics.filters;
 }
 
+/* Does the step end where a slew rate begins or ceases to limit the supply? */
+static bool ends_at_event(const ZpRunSensitivity *rates) {
+  return zp_sim_is_fed(rates->sim) && rates->sim->state->t >= rates->event;
+}
+
+/* There the neighbours' steps end at their own events. */
 static double end_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k) {
+  const ZpSim *near = of->near[k];
+  double h = rates->sim->state->t - rates->before->t;
+  if (ends_at_event(rates)) return zp_supply_coupling_event(near, near->state->t + 2 * h);
   return time_of(rates, of, k, rates->sim->state->t) + of->by.near[k].offset * of->late;
 }
 
@@ -200,7 +209,7 @@ static bool move(ZpRunSensitivity *rates, ZpKeyRates *of) {
     ZpSim *near = of->near[k];
     double latest = end_near(rates, of, k);
     ZpDynamics *d = &near->dynamics;
-    if (!zp_sim_prepare(near)) return false;
+    if (!isfinite(latest) || !zp_sim_prepare(near)) return false;
     zp_dynamics_begin(d, near->states, latest);
     steps.near[steps.count++] = (ZpDifferenceStep){
         &d->stepper, of->by.near[k].offset, of->by.near[k].weight, latest - near->state->t, d->q, d->v, &d->history};
@@ -332,6 +341,14 @@ static bool follow_key(ZpRunSensitivity *rates, ZpKeyRates *of) {
   return true;
 }
 
+/* From an event of the supply on, steps are shares of the time from there to the next corner. */
+static void begin_at_event(ZpRunSensitivity *rates) {
+  rates->from = rates->sim->state->t;
+  for (ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
+    for (int k = 0; k < of->by.count; k++)
+      of->from[k] = of->near[k]->state->t;
+}
+
 void zp_run_sensitivity_follow(ZpRunSensitivity *rates) {
   const char *cause = cause_of_loss(rates);
   for (size_t k = 0; k < rates->keys; k++) {
@@ -342,6 +359,7 @@ void zp_run_sensitivity_follow(ZpRunSensitivity *rates) {
     else if (!follow_key(rates, of))
       lose(rates, of, "the derivative of a step was not found");
   }
+  if (ends_at_event(rates)) begin_at_event(rates);
 }
 
 double zp_run_rate_of(const ZpRunSensitivity *rates, size_t k, double (*number)(ZpSim *sim, const void *user),

@@ -34,9 +34,10 @@ typedef struct ZpRunSensitivity {
   ZpState *before; /* the run's state where the step under way begins */
   int64_t taken;   /* its steps until then */
   double from, to; /* its last corner and its next one, s */
-  bool *wet;       /* [N] stations that the liquid of a bead covers */
-  double *work;    /* [6 n] */
-  double *motion;  /* [n] */
+  double event; /* where a slew rate begins or ceases to limit the supply in the step under way, s; INFINITY: nowhere */
+  bool *wet;    /* [N] stations that the liquid of a bead covers */
+  double *work; /* [6 n] */
+  double *motion; /* [n] */
 } ZpRunSensitivity;
 
 /* Follow a run, which has not begun, by these keys; in any case to be closed, before the run. ZP_BAD_INPUT names a key

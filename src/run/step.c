@@ -246,8 +246,10 @@ static Step begin(ZpSim *sim, double end_time) {
   double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
   if (zp_sim_is_fed(sim)) {
-    corner = fmin(corner, zp_supply_coupling_event(sim, latest));
+    double event = zp_supply_coupling_event(sim, latest);
+    corner = fmin(corner, event);
     latest = fmin(latest, corner);
+    if (sim->rates) sim->rates->event = event;
   }
   return (Step){.corner = corner,
                 .latest = latest,

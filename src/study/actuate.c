@@ -404,9 +404,6 @@ static const ZpRule rule[] = {
             "a controller's samples and limits are not differentiated"),
     ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT),
             "a checkpoint does not contain its derivatives by a key"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(source.model, ZP_SOURCE_AMPLIFIER),
-               ZP_UNSET(source.slew_rate),
-               "the derivatives do not follow the instants at which the slew rate is reached and left"),
     ZP_RULE_DERIVATIVES,
 };
 const ZpRules zp_rules_actuate = ZP_RULES_OF(rule);
