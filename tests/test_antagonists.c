@@ -87,9 +87,9 @@ TEST(voltage_moves_the_residual) {
   double *up = memory_of(3 * n * sizeof *up), *down = up + n, *by = down + n;
   system->at_rest.residual(s, by, NULL);
   system->sensitivity(s, by);
-  system->set(s, 1500 + little);
+  zp_branch_set(system, 1500 + little);
   system->at_rest.residual(s, up, NULL);
-  system->set(s, 1500 - little);
+  zp_branch_set(system, 1500 - little);
   system->at_rest.residual(s, down, NULL);
   double most = largest_of(by, n);
   for (size_t i = 0; i < n; i++)

@@ -54,14 +54,6 @@ static void toy_move(void *self, const double *step, double fraction) {
     ((Toy *)self)->q[i] += fraction * step[i];
 }
 
-static double toy_get(void *self) {
-  return ((const Toy *)self)->m;
-}
-
-static void toy_set(void *self, double m) {
-  ((Toy *)self)->m = m;
-}
-
 /* Asked once at each iterate, so it writes down how far that is from the limit point. */
 static double toy_change(void *self, const double *step) {
   Toy *t = self;
@@ -99,8 +91,7 @@ static ZpBranchSystem toy_system(Toy *t) {
                                       .length = toy_length,
                                       .change = toy_change,
                                       .move = toy_move},
-                          .get = toy_get,
-                          .set = toy_set,
+                          .input = &t->m,
                           .sensitivity = toy_sensitivity,
                           .position = toy_position,
                           .save = toy_save,

@@ -143,7 +143,7 @@ static double changed(ZpRest *r, double m, double share) {
 }
 
 static double parameter(ZpRest *r) {
-  return r->track.fold.system->get(&r->statics);
+  return zp_branch_parameter(r->track.fold.system);
 }
 
 /* -- ripples of the mesh ------------------------------------------------------------------------------ */
@@ -174,7 +174,7 @@ static bool fall(ZpRest *r, double sign, size_t first) {
   zp_rest_save(r, r->held);
   for (size_t k = first; k < SHARES && !found; k++) {
     if (k > first) zp_rest_go_to(r, r->held);
-    r->track.fold.system->set(&r->statics, changed(r, m, sign * beyond[k]));
+    zp_branch_set(r->track.fold.system, changed(r, m, sign * beyond[k]));
     found = zp_newton_good(zp_statics_relax_until(&r->statics, has_opened, r).end);
   }
   return found;
@@ -403,7 +403,7 @@ static ZpQuasistaticEnd change(ZpRest *r, double target, double enough, ZpLimit 
     if (climb(r, at, sign) == ZP_STABLE_HIGHER) continue;
     if (sign * (parameter(r) - enough) >= 0) return ZP_QUASISTATIC_BEYOND;
     if (sign * (parameter(r) - target) > 0) { /* a lower crest of this ripple is before it: fall from there */
-      r->track.fold.system->set(&r->statics, target);
+      zp_branch_set(r->track.fold.system, target);
       bool stays = zp_newton_good(zp_statics_relax_until(&r->statics, NULL, NULL).end);
       return stays ? ZP_QUASISTATIC_ARRIVED : ZP_QUASISTATIC_LOST;
     }

@@ -263,7 +263,7 @@ static bool solve_both(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *b
 /* Is the stiffness singular here, as at a smooth limit point, or does the branch turn at a corner of a law? */
 static bool is_smooth(const ZpRestSensitivity *p, const ZpBranchSystem *branch) {
   static const double least = 1e3; /* longest steps per change of the parameter by itself; a corner has about 1 */
-  return branch->at_rest.length(p->at, p->by_parameter) * fabs(branch->get(p->at)) > least;
+  return branch->at_rest.length(p->at, p->by_parameter) * fabs(zp_branch_parameter(branch)) > least;
 }
 
 /* Near a limit point K^-1 is a large multiple of the null vector times the left null vector. So a quotient of two

@@ -956,31 +956,6 @@ ZpNewtonInfo zp_statics_relax(ZpStatics *s, double voltage) {
 
 /* -- along a parameter ---------------------------------------------------------------------------- */
 
-static double get_voltage(void *self) {
-  return ((const ZpStatics *)self)->U;
-}
-
-static void set_voltage(void *self, double U) {
-  ((ZpStatics *)self)->U = U;
-}
-
-static double get_square(void *self) {
-  const ZpStatics *s = self;
-  return s->U * s->U;
-}
-
-static void set_square(void *self, double square) {
-  ((ZpStatics *)self)->U = square > 0 ? sqrt(square) : 0;
-}
-
-static double get_load(void *self) {
-  return ((const ZpStatics *)self)->load;
-}
-
-static void set_load(void *self, double load) {
-  ((ZpStatics *)self)->load = load;
-}
-
 void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
   const double here = s->U;
   s->U = U;
@@ -1096,16 +1071,15 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
   const ZpModel *model = s->member->model;
   const double voltage = fmax(model->def.drive.voltage, 1);
   const struct {
-    double (*get)(void *self);
-    void (*set)(void *self, double parameter);
+    double *input;
     void (*sensitivity)(void *self, double *r_m);
     double scale;
-  } of[] = {[ZP_ALONG_VOLTAGE] = {get_voltage, set_voltage, by_voltage, voltage},
-            [ZP_ALONG_SQUARE] = {get_square, set_square, by_square, voltage * voltage},
-            [ZP_ALONG_LOAD] = {get_load, set_load, by_load, fmax(s->own_load, 1e-3)}};
+  } of[] = {[ZP_ALONG_VOLTAGE] = {&s->U, by_voltage, voltage},
+            [ZP_ALONG_SQUARE] = {&s->U, by_square, voltage * voltage},
+            [ZP_ALONG_LOAD] = {&s->load, by_load, fmax(s->own_load, 1e-3)}};
   return (ZpBranchSystem){.at_rest = zp_statics_system(s),
-                          .get = of[along].get,
-                          .set = of[along].set,
+                          .input = of[along].input,
+                          .square = along == ZP_ALONG_SQUARE,
                           .sensitivity = of[along].sensitivity,
                           .position = position,
                           .alike = are_alike(s) ? s->members : 0,

@@ -113,7 +113,7 @@ static bool refresh(const ZpStaticSystem *rest) {
 static double arc_length(const ZpBranch *b, double m_start) {
   const ZpBranchSystem *sys = b->system;
   const ZpParts *parts = &sys->at_rest.parts;
-  double gone = (sys->get(sys->at_rest.self) - m_start) / sys->m_scale * b->direction_m;
+  double gone = (zp_branch_parameter(sys) - m_start) / sys->m_scale * b->direction_m;
   for (size_t i = 0; i < sys->at_rest.n; i++)
     gone += b->direction[i] * (b->q[i] - b->q_start[i]) / sys->q_scale;
   double common = zp_parts_dot(parts, b->direction, b->q) - zp_parts_dot(parts, b->direction, b->q_start);
@@ -178,7 +178,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
     double length = rest->length(rest->self, b->a);
     if (!(length < 1) || !(fabs(dm) < 0.2 * sys->m_scale)) return -1;
     rest->move(rest->self, b->a, 1);
-    sys->set(rest->self, sys->get(rest->self) + dm);
+    zp_branch_set(sys, zp_branch_parameter(sys) + dm);
     fresh = !rest->refresh;
     k++;
   }
@@ -195,20 +195,20 @@ static bool predict(ZpBranch *b, double s) {
     b->a[i] = b->direction[i] * s * sys->q_scale;
   if (!(rest->length(rest->self, b->a) < 1)) return false;
   rest->move(rest->self, b->a, 1);
-  sys->set(rest->self, sys->get(rest->self) + b->direction_m * s * sys->m_scale);
+  zp_branch_set(sys, zp_branch_parameter(sys) + b->direction_m * s * sys->m_scale);
   return true;
 }
 
 /* Predict along the direction, then correct. */
 static int try_step(ZpBranch *b, double s) {
-  double m_start = b->system->get(b->system->at_rest.self);
+  double m_start = zp_branch_parameter(b->system);
   return predict(b, s) ? correct(b, s, m_start) : -1;
 }
 
 /* Has m turned twice on a step by s from m_start, where `before` was its direction? Then m has the same direction at
  * both ends, and a cubic through them the opposite one in the middle. */
 static bool turned_twice(const ZpBranch *b, double s, double m_start, double before) {
-  double after = b->direction_m, gone = (b->system->get(b->system->at_rest.self) - m_start) / b->system->m_scale;
+  double after = b->direction_m, gone = (zp_branch_parameter(b->system) - m_start) / b->system->m_scale;
   double middle = 1.5 * gone / s - 0.25 * (before + after);
   return before * after > 0 && before * middle < 0;
 }
@@ -263,7 +263,7 @@ bool zp_branch_advance(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
   void *self = sys->at_rest.self;
   size_t bytes = sys->at_rest.n * sizeof *b->direction;
-  double m = b->direction_m, m_start = sys->get(self);
+  double m = b->direction_m, m_start = zp_branch_parameter(sys);
   sys->save(self, b->saved_before);
   memcpy(b->direction_saved, b->direction, bytes);
   while (b->step > shortest_step) {
@@ -319,7 +319,7 @@ double zp_branch_limit(ZpBranch *b) {
   sys->save(self, b->saved);
   memcpy(b->direction_after, b->direction, bytes);
   zp_branch_approach(b, never, NULL);
-  double where = sys->get(self);
+  double where = zp_branch_parameter(sys);
   sys->restore(self, b->saved);
   sys->at_rest.residual(self, b->newton->r, NULL);
   memcpy(b->direction, b->direction_after, bytes);

@@ -3,12 +3,14 @@
 #ifndef ZP_SOLVE_CONTINUATION_H
 #define ZP_SOLVE_CONTINUATION_H
 
+#include <math.h>
+
 #include "solve/newton.h"
 
 typedef struct ZpBranchSystem {
   ZpStaticSystem at_rest;
-  double (*get)(void *self);                    /* the parameter m */
-  void (*set)(void *self, double parameter);    /* change it at the present point */
+  double *input;                                /* of the present point: the parameter m is this, */
+  bool square;                                  /* or its square */
   void (*sensitivity)(void *self, double *r_m); /* dr/dm [n] at the present point */
   void (*position)(void *self, double *q);      /* the present point by its coordinates [n] */
   void (*save)(void *self, void *to);           /* the whole present point, save_size bytes */
@@ -17,6 +19,16 @@ typedef struct ZpBranchSystem {
   double q_scale, m_scale; /* coordinates and parameter are measured in these */
   size_t alike;            /* how many equal systems it consists of, one after the other, that move alike; 0: none */
 } ZpBranchSystem;
+
+/* The parameter m at the present point. */
+static inline double zp_branch_parameter(const ZpBranchSystem *system) {
+  double input = *system->input;
+  return system->square ? input * input : input;
+}
+
+static inline void zp_branch_set(const ZpBranchSystem *system, double m) {
+  *system->input = !system->square ? m : m > 0 ? sqrt(m) : 0;
+}
 
 /* A branch being followed. Direction in scaled units, length 1. */
 typedef struct ZpBranch {

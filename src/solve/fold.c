@@ -113,8 +113,8 @@ static void step(ZpFold *f, double xi, double dm) {
   double length = rest->length(rest->self, f->b), part = length > 1 ? 1 / length : 1;
   f->moved = rest->change(rest->self, f->b);
   rest->move(rest->self, f->b, part);
-  sys->set(rest->self, sys->get(rest->self) + part * dm);
-  f->change = fabs(dm / sys->get(rest->self)) + of_length * length;
+  zp_branch_set(sys, zp_branch_parameter(sys) + part * dm);
+  f->change = fabs(dm / zp_branch_parameter(sys)) + of_length * length;
 }
 
 static void balance(ZpFold *f) {
@@ -245,7 +245,7 @@ ZpPass zp_fold_pass(ZpFold *f, ZpEvent event, double here, double next, double *
   for (size_t i = 0; i < rest->n; i++)
     f->a[i] += dm * f->along[i];
   bool passes = rest->change(rest->self, f->a) < near;
-  *m = sys->get(rest->self) + dm;
+  *m = zp_branch_parameter(sys) + dm;
   *slope = 1 / along;
   step(f, passes ? on : 0, passes ? dm + on : dm);
   return passes ? ZP_PASS_ON : ZP_PASS_AGAIN;

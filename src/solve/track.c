@@ -22,7 +22,7 @@ void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, ZpBandForm f
 
 static double parameter(const ZpTrack *m) {
   const ZpBranchSystem *sys = m->fold.system;
-  return sys->get(sys->at_rest.self);
+  return zp_branch_parameter(sys);
 }
 
 /* Is the present equilibrium stable? Then dq/dm is in fold.along. */
@@ -65,7 +65,7 @@ static bool predict(ZpTrack *m, double way, double dm) {
     m->guess[i] = m->before[i] * way;
   if (!(rest->length(rest->self, m->guess) < farthest)) return false;
   rest->move(rest->self, m->guess, 1);
-  sys->set(rest->self, m->m + dm);
+  zp_branch_set(sys, m->m + dm);
   return true;
 }
 
