@@ -26,33 +26,33 @@ static double gap_of(const ZpRestMember *m) {
   return 0.5 * (gap[last.station[0]] + gap[last.station[1]]);
 }
 
-/* The member that decides whether the system counts as closed: the last one to close of those side by side, the first
- * one of antagonists. */
-static const ZpRestMember *deciding(const ZpStatics *s) {
-  const ZpRestMember *found = s->member;
+size_t zp_quasistatic_deciding(const ZpStatics *s) {
+  size_t found = 0;
   for (size_t k = 1; k < s->members; k++) {
-    const ZpRestMember *m = &s->member[k];
-    bool nearer = gap_of(m) - m->closed < gap_of(found) - found->closed;
-    if (nearer == s->opposed) found = m;
+    const ZpRestMember *m = &s->member[k], *best = &s->member[found];
+    bool nearer = gap_of(m) - m->closed < gap_of(best) - best->closed;
+    if (nearer == s->opposed) found = k;
   }
   return found;
 }
 
-static void add_gap_row(const ZpRestMember *m, double *row) {
+double zp_member_gap(const ZpStatics *s, size_t which, double *row) {
+  const ZpRestMember *m = &s->member[which];
   const ZpTopology *t = &m->model->topology;
   LastToClose last = last_to_close(m->model);
-  for (size_t k = 0; k < 2; k++) {
+  if (row) memset(row, 0, s->n * sizeof *row);
+  for (size_t k = 0; k < 2 && row; k++) {
     zp_assembly_add_one(&m->assembly, zp_y_of(zp_lower(t, last.station[k])), -0.5, row);
     if (zp_is_pair(t)) zp_assembly_add_one(&m->assembly, zp_y_of(zp_upper(t, last.station[k])), 0.5, row);
   }
+  return gap_of(m);
 }
 
 double zp_closing_gap(void *self, double *row) {
   const ZpStatics *s = self;
-  const ZpRestMember *m = deciding(s);
-  if (row) memset(row, 0, s->n * sizeof *row);
-  if (row) add_gap_row(m, row);
-  return m == s->member ? gap_of(m) : gap_of(m) - m->closed + s->member->closed;
+  const size_t which = zp_quasistatic_deciding(s);
+  double gap = zp_member_gap(s, which, row);
+  return which == 0 ? gap : gap - s->member[which].closed + s->member->closed;
 }
 
 /* The sum of these gaps of members in series, m; else that of the first member. */
@@ -82,15 +82,15 @@ bool zp_quasistatic_is_closed(ZpRest *r) {
   return zp_closing_gap(&r->statics, NULL) <= r->track.limit;
 }
 
-double zp_quasistatic_closed_by_load(ZpRest *r) {
+double zp_quasistatic_closed_by_load(ZpRest *r, size_t which) {
   static const double step = 1e-3; /* of the gap: the law is linear but for a corner */
   ZpStatics *s = &r->statics;
   ZpFold *fold = &r->track.fold;
   fold->system = &r->load;
   if (!zp_fold_tangent(fold)) return NAN;
-  double gap = zp_closing_gap(s, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
-  double change =
-      zp_closed_opening(s->member->model, (1 + step) * gap) - zp_closed_opening(s->member->model, (1 - step) * gap);
+  const ZpModel *model = s->member[which].model;
+  double gap = zp_member_gap(s, which, fold->x), by_load = zp_dot(s->n, fold->x, fold->along);
+  double change = zp_closed_opening(model, (1 + step) * gap) - zp_closed_opening(model, (1 - step) * gap);
   return by_load * change / (2 * step * gap);
 }
 

@@ -22,9 +22,16 @@ void zp_quasistatic_start(ZpRest *rest);
 
 bool zp_quasistatic_is_closed(ZpRest *rest);
 
-/* Derivative of the gap at which it counts as closed by the load, m/kg, at the present point, where it hangs without
- * voltage. */
-double zp_quasistatic_closed_by_load(ZpRest *rest);
+/* The member that decides whether the system counts as closed: the last one to close of those side by side, the first
+ * one of antagonists. */
+size_t zp_quasistatic_deciding(const ZpStatics *statics);
+
+/* Gap of a member that closes last in it, m. => row [n]: its derivatives; may be NULL. */
+double zp_member_gap(const ZpStatics *statics, size_t which, double *row);
+
+/* Derivative of the gap at which a member counts as closed by the load, m/kg, at the present point, where it hangs
+ * without voltage. */
+double zp_quasistatic_closed_by_load(ZpRest *rest, size_t which);
 
 /* -- limits ---------------------------------------------------------------------------------------- */
 

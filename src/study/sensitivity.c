@@ -56,20 +56,19 @@ ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult 
 
 /* -- limits --------------------------------------------------------------------------------------- */
 
-static double closing_gap(ZpStatics *s, void *user) {
-  (void)user;
-  return zp_closing_gap(s, NULL);
+static double gap_of(ZpStatics *s, void *which) {
+  return zp_member_gap(s, *(const size_t *)which, NULL);
 }
 
-/* Derivative of the gap at which it counts as closed, from the state that hangs. */
-static double rate_of_closed(ZpRest *rest, ZpRestSensitivity *slope, const double *hangs, int inputs) {
+/* Derivative of the gap at which a member counts as closed, from the state that hangs. */
+static double rate_of_closed(ZpRest *rest, ZpRestSensitivity *slope, size_t which, const double *hangs, int inputs) {
   zp_rest_go_to(rest, hangs);
-  double hanging = zp_closing_gap(&rest->statics, NULL), rate, sum = 0;
+  double hanging = zp_member_gap(&rest->statics, which, NULL), rate, sum = 0;
   if (!zp_rest_sensitivity_solve(slope, inputs)) return NAN;
-  rate = zp_rest_sensitivity_of(slope, closing_gap, NULL);
+  rate = zp_rest_sensitivity_of(slope, gap_of, &which);
   for (int k = 0; k < slope->by.count; k++) {
     const ZpNeighbour *near = &slope->by.near[k];
-    sum += near->weight * zp_closed_opening(near->model, hanging + near->offset * rate);
+    sum += near->weight * zp_closed_opening(near->model + which, hanging + near->offset * rate);
   }
   return sum;
 }
@@ -77,10 +76,12 @@ static double rate_of_closed(ZpRest *rest, ZpRestSensitivity *slope, const doubl
 /* Of a gradual closing: the gap at which it counts as closed changes, too, with the key and with the largest load. */
 static double derive_event(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kind, ZpRestSensitivity *slope) {
   bool load = kind == ZP_LIMIT_LOAD;
-  double by_load = 0, closed = load ? rate_of_closed(rest, slope, limits->hung, 0)
-                                    : rate_of_closed(rest, slope, limits->start, ZP_SETS_LOAD);
+  zp_rest_go_to(rest, limits->limit[kind].state);
+  const size_t which = zp_quasistatic_deciding(&rest->statics);
+  double by_load = 0, closed = load ? rate_of_closed(rest, slope, which, limits->hung, 0)
+                                    : rate_of_closed(rest, slope, which, limits->start, ZP_SETS_LOAD);
   if (load) zp_rest_go_to(rest, limits->hung);
-  if (load) by_load = zp_quasistatic_closed_by_load(rest);
+  if (load) by_load = zp_quasistatic_closed_by_load(rest, which);
   zp_rest_go_to(rest, limits->limit[kind].state);
   return zp_rest_sensitivity_of_event(slope, load ? ZP_SETS_VOLTAGE : ZP_SETS_LOAD, load ? &rest->load : &rest->square,
                                       zp_closing_gap, closed, by_load);
