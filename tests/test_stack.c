@@ -366,6 +366,19 @@ TEST(alike_ones_part_where_the_force_has_no_slope) {
           zp_result_get(alone, "force_N") + zp_result_get(alone, "force_unpowered_N"), 6e-14); /* 2.2e-14 measured */
 }
 
+/* Of three that are alike two motions become unstable at once, here within a long step of the branch: the state is
+ * released where it ends to be stable. */
+TEST(three_alike_ones_part_within_a_step) {
+  ZpActuatorDef def = DEF({"stack.series", 3}, {"gravity", 0}, {"ribbon.length", 0.06588366523583535},
+                          {"ribbon.thickness", 9.8289388243714e-05}, {"ribbon.width", 0.008742427821500968},
+                          {"insulator.thickness", 7.999471595304902e-05}, {"platform.length", 0.006588366523583535},
+                          {"drive.voltage", 9407.389232204008}, {"mesh.nodes", 15}, {"liquid.model", ZP_LIQUID_NONE},
+                          {"output.errors", 0}, {"isometric.separation", 0.0006164018118899305});
+  ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  ck_assert_int_eq(result->outcome, ZP_CONVERGED);
+  ck_assert_double_lt(zp_result_get(result, "jumps"), 20);
+}
+
 static ZpActuatorDef unlike_series(void) {
   return DEF({"stack.series", 3}, {"stack.link_mass", 0.3e-3}, {"member_2.ribbon.thickness", 80e-6},
              {"member_3.insulator.thickness", 110e-6}, {"mesh.nodes", 21}, {"isometric.separation", 30e-3},

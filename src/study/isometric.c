@@ -136,6 +136,18 @@ static void look_at(Holder *h, double direction, bool *turned) {
   *turned = false;
 }
 
+static bool is_unstable(void *user) {
+  return !is_stable(user);
+}
+
+/* After a step in which the branch became unstable but did not turn: back to the last stable state. */
+static void go_to_edge(Holder *h) {
+  zp_branch_approach(&h->at.rest.branch, is_unstable, h);
+  zp_rest_save(&h->at.rest, h->edge);
+  pass(h, false);
+  record(h, true, false);
+}
+
 /* Follow the branch until it has reached `top` within its last step. Else it has turned back or was lost: `edge` is the
  * state from which it is released. A series has many branches, and moves to one that is near: it is released where its
  * state becomes unstable, at a turn or where equal members cease to be alike. */
@@ -151,7 +163,8 @@ static bool follow(Holder *h, bool *turned) {
     if (further) look_at(h, direction, turned);
     if (further && fmax(h->highest, s->U) > h->top) return true;
     bool unstable = further && s->linked && s->U != h->highest;
-    if (!*turned && (!further || unstable)) memcpy(h->edge, h->before, h->at.rest.system.save_size);
+    if (!*turned && !further) memcpy(h->edge, h->before, h->at.rest.system.save_size);
+    if (!*turned && unstable) go_to_edge(h);
     *turned |= unstable;
     if (!further || unstable) return false;
     record(h, s->U == h->highest, false);
