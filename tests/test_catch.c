@@ -65,6 +65,25 @@ TESTS(momentum_is_shared_by_members, 0, 3) {
   ck_near(zp_sim_get(sim, "catch_loss"), m * comes / (m + comes) * fallen * fallen, 3.5e-14); /* 1.2e-14 measured */
 }
 
+/* Where faces meet after the catch, each platform is damped as what moves with it: the lower antagonist with the load
+ * of the upper one and what that has caught; of two side by side each with half of all. */
+TESTS(dampers_feel_what_others_have_caught, 0, 3) {
+  ZpActuatorDef def = DEF(CAUGHT, {"drive.voltage", 0}, stacks[_i][0], stacks[_i][1]);
+  ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  const ZpMovingMember *m = sim->dynamics.member;
+  double one[2], all = 0;
+  run_to(sim, 21e-3);
+  for (int k = 0; k < 2; k++) {
+    one[k] = model[k].mass[zp_load_node(&model[k].topology)] + m[k].added;
+    all += one[k];
+  }
+  ck_assert_double_gt(m[0].added + m[1].added, 0.9e-3); /* a quarter of 4 g */
+  if (_i == 0) ck_near(one[1] + m[1].with[1], 0.5 * all, 1e-14);
+  if (_i == 1) ck_assert_double_eq(m[1].with[1], 0); /* the lowest of a series has no other below it */
+  if (_i == 2) ck_near(one[1] + m[1].with[1], all, 1e-14);
+}
+
 /* Equal members side by side catch as one with a multiplicity does. */
 TEST(equal_members_catch_as_one) {
   static const char *const name[] = {"opening_m", "catch_loss_J", "mechanical_work_J", "source_energy_J"};

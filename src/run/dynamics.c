@@ -524,7 +524,34 @@ static void add_masses(ZpDynamics *d, ZpMovingMember *m, double added) {
       int row = equation[zp_x_of(zp_lower(t, i)) + c];
       if (row >= 0) d->mass[row] += added;
     }
-  set_dampers(m);
+}
+
+/* Mass of a node, with what it has caught, kg. */
+static double mass_at(const ZpMovingMember *m, size_t node) {
+  const ZpTopology *t = &m->model->topology;
+  const bool carries = node == zp_lower(t, t->platform.first) || node == zp_lower(t, t->platform.last);
+  return m->model->mass[node] + (carries ? m->added : 0);
+}
+
+/* Mass of nodes of other members that moves with the height of a node, of each half, kg. */
+static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_t node) {
+  const int equation = m->assembly.equation[zp_y_of(node)];
+  double sum = 0;
+  for (const ZpMovingMember *other = d->member; other < d->member + d->members; other++)
+    for (size_t j = 0; equation >= 0 && other != m && j < other->model->count; j++)
+      if (other->assembly.equation[zp_y_of(j)] == equation) sum += mass_at(other, j);
+  return sum / (double)zp_halves(&m->model->topology);
+}
+
+/* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
+ * equal part of all that they move, so that equal members are as one. */
+static void find_joined_masses(ZpDynamics *d) {
+  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    const ZpTopology *t = &m->model->topology;
+    double own = mass_at(m, zp_load_node(t)), others = mass_of_others(d, m, zp_load_node(t));
+    m->with[0] = mass_of_others(d, m, zp_upper(t, t->platform.first));
+    m->with[1] = m->model->parallel ? (own + others) / (double)d->members - own : others;
+  }
 }
 
 /* Masses of all equations in these states; NULL: without what has been caught. */
@@ -532,6 +559,9 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
   memset(d->mass, 0, d->system.n * sizeof *d->mass);
   for (size_t k = 0; k < d->members; k++)
     add_masses(d, &d->member[k], state ? zp_state_added(d->member[k].model, state[k]) : 0);
+  find_joined_masses(d);
+  for (size_t k = 0; k < d->members; k++)
+    set_dampers(&d->member[k]);
 }
 
 /* The voltage behind a source has a rate and no inertia. */
@@ -546,27 +576,6 @@ static bool create_member(const ZpTies *ties, size_t which, ZpMovingMember *m) {
   return zp_system_create(model, false, &m->eval) && zp_assembly_create(ties, which, model->own, true, &m->assembly);
 }
 
-/* Mass of nodes of other members that moves with the height of a node, of each half, kg. */
-static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_t node) {
-  const int equation = m->assembly.equation[zp_y_of(node)];
-  double sum = 0;
-  for (const ZpMovingMember *other = d->member; other < d->member + d->members; other++)
-    for (size_t j = 0; equation >= 0 && other != m && j < other->model->count; j++)
-      if (other->assembly.equation[zp_y_of(j)] == equation) sum += other->model->mass[j];
-  return sum / (double)zp_halves(&m->model->topology);
-}
-
-/* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
- * equal part of all that they move, so that equal members are as one. */
-static void find_joined_masses(ZpDynamics *d) {
-  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
-    const ZpTopology *t = &m->model->topology;
-    double own = m->model->mass[zp_load_node(t)], others = mass_of_others(d, m, zp_load_node(t));
-    m->with[0] = mass_of_others(d, m, zp_upper(t, t->platform.first));
-    m->with[1] = m->model->parallel ? (own + others) / (double)d->members - own : others;
-  }
-}
-
 /* The equations of all members. */
 static void join(ZpDynamics *d, const ZpTies *ties) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
@@ -574,7 +583,6 @@ static void join(ZpDynamics *d, const ZpTies *ties) {
     of[k] = &d->member[k].assembly;
   zp_assembly_join(of, d->members, ties, true);
   d->shared = of[0]->shared;
-  find_joined_masses(d);
 }
 
 /* The system of all members. */
