@@ -48,21 +48,26 @@ static bool stays_closed(const ZpModel *model, const ZpState *state) {
   return left_to_rest(state) <= 0;
 }
 
-/* A series has closed when all its members have; antagonists have when one has. */
+/* Members have closed when all have; antagonists when one has. */
 static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, const ZpState *state)) {
-  if (zp_is_antagonist(sim->model)) return holds(sim->model, sim->state) || holds(sim[1].model, sim[1].state);
+  size_t held = 0;
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    if (!holds(m->model, m->state)) return false;
-  return true;
+    held += holds(m->model, m->state);
+  return held >= (zp_is_antagonist(sim->model) ? 1 : sim->members);
 }
 
 /* Of one of two antagonists, the earlier; else of all members, the last. */
 static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
-  double last = instant(sim->state);
-  if (zp_is_antagonist(sim->model)) return fmin(last, instant(sim[1].state));
-  for (const ZpSim *m = sim + 1; m < sim + sim->members; m++)
-    last = instant(m->state) > last || isnan(instant(m->state)) ? instant(m->state) : last;
-  return last;
+  const bool first = zp_is_antagonist(sim->model);
+  double time = instant(sim->state);
+  for (const ZpSim *m = sim + 1; m < sim + sim->members; m++) {
+    double other = instant(m->state);
+    if (first)
+      time = fmin(time, other);
+    else if (other > time || isnan(other))
+      time = other;
+  }
+  return time;
 }
 
 bool zp_sim_stops(const ZpSim *sim, ZpStop stop) {
