@@ -33,8 +33,8 @@ static bool hang(Finder *f, double *state, double *gap) {
 static const double far = 1.2;   /* times the voltage asked for: as far as a closing voltage matters */
 static const double same = 1e-7; /* of the voltage */
 
-static bool is_at_top(const Finder *f) {
-  return fabs(f->limits->at.value / f->top - 1) < same;
+static bool is_at_top(const Finder *f, double within) {
+  return fabs(f->limits->at.value / f->top - 1) < within;
 }
 
 /* Does the voltage asked for close it under this load? At most at `voltage`, V, or at least there; NAN: not known. */
@@ -75,7 +75,7 @@ static ZpQuasistaticEnd raise(Finder *f, double load) {
   if (zp_quasistatic_is_closed(f->rest)) zp_quasistatic_note(f->rest, &f->limits->at, ZP_TRACK_ARRIVED);
   if (zp_quasistatic_is_closed(f->rest)) return ZP_QUASISTATIC_CHANGED;
   ZpQuasistaticEnd end = zp_quasistatic_close_at(f->rest, far * f->top, (1 - same) * f->top, &f->limits->at);
-  return end == ZP_QUASISTATIC_BEYOND && is_at_top(f) ? fall_at_top(f) : end;
+  return end == ZP_QUASISTATIC_BEYOND && is_at_top(f, same) ? fall_at_top(f) : end;
 }
 
 /* Does the voltage close the actuator under this load? */
@@ -186,15 +186,18 @@ static bool find_below_most(Finder *f, double load, ZpLimit *limit) {
   enum { MOST = 100 };
   static const double near = 0.1; /* of the voltage: a limit nearer than this leads to the one asked for */
   static const double narrowest = 3e-7, lightest = 1e-12; /* of the load; kg */
+  static const double exact = 1e-10;                      /* of the voltage: a limit is as accurate */
+  bool nearer = false;                                    /* is this load nearer to one that was found? */
   for (int k = 0; k < MOST && !zp_statics_asked_to_stop(&f->rest->statics) && f->most > lightest; k++) {
-    if (f->most / f->least - 1 < narrowest) return settle_at_jump(f, limit);
-    if (closes_under(f, load) && is_at_top(f)) {
-      zp_quasistatic_copy(f->rest, &f->limits->at, limit);
-      limit->value = load;
-      return true;
-    }
-    bool follows = k % 2 == 0 && fabs(f->limits->at.value / f->top - 1) < near;
+    if (f->most / f->least - 1 < narrowest && !nearer) return settle_at_jump(f, limit);
+    bool found = closes_under(f, load) && is_at_top(f, same);
+    if (found) zp_quasistatic_copy(f->rest, &f->limits->at, limit);
+    if (found) limit->value = load;
+    if (nearer || (found && is_at_top(f, exact))) return true;
+    bool follows = found || (k % 2 == 0 && is_at_top(f, near));
     load = follows ? follow(f) : (double)NAN;
+    if (found && isnan(load)) return true;
+    nearer = found;
     if (isnan(load)) load = middle(f);
   }
   return false;
