@@ -56,17 +56,19 @@ static double pressed_out(const ZpFilmWays *ways, const double *rate, size_t i, 
   return sum / (p->share[k] * p->w);
 }
 
-/* Heads at which the displaced liquid flows away, 0 where one is given: elimination from the left. */
-static void find_heads(const ZpFilmWays *ways, const double *rate, int k, const double *along_by,
-                       const double *across_by) {
+/* (volumes that must leave the cells, in `head`) => heads at which they flow away, 0 where one is given: elimination
+ * from the left. */
+static void find_heads(const ZpFilmWays *ways, int k, const double *along_by, const double *across_by) {
   const size_t N = ways->params->nodes;
   double *head = ways->head, *diagonal = ways->diagonal;
   for (size_t i = 0; i < N; i++) {
-    head[i] = 0, diagonal[i] = 1;
-    if (!is_free(ways, i, k)) continue;
+    diagonal[i] = 1;
+    if (!is_free(ways, i, k)) {
+      head[i] = 0;
+      continue;
+    }
     double left = i > 0 ? 1 / along_by[zp_film_mode_at(i - 1, k)] : 0, right = 1 / along_by[zp_film_mode_at(i, k)];
     diagonal[i] = left + right + zp_film_wet(ways->eval, i) / across_by[zp_film_mode_at(i, k)];
-    head[i] = pressed_out(ways, rate, i, k);
     if (i == 0 || !is_free(ways, i - 1, k)) continue;
     diagonal[i] -= left * left / diagonal[i - 1];
     head[i] += left / diagonal[i - 1] * head[i - 1];
@@ -77,16 +79,38 @@ static void find_heads(const ZpFilmWays *ways, const double *rate, int k, const 
   }
 }
 
-void zp_film_ways_flow(const ZpFilmWays *ways, const double *rate, int k, bool viscous, double *flow) {
+/* Volumes that must leave the cells => head. */
+static void press(const ZpFilmWays *ways, const double *rate, int k) {
+  for (size_t i = 0; i < ways->params->nodes; i++)
+    ways->head[i] = pressed_out(ways, rate, i, k);
+}
+
+/* Add the flows by which these volumes leave. */
+static void add_flow(const ZpFilmWays *ways, int k, bool viscous, double *flow) {
   const size_t N = ways->params->nodes;
   const double *along_by = viscous ? ways->along_resistance : ways->along_inertia,
                *across_by = viscous ? ways->across_resistance : ways->across_inertia;
-  find_heads(ways, rate, k, along_by, across_by);
+  find_heads(ways, k, along_by, across_by);
   for (size_t i = 0; i < N; i++) {
     double next = i + 1 < N ? ways->head[i + 1] : 0;
-    flow[along(i, k)] = (ways->head[i] - next) / along_by[zp_film_mode_at(i, k)];
-    flow[across(i, k)] = ways->head[i] / across_by[zp_film_mode_at(i, k)];
+    flow[along(i, k)] += (ways->head[i] - next) / along_by[zp_film_mode_at(i, k)];
+    flow[across(i, k)] += ways->head[i] / across_by[zp_film_mode_at(i, k)];
   }
+}
+
+void zp_film_ways_flow(const ZpFilmWays *ways, const double *rate, int k, bool viscous, double *flow) {
+  for (size_t i = 0; i < ways->params->nodes; i++)
+    flow[along(i, k)] = flow[across(i, k)] = 0;
+  press(ways, rate, k);
+  add_flow(ways, k, viscous, flow);
+}
+
+void zp_film_ways_close(const ZpFilmWays *ways, int k, double *flow) {
+  for (size_t i = 0; i < ways->params->nodes; i++) {
+    double enters = i > 0 ? flow[along(i - 1, k)] : 0;
+    ways->head[i] = enters - flow[along(i, k)] - zp_film_wet(ways->eval, i) * flow[across(i, k)];
+  }
+  add_flow(ways, k, true, flow);
 }
 
 void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag) {
@@ -94,7 +118,8 @@ void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag)
   memset(drag, 0, p->nodes * sizeof *drag);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     if (!(p->share[k] > 0)) continue;
-    find_heads(ways, rate, k, ways->along_resistance, ways->across_resistance);
+    press(ways, rate, k);
+    find_heads(ways, k, ways->along_resistance, ways->across_resistance);
     for (size_t i = 0; i < p->nodes; i++)
       for (size_t j = i > 0 ? i - 1 : 0; j <= i + 1 && j < p->nodes; j++)
         drag[j] += zp_film_by_gap(p, ways->eval, i, j, k) * ways->head[i];

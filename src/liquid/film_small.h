@@ -31,6 +31,9 @@ enum { ZP_FILM_FLOWS = 2 * ZP_FILM_MODES };
  * the mode stay as they are. */
 void zp_film_ways_flow(const ZpFilmWays *ways, const double *rate, int k, bool viscous, double *flow);
 
+/* Of a flow of mode k without a change of any gap: take out the volumes that rounding has put into it. */
+void zp_film_ways_close(const ZpFilmWays *ways, int k, double *flow);
+
 /* Force on the gaps [N] against that rate where viscosity rules, N; both modes. */
 void zp_film_ways_drag(const ZpFilmWays *ways, const double *rate, double *drag);
 

@@ -264,6 +264,7 @@ static void add_own_flow(Member *w, size_t j, int k) {
   if (!(left > least * least * whole)) return;
   for (size_t i = 0; i < all; i++)
     flow[i] /= sqrt(left);
+  zp_film_ways_close(&w->ways, k, flow);
   w->z++;
 }
 
