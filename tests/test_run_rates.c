@@ -151,6 +151,20 @@ TEST(corners_move_with_their_key) {
   check(&def, "opening_m", "drive.duty", 1e-3, 1e-4);
 }
 
+/* A sine's extreme at the end of the run moves with the frequency, the end does not: also where the extreme of a
+ * neighbour comes first, it ends with the run. */
+TEST(extreme_at_the_end_of_the_run) {
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.drive.voltage = 3e3;
+  def.drive.waveform = ZP_WAVEFORM_SINE;
+  def.drive.frequency = 50;
+  def.solver.end_time = 0.03;
+  def.solver.time_step = 2e-5;
+  check(&def, "opening_m", "drive.frequency", 1e-3, 2e-4); /* 6.8e-5 measured */
+  check(&def, "stroke_m", "drive.frequency", 1e-3, 5e-4);  /* 1.6e-4 measured */
+}
+
 /* All steps between two corners scale with them: as in runs with a constant number of steps per period. The last step,
  * cut by the end of the run, is shorter than the others. Rounding of positions, 1e-17 m, over the step of the key,
  * 2.5e-5 Hz, leaves 1e-5. If steps before a corner kept their lengths, it would be 4.6e-5. */

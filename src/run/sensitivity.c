@@ -102,7 +102,8 @@ void zp_run_sensitivity_close(ZpRunSensitivity *rates) {
 
 /* -- a step begins ----------------------------------------------------------------------------------- */
 
-/* Between two corners steps end at the same share of the interval, so steps also end at corners that a key moves. */
+/* Between two corners steps end at the same share of the interval, so steps also end at corners that a key moves. At
+ * the end of the run, also if it is a corner, all end at once. */
 static double time_of(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k, double t) {
   double share = (t - rates->from) / (rates->to - rates->from);
   return t == rates->to ? of->to[k] : of->from[k] + share * (of->to[k] - of->from[k]);
@@ -132,7 +133,7 @@ static void begin_near(const ZpRunSensitivity *rates, ZpKeyRates *of, int k, boo
   memcpy(near->before, near->state, zp_state_size(near->model));
   if (!at_corner) return;
   of->from[k] = t;
-  of->to[k] = corner_of(near, end_time);
+  of->to[k] = corner_of(rates->sim, end_time) < end_time ? corner_of(near, end_time) : end_time;
 }
 
 void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time) {
