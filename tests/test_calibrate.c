@@ -803,7 +803,7 @@ TEST(bad_input_is_refused) {
   refuse_file(good, "mesh.nodes", "mesh.nodes");
   refuse_file(good, "data.file", "data.file");
   refuse_file(good, "ribbon.width, ribbon.width", "named twice");
-  refuse_file(good, "ribbon.width,", "unknown key");
+  refuse_file(good, "ribbon.width,", "a comma has no key");
   refuse_file("load_g,load.mass_g,stroke_mm\n8,9,2\n9,9,3\n", "load.mass", "cannot be fitted");
   refuse_file("time_ms,stroke_mm\n2,2\n1,3\n", E, "bad.csv:3: times must not be negative");
   refuse_file("time_ms,stroke_mm,load_g\n1,2,8\n2,3,8\n", E, "no key can change");

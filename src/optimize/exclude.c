@@ -22,6 +22,9 @@ static const double safety = 2;
 /* Lower bound of slopes, so that pairs of cases can raise each of them. */
 static const double flattest = 1e-9;
 
+/* Error of an output, as a part of it: between cases that are very close the rest of a change counts. */
+static const double accuracy = 1e-6;
+
 /* Limits of the logarithm of a satisfied and of a violated constraint: far from the bound, the slope of an output says
  * nothing about where it reaches the bound. */
 static const double kept_most = -1, missed_most = 3;
@@ -75,7 +78,7 @@ static double excess(const Exclusion *e, size_t bound, const ZpPoint *one, const
   for (size_t i = 0; i < s->problem.variables; i++)
     most += e->slope[bound][i] * fabs(one->z[i] - other->z[i]);
   const double change = missed(s, (size_t)(one - s->point), bound) - missed(s, (size_t)(other - s->point), bound);
-  return one->done && other->done && most > 0 ? fabs(change) / most : (double)NAN;
+  return one->done && other->done && most > 0 ? (fabs(change) - accuracy) / most : (double)NAN;
 }
 
 static bool knows_slopes(const Exclusion *e, size_t bound) {
