@@ -589,12 +589,13 @@ static void join(ZpDynamics *d, const ZpTies *ties) {
 static ZpImplicitSystem system_of(ZpDynamics *d) {
   const ZpAssembly *assembly = &d->member->assembly;
   const bool film = d->member->model->has_film;
+  const ZpParts one = {0};
   size_t voltage = d->source ? 1 : 0;
   return (ZpImplicitSystem){.n = assembly->n + voltage,
                             .border = d->shared + voltage,
                             .bandwidth = assembly->bandwidth,
                             .groups = assembly->groups,
-                            .parts = d->members > 1 ? (ZpParts){0} : assembly->parts,
+                            .parts = d->members > 1 ? one : assembly->parts,
                             .self = d,
                             .begin = begin,
                             .residual = force,
