@@ -22,6 +22,7 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
                               bool (*enough)(void *user), void *user, ZpNewtonWork *work) {
   static const double at_first = 1e-6, least = 1e-14; /* of the stiffest: slow; below, nothing is changed by it */
   static const double quickest = 1.0 / 32; /* how c may fall in a step: the next one is hardly longer than 1 */
+  static const double shorter = 0.1; /* from a quarter of all steps on: longer ones jump to and fro across a corner */
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   ZpClosing closing;
   zp_closing_start(&closing);
@@ -52,7 +53,7 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
     }
     zp_band_solve(&work->K, work->r);
     zp_closing_correct(&closing, system, work->r);
-    double length = system->length(system->self, work->r) / longest;
+    double length = system->length(system->self, work->r) / (info.iterations < most / 4 ? longest : shorter * longest);
     system->move(system->self, work->r, length > 1 ? 1 / length : 1);
     c *= length > 1 ? 2 : fmin(fmax(length, quickest), 0.5);
     fresh = !system->refresh;
