@@ -401,7 +401,7 @@ TEST(frequency_of_a_mass_on_a_spring) {
                           {"ribbon.density", 1e-3}, {"load.mass", 1e-3});
   ZpResult *result = run_by(ZP_STUDY_MODES, &def, "ribbon.length, ribbon.thickness, ribbon.young_modulus, load.mass");
   for (size_t k = 0; k < LENGTH_OF(expected); k++)
-    ck_near(exponent(result, &def, "frequency_1_Hz", expected[k].key), expected[k].power, 1e-6);
+    ck_near(exponent(result, &def, "frequency_1_Hz", expected[k].key), expected[k].power, 9e-8); /* 3.0e-8 measured */
 }
 
 /* The error of a central difference falls to a quarter when its step is halved. */
@@ -418,7 +418,7 @@ TEST(differences_of_frequencies_approach_the_derivative) {
         (zp_result_get(more, "frequency_1_Hz") - zp_result_get(less, "frequency_1_Hz")) / (2 * (k + 1) * around.step) -
         rate;
   }
-  ck_near(wrong[1] / wrong[0], 4, 1e-2);
+  ck_near(wrong[1] / wrong[0], 4, 6e-3); /* 2.1e-3 measured */
 }
 
 /* The co-energy has one mixed derivative: the force per voltage is the negative charge per opening, (20.5). Holds to

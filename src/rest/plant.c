@@ -33,7 +33,7 @@ typedef struct End {
 typedef struct Member {
   const ZpModel *model;
   ZpEval *eval;     /* of the state */
-  const double *q;  /* [2 stride] its position */
+  const double *q;  /* its position, of all nodes */
   double U, factor; /* its voltage, V; its height over that of the first one, where both share a load */
   ZpAssembly assembly;
   ZpVibration vibration;
@@ -48,7 +48,7 @@ typedef struct Member {
   double *shape;       /* [m][n] */
   double *rate;        /* [m][N] of the gaps */
   double *flow;        /* [m + z][4 N] */
-  double *nodes;       /* [m][2 stride] how shapes move all nodes */
+  double *nodes;       /* [m] times all nodes: how shapes move them */
   double mass[SHAPES]; /* of shapes, without liquid; they are orthogonal */
   double lift[SHAPES]; /* rise of the platform by shapes */
   double below;        /* mass that hangs on the platform in series, without liquid, kg, */

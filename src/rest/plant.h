@@ -37,7 +37,7 @@ typedef struct ZpSmallMotion {
 bool zp_small_motion_create(ZpRest *rest, ZpSmallMotion *small);
 void zp_small_motion_destroy(ZpSmallMotion *small);
 
-/* `share` times x [rates] => how the nodes of a member move [2 stride], in series also with the platforms above it. */
+/* `share` times x [rates] => how all nodes of a member move, in series also with the platforms above it. */
 void zp_small_motion_nodes(const ZpSmallMotion *small, size_t which, const double *x, double share, double *nodes);
 
 /* `weight` times forces on the nodes of a member => += on the shapes. */

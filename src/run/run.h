@@ -147,7 +147,7 @@ struct ZpSim {
  * its hanging equilibrium. NULL: there is no memory. */
 ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
 
-/* Start at rest at coordinates q [2 stride], bent there from the natural shape for the first time (settle.c). */
+/* Start at rest at coordinates q of all nodes, bent there from the natural shape for the first time. */
 void zp_sim_start_at(ZpSim *sim, const double *q);
 
 /* Would a run end in the present state? */

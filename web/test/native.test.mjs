@@ -271,7 +271,7 @@ test('a light ribbon whose bead draws it hangs and moves, and the next scenario 
     ['source.slew_rate', '0.1 kV/ms']]));
   core.start();
   assert.equal(core.run(0.01), null);
-  assert.ok(Math.abs(core.signal('opening') - 0.130647e-3) < 1e-6);
+  assert.ok(Math.abs(core.signal('opening') - 0.130647e-3) < 3e-9); // 1.3e-9 measured
   core.resolve(new Map());
   core.start();
   assert.equal(core.run(0.01), null);
