@@ -53,8 +53,8 @@ static void draw(const ZpModel *model, double (*D)[4], double gaps[4][STATIONS])
 TESTS(test_symmetric_matrix_is_half_of_the_other, 0, LENGTH_OF(kinds)) {
   ZpModel *model = model_of_kind((size_t)_i);
   ZpAssembly half, whole;
-  const ZpTies ties = zp_ties_of(model, 1);
-  ck_assert(zp_assembly_create(&ties, 0, 0, true, &half) && zp_assembly_create(&ties, 0, 0, false, &whole));
+  const ZpTies ties = zp_ties_of(model, 1, 0);
+  ck_assert(zp_assembly_create(&ties, 0, true, &half) && zp_assembly_create(&ties, 0, false, &whole));
   double D[3 * 2 * STATIONS][4] = {{0}}, gaps[4][STATIONS];
   draw(model, D, gaps);
   ZpGapDerivatives of = {gaps[0], gaps[1], gaps[2], gaps[3]};
@@ -96,18 +96,17 @@ TESTS(held_platform_is_at_its_opening, 0, LENGTH_OF(systems)) {
   const Setting *of = systems[_i];
   ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
   ZpModel *model = model_of(&def);
-  const ZpTies ties = zp_ties_of(model, model->members);
-  const ZpTie *row = zp_tie_of_held(&ties);
-  const ZpModel *held = model + row->member;
+  const ZpTie row = zp_tie_of_held(model, model->members);
+  const ZpModel *held = model + row.member;
   const ZpTopology *t = &held->topology;
   double y[4 * 12] = {0}, s = 7e-3, upper = 0.2;
   const size_t left = zp_lower(t, 0), top = zp_upper(t, t->platform.first);
-  y[zp_has_platform(t) ? top : left] = row->factor == 0 ? 0 : upper; /* of a series, the platform above it */
+  y[zp_has_platform(t) ? top : left] = row.factor == 0 ? 0 : upper; /* of a series, the platform above it */
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    y[zp_lower(t, i)] = zp_tie_place(row, upper, s);
-  ck_assert_uint_eq(row->coordinate, zp_y_of(zp_lower(t, t->platform.first)));
+    y[zp_lower(t, i)] = zp_tie_place(&row, upper, s);
+  ck_assert_uint_eq(row.coordinate, zp_y_of(zp_lower(t, t->platform.first)));
   ck_assert_double_eq_tol(zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y), s, 1e-16);
-  ck_assert(row->factor == 0 || row->to_member != row->member); /* it hangs on what is held, or on another member */
+  ck_assert(row.factor == 0 || row.to_member != row.member); /* it hangs on what is held, or on another member */
 }
 
 /* (10.8): nodes that edges of any vectors place obey the rows, and no free coordinate could bring the edges nearer to
@@ -117,9 +116,9 @@ TESTS(placed_nodes_differ_least_from_their_edges, 0, 5) {
   ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
   ZpModel *model = model_of(&def);
   const ZpTopology *t = &model->topology;
-  const ZpTies ties = zp_ties_of(model, 1);
+  const ZpTies ties = zp_ties_of(model, 1, 0);
   ZpAssembly a;
-  ck_assert(zp_assembly_create(&ties, 0, 0, true, &a));
+  ck_assert(zp_assembly_create(&ties, 0, true, &a));
   double d[4 * 12 + 64] = {0}, q[4 * 12 + 64] = {0}, f[4 * 12 + 64] = {0}, gradient[4 * 12];
   uint64_t seed = 11;
   zp_place_straight(model, q);
@@ -206,31 +205,34 @@ TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
   const Setting *of = systems[_i];
   ZpActuatorDef def = DEF({"mesh.nodes", 6}, of[0], of[1].key ? of[1] : of[0], of[2].key ? of[2] : of[0]);
   ZpModel *model = model_of(&def);
-  const ZpTies ties = zp_ties_of(model, model->members);
   ZpAssembly a[3], *all[3] = {&a[0], &a[1], &a[2]};
   double unknowns[3 * 4 * 12], q[3][4 * 12 + 64] = {{0}};
-  size_t coordinates = 0;
+  size_t free = 0;
   uint64_t seed = 3;
+  ZpTies ties[3];
   for (size_t k = 0; k < model->members; k++) {
-    ck_assert(zp_assembly_create(&ties, k, 0, true, &a[k]));
-    coordinates += 2 * model[k].count;
+    ties[k] = zp_ties_of(model, model->members, k);
+    ck_assert(zp_assembly_create(&ties[k], 0, true, &a[k]));
+    free += 2 * model[k].count - ties[k].count;
   }
-  zp_assembly_join(all, model->members, &ties, true);
-  ck_assert_uint_eq(a->n, coordinates - ties.count);
+  zp_assembly_join(all, model, model->members, true);
+  ck_assert_uint_eq(a->n, free);
   for (size_t i = 0; i < a->n; i++)
     unknowns[i] = noise(&seed);
   for (size_t k = 0; k < model->members; k++)
     zp_assembly_place(&a[k], unknowns, q[k]);
-  for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
-    if (tie->factor == 0) {
-      ck_assert_int_eq(a[tie->member].equation[tie->coordinate], -1); /* held */
-      continue;
+  for (size_t k = 0; k < model->members; k++)
+    for (const ZpTie *tie = ties[k].tie; tie < ties[k].tie + ties[k].count; tie++) {
+      if (tie->factor == 0) {
+        ck_assert_int_eq(a[k].equation[tie->coordinate], -1); /* held */
+        continue;
+      }
+      ck_assert_uint_eq(tie->member, k);
+      if (tie->to_member != k) ck_assert_uint_eq(tie->to_member, zp_shares_load(model) ? 0 : k - 1);
+      double to = *zp_coordinate(model, q[tie->to_member], tie->to);
+      ck_assert(!zp_tie_of(&ties[tie->to_member], tie->to));
+      ck_assert_double_eq(*zp_coordinate(model, q[k], tie->coordinate), tie->factor * to + tie->offset);
     }
-    if (tie->to_member != tie->member) ck_assert_uint_eq(tie->to_member, zp_shares_load(model) ? 0 : tie->member - 1);
-    double free = *zp_coordinate(model, q[tie->to_member], tie->to);
-    ck_assert(!zp_tie_of(&ties, tie->to_member, tie->to));
-    ck_assert_double_eq(*zp_coordinate(model, q[tie->member], tie->coordinate), tie->factor * free + tie->offset);
-  }
   for (size_t k = 0; k < model->members; k++)
     zp_assembly_destroy(&a[k]);
 }

@@ -70,7 +70,7 @@ static void bend(ZpStatics *s, double random) {
     for (size_t j = zp_upper(&model->topology, i); j <= zp_lower(&model->topology, i); j++)
       if (s->member->assembly.equation[2 * j] >= 0) x[j] += 0.05 * model->l * noise(&seed);
   }
-  const ZpTies ties = zp_ties_of(model, 1);
+  const ZpTies ties = zp_ties_of(model, 1, 0);
   for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
     double *q = tie->to % 2 ? y : x;
     q[tie->coordinate / 2] = tie->factor * q[tie->to / 2] + tie->offset;

@@ -131,8 +131,8 @@ TESTS(force_does_the_work_of_the_spring, 0, 8) {
     ck_below(fabs(F[side] * (end - o[0]) - 0.5 * k * (s0 * s0 - s1 * s1)), 1e-15);
   }
   ZpAssembly assembly;
-  const ZpTies ties = zp_ties_of(model, 1);
-  ck_assert(zp_assembly_create(&ties, 0, 0, true, &assembly));
+  const ZpTies ties = zp_ties_of(model, 1, 0);
+  ck_assert(zp_assembly_create(&ties, 0, true, &assembly));
   ZpBand K;
   ZpArena size = {NULL, 0};
   zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &size);

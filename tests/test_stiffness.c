@@ -85,7 +85,7 @@ static void bend(ZpStatics *s, double gap) {
     double rise = gap > 0 ? 0.3 * gap * noise(&seed) : 0.1 * model->l * noise(&seed);
     y[j] = lower ? y[upper] - gap - rise : rise;
   }
-  const ZpTies ties = zp_ties_of(model, 1);
+  const ZpTies ties = zp_ties_of(model, 1, 0);
   for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {
     double *q = tie->to % 2 ? y : x;
     q[tie->coordinate / 2] = tie->factor * q[tie->to / 2] + tie->offset;

@@ -292,8 +292,8 @@ TEST(equations_are_those_of_the_topology) {
   ZpActuatorDef def = def_of(ZP_SYMMETRY_NONE, 4);
   ZpModel *model = model_of(&def);
   ZpAssembly a;
-  const ZpTies ties = zp_ties_of(model, 1);
-  ck_assert(zp_assembly_create(&ties, 0, 0, true, &a));
+  const ZpTies ties = zp_ties_of(model, 1, 0);
+  ck_assert(zp_assembly_create(&ties, 0, true, &a));
   const ZpTopology *t = &model->topology;
   ck_assert_uint_eq(t->stations, 8);
   ck_assert_uint_eq(a.n, 8 * 4 - 2 * 2 - 2 * 2 - 2 - 1); /* clips, x of platforms, y of the upper, and of the lower */
@@ -313,9 +313,9 @@ TEST(half_is_the_whole_with_mirror_rows) {
   enum { N = 4 };
   ZpActuatorDef defs[2] = {def_of(ZP_SYMMETRY_HALF, N), def_of(ZP_SYMMETRY_NONE, N)};
   ZpModel *half = model_of(&defs[0]), *whole = model_of(&defs[1]);
-  const ZpTies ties = zp_ties_of(half, 1), of_whole = zp_ties_of(whole, 1);
+  const ZpTies ties = zp_ties_of(half, 1, 0), of_whole = zp_ties_of(whole, 1, 0);
   ZpAssembly a, b;
-  ck_assert(zp_assembly_create(&ties, 0, 0, true, &a) && zp_assembly_create(&of_whole, 0, 0, true, &b));
+  ck_assert(zp_assembly_create(&ties, 0, true, &a) && zp_assembly_create(&of_whole, 0, true, &b));
   double unknowns[4 * N], q[4 * 4 * N + 64] = {0}, mirrored[2 * 4 * 4 * N + 64] = {0},
                                         X = zp_straight_x(whole, 2 * N - 1);
   for (size_t i = 0; i < a.n; i++)
@@ -440,9 +440,9 @@ TEST(unlike_ribbons_swing_in_series) {
 
 /* Bent at random about a shape with open faces, what is held left where it is. */
 static void bend(const ZpModel *model, uint64_t *seed, double *q) {
-  const ZpTies ties = zp_ties_of(model, 1);
+  const ZpTies ties = zp_ties_of(model, 1, 0);
   for (size_t k = 0; k < 2 * model->count; k++) {
-    const ZpTie *tie = zp_tie_of(&ties, 0, k);
+    const ZpTie *tie = zp_tie_of(&ties, k);
     size_t j = k / 2, i = j / model->s;
     double *value = &q[j + k % 2 * model->stride];
     double straight = k % 2 ? -1e-4 * (double)(j % 2) : zp_straight_x(model, i);

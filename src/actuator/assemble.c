@@ -13,21 +13,21 @@ static size_t least(size_t a, size_t b) {
 }
 
 /* The first coordinate of a member that always moves as this one: itself, or one that is tied to the same. */
-static size_t leader_of(const ZpTies *ties, size_t member, const ZpTie *tie) {
+static size_t leader_of(const ZpTies *ties, const ZpTie *tie) {
   const ZpTie *first = ties->tie;
-  if (tie->to_member == member) return tie->to;
-  while (first->member != member || first->to_member != tie->to_member || first->to != tie->to)
+  if (tie->to_member == ties->member) return tie->to;
+  while (first->to_member != tie->to_member || first->to != tie->to)
     first++;
   return first->coordinate;
 }
 
 /* Station by station: coordinates of its nodes, then unknowns of the laws. */
-static size_t number(const ZpTies *ties, size_t member, ZpAssembly *a) {
+static size_t number(const ZpTies *ties, ZpAssembly *a) {
   int next = 0;
   for (size_t i = 0; i < a->nodes; i++) {
     for (size_t k = 2 * a->s * i; k < 2 * a->s * (i + 1); k++) {
-      const ZpTie *tie = zp_tie_of(ties, member, k);
-      size_t leader = tie ? leader_of(ties, member, tie) : k;
+      const ZpTie *tie = zp_tie_of(ties, k);
+      size_t leader = tie ? leader_of(ties, tie) : k;
       a->factor[k] = tie ? tie->factor : 1;
       a->offset[k] = tie ? tie->offset : 0;
       a->equation[k] = a->factor[k] == 0 ? -1 : leader < k ? a->equation[leader] : next++;
@@ -40,11 +40,11 @@ static size_t number(const ZpTies *ties, size_t member, ZpAssembly *a) {
 
 /* Two halves that mirror each other have in common what a row ties across their platform, eq. (19.1). No row does so
  * where the platform turns: the whole is then one part. */
-static ZpParts parts_of(const ZpTies *ties, size_t member, const ZpAssembly *a) {
+static ZpParts parts_of(const ZpTies *ties, const ZpAssembly *a) {
   ZpParts parts = {0};
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++) {
-    if (tie->member != member || tie->factor == 0) continue;
-    if (leader_of(ties, member, tie) / (2 * a->s) != tie->coordinate / (2 * a->s))
+    if (tie->factor == 0) continue;
+    if (leader_of(ties, tie) / (2 * a->s) != tie->coordinate / (2 * a->s))
       parts.common[parts.count++] = (size_t)a->equation[tie->coordinate];
   }
   parts.more = parts.count > 0;
@@ -108,8 +108,8 @@ static ZpBandGroups groups_of(const ZpAssembly *a) {
   return groups;
 }
 
-bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symmetric, ZpAssembly *a) {
-  const ZpModel *model = ties->first + member;
+bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssembly *a) {
+  const ZpModel *model = ties->first + ties->member;
   *a = (ZpAssembly){.s = model->s,
                     .nodes = model->nodes,
                     .count = model->count,
@@ -125,9 +125,9 @@ bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symm
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(ties, member, a);
+  a->n = number(ties, a);
   a->bandwidth = bandwidth_of(a);
-  a->parts = parts_of(ties, member, a);
+  a->parts = parts_of(ties, a);
   for (size_t i = 0; i < model->nodes; i++)
     a->first[i] = first_of(a, i);
   a->groups = groups_of(a);
@@ -213,13 +213,16 @@ static size_t note(const ZpAssembly *a, size_t member, size_t coordinate, size_t
   return shared;
 }
 
-size_t zp_assembly_join(ZpAssembly *const a[], size_t members, const ZpTies *ties, bool border) {
+size_t zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t members, bool border) {
   Joined of = {.members = members, .border = border};
-  for (const ZpTie *t = ties->tie; t < ties->tie + ties->count; t++)
-    if (t->to_member != t->member) {
-      size_t shared = note(a[t->to_member], t->to_member, t->to, of.shared, &of);
-      note(a[t->member], t->member, t->coordinate, shared, &of);
-    }
+  for (size_t member = 0; first && member < members; member++) {
+    const ZpTies ties = zp_ties_of(first, members, member);
+    for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++)
+      if (t->to_member != member) {
+        size_t shared = note(a[t->to_member], t->to_member, t->to, of.shared, &of);
+        note(a[member], member, t->coordinate, shared, &of);
+      }
+  }
   size_t n = 0, bandwidth = a[0]->bandwidth;
   for (size_t which = 0; which < members; which++) {
     of.before[which] = n;

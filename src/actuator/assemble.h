@@ -27,14 +27,15 @@ typedef struct ZpAssembly {
                  others following it; else -1 */
 } ZpAssembly;
 
-/* Of a member of the system, with `own` unknowns of the laws at each station. False if there is no memory. */
-bool zp_assembly_create(const ZpTies *ties, size_t member, size_t own, bool symmetric, ZpAssembly *assembly);
+/* Of the member that has these ties, with `own` unknowns of the laws at each station. False if there is no memory. */
+bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
 /* Number the equations of members as one system, in which coordinates that are tied have one equation => the number of
- * diagonals above the main one. In a border, the shared ones come last, and each member has a band of its own. Without
- * one they are inside the band, and of two members at most one coordinate is shared. */
-size_t zp_assembly_join(ZpAssembly *const assembly[], size_t members, const ZpTies *ties, bool border);
+ * diagonals above the main one. `first`: their models; NULL: no row ties them. In a border, the shared ones come last,
+ * and each member has a band of its own. Without one they are inside the band, and of two members at most one
+ * coordinate is shared. */
+size_t zp_assembly_join(ZpAssembly *const assembly[], const ZpModel *first, size_t members, bool border);
 
 /* Changes or rates of nodes [2 stride] => of equations [n]; positions of equations => of nodes, where what is held
  * stays as it is. */

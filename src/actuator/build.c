@@ -343,9 +343,8 @@ static double pseudo_mass_of(const ZpModel *model) {
  * is. */
 static ZpAxisMasses masses_along(size_t axis, const ZpModel *model, const ZpTies *ties, const double *mass,
                                  double *inverse, double *pair) {
-  const size_t member = (size_t)(model - ties->first);
   for (size_t j = 0; j < model->count; j++)
-    inverse[j] = zp_is_held(ties, member, 2 * j + axis) ? 0 : 1 / mass[j];
+    inverse[j] = zp_is_held(ties, 2 * j + axis) ? 0 : 1 / mass[j];
   for (size_t i = 0; i < model->nodes; i++) {
     const ZpTie row = zp_tie_of_pair(model, i, axis);
     double one = inverse[row.coordinate / 2], other = inverse[row.to / 2];
@@ -799,8 +798,8 @@ static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, Zp
   ZpStatus status = ZP_OK;
   for (size_t k = 0; k < model->members; k++)
     derive_member(def, k, model + k);
-  const ZpTies ties = zp_ties_of(model, model->members);
   for (size_t k = model->members; k-- > 0 && status == ZP_OK;) {
+    const ZpTies ties = zp_ties_of(model, model->members, k);
     status = fill(&ties, k > 0 && own_voltage ? NULL : table, model + k, err);
     if (status == ZP_OK && k > 0 && !zp_shares_load(model)) model[k - 1].carried = mass_from_here(model + k);
   }

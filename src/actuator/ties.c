@@ -15,7 +15,8 @@ static double straight(const ZpModel *model, size_t k) {
 }
 
 /* A held coordinate stays where the straight actuator has it. The rest of a joint moves as its first station does. */
-static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const ZpJointWay *way) {
+static void add_joint(ZpTies *ties, const ZpJoint *joint, const ZpJointWay *way) {
+  const size_t member = ties->member;
   const ZpModel *model = ties->first + member;
   const size_t s = model->s, first = 2 * s * joint->first, end = 2 * s * (joint->last + 1);
   for (size_t k = first; k < end; k++) {
@@ -30,7 +31,8 @@ static void add_joint(ZpTies *ties, size_t member, const ZpJoint *joint, const Z
 
 /* In series, the lower platform of each and the upper one of the next have one height, eq. (29.2). A load that all
  * share has one height, which the lower of two antagonists sees upside down, eq. (31.3). */
-static void add_link(ZpTies *ties, size_t member) {
+static void add_link(ZpTies *ties) {
+  const size_t member = ties->member;
   const ZpModel *first = ties->first, *model = first + member;
   const ZpTopology *t = &model->topology;
   const bool shared = zp_shares_load(first), opposed = zp_is_antagonist(first);
@@ -39,19 +41,23 @@ static void add_link(ZpTies *ties, size_t member) {
                     opposed ? -first->distance : 0, 0});
 }
 
-/* The lower platform is so far below the upper one, of a series the lowest below the uppermost, or the free end of the
- * lower of two ribbons below its left end, eq. (13.6). */
-static ZpTie held_row(const ZpModel *first, size_t members) {
-  const size_t member = zp_shares_load(first) ? 0 : members - 1;
-  const ZpTopology *t = &first->topology;
-  const size_t from = zp_has_platform(t) ? zp_upper(t, t->platform.first) : zp_lower(t, 0);
-  return (ZpTie){member, zp_y_of(zp_load_node(&first[member].topology)), 0, zp_y_of(from), 1, 0, -1};
+/* The rows of one member, as its joints and its link say. */
+static ZpTies list(const ZpModel *first, size_t members, size_t member) {
+  ZpTies ties = {.first = first, .members = members, .member = member};
+  const ZpTopology *t = &first[member].topology;
+  const bool hangs = member > 0 && !zp_shares_load(first);
+  if (member > 0) add_link(&ties);
+  for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
+    add_joint(&ties, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &zp_joint_way[joint->kind]);
+  return ties;
 }
 
-/* Each row refers to a free coordinate. */
-static void resolve(const ZpTies *ties, ZpTie *tie) {
-  const ZpTie *next;
-  while (tie->factor != 0 && (next = zp_tie_of(ties, tie->to_member, tie->to))) {
+/* Let a row that refers to a tied coordinate refer to a free one. */
+static void resolve(const ZpModel *first, size_t members, ZpTie *tie) {
+  while (tie->factor != 0) {
+    const ZpTies ties = list(first, members, tie->to_member);
+    const ZpTie *next = zp_tie_of(&ties, tie->to);
+    if (!next) return;
     tie->offset += tie->factor * next->offset;
     tie->factor *= next->factor;
     tie->to_member = next->to_member;
@@ -59,24 +65,25 @@ static void resolve(const ZpTies *ties, ZpTie *tie) {
   }
 }
 
-ZpTies zp_ties_of(const ZpModel *first, size_t members) {
-  ZpTies ties = {.first = first, .members = members};
-  for (size_t k = 0; k < members; k++) {
-    const ZpTopology *t = &first[k].topology;
-    const bool hangs = k > 0 && !zp_shares_load(first);
-    if (k > 0) add_link(&ties, k);
-    for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
-      add_joint(&ties, k, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &zp_joint_way[joint->kind]);
-  }
-  ties.tie[ties.count] = held_row(first, members);
-  for (ZpTie *tie = ties.tie; tie <= ties.tie + ties.count; tie++)
-    resolve(&ties, tie);
+ZpTies zp_ties_of(const ZpModel *first, size_t members, size_t member) {
+  ZpTies ties = list(first, members, member);
+  for (ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++)
+    resolve(first, members, tie);
   return ties;
 }
 
-const ZpTie *zp_tie_of(const ZpTies *ties, size_t member, size_t k) {
+ZpTie zp_tie_of_held(const ZpModel *first, size_t members) {
+  const size_t member = zp_shares_load(first) ? 0 : members - 1;
+  const ZpTopology *t = &first->topology;
+  const size_t from = zp_has_platform(t) ? zp_upper(t, t->platform.first) : zp_lower(t, 0);
+  ZpTie tie = {member, zp_y_of(zp_load_node(&first[member].topology)), 0, zp_y_of(from), 1, 0, -1};
+  resolve(first, members, &tie);
+  return tie;
+}
+
+const ZpTie *zp_tie_of(const ZpTies *ties, size_t k) {
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++)
-    if (tie->member == member && tie->coordinate == k) return tie;
+    if (tie->coordinate == k) return tie;
   return NULL;
 }
 

@@ -15,17 +15,18 @@ typedef struct ZpTie {
   double by_input;           /* 0 of a row that always acts; another one acts while its input has a value */
 } ZpTie;
 
-enum { ZP_MOST_TIES = 16 * ZP_MOST_MEMBERS + 1 };
+enum { ZP_MOST_TIES = 16 };
 
+/* The rows of one member that always act. */
 typedef struct ZpTies {
-  const ZpModel *first;
-  size_t members, count;
-  ZpTie tie[ZP_MOST_TIES]; /* member by member; after these `count`, which always act, that of a held platform */
+  const ZpModel *first; /* the member is number `member` of these `members` */
+  size_t members, member, count;
+  ZpTie tie[ZP_MOST_TIES];
 } ZpTies;
 
-/* (consecutive members of a system, all of them or one alone) => their ties. All are in one frame but the lower one of
- * antagonists, which is upside down. Alone, a member of a series is in the frame of its upper platform. */
-ZpTies zp_ties_of(const ZpModel *first, size_t members);
+/* (consecutive members of a system, all of them or one alone) => the ties of one of them. All are in one frame but the
+ * lower one of antagonists, which is upside down. Alone, a member of a series is in the frame of its upper platform. */
+ZpTies zp_ties_of(const ZpModel *first, size_t members, size_t member);
 
 /* Where a row puts its coordinate if the free one is at `to`, m. */
 static inline double zp_tie_place(const ZpTie *tie, double to, double input) {
@@ -33,10 +34,9 @@ static inline double zp_tie_place(const ZpTie *tie, double to, double input) {
 }
 
 /* The row that holds the platform while a study gives an opening: that on which the load of all hangs. Its coordinate
- * has an equation. */
-static inline const ZpTie *zp_tie_of_held(const ZpTies *ties) {
-  return ties->tie + ties->count;
-}
+ * has an equation. The lower platform is so far below the upper one, of a series the lowest below the uppermost, or the
+ * free end of the lower of two ribbons below its left end, eq. (13.6). */
+ZpTie zp_tie_of_held(const ZpModel *first, size_t members);
 
 /* The row that makes both nodes of a station one along x (axis 0) or y (1), with the offset that they have where it
  * begins to act, eq. (5.1). That of a clip always acts. Those of sequential contact switch during a run: paper/zip.h
@@ -54,10 +54,10 @@ void zp_ties_share(const ZpModel *model, const ZpMasses *masses, const ZpZipStat
 double zp_tie_join(const ZpTie *tie, const ZpAxisMasses *masses, double *velocity);
 
 /* The row that always acts on a coordinate; NULL: it is free. */
-const ZpTie *zp_tie_of(const ZpTies *ties, size_t member, size_t coordinate);
+const ZpTie *zp_tie_of(const ZpTies *ties, size_t coordinate);
 
-static inline bool zp_is_held(const ZpTies *ties, size_t member, size_t coordinate) {
-  const ZpTie *tie = zp_tie_of(ties, member, coordinate);
+static inline bool zp_is_held(const ZpTies *ties, size_t coordinate) {
+  const ZpTie *tie = zp_tie_of(ties, coordinate);
   return tie && tie->factor == 0;
 }
 

@@ -651,7 +651,7 @@ static bool fill(const Work *w, const ZpSupply *supply, ZpPlant *plant) {
 static bool open_member(Work *all, size_t which) {
   const ZpStatics *at = all->at;
   ZpRestMember *m = &at->member[which];
-  const ZpTies ties = zp_ties_of(m->model, 1);
+  const ZpTies ties = zp_ties_of(m->model, 1, 0);
   Member *w = &all->member[which];
   *w = (Member){.model = m->model,
                 .eval = &m->eval,
@@ -660,7 +660,7 @@ static bool open_member(Work *all, size_t which) {
                 .factor = zp_statics_factor(at, which),
                 .shares = at->shared,
                 .below = at->shared ? 0 : m->model->carried / m->model->parts};
-  if (!zp_assembly_create(&ties, 0, 0, true, &w->assembly)) return false;
+  if (!zp_assembly_create(&ties, 0, true, &w->assembly)) return false;
   w->memory = zp_calloc(1, reserve(w, NULL));
   if (!w->memory) return false;
   reserve(w, w->memory);

@@ -56,17 +56,12 @@ static bool is_joined(const ZpStatics *s) {
   return s->shared || s->linked;
 }
 
-static ZpTies ties_of(const ZpStatics *s, size_t which) {
-  return is_joined(s) ? zp_ties_of(s->model, s->members) : zp_ties_of(s->model + which, 1);
-}
-
 static bool create_member(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->model + which;
-  const ZpTies ties = ties_of(s, which);
+  const ZpTies ties = is_joined(s) ? zp_ties_of(s->model, s->members, which) : zp_ties_of(model, 1, 0);
   ZpRestMember *m = &s->member[which];
   m->model = model;
-  return zp_system_create(model, true, &m->eval) &&
-         zp_assembly_create(&ties, is_joined(s) ? which : 0, 0, model->is_rod, &m->assembly);
+  return zp_system_create(model, true, &m->eval) && zp_assembly_create(&ties, 0, model->is_rod, &m->assembly);
 }
 
 /* Add the unknowns that the halves of one member have in common. */
@@ -82,9 +77,8 @@ static void add_common(const ZpParts *one, ZpParts *all) {
 /* The equations of all members. */
 static void number(ZpStatics *s) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
-  const ZpTies ties = ties_of(s, 0);
   const ZpAssembly *first = &s->member->assembly;
-  s->held = *zp_tie_of_held(&ties);
+  s->held = zp_tie_of_held(s->model, is_joined(s) ? s->members : 1);
   s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
@@ -92,7 +86,7 @@ static void number(ZpStatics *s) {
     of[k] = &m->assembly;
   }
   if (s->members > 1) {
-    s->form.bandwidth = zp_assembly_join(of, s->members, &ties, false);
+    s->form.bandwidth = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, false);
     s->form.groups = (ZpBandGroups){0, 0};
   }
   s->parts.more = first->parts.more;

@@ -571,17 +571,18 @@ static void add_voltage(ZpDynamics *d) {
   d->sharers[voltage_of(d)] = (double)d->members;
 }
 
-static bool create_member(const ZpTies *ties, size_t which, ZpMovingMember *m) {
-  const ZpModel *model = m->model = ties->first + which;
-  return zp_system_create(model, false, &m->eval) && zp_assembly_create(ties, which, model->own, true, &m->assembly);
+static bool create_member(const ZpModel *first, size_t which, ZpMovingMember *m) {
+  const ZpModel *model = m->model = first + which;
+  const ZpTies ties = zp_ties_of(first, first->members, which);
+  return zp_system_create(model, false, &m->eval) && zp_assembly_create(&ties, model->own, true, &m->assembly);
 }
 
 /* The equations of all members. */
-static void join(ZpDynamics *d, const ZpTies *ties) {
+static void join(ZpDynamics *d) {
   ZpAssembly *of[ZP_MOST_MEMBERS];
   for (size_t k = 0; k < d->members; k++)
     of[k] = &d->member[k].assembly;
-  zp_assembly_join(of, d->members, ties, true);
+  zp_assembly_join(of, d->member->model, d->members, true);
   d->shared = of[0]->shared;
 }
 
@@ -644,13 +645,12 @@ static double error_of_step(const ZpActuatorDef *def) {
 }
 
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
-  const ZpTies ties = zp_ties_of(model, model->members);
   *d = (ZpDynamics){.members = model->members, .source = source};
   d->member = zp_calloc(d->members, sizeof *d->member);
   if (!d->member) return false;
   for (size_t k = 0; k < d->members; k++)
-    if (!create_member(&ties, k, &d->member[k])) return false;
-  if (d->members > 1) join(d, &ties);
+    if (!create_member(model, k, &d->member[k])) return false;
+  if (d->members > 1) join(d);
   d->system = system_of(d);
   d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;

@@ -506,11 +506,13 @@ static double coordinate_of(const ZpSim *m, size_t k) {
 /* Are coordinates tied in all states as they are in the model? */
 static bool is_joined(const ZpSim *sim) {
   static const double same = 1e-9; /* of the length */
-  const ZpTies ties = zp_ties_of(sim->model, sim->members);
   bool joined = true;
-  for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++) {
-    double follows = t->factor * coordinate_of(sim + t->to_member, t->to) + t->offset;
-    joined &= fabs(coordinate_of(sim + t->member, t->coordinate) - follows) < same * sim->model->L;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
+    const ZpTies ties = zp_ties_of(sim->model, sim->members, (size_t)(m - sim));
+    for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++) {
+      double follows = t->factor * coordinate_of(sim + t->to_member, t->to) + t->offset;
+      joined &= fabs(coordinate_of(m, t->coordinate) - follows) < same * sim->model->L;
+    }
   }
   return joined;
 }
