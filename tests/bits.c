@@ -158,7 +158,7 @@ static void print_accelerations(const char *name, const ZpActuatorDef *def, int 
     zp_system_accelerations(model, &now, &model->masses, &eval, a);
     put_array(name, a, model->count);
     put_array(name, a + model->stride, model->count);
-    double ledger[ZP_MOST_ROWS];
+    double ledger[ZP_MOST_ROWS] = {0};
     zp_system_now(model, state, &eval, ledger);
     put_array("energies", ledger, model->ledger.rows);
     ZpElectric electric = zp_system_electric_now(model, state, state->U, &eval);
