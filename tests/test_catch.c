@@ -101,9 +101,7 @@ TESTS(forces_carry_what_is_caught, 0, 2) {
   ZpActuatorDef def = DEF(CAUGHT, UNLIKE_SIDE_BY_SIDE, {"drive.voltage", 6e3}, {"liquid.model", ZP_LIQUID_NONE},
                           {"mesh.nodes", 9}, {"solver.tolerance", 1e-6});
   if (_i == 1) def.load.change_mass = -2e-3, def.load.drop_height = 0;
-  size_t columns;
-  const ZpColumn *column = zp_signal_columns_of(&def, &columns);
-  ZpTable *series = zp_table_create(column, columns, 1000);
+  ZpTable *series = zp_signal_table(&def, 1000);
   ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   zp_sim_record(sim, series, NULL);

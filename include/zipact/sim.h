@@ -108,7 +108,7 @@ ZP_API ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim 
 ZP_API void zp_sim_destroy(ZpSim *sim);
 
 /* Record rows in `series` and shapes in `shapes` during runs; each may be NULL. The columns are those of
- * zp_signal_columns, or all of zp_signal_columns_of. Both belong to the caller. */
+ * zp_signal_columns or zp_signal_columns_of, or all of zp_signal_table. Both belong to the caller. */
 ZP_API void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes);
 
 /* Run until `end_time` (s; INFINITY: until another end), or with `stop_when_zipped` until the actuator has closed. If
@@ -242,9 +242,12 @@ ZP_API const ZpColumn *zp_signal_columns(size_t *count);
 /* The name of the signal in column `index` of these, without its unit ("stroke"). */
 ZP_API const char *zp_signal_name(size_t index);
 
-/* The columns of a run of `def`: those of zp_signal_columns, setpoint and measured in the unit of control.signal, and
- * behind them numbers of each member of a stack. */
+/* Those of zp_signal_columns with setpoint and measured in the unit of control.signal of `def`. */
 ZP_API const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count);
+
+/* A new table for the rows of a run of `def`, with these columns and behind them numbers of each member of a stack, of
+ * at most `capacity` rows. NULL: there is no memory. */
+ZP_API ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity);
 
 /* The SI unit of control.signal: "m", "F" or "1". */
 ZP_API const char *zp_control_unit(const ZpActuatorDef *def);

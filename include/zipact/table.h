@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* A column of a table. The table copies the name; `unit` and `help` must outlive it. */
+/* A column of a table. The table copies name and help; `unit` must outlive it. */
 typedef struct ZpColumn {
   const char *name; /* with its unit, "stroke_m" */
   const char *unit; /* "m"; "1" for a pure number */

@@ -2,6 +2,7 @@
 #include "base/table.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/memory.h"
@@ -48,30 +49,60 @@ static Thinned of_shapes(ZpShapes *s) {
   return (Thinned){s->value, s->frame_size, &s->frames, &s->stride, &s->offered, s->capacity};
 }
 
-/* Copy the columns, and behind them their names. */
-static void copy_columns(const ZpColumn *column, size_t columns, ZpColumn *own) {
-  char *name = (char *)(own + columns);
-  for (size_t c = 0; c < columns; c++) {
-    const size_t size = strlen(column[c].name) + 1;
-    own[c] = column[c];
-    own[c].name = memcpy(name, column[c].name, size);
-    name += size;
+size_t zp_numbered(const char *pattern, size_t number, char *text) {
+  size_t used = 0;
+  for (; *pattern; pattern++) {
+    if (number == 0 || *pattern != '#') {
+      if (text) text[used] = *pattern;
+      used++;
+      continue;
+    }
+    char digits[24];
+    size_t length = (size_t)snprintf(digits, sizeof digits, "%zu", number);
+    if (text) memcpy(text + used, digits, length);
+    used += length;
   }
+  if (text) text[used] = 0;
+  return used + 1;
 }
 
-ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
-  size_t names = 0;
-  for (size_t c = 0; c < columns; c++)
-    names += strlen(column[c].name) + 1;
-  ZpTable *table = zp_calloc(1, sizeof *table + columns * sizeof *column + names);
+/* Columns, and their names and helps behind each other in a text. NULL, NULL: only count => columns and bytes. */
+typedef struct Laid {
+  size_t columns, bytes;
+} Laid;
+
+static void lay(const ZpColumnPart *part, ZpColumn *own, char *text, Laid *laid) {
+  const size_t first = part->members > 0 ? 1 : 0;
+  for (size_t member = first; member <= part->members; member++)
+    for (size_t c = 0; c < part->count; c++) {
+      const ZpColumn *from = &part->column[c];
+      char *name = text ? text + laid->bytes : NULL;
+      laid->bytes += zp_numbered(from->name, member, name);
+      char *help = text ? text + laid->bytes : NULL;
+      laid->bytes += from->help ? zp_numbered(from->help, member, help) : 0;
+      if (own) own[laid->columns] = (ZpColumn){name, from->unit, from->help ? help : NULL};
+      laid->columns++;
+    }
+}
+
+ZpTable *zp_table_of(const ZpColumnPart *part, size_t parts, size_t capacity) {
+  Laid all = {0}, laid = {0};
+  for (size_t k = 0; k < parts; k++)
+    lay(&part[k], NULL, NULL, &all);
+  ZpTable *table = zp_calloc(1, sizeof *table + all.columns * sizeof(ZpColumn) + all.bytes);
   if (!table) return NULL;
   ZpColumn *own = (ZpColumn *)(table + 1);
-  copy_columns(column, columns, own);
-  *table = (ZpTable){.column = own, .columns = columns, .capacity = capacity, .stride = 1};
-  table->value = zp_calloc(capacity, columns * sizeof(double));
+  for (size_t k = 0; k < parts; k++)
+    lay(&part[k], own, (char *)(own + all.columns), &laid);
+  *table = (ZpTable){.column = own, .columns = all.columns, .capacity = capacity, .stride = 1};
+  table->value = zp_calloc(capacity, all.columns * sizeof(double));
   if (table->value) return table;
   zp_free(table);
   return NULL;
+}
+
+ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
+  return zp_table_of(&(ZpColumnPart){column, columns, 0}, 1, capacity);
 }
 
 void zp_table_destroy(ZpTable *table) {

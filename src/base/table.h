@@ -15,6 +15,19 @@ struct ZpTable {
   double *value;   /* [capacity][columns] */
 };
 
+/* Columns of a table, once or for each of several members. */
+typedef struct ZpColumnPart {
+  const ZpColumn *column;
+  size_t count, members; /* of each member 1 .. members, with its number in the place of # in name and help; 0: once */
+} ZpColumnPart;
+
+/* A table of the columns of all parts, else as zp_table_create. */
+ZpTable *zp_table_of(const ZpColumnPart *part, size_t parts, size_t capacity);
+
+/* The pattern with a number in the place of each #; with number 0 as it is => bytes, the final 0 included. They are
+ * only counted where `text` is NULL. */
+size_t zp_numbered(const char *pattern, size_t number, char *text);
+
 /* A sequence of shapes of one actuator. */
 struct ZpShapes {
   size_t ribbons;  /* 1 or 2 */

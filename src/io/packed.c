@@ -158,8 +158,11 @@ static bool next_texts(ZpTexts *texts, Numbers *numbers, const char *text[3]) {
 
 static void read_scalars(ZpTexts texts, Numbers *numbers, ZpResult *result) {
   for (const char *text[3]; next_texts(&texts, numbers, text);) {
-    zp_result_add(result, text[0], text[1], next_number(numbers));
-    result->scalar[result->scalars - 1].timing = *text[2] != 0;
+    const double value = next_number(numbers);
+    if (*text[2])
+      zp_result_add_timing(result, text[0], text[1], value);
+    else
+      zp_result_add(result, text[0], text[1], value);
   }
 }
 

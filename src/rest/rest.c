@@ -8,6 +8,15 @@
 /* Steps along the branch: 0.01 L of mean movement or drive.voltage count 1. */
 static const double first_step = 0.01, longest_step = 0.1;
 
+static void reserve_shapes(ZpRest *rest, ZpArena *arena) {
+  const size_t members = rest->statics.members, doubles = sizeof *rest->shape_room / sizeof(double);
+  rest->shape_room = (ZpShapeRoom *)(void *)zp_arena_take(arena, members * doubles);
+  for (size_t k = 0; k < members; k++) {
+    ZpShapeRoom counted, *room = rest->shape_room ? &rest->shape_room[k] : &counted;
+    zp_shape_reserve(rest->statics.model, room, arena);
+  }
+}
+
 static bool create(ZpRest *rest, const ZpModel *model, bool held, void (*reserve)(void *user, ZpArena *arena),
                    void *user) {
   ZpArena arena = {NULL, 0};
@@ -25,8 +34,7 @@ static bool create(ZpRest *rest, const ZpModel *model, bool held, void (*reserve
     zp_branch_reserve(&rest->branch, &rest->system, &rest->statics.newton, &arena);
     zp_track_reserve(&rest->track, &rest->square, rest->statics.form, &rest->statics.newton, &arena);
     rest->held = zp_arena_take(&arena, zp_rest_save_size(rest));
-    for (size_t k = 0; k < rest->statics.members; k++)
-      zp_shape_reserve(model, &rest->shape_room[k], &arena);
+    reserve_shapes(rest, &arena);
     if (rest->statics.members > 1)
       zp_many_reserve(&rest->shapes, rest->statics.members, model->count, model->nodes, &arena);
     if (reserve) reserve(user, &arena);

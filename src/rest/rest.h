@@ -11,13 +11,13 @@
 
 struct ZpRest {
   ZpStatics statics;
-  ZpBranchSystem system, square, load;     /* along the voltage, its square, the load */
-  ZpBranch branch;                         /* point by point along the voltage */
-  ZpTrack track;                           /* to the next limit along the square or the load */
-  void *held;                              /* a state to return to during a slow change (rest/quasistatic.h) */
-  bool was_closed;                         /* when that began */
-  ZpShapeRoom shape_room[ZP_MOST_MEMBERS]; /* for the shapes of the members */
-  ZpManyShapes shapes;                     /* of several */
+  ZpBranchSystem system, square, load; /* along the voltage, its square, the load */
+  ZpBranch branch;                     /* point by point along the voltage */
+  ZpTrack track;                       /* to the next limit along the square or the load */
+  void *held;                          /* a state to return to during a slow change (rest/quasistatic.h) */
+  bool was_closed;                     /* when that began */
+  ZpShapeRoom *shape_room;             /* [members] for their shapes */
+  ZpManyShapes shapes;                 /* of several */
   void *memory;
 };
 

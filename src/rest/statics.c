@@ -74,9 +74,10 @@ static void add_common(const ZpParts *one, ZpParts *all) {
   }
 }
 
-/* The equations of all members. */
-static void number(ZpStatics *s) {
-  ZpAssembly *of[ZP_MOST_MEMBERS];
+/* The equations of all members. False if there is no memory. */
+static bool number(ZpStatics *s) {
+  ZpAssembly **of = zp_calloc(s->members, sizeof(ZpAssembly *));
+  if (!of) return false;
   const ZpAssembly *first = &s->member->assembly;
   s->held = zp_tie_of_held(s->model, is_joined(s) ? s->members : 1);
   s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
@@ -93,6 +94,8 @@ static void number(ZpStatics *s) {
   for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
     add_common(&m->assembly.parts, &s->parts);
   s->n = first->n;
+  zp_free(of);
+  return true;
 }
 
 bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
@@ -110,7 +113,7 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
     s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
     s->own_load = (s->shared ? s->own_load : 0) + model[k].def.load.mass;
   }
-  if (made) number(s);
+  made = made && number(s);
   if (made) s->solution = zp_calloc(1, reserve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
@@ -844,19 +847,23 @@ static void hang_members(ZpStatics *s) {
     zp_place_below(m[-1].model, m[-1].q, m->model, m->q);
 }
 
+/* By how much the load is higher where the first member has it than where member k has it. */
+static double missed_by(const ZpStatics *s, double first, size_t k) {
+  double factor = zp_statics_factor(s, k);
+  return k > 0 ? first - factor * load_height(&s->member[k]) + factor * offset_of(s, k) : 0;
+}
+
 /* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
 static void meet(ZpStatics *s) {
   if (s->linked) hang_members(s);
   if (!s->shared) return;
-  double missed[ZP_MOST_MEMBERS] = {0}, mean = 0, first = load_height(s->member);
-  for (size_t k = 1; k < s->members; k++) {
-    double factor = zp_statics_factor(s, k);
-    missed[k] = first - factor * load_height(&s->member[k]) + factor * offset_of(s, k);
-    mean += missed[k] / (double)s->members;
-  }
+  double mean = 0, first = load_height(s->member);
+  for (size_t k = 1; k < s->members; k++)
+    mean += missed_by(s, first, k) / (double)s->members;
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    zp_place_platform(m->model, &m->assembly, load_height(m) + zp_statics_factor(s, k) * (missed[k] - mean), m->q);
+    double up = zp_statics_factor(s, k) * (missed_by(s, first, k) - mean);
+    zp_place_platform(m->model, &m->assembly, load_height(m) + up, m->q);
   }
 }
 
@@ -1101,11 +1108,20 @@ void zp_statics_masses(const ZpStatics *s, double *mass) {
     zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
 }
 
+/* Upward momentum of all nodes, in m->moved. */
+static double momentum_of(const ZpRestMember *m) {
+  const double *up = zp_nodes(m->model, m->moved).y;
+  double sum = 0;
+  for (size_t j = 0; j < m->model->count; j++)
+    sum += up[j];
+  return sum;
+}
+
 /* Eq. (29.3): in series a member moves relative to its upper platform, and with that platform, which moves by `way`. */
 void zp_statics_weigh(void *self, const double *u, double *mu) {
   ZpStatics *s = self;
   const bool hang = s->members > 1 && !s->shared;
-  double momentum[ZP_MOST_MEMBERS] = {0}, way = 0, below = 0;
+  double way = 0, below = 0;
   memset(mu, 0, s->n * sizeof *mu);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
@@ -1114,14 +1130,13 @@ void zp_statics_weigh(void *self, const double *u, double *mu) {
     for (size_t j = 0; j < m->model->count; j++) {
       moved.x[j] *= m->model->mass[j];
       moved.y[j] = m->model->mass[j] * (moved.y[j] + way);
-      momentum[k] += moved.y[j];
     }
     zp_assembly_add(&m->assembly, m->moved, mu);
     if (hang) way += u[height_of(m)];
   }
   for (size_t k = s->members; hang && k-- > 0;) {
     mu[height_of(&s->member[k])] += below;
-    below += momentum[k];
+    below += momentum_of(&s->member[k]);
   }
 }
 

@@ -62,13 +62,13 @@ ZpStatus zp_checkpoint_check(const ZpCheckpoint *checkpoint, const ZpActuatorDef
 
 ZpStatus zp_sim_checkpoint(const ZpSim *sim, ZpCheckpoint **out, ZpError *err) {
   *out = NULL;
-  ZpState *passed[ZP_MOST_MEMBERS];
   if (sim->settled != ZP_REACHED_END) return ZP_OK;
-  *out = create(zp_snapshot_size(sim->model));
-  if (!*out) return zp_fail_memory(err);
-  zp_sim_passed(sim, passed);
-  zp_snapshot_write(sim->model, passed, (*out)->byte);
-  return ZP_OK;
+  ZpState **passed = zp_calloc(sim->members, sizeof(ZpState *));
+  if (passed) *out = create(zp_snapshot_size(sim->model));
+  if (*out) zp_sim_passed(sim, passed);
+  if (*out) zp_snapshot_write(sim->model, passed, (*out)->byte);
+  zp_free(passed);
+  return *out ? ZP_OK : zp_fail_memory(err);
 }
 
 ZpStatus zp_sim_continue(ZpSim *sim, const ZpCheckpoint *checkpoint, ZpError *err) {

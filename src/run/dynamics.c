@@ -577,13 +577,16 @@ static bool create_member(const ZpModel *first, size_t which, ZpMovingMember *m)
   return zp_system_create(model, false, &m->eval) && zp_assembly_create(&ties, model->own, true, &m->assembly);
 }
 
-/* The equations of all members. */
-static void join(ZpDynamics *d) {
-  ZpAssembly *of[ZP_MOST_MEMBERS];
+/* The equations of all members. False if there is no memory. */
+static bool join(ZpDynamics *d) {
+  ZpAssembly **of = zp_calloc(d->members, sizeof(ZpAssembly *));
+  if (!of) return false;
   for (size_t k = 0; k < d->members; k++)
     of[k] = &d->member[k].assembly;
   zp_assembly_join(of, d->member->model, d->members, true);
   d->shared = of[0]->shared;
+  zp_free(of);
+  return true;
 }
 
 /* The system of all members. */
@@ -650,7 +653,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!d->member) return false;
   for (size_t k = 0; k < d->members; k++)
     if (!create_member(model, k, &d->member[k])) return false;
-  if (d->members > 1) join(d);
+  if (d->members > 1 && !join(d)) return false;
   d->system = system_of(d);
   d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;

@@ -41,53 +41,31 @@ enum {
 #undef ZP_SIGNAL
 #undef ZP_ROW
 
-/* Columns after the signals, of a series: the opening of each member. */
-#define OPENING_OF(member)                                                                                             \
-  { "member_" #member "_opening_m", "m", "distance between the platforms' faces of member " #member " of a series" }
-#define OPENINGS                                                                                                       \
-  OPENING_OF(1), OPENING_OF(2), OPENING_OF(3), OPENING_OF(4), OPENING_OF(5), OPENING_OF(6), OPENING_OF(7), OPENING_OF(8)
-
-/* Members side by side have one opening; each has its own force. */
-enum { NUMBERS_PARALLEL = 2 };
-#define PARALLEL_OF(member)                                                                                            \
-  {"member_" #member "_force_N", "N", "force with which member " #member " of those side by side pulls the load up"},  \
-  {                                                                                                                    \
-    "member_" #member "_zipped_length_m", "m", "closed length of one half of member " #member                          \
-  }
-#define PARALLEL_MEMBERS                                                                                               \
-  PARALLEL_OF(1), PARALLEL_OF(2), PARALLEL_OF(3), PARALLEL_OF(4), PARALLEL_OF(5), PARALLEL_OF(6), PARALLEL_OF(7),      \
-      PARALLEL_OF(8)
-
 #define ZP_SIGNAL(name, unit, suffix, help) {#name suffix, unit, help},
 #define ZP_ROW(name)                        {zp_row_##name.column, zp_row_##name.unit, zp_row_##name.help},
 static const ZpColumn columns[] = {
 #include "run/columns.def"
-    OPENINGS};
-_Static_assert(sizeof columns / sizeof columns[0] == SIGNAL_COUNT + ZP_MOST_MEMBERS, "one opening for each member");
-
-static const ZpColumn columns_parallel[] = {
-#include "run/columns.def"
-    PARALLEL_MEMBERS};
+};
 
 /* Signals of a controller of a length, and of one of a capacitance. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_of_length[] = {
 #include "run/columns.def"
-    OPENINGS};
-#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
-static const ZpColumn columns_parallel_of_length[] = {
-#include "run/columns.def"
-    PARALLEL_MEMBERS};
+};
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_of_capacitance[] = {
 #include "run/columns.def"
-    OPENINGS};
-#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
-static const ZpColumn columns_parallel_of_capacitance[] = {
-#include "run/columns.def"
-    PARALLEL_MEMBERS};
+};
 #undef ZP_SIGNAL
 #undef ZP_ROW
+
+/* Behind the signals of several members: of each its opening, or, side by side, where they have one, its force. */
+static const ZpColumn of_series[] = {
+    {"member_#_opening_m", "m", "distance between the platforms' faces of member # of a series"}};
+static const ZpColumn of_parallel[] = {
+    {"member_#_force_N", "N", "force with which member # of those side by side pulls the load up"},
+    {"member_#_zipped_length_m", "m", "closed length of one half of member #"}};
+enum { NUMBERS_PARALLEL = sizeof of_parallel / sizeof of_parallel[0] };
 
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
 #define ZP_ROW(name)                        #name,
@@ -107,25 +85,38 @@ const ZpColumn *zp_signal_columns(size_t *count) {
 }
 
 const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
-  enum { SERIES, SIDE_BY_SIDE };
-  static const ZpColumn *const of[ZpControlSignal_COUNT][2] = {
-      [ZP_CONTROL_OPENING] = {columns_of_length, columns_parallel_of_length},
-      [ZP_CONTROL_STROKE] = {columns_of_length, columns_parallel_of_length},
-      [ZP_CONTROL_CONTRACTION] = {columns, columns_parallel},
-      [ZP_CONTROL_CAPACITANCE] = {columns_of_capacitance, columns_parallel_of_capacitance}};
+  static const ZpColumn *const of[ZpControlSignal_COUNT] = {[ZP_CONTROL_OPENING] = columns_of_length,
+                                                            [ZP_CONTROL_STROKE] = columns_of_length,
+                                                            [ZP_CONTROL_CONTRACTION] = columns,
+                                                            [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance};
   *count = 0;
   if (!def) return NULL;
-  size_t members = zp_def_members(def) > 1 ? (size_t)zp_def_members(def) : 0;
-  int joined = zp_def_parallel(def) ? SIDE_BY_SIDE : SERIES;
-  *count = SIGNAL_COUNT + members * (joined == SIDE_BY_SIDE ? NUMBERS_PARALLEL : 1);
-  return of[def->control.kind == ZP_CONTROL_NONE ? ZP_CONTROL_CONTRACTION : def->control.signal][joined];
+  *count = SIGNAL_COUNT;
+  return def->control.kind == ZP_CONTROL_NONE ? columns : of[def->control.signal];
+}
+
+/* Numbers of each of several members in a row. */
+static size_t numbers_of_each(const ZpModel *first) {
+  return first->members == 1 ? 0 : first->parallel ? NUMBERS_PARALLEL : 1;
+}
+
+ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
+  const int members = zp_def_members(def);
+  size_t signals;
+  const ZpColumn *column = zp_signal_columns_of(def, &signals);
+  ZpColumnPart part[] = {{column, signals, 0}, {of_series, 1, (size_t)members}};
+  if (!def) return NULL;
+  if (zp_def_parallel(def)) part[1] = (ZpColumnPart){of_parallel, NUMBERS_PARALLEL, (size_t)members};
+  return zp_table_of(part, members > 1 ? 2 : 1, capacity);
 }
 
 /* Rows of the ledger that are no signals have their places behind all columns. */
-enum { COLUMNS = sizeof columns_parallel / sizeof columns_parallel[0] }; /* the most of all */
+static size_t columns_of(const ZpSim *sim) {
+  return SIGNAL_COUNT + sim->members * numbers_of_each(sim->model);
+}
 
-size_t zp_sim_row_size(void) {
-  return COLUMNS + ZP_MOST_ROWS;
+size_t zp_sim_row_size(const ZpSim *sim) {
+  return columns_of(sim) + ZP_MOST_ROWS;
 }
 
 void zp_sim_place_rows(ZpSim *sim) {
@@ -134,7 +125,7 @@ void zp_sim_place_rows(ZpSim *sim) {
     size_t signal = 0;
     while (signal < SIGNAL_COUNT && row_of[signal] != ledger->row[k])
       signal++;
-    sim->row_at[k] = signal < SIGNAL_COUNT ? signal : COLUMNS + k;
+    sim->row_at[k] = signal < SIGNAL_COUNT ? signal : columns_of(sim) + k;
   }
 }
 
@@ -336,7 +327,7 @@ static void fill_own_row(ZpSim *sim, unsigned what) {
 
 /* How a signal of a series follows from those of its members, the uppermost first: most are sums. */
 enum { SUM, FIRST, LAST, LARGEST, LEAST };
-static const unsigned char of_series[SIGNAL_COUNT] = {
+static const unsigned char of_all[SIGNAL_COUNT] = {
     [SIGNAL_time] = FIRST,           [SIGNAL_voltage] = FIRST,           [SIGNAL_command] = FIRST,
     [SIGNAL_source_voltage] = FIRST, [SIGNAL_cable_energy] = FIRST,      [SIGNAL_setpoint] = FIRST,
     [SIGNAL_measured] = FIRST,       [SIGNAL_interface_voltage] = FIRST, [SIGNAL_end_velocity] = LAST,
@@ -352,7 +343,7 @@ static bool is_of_upper(size_t signal) {
 /* The closed length of members side by side is that of the member that has closed least. */
 static int rule_of(const ZpModel *model, size_t signal) {
   if (row_of[signal]) return row_of[signal]->kind == ZP_ROW_SIGNAL ? LARGEST : SUM;
-  if (!zp_shares_load(model) || !is_of_upper(signal)) return of_series[signal];
+  if (!zp_shares_load(model) || !is_of_upper(signal)) return of_all[signal];
   return model->parallel && signal == SIGNAL_zipped_length ? LEAST : FIRST;
 }
 
@@ -379,11 +370,11 @@ static double force_of(const ZpSim *sim) {
   return zp_load_pull(model) + input + model->parts * (hung + inertia - state->link_force);
 }
 
-/* Signals of one member alone, in addition to those of all => their number. */
-static size_t put_member(const ZpSim *sim, double *place) {
+/* Signals of one member alone, in addition to those of all => the place behind them. */
+static double *put_member(const ZpSim *sim, double *place) {
   place[0] = sim->model->parallel ? force_of(sim) : sim->row[SIGNAL_opening];
   if (sim->model->parallel) place[1] = sim->row[SIGNAL_zipped_length];
-  return sim->model->parallel ? NUMBERS_PARALLEL : 1;
+  return place + numbers_of_each(sim->model);
 }
 
 double zp_sim_hanging(const ZpSim *sim) {
@@ -398,10 +389,10 @@ static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
   if (sim->members == 1) return;
   double *row = sim->row, *place = row + SIGNAL_COUNT, whole = zp_sim_hanging(sim);
-  place += put_member(sim, place);
+  place = put_member(sim, place);
   for (ZpSim *m = sim + 1; m < sim + sim->members; m++) {
     fill_own_row(m, what);
-    place += put_member(m, place);
+    place = put_member(m, place);
     join_row(sim->model, row, m->row);
   }
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;

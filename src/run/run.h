@@ -262,8 +262,8 @@ ZpLeakNow zp_sim_leak(ZpSim *sim);
 /* Time at which member 1, 2, ... of a series has closed, s; NAN: it has not. */
 double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
 
-/* Number of values in a row, including the openings of the members of a series. */
-size_t zp_sim_row_size(void);
+/* Number of values in the row of a member; that of the first of several includes the numbers of each. */
+size_t zp_sim_row_size(const ZpSim *sim);
 
 /* Find the places of the ledger's rows in a row. */
 void zp_sim_place_rows(ZpSim *sim);

@@ -65,7 +65,7 @@ static bool make_liquid_room(ZpSim *sim) {
 /* One member alone; its steps are those of the uppermost member. */
 static bool allocate(ZpSim *sim, bool uppermost) {
   const ZpModel *model = sim->model;
-  size_t signals = zp_sim_row_size();
+  size_t signals = zp_sim_row_size(sim);
   sim->state = zp_calloc(1, zp_state_size(model));
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->before = zp_calloc(1, zp_state_size(model));

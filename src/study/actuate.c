@@ -225,12 +225,8 @@ static void summarize_laws(ZpSim *sim, ZpResult *result) {
 
 /* When each member of a series has closed. */
 static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
-  static const char *const names[] = {"member_1_zip_time_s", "member_2_zip_time_s", "member_3_zip_time_s",
-                                      "member_4_zip_time_s", "member_5_zip_time_s", "member_6_zip_time_s",
-                                      "member_7_zip_time_s", "member_8_zip_time_s"};
-  size_t members = model->members;
-  for (size_t k = 1; members > 1 && k <= members; k++)
-    zp_result_add(result, names[k - 1], "s", zp_sim_member_zip_time(sim, k));
+  for (size_t k = 1; model->members > 1 && k <= model->members; k++)
+    zp_result_add_member(result, "member_#_zip_time_s", k, "s", zp_sim_member_zip_time(sim, k));
 }
 
 static bool has_constant_drive(const ZpModel *model) {
@@ -380,9 +376,7 @@ static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *m
 
 static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = zp_model_def(model);
-  size_t columns;
-  const ZpColumn *column = zp_signal_columns_of(task->def, &columns);
-  result->series = zp_table_create(column, columns, (size_t)def->output.samples);
+  result->series = zp_signal_table(task->def, (size_t)def->output.samples);
   result->shapes = zp_model_shapes(model, (size_t)def->output.shapes);
   if (!result->series || !result->shapes) return zp_fail_memory(err);
   ZpSim *sim;

@@ -12,5 +12,9 @@ void zp_result_clear(ZpResult *result) {
   zp_table_destroy(result->series);
   result->series = NULL;
   result->scalars = result->sensitivities = 0;
+  for (ZpName *next; result->names; result->names = next) {
+    next = result->names->next;
+    zp_free(result->names);
+  }
   zp_result_forget_notes(result);
 }

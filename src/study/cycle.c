@@ -23,10 +23,10 @@ enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the 
 
 /* Numbers that are compared between two starts of cycles. */
 typedef struct Mark {
-  double *q;                          /* of all members, m */
-  double rate;                        /* of the opening, m/s */
-  double slow[ZP_MOST_MEMBERS][SLOW]; /* volume outside the faces over that of the bead; interface voltage over the
-                                         drive's */
+  double *q;   /* of all members, m */
+  double rate; /* of the opening, m/s */
+  double (
+      *slow)[SLOW]; /* [members] volume outside the faces over that of the bead; interface voltage over the drive's */
 } Mark;
 
 /* How large the motion of a cycle is. */
@@ -52,8 +52,8 @@ typedef struct Cycles {
   double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with: */
   double heaviest;            /* the largest mass, kg */
   Response response;          /* of the last cycle */
-  Edge edge[ZP_MOST_MEMBERS][ZP_BEADS]; /* likewise */
-  Mark mark[HISTORY];                   /* the newest first */
+  Edge (*edge)[ZP_BEADS];     /* [members] likewise */
+  Mark mark[HISTORY];         /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before, relative to the response */
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
   ZpFixedPoint shooting;      /* to the fixed point, while the actuator stays open or closed */
@@ -610,8 +610,11 @@ static void summarize(const Cycles *c, ZpResult *result) {
 static size_t reserve(Cycles *c, void *block) {
   size_t n = deciding(c->sim) + carried(c->sim);
   ZpArena arena = {block, 0};
-  for (int k = 0; k < HISTORY; k++)
-    c->mark[k].q = zp_arena_take(&arena, positions(c->sim));
+  for (Mark *mark = c->mark; mark < c->mark + HISTORY; mark++) {
+    mark->q = zp_arena_take(&arena, positions(c->sim));
+    mark->slow = (double(*)[SLOW])(void *)zp_arena_take(&arena, c->sim->members * SLOW);
+  }
+  c->edge = (Edge(*)[ZP_BEADS])(void *)zp_arena_take(&arena, c->sim->members * sizeof *c->edge / sizeof(double));
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
     *of_states[k] = zp_arena_take(&arena, n);

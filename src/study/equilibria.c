@@ -4,7 +4,10 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "rest/quasistatic.h"
+
+enum { MARGINS = 2 };
 
 /* -- several members ------------------------------------------------------------------------------- */
 
@@ -18,29 +21,34 @@ static const ZpColumn lower[] = {
 };
 enum { LOWER = sizeof lower / sizeof lower[0] };
 
-#define OF_MEMBER(k)                                                                                                   \
-  {"member_" #k "_force_N", "N", "force with which member " #k " pulls the load up"}, {                                \
-    "member_" #k "_zipped_length_m", "m", "closed length of one half of member " #k                                    \
-  }
-static const ZpColumn of_each[] = {OF_MEMBER(1), OF_MEMBER(2), OF_MEMBER(3), OF_MEMBER(4),
-                                   OF_MEMBER(5), OF_MEMBER(6), OF_MEMBER(7), OF_MEMBER(8)};
-enum { OF_EACH = 2 };
+static const ZpColumn of_each[] = {
+    {"member_#_force_N", "N", "force with which member # pulls the load up"},
+    {"member_#_zipped_length_m", "m", "closed length of one half of member #"},
+};
+enum { OF_EACH = sizeof of_each / sizeof of_each[0] };
 
-#define OPENING(k)                                                                                                     \
-  { "member_" #k "_opening_m", "m", "distance between the platforms' faces of member " #k }
-static const ZpColumn openings[] = {OPENING(1), OPENING(2), OPENING(3), OPENING(4),
-                                    OPENING(5), OPENING(6), OPENING(7), OPENING(8)};
+static const ZpColumn opening = {"member_#_opening_m", "m", "distance between the platforms' faces of member #"};
 static const ZpColumn closed_members = {"closed_members", "1", "number of closed members"};
 
-/* => how many there are. */
-static size_t columns_of(const ZpModel *model, ZpColumn *columns) {
-  size_t members = model->members;
-  bool opposed = zp_is_antagonist(model), shared = zp_shares_load(model);
-  size_t count = opposed ? LOWER : shared ? OF_EACH * members : members;
-  if (members == 1) return 0;
-  memcpy(columns, opposed ? lower : shared ? of_each : openings, count * sizeof *columns);
-  columns[count] = shared ? stiffness : closed_members;
-  return count + 1;
+/* => how many parts there are. */
+enum { PARTS = 2 };
+static size_t parts_of(const ZpModel *model, ZpColumnPart part[PARTS]) {
+  const bool shared = zp_shares_load(model);
+  if (model->members == 1) return 0;
+  part[0] = zp_is_antagonist(model) ? (ZpColumnPart){lower, LOWER, 0}
+            : shared                ? (ZpColumnPart){of_each, OF_EACH, model->members}
+                                    : (ZpColumnPart){&opening, 1, model->members};
+  part[1] = (ZpColumnPart){shared ? &stiffness : &closed_members, 1, 0};
+  return PARTS;
+}
+
+/* => how many values there are. */
+static size_t values_of(const ZpModel *model) {
+  ZpColumnPart part[PARTS];
+  size_t count = 0;
+  for (size_t k = parts_of(model, part); k-- > 0;)
+    count += part[k].count * (part[k].members > 0 ? part[k].members : 1);
+  return count;
 }
 
 /* Their values at the present point. The stiffness is then factored. */
@@ -66,24 +74,29 @@ static void member_values(ZpRest *rest, double *values) {
 }
 
 void zp_equilibria_add_members(ZpEquilibria *at) {
-  ZpColumn columns[ZP_BEHIND];
-  double values[ZP_BEHIND];
-  size_t count = columns_of(at->rest.statics.member->model, columns);
-  member_values(&at->rest, values);
-  for (size_t k = 0; k < count; k++)
-    zp_result_add(at->result, columns[k].name, columns[k].unit, values[k]);
+  ZpColumnPart part[PARTS];
+  const size_t parts = parts_of(at->model, part);
+  const double *value = at->behind + MARGINS;
+  member_values(&at->rest, at->behind + MARGINS);
+  for (size_t k = 0; k < parts; k++)
+    for (size_t member = part[k].members > 0 ? 1 : 0; member <= part[k].members; member++)
+      for (size_t c = 0; c < part[k].count; c++, value++) {
+        const ZpColumn *column = &part[k].column[c];
+        if (member > 0)
+          zp_result_add_member(at->result, column->name, member, column->unit, *value);
+        else
+          zp_result_add(at->result, column->name, column->unit, *value);
+      }
 }
 
 /* -- points ---------------------------------------------------------------------------------------- */
 
 static ZpTable *make_table(const ZpEquilibria *at) {
-  enum { MOST = 32 };
-  ZpColumn all[MOST];
-  memcpy(all, at->column, at->columns * sizeof *all);
-  size_t count = at->columns;
-  all[count++] = (ZpColumn){"insulator_field_V_per_m", "V/m", "largest field in the insulators, by the series law"};
-  all[count++] = (ZpColumn){"max_stress_Pa", "Pa", "largest stress of the metal"};
-  return zp_table_create(all, count + columns_of(at->model, all + count), at->rows);
+  static const ZpColumn margins[MARGINS] = {
+      {"insulator_field_V_per_m", "V/m", "largest field in the insulators, by the series law"},
+      {"max_stress_Pa", "Pa", "largest stress of the metal"}};
+  ZpColumnPart part[2 + PARTS] = {{at->column, at->columns, 0}, {margins, MARGINS, 0}};
+  return zp_table_of(part, 2 + parts_of(at->model, part + 2), at->rows);
 }
 
 static bool asked_to_stop(const void *self) {
@@ -98,7 +111,9 @@ ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*r
   if (status != ZP_OK) return status;
   if (at->column) at->result->series = make_table(at);
   at->result->shapes = zp_model_shapes(at->model, at->shapes);
-  bool made = at->result->shapes && (!at->column || at->result->series);
+  at->row = zp_calloc(at->columns + MARGINS + values_of(at->model), sizeof *at->row);
+  bool made = at->row && at->result->shapes && (!at->column || at->result->series);
+  if (made) at->behind = at->row + at->columns;
   made = made && (at->held ? zp_rest_open_held(&at->rest, at->model, reserve, user)
                            : zp_rest_open(&at->rest, at->model, reserve, user));
   if (!made) return zp_fail_memory(err);
@@ -108,6 +123,7 @@ ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*r
 }
 
 void zp_equilibria_close(ZpEquilibria *at) {
+  zp_free(at->row);
   zp_rest_close(&at->rest);
   zp_model_destroy(at->model);
 }
@@ -118,18 +134,18 @@ void zp_equilibria_look(ZpEquilibria *at) {
   zp_margins_join(&at->margins, margins);
 }
 
-void zp_equilibria_add(ZpEquilibria *at, double *row, double number, bool last) {
+void zp_equilibria_add(ZpEquilibria *at, const double *columns, double number, bool last) {
   ZpMargins margins;
   ZpShape shape = zp_rest_shape(&at->rest, number, &margins);
   zp_margins_join(&at->margins, margins);
-  double *behind = row + at->columns;
-  *behind++ = margins.insulator;
-  *behind++ = margins.stress;
-  member_values(&at->rest, behind);
-  zp_table_offer(at->result->series, row);
+  memcpy(at->row, columns, at->columns * sizeof *columns);
+  at->behind[0] = margins.insulator;
+  at->behind[1] = margins.stress;
+  member_values(&at->rest, at->behind + MARGINS);
+  zp_table_offer(at->result->series, at->row);
   zp_shapes_offer(at->result->shapes, &shape);
   if (!last) return;
-  zp_table_keep_last(at->result->series, row);
+  zp_table_keep_last(at->result->series, at->row);
   zp_shapes_keep_last(at->result->shapes, &shape);
 }
 

@@ -19,9 +19,6 @@
 #define ZP_ELECTRIC_VALUES(s) zp_statics_closed_length(s), zp_statics_charge(s), zp_statics_capacitance(s)
 #define ZP_STATE_VALUES(s)    zp_statics_stroke(s), zp_statics_opening(s), ZP_ELECTRIC_VALUES(s)
 
-/* Places of a row behind the columns of a study: margins, and what several members have. */
-enum { ZP_BEHIND = 3 + 2 * ZP_MOST_MEMBERS };
-
 /* A study at work. The first lines are set before it is opened. */
 typedef struct ZpEquilibria {
   const ZpTask *task;
@@ -35,6 +32,8 @@ typedef struct ZpEquilibria {
   ZpModel *model;
   ZpRest rest;
   ZpMargins margins; /* what materials have seen */
+  double *row;       /* of the table: the study's columns, and */
+  double *behind;    /* margins and what several members have */
 } ZpEquilibria;
 
 /* Create the model of `def`, table and shapes, with the caller's arrays as of zp_rest_open. To be closed in any case.
@@ -43,9 +42,9 @@ ZpStatus zp_equilibria_open(ZpEquilibria *at, const ZpActuatorDef *def, void (*r
                             void *user, ZpError *err);
 void zp_equilibria_close(ZpEquilibria *at);
 
-/* Add the present point as a row [columns + ZP_BEHIND], of which the study's columns are filled, and as a shape with
- * this number. `last`: both are kept as the last ones. The stiffness of the state is then factored. */
-void zp_equilibria_add(ZpEquilibria *at, double *row, double number, bool last);
+/* Add the present point as a row, of which the study has these columns, and as a shape with this number. `last`: both
+ * are kept as the last ones. The stiffness of the state is then factored. */
+void zp_equilibria_add(ZpEquilibria *at, const double *columns, double number, bool last);
 
 /* Count what materials see at the present point. */
 void zp_equilibria_look(ZpEquilibria *at);

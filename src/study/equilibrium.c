@@ -31,7 +31,7 @@ typedef struct Follower {
 static void record(Follower *f, int branch) {
   ZpStatics *s = &f->at.rest.statics;
   bool stable = zp_statics_stable(s), last = s->U == f->at.model->def.drive.voltage && f->points > 0;
-  zp_equilibria_add(&f->at, (double[COLUMNS + ZP_BEHIND]){s->U, ZP_STATE_VALUES(s), stable, branch}, f->points, last);
+  zp_equilibria_add(&f->at, (double[COLUMNS]){s->U, ZP_STATE_VALUES(s), stable, branch}, f->points, last);
   f->points++;
 }
 

@@ -92,8 +92,7 @@ static void record(Holder *h, bool passed, bool last) {
   if (h->is_member) return;
   bool stable = is_stable(h);
   double force = holding(h) - h->unpowered;
-  zp_equilibria_add(&h->at, (double[COLUMNS + ZP_BEHIND]){s->U, force, ZP_ELECTRIC_VALUES(s), stable, passed},
-                    h->points++, last);
+  zp_equilibria_add(&h->at, (double[COLUMNS]){s->U, force, ZP_ELECTRIC_VALUES(s), stable, passed}, h->points++, last);
 }
 
 /* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces. */

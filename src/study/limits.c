@@ -69,7 +69,7 @@ static void record(Finder *f, int kind) {
   ZpStatics *s = &f->at.rest.statics;
   if (isnan(f->limits->limit[kind].value)) return;
   zp_rest_go_to(&f->at.rest, f->limits->limit[kind].state);
-  zp_equilibria_add(&f->at, (double[COLUMNS + ZP_BEHIND]){kind, s->U, s->load, ZP_STATE_VALUES(s)}, kind, false);
+  zp_equilibria_add(&f->at, (double[COLUMNS]){kind, s->U, s->load, ZP_STATE_VALUES(s)}, kind, false);
 }
 
 /* The derivative of the opening of a state. */

@@ -29,6 +29,7 @@ void zp_result_destroy(ZpResult *result) {
   zp_field_map_destroy(result->map);
   zp_checkpoint_destroy(result->checkpoint);
   zp_limits_destroy(result->limits);
+  zp_free(result->scalar);
   zp_free(result);
 }
 
@@ -74,8 +75,23 @@ bool zp_result_has(const ZpResult *result, const char *name) {
   return false;
 }
 
+/* Twice the room for scalars. False if there is no memory. */
+static bool make_room(ZpResult *result) {
+  const size_t room = result->scalar_room > 0 ? 2 * result->scalar_room : 64;
+  ZpScalar *scalar = zp_calloc(room, sizeof *scalar);
+  if (!scalar) return false;
+  if (result->scalars > 0) memcpy(scalar, result->scalar, result->scalars * sizeof *scalar);
+  zp_free(result->scalar);
+  result->scalar = scalar;
+  result->scalar_room = room;
+  return true;
+}
+
 static void add(ZpResult *result, ZpScalar scalar) {
-  if (result->scalars < ZP_MAX_SCALARS) result->scalar[result->scalars++] = scalar;
+  if (result->scalars == result->scalar_room && !make_room(result))
+    result->incomplete = true;
+  else
+    result->scalar[result->scalars++] = scalar;
 }
 
 void zp_result_add(ZpResult *result, const char *name, const char *unit, double value) {
@@ -84,6 +100,18 @@ void zp_result_add(ZpResult *result, const char *name, const char *unit, double 
 
 void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value) {
   add(result, (ZpScalar){name, unit, value, true});
+}
+
+void zp_result_add_member(ZpResult *result, const char *name, size_t member, const char *unit, double value) {
+  ZpName *own = zp_calloc(1, sizeof *own + zp_numbered(name, member, NULL));
+  if (!own) {
+    result->incomplete = true;
+    return;
+  }
+  zp_numbered(name, member, own->text);
+  own->next = result->names;
+  result->names = own;
+  zp_result_add(result, own->text, unit, value);
 }
 
 void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value) {

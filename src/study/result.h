@@ -6,8 +6,14 @@
 
 #include "base/table.h"
 
-/* Largest numbers of scalars, notes, keys of sensitivity.by and derivatives. */
-enum { ZP_MAX_SCALARS = 64, ZP_MAX_NOTES = 8, ZP_MAX_SENSITIVITY_KEYS = 16, ZP_MAX_SENSITIVITIES = 512 };
+/* Largest numbers of notes, keys of sensitivity.by and derivatives. */
+enum { ZP_MAX_NOTES = 8, ZP_MAX_SENSITIVITY_KEYS = 16, ZP_MAX_SENSITIVITIES = 512 };
+
+/* A name that a result owns, and the next one. */
+typedef struct ZpName {
+  struct ZpName *next;
+  char text[];
+} ZpName;
 
 /* States of study limits from which a similar case can start, see ZpStudyInput. */
 typedef struct ZpLimits ZpLimits;
@@ -21,6 +27,9 @@ void zp_result_forget_notes(ZpResult *result);
 /* Take away scalars, derivatives, notes and the table. */
 void zp_result_clear(ZpResult *result);
 
+/* Add a scalar of member `member`: its number stands in the place of # in the name. */
+void zp_result_add_member(ZpResult *result, const char *name, size_t member, const char *unit, double value);
+
 /* The result of a study. */
 struct ZpResult {
   ZpStudy study;
@@ -28,11 +37,12 @@ struct ZpResult {
   char message[256];        /* one sentence on how it ended */
   char *note[ZP_MAX_NOTES]; /* [notes] sentences on breakdown, yield, and limits of the model and of the mesh */
   size_t notes;
-  bool incomplete;   /* there was no memory for a note */
+  bool incomplete;   /* there was no memory for a note or a scalar */
   double resolution; /* number of elements on the shortest length over which a ribbon bends, at the zip front or at rest
                       * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
-  ZpScalar scalar[ZP_MAX_SCALARS]; /* in the order of the summary */
-  size_t scalars;
+  ZpScalar *scalar;  /* [scalars] in the order of the summary */
+  size_t scalars, scalar_room;
+  ZpName *names;                                   /* of scalars of members */
   ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
   size_t sensitivities;
   ZpTable *series;          /* the study's table; NULL if it has none */
