@@ -40,15 +40,14 @@ static size_t number(const ZpTies *ties, ZpAssembly *a) {
 
 /* Two halves that mirror each other have in common what a row ties across their platform, eq. (19.1). No row does so
  * where the platform turns: the whole is then one part. */
-static ZpParts parts_of(const ZpTies *ties, const ZpAssembly *a) {
-  ZpParts parts = {0};
+static void find_parts(const ZpTies *ties, ZpAssembly *a) {
+  ZpParts *parts = &a->parts;
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++) {
     if (tie->factor == 0) continue;
     if (leader_of(ties, tie) / (2 * a->s) != tie->coordinate / (2 * a->s))
-      parts.common[parts.count++] = (size_t)a->equation[tie->coordinate];
+      parts->common[parts->count++] = (size_t)a->equation[tie->coordinate];
   }
-  parts.more = parts.count > 0;
-  return parts;
+  parts->more = parts->count > 0;
 }
 
 /* Number of equations of a station whose coordinates are free. */
@@ -121,13 +120,14 @@ bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssemb
   a->extra_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->extra_equation);
   a->factor = zp_calloc(2 * model->count, sizeof *a->factor);
   a->offset = zp_calloc(2 * model->count, sizeof *a->offset);
-  if (!a->equation || !a->first || !a->extra_equation || !a->factor || !a->offset) {
+  a->parts.common = zp_calloc(ZP_MOST_TIES, sizeof *a->parts.common);
+  if (!a->equation || !a->first || !a->extra_equation || !a->factor || !a->offset || !a->parts.common) {
     zp_assembly_destroy(a);
     return false;
   }
   a->n = number(ties, a);
   a->bandwidth = bandwidth_of(a);
-  a->parts = parts_of(ties, a);
+  find_parts(ties, a);
   for (size_t i = 0; i < model->nodes; i++)
     a->first[i] = first_of(a, i);
   a->groups = groups_of(a);
@@ -243,6 +243,7 @@ void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->extra_equation);
   zp_free(a->factor);
   zp_free(a->offset);
+  zp_free(a->parts.common);
   *a = (ZpAssembly){0};
 }
 

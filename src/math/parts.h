@@ -6,12 +6,10 @@
 
 #include <stddef.h>
 
-enum { ZP_MOST_COMMON = 16 };
-
 typedef struct ZpParts {
-  size_t more;                   /* parts beyond the first: 0 where the system is one */
-  size_t count;                  /* of unknowns that all parts have in common */
-  size_t common[ZP_MOST_COMMON]; /* these */
+  size_t more;    /* parts beyond the first: 0 where the system is one */
+  size_t count;   /* of unknowns that all parts have in common */
+  size_t *common; /* [count] these; they belong to who fills them in */
 } ZpParts;
 
 /* How many unknowns the parts have, each for itself, of a system of n. */

@@ -64,14 +64,21 @@ static bool create_member(const ZpStatics *s, size_t which) {
   return zp_system_create(model, true, &m->eval) && zp_assembly_create(&ties, 0, model->is_rod, &m->assembly);
 }
 
-/* Add the unknowns that the halves of one member have in common. */
-static void add_common(const ZpParts *one, ZpParts *all) {
-  for (size_t k = 0; k < one->count; k++) {
-    bool known = false;
-    for (size_t i = 0; i < all->count; i++)
-      known |= all->common[i] == one->common[k];
-    if (!known) all->common[all->count++] = one->common[k];
+/* The unknowns that the halves of any member have in common. False if there is no memory. */
+static bool find_parts(ZpStatics *s) {
+  bool *known = zp_calloc(s->n, sizeof *known);
+  s->parts.more = s->member->assembly.parts.more;
+  s->parts.common = zp_calloc(s->n, sizeof *s->parts.common);
+  const bool made = known && s->parts.common;
+  for (size_t k = 0; made && k < s->members; k++) {
+    const ZpParts *one = &s->member[k].assembly.parts;
+    for (size_t i = 0; i < one->count; i++) {
+      if (!known[one->common[i]]) s->parts.common[s->parts.count++] = one->common[i];
+      known[one->common[i]] = true;
+    }
   }
+  zp_free(known);
+  return made;
 }
 
 /* The equations of all members. False if there is no memory. */
@@ -90,12 +97,9 @@ static bool number(ZpStatics *s) {
     s->form.bandwidth = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, false);
     s->form.groups = (ZpBandGroups){0, 0};
   }
-  s->parts.more = first->parts.more;
-  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
-    add_common(&m->assembly.parts, &s->parts);
   s->n = first->n;
   zp_free(of);
-  return true;
+  return find_parts(s);
 }
 
 bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
@@ -134,7 +138,9 @@ void zp_statics_destroy(ZpStatics *s) {
   }
   zp_free(s->memory);
   zp_free(s->solution);
+  zp_free(s->parts.common);
   s->memory = s->solution = NULL;
+  s->parts.common = NULL;
 }
 
 double zp_statics_tolerance(const ZpStatics *s) {
