@@ -137,7 +137,10 @@ static void offer_row(ZpTable *table, double time, double voltage, bool ribbon) 
 }
 
 static void add_scalar(ZpResult *result, const char *name, const char *unit, double value, bool timing) {
-  result->scalar[result->scalars++] = (ZpScalar){name, unit, value, timing};
+  if (timing)
+    zp_result_add_timing(result, name, unit, value);
+  else
+    zp_result_add(result, name, unit, value);
 }
 
 /* A made up result. `slowness` stretches the time, as another voltage would. */
@@ -203,7 +206,7 @@ static void write_scenario(const char *name, ZpScenario *scenario) {
   const size_t count = zp_scenario_count(scenario);
   ZpResult **result = memory_of(count * sizeof(ZpResult *));
   for (size_t i = 0; i < count; i++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ck_ok(zp_scenario_def(scenario, i, &def, &err));
     result[i] = data_study_of(zp_scenario_study(scenario), &def);
   }
