@@ -115,7 +115,7 @@ TESTS(test_stiffness_is_the_derivative_of_the_forces, 0, LENGTH_OF(cases)) {
   system.residual(s, up, NULL);
   memcpy(s->member->tension, s->member->eval.edges.T, (model->count - model->s) * sizeof *s->member->tension);
   system.stiffness(s, &rest.statics.newton.K, NULL);
-  double *A = full_of(&rest.statics.newton.K);
+  double *A = full_of(&rest.statics.newton.K.part->A);
   for (size_t j = 0; j < n; j++) {
     static const double by = 2e-8;
     shift(s, j, by);

@@ -235,8 +235,8 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->ribbon.length = value;
   }
   if (strncmp(key, "lower.segment_", 14) == 0 && strstr(key, ".length") && value > 0) {
-    def->ribbon.length = 2 * value;
-    def->platform.length = 0;
+    def->actuator.kind = ZP_KIND_HINGE; /* whose ribbons have their length from the one end to the other */
+    def->ribbon.length = value;
   }
   if (strncmp(key, "member_", 7) == 0) def->stack.series = 8;
   bool opposed = strcmp(key, "stack.distance") == 0;

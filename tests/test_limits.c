@@ -1,6 +1,6 @@
 /* The limits of an actuator at rest: the extended system of a limit point, and study limits against study equilibrium,
  * which follows the curve, against closed forms, and against itself. */
-#include "check_util.h"
+#include "arrow_util.h"
 
 #include "rest/limits.h"
 #include "rest/rest.h"
@@ -30,18 +30,19 @@ static ZpEnd toy_residual(void *self, double *r, double *size) {
   return ZP_END_FOUND;
 }
 
-static void toy_stiffness(void *self, ZpBand *K, double *r) {
+static void toy_stiffness(void *self, ZpArrow *K, double *r) {
   (void)r;
   const double *q = ((const Toy *)self)->q;
-  zp_band_clear(K);
-  *zp_band_at(K, 0, 0) = 2 * q[0] + 3 * q[0] * q[0] - 0.6 * q[1];
-  *zp_band_at(K, 0, 1) = -0.6 * q[0];
-  if (K->lower > 0) *zp_band_at(K, 1, 0) = -0.6 * q[0];
-  *zp_band_at(K, 1, 1) = 1;
-  *zp_band_at(K, 2, 2) = ((const Toy *)self)->across;
-  if (K->rank == 0) return;
-  memcpy(K->u, (const double[EQUATIONS]){0, 1, 0}, EQUATIONS * sizeof *K->u);
-  memcpy(K->v, (const double[EQUATIONS]){-((const Toy *)self)->lean, 0, 0}, EQUATIONS * sizeof *K->v);
+  ZpBand *A = &K->part->A;
+  zp_arrow_clear(K);
+  *zp_band_at(A, 0, 0) = 2 * q[0] + 3 * q[0] * q[0] - 0.6 * q[1];
+  *zp_band_at(A, 0, 1) = -0.6 * q[0];
+  if (A->lower > 0) *zp_band_at(A, 1, 0) = -0.6 * q[0];
+  *zp_band_at(A, 1, 1) = 1;
+  *zp_band_at(A, 2, 2) = ((const Toy *)self)->across;
+  if (A->rank == 0) return;
+  memcpy(A->u, (const double[EQUATIONS]){0, 1, 0}, EQUATIONS * sizeof *A->u);
+  memcpy(A->v, (const double[EQUATIONS]){-((const Toy *)self)->lean, 0, 0}, EQUATIONS * sizeof *A->v);
 }
 
 static double toy_length(void *self, const double *step) {
@@ -103,6 +104,7 @@ static ZpBranchSystem toy_system(Toy *t) {
 
 typedef struct ToyMarch {
   ZpBranchSystem system;
+  ZpArrowForm form;
   ZpNewtonWork newton;
   ZpTrack march;
   void *memory;
@@ -110,15 +112,20 @@ typedef struct ToyMarch {
 
 static void open_toy(ToyMarch *f, Toy *t, bool symmetric) {
   ZpArena arena = {NULL, 0};
-  const ZpBandForm form = {.bandwidth = 1, .symmetric = symmetric, .rank = t->lean != 0};
   *f = (ToyMarch){.system = toy_system(t)};
+  f->form = form_of_block(EQUATIONS, (ZpBandForm){.bandwidth = 1, .symmetric = symmetric, .rank = t->lean != 0});
   for (int pass = 0; pass < 2; pass++) {
     if (pass) f->memory = zp_calloc(1, arena.used);
     arena = (ZpArena){f->memory, 0};
-    zp_newton_reserve(&f->newton, EQUATIONS, form, &arena);
-    zp_track_reserve(&f->march, &f->system, form, &f->newton, &arena);
+    zp_newton_reserve(&f->newton, &f->form, &arena);
+    zp_track_reserve(&f->march, &f->system, &f->form, &f->newton, &arena);
   }
   f->march.fold.tolerance = 1e-12;
+}
+
+static void close_toy(ToyMarch *f) {
+  zp_free(f->memory);
+  zp_arrow_form_destroy(&f->form);
 }
 
 /* Errors are squared in each iteration, with the stiffness treated as symmetric or not, and with one that is not
@@ -139,7 +146,7 @@ TESTS(test_extended_system_converges_quadratically, 0, 3) {
   ck_assert_int_ge(t.visits, 4);
   for (int k = 0; k + 1 < t.visits; k++)
     if (t.seen[k] < 0.1 && t.seen[k] > 1e-6) ck_below(t.seen[k + 1], 2 * t.seen[k] * t.seen[k]); /* measured 1.5 */
-  zp_free(f.memory);
+  close_toy(&f);
 }
 
 /* The limit point of a branch that is unstable across it is found, and told to be that. */
@@ -154,7 +161,7 @@ TEST(test_unstable_limit_point_is_told) {
   t.m = 1 + 0.25 + 0.125 - 0.6 * 0.5 * 0.075;
   ck_assert_int_eq(zp_track(&f.march, 1.2), ZP_TRACK_LOST);
   ck_assert_int_eq(zp_track(&f.march, 0), ZP_TRACK_LOST);
-  zp_free(f.memory);
+  close_toy(&f);
 }
 
 static double toy_event(void *self, double *row) {
@@ -191,7 +198,7 @@ TESTS(test_points_in_passing, 0, 2) {
   ck_assert_int_eq(tries, exact ? 61 : 31);
   ck_below(worst, 1e-12);
   ck_below(worst_slope, exact ? 1e-12 : 3e-4); /* 1e-16 and 7.2e-5 measured */
-  zp_free(f.memory);
+  close_toy(&f);
 }
 
 /* From a stable state far away to the limit point, and past none to where it is asked for. */
@@ -207,7 +214,7 @@ TEST(test_march) {
   ck_assert_int_eq(zp_track(&f.march, 0.5), ZP_TRACK_FOLD);
   ck_assert_double_eq_tol(t.m, 1, 1e-12);                        /* 0 measured */
   ck_assert_double_eq_tol(fabs(f.march.fold.null[0]), 1, 1e-12); /* 0 measured */
-  zp_free(f.memory);
+  close_toy(&f);
 }
 
 /* -- running a study ------------------------------------------------------------------------------- */

@@ -514,7 +514,7 @@ static double gradient_error(ZpStatics *s, size_t which, const double *saved, co
 static double stiffness_error(ZpStatics *s, const double *saved, const double *step, double h) {
   double product[ROOM], r[2][ROOM], worst = 0, most = 0;
   ZpStaticSystem system = zp_statics_system(s);
-  ZpBand *K = &((ZpRest *)s)->statics.newton.K;
+  ZpArrow *K = &((ZpRest *)s)->statics.newton.K;
   for (int k = 0; k < 2; k++) {
     move_from(s, saved, step, k ? h : -h);
     system.residual(s, r[k], NULL);
@@ -525,7 +525,7 @@ static double stiffness_error(ZpStatics *s, const double *saved, const double *s
     memcpy(s->member[k].tension, s->member[k].eval.edges.T,
            (s->member[k].model->count - s->member[k].model->s) * sizeof *s->member[k].tension);
   system.stiffness(s, K, NULL);
-  zp_band_multiply(K, step, product);
+  zp_arrow_multiply(K, step, product);
   for (size_t i = 0; i < s->n; i++) {
     worst = fmax(worst, fabs(product[i] + (r[1][i] - r[0][i]) / (2 * h)));
     most = fmax(most, fabs(product[i]));

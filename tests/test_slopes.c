@@ -106,7 +106,7 @@ TESTS(strokes_of_members_change_as_differences_say, 0, 3) {
 NIGHTLY_TESTS(limits_of_members_change_as_differences_say, 0, 2) {
   ZpActuatorDef def = members(_i);
   check_differences(ZP_STUDY_LIMITS, &def, by_of_members[_i], 1e-4, 2e-6); /* release, a flat fold: 7.3e-7 measured */
-  check_differences(ZP_STUDY_MODES, &def, by_of_members[_i], 1e-4, 3e-5);  /* 1e-5 measured */
+  check_differences(ZP_STUDY_MODES, &def, by_of_members[_i], 1e-3, 2e-5);  /* 7.2e-6 measured */
 }
 
 /* Each member in series moves with the platform that it hangs on, so its masses are not diagonal. */
@@ -443,7 +443,7 @@ static void check_scaling(const ZpActuatorDef *given) {
         exponent(result, &def, outputs[k], "ribbon.young_modulus") + exponent(result, &def, outputs[k], "gravity");
     double fields = exponent(result, &def, outputs[k], "medium.breakdown_field") +
                     exponent(result, &def, outputs[k], "insulator.breakdown_field");
-    ck_near(forces + 0.5 * fields, 0.5, 1e-9); /* 1.6e-10 measured */
+    ck_near(forces + 0.5 * fields, 0.5, 5e-12); /* 1.6e-12 measured */
   }
   zp_result_destroy(result);
 }

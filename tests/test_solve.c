@@ -1,6 +1,6 @@
 /* Symplectic Euler, the implicit midpoint rule and damped stepping on problems with known answers: harmonic
  * oscillators, falling ball, chains of springs. No actuator here. */
-#include "check_util.h"
+#include "arrow_util.h"
 
 #include "solve/explicit.h"
 #include "solve/implicit.h"
@@ -250,6 +250,7 @@ typedef struct Springs {
   double k[2], c, mass[2], q0[2], q1[2];
   double longest; /* beyond steps of this length there is no force, s, */
   ZpEnd beyond;   /* but this answer */
+  ZpArrowForm form;
   ZpImplicitSystem system;
   ZpImplicit stepper;
   ZpImplicitHistory history;
@@ -278,9 +279,9 @@ static ZpEnd springs_force(void *self, const double *q1, double h, double *f) {
   return h > s->longest ? s->beyond : ZP_END_FOUND;
 }
 
-static void springs_tangent(void *self, ZpBordered *J) {
+static void springs_tangent(void *self, ZpArrow *J) {
   Springs *s = self;
-  ZpBand *A = &J->A;
+  ZpBand *A = &J->part->A;
   double a = s->q0[0], b = s->q1[0];
   zp_band_clear(A);
   *zp_band_at(A, 0, 0) = 0.5 * (s->k[0] + s->k[1]) + s->c * 0.25 * (a * a + 2 * a * b + 3 * b * b);
@@ -288,11 +289,17 @@ static void springs_tangent(void *self, ZpBordered *J) {
   *zp_band_at(A, 1, 1) = 0.5 * s->k[1];
 }
 
+static void free_springs(Springs *s) {
+  zp_free(s->memory);
+  zp_arrow_form_destroy(&s->form);
+}
+
 /* The first mass 1 off its rest, all still. */
 static void make_springs(Springs *s, double k0, double k1, double c) {
   *s = (Springs){.k = {k0, k1}, .c = c, .mass = {1, 0.5}, .longest = 1, .beyond = ZP_END_SHORTER, .q = {1, 1}};
+  s->form = form_of_block(2, (ZpBandForm){.bandwidth = 1, .symmetric = true});
   s->system = (ZpImplicitSystem){.n = 2,
-                                 .bandwidth = 1,
+                                 .form = &s->form,
                                  .self = s,
                                  .mass = s->mass,
                                  .begin = springs_begin,
@@ -342,7 +349,7 @@ TEST(test_implicit_order_two) {
     ck_assert_double_eq_tol(s.q[0], cos(2 * steps * atan(0.5 * omega * s.stepper.fixed)), 1e-12);
     ck_assert_double_eq(s.q[1], 1);
     ck_assert_int_eq(s.stepper.counts.steps, steps);
-    zp_free(s.memory);
+    free_springs(&s);
   }
   for (int k = 0; k < 3; k++)
     ck_near(error[k] / error[k + 1], 4, 5e-4); /* 1.3e-4 measured */
@@ -364,7 +371,7 @@ TEST(test_implicit_keeps_energy) {
     printf("implicit, cubic part %g: energy within %.1e over 10,000 steps, %.2f iterations a step\n", cube[i], worst,
            (double)s.stepper.counts.iterations / 1e4);
     ck_below(worst, 1e-12);
-    zp_free(s.memory);
+    free_springs(&s);
   }
 }
 
@@ -383,7 +390,7 @@ TEST(test_implicit_stiff) {
   ck_below(fabs(off), 1e-3);
   ck_below(fabs(s.q[1] - s.q[0]), 3e-8);               /* 4.2e-9 measured */
   ck_below(fabs(springs_energy(&s) / 0.5 - 1), 1e-12); /* 3.3e-14 measured */
-  zp_free(s.memory);
+  free_springs(&s);
 }
 
 /* The local error is of order h^3, that of a run of order h^2: an eighth of the tolerance gives half the step and a
@@ -399,7 +406,7 @@ TEST(test_implicit_error_control) {
     error[k] = hypot(s.q[0] - cos(20.0), 0.5 * s.v[0] + sin(20.0));
     steps[k] = s.stepper.counts.steps;
     printf("implicit, accuracy %.1e: error %.2e in %lld steps\n", s.stepper.accuracy, error[k], (long long)steps[k]);
-    zp_free(s.memory);
+    free_springs(&s);
   }
   for (int k = 0; k < 3; k++) {
     ck_near(error[k] / error[k + 1], 4, 0.15);
@@ -426,7 +433,7 @@ TEST(test_implicit_no_force) {
   ck_assert_int_eq(s.stepper.end, ZP_END_SHORTER);
   s.longest = 1; /* and goes on when the force is back */
   ck_assert_double_gt(springs_step(&s, 1), 0);
-  zp_free(s.memory);
+  free_springs(&s);
 }
 
 /* Where there is no force over long steps, they are halved until there is. */
@@ -438,7 +445,7 @@ TEST(test_implicit_shorter_step) {
   ck_assert_double_eq(springs_step(&s, 1), 0.1 / 8);
   ck_assert_int_eq(s.stepper.counts.failures, 3);
   ck_assert_int_eq(s.stepper.counts.steps, 1);
-  zp_free(s.memory);
+  free_springs(&s);
 }
 
 /* A system that says that no shorter step would do is asked once, and left as it was. */
@@ -455,7 +462,7 @@ TEST(test_implicit_stops) {
   s.longest = 1;
   ck_assert_double_eq(springs_step(&s, 1), 0.1);
   ck_assert_int_eq(s.stepper.end, ZP_END_FOUND);
-  zp_free(s.memory);
+  free_springs(&s);
 }
 
 /* Positions, velocities and history are all that it remembers. */
@@ -476,8 +483,8 @@ TEST(test_implicit_restart) {
     ck_assert_mem_eq(one.q, two.q, sizeof one.q);
     ck_assert_mem_eq(one.v, two.v, sizeof one.v);
   }
-  zp_free(one.memory);
-  zp_free(two.memory);
+  free_springs(&one);
+  free_springs(&two);
 }
 
 /* Steps end where they must: never beyond `longest`, and a step that is cut leaves the length of the next as it was. */
@@ -489,7 +496,7 @@ TEST(test_implicit_cut) {
   double next = s.history.next;
   ck_assert_double_eq(springs_step(&s, 0.1 * next), 0.1 * next);
   ck_assert_double_eq(s.history.next, next);
-  zp_free(s.memory);
+  free_springs(&s);
 }
 
 /* Fixed steps that fill a time but for rounding do so: no step is left that is too short to be taken. */
@@ -500,7 +507,7 @@ TEST(test_implicit_fills_time) {
     s.stepper.fixed = 1.0 / n;
     springs_run(&s, 1);
     ck_assert_int_eq(s.stepper.counts.steps, n);
-    zp_free(s.memory);
+    free_springs(&s);
   }
 }
 
@@ -521,9 +528,9 @@ static ZpEnd rest_left(void *self, double *r, double *size) {
   return ZP_END_FOUND;
 }
 
-static void rest_stiffness(void *self, ZpBand *K, double *r) {
+static void rest_stiffness(void *self, ZpArrow *K, double *r) {
   (void)self, (void)r;
-  *zp_band_at(K, 0, 0) = 1;
+  *K->diagonal[0] = 1;
 }
 
 static double rest_length(void *self, const double *step) {
@@ -542,8 +549,10 @@ static void rest_move(void *self, const double *step, double fraction) {
 
 /* Newton's method goes nowhere from a point that has no residual, and says so. */
 TEST(test_newton_without_residual) {
-  double K[1], r[1];
-  ZpNewtonWork work = {.K = {.n = 1, .stride = 1, .a = K}, .r = r};
+  double r[1];
+  ZpArrowForm form = form_of_block(1, (ZpBandForm){.symmetric = true});
+  ZpNewtonWork work = {.r = r};
+  void *memory = zero_arrow(&work.K, &form);
   Rest rest = {0, 0.5, 0};
   ZpStaticSystem system = {.n = 1,
                            .self = &rest,
@@ -559,4 +568,6 @@ TEST(test_newton_without_residual) {
   ck_assert_int_eq(info.end, ZP_NEWTON_DIVERGED);
   ck_assert(isinf(info.residual));
   ck_assert_int_eq(rest.asked, 2);
+  zp_free(memory);
+  zp_arrow_form_destroy(&form);
 }

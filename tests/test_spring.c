@@ -135,10 +135,10 @@ TESTS(force_does_the_work_of_the_spring, 0, 8) {
   ck_assert(zp_assembly_create(&ties, 0, true, &assembly));
   ZpBand K;
   ZpArena size = {NULL, 0};
-  zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &size);
+  zp_band_reserve(&K, assembly.n, 0, assembly.block.band.bandwidth, &size);
   void *block = memory_of(size.used * sizeof(double));
   ZpArena arena = {block, 0};
-  zp_band_reserve(&K, assembly.n, 0, assembly.bandwidth, &arena);
+  zp_band_reserve(&K, assembly.n, 0, assembly.block.band.bandwidth, &arena);
   q1[stride + node] = -o[1];
   spring->stiffness(model, &(ZpSpan){.start = q0, .end = q1, .h = 1e-3, .share = 1}, &assembly, &e, &K);
   size_t row = (size_t)assembly.equation[2 * node + 1];

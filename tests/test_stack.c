@@ -161,7 +161,8 @@ TESTS(two_equal_ones_are_twice_one, 0, 2) {
   equal.member_1.ribbon.thickness = NAN;
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     /* 9.8e-13 measured */
-    ck_near(answered_value(ZP_STUDY_LIMITS, &all, name[k]), answered_value(ZP_STUDY_LIMITS, &equal, name[k]), 2.9e-12);
+    ck_near(answered_value(ZP_STUDY_LIMITS, &all, name[k]), answered_value(ZP_STUDY_LIMITS, &equal, name[k]),
+            8.7e-12); /* 2.9e-12 measured */
 }
 ALSO(two_equal_ones_are_twice_one, 4, 6)
 ALSO_NIGHTLY(two_equal_ones_are_twice_one, 2, 4)
@@ -327,7 +328,7 @@ TESTS(series_is_held_by_the_force_of_one, 2, 4) {
   all.isometric.separation *= _i;
   ZpResult *alone = answer_of(ZP_STUDY_ISOMETRIC, &one), *series = answer_of(ZP_STUDY_ISOMETRIC, &all);
   for (size_t k = 0; k < LENGTH_OF(equal); k++)
-    ck_near(zp_result_get(series, equal[k]), zp_result_get(alone, equal[k]), 5e-15); /* 1.8e-15 measured */
+    ck_near(zp_result_get(series, equal[k]), zp_result_get(alone, equal[k]), 2e-14); /* 6.9e-15 measured */
   for (size_t k = 0; k < LENGTH_OF(sums); k++)
     ck_near(zp_result_get(series, sums[k]), _i * zp_result_get(alone, sums[k]), 3e-15); /* 1.1e-15 measured */
 }
@@ -685,7 +686,7 @@ TEST(limits_of_a_series_are_those_of_its_members) {
   ZpResult *all = answer_of(ZP_STUDY_LIMITS, &def);
   ck_near(zp_result_get(all, "pull_in_voltage_V"), pull_in, 1e-12);
   ck_near(zp_result_get(all, "closing_voltage_V"), closing, 1e-12);
-  ck_near(zp_result_get(all, "release_voltage_V"), release, 1e-9); /* 5.2e-10 measured */
+  ck_near(zp_result_get(all, "release_voltage_V"), release, 3e-13); /* 1e-13 measured */
   ck_near(zp_result_get(all, "max_load_kg"), lifted, 1e-12);
   ck_near(zp_result_get(all, "travel_m"), travel, 1e-12);
 }

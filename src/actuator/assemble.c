@@ -1,5 +1,5 @@
-/* Where all coordinates near a station are free, their equations are consecutive and entries have fixed places: rows
- * are written directly there. Near held and joined nodes each entry looks up its equations. */
+/* Where all coordinates near a station are free, their places are consecutive and entries have fixed places: rows are
+ * written directly there. Near held and joined nodes each entry looks up its places. */
 #include "actuator/assemble.h"
 
 #include <stdint.h>
@@ -55,21 +55,28 @@ static size_t per_station(const ZpAssembly *a) {
   return 2 * a->s + a->own;
 }
 
-/* The equation of the first coordinate of station i, if those of stations i .. i + 2 all follow it; else -1. */
+/* Is it in the band of the block? */
+static bool is_inner(const ZpAssembly *a, int place) {
+  return place >= 0 && (size_t)place < a->block.n;
+}
+
+/* The place of the first coordinate of station i, if those of stations i .. i + 2 all follow it; else -1. */
 static int first_of(const ZpAssembly *a, size_t i) {
   if (i + 2 >= a->nodes) return -1;
-  int first = a->equation[2 * a->s * i];
+  int first = a->place[2 * a->s * i];
   for (size_t m = 0; m < 3; m++)
-    for (size_t c = 0; c < 2 * a->s; c++)
-      if (first < 0 || a->equation[2 * a->s * (i + m) + c] != first + (int)(m * per_station(a) + c)) return -1;
+    for (size_t c = 0; c < 2 * a->s; c++) {
+      int place = a->place[2 * a->s * (i + m) + c];
+      if (!is_inner(a, place) || place != first + (int)(m * per_station(a) + c)) return -1;
+    }
   return first;
 }
 
-/* Smallest (sign -1) or largest equation of stations i .. end - 1; -1: they have none. */
+/* Smallest (sign -1) or largest place in the band of stations i .. end - 1; -1: they have none. */
 static int outermost(const ZpAssembly *a, size_t i, size_t end, int sign) {
   int most = -1;
   for (size_t k = 2 * a->s * i; k < 2 * a->s * least(end, a->nodes); k++)
-    if (a->equation[k] >= 0 && (most < 0 || sign * a->equation[k] > sign * most)) most = a->equation[k];
+    if (is_inner(a, a->place[k]) && (most < 0 || sign * a->place[k] > sign * most)) most = a->place[k];
   return most;
 }
 
@@ -84,7 +91,7 @@ static size_t bandwidth_of(const ZpAssembly *a) {
     int first = outermost(a, i, i + 1, -1);
     if (first < 0) continue;
     width = wider(width, first, outermost(a, i, i + 3, 1));
-    if (a->own > 0) width = wider(width, first, a->extra_equation[a->own * least(i + 2, a->nodes) - 1]);
+    if (a->own > 0) width = wider(width, first, a->extra_place[a->own * least(i + 2, a->nodes) - 1]);
   }
   return width;
 }
@@ -96,7 +103,7 @@ static ZpBandGroups groups_of(const ZpAssembly *a) {
   size_t i = 0;
   while (i < a->nodes && a->first[i] < 0)
     i++;
-  if (!a->symmetric || a->own > 0 || i == a->nodes) return (ZpBandGroups){0, 0};
+  if (!a->block.band.symmetric || a->own > 0 || i == a->nodes) return (ZpBandGroups){0, 0};
   groups.lead = (ZP_BAND_BLOCK - (size_t)a->first[i] % ZP_BAND_BLOCK) % ZP_BAND_BLOCK;
   for (i = 0; i < a->nodes; i++) {
     int first = outermost(a, i, i + 1, -1), last = outermost(a, i, i + 3, 1);
@@ -107,140 +114,180 @@ static ZpBandGroups groups_of(const ZpAssembly *a) {
   return groups;
 }
 
+/* The form of the block, by its places. */
+static void find_form(ZpAssembly *a) {
+  for (size_t i = 0; i < a->nodes; i++)
+    a->first[i] = first_of(a, i);
+  a->block.band.bandwidth = bandwidth_of(a);
+  a->block.band.groups = groups_of(a);
+}
+
 bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssembly *a) {
   const ZpModel *model = ties->first + ties->member;
-  *a = (ZpAssembly){.s = model->s,
-                    .nodes = model->nodes,
-                    .count = model->count,
-                    .stride = model->stride,
-                    .own = own,
-                    .symmetric = symmetric};
-  a->equation = zp_calloc(2 * model->count, sizeof *a->equation);
-  a->first = zp_calloc(model->nodes, sizeof *a->first);
-  a->extra_equation = zp_calloc(model->nodes, (own + 1) * sizeof *a->extra_equation);
-  a->factor = zp_calloc(2 * model->count, sizeof *a->factor);
-  a->offset = zp_calloc(2 * model->count, sizeof *a->offset);
+  *a = (ZpAssembly){.s = model->s, .nodes = model->nodes, .count = model->count, .stride = model->stride, .own = own};
   a->parts.common = zp_calloc(ZP_MOST_TIES, sizeof *a->parts.common);
-  if (!a->equation || !a->first || !a->extra_equation || !a->factor || !a->offset || !a->parts.common) {
+  int **integers[] = {&a->equation, &a->place, &a->extra_equation, &a->extra_place, &a->first};
+  const size_t counts[] = {2 * a->count, 2 * a->count, own * a->nodes + 1, own * a->nodes + 1, a->nodes};
+  bool made = true;
+  for (size_t k = 0; k < sizeof integers / sizeof integers[0]; k++)
+    made &= (*integers[k] = zp_calloc(counts[k], sizeof **integers[k])) != NULL;
+  a->factor = zp_calloc(2 * a->count, sizeof *a->factor);
+  a->offset = zp_calloc(2 * a->count, sizeof *a->offset);
+  if (!made || !a->factor || !a->offset || !a->parts.common) {
     zp_assembly_destroy(a);
     return false;
   }
-  a->n = number(ties, a);
-  a->bandwidth = bandwidth_of(a);
+  a->n = a->block.n = number(ties, a);
+  memcpy(a->place, a->equation, 2 * a->count * sizeof *a->place);
+  memcpy(a->extra_place, a->extra_equation, own * a->nodes * sizeof *a->extra_place);
   find_parts(ties, a);
-  for (size_t i = 0; i < model->nodes; i++)
-    a->first[i] = first_of(a, i);
-  a->groups = groups_of(a);
+  a->block.band.symmetric = symmetric;
+  find_form(a);
   return true;
 }
 
 /* -- several members ------------------------------------------------------------------------------- */
 
-/* Of each member alone: how many equations it has, how many that are not shared the members before it have, and which
- * of its equations are tied to which shared coordinates. */
-typedef struct Joined {
-  size_t members, count[ZP_MOST_MEMBERS], before[ZP_MOST_MEMBERS];
-  size_t ties[ZP_MOST_MEMBERS], tied[ZP_MOST_MEMBERS][2], to[ZP_MOST_MEMBERS][2];
-  size_t shared;
-  bool border;
-  size_t inner; /* equations that are not shared */
-} Joined;
+/* Equations of the border, by the equations of each member alone: -1 of one that is not in it. */
+typedef struct Shared {
+  size_t members, count;
+  int **of;        /* [members][n] */
+  size_t *of_each; /* [members] how many each has */
+} Shared;
 
-/* How many equations of all members, in the order of their numbers, come before this one. */
-static size_t before(const Joined *of, size_t which, size_t own) {
-  size_t sum = 0;
-  for (size_t k = 0; k < of->members; k++)
-    sum += least(own + (k < which), of->count[k] - of->ties[k]);
-  return sum;
+static void close_shared(Shared *s) {
+  for (size_t k = 0; s->of && k < s->members; k++)
+    zp_free(s->of[k]);
+  zp_free(s->of);
+  zp_free(s->of_each);
 }
 
-/* Of two halves, which end at the platform, the second one can follow from there back to its clip. */
-static bool alternate(const Joined *of) {
-  return of->members > 2 || of->tied[0][0] < of->count[0] - of->ties[0];
-}
-
-/* An equation of one member alone => of all. With a border, those of each member follow those of the one before, and
- * the shared ones follow all. Without one, those of the second of two halves follow from its platform back to its clip,
- * behind the shared one, so that the matrix stays a narrow band; else those of the same number are adjacent, with the
- * shared ones among those of the platform. */
-static size_t place_of(const Joined *of, size_t which, size_t i) {
-  const size_t first = of->tied[0][0];
-  size_t own = i; /* its number among those that are not shared */
-  for (size_t k = 0; k < of->ties[which]; k++) {
-    if (of->tied[which][k] == i && of->border) return of->inner + of->to[which][k];
-    if (of->tied[which][k] == i) return alternate(of) ? before(of, 0, first) + of->to[which][k] : first;
-    own -= of->tied[which][k] < i;
+static bool open_shared(ZpAssembly *const a[], size_t members, Shared *s) {
+  *s = (Shared){.members = members};
+  s->of = zp_calloc(members, sizeof *s->of);
+  s->of_each = zp_calloc(members, sizeof *s->of_each);
+  bool made = s->of && s->of_each;
+  for (size_t k = 0; k < members && made; k++) {
+    made = (s->of[k] = zp_calloc(a[k]->n + 1, sizeof **s->of)) != NULL;
+    for (size_t i = 0; made && i < a[k]->n; i++)
+      s->of[k][i] = -1;
   }
-  if (of->border || !of->shared) return of->before[which] + own;
-  if (alternate(of)) return before(of, which, own) + (own < first ? 0 : of->shared);
-  return which == 1 ? of->inner - own : i;
+  return made;
 }
 
-/* The largest distance between the equations of two stations that couple. */
-static size_t reach_of(const ZpAssembly *a) {
-  size_t most = 0;
-  for (size_t i = 0; i < a->nodes; i++) {
-    int first = outermost(a, i, i + 3, -1);
-    if (first >= 0) most = wider(most, first, outermost(a, i, i + 3, 1));
+/* Note that an equation of a member alone is one of the border, the next one if none is known of it. => which one */
+static int note(const ZpAssembly *a, size_t member, size_t coordinate, int shared, Shared *s) {
+  int *of = &s->of[member][a->equation[coordinate]];
+  if (*of >= 0) return *of;
+  s->of_each[member]++;
+  if (shared == (int)s->count) s->count++;
+  return *of = shared;
+}
+
+static void find_shared(ZpAssembly *const a[], const ZpModel *first, Shared *s) {
+  for (size_t member = 0; member < s->members; member++) {
+    const ZpTies ties = zp_ties_of(first, s->members, member);
+    for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++) {
+      if (t->to_member == member) continue;
+      int shared = note(a[t->to_member], t->to_member, t->to, (int)s->count, s);
+      note(a[member], member, t->coordinate, shared, s);
+    }
   }
-  return most;
 }
 
-/* Number the equations of one member among those of all, `n`. */
-static void join(ZpAssembly *a, const Joined *of, size_t which, size_t n) {
-  a->joined = of->shared > 0;
-  a->shared = of->border ? of->shared : 0;
-  a->n = n;
-  a->groups = (ZpBandGroups){0, 0};
-  for (size_t k = 0; k < a->parts.count; k++)
-    a->parts.common[k] = place_of(of, which, a->parts.common[k]);
+/* Equations of a member alone => places in the block, where they stand; those of the border => block.to. */
+static void place(ZpAssembly *a, int *of, size_t *to) {
+  int next = 0;
+  size_t border = 0;
+  for (size_t i = 0; i < a->n; i++) {
+    if (of[i] >= 0) to[border++] = (size_t)of[i];
+    of[i] = of[i] >= 0 ? -(int)border : next++; /* columns of the border below 0 */
+  }
+  a->block.n = (size_t)next;
+  a->block.to = to;
+  for (size_t i = 0; i < a->n; i++)
+    if (of[i] < 0) of[i] = next - 1 - of[i];
+}
+
+/* The equation at a place, of a block that begins with equation `first`. */
+static int equation_at(const ZpAssembly *a, int place, size_t first, size_t inner) {
+  return is_inner(a, place) ? place + (int)first : (int)(inner + a->block.to[(size_t)place - a->block.n]);
+}
+
+static void renumber(size_t count, const int *of, int *places) {
+  for (size_t k = 0; k < count; k++)
+    if (places[k] >= 0) places[k] = of[places[k]];
+}
+
+/* Number the equations of a member among those of all. */
+static void join(ZpAssembly *a, const int *of, size_t first, size_t inner, size_t n) {
+  const size_t own = a->own * a->nodes;
+  renumber(2 * a->count, of, a->place);
+  renumber(own, of, a->extra_place);
   for (size_t k = 0; k < 2 * a->count; k++)
-    if (a->equation[k] >= 0) a->equation[k] = (int)place_of(of, which, (size_t)a->equation[k]);
-  for (size_t c = 0; c < a->own * a->nodes; c++)
-    a->extra_equation[c] = (int)place_of(of, which, (size_t)a->extra_equation[c]);
-  for (size_t i = 0; i < a->nodes; i++)
-    a->first[i] = first_of(a, i);
+    if (a->place[k] >= 0) a->equation[k] = equation_at(a, a->place[k], first, inner);
+  for (size_t c = 0; c < own; c++)
+    a->extra_equation[c] = equation_at(a, a->extra_place[c], first, inner);
+  for (size_t k = 0; k < a->parts.count; k++)
+    a->parts.common[k] = (size_t)equation_at(a, of[a->parts.common[k]], first, inner);
+  a->n = n;
+  find_form(a);
 }
 
-/* Note that an equation of a member alone is a shared one, the next one if none is known of it. */
-static size_t note(const ZpAssembly *a, size_t member, size_t coordinate, size_t shared, Joined *of) {
-  size_t equation = (size_t)a->equation[coordinate], *ties = &of->ties[member];
-  for (size_t k = 0; k < *ties; k++)
-    if (of->tied[member][k] == equation) return of->to[member][k];
-  of->tied[member][*ties] = equation;
-  of->to[member][(*ties)++] = shared;
-  if (shared == of->shared) of->shared++;
-  return shared;
+bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first_model, size_t members, size_t common,
+                      ZpArrowForm *form) {
+  Shared shared;
+  size_t inner = 0, first = 0, used = 0;
+  bool made = open_shared(a, members, &shared);
+  if (made && first_model) find_shared(a, first_model, &shared);
+  size_t room = 0;
+  for (size_t k = 0; made && k < members; k++)
+    room += shared.of_each[k] + common;
+  size_t *to = zp_calloc(room + 1, sizeof *to);
+  ZpArrowBlock *block = zp_calloc(members, sizeof *block);
+  made = made && to && block;
+  for (size_t k = 0; k < members && made; k++) {
+    place(a[k], shared.of[k], to + used);
+    inner += a[k]->block.n;
+    a[k]->block.band.border = shared.of_each[k] + common;
+    for (size_t c = 0; c < common; c++)
+      a[k]->block.to[shared.of_each[k] + c] = shared.count + c;
+    used += a[k]->block.band.border;
+  }
+  for (size_t k = 0; k < members && made; k++) {
+    join(a[k], shared.of[k], first, inner, inner + shared.count + common);
+    first += a[k]->block.n;
+    block[k] = a[k]->block;
+  }
+  made = made && zp_arrow_form_create(block, members, shared.count + common, form);
+  for (size_t k = 0; k < members && made; k++)
+    a[k]->block.to = form->block[k].to;
+  close_shared(&shared);
+  zp_free(to);
+  zp_free(block);
+  return made;
 }
 
-size_t zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t members, bool border) {
-  Joined of = {.members = members, .border = border};
-  for (size_t member = 0; first && member < members; member++) {
-    const ZpTies ties = zp_ties_of(first, members, member);
-    for (const ZpTie *t = ties.tie; t < ties.tie + ties.count; t++)
-      if (t->to_member != member) {
-        size_t shared = note(a[t->to_member], t->to_member, t->to, of.shared, &of);
-        note(a[member], member, t->coordinate, shared, &of);
-      }
-  }
-  size_t n = 0, bandwidth = a[0]->bandwidth;
-  for (size_t which = 0; which < members; which++) {
-    of.before[which] = n;
-    of.count[which] = a[which]->n;
-    n += a[which]->n - of.ties[which];
-  }
-  of.inner = n;
-  for (size_t which = 0; which < members; which++) {
-    join(a[which], &of, which, n + of.shared);
-    if (of.shared && !border && reach_of(a[which]) > bandwidth) bandwidth = reach_of(a[which]);
-  }
-  return bandwidth;
+bool zp_assembly_parts(ZpAssembly *const a[], size_t members, size_t n, ZpParts *parts) {
+  bool *known = zp_calloc(n, sizeof *known);
+  *parts = (ZpParts){.more = a[0]->parts.more, .common = zp_calloc(n, sizeof *parts->common)};
+  const bool made = known && parts->common;
+  for (size_t k = 0; made && k < members; k++)
+    for (size_t i = 0; i < a[k]->parts.count; i++) {
+      const size_t common = a[k]->parts.common[i];
+      if (!known[common]) parts->common[parts->count++] = common;
+      known[common] = true;
+    }
+  zp_free(known);
+  return made;
 }
 
 void zp_assembly_destroy(ZpAssembly *a) {
   zp_free(a->equation);
+  zp_free(a->place);
   zp_free(a->first);
   zp_free(a->extra_equation);
+  zp_free(a->extra_place);
   zp_free(a->factor);
   zp_free(a->offset);
   zp_free(a->parts.common);
@@ -280,19 +327,32 @@ void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *eq
   if (a->equation[k] >= 0) equations[a->equation[k]] += a->factor[k] * force;
 }
 
-void zp_assembly_add(const ZpAssembly *a, const double *restrict nodes, double *restrict equations) {
-  const int *equation = a->equation;
+void zp_assembly_add_place(const ZpAssembly *a, size_t k, double force, double *places) {
+  if (a->place[k] >= 0) places[a->place[k]] += a->factor[k] * force;
+}
+
+/* Forces on nodes, summed over what has the same number. */
+static void add_by(const ZpAssembly *a, const int *number, const double *restrict nodes, double *restrict sums) {
   const double *factor = a->factor, *x = nodes, *y = nodes + a->stride;
   for (size_t j = 0; j < a->count; j++) {
-    int of_x = equation[2 * j], of_y = equation[2 * j + 1];
-    if (of_x >= 0) equations[of_x] += factor[2 * j] * x[j];
-    if (of_y >= 0) equations[of_y] += factor[2 * j + 1] * y[j];
+    int of_x = number[2 * j], of_y = number[2 * j + 1];
+    if (of_x >= 0) sums[of_x] += factor[2 * j] * x[j];
+    if (of_y >= 0) sums[of_y] += factor[2 * j + 1] * y[j];
   }
+}
+
+void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
+  add_by(a, a->equation, nodes, equations);
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
   memset(equations, 0, a->n * sizeof *equations);
-  zp_assembly_add(a, nodes, equations);
+  add_by(a, a->equation, nodes, equations);
+}
+
+void zp_assembly_sum_places(const ZpAssembly *a, const double *nodes, double *places) {
+  memset(places, 0, (a->block.n + a->block.band.border) * sizeof *places);
+  add_by(a, a->place, nodes, places);
 }
 
 void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equations) {
@@ -302,17 +362,17 @@ void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equ
 
 /* -- one entry, anywhere ---------------------------------------------------------------------------- */
 
-/* Of members of a system: in the border, or by a coordinate that another one ties. */
+/* Of a block with a border: there, or by a coordinate that another member ties. */
 static __attribute__((noinline)) void add_joined(const ZpAssembly *a, size_t row, size_t column, double value,
                                                  ZpBand *K) {
-  size_t i = (size_t)a->equation[row], j = (size_t)a->equation[column];
+  size_t i = (size_t)a->place[row], j = (size_t)a->place[column];
   *zp_band_entry(K, i, j) += a->factor[row] * a->factor[column] * value;
 }
 
 ZP_INLINE void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
-  int i = a->equation[row], j = a->equation[column];
-  if (i < 0 || j < 0 || (a->symmetric && i > j)) return;
-  if (a->joined)
+  int i = a->place[row], j = a->place[column];
+  if (i < 0 || j < 0 || (a->block.band.symmetric && i > j)) return;
+  if (a->block.band.border > 0)
     add_joined(a, row, column, value, K);
   else
     *zp_band_at(K, (size_t)i, (size_t)j) += value;
@@ -339,8 +399,8 @@ ZP_INLINE void edges_of_free_node(const ZpAssembly *a, size_t s, size_t per, siz
                                   ZpBand *K) {
   const double *ll = D[3 * (j - s) + 1], *lj = D[3 * (j - s) + 2], *jl = D[3 * j], *jj = D[3 * j + 1],
                *jr = D[3 * j + 2];
-  size_t equation = (size_t)a->first[i] + 2 * (j - s * i);
-  double *x = zp_band_row(K, equation), *y = zp_band_row(K, equation + 1);
+  size_t place = (size_t)a->first[i] + 2 * (j - s * i);
+  double *x = zp_band_row(K, place), *y = zp_band_row(K, place + 1);
   double own[4], next[4];
   for (size_t k = 0; k < 4; k++) {
     own[k] = (ll[k] - lj[k]) + (jj[k] - jl[k]);
@@ -383,7 +443,7 @@ static void edges_of_node(const ZpAssembly *a, size_t i, size_t j, const double 
 }
 
 static bool is_free(const ZpAssembly *a, size_t i) {
-  return a->symmetric && i > 0 && a->first[i] >= 0;
+  return a->block.band.symmetric && i > 0 && a->first[i] >= 0;
 }
 
 ZP_INLINE void edges_of_free_stations(const ZpAssembly *a, size_t s, size_t per, const double (*D)[4], ZpBand *K) {
@@ -405,7 +465,7 @@ void zp_assemble_edges(const ZpAssembly *a, const double (*D)[4], ZpBand *K) {
   for (size_t i = 0; i < a->nodes; i++)
     for (size_t j = a->s * i; !is_free(a, i) && j < a->s * (i + 1); j++)
       edges_of_node(a, i, j, D, K);
-  if (a->symmetric) edges_of_free(a, D, K);
+  if (a->block.band.symmetric) edges_of_free(a, D, K);
 }
 
 /* How edge j goes with u. */
@@ -493,7 +553,7 @@ static void gaps_of_station(const ZpAssembly *a, size_t i, const ZpGapDerivative
 
 void zp_assemble_gaps(const ZpAssembly *a, const ZpGapDerivatives *of, ZpBand *K) {
   for (size_t i = 0; i < a->nodes; i++) {
-    if (a->first[i] < 0 || !a->symmetric)
+    if (a->first[i] < 0 || !a->block.band.symmetric)
       gaps_of_station(a, i, of, K);
     else if (a->own > 0)
       gaps_of_free_station(a, a->s, per_station(a), i, of, K);
@@ -507,7 +567,7 @@ void zp_assemble_gaps(const ZpAssembly *a, const ZpGapDerivatives *of, ZpBand *K
 /* -- the laws' own unknowns ------------------------------------------------------------------------- */
 
 void zp_assemble_own(const ZpAssembly *a, size_t c, size_t d, double value, ZpBand *K) {
-  *zp_band_at(K, (size_t)a->extra_equation[c], (size_t)a->extra_equation[d]) += value;
+  *zp_band_at(K, (size_t)a->extra_place[c], (size_t)a->extra_place[d]) += value;
 }
 
 static inline void add_above(int i, int j, double value, ZpBand *K) {
@@ -516,8 +576,8 @@ static inline void add_above(int i, int j, double value, ZpBand *K) {
 
 void zp_assemble_own_by_gap(const ZpAssembly *a, size_t c, size_t station, double value, ZpBand *K) {
   const size_t upper = 2 * a->s * station + 1, lower = upper + 2 * (a->s - 1);
-  add_above(a->extra_equation[c], a->equation[upper], a->factor[upper] * value, K);
-  add_above(a->extra_equation[c], a->equation[lower], a->factor[lower] * -value, K);
+  add_above(a->extra_place[c], a->place[upper], a->factor[upper] * value, K);
+  add_above(a->extra_place[c], a->place[lower], a->factor[lower] * -value, K);
 }
 
 void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
@@ -526,7 +586,7 @@ void zp_assemble_entry(const ZpAssembly *a, size_t row, size_t column, double va
 
 void zp_assemble_heights(const ZpAssembly *a, size_t station, double upper, double lower, double both, ZpBand *K) {
   const size_t up = 2 * a->s * station + 1, low = up + 2 * (a->s - 1);
-  const int row = a->equation[up], column = a->equation[low];
+  const int row = a->place[up], column = a->place[low];
   add_above(row, row, upper, K);
   add_above(column, column, lower, K);
   add_above(row, column, a->factor[up] * a->factor[low] * (row == column ? 2 * both : both), K);

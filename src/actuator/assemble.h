@@ -5,37 +5,39 @@
 
 #include "actuator/model.h"
 #include "actuator/ties.h"
-#include "math/band.h"
+#include "math/arrow.h"
 #include "math/parts.h"
 
 typedef struct ZpAssembly {
-  size_t s, nodes;     /* ribbons; stations, N */
-  size_t count;        /* nodes */
-  size_t stride;       /* arrays over nodes: all x, then, so much further, all y */
-  size_t n;            /* equations, of all members of a system */
-  size_t bandwidth;    /* diagonals above the main one, and below: node i meets nodes i - 2 .. i + 2 */
-  bool symmetric;      /* only the upper triangle is kept */
-  ZpBandGroups groups; /* of a symmetric one: those of a station, or of two of one ribbon, if they fit */
-  int *equation;       /* [2 count] numbered station by station; coordinates that are always the same share theirs */
-  ZpParts parts;       /* halves, and the equations that both have */
-  size_t own;          /* unknowns of the laws at each station, which come after its coordinates */
-  int *extra_equation; /* [own N] */
-  double *factor, *offset; /* [2 count] a coordinate is this times its unknown plus this, m */
-  bool joined;             /* to other members, */
-  size_t shared;           /* with so many equations in the border */
-  int *first; /* [N] where all coordinates of stations i .. i + 2 are free: equation of the first of station i, the
-                 others following it; else -1 */
+  size_t s, nodes;    /* ribbons; stations, N */
+  size_t count;       /* nodes */
+  size_t stride;      /* arrays over nodes: all x, then, so much further, all y */
+  size_t n;           /* equations, of all members of a system */
+  ZpArrowBlock block; /* of the matrix of the system: node i meets nodes i - 2 .. i + 2. A symmetric band keeps its
+                         upper triangle only, in groups of a station, or of two of one ribbon, if they fit */
+  int *equation;      /* [2 count] numbered station by station; coordinates that are always the same share theirs */
+  int *place;         /* [2 count] row and column in the block; those from block.n on are in its border */
+  ZpParts parts;      /* halves, and the equations that both have */
+  size_t own;         /* unknowns of the laws at each station, which come after its coordinates */
+  int *extra_equation, *extra_place; /* [own N] */
+  double *factor, *offset;           /* [2 count] a coordinate is this times its unknown plus this, m */
+  int *first; /* [N] where all coordinates of stations i .. i + 2 are free: place of the first of station i, the others
+                 following it; else -1 */
 } ZpAssembly;
 
-/* Of the member that has these ties, with `own` unknowns of the laws at each station. False if there is no memory. */
+/* Of the member that has these ties, alone, with `own` unknowns of the laws at each station. False if there is no
+ * memory. */
 bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssembly *assembly);
 void zp_assembly_destroy(ZpAssembly *assembly);
 
-/* Number the equations of members as one system, in which coordinates that are tied have one equation => the number of
- * diagonals above the main one. `first`: their models; NULL: no row ties them. In a border, the shared ones come last,
- * and each member has a band of its own. Without one they are inside the band, and of two members at most one
- * coordinate is shared. */
-size_t zp_assembly_join(ZpAssembly *const assembly[], const ZpModel *first, size_t members, bool border);
+/* Number the equations of members as one system => its form. Each member is a block. In the border are the coordinates
+ * that rows tie between members, then `common` unknowns that all members meet. `first`: the models; NULL: no row ties
+ * them. False if there is no memory. */
+bool zp_assembly_join(ZpAssembly *const assembly[], const ZpModel *first, size_t members, size_t common,
+                      ZpArrowForm *form);
+
+/* The unknowns that the halves of any member have in common, of n of the system. False if there is no memory. */
+bool zp_assembly_parts(ZpAssembly *const assembly[], size_t members, size_t n, ZpParts *parts);
 
 /* Changes or rates of nodes [2 stride] => of equations [n]; positions of equations => of nodes, where what is held
  * stays as it is. */
@@ -64,13 +66,17 @@ void zp_assembly_add_one(const ZpAssembly *assembly, size_t coordinate, double f
 void zp_assembly_sum(const ZpAssembly *assembly, const double *nodes, double *equations);
 void zp_assembly_add_masses(const ZpAssembly *assembly, const double *mass, double *equations);
 
-/* Add the stiffness of the ribbons to K, which is n x n with `bandwidth` diagonals on each kept side: D[3 j + m] [4] =
+/* As zp_assembly_add_one and zp_assembly_sum, over the places of the block [block.n + border]. */
+void zp_assembly_add_place(const ZpAssembly *assembly, size_t coordinate, double force, double *places);
+void zp_assembly_sum_places(const ZpAssembly *assembly, const double *nodes, double *places);
+
+/* Below, K is the band of the member's block, which takes what belongs in the columns of its border, too.
+ *
+ * Add the stiffness of the ribbons: D[3 j + m] [4] =
  * -dR_j / d(edge j + (m - 1) s), as of zp_rod_stiffness, row by row. */
 void zp_assemble_edges(const ZpAssembly *assembly, const double (*D)[4], ZpBand *K);
 
-/* Below, a matrix with a border (math/bordered.h) takes what belongs in the columns of its border, too.
- *
- * K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and, of a symmetric
+/* K += value at the laws' own unknowns c and d, c <= d, which are [own i + ...] of station i; and, of a symmetric
  * matrix, at c and the gap of a station: at its upper height, and the opposite at its lower one. A matrix that keeps
  * both triangles takes c and d in any order. */
 void zp_assemble_own(const ZpAssembly *assembly, size_t c, size_t d, double value, ZpBand *K);

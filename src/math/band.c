@@ -25,14 +25,17 @@ void zp_band_reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpArena
 void zp_band_reserve_form(ZpBand *band, size_t n, ZpBandForm form, ZpArena *arena) {
   zp_band_reserve_groups(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, form.groups, arena);
   band->rank = form.rank;
-  band->u = zp_arena_take(arena, form.rank * n);
-  band->v = zp_arena_take(arena, form.rank * n);
+  band->border = form.border;
+  band->beside = zp_arena_take(arena, form.border * n);
+  band->corner = zp_arena_take(arena, form.border * form.border);
+  band->u = zp_arena_take(arena, form.rank * (n + form.border));
+  band->v = zp_arena_take(arena, form.rank * (n + form.border));
   band->w = zp_arena_take(arena, form.rank ? (form.rank + 1) * n : 0);
   band->s = zp_arena_take(arena, form.rank);
 }
 
 void zp_band_clear(ZpBand *band) {
-  size_t terms = band->rank * band->n;
+  size_t terms = band->rank * (band->n + band->border);
   memset(band->a + band->lead * band->stride, 0, band->n * band->stride * sizeof *band->a);
   if (terms == 0) return;
   memset(band->u, 0, terms * sizeof *band->u);
@@ -363,7 +366,7 @@ ZP_KERNEL static void multiply_symmetric(const ZpBand *band, const double *x, do
 static void solve_top(const ZpBand *band, size_t terms, double *b) {
   size_t n = band->n;
   for (size_t k = 0; k < terms; k++) {
-    double part = zp_dot(n, band->v + k * n, b) / band->s[k];
+    double part = zp_dot(n, zp_band_term(band, band->v, k), b) / band->s[k];
     for (size_t i = 0; i < n; i++)
       b[i] -= band->w[k * n + i] * part;
   }
@@ -380,10 +383,10 @@ static bool factor_top(ZpBand *band) {
   size_t n = band->n;
   for (size_t k = 0; k < band->rank; k++) {
     double *w = band->w + k * n;
-    memcpy(w, band->u + k * n, n * sizeof *w);
+    memcpy(w, zp_band_term(band, band->u, k), n * sizeof *w);
     solve_band(band, w);
     solve_top(band, k, w);
-    band->s[k] = 1 + zp_dot(n, band->v + k * n, w);
+    band->s[k] = 1 + zp_dot(n, zp_band_term(band, band->v, k), w);
     if (!is_pivot(band->s[k])) return false;
   }
   return true;
@@ -417,9 +420,10 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
   else
     multiply_general(band, x, y);
   for (size_t k = 0; k < band->rank; k++) {
-    double part = zp_dot(n, band->v + k * n, x);
+    const double *u = zp_band_term(band, band->u, k);
+    double part = zp_dot(n, zp_band_term(band, band->v, k), x);
     for (size_t i = 0; i < n; i++)
-      y[i] += band->u[k * n + i] * part;
+      y[i] += u[i] * part;
   }
 }
 
@@ -427,7 +431,7 @@ void zp_band_multiply(const ZpBand *band, const double *x, double *y) {
 static void prescribe_top(ZpBand *band, size_t unknown, double move, double *r, double *row) {
   size_t n = band->n;
   for (size_t k = 0; k < band->rank; k++) {
-    double *u = band->u + k * n, *v = band->v + k * n, factor = u[unknown];
+    double *u = zp_band_term(band, band->u, k), *v = zp_band_term(band, band->v, k), factor = u[unknown];
     for (size_t i = 0; i < n; i++)
       row[i] += factor * v[i];
     u[unknown] = 0;
@@ -469,7 +473,7 @@ static bool raises_eigenvalue(const ZpBand *band, size_t k) {
   memcpy(twice, band->w + k * n, n * sizeof *twice);
   solve_band(band, twice);
   solve_top(band, k, twice);
-  return zp_dot(n, band->v + k * n, twice) > 0;
+  return zp_dot(n, zp_band_term(band, band->v, k), twice) > 0;
 }
 
 static bool has_negative_determinant(const ZpBand *band) {

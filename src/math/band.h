@@ -29,10 +29,10 @@ typedef struct ZpBand {
   size_t *pivot;       /* [n] row that was exchanged with row i; not of a symmetric matrix */
   bool odd;            /* an odd number of rows was exchanged */
   size_t rank;         /* of what is on top: */
-  double *u, *v;       /* [rank * n] its terms u v' */
+  double *u, *v;       /* [rank * (n + border)] its terms u v' */
   double *w;           /* [rank * n] factored: u solved with the band and the terms before it; then n for work */
   double *s;           /* [rank] factored: 1 + v' w, by which a term changes the determinant */
-  size_t border;       /* of the band of a matrix with a border (bordered.h): equations n .. n + border - 1, */
+  size_t border;       /* of a block of a larger matrix (arrow.h): equations n .. n + border - 1 beside it, */
   double *beside;      /* [border * n] their columns, */
   double *corner;      /* [border * border] and rows among themselves */
 } ZpBand;
@@ -43,6 +43,7 @@ typedef struct ZpBandForm {
   bool symmetric;   /* the band is: only its upper triangle is kept */
   size_t rank;      /* of what is on top of it */
   ZpBandGroups groups;
+  size_t border; /* equations beside it */
 } ZpBandForm;
 
 /* Rows of a block of a symmetric matrix; diagonals above the main one that such a matrix may have. */
@@ -65,6 +66,11 @@ static inline double *zp_band_row(const ZpBand *band, size_t i) {
 /* Entry (i, j) inside the band. */
 static inline double *zp_band_at(const ZpBand *band, size_t i, size_t j) {
   return band->lower == 0 ? zp_band_row(band, i) + (j - i) : band->a + i * band->stride + (j + band->lower - i);
+}
+
+/* Of the vectors u or v of its terms, that of term k. */
+static inline double *zp_band_term(const ZpBand *band, double *vectors, size_t k) {
+  return vectors + k * (band->n + band->border);
 }
 
 /* Entry (i, j) inside the band, or in a column of the border, j >= n. */

@@ -37,7 +37,9 @@ typedef struct Member {
   double U, factor; /* its voltage, V; its height over that of the first one, where both share a load */
   ZpAssembly assembly;
   ZpVibration vibration;
-  ZpBand K, factors; /* the stiffness with the bead held; factors of that with a bead at rest, later the damping */
+  ZpArrowForm form;
+  ZpBand K;        /* the stiffness with the bead held */
+  ZpArrow factors; /* of that with a bead at rest; later the damping */
   ZpBead bead[ZP_BEADS];
   ZpCover cover;
   ZpFilmWays ways;
@@ -88,9 +90,9 @@ static size_t reserve(Member *w, void *block) {
   ZpArena arena = {block, 0};
   size_t n = w->assembly.n, N = model->nodes;
   zp_vibration_reserve(&w->vibration, n, ZP_VIBRATIONS, &arena);
-  zp_band_reserve_groups(&w->K, n, 0, w->assembly.bandwidth, w->assembly.groups, &arena);
-  const ZpBandForm form = {w->assembly.bandwidth, true, zp_bead_rank(model), w->assembly.groups};
-  zp_band_reserve_form(&w->factors, n, form, &arena);
+  const ZpBandForm *band = &w->form.block->band;
+  zp_band_reserve_groups(&w->K, n, 0, band->bandwidth, band->groups, &arena);
+  zp_arrow_reserve(&w->factors, &w->form, &arena);
   if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
   w->shape = zp_arena_take(&arena, SHAPES * n);
   w->nodes = zp_arena_take(&arena, SHAPES * zp_coordinates(model));
@@ -157,10 +159,10 @@ static void find_shapes(Member *w) {
   ZpSpan span = span_of(w, w->U);
   look(w, span.U1);
   span.tension = w->eval->edges.T;
-  zp_band_clear(&w->factors);
-  zp_system_add_stiffness(w->model, &span, &w->assembly, w->eval, &w->factors);
-  memcpy(w->K.a, w->factors.a, w->K.entries * sizeof *w->K.a);
-  zp_band_factor(&w->factors);
+  zp_arrow_clear(&w->factors);
+  zp_system_add_stiffness(w->model, &span, &w->assembly, w->eval, &w->factors.part->A);
+  memcpy(w->K.a, w->factors.part->A.a, w->K.entries * sizeof *w->K.a);
+  zp_arrow_factor(&w->factors);
   v->K = &w->factors;
   memset(v->mass, 0, n * sizeof *v->mass);
   zp_assembly_add_masses(&w->assembly, w->model->mass, v->mass);
@@ -171,7 +173,7 @@ static void find_shapes(Member *w) {
     add_shape(w, v->u + j * n);
   find_by_voltage(w, span.U1, w->by_voltage);
   zp_assembly_sum(&w->assembly, w->by_voltage, w->y);
-  zp_band_solve(&w->factors, w->y);
+  zp_arrow_solve(&w->factors, w->y);
   if (w->m < n) add_shape(w, w->y);
 }
 
@@ -196,8 +198,8 @@ static void find_internal_damping(Member *w) {
   for (size_t k = 0; k < 3 * (model->count - model->s); k++)
     for (size_t c = 0; c < 4; c++)
       e->D[k][c] *= model->internal_damping;
-  zp_band_clear(&w->factors);
-  zp_assemble_edges(&w->assembly, (const double(*)[4])e->D, &w->factors);
+  zp_arrow_clear(&w->factors);
+  zp_assemble_edges(&w->assembly, (const double(*)[4])e->D, &w->factors.part->A);
 }
 
 /* -- the liquid ------------------------------------------------------------------------------------ */
@@ -232,7 +234,7 @@ static void find_slow_shapes(Member *w) {
       moved.y[zp_lower(t, i)] -= drag[i];
     }
     zp_assembly_sum(&w->assembly, w->moved, w->y);
-    zp_band_solve(&w->factors, w->y);
+    zp_arrow_solve(&w->factors, w->y);
     add_shape(w, w->y);
   }
 }
@@ -364,7 +366,7 @@ static void turn_to_platform(Member *w) {
 static void add_deflection(Member *w) {
   memset(w->y, 0, w->assembly.n * sizeof *w->y);
   w->y[w->assembly.equation[zp_y_of(zp_load_node(&w->model->topology))]] = 1;
-  zp_band_solve(&w->factors, w->y);
+  zp_arrow_solve(&w->factors, w->y);
   if (w->m < w->assembly.n) add_shape(w, w->y);
 }
 
@@ -472,7 +474,7 @@ static void add_outside(const Work *all, Member *w, size_t j) {
 /* Inertia and losses of the rates of a member. */
 static void find_rate_laws(const Work *all, Member *w) {
   find_internal_damping(w);
-  project(all, w, &w->factors, all->damping);
+  project(all, w, &w->factors.part->A, all->damping);
   for (size_t j = 0; j < w->m; j++)
     all->mass[coordinate_of(w, j) * (all->rates + 1)] += w->mass[j];
   if (!w->model->has_film) return;
@@ -660,7 +662,10 @@ static bool open_member(Work *all, size_t which) {
                 .factor = zp_statics_factor(at, which),
                 .shares = at->shared,
                 .below = at->shared ? 0 : m->model->carried / m->model->parts};
-  if (!zp_assembly_create(&ties, 0, true, &w->assembly)) return false;
+  ZpAssembly *assembly = &w->assembly;
+  if (!zp_assembly_create(&ties, 0, true, assembly)) return false;
+  assembly->block.band.rank = zp_bead_rank(w->model);
+  if (!zp_assembly_join(&assembly, NULL, 1, 0, &w->form)) return false;
   w->memory = zp_calloc(1, reserve(w, NULL));
   if (!w->memory) return false;
   reserve(w, w->memory);
@@ -738,6 +743,7 @@ static void close_linear(Work *all) {
   for (size_t k = 0; all && all->member && k < all->members; k++) {
     zp_free(all->member[k].memory);
     zp_assembly_destroy(&all->member[k].assembly);
+    zp_arrow_form_destroy(&all->member[k].form);
   }
   if (all) zp_free(all->member);
   if (all) zp_free(all->memory);

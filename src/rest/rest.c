@@ -32,7 +32,7 @@ static bool create(ZpRest *rest, const ZpModel *model, bool held, void (*reserve
       if (!rest->memory) return false;
     }
     zp_branch_reserve(&rest->branch, &rest->system, &rest->statics.newton, &arena);
-    zp_track_reserve(&rest->track, &rest->square, rest->statics.form, &rest->statics.newton, &arena);
+    zp_track_reserve(&rest->track, &rest->square, &rest->statics.form, &rest->statics.newton, &arena);
     rest->held = zp_arena_take(&arena, zp_rest_save_size(rest));
     reserve_shapes(rest, &arena);
     if (rest->statics.members > 1)

@@ -228,8 +228,8 @@ bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
   p->inputs = inputs;
   differentiate(p);
   stiffness(p, p->by_key);
-  if (!zp_band_factor(&p->at->newton.K)) return false;
-  zp_band_solve(&p->at->newton.K, p->by_key);
+  if (!zp_arrow_factor(&p->at->newton.K)) return false;
+  zp_arrow_solve(&p->at->newton.K, p->by_key);
   for (size_t which = 0; which < p->at->members; which++)
     add_motion(p, which);
   if (zp_statics_holds(p->at)) p->reaction -= zp_dot(p->at->n, p->at->row, p->by_key);
@@ -254,9 +254,9 @@ static bool solve_both(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *b
   differentiate(p);
   stiffness(p, NULL);
   branch->sensitivity(p->at, p->by_parameter);
-  if (!zp_band_factor(&p->at->newton.K)) return false;
-  zp_band_solve(&p->at->newton.K, p->by_key);
-  zp_band_solve(&p->at->newton.K, p->by_parameter);
+  if (!zp_arrow_factor(&p->at->newton.K)) return false;
+  zp_arrow_solve(&p->at->newton.K, p->by_key);
+  zp_arrow_solve(&p->at->newton.K, p->by_parameter);
   return true;
 }
 
@@ -272,8 +272,8 @@ static bool is_smooth(const ZpRestSensitivity *p, const ZpBranchSystem *branch) 
 double zp_rest_sensitivity_of_fold(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->n;
   if (!solve_both(p, inputs, branch) || !is_smooth(p, branch)) return NAN;
-  zp_band_solve(&p->at->newton.K, p->by_key);
-  zp_band_solve(&p->at->newton.K, p->by_parameter);
+  zp_arrow_solve(&p->at->newton.K, p->by_key);
+  zp_arrow_solve(&p->at->newton.K, p->by_parameter);
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);
 }
 

@@ -25,7 +25,7 @@ static void reserve_member(ZpRestMember *m, const ZpModel *model, ZpArena *arena
 
 static size_t reserve_solution(ZpStatics *s, void *block) {
   ZpArena arena = {block, 0};
-  zp_newton_reserve(&s->newton, s->n, s->form, &arena);
+  zp_newton_reserve(&s->newton, &s->form, &arena);
   s->row = zp_arena_take(&arena, s->n);
   return arena.used;
 }
@@ -64,42 +64,20 @@ static bool create_member(const ZpStatics *s, size_t which) {
   return zp_system_create(model, true, &m->eval) && zp_assembly_create(&ties, 0, model->is_rod, &m->assembly);
 }
 
-/* The unknowns that the halves of any member have in common. False if there is no memory. */
-static bool find_parts(ZpStatics *s) {
-  bool *known = zp_calloc(s->n, sizeof *known);
-  s->parts.more = s->member->assembly.parts.more;
-  s->parts.common = zp_calloc(s->n, sizeof *s->parts.common);
-  const bool made = known && s->parts.common;
-  for (size_t k = 0; made && k < s->members; k++) {
-    const ZpParts *one = &s->member[k].assembly.parts;
-    for (size_t i = 0; i < one->count; i++) {
-      if (!known[one->common[i]]) s->parts.common[s->parts.count++] = one->common[i];
-      known[one->common[i]] = true;
-    }
-  }
-  zp_free(known);
-  return made;
-}
-
 /* The equations of all members. False if there is no memory. */
 static bool number(ZpStatics *s) {
   ZpAssembly **of = zp_calloc(s->members, sizeof(ZpAssembly *));
   if (!of) return false;
-  const ZpAssembly *first = &s->member->assembly;
   s->held = zp_tie_of_held(s->model, is_joined(s) ? s->members : 1);
-  s->form = (ZpBandForm){first->bandwidth, first->symmetric, 0, first->groups};
   for (size_t k = 0; k < s->members; k++) {
-    ZpRestMember *m = &s->member[k];
-    s->form.rank += zp_bead_rank(m->model);
-    of[k] = &m->assembly;
+    of[k] = &s->member[k].assembly;
+    of[k]->block.band.rank = zp_bead_rank(s->member[k].model);
   }
-  if (s->members > 1) {
-    s->form.bandwidth = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, false);
-    s->form.groups = (ZpBandGroups){0, 0};
-  }
-  s->n = first->n;
+  bool joined = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, 0, &s->form);
+  s->n = s->form.n;
+  joined = joined && zp_assembly_parts(of, s->members, s->n, &s->parts);
   zp_free(of);
-  return find_parts(s);
+  return joined;
 }
 
 bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
@@ -117,8 +95,7 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
     s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
     s->own_load = (s->shared ? s->own_load : 0) + model[k].def.load.mass;
   }
-  made = made && number(s);
-  if (made) s->solution = zp_calloc(1, reserve_solution(s, NULL));
+  if (made && number(s)) s->solution = zp_calloc(1, reserve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
     return false;
@@ -136,9 +113,10 @@ void zp_statics_destroy(ZpStatics *s) {
     zp_system_destroy(&s->member[k].eval);
     zp_assembly_destroy(&s->member[k].assembly);
   }
+  zp_arrow_form_destroy(&s->form);
+  zp_free(s->parts.common);
   zp_free(s->memory);
   zp_free(s->solution);
-  zp_free(s->parts.common);
   s->memory = s->solution = NULL;
   s->parts.common = NULL;
 }
@@ -279,7 +257,7 @@ static ZpNewtonInfo let_menisci_draw(ZpStatics *s, ZpNewtonInfo info) {
  * itself. */
 static bool is_found(ZpStatics *s, ZpNewtonInfo info) {
   if (!zp_newton_good(info.end)) return false;
-  return info.iterations == 0 || zp_band_negative(&s->newton.K) == 0 || zp_statics_stable(s);
+  return info.iterations == 0 || zp_arrow_negative(&s->newton.K) == 0 || zp_statics_stable(s);
 }
 
 /* Continue from the equilibrium without contact to the one with contact, if there are faces. If the faces have passed
@@ -673,28 +651,26 @@ static ZpEnd residual(void *self, double *r, double *size) {
 /* -- stiffness ------------------------------------------------------------------------------------ */
 
 /* Add the stiffness of each member, or its part beside edges. */
-static void add_members(ZpStatics *s, bool beside_edges, ZpBand *K) {
-  ZpBand own = *K; /* with the terms of one member on top */
-  zp_band_clear(K);
+static void add_members(ZpStatics *s, bool beside_edges, ZpArrow *K) {
+  zp_arrow_clear(K);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
     ZpSpan here = zp_statics_span(s, k);
-    own.rank = zp_bead_rank(m->model);
     if (beside_edges)
-      zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &own);
+      zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &K->part[k].A);
     else
-      zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &own);
-    own.u += own.rank * K->n;
-    own.v += own.rank * K->n;
+      zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &K->part[k].A);
   }
+  zp_arrow_mirror(K);
+  zp_arrow_close(K);
 }
 
-static void stiffness(void *self, ZpBand *K, double *r) {
+static void stiffness(void *self, ZpArrow *K, double *r) {
   ZpStatics *s = self;
   add_members(s, false, K);
   if (!zp_statics_holds(s)) return;
   size_t platform = zp_statics_platform(s);
-  zp_band_prescribe(K, platform, holding(s), r ? r[platform] / holding(s) : 0, r, s->row);
+  zp_arrow_prescribe(K, platform, holding(s), r ? r[platform] / holding(s) : 0, r, s->row);
 }
 
 /* The exact stiffness is that with the tensions of the present point. */
@@ -706,19 +682,19 @@ static void exact_residual(ZpStatics *s, double *r) {
 double zp_statics_holding(ZpStatics *s) {
   exact_residual(s, s->newton.r);
   stiffness(s, &s->newton.K, s->newton.r);
-  if (!zp_band_factor(&s->newton.K)) return s->reaction;
-  zp_band_solve(&s->newton.K, s->newton.r);
+  if (!zp_arrow_factor(&s->newton.K)) return s->reaction;
+  zp_arrow_solve(&s->newton.K, s->newton.r);
   return s->reaction - zp_dot(s->n, s->row, s->newton.r);
 }
 
-double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpBand *K, double *r) {
+double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpArrow *K, double *r) {
   double sum = 0;
   residual(s, r, NULL);
   stiffness(s, K, NULL);
   for (size_t k = 0; k < s->members; k++)
     sum += zp_edges_along(&s->member[k].assembly, (const double(*)[4])s->member[k].eval.D, u);
   add_members(s, true, K);
-  zp_band_multiply(K, u, r);
+  zp_arrow_multiply(K, u, r);
   for (size_t i = 0; i < s->n; i++)
     sum += u[i] * r[i];
   return sum;
@@ -1101,11 +1077,11 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
 static bool tangent(ZpStatics *s) {
   exact_residual(s, s->newton.r);
   stiffness(s, &s->newton.K, NULL);
-  return zp_band_factor(&s->newton.K);
+  return zp_arrow_factor(&s->newton.K);
 }
 
 bool zp_statics_stable(ZpStatics *s) {
-  return tangent(s) && zp_band_negative(&s->newton.K) == 0;
+  return tangent(s) && zp_arrow_negative(&s->newton.K) == 0;
 }
 
 void zp_statics_masses(const ZpStatics *s, double *mass) {
@@ -1166,6 +1142,6 @@ double zp_statics_load_stiffness(ZpStatics *s) {
   if (!regular) return NAN;
   memset(s->newton.r, 0, s->n * sizeof *s->newton.r);
   s->newton.r[load] = 1;
-  zp_band_solve(&s->newton.K, s->newton.r);
+  zp_arrow_solve(&s->newton.K, s->newton.r);
   return s->member->model->parts / s->newton.r[load];
 }

@@ -29,7 +29,7 @@ typedef struct ZpStatics {
   bool shared;          /* they have one load: its height is an unknown of all */
   bool linked;          /* of a series: heights of its links are unknowns of all; else each has its own frame */
   size_t n;             /* equations of all */
-  ZpBandForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
+  ZpArrowForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
   double U;            /* of the first member, V */
   double bias;         /* share of the lower antagonist's own voltage that acts */
@@ -109,7 +109,7 @@ bool zp_statics_stable(ZpStatics *statics);
 
 /* u' K u at the present point for a direction u [n], of edges one by one (zp_edges_along), with the predicted tensions.
  * K and r [n] are work space. */
-double zp_statics_stiffness_along(ZpStatics *statics, const double *u, ZpBand *K, double *r);
+double zp_statics_stiffness_along(ZpStatics *statics, const double *u, ZpArrow *K, double *r);
 
 /* Tolerance of the residual: 1e-3 of solver.tolerance, or what rounding of positions in stiff edges leaves. */
 double zp_statics_tolerance(const ZpStatics *statics);

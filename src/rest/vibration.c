@@ -73,7 +73,7 @@ void zp_vibration_start(ZpVibration *v) {
 static double *deflect(ZpVibration *v, size_t j) {
   double *next = v->next + j * v->n;
   weigh(v, v->u + j * v->n, next);
-  zp_band_solve(v->K, next);
+  zp_arrow_solve(v->K, next);
   return next;
 }
 

@@ -6,13 +6,13 @@
 
 #include <stdbool.h>
 
-#include "math/band.h"
+#include "math/arrow.h"
 
 enum { ZP_VIBRATIONS = 24 }; /* most */
 
 typedef struct ZpVibration {
   size_t n, m;                                            /* equations, vectors iterated */
-  const ZpBand *K;                                        /* factored; belongs to the caller */
+  const ZpArrow *K;                                       /* factored; belongs to the caller */
   void (*weigh)(void *self, const double *u, double *mu); /* m u, both [n]; NULL: masses are lumped, in `mass` */
   void *self;
   double *mass;     /* [n] by equation, filled by the caller */

@@ -4,8 +4,7 @@
 #include <string.h>
 
 static void reserve_equations(ZpDynamics *d, ZpArena *arena) {
-  double **of_equations[] = {&d->mass,  &d->q,       &d->v,      &d->history.w, &d->history.a,
-                             &d->scale, &d->sharers, &d->column, &d->row};
+  double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale, &d->sharers};
   for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
     *of_equations[k] = zp_arena_take(arena, d->system.n);
   d->kind = (ZpUnknown *)(void *)zp_arena_take(arena, d->system.n); /* room for doubles is more than enough */
@@ -21,12 +20,22 @@ static void reserve_member(ZpMovingMember *m, ZpArena *arena) {
   m->foreseen = zp_arena_take(arena, model->nodes);
 }
 
+/* Of the largest block. */
+static size_t most_places(const ZpDynamics *d) {
+  size_t most = 0;
+  for (const ZpArrowBlock *block = d->form.block; block < d->form.block + d->form.blocks; block++)
+    if (block->n + block->band.border > most) most = block->n + block->band.border;
+  return most;
+}
+
 static size_t reserve(ZpDynamics *d, void *block) {
   ZpArena arena = {block, 0};
   zp_implicit_reserve(&d->stepper, &d->system, &arena);
   reserve_equations(d, &arena);
   for (size_t k = 0; k < d->members; k++)
     reserve_member(&d->member[k], &arena);
+  d->column = zp_arena_take(&arena, most_places(d));
+  d->row = zp_arena_take(&arena, most_places(d));
   d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
   d->by_voltage.charge = zp_arena_take(&arena, zp_coordinates(d->member->model));
   return arena.used;
@@ -172,44 +181,53 @@ static double least_slope(const ZpDynamics *d) {
   return left * d->law.lacks > 0 ? d->law.lacks / left / d->member->model->parts : 0;
 }
 
+/* Row and column of the voltage in the block of a member, by sums over its places [n + border]. */
+static void put_voltage(const ZpArrowPart *part, const double *column, const double *row) {
+  const size_t n = part->n, border = part->border, u = border - 1;
+  for (size_t i = 0; i < n; i++) {
+    part->A.beside[u * n + i] = -column[i];
+    part->C[u * n + i] = -row[i];
+  }
+  for (size_t i = 0; i < u; i++) {
+    part->A.corner[i * border + u] = -column[n + i];
+    part->A.corner[u * border + i] = -row[n + i];
+  }
+}
+
 /* Row and column of the voltage behind a source, eq. (18.10). */
-static void add_source(ZpDynamics *d, ZpBordered *J) {
+static void add_source(ZpDynamics *d, ZpArrow *J) {
   const ZpByVoltage *by = &d->by_voltage;
   const double parts = d->member->model->parts;
   double C = 0;
-  memset(d->column, 0, d->system.n * sizeof *d->column);
-  memset(d->row, 0, d->system.n * sizeof *d->row);
-  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+  for (size_t k = 0; k < d->members; k++) {
+    ZpMovingMember *m = &d->member[k];
     const double ratio = m->model->ratio, share = zp_source_share(m->model) / parts;
     ZpSpan span = span_of(d, m);
     zp_system_by_voltage(m->model, &span, &m->eval, &d->by_voltage);
-    for (size_t k = 0; k < zp_coordinates(m->model); k++) {
-      by->force[k] *= ratio;
-      by->charge[k] *= share;
+    for (size_t i = 0; i < zp_coordinates(m->model); i++) {
+      by->force[i] *= ratio;
+      by->charge[i] *= d->law.by_taken * share;
     }
-    zp_assembly_add(&m->assembly, by->force, d->column);
-    zp_assembly_add(&m->assembly, by->charge, d->row);
+    zp_assembly_sum_places(&m->assembly, by->force, d->column);
+    zp_assembly_sum_places(&m->assembly, by->charge, d->row);
+    put_voltage(&J->part[k], d->column, d->row);
     C += share * ratio * by->capacitance;
   }
-  size_t u = voltage_of(d);
-  for (size_t i = 0; i < u; i++) {
-    *zp_bordered_at(J, i, u) = -d->column[i];
-    *zp_bordered_at(J, u, i) = -d->law.by_taken * d->row[i];
-  }
   double slope = -d->law.by_taken * capacitance(d, C) - d->law.by_voltage / parts;
-  *zp_bordered_at(J, u, u) = fmax(slope, least_slope(d));
+  *J->diagonal[voltage_of(d)] = fmax(slope, least_slope(d));
 }
 
-static void tangent(void *self, ZpBordered *J) {
+static void tangent(void *self, ZpArrow *J) {
   ZpDynamics *d = self;
-  zp_bordered_clear(J);
+  zp_arrow_clear(J);
   for (size_t k = 0; k < d->members; k++) {
     ZpMovingMember *m = &d->member[k];
     ZpSpan span = span_of(d, m);
-    zp_system_add_stiffness(m->model, &span, &m->assembly, &m->eval, &J->A);
+    zp_system_add_stiffness(m->model, &span, &m->assembly, &m->eval, &J->part[k].A);
   }
-  if (d->shared) zp_bordered_mirror(J);
+  zp_arrow_mirror(J);
   if (d->source) add_source(d, J);
+  zp_arrow_close(J);
 }
 
 /* Entry of a vector of unknowns for the head of mode k at station i. */
@@ -564,8 +582,10 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
     set_dampers(&d->member[k]);
 }
 
-/* The voltage behind a source has a rate and no inertia. */
+/* The voltage behind a source has a rate and no inertia. All halves have it in common. */
 static void add_voltage(ZpDynamics *d) {
+  if (d->parts.more > 0) d->parts.common[d->parts.count++] = voltage_of(d);
+
   d->kind[voltage_of(d)] = ZP_FIRST_ORDER;
   d->scale[voltage_of(d)] = d->source->scale / d->member->model->L;
   d->sharers[voltage_of(d)] = (double)d->members;
@@ -583,23 +603,17 @@ static bool join(ZpDynamics *d) {
   if (!of) return false;
   for (size_t k = 0; k < d->members; k++)
     of[k] = &d->member[k].assembly;
-  zp_assembly_join(of, d->member->model, d->members, true);
-  d->shared = of[0]->shared;
+  bool joined = zp_assembly_join(of, d->member->model, d->members, d->source ? 1 : 0, &d->form) &&
+                zp_assembly_parts(of, d->members, d->form.n, &d->parts);
   zp_free(of);
-  return true;
+  return joined;
 }
 
 /* The system of all members. */
 static ZpImplicitSystem system_of(ZpDynamics *d) {
-  const ZpAssembly *assembly = &d->member->assembly;
   const bool film = d->member->model->has_film;
-  const ZpParts one = {0};
-  size_t voltage = d->source ? 1 : 0;
-  return (ZpImplicitSystem){.n = assembly->n + voltage,
-                            .border = d->shared + voltage,
-                            .bandwidth = assembly->bandwidth,
-                            .groups = assembly->groups,
-                            .parts = d->members > 1 ? one : assembly->parts,
+  return (ZpImplicitSystem){.n = d->form.n,
+                            .form = &d->form,
                             .self = d,
                             .begin = begin,
                             .residual = force,
@@ -613,12 +627,12 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .unforeseen = unforeseen};
 }
 
-/* Each half of each member has the heights of its platforms. */
+/* Each member has the heights of its platforms, in each half. */
 static void count_sharers(ZpDynamics *d, const ZpMovingMember *m) {
   const ZpTopology *t = &m->model->topology;
   for (size_t j = zp_upper(t, t->platform.first); j <= zp_lower(t, t->platform.last); j++) {
     int height = m->assembly.equation[zp_y_of(j)];
-    if (height >= 0) d->sharers[height] += 1;
+    if (height >= 0) d->sharers[height] += 1 / (double)zp_halves(t);
   }
 }
 
@@ -627,12 +641,13 @@ static void fill_equations(ZpDynamics *d) {
     d->scale[i] = 1;
   for (size_t k = 0; k < d->members; k++)
     add_own(d, &d->member[k]);
-  for (const ZpMovingMember *m = d->member; m < d->member + d->members && d->shared; m++)
+  for (const ZpMovingMember *m = d->member; m < d->member + d->members && d->members > 1; m++)
     count_sharers(d, m);
   weigh(d, NULL);
   d->system.mass = d->mass;
-  d->system.sharers = d->shared ? d->sharers : NULL;
+  d->system.sharers = d->members > 1 ? d->sharers : NULL;
   if (d->source) add_voltage(d);
+  d->system.parts = d->parts;
   if (!d->source && d->member->model->own == 0) return;
   d->system.kind = d->kind;
   d->system.scale = d->scale;
@@ -653,7 +668,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics
   if (!d->member) return false;
   for (size_t k = 0; k < d->members; k++)
     if (!create_member(model, k, &d->member[k])) return false;
-  if (d->members > 1 && !join(d)) return false;
+  if (!join(d)) return false;
   d->system = system_of(d);
   d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;
@@ -671,6 +686,8 @@ void zp_dynamics_destroy(ZpDynamics *d) {
     zp_assembly_destroy(&d->member[k].assembly);
     zp_system_destroy(&d->member[k].eval);
   }
+  zp_arrow_form_destroy(&d->form);
+  zp_free(d->parts.common);
   zp_free(d->member);
   zp_free(d->memory);
   d->member = NULL;

@@ -2,7 +2,7 @@
  * the energies of ribbons and plates; unilateral contact; damping. docs/theory.md, section 18.
  *
  * Several actuators are one system: the equations of its members one after the other, then, in the border, the
- * coordinates that they share. Sections 29 and 31. */
+ * coordinates that ties join. Sections 29 and 31. */
 #ifndef ZP_RUN_DYNAMICS_H
 #define ZP_RUN_DYNAMICS_H
 
@@ -33,7 +33,8 @@ typedef struct ZpMovingMember {
 typedef struct ZpDynamics {
   size_t members;
   ZpMovingMember *member; /* [members] */
-  size_t shared;          /* coordinates that members share */
+  ZpArrowForm form;       /* of the matrix */
+  ZpParts parts;          /* halves, and the equations that both have */
   ZpImplicitSystem system;
   ZpImplicit stepper;
   ZpImplicitHistory history;
@@ -46,7 +47,7 @@ typedef struct ZpDynamics {
   const ZpSource *source; /* of the electrodes of all; NULL: the voltage is given. With a source the last unknown is the
                              voltage of the first member */
   ZpByVoltage by_voltage; /* of one member, with a source; work space, as are */
-  double *column, *row;   /* [n] column and row of the voltage in the matrix */
+  double *column, *row;   /* [places of a block] column and row of the voltage in it */
   ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
   double chord;
   double error;                  /* of a step, at most, as a share of the reference length, eq. (18.12) */

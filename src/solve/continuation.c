@@ -33,7 +33,8 @@ void zp_branch_reserve(ZpBranch *b, const ZpBranchSystem *system, ZpNewtonWork *
  * at most one more belongs to them together. */
 static bool is_negative(ZpBranch *b) {
   const ZpBranchSystem *sys = b->system;
-  size_t negative = zp_band_negative(&b->newton->K) / (sys->alike > 0 ? sys->alike : 1), more = sys->at_rest.parts.more;
+  size_t negative = zp_arrow_negative(&b->newton->K) / (sys->alike > 0 ? sys->alike : 1),
+         more = sys->at_rest.parts.more;
   return (negative + more) / (1 + more) % 2 == 1;
 }
 
@@ -41,7 +42,7 @@ static bool is_negative(ZpBranch *b) {
  */
 static void solve(ZpBranch *b, double *x) {
   const size_t systems = b->system->alike, each = systems > 0 ? b->system->at_rest.n / systems : 0;
-  zp_band_solve(&b->newton->K, x);
+  zp_arrow_solve(&b->newton->K, x);
   for (size_t i = 0; i < each; i++) {
     double mean = 0;
     for (size_t k = 0; k < systems; k++)
@@ -60,7 +61,7 @@ static int find_tangent(ZpBranch *b) {
   if (rest->residual(rest->self, b->newton->r, NULL) != ZP_END_FOUND) return -1;
   rest->stiffness(rest->self, &b->newton->K, NULL);
   sys->sensitivity(rest->self, b->a);
-  if (!zp_band_factor(&b->newton->K)) return -1;
+  if (!zp_arrow_factor(&b->newton->K)) return -1;
   solve(b, b->a);
   double to_scaled = sys->m_scale / sys->q_scale;
   for (size_t i = 0; i < n; i++)
@@ -164,7 +165,7 @@ static int correct(ZpBranch *b, double s, double m_start) {
     }
     rest->stiffness(rest->self, &b->newton->K, b->newton->r);
     sys->sensitivity(rest->self, b->b);
-    if (!zp_band_factor(&b->newton->K)) return -1;
+    if (!zp_arrow_factor(&b->newton->K)) return -1;
     memcpy(b->a, b->newton->r, n * sizeof *b->a);
     solve(b, b->a);
     solve(b, b->b);

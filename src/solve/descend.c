@@ -8,11 +8,11 @@
 static bool resist(const ZpStaticSystem *system, double least, double *c, ZpNewtonWork *work) {
   for (int k = 0; k < 100; k++) {
     system->stiffness(system->self, &work->K, NULL);
-    for (size_t i = 0; i < work->K.n; i++)
-      *zp_band_at(&work->K, i, i) += *c;
+    for (size_t i = 0; i < system->n; i++)
+      *work->K.diagonal[i] += *c;
     for (size_t k = 0; k < system->parts.count; k++)
-      *zp_band_at(&work->K, system->parts.common[k], system->parts.common[k]) += (double)system->parts.more * *c;
-    if (zp_band_factor(&work->K) && zp_band_negative(&work->K) == 0) return true;
+      *work->K.diagonal[system->parts.common[k]] += (double)system->parts.more * *c;
+    if (zp_arrow_factor(&work->K) && zp_arrow_negative(&work->K) == 0) return true;
     *c = fmax(4 * *c, least);
   }
   return false;
@@ -36,8 +36,8 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
     bool floor = !close && zp_closing_stalled(&closing, info.residual, tolerance);
     if (info.iterations == 0) {
       system->stiffness(system->self, &work->K, NULL);
-      for (size_t i = 0; i < work->K.n; i++)
-        stiffest = fmax(stiffest, fabs(*zp_band_at(&work->K, i, i)));
+      for (size_t i = 0; i < system->n; i++)
+        stiffest = fmax(stiffest, fabs(*work->K.diagonal[i]));
       c = at_first * stiffest;
     }
     info.end = ZP_NEWTON_SINGULAR;
@@ -51,7 +51,7 @@ ZpNewtonInfo zp_descend_until(const ZpStaticSystem *system, double longest, doub
       if (!fresh) return info;
       continue;
     }
-    zp_band_solve(&work->K, work->r);
+    zp_arrow_solve(&work->K, work->r);
     zp_closing_correct(&closing, system, work->r);
     double length = system->length(system->self, work->r) / (info.iterations < most / 4 ? longest : shorter * longest);
     system->move(system->self, work->r, length > 1 ? 1 / length : 1);

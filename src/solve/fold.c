@@ -11,11 +11,12 @@
 
 #include "math/vector.h"
 
-void zp_fold_reserve(ZpFold *f, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpArena *arena) {
+void zp_fold_reserve(ZpFold *f, const ZpBranchSystem *system, const ZpArrowForm *form, ZpNewtonWork *newton,
+                     ZpArena *arena) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   f->system = system;
   f->newton = newton;
-  zp_band_reserve_form(&f->beside, n, form, arena);
+  zp_arrow_reserve(&f->beside, form, arena);
   double **vectors[] = {&f->null, &f->along, &f->a, &f->b, &f->x, &f->at, &f->by_a, &f->by_n};
   for (size_t k = 0; k < sizeof vectors / sizeof vectors[0]; k++)
     *vectors[k] = zp_arena_take(arena, n);
@@ -24,13 +25,13 @@ void zp_fold_reserve(ZpFold *f, const ZpBranchSystem *system, ZpBandForm form, Z
 
 bool zp_fold_tangent(ZpFold *f) {
   const ZpStaticSystem *rest = &f->system->at_rest;
-  ZpBand *K = &f->newton->K;
+  ZpArrow *K = &f->newton->K;
   if (rest->residual(rest->self, f->newton->r, &f->left) != ZP_END_FOUND) return false;
   rest->stiffness(rest->self, K, NULL);
   f->system->sensitivity(rest->self, f->along);
-  if (!zp_band_factor(K)) return false;
-  f->negative = zp_band_negative(K);
-  zp_band_solve(K, f->along);
+  if (!zp_arrow_factor(K)) return false;
+  f->negative = zp_arrow_negative(K);
+  zp_arrow_solve(K, f->along);
   return true;
 }
 
@@ -47,7 +48,7 @@ void zp_fold_guess(ZpFold *f) {
 static void test(ZpFold *f) {
   size_t n = f->system->at_rest.n;
   memcpy(f->x, f->null, n * sizeof *f->x);
-  zp_band_solve(&f->newton->K, f->x);
+  zp_arrow_solve(&f->newton->K, f->x);
   double cx = zp_dot(n, f->null, f->x);
   f->test = -1 / cx;
   f->negative += cx > 0; /* of the bordered matrix, one of which is the border's */
@@ -64,8 +65,8 @@ static void beside(ZpFold *f, double h, double dm_a, double dm_n, double *by_a, 
   rest->residual(rest->self, f->at, NULL);
   rest->stiffness(rest->self, &f->beside, NULL);
   sys->sensitivity(rest->self, f->at);
-  zp_band_multiply(&f->beside, f->a, by_a);
-  zp_band_multiply(&f->beside, f->along, by_n);
+  zp_arrow_multiply(&f->beside, f->a, by_a);
+  zp_arrow_multiply(&f->beside, f->along, by_n);
   for (size_t i = 0; i < rest->n; i++) {
     by_a[i] -= dm_a * f->at[i];
     by_n[i] -= dm_n * f->at[i];
@@ -76,8 +77,8 @@ static void beside(ZpFold *f, double h, double dm_a, double dm_n, double *by_a, 
 
 /* Derivative of g from the change y of the stiffness times a step. */
 static double change_of_test(ZpFold *f, double *y) {
-  bool symmetric = f->beside.lower == 0 && f->beside.rank == 0;
-  if (!symmetric) zp_band_solve(&f->newton->K, y);
+  bool symmetric = zp_arrow_is_symmetric(&f->beside);
+  if (!symmetric) zp_arrow_solve(&f->newton->K, y);
   double through = zp_dot(f->system->at_rest.n, symmetric ? f->x : f->null, y);
   return -through * f->test * f->test;
 }
@@ -119,7 +120,7 @@ static void step(ZpFold *f, double xi, double dm) {
 
 static void balance(ZpFold *f) {
   memcpy(f->a, f->newton->r, f->system->at_rest.n * sizeof *f->a);
-  zp_band_solve(&f->newton->K, f->a);
+  zp_arrow_solve(&f->newton->K, f->a);
 }
 
 /* The step that keeps the equilibrium and the component along c => a, its dm; the one along the null vector => along,

@@ -14,7 +14,7 @@ typedef double (*ZpEvent)(void *self, double *row);
 typedef struct ZpFold {
   const ZpBranchSystem *system;
   ZpNewtonWork *newton;   /* may be that of a branch */
-  ZpBand beside;          /* the stiffness at a neighbouring point */
+  ZpArrow beside;         /* the stiffness at a neighbouring point */
   double tolerance;       /* of the residual */
   double *null;           /* [n] null vector, of length 1; at the start of a solution, a guess of it */
   double *along;          /* [n] dq/dm at the point of the last solution; at a limit point a large multiple of `null` */
@@ -34,7 +34,8 @@ typedef struct ZpFold {
 /* Accuracy of a solution: a result, or an intermediate point, which is only accurate enough for its tangent. */
 typedef enum ZpFoldTo { ZP_FOLD_EXACT, ZP_FOLD_ROUGH } ZpFoldTo;
 
-void zp_fold_reserve(ZpFold *fold, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton, ZpArena *arena);
+void zp_fold_reserve(ZpFold *fold, const ZpBranchSystem *system, const ZpArrowForm *form, ZpNewtonWork *newton,
+                     ZpArena *arena);
 
 /* At the present point: unbalanced forces => newton->r, factored stiffness => newton->K, number of its negative pivots
  * => negative, dq/dm = K^-1 dr/dm => along. False if there is no residual or the stiffness is singular. */

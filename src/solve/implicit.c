@@ -25,7 +25,7 @@ void zp_implicit_reserve(ZpImplicit *s, const ZpImplicitSystem *system, ZpArena 
   s->q = zp_arena_take(arena, system->n);
   s->r = zp_arena_take(arena, system->n);
   s->x = zp_arena_take(arena, system->n);
-  zp_bordered_reserve(&s->A, system->n, system->border, system->lower, system->bandwidth, system->groups, arena);
+  zp_arrow_reserve(&s->A, system->form, arena);
 }
 
 static ZpUnknown kind_of(const ZpImplicitSystem *system, size_t i) {
@@ -36,9 +36,9 @@ static double scale_of(const ZpImplicitSystem *system, size_t i) {
   return system->scale ? system->scale[i] : 1;
 }
 
-/* How many more members than one have an unknown. */
+/* How often more than once for each part an unknown counts. */
 static double more_of(const ZpImplicitSystem *system, size_t i) {
-  return system->sharers ? fmax(system->sharers[i] - 1, 0) : 0;
+  return system->sharers ? fmax(system->sharers[i] - 1, 0) * (double)(1 + system->parts.more) : 0;
 }
 
 /* Root mean square of `counted` unknowns of all parts in their scales; the others are 0. */
@@ -61,14 +61,26 @@ static double rms(const ZpImplicitSystem *system, const double *x, size_t counte
   return counted > 0 ? sqrt(sum / zp_parts_unknowns(parts, counted)) : 0;
 }
 
+static double largest_from(const ZpImplicitSystem *system, const double *x, size_t from, size_t end, double most) {
+  for (size_t i = from; i < end; i++)
+    most = fmax(most, fabs(x[i] / scale_of(system, i)));
+  return most;
+}
+
 /* Largest unknown of the first part, in its scale: later parts are of equal size, but may count from another origin. */
 static double largest(const ZpImplicitSystem *system, const double *x) {
   const ZpParts *parts = &system->parts;
-  size_t first_part = (system->n + parts->more * parts->count) / (1 + parts->more);
+  const ZpArrowForm *form = system->form;
   double most = 0;
-  for (size_t i = 0; i < first_part; i++)
-    most = fmax(most, fabs(x[i] / scale_of(system, i)));
-  return most;
+  size_t first = 0, common = 0;
+  for (size_t k = 0; k < form->blocks; k++) {
+    const size_t own = form->block[k].n, before = common;
+    while (common < parts->count && parts->common[common] < first + own)
+      common++;
+    most = largest_from(system, x, first, first + (own + parts->more * (common - before)) / (1 + parts->more), most);
+    first += own;
+  }
+  return largest_from(system, x, form->inner, form->n, most);
 }
 
 /* A first guess: all unknowns change as in the last step, whose mean velocity has none of the fast modes with which v
@@ -107,7 +119,7 @@ static double rounding_of(ZpImplicit *s, const double *q, double squares) {
   double all = (double)(1 + parts->more);
   for (size_t k = 0; k < parts->count; k++) {
     size_t i = parts->common[k];
-    double rounded = rounded_work(s, i, *zp_bordered_at(&s->A, i, i), s->q[i] - q[i]);
+    double rounded = rounded_work(s, i, *s->A.diagonal[i], s->q[i] - q[i]);
     squares -= (double)parts->more / all * rounded * rounded; /* a part has its share of the stiffness only */
   }
   return DBL_EPSILON * sqrt(all * squares);
@@ -131,7 +143,7 @@ static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v
   system->tangent(system->self, &s->A);
   for (size_t i = 0; i < system->n; i++) {
     double inertia = 2 * system->mass[i] / (h * h), moved = s->q[i] - q[i];
-    double stiffness = *zp_bordered_at(&s->A, i, i) += inertia;
+    double stiffness = *s->A.diagonal[i] += inertia;
     double rounded = rounded_work(s, i, stiffness, moved);
     work += s->r[i] * moved;
     turnover += inertia * moved * moved;
@@ -139,14 +151,14 @@ static ZpEnd linearise(ZpImplicit *s, double h, const double *q, const double *v
   }
   work += algebraic_work(s, q);
   *imbalance = (Imbalance){fabs(work), s->balance * (s->energy + turnover) + rounding_of(s, q, rounding)};
-  return zp_bordered_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
+  return zp_arrow_factor(&s->A) ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 
 /* Residual => correction, by the factored Jacobian. */
 static void solve(ZpImplicit *s, double *r) {
   const ZpImplicitSystem *system = s->system;
   if (system->turn) system->turn(system->self, r);
-  zp_bordered_solve(&s->A, r);
+  zp_arrow_solve(&s->A, r);
   if (system->turn_back) system->turn_back(system->self, r);
 }
 
@@ -222,7 +234,7 @@ static void filtered_error(ZpImplicit *s, double h, const double *q, const doubl
     s->r[i] = s->system->mass[i] * jump[i];
   }
   if (s->system->inertia) s->system->inertia(s->system->self, jump, s->r);
-  zp_bordered_solve(&s->A, s->r);
+  zp_arrow_solve(&s->A, s->r);
   for (size_t i = 0; s->system->inertia && i < n; i++) {
     double most = most_added * 0.5 * h * h * fabs(jump[i]);
     s->r[i] = fmin(fmax(s->r[i], -most), most);
@@ -304,7 +316,7 @@ static void smooth(ZpImplicit *s, double h, bool all, int power, double *v) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
     if (all) add_inertia(s, 2 / (h * h), fast, slow);
-    zp_bordered_solve(&s->A, slow);
+    zp_arrow_solve(&s->A, slow);
     for (size_t i = 0; i < n; i++)
       fast[i] = kind_of(s->system, i) == ZP_SECOND_ORDER ? fast[i] - slow[i] : 0;
   }
@@ -547,19 +559,5 @@ bool zp_implicit_follow(const ZpDifferenceSteps *steps, bool with_matrix, double
     if (with_matrix && !factor(&steps->near[k])) return false;
     accept_near(steps, &r, &steps->near[k]);
   }
-  return true;
-}
-
-/* -- the exact tangent ----------------------------------------------------------------------------- */
-
-void zp_implicit_reserve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpArena *arena) {
-  zp_bordered_reserve(J, system->n, system->border, system->bandwidth, system->bandwidth, system->groups, arena);
-}
-
-bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J) {
-  if (!system->exact) return false;
-  system->exact(system->self, J);
-  for (size_t i = 0; i < system->n; i++)
-    *zp_bordered_at(J, i, i) += 2 * system->mass[i] / (h * h);
   return true;
 }

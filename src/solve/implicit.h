@@ -2,8 +2,8 @@
  *   q1 = q0 + h w,   v1 = 2 w - v0,   M (v1 - v0) / h = f(q0, q1, h)                                       (18.1)
  * It is of second order for any symmetric mean f. If the work of f is exactly the change of an energy, the step
  * conserves energy, whatever its size. Besides positions there may be unknowns of first order, whose mean rates w are
- * in the residual, and algebraic ones, which belong to the step as a whole, (18.6). Newton's method uses the banded
- * Jacobian with a border; the local error controls the steps. This file contains no physics.
+ * in the residual, and algebraic ones, which belong to the step as a whole, (18.6). Newton's method uses a
+ * Jacobian of bands with a border; the local error controls the steps. This file contains no physics.
  */
 #ifndef ZP_SOLVE_IMPLICIT_H
 #define ZP_SOLVE_IMPLICIT_H
@@ -12,7 +12,7 @@
 #include <stdint.h>
 
 #include "base/end.h"
-#include "math/bordered.h"
+#include "math/arrow.h"
 #include "math/parts.h"
 
 typedef enum ZpUnknown {
@@ -24,17 +24,16 @@ typedef enum ZpUnknown {
 
 /* Rows of the residual are conjugate to their unknowns: row i times a change of unknown i is an energy, J. */
 typedef struct ZpImplicitSystem {
-  size_t n;              /* unknowns */
-  size_t border;         /* the last of these, fewer than n, couple with all others; the rest is banded */
-  size_t bandwidth;      /* diagonals of the matrix above the main one */
-  size_t lower;          /* diagonals below; 0: it is symmetric, and only the upper triangle is stored */
-  ZpBandGroups groups;   /* of a symmetric matrix */
-  const ZpUnknown *kind; /* [n]; NULL: all of second order */
-  const double *scale;   /* [n] positive: the change that counts as much as 1 m of a position; NULL: all 1 */
-  const double *sharers; /* [n] above 0: how many bodies share a position; so often it counts in means. NULL: none do */
-  ZpParts parts;         /* equal parts of the system, the unknowns of the first one first; all 0: there is one part */
-  void *self;            /* argument of the functions below */
-  const double *mass;    /* [n] 0 or more, the inertia that the stepper adds; 0 for unknowns not of second order */
+  size_t n;                /* unknowns */
+  const ZpArrowForm *form; /* of the matrix */
+  const ZpUnknown *kind;   /* [n]; NULL: all of second order */
+  const double *scale;     /* [n] positive: the change that counts as much as 1 m of a position; NULL: all 1 */
+  const double *sharers;   /* [n] above 0: how many bodies share a position, in each part; so often it counts in means.
+                              NULL: none do */
+  ZpParts parts;      /* equal parts of the system, in each block the unknowns of the first one first; all 0: there is
+                         one part */
+  void *self;         /* argument of the functions below */
+  const double *mass; /* [n] 0 or more, the inertia that the stepper adds; 0 for unknowns not of second order */
   /* Begin a step at y0 [n], with velocities v0 [n], 0 for unknowns not of second order; both stay valid until it ends.
    * Returns an energy of the system there, J, to which an imbalance is compared. */
   double (*begin)(void *self, const double *y0, const double *v0);
@@ -43,13 +42,11 @@ typedef struct ZpImplicitSystem {
    */
   ZpEnd (*residual)(void *self, const double *y1, double h, double *r);
   /* -dr/dy1 at the last residual, or a cheaper approximation => J. */
-  void (*tangent)(void *self, ZpBordered *J);
+  void (*tangent)(void *self, ZpArrow *J);
   /* The matrix J of `tangent` may be T' (-dr/dy1) T, of unknowns x with changes y = T x, in which it is not nearly
    * singular: r [n] => T' r before a solution, x [n] => T x after. NULL: T is 1. */
   void (*turn)(void *self, double *r);
   void (*turn_back)(void *self, double *x);
-  /* Exact -dr/dy1 at the last residual => J, with `bandwidth` diagonals on both sides. May be NULL. */
-  void (*exact)(void *self, ZpBordered *J);
   /* f [n] += inertia beyond `mass` times a [n]. NULL: there is none. */
   void (*inertia)(void *self, const double *a, double *f);
   /* Called before a step is tried from a first guess y1 of its end; may change y1 so that nothing passes through
@@ -91,7 +88,7 @@ typedef struct ZpImplicit {
   ZpImplicitCounts counts;
   double *q, *r; /* [n] end of the present step; its residual, and more */
   double *x;     /* [n] work space */
-  ZpBordered A;
+  ZpArrow A;
 } ZpImplicit;
 
 /* Take the arrays from `arena`. */
@@ -132,11 +129,6 @@ bool zp_implicit_follow(const ZpDifferenceSteps *steps, bool with_matrix, double
 /* Remove from velocities v the share (x / (1 + x))^3 of their difference from the mean rates w of the last step, by the
  * inertia `mass` alone: where a resistance is far larger than this inertia, they would change sign in every step. */
 void zp_implicit_filter(ZpImplicit *stepper, double h, const double *w, double *v);
-
-/* Exact -d(r - M a)/dy1 at the last residual of the system, for a step of length h => J, whose arrays come from
- * zp_implicit_reserve_exact. False if the system has no `exact`. */
-void zp_implicit_reserve_exact(const ZpImplicitSystem *system, ZpBordered *J, ZpArena *arena);
-bool zp_implicit_exact(const ZpImplicitSystem *system, double h, ZpBordered *J);
 
 /* Remove from velocities v what is too fast for the last step, of length h: the share (x / (1 + x))^5 of a mode of
  * angular frequency omega, x = (h omega / 2)^2, by the last factored matrix. (18.1) would keep such modes, with their

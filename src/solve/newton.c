@@ -4,9 +4,9 @@
 
 #include "math/vector.h"
 
-void zp_newton_reserve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpArena *arena) {
-  zp_band_reserve_form(&work->K, n, form, arena);
-  work->r = zp_arena_take(arena, n);
+void zp_newton_reserve(ZpNewtonWork *work, const ZpArrowForm *form, ZpArena *arena) {
+  zp_arrow_reserve(&work->K, form, arena);
+  work->r = zp_arena_take(arena, form->n);
 }
 
 bool zp_newton_good(ZpNewtonEnd end) {
@@ -72,11 +72,11 @@ ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most,
     }
     if (info.end != ZP_NEWTON_SLOW || since == most) return info;
     system->stiffness(system->self, &work->K, work->r);
-    if (!zp_band_factor(&work->K)) {
+    if (!zp_arrow_factor(&work->K)) {
       info.end = ZP_NEWTON_SINGULAR;
       return info;
     }
-    zp_band_solve(&work->K, work->r);
+    zp_arrow_solve(&work->K, work->r);
     zp_closing_correct(&closing, system, work->r);
     double length = system->length(system->self, work->r);
     system->move(system->self, work->r, length > 1 ? 1 / length : 1);

@@ -7,7 +7,7 @@
 #include <stddef.h>
 
 #include "base/end.h"
-#include "math/band.h"
+#include "math/arrow.h"
 #include "math/parts.h"
 
 typedef struct ZpStaticSystem {
@@ -18,7 +18,7 @@ typedef struct ZpStaticSystem {
   ZpEnd (*residual)(void *self, double *r, double *size);
   /* -dr/dq at the point of the last residual => K. If the motion of a coordinate is prescribed, its effect on the
    * others is added to r (NULL: it does not move), and its row and column are uncoupled. */
-  void (*stiffness)(void *self, ZpBand *K, double *r);
+  void (*stiffness)(void *self, ZpArrow *K, double *r);
   /* Length of a step, in units of the longest step for which linearisation is valid. */
   double (*length)(void *self, const double *step);
   /* Change by a step, in units of the required accuracy. The residual alone does not show how close the equilibrium is:
@@ -53,7 +53,7 @@ typedef struct ZpNewtonInfo {
 
 /* Work space. */
 typedef struct ZpNewtonWork {
-  ZpBand K;
+  ZpArrow K;
   double *r; /* [n] */
 } ZpNewtonWork;
 
@@ -79,7 +79,7 @@ bool zp_closing_stalled(const ZpClosing *closing, double residual, double tolera
 /* After a refresh, when the residual may be larger again. */
 void zp_closing_renew(ZpClosing *closing);
 
-void zp_newton_reserve(ZpNewtonWork *work, size_t n, ZpBandForm form, ZpArena *arena);
+void zp_newton_reserve(ZpNewtonWork *work, const ZpArrowForm *form, ZpArena *arena);
 
 /* Iterate from the present point. */
 ZpNewtonInfo zp_newton(const ZpStaticSystem *system, double tolerance, int most, ZpNewtonWork *work);

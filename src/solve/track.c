@@ -7,7 +7,7 @@
 
 static const double little = 5e-3; /* of the scale of q: a smaller motion does not matter */
 
-void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, const ZpArrowForm *form, ZpNewtonWork *newton,
                       ZpArena *arena) {
   size_t n = system->at_rest.n, saved = (system->save_size + sizeof(double) - 1) / sizeof(double);
   zp_fold_reserve(&track->fold, system, form, newton, arena);

@@ -34,7 +34,7 @@ typedef struct ZpTrack {
   int short_steps; /* in a row, far shorter than the best estimate */
 } ZpTrack;
 
-void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, ZpBandForm form, ZpNewtonWork *newton,
+void zp_track_reserve(ZpTrack *track, const ZpBranchSystem *system, const ZpArrowForm *form, ZpNewtonWork *newton,
                       ZpArena *arena);
 
 /* From the present point, a stable equilibrium, towards m = target. Every point on the way is stable. */

@@ -79,7 +79,7 @@ static void report(Problem *p) {
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
 typedef struct Mode {
-  ZpBand *K;
+  ZpArrow *K;
   double *work;    /* [n] */
   const double *u; /* [n] of length 1 with respect to the masses */
   double omega2;

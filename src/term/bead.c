@@ -144,28 +144,28 @@ size_t zp_bead_rank(const ZpModel *model) {
 typedef struct Scalar {
   const ZpModel *model;
   const ZpAssembly *assembly;
-  double *u, *v; /* [equations] */
+  double *u, *v; /* by places of the block */
 } Scalar;
 
 /* The part where bead `half` ends. The head's term is there where the model has suction, and 0 while none acts. */
 static Scalar part_of(const ZpModel *model, const ZpAssembly *a, int half, const ZpBand *K) {
-  size_t first = (size_t)half * (K->rank / (size_t)zp_beads(&model->film)) * K->n;
-  return (Scalar){model, a, K->u + first, K->v + first};
+  size_t term = (size_t)half * (K->rank / (size_t)zp_beads(&model->film));
+  return (Scalar){model, a, zp_band_term(K, K->u, term), zp_band_term(K, K->v, term)};
 }
 
 static Scalar head_after(Scalar part, const ZpBand *K) {
-  return (Scalar){part.model, part.assembly, part.u + K->n, part.v + K->n};
+  return (Scalar){part.model, part.assembly, zp_band_term(K, part.u, 1), zp_band_term(K, part.v, 1)};
 }
 
 /* The scalar acts on coordinate c with so much force. */
 static void pushes(Scalar z, size_t c, double force) {
-  zp_assembly_add_one(z.assembly, c, -force, z.u);
+  zp_assembly_add_place(z.assembly, c, -force, z.u);
 }
 
 /* Its derivative by the gap of station i. */
 static void follows_gap(Scalar z, size_t i, double by_gap) {
-  zp_assembly_add_one(z.assembly, zp_y_of(zp_upper(&z.model->topology, i)), by_gap, z.v);
-  zp_assembly_add_one(z.assembly, zp_y_of(zp_lower(&z.model->topology, i)), -by_gap, z.v);
+  zp_assembly_add_place(z.assembly, zp_y_of(zp_upper(&z.model->topology, i)), by_gap, z.v);
+  zp_assembly_add_place(z.assembly, zp_y_of(zp_lower(&z.model->topology, i)), -by_gap, z.v);
 }
 
 /* Its derivative by dx/ds at the bead's end, through the x of the nodes there. */
@@ -173,8 +173,8 @@ static void follows_level(Scalar z, const End *end, double by_level) {
   const ZpTopology *t = &z.model->topology;
   double value = 0.5 * by_level / z.model->film.l * (end->at.near < end->at.far ? 1 : -1);
   for (size_t lower = 0; lower < 2 && !is_below(end); lower++) {
-    zp_assembly_add_one(z.assembly, 2 * (zp_upper(t, end->at.far) + lower), value, z.v);
-    zp_assembly_add_one(z.assembly, 2 * (zp_upper(t, end->at.near) + lower), -value, z.v);
+    zp_assembly_add_place(z.assembly, 2 * (zp_upper(t, end->at.far) + lower), value, z.v);
+    zp_assembly_add_place(z.assembly, 2 * (zp_upper(t, end->at.near) + lower), -value, z.v);
   }
 }
 

@@ -70,7 +70,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   if (!(span->h > 0)) return;
   double v = velocity(model, span), warms = zp_end_share(model) * DAMPER_COLD(model) * span->h * grows * v * v;
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
-    zp_assemble_entry(assembly, 2 * zp_lower(t, i) + 1, 2 * zp_lower(t, i) + 1,
+    zp_assemble_entry(assembly, zp_y_of(zp_lower(t, i)), zp_y_of(zp_lower(t, i)),
                       (coefficient(model, span) + warms) / span->h, K);
 }
 

@@ -1,0 +1,30 @@
+/* Matrices of math/arrow.h for tests. */
+#ifndef ARROW_UTIL_H
+#define ARROW_UTIL_H
+
+#include "check_util.h"
+
+#include "math/arrow.h"
+
+/* Of one block: n unknowns, of which the last `band.border` are the border. */
+static inline ZpArrowForm form_of_block(size_t n, ZpBandForm band) {
+  size_t to[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+  ZpArrowForm form;
+  ZpArrowBlock block = {n - band.border, band, to};
+  ck_assert_uint_le(band.border, LENGTH_OF(to));
+  ck_assert(zp_arrow_form_create(&block, 1, band.border, &form));
+  return form;
+}
+
+/* A matrix of zeros, and its memory. */
+static inline void *zero_arrow(ZpArrow *m, const ZpArrowForm *form) {
+  ZpArena arena = {NULL, 0};
+  zp_arrow_reserve(m, form, &arena);
+  void *memory = zp_calloc(1, arena.used);
+  arena = (ZpArena){memory, 0};
+  zp_arrow_reserve(m, form, &arena);
+  zp_arrow_clear(m);
+  return memory;
+}
+
+#endif
