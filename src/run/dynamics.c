@@ -34,6 +34,7 @@ static size_t reserve(ZpDynamics *d, void *block) {
   reserve_equations(d, &arena);
   for (size_t k = 0; k < d->members; k++)
     reserve_member(&d->member[k], &arena);
+  d->joined = zp_arena_take(&arena, d->form.n - d->form.inner);
   d->column = zp_arena_take(&arena, most_places(d));
   d->row = zp_arena_take(&arena, most_places(d));
   d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
@@ -551,19 +552,30 @@ static double mass_at(const ZpMovingMember *m, size_t node) {
   return m->model->mass[node] + (carries ? m->added : 0);
 }
 
+/* Mass of nodes of a member whose height is an unknown of the border => added to `sums` [border], kg. */
+static void add_at_border(const ZpDynamics *d, const ZpMovingMember *m, double *sums) {
+  for (size_t j = 0; j < m->model->count; j++) {
+    const int equation = m->assembly.equation[zp_y_of(j)];
+    if (equation >= (int)d->form.inner) sums[(size_t)equation - d->form.inner] += mass_at(m, j);
+  }
+}
+
 /* Mass of nodes of other members that moves with the height of a node, of each half, kg. */
 static double mass_of_others(const ZpDynamics *d, const ZpMovingMember *m, size_t node) {
   const int equation = m->assembly.equation[zp_y_of(node)];
-  double sum = 0;
-  for (const ZpMovingMember *other = d->member; other < d->member + d->members; other++)
-    for (size_t j = 0; equation >= 0 && other != m && j < other->model->count; j++)
-      if (other->assembly.equation[zp_y_of(j)] == equation) sum += mass_at(other, j);
-  return sum / (double)zp_halves(&m->model->topology);
+  if (equation < (int)d->form.inner) return 0;
+  double own = 0;
+  for (size_t j = 0; j < m->model->count; j++)
+    if (m->assembly.equation[zp_y_of(j)] == equation) own += mass_at(m, j);
+  return (d->joined[(size_t)equation - d->form.inner] - own) / (double)zp_halves(&m->model->topology);
 }
 
 /* Mass that moves with each platform of the members beyond its own. Platforms side by side land together, each with an
  * equal part of all that they move, so that equal members are as one. */
 static void find_joined_masses(ZpDynamics *d) {
+  memset(d->joined, 0, (d->form.n - d->form.inner) * sizeof *d->joined);
+  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
+    add_at_border(d, m, d->joined);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
     const ZpTopology *t = &m->model->topology;
     double own = mass_at(m, zp_load_node(t)), others = mass_of_others(d, m, zp_load_node(t));

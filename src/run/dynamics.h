@@ -39,6 +39,7 @@ typedef struct ZpDynamics {
   ZpImplicit stepper;
   ZpImplicitHistory history;
   double *mass, *q, *v;    /* [n] by equations */
+  double *joined;          /* [border] mass of all nodes that move with an unknown of the border, kg */
   ZpUnknown *kind;         /* [n] */
   double *scale, *sharers; /* [n] */
   double t, h, latest;     /* of the present step: start, length, latest end, s */
