@@ -11,9 +11,14 @@ static void write_commands(void) {
     printf("%s%s", c > word_commands ? " " : "", c->word);
 }
 
+/* Not one that stands for those of all members. */
+static bool is_key(int index) {
+  return strncmp(zp_key(index)->name, "member_K", 8) != 0;
+}
+
 static void write_keys(void) {
   for (int i = 0; i < zp_key_count(); i++)
-    printf("%s%s=", i ? " " : "", zp_key(i)->name);
+    if (is_key(i)) printf("%s%s=", i ? " " : "", zp_key(i)->name);
 }
 
 /* "--set --output ..." of the options `taken`. */
@@ -153,6 +158,7 @@ static void write_fish(void) {
   write_fish_options();
   printf("complete -c zipact -n '__fish_seen_subcommand_from completion' -f -a '" SHELLS "'\n");
   for (int i = 0; i < zp_key_count(); i++) {
+    if (!is_key(i)) continue;
     printf("complete -c zipact -l set -x -a '%s=' -d ", zp_key(i)->name);
     write_quoted(zp_key(i)->help);
     putchar('\n');

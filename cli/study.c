@@ -12,10 +12,10 @@
 /* Report numbers without a unit, which may be meant in another unit than SI. */
 static void note_bare_numbers(const ZpScenario *scenario) {
   double value;
-  for (int i = 0; i < zp_key_count(); i++) {
+  for (int i = 0; zp_key(i); i++) {
+    char name[ZP_KEY_NAME_SIZE];
     if (!zp_scenario_bare_number(scenario, i, &value)) continue;
-    const ZpKey *key = zp_key(i);
-    fprintf(stderr, "zipact: %s: %.6g taken as %.6g %s\n", key->name, value, value, key->unit);
+    fprintf(stderr, "zipact: %s: %.6g taken as %.6g %s\n", zp_key_name(i, name), value, value, zp_key(i)->unit);
   }
 }
 

@@ -71,7 +71,7 @@ static ZpActuatorDef preset_def(ZpPreset preset) {
                          {zp_key_find("solver.tolerance"), 1e-1},
                          {zp_key_find("output.samples"), 20},
                          {zp_key_find("output.shapes"), 4}};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err;
   if (zp_def_resolve(&def, list, sizeof list / sizeof list[0], &err) != ZP_OK) fail("preset", &err);
   def.solver.end_time = 4e-3;

@@ -20,6 +20,7 @@
 #include <zipact/io.h>
 
 #include "check_util.h"
+#include "def/check.h"
 #include "math/skyline.h"
 
 /* -- the wrappers ---------------------------------------------------------------------------------- */
@@ -409,7 +410,7 @@ TEST(bezier_steps_allocate_nothing) {
   ZpAssignment list[] = {{zp_key_find("preset"), ZP_PRESET_PAPER_CODE},
                          {zp_key_find("mesh.nodes"), 21},
                          {zp_key_find("solver.tolerance"), 1e-1}};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ck_assert_int_eq(zp_def_resolve(&def, list, 3, NULL), ZP_OK);
   assert_no_allocation(&def, 25e-3, 5000);
   def.electro.refresh_period = 0;
@@ -435,7 +436,7 @@ static ZpStatus create_scenario(ZpError *err, bool *whole) {
 
 /* What a call that failed must not change: the number of Defs, and a value of the last one. */
 static bool is_untouched(const ZpScenario *scenario, size_t count, double mass) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   bool watching = ledger.watching;
   ledger.watching = false;
   bool same = zp_scenario_count(scenario) == count && zp_scenario_def(scenario, count - 1, &def, NULL) == ZP_OK &&
@@ -559,13 +560,15 @@ static size_t lines_of(const char *text) {
 }
 
 static bool same_def(const ZpScenario *a, const ZpScenario *b, size_t index) {
-  ZpActuatorDef x, y;
-  if (zp_scenario_def(a, index, &x, NULL) != ZP_OK || zp_scenario_def(b, index, &y, NULL) != ZP_OK) return false;
-  for (int i = 0; i < zp_key_count(); i++) {
+  ZpActuatorDef x = {0}, y = {0};
+  bool same = zp_scenario_def(a, index, &x, NULL) == ZP_OK && zp_scenario_def(b, index, &y, NULL) == ZP_OK;
+  for (int i = 0; same && zp_key(i); i++) {
     double value = zp_def_get(&x, i), other = zp_def_get(&y, i);
-    if (value != other && !(isnan(value) && isnan(other))) return false;
+    same = value == other || (isnan(value) && isnan(other));
   }
-  return true;
+  zp_def_clear(&x);
+  zp_def_clear(&y);
+  return same;
 }
 
 /* Do two scenarios stand for the same Defs? */
@@ -684,7 +687,7 @@ static void make_report(const char *text) {
   size_t count = zp_scenario_count(scenario);
   ck_assert_uint_le(count, 8);
   for (size_t i = 0; i < count; i++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ck_ok(zp_scenario_def(scenario, i, &def, &err));
     ck_ok(zp_study_run(zp_scenario_study(scenario), &def, NULL, NULL, &result[i], &err));
   }

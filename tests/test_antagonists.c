@@ -106,8 +106,9 @@ static ZpActuatorDef alone(const ZpActuatorDef *both, bool lower) {
   one.stack.series = 1;
   one.stack.distance = one.stack.lower_voltage = NAN;
   one.stack.voltage_ratio = 1;
-  if (lower && !isnan(both->member_2.ribbon.thickness)) one.ribbon.thickness = both->member_2.ribbon.thickness;
-  one.member_2.ribbon.thickness = NAN;
+  double thickness = zp_def_number(both, "member_2.ribbon.thickness");
+  if (lower && !isnan(thickness)) one.ribbon.thickness = thickness;
+  set_member(&one, "member_2.ribbon.thickness", NAN);
   one.mount.tilt = lower ? pi : 0;
   one.load.mass = 0;
   return one;

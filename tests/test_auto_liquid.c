@@ -20,7 +20,7 @@ TEST(test_auto_is_a_bead_where_one_is_modelled) {
   enum { KEYS = LENGTH_OF(of) };
   for (unsigned set = 0; set < 1u << KEYS; set++) {
     Setting list[KEYS];
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     for (size_t k = 0; k < KEYS; k++)
       list[k] = (Setting){of[k].key, set >> k & 1 ? of[k].other : of[k].asked};
     ck_assert_int_eq(resolve(&def, list, KEYS, NULL), ZP_OK);
@@ -46,7 +46,7 @@ TEST(test_presets_have_none) {
                       {"solver.integrator", ZP_INTEGRATOR_IMPLICIT},
                       {"contact.model", ZP_CONTACT_UNILATERAL},
                       {"electro.surface", ZP_SURFACE_POLYLINE}};
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ck_assert_int_eq(resolve(&def, list, LENGTH_OF(list), NULL), ZP_OK);
     ck_assert_int_eq(def.liquid.model, ZP_LIQUID_NONE);
   }

@@ -490,7 +490,7 @@ TEST(test_paper_code) {
 }
 
 TEST(test_preset_must_be_completed) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err;
   const Setting text[] = {{"preset", ZP_PRESET_PAPER_TEXT}, {"mesh.nodes", 41}, {"damping.drag", 3}};
   ck_says(resolve(&def, text, 2, &err), ZP_BAD_INPUT, "damping.drag");
@@ -526,8 +526,9 @@ TESTS(test_set_range, 0, zp_key_count()) {
     ck_assert_mem_eq(&def, &before, sizeof def);
   }
   if (key->type == ZP_KEY_TEXT) return;
-  if (!zp_key_in_def(_i)) { /* study: of the scenario */
-    ck_says(zp_def_set(&def, _i, key->min, &err), ZP_BAD_INPUT, "is a key of a scenario");
+  if (!zp_key_in_def(_i)) { /* study: of the scenario; or of all members */
+    ck_says(zp_def_set(&def, _i, key->min, &err), ZP_BAD_INPUT,
+            strcmp(key->name, "study") == 0 ? "is a key of a scenario" : "give the number of a member, 1 to 1024");
     return;
   }
   ck_assert_int_eq(zp_def_set(&def, _i, key->min, NULL), ZP_OK);

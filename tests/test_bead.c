@@ -623,7 +623,7 @@ TESTS(test_what_is_refused, 0, 5) {
                {"actuator.kind", ZP_KIND_FLANGE},
                {"bead.volume", 0}};
   Setting list[] = {BEAD, {other[_i].key, other[_i].value}};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err;
   ZpStatus status = resolve(&def, list, 2, &err);
   if (status == ZP_OK) status = zp_study_check(ZP_STUDY_ACTUATE, &def, &err);

@@ -32,9 +32,8 @@ static double cpu_seconds(void) {
 
 static bool has_insulators(const ZpActuatorDef *def) {
   bool bare = false; /* a member of a series */
-  for (int key = 0; key < zp_key_count(); key++)
-    if (strncmp(zp_key(key)->name, "member_", 7) == 0 && strstr(zp_key(key)->name, "insulator.thickness"))
-      bare |= zp_def_get(def, key) == 0;
+  for (int key = zp_def_next_key(def, -1); key >= 0; key = zp_def_next_key(def, key))
+    if (strcmp(zp_key(key)->name, "member_K.insulator.thickness") == 0) bare |= zp_def_get(def, key) == 0;
   return def->actuator.kind != ZP_KIND_RIBBON && def->insulator.thickness > 0 && !bare;
 }
 
@@ -643,7 +642,7 @@ static void run_preset(ZpPreset preset, int nodes, double voltage) {
   ZpAssignment list[] = {{zp_key_find("preset"), preset},         {zp_key_find("mesh.nodes"), nodes},
                          {zp_key_find("drive.voltage"), voltage}, {zp_key_find("solver.end_time"), 1e-4},
                          {zp_key_find("solver.tolerance"), 1e-1}, {zp_key_find("solver.max_steps"), 2500000}};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err;
   char what[64];
   snprintf(what, sizeof what, "%s, N = %d, %g V", zp_key(zp_key_find("preset"))->choices[preset].word, nodes, voltage);
@@ -666,7 +665,7 @@ TEST(presets_ask_for_what_they_lack) {
   for (int preset = 1; preset < ZpPreset_COUNT; preset++) {
     if (preset == ZP_PRESET_PAPER_FE) continue; /* has what it needs at any N */
     ZpAssignment list[] = {{zp_key_find("preset"), preset}, {zp_key_find("mesh.nodes"), 33}};
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ZpError err;
     ck_assert_int_eq(zp_def_resolve(&def, list, 2, &err), ZP_BAD_INPUT);
     ck_assert_msg(strstr(err.message, "damping.drag") || strstr(err.message, "mass_spring.shear_coefficient"), "%s",

@@ -688,7 +688,7 @@ TEST(table_1_of_the_paper) {
     ck_ok(zp_scenario_read(scenario, path, &err));
     ck_assert_uint_eq(zp_scenario_count(scenario), 3);
     for (size_t i = 0; i < 3; i++) {
-      ZpActuatorDef def;
+      ZpActuatorDef def = {0};
       ck_assert_int_eq(zp_scenario_def(scenario, i, &def, &err), ZP_OK);
       set(&def, "mass_spring.shear_coefficient", 2 * def.mass_spring.shear_coefficient); /* not from the answer */
       ZpResult *result = fit(&def);

@@ -90,7 +90,7 @@ TEST(equal_members_catch_as_one) {
   ZpActuatorDef all = DEF(CAUGHT, {"stack.parallel", 2}, {"load.mass", 16e-3}, {"mesh.nodes", 9},
                           {"drive.voltage", 6e3}, {"solver.end_time", 40e-3}, {"liquid.model", ZP_LIQUID_NONE});
   ZpActuatorDef equal = all;
-  all.member_1.ribbon.thickness = nextafter(all.ribbon.thickness, 1);
+  set_member(&all, "member_1.ribbon.thickness", nextafter(all.ribbon.thickness, 1));
   ZpResult *system = answer_of(ZP_STUDY_ACTUATE, &all), *one = answer_of(ZP_STUDY_ACTUATE, &equal);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 5.7e-12); /* 1.9e-12 measured */

@@ -532,7 +532,8 @@ TEST(loop_of_equal_members) {
                           {"control.signal", ZP_CONTROL_CONTRACTION}, {"setpoint.value", 0.1},
                           {"control.proportional", 8e3}, {"control.integral", 6e4}, {"stack.parallel", 2}),
                 all = def;
-  all.member_1.ribbon.thickness = all.member_2.ribbon.thickness = all.ribbon.thickness;
+  set_member(&all, "member_1.ribbon.thickness", all.ribbon.thickness);
+  set_member(&all, "member_2.ribbon.thickness", all.ribbon.thickness);
   all.ribbon.thickness = 40e-6;
   ZpResult *one = study_of(ZP_STUDY_MODES, &def), *system = study_of(ZP_STUDY_MODES, &all);
   for (size_t k = 0; k < LENGTH_OF(name); k++)

@@ -519,7 +519,7 @@ TESTS(wrong_keys, 0, 13) {
   const Setting list[] = {
       {"liquid.model", ZP_LIQUID_NONE}, {"control.kind", ZP_CONTROL_PI}, {"control.signal", ZP_CONTROL_CONTRACTION},
       {"control.proportional", 1e3},    {"setpoint.value", 0.5},         wrong[_i].setting};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err = {ZP_OK, ""};
   ZpStatus status = resolve(&def, list, LENGTH_OF(list), &err);
   if (status == ZP_OK) status = zp_study_check(ZP_STUDY_ACTUATE, &def, &err);

@@ -469,7 +469,7 @@ TEST(equal_members_cycle_as_one) {
   static const char *const name[] = {"cycles", "opening_max_m", "stroke_amplitude_m", "energy_per_cycle_J",
                                      "work_per_cycle_J"};
   ZpActuatorDef all = many((Setting){"stack.parallel", 2}, (Setting){"load.mass", 16e-3}), equal = all;
-  all.member_1.ribbon.thickness = nextafter(all.ribbon.thickness, 1);
+  set_member(&all, "member_1.ribbon.thickness", nextafter(all.ribbon.thickness, 1));
   ZpResult *system = answer_of(ZP_STUDY_CYCLE, &all), *one = answer_of(ZP_STUDY_CYCLE, &equal);
   ck_assert(zp_result_get(one, "periodic") == 1);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
@@ -509,7 +509,8 @@ TESTS(equal_members_answer_as_one, 0, 3) {
   } row[] = {{ZP_LIQUID_NONE, 1e-9}, {ZP_LIQUID_BEAD, 1e-9}, {ZP_LIQUID_SUBMERGED, 1e-9}};
   ZpActuatorDef all = many((Setting){"stack.parallel", 2}, (Setting){"load.mass", 16e-3}), equal = all;
   all.liquid.model = equal.liquid.model = (ZpLiquidModel)row[_i].liquid;
-  all.member_1.ribbon.thickness = all.member_2.ribbon.thickness = all.ribbon.thickness;
+  set_member(&all, "member_1.ribbon.thickness", all.ribbon.thickness);
+  set_member(&all, "member_2.ribbon.thickness", all.ribbon.thickness);
   all.ribbon.thickness = 40e-6; /* of none: these members are a system, although they are equal */
   ZpResult *system = linear_answer_of(&all), *one = linear_answer_of(&equal);
   for (size_t k = 0; k < LENGTH_OF(of_answer); k++) {

@@ -751,7 +751,7 @@ TEST(wrong_inputs) {
 /* The error of a scenario, as the command would print it; "" if it is right. */
 static const char *verdict(const char *text, ZpError *err) {
   ZpScenario *scenario = new_scenario();
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   *err = (ZpError){ZP_OK, ""};
   ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "s.yaml", err);
   if (status == ZP_OK) status = zp_scenario_def(scenario, 0, &def, err);
@@ -840,7 +840,7 @@ TEST(simulation_of_what_the_keys_name) {
 /* Runs a scenario; its written form must stand for the same. */
 static ZpResult *run_scenario(const char *text) {
   ZpScenario *scenario = new_scenario(), *again = new_scenario();
-  ZpActuatorDef def, other;
+  ZpActuatorDef def = {0}, other = {0};
   ZpError err = {ZP_OK, ""};
   char *written;
   size_t size;

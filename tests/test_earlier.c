@@ -52,7 +52,7 @@ TESTS(scenarios_give_the_same_numbers, 0, 5) {
   static const char *const name[] = {"actuate", "stationary", "limits", "isometric", "cycle"};
   char path[256];
   size_t size;
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpScenario *scenario = new_scenario();
   snprintf(path, sizeof path, DATA "%s.yaml", name[_i]);
   ck_ok(zp_scenario_read(scenario, path, &err));

@@ -345,7 +345,7 @@ TEST(run_reads_back) {
 TEST(series_at_rest_reads_back) {
   ZpScenario *scenario =
       SCENARIO("study=stationary", "mesh.nodes=9", "stack.series=2", "liquid.model=none", "output.errors=false");
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ck_ok(zp_scenario_def(scenario, 0, &def, &err));
   ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_uint_eq(result->shapes->members, 2);

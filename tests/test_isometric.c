@@ -90,7 +90,7 @@ TESTS(force_of_a_series_is_slope_of_energy, 0, 4) {
   ZpActuatorDef def = held_def(s, fmax(U, 1), true, 31);
   def.stack.series = 2 + _i / 2;
   def.stack.link_mass = 0.3e-3;
-  def.member_2.ribbon.thickness = 60e-6;
+  set_member(&def, "member_2.ribbon.thickness", 60e-6);
   def.load.mass = 0;
   ZpRest r;
   ck_assert(zp_rest_open_held(&r, model_of(&def), NULL, NULL));

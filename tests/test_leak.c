@@ -364,7 +364,7 @@ TESTS(test_refused, 0, 6) {
             {{"insulator.thickness", 0}, "insulator.thickness"},
             {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT}, "solver.integrator"},
             {{"actuator.kind", ZP_KIND_RIBBON}, "actuator.kind"}};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   Setting all[] = {{"medium.resistivity", 1e10}, of[_i].with};
   ck_ok(resolve(&def, all, 2, &err));
   ck_says(zp_study_check(ZP_STUDY_ACTUATE, &def, &err), ZP_BAD_INPUT, of[_i].says);

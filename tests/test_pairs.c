@@ -150,7 +150,7 @@ static bool takes(ZpStudy study, int a, int b, ZpActuatorDef *def, ZpError *err)
 
 /* Does a message name a key that the feature changes, also by a preset or a supply? */
 static bool is_named(const char *message, ZpStudy study, int feature) {
-  ZpActuatorDef with, without;
+  ZpActuatorDef with = {0}, without = {0};
   fill(study, feature, feature, &with, NULL);
   fill(study, NONE, NONE, &without, NULL);
   for (int key = 0; key < zp_key_count(); key++) {
@@ -230,7 +230,7 @@ static int list_refusal(FILE *file, int a, int b, bool alone[FEATURES][STUDIES])
   char words[128] = "", reason[sizeof((ZpError *)0)->message] = "";
   int refused = 0;
   for (size_t k = 0; k < STUDIES; k++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ZpError err = {ZP_OK, ""};
     if (a != b && !(alone[a][k] && alone[b][k])) continue;
     bool counts = a != b && !is_of_paper(a) && !is_of_paper(b);
@@ -283,7 +283,7 @@ TEST(refused_pairs_are_listed) {
   int pairs = 0, refused = 0, cases = 0, refused_cases = 0;
   for (int a = 0; a < FEATURES; a++)
     for (size_t k = 0; k < STUDIES; k++) {
-      ZpActuatorDef def;
+      ZpActuatorDef def = {0};
       alone[a][k] = takes(studies[k], a, a, &def, NULL);
     }
   for (int a = 0; a < FEATURES; a++)
@@ -322,7 +322,7 @@ static bool starts(const ZpActuatorDef *def, const char *name) {
  * beside whatever integrator the pair has. What study actuate refuses does not start. */
 static void check_start(int a, int b, const char *name) {
   for (int paper = 0; paper <= 1; paper++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     if (fill(ZP_STUDY_STATIONARY, a, b, &def, NULL) != ZP_OK) continue;
     if (paper) def.contact.model = ZP_CONTACT_SEQUENTIAL;
     *def.sensitivity.by = 0; /* of studies alone */
@@ -558,7 +558,7 @@ static double allowed_gradient(const ZpActuatorDef *def) {
 
 /* All members of the model. */
 static void check_at_rest(int a, int b, const char *name) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   if (!takes(ZP_STUDY_STATIONARY, a, b, &def, NULL)) return;
   ZpModel *model = model_of(&def);
   AtRest worst = {0, 0};
@@ -684,7 +684,7 @@ static void check_continued(const ZpActuatorDef *def, const void *halfway, const
 }
 
 static void check_in_motion(int a, int b, const char *name) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   if (!takes(ZP_STUDY_ACTUATE, a, b, &def, NULL) || is_refused_at_rest(&def, a, b, name)) return;
   ZpModel *model = NULL;
   ZpSim *sim = start(&def, &model, name);
@@ -763,7 +763,7 @@ static double motion_difference(const ZpActuatorDef *one, const ZpActuatorDef *m
 
 /* A feature with another one that makes `times` as much of it. */
 static void compare(int a, int other, double times, const char *name) {
-  ZpActuatorDef one, many;
+  ZpActuatorDef one = {0}, many = {0};
   if (a == other || are_alternatives(a, other) || find(&parsed[a], zp_key_find("stack.parallel"))) return;
   if (!takes(ZP_STUDY_ACTUATE, a, a, &one, NULL) || !takes(ZP_STUDY_ACTUATE, a, other, &many, NULL)) return;
   bool fed = one.source.model == ZP_SOURCE_AMPLIFIER; /* steps differ, because the supply is there once */
@@ -805,7 +805,7 @@ static bool has_answered(const ZpResult *result) {
 /* NULL: the study does not take the pair. The answer may be that there is no hanging equilibrium. Where so coarse a
  * mesh has none, a finer one has. */
 static ZpResult *answer(ZpStudy study, int a, int b, const char *name) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   if (!takes(study, a, b, &def, NULL) || is_neutral(&def)) return NULL;
   ZpResult *result = run_study(study, &def, name);
   if (!has_answered(result)) {
@@ -833,7 +833,7 @@ static double pull_at(const ZpActuatorDef *def, double opening) {
 
 /* An actuator that is held at the opening at which it hangs needs the force of its load. */
 static double hold_error(int a, int b, const ZpResult *hanging, const char *name) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   if (!takes(ZP_STUDY_ISOMETRIC, a, b, &def, NULL)) return 0;
   double opening = zp_result_get(hanging, "opening_m");
   def.isometric.separation = zp_def_has(&def, ZP_DEVICE_PLATFORM) ? opening : zp_result_get(hanging, "stroke_m");
@@ -861,7 +861,7 @@ static void check_studies(int a, int b, const char *name) {
   double limit = 0, hold = of[ZP_STUDY_STATIONARY] ? hold_error(a, b, of[ZP_STUDY_STATIONARY], name) : 0;
   for (size_t k = 0; limits && branch && k < LENGTH_OF(voltages); k++)
     limit = larger(limit, difference(limits, branch, voltages[k]));
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   bool sprung = takes(ZP_STUDY_CYCLE, a, b, &def, NULL) && def.ribbon.model == ZP_RIBBON_MASS_SPRING;
   double energy = cycle && cycle->series ? energy_error(cycle->series) : 0;
   double work = of[ZP_STUDY_PROFILE] ? fabs(zp_result_get(of[ZP_STUDY_PROFILE], "virtual_work_difference")) : 0;
@@ -938,7 +938,7 @@ static void check_derivatives(int a, int b, const char *name) {
             {ZP_STUDY_MODES, "frequency_1_Hz"}};
   if (a != b || a == feature("derivatives")) return;
   for (size_t k = 0; k < LENGTH_OF(of); k++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     if (!takes(of[k].study, a, a, &def, NULL) || is_neutral(&def)) continue;
     Givens keys = parsed[a];
     give(&keys, "load.mass=8 g");
@@ -971,7 +971,7 @@ static double residual_of(const ZpActuatorDef *plain, const char *columns, const
 
 /* A fit without keys to fit finds no difference to strokes that study stationary and a run in time have. */
 static void check_measured(int a, int b, const char *name) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   if (a != b || !takes(ZP_STUDY_STATIONARY, a, a, &def, NULL) || is_neutral(&def)) return;
   static const double mass[] = {1e-3, 1.2e-3}, time[] = {4e-3, 8e-3};
   *def.sensitivity.by = 0; /* takes other steps */

@@ -55,6 +55,11 @@ def fault(document):
     return error and "%s: %s" % ("/".join(map(str, error.path)), error.message[:200])
 
 
+def pattern_of(name):
+    """That of the name of a key of any member."""
+    return name.replace("_K", "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])").replace(".", "[.]")
+
+
 # every key, as a dotted name and in its group, with what is told of it
 keys = json.loads(printed("keys", "--json"))
 for key in keys:
@@ -62,12 +67,15 @@ for key in keys:
     entry = schema["definitions"][name]
     ok("%s has its help" % name, entry["description"].startswith(key["help"]))
     ok("%s has its unit" % name, key["type"] not in ("real", "real_auto") or entry["x-unit"] == key["unit"])
-    ok("%s stands at the root" % name, schema["properties"][name] == {"$ref": "#/definitions/" + name})
+    of_members = name.startswith("member_K")  # which stands for those of every member
+    place = schema["patternProperties"]["^%s$" % pattern_of(name)] if of_members else schema["properties"][name]
+    ok("%s stands at the root" % name, place == {"$ref": "#/definitions/" + name})
     place = schema
     for part in name.split("."):
-        place = place["properties"][part]
+        place = place["patternProperties"]["^%s$" % pattern_of(part)] if part == "member_K" else place["properties"][part]
     ok("%s stands in its group" % name, place == {"$ref": "#/definitions/" + name})
     default = json.dumps(entry["default"])
+    name = name.replace("_K", "_12")
     ok("%s: its default %s is right" % (name, default), not fault("%s: %s" % (name, default)))
     for choice in key["choices"]:
         ok("%s: %s is right" % (name, choice["word"]), not fault("%s: %s" % (name, choice["word"])))
@@ -109,9 +117,16 @@ RIGHT = [
     "ribbon.poisson_ratio: 30 %",
     "medium.kinematic_viscosity: 50 cSt",
     "load.mass:  8g ",
+    "stack.series: 12\nmember_12.ribbon.thickness: 60 um",
+    "stack.series: 12\nmember_9: {ribbon: {thickness: [50 um, auto]}, insulator.thickness: 100 um}",
+    "stack.series: 12\nmember_10.ribbon: {young_modulus: 100 GPa}",
 ]
 WRONG = [
     "load.mas: 8 g",
+    "member_0.ribbon.thickness: 60 um",
+    "member_1025.ribbon.thickness: 60 um",
+    "member_K.ribbon.thickness: 60 um",
+    "member_3: {ribbon: {thicknes: 60 um}}",
     "load: {mas: 8 g}",
     "load: 8 g",
     "load.mass: heavy",

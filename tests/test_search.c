@@ -334,7 +334,7 @@ TEST(rows_have_their_variables) {
   const ZpReport *report = zp_optimization_report(o);
   ck_assert_uint_gt(report->count, 8);
   for (size_t i = 0; i < report->count; i++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ck_assert_int_eq(zp_scenario_def(report->scenario, i, &def, NULL), ZP_OK);
     ck_near(row_value(report, i, "stroke_m"), stroke_of(def.ribbon.width, def.ribbon.thickness),
             1e-4); /* 3.4e-5 measured: the arm becomes shorter */

@@ -159,7 +159,7 @@ TESTS(test_refused, 0, 7) {
             {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 4500}}, "a whole multiple"},
             {{{"sense.frequency", 1e3}, {"sense.amplitude", 1}, {"sense.sampling_rate", 1e9}}, "samples until"},
             {{{"sense.frequency", 10}, {"sense.amplitude", 1}, {"sense.sampling_rate", 100}}, "sense.bandwidth"}};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   size_t count = 0;
   while (count < 3 && of[_i].with[count].key)
     count++;

@@ -1,6 +1,7 @@
 /* Derivatives of states of rest and of limits by keys, theory section 20: against differences of the outputs, closed
  * forms, reciprocity and scaling. */
 #include "check_util.h"
+#include "def/check.h"
 #include "system/by_key.h"
 
 /* d log output / d log key. */
@@ -32,6 +33,7 @@ static void go_around(Around *around, ZpStudy study, const ZpActuatorDef *def, i
     ck_assert_int_eq(zp_def_set(&near, key, value + (k - 3) * around->step, NULL), ZP_OK);
     around->at[k] = answer_of(study, &near);
   }
+  lend_members(&near);
 }
 
 /* A finite difference of sixth order. */
@@ -54,12 +56,12 @@ static void check_differences(ZpStudy study, const ZpActuatorDef *given, const c
   for (size_t i = 0; i < result->sensitivities; i++) {
     const ZpSensitivity *s = &result->sensitivity[i];
     bool exists = !isnan(zp_result_get(result, s->output));
-    if (!exists || fabs(exponent(result, &def, s->output, zp_key(s->key)->name)) < least) continue;
+    if (!exists || fabs(exponent(result, &def, s->output, ZP_KEY_NAME(s->key))) < least) continue;
     if (s->key != around.key) go_around(&around, study, &def, s->key, part);
     double difference = difference_of(&around, s->output);
     ck_assert_msg(fabs(s->value - difference) <= allowed * fabs(difference), "%s by %s: %.9g, by differences %.9g",
-                  s->output, zp_key(s->key)->name, s->value, difference);
-    note_check(__func__, s->output, zp_key(s->key)->name, fabs(s->value / difference - 1), allowed);
+                  s->output, ZP_KEY_NAME(s->key), s->value, difference);
+    note_check(__func__, s->output, ZP_KEY_NAME(s->key), fabs(s->value / difference - 1), allowed);
   }
 }
 

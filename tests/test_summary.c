@@ -274,7 +274,7 @@ TEST(summary_goes_before_files_are_written) {
 /* The state at the end of a run in time is a file from which that model can continue. */
 TEST(state_at_the_end_is_a_file) {
   ZpScenario *scenario = SCENARIO("mesh.nodes=9", "liquid.model=none", "output.errors=false", "solver.end_time=1 ms");
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpCheckpoint *read = NULL;
   ZpError err = {ZP_OK, ""};
   ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);

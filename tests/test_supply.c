@@ -672,7 +672,7 @@ TESTS(equal_members_behind_a_supply_are_one, 0, 3) {
                           {"load.mass", 16e-3}, {"drive.voltage", 6e3}, {"source.model", ZP_SOURCE_AMPLIFIER},
                           {"stack.parallel", 2}, behind[_i][0], behind[_i][1]);
   ZpActuatorDef equal = all;
-  all.member_1.ribbon.thickness = nextafter(all.ribbon.thickness, 1);
+  set_member(&all, "member_1.ribbon.thickness", nextafter(all.ribbon.thickness, 1));
   ZpResult *system = answer_of(ZP_STUDY_ACTUATE, &all), *one = answer_of(ZP_STUDY_ACTUATE, &equal);
   for (size_t k = 0; k < LENGTH_OF(name); k++)
     ck_near(zp_result_get(system, name[k]), zp_result_get(one, name[k]), 3.5e-10); /* 1.2e-10 measured */

@@ -69,7 +69,7 @@ static bool says(const char *name, const char *words) {
 /* Draw one shape at rest into base/out, with the templates of base/mine where `own` says so. */
 static void draw(bool own) {
   ZpError err = {0};
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpScenario *scenario =
       scenario_with((const char *const[]){"study=stationary", "mesh.nodes=15", "output.errors=false", NULL});
   char *folder = in_base("mine"), *out = in_base("out");

@@ -199,7 +199,7 @@ static ZpActuatorDef moving(int k, int symmetry, double step) {
                        {"actuator.symmetry", symmetry},
                        {"solver.time_step", step}};
   size_t count = 6;
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   for (size_t i = 0; i < 4 && with[k][i].key && count < MOST; i++)
     all[count++] = with[k][i];
   ck_ok(resolve(&def, all, count, &err));

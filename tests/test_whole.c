@@ -236,8 +236,8 @@ TESTS(tilted_members_move_together, 0, LENGTH_OF(stack)) {
     def.mount.tilt = k ? -0.3 : 0.3;
     def.solver.end_time = 30e-3;
     if (_i == 1 && k) {
-      def.member_2.insulator.thickness = def.member_1.insulator.thickness;
-      def.member_1.insulator.thickness = NAN;
+      set_member(&def, "member_2.insulator.thickness", zp_def_number(&def, "member_1.insulator.thickness"));
+      set_member(&def, "member_1.insulator.thickness", NAN);
     }
     result[k] = answer_of(ZP_STUDY_ACTUATE, &def);
     ck_below(zp_result_get(result[k], "energy_error"), 1e-8); /* 3.2e-9 measured */

@@ -93,6 +93,14 @@ EXPORT const char *zp_web_key_name(int index) {
   return zp_key(index)->name;
 }
 
+/* The key of the resolved scenario that follows, after -1 the first, -1 after the last; and its name, in the text. */
+EXPORT int zp_web_next_key(ZpWeb *web, int index) {
+  const int next = zp_def_next_key(&web->def, index);
+  char name[ZP_KEY_NAME_SIZE];
+  if (next >= 0) snprintf(web->text, TEXT_SIZE, "%s", zp_key_name(next, name));
+  return next;
+}
+
 EXPORT const char *zp_web_key_shown(int index) {
   return zp_key(index)->shown;
 }
@@ -128,7 +136,7 @@ EXPORT const char *zp_web_choice_help(int index, int choice) {
 
 /* Value of a key in the resolved scenario, SI. */
 EXPORT double zp_web_key_value(const ZpWeb *web, int index) {
-  return zp_key_in_def(index) ? zp_def_get(&web->def, index) : (double)web->study;
+  return index == zp_key_find("study") ? (double)web->study : zp_def_get(&web->def, index);
 }
 
 /* (key, SI) => text "8 g". */
@@ -160,7 +168,7 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   else if (zp_value_read(key, sign + 1, &value, &err) != ZP_OK)
     snprintf(message, sizeof message, "%s=%.80s: %s", web->text, sign + 1, err.message);
   else {
-    if (zp_key_in_def(key))
+    if (key != zp_key_find("study"))
       web->list[web->assigned++] = (ZpAssignment){key, value};
     else
       web->asked = (ZpStudy)value;
@@ -201,15 +209,16 @@ static ZpStatus derive(const ZpActuatorDef *def, double value[AUTOMATIC], ZpErro
 /* All assignments => the scenario. If they are refused, the scenario is unchanged. */
 EXPORT int zp_web_resolve(ZpWeb *web) {
   ZpError err;
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   double value[AUTOMATIC];
   ZpStatus status = zp_def_resolve(&def, web->list, web->assigned, &err);
   if (status == ZP_OK) status = zp_study_check(web->asked, &def, &err);
   if (status == ZP_OK) status = refuse_left_out(web->asked, &def, &err);
   if (status == ZP_OK) status = derive(&def, value, &err);
+  if (status == ZP_OK) status = zp_def_assign(&web->def, &def, &err);
+  zp_def_clear(&def);
   if (status == ZP_OK) {
     web->study = web->asked;
-    web->def = def;
     memcpy(web->automatic, value, sizeof value);
   }
   return say(web, status, err.message);

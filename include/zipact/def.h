@@ -98,14 +98,22 @@ ZP_API ZpActuatorDef *zp_def_copy(const ZpActuatorDef *def);
 /* Free it; NULL is allowed. */
 ZP_API void zp_def_destroy(ZpActuatorDef *def);
 
-/* Number of keys. */
+/* Number of keys. Those of all members of a stack count once: member_K.ribbon.thickness and so on, without a value. */
 ZP_API int zp_key_count(void);
 
-/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`; NULL for any other. */
+/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`. Keys of members follow, for each of which
+ * this is the one that stands for those of all members. NULL for any other. */
 ZP_API const ZpKey *zp_key(int index);
 
-/* Index of the key called `name`, or -1. */
+/* Index of the key called `name`, or -1. That of member_1.ribbon.thickness and so on is zp_key_count() or more. */
 ZP_API int zp_key_find(const char *name);
+
+/* Bytes of the name of a key with the final 0, at most. */
+#define ZP_KEY_NAME_SIZE 64
+
+/* The name of key `index`: of a member's "member_3.ribbon.thickness", which is written into `text`, else
+ * zp_key(index)->name. NULL if there is no such key. */
+ZP_API const char *zp_key_name(int index, char text[ZP_KEY_NAME_SIZE]);
 
 /* Number of letters that must be inserted, deleted, replaced or swapped with the next to turn one word into the other,
  * ignoring case. Letters after the 63rd are ignored. */
@@ -122,8 +130,12 @@ ZP_API void zp_key_unknown(const char *name, char *text, size_t size);
 /* Place of `word` in the list of the choice key `index`, or -1. */
 ZP_API int zp_key_choice(int index, const char *word);
 
-/* Does a Def have key `index`? False for the key of the scenario: study. */
+/* Does a Def have key `index`? False for the key of the scenario, study, and for those that stand for all members. */
 ZP_API bool zp_key_in_def(int index);
+
+/* The key that follows `index` in the order of `zipact keys`, after -1 the first, -1 after the last: all keys that
+ * zp_key_count counts but those that stand for all members, and in their place the members' keys that `def` has. */
+ZP_API int zp_def_next_key(const ZpActuatorDef *def, int index);
 
 /* Value of key `index` in `def`, as in ZpAssignment; NAN for a text key and for a key of the scenario. */
 ZP_API double zp_def_get(const ZpActuatorDef *def, int index);

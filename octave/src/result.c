@@ -82,11 +82,12 @@ static mxArray *group_of(mxArray *all, const char *name, const char **field) {
 /* All keys, with groups as structs, in a form that zipact accepts, too. */
 static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
   mxArray *all = new_struct();
-  for (int i = 0; i < zp_key_count(); i++) {
+  for (int i = zp_def_next_key(def, -1); i >= 0; i = zp_def_next_key(def, i)) {
     const ZpKey *key = zp_key(i);
+    char name[ZP_KEY_NAME_SIZE];
     mxArray *value = key_value(key, zp_key_in_def(i) ? zp_def_get(def, i) : (double)study, zp_def_text(def, i));
     const char *field;
-    mxArray *group = group_of(all, key->name, &field);
+    mxArray *group = group_of(all, zp_key_name(i, name), &field);
     set(group, 0, field, value);
   }
   return all;
@@ -176,7 +177,8 @@ static mxArray *sensitivity_struct(const ZpResult *result) {
   for (size_t i = 0; i < zp_result_sensitivities(result); i++) {
     const ZpSensitivity *s = zp_result_sensitivity(result, i);
     if (mxGetFieldNumber(all, s->output) < 0) set(all, 0, s->output, new_struct());
-    set(mxGetField(all, 0, s->output), 0, zp_key(s->key)->name, mxCreateDoubleScalar(s->value));
+    char key[ZP_KEY_NAME_SIZE];
+    set(mxGetField(all, 0, s->output), 0, zp_key_name(s->key, key), mxCreateDoubleScalar(s->value));
   }
   return all;
 }

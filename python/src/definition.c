@@ -26,7 +26,8 @@ static bool is_plain_number(PyObject *object, double *value) {
 int number_of(const State *state, int key, PyObject *object, double *value) {
   if (is_number_key(key) && is_plain_number(object, value)) return 0;
   PyObject *text = PyObject_Str(object);
-  const char *words = text ? text_of(state, text, zp_key(key)->name) : NULL;
+  char name[ZP_KEY_NAME_SIZE];
+  const char *words = text ? text_of(state, text, zp_key_name(key, name)) : NULL;
   ZpError err;
   int status = -1;
   if (words) {
@@ -39,7 +40,8 @@ int number_of(const State *state, int key, PyObject *object, double *value) {
 
 /* Messages start with the name of the key. */
 static int fail_renamed(const State *state, int key, const char *name, const ZpError *err) {
-  raise_input(state, "%s%s", name, err->message + strlen(zp_key(key)->name));
+  char own[ZP_KEY_NAME_SIZE];
+  raise_input(state, "%s%s", name, err->message + strlen(zp_key_name(key, own)));
   return -1;
 }
 
@@ -94,7 +96,7 @@ static int set_text(const State *state, ZpActuatorDef *def, int key, PyObject *v
 
 /* The key of the scenario that is not part of the Def. */
 static bool is_study(int key) {
-  return !zp_key_in_def(key);
+  return key == zp_key_find("study");
 }
 
 /* The dictionary `values` => assignments and the study; their number, or -1. Converting a value to a text may run
@@ -264,6 +266,20 @@ static PyObject *definition_get(PyObject *object, PyObject *name) {
   return isnan(value) ? text_from(zp_key(key)->text) : PyFloat_FromDouble(value);
 }
 
+/* All keys, of members of a stack those that are given. */
+static PyObject *definition_keys(PyObject *object, PyObject *unused) {
+  const ZpActuatorDef *def = ((Definition *)object)->def;
+  PyObject *list = PyList_New(0);
+  (void)unused;
+  for (int key = zp_def_next_key(def, -1); list && key >= 0; key = zp_def_next_key(def, key)) {
+    char text[ZP_KEY_NAME_SIZE];
+    PyObject *name = text_from(zp_key_name(key, text));
+    if (!name || PyList_Append(list, name)) Py_CLEAR(list);
+    Py_XDECREF(name);
+  }
+  return list;
+}
+
 static PyObject *definition_run(PyObject *object, PyObject *progress) {
   Definition *self = (Definition *)object;
   Watch watch;
@@ -283,6 +299,7 @@ static PyObject *definition_run(PyObject *object, PyObject *progress) {
 }
 
 static PyMethodDef methods[] = {
+    {"keys", definition_keys, METH_NOARGS, "Names of its keys, of members of a stack those that are given."},
     {"get", definition_get, METH_O, "Value of a key: float, int, bool or str; SI."},
     {"run", definition_run, METH_O, "Run its study; takes a function (stage, fraction) or None."},
     {NULL, NULL, 0, NULL},

@@ -99,7 +99,8 @@ static PyObject *get_sensitivities(PyObject *self, void *unused) {
   PyObject *list = PyTuple_New((Py_ssize_t)zp_result_sensitivities(result));
   for (size_t i = 0; list && i < zp_result_sensitivities(result); i++) {
     const ZpSensitivity *s = zp_result_sensitivity(result, i);
-    PyObject *item = Py_BuildValue("(ssd)", s->output, zp_key(s->key)->name, s->value);
+    char key[ZP_KEY_NAME_SIZE];
+    PyObject *item = Py_BuildValue("(ssd)", s->output, zp_key_name(s->key, key), s->value);
     if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
   }
   return list;

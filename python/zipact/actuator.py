@@ -3,6 +3,7 @@
 import itertools
 import json
 import os
+import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, NamedTuple, Unpack
 
@@ -32,8 +33,18 @@ class Key(NamedTuple):
     """words that a key of kind word takes, and their meanings"""
 
 
-KEYS: dict[str, Key] = {row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()}
-"""Every key by its name, "load.mass"."""
+class Keys(dict[str, Key]):
+    """Every key by its name, "load.mass". Those of all members of a stack are listed once, with K in the place of a number;
+    "member_3.ribbon.thickness" is found as well."""
+
+    def __missing__(self, name: str) -> Key:
+        row, numbers = re.subn(r"^member_[1-9][0-9]{0,3}[.]", "member_K.", name)
+        if numbers == 0 or row not in self:
+            raise KeyError(name)
+        return self[row]._replace(name=name)
+
+
+KEYS = Keys({row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()})
 
 FILES = ("data.file", "drive.file", "setpoint.file", "initial.file")  # kept as absolute paths, as in a scenario
 
@@ -45,12 +56,19 @@ def key_name(keyword: str) -> str:
     return keyword.replace("__", ".")
 
 
+def is_key(name: str) -> bool:
+    try:
+        return KEYS[name].name == name and not name.startswith("member_K")
+    except KeyError:
+        return False
+
+
 def given_keys(groups: Mapping[str, Any] | None, keywords: Mapping[str, Any]) -> dict[str, Any]:
     """{"load": {"mass": "20 g"}}, {"load.mass": "20 g"} and load__mass="20 g" => {"load.mass": "20 g"}; keywords come last."""
     given: dict[str, Any] = {}
     for name, value in [*(groups or {}).items(), *keywords.items()]:
         key = key_name(name)
-        if isinstance(value, Mapping) and value and key not in KEYS:
+        if isinstance(value, Mapping) and value and not is_key(key):
             given.update((f"{key}.{inner}", of) for inner, of in given_keys(value, {}).items())
         else:
             given[key] = value
@@ -96,7 +114,7 @@ class Actuator(Mapping[str, Any]):
 
     drive=(times, voltages), arrays in s and V, replaces drive.waveform in study actuate and in Simulation.
 
-    As a mapping it contains every key: actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printing it
+    As a mapping it contains every key, of members of a stack those that are given: actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printing it
     shows the keys that differ from the defaults.
     """
 
@@ -158,19 +176,19 @@ class Actuator(Mapping[str, Any]):
         return self._definition.get(key_name(key))
 
     def __iter__(self) -> Iterator[str]:
-        return iter(KEYS)
+        return iter(self._definition.keys())
 
     def __len__(self) -> int:
-        return len(KEYS)
+        return len(self._definition.keys())
 
     def __contains__(self, key: object) -> bool:
-        return isinstance(key, str) and key_name(key) in KEYS
+        return isinstance(key, str) and is_key(key_name(key))
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Actuator):
             return NotImplemented
         same_drive = np.array_equal(self._drive or (), other._drive or ())
-        return same_drive and list(self.values()) == list(other.values())
+        return same_drive and list(self.items()) == list(other.items())
 
     def __hash__(self) -> int:
         return hash(tuple(self.values()))
@@ -190,19 +208,19 @@ def plain_number(value: Any) -> Any:
 
 
 def values_of(definition: _zipact.Definition) -> dict[str, Any]:
-    return {name: definition.get(name) for name in KEYS}
+    return {name: definition.get(name) for name in definition.keys()}
 
 
 def differences(definition: _zipact.Definition) -> dict[str, Any]:
     """The keys whose values differ from the defaults. Words come first, because they set defaults of other keys: a preset,
     the kind, a material."""
     values, defaults = values_of(definition), values_of(DEFAULT)
-    words = {name: values[name] for name, key in KEYS.items() if key.kind == "word" and values[name] != defaults[name]}
+    words = {name: value for name, value in values.items() if KEYS[name].kind == "word" and value != defaults[name]}
     try:
         defaults = values_of(_zipact.Definition(words))
     except _zipact.InputError:  # a word that requires another key: ignore its defaults
         words = {}
-    return words | {name: value for name, value in values.items() if value != defaults[name]}
+    return words | {name: value for name, value in values.items() if value != defaults.get(name)}
 
 
 DEFAULT = _zipact.Definition({})

@@ -49,7 +49,8 @@ class Batch(Sequence[Result]):
     @property
     def varied(self) -> list[str]:
         """the keys in which the actuators differ"""
-        return [key for key in KEYS if len({actuator[key] for actuator in self.actuators}) > 1]
+        keys = dict.fromkeys(key for actuator in self.actuators for key in actuator)
+        return [key for key in keys if len({actuator[key] for actuator in self.actuators}) > 1]
 
     @property
     def units(self) -> dict[str, str]:

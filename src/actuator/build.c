@@ -782,7 +782,7 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
 /* One actuator, or one member of a stack. */
 static void derive_member(const ZpActuatorDef *def, size_t member, ZpModel *model) {
   model->def = model->members > 1 ? zp_def_member(def, (int)member + 1) : *def;
-  model->whole = *def;
+  model->def.members = NULL;
   model->ratio = 1;
   derive(model);
   model->parallel = model->members > 1 && zp_def_parallel(def);
@@ -814,9 +814,12 @@ ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpM
   size_t members = (size_t)zp_def_members(def);
   ZpModel *model = zp_calloc(members, sizeof *model);
   if (!model) return zp_fail_memory(err);
-  for (size_t k = 0; k < members; k++)
+  ZpActuatorDef *whole = zp_def_copy(def);
+  for (size_t k = 0; k < members; k++) {
     model[k].members = members;
-  status = fill_all(def, table, model, err);
+    model[k].whole = whole;
+  }
+  status = whole ? fill_all(def, table, model, err) : zp_fail_memory(err);
   if (status == ZP_OK)
     *out = model;
   else
@@ -827,6 +830,7 @@ ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpM
 void zp_model_destroy(ZpModel *model) {
   for (size_t k = 0; model && k < model->members; k++)
     zp_free(model[k].memory);
+  if (model) zp_def_destroy(model->whole);
   zp_free(model);
 }
 

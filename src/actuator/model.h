@@ -87,7 +87,7 @@ typedef struct ZpLaw {
 
 struct ZpModel {
   ZpActuatorDef def;
-  ZpActuatorDef whole;      /* of the system whose member it is; else `def` */
+  ZpActuatorDef *whole;     /* of the system whose member it is; the first one owns it */
   ZpLaw law[ZP_MOST_TERMS]; /* in the order in which they are added */
   size_t laws;
   unsigned char losing[ZP_MOST_TERMS]; /* numbers of the laws that lose energy over a span */

@@ -189,12 +189,13 @@ static bool hash_cases(const ZpCampaign *c, size_t from, size_t to, uint64_t has
   uint64_t before = c->start;
   bool known = true;
   for (size_t i = from; i < to; i++) {
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     const bool resolved =
         zp_scenario_given(c->scenario, i, &def, NULL) == ZP_OK; /* otherwise the run reports the reason */
     if ((i - from) % c->chunk == 0) before = c->start;
     before = hash[i - from] = resolved ? zp_case_hash(before, &def) : before;
     known = known && resolved && c->hash[i] == before;
+    zp_def_clear(&def);
   }
   return known;
 }
@@ -412,9 +413,10 @@ static ZpCampaign *create(void) {
 }
 
 static ZpStatus open_campaign(ZpCampaign *c, const char *directory, ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpStatus status = zp_scenario_def(c->scenario, 0, &def, err);
   if (status == ZP_OK) status = zp_campaign_hash(c->study, &def, &c->start, err);
+  zp_def_clear(&def);
   if (status == ZP_OK) status = zp_journal_open(directory, c->study, c->options.resume, c->cases, &c->journal, err);
   c->rows = zp_journal_rows(c->journal);
   return status == ZP_OK ? zp_journal_visit(c->journal, take_old_row, c, err) : status;

@@ -9,6 +9,7 @@
 #include <zipact/version.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "def/purpose.h"
 #include "io/file.h"
 #include "io/range.h"
@@ -72,9 +73,10 @@ ZpStatus zp_campaign_hash(ZpStudy study, const ZpActuatorDef *def, uint64_t *has
 /* Pictures and a time limit are not part of a result, and the values of a case include how it was chosen. */
 uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {
   uint64_t hash = before;
-  for (int i = 0; i < zp_key_count(); i++) {
+  for (int i = zp_def_next_key(def, -1); i >= 0; i = zp_def_next_key(def, i)) {
     const char *text = zp_def_text(def, i);
     if (zp_key_purposes(i) & ZP_NO_RESULT) continue;
+    if (zp_key_member(i) > 0) hash = add_number(hash, i); /* those of others are not given */
     hash = text ? add_text(hash, text) : add_number(hash, zp_def_get(def, i));
   }
   return hash ? hash : 1;

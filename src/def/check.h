@@ -9,8 +9,8 @@
  * rounded by this much, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
-/* Largest number of members of a series: keys.def has this many groups member_K. */
-enum { ZP_MOST_MEMBERS = 8 };
+/* Largest number of members of a system, and of those whose heights are tied at rest. */
+enum { ZP_MOST_MEMBERS = 1024, ZP_MOST_TIED = 10 };
 
 /* One byte per key, in the order of the table: the offset of a key or group in this struct is its number. */
 #define ZP_GROUP(group) struct {
@@ -25,6 +25,30 @@ typedef struct ZpKeyNumbers {
 /* Number of keys, as a constant. */
 enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
 
+/* Keys of one member. That of member m = 1 .. ZP_MOST_MEMBERS which row r of the group member_K stands for has the
+ * index ZP_KEYS + (m - 1) ZP_MEMBER_KEYS + r. */
+enum { ZP_MEMBER_KEYS = sizeof(((ZpKeyNumbers *)0)->member_K) };
+
+/* The key of this name; -1: there is none, or it stands for those of all members, so that it has no value. */
+int zp_key_with_value(const char *name);
+
+/* The key of a member that row `row` of the group member_K stands for. */
+int zp_key_of_member(int row, int member);
+
+/* The member whose key this is; 0: it is none of a member. */
+static inline int zp_key_member(int index) {
+  return index < ZP_KEYS ? 0 : 1 + (index - ZP_KEYS) / ZP_MEMBER_KEYS;
+}
+
+/* "member_12.ribbon" => 12 and ".ribbon"; 0: the name does not begin with a member from 1 to ZP_MOST_MEMBERS. */
+int zp_member_named(const char *name, const char **rest);
+
+/* Keys in the order of the table, those of members where their rows stand: below 0 if the first one comes first. */
+int zp_key_order(int one, int other);
+
+/* The name of a key, for a message: it lasts as long as the block around it. */
+#define ZP_KEY_NAME(index) zp_key_name(index, (char[ZP_KEY_NAME_SIZE]){0})
+
 /* The keys of a group: first .. end - 1. */
 typedef struct ZpKeyGroup {
   const char *name;
@@ -35,6 +59,11 @@ typedef struct ZpKeyGroup {
 #group, (int)offsetof(ZpKeyNumbers, group),                                                                        \
         (int)(offsetof(ZpKeyNumbers, group) + sizeof(((ZpKeyNumbers *)0)->group))                                      \
   }
+
+/* A Def may be copied by =: the copy uses the values of members' keys of the first one, which must outlive it, until
+ * one of them is set in the copy or it gets another Def's by zp_def_assign. From then on it has to be cleared. */
+ZpStatus zp_def_assign(ZpActuatorDef *def, const ZpActuatorDef *from, ZpError *err);
+void zp_def_clear(ZpActuatorDef *def);
 
 /* The key of this name; -1, with a message that begins with the key `setting` ("": none) whose text has the name. */
 int zp_key_named(const char *setting, const char *name, ZpError *err);

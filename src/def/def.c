@@ -7,6 +7,7 @@
 
 #include "base/fail.h"
 #include "def/device.h"
+#include "def/member_keys.h"
 
 /* The words of each choice type. */
 #define ZP_CHOICES(type)                  static const ZpChoice words_of_##type[] = {
@@ -100,14 +101,54 @@ int zp_key_count(void) {
   return KEY_COUNT;
 }
 
+static const ZpKeyGroup of_member = ZP_KEY_GROUP(member_K);
+static const char member[] = "member_"; /* and its number, or K */
+enum { BEFORE_NUMBER = sizeof member - 1 };
+
+/* Does it stand for the keys of all members? */
+static bool is_row_of_members(int index) {
+  return index >= of_member.first && index < of_member.end;
+}
+
+/* The rest of the name of a row of the group member_K: ".ribbon.thickness". */
+static const char *rest_of_row(int row) {
+  return keys[row].name + BEFORE_NUMBER + 1;
+}
+
 const ZpKey *zp_key(int index) {
-  return index >= 0 && index < KEY_COUNT ? &keys[index] : NULL;
+  const int most = KEY_COUNT + ZP_MOST_MEMBERS * ZP_MEMBER_KEYS;
+  if (index < 0 || index >= most) return NULL;
+  return &keys[index < KEY_COUNT ? index : of_member.first + (index - KEY_COUNT) % ZP_MEMBER_KEYS];
+}
+
+const char *zp_key_name(int index, char text[ZP_KEY_NAME_SIZE]) {
+  const ZpKey *key = zp_key(index);
+  if (!key || index < KEY_COUNT) return key ? key->name : NULL;
+  snprintf(text, ZP_KEY_NAME_SIZE, "%s%d%s", member, zp_key_member(index), rest_of_row((int)(key - keys)));
+  return text;
+}
+
+/* The key of a member that is called so, -1: it is none. */
+static int find_of_member(const char *name) {
+  const char *rest;
+  const int number = zp_member_named(name, &rest);
+  for (int row = of_member.first; number > 0 && row < of_member.end; row++)
+    if (strcmp(rest_of_row(row), rest) == 0) return zp_key_of_member(row, number);
+  return -1;
 }
 
 int zp_key_find(const char *name) {
   for (int i = 0; i < KEY_COUNT; i++) /* called some twenty times per case; most names differ in the first letter */
     if (keys[i].name[0] == name[0] && strcmp(keys[i].name, name) == 0) return i;
-  return -1;
+  return find_of_member(name);
+}
+
+int zp_def_next_key(const ZpActuatorDef *def, int index) {
+  const int next = index + 1;
+  if (!def || next == ZP_KEYS) return -1;
+  if (next != of_member.first && next < ZP_KEYS) return next;
+  const size_t at = zp_member_keys_from(def, next < ZP_KEYS ? ZP_KEYS : next);
+  return def->members && at < def->members->count ? def->members->value[at].key : of_member.end;
 }
 
 /* ASCII only: names of keys have no other letters. */
@@ -196,12 +237,12 @@ static size_t offset_of(const ZpKey *key) {
 }
 
 static bool has_field(const ZpKey *key) {
-  return offset_of(key) != NO_FIELD;
+  return offset_of(key) != NO_FIELD && !is_row_of_members((int)(key - keys));
 }
 
 bool zp_key_in_def(int index) {
   const ZpKey *key = zp_key(index);
-  return key && has_field(key);
+  return key && (index >= KEY_COUNT || has_field(key));
 }
 
 /* Write a value, which has been checked, into its field. */
@@ -253,6 +294,7 @@ static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
 
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = zp_key(index);
+  if (def && key && index >= KEY_COUNT) return zp_member_keys_get(def, index);
   return def && key && has_field(key) ? number_of(def, key) : (double)NAN;
 }
 
@@ -278,8 +320,8 @@ static ZpStatus check_text(const ZpKey *key, const char *text, ZpError *err) {
 
 ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpError *err) {
   if (check_known(index, err) != ZP_OK) return ZP_BAD_INPUT;
-  const ZpKey *key = &keys[index];
-  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a number, not a text", key->name);
+  const ZpKey *key = zp_key(index);
+  if (key->type != ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a number, not a text", ZP_KEY_NAME(index));
   ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = check_text(key, text, err);
   if (status != ZP_OK) return status;
@@ -289,31 +331,38 @@ ZpStatus zp_def_set_text(ZpActuatorDef *def, int index, const char *text, ZpErro
   return ZP_OK;
 }
 
-static ZpStatus refuse_range(const ZpKey *key, double value, ZpError *err) {
+static ZpStatus refuse_range(int index, double value, ZpError *err) {
+  const ZpKey *key = zp_key(index);
   const char *unit = strcmp(key->unit, "1") == 0 ? "" : key->unit;
   const char *space = *unit ? " " : "";
-  return zp_fail(err, ZP_BAD_INPUT, "%s = %g%s%s: out of range; %g to %g%s%s", key->name, value, space, unit, key->min,
-                 key->max, space, unit);
+  return zp_fail(err, ZP_BAD_INPUT, "%s = %g%s%s: out of range; %g to %g%s%s", ZP_KEY_NAME(index), value, space, unit,
+                 key->min, key->max, space, unit);
 }
 
-static ZpStatus check_value(const ZpKey *key, double value, ZpError *err) {
+static ZpStatus check_value(int index, double value, ZpError *err) {
+  const ZpKey *key = zp_key(index);
   if (key->type == ZP_KEY_TEXT) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a text, not a number", key->name);
   if (key->type == ZP_KEY_REAL_AUTO && isnan(value)) return ZP_OK;
-  if (!isfinite(value)) return zp_fail(err, ZP_BAD_INPUT, "%s: not a finite number", key->name);
+  if (!isfinite(value)) return zp_fail(err, ZP_BAD_INPUT, "%s: not a finite number", ZP_KEY_NAME(index));
   bool whole = key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO;
   if (whole && value != floor(value))
     return zp_fail(err, ZP_BAD_INPUT, "%s = %g: not a whole number", key->name, value);
-  return value < key->min || value > key->max ? refuse_range(key, value, err) : ZP_OK;
+  return value < key->min || value > key->max ? refuse_range(index, value, err) : ZP_OK;
 }
 
 ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
   ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = check_known(index, err);
-  if (status == ZP_OK) status = check_value(&keys[index], value, err);
-  if (status == ZP_OK && !has_field(&keys[index]))
+  if (status == ZP_OK) status = check_value(index, value, err);
+  if (status != ZP_OK) return status;
+  if (index >= KEY_COUNT) return zp_member_keys_set(def, index, value, err);
+  if (is_row_of_members(index))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: give the number of a member, 1 to %d, in the place of K", keys[index].name,
+                   ZP_MOST_MEMBERS);
+  if (!has_field(&keys[index]))
     return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a definition", keys[index].name);
-  if (status == ZP_OK) store(def, &keys[index], value);
-  return status;
+  store(def, &keys[index], value);
+  return ZP_OK;
 }
 
 static bool is_given(int key, const ZpAssignment *list, size_t count) {
@@ -372,7 +421,7 @@ static int material_of(const ZpActuatorDef *def, const MaterialGroup *group) {
 }
 
 const ZpMaterialValue *zp_material_value(const ZpActuatorDef *def, int index) {
-  const MaterialGroup *group = def && zp_key(index) ? material_group_of(keys[index].name) : NULL;
+  const MaterialGroup *group = def && index >= 0 && index < KEY_COUNT ? material_group_of(keys[index].name) : NULL;
   if (!group) return NULL;
   int material = material_of(def, group);
   const char *name = keys[index].name + strlen(group->prefix);
@@ -411,10 +460,18 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
   return ZP_OK;
 }
 
+/* Keys of members determine no value of another key. */
+static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t i = 0; i < count && status == ZP_OK; i++)
+    if (list[i].key < KEY_COUNT) status = zp_def_set(def, list[i].key, list[i].value, err);
+  return status;
+}
+
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpActuatorDef given = plain;
   ZpStatus status = check_there(def, err);
-  if (status == ZP_OK) status = apply_assignments(&given, list, count, err);
+  if (status == ZP_OK) status = apply_common(&given, list, count, err);
   if (status == ZP_OK) status = check_preset_complete(given.preset, given.mesh.nodes, list, count, err);
   if (status != ZP_OK) return status;
 
@@ -423,6 +480,7 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   ZpActuatorKind kind =
       is_given(zp_key_find("actuator.kind"), list, count) ? given.actuator.kind : with_preset.actuator.kind;
 
+  zp_def_clear(def);
   *def = plain;
   const ZpDevice *device = zp_device_of(kind);
   status = apply_assignments(def, device->given, device->given_count, err);
@@ -604,10 +662,10 @@ static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
 
 static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) {
+  for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) { /* those of members have been checked when they were set */
     if (!has_field(&keys[i]) || is_in_range(def, &keys[i])) continue;
     status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + offset_of(&keys[i]), err)
-                                         : check_value(&keys[i], zp_def_get(def, i), err);
+                                         : check_value(i, zp_def_get(def, i), err);
   }
   return status;
 }

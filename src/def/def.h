@@ -32,7 +32,15 @@
 #define ZP_OF_SCENARIO(name, type, def, help)
 struct ZpActuatorDef {
 #include "def/keys.def"
+  struct ZpMemberKeys *members; /* NULL: none is given */
 };
+
+/* The given values of keys of members, in the order of their indices. */
+typedef struct ZpMemberKeys {
+  const ZpActuatorDef *of; /* it frees them; others only use them */
+  size_t count, room;
+  ZpAssignment value[];
+} ZpMemberKeys;
 
 /* The default of every key: the paper's actuator, with correct physics. */
 static inline ZpActuatorDef zp_actuator_def_default(void) {

@@ -16,11 +16,13 @@ ZpActuatorDef *zp_def_create(void) {
 
 ZpActuatorDef *zp_def_copy(const ZpActuatorDef *def) {
   ZpActuatorDef *copy = def ? zp_calloc(1, sizeof *copy) : NULL;
-  if (copy) *copy = *def;
-  return copy;
+  if (!copy || zp_def_assign(copy, def, NULL) == ZP_OK) return copy;
+  zp_free(copy);
+  return NULL;
 }
 
 void zp_def_destroy(ZpActuatorDef *def) {
+  if (def) zp_def_clear(def);
   zp_free(def);
 }
 
@@ -52,14 +54,15 @@ const char *zp_def_word(const ZpActuatorDef *def, const char *key) {
   }
 }
 
-static ZpStatus refuse_word(const ZpKey *key, const char *word, ZpError *err) {
+static ZpStatus refuse_word(int index, const char *word, ZpError *err) {
+  const ZpKey *key = zp_key(index);
   char words[256];
   size_t used = (size_t)snprintf(words, sizeof words, "%s", key->type == ZP_KEY_BOOL ? "true, false" : "");
   if (key->type == ZP_KEY_REAL_AUTO) snprintf(words, sizeof words, "%s, or set a number", key->text);
   for (int k = 0; key->choices && k <= (int)key->max && used < sizeof words; k++)
     used += (size_t)snprintf(words + used, sizeof words - used, "%s%s", k ? ", " : "", key->choices[k].word);
   if (!*words) return zp_fail(err, ZP_BAD_INPUT, "%s: takes a number, not a word", key->name);
-  return zp_fail(err, ZP_BAD_INPUT, "%s = %.40s: unknown word; give %s", key->name, word, words);
+  return zp_fail(err, ZP_BAD_INPUT, "%s = %.40s: unknown word; give %s", ZP_KEY_NAME(index), word, words);
 }
 
 ZpStatus zp_def_set_word(ZpActuatorDef *def, const char *key, const char *word, ZpError *err) {
@@ -72,5 +75,5 @@ ZpStatus zp_def_set_word(ZpActuatorDef *def, const char *key, const char *word, 
   bool truth = k->type == ZP_KEY_BOOL && strcmp(word, "true") == 0;
   if (truth || (k->type == ZP_KEY_BOOL && strcmp(word, "false") == 0)) return zp_def_set(def, index, truth, err);
   if (k->type == ZP_KEY_REAL_AUTO && strcmp(word, k->text) == 0) return zp_def_set(def, index, NAN, err);
-  return refuse_word(k, word, err);
+  return refuse_word(index, word, err);
 }

@@ -5,7 +5,7 @@
 #include "def/check.h"
 
 int zp_key_named(const char *setting, const char *name, ZpError *err) {
-  int key = zp_key_find(name);
+  int key = zp_key_with_value(name);
   char reason[256];
   if (key >= 0) return key;
   zp_key_unknown(name, reason, sizeof reason);

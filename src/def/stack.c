@@ -3,31 +3,19 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/member_keys.h"
 #include "def/rule.h"
-
-enum { PREFIX = sizeof "member_1." - 1 };
-_Static_assert(offsetof(ZpActuatorDef, member_8) ==
-                   offsetof(ZpActuatorDef, member_1) + (ZP_MOST_MEMBERS - 1) * sizeof(((ZpActuatorDef *)0)->member_1),
-               "the keys of the members are alike and follow each other");
-
-static const ZpKeyGroup first_member = ZP_KEY_GROUP(member_1), last_member = ZP_KEY_GROUP(member_8);
-
-/* The member whose key this is, of those of all members. */
-static int member_of(int key) {
-  return 1 + (key - first_member.first) / (first_member.end - first_member.first);
-}
 
 /* The key of one actuator that a member's key stands for. */
 static int key_of_one(int key) {
-  return zp_key_find(zp_key(key)->name + PREFIX);
+  return zp_key_find(zp_key(key)->name + sizeof "member_K." - 1);
 }
 
 /* Is a member unlike what the other keys say? */
 static bool has_unlike_member(const ZpActuatorDef *def) {
-  for (int key = first_member.first; key < last_member.end; key++) {
-    double value = zp_def_get(def, key);
-    if (!isnan(value) && value != zp_def_get(def, key_of_one(key))) return true;
-  }
+  const ZpMemberKeys *given = def->members;
+  for (size_t k = 0; given && k < given->count; k++)
+    if (given->value[k].value != zp_def_get(def, key_of_one(given->value[k].key))) return true;
   return false;
 }
 
@@ -75,11 +63,11 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
   bool last = member == def->stack.series, unequal = zp_def_parallel(def);
-  for (int key = first_member.first; key < last_member.end; key++) {
-    double value = member_of(key) == member ? zp_def_get(def, key) : NAN;
-    if (!isnan(value)) zp_def_set(&one, key_of_one(key), value, NULL);
-    zp_def_set(&one, key, NAN, NULL);
-  }
+  const int first_key = ZP_KEYS + (member - 1) * ZP_MEMBER_KEYS;
+  const size_t end = zp_member_keys_from(def, first_key + ZP_MEMBER_KEYS);
+  one.members = NULL;
+  for (size_t k = zp_member_keys_from(def, first_key); k < end; k++)
+    zp_def_set(&one, key_of_one(def->members->value[k].key), def->members->value[k].value, NULL);
   one.stack.series = 1;
   one.stack.link_mass = 0;
   one.stack.distance = one.stack.lower_voltage = NAN;
@@ -102,19 +90,15 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
-  bool unequal = zp_def_parallel(def), series = def->stack.series > 1, parallel = !series && def->stack.parallel > 1;
+  bool series = def->stack.series > 1, parallel = !series && def->stack.parallel > 1;
   int members = series ? def->stack.series : parallel ? def->stack.parallel : 0;
-  if (unequal && members > ZP_MOST_MEMBERS)
-    return zp_fail(err, ZP_BAD_INPUT, "stack.parallel = %d: with keys of member_K it is at most %d", members,
-                   ZP_MOST_MEMBERS);
-  for (int key = first_member.first; key < last_member.end; key++) {
-    int member = member_of(key);
-    if (member > members && !isnan(zp_def_get(def, key)))
-      return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", zp_key(key)->name,
-                     parallel ? "parallel" : "series", member > 1 ? member : 2,
-                     parallel ? def->stack.parallel : def->stack.series);
-  }
-  return ZP_OK;
+  const ZpMemberKeys *given = def->members;
+  const int last = given && given->count > 0 ? given->value[given->count - 1].key : -1;
+  int member = zp_key_member(last);
+  if (member <= members) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", ZP_KEY_NAME(last),
+                 parallel ? "parallel" : "series", member > 1 ? member : 2,
+                 parallel ? def->stack.parallel : def->stack.series);
 }
 
 /* Each of two antagonists opens at most to its length. */
@@ -187,6 +171,8 @@ static const ZpRule rule[] = {
                "a spring acts between the platforms of a single actuator"),
     ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_UNSET(load.stop_opening),
                "a stop acts between the platforms of a single actuator"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SEVERAL, ZP_IS(stack.series, 1), ZP_AT_MOST(stack.parallel, ZP_MOST_TIED),
+               "the height that unequal ones share at rest widens the band of their stiffness"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "heights that members share are unknowns of implicit steps"),
 };

@@ -49,6 +49,8 @@ static const NotModelled not_modelled[] = {
     {"radiat", "radiation", NULL},
 };
 
+static const char members[] = "member_";
+
 /* Pictures are drawn by programs, and a scenario may come from a stranger. */
 static const char templates[] = "output.templates";
 
@@ -170,7 +172,7 @@ static bool list_group(const char *name, char *text, size_t size) {
   return found;
 }
 
-void zp_key_unknown(const char *name, char *text, size_t size) {
+static void say_unknown(const char *name, char *text, size_t size) {
   if (strcmp(name, templates) == 0) {
     snprintf(text, size,
              "templates of pictures run as programs, so no scenario can name them; use --templates FOLDER on the "
@@ -192,4 +194,28 @@ void zp_key_unknown(const char *name, char *text, size_t size) {
     snprintf(text, size, "unknown key; did you mean %s?", key);
   else if (!list_group(renamed, text, size))
     snprintf(text, size, "unknown key, and none has a similar name; zipact keys lists all");
+}
+
+/* Of a name that begins with a member, K stands for its number until the reason is found. */
+static void say_of_member(int number, const char *rest, char *text, size_t size) {
+  char row[LONGEST], reason[2 * LONGEST];
+  snprintf(row, sizeof row, "%sK%.100s", members, rest);
+  say_unknown(row, reason, sizeof reason);
+  const char *letter = strstr(reason, "_K");
+  if (letter)
+    snprintf(text, size, "%.*s_%d%s", (int)(letter - reason), reason, number, letter + 2);
+  else
+    snprintf(text, size, "%s", reason);
+}
+
+void zp_key_unknown(const char *name, char *text, size_t size) {
+  const char *rest;
+  const int number = zp_member_named(name, &rest);
+  const size_t length = sizeof members - 1;
+  if (number > 0)
+    say_of_member(number, rest, text, size);
+  else if (strncmp(name, members, length) == 0 && name[length] && strchr("K0123456789", name[length]))
+    snprintf(text, size, "unknown key; the members of a stack have the numbers 1 to %d", ZP_MOST_MEMBERS);
+  else
+    say_unknown(name, text, size);
 }

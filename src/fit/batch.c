@@ -6,7 +6,7 @@
 #include <zipact/calibrate.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "fit/case.h"
 #include "io/guard.h"
 #include "io/plan.h"
@@ -81,10 +81,11 @@ static ZpStatus run(const ZpScenario *scenario, const ZpActuatorDef *def, ZpResu
 
 ZpStatus zp_case_run(const ZpScenario *scenario, size_t index, ZpResult *before, const ZpHooks *hooks,
                      ZpResult **result, ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   const bool fresh = index % zp_case_chunk(scenario) == 0;
   ZpStatus status = zp_scenario_given(scenario, index, &def, err); /* the study checks it */
   if (status == ZP_OK) status = run(scenario, &def, fresh ? NULL : before, hooks, result, err);
+  zp_def_clear(&def);
   zp_result_forget_states(before);
   if (status == ZP_OK && zp_scenario_count(scenario) > 1) keep_the_series(*result);
   return status;

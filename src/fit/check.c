@@ -7,7 +7,7 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "fit/data.h"
 
 /* Number of cases that a thread checks before it looks at the progress of the others. */
@@ -21,10 +21,11 @@ typedef struct Check {
 } Check;
 
 static void check_case(Check *check, size_t index) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err;
   ZpStatus status = zp_scenario_def(check->scenario, index, &def, &err);
   if (status == ZP_OK) status = zp_data_check_files(zp_scenario_study(check->scenario), &def, &err);
+  zp_def_clear(&def);
   if (status == ZP_OK) return;
   pthread_mutex_lock(&check->lock);
   if (index < atomic_load(&check->wrong)) {

@@ -48,6 +48,7 @@ size_t zp_fit_kinds(const ZpFit *fit) {
 }
 
 bool zp_fit_takes(int key) {
+  if (zp_key_member(key) > 0) return false; /* a fit is of one actuator */
   return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
 }
 
@@ -59,7 +60,7 @@ static ZpStatus set_bounds(ZpFit *fit, char *text, ZpError *err) {
   int i = 0;
   while (i < fit->n && fit->key[i] != bounds.key)
     i++;
-  const char *name = zp_key(bounds.key)->name;
+  const char *name = ZP_KEY_NAME(bounds.key);
   if (i == fit->n) return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s is not in calibrate.fit", name);
   const double start = fit->start[i], from = bounds.from / start, to = bounds.to / start;
   fit->lower[i] = fmin(from, to);
@@ -79,9 +80,10 @@ static ZpStatus read_bounds(ZpFit *fit, ZpError *err) {
 }
 
 static ZpStatus add_key(ZpFit *fit, int key, ZpError *err) {
-  const char *name = zp_key(key)->name;
+  const char *name = ZP_KEY_NAME(key);
   if (!zp_fit_takes(key))
-    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is not a real number and cannot be fitted", name);
+    return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is not a real number of one actuator and cannot be fitted",
+                   name);
   double start = zp_def_get(fit->def, key);
   if (isnan(start) || start == 0)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,

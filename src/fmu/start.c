@@ -35,7 +35,7 @@ ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *
   if (!start->token[0]) return zp_fail(err, ZP_BAD_INPUT, "this binary has no start values; `zipact fmu` writes them");
   if (start->layout != zp_fmu_keys_mark())
     return zp_fail(err, ZP_BAD_INPUT, "the start values were written by a version of zipact with other keys");
-  for (int key = 0; key < ZP_KEYS; key++)
+  for (int key = 0; key < ZP_KEYS; key++) /* an FMU has no members */
     if (zp_fmu_has_number(key)) list[count++] = (ZpAssignment){key, start->value[key]};
   return zp_def_resolve(def, list, count, err);
 }

@@ -256,7 +256,7 @@ static char *model_name(const char *path) {
 }
 
 ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, const char *path, ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpFmuStart start;
   ZpKit names = {NULL, 0};
   ZpStatus status = zp_scenario_def(scenario, 0, &def, err);
@@ -279,6 +279,7 @@ ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, 
         .sources = &names};
     status = write_archive(&plan, kit, path, err);
   }
+  zp_def_clear(&def);
   free(name);
   zp_kit_free(&names);
   return status;

@@ -5,7 +5,7 @@
 #include <sys/stat.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "io/file.h"
 #include "io/report.h"
 #include "study/result.h"
@@ -21,12 +21,13 @@ static const char name[] = "checkpoint.zps";
 
 /* Did the runs of the report start from the checkpoint in the same folder? */
 static bool began_there(const ZpReport *report) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   struct stat there, start;
   char *path = zp_path_join(report->directory, name);
   bool same = path && zp_scenario_def(report->scenario, 0, &def, NULL) == ZP_OK &&
               stat(def.initial.file, &start) == 0 && stat(path, &there) == 0 && start.st_dev == there.st_dev &&
               start.st_ino == there.st_ino;
+  zp_def_clear(&def);
   free(path);
   return same;
 }

@@ -76,6 +76,13 @@ static void write_text(FILE *file) {
   }
 }
 
+static const char members[] = "member_K"; /* in the place of K stands the number of a member */
+
+/* Does it stand for the keys of all members? */
+static bool is_of_members(const ZpKey *key) {
+  return strncmp(key->name, members, sizeof members - 1) == 0;
+}
+
 static void write_yaml(FILE *file) {
   char value[ZP_VALUE_SIZE], range[ZP_VALUE_SIZE];
   const char *before = NULL;
@@ -84,9 +91,13 @@ static void write_yaml(FILE *file) {
         file);
   for (int i = 0; i < zp_key_count(); i++) {
     const ZpKey *key = zp_key(i);
-    int width = zp_yaml_write_key(file, key->name, before);
     zp_value_print(i, key->def, value, sizeof value);
     allowed(i, " | ", range, sizeof range);
+    if (is_of_members(key)) {
+      fprintf(file, "# %s: %s  # %s (%s)\n", key->name, value, key->help, range);
+      continue;
+    }
+    int width = zp_yaml_write_key(file, key->name, before);
     fprintf(file, "%s%*s  # %s (%s)\n", value, longer(COMMENT_COLUMN - width, value) - (int)strlen(value), "",
             key->help, range);
     before = key->name;
@@ -294,21 +305,49 @@ static json_t *distribution_schema(void) {
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
+/* The name of a property, of those of all members a pattern. */
+static void property_name(const char *name, size_t size, char *text) {
+  static const char number[] = "^member_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
+  const size_t length = sizeof members - 1;
+  if (strncmp(name, members, length) != 0) {
+    snprintf(text, ZP_VALUE_SIZE, "%.*s", (int)size, name);
+    return;
+  }
+  size_t used = (size_t)snprintf(text, ZP_VALUE_SIZE, "%s", number);
+  for (const char *letter = name + length; letter < name + size; letter++)
+    used += (size_t)snprintf(text + used, ZP_VALUE_SIZE - used, *letter == '.' ? "[.]" : "%c", *letter);
+  snprintf(text + used, ZP_VALUE_SIZE - used, "$");
+}
+
+static void put_property(json_t **properties, const char *name, size_t size, json_t *schema) {
+  char text[ZP_VALUE_SIZE];
+  property_name(name, size, text);
+  set(properties, text, schema);
+}
+
+static bool has_property(json_t **properties, const char *name, size_t size) {
+  char text[ZP_VALUE_SIZE];
+  property_name(name, size, text);
+  return json_object_get(*properties, text) != NULL;
+}
+
 /* The group `path` of `size` bytes ("" for the root): its keys, by the rest of their names, and its groups. */
 static json_t *group_schema(const char *path, size_t size) {
-  json_t *properties = json_object();
+  json_t *properties = json_object(), *patterns = json_object();
   for (int i = 0; i < zp_key_count(); i++) {
     const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
     if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
-    set(&properties, rest, reference(name));
-    for (const char *dot = strchr(rest, '.'); dot && properties; dot = strchr(dot + 1, '.')) {
-      char group[ZP_VALUE_SIZE];
-      snprintf(group, sizeof group, "%.*s", (int)(dot - rest), rest);
-      if (!json_object_get(properties, group)) set(&properties, group, group_schema(name, (size_t)(dot - name)));
-    }
+    json_t **these = size == 0 && is_of_members(zp_key(i)) ? &patterns : &properties;
+    put_property(these, rest, strlen(rest), reference(name));
+    for (const char *dot = strchr(rest, '.'); dot && *these; dot = strchr(dot + 1, '.'))
+      if (!has_property(these, rest, (size_t)(dot - rest)))
+        put_property(these, rest, (size_t)(dot - rest), group_schema(name, (size_t)(dot - name)));
   }
-  return json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties",
-                   properties);
+  json_t *schema =
+      json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties", properties);
+  if (!patterns || json_object_size(patterns) > 0) set(&schema, "patternProperties", json_incref(patterns));
+  json_decref(patterns);
+  return schema;
 }
 
 static json_t *make_schema(void) {

@@ -9,7 +9,7 @@
 #include "base/fail.h"
 #include "base/pack.h"
 #include "base/table.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "study/result.h"
 
 static const ZpPackKind kind_of_names = {"result", 'N', 10}, kind_of_numbers = {"result", 'R', 10},
@@ -37,7 +37,7 @@ static void write_names(ZpPack *p, const ZpResult *r) {
   zp_pack_close(p);
   zp_pack_open(p, "derivatives", ZP_TEXT);
   for (const ZpSensitivity *s = r->sensitivity; s < r->sensitivity + r->sensitivities; s++)
-    add_texts(p, s->output, zp_key(s->key)->name, "");
+    add_texts(p, s->output, ZP_KEY_NAME(s->key), "");
   zp_pack_close(p);
   zp_pack_open(p, "columns", ZP_TEXT);
   for (size_t i = 0; r->series && i < r->series->columns; i++)

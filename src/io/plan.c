@@ -7,6 +7,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -21,73 +22,92 @@ static bool varies(const ZpSlot *slot) {
   return slot->is_list || slot->spread.kind != ZP_DISTRIBUTION_NONE;
 }
 
+const ZpSlot *zp_given(const ZpGiven *given, int key) {
+  size_t low = 0, high = given->count;
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (zp_key_order(given->slot[middle]->key, key) < 0)
+      low = middle + 1;
+    else
+      high = middle;
+  }
+  return low < given->count && given->slot[low]->key == key ? given->slot[low] : NULL;
+}
+
 /* The given value of a key, otherwise its default. */
-static double value_of(const ZpSlot *const *slot, const ZpActuatorDef *defaults, const char *name) {
+static double value_of(const ZpGiven *given, const ZpActuatorDef *defaults, const char *name) {
   const int key = zp_key_find(name);
-  return slot[key]->count ? slot[key]->value[0] : zp_def_get(defaults, key);
+  const ZpSlot *slot = zp_given(given, key);
+  return slot ? slot->value[0] : zp_def_get(defaults, key);
 }
 
 static void set_problem(ZpPlan *plan, int key, const char *what) {
-  if (!plan->problem.status)
-    zp_fail(&plan->problem, ZP_BAD_INPUT, "sampling.together: %s: %s", zp_key(key)->name, what);
+  if (!plan->problem.status) zp_fail(&plan->problem, ZP_BAD_INPUT, "sampling.together: %s: %s", ZP_KEY_NAME(key), what);
 }
 
-static void tie(ZpPlan *plan, const ZpSlot *const *slot, int key) {
-  size_t first = 0;
-  if (!slot[key]->is_list) {
+static void tie(ZpPlan *plan, const ZpGiven *given, int key) {
+  size_t first = 0, at = 0;
+  while (at < given->count && given->slot[at]->key != key)
+    at++;
+  if (at == given->count || !given->slot[at]->is_list) {
     set_problem(plan, key, "has no list of values");
     return;
   }
-  while (first < ZP_KEYS && !plan->tied[first])
+  while (first < given->count && !plan->tied[first])
     first++;
-  if (first < ZP_KEYS && slot[first]->count != slot[key]->count)
+  if (first < given->count && given->slot[first]->count != given->slot[at]->count)
     set_problem(plan, key, "its list is not as long as those of the other keys");
-  plan->tied[key] = true;
+  plan->tied[at] = true;
 }
 
 /* Read sampling.together. */
-static void find_tied(ZpPlan *plan, const ZpSlot *const *slot) {
-  const char *text = slot[zp_key_find("sampling.together")]->text;
-  int key[ZP_KEYS], count;
-  memset(plan->tied, 0, sizeof plan->tied);
-  plan->problem = (ZpError){0};
-  if (zp_keys_named("sampling.together", text ? text : "", ZP_KEYS, key, &count, &plan->problem) != ZP_OK) return;
+static void find_tied(ZpPlan *plan, const ZpGiven *given) {
+  const ZpSlot *slot = zp_given(given, zp_key_find("sampling.together"));
+  int key[ZP_TEXT_SIZE], count; /* of keys that its text has room for */
+  if (zp_keys_named("sampling.together", slot ? slot->text : "", ZP_TEXT_SIZE, key, &count, &plan->problem) != ZP_OK)
+    return;
   for (int k = 0; k < count; k++)
-    tie(plan, slot, key[k]);
+    tie(plan, given, key[k]);
 }
 
 /* A list multiplies the number of cases; of lists that vary together only the shortest does. */
-static void find_axes(ZpPlan *plan, const ZpSlot *const *slot) {
+static void find_axes(ZpPlan *plan, const ZpGiven *given) {
   size_t tied = 0, seen = 0;
-  plan->axes = plan->variations = 0;
   plan->together = 1;
-  for (size_t i = 0; i < ZP_KEYS; i++)
-    if (plan->tied[i] && (tied++ == 0 || slot[i]->count < plan->together)) plan->together = slot[i]->count;
-  for (size_t i = 0; i < ZP_KEYS; i++) {
-    if (varies(slot[i])) plan->varied[plan->variations++] = (int)i;
+  for (size_t i = 0; i < given->count; i++)
+    if (plan->tied[i] && (tied++ == 0 || given->slot[i]->count < plan->together))
+      plan->together = given->slot[i]->count;
+  for (size_t i = 0; i < given->count; i++) {
+    const ZpSlot *slot = given->slot[i];
+    if (varies(slot)) {
+      plan->at[plan->variations] = i;
+      plan->varied[plan->variations++] = slot->key;
+    }
     seen += plan->tied[i];
-    if (slot[i]->is_list && (!plan->tied[i] || seen == tied)) plan->axis[plan->axes++] = (int)i;
+    if (slot->is_list && (!plan->tied[i] || seen == tied)) plan->axis[plan->axes++] = slot->key;
   }
 }
 
-static void find_design(ZpPlan *plan, const ZpSlot *const *slot) {
+static void find_design(ZpPlan *plan, const ZpGiven *given) {
   const ZpActuatorDef defaults = zp_actuator_def_default();
-  plan->design = (ZpDesign){.method = (ZpSampling)value_of(slot, &defaults, "sampling.method"),
-                            .count = (size_t)value_of(slot, &defaults, "sampling.count"),
-                            .seed = (uint32_t)value_of(slot, &defaults, "sampling.seed"),
-                            .indices = value_of(slot, &defaults, "sampling.indices") != 0};
-  for (size_t i = 0; i < ZP_KEYS; i++)
-    plan->design.dimensions += slot[i]->spread.kind != ZP_DISTRIBUTION_NONE;
+  plan->design = (ZpDesign){.method = (ZpSampling)value_of(given, &defaults, "sampling.method"),
+                            .count = (size_t)value_of(given, &defaults, "sampling.count"),
+                            .seed = (uint32_t)value_of(given, &defaults, "sampling.seed"),
+                            .indices = value_of(given, &defaults, "sampling.indices") != 0};
+  for (size_t i = 0; i < given->count; i++)
+    plan->design.dimensions += given->slot[i]->spread.kind != ZP_DISTRIBUTION_NONE;
   if (plan->design.dimensions == 0) plan->design = (ZpDesign){.count = 1};
 }
 
-static ZpStatus count_cases(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err) {
+static ZpStatus count_cases(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
   size_t values = 0, cases = 1;
-  for (size_t i = 0; i < ZP_KEYS; i++)
-    values += slot[i]->is_list ? slot[i]->count : 0;
-  if (values > VALUES_MOST) return zp_fail(err, ZP_BAD_INPUT, "more than %d values in lists", VALUES_MOST);
-  for (size_t i = 0; i < plan->axes; i++) {
-    const size_t length = plan->tied[plan->axis[i]] ? plan->together : slot[plan->axis[i]]->count;
+  for (size_t v = 0, axis = 0; v < plan->variations; v++) {
+    const ZpSlot *slot = given->slot[plan->at[v]];
+    values += slot->is_list ? slot->count : 0;
+    if (values > VALUES_MOST) return zp_fail(err, ZP_BAD_INPUT, "more than %d values in lists", VALUES_MOST);
+    if (axis == plan->axes || plan->axis[axis] != slot->key) continue;
+    axis++;
+    const size_t length = plan->tied[plan->at[v]] ? plan->together : slot->count;
     if (cases > CASES_MOST / length)
       return zp_fail(err, ZP_BAD_INPUT, "more than %d combinations of the lists' values", CASES_MOST);
     cases *= length;
@@ -103,52 +123,69 @@ static ZpStatus count_cases(ZpPlan *plan, const ZpSlot *const *slot, ZpError *er
 }
 
 /* All cases have the same sampling. */
-static ZpStatus check_sampling(const ZpSlot *const *slot, ZpError *err) {
-  for (size_t i = 0; i < ZP_KEYS; i++) {
-    const char *name = zp_key((int)i)->name;
+static ZpStatus check_sampling(const ZpGiven *given, ZpError *err) {
+  for (size_t i = 0; i < given->count; i++) {
+    const char *name = zp_key(given->slot[i]->key)->name;
     const bool common = strncmp(name, "sampling.", 9) == 0 || strncmp(name, "optimize.", 9) == 0;
-    if (common && varies(slot[i])) return zp_fail(err, ZP_BAD_INPUT, "%s: takes one value, not a list", name);
+    if (common && varies(given->slot[i])) return zp_fail(err, ZP_BAD_INPUT, "%s: takes one value, not a list", name);
   }
   return ZP_OK;
 }
 
-ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err) {
-  ZpStatus status = check_sampling(slot, err);
-  if (status != ZP_OK) return status;
-  find_tied(plan, slot);
-  find_axes(plan, slot);
-  find_design(plan, slot);
-  return count_cases(plan, slot, err);
+/* Its arrays. */
+static bool make_room(ZpPlan *plan, size_t given) {
+  plan->memory = calloc(given + 1, sizeof *plan->at + sizeof *plan->varied + sizeof *plan->axis + sizeof *plan->tied);
+  if (!plan->memory) return false;
+  plan->at = plan->memory;
+  plan->varied = (int *)(plan->at + given);
+  plan->axis = plan->varied + given;
+  plan->tied = (bool *)(plan->axis + given);
+  return true;
 }
 
-void zp_plan_values(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, double *value) {
+ZpStatus zp_plan_make(ZpPlan *plan, const ZpGiven *given, ZpError *err) {
+  *plan = (ZpPlan){0};
+  ZpStatus status = make_room(plan, given->count) ? check_sampling(given, err) : zp_fail_memory(err);
+  if (status != ZP_OK) return status;
+  find_tied(plan, given);
+  find_axes(plan, given);
+  find_design(plan, given);
+  return count_cases(plan, given, err);
+}
+
+void zp_plan_free(ZpPlan *plan) {
+  free(plan->memory);
+  *plan = (ZpPlan){0};
+}
+
+void zp_plan_values(const ZpPlan *plan, const ZpGiven *given, size_t index, double *value) {
   const size_t samples = zp_design_samples(&plan->design), sample = index % samples;
   size_t axis = plan->axes, together = 0;
   int dimension = plan->design.dimensions;
   index /= samples;
   for (size_t v = plan->variations; v-- > 0;) { /* backwards: the last list varies fastest */
-    const int key = plan->varied[v];
-    const ZpSlot *s = slot[key];
+    const ZpSlot *s = given->slot[plan->at[v]];
+    const bool is_tied = plan->tied[plan->at[v]];
     if (s->spread.kind != ZP_DISTRIBUTION_NONE) {
       value[v] = zp_rounded(zp_quantile(&s->spread, zp_design_share(&plan->design, sample, --dimension)));
       continue;
     }
-    const bool is_axis = axis > 0 && plan->axis[axis - 1] == key;
-    const size_t length = plan->tied[key] ? plan->together : s->count, place = is_axis ? index % length : together;
+    const bool is_axis = axis > 0 && plan->axis[axis - 1] == s->key;
+    const size_t length = is_tied ? plan->together : s->count, place = is_axis ? index % length : together;
     if (is_axis) index /= length, axis--;
-    if (is_axis && plan->tied[key]) together = place;
+    if (is_axis && is_tied) together = place;
     value[v] = s->value[place];
   }
 }
 
-size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, const double *value, ZpAssignment *list) {
+size_t zp_plan_assign(const ZpPlan *plan, const ZpGiven *given, const double *value, ZpAssignment *list) {
   size_t used = 0, v = plan->variations;
-  for (size_t i = ZP_KEYS; i-- > 0;) {
-    const ZpSlot *s = slot[i];
-    const bool is_varied = v > 0 && plan->varied[v - 1] == (int)i;
+  for (size_t i = given->count; i-- > 0;) {
+    const ZpSlot *s = given->slot[i];
+    const bool is_varied = v > 0 && plan->at[v - 1] == i;
     if (is_varied) v--;
-    if (s->count == 0 || s->text || !zp_key_in_def((int)i)) continue;
-    list[used++] = (ZpAssignment){(int)i, is_varied ? value[v] : s->value[0]};
+    if (s->text || !zp_key_in_def(s->key)) continue;
+    list[used++] = (ZpAssignment){s->key, is_varied ? value[v] : s->value[0]};
   }
   return used;
 }

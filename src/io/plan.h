@@ -13,7 +13,9 @@
 
 /* The given value of a key. */
 typedef struct ZpSlot {
-  double *value; /* [count], SI; NULL if the key is not given. A distribution has one, without meaning */
+  int key;
+  int line;      /* in which it was given; 0: in none */
+  double *value; /* [count], SI. A distribution has one, without meaning */
   size_t count;
   bool is_list;          /* it is a list, of any length: a column in the table */
   bool is_bare;          /* the key has a unit, the value was given without one */
@@ -21,28 +23,39 @@ typedef struct ZpSlot {
   ZpDistribution spread; /* distribution of a key whose values are drawn */
 } ZpSlot;
 
+/* The slots of all given keys, in the order of keys. */
+typedef struct ZpGiven {
+  const ZpSlot **slot;
+  size_t count;
+} ZpGiven;
+
+/* The slot of a key; NULL: it is not given. */
+const ZpSlot *zp_given(const ZpGiven *given, int key);
+
 typedef struct ZpPlan {
-  int varied[ZP_KEYS]; /* [variations] keys with lists or distributions, in key order */
+  int *varied; /* [variations] keys with lists or distributions, in key order, */
+  size_t *at;  /* [variations] and their places in ZpGiven */
   size_t variations;
-  int axis[ZP_KEYS]; /* [axes] keys whose lists are combined: of those that vary together the last one */
+  int *axis; /* [axes] keys whose lists are combined: of those that vary together the last one */
   size_t axes;
-  bool tied[ZP_KEYS]; /* varies together with others */
-  size_t together;    /* length of their lists; 1: there are none */
-  ZpDesign design;    /* of the distributions */
-  size_t count;       /* cases */
-  ZpError problem;    /* the error of the scenario as a whole, otherwise all 0 */
+  bool *tied;      /* [given] varies together with others */
+  size_t together; /* length of their lists; 1: there are none */
+  ZpDesign design; /* of the distributions */
+  size_t count;    /* cases */
+  ZpError problem; /* the error of the scenario as a whole, otherwise all 0 */
+  void *memory;
 } ZpPlan;
 
-/* Make the plan from the given values of each key, slot [ZP_KEYS]. ZP_BAD_INPUT if there are too many values or cases.
- */
-ZpStatus zp_plan_make(ZpPlan *plan, const ZpSlot *const *slot, ZpError *err);
+/* Make the plan from the given values. ZP_BAD_INPUT if there are too many values or cases. Free it in any case. */
+ZpStatus zp_plan_make(ZpPlan *plan, const ZpGiven *given, ZpError *err);
+void zp_plan_free(ZpPlan *plan);
 
 /* The values of the varied keys in case `index`, below plan->count => value [variations], in the order of plan->varied.
  */
-void zp_plan_values(const ZpPlan *plan, const ZpSlot *const *slot, size_t index, double *value);
+void zp_plan_values(const ZpPlan *plan, const ZpGiven *given, size_t index, double *value);
 
-/* The values of all given keys, with `value` for those that vary => their number, at most one per key. */
-size_t zp_plan_assign(const ZpPlan *plan, const ZpSlot *const *slot, const double *value, ZpAssignment *list);
+/* The values of all given keys, with `value` for those that vary => list [given], and their number. */
+size_t zp_plan_assign(const ZpPlan *plan, const ZpGiven *given, const double *value, ZpAssignment *list);
 
 /* -- the cases of a scenario, for hashes and reports; to run one use zp_scenario_def, which checks it -- */
 

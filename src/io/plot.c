@@ -15,19 +15,31 @@
 
 /* -- columns --------------------------------------------------------------------------------------- */
 
-/* The columns of table.csv, or of a series. The key that a column shows is the one whose column has the same name. */
+/* The key whose column has this name, -1: there is none. */
+static int find_key(const ZpPlot *plot, const char *column) {
+  size_t lists;
+  const int *list = zp_scenario_lists(plot->report->scenario, &lists);
+  for (size_t k = 0; k < lists + (size_t)zp_key_count(); k++) {
+    const int key = k < lists ? list[k] : (int)(k - lists);
+    char name[ZP_KEY_COLUMN_SIZE];
+    zp_key_column(key, name, sizeof name);
+    if (strcmp(name, column) == 0) return key;
+  }
+  return -1;
+}
+
+/* The columns of table.csv, or of a series. */
 static ZpStatus add_columns(ZpPlot *plot, const ZpTable *series, ZpError *err) {
   ZpCases cases;
   const bool open = zp_cases_open(plot->report, series, &cases);
   if (open) plot->column = calloc(cases.columns + 1, sizeof *plot->column);
   for (; plot->column && plot->columns < cases.columns; plot->columns++) {
     const ZpCaseColumn *from = &cases.column[plot->columns];
-    ZpPlotColumn column = {
-        .unit = from->unit, .help = series ? from->help : "", .key = zp_key_count() - 1, .low = NAN, .high = NAN};
-    for (; column.key >= 0; column.key--) {
-      zp_key_column(column.key, column.name, sizeof column.name);
-      if (strcmp(column.name, from->name) == 0) break;
-    }
+    ZpPlotColumn column = {.unit = from->unit,
+                           .help = series ? from->help : "",
+                           .key = find_key(plot, from->name),
+                           .low = NAN,
+                           .high = NAN};
     memcpy(column.name, from->name, sizeof column.name);
     plot->column[plot->columns] = column;
   }
@@ -100,15 +112,16 @@ static void define_text(FILE *file, const char *before, const char *name, const 
 /* drive_voltage in SI or as a word, and said_drive_voltage in its unit. */
 static void define_key(const ZpPlot *plot, int index, FILE *file) {
   const ZpKey *key = zp_key(index);
+  const char *name = ZP_KEY_NAME(index);
   if (!zp_key_in_def(index) || key->type == ZP_KEY_TEXT) return;
   const double value = zp_def_get(&plot->def, index);
   char said[64];
   zp_value_print(index, value, said, sizeof said);
   if (key->type == ZP_KEY_ENUM)
-    define_text(file, "", key->name, zp_key_word(index, value));
+    define_text(file, "", name, zp_key_word(index, value));
   else
-    define(file, "", key->name, value);
-  define_text(file, "said_", key->name, said);
+    define(file, "", name, value);
+  define_text(file, "said_", name, said);
 }
 
 /* The name of a key that is a column, the unit in which it is shown, and the factor to this unit. */
@@ -116,7 +129,7 @@ static void define_shown(const ZpPlotColumn *column, FILE *file) {
   const ZpKey *key = zp_key(column->key);
   ZpUnitScale scale = {.factor = 1};
   const bool shown = *key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK;
-  define_text(file, "name_", column->name, key->name);
+  define_text(file, "name_", column->name, ZP_KEY_NAME(column->key));
   define_text(file, "unit_", column->name, shown ? key->shown : "");
   define(file, "factor_", column->name, scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor);
 }
@@ -192,7 +205,7 @@ void zp_plot_define(const void *of, FILE *file) {
   define_text(file, "", "liquid", zp_key_word(zp_key_find("liquid.model"), zp_def_liquid(&plot->def)));
   define_count(file, "", "cases", plot->report->count);
   define_count(file, "", "fitted", plot->def.calibrate.fit[strspn(plot->def.calibrate.fit, " ")] != 0);
-  for (int key = 0; key < zp_key_count(); key++)
+  for (int key = zp_def_next_key(&plot->def, -1); key >= 0; key = zp_def_next_key(&plot->def, key))
     define_key(plot, key, file);
   define_columns(plot, file);
   define_lists(plot, file);

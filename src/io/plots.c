@@ -191,6 +191,7 @@ static ZpStatus open_drawing(const ZpReport *report, ZpDrawing *drawing, ZpPlot 
 }
 
 static void close_drawing(ZpDrawing *drawing, ZpPlot *plot) {
+  zp_def_clear(&plot->def);
   free(plot->column);
   free(drawing->folder);
 }

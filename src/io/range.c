@@ -108,7 +108,7 @@ ZpStatus zp_range_read(int index, const ZpParts *parts, double **value, size_t *
 /* -- intervals --------------------------------------------------------------------------------------- */
 
 static ZpStatus check_interval(const char *setting, const ZpInterval *i, ZpError *err) {
-  const char *name = zp_key(i->key)->name;
+  const char *name = ZP_KEY_NAME(i->key);
   if (!(i->from < i->to))
     return zp_fail(err, ZP_BAD_INPUT, "%s: %s: the upper end must be larger than the lower", setting, name);
   if (i->by_factors && !(i->from > 0))
@@ -130,7 +130,7 @@ ZpStatus zp_interval_read(const char *setting, char *text, ZpInterval *interval,
   if (zp_key(interval->key)->type != ZP_KEY_REAL && zp_key(interval->key)->type != ZP_KEY_REAL_AUTO)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %s is not a real number", setting, name);
   char part[ZP_VALUE_SIZE];
-  snprintf(part, sizeof part, "%s: %s", setting, zp_key(interval->key)->name);
+  snprintf(part, sizeof part, "%s: %s", setting, ZP_KEY_NAME(interval->key));
   ZpStatus status = zp_value_read_part(interval->key, part, zp_trim(equals + 1), &interval->from, err);
   if (status == ZP_OK) status = zp_value_read_part(interval->key, part, zp_trim(to), &interval->to, err);
   return status == ZP_OK ? check_interval(setting, interval, err) : status;

@@ -136,7 +136,7 @@ size_t zp_report_room(size_t runs, size_t numbers) {
 void zp_key_column(int key, char *text, size_t size) {
   const ZpKey *k = zp_key(key);
   bool bare = strcmp(k->unit, "1") == 0;
-  size_t used = (size_t)snprintf(text, size, "%s%s", k->name, bare ? "" : "_");
+  size_t used = (size_t)snprintf(text, size, "%s%s", ZP_KEY_NAME(key), bare ? "" : "_");
   for (const char *c = k->unit; !bare && *c && used + 6 < size; c++) {
     const char part[2] = {*c == ' ' ? '_' : *c, 0};
     used += (size_t)snprintf(text + used, size - used, "%s", *c == '/' ? "_per_" : part);

@@ -1,10 +1,10 @@
 /* Scenarios: values for keys, some of them lists, from a file and from --set.
  *
- * Two layers of slots, one slot per key, hold the values of the file and those of --set; the second layer wins,
+ * Two layers of slots, one slot per given key, hold the values of the file and those of --set; the second layer wins,
  * whatever the order of calls. A third layer, below both, has the distributions of materials for sampling.tolerances.
  * Nothing is resolved before a Def is requested, so the position of `preset` in the file does not matter. A text is
- * first read into its own layer and then exchanged slot by slot with the layer that it changes; a second exchange
- * undoes it, so a failure leaves the scenario unchanged. io/plan.h lists the Defs of a scenario. Their common values
+ * first read into slots of its own. The layer that it changes and all that follows from the layers are then made anew,
+ * and take the place of the present ones if nothing failed. io/plan.h lists the Defs of a scenario. Their common values
  * are resolved once, when keys are given; a case only sets the varied keys. */
 #include <zipact/io.h>
 
@@ -18,7 +18,7 @@
 #include <unistd.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/rule.h"
 #include "io/file.h"
 #include "io/plan.h"
 #include "io/range.h"
@@ -26,98 +26,199 @@
 #include "io/value.h"
 #include "io/yaml.h"
 
-struct ZpScenario {
-  ZpSlot file[ZP_KEYS];        /* from files */
-  ZpSlot set[ZP_KEYS];         /* from --set; they override those from files */
-  ZpSlot drawn[ZP_KEYS];       /* of materials; both others override them. A value is its own distribution */
-  const ZpSlot *held[ZP_KEYS]; /* the slot of the layer that applies */
+/* Slots in the order of keys. */
+typedef struct Layer {
+  ZpSlot *slot;
+  size_t count, room;
+} Layer;
+
+/* The slots that apply, of all layers, and the cases. */
+typedef struct Held {
+  ZpSlot *drawn; /* of materials; both layers override them. A value is its own distribution */
+  ZpGiven given;
   ZpPlan plan;
+} Held;
+
+struct ZpScenario {
+  Layer file; /* from files */
+  Layer set;  /* from --set; they override those from files */
+  Held held;
   ZpActuatorDef common; /* the first case; the others set their varied keys in it, unless these affect further keys */
   bool has_common;
   char *name; /* name of the last file, NULL if none */
 };
 
-enum { DEPTHS = 2 }; /* groups and nested groups, such as lower and lower.ribbon */
+/* A group of keys, by its first key, that is open at a depth: 0 for lower, 1 for lower.ribbon. */
+typedef struct OpenGroup {
+  int first, depth;
+  int line; /* in which it was opened */
+} OpenGroup;
 
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
   int key; /* key of --set; -1 if the text contains the keys */
-  ZpSlot slot[ZP_KEYS];
-  int line[ZP_KEYS];               /* line in which the key was given; 0: not yet */
-  int group_line[ZP_KEYS][DEPTHS]; /* line in which the group, and the nested one, was opened whose first key this is;
-                                    * 0: not yet */
-  int part_key;                    /* key whose range is being read, if there is a part */
+  Layer slots;
+  OpenGroup *group;
+  size_t groups, group_room;
+  int part_key;  /* key whose range is being read, if there is a part */
   ZpParts parts; /* of the range or distribution that is being read, {from: ..., to: ...}; NULL: not given */
 } Reader;
 
-static void free_slots(ZpSlot slot[ZP_KEYS]) {
-  for (size_t i = 0; i < ZP_KEYS; i++) {
-    free(slot[i].value);
-    free(slot[i].text);
+static void free_slot(ZpSlot *slot) {
+  free(slot->value);
+  free(slot->text);
+}
+
+static void free_layer(Layer *layer) {
+  for (size_t i = 0; i < layer->count; i++)
+    free_slot(&layer->slot[i]);
+  free(layer->slot);
+}
+
+/* The place of a key in a layer, or where it belongs. */
+static size_t place_of(const Layer *layer, int key) {
+  size_t low = 0, high = layer->count;
+  while (low < high) {
+    const size_t middle = (low + high) / 2;
+    if (zp_key_order(layer->slot[middle].key, key) < 0)
+      low = middle + 1;
+    else
+      high = middle;
   }
+  return low;
+}
+
+static ZpSlot *slot_of(const Layer *layer, int key) {
+  const size_t at = place_of(layer, key);
+  return at < layer->count && layer->slot[at].key == key ? &layer->slot[at] : NULL;
+}
+
+/* Make room for one more item of `size` bytes in an array. False if there is no memory. */
+static bool grow(void **array, size_t count, size_t *room, size_t size) {
+  if (count < *room) return true;
+  void *more = realloc(*array, (2 * *room + 16) * size);
+  if (!more) return false;
+  *array = more;
+  *room = 2 * *room + 16;
+  return true;
+}
+
+/* Take a slot, whose value and text then belong to the layer; the last one of a key counts. */
+static bool put_slot(Layer *layer, const ZpSlot *slot) {
+  ZpSlot *known = slot_of(layer, slot->key);
+  if (known) {
+    free_slot(known);
+    *known = *slot;
+    return true;
+  }
+  void *array = layer->slot;
+  const bool made = grow(&array, layer->count, &layer->room, sizeof *slot);
+  layer->slot = array;
+  if (!made) return false;
+  ZpSlot *at = layer->slot + place_of(layer, slot->key);
+  memmove(at + 1, at, (size_t)(layer->slot + layer->count - at) * sizeof *at);
+  *at = *slot;
+  layer->count++;
+  return true;
 }
 
 /* A definition with the given materials and sampling.tolerances, otherwise with defaults. */
-static ZpActuatorDef materials_of(const ZpScenario *s) {
+static ZpActuatorDef materials_of(const ZpGiven *given) {
   ZpActuatorDef def = zp_actuator_def_default();
-  for (size_t i = 0; i < ZP_KEYS; i++) {
-    const bool asked = zp_key_is_material((int)i) || strcmp(zp_key((int)i)->name, "sampling.tolerances") == 0;
-    if (asked && s->held[i]->count) zp_def_set(&def, (int)i, s->held[i]->value[0], NULL);
+  for (size_t i = 0; i < given->count; i++) {
+    const int key = given->slot[i]->key;
+    const bool asked = zp_key_is_material(key) || strcmp(zp_key(key)->name, "sampling.tolerances") == 0;
+    if (asked) zp_def_set(&def, key, given->slot[i]->value[0], NULL);
   }
   return def;
 }
 
 /* Give the distribution of a material to keys that it fills and that are not given. */
-static void draw_materials(ZpScenario *s) {
-  const ZpActuatorDef def = materials_of(s);
-  for (size_t i = 0; i < ZP_KEYS; i++) {
-    const ZpMaterialValue *filled = zp_material_value(&def, (int)i);
-    if (!filled || s->held[i]->count || def.sampling.tolerances != ZP_TOLERANCES_MATERIALS) continue;
-    ZpSlot *slot = &s->drawn[i];
-    *slot = (ZpSlot){.count = 1, .spread = {ZP_DISTRIBUTION_LOGNORMAL, filled->value, filled->spread}};
+static bool draw_materials(Held *held) {
+  const ZpActuatorDef def = materials_of(&held->given);
+  if (def.sampling.tolerances != ZP_TOLERANCES_MATERIALS) return true;
+  held->drawn = calloc(ZP_KEYS, sizeof *held->drawn);
+  if (!held->drawn) return false;
+  const ZpGiven given = held->given;
+  size_t at = 0;
+  held->given = (ZpGiven){calloc(given.count + ZP_KEYS, sizeof(ZpSlot *)), 0};
+  for (int i = 0; held->given.slot && i < ZP_KEYS; i++) {
+    const ZpMaterialValue *filled = zp_material_value(&def, i);
+    for (; at < given.count && zp_key_order(given.slot[at]->key, i) < 0; at++)
+      held->given.slot[held->given.count++] = given.slot[at];
+    if (!filled || (at < given.count && given.slot[at]->key == i)) continue;
+    ZpSlot *slot = &held->drawn[i];
+    *slot = (ZpSlot){.key = i, .count = 1, .spread = {ZP_DISTRIBUTION_LOGNORMAL, filled->value, filled->spread}};
     slot->value = &slot->spread.a;
-    s->held[i] = slot;
+    held->given.slot[held->given.count++] = slot;
   }
+  for (; held->given.slot && at < given.count; at++)
+    held->given.slot[held->given.count++] = given.slot[at];
+  free(given.slot);
+  return held->given.slot != NULL;
 }
 
 /* --set wins over the file. */
-static void hold(ZpScenario *s) {
-  for (size_t i = 0; i < ZP_KEYS; i++)
-    s->held[i] = s->set[i].count ? &s->set[i] : &s->file[i];
-  draw_materials(s);
+static bool hold(const Layer *file, const Layer *set, Held *held) {
+  ZpGiven *given = &held->given;
+  given->slot = calloc(file->count + set->count + 1, sizeof(ZpSlot *));
+  if (!given->slot) return false;
+  for (size_t f = 0, s = 0; f < file->count || s < set->count;) {
+    const int order = f == file->count ? 1 : s == set->count ? -1 : zp_key_order(file->slot[f].key, set->slot[s].key);
+    given->slot[given->count++] = order < 0 ? &file->slot[f] : &set->slot[s];
+    f += order <= 0;
+    s += order >= 0;
+  }
+  return draw_materials(held);
+}
+
+static void free_held(Held *held) {
+  zp_plan_free(&held->plan);
+  free(held->given.slot);
+  free(held->drawn);
+}
+
+static ZpStatus make_held(const Layer *file, const Layer *set, Held *held, ZpError *err) {
+  *held = (Held){0};
+  return hold(file, set, held) ? zp_plan_make(&held->plan, &held->given, err) : zp_fail_memory(err);
 }
 
 /* Set the texts; nothing else depends on them. */
 static ZpStatus set_texts(const ZpScenario *s, ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (size_t i = 0; i < ZP_KEYS && status == ZP_OK; i++) {
-    const char *text = s->held[i]->text;
-    if (text) status = zp_def_set_text(def, (int)i, text, err);
+  for (size_t i = 0; i < s->held.given.count && status == ZP_OK; i++) {
+    const ZpSlot *slot = s->held.given.slot[i];
+    if (slot->text) status = zp_def_set_text(def, slot->key, slot->text, err);
   }
   return status;
 }
 
 /* Make a case from all given values. */
 static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
-  ZpAssignment list[ZP_KEYS];
-  ZpStatus status = zp_def_resolve(def, list, zp_plan_assign(&s->plan, s->held, value, list), err);
+  const ZpGiven *given = &s->held.given;
+  ZpAssignment *list = calloc(given->count + 1, sizeof *list);
+  if (!list) return zp_fail_memory(err);
+  ZpStatus status = zp_def_resolve(def, list, zp_plan_assign(&s->held.plan, given, value, list), err);
+  free(list);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
 
 /* Make a case from the common values. Keys are set in the order of zp_plan_assign, so the same key is refused first. */
 static ZpStatus resolve_varied(const ZpScenario *s, const double *value, ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  *def = s->common;
-  for (size_t v = s->plan.variations; v-- > 0 && status == ZP_OK;)
-    status = zp_def_set(def, s->plan.varied[v], value[v], err);
+  ZpStatus status = zp_def_assign(def, &s->common, err);
+  for (size_t v = s->held.plan.variations; v-- > 0 && status == ZP_OK;)
+    status = zp_def_set(def, s->held.plan.varied[v], value[v], err);
   return status;
 }
 
 static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
-  double value[ZP_KEYS];
-  zp_plan_values(&s->plan, s->held, index, value);
-  return s->has_common ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
+  double *value = calloc(s->held.plan.variations + 1, sizeof *value);
+  if (!value) return zp_fail_memory(err);
+  zp_plan_values(&s->held.plan, &s->held.given, index, value);
+  ZpStatus status = s->has_common ? resolve_varied(s, value, def, err) : resolve_whole(s, value, def, err);
+  free(value);
+  return status;
 }
 
 /* Resolve the common values of the cases, unless a varied key determines values of keys that are not given: a preset
@@ -125,8 +226,8 @@ static ZpStatus resolve(const ZpScenario *s, size_t index, ZpActuatorDef *def, Z
  * request for it reports the reason. */
 static void find_common(ZpScenario *s) {
   bool moves = false;
-  for (size_t v = 0; v < s->plan.variations; v++) {
-    const ZpKey *key = zp_key(s->plan.varied[v]);
+  for (size_t v = 0; v < s->held.plan.variations; v++) {
+    const ZpKey *key = zp_key(s->held.plan.varied[v]);
     moves |= key->type == ZP_KEY_ENUM || key->type == ZP_KEY_BOOL || strcmp(key->name, "mesh.nodes") == 0;
   }
   s->has_common = false;
@@ -135,44 +236,69 @@ static void find_common(ZpScenario *s) {
 
 ZpScenario *zp_scenario_create(void) {
   ZpScenario *s = calloc(1, sizeof *s);
-  if (!s) return NULL;
-  hold(s);
-  zp_plan_make(&s->plan, s->held, NULL); /* which cannot fail: nothing is given */
-  find_common(s);
-  return s;
+  if (s && make_held(&s->file, &s->set, &s->held, NULL) == ZP_OK) {
+    find_common(s);
+    return s;
+  }
+  zp_scenario_destroy(s);
+  return NULL;
 }
 
 void zp_scenario_destroy(ZpScenario *s) {
   if (!s) return;
-  free_slots(s->file);
-  free_slots(s->set);
+  free_held(&s->held);
+  free_layer(&s->file);
+  free_layer(&s->set);
+  zp_def_clear(&s->common);
   free(s->name);
   free(s);
 }
 
-/* Exchange the slots that were read with those of a layer. */
-static void exchange(Reader *reader, ZpSlot *layer) {
-  for (size_t i = 0; i < ZP_KEYS; i++) {
-    if (!reader->line[i]) continue;
-    ZpSlot kept = layer[i];
-    layer[i] = reader->slot[i];
-    reader->slot[i] = kept;
+/* The slots of `under` and those of `over`, which win: their values still belong to these layers. */
+static bool lay_over(const Layer *under, const Layer *over, Layer *both) {
+  *both = (Layer){calloc(under->count + over->count + 1, sizeof(ZpSlot)), 0, under->count + over->count + 1};
+  if (!both->slot) return false;
+  for (size_t u = 0, o = 0; u < under->count || o < over->count;) {
+    const int order = u == under->count  ? 1
+                      : o == over->count ? -1
+                                         : zp_key_order(under->slot[u].key, over->slot[o].key);
+    both->slot[both->count++] = order < 0 ? under->slot[u] : over->slot[o];
+    u += order <= 0;
+    o += order >= 0;
   }
+  return true;
+}
+
+/* Replace a layer by one that has the slots that were read over its own. */
+static void replace(Reader *reader, Layer *layer, const Layer *both) {
+  for (size_t k = 0; k < reader->slots.count; k++) {
+    ZpSlot *old = slot_of(layer, reader->slots.slot[k].key);
+    if (old) free_slot(old);
+  }
+  free(layer->slot);
+  *layer = *both;
+  reader->slots.count = 0; /* they belong to the layer */
 }
 
 /* Replace the values of the same keys in `layer` by those that were read. */
-static ZpStatus merge(ZpScenario *s, Reader *reader, ZpSlot *layer, ZpError *err) {
+static ZpStatus merge(ZpScenario *s, Reader *reader, Layer *layer, ZpError *err) {
   ZpError reason;
-  exchange(reader, layer);
-  hold(s);
-  if (zp_plan_make(&s->plan, s->held, &reason) == ZP_OK) {
-    find_common(s);
-    return ZP_OK;
+  Layer both;
+  Held held = {0};
+  const bool is_file = layer == &s->file;
+  ZpStatus status = lay_over(layer, &reader->slots, &both)
+                        ? make_held(is_file ? &both : &s->file, is_file ? &s->set : &both, &held, &reason)
+                        : zp_fail_memory(&reason);
+  if (status != ZP_OK) {
+    free_held(&held);
+    free(both.slot);
+    return status == ZP_MACHINE ? zp_fail_memory(err) : zp_source_fail(reader->source, 0, err, "%s", reason.message);
   }
-  exchange(reader, layer);
-  hold(s);
-  zp_plan_make(&s->plan, s->held, NULL); /* restored */
-  return zp_source_fail(reader->source, 0, err, "%s", reason.message);
+  replace(reader, layer, &both);
+  free_held(&s->held);
+  s->held = held;
+  find_common(s);
+  return ZP_OK;
 }
 
 /* Forget the parts of a range. */
@@ -185,16 +311,28 @@ static void drop_parts(Reader *reader) {
 
 static void close_reader(Reader *reader) {
   drop_parts(reader);
-  free_slots(reader->slot);
+  free_layer(&reader->slots);
+  free(reader->group);
+}
+
+/* Line in which a key was given; 0: not yet. */
+static int line_of(const Reader *reader, int key) {
+  const ZpSlot *slot = slot_of(&reader->slots, key);
+  return slot ? slot->line : 0;
 }
 
 #define GROUP_WITHOUT_VALUE "a group of keys cannot have a value; give one of its keys, such as %s"
 
 /* First key of the group `path`, -1 if it is not a group. */
 static int first_of_group(const char *path) {
-  size_t length = strlen(path);
+  const char *rest;
+  const int member = zp_member_named(path, &rest);
+  char row[ZP_VALUE_SIZE];
+  snprintf(row, sizeof row, "%s%.64s", member > 0 ? "member_K" : "", member > 0 ? rest : path);
+  size_t length = strlen(row);
   for (int i = 0; i < zp_key_count(); i++)
-    if (strncmp(zp_key(i)->name, path, length) == 0 && zp_key(i)->name[length] == '.') return i;
+    if (strncmp(zp_key(i)->name, row, length) == 0 && zp_key(i)->name[length] == '.')
+      return zp_key_in_def(i) ? i : member > 0 ? zp_key_of_member(i, member) : -1;
   return -1;
 }
 
@@ -226,7 +364,7 @@ static ZpStatus check_no_parts(const Reader *reader, int key, int line, ZpError 
   for (size_t i = 0; i < ZP_PARTS; i++)
     any |= reader->parts.text[i] != NULL;
   if (!any || reader->part_key == key) return ZP_OK;
-  return fail_at(reader, zp_key(reader->part_key)->name, line, err,
+  return fail_at(reader, ZP_KEY_NAME(reader->part_key), line, err,
                  "write a range as {from: ..., to: ..., count: ...}, a distribution as {normal: ..., sigma: ...}");
 }
 
@@ -234,10 +372,15 @@ static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err)
   if (*item->path == 0) return check_no_parts(reader, -1, item->line, err);
   int first = first_of_group(item->path);
   if (first < 0) return fail_unknown(reader, item, err);
-  int *line = &reader->group_line[first][strchr(item->path, '.') != NULL];
-  ZpStatus status = check_first(reader, item, *line, err);
-  *line = item->line;
-  return status;
+  const int depth = strchr(item->path, '.') != NULL;
+  for (const OpenGroup *group = reader->group; group < reader->group + reader->groups; group++)
+    if (group->first == first && group->depth == depth) return check_first(reader, item, group->line, err);
+  void *array = reader->group;
+  const bool made = grow(&array, reader->groups, &reader->group_room, sizeof *reader->group);
+  reader->group = array;
+  if (!made) return zp_fail_memory(err);
+  reader->group[reader->groups++] = (OpenGroup){first, depth, item->line};
+  return ZP_OK;
 }
 
 /* -- values ---------------------------------------------------------------------------------------- */
@@ -350,20 +493,17 @@ static ZpStatus fail_value(const Reader *reader, int key, int line, const char *
   if (zp_key(key)->type == ZP_KEY_TEXT || (reader->source->argument && alone))
     return zp_source_fail(reader->source, line, err, "%s", reason->message);
   if (!reader->source->argument)
-    return zp_source_fail(reader->source, line, err, "%s = \"%.80s\": %s", zp_key(key)->name, word, reason->message);
+    return zp_source_fail(reader->source, line, err, "%s = \"%.80s\": %s", ZP_KEY_NAME(key), word, reason->message);
   return zp_source_fail(reader->source, line, err, "\"%.80s\": %s", word, reason->message);
 }
 
 /* Take the slot of a key that was read with this status. */
-static ZpStatus take_slot(Reader *reader, int key, int line, const ZpSlot *slot, ZpStatus status) {
-  if (status == ZP_OK) {
-    reader->slot[key] = *slot;
-    reader->line[key] = line;
-    return ZP_OK;
-  }
-  free(slot->value);
-  free(slot->text);
-  return status;
+static ZpStatus take_slot(Reader *reader, int key, int line, ZpSlot *slot, ZpStatus status, ZpError *err) {
+  slot->key = key;
+  slot->line = line;
+  if (status == ZP_OK && put_slot(&reader->slots, slot)) return ZP_OK;
+  free_slot(slot);
+  return status == ZP_OK ? zp_fail_memory(err) : status;
 }
 
 static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
@@ -372,7 +512,7 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
                       : type == ZP_KEY_BOOL || type == ZP_KEY_ENUM ? "takes one word, not a list"
                       : item->count == 0                           ? "empty list; give at least one value"
                                                                    : NULL;
-  return item->kind == ZP_YAML_LIST && wrong ? fail_at(reader, zp_key(key)->name, item->line, err, "%s", wrong) : ZP_OK;
+  return item->kind == ZP_YAML_LIST && wrong ? fail_at(reader, ZP_KEY_NAME(key), item->line, err, "%s", wrong) : ZP_OK;
 }
 
 static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpError *err) {
@@ -384,7 +524,7 @@ static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpE
   status = zp_key(key)->type == ZP_KEY_TEXT ? read_text(reader->source, key, word, &slot, &reason)
                                             : read_value(key, item, &word, &slot, &reason);
   if (status != ZP_OK) status = fail_value(reader, key, item->line, word, &reason, item->kind == ZP_YAML_VALUE, err);
-  return take_slot(reader, key, item->line, &slot, status);
+  return take_slot(reader, key, item->line, &slot, status, err);
 }
 
 /* -- parts of a range or a distribution ------------------------------------------------------------ */
@@ -395,7 +535,7 @@ static int key_of_part(const char *path, size_t *part) {
   const char *last = strrchr(path, '.');
   if (!last) return -1;
   snprintf(name, sizeof name, "%.*s", (int)(last - path), path);
-  const int key = zp_key_find(name);
+  const int key = zp_key_with_value(name);
   for (*part = 0; key >= 0 && *part < ZP_PARTS; ++*part)
     if (strcmp(last + 1, zp_part_name[*part]) == 0) return key;
   return -1;
@@ -420,7 +560,7 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
   if (spreads ? !takes_spread(key) : !zp_value_is_number(zp_key(key)))
     return fail_at(reader, item->path, item->line, err, "takes one value, not a %s",
                    spreads ? "distribution" : "range");
-  ZpStatus status = check_first(reader, item, reader->line[key], err);
+  ZpStatus status = check_first(reader, item, line_of(reader, key), err);
   if (status != ZP_OK) return status;
   const size_t first = zp_part_first(kind), second = zp_part_second(kind);
   for (size_t i = 0; i < ZP_PARTS && spreads; i++)
@@ -430,7 +570,7 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
   status = read_parts(key, &reader->parts, &slot, &reason);
   if (status != ZP_OK) status = fail_value(reader, key, item->line, "{...}", &reason, true, err);
   drop_parts(reader);
-  return take_slot(reader, key, item->line, &slot, status);
+  return take_slot(reader, key, item->line, &slot, status, err);
 }
 
 /* -- a text ---------------------------------------------------------------------------------------- */
@@ -439,10 +579,10 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
 static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   Reader *reader = user;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
-  int key = zp_key_find(item->path);
+  int key = zp_key_with_value(item->path);
   if (item->kind == ZP_YAML_GROUP) return key >= 0 ? take_parts(reader, key, item, err) : take_group(reader, item, err);
   if (key >= 0) {
-    ZpStatus status = check_first(reader, item, reader->line[key], err);
+    ZpStatus status = check_first(reader, item, line_of(reader, key), err);
     return status == ZP_OK ? take_values(reader, key, item, err) : status;
   }
   size_t part;
@@ -450,12 +590,11 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   if (ranged >= 0) return take_part(reader, item, ranged, part, err);
   if (first < 0) return fail_unknown(reader, item, err);
   if (item->kind == ZP_YAML_VALUE && *item->word == 0) return take_group(reader, item, err);
-  return fail_at(reader, item->path, item->line, err, GROUP_WITHOUT_VALUE, zp_key(first)->name);
+  return fail_at(reader, item->path, item->line, err, GROUP_WITHOUT_VALUE, ZP_KEY_NAME(first));
 }
 
 /* Read a text into a layer. */
-static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, ZpSlot *layer,
-                           ZpError *err) {
+static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, Layer *layer, ZpError *err) {
   ZpSource source = {.name = name};
   Reader reader = {.source = &source, .key = -1};
   ZpStatus status = zp_yaml_read(&source, text, size, false, take_item, &reader, err);
@@ -466,7 +605,7 @@ static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const c
 
 ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
   char *kept_name = strdup(name);
-  ZpStatus status = kept_name ? read_layer(s, text, size, name, s->file, err) : zp_fail_memory(err);
+  ZpStatus status = kept_name ? read_layer(s, text, size, name, &s->file, err) : zp_fail_memory(err);
   if (status != ZP_OK) {
     free(kept_name);
     return status;
@@ -477,7 +616,7 @@ ZpStatus zp_scenario_parse(ZpScenario *s, const char *text, size_t size, const c
 }
 
 ZpStatus zp_scenario_override(ZpScenario *s, const char *text, size_t size, const char *name, ZpError *err) {
-  return read_layer(s, text, size, name, s->set, err);
+  return read_layer(s, text, size, name, &s->set, err);
 }
 
 ZpStatus zp_scenario_read(ZpScenario *s, const char *path, ZpError *err) {
@@ -495,12 +634,12 @@ static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) 
   while (length && source->name[length - 1] == ' ')
     length--;
   snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1, source->name);
-  int key = zp_key_find(name);
+  int key = zp_key_with_value(name);
   if (key >= 0) return key;
   int first = first_of_group(name);
   char reason[ZP_VALUE_SIZE];
   zp_key_unknown(name, reason, sizeof reason);
-  if (first >= 0) snprintf(reason, sizeof reason, GROUP_WITHOUT_VALUE, zp_key(first)->name);
+  if (first >= 0) snprintf(reason, sizeof reason, GROUP_WITHOUT_VALUE, ZP_KEY_NAME(first));
   zp_source_fail(source, 0, err, "%s", reason);
   return -1;
 }
@@ -523,55 +662,54 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   if (key < 0) return ZP_BAD_INPUT;
   Reader reader = {.source = &source, .key = key};
   ZpStatus status = read_argument(&reader, equals + 1, err);
-  if (status == ZP_OK && !reader.line[key]) status = zp_source_fail(&source, 0, err, "empty; give a value");
-  if (status == ZP_OK) status = merge(s, &reader, s->set, err);
+  if (status == ZP_OK && reader.slots.count == 0) status = zp_source_fail(&source, 0, err, "empty; give a value");
+  if (status == ZP_OK) status = merge(s, &reader, &s->set, err);
   close_reader(&reader);
   return status;
 }
 
 size_t zp_scenario_count(const ZpScenario *s) {
-  return s->plan.count;
+  return s->held.plan.count;
 }
 
 const int *zp_scenario_lists(const ZpScenario *s, size_t *count) {
-  *count = s->plan.variations;
-  return s->plan.varied;
+  *count = s->held.plan.variations;
+  return s->held.plan.varied;
 }
 
 const int *zp_scenario_axes(const ZpScenario *s, size_t *count) {
-  *count = s->plan.axes;
-  return s->plan.axis;
+  *count = s->held.plan.axes;
+  return s->held.plan.axis;
 }
 
 const double *zp_scenario_axis(const ZpScenario *s, int key, size_t *count) {
-  *count = s->plan.tied[key] ? s->plan.together : s->held[key]->count;
-  return s->held[key]->value;
+  const ZpGiven *given = &s->held.given;
+  size_t at = 0;
+  while (given->slot[at]->key != key)
+    at++;
+  *count = s->held.plan.tied[at] ? s->held.plan.together : given->slot[at]->count;
+  return given->slot[at]->value;
 }
 
 const ZpDesign *zp_scenario_design(const ZpScenario *s) {
-  return s->plan.design.dimensions > 0 ? &s->plan.design : NULL;
+  return s->held.plan.design.dimensions > 0 ? &s->held.plan.design : NULL;
 }
 
 const ZpDistribution *zp_scenario_spread(const ZpScenario *s, int key) {
-  const ZpDistribution *spread = &s->held[key]->spread;
-  return spread->kind != ZP_DISTRIBUTION_NONE ? spread : NULL;
+  const ZpSlot *slot = zp_given(&s->held.given, key);
+  return slot && slot->spread.kind != ZP_DISTRIBUTION_NONE ? &slot->spread : NULL;
 }
 
 bool zp_scenario_bare_number(const ZpScenario *s, int key, double *value) {
-  if (!s->held[key]->is_bare) return false;
-  *value = s->held[key]->value[0];
+  const ZpSlot *slot = zp_given(&s->held.given, key);
+  if (!slot || !slot->is_bare) return false;
+  *value = slot->value[0];
   return true;
 }
 
-/* An error of the scenario, not of a single Def. */
-static bool is_study(size_t key) {
-  return !zp_key_in_def((int)key);
-}
-
 ZpStudy zp_scenario_study(const ZpScenario *s) {
-  for (size_t i = 0; i < ZP_KEYS; i++)
-    if (is_study(i) && s->held[i]->count) return (ZpStudy)s->held[i]->value[0];
-  return (ZpStudy)0;
+  const ZpSlot *slot = zp_given(&s->held.given, ZP_KEY(study));
+  return slot ? (ZpStudy)slot->value[0] : (ZpStudy)0;
 }
 
 /* Add the file and `row` to the message of a scenario or a Def that is wrong as a whole. */
@@ -585,14 +723,14 @@ static ZpStatus fail_whole(const ZpScenario *s, ZpStatus status, const char *row
 static ZpStatus say_of(const ZpScenario *s, size_t index, ZpStatus status, const ZpError *reason, ZpError *err) {
   char row[64] = "";
   if (status == ZP_OK) return ZP_OK;
-  if (s->plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->plan.count);
+  if (s->held.plan.count > 1) snprintf(row, sizeof row, "row %zu of %zu: ", index + 1, s->held.plan.count);
   return fail_whole(s, reason->status, row, reason->message, err);
 }
 
 static ZpStatus check_case(const ZpScenario *s, size_t index, ZpError *err) {
-  if (index >= s->plan.count)
-    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->plan.count);
-  return s->plan.problem.status ? fail_whole(s, ZP_BAD_INPUT, "", s->plan.problem.message, err) : ZP_OK;
+  if (index >= s->held.plan.count)
+    return zp_fail(err, ZP_BAD_INPUT, "row %zu: the scenario has rows 1 to %zu", index + 1, s->held.plan.count);
+  return s->held.plan.problem.status ? fail_whole(s, ZP_BAD_INPUT, "", s->held.plan.problem.message, err) : ZP_OK;
 }
 
 ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
@@ -602,7 +740,7 @@ ZpStatus zp_scenario_given(const ZpScenario *s, size_t index, ZpActuatorDef *def
 }
 
 void zp_scenario_values(const ZpScenario *s, size_t index, double *value) {
-  zp_plan_values(&s->plan, s->held, index, value);
+  zp_plan_values(&s->held.plan, &s->held.given, index, value);
 }
 
 ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, ZpError *err) {
@@ -618,26 +756,30 @@ ZpStatus zp_scenario_def(const ZpScenario *s, size_t index, ZpActuatorDef *def, 
 enum { CASES_WITH_SERIES = 20 };
 
 bool zp_scenario_keeps_series(const ZpScenario *s) {
-  ZpActuatorDef def;
-  if (resolve(s, 0, &def, NULL) != ZP_OK || def.output.series == ZP_WHEN_AUTO)
-    return s->plan.count <= CASES_WITH_SERIES;
+  ZpActuatorDef def = {0};
+  const bool good = resolve(s, 0, &def, NULL) == ZP_OK;
+  zp_def_clear(&def);
+  if (!good || def.output.series == ZP_WHEN_AUTO) return s->held.plan.count <= CASES_WITH_SERIES;
   return def.output.series == ZP_WHEN_TRUE;
 }
 
-/* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the cases. */
+/* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the cases. No value of
+ * a member's key follows from another key. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   ZpActuatorDef def = {0};
-  for (size_t row = 1; row < s->plan.count; row++) {
+  ZpStatus status = ZP_OK;
+  for (size_t row = 1; row < s->held.plan.count && status == ZP_OK; row++) {
     ZpError reason;
-    ZpStatus status = resolve(s, row, &def, &reason);
-    if (status != ZP_OK) return say_of(s, row, status, &reason, err);
+    status = resolve(s, row, &def, &reason);
+    if (status != ZP_OK) say_of(s, row, status, &reason, err);
     for (int i = 0; i < zp_key_count() && !s->has_common; i++) { /* otherwise only keys with lists may */
       const double a = zp_def_get(first, i), b = zp_def_get(&def, i);
       differs[i] |= a != b && !(isnan(a) && isnan(b));
     }
     differs[zp_key_find("liquid.model")] |= zp_def_liquid(first) != zp_def_liquid(&def);
   }
-  return ZP_OK;
+  zp_def_clear(&def);
+  return status;
 }
 
 static void write_slot(FILE *file, int key, const ZpSlot *slot) {
@@ -650,53 +792,78 @@ static void write_slot(FILE *file, int key, const ZpSlot *slot) {
   fprintf(file, "]\n");
 }
 
-/* One line per key. A value that the preset sets differently in different rows is left to the preset, where it is found
- * again on reading. */
-static void write_keys(const ZpScenario *s, const ZpActuatorDef *first, const bool *differs, FILE *file) {
-  const char *before = NULL;
-  const int liquid = zp_key_find("liquid.model");
+/* The values of the keys, as they are written. */
+typedef struct Writer {
+  const ZpScenario *scenario;
+  const ZpActuatorDef *first; /* of the first case */
+  const bool *differs;
+  FILE *file;
+  char before[ZP_KEY_NAME_SIZE]; /* the key written last; "": none */
+} Writer;
+
+static void write_value(const Writer *w, int key) {
   char text[ZP_VALUE_SIZE];
+  const char *words = zp_def_text(w->first, key);
+  if (words) {
+    zp_yaml_write_text(w->file, words);
+    return;
+  }
+  double value = key == ZP_KEY(study) ? (double)zp_scenario_study(w->scenario) : zp_def_get(w->first, key);
+  zp_value_print(key, value, text, sizeof text);
+  fputs(text, w->file);
+  if (key == ZP_KEY(liquid.model) && value == ZP_LIQUID_AUTO) /* which means this model */
+    fprintf(w->file, " # %s", zp_key(key)->choices[zp_def_liquid(w->first)].word);
+}
+
+/* One line. A value that the preset sets differently in different rows is left to the preset, where it is found again
+ * on reading. */
+static void write_key(Writer *w, int key) {
+  const ZpSlot *slot = zp_given(&w->scenario->held.given, key);
+  const char *name = ZP_KEY_NAME(key);
+  const bool spreads = slot && slot->spread.kind != ZP_DISTRIBUTION_NONE, is_list = slot && slot->is_list;
+  char text[ZP_VALUE_SIZE];
+  if (key < ZP_KEYS && w->differs[key] && !is_list && !spreads) {
+    fprintf(w->file, "# %s: differs between rows; the preset sets it\n", name);
+    return;
+  }
+  zp_yaml_write_key(w->file, name, *w->before ? w->before : NULL);
+  snprintf(w->before, sizeof w->before, "%s", name);
+  if (is_list) {
+    write_slot(w->file, key, slot);
+    return;
+  }
+  if (spreads) zp_spread_print(key, &slot->spread, text, sizeof text);
+  if (spreads)
+    fputs(text, w->file);
+  else
+    write_value(w, key);
+  fputc('\n', w->file);
+}
+
+/* All keys, those of members where they are given. */
+static void write_keys(Writer *w) {
+  static const ZpKeyGroup of_member = ZP_KEY_GROUP(member_K);
+  const ZpGiven *given = &w->scenario->held.given;
   for (int i = 0; i < zp_key_count(); i++) {
-    const ZpSlot *slot = s->held[i];
-    const char *name = zp_key(i)->name;
-    const bool spreads = slot->spread.kind != ZP_DISTRIBUTION_NONE;
-    if (differs[i] && !slot->is_list && !spreads) {
-      fprintf(file, "# %s: differs between rows; the preset sets it\n", name);
-      continue;
-    }
-    zp_yaml_write_key(file, name, before);
-    before = name;
-    if (slot->is_list) {
-      write_slot(file, i, slot);
-      continue;
-    }
-    const char *words = zp_def_text(first, i);
-    if (spreads) {
-      zp_spread_print(i, &slot->spread, text, sizeof text);
-      fputs(text, file);
-    } else if (words) {
-      zp_yaml_write_text(file, words);
-    } else {
-      double value = is_study((size_t)i) ? (double)zp_scenario_study(s) : zp_def_get(first, i);
-      zp_value_print(i, value, text, sizeof text);
-      fputs(text, file);
-      if (i == liquid && value == ZP_LIQUID_AUTO) /* which means this model */
-        fprintf(file, " # %s", zp_key(i)->choices[zp_def_liquid(first)].word);
-    }
-    fputc('\n', file);
+    for (size_t k = 0; i == of_member.first && k < given->count; k++)
+      if (zp_key_member(given->slot[k]->key) > 0) write_key(w, given->slot[k]->key);
+    if (i < of_member.first || i >= of_member.end) write_key(w, i);
   }
 }
 
 ZpStatus zp_scenario_write(const ZpScenario *s, FILE *file, ZpError *err) {
   ZpActuatorDef first = {0};
   ZpError reason;
-  ZpStatus status = resolve(s, 0, &first, &reason);
-  if (status != ZP_OK) return say_of(s, 0, status, &reason, err);
   bool differs[ZP_KEYS] = {false};
-  status = compare_defs(s, &first, differs, err);
-  if (status != ZP_OK) return status;
-  write_keys(s, &first, differs, file);
-  if (fflush(file) || ferror(file))
+  ZpStatus status = resolve(s, 0, &first, &reason);
+  if (status != ZP_OK)
+    say_of(s, 0, status, &reason, err);
+  else
+    status = compare_defs(s, &first, differs, err);
+  Writer w = {.scenario = s, .first = &first, .differs = differs, .file = file};
+  if (status == ZP_OK) write_keys(&w);
+  zp_def_clear(&first);
+  if (status == ZP_OK && (fflush(file) || ferror(file)))
     return zp_fail(err, ZP_MACHINE, "the scenario cannot be written: %s", strerror(errno));
-  return ZP_OK;
+  return status;
 }

@@ -36,7 +36,7 @@ static void put_sensitivity(ZpJson *json, const ZpResult *result) {
     if (before < first) continue; /* written with that one */
     zp_json_open(json, first->output, '{');
     for (const ZpSensitivity *k = first; k < end; k++)
-      if (strcmp(k->output, first->output) == 0) zp_json_number(json, zp_key(k->key)->name, k->value, "1");
+      if (strcmp(k->output, first->output) == 0) zp_json_number(json, ZP_KEY_NAME(k->key), k->value, "1");
     zp_json_close(json, '}');
   }
   zp_json_close(json, '}');
@@ -98,11 +98,13 @@ static void put_row(ZpJson *json, const ZpReport *report, size_t run) {
   const int *key = zp_scenario_lists(report->scenario, &keys);
   const ZpResult *result = zp_report_result(report, run);
   Notes notes = {.count = 0};
-  double value[ZP_KEYS];
-  zp_scenario_values(report->scenario, run, value);
+  double *value = calloc(keys + 1, sizeof *value);
+  json->bad |= !value;
+  if (value) zp_scenario_values(report->scenario, run, value);
   zp_json_open(json, NULL, '{');
-  for (size_t i = 0; i < keys; i++)
-    zp_json_key(json, zp_key(key[i])->name, key[i], value[i]);
+  for (size_t i = 0; value && i < keys; i++)
+    zp_json_key(json, ZP_KEY_NAME(key[i]), key[i], value[i]);
+  free(value);
   zp_json_text(json, "outcome", zp_outcome_name(result->outcome));
   zp_json_text(json, "message", result->message);
   put_scalars(json, result);
@@ -195,10 +197,10 @@ static void put_indices(ZpJson *json, const Samples *s, const double *value) {
       const ZpIndices *indices = &s->indices[dimension++];
       const ZpIndex *index = part < 2 ? &indices->first : &indices->total;
       if (part % 2 == 0) {
-        zp_json_number(json, zp_key(key[i])->name, index->value, "1");
+        zp_json_number(json, ZP_KEY_NAME(key[i]), index->value, "1");
         continue;
       }
-      zp_json_open(json, zp_key(key[i])->name, '[');
+      zp_json_open(json, ZP_KEY_NAME(key[i]), '[');
       zp_json_number(json, NULL, index->low, "1");
       zp_json_number(json, NULL, index->high, "1");
       zp_json_close(json, ']');
@@ -233,7 +235,7 @@ static void put_combination(ZpJson *json, const Samples *s, size_t start) {
   zp_scenario_values(cases->report->scenario, start, cases->value);
   for (size_t i = 0; i < keys; i++)
     if (!zp_scenario_spread(cases->report->scenario, key[i]))
-      zp_json_key(json, zp_key(key[i])->name, key[i], cases->value[i]);
+      zp_json_key(json, ZP_KEY_NAME(key[i]), key[i], cases->value[i]);
   zp_json_open(json, "outputs", '{');
   for (size_t first = cases->keys; first < cases->columns; first += COLUMNS) {
     read_columns(s, first, start);

@@ -15,6 +15,7 @@
 #include <zipact/io.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "io/number.h"
 #include "io/source.h"
 #include "io/units.h"
@@ -293,7 +294,7 @@ ZpStatus zp_value_parse(int index, const char *text, double *value, ZpError *err
   if (!zp_key(index)) return zp_fail(err, ZP_BAD_INPUT, "there is no key number %d", index);
   ZpStatus status = zp_value_read(index, text, value, &reason);
   if (status == ZP_OK) return ZP_OK;
-  zp_fail(err, status, "%s = \"%.80s\": %s", zp_key(index)->name, text, reason.message);
+  zp_fail(err, status, "%s = \"%.80s\": %s", ZP_KEY_NAME(index), text, reason.message);
   if (err) zp_text_clean(err->message);
   return status;
 }

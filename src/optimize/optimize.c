@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "campaign/case_hash.h"
+#include "def/check.h"
 #include "def/def.h"
 #include "io/number.h"
 #include "io/report.h"
@@ -38,7 +39,7 @@ static ZpStatus check_lists(const ZpScenario *scenario, const ZpProblem *problem
       is_variable = is_variable || problem->variable[i].key == key[k];
     if (!is_variable)
       return zp_fail(err, ZP_BAD_INPUT, "%s: optimize takes one value, not a list or a distribution",
-                     zp_key(key[k])->name);
+                     ZP_KEY_NAME(key[k]));
   }
   return ZP_OK;
 }
@@ -66,7 +67,7 @@ static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < p->variables && status == ZP_OK; i++)
     status = zp_def_set(&def, p->variable[i].key, zp_variable_value(&p->variable[i], 0.5), err);
-  if (status == ZP_OK) snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", zp_key(p->variable[0].key)->name);
+  if (status == ZP_OK) snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", ZP_KEY_NAME(p->variable[0].key));
   if (status == ZP_OK && zp_study_check(s->study, &def, NULL) != ZP_OK) *def.sensitivity.by = 0;
   if (status == ZP_OK) status = zp_data_study_run(s->study, &def, NULL, &result, err);
   if (status == ZP_OK) status = zp_problem_resolve(p, result, err);
@@ -75,6 +76,7 @@ static ZpStatus look_ahead(ZpSearch *s, ZpError *err) {
                 : has_derivatives(p, result) ? ZP_OPTIMIZER_SLSQP
                                              : ZP_OPTIMIZER_COBYLA;
   if (status == ZP_OK) share_tolerance(s, &def, result);
+  zp_def_clear(&def);
   zp_result_destroy(result);
   return status;
 }
@@ -235,7 +237,7 @@ static char *list_of(const ZpOptimization *o, size_t variable) {
   size_t size;
   FILE *stream = open_memstream(&text, &size);
   if (!stream) return NULL;
-  fprintf(stream, "%s=[", zp_key(v->key)->name);
+  fprintf(stream, "%s=[", ZP_KEY_NAME(v->key));
   for (size_t row = 0; row < o->report.count; row++) {
     zp_number_print(zp_variable_value(v, point_of(o, row)->z[variable]), value, sizeof value);
     fprintf(stream, "%s%s", row ? ", " : "", value);
@@ -250,7 +252,7 @@ static char *list_of(const ZpOptimization *o, size_t variable) {
 static void name_variables(const ZpProblem *p, char *text, size_t size) {
   size_t used = (size_t)snprintf(text, size, "sampling.together=\"");
   for (size_t i = 0; i < p->variables && used < size; i++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", zp_key(p->variable[i].key)->name,
+    used += (size_t)snprintf(text + used, size - used, "%s%s", ZP_KEY_NAME(p->variable[i].key),
                              i + 1 < p->variables ? "," : "\"");
 }
 
@@ -334,6 +336,7 @@ ZpCampaignState zp_optimization_state(const ZpOptimization *optimization) {
 
 void zp_optimization_destroy(ZpOptimization *o) {
   if (!o) return;
+  zp_def_clear(&o->search.def);
   zp_journal_close(o->search.journal);
   zp_scenario_destroy(o->cases);
   pthread_mutex_destroy(&o->search.lock);

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/check.h"
 #include "def/def.h"
 #include "io/range.h"
 #include "io/units.h"
@@ -20,7 +21,7 @@ static const double missing = 1e3;
 /* -- reading ---------------------------------------------------------------------------------------- */
 
 static ZpStatus check_variable(const ZpProblem *problem, const ZpInterval *v, ZpError *err) {
-  const char *name = zp_key(v->key)->name;
+  const char *name = ZP_KEY_NAME(v->key);
   for (size_t i = 0; i < problem->variables; i++)
     if (problem->variable[i].key == v->key)
       return zp_fail(err, ZP_BAD_INPUT, "optimize.variables: %s is named twice", name);

@@ -9,6 +9,7 @@
 
 #include "base/fail.h"
 #include "campaign/case_hash.h"
+#include "def/check.h"
 #include "def/def.h"
 #include "fit/case.h"
 #include "sample/design.h"
@@ -34,15 +35,14 @@ static void fail(ZpSearch *s, const ZpError *err) {
 
 /* False if the values contradict each other; then the run reports the reason. */
 static ZpStatus define(const ZpSearch *s, const double *z, ZpActuatorDef *def, ZpError *err) {
-  ZpStatus status = ZP_OK;
+  ZpStatus status = zp_def_assign(def, &s->def, err);
   size_t used = 0;
-  *def = s->def;
   for (size_t i = 0; i < s->problem.variables && status == ZP_OK; i++) {
     const ZpInterval *v = &s->problem.variable[i];
     status = zp_def_set(def, v->key, zp_variable_value(v, z[i]), err);
     if (s->derivatives && used < sizeof def->sensitivity.by)
       used += (size_t)snprintf(def->sensitivity.by + used, sizeof def->sensitivity.by - used, "%s%s", i ? "," : "",
-                               zp_key(v->key)->name);
+                               ZP_KEY_NAME(v->key));
   }
   return status;
 }
@@ -134,19 +134,17 @@ static ZpStatus put_row(ZpSearch *s, size_t number, uint64_t hash, const ZpResul
 
 bool zp_search_evaluate(ZpSearch *s, size_t number, const double *z) {
   ZpPoint *point = &s->point[number];
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpResult *result = NULL;
   ZpError err;
   if (atomic_load(&s->stop)) return false;
   memcpy(point->z, z, s->problem.variables * sizeof *z);
   ZpStatus status = define(s, z, &def, &err);
-  if (status != ZP_OK) {
-    fail(s, &err);
-    return false;
-  }
-  const uint64_t hash = zp_case_hash(s->start, &def);
-  if (take_row(s, number, hash, point)) return true;
-  status = run(s, &def, &result, &err);
+  const uint64_t hash = status == ZP_OK ? zp_case_hash(s->start, &def) : 0;
+  const bool known = status == ZP_OK && take_row(s, number, hash, point);
+  if (status == ZP_OK && !known) status = run(s, &def, &result, &err);
+  zp_def_clear(&def);
+  if (known) return true;
   const bool interrupted = status == ZP_OK && (result->outcome == ZP_INTERRUPTED || atomic_load(&s->stop));
   if (status == ZP_OK && !interrupted) status = put_row(s, number, hash, result, point, &err);
   zp_result_destroy(result);

@@ -330,7 +330,7 @@ static bool hang_heavy(Finder *f) {
   enum { MOST = 12 };
   static const double lightest = 1e-3, heavier = 3; /* kg; than what forces as the voltage's square could lift */
   double top = f->top, closing = f->limits->limit[ZP_LIMIT_CLOSING].value;
-  double load = fmax(f->model->whole.load.mass, lightest) * heavier * (top / closing) * (top / closing);
+  double load = fmax(f->model->whole->load.mass, lightest) * heavier * (top / closing) * (top / closing);
   for (int k = 0; k < MOST; k++, load *= 4) {
     ZpQuasistaticEnd end = hang_at_top(f, load);
     if (end == ZP_QUASISTATIC_ARRIVED) return true;
@@ -369,8 +369,8 @@ static void lift(Finder *f, bool closes) {
   f->most = INFINITY;
   f->at_least = f->at_most = NAN;
   if (lift_as_neighbour(f)) return;
-  narrow(f, f->model->whole.load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
-  bool hangs = closes ? hang_heavy(f) : hang_under(f, f->model->whole.load.mass);
+  narrow(f, f->model->whole->load.mass, closes, f->limits->limit[ZP_LIMIT_CLOSING].value);
+  bool hangs = closes ? hang_heavy(f) : hang_under(f, f->model->whole->load.mass);
   zp_limit_none(limit, "no load was found that it cannot lift");
   if (!hangs) return;
   if (!closes) zp_rest_go_to(f->rest, f->limits->top);
@@ -408,7 +408,7 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   none_from(&f, ZP_LIMIT_RELEASE, "it was not searched");
   if (up == ZP_QUASISTATIC_STOPPED) return;
   lower_voltage(&f);
-  rest->statics.load = model->whole.load.mass;
+  rest->statics.load = model->whole->load.mass;
   const char *reason = up == ZP_QUASISTATIC_LOST ? "it was not searched" : no_load(model, load);
   if (reason)
     zp_limit_none(&limits->limit[ZP_LIMIT_LOAD], reason);

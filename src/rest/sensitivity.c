@@ -24,12 +24,13 @@ ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *e
         err, ZP_BAD_INPUT,
         "sensitivity.by: requires electro.model plates; the derivatives of a computed field are not available");
   if (k->type != ZP_KEY_REAL && k->type != ZP_KEY_REAL_AUTO)
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is not a real number, so it has no derivative", k->name);
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is not a real number, so it has no derivative",
+                   ZP_KEY_NAME(key));
   if (is_numerical(k->name))
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
-                   k->name);
+                   ZP_KEY_NAME(key));
   if (isnan(zp_def_get(def, key)))
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is %s: give it a number", k->name, k->text);
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is %s: give it a number", ZP_KEY_NAME(key), k->text);
   return ZP_OK;
 }
 

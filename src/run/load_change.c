@@ -7,7 +7,7 @@
 
 /* The instant of a change of the load that is still to come, s; else INFINITY. */
 double zp_sim_load_due(const ZpSim *sim) {
-  const ZpActuatorDef *def = &sim->model->whole;
+  const ZpActuatorDef *def = sim->model->whole;
   const bool waits = def->load.change_mass != 0 && !isnan(def->load.change_time) && !sim->state->load_changed;
   return waits ? def->load.change_time : INFINITY;
 }

@@ -128,7 +128,7 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
   if (drive || setpoint)
     return zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: the model has no table; zp_model_create_driven takes it",
                    drive ? "drive" : "setpoint");
-  ZpStatus status = zp_def_check_motion(&model->whole, err);
+  ZpStatus status = zp_def_check_motion(model->whole, err);
   if (status != ZP_OK) return status;
   return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
 }

@@ -268,7 +268,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
   if (model->has_film) add_at_end(sim, result, of_film);
   if (model->leaks) add_at_end(sim, result, of_leak);
   if (model->rod.plastic) add_at_end(sim, result, of_yielding);
-  if (!isnan(model->whole.load.change_time)) add_at_end(sim, result, of_catch);
+  if (!isnan(model->whole->load.change_time)) add_at_end(sim, result, of_catch);
   if (model->has_bead) add_at_end(sim, result, of_bead);
   if (model->has_bead) zp_result_add(result, "starved_time_s", "s", zp_sim_starved_time(sim));
   summarize_laws(sim, result);

@@ -643,7 +643,7 @@ static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
 
 /* Find the linear answer where it is wanted and there is one, and choose => false if there is no memory. */
 static bool choose(Cycles *c) {
-  const ZpActuatorDef *def = &c->model->whole;
+  const ZpActuatorDef *def = c->model->whole;
   bool failed = false;
   ZpActuatorDef linear = *def;
   linear.cycle.method = ZP_CYCLE_LINEAR;

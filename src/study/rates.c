@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "run/supply_coupling.h"
 #include "study/sensitivity.h"
 
@@ -127,7 +128,7 @@ static void note_lost(const ZpRunSensitivity *rates, ZpResult *result) {
   for (const ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
     if (isfinite(of->lost))
       zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives by %s: %s", 1e3 * of->lost,
-                     zp_key(of->by.key)->name, of->cause);
+                     ZP_KEY_NAME(of->by.key), of->cause);
 }
 
 double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
@@ -212,7 +213,7 @@ static void note_unsettled(const ZpSensitivity *before, ZpResult *result) {
   for (size_t i = 0; i < result->sensitivities; i++) {
     const ZpSensitivity *s = &before[i];
     if (isnan(s->value) || !isnan(result->sensitivity[i].value)) continue;
-    const char *comma = count++ > 0 ? ", " : "", *key = zp_key(s->key)->name;
+    const char *comma = count++ > 0 ? ", " : "", *key = ZP_KEY_NAME(s->key);
     size_t needed = strlen(comma) + strlen(s->output) + strlen(" by ") + strlen(key);
     if (used + needed < LIST) used += (size_t)snprintf(list + used, LIST - used, "%s%s by %s", comma, s->output, key);
   }

@@ -35,12 +35,13 @@ static ZpStatus build(ZpFiniteDifference *by, const ZpModel *model, const Stenci
   ZpDriveTable table = model->waveform.table;
   ZpStatus status = ZP_OK;
   for (int k = 0; k < ZP_DIFFERENCE_POINTS && status == ZP_OK; k++) {
-    ZpActuatorDef def = model->whole;
+    ZpActuatorDef def = *model->whole;
     ZpNeighbour *near = &by->near[by->count];
     *near = (ZpNeighbour){NULL, (stencil->first + k) * by->step, stencil->weight[k] / (12 * by->step)};
     if (stencil->weight[k] == 0) continue;
     status = zp_def_set(&def, by->key, zp_def_get(&def, by->key) + near->offset, err);
     if (status == ZP_OK) status = zp_model_create_driven(&def, table.rows > 0 ? &table : NULL, &near->model, err);
+    zp_def_clear(&def);
     if (status != ZP_OK) continue;
     zp_model_take_laws(near->model, model);
     by->count++;
@@ -53,7 +54,7 @@ ZpStatus zp_finite_difference_open(ZpFiniteDifference *by, const ZpModel *model,
   enum { FARTHEST = 4, PERCENT = 100 };
   *by = (ZpFiniteDifference){.key = key};
   const ZpKey *row = zp_key(key);
-  double value = zp_def_get(&model->whole, key);
+  double value = zp_def_get(model->whole, key);
   ZpError reason = {ZP_OK, ""};
   ZpStatus status = ZP_BAD_INPUT;
   by->step = step_of(row, value, part);
@@ -61,8 +62,8 @@ ZpStatus zp_finite_difference_open(ZpFiniteDifference *by, const ZpModel *model,
     status = build(by, model, &stencils[k], &reason);
   if (status == ZP_MACHINE) return zp_fail_memory(err);
   if (status != ZP_OK)
-    return zp_fail(err, status, "sensitivity.by: %s = %g %s cannot be changed by %g %% either way: %.200s", row->name,
-                   value, row->unit, PERCENT * FARTHEST * part, reason.message);
+    return zp_fail(err, status, "sensitivity.by: %s = %g %s cannot be changed by %g %% either way: %.200s",
+                   ZP_KEY_NAME(key), value, row->unit, PERCENT * FARTHEST * part, reason.message);
   return ZP_OK;
 }
 

@@ -10,7 +10,7 @@
 #define DAMPER_WHOLE(model) ((void)(model), DAMPER_OF_PROGRAM)
 #else
 #define DAMPER_COLD(model)  ((model)->def.load.damping)
-#define DAMPER_WHOLE(model) ((model)->whole.load.damping)
+#define DAMPER_WHOLE(model) ((model)->whole->load.damping)
 #endif
 static const double grows = 1e3; /* coefficient per (m/s)^2 s, over the cold one */
 

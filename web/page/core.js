@@ -102,6 +102,17 @@ export class Core {
     this.#check(this.#c.zp_web_resolve(this.#web));
   }
 
+  /** Every key of the scenario, of members of a stack those that are given => [{name, default, value, text}]. */
+  settings() {
+    const c = this.#c, all = [];
+    for (let index = c.zp_web_next_key(this.#web, -1); index >= 0; index = c.zp_web_next_key(this.#web, index)) {
+      const name = this.#get(), value = c.zp_web_key_value(this.#web, index);
+      c.zp_web_print(this.#web, index, value);
+      all.push({name, default: c.zp_web_key_default(index), value, text: this.#get()});
+    }
+    return all;
+  }
+
   /** Value of a key in the scenario, SI. */
   value(name) {
     return this.#c.zp_web_key_value(this.#web, this.keys.get(name).index);

@@ -134,9 +134,7 @@ function decode(text) {
 
 /** Keys of the resolved scenario that differ from the defaults of the command => [[key, text]]. */
 export function changed(core) {
-  return [...core.keys.values()]
-    .filter(({name, default: def}) => !Object.is(core.value(name), def))
-    .map(({name}) => [name, core.print(name, core.value(name))]);
+  return core.settings().filter(({value, default: def}) => !Object.is(value, def)).map(({name, text}) => [name, text]);
 }
 
 /** The scenario for a command line. */
