@@ -73,3 +73,16 @@ def test_states_go_on_to_the_same_bits(keys):
     for one in (simulation, twin):
         one.step(2e-3, voltage=5e3)
     assert twin["opening"] == simulation["opening"] and twin["voltage"] == 5e3
+
+
+def test_members_that_are_given_are_keys():
+    """Beyond the keys of every actuator those of members that are given, where the command writes them."""
+    stack = make("stationary", {"stack__series": 12, "member_12__ribbon__thickness": "60 um"})
+    names = list(stack)
+    assert len(stack) == len(names) == len(make("stationary", {"stack__series": 12})) + 1
+    assert names[names.index("member_12.ribbon.thickness") + 1] == "gravity"
+    assert stack["member_12.ribbon.thickness"] == 60e-6 and stack["member_3.ribbon.thickness"] == "auto"
+    assert "member_3.ribbon.thickness" in stack and "member_K.ribbon.thickness" not in stack
+    assert zipact.KEYS["member_12.ribbon.thickness"].unit == "m"
+    batch = zipact.run_batch(stack.sweep(member_7__ribbon__thickness=["50 um", "70 um"]))
+    assert batch.varied == ["member_7.ribbon.thickness"] and batch["opening_m"][0] > batch["opening_m"][1]
