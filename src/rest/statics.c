@@ -221,12 +221,12 @@ static void go_back(ZpStatics *s) {
   zp_statics_take_tensions(s);
 }
 
-/* Follow the branch from a stable equilibrium while an input grows to `whole`, or its square does, in shares of at most
- * `longest`: forces are proportional to the square of a voltage. False if the branch ends before; the present point is
- * then its last equilibrium. */
+/* Follow the branch from a stable equilibrium while an input grows from its present value to `whole`, or its square
+ * does, in shares of at most `longest`: forces are proportional to the square of a voltage. False if the branch ends
+ * before; the present point is then its last equilibrium. */
 static bool grow(ZpStatics *s, double *input, double whole, bool square, double longest) {
   static const double shortest = 1e-6;
-  double reached = 0, step = longest;
+  double from = whole != 0 ? *input / whole : 0, reached = square ? from * from : from, step = longest;
   keep(s);
   while (reached < 1 && step > shortest) {
     double share = fmin(reached + step, 1);
@@ -237,6 +237,7 @@ static bool grow(ZpStatics *s, double *input, double whole, bool square, double 
       step = fmin(2 * step, longest);
       keep(s);
     } else {
+      *input = whole * (square ? sqrt(reached) : reached);
       go_back(s);
       step *= 0.5;
     }
@@ -298,6 +299,21 @@ bool zp_statics_bias(ZpStatics *s) {
   return biased;
 }
 
+bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
+  enum { MOST_JUMPS = 100 };
+  static const double above = 1e-3; /* of the share where the branch ends */
+  for (int k = 0; k < MOST_JUMPS; k++) {
+    if (grow(s, &s->bias, 1, true, 0.05)) {
+      s->bias = 1;
+      return true;
+    }
+    *jumped = true;
+    s->bias = fmin((1 + above) * s->bias, 1);
+    if (!zp_newton_good(zp_statics_relax(s, s->U).end)) return false;
+  }
+  return false;
+}
+
 const char *zp_statics_no_rest(const ZpStatics *s) {
   return s->bias < 1 ? "the lower one pulls in below stack.lower_voltage" : "no hanging equilibrium found";
 }
@@ -315,23 +331,10 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   return info;
 }
 
-void zp_statics_hold_at(ZpStatics *s, double opening) {
-  s->U = 0;
-  s->load = 0;
-  s->opening = opening;
-  s->contact_acts = true;
-}
-
-void zp_statics_take_member(ZpStatics *s, size_t which, const ZpStatics *alone) {
-  ZpRestMember *to = &s->member[which];
-  memcpy(to->q, alone->member->q, zp_coordinates(to->model) * sizeof *to->q);
-  memcpy(to->tension, alone->member->tension, zp_lanes(to->model) * sizeof *to->tension);
-}
-
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
-  zp_statics_hold_at(s, opening);
+  s->opening = opening;
   s->contact_acts = false;
-  s->suction = 0;
+  s->U = s->load = s->suction = 0;
   zp_statics_lay_straight(s);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->nearer, 0.05);

@@ -122,6 +122,10 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *statics);
  */
 bool zp_statics_bias(ZpStatics *statics);
 
+/* As zp_statics_bias, while the platform is held. Where the branch ends, the members jump to the next one, as
+ * isometric's voltage does. False if one of these falls does not converge. */
+bool zp_statics_bias_held(ZpStatics *statics, bool *jumped);
+
 /* Why there is no equilibrium at which a voltage could begin to rise. */
 const char *zp_statics_no_rest(const ZpStatics *statics);
 
@@ -133,13 +137,6 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * ribbon as far below its hinge (below L), without load and voltage. Go from the straight shape to the equilibrium
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
-
-/* From now on hold the platform as zp_statics_hold does, but stay at the present point. It must be near the equilibrium
- * there, and its faces may touch. */
-void zp_statics_hold_at(ZpStatics *statics, double opening);
-
-/* A member takes the present shape of an actuator that is its only one. */
-void zp_statics_take_member(ZpStatics *statics, size_t which, const ZpStatics *alone);
 
 /* 1, or -1 of a lower antagonist: upside down, its platform falls as the load rises. */
 double zp_statics_factor(const ZpStatics *statics, size_t which);

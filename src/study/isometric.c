@@ -5,10 +5,7 @@
  * that branch rises, this is the state to which a slowly rising voltage leads. Where it turns back (a limit point), the
  * state jumps. The branch is followed through the turn until it is stable and above the voltage of the turn again:
  * there the jump lands. If the branch never gets there, the state is released at the turn and lands where slow motion
- * against a resistance ends. Theory, section 13.
- *
- * Members whose platforms are one do not see each other while it is held. Each follows a branch of its own, from one
- * level of the voltage to the next; their states together are a state of the whole. */
+ * against a resistance ends. Theory, section 13. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -27,16 +24,13 @@ static const ZpColumn columns[] = {
     {"stable", "1", "1: stable, 0: unstable"},
     {"passed", "1", "1: a rising voltage passes through this state, 0: it jumps over it"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000, LEVELS = 20 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
 
 /* The branch is searched for other states at drive.voltage up to this multiple of it. */
 static const double look_beyond = 1.25;
 
 typedef struct Holder {
   ZpEquilibria at;
-  struct Holder *member; /* [members] of several: each alone, without rows of its own; NULL: it is one */
-  bool is_member;
-  double top;             /* voltage to which it is raised, V */
   double *before, *after; /* points of the branch: before and after its last step */
   double *edge;           /* before its last turn */
   double *answer;         /* the state found */
@@ -89,17 +83,21 @@ static bool is_stable(Holder *h) {
 
 static void record(Holder *h, bool passed, bool last) {
   ZpStatics *s = &h->at.rest.statics;
-  if (h->is_member) return;
   bool stable = is_stable(h);
   double force = holding(h) - h->unpowered;
   zp_equilibria_add(&h->at, (double[COLUMNS]){s->U, force, ZP_ELECTRIC_VALUES(s), stable, passed}, h->points++, last);
 }
 
-/* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces. */
+/* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces, of a
+ * series that of one member. */
 static bool is_possible(Holder *h) {
+  const ZpStatics *s = &h->at.rest.statics;
   double most = 0;
-  for (const ZpModel *model = h->at.model; model < h->at.model + h->at.model->members; model++)
-    most = fmax(most, zp_plates_law(&model->plates, h->at.rest.statics.U, 0).W * zp_contact_length(model));
+  for (size_t k = 0; k < s->members; k++) {
+    const ZpModel *model = s->member[k].model;
+    double closed = zp_plates_law(&model->plates, zp_statics_member_voltage(s, k), 0).W * zp_contact_length(model);
+    most = s->shared ? most + closed : fmax(most, closed);
+  }
   h->fault = zp_statics_fault_of_stations(&h->at.rest.statics);
   if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
@@ -148,8 +146,8 @@ static void go_to_edge(Holder *h) {
 }
 
 /* Follow the branch until it has reached `top` within its last step. Else it has turned back or was lost: `edge` is the
- * state from which it is released. A series has many branches, and moves to one that is near: it is released where its
- * state becomes unstable, at a turn or where equal members cease to be alike. */
+ * state from which it is released. Several members have many branches, and move to one that is near: they are released
+ * where their state becomes unstable, at a turn or where equal members cease to be alike. */
 static bool follow(Holder *h, bool *turned) {
   ZpStatics *s = &h->at.rest.statics;
   *turned = false;
@@ -160,8 +158,8 @@ static bool follow(Holder *h, bool *turned) {
     zp_rest_save(&h->at.rest, h->before);
     bool further = zp_branch_advance(&h->at.rest.branch) && s->U >= 0 && is_possible(h);
     if (further) look_at(h, direction, turned);
-    if (further && fmax(h->highest, s->U) > h->top) return true;
-    bool unstable = further && s->linked && s->U != h->highest;
+    if (further && fmax(h->highest, s->U) > h->at.top) return true;
+    bool unstable = further && s->members > 1 && s->U != h->highest;
     if (!*turned && !further) memcpy(h->edge, h->before, h->at.rest.system.save_size);
     if (!*turned && unstable) go_to_edge(h);
     *turned |= unstable;
@@ -182,7 +180,7 @@ static bool fall(Holder *h, bool turned) {
   bool found = false;
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     zp_rest_go_to(&h->at.rest, h->edge);
-    double U = fmin((1 + above[k]) * h->highest + least * h->at.model->def.drive.voltage, h->top);
+    double U = fmin((1 + above[k]) * h->highest + least * h->at.model->def.drive.voltage, h->at.top);
     found = zp_newton_good(zp_statics_relax(s, U).end) && is_possible(h);
   }
   if (!found) return false;
@@ -205,9 +203,9 @@ static void count_others(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
   h->at.rest.system.restore(s, h->after);
   for (int k = 0; k < MOST_BEYOND; k++) {
-    bool below = s->U < h->top;
-    if (!zp_branch_advance(&h->at.rest.branch) || s->U < 0 || s->U > look_beyond * h->top) return;
-    if (!below || s->U < h->top || !is_stable(h) || zp_statics_fault(s)) continue;
+    bool below = s->U < h->at.top;
+    if (!zp_branch_advance(&h->at.rest.branch) || s->U < 0 || s->U > look_beyond * h->at.top) return;
+    if (!below || s->U < h->at.top || !is_stable(h) || zp_statics_fault(s)) continue;
     h->others++;
     h->other_force = force(h);
   }
@@ -284,26 +282,24 @@ static bool is_settled(Holder *h, ZpNewtonInfo found, ZpNewtonInfo *info) {
 static bool settle(Holder *h, ZpNewtonInfo *info) {
   ZpRest *rest = &h->at.rest;
   zp_rest_save(rest, h->after);
-  if (rest->statics.U < h->top) rest->system.restore(&rest->statics, h->before); /* reached and turned back */
-  if (is_settled(h, zp_rest_settle(rest, h->top), info)) return true;
-  bool found = is_settled(h, zp_rest_reach(rest, h->top), info);
+  if (rest->statics.U < h->at.top) rest->system.restore(&rest->statics, h->before); /* reached and turned back */
+  if (is_settled(h, zp_rest_settle(rest, h->at.top), info)) return true;
+  bool found = is_settled(h, zp_rest_reach(rest, h->at.top), info);
   if (!found) zp_rest_go_to(rest, h->before);
-  if (!found && !is_settled(h, zp_statics_relax(&rest->statics, h->top), info)) return false;
+  if (!found && !is_settled(h, zp_statics_relax(&rest->statics, h->at.top), info)) return false;
   zp_rest_save(rest, h->after);
   zp_rest_follow(rest, true);
   return true;
 }
 
-/* From the present state to the one at this voltage, V, the first time that a rising voltage reaches it. `last`: look
+/* From the unpowered state to the one at the top voltage, the first time that a rising voltage reaches it; then look
  * for others there. */
-static void raise_voltage(Holder *h, double top, bool last, ZpNewtonInfo *info) {
+static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
   ZpRest *rest = &h->at.rest;
-  h->top = top;
   bool arrived = rise(h), found = arrived && settle(h, info);
   if (!found) h->outcome = arrived && h->cross ? ZP_BEYOND_MODEL : ZP_BRANCH_LOST;
   if (!found) return;
-  record(h, true, last);
-  if (!last) return;
+  record(h, true, true);
   zp_rest_save(rest, h->answer);
   count_others(h);
   rest->system.restore(&rest->statics, h->answer);
@@ -313,132 +309,29 @@ static void raise_voltage(Holder *h, double top, bool last, ZpNewtonInfo *info) 
 /* To the unpowered state. */
 static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
   ZpStatics *s = &h->at.rest.statics;
+  s->bias = 0;
   *info = zp_statics_hold(s, h->at.model->def.isometric.separation);
-  if (zp_newton_good(info->end)) {
-    h->unpowered = holding(h);
-    h->unpowered_moment = moment(h);
-    zp_quasistatic_start(&h->at.rest); /* from now on a gap tells which members of a series are closed */
-    zp_rest_save(&h->at.rest, h->unpowered_state);
-    record(h, true, false);
-  } else {
+  if (!zp_newton_good(info->end)) {
     h->outcome = ZP_NOT_SETTLED;
+    return;
   }
-}
-
-/* -- several members ------------------------------------------------------------------------------ */
-
-/* One of them alone, at the opening that it has while the lower platform is held. */
-static ZpActuatorDef alone(const ZpActuatorDef *def, int member) {
-  ZpActuatorDef one = zp_def_member(def, member);
-  if (zp_def_antagonist(def) && member == 2) one.isometric.separation = def->stack.distance - def->isometric.separation;
-  return one;
-}
-
-static ZpStatus open_members(Holder *h, const ZpActuatorDef *bare, ZpError *err) {
-  size_t members = h->at.rest.statics.members;
-  if (members == 1 || h->at.rest.statics.linked) return ZP_OK;
-  h->member = zp_calloc(members, sizeof *h->member);
-  if (!h->member) return zp_fail_memory(err);
-  ZpStatus status = ZP_OK;
-  for (size_t k = 0; k < members && status == ZP_OK; k++) {
-    Holder *one = &h->member[k];
-    ZpActuatorDef def = alone(bare, (int)k + 1);
-    one->is_member = true;
-    one->outcome = ZP_CONVERGED;
-    status = zp_model_create(&def, &one->at.model, err);
-    if (status == ZP_OK && !zp_rest_open(&one->at.rest, one->at.model, reserve, one)) status = zp_fail_memory(err);
-    one->at.rest.statics.stop = h->at.rest.statics.stop;
-    one->at.rest.statics.caller = h->at.rest.statics.caller;
-  }
-  return status;
-}
-
-/* All are where each is alone: settle as one system at voltage U of the first one, V, with a share of the lower one's
- * own voltage. */
-static bool join(Holder *h, double U, double bias, ZpNewtonInfo *info) {
-  ZpStatics *s = &h->at.rest.statics;
-  int iterations = info->iterations;
-  for (size_t k = 0; k < s->members; k++)
-    zp_statics_take_member(s, k, &h->member[k].at.rest.statics);
-  s->bias = bias;
-  *info = zp_rest_settle(&h->at.rest, U);
-  info->iterations += iterations;
-  return zp_newton_good(info->end) && is_stable(h);
-}
-
-static void hold_members(Holder *h, ZpNewtonInfo *info) {
-  ZpStatics *s = &h->at.rest.statics;
-  zp_statics_hold_at(s, h->at.model->def.isometric.separation);
-  for (size_t k = 0; k < s->members; k++) {
-    ZpNewtonInfo own;
-    hold_unpowered(&h->member[k], &own);
-    info->iterations += own.iterations;
-    if (h->member[k].outcome != ZP_CONVERGED) h->outcome = h->member[k].outcome;
-    s->stopped |= h->member[k].at.rest.statics.stopped;
-  }
-  if (h->outcome == ZP_CONVERGED && !join(h, 0, 0, info)) h->outcome = ZP_NOT_SETTLED;
-  if (h->outcome != ZP_CONVERGED) return;
   h->unpowered = holding(h);
+  h->unpowered_moment = moment(h);
+  zp_quasistatic_start(&h->at.rest); /* from now on a gap tells which members are closed */
   zp_rest_save(&h->at.rest, h->unpowered_state);
   record(h, true, false);
 }
 
-/* Raise each to its voltage where the first one has U. */
-static void raise_members(Holder *h, double U, bool last, ZpNewtonInfo *info) {
-  ZpStatics *s = &h->at.rest.statics;
-  for (size_t k = 0; k < s->members && h->outcome == ZP_CONVERGED; k++) {
-    Holder *one = &h->member[k];
-    ZpNewtonInfo own = {.iterations = 0};
-    s->U = U;
-    double voltage = zp_statics_member_voltage(s, k);
-    if (voltage > one->top) raise_voltage(one, voltage, last || voltage == one->at.model->def.drive.voltage, &own);
-    info->iterations += own.iterations;
-    h->outcome = one->outcome;
-    s->stopped |= one->at.rest.statics.stopped;
-  }
+/* Raise the lower antagonist's own voltage, over all its turns. */
+static void raise_bias(Holder *h) {
+  bool jumped = false;
+  if (!zp_statics_bias_held(&h->at.rest.statics, &jumped)) h->outcome = ZP_BRANCH_LOST;
+  pass(h, jumped);
+  record(h, true, false);
 }
 
-/* Numbers of each that are sums of all. */
-static void sum_up(Holder *h) {
-  double other = 0;
-  for (size_t k = 0; k < h->at.rest.statics.members; k++) {
-    Holder *one = &h->member[k];
-    h->jumps += one->jumps;
-    h->others += one->others;
-    if (fabs(one->leap) > fabs(h->leap)) h->leap = one->leap;
-    if (one->others > 0) other = zp_statics_factor(&h->at.rest.statics, k) * (one->other_force - force(one));
-  }
-  h->other_force = force(h) + other;
-}
-
-static void run_members(Holder *h, ZpNewtonInfo *info) {
-  double top = h->at.model->def.drive.voltage;
-  int levels = top > 0 ? LEVELS : 0;
-  *info = (ZpNewtonInfo){.iterations = 0};
-  hold_members(h, info);
-  h->at.rest.statics.bias = 1;
-  for (int level = h->at.model[h->at.model->members - 1].bias != 0 ? 0 : 1;
-       level <= levels && h->outcome == ZP_CONVERGED; level++) {
-    double U = levels > 0 ? top * level / levels : 0;
-    raise_members(h, U, level == levels, info);
-    if (h->outcome == ZP_CONVERGED && !join(h, U, 1, info)) h->outcome = ZP_BRANCH_LOST;
-    if (h->outcome == ZP_CONVERGED) record(h, true, level == levels);
-  }
-  if (h->outcome == ZP_CONVERGED) sum_up(h);
-}
-
-/* The first one that has not arrived gives the reason. */
-static void describe_all(Holder *h) {
-  char *message = h->at.result->message;
-  size_t size = sizeof h->at.result->message;
-  bool of_one = h->member && h->outcome != ZP_INTERRUPTED;
-  for (size_t k = 0; of_one && k < h->at.rest.statics.members; k++) {
-    if (h->member[k].outcome == ZP_CONVERGED) continue;
-    int used = snprintf(message, size, "member %zu of the stack: ", k + 1);
-    describe(&h->member[k], message + used, size - (size_t)used);
-    return;
-  }
-  describe(h, message, size);
+static bool is_biased(const Holder *h) {
+  return h->at.model[h->at.model->members - 1].bias != 0;
 }
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
@@ -489,14 +382,12 @@ static void run(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
   ZpNewtonInfo info;
   double voltage = h->at.model->def.drive.voltage;
-  if (h->member)
-    run_members(h, &info);
-  else
-    hold_unpowered(h, &info);
-  if (!h->member && h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, voltage, true, &info);
+  hold_unpowered(h, &info);
+  if (h->outcome == ZP_CONVERGED && is_biased(h)) raise_bias(h);
+  if (h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, &info);
   if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);
-  describe_all(h);
+  describe(h, h->at.result->message, sizeof h->at.result->message);
   note(h);
   h->at.result->outcome = h->outcome;
   zp_rest_save(&h->at.rest, h->answer);
@@ -540,6 +431,13 @@ static const ZpRule rule[] = {
 };
 const ZpRules zp_rules_isometric = ZP_RULES_OF(rule);
 
+/* One of several alone, at the opening that it has while the lower platform is held. */
+static ZpActuatorDef alone(const ZpActuatorDef *def, int member) {
+  ZpActuatorDef one = zp_def_member(def, member);
+  if (zp_def_antagonist(def) && member == 2) one.isometric.separation = def->stack.distance - def->isometric.separation;
+  return one;
+}
+
 /* A lower platform that members share is held within the reach of each. */
 static ZpStatus check_all_held(const ZpActuatorDef *def, ZpError *err) {
   const double least = zp_key(ZP_KEY(isometric.separation))->min;
@@ -580,12 +478,8 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
               .unpowered = NAN,
               .outcome = ZP_CONVERGED};
   ZpStatus status = zp_equilibria_open(&h.at, &bare, reserve, &h, err);
-  if (status == ZP_OK) status = open_members(&h, &bare, err);
   if (status == ZP_OK) run(&h);
   if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = zp_sensitivity_of(&h.at.rest, derive, &h, result, err);
-  for (size_t k = 0; h.member && k < h.at.rest.statics.members; k++)
-    zp_equilibria_close(&h.member[k].at);
-  zp_free(h.member);
   zp_equilibria_close(&h.at);
   return status;
 }
