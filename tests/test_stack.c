@@ -629,7 +629,6 @@ TEST(what_unlike_ones_lack_is_said) {
   } refused[] = {{{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support this"},
                  {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
                  {{"member_1024.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "of at least 1024, but it is 3"},
-                 {{"stack.parallel", ZP_MOST_TIED + 1}, ZP_STUDY_STATIONARY, "requires stack.parallel at most 10"},
                  {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series at least 2"},
                  {{"stack.distance", 0.02}, ZP_STUDY_STATIONARY, "requires stack.series 2"}};
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {

@@ -9,8 +9,8 @@
  * rounded by this much, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
-/* Largest number of members of a system, and of those whose heights are tied at rest. */
-enum { ZP_MOST_MEMBERS = 1024, ZP_MOST_TIED = 10 };
+/* Largest number of members of a system. */
+enum { ZP_MOST_MEMBERS = 1024 };
 
 /* One byte per key, in the order of the table: the offset of a key or group in this struct is its number. */
 #define ZP_GROUP(group) struct {

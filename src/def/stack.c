@@ -171,8 +171,6 @@ static const ZpRule rule[] = {
                "a spring acts between the platforms of a single actuator"),
     ZP_RULE_IF(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_UNSET(stack.distance), ZP_UNSET(load.stop_opening),
                "a stop acts between the platforms of a single actuator"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_SEVERAL, ZP_IS(stack.series, 1), ZP_AT_MOST(stack.parallel, ZP_MOST_TIED),
-               "the height that unequal ones share at rest widens the band of their stiffness"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "heights that members share are unknowns of implicit steps"),
 };

@@ -423,8 +423,6 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it holds a platform, or the free end of the lower of two ribbons"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
-    ZP_RULE(NOT_MODELLED, ZP_ABOVE(stack.series, 1), ZP_AT_MOST(stack.series, ZP_MOST_TIED),
-            "the heights that more have in common at rest widen the band of their stiffness"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
