@@ -43,14 +43,14 @@ ZpStatus zp_checkpoint_report(const ZpReport *report, ZpError *err) {
 
 /* -- in -------------------------------------------------------------------------------------------- */
 
-enum { LARGEST = 1 << 25 }; /* bytes: larger than any snapshot */
+static const size_t largest = (size_t)1 << 31; /* bytes: larger than any snapshot */
 
 ZpStatus zp_checkpoint_read(const char *path, ZpCheckpoint **out, ZpError *err) {
   char *byte;
   size_t size;
   ZpError reason;
   *out = NULL;
-  ZpStatus status = zp_file_read(path, LARGEST, &byte, &size, err);
+  ZpStatus status = zp_file_read(path, largest, &byte, &size, err);
   if (status != ZP_OK) return status;
   status = zp_checkpoint_from(byte, size, out, &reason);
   free(byte);
