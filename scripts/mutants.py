@@ -100,6 +100,8 @@ class Mutant:
         whole = old if not inner else inner[0] + inner[1] + inner[2]
         pattern = r"\s+".join(re.escape(word) for word in whole.split())
         places = list(re.finditer(pattern, text))
+        if re.search(r";.*\*/$", inner[1] if inner else old):
+            raise SystemExit(f"{self.place}: statements end with ; or }}, not with a comment")
         if len(places) != 1:
             raise SystemExit(f"{self.place}: {self.file} has this text {len(places)} times, not once: {whole}")
         begin, end = places[0].span()
