@@ -479,6 +479,7 @@ static ZpActuatorDef def_of_settings(const char *settings) {
     ck_ok(zp_value_parse(key, equals + 1, &value, &err));
     ck_ok(zp_def_set(&def, key, value, &err));
   }
+  lend_members(&def);
   return def;
 }
 

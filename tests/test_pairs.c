@@ -131,6 +131,7 @@ static ZpStatus fill(ZpStudy study, int a, int b, ZpActuatorDef *def, ZpError *e
     if (zp_key(all.given[i].key)->type != ZP_KEY_TEXT)
       list[count++] = (ZpAssignment){all.given[i].key, all.given[i].value};
   ZpStatus status = zp_def_resolve(def, list, count, err);
+  lend_members(def);
   for (size_t i = 0; i < all.count && status == ZP_OK; i++)
     if (zp_key(all.given[i].key)->type == ZP_KEY_TEXT)
       status = zp_def_set_text(def, all.given[i].key, all.given[i].text, err);

@@ -301,7 +301,7 @@ TESTS(equal_ones_are_held_as_one, 0, 2) {
   ZpActuatorDef def = DEF({"stack.parallel", 3}, {"mesh.nodes", _i ? 61 : 15}, {"drive.voltage", _i ? 6e3 : 3e3},
                           {"isometric.separation", _i ? 2e-3 : 8e-3}),
                 apart = def;
-  zp_def_set(&apart, zp_key_find("member_2.ribbon.thickness"), nextafter(def.ribbon.thickness, 1), NULL);
+  set_member(&apart, "member_2.ribbon.thickness", nextafter(def.ribbon.thickness, 1));
   snprintf(apart.sensitivity.by, sizeof apart.sensitivity.by, "isometric.separation");
   ZpResult *factor = answer_of(ZP_STUDY_ISOMETRIC, &def), *members = answer_of(ZP_STUDY_ISOMETRIC, &apart);
   ck_near(zp_result_get(members, "force_N"), zp_result_get(factor, "force_N"), 1e-12);   /* 3.3e-16 measured */

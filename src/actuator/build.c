@@ -785,7 +785,7 @@ static void derive_member(const ZpActuatorDef *def, size_t member, ZpModel *mode
   model->def.members = NULL;
   model->ratio = 1;
   derive(model);
-  model->parallel = model->members > 1 && zp_def_parallel(def);
+  model->parallel = model->members > 1 && def->stack.series == 1;
   if (zp_def_antagonist(def)) model->distance = def->stack.distance;
   if (!zp_def_antagonist(def) || member == 0) return;
   model->bias = zp_def_lower_voltage(def, 0);

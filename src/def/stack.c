@@ -59,10 +59,11 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
   if (isnan(def->load.stop_opening)) one->load.stop_stiffness = def->load.stop_stiffness;
 }
 
-/* The controller of the first member sets the voltages of all. */
+/* Members of a stack without a series are side by side, unequal. The controller of the first member sets the voltages of
+ * all. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
-  bool last = member == def->stack.series, unequal = zp_def_parallel(def);
+  bool last = member == def->stack.series, unequal = def->stack.series == 1;
   const int first_key = ZP_KEYS + (member - 1) * ZP_MEMBER_KEYS;
   const size_t end = zp_member_keys_from(def, first_key + ZP_MEMBER_KEYS);
   one.members = NULL;
@@ -111,7 +112,7 @@ static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
 }
 
 static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
-  for (int member = 1; member <= zp_def_members(def); member++) {
+  for (int member = 1, last = zp_def_members(def); member <= last; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
     ZpStatus status = zp_def_check(&one, &reason);
@@ -128,7 +129,7 @@ ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (int member = 1; member <= zp_def_members(def) && status == ZP_OK; member++) {
+  for (int member = 1, last = zp_def_members(def); member <= last && status == ZP_OK; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
     bool turned = zp_def_antagonist(def) && member == 2;

@@ -413,7 +413,7 @@ ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
 /* The end of a series is held within the reach of all together. */
 static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
   double longest = 0;
-  for (int member = 1; member <= zp_def_members(def); member++) {
+  for (int member = 1, last = zp_def_members(def); member <= last; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     longest += length_of(&one);
   }
@@ -446,7 +446,7 @@ static ZpStatus check_all_held(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "isometric.separation = %g m: below stack.distance = %g m, so that the lower one opens",
                    def->isometric.separation, def->stack.distance);
-  for (int member = 1; member <= zp_def_members(def) && status == ZP_OK; member++) {
+  for (int member = 1, last = zp_def_members(def); member <= last && status == ZP_OK; member++) {
     ZpActuatorDef one = alone(def, member);
     ZpError reason;
     status = zp_check_held(&one, &reason);
