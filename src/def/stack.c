@@ -59,8 +59,8 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
   if (isnan(def->load.stop_opening)) one->load.stop_stiffness = def->load.stop_stiffness;
 }
 
-/* Members of a stack without a series are side by side, unequal. The controller of the first member sets the voltages of
- * all. */
+/* Members of a stack without a series are side by side, unequal. The controller of the first member sets the voltages
+ * of all. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
   bool last = member == def->stack.series, unequal = def->stack.series == 1;
