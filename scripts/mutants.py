@@ -24,6 +24,7 @@ Status 1 if less than 95 % of the faults are noticed, or less than 90 % in one r
 import argparse
 import collections
 import concurrent.futures
+import functools
 import glob
 import hashlib
 import json
@@ -31,9 +32,11 @@ import math
 import os
 import re
 import random
+import shlex
 import shutil
 import subprocess
 import sys
+import tempfile
 import threading
 import time
 
@@ -201,6 +204,36 @@ def build(folder):
     command = ["cmake", "--build", os.path.join(folder, "build"), "-j", str(os.cpu_count() or 2)]
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.returncode == 0, done.stdout
+
+
+def refused(build, file, mutants, folder):
+    """What the compiler of the build says of a file with its faults; "" if it accepts it, or does not compile it."""
+    commands = [entry for entry in compile_commands(build) if os.path.realpath(entry["file"]) == os.path.realpath(os.path.join(HOME, file))]
+    if not commands:
+        return ""
+    place = os.path.join(folder, file)
+    write(place, planted(file, [mutant for mutant in mutants if mutant.file == file]).encode())
+    words = shlex.split(commands[0]["command"])
+    words = words[words.index(next(word for word in words if re.search(r"(gcc|clang|cc)$", word))):words.index("-o")]
+    done = subprocess.run([*words, f"-I{folder}/include", f"-I{os.path.dirname(os.path.join(HOME, file))}", "-w", "-fsyntax-only", place],
+                          cwd=commands[0]["directory"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    return done.stdout if done.returncode else ""
+
+
+@functools.lru_cache
+def compile_commands(build):
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def check_syntax(build, mutants, jobs):
+    """Is what replaces the texts C? => whether it is"""
+    files = sorted({mutant.file for mutant in mutants if mutant.file.endswith(".c")})
+    with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        write(os.path.join(folder, "include/zipact/mutant.h"), RUNTIME_H.encode())
+        said = [text for text in pool.map(lambda file: refused(build, file, mutants, folder), files) if text]
+    print("".join(said)[:4000] + f"{len(files)} files, {len(said)} of them no C with their faults")
+    return not said
 
 
 class Test:
@@ -450,6 +483,7 @@ def try_all(folder, mutants, results, arguments):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("build", nargs="?", help="build folder; without one, only whether each text stands once in its file")
+    parser.add_argument("--syntax", action="store_true", help="only whether the compiler of BUILD accepts them")
     parser.add_argument("--only", default="", help="faults whose file and name have this text")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 2)
     parser.add_argument("--again", action="store_true", help="start over")
@@ -462,6 +496,8 @@ def main():
         for file in {mutant.file for mutant in mutants}:
             planted(file, [mutant for mutant in mutants if mutant.file == file])
         return print(f"{len(mutants)} faults, each text once in its file") or 0
+    if arguments.syntax:
+        return 0 if check_syntax(arguments.build, [m for m in mutants if arguments.only in m.key()], arguments.jobs) else 1
     folder = os.path.abspath(os.path.join(arguments.build, "mutants"))
     copy_sources(mutants, folder)
     configure = ["cmake", "-S", folder, "-B", os.path.join(folder, "build"), "-DCMAKE_BUILD_TYPE=RelWithDebInfo",

@@ -93,6 +93,9 @@ void zp_arrow_reserve(ZpArrow *m, const ZpArrowForm *form, ZpArena *arena) {
 
 void zp_arrow_clear(ZpArrow *m) {
   for (ZpArrowPart *p = m->part; p < m->part + m->form->blocks; p++) {
+    for (size_t i = 0; p->idle && i < p->n; i++)
+      *m->diagonal[p->first + i] = 0;
+    if (p->idle) continue;
     zp_band_clear(&p->A);
     if (p->border == 0) continue;
     memset(p->A.beside, 0, p->border * p->n * sizeof *p->A.beside);
@@ -259,7 +262,7 @@ static bool factor_part(ZpArrowPart *p, ZpSparse *S) {
 bool zp_arrow_factor(ZpArrow *m) {
   zp_sparse_copy(&m->S, &m->D);
   for (ZpArrowPart *p = m->part; p < m->part + m->form->blocks; p++)
-    if (!factor_part(p, &m->S)) return false;
+    if (!p->idle && !factor_part(p, &m->S)) return false;
   return zp_sparse_factor(&m->S);
 }
 
@@ -279,6 +282,7 @@ static double eliminate(const ZpArrow *m, double *b) {
   const ZpArrowPart *end = m->part + m->form->blocks;
   double *z = b + m->form->inner, alone = 0, joined = 0;
   for (const ZpArrowPart *p = m->part; p < end; p++) {
+    if (p->idle) continue;
     zp_band_solve(&p->LU, b + p->first);
     if (p->shifted) alone = INFINITY;
     if (p->border > 0) alone = fmax(alone, size_of(p, m->diagonal + p->first, b + p->first));
@@ -312,6 +316,6 @@ void zp_arrow_solve(const ZpArrow *m, double *b) {
 size_t zp_arrow_negative(const ZpArrow *m) {
   size_t negative = zp_sparse_negative(&m->S);
   for (const ZpArrowPart *p = m->part; p < m->part + m->form->blocks; p++)
-    negative += zp_band_negative(&p->LU);
+    negative += p->idle ? 0 : zp_band_negative(&p->LU);
   return negative;
 }

@@ -38,6 +38,7 @@ typedef struct ZpArrowPart {
   const size_t *to;
   ZpBand A;     /* with the columns B in the border: A.beside [border][n]; A.corner is its part of D */
   ZpBand LU;    /* factors of A: in its place if the matrix has no border; else refinement still needs A */
+  bool idle;    /* it takes no part, as in a matrix without it; set by the caller before entries are cleared */
   bool shifted; /* A is singular: these are of its neighbour */
   double *C;    /* [border][n] rows */
   double *V;    /* [border][n] A^-1 B */
@@ -54,7 +55,7 @@ typedef struct ZpArrow {
 /* Cut the arrays from `arena`. `form` must outlive the matrix. */
 void zp_arrow_reserve(ZpArrow *arrow, const ZpArrowForm *form, ZpArena *arena);
 
-/* All entries 0. */
+/* All entries 0. Of idle parts, which the caller has named before, only the diagonal is cleared. */
 void zp_arrow_clear(ZpArrow *arrow);
 
 /* Entries are written in this order: A, B and A.corner of blocks, of a symmetric A only its upper triangles;

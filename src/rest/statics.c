@@ -140,12 +140,12 @@ enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 /* The present point => good, and back. */
 static void keep(ZpStatics *s) {
   for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
-    memcpy(m->good, m->q, zp_coordinates(m->model) * sizeof *m->q);
+    if (!m->idle) memcpy(m->good, m->q, zp_coordinates(m->model) * sizeof *m->q);
 }
 
 static void go_to_kept(ZpStatics *s) {
   for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
-    memcpy(m->q, m->good, zp_coordinates(m->model) * sizeof *m->q);
+    if (!m->idle) memcpy(m->q, m->good, zp_coordinates(m->model) * sizeof *m->q);
 }
 
 void zp_statics_take_tensions(ZpStatics *s) {
@@ -207,6 +207,7 @@ static bool has_jumped(const ZpStatics *s) {
   bool jumped = false;
   for (size_t k = 0; k < s->members; k++) {
     const ZpRestMember *m = &s->member[k];
+    if (m->idle) continue;
     double before = zp_opening(&m->model->topology, zp_nodes(m->model, m->good).y);
     jumped |= fabs(opening_of(m) - before) > part * (s->opposed ? s->model->distance : m->model->L);
     jumped |= member_has_jumped(m);
@@ -641,6 +642,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
   memset(r, 0, s->n * sizeof *r);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
+    if (m->idle) continue;
     ZpSpan here = zp_statics_span(s, k);
     zp_system_force(m->model, &here, &m->eval, m->force);
     zp_assembly_add(&m->assembly, m->force, r);
@@ -655,9 +657,12 @@ static ZpEnd residual(void *self, double *r, double *size) {
 
 /* Add the stiffness of each member, or its part beside edges. */
 static void add_members(ZpStatics *s, bool beside_edges, ZpArrow *K) {
+  for (size_t k = 0; k < s->members; k++)
+    K->part[k].idle = s->member[k].idle;
   zp_arrow_clear(K);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
+    if (m->idle) continue;
     ZpSpan here = zp_statics_span(s, k);
     if (beside_edges)
       zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &K->part[k].A);
@@ -730,6 +735,7 @@ static double largest_rotation(ZpStatics *s, const double *step) {
   double most = 0;
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
+    if (m->idle) continue;
     turn(m, step);
     for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
       if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
@@ -759,7 +765,7 @@ static double gap_share_of(const ZpRestMember *m, double U) {
 static double gap_share(const ZpStatics *s) {
   double most = 0;
   for (size_t k = 0; k < s->members; k++)
-    most = fmax(most, gap_share_of(&s->member[k], zp_statics_member_voltage(s, k)));
+    if (!s->member[k].idle) most = fmax(most, gap_share_of(&s->member[k], zp_statics_member_voltage(s, k)));
   return most;
 }
 
@@ -867,6 +873,7 @@ void zp_statics_rejoin(ZpStatics *s) {
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   for (size_t k = 0; k < s->members; k++) {
+    if (s->member[k].idle) continue;
     turn_edges(&s->member[k], step, fraction);
     zp_place_edges(s->member[k].model, &s->member[k].assembly, s->member[k].moved, s->member[k].q);
   }
@@ -926,13 +933,52 @@ static double care(const ZpStatics *s) {
 }
 
 /* A front that passes node by node takes up to 400 steps for each node. */
-ZpNewtonInfo zp_statics_relax_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
+static ZpNewtonInfo descend(ZpStatics *s, bool (*enough)(void *user), void *user) {
   enum { MOST_FOR_AN_UNKNOWN = 1000 };
   ZpStaticSystem system = zp_statics_system(s);
   s->careful = care(s);
   system.length = fall_length;
   return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST_FOR_AN_UNKNOWN * (int)s->n, enough, user,
                           &s->newton);
+}
+
+static void set_idle(ZpStatics *s, bool idle) {
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    m->idle = idle;
+}
+
+/* Is a member, the only one that is not idle, near an equilibrium? Then to it; else it stays. */
+static bool finds_rest_nearby(ZpStatics *s) {
+  enum { FEW = 8 };
+  keep(s);
+  bool found = zp_newton_good(zp_statics_solve(s, FEW).end) && zp_statics_stable(s) && !has_jumped(s);
+  if (!found) go_back(s);
+  return found;
+}
+
+/* Members of a series are at rest each by itself. Those that find an equilibrium nearby have no part in the fall of the
+ * others. => does any fall? */
+static bool set_aside(ZpStatics *s) {
+  bool any = false;
+  set_idle(s, true);
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    m->idle = false;
+    m->falls = !finds_rest_nearby(s);
+    m->idle = true;
+    any |= m->falls;
+  }
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    m->idle = any && !m->falls;
+  return any;
+}
+
+ZpNewtonInfo zp_statics_relax_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
+  int before = 0;
+  if (s->members > 1 && !is_joined(s) && set_aside(s)) before = descend(s, enough, user).iterations;
+  set_idle(s, false);
+  ZpNewtonInfo info = descend(s, enough, user);
+  info.iterations += before;
+  return info;
 }
 
 ZpNewtonInfo zp_statics_relax(ZpStatics *s, double voltage) {

@@ -20,6 +20,8 @@ typedef struct ZpRestMember {
   double *force;              /* [2 stride] */
   double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied */
   double closed;              /* gap at which it counts as closed, m; zp_quasistatic_start */
+  bool idle;                  /* of a series, whose members are at rest each by itself: it stays where it is, */
+  bool falls;                 /* unless it is far from an equilibrium */
 } ZpRestMember;
 
 typedef struct ZpStatics {
