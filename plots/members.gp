@@ -3,15 +3,17 @@
 title = 'Openings of the members over time'
 load 'note.gp'
 remark = 'member 1 is the uppermost'
-letters = 8
+members = stack_series
+letters = members > 9 ? 9 : 8
 load 'style.gp'
 list = ''
-do for [k=1:stack_series] { list = list.sprintf('member_%d_opening_m ', k) }
+do for [k=1:members] { list = list.sprintf('member_%d_opening_m ', k) }
+load 'of_members.gp'
 set datafile separator ','
 set xrange [0:*]
 time = scale(largest('time_s'), 's')
 length = scale(largest(list), 'm')
 set xlabel label('time', unit(largest('time_s'), 's'))
 set ylabel label('opening', unit(largest(list), 'm'))
-plot for [k=1:stack_series] '../table.csv' using (column('time_s')*time):(column(word(list, k))*length) \
-     with lines lw (k == 1 ? 4 : 2) dt dash(k) lc rgb colour(k) title sprintf('member %d', k)
+plot for [k=1:members] '../table.csv' using (column('time_s')*time):(column(word(list, k))*length) \
+     with lines lw (k == 1 ? 4 : 2) dt member_dash(k) lc rgb member_colour(k) title member_title(k)

@@ -3,10 +3,12 @@
 # its peak may end outside the axes; then a line says so.
 title = 'Forces of the members over time'
 load 'note.gp'
-letters = 8
+members = stack_parallel
+letters = members > 9 ? 9 : 8
 load 'functions.gp'
 list = ''
-do for [k=1:stack_parallel] { list = list.sprintf('member_%d_force_N ', k) }
+do for [k=1:members] { list = list.sprintf('member_%d_force_N ', k) }
+load 'of_members.gp'
 set datafile separator ','
 stats '../table.csv' using 'member_1_force_N' name 'usual' nooutput
 usual = usual_up_quartile - usual_lo_quartile + 0.1*max(abs(usual_up_quartile), abs(usual_lo_quartile))
@@ -22,5 +24,5 @@ set yrange [from*force<*:*<to*force]
 time = scale(largest('time_s'), 's')
 set xlabel label('time', unit(largest('time_s'), 's'))
 set ylabel label('force', unit(size, 'N'))
-plot for [k=1:stack_parallel] '../table.csv' using (column('time_s')*time):(column(word(list, k))*force) \
-     with lines lw (k == 1 ? 4 : 2) dt dash(k) lc rgb colour(k) title sprintf('member %d', k)
+plot for [k=1:members] '../table.csv' using (column('time_s')*time):(column(word(list, k))*force) \
+     with lines lw (k == 1 ? 4 : 2) dt member_dash(k) lc rgb member_colour(k) title member_title(k)

@@ -12,7 +12,7 @@ static void reserve_shapes(ZpRest *rest, ZpArena *arena) {
   const size_t members = rest->statics.members, doubles = sizeof *rest->shape_room / sizeof(double);
   rest->shape_room = (ZpShapeRoom *)(void *)zp_arena_take(arena, members * doubles);
   for (size_t k = 0; k < members; k++) {
-    ZpShapeRoom counted, *room = rest->shape_room ? &rest->shape_room[k] : &counted;
+    ZpShapeRoom counted = {0}, *room = rest->shape_room ? &rest->shape_room[k] : &counted;
     zp_shape_reserve(rest->statics.model, room, arena);
   }
 }

@@ -1,0 +1,6 @@
+# Lines of `members` members: one blue to red through all where they are many, a few of which the key names.
+members_many = members > 8
+members_each = members_many ? ceil((members - 1)/7.0) : 1
+member_colour(k) = members_many ? sprintf('#%06x', hsv2rgb(0.62*(members - k)/(members - 1.0), 0.85, 0.75)) : colour(k)
+member_dash(k) = members_many ? 1 : dash(k)
+member_title(k) = (k - 1) % members_each == 0 || k == members ? sprintf('member %d', k) : ''
