@@ -44,7 +44,7 @@ bool zp_arrow_form_create(const ZpArrowBlock *block, size_t blocks, size_t borde
 }
 
 void zp_arrow_form_destroy(ZpArrowForm *form) {
-  for (size_t k = 0; k < form->blocks; k++)
+  for (size_t k = 0; form->block && k < form->blocks; k++)
     zp_free(form->block[k].to);
   zp_free(form->block);
   zp_sparsity_destroy(&form->sparsity);

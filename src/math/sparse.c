@@ -89,7 +89,7 @@ static bool open_groups(size_t n, const ZpClique *clique, size_t cliques, Groups
   }
   g->gone = zp_calloc(n + 1, sizeof *g->gone);
   g->met = zp_calloc(n + 1, sizeof *g->met);
-  if (!made || !g->gone || !g->met) return false;
+  if (!made || !g->gone || !g->met || !make_room(g, n + 1)) return false;
   for (size_t i = 0; i < n; i++)
     g->in[i] = NONE;
   for (const ZpClique *of = clique; of < clique + cliques; of++) {
