@@ -373,8 +373,9 @@ static ZpStatus take_group(Reader *reader, const ZpYamlItem *item, ZpError *err)
   int first = first_of_group(item->path);
   if (first < 0) return fail_unknown(reader, item, err);
   const int depth = strchr(item->path, '.') != NULL;
-  for (const OpenGroup *group = reader->group; group < reader->group + reader->groups; group++)
-    if (group->first == first && group->depth == depth) return check_first(reader, item, group->line, err);
+  for (size_t k = 0; k < reader->groups; k++)
+    if (reader->group[k].first == first && reader->group[k].depth == depth)
+      return check_first(reader, item, reader->group[k].line, err);
   void *array = reader->group;
   const bool made = grow(&array, reader->groups, &reader->group_room, sizeof *reader->group);
   reader->group = array;
