@@ -118,7 +118,7 @@ class Mutant:
     def choice(self, old, new):
         """Both texts, of which the program takes one."""
         if re.search(r"[;}]$", old) and not re.match(r"\(\w+\){", old):  # statements, but no compound literal
-            return f"if (ZP_MUTANT({self.number})) {{ {new} }} else {{ {old} }}"
+            return f"{{ if (ZP_MUTANT({self.number})) {{ {new} }} else {{ {old} }} }}"
         return f"(ZP_MUTANT({self.number}) ? ({new}) : ({old}))"
 
 
@@ -208,16 +208,20 @@ def build(folder):
 
 def refused(build, file, mutants, folder):
     """What the compiler of the build says of a file with its faults; "" if it accepts it, or does not compile it."""
-    commands = [entry for entry in compile_commands(build) if os.path.realpath(entry["file"]) == os.path.realpath(os.path.join(HOME, file))]
+    commands = commands_for(build, file)
     if not commands:
         return ""
     place = os.path.join(folder, file)
     write(place, planted(file, [mutant for mutant in mutants if mutant.file == file]).encode())
     words = shlex.split(commands[0]["command"])
     words = words[words.index(next(word for word in words if re.search(r"(gcc|clang|cc)$", word))):words.index("-o")]
-    done = subprocess.run([*words, f"-I{folder}/include", f"-I{os.path.dirname(os.path.join(HOME, file))}", "-w", "-fsyntax-only", place],
+    done = subprocess.run([*words, f"-I{folder}/include", f"-I{os.path.dirname(os.path.join(HOME, file))}", "-Werror", "-fsyntax-only", place],
                           cwd=commands[0]["directory"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.stdout if done.returncode else ""
+
+
+def commands_for(build, file):
+    return [entry for entry in compile_commands(build) if entry["file"] == os.path.join(HOME, file)]
 
 
 @functools.lru_cache
@@ -232,8 +236,9 @@ def check_syntax(build, mutants, jobs):
     with tempfile.TemporaryDirectory() as folder, concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         write(os.path.join(folder, "include/zipact/mutant.h"), RUNTIME_H.encode())
         said = [text for text in pool.map(lambda file: refused(build, file, mutants, folder), files) if text]
-    print("".join(said)[:4000] + f"{len(files)} files, {len(said)} of them no C with their faults")
-    return not said
+    known = sum(bool(commands_for(build, file)) for file in files)
+    print("".join(said)[:4000] + f"{len(files)} files, {known} of which the build compiles, {len(said)} of them no C with their faults")
+    return known > 0 and not said
 
 
 class Test:
