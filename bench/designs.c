@@ -308,7 +308,7 @@ static int check_kept(const char *path) {
   if (!file) return perror(path), 1;
   while (fgets(line, sizeof line, file)) {
     ZpStudy study;
-    ZpActuatorDef def;
+    ZpActuatorDef def = {0};
     ZpError err = {ZP_OK, "no command of a study"};
     if (line[0] == '#') continue;
     strcpy(copy, line);
@@ -403,7 +403,7 @@ static ZpActuatorDef supplied(const ZpActuatorDef *def, ZpSupplyName supply) {
     if (!isnan(value) && value != usual) list[count++] = (ZpAssignment){k, value};
   }
   list[count++] = (ZpAssignment){zp_key_find("source.supply"), supply};
-  ZpActuatorDef all;
+  ZpActuatorDef all = {0};
   return zp_def_resolve(&all, list, count, NULL) == ZP_OK ? all : *def;
 }
 

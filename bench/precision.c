@@ -53,7 +53,7 @@ static ZpStatus undamped(const Case *c, int nodes, bool implicit, ZpActuatorDef 
 static ZpStatus print_rows(const Case *c, int nodes, const Trajectory *reference, ZpError *err) {
   static const double tolerance[] = {1e-2, 3e-3, 1e-3, 7e-4, 5e-4, 3.5e-4, 3e-4, 2e-4, 1e-4, 1e-5};
   static const double time_step[] = {2e-3, 1e-3, 5e-4, 2e-4, 1e-4}; /* s */
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpStatus status = undamped(c, nodes, true, &def, err);
   for (size_t k = 0; k < sizeof tolerance / sizeof tolerance[0] && status == ZP_OK; k++) {
     def.solver.tolerance = tolerance[k];
@@ -69,7 +69,7 @@ static ZpStatus print_rows(const Case *c, int nodes, const Trajectory *reference
 
 /* The zip's own reference: the same nodes, so that only time is compared. */
 static ZpStatus converge(const Case *c, int nodes, size_t rows, double interval, double (*row)[2], ZpError *err) {
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpStatus status = undamped(c, nodes, true, &def, err);
   def.solver.tolerance = 1e-6;
   return status == ZP_OK ? motion_record(&def, rows, interval, row, err) : status;
@@ -96,7 +96,7 @@ static int print_case(const Case *c, bool own_reference) {
 static int print_reference(int nodes, double tolerance) {
   enum { ROWS = 101 };
   static double row[ROWS][2];
-  ZpActuatorDef def;
+  ZpActuatorDef def = {0};
   ZpError err;
   ZpStatus status = motion_swing(nodes, true, &def, &err);
   def.solver.tolerance = tolerance;

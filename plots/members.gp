@@ -4,7 +4,7 @@ title = 'Openings of the members over time'
 load 'note.gp'
 remark = 'member 1 is the uppermost'
 members = stack_series
-letters = members > 9 ? 9 : 8
+letters = strlen(sprintf('member %d', members))
 load 'style.gp'
 list = ''
 do for [k=1:members] { list = list.sprintf('member_%d_opening_m ', k) }

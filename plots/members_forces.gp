@@ -4,7 +4,7 @@
 title = 'Forces of the members over time'
 load 'note.gp'
 members = stack_parallel
-letters = members > 9 ? 9 : 8
+letters = strlen(sprintf('member %d', members))
 load 'functions.gp'
 list = ''
 do for [k=1:members] { list = list.sprintf('member_%d_force_N ', k) }

@@ -1,4 +1,4 @@
-# Lines of `members` members: one blue to red through all where they are many, a few of which the key names.
+# Lines of `members` members. Many of them run from blue to red, and the key names only some.
 members_many = members > 8
 members_each = members_many ? ceil((members - 1)/7.0) : 1
 member_colour(k) = members_many ? sprintf('#%06x', hsv2rgb(0.62*(members - k)/(members - 1.0), 0.85, 0.75)) : colour(k)

@@ -214,7 +214,7 @@ def refused(build, file, mutants, folder):
     place = os.path.join(folder, file)
     write(place, planted(file, [mutant for mutant in mutants if mutant.file == file]).encode())
     words = shlex.split(commands[0]["command"])
-    words = words[words.index(next(word for word in words if re.search(r"(gcc|clang|cc)$", word))):words.index("-o")]
+    words = words[words.index(next(word for word in words if re.search(r"(gcc|clang|cc)(-\d+)?$", word))):words.index("-o")]
     done = subprocess.run([*words, f"-I{folder}/include", f"-I{os.path.dirname(os.path.join(HOME, file))}", "-Werror", "-fsyntax-only", place],
                           cwd=commands[0]["directory"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
     return done.stdout if done.returncode else ""

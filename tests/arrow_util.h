@@ -27,4 +27,13 @@ static inline void *zero_arrow(ZpArrow *m, const ZpArrowForm *form) {
   return memory;
 }
 
+/* Entry (i, j) of a matrix of one block, with all that is in the border written to D. */
+static inline double *entry_at(const ZpArrow *m, size_t i, size_t j) {
+  const ZpArrowPart *p = m->part;
+  const size_t n = p->n;
+  if (i >= n && j >= n) return zp_sparse_at(&m->D, i - n, j - n);
+  if (j >= n) return p->A.beside + (j - n) * n + i;
+  return i >= n ? p->C + (i - n) * n + j : zp_band_at(&p->A, i, j);
+}
+
 #endif

@@ -13,7 +13,7 @@
 #include <zipact/zipact.h>
 
 #include "actuator/model.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "run/info.h"
 #include "sanitized.h"
 #include "study/result.h"
@@ -339,6 +339,11 @@ static inline double largest_in(const ZpTable *table, const char *column) {
   for (size_t r = 0; r < table->rows; r++)
     most = fmax(most, fabs(zp_table_get(table, r, column)));
   return most;
+}
+
+/* Key `index`; of a key that stands for those of all members, that of member 8. */
+static inline int key_of_one(int index) {
+  return strncmp(zp_key(index)->name, "member_K.", 9) == 0 ? zp_key_of_member(index, 8) : index;
 }
 
 #endif

@@ -294,15 +294,15 @@ static bool has_its_own_words(const char *key, double value) {
 }
 
 static void run_at(int index, double value) {
-  const ZpKey *key = zp_key(index);
+  const char *name = ZP_KEY_NAME(index);
   ZpActuatorDef def = small_def();
   ZpError err = {ZP_OK, ""};
   char what[128];
-  snprintf(what, sizeof what, "%s = %g", key->name, value);
-  make_room(&def, key->name, value);
+  snprintf(what, sizeof what, "%s = %g", name, value);
+  make_room(&def, name, value);
   ck_assert_msg(zp_def_set(&def, index, value, &err) == ZP_OK, "%s: %s", what, err.message);
-  ZpStudy study = study_for(key->name, value);
-  if (has_its_own_words(key->name, value)) {
+  ZpStudy study = study_for(name, value);
+  if (has_its_own_words(name, value)) {
     ck_assert_msg(zp_study_check(study, &def, &err) == ZP_BAD_INPUT, "%s is not refused", what);
     return;
   }
@@ -312,28 +312,29 @@ static void run_at(int index, double value) {
 
 NIGHTLY_TESTS(study_ends_at_the_bounds, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
+  const int index = key_of_one(_i);
   if (key->type == ZP_KEY_TEXT) return;
-  if (!zp_key_in_def(_i)) {
+  if (!zp_key_in_def(index)) {
     run_each_study();
     return;
   }
-  run_at(_i, key->min);
-  if (key->max > key->min) run_at(_i, key->max);
+  run_at(index, key->min);
+  if (key->max > key->min) run_at(index, key->max);
   for (double word = 1; key->type == ZP_KEY_ENUM && word < key->max; word++) {
     bool preset = strcmp(key->name, "preset") == 0; /* applied by zp_def_resolve: see below */
-    if (!preset) run_at(_i, word);
+    if (!preset) run_at(index, word);
   }
 }
 
 /* zp_def_set refuses `value`, names the key and changes nothing; so does zp_def_check if it is in the Def
  * all the same, as after an assignment in C. */
 static void refuse(int index, double value) {
-  const ZpKey *key = zp_key(index);
   ZpActuatorDef def = zp_actuator_def_default(), before = def;
   ZpError err = {ZP_OK, ""};
-  ck_assert_msg(zp_def_set(&def, index, value, &err) == ZP_BAD_INPUT, "%s = %.17g was taken", key->name, value);
+  const char *name = ZP_KEY_NAME(index);
+  ck_assert_msg(zp_def_set(&def, index, value, &err) == ZP_BAD_INPUT, "%s = %.17g was taken", name, value);
   ck_assert_int_eq(err.status, ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, key->name), "%s = %.17g: \"%s\"", key->name, value, err.message);
+  ck_assert_msg(strstr(err.message, name), "%s = %.17g: \"%s\"", name, value, err.message);
   ck_assert_mem_eq(&def, &before, sizeof def);
   ck_assert_int_eq(zp_def_set(&def, index, value, NULL), ZP_BAD_INPUT);
   ZpAssignment list = {index, value};
@@ -348,15 +349,16 @@ static double next_to(const ZpKey *key, double value, double direction) {
 
 TESTS(beyond_the_bounds_is_refused, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
+  const int index = key_of_one(_i);
   bool real = key->type == ZP_KEY_REAL || key->type == ZP_KEY_REAL_AUTO;
-  refuse(_i, next_to(key, key->min, -INFINITY));
-  refuse(_i, next_to(key, key->max, INFINITY));
-  refuse(_i, INFINITY);
-  refuse(_i, -INFINITY);
-  refuse(_i, DBL_MAX);
-  if (key->type != ZP_KEY_REAL_AUTO) refuse(_i, NAN);
-  if (!real) refuse(_i, key->min + 0.5);
-  if (!real) refuse(_i, 1e300);
+  refuse(index, next_to(key, key->min, -INFINITY));
+  refuse(index, next_to(key, key->max, INFINITY));
+  refuse(index, INFINITY);
+  refuse(index, -INFINITY);
+  refuse(index, DBL_MAX);
+  if (key->type != ZP_KEY_REAL_AUTO) refuse(index, NAN);
+  if (!real) refuse(index, key->min + 0.5);
+  if (!real) refuse(index, 1e300);
 }
 
 /* Where the field of the Def is written to directly, zp_def_check stands guard for all that use a Def. */

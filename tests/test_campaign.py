@@ -395,7 +395,7 @@ def check_full_disk(zipact, scratch):
     full = subprocess.run(words, stderr=subprocess.PIPE, text=True, preexec_fn=small_disk, restore_signals=False)  # SIGXFSZ stays ignored
     ok("a full disk: status 3, and the journal is named", full.returncode == 3 and "journal.sqlite" in full.stderr)
     kept, whole = (place / "table.csv" for place in (folder, scratch / "rest-1"))  # a slow machine has put some rows before
-    ok("a full disk: no table but of the rows before", not kept.exists() or whole.read_text().startswith(kept.read_text()) and rows_of(folder))
+    ok("a full disk: no table but of the rows before", not kept.exists() or whole.read_text().startswith(kept.read_text()) and kept.read_text().count("\n") - 1 <= len(rows_of(folder)) < 600)
     again = zipact.run("rest", folder, "--resume")
     ok("with room again: the bytes of an uninterrupted run", again.returncode == 0 and results(folder) == results(scratch / "rest-1"))
     folder = scratch / "filling"

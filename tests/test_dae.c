@@ -129,7 +129,7 @@ static ZpEnd charge_left(void *self, const double *y1, double h, double *r) {
 
 static void charge_tangent(void *self, ZpArrow *J) {
   const Motion *m = self;
-  *zp_arrow_at(J, 0, 0) = m->R / m->h + 0.5 / farad;
+  *entry_at(J, 0, 0) = m->R / m->h + 0.5 / farad;
 }
 
 static void make_charge_behind(Motion *m, double R) {
@@ -217,9 +217,9 @@ static ZpEnd plate_left(void *self, const double *y1, double h, double *r) {
 
 static void plate_diagonal(const Motion *m, ZpArrow *J) {
   zp_arrow_clear(J);
-  *zp_arrow_at(J, 0, 0) = 0.5 * spring;
-  *zp_arrow_at(J, 1, 1) = m->R / m->h + 0.5 * (insulator + mean(m, 0)) / eps_A;
-  *zp_arrow_at(J, 0, 1) = 0.5 * mean(m, 1) / eps_A;
+  *entry_at(J, 0, 0) = 0.5 * spring;
+  *entry_at(J, 1, 1) = m->R / m->h + 0.5 * (insulator + mean(m, 0)) / eps_A;
+  *entry_at(J, 0, 1) = 0.5 * mean(m, 1) / eps_A;
 }
 
 /* The symmetric one: Q at the middle in both rows. */
@@ -230,8 +230,8 @@ static void plate_tangent(void *self, ZpArrow *J) {
 static void plate_exact(void *self, ZpArrow *J) {
   const Motion *m = self;
   plate_diagonal(m, J);
-  *zp_arrow_at(J, 1, 0) = 0.5 * mean(m, 1) / eps_A;
-  *zp_arrow_at(J, 0, 1) = 0.5 * m->y1[1] / eps_A;
+  *entry_at(J, 1, 0) = 0.5 * mean(m, 1) / eps_A;
+  *entry_at(J, 0, 1) = 0.5 * m->y1[1] / eps_A;
 }
 
 static void make_plate(Motion *m) {
@@ -325,10 +325,9 @@ static void volume_tangent(void *self, ZpArrow *J) {
   zp_arrow_clear(J);
   for (size_t i = 0; i < CELLS; i++) {
     double a = m->y0[i], b = m->y1[i], neighbours = (i > 0) + (i + 1 < CELLS);
-    *zp_arrow_at(J, i, i) =
-        0.5 * (cell_spring(i) + neighbours * between) + hard * 0.25 * (a * a + 2 * a * b + 3 * b * b);
-    if (i + 1 < CELLS) *zp_arrow_at(J, i, i + 1) = -0.5 * between;
-    *zp_arrow_at(J, i, CELLS) = *zp_arrow_at(J, CELLS, i) = -cell_length(i);
+    *entry_at(J, i, i) = 0.5 * (cell_spring(i) + neighbours * between) + hard * 0.25 * (a * a + 2 * a * b + 3 * b * b);
+    if (i + 1 < CELLS) *entry_at(J, i, i + 1) = -0.5 * between;
+    *entry_at(J, i, CELLS) = *entry_at(J, CELLS, i) = -cell_length(i);
   }
 }
 
@@ -407,9 +406,9 @@ static void pendulum_tangent(void *self, ZpArrow *J) {
   const Motion *m = self;
   zp_arrow_clear(J);
   for (size_t i = 0; i < 2; i++) {
-    *zp_arrow_at(J, i, i) = -0.5 * m->y1[2];
-    *zp_arrow_at(J, i, 2) = -mean(m, i);
-    *zp_arrow_at(J, 2, i) = -m->y1[i];
+    *entry_at(J, i, i) = -0.5 * m->y1[2];
+    *entry_at(J, i, 2) = -mean(m, i);
+    *entry_at(J, 2, i) = -m->y1[i];
   }
 }
 
@@ -489,8 +488,8 @@ static ZpEnd pair_left(void *self, const double *y1, double h, double *r) {
 static void pair_tangent(void *self, ZpArrow *J) {
   const Motion *m = self;
   double inertia = 2 * added / (m->h * m->h), drag = dashpot / m->h;
-  *zp_arrow_at(J, 0, 0) = *zp_arrow_at(J, 1, 1) = 0.5 * stiff + drag + inertia;
-  *zp_arrow_at(J, 0, 1) = inertia - drag;
+  *entry_at(J, 0, 0) = *entry_at(J, 1, 1) = 0.5 * stiff + drag + inertia;
+  *entry_at(J, 0, 1) = inertia - drag;
 }
 
 static void pair_inertia(void *self, const double *a, double *f) {
@@ -557,7 +556,7 @@ static ZpEnd one_left(void *self, const double *y1, double h, double *r) {
 
 static void one_tangent(void *self, ZpArrow *J) {
   (void)self;
-  *zp_arrow_at(J, 0, 0) = 0.5 * stiff;
+  *entry_at(J, 0, 0) = 0.5 * stiff;
 }
 
 TEST(test_pair_steps_as_one_mass) {

@@ -762,17 +762,19 @@ TESTS(test_value_round_trip, 0, zp_key_count()) {
 /* A scenario that sets one key: it need not pass the check of the whole Def to be written. */
 TESTS(test_scenario_round_trip, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
-  if (key->type == ZP_KEY_TEXT || zp_key_with_value(key->name) < 0) return; /* test_texts; of no member */
+  const int index = key_of_one(_i);
+  const char *name = ZP_KEY_NAME(index);
+  if (key->type == ZP_KEY_TEXT) return; /* test_texts */
   double values[] = {key->min, key->max, key->min + (key->max - key->min) / 3};
   for (size_t i = 0; i < LENGTH_OF(values); i++) {
     char value[256], line[512];
-    zp_value_print(_i, key->type > ZP_KEY_REAL_AUTO ? floor(values[i]) : values[i], value, sizeof value);
-    snprintf(line, sizeof line, "%s: %s\n", key->name, value);
+    zp_value_print(index, key->type > ZP_KEY_REAL_AUTO ? floor(values[i]) : values[i], value, sizeof value);
+    snprintf(line, sizeof line, "%s: %s\n", name, value);
     ZpScenario *s = scenario_of(line);
     char *text = written(s);
     if (strcmp(value, "auto") == 0) line[strlen(line) - 1] = 0; /* what it stands for may follow */
-    const char *point = strrchr(key->name, '.');                /* lower.ribbon.width stands as width in its group */
-    const char *leaf = point ? line + (point + 1 - key->name) : line;
+    const char *point = strrchr(name, '.');                     /* lower.ribbon.width stands as width in its group */
+    const char *leaf = point ? line + (point + 1 - name) : line;
     ck_assert_msg(strstr(text, leaf) != NULL, "%s", line);
     ZpScenario *back = scenario_of(text);
     char *again = written(back);

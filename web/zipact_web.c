@@ -13,6 +13,7 @@
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "def/device.h"
 #include "io/value.h"
 #include "run/info.h"
@@ -157,7 +158,7 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   char *sign = strchr(web->text, '=');
   if (!sign || web->assigned == MOST_ASSIGNMENTS) return say(web, ZP_BAD_INPUT, sign ? "too many keys" : "no = in it");
   *sign = 0;
-  int key = zp_key_find(web->text);
+  int key = zp_key_with_value(web->text);
   double value;
   char message[sizeof err.message + TEXT_SIZE], reason[256];
   if (key < 0) {

@@ -101,8 +101,8 @@ ZP_API void zp_def_destroy(ZpActuatorDef *def);
 /* Number of keys. Those of all members of a stack count once: member_K.ribbon.thickness and so on, without a value. */
 ZP_API int zp_key_count(void);
 
-/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`. Keys of members follow, for each of which
- * this is the one that stands for those of all members. NULL for any other. */
+/* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`. Larger indices are keys of single members
+ * (zp_key_find): for these it is the key that stands for those of all members. NULL for any other. */
 ZP_API const ZpKey *zp_key(int index);
 
 /* Index of the key called `name`, or -1. That of member_1.ribbon.thickness and so on is zp_key_count() or more. */

@@ -35,10 +35,10 @@ class Key(NamedTuple):
 
 class Keys(dict[str, Key]):
     """Every key by its name, "load.mass". Those of all members of a stack are listed once, with K in the place of a number;
-    "member_3.ribbon.thickness" is found as well."""
+    KEYS["member_3.ribbon.thickness"] is found as well, though not by `in` or get."""
 
     def __missing__(self, name: str) -> Key:
-        row, numbers = re.subn(r"^member_[1-9][0-9]{0,3}[.]", "member_K.", name)
+        row, numbers = re.subn(r"^member_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", "member_K.", name)
         if numbers == 0 or row not in self:
             raise KeyError(name)
         return self[row]._replace(name=name)
@@ -114,8 +114,9 @@ class Actuator(Mapping[str, Any]):
 
     drive=(times, voltages), arrays in s and V, replaces drive.waveform in study actuate and in Simulation.
 
-    As a mapping it contains every key, of members of a stack those that are given: actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printing it
-    shows the keys that differ from the defaults.
+    As a mapping it lists every key, and of members of a stack those that are given; other members' keys can be read, too:
+    actuator["load.mass"] is a float in SI, an int, a bool, or a str. Printing it shows the keys that differ from the
+    defaults.
     """
 
     __slots__ = ("_definition", "_drive", "_given")

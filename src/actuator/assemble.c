@@ -234,13 +234,11 @@ static void join(ZpAssembly *a, const int *of, size_t first, size_t inner, size_
   find_form(a);
 }
 
-bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first_model, size_t members, size_t common,
-                      ZpArrowForm *form) {
+bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t members, size_t common, ZpArrowForm *form) {
   Shared shared;
-  size_t inner = 0, first = 0, used = 0;
+  size_t room = 0, used = 0, inner = 0, before = 0;
   bool made = open_shared(a, members, &shared);
-  if (made && first_model) find_shared(a, first_model, &shared);
-  size_t room = 0;
+  if (made && first) find_shared(a, first, &shared);
   for (size_t k = 0; made && k < members; k++)
     room += shared.of_each[k] + common;
   size_t *to = zp_calloc(room + 1, sizeof *to);
@@ -255,8 +253,8 @@ bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first_model, size_t 
     used += a[k]->block.band.border;
   }
   for (size_t k = 0; k < members && made; k++) {
-    join(a[k], shared.of[k], first, inner, inner + shared.count + common);
-    first += a[k]->block.n;
+    join(a[k], shared.of[k], before, inner, inner + shared.count + common);
+    before += a[k]->block.n;
     block[k] = a[k]->block;
   }
   made = made && zp_arrow_form_create(block, members, shared.count + common, form);

@@ -60,8 +60,9 @@ typedef struct ZpKeyGroup {
         (int)(offsetof(ZpKeyNumbers, group) + sizeof(((ZpKeyNumbers *)0)->group))                                      \
   }
 
-/* A Def may be copied by =: the copy uses the values of members' keys of the first one, which must outlive it, until
- * one of them is set in the copy or it gets another Def's by zp_def_assign. From then on it has to be cleared. */
+/* A Def is {0} at least before it is set by a call. It may be copied by =: the copy uses the values of members' keys of
+ * the first one, which must outlive it, until one of them is set in the copy or it gets another Def's by zp_def_assign.
+ * From then on it has to be cleared. */
 ZpStatus zp_def_assign(ZpActuatorDef *def, const ZpActuatorDef *from, ZpError *err);
 void zp_def_clear(ZpActuatorDef *def);
 

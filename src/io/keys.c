@@ -94,7 +94,9 @@ static void write_yaml(FILE *file) {
     zp_value_print(i, key->def, value, sizeof value);
     allowed(i, " | ", range, sizeof range);
     if (is_of_members(key)) {
-      fprintf(file, "# %s: %s  # %s (%s)\n", key->name, value, key->help, range);
+      int shown = fprintf(file, "# %s: ", key->name);
+      fprintf(file, "%s%*s  # %s (%s)\n", value, longer(COMMENT_COLUMN - shown, value) - (int)strlen(value), "",
+              key->help, range);
       continue;
     }
     int width = zp_yaml_write_key(file, key->name, before);

@@ -63,7 +63,7 @@ static void tie(ZpPlan *plan, const ZpGiven *given, int key) {
 /* Read sampling.together. */
 static void find_tied(ZpPlan *plan, const ZpGiven *given) {
   const ZpSlot *slot = zp_given(given, zp_key_find("sampling.together"));
-  int key[ZP_TEXT_SIZE], count; /* of keys that its text has room for */
+  int key[ZP_TEXT_SIZE], count; /* a text has room for fewer keys */
   if (zp_keys_named("sampling.together", slot ? slot->text : "", ZP_TEXT_SIZE, key, &count, &plan->problem) != ZP_OK)
     return;
   for (int k = 0; k < count; k++)

@@ -3,8 +3,8 @@
  * Two layers of slots, one slot per given key, hold the values of the file and those of --set; the second layer wins,
  * whatever the order of calls. A third layer, below both, has the distributions of materials for sampling.tolerances.
  * Nothing is resolved before a Def is requested, so the position of `preset` in the file does not matter. A text is
- * first read into slots of its own. The layer that it changes and all that follows from the layers are then made anew,
- * and take the place of the present ones if nothing failed. io/plan.h lists the Defs of a scenario. Their common values
+ * first read into slots of its own. Then the layer that it changes is built again, with all that follows from the
+ * layers. If nothing fails, they replace the present ones. io/plan.h lists the Defs of a scenario. Their common values
  * are resolved once, when keys are given; a case only sets the varied keys. */
 #include <zipact/io.h>
 

@@ -156,15 +156,6 @@ static size_t column_of(const ZpArrowPart *p, size_t unknown) {
   return k;
 }
 
-double *zp_arrow_at(const ZpArrow *m, size_t i, size_t j) {
-  const size_t inner = m->form->inner;
-  if (i >= inner && j >= inner) return zp_sparse_at(&m->D, i - inner, j - inner);
-  const ZpArrowPart *p = part_of(m, i < inner ? i : j);
-  if (j >= inner) return p->A.beside + column_of(p, j - inner) * p->n + (i - p->first);
-  if (i >= inner) return p->C + column_of(p, i - inner) * p->n + (j - p->first);
-  return zp_band_at(&p->A, i - p->first, j - p->first);
-}
-
 bool zp_arrow_is_symmetric(const ZpArrow *m) {
   const ZpArrowPart *end = m->part + m->form->blocks;
   for (const ZpArrowPart *p = m->part; p < end; p++)

@@ -64,9 +64,6 @@ void zp_arrow_clear(ZpArrow *arrow);
 void zp_arrow_mirror(ZpArrow *arrow);
 void zp_arrow_close(ZpArrow *arrow);
 
-/* Entry (i, j) of a closed matrix, in a block, between it and its border, or in D. For places far from inner loops. */
-double *zp_arrow_at(const ZpArrow *arrow, size_t i, size_t j);
-
 /* Is it symmetric? */
 bool zp_arrow_is_symmetric(const ZpArrow *arrow);
 

@@ -6,7 +6,7 @@
 #include "base/kernel.h"
 #include "math/vector.h"
 
-void zp_band_reserve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpArena *arena) {
+static void reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpArena *arena) {
   bool symmetric = lower == 0;
   size_t blocks = (groups.lead + n + ZP_BAND_BLOCK - 1) / ZP_BAND_BLOCK;
   *band = (ZpBand){.n = n, .lower = lower, .upper = upper, .lead = symmetric ? groups.lead : 0};
@@ -19,11 +19,11 @@ void zp_band_reserve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, 
 }
 
 void zp_band_reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpArena *arena) {
-  zp_band_reserve_groups(band, n, lower, upper, (ZpBandGroups){0, 0}, arena);
+  reserve(band, n, lower, upper, (ZpBandGroups){0, 0}, arena);
 }
 
 void zp_band_reserve_form(ZpBand *band, size_t n, ZpBandForm form, ZpArena *arena) {
-  zp_band_reserve_groups(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, form.groups, arena);
+  reserve(band, n, form.symmetric ? 0 : form.bandwidth, form.bandwidth, form.groups, arena);
   band->rank = form.rank;
   band->border = form.border;
   band->beside = zp_arena_take(arena, form.border * n);

@@ -49,9 +49,8 @@ typedef struct ZpBandForm {
 /* Rows of a block of a symmetric matrix; diagonals above the main one that such a matrix may have. */
 enum { ZP_BAND_BLOCK = 4, ZP_BAND_MOST = 127 };
 
-/* Cut the arrays from `arena`: of a band alone, of one with groups, of one of a form. */
+/* Cut the arrays from `arena`: of a band alone, of one of a form. */
 void zp_band_reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpArena *arena);
-void zp_band_reserve_groups(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGroups groups, ZpArena *arena);
 void zp_band_reserve_form(ZpBand *band, size_t n, ZpBandForm form, ZpArena *arena);
 
 /* All entries 0. */

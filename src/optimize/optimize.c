@@ -10,7 +10,6 @@
 #include "base/fail.h"
 #include "campaign/case_hash.h"
 #include "def/check.h"
-#include "def/def.h"
 #include "io/number.h"
 #include "io/report.h"
 #include "optimize/search.h"

@@ -6,7 +6,6 @@
 
 #include "base/fail.h"
 #include "def/check.h"
-#include "def/def.h"
 #include "io/range.h"
 #include "io/units.h"
 #include "io/value.h"

@@ -10,7 +10,6 @@
 #include "base/fail.h"
 #include "campaign/case_hash.h"
 #include "def/check.h"
-#include "def/def.h"
 #include "fit/case.h"
 #include "sample/design.h"
 #include "study/result.h"

@@ -90,8 +90,9 @@ static size_t reserve(Member *w, void *block) {
   ZpArena arena = {block, 0};
   size_t n = w->assembly.n, N = model->nodes;
   zp_vibration_reserve(&w->vibration, n, ZP_VIBRATIONS, &arena);
-  const ZpBandForm *band = &w->form.block->band;
-  zp_band_reserve_groups(&w->K, n, 0, band->bandwidth, band->groups, &arena);
+  ZpBandForm band = w->form.block->band;
+  band.rank = 0;
+  zp_band_reserve_form(&w->K, n, band, &arena);
   zp_arrow_reserve(&w->factors, &w->form, &arena);
   if (model->has_film) zp_film_ways_reserve(&model->film, &w->ways, &arena);
   w->shape = zp_arena_take(&arena, SHAPES * n);

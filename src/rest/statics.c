@@ -304,10 +304,7 @@ bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
   enum { MOST_JUMPS = 100 };
   static const double above = 1e-3; /* of the share where the branch ends */
   for (int k = 0; k < MOST_JUMPS; k++) {
-    if (grow(s, &s->bias, 1, true, 0.05)) {
-      s->bias = 1;
-      return true;
-    }
+    if (zp_statics_bias(s)) return true;
     *jumped = true;
     s->bias = fmin((1 + above) * s->bias, 1);
     if (!zp_newton_good(zp_statics_relax(s, s->U).end)) return false;
@@ -896,7 +893,7 @@ static ZpEnd refresh(void *self) {
   ZpStatics *s = self;
   bool solved = true;
   for (size_t k = 0; k < s->members && solved; k++)
-    solved = solve_field(&s->member[k], zp_statics_member_voltage(s, k));
+    solved = s->member[k].idle || solve_field(&s->member[k], zp_statics_member_voltage(s, k));
   return solved ? ZP_END_FOUND : ZP_END_SHORTER;
 }
 

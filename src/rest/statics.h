@@ -125,7 +125,7 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *statics);
 bool zp_statics_bias(ZpStatics *statics);
 
 /* As zp_statics_bias, while the platform is held. Where the branch ends, the members jump to the next one, as
- * isometric's voltage does. False if one of these falls does not converge. */
+ * isometric's voltage does: then *jumped becomes true. False if one of these falls does not converge. */
 bool zp_statics_bias_held(ZpStatics *statics, bool *jumped);
 
 /* Why there is no equilibrium at which a voltage could begin to rise. */

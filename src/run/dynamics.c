@@ -597,7 +597,6 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
 /* The voltage behind a source has a rate and no inertia. All halves have it in common. */
 static void add_voltage(ZpDynamics *d) {
   if (d->parts.more > 0) d->parts.common[d->parts.count++] = voltage_of(d);
-
   d->kind[voltage_of(d)] = ZP_FIRST_ORDER;
   d->scale[voltage_of(d)] = d->source->scale / d->member->model->L;
   d->sharers[voltage_of(d)] = (double)d->members;

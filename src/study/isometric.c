@@ -324,8 +324,9 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
 
 /* Raise the lower antagonist's own voltage, over all its turns. */
 static void raise_bias(Holder *h) {
-  bool jumped = false;
-  if (!zp_statics_bias_held(&h->at.rest.statics, &jumped)) h->outcome = ZP_BRANCH_LOST;
+  bool jumped = false, raised = zp_statics_bias_held(&h->at.rest.statics, &jumped);
+  if (!raised) h->outcome = ZP_BRANCH_LOST;
+  if (!raised) return;
   pass(h, jumped);
   record(h, true, false);
 }
