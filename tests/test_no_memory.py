@@ -36,6 +36,8 @@ def run(words, at=0, on=False, count=None, limit=None):
     settings = {"PATH": "/nowhere", "LD_PRELOAD": library, "FAIL_AT": str(at), "FAIL_ON": str(int(on))}
     if count:
         settings["FAIL_COUNT"] = count
+    if limit:
+        settings["MALLOC_ARENA_MAX"] = "1"  # threads that meet in malloc would reserve 64 MB of it
     less = (lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit))) if limit else None
     done = subprocess.run([command] + words, env=settings, capture_output=True, text=True, preexec_fn=less)
     return done.returncode, done.stdout, done.stderr
