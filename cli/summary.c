@@ -82,14 +82,48 @@ static bool print_fitted(const ZpResult *result, const ZpScalar *scalar) {
   return true;
 }
 
+/* "bodies.hand.y_m" => "hand", for the numbers of a network that are told => its words; NULL: another number. */
+static const char *part_of(const ZpScalar *scalar, char name[64]) {
+  static const struct {
+    const char *group, *number, *words;
+  } told[] = {{"bodies", "y_m", "height"}, {"members", "zip_time_s", "zip time"}};
+  for (size_t k = 0; k < sizeof told / sizeof told[0]; k++) {
+    const size_t before = strlen(told[k].group) + 1, length = strlen(scalar->name), after = strlen(told[k].number) + 1;
+    const bool grouped = strncmp(scalar->name, told[k].group, before - 1) == 0 && scalar->name[before - 1] == '.';
+    if (!grouped || length < before + after || strcmp(scalar->name + length - after + 1, told[k].number) != 0) continue;
+    snprintf(name, 64, "%.*s", (int)(length - before - after), scalar->name + before);
+    return told[k].words;
+  }
+  return NULL;
+}
+
+/* Members and bodies of a network, some of many => how many there are. */
+static size_t print_network(const ZpResult *result) {
+  enum { MOST_PARTS = 16 };
+  size_t count = 0;
+  for (size_t i = 0; i < zp_result_scalars(result); i++) {
+    const ZpScalar *scalar = zp_result_scalar(result, i);
+    char name[64], label[96];
+    const char *words = part_of(scalar, name);
+    if (!words || count++ >= MOST_PARTS) continue;
+    snprintf(label, sizeof label, "%s, %s", name, words);
+    print_number(result,
+                 &(Shown){.scalar = "", .label = label, .factor = 1e3, .unit = scalar->unit[0] == 's' ? "ms" : "mm"},
+                 scalar->value);
+  }
+  if (count > MOST_PARTS) printf("  and %zu more in summary.json\n", count - MOST_PARTS);
+  return count;
+}
+
 static void print_result(const ZpResult *result) {
   int printed = 0;
   printf("%s: %s\n", zp_outcome_name(zp_result_outcome(result)), zp_result_message(result));
   for (size_t i = 0; i < zp_result_scalars(result); i++)
     printed += print_fitted(result, zp_result_scalar(result, i));
+  const bool network = print_network(result) > 0;
   for (size_t i = 0; i < SHOWN && printed < MOST_NUMBERS; i++) {
     const ZpScalar *scalar = shown[i].study == zp_result_study(result) ? find_scalar(result, shown[i].scalar) : NULL;
-    if (!scalar || (isnan(scalar->value) && !shown[i].headline)) continue;
+    if (!scalar || (isnan(scalar->value) && (network || !shown[i].headline))) continue;
     print_number(result, &shown[i], scalar->value);
     printed++;
   }

@@ -1,4 +1,4 @@
-#picture stroke.svg one branch voltage_V +drive.voltage
+#picture stroke.svg one branch voltage_V !:bodies +drive.voltage
 # Opening at rest, or the stroke of a kind that has none, against voltage, with pull-in, closing and release.
 load 'functions.gp'
 opens = has('opening_m')

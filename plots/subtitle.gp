@@ -1,7 +1,7 @@
 # Under which load, voltage and so on the results of a study are, but for list keys, which the legend has: `subtitle`.
 if (!exists('single')) single = !exists('lists') || lists eq ''
 _swept(k) = strstrt(' '.lists, ' '.k) > 0
-_told(before, k) = _swept(k) || (k[1:6] eq 'drive.' && actuator_kind eq 'ribbon') ? '' : before.said(of('said_', k)).', '
+_told(before, k) = _swept(k) || (k eq 'load.mass' && exists('bodies_named')) || (k[1:6] eq 'drive.' && actuator_kind eq 'ribbon') ? '' : before.said(of('said_', k)).', '
 _up_to = single ? 'up to ' : ''
 _drive(w) = w eq 'table' ? 'table of voltages, ' : _told(w eq 'ramp' ? 'ramp to ' : w eq 'sine' ? 'sine to ' : w eq 'square' ? 'square wave to ' : '', 'drive.voltage')
 _under(s) = s eq 'stationary' || s eq 'modes' ? _told("load ", 'load.mass') \
@@ -11,6 +11,7 @@ _under(s) = s eq 'stationary' || s eq 'modes' ? _told("load ", 'load.mass') \
           : s eq 'limits' ? (single || exists('objectives') ? _told("load ", 'load.mass') : '')._told(_up_to, 'drive.voltage') \
           : s eq 'isometric' ? _told('held at ', 'isometric.separation')._told(_up_to, 'drive.voltage') \
           : s eq 'profile' ? _told('opening ', 'isometric.separation')._told('', 'drive.voltage')._told('shape ', 'profile.shape') : ''
-_all(s) = _under(s).(s eq 'profile' && profile_shape ne 'held' ? '' : _told('N = ', 'mesh.nodes')).(preset eq 'none' ? '' : _told('preset ', 'preset'))
+_network = exists('bodies_named') ? sprintf('%d bodies, %d members, ', words(bodies_named), words(members_named)) : ''
+_all(s) = _network._under(s).(s eq 'profile' && profile_shape ne 'held' ? '' : _told('N = ', 'mesh.nodes')).(preset eq 'none' ? '' : _told('preset ', 'preset'))
 _short(s) = s[1:strlen(s) - 2]
 if (!exists('subtitle')) subtitle = _short(_all(study))

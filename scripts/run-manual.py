@@ -46,6 +46,7 @@ PICTURES = {
     "meter.svg": "meter/plots/sense.svg",
     "stack.svg": "stack/plots/members.svg",
     "stack-unlike.svg": "stack-unlike/plots/members.svg",
+    "network.svg": "network/plots/members.svg",
     "stack-steps.svg": "stack-steps/plots/stroke.svg",
     "stack-modes.svg": "stack-modes/plots/modes.svg",
     "antagonists.svg": "antagonists/plots/shapes.svg",

@@ -12,7 +12,7 @@ static inline ZpArrowForm form_of_block(size_t n, ZpBandForm band) {
   ZpArrowForm form;
   ZpArrowBlock block = {n - band.border, band, to};
   ck_assert_uint_le(band.border, LENGTH_OF(to));
-  ck_assert(zp_arrow_form_create(&block, 1, band.border, &form));
+  ck_assert(zp_arrow_form_create(&block, 1, band.border, NULL, 0, &form));
   return form;
 }
 

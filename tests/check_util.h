@@ -85,9 +85,9 @@ typedef struct Setting {
 
 /* Copies of a Def that a test makes by = use its values of members' keys until the test ends. */
 static inline void lend_members(ZpActuatorDef *def) {
-  if (!def->members || def->members->of != def) return;
-  def->members->of = NULL;
-  zp_test_owns(def->members, zp_free);
+  if (!def->given || def->given->of != def) return;
+  def->given->of = NULL;
+  zp_test_owns(def->given, zp_free);
 }
 
 static inline void set_member(ZpActuatorDef *def, const char *key, double value) {
@@ -343,7 +343,7 @@ static inline double largest_in(const ZpTable *table, const char *column) {
 
 /* Key `index`; of a key that stands for those of all members, that of member 8. */
 static inline int key_of_one(int index) {
-  return strncmp(zp_key(index)->name, "member_K.", 9) == 0 ? zp_key_of_member(index, 8) : index;
+  return zp_key_is_row(index) ? zp_key_of_instance(index, 8) : index;
 }
 
 #endif

@@ -48,7 +48,7 @@ static void open_case(Case *c, size_t which, bool symmetric, size_t rank) {
     const ZpBandForm band = {.bandwidth = 2, .symmetric = symmetric, .rank = rank, .border = border};
     block[k] = (ZpArrowBlock){4 + (size_t)k % 3, band, to[k]};
   }
-  ck_assert(zp_arrow_form_create(block, (size_t)g->blocks, (size_t)g->border, &c->form));
+  ck_assert(zp_arrow_form_create(block, (size_t)g->blocks, (size_t)g->border, NULL, 0, &c->form));
   c->memory = zero_arrow(&c->m, &c->form);
 }
 

@@ -92,6 +92,7 @@ TESTS(row_is_the_integral, 0, LENGTH_OF(cases)) {
   ZpActuatorDef def = def_of(cases[_i].is_explicit, cases[_i].symmetry);
   for (int k = 0; k < 2 && cases[_i].stack[k].key; k++)
     zp_def_set(&def, zp_key_find(cases[_i].stack[k].key), cases[_i].stack[k].value, NULL);
+  lend_members(&def);
   Run run = begin(&def, true);
   sample(&run);
   printf("%s: row %.9g, integral %.9g, imbalance %.1e, coefficient %.3f\n", cases[_i].name, run.row, run.integral,

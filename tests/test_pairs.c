@@ -464,7 +464,7 @@ static void open_wedge(ZpStatics *s) {
       double part = (double)i / (double)last;
       if (zp_halves(t) == 2) part = 1 - fabs(2 * part - 1);
       if (m->assembly.equation[2 * zp_lower(t, i) + 1] < 0) continue;
-      double way = 50e-6 + (s->model->distance > 0 ? 0.5 * s->model->distance - 50e-6 : 500e-6) * part * part;
+      double way = 50e-6 + (s->opposed ? 0.5 * zp_network_depth(s->model->network) - 50e-6 : 500e-6) * part * part;
       y[zp_lower(t, i)] -= way * (1 + (i == t->platform.first ? 0 : 0.1) * noise(&seed));
     }
   }

@@ -764,7 +764,7 @@ TESTS(test_scenario_round_trip, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);
   const int index = key_of_one(_i);
   const char *name = ZP_KEY_NAME(index);
-  if (key->type == ZP_KEY_TEXT) return; /* test_texts */
+  if (key->type == ZP_KEY_TEXT || zp_key_is_body(index)) return; /* test_texts; test_network */
   double values[] = {key->min, key->max, key->min + (key->max - key->min) / 3};
   for (size_t i = 0; i < LENGTH_OF(values); i++) {
     char value[256], line[512];
@@ -939,15 +939,16 @@ TEST(test_locale) {
 
 /* Names that are no keys of members, with what to give instead. */
 TEST(members_that_are_none_are_refused) {
-  static const char *const wrong[][2] = {{"member_0.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
-                                         {"member_1025.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
-                                         {"member_K.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
-                                         {"member_03.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
-                                         {"member_3.ribbon.thicknes=60 um", "mean member_3.ribbon.thickness?"},
-                                         {"member_12.load.mass=60 g", "member_12 has ribbon.thickness, ribbon.young"},
-                                         {"member_12=60 um", "such as member_12.ribbon.thickness"},
-                                         {"member_12.ribbon.thickness=1 m", "out of range; 1 um to 5000 um or auto"},
-                                         {"stack.series=2000", "out of range; 1 to 1024"}};
+  static const char *const wrong[][2] = {
+      {"member_0.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
+      {"member_1025.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
+      {"member_K.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
+      {"member_03.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
+      {"member_3.ribbon.thicknes=60 um", "mean member_3.ribbon.thickness?"},
+      {"member_12.load.mass=60 g", "member_12 has upper, lower, angle, drive.voltage, ribbon.length"},
+      {"member_12=60 um", "such as member_12.upper"},
+      {"member_12.ribbon.thickness=1 m", "out of range; 1 um to 5000 um or auto"},
+      {"stack.series=2000", "out of range; 1 to 1024"}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++)
     ck_says(zp_scenario_set(new_scenario(), wrong[k][0], &err), ZP_BAD_INPUT, wrong[k][1]);
 }

@@ -195,6 +195,20 @@ static void find_shared(ZpAssembly *const a[], const ZpModel *first, Shared *s) 
   }
 }
 
+/* Bodies that springs join are in the border, too => the unknowns of each spring that meet there [2 springs]. */
+static void find_springs(ZpAssembly *const a[], const ZpModel *first, Shared *s, ZpClique *spring, size_t *ends) {
+  const ZpNetwork *network = first->network;
+  for (size_t k = 0; k < network->springs; k++) {
+    spring[k] = (ZpClique){0, ends + 2 * k};
+    for (size_t e = 0; e < 2; e++) {
+      const size_t body = network->spring[k].body[e], leader = network->body[body].leader;
+      if (network->body[body].held) continue;
+      const size_t height = zp_height_at(first + leader, network->ends[leader].lower != body);
+      ends[2 * k + spring[k].count++] = (size_t)note(a[leader], leader, height, (int)s->count, s);
+    }
+  }
+}
+
 /* Equations of a member alone => places in the block, where they stand; those of the border => block.to. */
 static void place(ZpAssembly *a, int *of, size_t *to) {
   int next = 0;
@@ -237,8 +251,12 @@ static void join(ZpAssembly *a, const int *of, size_t first, size_t inner, size_
 bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t members, size_t common, ZpArrowForm *form) {
   Shared shared;
   size_t room = 0, used = 0, inner = 0, before = 0;
-  bool made = open_shared(a, members, &shared);
+  const size_t springs = first ? first->network->springs : 0;
+  ZpClique *spring = zp_calloc(springs + 1, sizeof *spring);
+  size_t *ends = zp_calloc(2 * springs + 1, sizeof *ends);
+  bool made = open_shared(a, members, &shared) && spring && ends;
   if (made && first) find_shared(a, first, &shared);
+  if (made && first) find_springs(a, first, &shared, spring, ends);
   for (size_t k = 0; made && k < members; k++)
     room += shared.of_each[k] + common;
   size_t *to = zp_calloc(room + 1, sizeof *to);
@@ -257,10 +275,12 @@ bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t member
     before += a[k]->block.n;
     block[k] = a[k]->block;
   }
-  made = made && zp_arrow_form_create(block, members, shared.count + common, form);
+  made = made && zp_arrow_form_create(block, members, shared.count + common, spring, springs, form);
   for (size_t k = 0; k < members && made; k++)
     a[k]->block.to = form->block[k].to;
   close_shared(&shared);
+  zp_free(spring);
+  zp_free(ends);
   zp_free(to);
   zp_free(block);
   return made;

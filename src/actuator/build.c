@@ -762,12 +762,12 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
   return ZP_OK;
 }
 
-/* Mass of all that hangs on the platform above this model, kg. */
-static double mass_from_here(const ZpModel *model) {
+/* Its mass with its load, kg. */
+static double mass_of(const ZpModel *model) {
   double sum = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
-  return model->parts * sum + model->carried;
+  return model->parts * sum;
 }
 
 /* Alone in equilibrium, the uppermost member has all that hangs on it as load.mass. */
@@ -781,18 +781,27 @@ static ZpStatus check_carried(const ZpModel *uppermost, ZpError *err) {
 
 /* One actuator, or one member of a stack. */
 static void derive_member(const ZpActuatorDef *def, size_t member, ZpModel *model) {
-  model->def = model->members > 1 ? zp_def_member(def, (int)member + 1) : *def;
-  model->def.members = NULL;
+  model->def = model->members > 1 || zp_def_network(def) ? zp_def_member(def, (int)member + 1) : *def;
+  model->def.given = NULL;
   model->ratio = 1;
   derive(model);
-  model->parallel = model->members > 1 && def->stack.series == 1;
-  if (zp_def_antagonist(def)) model->distance = def->stack.distance;
-  if (!zp_def_antagonist(def) || member == 0) return;
-  model->bias = zp_def_lower_voltage(def, 0);
-  model->ratio = zp_def_lower_voltage(def, 1) - model->bias;
+  model->bias = zp_def_member_voltage(def, (int)member + 1, 0);
+  model->ratio = zp_def_member_voltage(def, (int)member + 1, 1) - model->bias;
 }
 
-/* Members on which the load hangs come first. */
+/* Mass of what hangs on each member. Those of a network may be named in any order. */
+static void carry(ZpModel *model) {
+  const ZpNetwork *network = model->network;
+  for (size_t k = model->members; k-- > 0;) {
+    const double mass = mass_of(model + k);
+    for (size_t body = network->ends[k].upper; !network->body[body].held;) {
+      const size_t above = network->body[body].leader;
+      model[above].carried += mass;
+      body = network->ends[above].upper;
+    }
+  }
+}
+
 static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel *model, ZpError *err) {
   const bool own_voltage = zp_def_antagonist(def) && !isnan(def->stack.lower_voltage);
   ZpStatus status = ZP_OK;
@@ -801,8 +810,8 @@ static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, Zp
   for (size_t k = model->members; k-- > 0 && status == ZP_OK;) {
     const ZpTies ties = zp_ties_of(model, model->members, k);
     status = fill(&ties, k > 0 && own_voltage ? NULL : table, model + k, err);
-    if (status == ZP_OK && k > 0 && !zp_shares_load(model)) model[k - 1].carried = mass_from_here(model + k);
   }
+  if (status == ZP_OK && !zp_shares_load(model)) carry(model);
   return status == ZP_OK && model->members > 1 ? check_carried(model, err) : status;
 }
 
@@ -815,11 +824,14 @@ ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpM
   ZpModel *model = zp_calloc(members, sizeof *model);
   if (!model) return zp_fail_memory(err);
   ZpActuatorDef *whole = zp_def_copy(def);
+  ZpNetwork *network = zp_network_create(def);
   for (size_t k = 0; k < members; k++) {
     model[k].members = members;
+    model[k].number = k;
     model[k].whole = whole;
+    model[k].network = network;
   }
-  status = whole ? fill_all(def, table, model, err) : zp_fail_memory(err);
+  status = whole && network ? fill_all(def, table, model, err) : zp_fail_memory(err);
   if (status == ZP_OK)
     *out = model;
   else
@@ -831,6 +843,7 @@ void zp_model_destroy(ZpModel *model) {
   for (size_t k = 0; model && k < model->members; k++)
     zp_free(model[k].memory);
   if (model) zp_def_destroy(model->whole);
+  if (model) zp_free(model->network);
   zp_free(model);
 }
 

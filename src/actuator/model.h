@@ -15,6 +15,7 @@
 #include "actuator/topology.h"
 #include "base/row.h"
 #include "contact/contact.h"
+#include "def/network.h"
 #include "drive/control.h"
 #include "drive/supply.h"
 #include "electro/edges.h"
@@ -141,9 +142,9 @@ struct ZpModel {
   double stable_step;   /* s */
   void *memory;         /* the block that holds the arrays */
   size_t members;       /* of the system: models that follow each other, in series from the uppermost one down */
-  bool parallel;        /* its lower platform is joined to those of the others, side by side */
+  size_t number;        /* which of them it is, from 0 */
+  ZpNetwork *network;   /* what joins them; the first one owns it */
   double carried;       /* mass of all members and loads below, kg, of the whole actuator */
-  double distance;      /* of both antagonists: what their openings sum up to, m; 0: it has none */
   double ratio, bias;   /* its voltage: `ratio` times that of the source, which the first one has, plus `bias`, V */
 };
 
@@ -264,9 +265,14 @@ static inline double zp_load_work(const ZpModel *model, double along, double up)
   return model->parts * zp_load_share(model) * work;
 }
 
-/* Two that pull at one load from opposite sides? */
-static inline bool zp_is_antagonist(const ZpModel *model) {
-  return model->distance > 0;
+/* Do its bodies have loads of their own, as keys say, so that there is no load of all? */
+static inline bool zp_is_network(const ZpModel *model) {
+  return model->network->load == model->network->bodies;
+}
+
+/* How many members lie side by side with this one, itself included. */
+static inline size_t zp_abreast(const ZpModel *model) {
+  return model->network->ends[model->number].abreast;
 }
 
 /* Voltage of a member where the first one has `voltage`, V. */
@@ -281,7 +287,7 @@ static inline double zp_source_share(const ZpModel *model) {
 
 /* Do all members share one load, at the lower platform of each? */
 static inline bool zp_shares_load(const ZpModel *model) {
-  return zp_is_antagonist(model) || model->parallel;
+  return !model->network->hangs;
 }
 
 /* The member on which the load hangs: of a series the lowest one, of members that share the load the first one, whose

@@ -97,10 +97,13 @@ void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double 
     spread(t, path_to_platform(t, assembly->equation, h > 0), missed, y);
 }
 
-void zp_place_below(const ZpModel *above, const double *nodes_above, const ZpModel *model, double *nodes) {
+void zp_place_top(const ZpModel *model, double height, double *nodes) {
   const ZpTopology *t = &model->topology;
-  double *y = zp_forces(model, nodes).y;
-  double fall = zp_nodes(above, nodes_above).y[zp_load_node(&above->topology)] - y[zp_upper(t, t->platform.first)];
+  double *y = zp_forces(model, nodes).y, rise = height - y[zp_upper(t, t->platform.first)];
   for (size_t j = 0; j < zp_lanes(model); j++)
-    y[j] += fall;
+    y[j] += rise;
+}
+
+void zp_place_below(const ZpModel *above, const double *nodes_above, const ZpModel *model, double *nodes) {
+  zp_place_top(model, zp_nodes(above, nodes_above).y[zp_load_node(&above->topology)], nodes);
 }

@@ -16,6 +16,9 @@ void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const doub
 /* Move the lower platform to a height; the edges that lead there take equal parts of its way. */
 void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double height, double *nodes);
 
+/* Move all of a member up or down until its upper platform is at a height. */
+void zp_place_top(const ZpModel *model, double height, double *nodes);
+
 /* Lower a member of a series until its upper platform is where the lower one of the member above is, eq. (29.2). */
 void zp_place_below(const ZpModel *above, const double *nodes_above, const ZpModel *model, double *nodes);
 

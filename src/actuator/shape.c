@@ -48,7 +48,7 @@ void zp_shape_fill(const ZpModel *model, const ZpShapeRoom *room, ZpShape *shape
 }
 
 ZpMargins zp_margins_none(void) {
-  return (ZpMargins){NAN, NAN, 0, NAN, NAN, NAN};
+  return (ZpMargins){NAN, NAN, NAN, 0, NAN, NAN, NAN};
 }
 
 /* Is this more than the worst so far, or the first? Of equals the first counts. */
@@ -58,9 +58,10 @@ static bool is_worse(double value, double worst) {
 
 void zp_margins_join(ZpMargins *worst, ZpMargins other) {
   worst->liquid = fmax(worst->liquid, other.liquid);
-  if (is_worse(other.insulator, worst->insulator)) {
+  if (is_worse(other.insulator / other.withstands, worst->insulator / worst->withstands)) {
     worst->insulator = other.insulator;
     worst->insulator_place = other.insulator_place;
+    worst->withstands = other.withstands;
   }
   if (is_worse(other.stress / other.yields, worst->stress / worst->yields)) {
     worst->stress = other.stress;
@@ -71,13 +72,13 @@ void zp_margins_join(ZpMargins *worst, ZpMargins other) {
 
 static ZpMargins fields_at(const ZpModel *model, double voltage, double gap, double place) {
   ZpSeries seen = zp_series_at(&model->series, voltage, gap);
-  return (ZpMargins){seen.insulator, place, seen.liquid, NAN, NAN, NAN};
+  return (ZpMargins){seen.insulator, place, model->series.withstands, seen.liquid, NAN, NAN, NAN};
 }
 
 ZpMargins zp_margins_of(const ZpModel *model, const ZpShape *shape) {
   ZpMargins worst = zp_margins_none();
   for (size_t j = 0; j < model->count; j++)
-    zp_margins_join(&worst, (ZpMargins){NAN, NAN, 0, shape->stress[j], zp_straight_x(model, j / model->s),
+    zp_margins_join(&worst, (ZpMargins){NAN, NAN, NAN, 0, shape->stress[j], zp_straight_x(model, j / model->s),
                                         model->ribbon[j % model->s].yields});
   for (size_t i = 0; model->field && i < model->nodes; i++) {
     ZpMargins at = fields_at(model, shape->voltage, shape->gap[i], zp_straight_x(model, i));
@@ -112,14 +113,16 @@ void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, c
     memcpy(all->array[k] + member * size, from[k], size * sizeof *from[k]);
   }
   double *y = all->array[1] + member * all->nodes;
-  for (size_t j = 0; member > 0 && zp_is_antagonist(first) && j < all->nodes; j++)
-    y[j] = -first->distance - y[j];
+  const double sign = zp_network_sign(first->network, member), origin = zp_network_origin(first->network, member);
+  for (size_t j = 0; j < all->nodes; j++)
+    y[j] = origin + sign * y[j];
 }
 
 void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member) {
   const ZpTopology *t = &first[member].topology;
+  const ZpBody *upper = &first->network->body[first->network->ends[member].upper];
   double *y = all->array[1] + member * all->nodes, fall = -y[zp_upper(t, t->platform.first)];
-  if (member > 0) fall += (y - all->nodes)[zp_load_node(&first[member - 1].topology)];
+  if (!upper->held) fall += (all->array[1] + upper->leader * all->nodes)[zp_load_node(&first[upper->leader].topology)];
   for (size_t j = 0; j < all->nodes; j++)
     y[j] += fall;
 }

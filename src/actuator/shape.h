@@ -48,7 +48,8 @@ ZpShapes *zp_model_shapes(const ZpModel *model, size_t capacity);
 
 /* The worst that materials see; places are lengths along the ribbon from the clip or clamp. */
 typedef struct ZpMargins {
-  double insulator, insulator_place; /* V/m, m; NAN: there is no insulator between electrodes */
+  double insulator, insulator_place; /* of the one that is nearest to its breakdown, V/m, m; NAN: there is none */
+  double withstands;                 /* its dielectric strength, V/m */
   double liquid;                     /* V/m; 0 without electrodes */
   double stress, stress_place;       /* of the metal that is nearest to its yield, Pa, m; NAN: nothing was looked at */
   double yields;                     /* its yield stress, Pa */

@@ -2,7 +2,7 @@
 
 #include "base/pair.h"
 
-/* Of platforms, the upper one on another member. */
+/* Of platforms, the upper one on a body that moves. */
 static const ZpJointWay linked = {.held = {{true, false}, {true, false}}};
 
 static void add(ZpTies *ties, ZpTie tie) {
@@ -29,24 +29,35 @@ static void add_joint(ZpTies *ties, const ZpJoint *joint, const ZpJointWay *way)
   }
 }
 
-/* In series, the lower platform of each and the upper one of the next have one height, eq. (29.2). A load that all
- * share has one height, which the lower of two antagonists sees upside down, eq. (31.3). */
-static void add_link(ZpTies *ties) {
+/* The height of a body that moves is that of its leader; other members see it in their own frames, eqs. (29.2) and
+ * (31.3). */
+static void add_end(ZpTies *ties, bool upper) {
   const size_t member = ties->member;
-  const ZpModel *first = ties->first, *model = first + member;
-  const ZpTopology *t = &model->topology;
-  const bool shared = zp_shares_load(first), opposed = zp_is_antagonist(first);
-  const size_t node = shared ? zp_load_node(t) : zp_upper(t, t->platform.first), above = shared ? 0 : member - 1;
-  add(ties, (ZpTie){member, zp_y_of(node), above, zp_y_of(zp_load_node(&first[above].topology)), opposed ? -1 : 1,
-                    opposed ? -first->distance : 0, 0});
+  const ZpModel *first = ties->first;
+  const ZpNetwork *network = first->network;
+  const size_t body = upper ? network->ends[member].upper : network->ends[member].lower;
+  const size_t leader = network->body[body].leader;
+  if (network->body[body].held && !upper) { /* a joint holds the upper platform */
+    const size_t k = zp_height_at(first + member, false);
+    const double apart = network->body[body].y - zp_network_origin(network, member);
+    add(ties, (ZpTie){member, k, member, k, 0, zp_network_sign(network, member) * apart, 0});
+  }
+  if (network->body[body].held || leader == member) return;
+  const double sign = zp_network_sign(network, member),
+               apart = zp_network_origin(network, leader) - zp_network_origin(network, member);
+  add(ties, (ZpTie){member, zp_height_at(first + member, upper), leader,
+                    zp_height_at(first + leader, network->ends[leader].lower != body),
+                    sign * zp_network_sign(network, leader), sign * apart, 0});
 }
 
-/* The rows of one member, as its joints and its link say. */
+/* The rows of one member, as its joints and the bodies at its ends say. */
 static ZpTies list(const ZpModel *first, size_t members, size_t member) {
   ZpTies ties = {.first = first, .members = members, .member = member};
   const ZpTopology *t = &first[member].topology;
-  const bool hangs = member > 0 && !zp_shares_load(first);
-  if (member > 0) add_link(&ties);
+  const ZpNetwork *network = first->network;
+  const bool hangs = members > 1 && !network->body[network->ends[member].upper].held;
+  if (members > 1) add_end(&ties, true);
+  if (members > 1) add_end(&ties, false);
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
     add_joint(&ties, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &zp_joint_way[joint->kind]);
   return ties;
@@ -72,7 +83,17 @@ ZpTies zp_ties_of(const ZpModel *first, size_t members, size_t member) {
   return ties;
 }
 
+/* A body of a network, so far below the frame: in the frame of its leader. */
+static ZpTie tie_of_body(const ZpModel *first, size_t body) {
+  const ZpNetwork *network = first->network;
+  const size_t leader = network->body[body].leader;
+  const double sign = zp_network_sign(network, leader);
+  const size_t k = zp_height_at(first + leader, network->ends[leader].lower != body);
+  return (ZpTie){leader, k, leader, k, 0, -sign * zp_network_origin(network, leader), -sign};
+}
+
 ZpTie zp_tie_of_held(const ZpModel *first, size_t members) {
+  if (zp_is_network(first)) return tie_of_body(first, first->network->watched);
   const size_t member = zp_shares_load(first) ? 0 : members - 1;
   const ZpTopology *t = &first->topology;
   const size_t from = zp_has_platform(t) ? zp_upper(t, t->platform.first) : zp_lower(t, 0);

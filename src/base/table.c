@@ -49,21 +49,23 @@ static Thinned of_shapes(ZpShapes *s) {
   return (Thinned){s->value, s->frame_size, &s->frames, &s->stride, &s->offered, s->capacity};
 }
 
-size_t zp_numbered(const char *pattern, size_t number, char *text) {
+size_t zp_named(const char *pattern, const char *name, char *text) {
   size_t used = 0;
   for (; *pattern; pattern++) {
-    if (number == 0 || *pattern != '#') {
-      if (text) text[used] = *pattern;
-      used++;
-      continue;
-    }
-    char digits[24];
-    size_t length = (size_t)snprintf(digits, sizeof digits, "%zu", number);
-    if (text) memcpy(text + used, digits, length);
+    const bool named = name && *pattern == '#';
+    const size_t length = named ? strlen(name) : 1;
+    if (text) memcpy(text + used, named ? name : pattern, length);
     used += length;
   }
   if (text) text[used] = 0;
   return used + 1;
+}
+
+static const char *name_of(const ZpColumnPart *part, size_t member, char text[ZP_MEMBER_TEXT]) {
+  if (member == 0) return NULL;
+  if (part->name) return part->name(part->of, member, text);
+  snprintf(text, ZP_MEMBER_TEXT, "%zu", member);
+  return text;
 }
 
 /* Columns, and their names and helps behind each other in a text. NULL, NULL: only count => columns and bytes. */
@@ -73,16 +75,19 @@ typedef struct Laid {
 
 static void lay(const ZpColumnPart *part, ZpColumn *own, char *text, Laid *laid) {
   const size_t first = part->members > 0 ? 1 : 0;
-  for (size_t member = first; member <= part->members; member++)
+  for (size_t member = first; member <= part->members; member++) {
+    char room[ZP_MEMBER_TEXT];
+    const char *called = name_of(part, member, room);
     for (size_t c = 0; c < part->count; c++) {
       const ZpColumn *from = &part->column[c];
       char *name = text ? text + laid->bytes : NULL;
-      laid->bytes += zp_numbered(from->name, member, name);
+      laid->bytes += zp_named(from->name, called, name);
       char *help = text ? text + laid->bytes : NULL;
-      laid->bytes += from->help ? zp_numbered(from->help, member, help) : 0;
+      laid->bytes += from->help ? zp_named(from->help, called, help) : 0;
       if (own) own[laid->columns] = (ZpColumn){name, from->unit, from->help ? help : NULL};
       laid->columns++;
     }
+  }
 }
 
 ZpTable *zp_table_of(const ZpColumnPart *part, size_t parts, size_t capacity) {
@@ -102,7 +107,7 @@ ZpTable *zp_table_of(const ZpColumnPart *part, size_t parts, size_t capacity) {
 }
 
 ZpTable *zp_table_create(const ZpColumn *column, size_t columns, size_t capacity) {
-  return zp_table_of(&(ZpColumnPart){column, columns, 0}, 1, capacity);
+  return zp_table_of(&(ZpColumnPart){.column = column, .count = columns}, 1, capacity);
 }
 
 void zp_table_destroy(ZpTable *table) {

@@ -15,18 +15,23 @@ struct ZpTable {
   double *value;   /* [capacity][columns] */
 };
 
+enum { ZP_MEMBER_TEXT = 32 }; /* bytes of a name or number of a member, with the final 0 */
+
 /* Columns of a table, once or for each of several members. */
 typedef struct ZpColumnPart {
   const ZpColumn *column;
-  size_t count, members; /* of each member 1 .. members, with its number in the place of # in name and help; 0: once */
+  size_t count, members; /* of each member 1 .. members, with its number or name in the place of # in name and help; 0:
+                            once */
+  const char *(*name)(const void *of, size_t member, char text[ZP_MEMBER_TEXT]); /* NULL: numbers */
+  const void *of;
 } ZpColumnPart;
 
 /* A table of the columns of all parts, else as zp_table_create. */
 ZpTable *zp_table_of(const ZpColumnPart *part, size_t parts, size_t capacity);
 
-/* The pattern with a number in the place of each #; with number 0 as it is => bytes, the final 0 included. They are
+/* The pattern with a name in the place of each #; as it is if that is NULL => bytes, the final 0 included. They are
  * only counted where `text` is NULL. */
-size_t zp_numbered(const char *pattern, size_t number, char *text);
+size_t zp_named(const char *pattern, const char *name, char *text);
 
 /* A sequence of shapes of one actuator. */
 struct ZpShapes {

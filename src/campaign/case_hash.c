@@ -76,7 +76,7 @@ uint64_t zp_case_hash(uint64_t before, const ZpActuatorDef *def) {
   for (int i = zp_def_next_key(def, -1); i >= 0; i = zp_def_next_key(def, i)) {
     const char *text = zp_def_text(def, i);
     if (zp_key_purposes(i) & ZP_NO_RESULT) continue;
-    if (zp_key_member(i) > 0)
+    if (zp_key_instance(i).number > 0)
       hash = add_number(hash, i); /* of which member: only keys that are given are walked through */
     hash = text ? add_text(hash, text) : add_number(hash, zp_def_get(def, i));
   }

@@ -9,7 +9,7 @@
  * rounded by this much, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
-/* Largest number of members of a system. */
+/* Largest number of members of a system, of its bodies and of its springs. */
 enum { ZP_MOST_MEMBERS = 1024 };
 
 /* One byte per key, in the order of the table: the offset of a key or group in this struct is its number. */
@@ -25,25 +25,58 @@ typedef struct ZpKeyNumbers {
 /* Number of keys, as a constant. */
 enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
 
-/* Keys of one member. That of member m = 1 .. ZP_MOST_MEMBERS which row r of the group member_K stands for has the
- * index ZP_KEYS + (m - 1) ZP_MEMBER_KEYS + r. */
-enum { ZP_MEMBER_KEYS = sizeof(((ZpKeyNumbers *)0)->member_K) };
+/* Members, bodies and springs: a Def has as many as are given, and their keys have numbers from ZP_KEYS on. */
+typedef enum ZpInstanceKind { ZP_OF_MEMBER, ZP_OF_BODY, ZP_OF_SPRING, ZP_INSTANCE_KINDS } ZpInstanceKind;
 
-/* The key of this name; -1: there is none, or it stands for those of all members, so that it has no value. */
+/* Whose key it is. */
+typedef struct ZpInstance {
+  ZpInstanceKind kind;
+  int number; /* from 1; 0: a key that is none of them */
+  int row;    /* the key that stands for those of all; without a number the key itself, -1: there is none */
+} ZpInstance;
+ZpInstance zp_key_instance(int index);
+
+/* The key that row `row` of a group such as member_K stands for, of member `number`. */
+int zp_key_of_instance(int row, int number);
+
+/* Does it stand for the keys of all members, bodies or springs? */
+bool zp_key_is_row(int index);
+
+/* The key of this name; -1: there is none, or it stands for those of all, so that it has no value. */
 int zp_key_with_value(const char *name);
 
-/* The key of a member that row `row` of the group member_K stands for. */
-int zp_key_of_member(int row, int member);
+/* "member_12.ribbon" => 12, the kind and ".ribbon"; 0: the name does not begin with a kind and a number from 1 to
+ * ZP_MOST_MEMBERS. */
+int zp_instance_named(const char *name, ZpInstanceKind *kind, const char **rest);
 
-/* The member whose key this is; 0: it is none of a member. */
-static inline int zp_key_member(int index) {
-  return index < ZP_KEYS ? 0 : 1 + (index - ZP_KEYS) / ZP_MEMBER_KEYS;
+/* The beginning of the names of a kind: "member_". */
+const char *zp_instance_begins(ZpInstanceKind kind);
+
+/* zp_key_find and zp_key_name for these keys; zp_def_next_key, the first one of a row or that behind such a key. */
+int zp_instance_find(const char *name);
+const char *zp_instance_key_name(int index, char text[ZP_KEY_NAME_SIZE]);
+int zp_instance_next(const ZpActuatorDef *def, int index);
+
+/* The name of a member, a body or a spring: as it is given, else "member_3". Give all names. */
+const char *zp_def_name(const ZpActuatorDef *def, ZpInstanceKind kind, int number, char text[ZP_NAME_SIZE]);
+ZpStatus zp_def_set_names(ZpActuatorDef *def, const ZpGivenName *name, size_t count, ZpError *err);
+
+/* The name of a member or a body in results: in a stack by its number, "3", in a network by its name. They are
+ * callbacks of tables; `def` is a ZpActuatorDef. */
+const char *zp_member_called(const void *def, size_t member, char text[ZP_NAME_SIZE]);
+const char *zp_body_called(const void *def, size_t body, char text[ZP_NAME_SIZE]);
+
+/* The given values of one => how many there are. The largest number of any that is given. */
+size_t zp_instances_of(const ZpActuatorDef *def, ZpInstanceKind kind, int number, const ZpAssignment **value);
+int zp_instance_count(const ZpActuatorDef *def, ZpInstanceKind kind);
+
+/* Are bodies given, so that members are what their keys say? */
+static inline bool zp_def_network(const ZpActuatorDef *def) {
+  return zp_instance_count(def, ZP_OF_BODY) > 0;
 }
 
-/* "member_12.ribbon" => 12 and ".ribbon"; 0: the name does not begin with a member from 1 to ZP_MOST_MEMBERS. */
-int zp_member_named(const char *name, const char **rest);
-
-/* Keys in the order of the table, those of members where their rows stand: below 0 if the first one comes first. */
+/* Keys in the order of the table, those of members and so on where their rows stand: below 0 if the first one comes
+ * first. */
 int zp_key_order(int one, int other);
 
 /* The name of a key, for a message: it lasts as long as the block around it. */
@@ -97,10 +130,29 @@ bool zp_def_parallel(const ZpActuatorDef *def);
  * load, and the last is upside down. Parallel members share the load equally. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
+/* Are bodies given? Then members are what their keys say, and this sets the load of one: its part of the mass and of
+ * the force of the body at its lower end. */
+void zp_network_member(const ZpActuatorDef *def, int member, ZpActuatorDef *one);
+
+/* Do members with a voltage of their own have one to be a multiple of, and a source that gives it? */
+ZpStatus zp_check_own_voltage(const ZpActuatorDef *def, ZpError *err);
+
+/* Do bodies, members and springs fit together? */
+ZpStatus zp_check_network(const ZpActuatorDef *def, ZpError *err);
+
 /* Are the two members of a series antagonists, between mounts at stack.distance? The voltage of the lower one if the
  * upper one has `voltage`, V. */
 bool zp_def_antagonist(const ZpActuatorDef *def);
 double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
+
+/* That of any member while drive.voltage is replaced by `voltage`, V. */
+double zp_def_member_voltage(const ZpActuatorDef *def, int member, double voltage);
+
+/* May study isometric hold the body isometric.body at isometric.separation? */
+ZpStatus zp_check_held_body(const ZpActuatorDef *def, ZpError *err);
+
+/* Fail with the reason that one member gives, and its name. */
+ZpStatus zp_fail_member(const ZpActuatorDef *def, int member, ZpStatus status, const ZpError *reason, ZpError *err);
 
 /* Conditions of a stack on other keys; may all members have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);

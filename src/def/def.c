@@ -7,7 +7,7 @@
 
 #include "base/fail.h"
 #include "def/device.h"
-#include "def/member_keys.h"
+#include "def/instances.h"
 
 /* The words of each choice type. */
 #define ZP_CHOICES(type)                  static const ZpChoice words_of_##type[] = {
@@ -101,54 +101,26 @@ int zp_key_count(void) {
   return KEY_COUNT;
 }
 
-static const ZpKeyGroup of_member = ZP_KEY_GROUP(member_K);
-static const char member[] = "member_"; /* and its number, or K */
-enum { BEFORE_NUMBER = sizeof member - 1 };
-
-/* Does it stand for the keys of all members? */
-static bool is_row_of_members(int index) {
-  return index >= of_member.first && index < of_member.end;
-}
-
-/* The rest of the name of a row of the group member_K: ".ribbon.thickness". */
-static const char *rest_of_row(int row) {
-  return keys[row].name + BEFORE_NUMBER + 1;
-}
-
 const ZpKey *zp_key(int index) {
-  const int most = KEY_COUNT + ZP_MOST_MEMBERS * ZP_MEMBER_KEYS;
-  if (index < 0 || index >= most) return NULL;
-  return &keys[index < KEY_COUNT ? index : of_member.first + (index - KEY_COUNT) % ZP_MEMBER_KEYS];
+  const int row = zp_key_instance(index).row;
+  return row < 0 ? NULL : &keys[row];
 }
 
 const char *zp_key_name(int index, char text[ZP_KEY_NAME_SIZE]) {
-  const ZpKey *key = zp_key(index);
-  if (!key || index < KEY_COUNT) return key ? key->name : NULL;
-  snprintf(text, ZP_KEY_NAME_SIZE, "%s%d%s", member, zp_key_member(index), rest_of_row((int)(key - keys)));
-  return text;
-}
-
-/* The key of a member that is called so, -1: it is none. */
-static int find_of_member(const char *name) {
-  const char *rest;
-  const int number = zp_member_named(name, &rest);
-  for (int row = of_member.first; number > 0 && row < of_member.end; row++)
-    if (strcmp(rest_of_row(row), rest) == 0) return zp_key_of_member(row, number);
-  return -1;
+  if (index < KEY_COUNT) return index < 0 ? NULL : keys[index].name;
+  return zp_key(index) ? zp_instance_key_name(index, text) : NULL;
 }
 
 int zp_key_find(const char *name) {
   for (int i = 0; i < KEY_COUNT; i++) /* called some twenty times per case; most names differ in the first letter */
     if (keys[i].name[0] == name[0] && strcmp(keys[i].name, name) == 0) return i;
-  return find_of_member(name);
+  return zp_instance_find(name);
 }
 
 int zp_def_next_key(const ZpActuatorDef *def, int index) {
   const int next = index + 1;
   if (!def || next == ZP_KEYS) return -1;
-  if (next != of_member.first && next < ZP_KEYS) return next;
-  const size_t at = zp_member_keys_from(def, next < ZP_KEYS ? ZP_KEYS : next);
-  return def->members && at < def->members->count ? def->members->value[at].key : of_member.end;
+  return zp_key_is_row(next) ? zp_instance_next(def, next) : index >= ZP_KEYS ? zp_instance_next(def, index) : next;
 }
 
 /* ASCII only: names of keys have no other letters. */
@@ -210,12 +182,18 @@ int zp_key_distance(const char *name, const char *key) {
   return whole < last ? whole : last;
 }
 
+/* Does the key stand for those of all members, bodies or springs, and the name for none of them? */
+static bool is_of_others(int key, const char *name) {
+  const char *number = strchr(keys[key].name, 'K');
+  return zp_key_is_row(key) && strncmp(keys[key].name, name, (size_t)(number - keys[key].name)) != 0;
+}
+
 const char *zp_key_nearest(const char *name) {
   const char *nearest = keys[0].name;
   int least = 1000;
   for (int i = 0; i < KEY_COUNT; i++) {
     int distance = zp_key_distance(name, keys[i].name);
-    if (distance < least) {
+    if (distance < least && !is_of_others(i, name)) {
       least = distance;
       nearest = keys[i].name;
     }
@@ -237,7 +215,7 @@ static size_t offset_of(const ZpKey *key) {
 }
 
 static bool has_field(const ZpKey *key) {
-  return offset_of(key) != NO_FIELD && !is_row_of_members((int)(key - keys));
+  return offset_of(key) != NO_FIELD && !zp_key_is_row((int)(key - keys));
 }
 
 bool zp_key_in_def(int index) {
@@ -294,7 +272,7 @@ static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
 
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = zp_key(index);
-  if (def && key && index >= KEY_COUNT) return zp_member_keys_get(def, index);
+  if (def && key && index >= KEY_COUNT) return zp_instances_get(def, index);
   return def && key && has_field(key) ? number_of(def, key) : (double)NAN;
 }
 
@@ -346,7 +324,7 @@ static ZpStatus check_value(int index, double value, ZpError *err) {
   if (!isfinite(value)) return zp_fail(err, ZP_BAD_INPUT, "%s: not a finite number", ZP_KEY_NAME(index));
   bool whole = key->type != ZP_KEY_REAL && key->type != ZP_KEY_REAL_AUTO;
   if (whole && value != floor(value))
-    return zp_fail(err, ZP_BAD_INPUT, "%s = %g: not a whole number", key->name, value);
+    return zp_fail(err, ZP_BAD_INPUT, "%s = %g: not a whole number", ZP_KEY_NAME(index), value);
   return value < key->min || value > key->max ? refuse_range(index, value, err) : ZP_OK;
 }
 
@@ -355,9 +333,9 @@ ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
   if (status == ZP_OK) status = check_known(index, err);
   if (status == ZP_OK) status = check_value(index, value, err);
   if (status != ZP_OK) return status;
-  if (index >= KEY_COUNT) return zp_member_keys_set(def, index, value, err);
-  if (is_row_of_members(index))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: give the number of a member, 1 to %d, in the place of K", keys[index].name,
+  if (index >= KEY_COUNT) return zp_instances_set(def, index, value, err);
+  if (zp_key_is_row(index))
+    return zp_fail(err, ZP_BAD_INPUT, "%s: give a number, 1 to %d, in the place of K", keys[index].name,
                    ZP_MOST_MEMBERS);
   if (!has_field(&keys[index]))
     return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a definition", keys[index].name);
@@ -460,7 +438,7 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
   return ZP_OK;
 }
 
-/* Keys of members determine no value of another key. */
+/* Keys of members, bodies and springs determine no value of another key. */
 static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < count && status == ZP_OK; i++)
@@ -662,7 +640,8 @@ static bool is_in_range(const ZpActuatorDef *def, const ZpKey *key) {
 
 static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = ZP_OK;
-  for (int i = 0; i < KEY_COUNT && status == ZP_OK; i++) { /* those of members have been checked when they were set */
+  for (int i = 0; i < KEY_COUNT && status == ZP_OK;
+       i++) { /* those of members and so on have been checked when they were set */
     if (!has_field(&keys[i]) || is_in_range(def, &keys[i])) continue;
     status = keys[i].type == ZP_KEY_TEXT ? check_text(&keys[i], (const char *)def + offset_of(&keys[i]), err)
                                          : check_value(i, zp_def_get(def, i), err);

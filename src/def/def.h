@@ -32,15 +32,24 @@
 #define ZP_OF_SCENARIO(name, type, def, help)
 struct ZpActuatorDef {
 #include "def/keys.def"
-  struct ZpMemberKeys *members; /* NULL: none is given */
+  struct ZpInstances *given; /* of keys of members, bodies and springs; NULL: none is */
 };
 
-/* The given values of keys of members, in the order of their indices. */
-typedef struct ZpMemberKeys {
+/* The name of a member, a body or a spring. */
+enum { ZP_NAME_SIZE = 32 };
+typedef struct ZpGivenName {
+  int kind, number;
+  char text[ZP_NAME_SIZE];
+} ZpGivenName;
+
+/* The given values of keys of members, bodies and springs, in the order of their indices, and their names. */
+typedef struct ZpInstances {
   const ZpActuatorDef *of; /* it frees them; others only use them */
   size_t count, room;
+  size_t names;
+  ZpGivenName *name; /* [names] */
   ZpAssignment value[];
-} ZpMemberKeys;
+} ZpInstances;
 
 /* The default of every key: the paper's actuator, with correct physics. */
 static inline ZpActuatorDef zp_actuator_def_default(void) {

@@ -35,7 +35,8 @@ typedef enum ZpTest {
   ZP_TEST_SET,        /* differs from its default */
   ZP_TEST_UNSET,      /* has its default */
   ZP_TEST_SET_WITHIN, /* any key from this one to another differs from its default */
-  ZP_TEST_SEVERAL,    /* several members: zp_def_members */
+  ZP_TEST_SEVERAL,    /* several members: zp_def_members; or a network */
+  ZP_TEST_NETWORK,    /* bodies are given */
   ZP_TEST_HAS,        /* the device of this actuator.kind has any of a set of ZP_DEVICE_ bits */
   ZP_TEST_LACKS,      /* it has none of them */
   ZP_TEST_NEVER       /* never holds */
@@ -65,6 +66,7 @@ typedef struct ZpCondition {
 #define ZP_HAS(device)            ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_##device)
 #define ZP_LACKS(device)          ZP_CONDITION(actuator.kind, LACKS, ZP_DEVICE_##device)
 #define ZP_SEVERAL                ZP_CONDITION(stack.series, SEVERAL, 0)
+#define ZP_NETWORK                ZP_CONDITION(body_K.mass, NETWORK, 0)
 #define ZP_BIT(word)              (1 << (word))
 
 /* If `when` and `also` hold, `needs` must hold. */

@@ -65,7 +65,9 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
   case ZP_TEST_SET_WITHIN:
     return key_of(c, def) >= 0;
   case ZP_TEST_SEVERAL:
-    return zp_def_members(def) > 1;
+    return zp_def_members(def) > 1 || zp_def_network(def);
+  case ZP_TEST_NETWORK:
+    return zp_def_network(def);
   default:
     return holds_for(c, value_of(def, c->key));
   }
@@ -168,6 +170,9 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
   case ZP_TEST_SEVERAL:
     snprintf(text, size, "stack with several members");
     break;
+  case ZP_TEST_NETWORK:
+    snprintf(text, size, "bodies");
+    break;
   default:
     snprintf(text, size, "%s%s %s", key->name, is_set_of_words || !before[c->test] ? "" : before[c->test], value);
   }
@@ -178,6 +183,10 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
   int key = key_of(c, def);
   char value[VALUE];
   bool unequal = zp_def_parallel(def) && c->test == ZP_TEST_SEVERAL;
+  if (zp_def_network(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_NETWORK)) {
+    snprintf(text, WORDS, "bodies");
+    return;
+  }
   show_value(key, value_of(def, key), value);
   if (zp_key(key)->type == ZP_KEY_TEXT)
     snprintf(text, WORDS, "%s", zp_key(key)->name);

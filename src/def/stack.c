@@ -3,28 +3,32 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/member_keys.h"
+#include "def/instances.h"
 #include "def/rule.h"
 
-/* The key of one actuator that a member's key stands for. */
+/* The key of one actuator that a member's key overrides; -1: it says where the member is. */
 static int key_of_one(int key) {
   return zp_key_find(zp_key(key)->name + sizeof "member_K." - 1);
 }
 
 /* Is a member unlike what the other keys say? */
 static bool has_unlike_member(const ZpActuatorDef *def) {
-  const ZpMemberKeys *given = def->members;
-  for (size_t k = 0; given && k < given->count; k++)
-    if (given->value[k].value != zp_def_get(def, key_of_one(given->value[k].key))) return true;
-  return false;
+  bool unlike = false;
+  for (size_t k = 0; def->given && k < def->given->count; k++) {
+    const ZpAssignment *given = &def->given->value[k];
+    const int key = zp_key_instance(given->key).kind == ZP_OF_MEMBER ? key_of_one(given->key) : -1;
+    unlike |= key >= 0 && given->value != zp_def_get(def, key);
+  }
+  return unlike;
 }
 
 bool zp_def_parallel(const ZpActuatorDef *def) {
-  return def->stack.series == 1 && def->stack.parallel > 1 && has_unlike_member(def);
+  return !zp_def_network(def) && def->stack.series == 1 && def->stack.parallel > 1 && has_unlike_member(def);
 }
 
 int zp_def_members(const ZpActuatorDef *def) {
   if (!def) return 0;
+  if (zp_def_network(def)) return zp_instance_count(def, ZP_OF_MEMBER);
   return zp_def_parallel(def) ? def->stack.parallel : def->stack.series;
 }
 
@@ -36,13 +40,18 @@ double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage) {
   return isnan(def->stack.lower_voltage) ? def->stack.voltage_ratio * voltage : def->stack.lower_voltage;
 }
 
+double zp_def_member_voltage(const ZpActuatorDef *def, int member, double voltage) {
+  if (zp_def_antagonist(def) && member == def->stack.series) return zp_def_lower_voltage(def, voltage);
+  const double own = zp_def_get(def, zp_key_of_instance(ZP_KEY(member_K.drive.voltage), member));
+  return isnan(own) || def->drive.voltage == 0 ? voltage : voltage * own / def->drive.voltage;
+}
+
 /* The lower one of two antagonists as it is mirrored upside down: gravity points from its platform to its mount, and
  * the load is the other's. */
 static void turn_over(const ZpActuatorDef *def, ZpActuatorDef *one) {
   const double upside_down = zp_key(zp_key_find("mount.tilt"))->max;
   one->mount.tilt = copysign(upside_down - fabs(def->mount.tilt), def->mount.tilt);
   one->load = zp_def_unloaded(def).load;
-  one->drive.offset *= def->stack.voltage_ratio;
   if (!isnan(def->stack.lower_voltage)) one->drive = zp_actuator_def_default().drive; /* a step, which stays constant */
   one->drive.voltage = zp_def_lower_voltage(def, def->drive.voltage);
 }
@@ -64,17 +73,22 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
   bool last = member == def->stack.series, unequal = def->stack.series == 1;
-  const int first_key = ZP_KEYS + (member - 1) * ZP_MEMBER_KEYS;
-  const size_t end = zp_member_keys_from(def, first_key + ZP_MEMBER_KEYS);
-  one.members = NULL;
-  for (size_t k = zp_member_keys_from(def, first_key); k < end; k++)
-    zp_def_set(&one, key_of_one(def->members->value[k].key), def->members->value[k].value, NULL);
+  const ZpAssignment *given;
+  const size_t count = zp_instances_of(def, ZP_OF_MEMBER, member, &given);
+  one.given = NULL;
+  for (size_t k = 0; k < count; k++)
+    zp_def_set(&one, key_of_one(given[k].key), given[k].value, NULL);
   one.stack.series = 1;
   one.stack.link_mass = 0;
   one.stack.distance = one.stack.lower_voltage = NAN;
   one.stack.voltage_ratio = 1;
+  one.drive.offset = zp_def_member_voltage(def, member, def->drive.offset);
   if (member > 1) one.control = fresh.control;
   if (member > 1) one.setpoint = fresh.setpoint;
+  if (zp_def_network(def)) {
+    zp_network_member(def, member, &one);
+    return one;
+  }
   if (unequal) {
     one.stack.parallel = 1;
     share_load(def, &one);
@@ -91,13 +105,14 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
+  if (zp_def_network(def)) return ZP_OK;
   bool series = def->stack.series > 1, parallel = !series && def->stack.parallel > 1;
   int members = series ? def->stack.series : parallel ? def->stack.parallel : 0;
-  const ZpMemberKeys *given = def->members;
-  const int last = given && given->count > 0 ? given->value[given->count - 1].key : -1;
-  int member = zp_key_member(last);
+  const int member = zp_instance_count(def, ZP_OF_MEMBER);
+  const ZpAssignment *last;
   if (member <= members) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", ZP_KEY_NAME(last),
+  zp_instances_of(def, ZP_OF_MEMBER, member, &last);
+  return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", ZP_KEY_NAME(last->key),
                  parallel ? "parallel" : "series", member > 1 ? member : 2,
                  parallel ? def->stack.parallel : def->stack.series);
 }
@@ -111,12 +126,19 @@ static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
                  def->stack.distance, def->ribbon.length, most);
 }
 
+ZpStatus zp_fail_member(const ZpActuatorDef *def, int member, ZpStatus status, const ZpError *reason, ZpError *err) {
+  char name[ZP_NAME_SIZE];
+  if (zp_def_network(def))
+    return zp_fail(err, status, "members.%s: %.400s", zp_def_name(def, ZP_OF_MEMBER, member, name), reason->message);
+  return zp_fail(err, status, "member %d of the stack: %.400s", member, reason->message);
+}
+
 static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
   for (int member = 1, last = zp_def_members(def); member <= last; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
     ZpStatus status = zp_def_check(&one, &reason);
-    if (status != ZP_OK) return zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
+    if (status != ZP_OK) return zp_fail_member(def, member, status, &reason, err);
   }
   return ZP_OK;
 }
@@ -124,7 +146,9 @@ static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_members(def, err);
   if (status == ZP_OK && zp_def_antagonist(def)) status = check_distance(def, err);
-  return status == ZP_OK && zp_def_members(def) > 1 ? check_each(def, err) : status;
+  if (status == ZP_OK) status = zp_check_network(def, err);
+  if (status == ZP_OK) status = zp_check_own_voltage(def, err);
+  return status == ZP_OK && (zp_def_network(def) || zp_def_members(def) > 1) ? check_each(def, err) : status;
 }
 
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
@@ -132,9 +156,8 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
   for (int member = 1, last = zp_def_members(def); member <= last && status == ZP_OK; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
-    bool turned = zp_def_antagonist(def) && member == 2;
-    status = zp_def_check_voltage(&one, turned ? zp_def_lower_voltage(def, voltage) : voltage, &reason);
-    if (status != ZP_OK) zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
+    status = zp_def_check_voltage(&one, zp_def_member_voltage(def, member, voltage), &reason);
+    if (status != ZP_OK) zp_fail_member(def, member, status, &reason, err);
   }
   return status;
 }

@@ -49,8 +49,6 @@ static const NotModelled not_modelled[] = {
     {"radiat", "radiation", NULL},
 };
 
-static const char members[] = "member_";
-
 /* Pictures are drawn by programs, and a scenario may come from a stranger. */
 static const char templates[] = "output.templates";
 
@@ -196,10 +194,10 @@ static void say_unknown(const char *name, char *text, size_t size) {
     snprintf(text, size, "unknown key, and none has a similar name; zipact keys lists all");
 }
 
-/* Of a name that begins with a member, K stands for its number until the reason is found. */
-static void say_of_member(int number, const char *rest, char *text, size_t size) {
+/* Of a name that begins with a member and the like, K stands for its number until the reason is found. */
+static void say_of_instance(const char *begins, int number, const char *rest, char *text, size_t size) {
   char row[LONGEST], reason[2 * LONGEST];
-  snprintf(row, sizeof row, "%sK%.100s", members, rest);
+  snprintf(row, sizeof row, "%sK%.100s", begins, rest);
   say_unknown(row, reason, sizeof reason);
   const char *letter = strstr(reason, "_K");
   if (letter)
@@ -210,12 +208,18 @@ static void say_of_member(int number, const char *rest, char *text, size_t size)
 
 void zp_key_unknown(const char *name, char *text, size_t size) {
   const char *rest;
-  const int number = zp_member_named(name, &rest);
-  const size_t length = sizeof members - 1;
+  ZpInstanceKind kind;
+  const int number = zp_instance_named(name, &kind, &rest);
+  bool numbered = false; /* K, or a number beyond the last one */
+  for (int k = 0; number == 0 && !numbered && k < ZP_INSTANCE_KINDS; k++) {
+    const size_t length = strlen(zp_instance_begins((ZpInstanceKind)k));
+    numbered = strncmp(name, zp_instance_begins((ZpInstanceKind)k), length) == 0 && name[length] &&
+               strchr("K0123456789", name[length]);
+  }
   if (number > 0)
-    say_of_member(number, rest, text, size);
-  else if (strncmp(name, members, length) == 0 && name[length] && strchr("K0123456789", name[length]))
-    snprintf(text, size, "unknown key; the members of a stack have the numbers 1 to %d", ZP_MOST_MEMBERS);
+    say_of_instance(zp_instance_begins(kind), number, rest, text, size);
+  else if (numbered)
+    snprintf(text, size, "unknown key; members, bodies and springs have the numbers 1 to %d", ZP_MOST_MEMBERS);
   else
     say_unknown(name, text, size);
 }

@@ -130,7 +130,7 @@ static void add_x(Columns *columns, int key) {
   if (place_of_x(columns, key) < columns->x_count) return;
   char *name = columns->x_name[columns->x_count];
   columns->x_key[columns->x_count++] = key;
-  if (key >= 0) zp_key_column(key, name, sizeof columns->x_name[0]);
+  if (key >= 0) zp_key_column(NULL, key, name, sizeof columns->x_name[0]);
   columns->column[columns->count++] =
       key < 0 ? time_column : (ZpColumn){name, zp_key(key)->unit, "value set on the bench"};
 }

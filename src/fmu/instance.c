@@ -78,7 +78,7 @@ static ZpStatus keep_origin(ZpFmu *fmu, ZpError *err) {
 
 static ZpStatus build(ZpFmu *fmu, ZpError *err) {
   drop_model(fmu);
-  if (zp_def_members(&fmu->def) > 1)
+  if (zp_def_members(&fmu->def) > 1 || zp_def_network(&fmu->def))
     return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator",
                    zp_def_members(&fmu->def));
   ZpStatus status = zp_model_create(&fmu->def, &fmu->model, err);

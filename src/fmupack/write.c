@@ -41,7 +41,7 @@ static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
 }
 
 static ZpStatus check(const ZpScenario *scenario, int version, const ZpActuatorDef *def, ZpError *err) {
-  if (zp_def_members(def) > 1)
+  if (zp_def_members(def) > 1 || zp_def_network(def))
     return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator", zp_def_members(def));
   if (version != 2 && version != 3) return zp_fail(err, ZP_BAD_INPUT, "FMI %d is not supported; use 2 or 3", version);
   if (zp_scenario_count(scenario) != 1)

@@ -8,7 +8,8 @@
 #include <jansson.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
+#include "io/names.h"
 #include "io/range.h"
 #include "io/value.h"
 #include "io/yaml.h"
@@ -76,13 +77,6 @@ static void write_text(FILE *file) {
   }
 }
 
-static const char members[] = "member_K"; /* in the place of K stands the number of a member */
-
-/* Does it stand for the keys of all members? */
-static bool is_of_members(const ZpKey *key) {
-  return strncmp(key->name, members, sizeof members - 1) == 0;
-}
-
 static void write_yaml(FILE *file) {
   char value[ZP_VALUE_SIZE], range[ZP_VALUE_SIZE];
   const char *before = NULL;
@@ -93,7 +87,7 @@ static void write_yaml(FILE *file) {
     const ZpKey *key = zp_key(i);
     zp_value_print(i, key->def, value, sizeof value);
     allowed(i, " | ", range, sizeof range);
-    if (is_of_members(key)) {
+    if (zp_key_is_row(i)) {
       int shown = fprintf(file, "# %s: ", key->name);
       fprintf(file, "%s%*s  # %s (%s)\n", value, longer(COMMENT_COLUMN - shown, value) - (int)strlen(value), "",
               key->help, range);
@@ -246,6 +240,7 @@ static json_t *words_schema(const ZpKey *key) {
 
 static json_t *type_schema(int index) {
   const ZpKey *key = zp_key(index);
+  if (zp_key_is_body(index)) return json_pack("{s:[s, s]}", "type", "string", "integer");
   if (zp_value_is_number(key)) return number_schema(index);
   if (key->type == ZP_KEY_ENUM) return words_schema(key);
   if (key->type == ZP_KEY_BOOL)
@@ -307,16 +302,16 @@ static json_t *distribution_schema(void) {
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
-/* The name of a property, of those of all members a pattern. */
+/* The name of a property, of those of all members, bodies or springs a pattern: in the place of K stands a number. */
 static void property_name(const char *name, size_t size, char *text) {
-  static const char number[] = "^member_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
-  const size_t length = sizeof members - 1;
-  if (strncmp(name, members, length) != 0) {
+  static const char number[] = "_K", numbers[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
+  const char *at = strstr(name, number);
+  if (!at || at >= name + size) {
     snprintf(text, ZP_VALUE_SIZE, "%.*s", (int)size, name);
     return;
   }
-  size_t used = (size_t)snprintf(text, ZP_VALUE_SIZE, "%s", number);
-  for (const char *letter = name + length; letter < name + size; letter++)
+  size_t used = (size_t)snprintf(text, ZP_VALUE_SIZE, "^%.*s%s", (int)(at - name), name, numbers);
+  for (const char *letter = at + sizeof number - 1; letter < name + size; letter++)
     used += (size_t)snprintf(text + used, ZP_VALUE_SIZE - used, *letter == '.' ? "[.]" : "%c", *letter);
   snprintf(text + used, ZP_VALUE_SIZE - used, "$");
 }
@@ -339,7 +334,7 @@ static json_t *group_schema(const char *path, size_t size) {
   for (int i = 0; i < zp_key_count(); i++) {
     const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
     if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
-    json_t **these = size == 0 && is_of_members(zp_key(i)) ? &patterns : &properties;
+    json_t **these = size == 0 && zp_key_is_row(i) ? &patterns : &properties;
     put_property(these, rest, strlen(rest), reference(name));
     for (const char *dot = strchr(rest, '.'); dot && *these; dot = strchr(dot + 1, '.'))
       if (!has_property(these, rest, (size_t)(dot - rest)))
@@ -352,6 +347,44 @@ static json_t *group_schema(const char *path, size_t size) {
   return schema;
 }
 
+/* A pair, such as [0 mm, -50 mm] or [frame, hand], in the place of a group or a key. */
+static void add_pair(json_t **properties, const char *name) {
+  json_t *either = json_array(), *group = json_object_get(*properties, name);
+  if (group) add(&either, json_incref(group));
+  add(&either, json_pack("{s:s, s:i, s:i, s:{s:[s, s]}}", "type", "array", "minItems", 2, "maxItems", 2, "items",
+                         "type", "number", "string"));
+  set(properties, name, json_pack("{s:o}", "anyOf", either));
+}
+
+/* Members, bodies and springs by their names: in their group, or with a dotted name. */
+static void add_named(json_t **schema, ZpInstanceKind kind) {
+  static const char name[] = "[a-z][a-z0-9_]{0,30}";
+  const char *plural = zp_names_plural(kind);
+  char one[ZP_VALUE_SIZE], pattern[ZP_VALUE_SIZE];
+  snprintf(one, sizeof one, "%sK", zp_instance_begins(kind));
+  json_t *keys = group_schema(one, strlen(one)), *properties = json_object_get(keys, "properties");
+  if (kind == ZP_OF_SPRING) add_pair(&properties, "between");
+  if (kind == ZP_OF_BODY) add_pair(&properties, "at");
+  if (kind == ZP_OF_BODY) add_pair(&properties, "force");
+  snprintf(pattern, sizeof pattern, "^%s$", name);
+  json_t *all = json_object_get(*schema, "properties"), *dotted = json_object_get(*schema, "patternProperties");
+  set(&all, plural,
+      json_pack("{s:[s, s], s:b, s:{s:O}}", "type", "object", "null", "additionalProperties", 0, "patternProperties",
+                pattern, keys));
+  const char *key;
+  json_t *value;
+  json_object_foreach(properties, key, value) {
+    size_t used = (size_t)snprintf(pattern, sizeof pattern, "^%s[.]%s[.]", plural, name);
+    for (const char *letter = key; *letter; letter++)
+      used += (size_t)snprintf(pattern + used, sizeof pattern - used, *letter == '.' ? "[.]" : "%c", *letter);
+    snprintf(pattern + used, sizeof pattern - used, "$");
+    set(&dotted, pattern, json_incref(value));
+  }
+  snprintf(pattern, sizeof pattern, "^%s[.]%s$", plural, name);
+  set(&dotted, pattern, keys);
+  if (!all || !dotted) drop(schema);
+}
+
 static json_t *make_schema(void) {
   json_t *definitions = json_pack("{s:o, s:o}", "range", range_schema(), "distribution", distribution_schema());
   for (int i = 0; i < zp_key_count(); i++)
@@ -361,6 +394,8 @@ static json_t *make_schema(void) {
                              "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
                              "definitions", definitions);
   merge(&schema, group_schema("", 0));
+  for (int kind = 0; schema && kind < ZP_INSTANCE_KINDS; kind++)
+    add_named(&schema, (ZpInstanceKind)kind);
   return schema;
 }
 

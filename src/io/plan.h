@@ -8,6 +8,7 @@
 #include <zipact/io.h>
 
 #include "def/check.h"
+#include "io/names.h"
 #include "sample/design.h"
 #include "sample/distribution.h"
 
@@ -66,6 +67,9 @@ ZpStatus zp_scenario_given(const ZpScenario *scenario, size_t index, ZpActuatorD
 /* The values of the keys of zp_scenario_lists in case `index`, below zp_scenario_count => value, in the order of that
  * list. Requires a scenario whose cases can be made. */
 void zp_scenario_values(const ZpScenario *scenario, size_t index, double *value);
+
+/* The name of a key, with the names of members, bodies and springs. */
+const char *zp_scenario_key(const ZpScenario *scenario, int key, char text[ZP_PATH_SIZE]);
 
 /* Keys whose lists are combined, in key order: of those that vary together only the last one. */
 const int *zp_scenario_axes(const ZpScenario *scenario, size_t *count);

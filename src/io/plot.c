@@ -22,7 +22,7 @@ static int find_key(const ZpPlot *plot, const char *column) {
   for (size_t k = 0; k < lists + (size_t)zp_key_count(); k++) {
     const int key = k < lists ? list[k] : (int)(k - lists);
     char name[ZP_KEY_COLUMN_SIZE];
-    zp_key_column(key, name, sizeof name);
+    zp_key_column(plot->report->scenario, key, name, sizeof name);
     if (strcmp(name, column) == 0) return key;
   }
   return -1;
@@ -160,7 +160,7 @@ static void define_lists(const ZpPlot *plot, FILE *file) {
   const int *key = zp_scenario_lists(plot->report->scenario, &keys);
   fputs("lists = ''\naxes = ''\n", file);
   for (size_t i = 0, axis = 0; i < keys; i++) {
-    zp_key_column(key[i], name, sizeof name);
+    zp_key_column(plot->report->scenario, key[i], name, sizeof name);
     fprintf(file, "lists = lists.'%s '\n", name);
     if (axis >= plot->axes || plot->axis[axis] != key[i]) continue;
     const double *value = zp_scenario_axis(plot->report->scenario, plot->axis[axis++], &count);
@@ -196,6 +196,15 @@ static void define_run(const ZpResult *result, FILE *file) {
   if (result->series) define_count(file, "", "stride", result->series->stride);
 }
 
+/* The names of all of a kind, between spaces. */
+static void define_names(const ZpActuatorDef *def, const char *name, ZpInstanceKind kind, FILE *file) {
+  char room[ZP_NAME_SIZE];
+  fprintf(file, "%s = '", name);
+  for (int k = 1; k <= zp_instance_count(def, kind); k++)
+    fprintf(file, "%s%s", k > 1 ? " " : "", zp_def_name(def, kind, k, room));
+  fputs("'\n", file);
+}
+
 void zp_plot_define(const void *of, FILE *file) {
   const ZpPlot *plot = of;
   const ZpDesign *design = zp_scenario_design(plot->report->scenario);
@@ -207,6 +216,10 @@ void zp_plot_define(const void *of, FILE *file) {
   define_count(file, "", "fitted", plot->def.calibrate.fit[strspn(plot->def.calibrate.fit, " ")] != 0);
   for (int key = zp_def_next_key(&plot->def, -1); key >= 0; key = zp_def_next_key(&plot->def, key))
     define_key(plot, key, file);
+  if (zp_def_network(&plot->def)) {
+    define_names(&plot->def, "members_named", ZP_OF_MEMBER, file);
+    define_names(&plot->def, "bodies_named", ZP_OF_BODY, file);
+  }
   define_columns(plot, file);
   define_lists(plot, file);
   if (plot->single) define_run(plot->single, file);

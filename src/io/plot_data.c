@@ -147,7 +147,9 @@ static void put_sensitivity(const void *of, FILE *file) {
   fputs("# output, key, percent of the output per percent of the key\n", file);
   for (size_t i = 0; i < plot->single->sensitivities; i++) {
     const ZpSensitivity *s = &plot->single->sensitivity[i];
-    if (isfinite(percent(plot, s))) fprintf(file, "%s %s %.12g\n", s->output, ZP_KEY_NAME(s->key), percent(plot, s));
+    if (isfinite(percent(plot, s)))
+      fprintf(file, "%s %s %.12g\n", s->output,
+              zp_scenario_key(plot->report->scenario, s->key, (char[ZP_PATH_SIZE]){0}), percent(plot, s));
   }
 }
 
@@ -168,8 +170,9 @@ static void put_output(const ZpPlot *plot, const char *output, double *value, FI
     if (!zp_scenario_spread(plot->report->scenario, key[k])) continue;
     const ZpIndices indices = zp_sobol_indices(design, value, dimension++);
     const ZpIndex first = indices.first, total = indices.total;
-    fprintf(file, "%s %s %g %g %g %g %g %g\n", output, ZP_KEY_NAME(key[k]), first.value, first.low, first.high,
-            total.value, total.low, total.high);
+    fprintf(file, "%s %s %g %g %g %g %g %g\n", output,
+            zp_scenario_key(plot->report->scenario, key[k], (char[ZP_PATH_SIZE]){0}), first.value, first.low,
+            first.high, total.value, total.low, total.high);
   }
 }
 

@@ -68,6 +68,7 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
     const char *name;
     bool holds;
   } flag[] = {{"samples", samples},
+              {"bodies", zp_def_network(&plot->def)},
               {"axis", axis},
               {"plane", grid && plot->axes == 2},
               {"planes", grid && plot->axes == 3},

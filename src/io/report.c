@@ -73,7 +73,7 @@ bool zp_cases_open(const ZpReport *report, const ZpTable *series, ZpCases *cases
       add_column(cases, series->column[i].name, series->column[i].unit, series->column[i].help);
       continue;
     }
-    zp_key_column(key[i], name, sizeof name);
+    zp_key_column(report->scenario, key[i], name, sizeof name);
     add_column(cases, name, zp_key(key[i])->unit, zp_key(key[i])->help);
   }
   for (size_t i = 0; i < report->count && done && !series; i++)
@@ -133,10 +133,12 @@ size_t zp_report_room(size_t runs, size_t numbers) {
          2 * sizeof(double) * numbers;
 }
 
-void zp_key_column(int key, char *text, size_t size) {
+void zp_key_column(const ZpScenario *scenario, int key, char *text, size_t size) {
   const ZpKey *k = zp_key(key);
   bool bare = strcmp(k->unit, "1") == 0;
-  size_t used = (size_t)snprintf(text, size, "%s%s", ZP_KEY_NAME(key), bare ? "" : "_");
+  size_t used = (size_t)snprintf(text, size, "%s%s",
+                                 scenario ? zp_scenario_key(scenario, key, (char[ZP_PATH_SIZE]){0}) : ZP_KEY_NAME(key),
+                                 bare ? "" : "_");
   for (const char *c = k->unit; !bare && *c && used + 6 < size; c++) {
     const char part[2] = {*c == ' ' ? '_' : *c, 0};
     used += (size_t)snprintf(text + used, size - used, "%s", *c == '/' ? "_per_" : part);

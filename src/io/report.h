@@ -7,7 +7,7 @@
 #include <zipact/io.h>
 
 /* Size of the column name of a key: "drive.voltage_V". */
-#define ZP_KEY_COLUMN_SIZE 96
+#define ZP_KEY_COLUMN_SIZE 144
 
 /* Is the result a table of runs, not a single run? */
 bool zp_report_is_sweep(const ZpReport *report);
@@ -64,8 +64,9 @@ size_t zp_result_numbers(const ZpResult *result);
 /* (runs, numbers of all their results) => upper estimate of the memory for writing their report, bytes. */
 size_t zp_report_room(size_t runs, size_t numbers);
 
-/* (key index) => its column name, with the unit in the form of interface names: "insulator.density_kg_per_m3". */
-void zp_key_column(int key, char *text, size_t size);
+/* (key index) => its column name, with the names of members and the like that a scenario (may be NULL) has, and with
+ * the unit in the form of interface names: "insulator.density_kg_per_m3". */
+void zp_key_column(const ZpScenario *scenario, int key, char *text, size_t size);
 
 /* The word of a choice key, or of true and false, for key `key` at `value`; NULL if it is a number. */
 const char *zp_key_word(int key, double value);

@@ -20,6 +20,7 @@
 #include "base/fail.h"
 #include "def/rule.h"
 #include "io/file.h"
+#include "io/names.h"
 #include "io/plan.h"
 #include "io/range.h"
 #include "io/source.h"
@@ -42,6 +43,7 @@ typedef struct Held {
 struct ZpScenario {
   Layer file; /* from files */
   Layer set;  /* from --set; they override those from files */
+  ZpGivenNames names;
   Held held;
   ZpActuatorDef common; /* the first case; the others set their varied keys in it, unless these affect further keys */
   bool has_common;
@@ -57,7 +59,8 @@ typedef struct OpenGroup {
 /* A text being read into slots. */
 typedef struct Reader {
   const ZpSource *source;
-  int key; /* key of --set; -1 if the text contains the keys */
+  ZpGivenNames names; /* those of the scenario and new ones */
+  int key;            /* key of --set; -1 if the text contains the keys */
   Layer slots;
   OpenGroup *group;
   size_t groups, group_room;
@@ -201,6 +204,7 @@ static ZpStatus resolve_whole(const ZpScenario *s, const double *value, ZpActuat
   if (!list) return zp_fail_memory(err);
   ZpStatus status = zp_def_resolve(def, list, zp_plan_assign(&s->held.plan, given, value, list), err);
   free(list);
+  if (status == ZP_OK) status = zp_names_give(&s->names, def, err);
   return status == ZP_OK ? set_texts(s, def, err) : status;
 }
 
@@ -250,6 +254,7 @@ void zp_scenario_destroy(ZpScenario *s) {
   free_layer(&s->file);
   free_layer(&s->set);
   zp_def_clear(&s->common);
+  zp_names_free(&s->names);
   free(s->name);
   free(s);
 }
@@ -295,6 +300,9 @@ static ZpStatus merge(ZpScenario *s, Reader *reader, Layer *layer, ZpError *err)
     return status == ZP_MACHINE ? zp_fail_memory(err) : zp_source_fail(reader->source, 0, err, "%s", reason.message);
   }
   replace(reader, layer, &both);
+  zp_names_free(&s->names);
+  s->names = reader->names;
+  reader->names = (ZpGivenNames){0};
   free_held(&s->held);
   s->held = held;
   find_common(s);
@@ -311,6 +319,7 @@ static void drop_parts(Reader *reader) {
 
 static void close_reader(Reader *reader) {
   drop_parts(reader);
+  zp_names_free(&reader->names);
   free_layer(&reader->slots);
   free(reader->group);
 }
@@ -326,13 +335,17 @@ static int line_of(const Reader *reader, int key) {
 /* First key of the group `path`, -1 if it is not a group. */
 static int first_of_group(const char *path) {
   const char *rest;
-  const int member = zp_member_named(path, &rest);
+  ZpInstanceKind kind;
+  const int number = zp_instance_named(path, &kind, &rest);
   char row[ZP_VALUE_SIZE];
-  snprintf(row, sizeof row, "%s%.64s", member > 0 ? "member_K" : "", member > 0 ? rest : path);
+  if (number > 0)
+    snprintf(row, sizeof row, "%sK%.64s", zp_instance_begins(kind), rest);
+  else
+    snprintf(row, sizeof row, "%.64s", path);
   size_t length = strlen(row);
   for (int i = 0; i < zp_key_count(); i++)
     if (strncmp(zp_key(i)->name, row, length) == 0 && zp_key(i)->name[length] == '.')
-      return zp_key_in_def(i) ? i : member > 0 ? zp_key_of_member(i, member) : -1;
+      return zp_key_in_def(i) ? i : number > 0 ? zp_key_of_instance(i, number) : -1;
   return -1;
 }
 
@@ -433,11 +446,18 @@ static char *absolute_paths(const ZpSource *source, const char *paths) {
   return whole;
 }
 
-static ZpStatus read_text(const ZpSource *source, int key, const char *word, ZpSlot *slot, ZpError *reason) {
+/* Does a text name keys? */
+static bool names_keys(int key) {
+  return key == ZP_KEY(sensitivity.by) || key == ZP_KEY(sampling.together) || key == ZP_KEY(optimize.variables);
+}
+
+static ZpStatus read_text(Reader *reader, int key, const char *word, ZpSlot *slot, ZpError *reason) {
+  const ZpSource *source = reader->source;
   const ZpPaths paths = zp_key_paths(key);
   ZpActuatorDef scratch = zp_actuator_def_default();
   slot->text = paths == ZP_PATHS_SEVERAL ? absolute_paths(source, word)
                : paths == ZP_PATHS_ONE   ? absolute_path(source, word, (int)strlen(word))
+               : names_keys(key)         ? zp_names_text(&reader->names, word)
                                          : strdup(word);
   if (!make_room(slot, 1) || !slot->text) return zp_fail_memory(reason);
   *slot->value = NAN;
@@ -459,13 +479,15 @@ static ZpStatus read_parts(int key, const ZpParts *parts, ZpSlot *slot, ZpError 
 }
 
 /* *word: the one that is wrong, if one is. */
-static ZpStatus read_words(int key, const ZpYamlItem *item, const char **word, ZpSlot *slot, ZpError *reason) {
+static ZpStatus read_words(ZpGivenNames *names, bool known, int key, const ZpYamlItem *item, const char **word,
+                           ZpSlot *slot, ZpError *reason) {
   ZpStatus status = make_room(slot, item->count) ? ZP_OK : zp_fail_memory(reason);
   slot->is_list = item->kind == ZP_YAML_LIST;
   for (size_t i = 0; i < item->count && status == ZP_OK; i++) {
     if (i > 0) *word += strlen(*word) + 1;
     slot->is_bare |= zp_value_is_bare(key, *word);
-    status = zp_value_read(key, *word, &slot->value[i], reason);
+    status = zp_key_is_body(key) ? zp_names_body(names, known, key, *word, &slot->value[i], reason)
+                                 : zp_value_read(key, *word, &slot->value[i], reason);
   }
   return status;
 }
@@ -475,13 +497,14 @@ static bool takes_spread(int key) {
 }
 
 /* A list or one value: "50 um", "10 um .. 200 um : 20", "normal(50 um, 1 um)". */
-static ZpStatus read_value(int key, const ZpYamlItem *item, const char **word, ZpSlot *slot, ZpError *reason) {
-  const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key));
+static ZpStatus read_value(ZpGivenNames *names, bool known, int key, const ZpYamlItem *item, const char **word,
+                           ZpSlot *slot, ZpError *reason) {
+  const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key)) && !zp_key_is_body(key);
   const bool ranges = alone && zp_range_is(item->word),
              spreads = alone && takes_spread(key) && zp_spread_is(item->word);
   char copy[ZP_VALUE_SIZE];
   ZpParts parts;
-  if (!ranges && !spreads) return read_words(key, item, word, slot, reason);
+  if (!ranges && !spreads) return read_words(names, known, key, item, word, slot, reason);
   snprintf(copy, sizeof copy, "%s", item->word);
   ZpStatus status = ranges ? zp_range_split(copy, &parts, reason) : zp_spread_split(copy, &parts, reason);
   return status == ZP_OK ? read_parts(key, &parts, slot, reason) : status;
@@ -511,6 +534,7 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
   const ZpKeyType type = zp_key(key)->type;
   const char *wrong = type == ZP_KEY_TEXT                          ? "takes one text, not a list"
                       : type == ZP_KEY_BOOL || type == ZP_KEY_ENUM ? "takes one word, not a list"
+                      : zp_key_is_body(key)                        ? "takes one body, not a list"
                       : item->count == 0                           ? "empty list; give at least one value"
                                                                    : NULL;
   return item->kind == ZP_YAML_LIST && wrong ? fail_at(reader, ZP_KEY_NAME(key), item->line, err, "%s", wrong) : ZP_OK;
@@ -522,8 +546,9 @@ static ZpStatus take_values(Reader *reader, int key, const ZpYamlItem *item, ZpE
   const char *word = item->word;
   ZpStatus status = check_shape(reader, key, item, err);
   if (status != ZP_OK) return status;
-  status = zp_key(key)->type == ZP_KEY_TEXT ? read_text(reader->source, key, word, &slot, &reason)
-                                            : read_value(key, item, &word, &slot, &reason);
+  status = zp_key(key)->type == ZP_KEY_TEXT
+               ? read_text(reader, key, word, &slot, &reason)
+               : read_value(&reader->names, reader->source->argument, key, item, &word, &slot, &reason);
   if (status != ZP_OK) status = fail_value(reader, key, item->line, word, &reason, item->kind == ZP_YAML_VALUE, err);
   return take_slot(reader, key, item->line, &slot, status, err);
 }
@@ -576,16 +601,92 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
 
 /* -- a text ---------------------------------------------------------------------------------------- */
 
+/* Both keys of a pair: of `between` the bodies, of `at` and `force` x and y. A body that moves vertically takes no
+ * force sideways, so that x of force must be 0. => how many keys are found. */
+static int keys_of_pair(const char *path, int key[2]) {
+  char name[ZP_PATH_SIZE];
+  const char *last = strrchr(path, '.');
+  const bool between = last && strcmp(last, ".between") == 0;
+  int found = 0;
+  for (int k = 0; last && k < 2; k++) {
+    snprintf(name, sizeof name, "%.*s.%s", (int)(between ? last - path : (long)strlen(path)), path,
+             between ? (k == 0 ? "first" : "second") : (k == 0 ? "x" : "y"));
+    key[k] = zp_key_find(name);
+    found += key[k] >= 0 && zp_key_instance(key[k]).number > 0;
+  }
+  return found;
+}
+
+static ZpStatus take_pair(Reader *reader, const ZpYamlItem *item, const int key[2], ZpError *err) {
+  const char *word = item->word;
+  if (item->kind != ZP_YAML_LIST || item->count != 2)
+    return fail_at(reader, item->path, item->line, err, "takes two values, such as [%s]",
+                   key[0] >= 0 && zp_key_is_body(key[0]) ? "frame, hand" : "0 mm, -50 mm");
+  for (int k = 0; k < 2; k++, word += strlen(word) + 1) {
+    const ZpYamlItem part = {ZP_YAML_VALUE, item->path, item->line, word, 1};
+    if (key[k] < 0 && strtod(word, NULL) != 0)
+      return fail_at(reader, item->path, item->line, err,
+                     "the first value, to the right, must be 0: the body moves up and "
+                     "down");
+    ZpStatus status = key[k] < 0 ? ZP_OK : check_first(reader, item, line_of(reader, key[k]), err);
+    if (status == ZP_OK && key[k] >= 0) status = take_values(reader, key[k], &part, err);
+    if (status != ZP_OK) return status;
+  }
+  return ZP_OK;
+}
+
+/* "hand: {}": a body exists once it has a value, its mass. */
+static ZpStatus declare_body(Reader *reader, const ZpYamlItem *item, ZpError *err) {
+  const char *rest;
+  ZpInstanceKind kind;
+  const int number = zp_instance_named(item->path, &kind, &rest);
+  if (number == 0 || kind != ZP_OF_BODY || *rest) return ZP_OK;
+  const int key = zp_key_of_instance(ZP_KEY(body_K.mass), number);
+  bool given = false;
+  for (size_t k = 0; k < reader->slots.count; k++)
+    given |= zp_key_instance(reader->slots.slot[k].key).number == number &&
+             zp_key_instance(reader->slots.slot[k].key).kind == ZP_OF_BODY;
+  if (given) return ZP_OK;
+  ZpSlot slot = {0};
+  ZpStatus status = make_room(&slot, 1) ? ZP_OK : zp_fail_memory(err);
+  return take_slot(reader, key, item->line, &slot, status, err);
+}
+
+static ZpStatus take_named(Reader *reader, const ZpYamlItem *item, ZpError *err);
+
 /* A ZpYamlVisit. "ribbon:" without a value is a group without keys; with a value it is a mistake. */
 static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   Reader *reader = user;
+  char path[ZP_PATH_SIZE];
+  ZpError reason;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
+  if (zp_names_group(item->path) < ZP_INSTANCE_KINDS)
+    return item->kind == ZP_YAML_GROUP || *item->word == 0
+               ? check_no_parts(reader, -1, item->line, err)
+               : fail_at(reader, item->path, item->line, err,
+                         "takes names with their keys, such as hand: {mass: 20 g}");
+  if (zp_names_path(&reader->names, item->path, path, sizeof path, &reason) != ZP_OK)
+    return reason.status == ZP_MACHINE ? zp_fail_memory(err)
+                                       : fail_at(reader, item->path, item->line, err, "%s", reason.message);
+  ZpYamlItem named = *item;
+  named.path = path;
+  ZpStatus status = take_named(reader, &named, err);
+  const bool ends = item->kind == ZP_YAML_GROUP || (item->kind == ZP_YAML_VALUE && *item->word == 0);
+  if (status == ZP_OK && ends) status = declare_body(reader, &named, err);
+  if (status == ZP_BAD_INPUT) zp_names_tell(&reader->names, err);
+  return status;
+}
+
+/* An item whose path has numbers in the place of names. */
+static ZpStatus take_named(Reader *reader, const ZpYamlItem *item, ZpError *err) {
   int key = zp_key_with_value(item->path);
   if (item->kind == ZP_YAML_GROUP) return key >= 0 ? take_parts(reader, key, item, err) : take_group(reader, item, err);
   if (key >= 0) {
     ZpStatus status = check_first(reader, item, line_of(reader, key), err);
     return status == ZP_OK ? take_values(reader, key, item, err) : status;
   }
+  int pair[2];
+  if (item->kind == ZP_YAML_LIST && keys_of_pair(item->path, pair) > 0) return take_pair(reader, item, pair, err);
   size_t part;
   const int ranged = key_of_part(item->path, &part), first = first_of_group(item->path);
   if (ranged >= 0) return take_part(reader, item, ranged, part, err);
@@ -598,6 +699,7 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
 static ZpStatus read_layer(ZpScenario *s, const char *text, size_t size, const char *name, Layer *layer, ZpError *err) {
   ZpSource source = {.name = name};
   Reader reader = {.source = &source, .key = -1};
+  if (!zp_names_copy(&s->names, &reader.names)) return zp_fail_memory(err);
   ZpStatus status = zp_yaml_read(&source, text, size, false, take_item, &reader, err);
   if (status == ZP_OK) status = merge(s, &reader, layer, err);
   close_reader(&reader);
@@ -630,11 +732,16 @@ ZpStatus zp_scenario_read(ZpScenario *s, const char *path, ZpError *err) {
 }
 
 /* (argument, its `length` bytes before "=") => key, or -1 with an error. */
-static int key_of_argument(const ZpSource *source, size_t length, ZpError *err) {
-  char name[ZP_VALUE_SIZE];
+static int key_of_argument(const ZpSource *source, ZpGivenNames *names, size_t length, ZpError *err) {
+  char given[ZP_VALUE_SIZE], name[ZP_VALUE_SIZE];
+  ZpError wrong;
   while (length && source->name[length - 1] == ' ')
     length--;
-  snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1, source->name);
+  snprintf(given, sizeof given, "%.*s", length < sizeof given ? (int)length : (int)sizeof given - 1, source->name);
+  if (zp_names_path(names, given, name, sizeof name, &wrong) != ZP_OK) {
+    zp_source_fail(source, 0, err, "%s", wrong.message);
+    return -1;
+  }
   int key = zp_key_with_value(name);
   if (key >= 0) return key;
   int first = first_of_group(name);
@@ -659,14 +766,22 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   ZpSource source = {.name = assignment, .argument = true};
   const char *equals = strchr(assignment, '=');
   if (!equals) return zp_source_fail(&source, 0, err, "give KEY=VALUE");
-  int key = key_of_argument(&source, (size_t)(equals - assignment), err);
-  if (key < 0) return ZP_BAD_INPUT;
-  Reader reader = {.source = &source, .key = key};
+  Reader reader = {.source = &source};
+  if (!zp_names_copy(&s->names, &reader.names)) return zp_fail_memory(err);
+  reader.key = key_of_argument(&source, &reader.names, (size_t)(equals - assignment), err);
+  if (reader.key < 0) {
+    close_reader(&reader);
+    return ZP_BAD_INPUT;
+  }
   ZpStatus status = read_argument(&reader, equals + 1, err);
   if (status == ZP_OK && reader.slots.count == 0) status = zp_source_fail(&source, 0, err, "empty; give a value");
   if (status == ZP_OK) status = merge(s, &reader, &s->set, err);
   close_reader(&reader);
   return status;
+}
+
+const char *zp_scenario_key(const ZpScenario *s, int key, char text[ZP_PATH_SIZE]) {
+  return zp_names_key(&s->names, key, text);
 }
 
 size_t zp_scenario_count(const ZpScenario *s) {
@@ -765,7 +880,7 @@ bool zp_scenario_keeps_series(const ZpScenario *s) {
 }
 
 /* Set differs[key] for every key without a list whose value, or meaning of auto, differs between the cases. No value of
- * a member's key follows from another key. */
+ * a key of a member, a body or a spring follows from another key. */
 static ZpStatus compare_defs(const ZpScenario *s, const ZpActuatorDef *first, bool *differs, ZpError *err) {
   ZpActuatorDef def = {0};
   ZpStatus status = ZP_OK;
@@ -799,7 +914,7 @@ typedef struct Writer {
   const ZpActuatorDef *first; /* of the first case */
   const bool *differs;
   FILE *file;
-  char before[ZP_KEY_NAME_SIZE]; /* the key written last; "": none */
+  char before[ZP_PATH_SIZE]; /* the key written last; "": none */
 } Writer;
 
 static void write_value(const Writer *w, int key) {
@@ -807,6 +922,10 @@ static void write_value(const Writer *w, int key) {
   const char *words = zp_def_text(w->first, key);
   if (words) {
     zp_yaml_write_text(w->file, words);
+    return;
+  }
+  if (zp_key_is_body(key)) {
+    fputs(zp_names_word(&w->scenario->names, zp_def_get(w->first, key), text), w->file);
     return;
   }
   double value = key == ZP_KEY(study) ? (double)zp_scenario_study(w->scenario) : zp_def_get(w->first, key);
@@ -820,7 +939,8 @@ static void write_value(const Writer *w, int key) {
  * on reading. */
 static void write_key(Writer *w, int key) {
   const ZpSlot *slot = zp_given(&w->scenario->held.given, key);
-  const char *name = ZP_KEY_NAME(key);
+  char called[ZP_PATH_SIZE];
+  const char *name = zp_names_key(&w->scenario->names, key, called);
   const bool spreads = slot && slot->spread.kind != ZP_DISTRIBUTION_NONE, is_list = slot && slot->is_list;
   char text[ZP_VALUE_SIZE];
   if (key < ZP_KEYS && w->differs[key] && !is_list && !spreads) {
@@ -841,14 +961,13 @@ static void write_key(Writer *w, int key) {
   fputc('\n', w->file);
 }
 
-/* All keys, those of members where they are given. */
+/* All keys, those of members and so on where they are given. */
 static void write_keys(Writer *w) {
-  static const ZpKeyGroup of_member = ZP_KEY_GROUP(member_K);
   const ZpGiven *given = &w->scenario->held.given;
   for (int i = 0; i < zp_key_count(); i++) {
-    for (size_t k = 0; i == of_member.first && k < given->count; k++)
-      if (zp_key_member(given->slot[k]->key) > 0) write_key(w, given->slot[k]->key);
-    if (i < of_member.first || i >= of_member.end) write_key(w, i);
+    for (size_t k = 0; zp_key_is_row(i) && !zp_key_is_row(i - 1) && k < given->count; k++)
+      if (given->slot[k]->key >= ZP_KEYS) write_key(w, given->slot[k]->key);
+    if (!zp_key_is_row(i)) write_key(w, i);
   }
 }
 

@@ -25,8 +25,11 @@ static bool is_of(const List *list, const ZpScalar *scalar) {
   return sscanf(scalar->name, list->pattern, &mode, &end) == 1 && end > 0 && !scalar->name[end];
 }
 
+/* The name of a key, for as long as the block around it. */
+#define NAMED(scenario, key) zp_scenario_key(scenario, key, (char[ZP_PATH_SIZE]){0})
+
 /* {output: {key: derivative}} */
-static void put_sensitivity(ZpJson *json, const ZpResult *result) {
+static void put_sensitivity(ZpJson *json, const ZpScenario *scenario, const ZpResult *result) {
   const ZpSensitivity *s = result->sensitivity, *end = s + result->sensitivities;
   zp_json_open(json, "sensitivity", '{');
   for (const ZpSensitivity *first = s; first < end; first++) {
@@ -36,13 +39,41 @@ static void put_sensitivity(ZpJson *json, const ZpResult *result) {
     if (before < first) continue; /* written with that one */
     zp_json_open(json, first->output, '{');
     for (const ZpSensitivity *k = first; k < end; k++)
-      if (strcmp(k->output, first->output) == 0) zp_json_number(json, ZP_KEY_NAME(k->key), k->value, "1");
+      if (strcmp(k->output, first->output) == 0) zp_json_number(json, NAMED(scenario, k->key), k->value, "1");
     zp_json_close(json, '}');
   }
   zp_json_close(json, '}');
 }
 
-static void put_scalars(ZpJson *json, const ZpResult *result) {
+/* Groups that are open: "members.left." */
+typedef struct Open {
+  char path[ZP_PATH_SIZE];
+} Open;
+
+/* Close those that a name does not begin with. */
+static void close_groups(ZpJson *json, Open *open, const char *name) {
+  while (*open->path && strncmp(open->path, name, strlen(open->path)) != 0) {
+    zp_json_close(json, '}');
+    open->path[strlen(open->path) - 1] = 0;
+    char *point = strrchr(open->path, '.');
+    (point ? point + 1 : open->path)[0] = 0;
+  }
+}
+
+/* A number with points in its name is in groups: {"members": {"left": {"opening_m": ...}}}. */
+static void put_nested(ZpJson *json, Open *open, const ZpScalar *scalar) {
+  close_groups(json, open, scalar->name);
+  const char *rest = scalar->name + strlen(open->path);
+  for (const char *point = strchr(rest, '.'); point; rest = point + 1, point = strchr(rest, '.')) {
+    char group[ZP_PATH_SIZE];
+    snprintf(group, sizeof group, "%.*s", (int)(point - rest), rest);
+    zp_json_open(json, group, '{');
+    snprintf(open->path, sizeof open->path, "%.*s", (int)(point + 1 - scalar->name), scalar->name);
+  }
+  zp_json_number(json, rest, scalar->value, scalar->unit);
+}
+
+static void put_scalars(ZpJson *json, const ZpScenario *scenario, const ZpResult *result) {
   const ZpScalar *end = result->scalar + result->scalars;
   const size_t count = zp_study_shows(result->study) == ZP_SHOWS_modes ? LISTS : 0;
   for (size_t k = 0; k < count; k++) {
@@ -51,13 +82,15 @@ static void put_scalars(ZpJson *json, const ZpResult *result) {
       if (is_of(&lists[k], scalar)) zp_json_number(json, NULL, scalar->value, scalar->unit);
     zp_json_close(json, ']');
   }
+  Open open = {""};
   for (const ZpScalar *scalar = result->scalar; scalar < end; scalar++) {
     bool listed = false;
     for (size_t k = 0; k < count; k++)
       listed |= is_of(&lists[k], scalar);
-    if (!listed) zp_json_number(json, scalar->name, scalar->value, scalar->unit);
+    if (!listed) put_nested(json, &open, scalar);
   }
-  if (result->sensitivities > 0) put_sensitivity(json, result);
+  close_groups(json, &open, "");
+  if (result->sensitivities > 0) put_sensitivity(json, scenario, result);
 }
 
 /* Largest number of different notes of all runs in the summary: notes with numbers may all differ, and each note is
@@ -103,11 +136,11 @@ static void put_row(ZpJson *json, const ZpReport *report, size_t run) {
   if (value) zp_scenario_values(report->scenario, run, value);
   zp_json_open(json, NULL, '{');
   for (size_t i = 0; value && i < keys; i++)
-    zp_json_key(json, ZP_KEY_NAME(key[i]), key[i], value[i]);
+    zp_json_key(json, NAMED(report->scenario, key[i]), key[i], value[i]);
   free(value);
   zp_json_text(json, "outcome", zp_outcome_name(result->outcome));
   zp_json_text(json, "message", result->message);
-  put_scalars(json, result);
+  put_scalars(json, report->scenario, result);
   add_notes(json, &notes, result);
   put_notes(json, &notes);
   zp_json_close(json, '}');
@@ -197,10 +230,10 @@ static void put_indices(ZpJson *json, const Samples *s, const double *value) {
       const ZpIndices *indices = &s->indices[dimension++];
       const ZpIndex *index = part < 2 ? &indices->first : &indices->total;
       if (part % 2 == 0) {
-        zp_json_number(json, ZP_KEY_NAME(key[i]), index->value, "1");
+        zp_json_number(json, NAMED(scenario, key[i]), index->value, "1");
         continue;
       }
-      zp_json_open(json, ZP_KEY_NAME(key[i]), '[');
+      zp_json_open(json, NAMED(scenario, key[i]), '[');
       zp_json_number(json, NULL, index->low, "1");
       zp_json_number(json, NULL, index->high, "1");
       zp_json_close(json, ']');
@@ -235,7 +268,7 @@ static void put_combination(ZpJson *json, const Samples *s, size_t start) {
   zp_scenario_values(cases->report->scenario, start, cases->value);
   for (size_t i = 0; i < keys; i++)
     if (!zp_scenario_spread(cases->report->scenario, key[i]))
-      zp_json_key(json, ZP_KEY_NAME(key[i]), key[i], cases->value[i]);
+      zp_json_key(json, NAMED(cases->report->scenario, key[i]), key[i], cases->value[i]);
   zp_json_open(json, "outputs", '{');
   for (size_t first = cases->keys; first < cases->columns; first += COLUMNS) {
     read_columns(s, first, start);
@@ -275,7 +308,7 @@ static ZpStatus write_summary(const ZpReport *report, bool flat, FILE *file, ZpE
   zp_json_text(&json, "version", ZP_VERSION);
   zp_json_text(&json, "study", zp_report_study(report));
   put_outcome(&json, report);
-  if (single) put_scalars(&json, single);
+  if (single) put_scalars(&json, report->scenario, single);
   if (sweep) put_largest(&json, report);
   for (size_t i = 0; i < report->count; i++)
     add_notes(&json, &notes, zp_report_result(report, i));

@@ -19,16 +19,19 @@ static bool copy_block(const ZpArrowBlock *from, ZpArrowBlock *to) {
   return to->to != NULL;
 }
 
-static bool find_sparsity(ZpArrowForm *form) {
-  ZpClique *clique = zp_calloc(form->blocks, sizeof *clique);
+static bool find_sparsity(ZpArrowForm *form, const ZpClique *more, size_t count) {
+  ZpClique *clique = zp_calloc(form->blocks + count, sizeof *clique);
   for (size_t k = 0; clique && k < form->blocks; k++)
     clique[k] = (ZpClique){form->block[k].band.border, form->block[k].to};
-  bool found = clique && zp_sparsity_create(border_of(form), clique, form->blocks, &form->sparsity);
+  for (size_t k = 0; clique && k < count; k++)
+    clique[form->blocks + k] = more[k];
+  bool found = clique && zp_sparsity_create(border_of(form), clique, form->blocks + count, &form->sparsity);
   zp_free(clique);
   return found;
 }
 
-bool zp_arrow_form_create(const ZpArrowBlock *block, size_t blocks, size_t border, ZpArrowForm *form) {
+bool zp_arrow_form_create(const ZpArrowBlock *block, size_t blocks, size_t border, const ZpClique *more, size_t count,
+                          ZpArrowForm *form) {
   *form = (ZpArrowForm){0};
   form->block = zp_calloc(blocks, sizeof *form->block);
   bool made = form->block != NULL;
@@ -38,7 +41,7 @@ bool zp_arrow_form_create(const ZpArrowBlock *block, size_t blocks, size_t borde
     form->inner += block[k].n;
   }
   form->n = form->inner + border;
-  made = made && find_sparsity(form);
+  made = made && find_sparsity(form, more, count);
   if (!made) zp_arrow_form_destroy(form);
   return made;
 }

@@ -28,8 +28,10 @@ typedef struct ZpArrowForm {
   ZpSparsity sparsity; /* of the border */
 } ZpArrowForm;
 
-/* Of blocks, which are copied, and a border with so many unknowns. False if there is no memory. */
-bool zp_arrow_form_create(const ZpArrowBlock *block, size_t blocks, size_t border, ZpArrowForm *form);
+/* Of blocks, which are copied, and a border with so many unknowns, of which `count` groups also meet without a block.
+ * False if there is no memory. */
+bool zp_arrow_form_create(const ZpArrowBlock *block, size_t blocks, size_t border, const ZpClique *more, size_t count,
+                          ZpArrowForm *form);
 void zp_arrow_form_destroy(ZpArrowForm *form);
 
 typedef struct ZpArrowPart {

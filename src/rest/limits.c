@@ -388,7 +388,8 @@ static void none_from(Finder *f, int first, const char *reason) {
 /* Why no load is searched; NULL: it is. */
 static const char *no_load(const ZpModel *model, bool load) {
   if (!load) return "it was not searched";
-  if (zp_is_antagonist(model)) return "a heavy load closes the lower antagonist";
+  if (zp_is_network(model)) return "each body has a mass of its own";
+  if (model->network->opposed) return "a heavy load closes the lower antagonist";
   return model->def.gravity > 0 && model->fall[1] < 0 ? NULL
                                                       : "gravity does not pull the platform down, so a mass is no load";
 }

@@ -377,7 +377,7 @@ static void find_motions(Member *w) {
   for (int half = 0; half < ZP_BEADS; half++)
     w->bead[half].reach = w->eval->reach[half];
   find_shapes(w);
-  if (zp_is_antagonist(w->model)) add_deflection(w);
+  if (w->model->network->opposed) add_deflection(w);
   look(w, w->U);
   w->cover = w->eval->cover;
   if (model->has_film) {

@@ -67,7 +67,7 @@ ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins) {
     zp_many_put(&rest->shapes, s->model, k, &shape);
   }
   for (size_t k = 0; k < s->members && !s->shared; k++)
-    zp_many_hang(&rest->shapes, s->model, k);
+    zp_many_hang(&rest->shapes, s->model, s->model->network->order[k]);
   shape.zipped = zp_statics_front(s);
   zp_many_give(&rest->shapes, &shape);
   return shape;

@@ -27,12 +27,15 @@ static size_t reserve_solution(ZpStatics *s, void *block) {
   ZpArena arena = {block, 0};
   zp_newton_reserve(&s->newton, &s->form, &arena);
   s->row = zp_arena_take(&arena, s->n);
+  s->at = zp_arena_take(&arena, s->n);
   return arena.used;
 }
 
 static size_t reserve(const ZpModel *model, ZpStatics *s, void *block) {
   ZpArena arena = {block, 0};
   s->member = (ZpRestMember *)(void *)zp_arena_take(&arena, s->members * sizeof *s->member / sizeof(double));
+  s->way = zp_arena_take(&arena, model->network->bodies);
+  s->below = zp_arena_take(&arena, model->network->bodies);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember unused = {0}, *m = block ? &s->member[k] : &unused;
     reserve_member(m, model, &arena);
@@ -75,7 +78,8 @@ static bool number(ZpStatics *s) {
   }
   bool joined = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, 0, &s->form);
   s->n = s->form.n;
-  joined = joined && zp_assembly_parts(of, s->members, s->n, &s->parts);
+  joined = joined && zp_assembly_parts(of, s->members, s->n, &s->parts) &&
+           (!is_joined(s) || zp_springs_create(s->model, of, &s->springs));
   zp_free(of);
   return joined;
 }
@@ -85,16 +89,18 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
                    .members = model->members,
                    .shared = zp_shares_load(model),
                    .linked = held && model->members > 1 && !zp_shares_load(model),
-                   .opposed = zp_is_antagonist(model),
-                   .force = zp_lowest(model)->def.load.force};
+                   .opposed = model->network->opposed,
+                   .force = zp_lowest(model)->def.load.force,
+                   .has_load = !zp_is_network(model)};
   s->memory = zp_calloc(1, reserve(model, s, NULL));
   bool made = s->memory != NULL;
   if (made) reserve(model, s, s->memory);
   for (size_t k = 0; k < s->members && made; k++) {
     made = create_member(s, k);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
-    s->own_load = (s->shared ? s->own_load : 0) + model[k].def.load.mass;
+    if (model->network->ends[k].lower == model->network->load) s->own_load += model[k].def.load.mass;
   }
+  made = made && zp_heights_create(model->network, &s->heights);
   if (made && number(s)) s->solution = zp_calloc(1, reserve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
@@ -114,6 +120,8 @@ void zp_statics_destroy(ZpStatics *s) {
     zp_assembly_destroy(&s->member[k].assembly);
   }
   zp_arrow_form_destroy(&s->form);
+  zp_heights_destroy(&s->heights);
+  zp_springs_destroy(&s->springs);
   zp_free(s->parts.common);
   zp_free(s->memory);
   zp_free(s->solution);
@@ -209,7 +217,8 @@ static bool has_jumped(const ZpStatics *s) {
     const ZpRestMember *m = &s->member[k];
     if (m->idle) continue;
     double before = zp_opening(&m->model->topology, zp_nodes(m->model, m->good).y);
-    jumped |= fabs(opening_of(m) - before) > part * (s->opposed ? s->model->distance : m->model->L);
+    jumped |= fabs(opening_of(m) - before) >
+              part * (s->opposed && s->has_load ? zp_network_depth(s->model->network) : m->model->L);
     jumped |= member_has_jumped(m);
   }
   return jumped;
@@ -285,7 +294,7 @@ static ZpNewtonInfo let_faces_push(ZpStatics *s, ZpNewtonInfo info) {
 static ZpNewtonInfo hang_between(ZpStatics *s) {
   double load = s->load;
   s->bias = 0;
-  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * s->model->distance);
+  ZpNewtonInfo info = zp_statics_hold(s, 0.5 * zp_network_depth(s->model->network));
   s->opening = NAN;
   s->load = load;
   if (!zp_newton_good(info.end)) return info;
@@ -317,11 +326,11 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
 }
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
-  if (s->opposed) return hang_between(s);
+  if (s->opposed && s->has_load) return hang_between(s);
   s->U = s->suction = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
-  if (!is_found(s, info)) info = step_by_step(s, &s->share, &s->share, 0.01);
+  if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->share, 0.01);
   if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */
   info = let_faces_push(s, info);
   info = let_menisci_draw(s, info);
@@ -356,7 +365,8 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
   return zp_statics_relax(s, voltage);
 }
 
-static double stroke_of(const ZpRestMember *m) {
+static double stroke_of(const ZpStatics *s, size_t which) {
+  const ZpRestMember *m = &s->member[which];
   return zp_stroke(&m->model->topology, zp_nodes(m->model, m->q).y);
 }
 
@@ -364,11 +374,11 @@ double zp_statics_member_opening(const ZpStatics *s, size_t which) {
   return opening_of(&s->member[which]);
 }
 
-/* Of the first member, or of all in series together. */
-static double of_all(const ZpStatics *s, double (*number)(const ZpRestMember *m)) {
-  double sum = number(s->member);
-  for (size_t k = 1; k < s->members && !s->shared; k++)
-    sum += number(&s->member[k]);
+/* Along the path from the frame to the load; NAN if there is no load of all. */
+static double of_all(const ZpStatics *s, double (*number)(const ZpStatics *s, size_t which)) {
+  double sum = s->has_load ? 0 : (double)NAN;
+  for (size_t k = 0; k < s->members; k++)
+    if (s->model->network->ends[k].on_path) sum += number(s, k);
   return sum;
 }
 
@@ -377,7 +387,7 @@ double zp_statics_stroke(const ZpStatics *s) {
 }
 
 double zp_statics_opening(const ZpStatics *s) {
-  return of_all(s, opening_of);
+  return of_all(s, zp_statics_member_opening);
 }
 
 double zp_statics_angle(const ZpStatics *s) {
@@ -390,22 +400,26 @@ static size_t front_of(const ZpRestMember *m) {
 
 size_t zp_statics_front(const ZpStatics *s) {
   size_t least = front_of(s->member);
-  for (size_t k = 1; k < s->members && !s->opposed; k++)
-    least = front_of(&s->member[k]) < least ? front_of(&s->member[k]) : least;
+  for (size_t k = 1; k < s->members; k++)
+    if (!s->model->network->ends[k].turned && front_of(&s->member[k]) < least) least = front_of(&s->member[k]);
   return least;
 }
 
-static double closed_length_of(const ZpRestMember *m) {
-  return (double)front_of(m) * m->model->l;
+double zp_statics_member_closed(const ZpStatics *s, size_t which) {
+  return (double)front_of(&s->member[which]) * s->member[which].model->l;
 }
 
-double zp_statics_member_closed(const ZpStatics *s, size_t which) {
-  return closed_length_of(&s->member[which]);
+/* The length that is closed in all members that lie side by side with one, m. */
+static double closed_abreast(const ZpStatics *s, size_t which) {
+  const ZpNetwork *network = s->model->network;
+  double least = zp_statics_member_closed(s, which);
+  for (size_t k = 0; k < s->members && network->ends[which].abreast > 1; k++)
+    if (zp_network_abreast(network, which, k)) least = fmin(least, zp_statics_member_closed(s, k));
+  return least;
 }
 
 double zp_statics_closed_length(const ZpStatics *s) {
-  if (!s->shared) return of_all(s, closed_length_of);
-  return (double)zp_statics_front(s) * s->member->model->l;
+  return of_all(s, closed_abreast);
 }
 
 double zp_statics_member_voltage(const ZpStatics *s, size_t which) {
@@ -574,9 +588,9 @@ double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
 /* The part of the load that hangs on a member: of those side by side an equal share; of antagonists all of it on the
  * upper one; in series all of it on each, or on the last one if links carry the rest. */
 static double load_part(const ZpStatics *s, size_t which) {
-  if (s->opposed) return which == 0;
-  if (s->linked) return which + 1 == s->members;
-  return s->shared ? 1 / (double)s->members : 1;
+  const ZpEnds *ends = &s->model->network->ends[which];
+  if (!is_joined(s)) return 1;
+  return ends->lower == s->model->network->load && !ends->turned ? 1 / (double)ends->abreast : 0;
 }
 
 /* The part of the load's mass and force that the modelled part of a member carries: in series that of the lowest one,
@@ -590,6 +604,7 @@ static double load_share(const ZpStatics *s, size_t which) {
 static double hung_on(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->member[which].model, *last = s->member[s->members - 1].model;
   if (s->linked && model != last) return 0;
+  if (!s->has_load) return is_joined(s) ? 0 : model->carried;
   if (is_joined(s)) return load_part(s, which) * s->load - model->def.load.mass;
   double share = model == last ? 1 : load_share(s, which) / zp_load_share(model);
   return model->carried + share * s->load - share * last->def.load.mass;
@@ -601,7 +616,7 @@ ZpSpan zp_statics_span(const ZpStatics *s, size_t which) {
   ZpSpan span = zp_span_at(m->q);
   span.U0 = span.U1 = zp_statics_member_voltage(s, which);
   span.hung = zp_load_share(m->model) * hung_on(s, which) * def->gravity;
-  if (!is_joined(s)) span.load = load_share(s, which) * (s->force - def->load.force);
+  if (s->has_load && !is_joined(s)) span.load = load_share(s, which) * (s->force - def->load.force);
   span.share = s->share;
   span.suction = s->suction;
   span.faces_pass = !s->contact_acts;
@@ -632,6 +647,20 @@ bool zp_statics_asked_to_stop(ZpStatics *s) {
   return s->stopped;
 }
 
+/* The height of a load that several members have is that of the first one. */
+static void position(void *self, double *q) {
+  const ZpStatics *s = self;
+  for (size_t k = s->members; k-- > 0;)
+    zp_assembly_gather(&s->member[k].assembly, s->member[k].q, q);
+}
+
+/* Springs grow with the weight. */
+static void add_springs(ZpStatics *s, double *r) {
+  if (s->springs.count == 0) return;
+  position(s, s->at);
+  zp_springs_add_force(&s->springs, s->share, s->at, s->at, r);
+}
+
 static ZpEnd residual(void *self, double *r, double *size) {
   enum { BETWEEN = 64 }; /* residuals between two calls of `stop`: about a millisecond */
   ZpStatics *s = self;
@@ -644,6 +673,7 @@ static ZpEnd residual(void *self, double *r, double *size) {
     zp_system_force(m->model, &here, &m->eval, m->force);
     zp_assembly_add(&m->assembly, m->force, r);
   }
+  add_springs(s, r);
   s->reaction = zp_statics_hold_rate(s, zp_statics_away(s), r);
   double largest = largest_of(s, r);
   if (size) *size = largest / s->scale;
@@ -667,6 +697,10 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpArrow *K) {
       zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &K->part[k].A);
   }
   zp_arrow_mirror(K);
+  if (s->springs.count > 0) {
+    position(s, s->at);
+    zp_springs_add_stiffness(&s->springs, s->share, s->at, s->at, true, s->form.inner, &K->D);
+  }
   zp_arrow_close(K);
 }
 
@@ -814,57 +848,48 @@ static size_t load_coordinate(const ZpRestMember *m) {
   return zp_y_of(zp_load_node(&m->model->topology));
 }
 
-static double load_height(const ZpRestMember *m) {
-  return *zp_coordinate(m->model, m->q, load_coordinate(m));
-}
-
 double zp_statics_factor(const ZpStatics *s, size_t which) {
   const ZpRestMember *m = &s->member[which];
   return m->assembly.factor[load_coordinate(m)];
 }
 
-/* The offset of the row that ties a member's platform to that of the first one, m. */
-static double offset_of(const ZpStatics *s, size_t which) {
-  const ZpRestMember *m = &s->member[which];
-  return s->nearer * m->assembly.offset[load_coordinate(m)];
+/* Where a member has a body at the height y: in its own frame, m. */
+static double seen_by(const ZpStatics *s, size_t which, double y) {
+  const ZpNetwork *network = s->model->network;
+  return zp_network_sign(network, which) * (y - s->nearer * zp_network_origin(network, which));
 }
 
-/* Each member of a series hangs on the platform of the one above. */
-static void hang_members(ZpStatics *s) {
-  for (ZpRestMember *m = s->member + 1; m < s->member + s->members; m++)
-    zp_place_below(m[-1].model, m[-1].q, m->model, m->q);
+const double *zp_statics_heights(ZpStatics *s) {
+  for (size_t k = 0; k < s->members; k++)
+    s->heights.opening[k] = opening_of(&s->member[k]);
+  zp_heights_find(&s->heights, s->nearer);
+  return s->heights.y;
 }
 
-/* By how much the load is higher where the first member has it than where member k has it. */
-static double missed_by(const ZpStatics *s, double first, size_t k) {
-  double factor = zp_statics_factor(s, k);
-  return k > 0 ? first - factor * load_height(&s->member[k]) + factor * offset_of(s, k) : 0;
-}
-
-/* Each member places the load slightly differently, by a term of second order; it moves to the mean of these places. */
-static void meet(ZpStatics *s) {
-  if (s->linked) hang_members(s);
-  if (!s->shared) return;
-  double mean = 0, first = load_height(s->member);
-  for (size_t k = 1; k < s->members; k++)
-    mean += missed_by(s, first, k) / (double)s->members;
+/* Bodies to the heights that the openings of all members say; then each member to the bodies at its ends. */
+static void place_between(ZpStatics *s) {
+  const ZpNetwork *network = s->model->network;
+  zp_statics_heights(s);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
-    double up = zp_statics_factor(s, k) * (missed_by(s, first, k) - mean);
-    zp_place_platform(m->model, &m->assembly, load_height(m) + up, m->q);
+    zp_place_top(m->model, seen_by(s, k, s->heights.y[network->ends[k].upper]), m->q);
+    zp_place_platform(m->model, &m->assembly, seen_by(s, k, s->heights.y[network->ends[k].lower]), m->q);
   }
 }
 
-/* A row with a factor of 1 or -1 says of either coordinate where it puts the other one. */
+/* Each member places its bodies slightly differently, by a term of second order. */
+static void meet(ZpStatics *s) {
+  if (is_joined(s) && s->members > 1) place_between(s);
+}
+
+/* Closed faces would be parted: members that are open follow those that are less so. */
 void zp_statics_rejoin(ZpStatics *s) {
-  if (s->linked) hang_members(s);
-  for (size_t k = 1; k < s->members && s->shared; k++) {
-    double first = load_height(s->member), other = load_height(&s->member[k]);
-    bool follows = s->opposed && first < other;
-    double height = zp_statics_factor(s, k) * (follows ? other : first) + offset_of(s, k);
-    ZpRestMember *m = follows ? s->member : &s->member[k];
-    zp_place_platform(m->model, &m->assembly, height, m->q);
-  }
+  if (!is_joined(s) || s->members == 1) return;
+  for (size_t k = 0; k < s->members; k++)
+    s->heights.weight[k] = 1 / (opening_of(&s->member[k]) * opening_of(&s->member[k]) + DBL_MIN);
+  place_between(s);
+  for (size_t k = 0; k < s->members; k++)
+    s->heights.weight[k] = 1;
 }
 
 static void move(void *self, const double *step, double fraction) {
@@ -1030,13 +1055,6 @@ static void by_load(void *self, double *r_m) {
   zp_statics_hold_rate(s, 0, r_m);
 }
 
-/* The height of the load is that of the first one. */
-static void position(void *self, double *q) {
-  const ZpStatics *s = self;
-  for (size_t k = s->members; k-- > 0;)
-    zp_assembly_gather(&s->member[k].assembly, s->member[k].q, q);
-}
-
 /* Of each member q and tensions; voltage, load, bias. */
 static void save(void *self, void *to) {
   const ZpStatics *s = self;
@@ -1145,13 +1163,18 @@ static double momentum_of(const ZpRestMember *m) {
   return sum;
 }
 
-/* Eq. (29.3): in series a member moves relative to its upper platform, and with that platform, which moves by `way`. */
+/* Eq. (29.3): where all hang, a member moves relative to its upper platform, and with that platform, which moves by the
+ * way of its body. */
 void zp_statics_weigh(void *self, const double *u, double *mu) {
   ZpStatics *s = self;
+  const ZpNetwork *network = s->model->network;
   const bool hang = s->members > 1 && !s->shared;
-  double way = 0, below = 0;
+  memset(s->way, 0, network->bodies * sizeof *s->way);
+  memset(s->below, 0, network->bodies * sizeof *s->below);
   memset(mu, 0, s->n * sizeof *mu);
-  for (size_t k = 0; k < s->members; k++) {
+  for (size_t i = 0; i < s->members; i++) {
+    const size_t k = network->order[i];
+    const double way = s->way[network->ends[k].upper];
     ZpRestMember *m = &s->member[k];
     ZpForces moved = zp_forces(m->model, m->moved);
     zp_assembly_changes(&m->assembly, u, m->moved);
@@ -1160,11 +1183,13 @@ void zp_statics_weigh(void *self, const double *u, double *mu) {
       moved.y[j] = m->model->mass[j] * (moved.y[j] + way);
     }
     zp_assembly_add(&m->assembly, m->moved, mu);
-    if (hang) way += u[height_of(m)];
+    if (hang) s->way[network->ends[k].lower] = way + u[height_of(m)];
   }
-  for (size_t k = s->members; hang && k-- > 0;) {
+  for (size_t i = s->members; hang && i-- > 0;) {
+    const size_t k = network->order[i];
+    const double below = s->below[network->ends[k].lower];
     mu[height_of(&s->member[k])] += below;
-    below += momentum_of(&s->member[k]);
+    s->below[network->ends[k].upper] += below + momentum_of(&s->member[k]);
   }
 }
 
@@ -1176,6 +1201,7 @@ double zp_statics_member_force(ZpStatics *s, size_t which) {
   zp_system_force(m->model, &here, &m->eval, m->force);
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
     sum += zp_nodes(m->model, m->force).y[zp_lower(t, i)];
+  if (!s->has_load) sum += here.hung; /* and what hangs below */
   return m->model->parts * sum + zp_load_pull(m->model);
 }
 

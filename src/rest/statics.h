@@ -4,8 +4,10 @@
 #define ZP_REST_STATICS_H
 
 #include "actuator/assemble.h"
+#include "actuator/heights.h"
 #include "actuator/shape.h"
 #include "solve/continuation.h"
+#include "system/springs.h"
 #include "system/system.h"
 
 /* One of the actuators of the system. */
@@ -30,6 +32,11 @@ typedef struct ZpStatics {
   ZpRestMember *member; /* [members]; from the uppermost down */
   bool shared;          /* they have one load: its height is an unknown of all */
   bool linked;          /* of a series: heights of its links are unknowns of all; else each has its own frame */
+  bool has_load;        /* one body has the load, whose mass is a parameter; in a network each has its own */
+  ZpHeights heights;    /* of the bodies that members join */
+  ZpSprings springs;    /* between bodies */
+  double *way, *below;  /* [bodies] work space */
+  double *at;           /* [n] the present unknowns, where springs act; work space */
   size_t n;             /* equations of all */
   ZpArrowForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
@@ -139,6 +146,9 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * ribbon as far below its hinge (below L), without load and voltage. Go from the straight shape to the equilibrium
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
+
+/* Heights of all bodies at the present point [bodies], m; valid until the next call. */
+const double *zp_statics_heights(ZpStatics *statics);
 
 /* 1, or -1 of a lower antagonist: upside down, its platform falls as the load rises. */
 double zp_statics_factor(const ZpStatics *statics, size_t which);

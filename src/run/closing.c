@@ -53,12 +53,12 @@ static bool is_true_of(const ZpSim *sim, bool (*holds)(const ZpModel *model, con
   size_t held = 0;
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
     held += holds(m->model, m->state);
-  return held >= (zp_is_antagonist(sim->model) ? 1 : sim->members);
+  return held >= (sim->model->network->opposed ? 1 : sim->members);
 }
 
 /* Of one of two antagonists, the earlier; else of all members, the last. */
 static double time_of(const ZpSim *sim, double (*instant)(const ZpState *state)) {
-  const bool first = zp_is_antagonist(sim->model);
+  const bool first = sim->model->network->opposed;
   double time = instant(sim->state);
   for (const ZpSim *m = sim + 1; m < sim + sim->members; m++) {
     double other = instant(m->state);
@@ -162,7 +162,7 @@ static double left_of(const ZpSim *m, ZpLanding landing) {
 }
 
 double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
-  const bool first = landing == ZP_LANDS_SHORTED || zp_is_antagonist(sim->model);
+  const bool first = landing == ZP_LANDS_SHORTED || sim->model->network->opposed;
   double left = first ? INFINITY : -INFINITY;
   for (const ZpSim *m = sim; m < sim + sim->members; m++) {
     if (first)

@@ -4,7 +4,8 @@
 #include <string.h>
 
 static void reserve_equations(ZpDynamics *d, ZpArena *arena) {
-  double **of_equations[] = {&d->mass, &d->q, &d->v, &d->history.w, &d->history.a, &d->scale, &d->sharers};
+  double **of_equations[] = {&d->mass,  &d->q,       &d->v,    &d->history.w, &d->history.a,
+                             &d->scale, &d->sharers, &d->from, &d->to};
   for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
     *of_equations[k] = zp_arena_take(arena, d->system.n);
   d->kind = (ZpUnknown *)(void *)zp_arena_take(arena, d->system.n); /* room for doubles is more than enough */
@@ -35,6 +36,7 @@ static size_t reserve(ZpDynamics *d, void *block) {
   for (size_t k = 0; k < d->members; k++)
     reserve_member(&d->member[k], &arena);
   d->joined = zp_arena_take(&arena, d->form.n - d->form.inner);
+  d->lost = zp_arena_take(&arena, d->form.n - d->form.inner);
   d->column = zp_arena_take(&arena, most_places(d));
   d->row = zp_arena_take(&arena, most_places(d));
   d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
@@ -128,8 +130,9 @@ static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
 
 static double begin(void *self, const double *q0, const double *v0) {
   ZpDynamics *d = self;
-  double energy = 0;
+  double energy = zp_springs_energy(&d->springs, q0);
   (void)v0;
+  memcpy(d->from, q0, d->system.n * sizeof *q0);
   for (size_t k = 0; k < d->members; k++)
     energy += begin_one(d, &d->member[k], q0);
   return energy;
@@ -160,6 +163,8 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   memset(f, 0, d->system.n * sizeof *f);
   for (size_t k = 0; k < d->members; k++)
     add_force(d, &d->member[k], q1, f);
+  memcpy(d->to, q1, d->system.n * sizeof *q1);
+  zp_springs_add_force(&d->springs, 1, d->from, d->to, f);
   if (!d->source) return ZP_END_FOUND;
   ask_source(d);
   f[voltage_of(d)] = d->law.lacks / d->member->model->parts;
@@ -228,6 +233,7 @@ static void tangent(void *self, ZpArrow *J) {
   }
   zp_arrow_mirror(J);
   if (d->source) add_source(d, J);
+  zp_springs_add_stiffness(&d->springs, 1, d->from, d->to, false, d->form.inner, &J->D);
   zp_arrow_close(J);
 }
 
@@ -264,7 +270,7 @@ static bool is_platform(const ZpMovingMember *m, size_t i) {
  * Both ends of a platform that does not turn have equal pairs. */
 typedef struct Pair {
   int upper, lower;
-  double turned;      /* factor of the lower one: 1, or -1 upside down */
+  double factor[2];   /* of the upper and of the lower one: 1, or -1 upside down */
   double upper_share; /* of the pair's mass */
   double reduced;     /* mass of their relative motion, kg */
 } Pair;
@@ -273,8 +279,12 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
   const ZpTopology *t = &m->model->topology;
   const int *equation = m->assembly.equation;
   size_t upper = zp_upper(t, i), lower = zp_lower(t, i);
-  Pair pair = {zp_is_pair(t) ? equation[zp_y_of(upper)] : -1, equation[zp_y_of(lower)],
-               m->assembly.factor[zp_y_of(lower)], 1, 0};
+  const double *factor = m->assembly.factor;
+  Pair pair = {zp_is_pair(t) ? equation[zp_y_of(upper)] : -1,
+               equation[zp_y_of(lower)],
+               {factor[zp_y_of(upper)], factor[zp_y_of(lower)]},
+               1,
+               0};
   if (pair.lower < 0) return pair;
   double below = m->model->mass[lower] + (is_platform(m, i) ? m->added + m->with[1] : 0);
   pair.reduced = below;
@@ -287,15 +297,15 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
 
 /* How fast the faces of a pair part, by the rates of all unknowns. */
 static double parting(Pair pair, const double *v) {
-  double lower = pair.turned * v[pair.lower];
-  return pair.upper >= 0 ? v[pair.upper] - lower : -lower;
+  double lower = pair.factor[1] * v[pair.lower];
+  return pair.upper >= 0 ? pair.factor[0] * v[pair.upper] - lower : -lower;
 }
 
 /* Bring both nodes of a pair nearer to each other, in positions or rates x of all unknowns. Their centre of mass stays
  * where it is. */
 static void bring_nearer(Pair pair, double by, double *x) {
-  x[pair.lower] += pair.turned * (by * (pair.upper >= 0 ? pair.upper_share : 1));
-  if (pair.upper >= 0) x[pair.upper] -= by * (1 - pair.upper_share);
+  x[pair.lower] += pair.factor[1] * (by * (pair.upper >= 0 ? pair.upper_share : 1));
+  if (pair.upper >= 0) x[pair.upper] -= pair.factor[0] * (by * (1 - pair.upper_share));
 }
 
 /* A first guess. Faces that overlap keep their overlap, and faces that would pass through each other overlap a little.
@@ -426,17 +436,20 @@ static double pushed(const ZpMovingMember *m) {
 /* Damp all faces that are in contact. Platforms side by side land together: each takes its part of the velocity that
  * they had before. */
 static void damp_all(ZpDynamics *d) {
-  const bool parallel = d->member->model->parallel;
-  double *fall = &d->v[d->member->assembly.equation[zp_y_of(zp_load_node(&d->member->model->topology))]], lost = 0;
+  const size_t inner = d->form.inner, border = d->form.n - inner;
+  memset(d->lost, 0, border * sizeof *d->lost);
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     for (size_t i = 1; i < m->model->nodes; i++) {
       if (!meets(m, i)) continue;
-      if (parallel && is_platform(m, i))
-        lost += (1 - zp_contact_kept(&m->eval.faces, i, pair_of(m, i).reduced, d->h)) / (double)d->members;
+      const Pair pair = pair_of(m, i);
+      if (zp_abreast(m->model) > 1 && is_platform(m, i))
+        d->lost[(size_t)pair.lower - inner] +=
+            (1 - zp_contact_kept(&m->eval.faces, i, pair.reduced, d->h)) / (double)zp_abreast(m->model);
       else
         damp(d, m, i);
     }
-  if (parallel) *fall *= 1 - lost;
+  for (size_t k = 0; k < border; k++)
+    d->v[inner + k] *= 1 - d->lost[k];
 }
 
 static bool any_meet(const ZpDynamics *d) {
@@ -580,7 +593,8 @@ static void find_joined_masses(ZpDynamics *d) {
     const ZpTopology *t = &m->model->topology;
     double own = mass_at(m, zp_load_node(t)), others = mass_of_others(d, m, zp_load_node(t));
     m->with[0] = mass_of_others(d, m, zp_upper(t, t->platform.first));
-    m->with[1] = m->model->parallel ? (own + others) / (double)d->members - own : others;
+    const double abreast = (double)zp_abreast(m->model);
+    m->with[1] = abreast > 1 ? (own + others) / abreast - own : others;
   }
 }
 
@@ -615,7 +629,8 @@ static bool join(ZpDynamics *d) {
   for (size_t k = 0; k < d->members; k++)
     of[k] = &d->member[k].assembly;
   bool joined = zp_assembly_join(of, d->member->model, d->members, d->source ? 1 : 0, &d->form) &&
-                zp_assembly_parts(of, d->members, d->form.n, &d->parts);
+                zp_assembly_parts(of, d->members, d->form.n, &d->parts) &&
+                zp_springs_create(d->member->model, of, &d->springs);
   zp_free(of);
   return joined;
 }
@@ -697,6 +712,7 @@ void zp_dynamics_destroy(ZpDynamics *d) {
     zp_assembly_destroy(&d->member[k].assembly);
     zp_system_destroy(&d->member[k].eval);
   }
+  zp_springs_destroy(&d->springs);
   zp_arrow_form_destroy(&d->form);
   zp_free(d->parts.common);
   zp_free(d->member);

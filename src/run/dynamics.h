@@ -8,6 +8,7 @@
 
 #include "actuator/assemble.h"
 #include "solve/implicit.h"
+#include "system/springs.h"
 #include "system/system.h"
 #include "term/source.h"
 
@@ -39,7 +40,10 @@ typedef struct ZpDynamics {
   ZpImplicit stepper;
   ZpImplicitHistory history;
   double *mass, *q, *v;    /* [n] by equations */
-  double *joined;          /* [border] mass of all nodes that move with an unknown of the border, kg */
+  double *joined;          /* [border] mass of all nodes that move with an unknown of the border, kg, */
+  double *lost;            /* and the share of its rate that it loses where platforms land side by side */
+  ZpSprings springs;       /* between bodies, */
+  double *from, *to;       /* [n] and the unknowns between which they act: at the step's start and at its end */
   ZpUnknown *kind;         /* [n] */
   double *scale, *sharers; /* [n] */
   double t, h, latest;     /* of the present step: start, length, latest end, s */

@@ -38,11 +38,32 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
                      zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }
 
+double zp_sim_height(const ZpSim *first, size_t body) {
+  const ZpNetwork *network = first->model->network;
+  const ZpBody *at = &network->body[body];
+  if (at->held) return at->y;
+  const ZpSim *leader = first + at->leader;
+  const size_t k = zp_height_at(leader->model, network->ends[at->leader].lower != body);
+  double *q = zp_state_q(leader->model, leader->state);
+  return zp_network_origin(network, at->leader) +
+         zp_network_sign(network, at->leader) * *zp_coordinate(leader->model, q, k);
+}
+
+void zp_sim_add_springs(const ZpSim *sim, double *ledger) {
+  const ZpNetwork *network = sim->model->network;
+  for (size_t k = 0; sim->model->number == 0 && k < network->springs; k++) {
+    const ZpLink *link = &network->spring[k];
+    const double length = zp_sim_height(sim, link->body[0]) - zp_sim_height(sim, link->body[1]);
+    *zp_ledger_at(sim->model, ledger, &zp_row_spring_energy) += zp_link_energy(link, length) / sim->model->parts;
+  }
+}
+
 void zp_sim_start_balance(ZpSim *sim) {
   ZpState *state = sim->state;
   double *ledger = zp_state_ledger(sim->model, state);
   memset(ledger, 0, sim->model->ledger.rows * sizeof *ledger);
   zp_system_now(sim->model, state, &sim->eval, ledger);
+  zp_sim_add_springs(sim, ledger);
   ZpElectric now = zp_system_electric_now(sim->model, state, state->U, &sim->eval);
   state->work = state->load_work = 0;
   state->source_energy = 0;

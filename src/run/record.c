@@ -67,6 +67,13 @@ static const ZpColumn of_parallel[] = {
     {"member_#_zipped_length_m", "m", "closed length of one half of member #"}};
 enum { NUMBERS_PARALLEL = sizeof of_parallel / sizeof of_parallel[0] };
 
+/* Of each member and each body of a network. */
+static const ZpColumn of_member[] = {{"#.opening_m", "m", "distance between the platforms' faces of #"},
+                                     {"#.zipped_length_m", "m", "closed length of one half of #"},
+                                     {"#.voltage_V", "V", "voltage between the electrodes of #"}};
+static const ZpColumn of_body[] = {{"#.y_m", "m", "height of #: 0 where all members above it are closed"}};
+enum { NUMBERS_MEMBER = sizeof of_member / sizeof of_member[0] };
+
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
 #define ZP_ROW(name)                        #name,
 static const char *const names[] = {
@@ -97,22 +104,30 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
 
 /* Numbers of each of several members in a row. */
 static size_t numbers_of_each(const ZpModel *first) {
-  return first->members == 1 ? 0 : first->parallel ? NUMBERS_PARALLEL : 1;
+  if (zp_is_network(first)) return NUMBERS_MEMBER;
+  return first->members == 1 ? 0 : zp_abreast(first) > 1 ? NUMBERS_PARALLEL : 1;
 }
 
 ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
   const int members = zp_def_members(def);
   size_t signals;
   const ZpColumn *column = zp_signal_columns_of(def, &signals);
-  ZpColumnPart part[] = {{column, signals, 0}, {of_series, 1, (size_t)members}};
   if (!def) return NULL;
-  if (zp_def_parallel(def)) part[1] = (ZpColumnPart){of_parallel, NUMBERS_PARALLEL, (size_t)members};
-  return zp_table_of(part, members > 1 ? 2 : 1, capacity);
+  ZpColumnPart part[3] = {{.column = column, .count = signals},
+                          {.column = of_series, .count = 1, .members = (size_t)members}};
+  if (zp_def_parallel(def)) part[1].column = of_parallel, part[1].count = NUMBERS_PARALLEL;
+  if (!zp_def_network(def)) return zp_table_of(part, members > 1 ? 2 : 1, capacity);
+  const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY);
+  part[1] = (ZpColumnPart){of_member, NUMBERS_MEMBER, (size_t)members, zp_member_called, def};
+  part[2] = (ZpColumnPart){of_body, 1, bodies, zp_body_called, def};
+  return zp_table_of(part, 3, capacity);
 }
 
 /* Rows of the ledger that are no signals have their places behind all columns. */
 static size_t columns_of(const ZpSim *sim) {
-  return SIGNAL_COUNT + sim->members * numbers_of_each(sim->model);
+  const ZpModel *model = sim->model;
+  const size_t bodies = zp_is_network(model) ? model->network->bodies - 1 : 0;
+  return SIGNAL_COUNT + sim->members * numbers_of_each(model) + bodies;
 }
 
 size_t zp_sim_row_size(const ZpSim *sim) {
@@ -320,6 +335,7 @@ static void fill_own_row(ZpSim *sim, unsigned what) {
   fill_state(sim, row);
   row[SIGNAL_sensed_capacitance] = row[SIGNAL_sensed_stroke] = 0; /* a study adds them where there is a meter */
   if (what & MECHANICS) zp_system_now(model, sim->state, &sim->eval, now);
+  if (what & MECHANICS) zp_sim_add_springs(sim, now);
   if (what & ELECTRIC) fill_electric(sim, now, row);
   if (what & MARGINS) fill_margins(sim, row);
   fill_books(sim, now, row);
@@ -344,7 +360,7 @@ static bool is_of_upper(size_t signal) {
 static int rule_of(const ZpModel *model, size_t signal) {
   if (row_of[signal]) return row_of[signal]->kind == ZP_ROW_SIGNAL ? LARGEST : SUM;
   if (!zp_shares_load(model) || !is_of_upper(signal)) return of_all[signal];
-  return model->parallel && signal == SIGNAL_zipped_length ? LEAST : FIRST;
+  return zp_abreast(model) > 1 && signal == SIGNAL_zipped_length ? LEAST : FIRST;
 }
 
 /* Combine the row of a member with that of those above it. */
@@ -372,8 +388,14 @@ static double force_of(const ZpSim *sim) {
 
 /* Signals of one member alone, in addition to those of all => the place behind them. */
 static double *put_member(const ZpSim *sim, double *place) {
-  place[0] = sim->model->parallel ? force_of(sim) : sim->row[SIGNAL_opening];
-  if (sim->model->parallel) place[1] = sim->row[SIGNAL_zipped_length];
+  if (zp_is_network(sim->model)) {
+    const size_t of[NUMBERS_MEMBER] = {SIGNAL_opening, SIGNAL_zipped_length, SIGNAL_voltage};
+    for (size_t k = 0; k < NUMBERS_MEMBER; k++)
+      place[k] = sim->row[of[k]];
+    return place + NUMBERS_MEMBER;
+  }
+  place[0] = zp_abreast(sim->model) > 1 ? force_of(sim) : sim->row[SIGNAL_opening];
+  if (zp_abreast(sim->model) > 1) place[1] = sim->row[SIGNAL_zipped_length];
   return place + numbers_of_each(sim->model);
 }
 
@@ -384,16 +406,30 @@ double zp_sim_hanging(const ZpSim *sim) {
   return sum;
 }
 
+/* Heights of the bodies of a network, which has no opening of its own. */
+static void fill_bodies(const ZpSim *sim, double *row, double *place) {
+  static const size_t none[] = {SIGNAL_stroke, SIGNAL_opening, SIGNAL_contraction, SIGNAL_zipped_length,
+                                SIGNAL_end_velocity};
+  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
+    row[none[k]] = NAN;
+  for (size_t body = 1; body < sim->model->network->bodies; body++)
+    *place++ = zp_sim_height(sim, body);
+}
+
 /* Signals of all members together, and numbers of each. */
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
-  if (sim->members == 1) return;
+  if (sim->members == 1 && !zp_is_network(sim->model)) return;
   double *row = sim->row, *place = row + SIGNAL_COUNT, whole = zp_sim_hanging(sim);
   place = put_member(sim, place);
   for (ZpSim *m = sim + 1; m < sim + sim->members; m++) {
     fill_own_row(m, what);
     place = put_member(m, place);
     join_row(sim->model, row, m->row);
+  }
+  if (zp_is_network(sim->model)) {
+    fill_bodies(sim, row, place);
+    return;
   }
   row[SIGNAL_contraction] = whole > 0 ? 1 - row[SIGNAL_opening] / whole : NAN;
 }

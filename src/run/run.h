@@ -235,6 +235,12 @@ ZpBalance zp_sim_energy_balance(ZpSim *sim, ZpElectric now);
 /* Count energies and losses from now on. */
 void zp_sim_start_balance(ZpSim *sim);
 
+/* The height of a body of the system, of which this is the first member, m. */
+double zp_sim_height(const ZpSim *first, size_t body);
+
+/* Of the first member: the energy of springs between bodies, added to its row of the ledger. */
+void zp_sim_add_springs(const ZpSim *sim, double *ledger);
+
 /* Close the account of the source at the present time, including a jump that is still open; a held field that is out of
  * date is recomputed first. */
 void zp_sim_close_balance(ZpSim *sim);

@@ -137,13 +137,19 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   zp_sim_start_at(sim, q);
-  if (model->parallel)
+  if (zp_abreast(model) > 1)
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
 void zp_sim_hang(ZpSim *sim) {
-  for (ZpSim *m = sim + 1; m < sim + sim->members && !zp_shares_load(sim->model); m++)
-    zp_place_below(m[-1].model, zp_state_q(m[-1].model, m[-1].state), m->model, zp_state_q(m->model, m->state));
+  const ZpNetwork *network = sim->model->network;
+  for (size_t i = 0; i < sim->members && !zp_shares_load(sim->model); i++) {
+    ZpSim *m = sim + network->order[i];
+    const ZpBody *upper = &network->body[network->ends[m->model->number].upper];
+    const ZpSim *above = sim + upper->leader;
+    if (!upper->held)
+      zp_place_below(above->model, zp_state_q(above->model, above->state), m->model, zp_state_q(m->model, m->state));
+  }
 }
 
 static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {

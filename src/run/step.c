@@ -176,7 +176,7 @@ static bool take(ZpSim *sim, double latest, ZpStepLimit *limit) {
   if (!zp_sim_prepare(sim)) return false;
   sim->step_failed = !sim->stepping->step(sim, latest, limit);
   if (!sim->step_failed) zp_sim_arrive(sim);
-  sim->links_due = !sim->step_failed && sim->model->parallel && !sim->stepping->fine;
+  sim->links_due = !sim->step_failed && zp_abreast(sim->model) > 1 && !sim->stepping->fine;
   return !sim->step_failed;
 }
 

@@ -27,10 +27,10 @@ static ZpStatus check_one(const ZpModel *model, const ZpModel *other, ZpError *e
 /* Members that share a load fit together only at the lengths that they had. */
 static ZpStatus check_all(const ZpSim *sim, const ZpSim *from, ZpError *err) {
   const ZpModel *model = sim->model, *other = from->model;
-  if (model->members != other->members || zp_is_antagonist(model) != zp_is_antagonist(other) ||
-      model->parallel != other->parallel)
+  if (!zp_network_alike(model->network, other->network))
     return zp_fail(err, ZP_BAD_INPUT, "stack: the simulation to take over from has other members");
-  if (zp_shares_load(model) && (model->L != other->L || model->distance != other->distance))
+  if (zp_shares_load(model) &&
+      (model->L != other->L || zp_network_depth(model->network) != zp_network_depth(other->network)))
     return zp_fail(err, ZP_BAD_INPUT,
                    "ribbon.length, platform.length, stack.distance: members that share a load must keep them");
   ZpStatus status = ZP_OK;

@@ -223,10 +223,40 @@ static void summarize_laws(ZpSim *sim, ZpResult *result) {
     zp_result_add(result, column[k].name, column[k].unit, zp_at_end(sim, result, zp_signal_name(k)));
 }
 
+/* A number of the last row for a member or a body: "#.opening_m". */
+static void add_last(const ZpResult *from, const char *group, const char *column, const char *called, const char *unit,
+                     ZpResult *result) {
+  char name[2 * ZP_NAME_SIZE], pattern[2 * ZP_NAME_SIZE];
+  snprintf(name, sizeof name, "%s.%s", called, column);
+  snprintf(pattern, sizeof pattern, "%s.#.%s", group, column);
+  const size_t rows = from->series->rows;
+  zp_result_add_of(result, pattern, called, unit, rows > 0 ? zp_table_get(from->series, rows - 1, name) : NAN);
+}
+
+/* Members and bodies of a network at the end. */
+static void summarize_network(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
+  char room[ZP_NAME_SIZE];
+  for (size_t k = 0; k < model->members; k++) {
+    const char *called = zp_member_called(model->whole, k + 1, room);
+    add_last(result, "members", "opening_m", called, "m", result);
+    add_last(result, "members", "zipped_length_m", called, "m", result);
+    zp_result_add_of(result, "members.#.zip_time_s", called, "s", sim[k].state->zip_time);
+    zp_result_add_of(result, "members.#.closed_from_s", called, "s", sim[k].state->closed_from);
+  }
+  for (size_t body = 1; body < model->network->bodies; body++)
+    add_last(result, "bodies", "y_m", zp_body_called(model->whole, body, room), "m", result);
+}
+
 /* When each member of a series has closed. */
 static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
+  char room[ZP_NAME_SIZE];
+  if (zp_is_network(model)) {
+    summarize_network(sim, model, result);
+    return;
+  }
   for (size_t k = 1; model->members > 1 && k <= model->members; k++)
-    zp_result_add_member(result, "member_#_zip_time_s", k, "s", zp_sim_member_zip_time(sim, k));
+    zp_result_add_of(result, "member_#_zip_time_s", zp_member_called(model->whole, k, room), "s",
+                     zp_sim_member_zip_time(sim, k));
 }
 
 static bool has_constant_drive(const ZpModel *model) {

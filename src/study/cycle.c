@@ -747,6 +747,7 @@ static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpE
 }
 
 static const ZpRule rule[] = {
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_NEVER, "it tells of one opening and one load"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(control.kind, ZP_CONTROL_NONE),
             "it finds the periodic motion under a periodic voltage; for a controller use study actuate with a periodic "
             "setpoint"),

@@ -1,6 +1,7 @@
 #include "study/equilibria.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/fail.h"
@@ -30,30 +31,71 @@ enum { OF_EACH = sizeof of_each / sizeof of_each[0] };
 static const ZpColumn opening = {"member_#_opening_m", "m", "distance between the platforms' faces of member #"};
 static const ZpColumn closed_members = {"closed_members", "1", "number of closed members"};
 
+/* Of each member and each body of a network. */
+static const ZpColumn of_member[] = {
+    {"#.opening_m", "m", "distance between the platforms' faces of #"},
+    {"#.zipped_length_m", "m", "closed length of one half of #"},
+    {"#.force_N", "N", "force with which # pulls its bodies together"},
+    {"#.voltage_V", "V", "voltage between the electrodes of #"},
+};
+static const ZpColumn of_body[] = {{"#.y_m", "m", "height of #: 0 where all members above it are closed"}};
+enum { OF_MEMBER = sizeof of_member / sizeof of_member[0] };
+
+/* Parts of the table, and what stands before their names among the numbers of the result. */
+typedef struct Part {
+  ZpColumnPart columns;
+  const char *before;
+} Part;
+
 /* => how many parts there are. */
-enum { PARTS = 2 };
-static size_t parts_of(const ZpModel *model, ZpColumnPart part[PARTS]) {
+enum { PARTS = 3 };
+static size_t parts_of(const ZpModel *model, Part part[PARTS]) {
+  const ZpNetwork *network = model->network;
   const bool shared = zp_shares_load(model);
+  if (zp_is_network(model)) {
+    part[0] = (Part){{of_member, OF_MEMBER, network->members, zp_member_called, model->whole}, "members."};
+    part[1] = (Part){{of_body, 1, network->bodies - 1, zp_body_called, model->whole}, "bodies."};
+    part[2] = (Part){{.column = &closed_members, .count = 1}, ""};
+    return 3;
+  }
   if (model->members == 1) return 0;
-  part[0] = zp_is_antagonist(model) ? (ZpColumnPart){lower, LOWER, 0}
-            : shared                ? (ZpColumnPart){of_each, OF_EACH, model->members}
-                                    : (ZpColumnPart){&opening, 1, model->members};
-  part[1] = (ZpColumnPart){shared ? &stiffness : &closed_members, 1, 0};
-  return PARTS;
+  part[0] = (Part){network->opposed ? (ZpColumnPart){.column = lower, .count = LOWER}
+                   : shared         ? (ZpColumnPart){.column = of_each, .count = OF_EACH, .members = model->members}
+                                    : (ZpColumnPart){.column = &opening, .count = 1, .members = model->members},
+                   ""};
+  part[1] = (Part){{.column = shared ? &stiffness : &closed_members, .count = 1}, ""};
+  return 2;
 }
 
 /* => how many values there are. */
 static size_t values_of(const ZpModel *model) {
-  ZpColumnPart part[PARTS];
+  Part part[PARTS];
   size_t count = 0;
   for (size_t k = parts_of(model, part); k-- > 0;)
-    count += part[k].count * (part[k].members > 0 ? part[k].members : 1);
+    count += part[k].columns.count * (part[k].columns.members > 0 ? part[k].columns.members : 1);
   return count;
+}
+
+static void network_values(ZpStatics *s, double *values) {
+  for (size_t k = 0; k < s->members; k++) {
+    *values++ = zp_statics_member_opening(s, k);
+    *values++ = zp_statics_member_closed(s, k);
+    *values++ = zp_statics_member_force(s, k);
+    *values++ = zp_statics_member_voltage(s, k);
+  }
+  const double *y = zp_statics_heights(s);
+  for (size_t body = 1; body < s->model->network->bodies; body++)
+    *values++ = y[body];
+  *values = (double)zp_closed_members(s);
 }
 
 /* Their values at the present point. The stiffness is then factored. */
 static void member_values(ZpRest *rest, double *values) {
   ZpStatics *s = &rest->statics;
+  if (zp_is_network(s->model)) {
+    network_values(s, values);
+    return;
+  }
   if (s->members == 1) return;
   if (!s->shared) {
     for (size_t k = 0; k < s->members; k++)
@@ -74,19 +116,21 @@ static void member_values(ZpRest *rest, double *values) {
 }
 
 void zp_equilibria_add_members(ZpEquilibria *at) {
-  ZpColumnPart part[PARTS];
+  Part part[PARTS];
   const size_t parts = parts_of(at->model, part);
   const double *value = at->behind + MARGINS;
   member_values(&at->rest, at->behind + MARGINS);
-  for (size_t k = 0; k < parts; k++)
-    for (size_t member = part[k].members > 0 ? 1 : 0; member <= part[k].members; member++)
-      for (size_t c = 0; c < part[k].count; c++, value++) {
-        const ZpColumn *column = &part[k].column[c];
-        if (member > 0)
-          zp_result_add_member(at->result, column->name, member, column->unit, *value);
-        else
-          zp_result_add(at->result, column->name, column->unit, *value);
+  for (const Part *p = part; p < part + parts; p++)
+    for (size_t member = p->columns.members > 0 ? 1 : 0; member <= p->columns.members; member++) {
+      char room[ZP_NAME_SIZE], name[ZP_NAME_SIZE];
+      const char *called = p->columns.name ? p->columns.name(at->model->whole, member, room)
+                                           : zp_member_called(at->model->whole, member, room);
+      for (size_t c = 0; c < p->columns.count; c++, value++) {
+        const ZpColumn *column = &p->columns.column[c];
+        snprintf(name, sizeof name, "%s%s", p->before, column->name);
+        zp_result_add_of(at->result, name, member > 0 ? called : NULL, column->unit, *value);
       }
+    }
 }
 
 /* -- points ---------------------------------------------------------------------------------------- */
@@ -95,8 +139,12 @@ static ZpTable *make_table(const ZpEquilibria *at) {
   static const ZpColumn margins[MARGINS] = {
       {"insulator_field_V_per_m", "V/m", "largest field in the insulators, by the series law"},
       {"max_stress_Pa", "Pa", "largest stress of the metal"}};
-  ZpColumnPart part[2 + PARTS] = {{at->column, at->columns, 0}, {margins, MARGINS, 0}};
-  return zp_table_of(part, 2 + parts_of(at->model, part + 2), at->rows);
+  Part more[PARTS];
+  const size_t parts = parts_of(at->model, more);
+  ZpColumnPart part[2 + PARTS] = {{.column = at->column, .count = at->columns}, {.column = margins, .count = MARGINS}};
+  for (size_t k = 0; k < parts; k++)
+    part[2 + k] = more[k].columns;
+  return zp_table_of(part, 2 + parts, at->rows);
 }
 
 static bool asked_to_stop(const void *self) {

@@ -424,6 +424,8 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it holds a platform, or the free end of the lower of two ribbons"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
+    ZP_RULE(PHYSICS, ZP_NETWORK, ZP_ABOVE(isometric.body, 0), "it holds one of the bodies"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(isometric.body, 0), ZP_NETWORK, "there are no bodies; it holds the lower platform"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
@@ -441,6 +443,7 @@ static ZpActuatorDef alone(const ZpActuatorDef *def, int member) {
 static ZpStatus check_all_held(const ZpActuatorDef *def, ZpError *err) {
   const double least = zp_key(ZP_KEY(isometric.separation))->min;
   ZpStatus status = ZP_OK;
+  if (zp_def_network(def)) return zp_check_held_body(def, err);
   if (zp_def_members(def) == 1) return zp_check_held(def, err);
   if (!zp_def_antagonist(def) && !zp_def_parallel(def)) return check_series(def, err);
   if (zp_def_antagonist(def) && !(def->stack.distance - def->isometric.separation > least))
@@ -451,7 +454,7 @@ static ZpStatus check_all_held(const ZpActuatorDef *def, ZpError *err) {
     ZpActuatorDef one = alone(def, member);
     ZpError reason;
     status = zp_check_held(&one, &reason);
-    if (status != ZP_OK) zp_fail(err, status, "member %d of the stack: %.400s", member, reason.message);
+    if (status != ZP_OK) zp_fail_member(def, member, status, &reason, err);
   }
   return status;
 }
@@ -462,9 +465,19 @@ ZpStatus zp_check_isometric(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_def_check_voltage(def, def->drive.voltage, err) : status;
 }
 
+/* The load of the body that is held does not count, nor does a force on it. */
+static ZpStatus unload_body(const ZpActuatorDef *def, ZpActuatorDef *bare, ZpError *err) {
+  const int row[] = {ZP_KEY(body_K.mass), ZP_KEY(body_K.force.y)};
+  ZpStatus status = ZP_OK;
+  for (int k = 0; k < 2 && def->isometric.body > 0 && status == ZP_OK; k++)
+    status = zp_def_set(bare, zp_key_of_instance(row[k], def->isometric.body), 0, err);
+  return status;
+}
+
 /* The load does not count: it is removed before anything is scaled by it. */
 ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = zp_def_unloaded(task->def);
+  ZpActuatorDef bare = zp_def_network(task->def) ? *task->def : zp_def_unloaded(task->def);
+  ZpStatus status = unload_body(task->def, &bare, err);
   Holder h = {.at = {.held = true,
                      .task = task,
                      .result = result,
@@ -476,9 +489,10 @@ ZpStatus zp_study_isometric(const ZpTask *task, ZpResult *result, ZpError *err) 
                      .shapes = (size_t)bare.output.shapes},
               .unpowered = NAN,
               .outcome = ZP_CONVERGED};
-  ZpStatus status = zp_equilibria_open(&h.at, &bare, reserve, &h, err);
+  if (status == ZP_OK) status = zp_equilibria_open(&h.at, &bare, reserve, &h, err);
   if (status == ZP_OK) run(&h);
   if (status == ZP_OK && h.outcome == ZP_CONVERGED) status = zp_sensitivity_of(&h.at.rest, derive, &h, result, err);
   zp_equilibria_close(&h.at);
+  zp_def_clear(&bare);
   return status;
 }

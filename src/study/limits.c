@@ -38,7 +38,7 @@ static double mass_of_one(const ZpModel *model) {
 /* Mass of an actuator's strips and insulators, the platform's included, kg. */
 static double mass_of(const ZpModel *model) {
   double sum = 0;
-  for (const ZpModel *m = model; m < zp_lowest(model); m++)
+  for (const ZpModel *m = model; m < zp_lowest(model) && !zp_is_network(model); m++)
     sum += m->def.load.mass; /* of the link on which the next one hangs */
   for (const ZpModel *m = model; m < model + model->members; m++)
     sum += mass_of_one(m);

@@ -11,10 +11,9 @@
 
 static void note_breakdown(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
   const ZpActuatorDef *def = &model->def;
-  double withstands = model->series.withstands;
-  if (seen->insulator > withstands)
+  if (seen->insulator > seen->withstands)
     zp_result_note(result, "the insulator's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m",
-                   seen->insulator / 1e6, withstands / 1e6);
+                   seen->insulator / 1e6, seen->withstands / 1e6);
   if (!def->electro.breakdown_cap && seen->liquid > def->medium.breakdown_field)
     zp_result_note(result,
                    "the liquid's field reaches %.3g MV/m, above its breakdown field of %.3g MV/m, and "
@@ -22,12 +21,21 @@ static void note_breakdown(ZpResult *result, const ZpModel *model, const ZpMargi
                    seen->liquid / 1e6, def->medium.breakdown_field / 1e6);
 }
 
+/* The voltage of the first member at which the first insulator of any breaks down, V; NAN: there is none. */
+static double allowed_voltage(const ZpModel *first) {
+  double least = NAN;
+  for (const ZpModel *model = first; model < first + first->members; model++) {
+    const double allowed = zp_series_allowed(&model->series);
+    if (model->field && allowed > 0 && model->ratio > 0) least = fmin(least, allowed / model->ratio);
+  }
+  return least;
+}
+
 static void add_fields(ZpResult *result, const ZpModel *model, const ZpMargins *seen) {
-  double withstands = model->series.withstands, allowed = zp_series_allowed(&model->series);
   zp_result_add(result, "insulator_field_V_per_m", "V/m", seen->insulator);
   zp_result_add(result, "insulator_field_place_m", "m", seen->insulator_place);
-  zp_result_add(result, "breakdown_margin", "1", seen->insulator > 0 ? withstands / seen->insulator : NAN);
-  zp_result_add(result, "allowed_voltage_V", "V", model->field && allowed > 0 ? allowed : NAN);
+  zp_result_add(result, "breakdown_margin", "1", seen->insulator > 0 ? seen->withstands / seen->insulator : NAN);
+  zp_result_add(result, "allowed_voltage_V", "V", allowed_voltage(model));
   note_breakdown(result, model, seen);
 }
 

@@ -564,7 +564,8 @@ static ZpStatus report(Profiler *p, ZpError *err) {
   summarize(p);
   for (size_t k = 0; k < p->rows; k++) {
     double liquid = is_wet(p, k) ? p->row[k][LIQUID] : NAN;
-    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], liquid, NAN, NAN, NAN});
+    zp_margins_join(&p->margins, (ZpMargins){p->row[k][INSULATOR], p->row[k][X], p->model->series.withstands, liquid,
+                                             NAN, NAN, NAN});
   }
   note(p);
   r->outcome = ZP_CONVERGED;

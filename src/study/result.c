@@ -102,13 +102,13 @@ void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, 
   add(result, (ZpScalar){name, unit, value, true});
 }
 
-void zp_result_add_member(ZpResult *result, const char *name, size_t member, const char *unit, double value) {
-  ZpName *own = zp_calloc(1, sizeof *own + zp_numbered(name, member, NULL));
+void zp_result_add_of(ZpResult *result, const char *name, const char *called, const char *unit, double value) {
+  ZpName *own = zp_calloc(1, sizeof *own + zp_named(name, called, NULL));
   if (!own) {
     result->incomplete = true;
     return;
   }
-  zp_numbered(name, member, own->text);
+  zp_named(name, called, own->text);
   own->next = result->names;
   result->names = own;
   zp_result_add(result, own->text, unit, value);

@@ -27,8 +27,8 @@ void zp_result_forget_notes(ZpResult *result);
 /* Take away scalars, derivatives, notes and the table. */
 void zp_result_clear(ZpResult *result);
 
-/* Add a scalar of member `member`: its number stands in the place of # in the name. */
-void zp_result_add_member(ZpResult *result, const char *name, size_t member, const char *unit, double value);
+/* Add a scalar of one of several: what it is called stands in the place of # in the name. */
+void zp_result_add_of(ZpResult *result, const char *name, const char *called, const char *unit, double value);
 
 /* The result of a study. */
 struct ZpResult {

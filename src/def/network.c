@@ -1,0 +1,410 @@
+/* Bodies and members, as their keys say or as the shorthands of a stack do; what a network asks of other keys. */
+#include "def/network.h"
+
+#include <math.h>
+
+#include "base/fail.h"
+#include "base/memory.h"
+#include "def/rule.h"
+
+enum { FRAME };
+
+/* -- keys ------------------------------------------------------------------------------------------ */
+
+/* The value of a key of a member, a body or a spring. */
+static double value_of(const ZpActuatorDef *def, int row, size_t number) {
+  return zp_def_get(def, zp_key_of_instance(row, (int)number));
+}
+
+/* Does a member open upwards? */
+static bool is_turned(const ZpActuatorDef *def, size_t number) {
+  return fabs(value_of(def, ZP_KEY(member_K.angle), number)) > 1;
+}
+
+/* The members whose lower end is at a body. */
+static size_t hung_by(const ZpActuatorDef *def, double body) {
+  size_t count = 0;
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++)
+    count += value_of(def, ZP_KEY(member_K.lower), (size_t)k) == body;
+  return count;
+}
+
+void zp_network_member(const ZpActuatorDef *def, int member, ZpActuatorDef *one) {
+  const size_t number = (size_t)member;
+  const double lower = value_of(def, ZP_KEY(member_K.lower), number);
+  const double all = lower > 0 ? value_of(def, ZP_KEY(body_K.mass), (size_t)lower) : 0;
+  const double up = lower > 0 ? value_of(def, ZP_KEY(body_K.force.y), (size_t)lower) : 0;
+  const double each = fmax((double)hung_by(def, lower), 1);
+  one->isometric.body = 0;
+  one->load = zp_def_unloaded(def).load;
+  one->load.mass = all / each;
+  one->load.force = (is_turned(def, number) ? up : -up) / each;
+  if (is_turned(def, number)) one->mount.tilt = zp_key(ZP_KEY(mount.tilt))->max;
+}
+
+/* -- checks ---------------------------------------------------------------------------------------- */
+
+/* A body by the value of a key; -1: there is none. */
+static int body_in(const ZpActuatorDef *def, int row, int number) {
+  const double value = value_of(def, row, (size_t)number);
+  return value >= 0 && value <= zp_instance_count(def, ZP_OF_BODY) && value == floor(value) ? (int)value : -1;
+}
+
+/* "members.left" */
+#define SHOWN(def, kind, number) zp_def_name(def, kind, number, (char[ZP_NAME_SIZE]){0})
+
+static ZpStatus check_end(const ZpActuatorDef *def, int row, int member, ZpError *err) {
+  const char *end = row == ZP_KEY(member_K.upper) ? "upper" : "lower";
+  if (body_in(def, row, member) >= 0) return ZP_OK;
+  if (isnan(value_of(def, row, (size_t)member)))
+    return zp_fail(err, ZP_BAD_INPUT, "members.%s.%s: missing; give the body at this end, frame or one of bodies",
+                   SHOWN(def, ZP_OF_MEMBER, member), end);
+  return zp_fail(err, ZP_BAD_INPUT, "members.%s.%s = %s: there is no such body", SHOWN(def, ZP_OF_MEMBER, member), end,
+                 SHOWN(def, ZP_OF_BODY, (int)value_of(def, row, (size_t)member)));
+}
+
+static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err) {
+  static const double near = 1e-5, half_turn = 3.14159265358979323846;
+  const char *name = SHOWN(def, ZP_OF_MEMBER, member);
+  const double angle = fabs(value_of(def, ZP_KEY(member_K.angle), (size_t)member));
+  ZpStatus status = check_end(def, ZP_KEY(member_K.upper), member, err);
+  if (status == ZP_OK) status = check_end(def, ZP_KEY(member_K.lower), member, err);
+  if (status != ZP_OK) return status;
+  const int upper = body_in(def, ZP_KEY(member_K.upper), member), lower = body_in(def, ZP_KEY(member_K.lower), member);
+  if (upper == lower)
+    return zp_fail(err, ZP_BAD_INPUT, "members.%s: both of its ends are at %s; give two bodies", name,
+                   SHOWN(def, ZP_OF_BODY, upper));
+  if (angle > near && fabs(angle - half_turn) > near)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "members.%s.angle = %g degree: 0 (it opens downwards) or 180 (upwards), as bodies "
+                   "move up and down",
+                   name, angle * 180 / half_turn);
+  return ZP_OK;
+}
+
+static bool moves(const ZpActuatorDef *def, int body) {
+  return body > 0 && value_of(def, ZP_KEY(body_K.moves), (size_t)body) == ZP_MOVES_VERTICAL;
+}
+
+/* A member or a spring that names a body. */
+static const char *who_names(const ZpActuatorDef *def, int body, char text[ZP_NAME_SIZE]) {
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++)
+    if (value_of(def, ZP_KEY(member_K.upper), (size_t)k) == body ||
+        value_of(def, ZP_KEY(member_K.lower), (size_t)k) == body)
+      return zp_def_name(def, ZP_OF_MEMBER, k, text);
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_SPRING); k++)
+    if (value_of(def, ZP_KEY(spring_K.first), (size_t)k) == body ||
+        value_of(def, ZP_KEY(spring_K.second), (size_t)k) == body)
+      return zp_def_name(def, ZP_OF_SPRING, k, text);
+  return "nothing";
+}
+
+static ZpStatus check_given(const ZpActuatorDef *def, int body, ZpError *err) {
+  const ZpAssignment *value;
+  if (zp_instances_of(def, ZP_OF_BODY, body, &value) > 0) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "bodies.%s: is not given, but %s names it; add it to bodies, or name another one",
+                 SHOWN(def, ZP_OF_BODY, body), who_names(def, body, (char[ZP_NAME_SIZE]){0}));
+}
+
+static ZpStatus check_body(const ZpActuatorDef *def, int body, ZpError *err) {
+  if (!moves(def, body) || hung_by(def, body) > 0) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "bodies.%s: nothing holds it; give a member with lower: %s (one that opens upwards has "
+                 "angle: 180 degree), or moves: none",
+                 SHOWN(def, ZP_OF_BODY, body), SHOWN(def, ZP_OF_BODY, body));
+}
+
+static ZpStatus check_spring(const ZpActuatorDef *def, int spring, ZpError *err) {
+  const char *name = SHOWN(def, ZP_OF_SPRING, spring);
+  const int first = body_in(def, ZP_KEY(spring_K.first), spring),
+            second = body_in(def, ZP_KEY(spring_K.second), spring);
+  if (first < 0 || second < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "springs.%s.between: give two bodies, the upper one first: [frame, hand]", name);
+  if (first == second)
+    return zp_fail(err, ZP_BAD_INPUT, "springs.%s.between: both ends are at %s; give two bodies", name,
+                   SHOWN(def, ZP_OF_BODY, first));
+  return ZP_OK;
+}
+
+/* Is each body joined to what is held, by members and bodies between? */
+static ZpStatus check_reached(const ZpActuatorDef *def, bool *reached, ZpError *err) {
+  const int bodies = zp_instance_count(def, ZP_OF_BODY), members = zp_instance_count(def, ZP_OF_MEMBER);
+  for (int b = 0; b <= bodies; b++)
+    reached[b] = !moves(def, b);
+  for (bool more = true; more;) {
+    more = false;
+    for (int k = 1; k <= members; k++) {
+      const int ends[] = {body_in(def, ZP_KEY(member_K.upper), k), body_in(def, ZP_KEY(member_K.lower), k)};
+      if (reached[ends[0]] == reached[ends[1]]) continue;
+      reached[ends[0]] = reached[ends[1]] = more = true;
+    }
+  }
+  for (int b = 1; b <= bodies; b++)
+    if (!reached[b])
+      return zp_fail(err, ZP_BAD_INPUT, "bodies.%s: no members lead from it to the frame or to a body that is held",
+                     SHOWN(def, ZP_OF_BODY, b));
+  return ZP_OK;
+}
+
+/* How far a member opens at most, m. */
+static double longest(const ZpActuatorDef *def, int member) {
+  static const double part = 0.98; /* at which a platform is held at most */
+  const ZpActuatorDef one = zp_def_member(def, member);
+  return part * (one.ribbon.length - one.platform.length);
+}
+
+/* Do heights exist at which all members open by 0 to their lengths? Bounds are passed along the members until none
+ * moves: the largest and the least height of each body. */
+static ZpStatus check_lengths(const ZpActuatorDef *def, int held, double *most, double *least, ZpError *err) {
+  const int bodies = zp_instance_count(def, ZP_OF_BODY), members = zp_instance_count(def, ZP_OF_MEMBER);
+  for (int b = 0; b <= bodies; b++) {
+    const double at = b > 0 ? value_of(def, ZP_KEY(body_K.at.y), (size_t)b) : 0;
+    const double y = b > 0 && b == held ? -def->isometric.separation : at;
+    const bool free = moves(def, b) && b != held;
+    most[b] = free ? (double)INFINITY : y;
+    least[b] = free ? -(double)INFINITY : y;
+  }
+  for (int round = 0; round <= bodies; round++)
+    for (int k = 1; k <= members; k++) {
+      const bool turned = is_turned(def, (size_t)k);
+      const int high = body_in(def, turned ? ZP_KEY(member_K.lower) : ZP_KEY(member_K.upper), k),
+                low = body_in(def, turned ? ZP_KEY(member_K.upper) : ZP_KEY(member_K.lower), k);
+      const double reach = longest(def, k);
+      double above[] = {fmin(most[high], most[low] + reach), fmax(least[high], least[low])};
+      double below[] = {fmin(most[low], most[high]), fmax(least[low], least[high] - reach)};
+      const double misses = fmax(above[1] - above[0], below[1] - below[0]);
+      if (misses > 1e-9)
+        return zp_fail(err, ZP_BAD_INPUT,
+                       "members.%s: it opens by 0 to %g mm, but %s and %s are apart by %g mm too %s; "
+                       "move a body that is held, or change a length",
+                       SHOWN(def, ZP_OF_MEMBER, k), 1e3 * reach, SHOWN(def, ZP_OF_BODY, high),
+                       SHOWN(def, ZP_OF_BODY, low), 1e3 * misses, least[high] - most[low] > reach ? "much" : "little");
+      most[high] = above[0], least[high] = above[1];
+      most[low] = below[0], least[low] = below[1];
+    }
+  return ZP_OK;
+}
+
+static ZpStatus check_parts(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER) && status == ZP_OK; k++)
+    status = check_member(def, k, err);
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY) && status == ZP_OK; b++)
+    status = check_given(def, b, err);
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY) && status == ZP_OK; b++)
+    status = check_body(def, b, err);
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_SPRING) && status == ZP_OK; k++)
+    status = check_spring(def, k, err);
+  bool any = false;
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
+    any |= moves(def, b);
+  if (status == ZP_OK && !any) return zp_fail(err, ZP_BAD_INPUT, "bodies: each one is held; let one move");
+  return status;
+}
+
+ZpStatus zp_check_own_voltage(const ZpActuatorDef *def, ZpError *err) {
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++) {
+    const int key = zp_key_of_instance(ZP_KEY(member_K.drive.voltage), k);
+    const char *name = zp_def_network(def) ? SHOWN(def, ZP_OF_MEMBER, k) : ZP_KEY_NAME(key);
+    if (isnan(zp_def_get(def, key))) continue;
+    if (def->drive.voltage == 0)
+      return zp_fail(err, ZP_BAD_INPUT, "drive.voltage = 0 V: must be above 0, because %s has a multiple of it", name);
+    if (def->source.model != ZP_SOURCE_IDEAL)
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "source.model: requires ideal; %s has a voltage of its own, which one supply does "
+                     "not give",
+                     name);
+  }
+  return ZP_OK;
+}
+
+/* With arrays for each body. `held`: a body that is held in addition, 0: none. */
+static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
+  const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY) + 1;
+  double *heights = zp_calloc(2 * bodies, sizeof *heights);
+  bool *reached = zp_calloc(bodies, sizeof *reached);
+  ZpStatus status = heights && reached ? check_reached(def, reached, err) : zp_fail_memory(err);
+  if (status == ZP_OK) status = check_lengths(def, held, heights, heights + bodies, err);
+  zp_free(heights);
+  zp_free(reached);
+  return status;
+}
+
+ZpStatus zp_check_held_body(const ZpActuatorDef *def, ZpError *err) {
+  const int body = def->isometric.body;
+  if (!moves(def, body))
+    return zp_fail(err, ZP_BAD_INPUT, "isometric.body = %s: it is held already; name a body that moves",
+                   SHOWN(def, ZP_OF_BODY, body));
+  ZpError reason;
+  ZpStatus status = check_places(def, body, &reason);
+  if (status == ZP_OK) return ZP_OK;
+  return zp_fail(err, status, "isometric.separation = %g m: %.400s", def->isometric.separation, reason.message);
+}
+
+ZpStatus zp_check_network(const ZpActuatorDef *def, ZpError *err) {
+  if (def->isometric.body > zp_instance_count(def, ZP_OF_BODY))
+    return zp_fail(err, ZP_BAD_INPUT, "isometric.body = %s: there is no such body",
+                   SHOWN(def, ZP_OF_BODY, def->isometric.body));
+  if (!zp_def_network(def)) return ZP_OK;
+  if (zp_instance_count(def, ZP_OF_MEMBER) == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "members: missing; bodies are joined by members, each with upper and lower");
+  ZpStatus status = check_parts(def, err);
+  return status == ZP_OK ? check_places(def, 0, err) : status;
+}
+
+/* -- the table ------------------------------------------------------------------------------------- */
+
+/* In series, one below the other; else all between the frame and the load. The lower of two antagonists hangs upside
+ * down on a mount of its own. */
+static void join_stack(const ZpActuatorDef *def, ZpNetwork *n) {
+  enum { LOAD = 1, MOUNT };
+  const bool opposed = zp_def_antagonist(def), series = !opposed && def->stack.series > 1;
+  n->load = series ? n->members : LOAD;
+  for (size_t k = 0; k < n->members; k++)
+    n->ends[k] = series ? (ZpEnds){.upper = k, .lower = k + 1} : (ZpEnds){.upper = FRAME, .lower = LOAD};
+  if (!opposed) return;
+  n->body[MOUNT] = (ZpBody){.held = true, .y = -def->stack.distance};
+  n->ends[n->members - 1] = (ZpEnds){.upper = MOUNT, .lower = LOAD, .turned = true};
+}
+
+/* As the keys say. No body has the load. */
+static void join_bodies(const ZpActuatorDef *def, ZpNetwork *n) {
+  n->load = n->bodies;
+  n->watched = (size_t)def->isometric.body;
+  for (size_t b = 1; b < n->bodies; b++) {
+    n->body[b] = (ZpBody){.held = value_of(def, ZP_KEY(body_K.moves), b) == ZP_MOVES_NONE,
+                          .y = value_of(def, ZP_KEY(body_K.at.y), b)};
+    n->pulled |= value_of(def, ZP_KEY(body_K.force.y), b) != 0;
+  }
+  for (size_t k = 0; k < n->members; k++)
+    n->ends[k] = (ZpEnds){.upper = (size_t)value_of(def, ZP_KEY(member_K.upper), k + 1),
+                          .lower = (size_t)value_of(def, ZP_KEY(member_K.lower), k + 1),
+                          .turned = is_turned(def, k + 1)};
+  for (size_t k = 0; k < n->springs; k++)
+    n->spring[k] = (ZpLink){.body = {(size_t)value_of(def, ZP_KEY(spring_K.first), k + 1),
+                                     (size_t)value_of(def, ZP_KEY(spring_K.second), k + 1)},
+                            .stiffness = value_of(def, ZP_KEY(spring_K.stiffness), k + 1),
+                            .rest = value_of(def, ZP_KEY(spring_K.rest), k + 1),
+                            .kind = (ZpSpringKind)value_of(def, ZP_KEY(spring_K.kind), k + 1)};
+}
+
+static bool are_abreast(const ZpEnds *one, const ZpEnds *other) {
+  return one->upper == other->upper && one->lower == other->lower && one->turned == other->turned;
+}
+
+/* The first member at a body whose lower end it is, or else whose upper one it is. */
+static size_t leader_of(const ZpNetwork *n, size_t body) {
+  size_t k = 0;
+  while (k < n->members && n->ends[k].lower != body)
+    k++;
+  for (k = k < n->members ? k : 0; n->ends[k].lower != body && n->ends[k].upper != body;)
+    k++;
+  return k;
+}
+
+/* The first member that a body hangs on; `members`: none. */
+static size_t above(const ZpNetwork *n, size_t body) {
+  size_t k = 0;
+  while (k < n->members && (n->ends[k].lower != body || n->ends[k].turned))
+    k++;
+  return k;
+}
+
+static void find_path(ZpNetwork *n) {
+  for (size_t k = above(n, n->load); k < n->members; k = above(n, n->ends[k].upper))
+    n->ends[k].on_path = true;
+}
+
+/* Members by the number of members between them and what is held. */
+static void find_order(ZpNetwork *n) {
+  for (size_t k = 0; k < n->members; k++)
+    for (size_t body = n->ends[k].upper; !n->body[body].held; n->ends[k].depth++)
+      body = n->ends[n->body[body].leader].upper;
+  size_t placed = 0;
+  for (size_t depth = 0; placed < n->members; depth++)
+    for (size_t k = 0; k < n->members; k++)
+      if (n->ends[k].depth == depth) n->order[placed++] = k;
+}
+
+/* Leaders, members abreast, order: all that follows from the ends. */
+static void look(ZpNetwork *n) {
+  n->hangs = n->springs == 0 && !n->pulled;
+  for (size_t body = 0; body < n->bodies; body++)
+    if (!n->body[body].held) n->body[body].leader = leader_of(n, body);
+  for (size_t k = 0; k < n->members; k++) {
+    ZpEnds *one = &n->ends[k];
+    n->opposed |= one->turned;
+    n->hangs &= !one->turned && !n->body[one->lower].held && n->body[one->lower].leader == k;
+    for (size_t other = 0; other < n->members; other++)
+      one->abreast += are_abreast(one, &n->ends[other]);
+  }
+  find_path(n);
+  for (size_t k = 0; k < n->members; k++)
+    n->order[k] = k;
+  if (n->hangs && n->load == n->bodies) find_order(n);
+}
+
+ZpNetwork *zp_network_create(const ZpActuatorDef *def) {
+  const bool given = zp_def_network(def);
+  const size_t members = (size_t)zp_def_members(def), springs = (size_t)zp_instance_count(def, ZP_OF_SPRING);
+  const size_t bodies = given                    ? (size_t)zp_instance_count(def, ZP_OF_BODY) + 1
+                        : zp_def_antagonist(def) ? 3
+                        : zp_def_parallel(def)   ? 2
+                                                 : members + 1;
+  ZpNetwork *n = zp_calloc(1, sizeof *n + bodies * sizeof *n->body + members * sizeof *n->ends +
+                                  springs * sizeof *n->spring + members * sizeof *n->order);
+  if (!n) return NULL;
+  *n = (ZpNetwork){.bodies = bodies, .members = members, .springs = springs, .body = (ZpBody *)(void *)(n + 1)};
+  n->ends = (ZpEnds *)(void *)(n->body + bodies);
+  n->spring = (ZpLink *)(void *)(n->ends + members);
+  n->order = (size_t *)(void *)(n->spring + springs);
+  n->body[FRAME].held = true;
+  if (given)
+    join_bodies(def, n);
+  else
+    join_stack(def, n);
+  look(n);
+  return n;
+}
+
+bool zp_network_abreast(const ZpNetwork *n, size_t one, size_t other) {
+  return are_abreast(&n->ends[one], &n->ends[other]);
+}
+
+bool zp_network_alike(const ZpNetwork *one, const ZpNetwork *other) {
+  bool alike = one->bodies == other->bodies && one->members == other->members && one->load == other->load;
+  for (size_t k = 0; alike && k < one->bodies; k++)
+    alike = one->body[k].held == other->body[k].held;
+  for (size_t k = 0; alike && k < one->members; k++)
+    alike = are_abreast(&one->ends[k], &other->ends[k]);
+  return alike;
+}
+
+double zp_network_depth(const ZpNetwork *n) {
+  double depth = 0;
+  for (const ZpBody *body = n->body; body < n->body + n->bodies; body++)
+    if (body->held) depth = fmax(depth, -body->y);
+  return depth;
+}
+
+/* -- rules ----------------------------------------------------------------------------------------- */
+
+static const char own_load[] = "each body has a mass of its own: give bodies.NAME.mass, a force on it and springs",
+                  own_ends[] = "each member has the bodies at its ends: give members.NAME.upper and lower";
+
+static const ZpRule rule[] = {
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_HAS(PLATFORM), "bodies join platforms"),
+    ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(load.mass, load.drop_height), ZP_NETWORK, ZP_NEVER, own_load),
+    ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(stack.series, stack.lower_voltage), ZP_NETWORK, ZP_NEVER, own_ends),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(mount.tilt), "bodies move up and down"),
+    ZP_RULE(PHYSICS, ZP_NETWORK, ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT),
+            "straight ribbons do not reach the bodies"),
+    ZP_RULE(EQUATION, ZP_NETWORK, ZP_IS(ribbon.plasticity, false),
+            "how the members had been bent before they were joined is not known"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sensitivity.by), "derivatives are those of one opening and one load"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(control.kind, ZP_CONTROL_NONE), "a controller measures a single opening"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sense.frequency), "a meter tells the opening of a single actuator"),
+};
+
+static const ZpRules rules = ZP_RULES_OF(rule);
+const ZpRules *const zp_rules_of_network[] = {&rules, NULL};

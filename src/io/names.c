@@ -1,0 +1,189 @@
+#include "io/names.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/fail.h"
+#include "def/rule.h"
+#include "io/value.h"
+
+static const char *const group[ZP_INSTANCE_KINDS] = {
+    [ZP_OF_MEMBER] = "members", [ZP_OF_BODY] = "bodies", [ZP_OF_SPRING] = "springs"};
+static const char frame[] = "frame";
+
+bool zp_names_copy(const ZpGivenNames *from, ZpGivenNames *names) {
+  *names = (ZpGivenNames){calloc(from->count + 1, sizeof *names->name), from->count};
+  if (names->name && from->count > 0) memcpy(names->name, from->name, from->count * sizeof *names->name);
+  return names->name != NULL;
+}
+
+void zp_names_free(ZpGivenNames *names) {
+  free(names->name);
+  *names = (ZpGivenNames){0};
+}
+
+/* The kind whose group a path begins with => the rest behind it and its point. */
+static ZpInstanceKind kind_of(const char *path, const char **rest) {
+  for (int k = 0; k < ZP_INSTANCE_KINDS; k++) {
+    const size_t length = strlen(group[k]);
+    if (strncmp(path, group[k], length) != 0 || (path[length] != 0 && path[length] != '.')) continue;
+    *rest = path + length + (path[length] == '.');
+    return (ZpInstanceKind)k;
+  }
+  return ZP_INSTANCE_KINDS;
+}
+
+const char *zp_names_plural(ZpInstanceKind kind) {
+  return group[kind];
+}
+
+ZpInstanceKind zp_names_group(const char *path) {
+  const char *rest = "";
+  const ZpInstanceKind kind = kind_of(path, &rest);
+  return *rest ? ZP_INSTANCE_KINDS : kind;
+}
+
+static bool is_name(const char *word, size_t length) {
+  bool good = length > 0 && length < ZP_NAME_SIZE && *word >= 'a' && *word <= 'z';
+  for (size_t k = 0; good && k < length; k++)
+    good = (word[k] >= 'a' && word[k] <= 'z') || (word[k] >= '0' && word[k] <= '9') || word[k] == '_';
+  return good;
+}
+
+/* The number of a name => 0: it has none, with a message. */
+static int number_of(ZpGivenNames *names, ZpInstanceKind kind, const char *word, size_t length, ZpError *err) {
+  char text[ZP_NAME_SIZE];
+  int last = 0;
+  if (!is_name(word, length)) {
+    zp_fail(err, ZP_BAD_INPUT, "\"%.*s\" is no name: a to z, digits and _, a letter first, at most %d of them",
+            (int)(length < 64 ? length : 64), word, ZP_NAME_SIZE - 1);
+    return 0;
+  }
+  snprintf(text, sizeof text, "%.*s", (int)length, word);
+  if (strcmp(text, frame) == 0) {
+    zp_fail(err, ZP_BAD_INPUT, "frame is the body that always exists and is held; take another name");
+    return 0;
+  }
+  for (const ZpGivenName *name = names->name; name < names->name + names->count; name++) {
+    if (name->kind == (int)kind && name->number > last) last = name->number;
+    if (strcmp(name->text, text) != 0) continue;
+    if (name->kind == (int)kind) return name->number;
+    zp_fail(err, ZP_BAD_INPUT, "%s is a name in %s already; names are different in all groups", text,
+            group[name->kind]);
+    return 0;
+  }
+  void *more = realloc(names->name, (names->count + 1) * sizeof *names->name);
+  if (!more) {
+    zp_fail_memory(err);
+    return 0;
+  }
+  names->name = more;
+  if (last == ZP_MOST_MEMBERS) {
+    zp_fail(err, ZP_BAD_INPUT, "more than %d %s", ZP_MOST_MEMBERS, group[kind]);
+    return 0;
+  }
+  ZpGivenName *own = &names->name[names->count++];
+  *own = (ZpGivenName){(int)kind, last + 1, ""};
+  memcpy(own->text, text, sizeof own->text);
+  return last + 1;
+}
+
+ZpStatus zp_names_path(ZpGivenNames *names, const char *path, char *text, size_t size, ZpError *err) {
+  const char *rest;
+  const ZpInstanceKind kind = kind_of(path, &rest);
+  if (kind == ZP_INSTANCE_KINDS || *rest == 0) {
+    snprintf(text, size, "%s", path);
+    return ZP_OK;
+  }
+  const size_t length = strcspn(rest, ".");
+  const int number = number_of(names, kind, rest, length, err);
+  if (number == 0) return err ? err->status : ZP_BAD_INPUT;
+  snprintf(text, size, "%s%d%s", zp_instance_begins(kind), number, rest + length);
+  return ZP_OK;
+}
+
+ZpStatus zp_names_body(ZpGivenNames *names, bool known, int key, const char *word, double *number, ZpError *err) {
+  const char *none = zp_key(key)->text;
+  while (*word == ' ')
+    word++;
+  size_t length = strlen(word);
+  while (length > 0 && word[length - 1] == ' ')
+    length--;
+  const bool numeric = *word && strchr("+-.0123456789", *word);
+  if (numeric || (none && strcmp(word, none) == 0)) return zp_value_read(key, word, number, err);
+  *number = 0;
+  if (length == strlen(frame) && strncmp(word, frame, length) == 0) return ZP_OK;
+  const size_t before = names->count;
+  *number = number_of(names, ZP_OF_BODY, word, length, err);
+  if (known && names->count > before) return zp_fail(err, ZP_BAD_INPUT, "there is no such body");
+  return *number > 0 ? ZP_OK : err ? err->status : ZP_BAD_INPUT;
+}
+
+char *zp_names_text(ZpGivenNames *names, const char *text) {
+  static const char separators[] = " ,;<>=";
+  char *whole = strdup("");
+  while (whole && *text) {
+    const size_t between = strspn(text, separators), length = strcspn(text + between, separators);
+    char word[ZP_PATH_SIZE], path[2 * ZP_PATH_SIZE], *both = NULL;
+    snprintf(word, sizeof word, "%.*s", (int)length, text + between);
+    const bool named = length < sizeof word && zp_names_path(names, word, path, sizeof path, NULL) == ZP_OK;
+    const int shown = named ? (int)strlen(path) : (int)length;
+    if (asprintf(&both, "%s%.*s%.*s", whole, (int)between, text, shown, named ? path : text + between) < 0) both = NULL;
+    free(whole);
+    whole = both;
+    text += between + length;
+  }
+  return whole;
+}
+
+bool zp_key_is_body(int key) {
+  const ZpInstance at = zp_key_instance(key);
+  return key == ZP_KEY(isometric.body) || (at.row == ZP_KEY(member_K.upper) || at.row == ZP_KEY(member_K.lower) ||
+                                           at.row == ZP_KEY(spring_K.first) || at.row == ZP_KEY(spring_K.second));
+}
+
+/* The name of one; NULL: it has none. */
+static const char *name_of(const ZpGivenNames *names, ZpInstanceKind kind, int number) {
+  for (const ZpGivenName *name = names->name; name < names->name + names->count; name++)
+    if (name->kind == (int)kind && name->number == number) return name->text;
+  return NULL;
+}
+
+const char *zp_names_key(const ZpGivenNames *names, int key, char text[ZP_PATH_SIZE]) {
+  const ZpInstance at = zp_key_instance(key);
+  const char *name = at.number > 0 ? name_of(names, at.kind, at.number) : NULL;
+  const char *row = zp_key_name(key, text);
+  if (!name) return row;
+  char rest[ZP_KEY_NAME_SIZE];
+  snprintf(rest, sizeof rest, "%s", strchr(row, '.'));
+  snprintf(text, ZP_PATH_SIZE, "%s.%s%s", group[at.kind], name, rest);
+  return text;
+}
+
+void zp_names_tell(const ZpGivenNames *names, ZpError *err) {
+  for (const ZpGivenName *name = names->name; err && name < names->name + names->count; name++) {
+    char number[2 * ZP_NAME_SIZE], whole[sizeof err->message];
+    const int length =
+        snprintf(number, sizeof number, "%s%d", zp_instance_begins((ZpInstanceKind)name->kind), name->number);
+    const char *at = strstr(err->message, number);
+    if (!at || (at[length] >= '0' && at[length] <= '9')) continue;
+    snprintf(whole, sizeof whole, "%.*s%s.%s%s", (int)(at - err->message), err->message, group[name->kind], name->text,
+             at + length);
+    memcpy(err->message, whole, sizeof whole);
+    name--; /* it may stand there again */
+  }
+}
+
+const char *zp_names_word(const ZpGivenNames *names, double number, char text[ZP_NAME_SIZE]) {
+  const char *name = name_of(names, ZP_OF_BODY, (int)number);
+  if (number == 0) return frame;
+  if (name) return name;
+  snprintf(text, ZP_NAME_SIZE, "%g", number);
+  return text;
+}
+
+ZpStatus zp_names_give(const ZpGivenNames *names, ZpActuatorDef *def, ZpError *err) {
+  return names->count > 0 ? zp_def_set_names(def, names->name, names->count, err) : ZP_OK;
+}

@@ -1,0 +1,98 @@
+#include "system/springs.h"
+
+#include "base/memory.h"
+
+/* The height of a body that moves is that of its leader, which a row may tie to no other one. */
+static ZpBodyHeight height_of(const ZpNetwork *network, ZpAssembly *const assembly[], const ZpModel *first,
+                              size_t body) {
+  if (network->body[body].held) return (ZpBodyHeight){.held = true, .offset = network->body[body].y};
+  const size_t leader = network->body[body].leader;
+  const size_t k = zp_height_at(first + leader, network->ends[leader].lower != body);
+  const double sign = zp_network_sign(network, leader);
+  return (ZpBodyHeight){false, (size_t)assembly[leader]->equation[k], sign * assembly[leader]->factor[k],
+                        zp_network_origin(network, leader) + sign * assembly[leader]->offset[k]};
+}
+
+bool zp_springs_create(const ZpModel *first, ZpAssembly *const assembly[], ZpSprings *springs) {
+  const ZpNetwork *network = first->network;
+  *springs = (ZpSprings){.first = first, .count = network->springs};
+  if (springs->count == 0) return true;
+  springs->height = zp_calloc(network->bodies, sizeof *springs->height);
+  for (size_t b = 0; springs->height && b < network->bodies; b++)
+    springs->height[b] = height_of(network, assembly, first, b);
+  return springs->height != NULL;
+}
+
+void zp_springs_destroy(ZpSprings *springs) {
+  zp_free(springs->height);
+  springs->height = NULL;
+}
+
+static double height_at(const ZpBodyHeight *h, const double *x) {
+  return h->offset + (h->held ? 0 : h->factor * x[h->equation]);
+}
+
+static double length_at(const ZpSprings *s, const ZpLink *link, const double *x) {
+  return height_at(&s->height[link->body[0]], x) - height_at(&s->height[link->body[1]], x);
+}
+
+/* Over a span: the deformation at start and end, and by how much the spring becomes longer, m. */
+typedef struct Way {
+  double s0, s1, longer;
+} Way;
+
+static Way way_of(const ZpSprings *s, const ZpLink *link, const double *start, const double *end) {
+  const double before = length_at(s, link, start), after = length_at(s, link, end);
+  return (Way){zp_link_deformed(link, before), zp_link_deformed(link, after), after - before};
+}
+
+/* Does it act at both ends of the span, or at neither? */
+static bool is_even(Way way) {
+  return (way.s0 != 0) == (way.s1 != 0) || way.longer == 0;
+}
+
+/* Its mean pull, as a deformation, m. */
+static double mean_of(Way way) {
+  return is_even(way) ? 0.5 * (way.s0 + way.s1) : 0.5 * (way.s1 * way.s1 - way.s0 * way.s0) / way.longer;
+}
+
+/* The derivative of that by the length at the end, or by that of both ends. */
+static double slope_of(Way way, bool still) {
+  if (still) return way.s1 != 0 ? 1 : 0;
+  if (is_even(way)) return way.s1 != 0 ? 0.5 : 0;
+  return (way.s1 - mean_of(way)) / way.longer;
+}
+
+void zp_springs_add_force(const ZpSprings *s, double share, const double *start, const double *end, double *f) {
+  for (size_t k = 0; k < s->count; k++) {
+    const ZpLink *link = &s->first->network->spring[k];
+    const double pull = share * link->stiffness * mean_of(way_of(s, link, start, end)) / s->first->parts;
+    for (size_t e = 0; e < 2; e++) {
+      const ZpBodyHeight *h = &s->height[link->body[e]];
+      if (!h->held) f[h->equation] += (e == 0 ? -pull : pull) * h->factor;
+    }
+  }
+}
+
+void zp_springs_add_stiffness(const ZpSprings *s, double share, const double *start, const double *end, bool still,
+                              size_t inner, ZpSparse *D) {
+  for (size_t k = 0; k < s->count; k++) {
+    const ZpLink *link = &s->first->network->spring[k];
+    const double slope = share * link->stiffness * slope_of(way_of(s, link, start, end), still) / s->first->parts;
+    for (size_t e = 0; e < 4; e++) {
+      const ZpBodyHeight *row = &s->height[link->body[e / 2]], *column = &s->height[link->body[e % 2]];
+      if (row->held || column->held) continue;
+      const double sign = e / 2 == e % 2 ? 1 : -1;
+      *zp_sparse_at(D, row->equation - inner, column->equation - inner) += sign * slope * row->factor * column->factor;
+    }
+  }
+}
+
+double zp_springs_energy(const ZpSprings *s, const double *at) {
+  double sum = 0;
+  for (size_t k = 0; k < s->count; k++) {
+    const ZpLink *link = &s->first->network->spring[k];
+    sum += zp_link_energy(link, length_at(s, link, at)) / s->first->parts;
+  }
+  return sum;
+}

@@ -1,0 +1,303 @@
+/* Networks: bodies, and members and springs between them. At rest against stacks, beams and balances of forces; in
+ * motion against stacks, frequencies of a chain, and energy; the language of scenarios. docs/theory.md, section 32. */
+#include "data_util.h"
+
+#include "study/studies.h"
+
+static const double pi = 3.14159265358979323846;
+
+/* A scenario as a Def, without liquid and errors unless it says so. */
+static ZpActuatorDef def_of(const char *text) {
+  ZpActuatorDef def = {0};
+  ZpScenario *s = new_scenario();
+  ck_ok(zp_scenario_parse(s, text, strlen(text), "network.yaml", &err));
+  ck_ok(zp_scenario_override(s, "output.errors: false", 20, "errors", &err));
+  ck_ok(zp_scenario_def(s, 0, &def, &err));
+  if (def.given && def.given->of == &def && def.given->name) zp_test_owns(def.given->name, zp_free);
+  lend_members(&def);
+  return def;
+}
+
+static double number(const ZpResult *result, const char *name) {
+  ck_assert_msg(zp_result_has(result, name), "no %s", name);
+  return zp_result_get(result, name);
+}
+
+/* -- stacks are shorthands ------------------------------------------------------------------------- */
+
+#define OF_ALL "study: stationary\nmesh.nodes: 21\nliquid.model: none\n"
+static const struct {
+  const char *name, *stack, *network;
+  double rest, run; /* how near they are */
+} shorthand[] = {
+    {"one", OF_ALL "load.mass: 8 g\n",
+     OF_ALL "bodies: {hand: {mass: 8 g}}\nmembers: {only: {upper: frame, lower: hand}}\n", 1e-14, 1e-14},
+    {"series", OF_ALL "load.mass: 8 g\nstack: {series: 2, link_mass: 2 g}\n",
+     OF_ALL "bodies:\n  link: {mass: 2 g}\n  hand: {mass: 8 g}\n"
+            "members:\n  top: {upper: frame, lower: link}\n  bottom: {upper: link, lower: hand}\n",
+     1e-14, 1e-14},
+    {"side by side", OF_ALL "load.mass: 16 g\nstack.parallel: 2\nmember_2.ribbon.thickness: 60 um\n",
+     OF_ALL "bodies: {hand: {mass: 16 g}}\nmembers:\n  left: {upper: frame, lower: hand}\n"
+            "  right: {upper: frame, lower: hand, ribbon.thickness: 60 um}\n",
+     1e-14, 1e-14},
+    {"antagonists", OF_ALL "load.mass: 8 g\nstack: {series: 2, distance: 50 mm, voltage_ratio: 0.5}\n",
+     OF_ALL "bodies:\n  hand: {mass: 8 g}\n  floor: {moves: none, at: [0, -50 mm]}\nmembers:\n"
+            "  up: {upper: frame, lower: hand}\n"
+            "  down: {upper: floor, lower: hand, angle: 180 degree, drive.voltage: 5 kV}\n",
+     3e-9, 1e-9},
+};
+
+static void compare(const ZpResult *stack, const ZpResult *network, const char *name, double within) {
+  const double a = number(stack, name), b = number(network, name);
+  if (isnan(a) && isnan(b)) return;
+  printf("%s: off by %.2g\n", name, fabs(b / a - 1));
+  ck_near(b, a, within);
+}
+
+TESTS(stacks_are_shorthands, 0, LENGTH_OF(shorthand)) {
+  static const char *const at_rest[] = {"pull_in_voltage_V", "release_voltage_V", "closing_voltage_V"};
+  ZpActuatorDef stack = def_of(shorthand[_i].stack), network = def_of(shorthand[_i].network);
+  const ZpResult *a = answer_of(ZP_STUDY_EQUILIBRIUM, &stack), *b = answer_of(ZP_STUDY_EQUILIBRIUM, &network);
+  for (size_t k = 0; k < LENGTH_OF(at_rest); k++)
+    compare(a, b, at_rest[k], shorthand[_i].rest);
+  compare(answer_of(ZP_STUDY_MODES, &stack), answer_of(ZP_STUDY_MODES, &network), "frequency_1_Hz", shorthand[_i].rest);
+  stack.solver.end_time = network.solver.end_time = 0.05;
+  stack.solver.stop_when_zipped = network.solver.stop_when_zipped = ZP_WHEN_FALSE;
+  a = answer_of(ZP_STUDY_ACTUATE, &stack), b = answer_of(ZP_STUDY_ACTUATE, &network);
+  ck_near(zp_table_get(b->series, b->series->rows - 1, "charge_C"),
+          zp_table_get(a->series, a->series->rows - 1, "charge_C"), shorthand[_i].run);
+  ck_assert_double_eq(number(a, "steps"), number(b, "steps"));
+}
+
+/* -- at rest --------------------------------------------------------------------------------------- */
+
+/* A chain of many weightless members has the pull-in of one, and as many times its opening. */
+TEST(weightless_ones_in_series_are_as_one) {
+  enum { MANY = 100 };
+  char *text = NULL, *members = NULL;
+  size_t size, length;
+  FILE *bodies = open_memstream(&text, &size), *chain = open_memstream(&members, &length);
+  fprintf(bodies, OF_ALL "ribbon.density: 0\ninsulator.density: 0\nbodies:\n");
+  for (int k = 1; k <= MANY; k++) {
+    fprintf(bodies, "  b%d: {mass: %s}\n", k, k == MANY ? "8 g" : "0 g");
+    if (k == 1)
+      fprintf(chain, "members:\n  m1: {upper: frame, lower: b1}\n");
+    else
+      fprintf(chain, "  m%d: {upper: b%d, lower: b%d}\n", k, k - 1, k);
+  }
+  fclose(chain);
+  fprintf(bodies, "%s", members);
+  fclose(bodies);
+  ZpActuatorDef many = def_of(text), one = DEF({"mesh.nodes", 21}, {"ribbon.density", 0}, {"insulator.density", 0});
+  ZpResult *all = answer_of(ZP_STUDY_STATIONARY, &many), *single = answer_of(ZP_STUDY_STATIONARY, &one);
+  ck_near(number(all, "bodies.b100.y_m"), -MANY * number(single, "opening_m"), 1e-12); /* 1e-14 measured */
+  ck_near(answered_value(ZP_STUDY_LIMITS, &many, "pull_in_voltage_V"),
+          answered_value(ZP_STUDY_LIMITS, &one, "pull_in_voltage_V"), 1e-9);
+  free(text);
+  free(members);
+}
+
+/* Members of several kinds, springs and a mount around two bodies, named in two orders. */
+static const char both_orders[2][1024] = {
+    OF_ALL
+    "bodies:\n  hand: {mass: 16 g, force: [0, -20 mN]}\n  floor: {moves: none, at: [0, -70 mm]}\n  hook: {mass: 5 g}\n"
+    "members:\n  left: {upper: frame, lower: hand}\n"
+    "  right: {upper: frame, lower: hand, ribbon.thickness: 60 um, drive.voltage: 6 kV}\n"
+    "  back: {upper: floor, lower: hand, angle: 180 degree, drive.voltage: 2 kV}\n"
+    "  tail: {upper: hand, lower: hook}\n"
+    "springs:\n  coil: {between: [frame, hand], stiffness: 5 N/m, rest: 10 mm}\n"
+    "  rope: {between: [hand, hook], stiffness: 3 N/m, rest: 12 mm, kind: pull}\n",
+    OF_ALL "springs:\n  rope: {between: [hand, hook], stiffness: 3 N/m, rest: 12 mm, kind: pull}\n"
+           "  coil: {between: [frame, hand], stiffness: 5 N/m, rest: 10 mm}\n"
+           "members:\n  tail: {upper: hand, lower: hook}\n"
+           "  right: {upper: frame, lower: hand, ribbon.thickness: 60 um, drive.voltage: 6 kV}\n"
+           "  back: {upper: floor, lower: hand, angle: 180 degree, drive.voltage: 2 kV}\n"
+           "  left: {upper: frame, lower: hand}\n"
+           "bodies:\n  hook: {mass: 5 g}\n  floor: {moves: none, at: [0, -70 mm]}\n  hand: {mass: 16 g, force: [0, -20 "
+           "mN]}\n"};
+
+static const char *const places[] = {"bodies.hand.y_m",       "bodies.hook.y_m",      "members.left.force_N",
+                                     "members.right.force_N", "members.back.force_N", "members.tail.force_N"};
+
+TEST(order_of_names_makes_no_difference) {
+  ZpActuatorDef def[2] = {def_of(both_orders[0]), def_of(both_orders[1])};
+  const ZpResult *a = answer_of(ZP_STUDY_STATIONARY, &def[0]), *b = answer_of(ZP_STUDY_STATIONARY, &def[1]);
+  for (size_t k = 0; k < LENGTH_OF(places); k++)
+    compare(a, b, places[k], 1e-10);
+  for (int k = 0; k < 2; k++)
+    def[k].drive.voltage = 3e3;
+  a = answer_of(ZP_STUDY_EQUILIBRIUM, &def[0]), b = answer_of(ZP_STUDY_EQUILIBRIUM, &def[1]);
+  ck_near(zp_table_get(a->series, a->series->rows - 1, "hand.y_m"),
+          zp_table_get(b->series, b->series->rows - 1, "hand.y_m"), 1e-10);
+}
+
+/* What pulls a body up is what pulls it down: members without weight, springs, its weight and the force on it. */
+TEST(forces_on_each_body_balance) {
+  ZpActuatorDef def = def_of(both_orders[0]);
+  def.ribbon.density = 0;
+  const ZpResult *r = answer_of(ZP_STUDY_STATIONARY, &def);
+  const double hand = number(r, "bodies.hand.y_m"), hook = number(r, "bodies.hook.y_m");
+  const double coil = 5 * (-hand - 10e-3), rope = 3 * fmax(hand - hook - 12e-3, 0);
+  const double up = number(r, "members.left.force_N") + number(r, "members.right.force_N") + coil,
+               tail = number(r, "members.tail.force_N") + rope,
+               down = number(r, "members.back.force_N") + tail + 16e-3 * def.gravity + 20e-3;
+  printf("hand: %.9g up, off by %.2g; hook: off by %.2g\n", up, down / up - 1, tail / (5e-3 * def.gravity) - 1);
+  ck_assert_double_gt(rope, 1e-3);
+  ck_near(tail, 5e-3 * def.gravity, 4e-10); /* 1.3e-10 measured */
+  ck_near(up, down, 2e-10);                 /* 5.5e-11 measured */
+}
+
+/* A body on a stiff spring: what its member does not carry stretches the spring. One that only pushes is slack. */
+TEST(spring_takes_what_is_left) {
+  ZpActuatorDef def = def_of(OF_ALL "ribbon.density: 0\nbodies: {hand: {mass: 8 g}}\n"
+                                    "members: {only: {upper: frame, lower: hand}}\n"
+                                    "springs: {coil: {between: [frame, hand], stiffness: 1 kN/m, rest: 4 mm}}\n");
+  const ZpResult *r = answer_of(ZP_STUDY_STATIONARY, &def);
+  const double left = 8e-3 * def.gravity - number(r, "members.only.force_N");
+  ck_assert_double_gt(left, 0.04);
+  ck_near(number(r, "bodies.hand.y_m"), -4e-3 - left / 1e3, 1e-9);
+  def = def_of(OF_ALL "ribbon.density: 0\nbodies: {hand: {mass: 8 g}}\nmembers: {only: {upper: frame, lower: hand}}\n"
+                      "springs: {coil: {between: [frame, hand], stiffness: 1 MN/m, rest: 1 mm, kind: push}}\n");
+  ZpActuatorDef free_one = DEF({"mesh.nodes", 21}, {"ribbon.density", 0});
+  ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "bodies.hand.y_m"),
+          -answered_value(ZP_STUDY_STATIONARY, &free_one, "opening_m"), 1e-9);
+}
+
+/* A body between two mounts that hold no more than it takes: a member between bodies that are both held stays. */
+TEST(member_between_mounts_stays) {
+  ZpActuatorDef def =
+      def_of(OF_ALL "bodies:\n  floor: {moves: none, at.y: -20 mm}\n  hand: {mass: 8 g}\n"
+                    "members:\n  fixed: {upper: frame, lower: floor}\n  free: {upper: floor, lower: hand}\n");
+  ZpActuatorDef one = DEF({"mesh.nodes", 21});
+  const ZpResult *r = answer_of(ZP_STUDY_STATIONARY, &def);
+  ck_near(number(r, "members.fixed.opening_m"), 20e-3, 1e-12);
+  ck_near(number(r, "bodies.hand.y_m"), -20e-3 - answered_value(ZP_STUDY_STATIONARY, &one, "opening_m"), 1e-9);
+}
+
+/* The force that holds a body of a network is that which holds the platform of the same stack. */
+TEST(held_body_is_a_held_platform) {
+  ZpActuatorDef stack = def_of(shorthand[1].stack), network = def_of(shorthand[1].network);
+  stack.isometric.separation = network.isometric.separation = 10e-3;
+  network.isometric.body = 2;
+  stack.drive.voltage = network.drive.voltage = 6e3;
+  compare(answer_of(ZP_STUDY_ISOMETRIC, &stack), answer_of(ZP_STUDY_ISOMETRIC, &network), "force_N", 1e-9);
+}
+
+/* -- in motion ------------------------------------------------------------------------------------- */
+
+/* n equal springs and masses in a row: omega_j = 2 omega sin((2 j - 1) pi / (4 n + 2)). */
+TEST(chain_vibrates_as_a_chain) {
+  enum { N = 5 };
+  static const char one[] = OF_ALL "gravity: 0\nribbon.density: 1 kg/m3\nbodies: {b1: {mass: 8 g}}\n"
+                                   "members: {m1: {upper: frame, lower: b1}}\n";
+  static const char five[] =
+      OF_ALL "gravity: 0\nribbon.density: 1 kg/m3\nbodies: {b1: {mass: 8 g}, b2: {mass: 8 g}, b3: {mass: 8 g}, b4: "
+             "{mass: 8 g}, "
+             "b5: {mass: 8 g}}\n"
+             "members:\n  m1: {upper: frame, lower: b1}\n  m2: {upper: b1, lower: b2}\n  m3: {upper: b2, lower: b3}\n"
+             "  m4: {upper: b3, lower: b4}\n  m5: {upper: b4, lower: b5}\n";
+  ZpActuatorDef single = def_of(one), all = def_of(five);
+  const double alone = answered_value(ZP_STUDY_MODES, &single, "frequency_1_Hz");
+  const ZpResult *r = answer_of(ZP_STUDY_MODES, &all);
+  for (int j = 1; j <= N; j++) {
+    char name[32];
+    snprintf(name, sizeof name, "frequency_%d_Hz", j);
+    const double expected = 2 * alone * sin((2 * j - 1) * pi / (4 * N + 2));
+    printf("%s: off by %.2g\n", name, number(r, name) / expected - 1);
+    ck_near(number(r, name), expected, 3e-4);
+  }
+}
+
+/* Zip, hold and release of two bodies on four members and two springs. */
+TESTS(energy_balances, 0, 3) {
+  static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
+  static const double within[] = {2e-8, 8e-7, 3e-7}; /* 7.2e-9, 3.0e-7, 1.2e-7 measured */
+  ZpActuatorDef def = def_of(both_orders[0]);
+  def.liquid.model = liquid[_i];
+  def.drive.waveform = ZP_WAVEFORM_SQUARE;
+  def.drive.frequency = 1 / 0.12;
+  def.drive.rise_time = 5e-3;
+  def.solver.end_time = 0.12;
+  const ZpResult *r = answer_of(ZP_STUDY_ACTUATE, &def);
+  printf("energy error %.2g\n", number(r, "energy_error"));
+  ck_assert_double_gt(zp_table_get(r->series, r->series->rows / 2, "electric_work_J"), 1e-5);
+  ck_below(number(r, "energy_error"), within[_i]);
+}
+
+/* -- the language ---------------------------------------------------------------------------------- */
+
+/* What a scenario of this text writes. */
+static char *written(const char *from) {
+  char *text = NULL;
+  size_t size = 0;
+  ZpScenario *s = new_scenario();
+  FILE *file = open_memstream(&text, &size);
+  ck_ok(zp_scenario_parse(s, from, strlen(from), "network.yaml", &err));
+  ck_ok(zp_scenario_write(s, file, &err));
+  ck_assert_int_eq(fclose(file), 0);
+  return zp_test_owns(text, free);
+}
+
+/* It is read as the same: names, bodies and pairs. */
+TEST(networks_are_written_and_read) {
+  char *text = written(both_orders[0]);
+  ck_assert_ptr_nonnull(strstr(text, "upper: frame"));
+  ck_assert_ptr_nonnull(strstr(text, "lower: hook"));
+  ck_assert_str_eq(text, written(text));
+}
+
+static const struct {
+  const char *text, *says;
+} wrong[] = {
+    {"bodies: {hand: {mass: 8 g}}", "members: missing"},
+    {"bodies: {hand: {mass: 8 g}}\nmembers: {m: {upper: frame}}", "members.m.lower: missing"},
+    {"bodies: {hand: {mass: 8 g}}\nmembers: {m: {upper: frame, lower: hnad}}",
+     "members.m.lower = hnad: there is no such body"},
+    {"bodies: {hand: {mass: 8 g}, foot: {mass: 1 g}}\nmembers: {m: {upper: frame, lower: hand}}",
+     "bodies.foot: nothing holds it"},
+    {"bodies: {a: {}, b: {}}\nmembers: {m: {upper: a, lower: b}, n: {upper: b, lower: a}}", "no members lead from it"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: hand, lower: hand}}", "both of its ends are at hand"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand, angle: 90 degree}}",
+     "0 (it opens downwards) or 180"},
+    {"bodies: {hand: {}, floor: {moves: none, at.y: -0.2}}\nmembers: {m: {upper: frame, lower: hand}, n: {upper: "
+     "floor, lower: hand, "
+     "angle: 180 degree}}",
+     "apart by 23.6 mm too much"},
+    {"bodies: {hand: {}, floor: {moves: none, at.y: 10 mm}}\nmembers: {m: {upper: frame, lower: floor}, n: {upper: "
+     "frame, lower: hand}}",
+     "apart by 10 mm too little"},
+    {"bodies: {frame: {mass: 1 g}}", "frame is the body that always exists"},
+    {"bodies: {Hand: {mass: 1 g}}", "is no name"},
+    {"bodies: {hand: {}}\nmembers: {hand: {upper: frame, lower: hand}}", "hand is a name in bodies already"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nload.mass: 20 g", "load.mass = 0.02 kg"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstack.series: 3", "stack.series = 3"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nactuator.kind: hinge",
+     "actuator.kind electro_ribbon"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {stiffness: 3 N/m}}",
+     "springs.s.between: give two bodies"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {between: [hand, hand]}}",
+     "both ends are at hand"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {between: [frame]}}",
+     "takes two values, such as [frame, hand]"},
+    {"bodies: {hand: {force: [1 N, 0]}}\nmembers: {m: {upper: frame, lower: hand}}", "to the right, must be 0"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: [frame, hand], lower: hand}}", "takes one body, not a list"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand, drive.voltage: 3 kV}}\ndrive.voltage: 0",
+     "drive.voltage = 0 V"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand, drive.voltage: 3 kV}}\nsource.model: amplifier",
+     "source.model: requires ideal"},
+    {"bodies: {hand: {mas: 3 g}}\nmembers: {m: {upper: frame, lower: hand}}", "mass"},
+    {"bodies: {hand: {moves: none}}\nmembers: {m: {upper: frame, lower: hand}}", "bodies: each one is held"},
+    {"isometric.body: hand", "isometric.body = hand: there is no such body"},
+};
+
+TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {
+  ZpScenario *s = new_scenario();
+  ZpActuatorDef def = {0};
+  ZpError err = {ZP_OK, ""};
+  ZpStatus status = zp_scenario_parse(s, wrong[_i].text, strlen(wrong[_i].text), "network.yaml", &err);
+  if (status == ZP_OK) status = zp_scenario_def(s, 0, &def, &err);
+  zp_def_clear(&def);
+  printf("%s\n", err.message);
+  ck_assert_int_eq(status, ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, wrong[_i].says) != NULL, "no '%s' in: %s", wrong[_i].says, err.message);
+}
