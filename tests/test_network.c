@@ -287,6 +287,7 @@ static const struct {
      "source.model: requires ideal"},
     {"bodies: {hand: {mas: 3 g}}\nmembers: {m: {upper: frame, lower: hand}}", "mass"},
     {"bodies: {hand: {moves: none}}\nmembers: {m: {upper: frame, lower: hand}}", "bodies: each one is held"},
+    {"members: {m: {upper: frame, lower: hand}}", "bodies: missing; members.m is between bodies"},
     {"isometric.body: hand", "isometric.body = hand: there is no such body"},
 };
 

@@ -119,11 +119,10 @@ RIGHT = [
     "medium.kinematic_viscosity: 50 cSt",
     "load.mass:  8g ",
     "stack.series: 12\nmember_12.ribbon.thickness: 60 um",
-    "bodies: {hand: {mass: 8 g}, floor: {moves: none, at: [0, -50 mm], force: [0, 1 N]}}",
-    "members: {left: {upper: frame, lower: hand, ribbon.thickness: 60 um}, right: {lower: hand, drive: {voltage: 8 kV}}}",
-    "springs: {back: {between: [frame, hand], stiffness: 5 N/m, kind: pull}}",
-    "members.left.ribbon.thickness: 60 um",
-    "bodies.hand: {at.y: 3 mm}",
+    "bodies: {hand: {mass: 8 g, force: [0, 1 mN]}, floor: {moves: none, at: [0, -50 mm]}}\n"
+    "members: {left: {upper: frame, lower: hand, drive: {voltage: 8 kV}}, right: {upper: floor, lower: hand, angle: 180 degree}}\n"
+    "springs: {back: {between: [frame, hand], stiffness: 5 N/m, kind: pull}}\nmembers.left.ribbon.thickness: 60 um",
+    "bodies.hand: {at.y: 3 mm}\nmembers.left: {upper: frame, lower: hand}",
     "stack.series: 12\nmember_9: {ribbon: {thickness: [50 um, auto]}, insulator.thickness: 100 um}",
     "stack.series: 12\nmember_10.ribbon: {young_modulus: 100 GPa}",
 ]

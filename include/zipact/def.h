@@ -98,7 +98,8 @@ ZP_API ZpActuatorDef *zp_def_copy(const ZpActuatorDef *def);
 /* Free it; NULL is allowed. */
 ZP_API void zp_def_destroy(ZpActuatorDef *def);
 
-/* Number of keys. Those of all members of a stack count once: member_K.ribbon.thickness and so on, without a value. */
+/* Number of keys. Those of all members, bodies and springs count once: member_K.ribbon.thickness and so on, which
+ * cannot be set. */
 ZP_API int zp_key_count(void);
 
 /* Key `index`, 0 <= index < zp_key_count(), in the order of `zipact keys`. Larger indices are keys of single members
@@ -137,7 +138,8 @@ ZP_API bool zp_key_in_def(int index);
  * zp_key_count counts but those that stand for all members, and in their place the members' keys that `def` has. */
 ZP_API int zp_def_next_key(const ZpActuatorDef *def, int index);
 
-/* Value of key `index` in `def`, as in ZpAssignment; NAN for a text key and for a key of the scenario. */
+/* Value of key `index` in `def`, as in ZpAssignment; NAN for a text key and for a key of the scenario. A key that
+ * stands for those of all members, bodies or springs has its default. */
 ZP_API double zp_def_get(const ZpActuatorDef *def, int index);
 
 /* Set one key. ZP_BAD_INPUT, with key, value, unit and range, if the value is out of range or not a number, or if the

@@ -34,11 +34,11 @@ class Key(NamedTuple):
 
 
 class Keys(dict[str, Key]):
-    """Every key by its name, "load.mass". Those of all members of a stack are listed once, with K in the place of a number;
+    """Every key by its name, "load.mass". Those of all members, bodies and springs are listed once, with K in the place of a number;
     KEYS["member_3.ribbon.thickness"] is found as well, though not by `in` or get."""
 
     def __missing__(self, name: str) -> Key:
-        row, numbers = re.subn(r"^member_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", "member_K.", name)
+        row, numbers = re.subn(r"^(member|body|spring)_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", r"\1_K.", name)
         if numbers == 0 or row not in self:
             raise KeyError(name)
         return self[row]._replace(name=name)
@@ -58,7 +58,7 @@ def key_name(keyword: str) -> str:
 
 def is_key(name: str) -> bool:
     try:
-        return KEYS[name].name == name and not name.startswith("member_K")
+        return KEYS[name].name == name and not re.match("[a-z]+_K[.]", name)
     except KeyError:
         return False
 

@@ -273,6 +273,7 @@ static double number_of(const ZpActuatorDef *def, const ZpKey *key) {
 double zp_def_get(const ZpActuatorDef *def, int index) {
   const ZpKey *key = zp_key(index);
   if (def && key && index >= KEY_COUNT) return zp_instances_get(def, index);
+  if (def && zp_key_is_row(index)) return key->def;
   return def && key && has_field(key) ? number_of(def, key) : (double)NAN;
 }
 

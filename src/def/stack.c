@@ -110,6 +110,11 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
   int members = series ? def->stack.series : parallel ? def->stack.parallel : 0;
   const int member = zp_instance_count(def, ZP_OF_MEMBER);
   const ZpAssignment *last;
+  for (size_t k = 0; def->given && k < def->given->count; k++)
+    if (zp_key_instance(def->given->value[k].key).kind == ZP_OF_MEMBER && key_of_one(def->given->value[k].key) < 0)
+      return zp_fail(
+          err, ZP_BAD_INPUT, "bodies: missing; members.%s is between bodies, the frame and at least one that moves",
+          zp_def_name(def, ZP_OF_MEMBER, zp_key_instance(def->given->value[k].key).number, (char[ZP_NAME_SIZE]){0}));
   if (member <= members) return ZP_OK;
   zp_instances_of(def, ZP_OF_MEMBER, member, &last);
   return zp_fail(err, ZP_BAD_INPUT, "%s: requires stack.%s of at least %d, but it is %d", ZP_KEY_NAME(last->key),
