@@ -44,6 +44,7 @@ HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 # What looks at texts and packages, not at what the program does.
 PAGES = re.compile(r"_current$|^(links|rules|deps|embedded|test_install|binaries)$")
 WANTED, WANTED_IN_A_ROOM = 0.95, 0.90
+UNKNOWN = 10  # times the limit for a fault alone in its file: which tests reach it is not known
 
 # The header is included by each file with a fault: reaching a fault marks it in a file that all processes of a test share.
 RUNTIME_H = """#ifndef ZP_MUTANT_H
@@ -471,7 +472,8 @@ def try_all(folder, mutants, results, arguments):
     def attempt(mutant, one):
         if time.monotonic() - began > arguments.seconds:
             return
-        test, spent = one(folder, mutant, tests_for(mutant, tests), noticed, arguments.limit)
+        limit = arguments.limit * (UNKNOWN if mutant.compiled else 1)
+        test, spent = one(folder, mutant, tests_for(mutant, tests), noticed, limit)
         results.keep("faults", mutant.key(), test)
         print(f"{mutant.key()}: {test or 'NOT NOTICED'} ({spent:.1f} s)", flush=True)
     with concurrent.futures.ThreadPoolExecutor(arguments.jobs, "worker") as pool:

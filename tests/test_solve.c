@@ -2,6 +2,7 @@
  * oscillators, falling ball, chains of springs. No actuator here. */
 #include "arrow_util.h"
 
+#include "solve/continuation.h"
 #include "solve/explicit.h"
 #include "solve/implicit.h"
 #include "solve/newton.h"
@@ -568,6 +569,131 @@ TEST(test_newton_without_residual) {
   ck_assert_int_eq(info.end, ZP_NEWTON_DIVERGED);
   ck_assert(isinf(info.residual));
   ck_assert_int_eq(rest.asked, 2);
+  zp_free(memory);
+  zp_arrow_form_destroy(&form);
+}
+
+/* The same spring, while half of its stretch, as it was when it was last looked at, pulls in addition. */
+typedef struct Held {
+  Rest rest;
+  double held;
+  int looked;
+} Held;
+
+static ZpEnd held_left(void *self, double *r, double *size) {
+  Held *held = self;
+  r[0] = held->rest.pull + held->held - held->rest.q;
+  if (size) *size = fabs(r[0]);
+  return ZP_END_FOUND;
+}
+
+static ZpEnd look_again(void *self) {
+  Held *held = self;
+  held->looked++;
+  held->held = 0.5 * held->rest.q;
+  return ZP_END_FOUND;
+}
+
+/* An equilibrium counts once what is held between iterations is that of the equilibrium itself. */
+TEST(newton_ends_with_what_it_holds) {
+  double r[1];
+  ZpArrowForm form = form_of_block(1, (ZpBandForm){.symmetric = true});
+  ZpNewtonWork work = {.r = r};
+  void *memory = zero_arrow(&work.K, &form);
+  Held held = {{0, 0.5, 0}, 0, 0};
+  ZpStaticSystem system = {.n = 1,
+                           .self = &held,
+                           .residual = held_left,
+                           .stiffness = rest_stiffness,
+                           .length = rest_length,
+                           .change = rest_change,
+                           .move = rest_move,
+                           .refresh = look_again};
+  ck_assert(zp_newton_good(zp_newton(&system, 1e-12, 200, &work).end));
+  ck_below(fabs(held.rest.q - 1), 1e-8);
+  ck_assert_int_gt(held.looked, 10);
+  zp_free(memory);
+  zp_arrow_form_destroy(&form);
+}
+
+/* -- a branch that turns twice ----------------------------------------------------------------------- */
+
+/* m = q - 3 w tanh((q - 1) / w) turns back and forth within about w of q = 1. */
+typedef struct Curve {
+  double q, m, w;
+} Curve;
+
+static ZpEnd curve_left(void *self, double *r, double *size) {
+  const Curve *c = self;
+  r[0] = c->m - (c->q - 3 * c->w * tanh((c->q - 1) / c->w));
+  if (size) *size = fabs(r[0]);
+  return ZP_END_FOUND;
+}
+
+static void curve_stiffness(void *self, ZpArrow *K, double *r) {
+  const Curve *c = self;
+  const double cosine = cosh((c->q - 1) / c->w);
+  (void)r;
+  *K->diagonal[0] = 1 - 3 / (cosine * cosine);
+}
+
+static void curve_move(void *self, const double *step, double fraction) {
+  ((Curve *)self)->q += fraction * step[0];
+}
+
+static void curve_by_m(void *self, double *r_m) {
+  (void)self;
+  r_m[0] = 1;
+}
+
+static void curve_at(void *self, double *q) {
+  q[0] = ((Curve *)self)->q;
+}
+
+static void curve_save(void *self, void *to) {
+  *(Curve *)to = *(Curve *)self;
+}
+
+static void curve_restore(void *self, const void *from) {
+  *(Curve *)self = *(const Curve *)from;
+}
+
+/* Steps that could pass over both turns find the part between them, where the branch goes back. */
+TESTS(branch_that_turns_twice_is_followed, 1, 8) {
+  Curve curve = {0, 0, 0.004 * pow(1.5, _i)};
+  curve.m = 3 * curve.w; /* tanh is -1 so far away */
+  ZpArrowForm form = form_of_block(1, (ZpBandForm){.symmetric = true});
+  ZpBranchSystem system = {.at_rest = {.n = 1,
+                                       .self = &curve,
+                                       .residual = curve_left,
+                                       .stiffness = curve_stiffness,
+                                       .length = rest_length,
+                                       .change = rest_change,
+                                       .move = curve_move},
+                           .input = &curve.m,
+                           .sensitivity = curve_by_m,
+                           .position = curve_at,
+                           .save = curve_save,
+                           .restore = curve_restore,
+                           .save_size = sizeof curve,
+                           .q_scale = 1,
+                           .m_scale = 1};
+  ZpNewtonWork work;
+  ZpBranch branch;
+  ZpArena arena = {NULL, 0};
+  void *memory = NULL;
+  for (int pass = 0; pass < 2; pass++) {
+    if (pass) arena = (ZpArena){memory = zp_calloc(1, arena.used), 0};
+    zp_newton_reserve(&work, &form, &arena);
+    zp_branch_reserve(&branch, &system, &work, &arena);
+  }
+  int back = 0;
+  ck_assert(zp_branch_start(&branch, true, 0.01, 0.12, 1e-10));
+  while (curve.q < 2 && zp_branch_advance(&branch))
+    back += branch.direction_m < 0;
+  printf("w = %.4f: %d points on the way back\n", curve.w, back);
+  ck_assert_double_gt(curve.q, 2);
+  ck_assert_int_gt(back, 0);
   zp_free(memory);
   zp_arrow_form_destroy(&form);
 }
