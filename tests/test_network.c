@@ -208,6 +208,32 @@ TEST(chain_vibrates_as_a_chain) {
   }
 }
 
+/* Two side by side between bodies that both move are as one that is twice as wide, also where their platforms land:
+ * dry, with a film. */
+TESTS(two_abreast_are_one_twice_as_wide, 0, 2) {
+  static const char two[] = OF_ALL "bodies: {bar: {mass: 4 g}, hand: {mass: 8 g}}\nmembers:\n"
+                                   "  top: {upper: frame, lower: bar, ribbon.width: 25.4 mm, drive.voltage: 4 kV}\n"
+                                   "  left: {upper: bar, lower: hand}\n  right: {upper: bar, lower: hand}\n";
+  static const char wide[] = OF_ALL "bodies: {bar: {mass: 4 g}, hand: {mass: 8 g}}\nmembers:\n"
+                                    "  top: {upper: frame, lower: bar, ribbon.width: 25.4 mm, drive.voltage: 4 kV}\n"
+                                    "  left: {upper: bar, lower: hand, ribbon.width: 25.4 mm}\n";
+  ZpActuatorDef a = def_of(two), b = def_of(wide);
+  a.solver.end_time = b.solver.end_time = 0.03;
+  a.solver.tolerance = b.solver.tolerance = 1e-6;
+  a.solver.stop_when_zipped = b.solver.stop_when_zipped = ZP_WHEN_FALSE;
+  if (_i == 1) {
+    a.liquid.model = b.liquid.model = ZP_LIQUID_SUBMERGED;
+    a.liquid.lateral_flow = b.liquid.lateral_flow = false;
+    a.liquid.inertia = b.liquid.inertia = false; /* the mass of liquid outside goes with the square of the width */
+    a.medium.kinematic_viscosity = b.medium.kinematic_viscosity = 1e-6;
+  }
+  const ZpResult *r = answer_of(ZP_STUDY_ACTUATE, &a), *s = answer_of(ZP_STUDY_ACTUATE, &b);
+  printf("zip after %.4g ms\n", 1e3 * number(r, "members.left.zip_time_s"));
+  compare(r, s, "members.left.zip_time_s", 1e-7); /* 3.6e-8 measured */
+  compare(r, s, "bodies.hand.y_m", 3e-7);         /* 9.6e-8 */
+  compare(r, s, "bodies.bar.y_m", 7e-6);          /* 2.3e-6 */
+}
+
 /* Zip, hold and release of two bodies on four members and two springs. */
 TESTS(energy_balances, 0, 3) {
   static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};

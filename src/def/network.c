@@ -24,8 +24,8 @@ static bool is_turned(const ZpActuatorDef *def, size_t number) {
 /* The members whose lower end is at a body. */
 static size_t hung_by(const ZpActuatorDef *def, double body) {
   size_t count = 0;
-  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++)
-    count += value_of(def, ZP_KEY(member_K.lower), (size_t)k) == body;
+  for (const ZpAssignment *given = def->given->value; given < def->given->value + def->given->count; given++)
+    count += given->value == body && zp_key_instance(given->key).row == ZP_KEY(member_K.lower);
   return count;
 }
 
@@ -126,17 +126,31 @@ static ZpStatus check_spring(const ZpActuatorDef *def, int spring, ZpError *err)
   return ZP_OK;
 }
 
+/* A member between two bodies, and how far it opens at most, m. */
+typedef struct Between {
+  int high, low;
+  double reach;
+} Between;
+
+static Between between(const ZpActuatorDef *def, int member) {
+  static const double part = 0.98; /* at which a platform is held at most */
+  const double own = value_of(def, ZP_KEY(member_K.ribbon.length), (size_t)member);
+  const double length = isnan(own) ? def->ribbon.length : own;
+  const int upper = body_in(def, ZP_KEY(member_K.upper), member), lower = body_in(def, ZP_KEY(member_K.lower), member);
+  const bool turned = is_turned(def, (size_t)member);
+  return (Between){turned ? lower : upper, turned ? upper : lower, part * (length - def->platform.length)};
+}
+
 /* Is each body joined to what is held, by members and bodies between? */
-static ZpStatus check_reached(const ZpActuatorDef *def, bool *reached, ZpError *err) {
+static ZpStatus check_reached(const ZpActuatorDef *def, const Between *member, bool *reached, ZpError *err) {
   const int bodies = zp_instance_count(def, ZP_OF_BODY), members = zp_instance_count(def, ZP_OF_MEMBER);
   for (int b = 0; b <= bodies; b++)
     reached[b] = !moves(def, b);
   for (bool more = true; more;) {
     more = false;
-    for (int k = 1; k <= members; k++) {
-      const int ends[] = {body_in(def, ZP_KEY(member_K.upper), k), body_in(def, ZP_KEY(member_K.lower), k)};
-      if (reached[ends[0]] == reached[ends[1]]) continue;
-      reached[ends[0]] = reached[ends[1]] = more = true;
+    for (const Between *m = member; m < member + members; m++) {
+      if (reached[m->high] == reached[m->low]) continue;
+      reached[m->high] = reached[m->low] = more = true;
     }
   }
   for (int b = 1; b <= bodies; b++)
@@ -146,16 +160,10 @@ static ZpStatus check_reached(const ZpActuatorDef *def, bool *reached, ZpError *
   return ZP_OK;
 }
 
-/* How far a member opens at most, m. */
-static double longest(const ZpActuatorDef *def, int member) {
-  static const double part = 0.98; /* at which a platform is held at most */
-  const ZpActuatorDef one = zp_def_member(def, member);
-  return part * (one.ribbon.length - one.platform.length);
-}
-
 /* Do heights exist at which all members open by 0 to their lengths? Bounds are passed along the members until none
  * moves: the largest and the least height of each body. */
-static ZpStatus check_lengths(const ZpActuatorDef *def, int held, double *most, double *least, ZpError *err) {
+static ZpStatus check_lengths(const ZpActuatorDef *def, int held, const Between *member, double *most, double *least,
+                              ZpError *err) {
   const int bodies = zp_instance_count(def, ZP_OF_BODY), members = zp_instance_count(def, ZP_OF_MEMBER);
   for (int b = 0; b <= bodies; b++) {
     const double at = b > 0 ? value_of(def, ZP_KEY(body_K.at.y), (size_t)b) : 0;
@@ -164,24 +172,26 @@ static ZpStatus check_lengths(const ZpActuatorDef *def, int held, double *most, 
     most[b] = free ? (double)INFINITY : y;
     least[b] = free ? -(double)INFINITY : y;
   }
-  for (int round = 0; round <= bodies; round++)
-    for (int k = 1; k <= members; k++) {
-      const bool turned = is_turned(def, (size_t)k);
-      const int high = body_in(def, turned ? ZP_KEY(member_K.lower) : ZP_KEY(member_K.upper), k),
-                low = body_in(def, turned ? ZP_KEY(member_K.upper) : ZP_KEY(member_K.lower), k);
-      const double reach = longest(def, k);
-      double above[] = {fmin(most[high], most[low] + reach), fmax(least[high], least[low])};
-      double below[] = {fmin(most[low], most[high]), fmax(least[low], least[high] - reach)};
+  bool more = true;
+  for (int round = 0; round <= bodies && more; round++) {
+    more = false;
+    for (const Between *m = member; m < member + members; m++) {
+      const int high = m->high, low = m->low;
+      const double above[] = {fmin(most[high], most[low] + m->reach), fmax(least[high], least[low])};
+      const double below[] = {fmin(most[low], most[high]), fmax(least[low], least[high] - m->reach)};
       const double misses = fmax(above[1] - above[0], below[1] - below[0]);
       if (misses > 1e-9)
         return zp_fail(err, ZP_BAD_INPUT,
                        "members.%s: it opens by 0 to %g mm, but %s and %s are apart by %g mm too %s; "
                        "move a body that is held, or change a length",
-                       SHOWN(def, ZP_OF_MEMBER, k), 1e3 * reach, SHOWN(def, ZP_OF_BODY, high),
-                       SHOWN(def, ZP_OF_BODY, low), 1e3 * misses, least[high] - most[low] > reach ? "much" : "little");
+                       SHOWN(def, ZP_OF_MEMBER, (int)(m - member) + 1), 1e3 * m->reach, SHOWN(def, ZP_OF_BODY, high),
+                       SHOWN(def, ZP_OF_BODY, low), 1e3 * misses,
+                       least[high] - most[low] > m->reach ? "much" : "little");
+      more |= above[0] < most[high] || above[1] > least[high] || below[0] < most[low] || below[1] > least[low];
       most[high] = above[0], least[high] = above[1];
       most[low] = below[0], least[low] = below[1];
     }
+  }
   return ZP_OK;
 }
 
@@ -223,8 +233,14 @@ static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
   const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY) + 1;
   double *heights = zp_calloc(2 * bodies, sizeof *heights);
   bool *reached = zp_calloc(bodies, sizeof *reached);
-  ZpStatus status = heights && reached ? check_reached(def, reached, err) : zp_fail_memory(err);
-  if (status == ZP_OK) status = check_lengths(def, held, heights, heights + bodies, err);
+  const int members = zp_instance_count(def, ZP_OF_MEMBER);
+  Between *member = zp_calloc((size_t)members, sizeof *member);
+  const bool made = heights && reached && member;
+  for (int k = 0; k < members && made; k++)
+    member[k] = between(def, k + 1);
+  ZpStatus status = made ? check_reached(def, member, reached, err) : zp_fail_memory(err);
+  if (status == ZP_OK) status = check_lengths(def, held, member, heights, heights + bodies, err);
+  zp_free(member);
   zp_free(heights);
   zp_free(reached);
   return status;

@@ -36,7 +36,7 @@ static size_t reserve(ZpDynamics *d, void *block) {
   for (size_t k = 0; k < d->members; k++)
     reserve_member(&d->member[k], &arena);
   d->joined = zp_arena_take(&arena, d->form.n - d->form.inner);
-  d->lost = zp_arena_take(&arena, d->form.n - d->form.inner);
+  d->lost = zp_arena_take(&arena, d->members);
   d->column = zp_arena_take(&arena, most_places(d));
   d->row = zp_arena_take(&arena, most_places(d));
   d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
@@ -436,20 +436,22 @@ static double pushed(const ZpMovingMember *m) {
 /* Damp all faces that are in contact. Platforms side by side land together: each takes its part of the velocity that
  * they had before. */
 static void damp_all(ZpDynamics *d) {
-  const size_t inner = d->form.inner, border = d->form.n - inner;
-  memset(d->lost, 0, border * sizeof *d->lost);
-  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
+  for (size_t k = 0; k < d->members; k++) {
+    const ZpMovingMember *m = &d->member[k];
+    d->lost[k] = 0;
     for (size_t i = 1; i < m->model->nodes; i++) {
       if (!meets(m, i)) continue;
       const Pair pair = pair_of(m, i);
       if (zp_abreast(m->model) > 1 && is_platform(m, i))
-        d->lost[(size_t)pair.lower - inner] +=
-            (1 - zp_contact_kept(&m->eval.faces, i, pair.reduced, d->h)) / (double)zp_abreast(m->model);
+        d->lost[k] += (1 - zp_contact_kept(&m->eval.faces, i, pair.reduced, d->h)) / (double)zp_abreast(m->model) *
+                      parting(pair, d->v);
       else
         damp(d, m, i);
     }
-  for (size_t k = 0; k < border; k++)
-    d->v[inner + k] *= 1 - d->lost[k];
+  }
+  for (size_t k = 0; k < d->members; k++)
+    if (d->lost[k] != 0)
+      bring_nearer(pair_of(&d->member[k], d->member[k].model->topology.platform.first), d->lost[k], d->v);
 }
 
 static bool any_meet(const ZpDynamics *d) {
@@ -591,10 +593,12 @@ static void find_joined_masses(ZpDynamics *d) {
     add_at_border(d, m, d->joined);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
     const ZpTopology *t = &m->model->topology;
-    double own = mass_at(m, zp_load_node(t)), others = mass_of_others(d, m, zp_load_node(t));
-    m->with[0] = mass_of_others(d, m, zp_upper(t, t->platform.first));
+    const size_t node[] = {zp_upper(t, t->platform.first), zp_load_node(t)};
     const double abreast = (double)zp_abreast(m->model);
-    m->with[1] = abreast > 1 ? (own + others) / abreast - own : others;
+    for (int k = 0; k < 2; k++) {
+      const double own = mass_at(m, node[k]), others = mass_of_others(d, m, node[k]);
+      m->with[k] = abreast > 1 ? (own + others) / abreast - own : others;
+    }
   }
 }
 

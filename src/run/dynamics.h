@@ -40,8 +40,8 @@ typedef struct ZpDynamics {
   ZpImplicit stepper;
   ZpImplicitHistory history;
   double *mass, *q, *v;    /* [n] by equations */
-  double *joined;          /* [border] mass of all nodes that move with an unknown of the border, kg, */
-  double *lost;            /* and the share of its rate that it loses where platforms land side by side */
+  double *joined;          /* [border] mass of all nodes that move with an unknown of the border, kg */
+  double *lost;            /* [members] velocity that its platform loses where several land side by side, m/s */
   ZpSprings springs;       /* between bodies, */
   double *from, *to;       /* [n] and the unknowns between which they act: at the step's start and at its end */
   ZpUnknown *kind;         /* [n] */
