@@ -143,7 +143,7 @@ int zp_instance_next(const ZpActuatorDef *def, int index) {
     k++;
   const size_t at = zp_instances_from(def, is_row ? k->first : index + 1);
   const int next = def->given && at < def->given->count ? def->given->value[at].key : -1;
-  if (next >= 0 && zp_key_instance(next).kind == k - kind) return next;
+  if (next >= 0 && (int)zp_key_instance(next).kind == (int)(k - kind)) return next;
   return zp_key_is_row(k->rows.end) ? zp_instance_next(def, k->rows.end) : k->rows.end;
 }
 
