@@ -147,6 +147,18 @@ TEST(forces_on_each_body_balance) {
   ck_near(up, down, 2e-10);                 /* 5.5e-11 measured */
 }
 
+/* The voltage at which the first insulator of any member breaks down; a member at half of it may have half the
+ * insulator. */
+TEST(thinnest_insulator_allows_least) {
+  static const char both[] = OF_ALL "bodies: {hand: {mass: 8 g}}\nmembers:\n  left: {upper: frame, lower: hand}\n"
+                                    "  right: {upper: frame, lower: hand, insulator.thickness: 65 um}\n";
+  ZpActuatorDef one = DEF({"mesh.nodes", 21}), two = def_of(both);
+  const double alone = answered_value(ZP_STUDY_LIMITS, &one, "allowed_voltage_V");
+  ck_near(answered_value(ZP_STUDY_LIMITS, &two, "allowed_voltage_V"), alone / 2, 1e-14);
+  set_member(&two, "member_2.drive.voltage", two.drive.voltage / 2);
+  ck_near(answered_value(ZP_STUDY_LIMITS, &two, "allowed_voltage_V"), alone, 1e-14);
+}
+
 /* A tree hangs as it does if its lowest members are named first; the force in a member is the weight of all below it.
  */
 TEST(tree_hangs_in_any_order) {
@@ -277,6 +289,10 @@ TESTS(energy_balances, 0, 3) {
   const ZpResult *r = answer_of(ZP_STUDY_ACTUATE, &def);
   printf("energy error %.2g\n", number(r, "energy_error"));
   ck_assert_double_gt(zp_table_get(r->series, r->series->rows / 2, "electric_work_J"), 1e-5);
+  const double hand = number(r, "bodies.hand.y_m");
+  ck_near(number(r, "members.left.opening_m"), -hand, 1e-14);
+  ck_near(number(r, "members.tail.opening_m"), hand - number(r, "bodies.hook.y_m"), 1e-12);
+  ck_near(number(r, "members.back.opening_m"), hand + 70e-3, 1e-12);
   ck_below(number(r, "energy_error"), within[_i]);
 }
 
