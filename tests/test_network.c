@@ -329,6 +329,8 @@ static const struct {
      "bodies.foot: nothing holds it"},
     {"bodies: {a: {}, b: {}}\nmembers: {m: {upper: a, lower: b}, n: {upper: b, lower: a}}", "no members lead from it"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: hand, lower: hand}}", "both of its ends are at hand"},
+    {"bodies: {body1: {}}\nmembers: {member1: {upper: body1, lower: body1}}",
+     "yaml: members.member1: both of its ends are at body1"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand, angle: 90 degree}}",
      "0 (it opens downwards) or 180"},
     {"bodies: {hand: {}, floor: {moves: none, at.y: -0.2}}\nmembers: {m: {upper: frame, lower: hand}, n: {upper: "

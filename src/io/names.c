@@ -66,7 +66,8 @@ static int number_of(ZpGivenNames *names, ZpInstanceKind kind, const char *word,
     zp_fail(err, ZP_BAD_INPUT, "frame is the body that always exists and is held; take another name");
     return 0;
   }
-  for (const ZpGivenName *name = names->name; name < names->name + names->count; name++) {
+  for (size_t k = 0; k < names->count; k++) {
+    const ZpGivenName *name = &names->name[k];
     if (name->kind == (int)kind && name->number > last) last = name->number;
     if (strcmp(name->text, text) != 0) continue;
     if (name->kind == (int)kind) return name->number;
@@ -146,8 +147,8 @@ bool zp_key_is_body(int key) {
 
 /* The name of one; NULL: it has none. */
 static const char *name_of(const ZpGivenNames *names, ZpInstanceKind kind, int number) {
-  for (const ZpGivenName *name = names->name; name < names->name + names->count; name++)
-    if (name->kind == (int)kind && name->number == number) return name->text;
+  for (size_t k = 0; k < names->count; k++)
+    if (names->name[k].kind == (int)kind && names->name[k].number == number) return names->name[k].text;
   return NULL;
 }
 
@@ -162,17 +163,27 @@ const char *zp_names_key(const ZpGivenNames *names, int key, char text[ZP_PATH_S
   return text;
 }
 
+/* The first place, from `text` on, where a message says `number` as the beginning of a key; NULL: nowhere. What follows
+   a point is a name already. */
+static char *key_in(char *text, const char *number) {
+  const size_t length = strlen(number);
+  for (char *at = strstr(text, number); at; at = strstr(at + length, number)) {
+    const bool longer = at[length] >= '0' && at[length] <= '9';
+    if (!longer && (at == text || at[-1] != '.')) return at;
+  }
+  return NULL;
+}
+
 void zp_names_tell(const ZpGivenNames *names, ZpError *err) {
-  for (const ZpGivenName *name = names->name; err && name < names->name + names->count; name++) {
+  for (size_t k = 0; err && k < names->count; k++) {
+    const ZpGivenName *name = &names->name[k];
     char number[2 * ZP_NAME_SIZE], whole[sizeof err->message];
-    const int length =
-        snprintf(number, sizeof number, "%s%d", zp_instance_begins((ZpInstanceKind)name->kind), name->number);
-    const char *at = strstr(err->message, number);
-    if (!at || (at[length] >= '0' && at[length] <= '9')) continue;
-    snprintf(whole, sizeof whole, "%.*s%s.%s%s", (int)(at - err->message), err->message, group[name->kind], name->text,
-             at + length);
-    memcpy(err->message, whole, sizeof whole);
-    name--; /* it may stand there again */
+    snprintf(number, sizeof number, "%s%d", zp_instance_begins((ZpInstanceKind)name->kind), name->number);
+    for (char *at; (at = key_in(err->message, number));) {
+      snprintf(whole, sizeof whole, "%.*s%s.%s%s", (int)(at - err->message), err->message, group[name->kind],
+               name->text, at + strlen(number));
+      memcpy(err->message, whole, sizeof whole);
+    }
   }
 }
 
