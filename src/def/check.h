@@ -9,6 +9,10 @@
  * rounded by this much, rad. */
 static const double zp_tilt_rounding = 1e-5;
 
+/* Part of the length of both halves at which a platform is held at most: beyond it, ribbons stretch more than
+ * they bend. */
+static const double zp_most_opening = 0.98;
+
 /* Largest number of members of a system, of its bodies and of its springs. */
 enum { ZP_MOST_MEMBERS = 1024 };
 

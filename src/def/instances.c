@@ -53,10 +53,9 @@ bool zp_key_is_row(int index) {
 }
 
 int zp_key_order(int one, int other) {
-  const int rows[] = {zp_key_instance(one).row, zp_key_instance(other).row};
   const ZpInstance a = zp_key_instance(one), b = zp_key_instance(other);
   if (a.number > 0 && b.number > 0) return one - other; /* kinds stand in the order of their rows */
-  return rows[0] != rows[1] ? rows[0] - rows[1] : one - other;
+  return a.row != b.row ? a.row - b.row : one - other;
 }
 
 int zp_key_with_value(const char *name) {

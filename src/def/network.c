@@ -64,7 +64,8 @@ static ZpStatus check_end(const ZpActuatorDef *def, int row, int member, ZpError
 }
 
 static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err) {
-  static const double near = 1e-5, half_turn = 3.14159265358979323846;
+  static const double near = 1e-5;
+  const double half_turn = zp_key(ZP_KEY(member_K.angle))->max;
   const char *name = SHOWN(def, ZP_OF_MEMBER, member);
   const double angle = fabs(value_of(def, ZP_KEY(member_K.angle), (size_t)member));
   ZpStatus status = check_end(def, ZP_KEY(member_K.upper), member, err);
@@ -133,12 +134,11 @@ typedef struct Between {
 } Between;
 
 static Between between(const ZpActuatorDef *def, int member) {
-  static const double part = 0.98; /* at which a platform is held at most */
   const double own = value_of(def, ZP_KEY(member_K.ribbon.length), (size_t)member);
   const double length = isnan(own) ? def->ribbon.length : own;
   const int upper = body_in(def, ZP_KEY(member_K.upper), member), lower = body_in(def, ZP_KEY(member_K.lower), member);
   const bool turned = is_turned(def, (size_t)member);
-  return (Between){turned ? lower : upper, turned ? upper : lower, part * (length - def->platform.length)};
+  return (Between){turned ? lower : upper, turned ? upper : lower, zp_most_opening * (length - def->platform.length)};
 }
 
 /* Is each body joined to what is held, by members and bodies between? */

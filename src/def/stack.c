@@ -124,8 +124,7 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
 
 /* Each of two antagonists opens at most to its length. */
 static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
-  static const double part = 0.98; /* at which study isometric holds a platform at most */
-  double most = 2 * part * (def->ribbon.length - def->platform.length);
+  double most = 2 * zp_most_opening * (def->ribbon.length - def->platform.length);
   if (def->stack.distance <= most) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: two actuators of ribbon.length = %g m span at most %g m",
                  def->stack.distance, def->ribbon.length, most);

@@ -141,8 +141,8 @@ char *zp_names_text(ZpGivenNames *names, const char *text) {
 
 bool zp_key_is_body(int key) {
   const ZpInstance at = zp_key_instance(key);
-  return key == ZP_KEY(isometric.body) || (at.row == ZP_KEY(member_K.upper) || at.row == ZP_KEY(member_K.lower) ||
-                                           at.row == ZP_KEY(spring_K.first) || at.row == ZP_KEY(spring_K.second));
+  return key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) || at.row == ZP_KEY(member_K.lower) ||
+         at.row == ZP_KEY(spring_K.first) || at.row == ZP_KEY(spring_K.second);
 }
 
 /* The name of one; NULL: it has none. */

@@ -619,7 +619,7 @@ static int keys_of_pair(const char *path, int key[2]) {
 
 static ZpStatus take_pair(Reader *reader, const ZpYamlItem *item, const int key[2], ZpError *err) {
   const char *word = item->word;
-  if (item->kind != ZP_YAML_LIST || item->count != 2)
+  if (item->count != 2)
     return fail_at(reader, item->path, item->line, err, "takes two values, such as [%s]",
                    key[0] >= 0 && zp_key_is_body(key[0]) ? "frame, hand" : "0 mm, -50 mm");
   for (int k = 0; k < 2; k++, word += strlen(word) + 1) {

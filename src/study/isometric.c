@@ -12,6 +12,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "def/device.h"
 #include "rest/crossing.h"
 #include "study/equilibria.h"
@@ -395,10 +396,10 @@ static void run(Holder *h) {
 }
 
 static ZpStatus check_reach(double separation, double longest, const char *of, ZpError *err) {
-  static const double most = 0.98; /* of the length of both halves: beyond it, ribbons are stretched more than bent */
-  if (separation <= most * longest) return ZP_OK;
-  return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m", separation, most,
-                 of, most * longest);
+  const double most = zp_most_opening * longest;
+  if (separation <= most) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "isometric.separation = %g m: out of reach; at most %g %s = %g m", separation,
+                 zp_most_opening, of, most);
 }
 
 static double length_of(const ZpActuatorDef *def) {
