@@ -19,15 +19,15 @@
 __extension__ typedef unsigned __int128 Wide;
 
 /* Is m 2^e, of which 10^f is the leading digit, the nearest double to itself rounded to so many digits? In units of
- * 2^-s of the last digit it is an integer, m 5^k, and so is the distance to the next double, 5^k. */
+ * 2^-s of the last digit it is an integer, m 5^k, and so is the distance to the next double, 5^k. Below a power of two
+ * that is half of it, but none of fewest_digits() is between a quarter and a half of 5^k from its rounded value. */
 static bool reads_back(uint64_t m, int e, int f, int digits) {
   const int k = digits - 1 - f, s = -(e + k);
   uint64_t fives = 1;
   for (int i = 0; i < k; i++)
     fives *= 5;
   const Wide one = (Wide)1 << s, down = (Wide)m * fives & (one - 1), up = one - down;
-  const bool lowest = m == UINT64_C(1) << (DBL_MANT_DIG - 1); /* doubles below a power of two are twice as dense */
-  return down < up ? down * (lowest ? 4 : 2) < fives : up * 2 < fives;
+  return (down < up ? down : up) * 2 < fives;
 }
 
 static int fewest_digits(double a) {
