@@ -60,6 +60,16 @@ TEST(test_section_limits) {
   ck_assert_double_eq(zp_section(&nothing, 1, width, 1).EI, 0);
 }
 
+/* Layers of one material are a beam of height h, whichever of them grows: EI grows by 3 EI / h. */
+TEST(layer_between_others_grows) {
+  ZpLayer layer[3] = {steel, steel, steel};
+  layer[1].thickness = 20e-6;
+  layer[2].thickness = 90e-6;
+  for (int k = 0; k < 3; k++)
+    ck_near(zp_section_by(layer, 3, width, 1, k, ZP_LAYER_THICKNESS).EI,
+            3 * zp_section(layer, 3, width, 1).EI / (50e-6 + 20e-6 + 90e-6), 1e-14);
+}
+
 /* -- a ribbon of mass and springs, in units of order one -------------------------------------------- */
 
 enum { MOST_NODES = 64, PLACES = 2 * MOST_NODES + 2 * ZP_LANES };

@@ -151,6 +151,25 @@ TEST(corners_move_with_their_key) {
   check(&def, "opening_m", "drive.duty", 1e-3, 1e-4);
 }
 
+/* A ramp and a table of its two corners: the actuators near the run have the table, too. */
+TEST(table_of_a_ramp) {
+  static const double time[] = {0, 4e-3}, voltage[] = {1e3, 5e3};
+  ZpActuatorDef table = motion();
+  table.liquid.model = ZP_LIQUID_NONE;
+  table.solver.end_time = 0.01;
+  ck_assert_int_eq(zp_def_set_text(&table, zp_key_find("sensitivity.by"), "load.mass", NULL), ZP_OK);
+  ZpActuatorDef ramp = table;
+  table.drive.waveform = ZP_WAVEFORM_TABLE;
+  ramp.drive.waveform = ZP_WAVEFORM_RAMP;
+  ramp.drive.offset = voltage[0];
+  ramp.drive.voltage = voltage[1];
+  ramp.drive.rise_time = time[1];
+  const ZpResult *by_table =
+      study_with(ZP_STUDY_ACTUATE, &table, &(ZpStudyInput){.table = &(ZpDriveTable){2, time, voltage}});
+  ck_near(slope_in(by_table, "opening_m", "load.mass"), slope_in(run(&ramp), "opening_m", "load.mass"),
+          1e-12); /* 0 measured */
+}
+
 /* A sine's extreme at the end of the run moves with the frequency, the end does not: also where the extreme of a
  * neighbour comes first, it ends with the run. */
 TEST(extreme_at_the_end_of_the_run) {
