@@ -171,11 +171,12 @@ TEST(tree_hangs_in_any_order) {
              "  left: {upper: a, lower: b}\n  top: {upper: frame, lower: a, ribbon.thickness: 70 um}\n"
              "bodies: {d: {mass: 3 g}, c: {mass: 4 g}, b: {mass: 2 g}, a: {mass: 1 g}}\n";
   ZpActuatorDef a = def_of(down), b = def_of(up);
-  compare(answer_of(ZP_STUDY_MODES, &a), answer_of(ZP_STUDY_MODES, &b), "frequency_1_Hz", 4e-11);
-  compare(answer_of(ZP_STUDY_MODES, &a), answer_of(ZP_STUDY_MODES, &b), "frequency_3_Hz", 4e-11);
+  compare(answer_of(ZP_STUDY_MODES, &a), answer_of(ZP_STUDY_MODES, &b), "frequency_1_Hz", 4e-11); /* 1.2e-11 measured */
+  compare(answer_of(ZP_STUDY_MODES, &a), answer_of(ZP_STUDY_MODES, &b), "frequency_3_Hz",
+          1.2e-11); /* 3.8e-12 measured */
   a.ribbon.density = b.ribbon.density = 0;
   const ZpResult *r = answer_of(ZP_STUDY_STATIONARY, &a), *s = answer_of(ZP_STUDY_STATIONARY, &b);
-  compare(r, s, "bodies.c.y_m", 1e-12);
+  compare(r, s, "bodies.c.y_m", 1e-12);                                /* 0 measured */
   ck_near(number(r, "members.top.force_N"), 10e-3 * a.gravity, 7e-11); /* 2.2e-11 measured */
   ck_near(number(r, "members.left.force_N"), 6e-3 * a.gravity, 3e-10); /* 9.0e-11 measured */
   const ZpShape shape = zp_shapes_get(s->shapes, 0);                   /* the first member of `up` hangs lowest */
