@@ -1,4 +1,4 @@
-/* Pieces of HTML: escapes, numbers, ids of pictures. */
+/* Pieces of HTML: escapes, numbers, ids of pictures; where the page of the paper has its pictures. */
 #include "check_util.h"
 
 #include "io/file.h"
@@ -39,4 +39,29 @@ TEST(test_ids_of_a_picture_get_a_prefix) {
                             "<g id='p-a'/><use href='#p-a' fill=\"url(#p-b)\"/>\n</svg>\n");
   WRITTEN(ck_assert(!zp_html_svg(file, "no-such-picture.svg", "p", "")));
   remove("picture.svg");
+}
+
+/* The page shows pictures of runs that there are, each in the section of its run. */
+TEST(pictures_stand_with_their_runs) {
+#define ZP_RUN(id, name, weight, scenario) name,
+  static const char *const runs[] = {
+#include "reproduce/runs.def"
+  };
+#undef ZP_RUN
+  char line[512], section[32] = "", run[32];
+  size_t pictures = 0;
+  FILE *page = fopen(ZP_SOURCE_DIR "/reproduce/page.html", "r");
+  ck_assert_ptr_nonnull(page);
+  while (fgets(line, sizeof line, page)) {
+    size_t k = 0;
+    sscanf(line, "<section id=\"%31[^\"]", section);
+    if (sscanf(line, "{{picture runs/%31[^/]", run) != 1) continue;
+    while (k < LENGTH_OF(runs) && strcmp(runs[k], run) != 0)
+      k++;
+    ck_assert_msg(k < LENGTH_OF(runs), "no run is called %s", run);
+    ck_assert_msg(strncmp(run, section, strlen(section)) == 0, "%s stands in the section %s", run, section);
+    pictures++;
+  }
+  fclose(page);
+  ck_assert_uint_eq(pictures, 7);
 }
