@@ -220,6 +220,7 @@ refused "completion of no shell" 'unknown shell tcsh' completion tcsh
 refused "a misspelt option" 'unknown option --no-plotz; did you mean --no-plots' limits --no-plotz -o refused
 refused "an unknown option" 'unknown option -x; see zipact limits --help' limits -x -o refused
 refused "an option without its argument" 'missing argument of --set; see zipact limits --help' limits -o refused --set
+refused "--resume of one case" 'the scenario has no list of values' stationary --resume -o refused
 refused "fmu without a file" 'FILE\.fmu' fmu
 refused "missing file" 'absent.yaml.*No such file' run absent.yaml -o refused
 refused "no =" 'KEY=VALUE' actuate --set load.mass -o refused
@@ -351,6 +352,18 @@ done
 if [ $full -eq 0 ]; then
   echo "disk full: not tested, a small tmpfs cannot be mounted here"
 fi
+
+sweep="stationary --set output.errors=false --no-plots -o filling --set"
+zp $sweep 'mesh.nodes=[5, 9]'
+mv filling/table.csv before.csv
+(
+  trap '' XFSZ
+  ulimit -f 100 # 50 kB, in some shells 100 kB: too short for a journal of 2001 nodes
+  PATH=/nowhere exec "$zipact" $sweep 'mesh.nodes=[5, 9, 2001]' --resume >stdout 2>stderr
+)
+status=$?
+ok "3: a row does not fit" status_is 3
+ok "3: a row does not fit: a table of those before" cmp filling/table.csv before.csv
 
 # -- Ctrl-C -----------------------------------------------------------------------------------------------------
 
