@@ -500,6 +500,9 @@ TEST(what_antagonists_lack_is_said) {
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"isometric.separation", 0.02}},
        ZP_STUDY_ISOMETRIC,
        "below stack.distance"},
+      {{{"stack.series", 2}, {"stack.distance", 0.1}, {"isometric.separation", 11e-3}},
+       ZP_STUDY_ISOMETRIC,
+       "member 2 of the stack: isometric.separation = 0.089 m: out of reach"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"stack.link_mass", 1e-3}}, ZP_STUDY_ACTUATE, "load.mass"},
       {{{"stack.series", 2}, {"stack.distance", 0.02}, {"initial.state", ZP_INITIAL_STRAIGHT}},
        ZP_STUDY_ACTUATE,
@@ -515,4 +518,7 @@ TEST(what_antagonists_lack_is_said) {
   }
   ZpActuatorDef both = DEF(BOTH, {"stack.lower_voltage", 1e3}, {"stack.voltage_ratio", 0.5});
   ck_refused_by(ZP_STUDY_ACTUATE, &both, "not both");
+  ZpActuatorDef far =
+      DEF({"stack.series", 2}, {"stack.distance", 0.1}, {"isometric.separation", 12e-3}, {"mesh.nodes", 21});
+  ck_ok(zp_study_check(ZP_STUDY_ISOMETRIC, &far, &err)); /* the lower one opens by 88 mm, of 88.2 */
 }
