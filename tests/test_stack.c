@@ -312,6 +312,20 @@ TESTS(equal_ones_are_held_as_one, 0, 2) {
   ck_near(zp_result_get(members, "stiffness_N_per_m"), slope, 2.4e-11); /* 8.1e-12 measured */
 }
 
+/* Nearly closed faces, a small opening s apart at the platform, attract each other with W (1 - 2 g / d) per length,
+ * g = s n(x) and n = 3 x^2 - 2 x^3. Of what pulls at x the platform carries n; the integrals of n and its square are
+ * 1 / 2 and 13 / 35. So three side by side pull with more than the attraction of one that is closed. */
+TEST(several_pull_more_than_closed_faces_of_one) {
+  ZpActuatorDef def = DEF({"stack.parallel", 3}, {"mesh.nodes", 31}, {"drive.voltage", 1},
+                          {"isometric.separation", 1e-6}, {"gravity", 0});
+  set_member(&def, "member_2.ribbon.thickness", nextafter(def.ribbon.thickness, 1));
+  const ZpPlatesParams *plates = &model_of(&def)->plates;
+  double flexible = def.ribbon.length - def.platform.length, less = 2 * def.isometric.separation / plates->d,
+         expected = 3 * zp_plates_law(plates, def.drive.voltage, 0).W *
+                    (flexible * (0.5 - less * 13 / 35) + def.platform.length * (1 - less));
+  ck_near(answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N"), expected, 4e-4); /* 1.1e-4 measured */
+}
+
 /* -- a series whose end is held -------------------------------------------------------------------- */
 
 /* Members that are alike, without weight, are held apart so many times as far by the force of one, as long as its force
