@@ -2,6 +2,8 @@
  * cases say what a row belongs to; what a campaign counts, and where a case begins. */
 #include "data_util.h"
 
+#include <pthread.h>
+#include <semaphore.h>
 #include <sys/stat.h>
 
 #include <zipact/batch.h>
@@ -327,19 +329,49 @@ TEST(chunks_of_a_batch_begin_afresh) {
   zp_batch_free(&batch);
 }
 
+/* The linker sends these calls of the library here. With several threads the check of the first wrong case waits until
+ * the second one has been noted, which ends with a lock that is released. */
+enum { FIRST_WRONG = 300, SECOND_WRONG = 650 };
+static bool in_turn;
+static sem_t noted;
+static _Thread_local bool notes;
+
+ZpStatus __real_zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
+ZpStatus __wrap_zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err);
+int __real_pthread_mutex_unlock(pthread_mutex_t *lock);
+int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock);
+
+ZpStatus __wrap_zp_scenario_def(const ZpScenario *scenario, size_t index, ZpActuatorDef *def, ZpError *err) {
+  if (in_turn && index == FIRST_WRONG) sem_wait(&noted);
+  ZpStatus status = __real_zp_scenario_def(scenario, index, def, err);
+  notes = in_turn && index == SECOND_WRONG;
+  return status;
+}
+
+int __wrap_pthread_mutex_unlock(pthread_mutex_t *lock) {
+  int status = __real_pthread_mutex_unlock(lock);
+  if (notes) sem_post(&noted);
+  notes = false;
+  return status;
+}
+
 /* Of 700 cases two are wrong: the first is named, for any number of threads. */
 TEST(first_wrong_case_is_named) {
   char list[16000] = "platform.length=[";
   for (int i = 0; i < 700; i++)
     snprintf(list + strlen(list), sizeof list - strlen(list), "%s%g mm", i ? ", " : "",
-             i == 300   ? 95.5
-             : i == 650 ? 96.5
-                        : 1 + 1e-3 * i);
+             i == FIRST_WRONG    ? 95.5
+             : i == SECOND_WRONG ? 96.5
+                                 : 1 + 1e-3 * i);
   strcat(list, "]");
   ZpScenario *scenario = SCENARIO("study=stationary", "mesh.nodes=5", "output.errors=false", list);
+  ck_assert_int_eq(sem_init(&noted, 0, 0), 0);
   for (int jobs = 1; jobs <= 3; jobs++) {
     ZpError err;
+    in_turn = jobs > 1;
     ck_assert_int_eq(zp_batch_check_jobs(scenario, jobs, &err), ZP_BAD_INPUT);
     ck_assert_msg(strstr(err.message, "95.5") || strstr(err.message, "0.0955"), "%s", err.message);
   }
+  in_turn = false;
+  sem_destroy(&noted);
 }
