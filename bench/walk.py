@@ -3,7 +3,7 @@
 
 Each function of src/ is read where the step first calls it. A return is a function in a room (a folder of src/) that
 was left before: its reader goes back there. Functions of headers count with their caller. The program is built in
-build/walk without optimisation, so that nothing is inlined; a small library notes the order of the calls.
+build-walk without optimisation, so that nothing is inlined; a small library notes the order of the calls.
 """
 import os
 import pathlib
@@ -48,7 +48,7 @@ def run(*words, **more):
 
 
 def build(root):
-    folder = root / "build" / "walk"
+    folder = root / "build-walk"
     run("cmake", "-S", str(root), "-B", str(folder), "-DCMAKE_BUILD_TYPE=None", "-DCMAKE_C_FLAGS=" + FLAGS)
     run("cmake", "--build", str(folder), "-j2", "--target", "zipact_command")
     (folder / "tracer.c").write_text(TRACER)

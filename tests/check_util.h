@@ -87,6 +87,7 @@ typedef struct Setting {
 static inline void lend_members(ZpActuatorDef *def) {
   if (!def->given || def->given->of != def) return;
   def->given->of = NULL;
+  if (def->given->name) zp_test_owns(def->given->name, zp_free);
   zp_test_owns(def->given, zp_free);
 }
 

@@ -37,12 +37,23 @@ static bool has_insulators(const ZpActuatorDef *def) {
   return def->actuator.kind != ZP_KIND_RIBBON && def->insulator.thickness > 0 && !bare;
 }
 
+/* Numbers of one opening: each member of a network has its own. */
+static bool of_one_opening(const char *name) {
+  static const char *const parts[] = {"opening_m", "stroke_m", "zipped_length_m", "contraction", "end_velocity"};
+  bool found = false;
+  for (size_t k = 0; k < LENGTH_OF(parts) && !strchr(name, '.'); k++)
+    found |= strstr(name, parts[k]) != NULL;
+  return found;
+}
+
 /* Numbers that may not exist: no pull-in, never zipped, no opening to contract from, no work, no clock, no drag, at
  * rest, no step taken, a voltage that jumps; no voltage or stress that a margin could be of, no insulators; an
  * estimated error where a coarser mesh has no such number, or where there is none. */
 static bool scalar_may_be_missing(const char *name, const ZpActuatorDef *def) {
   if (strstr(name, "_error_") || strncmp(name, "sense_", 6) == 0) return true; /* of windows that a run has none of */
   if (strncmp(name, "member_", 7) == 0 && strstr(name, "_zip_time_s")) return true;
+  if (zp_def_network(def) && (of_one_opening(name) || strstr(name, ".zip_time_s") || strstr(name, ".closed_from_s")))
+    return true;
   static const char *const of_insulators[] = {"insulator_field_V_per_m", "insulator_field_place_m",
                                               "allowed_voltage_V"};
   static const char *const names[] = {"pull_in_voltage_V",
@@ -75,6 +86,7 @@ static bool scalar_may_be_missing(const char *name, const ZpActuatorDef *def) {
 }
 
 static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
+  if (zp_def_network(def) && of_one_opening(name)) return true;
   static const char *const of_two[] = {"opening_m", "upper_x_m", "upper_y_m", "upper_stress_Pa"};
   if (strcmp(name, "insulator_field_V_per_m") == 0) return !has_insulators(def);
   for (size_t i = 0; i < sizeof of_two / sizeof of_two[0]; i++)
@@ -209,8 +221,47 @@ static void make_platform_turn(ZpActuatorDef *def, const char *key, double value
   if (offset) def->platform.length = 2 * fabs(value), def->ribbon.length = 10;
 }
 
+/* Eight bodies, one below the other, with a member between each and the one above it, and a spring from the frame
+ * to each. */
+static void make_network(ZpActuatorDef *def) {
+  for (int k = 1; k <= 8; k++) {
+    zp_def_set(def, zp_key_of_instance(ZP_KEY(body_K.mass), k), 1e-4, NULL);
+    zp_def_set(def, zp_key_of_instance(ZP_KEY(member_K.upper), k), k - 1, NULL);
+    zp_def_set(def, zp_key_of_instance(ZP_KEY(member_K.lower), k), k, NULL);
+    zp_def_set(def, zp_key_of_instance(ZP_KEY(spring_K.first), k), 0, NULL);
+    zp_def_set(def, zp_key_of_instance(ZP_KEY(spring_K.second), k), k, NULL);
+  }
+  lend_members(def);
+  def->load.mass = zp_actuator_def_default().load.mass;
+}
+
+/* Eight members, of which one has a key; the key that it has as a single actuator. */
+static const char *make_members(ZpActuatorDef *def, const char *key) {
+  static const char member[] = "member_8.";
+  if (strcmp(key, "member_8.upper") == 0 || strcmp(key, "member_8.lower") == 0 || strcmp(key, "member_8.angle") == 0 ||
+      strncmp(key, "body_", 5) == 0 || strncmp(key, "spring_", 7) == 0)
+    make_network(def);
+  if (strncmp(key, member, sizeof member - 1) != 0) return key;
+  def->stack.series = zp_def_network(def) ? 1 : 8;
+  return key + sizeof member - 1;
+}
+
+/* A waveform that has the key. */
+static void make_drive(ZpActuatorDef *def, const char *key, double value, bool of_member) {
+  if (of_member && value > 0 && strcmp(key, "drive.rise_time") == 0) def->drive.rise_time = 5e-5;
+  if (of_member && value > 0 && strcmp(key, "setpoint.rise_time") == 0) def->setpoint.rise_time = 5e-5;
+  if (of_member && strcmp(key, "source.supply") == 0) def->drive.voltage = 1e3;
+  if (!of_member && strcmp(key, "drive.waveform") == 0 && value == ZP_WAVEFORM_RAMP) def->drive.rise_time = 5e-5;
+  if (strcmp(key, "drive.rise_time") == 0 && value > 0) def->drive.waveform = ZP_WAVEFORM_RAMP;
+  if (strcmp(key, "drive.delay") == 0) def->drive.waveform = ZP_WAVEFORM_SINE;
+  if (strcmp(key, "drive.offset") == 0 || strcmp(key, "drive.frequency") == 0) def->drive.waveform = ZP_WAVEFORM_SINE;
+  if (strcmp(key, "drive.duty") == 0) def->drive.waveform = ZP_WAVEFORM_SQUARE;
+}
+
 /* What keys ask of one another, so that one of them can stand at its bound. */
 static void make_room(ZpActuatorDef *def, const char *key, double value) {
+  const bool of_member = strncmp(key, "member_", 7) == 0;
+  key = make_members(def, key);
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
   if (strcmp(key, "ribbon.length") == 0 && value < 0.01) def->platform.length = 0.5 * value;
   bool unilateral = strcmp(key, "contact.model") == 0 && value == ZP_CONTACT_UNILATERAL;
@@ -230,20 +281,18 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->solver.integrator = ZP_INTEGRATOR_IMPLICIT;
   }
   if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length") && value > 0) {
-    def->actuator.kind = ZP_KIND_RIBBON;
+    if (!of_member) def->actuator.kind = ZP_KIND_RIBBON;
     def->ribbon.length = value;
   }
   if (strncmp(key, "lower.segment_", 14) == 0 && strstr(key, ".length") && value > 0) {
     def->actuator.kind = ZP_KIND_HINGE; /* whose ribbons have their length from the one end to the other */
     def->ribbon.length = value;
   }
-  if (strncmp(key, "member_", 7) == 0) def->stack.series = 8;
   bool opposed = strcmp(key, "stack.distance") == 0;
   if (strcmp(key, "stack.voltage_ratio") == 0 || strcmp(key, "stack.lower_voltage") == 0)
     opposed = true, def->stack.distance = 0.05;
   if (strcmp(key, "stack.link_mass") == 0 || opposed) def->stack.series = 2;
   if (strcmp(key, "stack.distance") == 0) def->ribbon.length = fmin(fmax(value + def->platform.length, 0.1), 10);
-  if (strncmp(key, "member_", 7) == 0 && strstr(key, "insulator.thickness") && value == 0) def->drive.voltage = 0;
   if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
   if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;
   if (strcmp(key, "load.rest_opening") == 0) def->load.stiffness = 1;
@@ -264,10 +313,7 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
     def->contact.model = ZP_CONTACT_SEQUENTIAL;
     def->solver.integrator = ZP_INTEGRATOR_EXPLICIT;
   }
-  if (strcmp(key, "drive.waveform") == 0 && value == ZP_WAVEFORM_RAMP) def->drive.rise_time = 5e-5;
-  if (strcmp(key, "drive.rise_time") == 0 && value > 0) def->drive.waveform = ZP_WAVEFORM_RAMP;
-  if (strcmp(key, "drive.offset") == 0 || strcmp(key, "drive.frequency") == 0) def->drive.waveform = ZP_WAVEFORM_SINE;
-  if (strcmp(key, "drive.duty") == 0) def->drive.waveform = ZP_WAVEFORM_SQUARE;
+  make_drive(def, key, value, of_member);
 }
 
 /* What cannot move is looked at at rest. */
@@ -286,6 +332,15 @@ static void run_each_study(void) {
 /* Ends of ranges that get a sentence of their own: a controller that hardly samples, or far too late; a source that
  * never charges, or that is faster than any step; a meter without a whole period or with fewer samples. */
 static bool has_its_own_words(const char *key, double value) {
+  static const char *const ends[] = {"member_8.upper", "member_8.lower", "spring_8.first", "spring_8.second"};
+  for (size_t k = 0; k < LENGTH_OF(ends); k++) /* no such body, or the body below hangs on nothing */
+    if (strcmp(key, ends[k]) == 0) return value > 8 || strcmp(key, "member_8.lower") == 0 || k == 3;
+  if (strcmp(key, "isometric.body") == 0) return value > 0;
+  if (strncmp(key, "member_8.", 9) == 0) {
+    key += 9; /* a table is that of all; a half of the longest ribbon is shorter than the longest segment */
+    if (strstr(key, "waveform")) return value == ZP_WAVEFORM_TABLE || value == ZP_WAVEFORM_RAMP; /* without its time */
+    if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length")) return value > 5;
+  }
   if (strcmp(key, "sense.sampling_rate") == 0) return value < 8;
   if (strcmp(key, "control.period") == 0) return value > 1;
   if (strcmp(key, "control.delay") == 0) return value > 8e-5;

@@ -148,7 +148,7 @@ def test_older_program():
 
 # What a later library may have: (file, pattern, by).
 GROWTH = (
-    ("src/def/keys.def", r"^(ZP_REAL\(ribbon\., width,.*\n)", r'\1ZP_REAL(ribbon., depth, "m", "mm", 1, 0, 2, "new")\nZP_TEXT(ribbon., name, "", "new")\n'),
+    ("src/def/keys.def", r"^(ZP_BOOL\(ribbon\., plasticity,.*\n)", r'\1ZP_REAL(ribbon., depth, "m", "mm", 1, 0, 2, "new")\nZP_TEXT(ribbon., name, "", "new")\n'),
     ("include/zipact/choices.def", r"^(ZP_CHOICES_END\(ZpContactModel\))", r'ZP_CHOICE(ZP_CONTACT_NEW, "new", "new")\n\1'),
     ("src/base/signals.def", r"^(ZP_SIGNAL\(stroke,.*\n)", r'ZP_SIGNAL(newest, "1", "", "new")\n\1'),
     ("include/zipact/sim.h", r"^(\} ZpOutcome;)", r"  , ZP_NEWEST\n\1"),

@@ -799,7 +799,7 @@ static bool is_neutral(const ZpActuatorDef *def) {
 
 /* The lower antagonist may pull in by its own voltage alone. */
 static bool has_answered(const ZpResult *result) {
-  bool biased = strstr(result->message, "the lower one pulls in below stack.lower_voltage");
+  bool biased = strstr(result->message, "a member pulls in below its own constant voltage");
   return zp_outcome_good(result->outcome) || result->outcome == ZP_PULLED_IN || biased;
 }
 

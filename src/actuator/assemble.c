@@ -124,7 +124,8 @@ static void find_form(ZpAssembly *a) {
 
 bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssembly *a) {
   const ZpModel *model = ties->first + ties->member;
-  *a = (ZpAssembly){.s = model->s, .nodes = model->nodes, .count = model->count, .stride = model->stride, .own = own};
+  *a = (ZpAssembly){
+      .s = model->s, .nodes = model->nodes, .count = model->count, .stride = model->stride, .own = own, .port = -1};
   a->parts.common = zp_calloc(ZP_MOST_TIES, sizeof *a->parts.common);
   int **integers[] = {&a->equation, &a->place, &a->extra_equation, &a->extra_place, &a->first};
   const size_t counts[] = {2 * a->count, 2 * a->count, own * a->nodes + 1, own * a->nodes + 1, a->nodes};
@@ -258,16 +259,15 @@ bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t member
   if (made && first) find_shared(a, first, &shared);
   if (made && first) find_springs(a, first, &shared, spring, ends);
   for (size_t k = 0; made && k < members; k++)
-    room += shared.of_each[k] + common;
+    room += shared.of_each[k] + 1;
   size_t *to = zp_calloc(room + 1, sizeof *to);
   ZpArrowBlock *block = zp_calloc(members, sizeof *block);
   made = made && to && block;
   for (size_t k = 0; k < members && made; k++) {
     place(a[k], shared.of[k], to + used);
     inner += a[k]->block.n;
-    a[k]->block.band.border = shared.of_each[k] + common;
-    for (size_t c = 0; c < common; c++)
-      a[k]->block.to[shared.of_each[k] + c] = shared.count + c;
+    a[k]->block.band.border = shared.of_each[k] + (a[k]->port >= 0);
+    if (a[k]->port >= 0) a[k]->block.to[shared.of_each[k]] = shared.count + (size_t)a[k]->port;
     used += a[k]->block.band.border;
   }
   for (size_t k = 0; k < members && made; k++) {

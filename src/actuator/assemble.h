@@ -19,6 +19,7 @@ typedef struct ZpAssembly {
   int *place;         /* [2 count] row and column in the block; those from block.n on are in its border */
   ZpParts parts;      /* halves, and the equations that both have */
   size_t own;         /* unknowns of the laws at each station, which come after its coordinates */
+  long port;          /* the common unknown that it meets (zp_assembly_join); below 0: none */
   int *extra_equation, *extra_place; /* [own N] */
   double *factor, *offset;           /* [2 count] a coordinate is this times its unknown plus this, m */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: place of the first of station i, the others
@@ -31,8 +32,8 @@ bool zp_assembly_create(const ZpTies *ties, size_t own, bool symmetric, ZpAssemb
 void zp_assembly_destroy(ZpAssembly *assembly);
 
 /* Number the equations of members as one system => its form. Each member is a block. In the border are the coordinates
- * that rows tie between members, then `common` unknowns that all members meet. `first`: the models; NULL: no row ties
- * them. False if there is no memory. */
+ * that rows tie between members, then `common` unknowns, of which each member meets one at most. `first`: the models;
+ * NULL: no row ties them. False if there is no memory. */
 bool zp_assembly_join(ZpAssembly *const assembly[], const ZpModel *first, size_t members, size_t common,
                       ZpArrowForm *form);
 

@@ -708,9 +708,11 @@ static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table,
 
 static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) {
   size_t bytes = table ? table->rows * sizeof *a->time : 0;
+  const bool is_drive = model->def.control.kind == ZP_CONTROL_NONE;
   if (bytes) {
     memcpy(a->time, table->time, bytes);
-    memcpy(a->voltage, table->voltage, bytes);
+    for (size_t k = 0; k < table->rows; k++)
+      a->voltage[k] = (is_drive ? model->ratio : 1) * table->voltage[k];
   }
   const ZpDriveTable copy = {table ? table->rows : 0, a->time, a->voltage}; /* of the one whose waveform is a table */
   model->waveform = zp_waveform_of(&model->def, &copy);
@@ -787,6 +789,7 @@ static void derive_member(const ZpActuatorDef *def, size_t member, ZpModel *mode
   derive(model);
   model->bias = zp_def_member_voltage(def, (int)member + 1, 0);
   model->ratio = zp_def_member_voltage(def, (int)member + 1, 1) - model->bias;
+  model->apart = zp_def_port(def, (int)member + 1) > 0;
 }
 
 /* Mass of what hangs on each member. Those of a network may be named in any order. */
@@ -803,13 +806,12 @@ static void carry(ZpModel *model) {
 }
 
 static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel *model, ZpError *err) {
-  const bool own_voltage = zp_def_antagonist(def) && !isnan(def->stack.lower_voltage);
   ZpStatus status = ZP_OK;
   for (size_t k = 0; k < model->members; k++)
     derive_member(def, k, model + k);
   for (size_t k = model->members; k-- > 0 && status == ZP_OK;) {
     const ZpTies ties = zp_ties_of(model, model->members, k);
-    status = fill(&ties, k > 0 && own_voltage ? NULL : table, model + k, err);
+    status = fill(&ties, table, model + k, err);
   }
   if (status == ZP_OK && !zp_shares_load(model)) carry(model);
   return status == ZP_OK && model->members > 1 ? check_carried(model, err) : status;

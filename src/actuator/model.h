@@ -145,7 +145,8 @@ struct ZpModel {
   size_t number;        /* which of them it is, from 0 */
   ZpNetwork *network;   /* what joins them; the first one owns it */
   double carried;       /* mass of all members and loads below, kg, of the whole actuator */
-  double ratio, bias;   /* its voltage: `ratio` times that of the source, which the first one has, plus `bias`, V */
+  double ratio, bias;   /* its slow voltage: `ratio` times drive.voltage of all plus `bias`, V */
+  bool apart;           /* on another port than that of all: in motion it has the voltage of that port */
 };
 
 /* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
@@ -275,14 +276,49 @@ static inline size_t zp_abreast(const ZpModel *model) {
   return model->network->ends[model->number].abreast;
 }
 
-/* Voltage of a member where the first one has `voltage`, V. */
+/* drive.voltage of all members, V. */
+static inline double zp_drive_voltage(const ZpModel *model) {
+  return model->whole->drive.voltage;
+}
+
+/* Slow voltage of a member where drive.voltage of all is `voltage`, V. */
 static inline double zp_member_voltage(const ZpModel *model, double voltage) {
   return model->ratio * voltage + model->bias;
 }
 
+/* In motion: that of its port, or on the port of all the same relation as that of slow voltages. The part of the
+ * port's, and what a constant source of its own adds, V. */
+static inline double zp_part_of_port(const ZpModel *model) {
+  return model->apart ? 1 : model->ratio;
+}
+
+static inline double zp_beside_port(const ZpModel *model) {
+  return model->apart ? 0 : model->bias;
+}
+
+static inline double zp_voltage_at_port(const ZpModel *model, double voltage) {
+  return zp_part_of_port(model) * voltage + zp_beside_port(model);
+}
+
+/* That of a port, by its first member, where drive.voltage of all is `voltage`, V. */
+static inline double zp_port_voltage(const ZpModel *lead, double voltage) {
+  return lead->apart ? zp_member_voltage(lead, voltage) : voltage;
+}
+
+/* Is it the first of those on its port, which has the source? */
+static inline bool zp_leads_port(const ZpModel *model) {
+  return model->network->ends[model->number].port == model->number;
+}
+
+/* The next member on its port, as a number after its own; 0: none. */
+static inline size_t zp_next_on_port(const ZpModel *model) {
+  const size_t next = model->network->ends[model->number].next;
+  return next > 0 ? next - model->number : 0;
+}
+
 /* Charge that the source gives for a charge on one part of a member, eq. (23.8). */
 static inline double zp_source_share(const ZpModel *model) {
-  return model->ratio * model->parts;
+  return zp_part_of_port(model) * model->parts;
 }
 
 /* Do all members share one load, at the lower platform of each? */

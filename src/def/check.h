@@ -29,8 +29,16 @@ typedef struct ZpKeyNumbers {
 /* Number of keys, as a constant. */
 enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
 
-/* Members, bodies and springs: a Def has as many as are given, and their keys have numbers from ZP_KEYS on. */
-typedef enum ZpInstanceKind { ZP_OF_MEMBER, ZP_OF_BODY, ZP_OF_SPRING, ZP_INSTANCE_KINDS } ZpInstanceKind;
+/* Members, bodies and springs: a Def has as many as are given, and their keys have numbers from ZP_KEYS on. A port has
+ * no keys: members name it. */
+typedef enum ZpInstanceKind {
+  ZP_OF_MEMBER,
+  ZP_OF_BODY,
+  ZP_OF_SPRING,
+  ZP_INSTANCE_KINDS,
+  ZP_OF_PORT = ZP_INSTANCE_KINDS,
+  ZP_NAMED_KINDS
+} ZpInstanceKind;
 
 /* Whose key it is. */
 typedef struct ZpInstance {
@@ -64,6 +72,10 @@ int zp_instance_next(const ZpActuatorDef *def, int index);
 /* The name of a member, a body or a spring: as it is given, else "member_3". Give all names. */
 const char *zp_def_name(const ZpActuatorDef *def, ZpInstanceKind kind, int number, char text[ZP_NAME_SIZE]);
 ZpStatus zp_def_set_names(ZpActuatorDef *def, const ZpGivenName *name, size_t count, ZpError *err);
+
+/* The name of a key for a message: of a member of a network "members.left.drive.voltage". */
+const char *zp_def_key_shown(const ZpActuatorDef *def, int key, char text[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]);
+#define ZP_KEY_SHOWN(def, key) zp_def_key_shown(def, key, (char[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]){0})
 
 /* The name of a member or a body in results: in a stack by its number, "3", in a network by its name. They are
  * callbacks of tables; `def` is a ZpActuatorDef. */
@@ -138,8 +150,8 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
  * the force of the body at its lower end. */
 void zp_network_member(const ZpActuatorDef *def, int member, ZpActuatorDef *one);
 
-/* Do members with a voltage of their own have one to be a multiple of, and a source that gives it? */
-ZpStatus zp_check_own_voltage(const ZpActuatorDef *def, ZpError *err);
+/* Is each key of a port given at its first member, and has a voltage of its own one to be a multiple of? */
+ZpStatus zp_check_ports(const ZpActuatorDef *def, ZpError *err);
 
 /* Do bodies, members and springs fit together? */
 ZpStatus zp_check_network(const ZpActuatorDef *def, ZpError *err);
@@ -148,6 +160,15 @@ ZpStatus zp_check_network(const ZpActuatorDef *def, ZpError *err);
  * upper one has `voltage`, V. */
 bool zp_def_antagonist(const ZpActuatorDef *def);
 double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
+
+/* "member_K.ribbon.width" => "ribbon.width"; another name stays as it is. */
+const char *zp_key_of_one(const char *name);
+
+/* The first member of those on the port of a member; 0: the port of all that have no key of a port. */
+int zp_def_port(const ZpActuatorDef *def, int member);
+
+/* Set what source.supply sets. */
+void zp_def_take_supply(ZpActuatorDef *def);
 
 /* That of any member while drive.voltage is replaced by `voltage`, V. */
 double zp_def_member_voltage(const ZpActuatorDef *def, int member, double voltage);

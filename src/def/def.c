@@ -393,6 +393,10 @@ bool zp_key_is_material(int index) {
   return last && strcmp(last, ".material") == 0;
 }
 
+void zp_def_take_supply(ZpActuatorDef *def) {
+  apply_values(def, true, (int)def->source.supply, 0);
+}
+
 static int material_of(const ZpActuatorDef *def, const MaterialGroup *group) {
   int material;
   memcpy(&material, (const char *)def + group->offset, sizeof material);

@@ -109,6 +109,11 @@ const char *zp_instance_key_name(int index, char text[ZP_KEY_NAME_SIZE]) {
   return text;
 }
 
+const char *zp_key_of_one(const char *name) {
+  static const char begin[] = "member_K.";
+  return strncmp(name, begin, sizeof begin - 1) == 0 ? name + sizeof begin - 1 : name;
+}
+
 size_t zp_instances_from(const ZpActuatorDef *def, int index) {
   size_t low = 0, high = def->given ? def->given->count : 0;
   while (low < high) {
@@ -213,7 +218,16 @@ const char *zp_def_name(const ZpActuatorDef *def, ZpInstanceKind of, int number,
   for (size_t k = 0; def->given && k < def->given->names; k++)
     if (def->given->name[k].kind == (int)of && def->given->name[k].number == number) return def->given->name[k].text;
   if (of == ZP_OF_BODY && number == 0) return "frame";
-  snprintf(text, ZP_NAME_SIZE, "%s%d", kind[of].begins, number);
+  snprintf(text, ZP_NAME_SIZE, "%s%d", of == ZP_OF_PORT ? "port_" : kind[of].begins, number);
+  return text;
+}
+
+const char *zp_def_key_shown(const ZpActuatorDef *def, int key, char text[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]) {
+  const ZpInstance at = zp_key_instance(key);
+  if (at.number == 0 || at.kind != ZP_OF_MEMBER || !zp_def_network(def)) return zp_key_name(key, text);
+  char name[ZP_NAME_SIZE];
+  snprintf(text, ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE, "members.%s%s", zp_def_name(def, at.kind, at.number, name),
+           rest_of_row(&kind[at.kind], at.row));
   return text;
 }
 

@@ -212,22 +212,6 @@ static ZpStatus check_parts(const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
-ZpStatus zp_check_own_voltage(const ZpActuatorDef *def, ZpError *err) {
-  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++) {
-    const int key = zp_key_of_instance(ZP_KEY(member_K.drive.voltage), k);
-    const char *name = zp_def_network(def) ? SHOWN(def, ZP_OF_MEMBER, k) : ZP_KEY_NAME(key);
-    if (isnan(zp_def_get(def, key))) continue;
-    if (def->drive.voltage == 0)
-      return zp_fail(err, ZP_BAD_INPUT, "drive.voltage = 0 V: must be above 0, because %s has a multiple of it", name);
-    if (def->source.model != ZP_SOURCE_IDEAL)
-      return zp_fail(err, ZP_BAD_INPUT,
-                     "source.model: requires ideal; %s has a voltage of its own, which one supply does "
-                     "not give",
-                     name);
-  }
-  return ZP_OK;
-}
-
 /* With arrays for each body. `held`: a body that is held in addition, 0: none. */
 static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
   const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY) + 1;
@@ -342,6 +326,20 @@ static void find_order(ZpNetwork *n) {
       if (n->ends[k].depth == depth) n->order[placed++] = k;
 }
 
+/* Members on each port. `last`: of each member that is the first on its port, the last one so far. */
+static void find_ports(const ZpActuatorDef *def, ZpNetwork *n, size_t *last) {
+  size_t common = n->members; /* the first one on the port of all */
+  for (size_t k = 0; k < n->members; k++) {
+    const int lead = zp_def_port(def, (int)k + 1);
+    if (lead == 0 && common == n->members) common = k;
+    n->ends[k].port = lead == 0 ? common : (size_t)lead - 1;
+    last[k] = k;
+    if (n->ends[k].port == k) continue;
+    n->ends[last[n->ends[k].port]].next = k;
+    last[n->ends[k].port] = k;
+  }
+}
+
 /* Leaders, members abreast, order: all that follows from the ends. */
 static void look(ZpNetwork *n) {
   n->hangs = n->springs == 0 && !n->pulled;
@@ -379,6 +377,7 @@ ZpNetwork *zp_network_create(const ZpActuatorDef *def) {
     join_bodies(def, n);
   else
     join_stack(def, n);
+  find_ports(def, n, n->order);
   look(n);
   return n;
 }
@@ -420,7 +419,6 @@ static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_NETWORK, ZP_IS(ribbon.plasticity, false),
             "how the members had been bent before they were joined is not known"),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sensitivity.by), "derivatives are those of one opening and one load"),
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(control.kind, ZP_CONTROL_NONE), "a controller measures a single opening"),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sense.frequency), "a meter tells the opening of a single actuator"),
 };
 

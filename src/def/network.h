@@ -18,6 +18,8 @@ typedef struct ZpEnds {
   bool on_path;   /* it is one of those that lead from the frame to the load */
   size_t depth;   /* where all hang: members between it and what is held */
   size_t abreast; /* members between these two bodies that open the same way, this one included */
+  size_t port;    /* the first member of those on its port, which have one voltage and one source */
+  size_t next;    /* the next one on it; 0: none */
 } ZpEnds;
 
 /* A spring between two bodies; the first one is the upper. */

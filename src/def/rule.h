@@ -32,7 +32,7 @@ typedef enum ZpTest {
   ZP_TEST_ABOVE,      /* above this value; not if it is auto or none */
   ZP_TEST_AT_LEAST,   /* at least this value */
   ZP_TEST_AT_MOST,    /* at most this value, or auto or none */
-  ZP_TEST_SET,        /* differs from its default */
+  ZP_TEST_SET,        /* differs from its default; of a member's key: one gives it */
   ZP_TEST_UNSET,      /* has its default */
   ZP_TEST_SET_WITHIN, /* any key from this one to another differs from its default */
   ZP_TEST_SEVERAL,    /* several members: zp_def_members; or a network */
@@ -117,6 +117,9 @@ const ZpRule *zp_rules_find(const ZpRules *rules, bool in_motion, const ZpActuat
 
 /* The first rule of all owners that refuses `def`, of those in motion or of the others; NULL: none. */
 const ZpRule *zp_rule_refusing(bool in_motion, const ZpActuatorDef *def);
+
+/* The first key from one to another that has not its default and would be refused with it; -1: none. */
+int zp_key_without_use(const ZpActuatorDef *def, int first, int last);
 
 /* The rule for which this value of a choice key would be refused, whatever the key is now; NULL: none. */
 const ZpRule *zp_rule_against(int key, int choice, const ZpActuatorDef *def);

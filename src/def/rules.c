@@ -14,7 +14,15 @@ static double value_of(const ZpActuatorDef *def, int key) {
   return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
 }
 
+/* The first key of this row that a member, a body or a spring has; -1: none. */
+static int given_of(const ZpActuatorDef *def, int row) {
+  for (size_t k = 0; def->given && k < def->given->count; k++)
+    if (zp_key_instance(def->given->value[k].key).row == row) return def->given->value[k].key;
+  return -1;
+}
+
 static bool is_set(const ZpActuatorDef *def, int key) {
+  if (zp_key_is_row(key)) return given_of(def, key) >= 0;
   const char *text = zp_def_text(def, key);
   if (text) return *text != 0;
   double value = zp_def_get(def, key), plain = zp_key(key)->def;
@@ -97,6 +105,19 @@ const ZpRule *zp_rule_refusing(bool in_motion, const ZpActuatorDef *def) {
     for (const ZpRules *const *of = owners[k]; *of && !found; of++)
       found = zp_rules_find(*of, in_motion, def);
   return found;
+}
+
+int zp_key_without_use(const ZpActuatorDef *def, int first, int last) {
+  int least = last + 1;
+  for (size_t k = 0; k < OWNERS; k++)
+    for (const ZpRules *const *of = owners[k]; *of; of++)
+      for (size_t i = 0; i < (*of)->count; i++) {
+        const ZpRule *rule = &(*of)->rule[i];
+        const bool asks = rule->when.test == ZP_TEST_SET && rule->when.key >= first && rule->when.key < least;
+        if (asks && holds(&rule->when, def) && holds(&rule->also, def) && !holds(&rule->needs, def))
+          least = rule->when.key;
+      }
+  return least <= last ? least : -1;
 }
 
 const ZpRule *zp_rule_against(int key, int choice, const ZpActuatorDef *def) {
@@ -185,6 +206,10 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
   bool unequal = zp_def_parallel(def) && c->test == ZP_TEST_SEVERAL;
   if (zp_def_network(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_NETWORK)) {
     snprintf(text, WORDS, "bodies");
+    return;
+  }
+  if (zp_key_is_row(key) && given_of(def, key) >= 0) {
+    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, given_of(def, key)));
     return;
   }
   show_value(key, value_of(def, key), value);

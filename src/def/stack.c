@@ -6,18 +6,37 @@
 #include "def/instances.h"
 #include "def/rule.h"
 
-/* The key of one actuator that a member's key overrides; -1: it says where the member is. */
+/* The key of one actuator that a member's key overrides; -1: it says where the member is, or what is on its port. */
 static int key_of_one(int key) {
-  return zp_key_find(zp_key(key)->name + sizeof "member_K." - 1);
+  return zp_key_find(zp_key_of_one(zp_key(key)->name));
 }
 
-/* Is a member unlike what the other keys say? */
+/* Does a member's key say what is on its port? */
+static bool is_of_port(int key) {
+  static const int first = ZP_KEY(member_K.drive.voltage), last = ZP_KEY(member_K.setpoint.duty);
+  const int row = zp_key_instance(key).row;
+  return row >= first && row <= last;
+}
+
+/* Does it say where the member is, in a network? */
+static bool is_of_place(int key) {
+  const int row = zp_key_instance(key).row;
+  return row == ZP_KEY(member_K.upper) || row == ZP_KEY(member_K.lower) || row == ZP_KEY(member_K.angle);
+}
+
+/* Is a member unlike what the other keys say? One that has a port of its own has a source of its own, too, unless both
+ * are ideal and have the same voltage. */
 static bool has_unlike_member(const ZpActuatorDef *def) {
+  const bool ideal = def->source.model == ZP_SOURCE_IDEAL && def->control.kind == ZP_CONTROL_NONE;
   bool unlike = false;
   for (size_t k = 0; def->given && k < def->given->count; k++) {
     const ZpAssignment *given = &def->given->value[k];
-    const int key = zp_key_instance(given->key).kind == ZP_OF_MEMBER ? key_of_one(given->key) : -1;
-    unlike |= key >= 0 && given->value != zp_def_get(def, key);
+    const ZpInstance at = zp_key_instance(given->key);
+    if (at.kind != ZP_OF_MEMBER) continue;
+    const int key = key_of_one(given->key);
+    const bool apart = at.row == ZP_KEY(member_K.port) || is_of_port(given->key);
+    const bool same_voltage = ideal && at.row == ZP_KEY(member_K.drive.voltage);
+    unlike |= (apart && !same_voltage) || (key >= 0 && given->value != zp_def_get(def, key));
   }
   return unlike;
 }
@@ -40,10 +59,57 @@ double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage) {
   return isnan(def->stack.lower_voltage) ? def->stack.voltage_ratio * voltage : def->stack.lower_voltage;
 }
 
+/* The first member that gives this port; 0: none does. */
+static int first_on_port(const ZpActuatorDef *def, double port) {
+  for (size_t k = 0; def->given && k < def->given->count; k++) {
+    const ZpAssignment *given = &def->given->value[k];
+    const ZpInstance at = zp_key_instance(given->key);
+    if (at.row == ZP_KEY(member_K.port) && given->value == port) return at.number;
+  }
+  return 0;
+}
+
+int zp_def_port(const ZpActuatorDef *def, int member) {
+  const ZpAssignment *given;
+  const size_t count = zp_instances_of(def, ZP_OF_MEMBER, member, &given);
+  bool own = false;
+  for (size_t k = 0; k < count; k++) {
+    if (zp_key_instance(given[k].key).row == ZP_KEY(member_K.port)) return first_on_port(def, given[k].value);
+    own |= is_of_port(given[k].key);
+  }
+  return own ? member : 0;
+}
+
+ZpStatus zp_check_ports(const ZpActuatorDef *def, ZpError *err) {
+  for (int member = 1; member <= zp_instance_count(def, ZP_OF_MEMBER); member++) {
+    const int lead = zp_def_port(def, member);
+    const ZpAssignment *given;
+    const size_t count = zp_instances_of(def, ZP_OF_MEMBER, member, &given);
+    for (size_t k = 0; k < count; k++) {
+      const char *name = ZP_KEY_SHOWN(def, given[k].key);
+      if (zp_key_instance(given[k].key).row == ZP_KEY(member_K.drive.voltage) && def->drive.voltage == 0)
+        return zp_fail(err, ZP_BAD_INPUT, "drive.voltage = 0 V: must be above 0, because %s is a multiple of it", name);
+      if (is_of_port(given[k].key) && lead != member)
+        return zp_fail(err, ZP_BAD_INPUT, "%s: give this key at the first member with the same port, %s", name,
+                       zp_member_called(def, (size_t)lead, (char[ZP_NAME_SIZE]){0}));
+    }
+  }
+  return ZP_OK;
+}
+
+/* The value of a key of the port that a member leads, its default where it is not given. */
+static double of_port(const ZpActuatorDef *def, int row, int lead) {
+  return zp_def_get(def, zp_key_of_instance(row, lead));
+}
+
 double zp_def_member_voltage(const ZpActuatorDef *def, int member, double voltage) {
   if (zp_def_antagonist(def) && member == def->stack.series) return zp_def_lower_voltage(def, voltage);
-  const double own = zp_def_get(def, zp_key_of_instance(ZP_KEY(member_K.drive.voltage), member));
-  return isnan(own) || def->drive.voltage == 0 ? voltage : voltage * own / def->drive.voltage;
+  const int lead = zp_def_port(def, member);
+  if (lead == 0) return voltage;
+  const double given = of_port(def, ZP_KEY(member_K.drive.voltage), lead),
+               own = isnan(given) ? def->drive.voltage : given;
+  if (of_port(def, ZP_KEY(member_K.drive.scaled), lead) == 0) return own;
+  return isnan(given) || def->drive.voltage == 0 ? voltage : voltage * own / def->drive.voltage;
 }
 
 /* The lower one of two antagonists as it is mirrored upside down: gravity points from its platform to its mount, and
@@ -68,23 +134,76 @@ static void share_load(const ZpActuatorDef *def, ZpActuatorDef *one) {
   if (isnan(def->load.stop_opening)) one->load.stop_stiffness = def->load.stop_stiffness;
 }
 
-/* Members of a stack without a series are side by side, unequal. The controller of the first member sets the voltages
- * of all. */
+/* Keys that a member gives, of its port or all others. A supply sets what is not given behind it. */
+static void take_given(const ZpActuatorDef *def, int member, bool of_its_port, ZpActuatorDef *one) {
+  const ZpAssignment *given;
+  const size_t count = zp_instances_of(def, ZP_OF_MEMBER, member, &given);
+  for (size_t k = 0; k < count; k++) {
+    const int key = key_of_one(given[k].key);
+    if (key < 0 || is_of_port(given[k].key) != of_its_port) continue;
+    zp_def_set(one, key, given[k].value, NULL);
+    if (key == ZP_KEY(source.supply)) zp_def_take_supply(one);
+  }
+}
+
+/* Does a member give a value of this key of one actuator? */
+static bool gives(const ZpActuatorDef *def, int member, int key) {
+  const ZpAssignment *given;
+  const size_t count = zp_instances_of(def, ZP_OF_MEMBER, member, &given);
+  bool found = false;
+  for (size_t k = 0; k < count; k++)
+    found |= key_of_one(given[k].key) == key;
+  return found;
+}
+
+/* A waveform of its own leaves out keys of the waveform of all that it does not use; a controller of its own leaves out
+ * the waveform. */
+static void leave_unused(const ZpActuatorDef *def, int lead, ZpActuatorDef *one) {
+  const bool controlled = one->control.kind != ZP_CONTROL_NONE;
+  if (controlled && !gives(def, lead, ZP_KEY(drive.waveform))) one->drive.waveform = ZP_WAVEFORM_STEP;
+  const int last = ZP_KEY(setpoint.file);
+  for (int key = ZP_KEY(drive.voltage) - 1; (key = zp_key_without_use(one, key + 1, last)) >= 0;) {
+    if (gives(def, lead, key)) continue;
+    if (zp_key(key)->type == ZP_KEY_TEXT)
+      zp_def_set_text(one, key, "", NULL);
+    else
+      zp_def_set(one, key, zp_key(key)->def, NULL);
+  }
+}
+
+/* Is it the first member on its port? It has the controller. */
+static bool leads(const ZpActuatorDef *def, int member) {
+  const int lead = zp_def_port(def, member);
+  bool first = lead == 0 || lead == member;
+  for (int before = 1; before < member && first && lead == 0; before++)
+    first = zp_def_port(def, before) != 0;
+  return first;
+}
+
+/* Each port has a copy of drive, source, control and setpoint, with the values that its first member gives. */
+static void take_port(const ZpActuatorDef *def, int member, ZpActuatorDef *one) {
+  const ZpActuatorDef fresh = zp_actuator_def_default();
+  const int lead = zp_def_port(def, member);
+  if (lead == 0 || of_port(def, ZP_KEY(member_K.drive.scaled), lead) != 0)
+    one->drive.offset = zp_def_member_voltage(def, member, def->drive.offset);
+  if (lead > 0) take_given(def, lead, true, one);
+  if (lead > 0) leave_unused(def, lead, one);
+  if (leads(def, member)) return;
+  one->control = fresh.control;
+  one->setpoint = fresh.setpoint;
+}
+
+/* Members of a stack without a series are side by side, unequal. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   ZpActuatorDef one = *def, fresh = zp_actuator_def_default();
   bool last = member == def->stack.series, unequal = def->stack.series == 1;
-  const ZpAssignment *given;
-  const size_t count = zp_instances_of(def, ZP_OF_MEMBER, member, &given);
   one.given = NULL;
-  for (size_t k = 0; k < count; k++)
-    zp_def_set(&one, key_of_one(given[k].key), given[k].value, NULL);
+  take_given(def, member, false, &one);
   one.stack.series = 1;
   one.stack.link_mass = 0;
   one.stack.distance = one.stack.lower_voltage = NAN;
   one.stack.voltage_ratio = 1;
-  one.drive.offset = zp_def_member_voltage(def, member, def->drive.offset);
-  if (member > 1) one.control = fresh.control;
-  if (member > 1) one.setpoint = fresh.setpoint;
+  take_port(def, member, &one);
   if (zp_def_network(def)) {
     zp_network_member(def, member, &one);
     return one;
@@ -111,7 +230,7 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
   const int member = zp_instance_count(def, ZP_OF_MEMBER);
   const ZpAssignment *last;
   for (size_t k = 0; def->given && k < def->given->count; k++)
-    if (zp_key_instance(def->given->value[k].key).kind == ZP_OF_MEMBER && key_of_one(def->given->value[k].key) < 0)
+    if (is_of_place(def->given->value[k].key))
       return zp_fail(
           err, ZP_BAD_INPUT, "bodies: missing; members.%s is between bodies, the frame and at least one that moves",
           zp_def_name(def, ZP_OF_MEMBER, zp_key_instance(def->given->value[k].key).number, (char[ZP_NAME_SIZE]){0}));
@@ -137,11 +256,22 @@ ZpStatus zp_fail_member(const ZpActuatorDef *def, int member, ZpStatus status, c
   return zp_fail(err, status, "member %d of the stack: %.400s", member, reason->message);
 }
 
+/* There is one table, of the drive or of the setpoint of all. */
+static ZpStatus check_table(const ZpActuatorDef *def, const ZpActuatorDef *one, ZpError *err) {
+  const bool drives = one->control.kind == ZP_CONTROL_NONE, all_drive = def->control.kind == ZP_CONTROL_NONE;
+  if (!zp_def_takes_table(one) || (zp_def_takes_table(def) && drives == all_drive)) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%s.waveform = table: a member has no table of its own; give all of them the table, and other "
+                 "members another waveform",
+                 drives ? "drive" : "setpoint");
+}
+
 static ZpStatus check_each(const ZpActuatorDef *def, ZpError *err) {
   for (int member = 1, last = zp_def_members(def); member <= last; member++) {
     ZpActuatorDef one = zp_def_member(def, member);
     ZpError reason;
     ZpStatus status = zp_def_check(&one, &reason);
+    if (status == ZP_OK && leads(def, member)) status = check_table(def, &one, &reason);
     if (status != ZP_OK) return zp_fail_member(def, member, status, &reason, err);
   }
   return ZP_OK;
@@ -151,7 +281,7 @@ ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_members(def, err);
   if (status == ZP_OK && zp_def_antagonist(def)) status = check_distance(def, err);
   if (status == ZP_OK) status = zp_check_network(def, err);
-  if (status == ZP_OK) status = zp_check_own_voltage(def, err);
+  if (status == ZP_OK) status = zp_check_ports(def, err);
   return status == ZP_OK && (zp_def_network(def) || zp_def_members(def) > 1) ? check_each(def, err) : status;
 }
 
@@ -181,8 +311,6 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET(stack.lower_voltage), ZP_UNSET(stack.voltage_ratio), "give one of them, not both"),
     ZP_RULE(PHYSICS, ZP_SET(stack.distance), ZP_IS(stack.link_mass, 0),
             "for antagonists load.mass is the whole moving mass"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_SET(stack.voltage_ratio), ZP_SET(stack.distance),
-               ZP_NOT(drive.waveform, ZP_WAVEFORM_TABLE), "a table has the voltages of the upper member"),
     ZP_RULE(PHYSICS, ZP_SET(stack.distance), ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT),
             "straight ribbons do not reach the load"),
     /* several members */

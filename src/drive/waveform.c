@@ -19,6 +19,7 @@ ZpWaveform zp_waveform_of(const ZpActuatorDef *def, const ZpDriveTable *table) {
                       .rise_time = def->drive.rise_time,
                       .frequency = def->drive.frequency,
                       .duty = def->drive.duty,
+                      .delay = def->drive.delay,
                       .table = table ? *table : (ZpDriveTable){0}};
 }
 
@@ -115,7 +116,20 @@ static double next_extreme(const ZpWaveform *w, double t) {
 
 /* -- all ------------------------------------------------------------------------------------------ */
 
+/* Has the delayed waveform not begun at t, or up to t? */
+static bool is_before(const ZpWaveform *w, double t, bool or_at) {
+  return t < w->delay || (t == w->delay && w->delay > 0 && !or_at);
+}
+
+/* A step begins at 0 V, where it has to wait. */
+static double at_begin(const ZpWaveform *w) {
+  if (w->kind == ZP_WAVEFORM_STEP) return 0;
+  return w->kind == ZP_WAVEFORM_SINE ? w->offset : knot(w, 0).U;
+}
+
 static double voltage(const ZpWaveform *w, double t, bool or_at) {
+  if (is_before(w, t, or_at)) return at_begin(w);
+  t -= w->delay;
   if (w->kind == ZP_WAVEFORM_SINE) return sine(w, t);
   return knots(w) == 0 ? w->voltage : on_piece(w, last_knot(w, t, or_at), t);
 }
@@ -128,10 +142,20 @@ double zp_waveform_voltage_before(const ZpWaveform *w, double t) {
   return voltage(w, t, false);
 }
 
-double zp_waveform_next_corner(const ZpWaveform *w, double t) {
+/* Of the waveform without its delay. */
+static double corner_after(const ZpWaveform *w, double t) {
   if (w->kind == ZP_WAVEFORM_SINE) return next_extreme(w, t);
   int64_t next = knots(w) == 0 ? 0 : last_knot(w, t, true) + 1;
   return next < knots(w) ? knot(w, next).t : INFINITY;
+}
+
+/* After a delay a corner may be rounded to t itself. */
+double zp_waveform_next_corner(const ZpWaveform *w, double t) {
+  if (t < w->delay) return w->delay;
+  double corner = corner_after(w, t - w->delay);
+  while (corner + w->delay <= t)
+    corner = corner_after(w, corner);
+  return corner + w->delay;
 }
 
 /* Lowest and highest voltage. */
@@ -149,7 +173,7 @@ static void bounds(const ZpWaveform *w, double *low, double *high) {
 bool zp_waveform_is_constant(const ZpWaveform *w) {
   double low, high;
   bounds(w, &low, &high);
-  return low == high;
+  return low == high && (w->delay == 0 || at_begin(w) == low);
 }
 
 double zp_waveform_largest(const ZpWaveform *w) {
@@ -160,6 +184,8 @@ double zp_waveform_largest(const ZpWaveform *w) {
 
 /* V/s just after t; of a sine the largest. */
 static double slope(const ZpWaveform *w, double t) {
+  if (is_before(w, t, true)) return 0;
+  t -= w->delay;
   if (w->kind == ZP_WAVEFORM_SINE) return zp_pi * w->frequency * (w->voltage - w->offset);
   int64_t last = knots(w) == 0 ? -1 : last_knot(w, t, true);
   if (last < 0 || last + 1 >= knots(w)) return 0;
@@ -175,7 +201,7 @@ double zp_ramp_resolution(double largest, double rate) {
 
 double zp_waveform_rate(const ZpWaveform *w, double t) {
   double largest_rate = slope(w, t);
-  return w->kind == ZP_WAVEFORM_SINE ? largest_rate * zp_sine_of(w->frequency * t) : largest_rate;
+  return w->kind == ZP_WAVEFORM_SINE ? largest_rate * zp_sine_of(w->frequency * (t - w->delay)) : largest_rate;
 }
 
 double zp_lag_line(double rate, double voltage, double slope, double h, double lagged) {
@@ -184,13 +210,13 @@ double zp_lag_line(double rate, double voltage, double slope, double h, double l
 
 /* Where a lag settles on a sine, less U_0. */
 static double settled_sine(const ZpWaveform *w, double rate, double t) {
-  double ratio = 2 * zp_pi * w->frequency / rate, p = w->frequency * t;
+  double ratio = 2 * zp_pi * w->frequency / rate, p = w->frequency * (t - w->delay);
   return 0.5 * (w->voltage - w->offset) * (1 - (zp_cosine_of(p) + ratio * zp_sine_of(p)) / (1 + ratio * ratio));
 }
 
 double zp_waveform_lag(const ZpWaveform *w, double rate, double from, double to, double lagged) {
   if (isinf(rate)) return zp_waveform_voltage_before(w, to);
-  if (w->kind != ZP_WAVEFORM_SINE)
+  if (w->kind != ZP_WAVEFORM_SINE || from < w->delay)
     return zp_lag_line(rate, zp_waveform_voltage(w, from), slope(w, from), to - from, lagged);
   double at = settled_sine(w, rate, from);
   return lagged + (settled_sine(w, rate, to) - at) + (lagged - w->offset - at) * zp_decay(rate * (to - from));

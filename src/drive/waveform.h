@@ -18,6 +18,7 @@ typedef struct ZpWaveform {
   ZpWaveformKind kind;
   double offset, voltage;            /* V */
   double rise_time, frequency, duty; /* s, Hz, 1 */
+  double delay;                      /* the waveform begins then, s; until then the voltage is that of its begin */
   ZpDriveTable table;                /* of kind table; without rows: drive.voltage */
 } ZpWaveform;
 

@@ -240,7 +240,7 @@ static json_t *words_schema(const ZpKey *key) {
 
 static json_t *type_schema(int index) {
   const ZpKey *key = zp_key(index);
-  if (zp_key_is_body(index)) return json_pack("{s:[s, s]}", "type", "string", "integer");
+  if (zp_key_is_name(index)) return json_pack("{s:[s, s]}", "type", "string", "integer");
   if (zp_value_is_number(key)) return number_schema(index);
   if (key->type == ZP_KEY_ENUM) return words_schema(key);
   if (key->type == ZP_KEY_BOOL)

@@ -9,8 +9,8 @@
 #include "def/rule.h"
 #include "io/value.h"
 
-static const char *const group[ZP_INSTANCE_KINDS] = {
-    [ZP_OF_MEMBER] = "members", [ZP_OF_BODY] = "bodies", [ZP_OF_SPRING] = "springs"};
+static const char *const group[ZP_NAMED_KINDS] = {
+    [ZP_OF_MEMBER] = "members", [ZP_OF_BODY] = "bodies", [ZP_OF_SPRING] = "springs", [ZP_OF_PORT] = "ports"};
 static const char frame[] = "frame";
 
 bool zp_names_copy(const ZpGivenNames *from, ZpGivenNames *names) {
@@ -62,7 +62,7 @@ static int number_of(ZpGivenNames *names, ZpInstanceKind kind, const char *word,
     return 0;
   }
   snprintf(text, sizeof text, "%.*s", (int)length, word);
-  if (strcmp(text, frame) == 0) {
+  if (strcmp(text, frame) == 0 && kind != ZP_OF_PORT) {
     zp_fail(err, ZP_BAD_INPUT, "frame is the body that always exists and is held; take another name");
     return 0;
   }
@@ -71,6 +71,7 @@ static int number_of(ZpGivenNames *names, ZpInstanceKind kind, const char *word,
     if (name->kind == (int)kind && name->number > last) last = name->number;
     if (strcmp(name->text, text) != 0) continue;
     if (name->kind == (int)kind) return name->number;
+    if (kind == ZP_OF_PORT || name->kind == ZP_OF_PORT) continue;
     zp_fail(err, ZP_BAD_INPUT, "%s is a name in %s already; names are different in all groups", text,
             group[name->kind]);
     return 0;
@@ -105,7 +106,8 @@ ZpStatus zp_names_path(ZpGivenNames *names, const char *path, char *text, size_t
   return ZP_OK;
 }
 
-ZpStatus zp_names_body(ZpGivenNames *names, bool known, int key, const char *word, double *number, ZpError *err) {
+ZpStatus zp_names_value(ZpGivenNames *names, bool known, int key, const char *word, double *number, ZpError *err) {
+  const ZpInstanceKind kind = zp_key_names(key);
   const char *none = zp_key(key)->text;
   while (*word == ' ')
     word++;
@@ -115,10 +117,10 @@ ZpStatus zp_names_body(ZpGivenNames *names, bool known, int key, const char *wor
   const bool numeric = *word && strchr("+-.0123456789", *word);
   if (numeric || (none && strcmp(word, none) == 0)) return zp_value_read(key, word, number, err);
   *number = 0;
-  if (length == strlen(frame) && strncmp(word, frame, length) == 0) return ZP_OK;
+  if (kind == ZP_OF_BODY && length == strlen(frame) && strncmp(word, frame, length) == 0) return ZP_OK;
   const size_t before = names->count;
-  *number = number_of(names, ZP_OF_BODY, word, length, err);
-  if (known && names->count > before) return zp_fail(err, ZP_BAD_INPUT, "there is no such body");
+  *number = number_of(names, kind, word, length, err);
+  if (known && kind == ZP_OF_BODY && names->count > before) return zp_fail(err, ZP_BAD_INPUT, "there is no such body");
   return *number > 0 ? ZP_OK : err ? err->status : ZP_BAD_INPUT;
 }
 
@@ -139,10 +141,13 @@ char *zp_names_text(ZpGivenNames *names, const char *text) {
   return whole;
 }
 
-bool zp_key_is_body(int key) {
+ZpInstanceKind zp_key_names(int key) {
   const ZpInstance at = zp_key_instance(key);
-  return key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) || at.row == ZP_KEY(member_K.lower) ||
-         at.row == ZP_KEY(spring_K.first) || at.row == ZP_KEY(spring_K.second);
+  if (at.row == ZP_KEY(member_K.port)) return ZP_OF_PORT;
+  const bool body = key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) ||
+                    at.row == ZP_KEY(member_K.lower) || at.row == ZP_KEY(spring_K.first) ||
+                    at.row == ZP_KEY(spring_K.second);
+  return body ? ZP_OF_BODY : ZP_NAMED_KINDS;
 }
 
 /* The name of one; NULL: it has none. */
@@ -178,6 +183,7 @@ void zp_names_tell(const ZpGivenNames *names, ZpError *err) {
   for (size_t k = 0; err && k < names->count; k++) {
     const ZpGivenName *name = &names->name[k];
     char number[2 * ZP_NAME_SIZE], whole[sizeof err->message];
+    if (name->kind == ZP_OF_PORT) continue; /* which begins no key */
     snprintf(number, sizeof number, "%s%d", zp_instance_begins((ZpInstanceKind)name->kind), name->number);
     for (char *at; (at = key_in(err->message, number));) {
       snprintf(whole, sizeof whole, "%.*s%s.%s%s", (int)(at - err->message), err->message, group[name->kind],
@@ -187,9 +193,10 @@ void zp_names_tell(const ZpGivenNames *names, ZpError *err) {
   }
 }
 
-const char *zp_names_word(const ZpGivenNames *names, double number, char text[ZP_NAME_SIZE]) {
-  const char *name = name_of(names, ZP_OF_BODY, (int)number);
-  if (number == 0) return frame;
+const char *zp_names_word(const ZpGivenNames *names, int key, double number, char text[ZP_NAME_SIZE]) {
+  const ZpInstanceKind kind = zp_key_names(key);
+  const char *name = name_of(names, kind, (int)number);
+  if (kind == ZP_OF_BODY && number == 0) return frame;
   if (name) return name;
   snprintf(text, ZP_NAME_SIZE, "%g", number);
   return text;

@@ -20,9 +20,9 @@ void zp_names_free(ZpGivenNames *names);
  * none, or it belongs to another group. */
 ZpStatus zp_names_path(ZpGivenNames *names, const char *path, char *text, size_t size, ZpError *err);
 
-/* The body that the value of a key names => its number, 0 of the frame, as above. Else a value of that key. `known`:
- * the name must be. */
-ZpStatus zp_names_body(ZpGivenNames *names, bool known, int key, const char *word, double *number, ZpError *err);
+/* The body or port that the value of a key names => its number, 0 of the frame, as above. Else a value of that key.
+ * `known`: the name of a body must be. */
+ZpStatus zp_names_value(ZpGivenNames *names, bool known, int key, const char *word, double *number, ZpError *err);
 
 /* A text in which keys are named => with numbers in the place of names, to be freed; NULL: there is no memory. */
 char *zp_names_text(ZpGivenNames *names, const char *text);
@@ -30,8 +30,12 @@ char *zp_names_text(ZpGivenNames *names, const char *text);
 /* "members" and the like. */
 const char *zp_names_plural(ZpInstanceKind kind);
 
-/* Does a key's value name a body? Rows that stand for those of all count. */
-bool zp_key_is_body(int key);
+/* The kind that a key's value names: ZP_OF_BODY, ZP_OF_PORT; ZP_NAMED_KINDS: none. Rows that stand for those of all
+ * count. */
+ZpInstanceKind zp_key_names(int key);
+static inline bool zp_key_is_name(int key) {
+  return zp_key_names(key) < ZP_NAMED_KINDS;
+}
 
 /* The group of a path of one name or less: "members", "bodies", "springs"; ZP_INSTANCE_KINDS: it is none. */
 ZpInstanceKind zp_names_group(const char *path);
@@ -42,8 +46,8 @@ const char *zp_names_key(const ZpGivenNames *names, int key, char text[ZP_PATH_S
 /* Put names in the place of numbers in a message: members.left for member_1. */
 void zp_names_tell(const ZpGivenNames *names, ZpError *err);
 
-/* The body that a value names, as a word. */
-const char *zp_names_word(const ZpGivenNames *names, double number, char text[ZP_NAME_SIZE]);
+/* The name that the value of a key stands for, or the value as a word. */
+const char *zp_names_word(const ZpGivenNames *names, int key, double number, char text[ZP_NAME_SIZE]);
 
 /* Give them to a Def. */
 ZpStatus zp_names_give(const ZpGivenNames *names, ZpActuatorDef *def, ZpError *err);

@@ -22,6 +22,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/rule.h"
 #include "io/drawing.h"
 #include "io/file.h"
 #include "io/plan.h"
@@ -53,6 +54,15 @@ static size_t count_panels(const ZpPlot *plot) {
   return set * measured;
 }
 
+static bool is_on_several_ports(const ZpActuatorDef *def) {
+  bool apart = false;
+  for (size_t k = 0; def->given && k < def->given->count; k++) {
+    const int row = zp_key_instance(def->given->value[k].key).row;
+    apart |= row >= ZP_KEY(member_K.port) && row <= ZP_KEY(member_K.setpoint.duty);
+  }
+  return apart;
+}
+
 /* Does a data file have rows, or one of these facts hold? */
 static bool has_flag(const ZpPlot *plot, const char *name) {
   const ZpOptimum *optimum = plot->report->optimum;
@@ -69,6 +79,7 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
     bool holds;
   } flag[] = {{"samples", samples},
               {"bodies", zp_def_network(&plot->def)},
+              {"ports", zp_def_network(&plot->def) && is_on_several_ports(&plot->def)},
               {"axis", axis},
               {"plane", grid && plot->axes == 2},
               {"planes", grid && plot->axes == 3},

@@ -486,7 +486,7 @@ static ZpStatus read_words(ZpGivenNames *names, bool known, int key, const ZpYam
   for (size_t i = 0; i < item->count && status == ZP_OK; i++) {
     if (i > 0) *word += strlen(*word) + 1;
     slot->is_bare |= zp_value_is_bare(key, *word);
-    status = zp_key_is_body(key) ? zp_names_body(names, known, key, *word, &slot->value[i], reason)
+    status = zp_key_is_name(key) ? zp_names_value(names, known, key, *word, &slot->value[i], reason)
                                  : zp_value_read(key, *word, &slot->value[i], reason);
   }
   return status;
@@ -499,7 +499,7 @@ static bool takes_spread(int key) {
 /* A list or one value: "50 um", "10 um .. 200 um : 20", "normal(50 um, 1 um)". */
 static ZpStatus read_value(ZpGivenNames *names, bool known, int key, const ZpYamlItem *item, const char **word,
                            ZpSlot *slot, ZpError *reason) {
-  const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key)) && !zp_key_is_body(key);
+  const bool alone = item->kind == ZP_YAML_VALUE && zp_value_is_number(zp_key(key)) && !zp_key_is_name(key);
   const bool ranges = alone && zp_range_is(item->word),
              spreads = alone && takes_spread(key) && zp_spread_is(item->word);
   char copy[ZP_VALUE_SIZE];
@@ -534,7 +534,7 @@ static ZpStatus check_shape(const Reader *reader, int key, const ZpYamlItem *ite
   const ZpKeyType type = zp_key(key)->type;
   const char *wrong = type == ZP_KEY_TEXT                          ? "takes one text, not a list"
                       : type == ZP_KEY_BOOL || type == ZP_KEY_ENUM ? "takes one word, not a list"
-                      : zp_key_is_body(key)                        ? "takes one body, not a list"
+                      : zp_key_is_name(key)                        ? "takes one name, not a list"
                       : item->count == 0                           ? "empty list; give at least one value"
                                                                    : NULL;
   return item->kind == ZP_YAML_LIST && wrong ? fail_at(reader, ZP_KEY_NAME(key), item->line, err, "%s", wrong) : ZP_OK;
@@ -621,7 +621,7 @@ static ZpStatus take_pair(Reader *reader, const ZpYamlItem *item, const int key[
   const char *word = item->word;
   if (item->count != 2)
     return fail_at(reader, item->path, item->line, err, "takes two values, such as [%s]",
-                   key[0] >= 0 && zp_key_is_body(key[0]) ? "frame, hand" : "0 mm, -50 mm");
+                   key[0] >= 0 && zp_key_is_name(key[0]) ? "frame, hand" : "0 mm, -50 mm");
   for (int k = 0; k < 2; k++, word += strlen(word) + 1) {
     const ZpYamlItem part = {ZP_YAML_VALUE, item->path, item->line, word, 1};
     if (key[k] < 0 && strtod(word, NULL) != 0)
@@ -924,8 +924,8 @@ static void write_value(const Writer *w, int key) {
     zp_yaml_write_text(w->file, words);
     return;
   }
-  if (zp_key_is_body(key)) {
-    fputs(zp_names_word(&w->scenario->names, zp_def_get(w->first, key), text), w->file);
+  if (zp_key_is_name(key)) {
+    fputs(zp_names_word(&w->scenario->names, key, zp_def_get(w->first, key), text), w->file);
     return;
   }
   double value = key == ZP_KEY(study) ? (double)zp_scenario_study(w->scenario) : zp_def_get(w->first, key);

@@ -115,7 +115,7 @@ static const struct {
 
 static bool read_unit_of_signal(const ZpKey *key, const char *unit, ZpUnitScale *scale) {
   for (size_t i = 0; i < sizeof of_signal / sizeof of_signal[0]; i++)
-    for (int k = 0; k < 3 && of_signal[i].unit[k] && strcmp(key->name, of_signal[i].key) == 0; k++)
+    for (int k = 0; k < 3 && of_signal[i].unit[k] && strcmp(zp_key_of_one(key->name), of_signal[i].key) == 0; k++)
       if (zp_unit_scale(unit, of_signal[i].unit[k], scale, NULL) == ZP_OK) return true;
   return false;
 }

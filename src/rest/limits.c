@@ -396,7 +396,7 @@ static const char *no_load(const ZpModel *model, bool load) {
 
 void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *limits) {
   const ZpModel *model = rest->statics.member->model;
-  Finder f = {.rest = rest, .model = model, .near = near, .limits = limits, .top = model->def.drive.voltage};
+  Finder f = {.rest = rest, .model = model, .near = near, .limits = limits, .top = zp_drive_voltage(model)};
   none_from(&f, 0, "without a voltage there is none");
   if (near && near->hangs) take(&f, near->start);
   limits->hangs = hang(&f, limits->start, &limits->hanging);

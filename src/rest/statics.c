@@ -98,6 +98,7 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
   for (size_t k = 0; k < s->members && made; k++) {
     made = create_member(s, k);
     s->scale = fmax(s->scale, zp_eval_weight_scale(model + k));
+    s->biased |= model[k].bias != 0;
     if (model->network->ends[k].lower == model->network->load) s->own_load += model[k].def.load.mass;
   }
   made = made && zp_heights_create(model->network, &s->heights);
@@ -164,13 +165,14 @@ void zp_statics_take_tensions(ZpStatics *s) {
 /* Start from the straight shape and let what acts by these shares grow, first by `step`, if the equilibrium is too far
  * away for one step. A load 1e5 times the one that bends a ribbon by its length needs so small a first share. */
 static ZpNewtonInfo step_by_step(ZpStatics *s, double *one, double *other, double step) {
+  enum { MOST_STEPS = 1000 }; /* the way of what can be nothing but closed would not end */
   static const double shortest = 1e-8;
   double reached = 0;
   ZpNewtonInfo info = {ZP_NEWTON_SLOW, 0, INFINITY};
   int iterations = 0;
   zp_statics_lay_straight(s);
   keep(s);
-  while (reached < 1 && step > shortest) {
+  for (int k = 0; k < MOST_STEPS && reached < 1 && step > shortest; k++) {
     double share = fmin(reached + step, 1);
     *one = *other = share;
     info = zp_statics_solve(s, STEP_ITERATIONS);
@@ -304,7 +306,7 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
 }
 
 bool zp_statics_bias(ZpStatics *s) {
-  bool biased = s->member[s->members - 1].model->bias == 0 || grow(s, &s->bias, 1, true, 0.05);
+  bool biased = !s->biased || grow(s, &s->bias, 1, true, 0.05);
   if (biased) s->bias = 1;
   return biased;
 }
@@ -322,12 +324,13 @@ bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
 }
 
 const char *zp_statics_no_rest(const ZpStatics *s) {
-  return s->bias < 1 ? "the lower one pulls in below stack.lower_voltage" : "no hanging equilibrium found";
+  return s->bias < 1 ? "a member pulls in below its own constant voltage" : "no hanging equilibrium found";
 }
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->opposed && s->has_load) return hang_between(s);
   s->U = s->suction = 0;
+  if (s->biased) s->bias = 0;
   s->contact_acts = false;
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->share, 0.01);
@@ -1116,7 +1119,7 @@ static bool are_alike(const ZpStatics *s) {
 
 ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
   const ZpModel *model = s->member->model;
-  const double voltage = fmax(model->def.drive.voltage, 1);
+  const double voltage = fmax(zp_drive_voltage(model), 1);
   const struct {
     double *input;
     void (*sensitivity)(void *self, double *r_m);

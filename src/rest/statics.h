@@ -41,7 +41,8 @@ typedef struct ZpStatics {
   ZpArrowForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
   double U;            /* of the first member, V */
-  double bias;         /* share of the lower antagonist's own voltage that acts */
+  bool biased;         /* a member has a constant voltage of its own, */
+  double bias;         /* and the share of it that acts */
   double own_load;     /* load.mass, kg */
   double load;         /* mass hung on all members, kg; starts as that */
   double force;        /* load.force, N */
@@ -127,8 +128,7 @@ double zp_statics_tolerance(const ZpStatics *statics);
  * other during the search, but not in the result. */
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *statics);
 
-/* Then apply the voltage that the lower antagonist has while the upper one has none. False if the branch ends before.
- */
+/* Then apply the constant voltages that members have of their own. False if the branch ends before. */
 bool zp_statics_bias(ZpStatics *statics);
 
 /* As zp_statics_bias, while the platform is held. Where the branch ends, the members jump to the next one, as

@@ -12,6 +12,13 @@ static bool is_controlled(const ZpSim *sim) {
   return sim->model->control.kind != ZP_CONTROL_NONE;
 }
 
+static bool is_any_controlled(const ZpSim *sim) {
+  bool any = false;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    any |= is_controlled(m);
+  return any;
+}
+
 /* -- of the model ---------------------------------------------------------------------------------- */
 
 double zp_sim_setpoint(const ZpSim *sim) {
@@ -22,12 +29,17 @@ double zp_sim_setpoint(const ZpSim *sim) {
 }
 
 double zp_sim_controlled(ZpSim *sim) {
-  return zp_sim_get(sim, zp_key(sim->signal)->choices[sim->model->def.control.signal].word);
+  const char *name = zp_key(sim->signal)->choices[sim->model->def.control.signal].word;
+  const bool alone = sim->model->apart || zp_is_network(sim->model);
+  return alone ? zp_sim_own_signal(sim, zp_signal_find(name)) : zp_sim_get(sim, name);
 }
 
 void zp_sim_start_control(ZpSim *sim) {
-  sim->state->control = zp_control_start();
-  zp_sim_hold_voltage(sim, (ZpRamp){0, 0, sim->state->t, INFINITY});
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    if (!is_controlled(m)) continue;
+    m->state->control = zp_control_start();
+    zp_sim_hold_port(m, (ZpRamp){0, 0, m->state->t, INFINITY});
+  }
 }
 
 const ZpColumn *zp_sample_columns(size_t *count) {
@@ -48,12 +60,11 @@ static void take_sample(ZpSim *sim) {
   if (sim->samples) zp_table_offer(sim->samples, (double[ZP_SAMPLE_COLUMNS]){sim->state->t, setpoint, signal});
 }
 
-static void control(ZpSim *sim) {
+static void give_output(ZpSim *sim) {
   const ZpControl *c = &sim->model->control;
   ZpState *state = sim->state;
-  if (state->t >= zp_control_sample_time(c, &state->control)) take_sample(sim);
   while (state->t >= zp_control_output_time(c, &state->control))
-    zp_sim_hold_voltage(sim, (ZpRamp){zp_control_output(&state->control), 0, state->t, INFINITY});
+    zp_sim_hold_port(sim, (ZpRamp){zp_control_output(&state->control), 0, state->t, INFINITY});
 }
 
 /* -- of the program -------------------------------------------------------------------------------- */
@@ -84,7 +95,7 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
     sim->control = (ZpOwnControl){.since = 0};
     return ZP_OK;
   }
-  if (is_controlled(sim))
+  if (is_any_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "controller: the model already has that of control.kind; use control.kind none");
   if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: its function `voltage` is missing");
   if (!(controller->period >= shortest && controller->period <= longest))
@@ -96,15 +107,25 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
 
 /* -- both ------------------------------------------------------------------------------------------ */
 
-double zp_sim_control_due(const ZpSim *sim) {
+static double due(const ZpSim *sim) {
   const ZpControl *c = &sim->model->control;
   const ZpControlState *state = &sim->state->control;
-  if (!is_controlled(sim)) return own_sample_time(&sim->control);
-  return fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state));
+  return is_controlled(sim) ? fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state)) : INFINITY;
 }
 
+double zp_sim_control_due(const ZpSim *sim) {
+  double first = own_sample_time(&sim->control);
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    first = fmin(first, due(m));
+  return first;
+}
+
+/* Controllers of several ports sample before any of them gives its output. */
 bool zp_sim_control(ZpSim *sim) {
-  if (!is_controlled(sim)) return ask(sim);
-  control(sim);
-  return true;
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (is_controlled(m) && m->state->t >= zp_control_sample_time(&m->model->control, &m->state->control))
+      take_sample(m);
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (is_controlled(m)) give_output(m);
+  return ask(sim);
 }

@@ -79,18 +79,25 @@ static ZpSpan span_of(const ZpDynamics *d, const ZpMovingMember *m) {
                   .beyond = zp_state_beyond(m->model, m->state)};
 }
 
-/* The voltage behind a source is the last unknown. */
-static size_t voltage_of(const ZpDynamics *d) {
-  return d->system.n - 1;
+/* The first member of a port, which has its voltage. */
+static ZpMovingMember *lead_of(const ZpMovingPort *port) {
+  return &port->of->member[port->first];
 }
 
-/* The charge that all electrodes have taken from the source at the end of the step at its voltage, C, eq. (23.8). */
+/* The next member of the same port; NULL: none. */
+static ZpMovingMember *next_on_port(ZpMovingMember *m) {
+  const size_t further = zp_next_on_port(m->model);
+  return further > 0 ? m + further : NULL;
+}
+
+/* The charge that all electrodes of a port have taken from its source at the end of the step at its voltage, C,
+ * eq. (23.8). */
 static double taken_at(const void *self, double U) {
-  const ZpDynamics *d = self;
+  const ZpMovingPort *port = self;
   double taken = 0;
-  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
-    ZpSpan span = span_of(d, m);
-    ZpElectric end = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, zp_member_voltage(m->model, U));
+  for (ZpMovingMember *m = lead_of(port); m; m = next_on_port(m)) {
+    ZpSpan span = span_of(port->of, m);
+    ZpElectric end = zp_system_electric(m->model, &span, &m->eval, ZP_SPAN_END, zp_voltage_at_port(m->model, U));
     taken += zp_source_share(m->model) * (end.charge + end.passed - m->charge0);
   }
   return taken;
@@ -98,19 +105,20 @@ static double taken_at(const void *self, double U) {
 
 /* Their capacitance there between the voltages of the step's start and end, or where these are one above it, F. Capped
  * charges have none. */
-static double chord(const ZpDynamics *d, double taken) {
+static double chord(const ZpMovingPort *port, double taken) {
   static const double same = 1e-9, above = 1e-3; /* of the scale */
-  double U1 = d->member->U1, apart = d->member->U0 - U1, scale = d->source->scale;
+  const ZpMovingMember *lead = lead_of(port);
+  double U1 = lead->U1, apart = lead->U0 - U1, scale = port->source->scale;
   if (fabs(apart) < same * scale) apart = copysign(above * scale, U1);
-  return fmax((taken_at(d, U1 + apart) - taken) / apart, 0);
+  return fmax((taken_at(port, U1 + apart) - taken) / apart, 0);
 }
 
-static void ask_source(ZpDynamics *d) {
-  const ZpMovingMember *m = d->member;
-  double taken = taken_at(d, m->U1);
-  d->chord = chord(d, taken);
-  ZpSourceStep step = {d->t, d->h, m->U0, m->U1, taken, d->chord, d, taken_at};
-  d->law = d->source->law(d->source->self, &step);
+static void ask_source(const ZpDynamics *d, ZpMovingPort *port) {
+  const ZpMovingMember *m = lead_of(port);
+  double taken = taken_at(port, m->U1);
+  port->chord = chord(port, taken);
+  ZpSourceStep step = {d->t, d->h, m->U0, m->U1, taken, port->chord, port, taken_at};
+  port->law = port->source->law(port->source->self, &step);
 }
 
 /* => energies of bending and field, with which an imbalance is compared. */
@@ -121,7 +129,7 @@ static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
   memcpy(m->end, m->start, zp_coordinates(model) * sizeof *m->end);
   ZpSpan span = span_of(d, m);
   zp_system_begin(model, &span, &m->eval);
-  if (d->source) m->charge0 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_START, m->U0).charge;
+  if (m->port) m->charge0 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_START, m->U0).charge;
   double bending = model->is_rod ? zp_rod_bending_energy(&model->rod, &e->rod_start)
                                  : zp_massspring_shear_energy(&model->shear, &e->spring_start);
   double field = model->field ? zp_plates_totals(&model->plates, &e->plates_start, m->U0).potential : 0;
@@ -146,7 +154,7 @@ static void gather_own(ZpMovingMember *m, const double *q) {
 
 static void add_force(ZpDynamics *d, ZpMovingMember *m, const double *q1, double *f) {
   const ZpModel *model = m->model;
-  m->U1 = d->source ? zp_member_voltage(model, q1[voltage_of(d)]) : end_voltage(d, m);
+  m->U1 = m->port ? zp_voltage_at_port(model, q1[m->port->unknown]) : end_voltage(d, m);
   zp_assembly_place(&m->assembly, q1, m->end);
   gather_own(m, q1);
   ZpSpan span = span_of(d, m);
@@ -165,26 +173,28 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
     add_force(d, &d->member[k], q1, f);
   memcpy(d->to, q1, d->system.n * sizeof *q1);
   zp_springs_add_force(&d->springs, 1, d->from, d->to, f);
-  if (!d->source) return ZP_END_FOUND;
-  ask_source(d);
-  f[voltage_of(d)] = d->law.lacks / d->member->model->parts;
+  for (ZpMovingPort *port = d->port; port < d->port + d->ports; port++) {
+    ask_source(d, port);
+    f[port->unknown] = port->law.lacks / lead_of(port)->model->parts;
+  }
   return ZP_END_FOUND;
 }
 
 /* By the slope of the charge, as what it is, of one part of the first member. Beyond a kink of the charge, where it is
  * capped, the slope would lead anywhere: the chord leads back towards the start of the step. */
-static double capacitance(const ZpDynamics *d, double slope) {
+static double capacitance(const ZpMovingPort *port, double slope) {
   static const double none = 1e-3; /* of the chord */
-  const ZpMovingMember *m = d->member;
-  double chord = d->chord / m->model->parts;
-  bool goes_back = d->law.lacks * (m->U1 - m->U0) < 0;
+  const ZpMovingMember *m = lead_of(port);
+  double chord = port->chord / m->model->parts;
+  bool goes_back = port->law.lacks * (m->U1 - m->U0) < 0;
   return goes_back || slope < none * chord ? fmax(slope, chord) : slope;
 }
 
 /* Where a charge is capped, the slope would lead far beyond any voltage. */
-static double least_slope(const ZpDynamics *d) {
-  double left = d->law.bound - d->member->U1;
-  return left * d->law.lacks > 0 ? d->law.lacks / left / d->member->model->parts : 0;
+static double least_slope(const ZpMovingPort *port) {
+  const ZpMovingMember *m = lead_of(port);
+  double left = port->law.bound - m->U1;
+  return left * port->law.lacks > 0 ? port->law.lacks / left / m->model->parts : 0;
 }
 
 /* Row and column of the voltage in the block of a member, by sums over its places [n + border]. */
@@ -200,27 +210,30 @@ static void put_voltage(const ZpArrowPart *part, const double *column, const dou
   }
 }
 
-/* Row and column of the voltage behind a source, eq. (18.10). */
-static void add_source(ZpDynamics *d, ZpArrow *J) {
-  const ZpByVoltage *by = &d->by_voltage;
-  const double parts = d->member->model->parts;
-  double C = 0;
-  for (size_t k = 0; k < d->members; k++) {
-    ZpMovingMember *m = &d->member[k];
-    const double ratio = m->model->ratio, share = zp_source_share(m->model) / parts;
-    ZpSpan span = span_of(d, m);
-    zp_system_by_voltage(m->model, &span, &m->eval, &d->by_voltage);
-    for (size_t i = 0; i < zp_coordinates(m->model); i++) {
-      by->force[i] *= ratio;
-      by->charge[i] *= d->law.by_taken * share;
-    }
-    zp_assembly_sum_places(&m->assembly, by->force, d->column);
-    zp_assembly_sum_places(&m->assembly, by->charge, d->row);
-    put_voltage(&J->part[k], d->column, d->row);
-    C += share * ratio * by->capacitance;
+/* Row and column of the voltage of a port in the block of one of its members => its part of their capacitance, of one
+ * part of the first one, F. */
+static double add_electrodes(ZpDynamics *d, const ZpMovingPort *port, ZpMovingMember *m, const ZpArrowPart *part) {
+  ZpByVoltage *by = &d->by_voltage;
+  const double ratio = zp_part_of_port(m->model), share = zp_source_share(m->model) / lead_of(port)->model->parts;
+  ZpSpan span = span_of(d, m);
+  zp_system_by_voltage(m->model, &span, &m->eval, by);
+  for (size_t i = 0; i < zp_coordinates(m->model); i++) {
+    by->force[i] *= ratio;
+    by->charge[i] *= port->law.by_taken * share;
   }
-  double slope = -d->law.by_taken * capacitance(d, C) - d->law.by_voltage / parts;
-  *J->diagonal[voltage_of(d)] = fmax(slope, least_slope(d));
+  zp_assembly_sum_places(&m->assembly, by->force, d->column);
+  zp_assembly_sum_places(&m->assembly, by->charge, d->row);
+  put_voltage(part, d->column, d->row);
+  return share * ratio * by->capacitance;
+}
+
+/* Row and column of the voltage behind a source, eq. (18.10). */
+static void add_source(ZpDynamics *d, const ZpMovingPort *port, ZpArrow *J) {
+  double C = 0;
+  for (ZpMovingMember *m = lead_of(port); m; m = next_on_port(m))
+    C += add_electrodes(d, port, m, &J->part[m - d->member]);
+  double slope = -port->law.by_taken * capacitance(port, C) - port->law.by_voltage / lead_of(port)->model->parts;
+  *J->diagonal[port->unknown] = fmax(slope, least_slope(port));
 }
 
 static void tangent(void *self, ZpArrow *J) {
@@ -232,7 +245,8 @@ static void tangent(void *self, ZpArrow *J) {
     zp_system_add_stiffness(m->model, &span, &m->assembly, &m->eval, &J->part[k].A);
   }
   zp_arrow_mirror(J);
-  if (d->source) add_source(d, J);
+  for (const ZpMovingPort *port = d->port; port < d->port + d->ports; port++)
+    add_source(d, port, J);
   zp_springs_add_stiffness(&d->springs, 1, d->from, d->to, false, d->form.inner, &J->D);
   zp_arrow_close(J);
 }
@@ -517,7 +531,8 @@ static void add_own(ZpDynamics *d, const ZpMovingMember *m) {
 /* The law of a source is exact for changes of its voltage that are faster than the step, so they have no error. */
 static double resolved(void *self, size_t i) {
   const ZpDynamics *d = self;
-  return d->source && i == voltage_of(d) ? d->law.resolved : 1;
+  const size_t inner = d->system.n - d->ports;
+  return i >= inner ? d->port[i - inner].law.resolved : 1;
 }
 
 static void inertia(void *self, const double *a, double *f) {
@@ -613,11 +628,13 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
 }
 
 /* The voltage behind a source has a rate and no inertia. All halves have it in common. */
-static void add_voltage(ZpDynamics *d) {
-  if (d->parts.more > 0) d->parts.common[d->parts.count++] = voltage_of(d);
-  d->kind[voltage_of(d)] = ZP_FIRST_ORDER;
-  d->scale[voltage_of(d)] = d->source->scale / d->member->model->L;
-  d->sharers[voltage_of(d)] = (double)d->members;
+static void add_voltage(ZpDynamics *d, const ZpMovingPort *port) {
+  if (d->parts.more > 0) d->parts.common[d->parts.count++] = port->unknown;
+  d->kind[port->unknown] = ZP_FIRST_ORDER;
+  d->scale[port->unknown] = port->source->scale / d->member->model->L;
+  d->sharers[port->unknown] = 0;
+  for (ZpMovingMember *m = lead_of(port); m; m = next_on_port(m))
+    d->sharers[port->unknown]++;
 }
 
 static bool create_member(const ZpModel *first, size_t which, ZpMovingMember *m) {
@@ -626,13 +643,31 @@ static bool create_member(const ZpModel *first, size_t which, ZpMovingMember *m)
   return zp_system_create(model, false, &m->eval) && zp_assembly_create(&ties, model->own, true, &m->assembly);
 }
 
+/* Ports with a source, in the order of their first members. False if there is no memory. */
+static bool open_ports(ZpDynamics *d, const ZpSource *const source[]) {
+  for (size_t k = 0; source && k < d->members; k++)
+    d->ports += source[k] != NULL;
+  d->port = zp_calloc(d->ports + 1, sizeof *d->port);
+  ZpMovingPort *port = d->port;
+  for (size_t k = 0; port && source && k < d->members; k++) {
+    if (!source[k]) continue;
+    *port = (ZpMovingPort){.source = source[k], .of = d, .first = k};
+    for (ZpMovingMember *m = &d->member[k]; m; m = next_on_port(m))
+      m->port = port;
+    port++;
+  }
+  return d->port != NULL;
+}
+
 /* The equations of all members. False if there is no memory. */
 static bool join(ZpDynamics *d) {
   ZpAssembly **of = zp_calloc(d->members, sizeof(ZpAssembly *));
   if (!of) return false;
-  for (size_t k = 0; k < d->members; k++)
+  for (size_t k = 0; k < d->members; k++) {
     of[k] = &d->member[k].assembly;
-  bool joined = zp_assembly_join(of, d->member->model, d->members, d->source ? 1 : 0, &d->form) &&
+    of[k]->port = d->member[k].port ? d->member[k].port - d->port : -1;
+  }
+  bool joined = zp_assembly_join(of, d->member->model, d->members, d->ports, &d->form) &&
                 zp_assembly_parts(of, d->members, d->form.n, &d->parts) &&
                 zp_springs_create(d->member->model, of, &d->springs);
   zp_free(of);
@@ -676,9 +711,12 @@ static void fill_equations(ZpDynamics *d) {
   weigh(d, NULL);
   d->system.mass = d->mass;
   d->system.sharers = d->members > 1 ? d->sharers : NULL;
-  if (d->source) add_voltage(d);
+  for (ZpMovingPort *port = d->port; port < d->port + d->ports; port++) {
+    port->unknown = d->system.n - d->ports + (size_t)(port - d->port);
+    add_voltage(d, port);
+  }
   d->system.parts = d->parts;
-  if (!d->source && d->member->model->own == 0) return;
+  if (d->ports == 0 && d->member->model->own == 0) return;
   d->system.kind = d->kind;
   d->system.scale = d->scale;
 }
@@ -692,13 +730,13 @@ static double error_of_step(const ZpActuatorDef *def) {
   return 1.5 * tolerance * sqrt(tolerance);
 }
 
-bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *d) {
-  *d = (ZpDynamics){.members = model->members, .source = source};
+bool zp_dynamics_create(const ZpModel *model, const ZpSource *const source[], ZpDynamics *d) {
+  *d = (ZpDynamics){.members = model->members};
   d->member = zp_calloc(d->members, sizeof *d->member);
   if (!d->member) return false;
   for (size_t k = 0; k < d->members; k++)
     if (!create_member(model, k, &d->member[k])) return false;
-  if (!join(d)) return false;
+  if (!open_ports(d, source) || !join(d)) return false;
   d->system = system_of(d);
   d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;
@@ -719,6 +757,7 @@ void zp_dynamics_destroy(ZpDynamics *d) {
   zp_springs_destroy(&d->springs);
   zp_arrow_form_destroy(&d->form);
   zp_free(d->parts.common);
+  zp_free(d->port);
   zp_free(d->member);
   zp_free(d->memory);
   d->member = NULL;
@@ -759,7 +798,8 @@ static void set_accuracy(ZpDynamics *d, const ZpState *state) {
   const ZpModel *model = d->member->model;
   double reference = far(model, state);
   d->stepper.accuracy = d->error * reference;
-  if (d->source) d->scale[voltage_of(d)] = d->source->scale * of_length / reference;
+  for (const ZpMovingPort *port = d->port; port < d->port + d->ports; port++)
+    d->scale[port->unknown] = port->source->scale * of_length / reference;
 }
 
 /* The state of one member at the start of the step => q, v and what else evolves. */
@@ -785,12 +825,12 @@ static void load_one(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
 static void load(ZpDynamics *d, ZpState *const state[]) {
   for (size_t k = d->members; k-- > 0;)
     load_one(d, &d->member[k], state[k]);
-  if (d->source) {
-    size_t u = voltage_of(d);
-    d->q[u] = state[0]->U;
-    d->v[u] = 0;
-    d->history.w[u] = state[0]->U_rate;
-    d->history.a[u] = state[0]->U_change;
+  for (const ZpMovingPort *port = d->port; port < d->port + d->ports; port++) {
+    const ZpState *lead = state[port->first];
+    d->q[port->unknown] = lead->U;
+    d->v[port->unknown] = 0;
+    d->history.w[port->unknown] = lead->U_rate;
+    d->history.a[port->unknown] = lead->U_change;
   }
   d->history.last = state[0]->last_step;
   d->history.next = state[0]->next_step;
@@ -807,9 +847,9 @@ static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) 
   memcpy(zp_state_own(model, state) + zp_extra_unknowns(model), m->eval.memory_end, model->kept * sizeof *m->own);
   state->t = end_time(d);
   if (model->has_bead) memcpy(state->bead, m->eval.bead_end, sizeof state->bead);
-  if (d->source) {
-    state->U_rate = d->history.w[voltage_of(d)];
-    state->U_change = d->history.a[voltage_of(d)];
+  if (m->port) {
+    state->U_rate = d->history.w[m->port->unknown];
+    state->U_change = d->history.a[m->port->unknown];
   }
   state->last_step = d->history.last;
   state->next_step = d->history.next;
@@ -854,7 +894,7 @@ static void book(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   gather_own(m, d->q);
   ZpSpan span = span_of(d, m);
   zp_system_book(model, &span, &m->eval, state);
-  if (d->source) m->charge1 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_END, m->U1).charge;
+  if (m->port) m->charge1 = zp_system_electric(model, &span, &m->eval, ZP_SPAN_END, m->U1).charge;
   if (model->leaks) { /* the source works on what insulators conduct */
     double passed = zp_leak_passed(&m->eval.leak);
     state->leaked += passed;

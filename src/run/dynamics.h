@@ -12,12 +12,25 @@
 #include "system/system.h"
 #include "term/source.h"
 
+struct ZpDynamics;
+
+/* The electrodes of one port, with the source behind which their voltage is an unknown. */
+typedef struct ZpMovingPort {
+  const ZpSource *source;
+  const struct ZpDynamics *of;
+  size_t first;    /* of its members */
+  size_t unknown;  /* their voltage, in all equations */
+  ZpSourceLaw law; /* at the last residual, and the capacitance of all electrodes there, F */
+  double chord;
+} ZpMovingPort;
+
 /* One of the actuators of the system. */
 typedef struct ZpMovingMember {
   const ZpModel *model;
   ZpEval eval;
   ZpAssembly assembly;
   const ZpState *state;  /* at the start of the present step */
+  ZpMovingPort *port;    /* NULL: its voltage is given */
   double U0, U1;         /* voltage at its start and its end, V */
   double charge0;        /* with a source: charge of one part there, C, */
   double charge1;        /* and at the end of the last step */
@@ -39,22 +52,20 @@ typedef struct ZpDynamics {
   ZpImplicitSystem system;
   ZpImplicit stepper;
   ZpImplicitHistory history;
-  double *mass, *q, *v;    /* [n] by equations */
-  double *joined;          /* [border] mass of all nodes that move with an unknown of the border, kg */
-  double *lost;            /* [members] velocity that its platform loses where several land side by side, m/s */
-  ZpSprings springs;       /* between bodies, */
-  double *from, *to;       /* [n] and the unknowns between which they act: at the step's start and at its end */
-  ZpUnknown *kind;         /* [n] */
-  double *scale, *sharers; /* [n] */
-  double t, h, latest;     /* of the present step: start, length, latest end, s */
-  size_t fewest;           /* cavities that contradict their heads, at least, in the iteration under way, */
-  int trials;              /* and the corrections left to make them fewer */
-  const ZpSource *source; /* of the electrodes of all; NULL: the voltage is given. With a source the last unknown is the
-                             voltage of the first member */
-  ZpByVoltage by_voltage; /* of one member, with a source; work space, as are */
-  double *column, *row;   /* [places of a block] column and row of the voltage in it */
-  ZpSourceLaw law;        /* its law at the last residual, and the capacitance of all electrodes there, F */
-  double chord;
+  double *mass, *q, *v;          /* [n] by equations */
+  double *joined;                /* [border] mass of all nodes that move with an unknown of the border, kg */
+  double *lost;                  /* [members] velocity that its platform loses where several land side by side, m/s */
+  ZpSprings springs;             /* between bodies, */
+  double *from, *to;             /* [n] and the unknowns between which they act: at the step's start and at its end */
+  ZpUnknown *kind;               /* [n] */
+  double *scale, *sharers;       /* [n] */
+  double t, h, latest;           /* of the present step: start, length, latest end, s */
+  size_t fewest;                 /* cavities that contradict their heads, at least, in the iteration under way, */
+  int trials;                    /* and the corrections left to make them fewer */
+  size_t ports;                  /* those with a source; their voltages are the last unknowns */
+  ZpMovingPort *port;            /* [ports] */
+  ZpByVoltage by_voltage;        /* of one member, with a source; work space, as are */
+  double *column, *row;          /* [places of a block] column and row of the voltage in it */
   double error;                  /* of a step, at most, as a share of the reference length, eq. (18.12) */
   bool settles;                  /* without a film, each step removes velocities that are too fast for it, not only
                                     after impacts: for a search of motion that has settled */
@@ -64,9 +75,9 @@ typedef struct ZpDynamics {
   void *memory;
 } ZpDynamics;
 
-/* For all members, of which this is the first model. `source` must outlive it; NULL: the voltage is given. False if
- * there is no memory. */
-bool zp_dynamics_create(const ZpModel *model, const ZpSource *source, ZpDynamics *dynamics);
+/* For all members, of which this is the first model. `source` [members]: that of the port of which a member is the
+ * first, which must outlive it; NULL, there or instead of all: its voltage is given. False if there is no memory. */
+bool zp_dynamics_create(const ZpModel *model, const ZpSource *const source[], ZpDynamics *dynamics);
 void zp_dynamics_destroy(ZpDynamics *dynamics);
 
 /* The mass load.change_mass arrives with the velocity of its fall, or leaves: change the velocities of the

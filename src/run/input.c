@@ -38,21 +38,32 @@ static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   return zp_def_set(&scratch, sim->drive, voltage, err);
 }
 
-void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
+void zp_sim_hold_port(ZpSim *lead, ZpRamp voltage) {
   const ZpRamp all = voltage;
+  for (size_t next = 1; next > 0; next = zp_sim_next(lead), lead += next) {
+    voltage.value = zp_voltage_at_port(lead->model, all.value);
+    voltage.rate = zp_part_of_port(lead->model) * all.rate;
+    lead->state->by_hand = true;
+    lead->state->voltage_input = voltage;
+    if (!zp_sim_is_fed(lead)) zp_sim_jump(lead, voltage.value);
+  }
+}
+
+void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    voltage.value = zp_member_voltage(m->model, all.value);
-    voltage.rate = m->model->ratio * all.rate;
-    m->state->by_hand = true;
-    m->state->voltage_input = voltage;
-    if (!zp_sim_is_fed(m)) zp_sim_jump(m, voltage.value);
+    ZpRamp at_port = voltage;
+    at_port.value = zp_port_voltage(m->model, voltage.value);
+    if (m->model->apart) at_port.rate = m->model->ratio * voltage.rate;
+    if (zp_leads_port(m->model)) zp_sim_hold_port(m, at_port);
   }
 }
 
 /* Whoever holds the voltage. */
 static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
-  bool controlled = sim->model->control.kind != ZP_CONTROL_NONE;
-  if (input == ZP_INPUT_VOLTAGE && controlled)
+  bool controlled = sim->model->control.kind != ZP_CONTROL_NONE, any = false;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    any |= m->model->control.kind != ZP_CONTROL_NONE;
+  if (input == ZP_INPUT_VOLTAGE && any)
     return zp_fail(err, ZP_BAD_INPUT, "voltage: the controller sets it (control.kind); set the setpoint");
   if (input == ZP_INPUT_SETPOINT && !controlled)
     return zp_fail(err, ZP_BAD_INPUT, "setpoint: there is no controller; set control.kind");

@@ -231,7 +231,8 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_voltage] = state->U;
   row[SIGNAL_command] = zp_sim_is_fed(sim) ? zp_sim_command(sim) : state->U;
   row[SIGNAL_source_voltage] = zp_sim_is_fed(sim) ? state->supply.voltage : state->U;
-  row[SIGNAL_cable_energy] = zp_sim_is_fed(sim) ? zp_supply_coupling_cable_energy(sim, state->U) : 0;
+  row[SIGNAL_cable_energy] =
+      zp_sim_is_fed(sim) && zp_leads_port(sim->model) ? zp_supply_coupling_cable_energy(sim, state->U) : 0;
   row[SIGNAL_setpoint] = zp_sim_setpoint(sim);
   row[SIGNAL_measured] = sim->model->control.kind == ZP_CONTROL_NONE ? 0 : state->control.measured;
   row[SIGNAL_load_work] = parts * state->load_work;
@@ -267,7 +268,8 @@ static void fill_electric(ZpSim *sim, double *now, double *row) {
   bool fed = zp_sim_is_fed(sim);
   double parts = sim->model->parts, passed = state->t - sim->row_time;
   double taken = e.charge + state->leaked;
-  double given = sim->own_charge = fed ? state->source_charge / parts + (1 - sim->model->ratio) * taken : taken;
+  double given = sim->own_charge =
+      fed ? state->source_charge / parts + (1 - zp_part_of_port(sim->model)) * taken : taken;
   fill_leak(sim, row);
   row[SIGNAL_force] = parts * e.force;
   row[SIGNAL_charge] = parts * e.charge;
@@ -343,12 +345,18 @@ static void fill_own_row(ZpSim *sim, unsigned what) {
 
 /* How a signal of a series follows from those of its members, the uppermost first: most are sums. */
 enum { SUM, FIRST, LAST, LARGEST, LEAST };
-static const unsigned char of_all[SIGNAL_COUNT] = {
-    [SIGNAL_time] = FIRST,           [SIGNAL_voltage] = FIRST,           [SIGNAL_command] = FIRST,
-    [SIGNAL_source_voltage] = FIRST, [SIGNAL_cable_energy] = FIRST,      [SIGNAL_setpoint] = FIRST,
-    [SIGNAL_measured] = FIRST,       [SIGNAL_interface_voltage] = FIRST, [SIGNAL_end_velocity] = LAST,
-    [SIGNAL_film_thickness] = LEAST, [SIGNAL_wet_length] = LEAST,        [SIGNAL_insulator_field] = LARGEST,
-    [SIGNAL_max_stress] = LARGEST};
+static const unsigned char of_all[SIGNAL_COUNT] = {[SIGNAL_time] = FIRST,
+                                                   [SIGNAL_voltage] = FIRST,
+                                                   [SIGNAL_command] = FIRST,
+                                                   [SIGNAL_source_voltage] = FIRST,
+                                                   [SIGNAL_setpoint] = FIRST,
+                                                   [SIGNAL_measured] = FIRST,
+                                                   [SIGNAL_interface_voltage] = FIRST,
+                                                   [SIGNAL_end_velocity] = LAST,
+                                                   [SIGNAL_film_thickness] = LEAST,
+                                                   [SIGNAL_wet_length] = LEAST,
+                                                   [SIGNAL_insulator_field] = LARGEST,
+                                                   [SIGNAL_max_stress] = LARGEST};
 
 /* Antagonists have one load: its position, and the shape, are those of the upper member. */
 static bool is_of_upper(size_t signal) {
@@ -447,7 +455,7 @@ static void make_row(ZpSim *sim) {
   const ZpState *state = sim->state;
   fill_row(sim, ALL);
   if (!(state->t > sim->row_time)) return;
-  if (!zp_sim_is_fed(sim)) zp_supply_coupling_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
+  if (sim->fed == 0) zp_supply_coupling_note_current(sim, sim->row[SIGNAL_current], state->t - sim->row_time);
   for (ZpSim *m = sim; m < sim + sim->members; m++)
     count_from_here(m);
 }
@@ -512,6 +520,11 @@ int zp_signal_find(const char *name) {
   for (int k = 0; k < SIGNAL_COUNT; k++)
     if (strcmp(names[k], name) == 0) return k;
   return -1;
+}
+
+double zp_sim_own_signal(ZpSim *sim, int signal) {
+  fill_own_row(sim, takes[signal]);
+  return sim->row[signal];
 }
 
 double zp_sim_get(ZpSim *sim, const char *name) {

@@ -19,24 +19,28 @@ typedef struct ZpOwnControl {
   ZpError fault;           /* the reason why its voltage was refused */
 } ZpOwnControl;
 
-/* Time of the next sample or output of a controller, s; INFINITY without a controller. */
+/* Of all ports: time of the next sample or output of a controller, s; INFINITY without a controller. */
 double zp_sim_control_due(const ZpSim *sim);
 
-/* Take the sample and give the output that are due, if any. False if the voltage is refused. */
+/* Take the samples and give the outputs that are due, if any. False if a voltage is refused. */
 bool zp_sim_control(ZpSim *sim);
 
 /* After another state was set: the next sample of a controller of the program's own is the first at or after the
  * present time. */
 void zp_sim_resume_control(ZpSim *sim);
 
-/* Start the model's controller: the voltage is 0 until its first output. */
+/* Start the controllers of all ports: the voltage is 0 until the first output. */
 void zp_sim_start_control(ZpSim *sim);
 
-/* The present setpoint, in the unit of control.signal; 0 without a controller. */
-double zp_sim_setpoint(const ZpSim *sim);
+/* Of the first member on a port: the present setpoint, in the unit of control.signal; 0 without a controller. */
+double zp_sim_setpoint(const ZpSim *lead);
 
-/* The signal that the controller measures, without noise. */
-double zp_sim_controlled(ZpSim *sim);
+/* The signal that its controller measures, without noise: of the whole actuator, or, in a network and on a port apart,
+ * of this member. */
+double zp_sim_controlled(ZpSim *lead);
+
+/* A signal of one member alone. */
+double zp_sim_own_signal(ZpSim *sim, int signal);
 
 /* The next signal after this one, at first 0, that is a row which signals.def does not list of a law of the model =>
  * false if there is none. */
@@ -135,6 +139,7 @@ struct ZpSim {
   ZpStop stop;                    /* where the run under way ends before its end time */
   ZpLanding landing;              /* the run has ended at this instant, exactly at the end of the last step, */
   double left_before;             /* and what was left until then at the start of that step: zp_sim_left */
+  size_t fed;                     /* of the first one: ports with a supply that acts */
   size_t members;                 /* simulations of one member each that follow each other, from this first one on */
   ZpState **states;               /* [members] of the first one: the states of all */
   struct ZpRunSensitivity *rates; /* derivatives of the run; NULL: none */
@@ -142,6 +147,19 @@ struct ZpSim {
   ZpManyShapes all;               /* of the uppermost member of a series: arrays for the shape of all members */
   void *all_memory;               /* memory of these arrays */
 };
+
+/* The next member on the port of one, as a number after its own: 0: none. The first member of all; on a port. */
+static inline size_t zp_sim_next(const ZpSim *m) {
+  return zp_next_on_port(m->model);
+}
+
+static inline ZpSim *zp_sim_first(ZpSim *m) {
+  return m - m->model->number;
+}
+
+static inline ZpSim *zp_sim_lead(ZpSim *m) {
+  return zp_sim_first(m) + m->model->network->ends[m->model->number].port;
+}
 
 /* A simulation that starts at coordinates q [2 stride] (NULL: straight) with a given hanging opening, without computing
  * its hanging equilibrium. NULL: there is no memory. */
@@ -245,7 +263,9 @@ void zp_sim_add_springs(const ZpSim *sim, double *ledger);
  * date is recomputed first. */
 void zp_sim_close_balance(ZpSim *sim);
 
-/* Set this voltage from now on, V, within its range: the command of a supply, or else a jump. */
+/* Set this voltage of a port, by its first member, from now on, V, within its range: the command of a supply, or else a
+ * jump. That of all ports by drive.voltage of all. */
+void zp_sim_hold_port(ZpSim *lead, ZpRamp voltage);
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage);
 
 /* Let the voltage jump: an ideal source charges at once. */

@@ -62,8 +62,8 @@ static bool make_liquid_room(ZpSim *sim) {
   return sim->liquid.memory != NULL;
 }
 
-/* One member alone; its steps are those of the uppermost member. */
-static bool allocate(ZpSim *sim, bool uppermost) {
+/* One member alone. */
+static bool allocate(ZpSim *sim) {
   const ZpModel *model = sim->model;
   size_t signals = zp_sim_row_size(sim);
   sim->state = zp_calloc(1, zp_state_size(model));
@@ -74,9 +74,8 @@ static bool allocate(ZpSim *sim, bool uppermost) {
   zp_sim_place_rows(sim);
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  bool own = zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
-             sim->row && make_shape_room(sim);
-  return own && (!uppermost || (sim->stepping->create(sim) && make_liquid_room(sim)));
+  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
+         sim->row && make_shape_room(sim);
 }
 
 void zp_sim_lay_beads(ZpSim *sim) {
@@ -129,8 +128,9 @@ static ZpStatus check_creation(const ZpModel *model, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: the model has no table; zp_model_create_driven takes it",
                    drive ? "drive" : "setpoint");
   ZpStatus status = zp_def_check_motion(model->whole, err);
-  if (status != ZP_OK) return status;
-  return zp_def_check_voltage(&model->def, zp_waveform_largest(&model->waveform), err);
+  for (const ZpModel *m = model; m < model + model->members && status == ZP_OK; m++)
+    status = zp_def_check_voltage(&m->def, zp_waveform_largest(&m->waveform), err);
+  return status;
 }
 
 /* For the shape of all members. */
@@ -145,11 +145,11 @@ static bool make_room(ZpSim *sim, size_t members) {
 }
 
 /* One member, straight. False if there is no memory. */
-static bool create_one(const ZpModel *model, bool uppermost, ZpSim *sim) {
+static bool create_one(const ZpModel *model, ZpSim *sim) {
   sim->model = model;
   sim->drive = zp_key_find("drive.voltage");
   sim->signal = zp_key_find("control.signal");
-  if (!allocate(sim, uppermost)) return false;
+  if (!allocate(sim)) return false;
   ZpState *state = sim->state;
   state->zip_time = state->closed_from = state->refreshed = state->starved_time = NAN;
   zp_place_straight(model, zp_state_q(model, state));
@@ -165,9 +165,10 @@ static ZpSim *create_straight(const ZpModel *model) {
   sim->states = zp_calloc(members, sizeof(ZpState *));
   bool made = sim->states != NULL;
   for (size_t k = 0; k < members && made; k++) {
-    made = create_one(model + k, k == 0, sim + k);
+    made = create_one(model + k, sim + k);
     sim->states[k] = sim[k].state;
   }
+  made = made && sim->stepping->create(sim) && make_liquid_room(sim);
   if (made && (members == 1 || make_room(sim, members))) return sim;
   zp_sim_destroy(sim);
   return NULL;
@@ -186,21 +187,31 @@ static void start(ZpSim *sim) {
     zp_sim_lay_beads(m);
     zp_sim_start_balance(m);
   }
-  if (sim->model->control.kind != ZP_CONTROL_NONE) zp_sim_start_control(sim);
-  if (zp_sim_is_fed(sim)) zp_supply_coupling_start(sim);
-  for (ZpSim *m = sim; m < sim + sim->members && !zp_sim_is_fed(sim); m++)
-    zp_sim_jump(m, voltage_now(m));
+  zp_sim_start_control(sim);
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    if (!zp_sim_is_fed(m))
+      zp_sim_jump(m, voltage_now(m));
+    else if (zp_leads_port(m->model))
+      zp_supply_coupling_start(m);
+  }
 }
 
 /* An actuator that does not open has no contraction, which a controller could measure. */
-static ZpStatus check_controlled(const ZpSim *sim, ZpError *err) {
+static ZpStatus check_one(const ZpSim *sim, ZpError *err) {
   const ZpActuatorDef *def = &sim->model->def;
   bool measured = def->control.kind != ZP_CONTROL_NONE && def->control.signal == ZP_CONTROL_CONTRACTION;
-  if (!measured || sim->settled != ZP_REACHED_END || sim->state->opening0 > 0) return ZP_OK;
+  if (!measured || (sim - sim->model->number)->settled != ZP_REACHED_END || sim->state->opening0 > 0) return ZP_OK;
   return zp_fail(
       err, ZP_BAD_INPUT,
       "control.signal = contraction: with this load, gravity and mount.tilt the actuator is closed at rest, so "
       "it has no contraction; use opening or stroke");
+}
+
+static ZpStatus check_controlled(const ZpSim *sim, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (const ZpSim *m = sim; m < sim + sim->members && status == ZP_OK; m++)
+    status = check_one(m, err);
+  return status;
 }
 
 ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, ZpError *err) {
@@ -269,7 +280,9 @@ void zp_sim_record(ZpSim *sim, ZpTable *series, ZpShapes *shapes) {
 /* Fine enough for a fast zip and for a wave; the records of a long run are thinned. */
 static double sampling_interval(const ZpModel *model) {
   static const double finest = 1e-4; /* s */
-  double least = fmin(finest, zp_waveform_period(&model->waveform) / 40);
+  double least = finest;
+  for (const ZpModel *m = model; m < model + model->members; m++)
+    least = fmin(least, zp_waveform_period(&m->waveform) / 40);
   return fmin(least, model->def.solver.end_time / model->def.output.samples);
 }
 

@@ -3,15 +3,24 @@
  * (run/dynamics.c) or by the paper's explicit ones (paper_motion.c), and arrives. */
 #include <math.h>
 
+#include "base/memory.h"
 #include "run/run.h"
 #include "run/sensitivity.h"
 
 /* -- the two methods ------------------------------------------------------------------------------- */
 
 static bool create_implicit(ZpSim *sim) {
-  bool fed = zp_sim_is_fed(sim);
-  if (fed) zp_supply_coupling_create(sim);
-  return zp_dynamics_create(sim->model, fed ? &sim->feed.source : NULL, &sim->dynamics);
+  const size_t members = sim->members;
+  const ZpSource **source = zp_calloc(members, sizeof(ZpSource *));
+  for (size_t k = 0; source && k < members; k++) {
+    if (!zp_sim_is_fed(sim + k) || !zp_leads_port(sim[k].model)) continue;
+    zp_supply_coupling_create(sim + k);
+    source[k] = &sim[k].feed.source;
+    sim->fed++;
+  }
+  const bool made = source && zp_dynamics_create(sim->model, source, &sim->dynamics);
+  zp_free(source);
+  return made;
 }
 
 /* Take an implicit step. If rounding, a pulse or a steep rise has put the next corner closer than `shortest`, only time
@@ -20,7 +29,7 @@ static bool step_implicit(ZpSim *sim, double latest, ZpStepLimit *limit) {
   static const double shortest = 1e-13; /* s: less than a nanometre at the speed of sound */
   ZpState *state = sim->state;
   *limit = sim->dynamics.stepper.fixed > 0 ? ZP_LIMIT_TIME_STEP : ZP_LIMIT_ERROR;
-  if (zp_sim_is_fed(sim)) return zp_supply_coupling_step(sim, latest);
+  if (sim->fed > 0) return zp_supply_coupling_step(sim, latest);
   if (latest - state->t < shortest) {
     for (ZpSim *m = sim; m < sim + sim->members; m++)
       m->state->t = latest;
@@ -62,7 +71,7 @@ const ZpStepping *zp_stepping_of(const ZpModel *model) {
 
 bool zp_sim_connect(ZpSim *sim, const ZpSource *source) {
   zp_dynamics_destroy(&sim->dynamics);
-  return zp_dynamics_create(sim->model, source, &sim->dynamics);
+  return zp_dynamics_create(sim->model, (const ZpSource *const[]){source}, &sim->dynamics);
 }
 
 /* -- how long a step may be ------------------------------------------------------------------------ */
@@ -73,10 +82,18 @@ static double next_change(const ZpSim *sim) {
   return due > sim->state->t ? due : INFINITY;
 }
 
+/* Of the drive of one member. */
+static double corner_of(const ZpSim *m) {
+  const ZpState *state = m->state;
+  return state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
+                        : zp_waveform_next_corner(&m->model->waveform, state->t);
+}
+
 double zp_sim_next_corner(ZpSim *sim) {
   const ZpState *state = sim->state;
-  double voltage = state->by_hand ? zp_ramp_corner(&state->voltage_input, state->t)
-                                  : zp_waveform_next_corner(&sim->model->waveform, state->t);
+  double voltage = INFINITY;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    if (zp_leads_port(m->model)) voltage = fmin(voltage, corner_of(m));
   double load = fmin(next_change(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
   return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
 }
@@ -89,31 +106,38 @@ static double hand_resolution(const ZpRamp *ramp, double least, double t) {
   return fmax(zp_ramp_resolution(largest, zp_ramp_rate(ramp, t)), shortest);
 }
 
-/* Longest step for all that changes from outside the actuator, s. */
-static double resolution(ZpSim *sim) {
+/* For the voltage of a port. */
+static double resolution_of(ZpSim *lead) {
   static const double least_voltage = 1e3; /* V */
-  const ZpModel *model = sim->model;
-  const ZpState *state = sim->state;
-  const ZpWaveform *waveform = &model->waveform;
+  const ZpState *state = lead->state;
+  const ZpWaveform *waveform = &lead->model->waveform;
   double t = state->t, usual = fmax(least_voltage, zp_waveform_largest(waveform));
   double voltage =
       state->by_hand ? hand_resolution(&state->voltage_input, usual, t) : zp_waveform_resolution(waveform, t);
-  if (zp_sim_is_fed(sim)) voltage = fmin(voltage, zp_supply_coupling_resolution(sim, usual));
-  if (model->leaks) voltage = fmin(voltage, zp_ramp_resolution(usual, zp_sim_leak(sim).fastest));
-  return fmin(voltage, hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(model), t));
+  if (zp_sim_is_fed(lead)) voltage = fmin(voltage, zp_supply_coupling_resolution(lead, usual));
+  return lead->model->leaks ? fmin(voltage, zp_ramp_resolution(usual, zp_sim_leak(lead).fastest)) : voltage;
+}
+
+/* Longest step for all that changes from outside the actuator, s. */
+static double resolution(ZpSim *sim) {
+  double longest =
+      hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(sim->model), sim->state->t);
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (zp_leads_port(m->model)) longest = fmin(longest, resolution_of(m));
+  return longest;
 }
 
 /* -- a motion -------------------------------------------------------------------------------------- */
 
 /* Before a motion of one member: complete a jump of the voltage, and update what is held over several steps. If this
  * fails there is no step: a field that cannot be solved ends the run. */
-static bool prepare_step(ZpSim *sim, ZpSim *m) {
+static bool prepare_step(ZpSim *m) {
   ZpState *state = m->state;
   if (state->U != state->base_U) zp_sim_close_balance(m);
   if (!zp_cached_field_due(m->model, state)) return true;
-  double charge = zp_sim_is_fed(sim) ? zp_system_electric_now(m->model, state, state->U, &m->eval).charge : 0;
+  double charge = zp_sim_is_fed(m) ? zp_system_electric_now(m->model, state, state->U, &m->eval).charge : 0;
   if (zp_cached_field_refresh(m->model, state, &m->eval) != ZP_END_FOUND) return false;
-  if (zp_sim_is_fed(sim)) zp_supply_coupling_renew(sim, m, charge);
+  if (zp_sim_is_fed(m)) zp_supply_coupling_renew(m, charge);
   return true;
 }
 
@@ -147,7 +171,7 @@ static void note_start(ZpSim *sim) {
 bool zp_sim_prepare(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
     note_start(m);
-    sim->step_failed = !prepare_step(sim, m);
+    sim->step_failed = !prepare_step(m);
     if (sim->step_failed) return false;
   }
   return true;
@@ -155,19 +179,21 @@ bool zp_sim_prepare(ZpSim *sim) {
 
 void zp_sim_arrive(ZpSim *sim) {
   for (size_t k = 0; k < sim->members; k++) {
-    if (!sim->dynamics.source) follow_voltage(sim + k);
+    if (sim->stepping->fine || !sim->dynamics.member[k].port) follow_voltage(sim + k);
     zp_sim_note_end(sim + k, sim->dynamics.member + k);
   }
 }
 
 static void keep_start(ZpSim *sim) {
   zp_sim_keep_states(sim);
-  sim->feed_before = sim->feed;
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    m->feed_before = m->feed;
 }
 
 static void return_to_start(ZpSim *sim) {
   zp_sim_take_states_back(sim);
-  sim->feed = sim->feed_before;
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    m->feed = m->feed_before;
 }
 
 /* A step that ends at `latest` or before; false if none was found. */
@@ -237,16 +263,33 @@ typedef struct Step {
   ZpStepLimit limit;
 } Step;
 
+static bool has_supply(const ZpSim *m) {
+  return zp_sim_is_fed(m) && zp_leads_port(m->model);
+}
+
+/* At the supplies of all ports. */
+static void let_commands_arrive(ZpSim *sim) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (has_supply(m)) zp_supply_coupling_arrive(m);
+}
+
+static double next_event(const ZpSim *sim, double latest) {
+  double next = INFINITY;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    if (has_supply(m)) next = fmin(next, zp_supply_coupling_event(m, latest));
+  return next;
+}
+
 /* Changes that are due now, and how long nothing from outside stops the motion. */
 static Step begin(ZpSim *sim, double end_time) {
   const ZpState *state = sim->state;
   if (sim->rates) zp_run_sensitivity_begin(sim->rates, end_time);
   if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
-  if (zp_sim_is_fed(sim)) zp_supply_coupling_arrive(sim);
+  if (sim->fed > 0) let_commands_arrive(sim);
   double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
-  if (zp_sim_is_fed(sim)) {
-    double event = zp_supply_coupling_event(sim, latest);
+  if (sim->fed > 0) {
+    double event = next_event(sim, latest);
     corner = fmin(corner, event);
     latest = fmin(latest, corner);
     if (sim->rates) sim->rates->event = event;

@@ -1,6 +1,6 @@
-/* The supply at the electrodes, docs/theory.md, section 23. Its inner voltage V follows from the command alone
- * (drive/supply.c), so its events are corners in time. A limit of the current depends on what the electrodes take: it
- * is part of the step's equations. */
+/* The supply at the electrodes of a port, of which `sim` is the first member. docs/theory.md, section 23. Its inner
+ * voltage V follows from the command alone (drive/supply.c), so its events are corners in time. A limit of the current
+ * depends on what the electrodes take: it is part of the step's equations. */
 #include "run/supply_coupling.h"
 
 #include <math.h>
@@ -37,7 +37,7 @@ static ZpSupplyState followed(const ZpSim *sim, const ZpState *from, double to) 
 
 /* Inner voltage at the end of a step of h. */
 static double inner_after(const ZpSim *sim, double h) {
-  double t = sim->state->t, latest = sim->dynamics.latest;
+  double t = sim->state->t, latest = (sim - sim->model->number)->dynamics.latest;
   return followed(sim, sim->state, h == latest - t ? latest : t + h).voltage;
 }
 
@@ -279,8 +279,8 @@ static void jump_one(ZpSim *m, double U, bool heat, Jump *jump) {
 
 void zp_supply_coupling_start(ZpSim *sim) {
   Jump all = {0};
-  for (ZpSim *m = sim; m < sim + sim->members; m++)
-    jump_one(m, zp_member_voltage(m->model, 0), false, &all);
+  for (size_t k = 0, next = 1; next > 0; next = zp_sim_next(sim + k), k += next)
+    jump_one(sim + k, zp_voltage_at_port(sim[k].model, 0), false, &all);
   sim->state->source_energy += all.work;
 }
 
@@ -289,8 +289,8 @@ static void jump(ZpSim *sim, double V) {
   ZpState *state = sim->state;
   double C = sim->model->supply.capacitance, R = sim->model->supply.resistance, rise = V - state->U;
   Jump all = {0};
-  for (ZpSim *m = sim; m < sim + sim->members; m++)
-    jump_one(m, zp_member_voltage(m->model, V), R > 0, &all);
+  for (size_t k = 0, next = 1; next > 0; next = zp_sim_next(sim + k), k += next)
+    jump_one(sim + k, zp_voltage_at_port(sim[k].model, V), R > 0, &all);
   state->source_charge += all.charge + C * rise;
   state->source_energy += all.work + C * V * rise;
   *lost_in_source(sim) += 0.5 * C * rise * rise;
@@ -303,12 +303,13 @@ static void jump(ZpSim *sim, double V) {
   sim->feed.peak = fmax(sim->feed.peak, fabs(rise) / R);
 }
 
-void zp_supply_coupling_renew(ZpSim *sim, ZpSim *m, double before) {
+void zp_supply_coupling_renew(ZpSim *m, double before) {
+  ZpSim *sim = zp_sim_lead(m);
   ZpState *state = sim->state;
   double change = zp_system_electric_now(m->model, m->state, m->state->U, &m->eval).charge - before;
   double charge = zp_source_share(m->model) * change, V = state->supply.voltage;
   state->source_charge += charge;
-  state->source_energy += V * charge + m->model->bias * m->model->parts * change;
+  state->source_energy += V * charge + zp_beside_port(m->model) * m->model->parts * change;
   *lost_in_source(sim) += (V - state->U) * charge;
 }
 
@@ -317,8 +318,14 @@ static double at_bleeder(const ZpSim *sim) {
   return sim->before->U + sim->feed.bleeds * (sim->state->U - sim->before->U);
 }
 
+static const ZpMovingMember *moved_of(const ZpSim *m) {
+  const size_t number = m->model->number;
+  return (m - number)->dynamics.member + number;
+}
+
 /* Charge that one part of a member has taken over the last step, C. */
-static double taken_by(const ZpSim *m, const ZpMovingMember *moved) {
+static double taken_by(const ZpSim *m) {
+  const ZpMovingMember *moved = moved_of(m);
   return moved->charge1 - moved->charge0 + (m->state->leaked - m->before->leaked);
 }
 
@@ -327,8 +334,8 @@ static double charge_given(const ZpSim *sim) {
   const ZpState *state = sim->state, *before = sim->before;
   const ZpSupply *supply = &sim->model->supply;
   double h = state->t - before->t, taken = 0;
-  for (size_t k = 0; k < sim->members; k++)
-    taken += zp_source_share(sim[k].model) * taken_by(sim + k, sim->dynamics.member + k);
+  for (size_t k = 0, next = 1; next > 0; next = zp_sim_next(sim + k), k += next)
+    taken += zp_source_share(sim[k].model) * taken_by(sim + k);
   double bled = h * supply->conductance * at_bleeder(sim);
   double given = taken + supply->capacitance * (state->U - before->U) + bled;
   return state->supply_mode == ZP_SUPPLY_SPILLS ? fmin(fmax(given, -supply->sinks * h), supply->most * h) : given;
@@ -365,11 +372,11 @@ static void book(ZpSim *sim) {
   const ZpState *before = sim->before;
   const double h = state->t - before->t, charge = charge_given(sim), U = 0.5 * (before->U + state->U);
   double electrodes = 0, biased = 0; /* work on those of all; the part of it of constant sources of members */
-  for (size_t k = 0; k < sim->members; k++) {
+  for (size_t k = 0, next = 1; next > 0; next = zp_sim_next(sim + k), k += next) {
     const ZpSim *m = sim + k;
-    const ZpMovingMember *moved = sim->dynamics.member + k;
+    const ZpMovingMember *moved = moved_of(m);
     electrodes += m->model->parts * (given(m->state, moved->charge1) - given(m->before, moved->charge0));
-    biased += m->model->bias * m->model->parts * taken_by(m, moved);
+    biased += zp_beside_port(m->model) * m->model->parts * taken_by(m);
   }
   double bled = h * sim->model->supply.conductance * at_bleeder(sim) * at_bleeder(sim);
   double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
@@ -387,8 +394,9 @@ static void book(ZpSim *sim) {
 /* Capacitance of electrodes and cable while they charge towards the inner voltage. */
 static double capacitance_now(ZpSim *sim) {
   double V = sim->state->supply.voltage, taken = 0;
-  for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    double U = zp_member_voltage(m->model, V), now = m->state->U;
+  for (size_t k = 0, next = 1; next > 0; next = zp_sim_next(sim + k), k += next) {
+    ZpSim *m = sim + k;
+    double U = zp_voltage_at_port(m->model, V), now = m->state->U;
     taken += zp_source_share(m->model) * (zp_system_electric_now(m->model, m->state, U, &m->eval).charge -
                                           zp_system_electric_now(m->model, m->state, now, &m->eval).charge);
   }
@@ -412,23 +420,28 @@ void zp_supply_coupling_end(ZpSim *sim) {
   book(sim);
 }
 
+/* Of all ports. */
 bool zp_supply_coupling_step(ZpSim *sim, double latest) {
-  ZpState *state = sim->state;
-  if (latest - state->t < ZP_SUPPLY_SHORTEST) {
-    state->supply = followed(sim, state, latest);
-    for (ZpSim *m = sim; m < sim + sim->members; m++)
-      m->state->t = latest;
-    return true;
+  const bool moves = latest - sim->state->t >= ZP_SUPPLY_SHORTEST;
+  if (moves && !(zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0)) return false;
+  for (ZpSim *m = sim; m < sim + sim->members; m++) {
+    const bool fed = zp_sim_is_fed(m) && zp_leads_port(m->model);
+    if (fed && moves) zp_supply_coupling_end(m);
+    if (fed && !moves) m->state->supply = followed(m, m->state, latest);
   }
-  if (!(zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0)) return false;
-  zp_supply_coupling_end(sim);
+  for (ZpSim *m = sim; m < sim + sim->members && !moves; m++)
+    m->state->t = latest;
   return true;
 }
 
 /* -- what came of it ------------------------------------------------------------------------------- */
 
 ZpCurrents zp_sim_currents(ZpSim *sim, double duration) {
-  bool jumped = isinf(sim->feed.peak) || (!zp_sim_is_fed(sim) && zp_sim_get(sim, "charging_loss") > 0);
-  if (jumped || !(duration > 0)) return (ZpCurrents){NAN, NAN};
+  const size_t supplies = sim->dynamics.ports; /* beside others: their currents have no common peak */
+  bool apart = sim->fed > 0 && (supplies > 1 || !zp_sim_is_fed(sim));
+  for (ZpSim *m = sim; m < sim + sim->members && sim->fed > 0; m++)
+    apart |= !zp_sim_is_fed(m);
+  bool jumped = isinf(sim->feed.peak) || (sim->fed == 0 && zp_sim_get(sim, "charging_loss") > 0);
+  if (apart || jumped || !(duration > 0)) return (ZpCurrents){NAN, NAN};
   return (ZpCurrents){sim->feed.peak, sqrt(sim->feed.square / duration)};
 }

@@ -36,8 +36,8 @@ typedef struct ZpSupplyCoupling {
   int largest; /* which of them is larger than any in the steps before; ZP_SUPPLY_CURRENTS: none */
 } ZpSupplyCoupling;
 
-/* Is there a supply that acts? Else zp_supply_coupling_create to zp_supply_coupling_cable_energy, zp_sim_command
- * excepted, are not to be called. */
+/* Is a member behind a supply that acts? Else zp_supply_coupling_create to zp_supply_coupling_cable_energy,
+ * zp_sim_command excepted, are not to be called. */
 bool zp_sim_is_fed(const ZpSim *sim);
 
 void zp_supply_coupling_create(ZpSim *sim);
@@ -53,7 +53,7 @@ void zp_supply_coupling_arrive(ZpSim *sim);
 
 /* A field of a member that was computed again, or a surface, holds another charge at the same voltage than `before` (of
  * one part, C): the supply gives the difference. */
-void zp_supply_coupling_renew(ZpSim *sim, ZpSim *member, double before);
+void zp_supply_coupling_renew(ZpSim *member, double before);
 
 /* The next event of the supply before `latest`, s. */
 double zp_supply_coupling_event(const ZpSim *sim, double latest);
@@ -61,7 +61,7 @@ double zp_supply_coupling_event(const ZpSim *sim, double latest);
 /* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
 double zp_supply_coupling_resolution(const ZpSim *sim, double least);
 
-/* One step that ends at `latest` or before. False if none was found. Its start is in sim->before. */
+/* One step of all members that ends at `latest` or before. False if none was found. Its start is in sim->before. */
 bool zp_supply_coupling_step(ZpSim *sim, double latest);
 
 /* After a step of the dynamics that is found otherwise, without a limit in it. */

@@ -82,11 +82,27 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
   return zp_load_work(model, along, up);
 }
 
+/* Work against the weights of bodies and the forces on them from start to end, J. */
+static double work_on_bodies(const ZpModel *model, const ZpResult *result) {
+  const ZpActuatorDef *def = model->whole;
+  double work = 0;
+  for (int body = 1; body < (int)model->network->bodies; body++) {
+    char room[ZP_NAME_SIZE], column[2 * ZP_NAME_SIZE];
+    snprintf(column, sizeof column, "%s.y_m", zp_body_called(def, (size_t)body, room));
+    const double mass = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.mass), body)),
+                 up = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.force.y), body));
+    const double risen = zp_table_get(result->series, result->series->rows - 1, column) -
+                         zp_table_get(result->series, 0, column);
+    if (!model->network->body[body].held) work += (mass * def->gravity - up) * risen;
+  }
+  return work;
+}
+
 /* Work against pull and springs of the load from start to end, J. */
 static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - zp_at_end(sim, result, "opening");
   double compressed = zp_at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  return zp_total_pull(model) * risen + compressed;
+  return (zp_is_network(model) ? work_on_bodies(model, result) : zp_total_pull(model) * risen) + compressed;
 }
 
 /* Work on the load over the energy from the source, J. */

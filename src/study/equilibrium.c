@@ -30,7 +30,7 @@ typedef struct Follower {
 
 static void record(Follower *f, int branch) {
   ZpStatics *s = &f->at.rest.statics;
-  bool stable = zp_statics_stable(s), last = s->U == f->at.model->def.drive.voltage && f->points > 0;
+  bool stable = zp_statics_stable(s), last = s->U == zp_drive_voltage(f->at.model) && f->points > 0;
   zp_equilibria_add(&f->at, (double[COLUMNS]){s->U, ZP_STATE_VALUES(s), stable, branch}, f->points, last);
   f->points++;
 }
@@ -40,7 +40,7 @@ static void record(Follower *f, int branch) {
 /* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
  * => false if it was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
-  double top = f->at.model->def.drive.voltage;
+  double top = zp_drive_voltage(f->at.model);
   ZpBranch *branch = &f->at.rest.branch;
   ZpStatics *s = &f->at.rest.statics;
   record(f, mark);
@@ -78,8 +78,8 @@ static void follow_both(Follower *f) {
 
 static void note(Follower *f) {
   ZpResult *r = f->at.result;
-  zp_equilibria_note(&f->at, f->at.model->def.drive.voltage);
-  if (f->at.model->def.drive.voltage > 0) zp_note_start(r, f->at.model, zp_table_get(r->series, 0, "opening_m"));
+  zp_equilibria_note(&f->at, zp_drive_voltage(f->at.model));
+  if (zp_drive_voltage(f->at.model) > 0) zp_note_start(r, f->at.model, zp_table_get(r->series, 0, "opening_m"));
   if (!isnan(f->left))
     zp_result_note(
         r,

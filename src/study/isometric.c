@@ -181,7 +181,7 @@ static bool fall(Holder *h, bool turned) {
   bool found = false;
   for (size_t k = 0; k < sizeof above / sizeof above[0] && !found; k++) {
     zp_rest_go_to(&h->at.rest, h->edge);
-    double U = fmin((1 + above[k]) * h->highest + least * h->at.model->def.drive.voltage, h->at.top);
+    double U = fmin((1 + above[k]) * h->highest + least * zp_drive_voltage(h->at.model), h->at.top);
     found = zp_newton_good(zp_statics_relax(s, U).end) && is_possible(h);
   }
   if (!found) return false;
@@ -235,7 +235,7 @@ static void summarize(Holder *h, const ZpNewtonInfo *info) {
 
 static void note(Holder *h) {
   ZpResult *r = h->at.result;
-  zp_equilibria_note(&h->at, h->at.model->def.drive.voltage);
+  zp_equilibria_note(&h->at, zp_drive_voltage(h->at.model));
   if (h->jumps > 0)
     zp_result_note(
         r, "%d jump%s as the voltage rises, the largest by %.3g N; %s", h->jumps, h->jumps == 1 ? "" : "s", h->leap,
@@ -252,7 +252,7 @@ static void note(Holder *h) {
 
 /* => message [size] */
 static void describe(const Holder *h, char *message, size_t size) {
-  double top = h->at.model->def.drive.voltage;
+  double top = zp_drive_voltage(h->at.model);
   const char *trouble = h->fault ? h->fault : zp_statics_trouble(&h->at.rest.statics);
   if (h->outcome == ZP_NOT_SETTLED)
     snprintf(message, size, "no equilibrium without voltage found at isometric.separation = %g m",
@@ -323,7 +323,7 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
   record(h, true, false);
 }
 
-/* Raise the lower antagonist's own voltage, over all its turns. */
+/* Raise constant voltages that members have of their own, over all turns. */
 static void raise_bias(Holder *h) {
   bool jumped = false, raised = zp_statics_bias_held(&h->at.rest.statics, &jumped);
   if (!raised) h->outcome = ZP_BRANCH_LOST;
@@ -332,9 +332,6 @@ static void raise_bias(Holder *h) {
   record(h, true, false);
 }
 
-static bool is_biased(const Holder *h) {
-  return h->at.model[h->at.model->members - 1].bias != 0;
-}
 
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
@@ -383,9 +380,9 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
 static void run(Holder *h) {
   ZpStatics *s = &h->at.rest.statics;
   ZpNewtonInfo info;
-  double voltage = h->at.model->def.drive.voltage;
+  double voltage = zp_drive_voltage(h->at.model);
   hold_unpowered(h, &info);
-  if (h->outcome == ZP_CONVERGED && is_biased(h)) raise_bias(h);
+  if (h->outcome == ZP_CONVERGED && h->at.rest.statics.biased) raise_bias(h);
   if (h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, &info);
   if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);

@@ -122,7 +122,7 @@ static void run(Finder *f, ZpResult *r) {
   look(f, hangs, f->limits->start);
   look(f, f->limits->closes, f->limits->closed);
   look(f, f->limits->arrives, f->limits->top);
-  zp_equilibria_note(&f->at, f->at.model->def.drive.voltage);
+  zp_equilibria_note(&f->at, zp_drive_voltage(f->at.model));
   if (hangs) zp_note_start(r, f->at.model, f->limits->hanging);
 }
 

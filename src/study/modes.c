@@ -167,6 +167,8 @@ static void run(Problem *p) {
   if (found) report(p);
 }
 
+static const char one_loop[] = "the eigenvalues of a closed loop are those of one controller and one opening";
+
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the shear law of mass_spring has no energy"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_NOT(liquid.model, ZP_LIQUID_SUBMERGED),
@@ -182,6 +184,10 @@ static const ZpRule rule[] = {
     ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),
                ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),
                "there the boost acts in full on any error, so the loop has no eigenvalues; or use another setpoint"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(control.kind, ZP_CONTROL_NONE), one_loop),
+    ZP_RULE(NOT_MODELLED, ZP_SET_WITHIN(member_K.drive.voltage, member_K.setpoint.duty),
+            ZP_IS(control.kind, ZP_CONTROL_NONE), one_loop),
+    ZP_RULE(NOT_MODELLED, ZP_SET(member_K.control.kind), ZP_NEVER, one_loop),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

@@ -138,7 +138,7 @@ void zp_describe_limits(const ZpStatics *statics, const ZpLimits *limits, bool l
   else if (!isnan(closing->value))
     say(r, "no pull-in: closes gradually at %.4g V", closing->value);
   else
-    say(r, "no pull-in up to %g V", statics->member->model->def.drive.voltage);
+    say(r, "no pull-in up to %g V", zp_drive_voltage(statics->model));
   if (closing->end == ZP_TRACK_LOST)
     say(r, "; %s", closing->reason);
   else if (closing->value < pull_in || closing->value > pull_in)

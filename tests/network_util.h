@@ -1,0 +1,25 @@
+/* Scenarios of networks as Defs, and numbers of their results. */
+#ifndef ZP_TEST_NETWORK_UTIL_H
+#define ZP_TEST_NETWORK_UTIL_H
+
+#include "data_util.h"
+
+#include "study/studies.h"
+
+/* A scenario as a Def, without errors unless it says so. */
+static ZpActuatorDef def_of(const char *text) {
+  ZpActuatorDef def = {0};
+  ZpScenario *s = new_scenario();
+  ck_ok(zp_scenario_parse(s, text, strlen(text), "network.yaml", &err));
+  ck_ok(zp_scenario_override(s, "output.errors: false", 20, "errors", &err));
+  ck_ok(zp_scenario_def(s, 0, &def, &err));
+  lend_members(&def);
+  return def;
+}
+
+static double number(const ZpResult *result, const char *name) {
+  ck_assert_msg(zp_result_has(result, name), "no %s", name);
+  return zp_result_get(result, name);
+}
+
+#endif
