@@ -312,6 +312,38 @@ TEST(run_on_several_ports_continues) {
   ck_continues(sim, model, 0.05);
 }
 
+/* A checkpoint has the keys of bodies, of springs and of the places of members, too. */
+TEST(network_continues) {
+  static const char text[] = USUAL
+      "drive.voltage: 7 kV\nbodies: {hand: {mass: 8 g}, floor: {moves: none, at: [0, -60 mm]}, hook: {mass: 3 g}}\n"
+      "members:\n  up: {upper: frame, lower: hand}\n"
+      "  down: {upper: floor, lower: hand, angle: 180 degree, drive: {waveform: square, voltage: 3 kV}}\n"
+      "  tail: {upper: hand, lower: hook, source: {model: amplifier, resistance: 100 Mohm}}\n"
+      "springs: {coil: {between: [frame, hook], stiffness: 2 N/m, rest: 10 mm}}\n";
+  static const struct {
+    const char *key;
+    double value;
+    const char *says;
+  } other[] = {{"spring_1.stiffness", 3, "spring_1.stiffness is 2 N/m there, 3 N/m here"},
+               {"body_2.at.y", -0.061, "body_2.at.y is -0.06 m there, -0.061 m here"},
+               {"member_3.upper", 0, "member_3.upper is 1 there, 0 here"},
+               {"spring_1.kind", ZP_SPRING_PULL, "other bodies and springs"}};
+  const ZpActuatorDef def = def_of(text);
+  const ZpModel *model = model_of(&def);
+  ZpSim *sim = sim_of(model);
+  ZpCheckpoint *checkpoint;
+  run_to(sim, 0.0223);
+  ck_ok(zp_sim_checkpoint(sim, &checkpoint, &err));
+  ck_ok(zp_checkpoint_check(checkpoint, &def, &err));
+  for (size_t k = 0; k < LENGTH_OF(other); k++) {
+    ZpActuatorDef changed = def;
+    set_member(&changed, other[k].key, other[k].value);
+    ck_says(zp_checkpoint_check(checkpoint, &changed, &err), ZP_BAD_INPUT, other[k].says);
+  }
+  zp_checkpoint_destroy(checkpoint);
+  ck_continues(sim, model, 0.04);
+}
+
 static const struct {
   ZpStudy study;
   const char *text, *says;

@@ -164,6 +164,9 @@ double zp_def_lower_voltage(const ZpActuatorDef *def, double voltage);
 /* "member_K.ribbon.width" => "ribbon.width"; another name stays as it is. */
 const char *zp_key_of_one(const char *name);
 
+/* Does a key belong to a body or a spring, or say between which bodies a member is? */
+bool zp_key_is_of_network(int index);
+
 /* The first member of those on the port of a member; 0: the port of all that have no key of a port. */
 int zp_def_port(const ZpActuatorDef *def, int member);
 

@@ -414,8 +414,6 @@ static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(mount.tilt), "bodies move up and down"),
     ZP_RULE(PHYSICS, ZP_NETWORK, ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT),
             "straight ribbons do not reach the bodies"),
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT),
-            "a checkpoint has the keys of each member, not those of bodies and springs"),
     ZP_RULE(EQUATION, ZP_NETWORK, ZP_IS(ribbon.plasticity, false),
             "how the members had been bent before they were joined is not known"),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sensitivity.by), "derivatives are those of one opening and one load"),

@@ -24,6 +24,11 @@ static bool is_of_place(int key) {
   return row == ZP_KEY(member_K.upper) || row == ZP_KEY(member_K.lower) || row == ZP_KEY(member_K.angle);
 }
 
+bool zp_key_is_of_network(int index) {
+  const ZpInstance at = zp_key_instance(index);
+  return at.number > 0 && (at.kind != ZP_OF_MEMBER || is_of_place(index));
+}
+
 /* Is a member unlike what the other keys say? One that has a port of its own has a source of its own, too, unless both
  * are ideal and have the same voltage. */
 static bool has_unlike_member(const ZpActuatorDef *def) {

@@ -324,7 +324,9 @@ bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
 }
 
 const char *zp_statics_no_rest(const ZpStatics *s) {
-  return s->bias < 1 ? "a member pulls in below its own constant voltage" : "no hanging equilibrium found";
+  return s->bias < 1
+             ? "a member pulls in below its own constant voltage (stack.lower_voltage; drive.voltage, not scaled)"
+             : "no hanging equilibrium found";
 }
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {

@@ -188,14 +188,15 @@ static void print_value(const ZpKey *key, double value, char text[64]) {
 /* Write a key, or read it and refuse another value than that of `def`. */
 static ZpStatus walk_value(ZpPack *p, const ZpActuatorDef *def, int index, ZpError *err) {
   const ZpKey *key = zp_key(index);
+  const char *name = ZP_KEY_NAME(index);
   const double mine = zp_def_get(def, index);
   double value = mine;
   char there[64], here[64];
-  zp_pack_field(p, key->name, ZP_REAL, &value, 1);
+  zp_pack_field(p, name, ZP_REAL, &value, 1);
   if (value == mine || (isnan(value) && isnan(mine))) return ZP_OK;
   print_value(key, value, there);
   print_value(key, mine, here);
-  return zp_fail(err, ZP_BAD_INPUT, "of another model: %s is %s there, %s here", key->name, there, here);
+  return zp_fail(err, ZP_BAD_INPUT, "of another model: %s is %s there, %s here", name, there, here);
 }
 
 /* As walk_value, of a choice. */
@@ -220,6 +221,22 @@ static ZpStatus walk_keys(ZpPack *p, const ZpActuatorDef *def, ZpError *err) {
   for (int i = 0; i < zp_key_count() && status == ZP_OK; i++)
     if (zp_checkpoint_holds(i))
       status = zp_key(i)->type == ZP_KEY_ENUM ? walk_choice(p, def, i, err) : walk_value(p, def, i, err);
+  return status;
+}
+
+/* Keys of bodies and springs, and where members are between them, in the record of the first member of a network.
+ * Others have NULL. */
+static ZpStatus walk_network(ZpPack *p, const ZpActuatorDef *network, ZpError *err) {
+  size_t mine = 0;
+  ZpStatus status = ZP_OK;
+  for (size_t k = 0; network && k < network->given->count; k++)
+    mine += zp_key_is_of_network(network->given->value[k].key);
+  size_t count = mine;
+  if (network) zp_pack_field(p, "network", ZP_SIZE, &count, 1);
+  if (count != mine) return zp_fail(err, ZP_BAD_INPUT, "of another model: it has other bodies and springs");
+  for (size_t k = 0; network && k < network->given->count && status == ZP_OK; k++)
+    if (zp_key_is_of_network(network->given->value[k].key))
+      status = walk_value(p, network, network->given->value[k].key, err);
   return status;
 }
 
@@ -275,13 +292,14 @@ static ZpStatus check_numbers(const ZpState *state, const ZpActuatorDef *def, Zp
 }
 
 /* (bytes of one record) => p, behind the keys, and the numbers of `state`, of a model with the keys of `def` */
-static ZpStatus read_numbers(const ZpActuatorDef *def, const void *bytes, size_t size, ZpPack *p, ZpState *state,
-                             ZpError *err) {
+static ZpStatus read_numbers(const ZpActuatorDef *def, const ZpActuatorDef *network, const void *bytes, size_t size,
+                             ZpPack *p, ZpState *state, ZpError *err) {
   ZpStatus status = zp_pack_read(&snapshot, bytes, size, p, err);
   if (status != ZP_OK) return status;
   *state = (ZpState){.t = 0};
   walk_numbers(p, state);
   status = walk_keys(p, def, err);
+  if (status == ZP_OK) status = walk_network(p, network, err);
   if (status == ZP_OK && p->lacks) status = zp_pack_end(p, err);
   return status == ZP_OK ? check_numbers(state, def, err) : status;
 }
@@ -297,9 +315,15 @@ static ZpStatus check_count(const void *bytes, size_t size, size_t members, ZpEr
   return zp_fail(err, ZP_BAD_INPUT, "of another model: it has %zu members, %zu here", there, members);
 }
 
+/* The network of which this is the first member; NULL: it is none. */
+static const ZpActuatorDef *network_of(const ZpModel *model) {
+  return model->number == 0 && zp_is_network(model) ? model->whole : NULL;
+}
+
 static void walk(ZpPack *p, const ZpModel *model, ZpState *numbers, double *data) {
   walk_numbers(p, numbers);
   walk_keys(p, &model->def, NULL);
+  walk_network(p, network_of(model), NULL);
   walk_arrays(p, model, data);
   walk_rows(p, model, data);
 }
@@ -330,8 +354,9 @@ static ZpStatus check_one(const ZpActuatorDef *def, int member, const void *byte
   ZpPack p;
   ZpState numbers;
   if (!def) return zp_pack_read(&snapshot, bytes, size, &p, err);
-  const ZpActuatorDef one = zp_def_members(def) > 1 ? zp_def_member(def, member) : *def;
-  return read_numbers(&one, bytes, size, &p, &numbers, err);
+  const bool network = zp_def_network(def);
+  const ZpActuatorDef one = network || zp_def_members(def) > 1 ? zp_def_member(def, member) : *def;
+  return read_numbers(&one, network && member == 1 ? def : NULL, bytes, size, &p, &numbers, err);
 }
 
 ZpStatus zp_snapshot_check(const ZpActuatorDef *def, const void *bytes, size_t size, ZpError *err) {
@@ -356,7 +381,7 @@ double zp_snapshot_time(const void *bytes, size_t size) {
 static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, ZpState *state, ZpError *err) {
   ZpPack p;
   ZpState numbers;
-  ZpStatus status = read_numbers(&model->def, bytes, size, &p, &numbers, err);
+  ZpStatus status = read_numbers(&model->def, network_of(model), bytes, size, &p, &numbers, err);
   if (status != ZP_OK) return status;
   memcpy(state, &numbers, offsetof(ZpState, data));
   walk_arrays(&p, model, state->data);
