@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "def/rule.h"
 #include "run/run.h"
 
 /* Work of ideal sources at U0 during the motion and of their jump to U1, between the states `before` and `after` the
@@ -47,6 +48,18 @@ double zp_sim_height(const ZpSim *first, size_t body) {
   double *q = zp_state_q(leader->model, leader->state);
   return zp_network_origin(network, at->leader) +
          zp_network_sign(network, at->leader) * *zp_coordinate(leader->model, q, k);
+}
+
+double zp_sim_lifted(const ZpSim *first) {
+  const ZpActuatorDef *def = first->model->whole;
+  double work = 0;
+  for (int body = 1; body < (int)first->model->network->bodies; body++) {
+    const double mass = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.mass), body)),
+                 up = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.force.y), body));
+    if (!first->model->network->body[body].held)
+      work += (mass * def->gravity - up) * zp_sim_height(first, (size_t)body);
+  }
+  return work;
 }
 
 void zp_sim_add_springs(const ZpSim *sim, double *ledger) {

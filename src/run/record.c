@@ -534,9 +534,13 @@ double zp_sim_get(ZpSim *sim, const char *name) {
   return sim->row[k];
 }
 
-void zp_sim_read(ZpSim *sim, double *row) {
+void zp_sim_read_columns(ZpSim *sim, size_t columns, double *row) {
   make_row(sim);
-  memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
+  memcpy(row, sim->row, columns * sizeof *row);
+}
+
+void zp_sim_read(ZpSim *sim, double *row) {
+  zp_sim_read_columns(sim, SIGNAL_COUNT, row);
 }
 
 /* The shapes of all, member after member. */

@@ -256,6 +256,9 @@ void zp_sim_start_balance(ZpSim *sim);
 /* The height of a body of the system, of which this is the first member, m. */
 double zp_sim_height(const ZpSim *first, size_t body);
 
+/* Of a network: work against the weights of its bodies and the forces on them, from height 0 to the present ones, J. */
+double zp_sim_lifted(const ZpSim *first);
+
 /* Of the first member: the energy of springs between bodies, added to its row of the ledger. */
 void zp_sim_add_springs(const ZpSim *sim, double *ledger);
 
@@ -287,6 +290,9 @@ ZpLeakNow zp_sim_leak(ZpSim *sim);
 
 /* Time at which member 1, 2, ... of a series has closed, s; NAN: it has not. */
 double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
+
+/* As zp_sim_read, with numbers of each member and body: `columns` of zp_signal_table. */
+void zp_sim_read_columns(ZpSim *sim, size_t columns, double *row);
 
 /* Number of values in the row of a member; that of the first of several includes the numbers of each. */
 size_t zp_sim_row_size(const ZpSim *sim);

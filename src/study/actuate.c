@@ -7,7 +7,7 @@
 #include "base/fail.h"
 #include "drive/response.h"
 #include "run/margins.h"
-#include "run/supply_coupling.h"
+#include "run/run.h"
 #include "study/notes.h"
 #include "study/rates.h"
 #include "study/sense.h"
@@ -62,14 +62,16 @@ static double work_on_change(const ZpSim *sim) {
   return work;
 }
 
-/* Work before a run that resumes, J. */
+/* Work before a run that resumes; of a network, where its bodies begin, J. */
 typedef struct Booked {
   double energy, load_work, on_change;
+  double lifted;
 } Booked;
 
 static Booked booked_before(ZpSim *sim, bool resumes) {
-  if (!resumes) return (Booked){0, 0, 0};
-  return (Booked){zp_sim_get(sim, "source_energy"), zp_sim_get(sim, "load_work"), work_on_change(sim)};
+  const double lifted = zp_is_network(sim->model) ? zp_sim_lifted(sim) : 0;
+  if (!resumes) return (Booked){.lifted = lifted};
+  return (Booked){zp_sim_get(sim, "source_energy"), zp_sim_get(sim, "load_work"), work_on_change(sim), lifted};
 }
 
 /* Work on a load that does not only rise: at a free end, where a spring of a hinge is not part of it, and that of a
@@ -82,27 +84,11 @@ static double work_along_path(ZpSim *sim, const ZpModel *model, const ZpResult *
   return zp_load_work(model, along, up);
 }
 
-/* Work against the weights of bodies and the forces on them from start to end, J. */
-static double work_on_bodies(const ZpModel *model, const ZpResult *result) {
-  const ZpActuatorDef *def = model->whole;
-  double work = 0;
-  for (int body = 1; body < (int)model->network->bodies; body++) {
-    char room[ZP_NAME_SIZE], column[2 * ZP_NAME_SIZE];
-    snprintf(column, sizeof column, "%s.y_m", zp_body_called(def, (size_t)body, room));
-    const double mass = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.mass), body)),
-                 up = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.force.y), body));
-    const double risen = zp_table_get(result->series, result->series->rows - 1, column) -
-                         zp_table_get(result->series, 0, column);
-    if (!model->network->body[body].held) work += (mass * def->gravity - up) * risen;
-  }
-  return work;
-}
-
 /* Work against pull and springs of the load from start to end, J. */
-static double work_on_load(ZpSim *sim, const ZpModel *model, const ZpResult *result) {
+static double work_on_load(ZpSim *sim, const ZpModel *model, Booked before, const ZpResult *result) {
   double risen = zp_table_get(result->series, 0, "opening_m") - zp_at_end(sim, result, "opening");
   double compressed = zp_at_end(sim, result, "spring_energy") - zp_table_get(result->series, 0, "spring_energy_J");
-  return (zp_is_network(model) ? work_on_bodies(model, result) : zp_total_pull(model) * risen) + compressed;
+  return (zp_is_network(model) ? zp_sim_lifted(sim) - before.lifted : zp_total_pull(model) * risen) + compressed;
 }
 
 /* Work on the load over the energy from the source, J. */
@@ -131,7 +117,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (!zp_is_pair(&model->topology)) return;
   bool rises = zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology);
-  double work = rises ? work_on_load(sim, model, result) : work_along_path(sim, model, result);
+  double work = rises ? work_on_load(sim, model, before, result) : work_along_path(sim, model, result);
   work += work_on_change(sim) - before.on_change - (zp_at_end(sim, result, "load_work") - before.load_work);
   zp_result_add(result, "mechanical_work_J", "J", work);
   add_efficiency(result, work, energy - before.energy);

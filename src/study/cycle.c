@@ -23,8 +23,8 @@ enum { SLOW = ZP_BEADS + 1 };       /* what may take many cycles: liquid at the 
 
 /* Numbers that are compared between two starts of cycles. */
 typedef struct Mark {
-  double *q;   /* of all members, m */
-  double rate; /* of the opening, m/s */
+  double *q;    /* of all members, m */
+  double *rate; /* [opening] of each opening, m/s */
   double (
       *slow)[SLOW]; /* [members] volume outside the faces over that of the bead; interface voltage over the drive's */
 } Mark;
@@ -41,18 +41,30 @@ typedef struct Edge {
   double start, least, most;
 } Edge;
 
+typedef struct Range {
+  double least, most;
+} Range;
+
+/* What opens: the actuator, or each member of a network. In a cycle, m, m/s. */
+typedef struct Opens {
+  Range opening, rate;
+} Opens;
+
 typedef struct Cycles {
   ZpSim *sim;
   const ZpModel *model;
   const ZpHooks *hooks;
   ZpTable *rows;              /* of the last cycle */
   double load[PHASES + 1][2]; /* x and y of the point that the load hangs on, by row, m */
+  double lifted[PHASES + 1];  /* of a network: zp_sim_lifted, J */
   double period;              /* s */
   double highest;             /* size of the command, V */
   double far, fast;           /* units of positions and velocities in a search, m, m/s, the latter of the node with: */
   double heaviest;            /* the largest mass, kg */
   Response response;          /* of the last cycle */
   Edge (*edge)[ZP_BEADS];     /* [members] likewise */
+  Opens *opens;               /* [opening] likewise */
+  size_t opening;             /* how many there are */
   Mark mark[HISTORY];         /* the newest first */
   double moved[2];            /* distance between the last two starts, and the one before, relative to the response */
   double least[2];            /* least distance in this quarter of the cycles, and in the one before */
@@ -75,14 +87,49 @@ typedef struct Cycles {
 
 /* -- one cycle -------------------------------------------------------------------------------------- */
 
+static Range with(Range range, double value, bool first) {
+  return first ? (Range){value, value} : (Range){fmin(range.least, value), fmax(range.most, value)};
+}
+
+static double half_of(Range range) {
+  return 0.5 * (range.most - range.least);
+}
+
+/* The opening where all hang, m. */
+static double hanging(const Cycles *c, size_t which) {
+  return zp_is_network(c->model) ? c->sim[which].state->opening0 : zp_sim_hanging(c->sim);
+}
+
+static double rate_of(const Cycles *c, size_t which) {
+  const ZpSim *m = c->sim + which;
+  if (!zp_is_network(c->model)) return zp_sim_get(c->sim, "end_velocity");
+  return zp_opening(&m->model->topology, zp_state_motion(m->model, m->state).vy);
+}
+
+static double opening_of(const Cycles *c, size_t which) {
+  const ZpSim *m = c->sim + which;
+  if (!zp_is_network(c->model)) return zp_sim_get(c->sim, "opening");
+  return zp_opening(&m->model->topology, zp_state_motion(m->model, m->state).y);
+}
+
+static void see_openings(Cycles *c, bool first) {
+  for (size_t k = 0; k < c->opening; k++) {
+    c->opens[k].opening = with(c->opens[k].opening, opening_of(c, k), first);
+    c->opens[k].rate = with(c->opens[k].rate, rate_of(c, k), first);
+  }
+}
+
 /* The row at a phase of the cycle under way; the first and the last are its ends. */
 static void keep_row(Cycles *c) {
+  const size_t row = c->rows->rows;
   const ZpSim *loaded = zp_sim_loaded(c->sim);
   ZpMotion motion = zp_state_motion(loaded->model, loaded->state);
-  c->load[c->rows->rows][0] = zp_load_at(loaded->model, motion.x);
-  c->load[c->rows->rows][1] = zp_load_at(loaded->model, motion.y);
-  zp_sim_read(c->sim, c->rows->value + c->rows->rows * c->rows->columns);
+  c->load[row][0] = zp_load_at(loaded->model, motion.x);
+  c->load[row][1] = zp_load_at(loaded->model, motion.y);
+  zp_sim_read_columns(c->sim, c->rows->columns, c->rows->value + row * c->rows->columns);
   c->rows->rows++;
+  see_openings(c, row == 0);
+  c->lifted[row] = zp_is_network(c->model) ? zp_sim_lifted(c->sim) : 0;
   zp_sim_see(c->sim);
 }
 
@@ -163,22 +210,15 @@ static double at(const Cycles *c, int row, const char *column) {
   return zp_table_get(c->rows, (size_t)row, column);
 }
 
-typedef struct Range {
-  double least, most;
-} Range;
-
 static Range range_of(const Cycles *c, const char *column) {
   Range range = {INFINITY, -INFINITY};
-  for (int k = 0; k <= PHASES; k++) {
-    range.least = fmin(range.least, at(c, k, column));
-    range.most = fmax(range.most, at(c, k, column));
-  }
+  for (int k = 0; k <= PHASES; k++)
+    range = with(range, at(c, k, column), k == 0);
   return range;
 }
 
 static double half_range(const Cycles *c, const char *column) {
-  Range range = range_of(c, column);
-  return 0.5 * (range.most - range.least);
+  return half_of(range_of(c, column));
 }
 
 /* Energy that the source delivers in a cycle, and that it takes back, J. */
@@ -206,8 +246,12 @@ static double kept(const Cycles *c) {
 static Response response_of(const Cycles *c) {
   double given, taken, stored = kept(c);
   energies_of(c, &given, &taken);
-  return (Response){half_range(c, "opening_m"), half_range(c, "end_velocity_m_per_s"), given - taken - stored, stored,
-                    given};
+  Response response = {0, 0, given - taken - stored, stored, given};
+  for (const Opens *o = c->opens; o < c->opens + c->opening; o++) {
+    response.size = fmax(response.size, half_of(o->opening));
+    response.rate = fmax(response.rate, half_of(o->rate));
+  }
+  return response;
 }
 
 /* -- is it periodic? -------------------------------------------------------------------------------- */
@@ -232,7 +276,8 @@ static void take_mark(Cycles *c) {
       oldest.slow[k][half] = m->model->has_bead ? m->state->bead[half].outside / m->model->bead.volume : 0;
     oldest.slow[k][ZP_BEADS] = zp_sim_leak(m).mean / c->highest;
   }
-  oldest.rate = zp_sim_get(c->sim, "end_velocity");
+  for (size_t k = 0; k < c->opening; k++)
+    oldest.rate[k] = rate_of(c, k);
   c->mark[0] = oldest;
 }
 
@@ -253,7 +298,9 @@ static double distance(const Cycles *c, int back) {
     for (int i = 0; i < SLOW; i++)
       most = fmax(most, fabs(c->mark[0].slow[k][i] - c->mark[back].slow[k][i]));
   double fast = fmax(c->response.rate, size_of_response(c) / c->period);
-  return fmax(most, fabs(c->mark[0].rate - c->mark[back].rate) / fast);
+  for (size_t k = 0; k < c->opening; k++)
+    most = fmax(most, fabs(c->mark[0].rate[k] - c->mark[back].rate[k]) / fast);
+  return most;
 }
 
 /* Does the cycle store next to nothing, eq. (24.2)? */
@@ -372,9 +419,12 @@ static void write_state(Cycles *c, const double *x) {
 /* An actuator that stays open, or closed, moves smoothly from start to start, with little damping of its swing. So a
  * few cycles predict what thousands would lead to. */
 static bool stays(const Cycles *c) {
-  double hanging = zp_sim_hanging(c->sim);
-  Range opening = range_of(c, "opening_m");
-  return opening.least > 0.1 * hanging || opening.most < zp_closed_opening(c->sim->model, hanging);
+  bool all = true;
+  for (size_t k = 0; k < c->opening && all; k++) {
+    const Range opening = c->opens[k].opening;
+    all = opening.least > 0.1 * hanging(c, k) || opening.most < zp_closed_opening(c->sim[k].model, hanging(c, k));
+  }
+  return all;
 }
 
 /* Is the motion periodic, judged by the distance from the cycle's start to the predicted fixed point? Otherwise the
@@ -510,9 +560,9 @@ static double phase_of(const Cycles *c) {
 static double work_in_row(const Cycles *c, int k) {
   const double *from = c->load[k], *to = c->load[k + 1];
   if (!zp_has_platform(&c->model->topology)) return zp_load_work(c->model, to[0] - from[0], to[1] - from[1]);
-  double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m");
+  double risen = at(c, k, "opening_m") - at(c, k + 1, "opening_m"), lifted = c->lifted[k + 1] - c->lifted[k];
   double compressed = at(c, k + 1, "spring_energy_J") - at(c, k, "spring_energy_J");
-  return zp_total_pull(c->model) * risen + compressed;
+  return (zp_is_network(c->model) ? lifted : zp_total_pull(c->model) * risen) + compressed;
 }
 
 /* A number of a cycle that is not of a periodic motion says nothing: NAN. */
@@ -520,19 +570,45 @@ static void add_periodic(const Cycles *c, ZpResult *result, const char *name, co
   zp_result_add(result, name, unit, c->repeats == 1 ? value : NAN);
 }
 
+static void add_of(const Cycles *c, ZpResult *result, const char *pattern, const char *called, double value) {
+  zp_result_add_of(result, pattern, called, "m", c->repeats == 1 ? value : NAN);
+}
+
+/* Each member of a network has an opening, each body a height. */
+static void summarize_network(const Cycles *c, ZpResult *result) {
+  char room[ZP_NAME_SIZE];
+  for (size_t k = 1; k <= c->model->members; k++) {
+    const char *called = zp_member_called(c->model->whole, k, room);
+    add_of(c, result, "members.#.opening_min_m", called, c->opens[k - 1].opening.least);
+    add_of(c, result, "members.#.opening_max_m", called, c->opens[k - 1].opening.most);
+  }
+  for (size_t body = 1; body < c->model->network->bodies; body++) {
+    const char *called = zp_body_called(c->model->whole, body, room);
+    char column[2 * ZP_NAME_SIZE];
+    snprintf(column, sizeof column, "%s.y_m", called);
+    const Range y = range_of(c, column);
+    add_of(c, result, "bodies.#.y_min_m", called, y.least);
+    add_of(c, result, "bodies.#.y_max_m", called, y.most);
+  }
+}
+
 static void summarize_motion(const Cycles *c, ZpResult *result) {
-  Range opening = range_of(c, "opening_m");
+  const Range opening = c->opens->opening;
   zp_result_add(result, "frequency_Hz", "Hz", 1 / c->period);
   zp_result_add(result, "periodic", "count", c->repeats == 1);
   zp_result_add(result, "linear", "count", c->linear);
   zp_result_add(result, "second_order", "1", isfinite(c->small.curvature) ? c->small.curvature : NAN);
   zp_result_add(result, "cycles", "count", c->linear ? NAN : (double)c->done);
   zp_result_add(result, "repeats_in_cycles", "count", c->repeats > 0 ? (double)c->repeats : NAN);
+  if (zp_is_network(c->model)) {
+    summarize_network(c, result);
+    return;
+  }
   add_periodic(c, result, "opening_min_m", "m", opening.least);
   add_periodic(c, result, "opening_max_m", "m", opening.most);
   add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
   add_periodic(c, result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, zp_sim_hanging(c->sim)));
+  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, hanging(c, 0)));
 }
 
 /* Work on the load over what the source gives in a cycle. */
@@ -596,7 +672,7 @@ static void summarize(const Cycles *c, ZpResult *result) {
   ZpMargins seen = zp_sim_margins(c->sim);
   zp_add_margins(result, c->model, &seen);
   zp_note_mesh(result, c->model, zp_waveform_largest(&c->model->waveform));
-  zp_note_start(result, c->model, c->sim->state->opening0);
+  if (!zp_is_network(c->model)) zp_note_start(result, c->model, c->sim->state->opening0);
   zp_note_liquid(result, c->model);
   if (c->repeats == 1 && c->refills)
     zp_result_note(result,
@@ -612,8 +688,10 @@ static size_t reserve(Cycles *c, void *block) {
   ZpArena arena = {block, 0};
   for (Mark *mark = c->mark; mark < c->mark + HISTORY; mark++) {
     mark->q = zp_arena_take(&arena, positions(c->sim));
+    mark->rate = zp_arena_take(&arena, c->opening);
     mark->slow = (double(*)[SLOW])(void *)zp_arena_take(&arena, c->sim->members * SLOW);
   }
+  c->opens = (Opens *)(void *)zp_arena_take(&arena, c->opening * sizeof *c->opens / sizeof(double));
   c->edge = (Edge(*)[ZP_BEADS])(void *)zp_arena_take(&arena, c->sim->members * sizeof *c->edge / sizeof(double));
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
@@ -624,17 +702,18 @@ static size_t reserve(Cycles *c, void *block) {
 
 static bool create(Cycles *c, const ZpModel *model, ZpResult *result) {
   static const double least_gravity = 1e-3; /* m/s2 */
-  size_t columns;
-  const ZpColumn *column = zp_signal_columns(&columns);
   c->model = model;
   c->period = zp_waveform_period(&model->waveform);
   c->highest = fmax(zp_waveform_largest(&model->waveform), 1);
-  c->far = fmax(c->sim->state->opening0, model->faces.depth);
+  c->far = model->faces.depth;
+  c->opening = zp_is_network(model) ? model->members : 1;
+  for (size_t k = 0; k < c->opening; k++)
+    c->far = fmax(c->far, c->sim[k].state->opening0);
   for (const ZpModel *m = model; m < model + model->members; m++)
     for (size_t j = 0; j < zp_lanes(m); j++)
       c->heaviest = fmax(c->heaviest, m->mass[j]);
   c->fast = sqrt(fmax(model->def.gravity, least_gravity) * c->far);
-  result->series = c->rows = zp_table_create(column, columns, PHASES + 1);
+  result->series = c->rows = zp_signal_table(model->whole, PHASES + 1);
   c->way_back = zp_calloc(1, zp_sim_state_size(c->sim));
   c->memory = zp_calloc(1, reserve(c, NULL));
   if (c->memory) reserve(c, c->memory);
@@ -747,7 +826,8 @@ static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpE
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_NEVER, "it tells of one opening and one load"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(cycle.closing_frequency, false), "it is that of one opening"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_NOT(cycle.method, ZP_CYCLE_LINEAR), "the linear answer is that of a stack"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(control.kind, ZP_CONTROL_NONE),
             "it finds the periodic motion under a periodic voltage; for a controller use study actuate with a periodic "
             "setpoint"),
