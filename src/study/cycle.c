@@ -45,7 +45,7 @@ typedef struct Range {
   double least, most;
 } Range;
 
-/* What opens: the actuator, or each member of a network. In a cycle, m, m/s. */
+/* Range of an opening, of the actuator or of each member of a network, and of its rate in a cycle, m, m/s. */
 typedef struct Opens {
   Range opening, rate;
 } Opens;
