@@ -299,6 +299,60 @@ TEST(work_on_bodies_adds_up) {
   ck_near(number(result, "mechanical_work_J"), work, 1e-12);
 }
 
+/* -- derivatives ------------------------------------------------------------------------------------ */
+
+/* Derivatives by keys of members, bodies and springs are those of differences of fourth order. */
+static const struct {
+  ZpStudy study;
+  const char *output;
+  double within;
+} derived[] = {{ZP_STUDY_STATIONARY, "bodies.hand.y_m", 2e-8},
+               {ZP_STUDY_ISOMETRIC, "force_N", 4e-6},
+               {ZP_STUDY_MODES, "frequency_2_Hz", 2e-6}};
+
+static const char *const by_keys[] = {"spring_1.stiffness",
+                                      "spring_1.rest",
+                                      "body_3.at.y",
+                                      "body_1.mass",
+                                      "body_2.force.y",
+                                      "ribbon.length",
+                                      "member_2.ribbon.thickness",
+                                      "member_2.ribbon.length",
+                                      "gravity"};
+
+TESTS(derivatives_are_differences, 0, LENGTH_OF(derived) * LENGTH_OF(by_keys)) {
+  const size_t which = (size_t)_i / LENGTH_OF(by_keys);
+  const char *key = by_keys[(size_t)_i % LENGTH_OF(by_keys)];
+  char text[2048];
+  snprintf(text, sizeof text,
+           OF_ALL "solver.tolerance: 1e-8\nisometric: {body: hand, separation: 20 mm}\nsensitivity.by: %s\n"
+                  "bodies:\n  hand: {mass: 12 g}\n  foot: {mass: 5 g, force: [0, -10 mN]}\n"
+                  "  floor: {moves: none, at: [0, -90 mm]}\n"
+                  "members:\n  a: {upper: frame, lower: hand, drive.voltage: 6 kV}\n"
+                  "  b: {upper: frame, lower: hand, ribbon: {thickness: 60 um, length: 101 mm}}\n"
+                  "  c: {upper: hand, lower: foot}\n"
+                  "  d: {upper: floor, lower: foot, angle: 180 degree, drive.voltage: 1 kV}\n"
+                  "springs: {s: {between: [frame, foot], stiffness: 3 N/m, rest: 10 mm}}\n",
+           key);
+  const ZpActuatorDef def = def_of(text);
+  const ZpResult *result = answer_of(derived[which].study, &def);
+  const double value = zp_def_get(&def, zp_key_find(key)), step = 1e-3 * fabs(value);
+  double sum = 0, found = NAN;
+  for (size_t k = 0; k < result->sensitivities; k++)
+    if (strcmp(result->sensitivity[k].output, derived[which].output) == 0) found = result->sensitivity[k].value;
+  for (int k = -2; k <= 2; k++) {
+    static const double weight[] = {1, -8, 0, 8, -1};
+    ZpActuatorDef near = def;
+    if (k == 0) continue;
+    *near.sensitivity.by = 0;
+    set_member(&near, key, value + k * step);
+    sum += weight[k + 2] / (12 * step) * answered_value(derived[which].study, &near, derived[which].output);
+  }
+  const double size = number(result, derived[which].output) / fabs(value);
+  printf("%s by %s: %.10g, off by %.2g of the size\n", derived[which].output, key, found, fabs((found - sum) / size));
+  ck_below(fabs((found - sum) / size), derived[which].within);
+}
+
 /* -- periodic --------------------------------------------------------------------------------------- */
 
 #define PERIODIC "cycle: {method: motion, tolerance: 1e-6}\ndrive: {waveform: sine, frequency: 8 Hz, offset: 1 kV}\n"
@@ -401,6 +455,8 @@ static const struct {
     {"bodies: {hand: {moves: none}}\nmembers: {m: {upper: frame, lower: hand}}", "bodies: each one is held"},
     {"members: {m: {upper: frame, lower: hand}}", "bodies: missing; members.m is between bodies"},
     {"isometric.body: hand", "isometric.body = hand: there is no such body"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstudy: stationary\nsensitivity.by: members.m.upper",
+     "members.m.upper says which bodies or ports are joined"},
 };
 
 TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {

@@ -416,7 +416,6 @@ static const ZpRule rule[] = {
             "straight ribbons do not reach the bodies"),
     ZP_RULE(EQUATION, ZP_NETWORK, ZP_IS(ribbon.plasticity, false),
             "how the members had been bent before they were joined is not known"),
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sensitivity.by), "derivatives are those of one opening and one load"),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sense.frequency), "a meter tells the opening of a single actuator"),
 };
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/rule.h"
 #include "math/vector.h"
 
 /* -- what can be asked ----------------------------------------------------------------------------- */
@@ -15,6 +16,14 @@ static bool is_numerical(const char *name) {
   for (size_t k = 0; k < sizeof groups / sizeof groups[0]; k++)
     if (strncmp(name, groups[k], strlen(groups[k])) == 0) return true;
   return false;
+}
+
+/* Names of bodies and ports are numbers to the table of keys. */
+static bool key_is_of_place(int key) {
+  const int row = zp_key_instance(key).row;
+  return row == ZP_KEY(member_K.upper) || row == ZP_KEY(member_K.lower) || row == ZP_KEY(member_K.angle) ||
+         row == ZP_KEY(member_K.port) || row == ZP_KEY(spring_K.first) || row == ZP_KEY(spring_K.second) ||
+         row == ZP_KEY(body_K.at.x);
 }
 
 ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *err) {
@@ -29,6 +38,10 @@ ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *e
   if (is_numerical(k->name))
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
                    ZP_KEY_NAME(key));
+  if (key_is_of_place(key))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "sensitivity.by: %s says which bodies or ports are joined, so it has no derivative",
+                   ZP_KEY_SHOWN(def, key));
   if (isnan(zp_def_get(def, key)))
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is %s: give it a number", ZP_KEY_NAME(key), k->text);
   return ZP_OK;
@@ -38,7 +51,7 @@ ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *e
 static void set_inputs(ZpStatics *s, int inputs) {
   const ZpActuatorDef *def = &s->member->model->def;
   if (inputs & ZP_SETS_LOAD) s->load = s->own_load;
-  if (inputs & ZP_SETS_VOLTAGE) s->U = def->drive.voltage;
+  if (inputs & ZP_SETS_VOLTAGE) s->U = zp_drive_voltage(s->model);
   if (inputs & ZP_SETS_MODES_VOLTAGE) s->U = def->modes.voltage;
   if (inputs & ZP_SETS_OPENING) s->opening = def->isometric.separation;
 }
@@ -182,6 +195,19 @@ static void add_forces(ZpRestSensitivity *p, size_t which) {
     add_scaling(p, which, &p->near[k].member[which], near[k].weight);
 }
 
+/* Springs between bodies, where the neighbours are. The weights of all sum to 0. */
+static void add_springs(ZpRestSensitivity *p) {
+  const size_t n = p->at->n;
+  for (int k = 0; k < p->by.count; k++) {
+    ZpStatics *near = &p->near[k];
+    residual(near, p->row);
+    memset(p->row, 0, n * sizeof *p->row);
+    zp_springs_add_force(&near->springs, near->share, near->at, near->at, p->row);
+    for (size_t i = 0; i < n; i++)
+      p->by_key[i] += p->by.near[k].weight * p->row[i];
+  }
+}
+
 /* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
  * reaction. */
 static void differentiate(ZpRestSensitivity *p) {
@@ -195,6 +221,7 @@ static void differentiate(ZpRestSensitivity *p) {
     away += p->by.near[k].weight * zp_statics_away(place(p, k));
   for (size_t which = 0; which < at->members && p->by.count > 0; which++)
     add_forces(p, which);
+  if (at->springs.count > 0) add_springs(p);
   p->reaction = zp_statics_hold_rate(at, away, p->by_key);
 }
 

@@ -1,6 +1,7 @@
 /* Study `stationary`: the loaded shape at rest, without voltage. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "base/fail.h"
 #include "study/equilibria.h"
@@ -57,8 +58,28 @@ static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
   return "no equilibrium found within the largest number of iterations";
 }
 
+static double height_of(ZpStatics *s, void *body) {
+  return zp_statics_heights(s)[*(const size_t *)body];
+}
+
+/* The heights of all bodies, which are numbers of the result already. */
+static void derive_heights(ZpRestSensitivity *slope, ZpResult *result) {
+  const bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD);
+  size_t body = 0;
+  for (size_t k = 0; k < result->scalars; k++) {
+    const char *name = result->scalar[k].name;
+    if (strncmp(name, "bodies.", 7) != 0) continue;
+    body++;
+    zp_result_add_sensitivity(result, name, slope->key, found ? zp_rest_sensitivity_of(slope, height_of, &body) : NAN);
+  }
+}
+
 static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   (void)user;
+  if (zp_is_network(slope->at->model)) {
+    derive_heights(slope, result);
+    return;
+  }
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD), two = zp_is_pair(&slope->at->member->model->topology);
   zp_result_add_sensitivity(result, "stroke_m", slope->key,
                             found ? zp_rest_sensitivity_of(slope, zp_output_stroke, NULL) : NAN);
