@@ -12,7 +12,7 @@ def rows(text):
     """(line number, kind, arguments as C texts) of each row. Texts beside each other are joined."""
     macros = {
         name: (parameters.split(", "), [line.strip(" \\") for line in body.splitlines()])
-        for name, parameters, body in re.findall(r"^#define (ZP_\w+)\(([^)]*)\) \\\n((?:.*\\\n)*.*\n)", text, re.M)
+        for name, parameters, body in re.findall(r"^#define (ZP_\w+)\(([^).]*)\) (?:\\\n|(?=ZP_))((?:.*\\\n)*.*\n)", text, re.M)
     }
 
     def expand(line):
