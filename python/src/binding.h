@@ -70,7 +70,7 @@ typedef struct Definition {
 } Definition;
 
 /* One Definition per run of a scenario file. */
-PyObject *read_scenario(PyObject *module, PyObject *path);
+PyObject *read_scenario(PyObject *module, PyObject *args);
 
 /* Takes `result` over. */
 PyObject *result_new(State *state, ZpResult *result);

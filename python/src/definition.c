@@ -226,21 +226,46 @@ static PyObject *definitions_of(State *state, const ZpScenario *scenario) {
   return list;
 }
 
-PyObject *read_scenario(PyObject *module, PyObject *name) {
+/* A scenario as the command writes it. */
+static PyObject *text_of_scenario(const State *state, const ZpScenario *scenario) {
+  char *text = NULL;
+  size_t size;
+  ZpError err;
+  FILE *file = open_memstream(&text, &size);
+  if (!file) return PyErr_NoMemory();
+  ZpStatus status = zp_scenario_write(scenario, file, &err);
+  const bool closed = fclose(file) == 0;
+  PyObject *written = status != ZP_OK ? raise_error(state, &err) : closed ? text_from(text) : PyErr_NoMemory();
+  free(text);
+  return written;
+}
+
+static PyObject *definitions_and_text(State *state, const ZpScenario *scenario) {
+  PyObject *list = definitions_of(state, scenario), *text = list ? text_of_scenario(state, scenario) : NULL;
+  if (text) return Py_BuildValue("(NN)", list, text);
+  Py_XDECREF(list);
+  return NULL;
+}
+
+PyObject *read_scenario(PyObject *module, PyObject *args) {
   State *state = PyModule_GetState(module);
-  PyObject *list = NULL;
-  const char *path = text_of(state, name, "path");
-  if (!path) return NULL;
+  PyObject *name, *text = NULL, *found = NULL;
+  if (!PyArg_ParseTuple(args, "O|O", &name, &text)) return NULL;
+  const char *path = text_of(state, name, "path"), *words = path && text ? text_of(state, text, "scenario") : NULL;
+  if (!path || (text && !words)) return NULL;
   ZpScenario *scenario = zp_scenario_create();
   ZpError err;
+  ZpStatus status = !scenario ? ZP_MACHINE
+                    : words   ? zp_scenario_parse(scenario, words, strlen(words), path, &err)
+                              : zp_scenario_read(scenario, path, &err);
   if (!scenario)
     PyErr_NoMemory();
-  else if (zp_scenario_read(scenario, path, &err) != ZP_OK)
+  else if (status != ZP_OK)
     raise_error(state, &err);
   else
-    list = definitions_of(state, scenario);
+    found = definitions_and_text(state, scenario);
   zp_scenario_destroy(scenario);
-  return list;
+  return found;
 }
 
 /* -- use ------------------------------------------------------------------------------------------ */

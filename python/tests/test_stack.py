@@ -86,3 +86,10 @@ def test_members_that_are_given_are_keys():
     assert zipact.KEYS["member_12.ribbon.thickness"].unit == "m"
     batch = zipact.run_batch(stack.sweep(member_7__ribbon__thickness=["50 um", "70 um"]))
     assert batch.varied == ["member_7.ribbon.thickness"] and batch["opening_m"][0] > batch["opening_m"][1]
+
+
+def test_words_of_members_print_and_read_back(tmp_path):
+    stack = zipact.Actuator(stack__parallel=2, member_2__drive__waveform="ramp", member_2__drive__rise_time="1 ms")
+    assert eval(repr(stack), vars(zipact)) == stack
+    (tmp_path / "scenario.yaml").write_text(stack.scenario())
+    assert zipact.read_scenario(tmp_path / "scenario.yaml") == stack

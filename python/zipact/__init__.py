@@ -7,14 +7,15 @@
     result["zip_time_s"], result.series["stroke_m"]
     result.plot()
 
-Keys are those of `zipact keys`, with two underscores in place of the dot; `zipact.KEYS` lists them. Numbers are SI,
-texts may have a unit.
+A Network is several actuators between bodies. Keys are those of `zipact keys`, with two underscores in place of the dot;
+`zipact.KEYS` lists them. Numbers are SI, texts may have a unit.
 """
 
 from ._zipact import Error, InputError, MachineError, NumericsError
 from ._zipact import version as __version__
-from .actuator import KEYS, Actuator, Key, read_scenario
+from .actuator import KEYS, Actuator, Key
 from .batch import Batch, BatchError, run_batch
+from .network import Network, read_scenario
 from .result import FieldMap, Result, Shapes, Table
 from .simulation import SIGNALS, Shape, Signal, Simulation
 
@@ -29,6 +30,7 @@ __all__ = [
     "InputError",
     "Key",
     "MachineError",
+    "Network",
     "NumericsError",
     "Result",
     "Shape",

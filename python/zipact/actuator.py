@@ -204,8 +204,8 @@ class Actuator(Mapping[str, Any]):
 
 
 def plain_number(value: Any) -> Any:
-    """numpy's scalars as Python's own."""
-    return value.item() if isinstance(value, (np.generic, np.ndarray)) else value
+    """numpy's values as Python's own."""
+    return value.tolist() if isinstance(value, (np.generic, np.ndarray)) else value
 
 
 def values_of(definition: _zipact.Definition) -> dict[str, Any]:
@@ -216,7 +216,7 @@ def differences(definition: _zipact.Definition) -> dict[str, Any]:
     """The keys whose values differ from the defaults. Words come first, because they set defaults of other keys: a preset,
     the kind, a material."""
     values, defaults = values_of(definition), values_of(DEFAULT)
-    words = {name: value for name, value in values.items() if KEYS[name].kind == "word" and value != defaults[name]}
+    words = {name: value for name, value in values.items() if KEYS[name].kind == "word" and value != defaults.get(name, value)}
     try:
         defaults = values_of(_zipact.Definition(words))
     except _zipact.InputError:  # a word that requires another key: ignore its defaults
@@ -231,7 +231,7 @@ def _rebuild(given: dict[str, Any], drive: tuple[np.ndarray, np.ndarray] | None)
     return Actuator(given, drive=drive)
 
 
-def _actuator_of(definition: _zipact.Definition) -> Actuator:
+def actuator_of(definition: _zipact.Definition) -> Actuator:
     """An actuator with the keys that differ from the defaults; with all keys if these do not give the same definition."""
     values = values_of(definition)
     try:
@@ -239,9 +239,3 @@ def _actuator_of(definition: _zipact.Definition) -> Actuator:
     except _zipact.InputError:
         return Actuator(values)
     return actuator if dict(actuator) == values else Actuator(values)
-
-
-def read_scenario(path: str | os.PathLike[str]) -> Actuator | list[Actuator]:
-    """The actuator of a scenario file; if it has several cases, a list of actuators in the order of the command."""
-    actuators = [_actuator_of(definition) for definition in _zipact.read_scenario(os.fspath(path))]
-    return actuators[0] if len(actuators) == 1 else actuators

@@ -1,5 +1,6 @@
 """Pictures by matplotlib: each function draws into an Axes, a new one if none is given, and returns it."""
 
+import itertools
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -32,10 +33,38 @@ def nan_where(hidden: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.where(hidden, np.nan, values)
 
 
+def outline(ax: Axes, x: np.ndarray, y: np.ndarray, **style: Any) -> list[Any]:
+    """The ribbons of one shape; where x jumps back, the next of several actuators begins."""
+    ends = np.flatnonzero(np.diff(x[:, 0]) < -0.5 * np.ptp(x[:, 0])) + 1
+    parts = zip(np.split(x, ends), np.split(y, ends), strict=True)
+    return [line for of_x, of_y in parts for line in ax.plot(MILLI * of_x, MILLI * of_y, **style)]
+
+
 # -- by study -------------------------------------------------------------------------------------------
 
 
+def names_of(table: "Table", ending: str) -> list[str]:
+    """Names of a network's bodies or members that have such columns: hand, of hand.y_m."""
+    return [column.removesuffix(ending) for column in table if column.endswith(ending)]
+
+
+def network(table: "Table", ax: Axes | None) -> Axes:
+    """Heights of bodies, openings and voltages of members."""
+    ax = new_axes(ax, "time / ms", "height, opening / mm")
+    time, right = MILLI * table["time_s"], ax.twinx()
+    for name in names_of(table, ".y_m"):
+        ax.plot(time, MILLI * table[name + ".y_m"], label=f"{name}, height")
+    for name in names_of(table, ".voltage_V"):
+        (line,) = ax.plot(time, MILLI * table[name + ".opening_m"], linestyle="--", label=f"{name}, opening")
+        right.plot(time, KILO * table[name + ".voltage_V"], color=line.get_color(), linestyle=":", linewidth=1)
+    right.set_ylabel("voltage (dotted) / kV")
+    ax.legend(fontsize="small")
+    return ax
+
+
 def actuate(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    if names_of(table, ".y_m"):
+        return network(table, ax)
     ax = new_axes(ax, "time / ms", "stroke / mm")
     time, voltage = MILLI * table["time_s"], table["voltage_V"]
     ax.plot(time, MILLI * table["stroke_m"], color=BLUE)
@@ -59,13 +88,14 @@ def limits(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 
 
 def equilibrium(result: "Result", table: "Table", ax: Axes | None) -> Axes:
-    ax = new_axes(ax, "voltage / kV", "opening / mm")
+    bodies = names_of(table, ".y_m")
     opening = "opening_m" if np.isfinite(table["opening_m"]).any() else "stroke_m"
-    ax.set_ylabel(opening.replace("_m", " / mm"))
+    columns = [name + ".y_m" for name in bodies] or [opening]
+    ax = new_axes(ax, "voltage / kV", f"height of {', '.join(bodies)} / mm" if bodies else opening.replace("_m", " / mm"))
     stable = table["stable"] == 1
-    for branch in np.unique(table["branch"]):
+    for branch, column in itertools.product(np.unique(table["branch"]), columns):
         other = table["branch"] != branch
-        x, y = KILO * table["voltage_V"], MILLI * table[opening]
+        x, y = KILO * table["voltage_V"], MILLI * table[column]
         # an unstable stretch begins and ends at its stable neighbours
         inner = stable & np.r_[True, stable[:-1]] & np.r_[stable[1:], True]
         ax.plot(x, nan_where(other | inner, y), color=RED, linestyle="--")
@@ -90,10 +120,10 @@ def isometric(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 def modes(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     ax = new_axes(ax, "x / mm", "y / mm")
     film, most = result.shapes, 4
-    ax.plot(MILLI * film.x[0], MILLI * film.y[0], color=GREY)
+    outline(ax, film.x[0], film.y[0], color=GREY)
     for mode in range(min(most, len(film.time) - 1)):
         colour = colormaps["viridis"](mode / most)
-        lines = ax.plot(MILLI * film.x[mode + 1], MILLI * film.y[mode + 1], color=colour)
+        lines = outline(ax, film.x[mode + 1], film.y[mode + 1], color=colour)
         lines[0].set_label(f"{table['frequency_Hz'][mode]:.4g} Hz")
     ax.legend()
     return ax
@@ -233,7 +263,7 @@ def shapes(film: "Shapes", ax: Axes | None = None) -> Axes:
     ax = new_axes(ax, "x / mm", "y / mm")
     shades = np.linspace(1, 0.15, len(film.time))[::-1]
     for x, y, shade in zip(film.x, film.y, shades, strict=True):
-        ax.plot(MILLI * x, MILLI * y, color=colormaps["viridis_r"](shade), linewidth=1)
+        outline(ax, x, y, color=colormaps["viridis_r"](shade), linewidth=1)
     return ax
 
 

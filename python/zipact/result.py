@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .actuator import Actuator
+    from .network import Network
 
 
 class Table(Mapping[str, np.ndarray]):
@@ -114,14 +115,25 @@ def shapes_of(parts: Mapping[str, Any]) -> Shapes:
     return Shapes(time, voltage, zipped.astype(int), *arrays)
 
 
+def grouped(numbers: Mapping[str, float], group: str) -> dict[str, dict[str, float]]:
+    """{"bodies.hand.y_m": 0.0} => {"hand": {"y_m": 0.0}}"""
+    found: dict[str, dict[str, float]] = {}
+    for path, value in numbers.items():
+        first, _, rest = path.partition(".")
+        if first == group:
+            name, _, number = rest.partition(".")
+            found.setdefault(name, {})[number] = value
+    return found
+
+
 class Result(Mapping[str, float]):
     """The result of a study. As a mapping it contains the numbers: result["zip_time_s"]; nan if a number does not exist.
     It can be pickled and copied."""
 
-    def __init__(self, found: _zipact.Result, actuator: "Actuator") -> None:
+    def __init__(self, found: _zipact.Result, actuator: "Actuator | Network") -> None:
         self._found = found
         self.actuator = actuator
-        """the actuator that was simulated"""
+        """the actuator or the network that was simulated"""
         self.study: str = found.study
         self.outcome: str = found.outcome
         """outcome, a word: zipped, reopened, end_time, converged, followed; or diverged, not_settled, ..."""
@@ -134,6 +146,8 @@ class Result(Mapping[str, float]):
         self.units = {name: unit for name, unit, _, _ in found.scalars}
         """SI unit of each number; "1" for numbers without a unit, "count" for counts"""
         self._numbers = {name: value for name, _, value, _ in found.scalars}
+        self.bodies, self.members = (grouped(self._numbers, group) for group in ("bodies", "members"))
+        """numbers of each body and each member of a network: members["left"]["zip_time_s"]"""
         self.timings = {name for name, _, _, timing in found.scalars if timing}
         """names of numbers that depend on wall time: they differ from run to run"""
         self.sensitivity: dict[str, dict[str, float]] = {}
@@ -194,7 +208,7 @@ class Result(Mapping[str, float]):
         return "\n".join(lines + [f"  note: {note}" for note in self.notes])
 
 
-def _unpickle(actuator: "Actuator", packed: Any) -> Result:
+def _unpickle(actuator: "Actuator | Network", packed: Any) -> Result:
     if isinstance(packed, tuple):  # as zipact 0.1.0 did
         raise _zipact.InputError(f"result: pickled by zipact {packed[0][0]} in another form; run the study again")
     return Result(_zipact.unpack_result(packed), actuator)
