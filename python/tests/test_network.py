@@ -203,16 +203,16 @@ def test_what_is_missing():
         network.members[3] = {}
 
 
-@pytest.mark.parametrize("study", ["actuate", "stationary", "equilibrium", "limits", "isometric", "modes"])
+@pytest.mark.parametrize("study", ["actuate", "cycle", "stationary", "equilibrium", "limits", "isometric", "modes"])
 def test_draws(study):
     pyplot = pytest.importorskip("matplotlib.pyplot")
-    network = hand(isometric__body="hand", drive__voltage="4 kV")
+    network = hand(isometric__body="hand", drive={"voltage": "4 kV", "waveform": "sine"}, liquid__model="none")
     network.bodies["other"] = {"mass": "10 g"}
     network.members["right"] = {"upper": "hand", "lower": "other"}
     result = network.run(study)
     axes = result.plot()
     assert axes.lines and study in axes.get_title()
-    if study == "actuate":
+    if study in ("actuate", "cycle"):
         shown = [text.get_text() for text in axes.get_legend().get_texts()]
         assert shown == ["hand, height", "other, height", "left, opening", "right, opening"]
     if study == "stationary":
