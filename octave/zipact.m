@@ -16,6 +16,14 @@
 %   ZIPACT(STUDY, FILE, ...) takes a scenario file first, ZIPACT(STUDY, KEYS, ...) a struct:
 %   keys.load.mass = '20 g'. ZIPACT('run', FILE) runs the study that the file names.
 %
+%   A network has structs of its bodies, members and springs by name, with their keys:
+%
+%      arm.bodies.hand.mass = '20 g';
+%      arm.members.left = struct('upper', 'frame', 'lower', 'hand');
+%      arm.springs.rope.between = {'frame', 'hand'};
+%      moved = zipact('actuate', arm, 'members.left.ribbon.thickness', '60 um');
+%      moved.members.left.zip_time_s, moved.series.hand_y_m
+%
 %   Fields of RESULT: study, outcome, good (false if the solver failed), message, notes, the
 %   numbers of the study, and if they exist
 %      sensitivity derivatives with respect to the keys of sensitivity.by:
@@ -24,7 +32,9 @@
 %      shapes      time_s, voltage_V, zipped, x_m, y_m and stress_Pa [nodes x ribbons x
 %                  frames], gap_m, line_force_N_per_m and insulator_field_V_per_m [nodes x frames]
 %      field       the electric field of study profile, for contourf
-%      definition  all keys with their values: ZIPACT accepts it again. ('auto': chosen by the library)
+%      bodies, members   of a network: structs of the numbers of each
+%      definition  all keys with their values: ZIPACT accepts it again. ('auto': chosen by the library;
+%                  of a network member_1, body_1, ... in the place of names)
 %
 %   KEYS = ZIPACT('keys')           all keys: name, unit, default, min, max, choices, help
 %   TEXT = ZIPACT('version')

@@ -2,7 +2,8 @@
 %
 %   ZIPACT_PLOT(RESULT) draws the table of RESULT, as ZIPACT returns it: stroke over time,
 %   opening or force over voltage, force along the ribbons, frequencies; of study stationary
-%   the ribbons at rest. It also draws an array of results of the same study.
+%   the ribbons at rest; of a network the heights of its bodies. It also draws an array of
+%   results of the same study.
 %
 %   See also ZIPACT.
 function zipact_plot(result)
@@ -43,5 +44,11 @@ function [x, y, labels, style] = axes_of(result)
       x = @(s) 1e3 * s.x_m;        y = @(s) 1e3 * s.y_m;          labels = {'x / mm', 'y / mm'};
     otherwise
       error('zipact:input', 'zipact_plot: there is no picture for study %s', result.study);
+  end
+  names = fieldnames(result.series)';
+  bodies = names(~cellfun('isempty', regexp(names, '\w_y_m$')));
+  if any(strcmp(result.study, {'actuate', 'cycle', 'equilibrium'})) && ~isempty(bodies)
+    y = @(s) 1e3 * cell2mat(cellfun(@(name) s.(name), bodies, 'UniformOutput', false));
+    labels{2} = 'height / mm';
   end
 end

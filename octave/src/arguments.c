@@ -94,6 +94,15 @@ static void append_cell(Text *text, const char *what, const mxArray *cell) {
   append(text, "]");
 }
 
+static void append_value(Text *text, const char *what, const mxArray *value) {
+  if (mxIsCell(value) && is_plain(value))
+    append_cell(text, what, value);
+  else if (mxIsNumeric(value) && is_plain(value) && mxGetNumberOfElements(value) > 1)
+    append_numbers(text, value);
+  else
+    append_one(text, what, value);
+}
+
 double quantity_of(const char *key, const char *name, const mxArray *value) {
   Text text = {0};
   ZpError err;
@@ -110,10 +119,59 @@ double quantity_of(const char *key, const char *name, const mxArray *value) {
 
 /* -- keys ---------------------------------------------------------------------------------------------- */
 
+/* Does it name bodies, members or springs, one of them, or one of its keys? */
+static bool is_named(const char *name) {
+  static const char *const group[] = {"bodies", "members", "springs"};
+  const size_t length = strcspn(name, ".");
+  bool found = false;
+  for (size_t i = 0; i < sizeof group / sizeof *group; i++)
+    found |= strlen(group[i]) == length && strncmp(name, group[i], length) == 0;
+  return found;
+}
+
+/* A value, or a struct of values as {'mass': 0.02, 'drive': {...}}. */
+static void append_fields(Text *text, const char *what, const mxArray *value) {
+  if (!mxIsStruct(value)) {
+    append_value(text, what, value);
+    return;
+  }
+  if (mxGetNumberOfElements(value) != 1) fail_input("%.80s: takes one struct, not an array", what);
+  append(text, "{");
+  for (int i = 0; i < mxGetNumberOfFields(value); i++) {
+    const char *name = mxGetFieldNameByNumber(value, i);
+    const mxArray *inner = mxGetFieldByNumber(value, 0, i);
+    Text path = {0};
+    append(&path, what), append(&path, "."), append(&path, name);
+    if (!inner) fail_input("%.80s: no value", path.start);
+    append(text, i ? ", " : "");
+    append_quoted(text, name);
+    append(text, ": ");
+    append_fields(text, path.start, inner);
+  }
+  append(text, "}");
+}
+
+/* The names of a network are read as those of a file. */
+static void set_named(const char *name, const mxArray *value) {
+  Text text = {0};
+  ZpError err;
+  append_quoted(&text, name);
+  append(&text, ": ");
+  append_fields(&text, name, value);
+  const ZpStatus status = zp_scenario_override(call.scenario, text.start, strlen(text.start), "struct", &err);
+  const char *reason = status == ZP_BAD_INPUT ? strstr(err.message, ": ") : NULL; /* without a line */
+  if (reason) fail_input("%s", reason + 2);
+  if (status != ZP_OK) fail(&err);
+}
+
 static void set_key(const char *name, const mxArray *value) {
   Text text = {0};
   ZpError err;
   int key = zp_key_find(name);
+  if (is_named(name)) {
+    set_named(name, value);
+    return;
+  }
   if (key < 0) {
     char reason[256];
     zp_key_unknown(name, reason, sizeof reason);
@@ -122,12 +180,7 @@ static void set_key(const char *name, const mxArray *value) {
   if (zp_key(key)->type == ZP_KEY_TEXT && !mxIsChar(value)) fail_input("%s: takes a text", name);
   append(&text, name);
   append(&text, "=");
-  if (mxIsCell(value) && is_plain(value))
-    append_cell(&text, name, value);
-  else if (mxIsNumeric(value) && is_plain(value) && mxGetNumberOfElements(value) > 1)
-    append_numbers(&text, value);
-  else
-    append_one(&text, name, value);
+  append_value(&text, name, value);
   if (zp_scenario_set(call.scenario, text.start, &err) != ZP_OK) fail(&err);
 }
 
@@ -141,7 +194,7 @@ static void set_fields(const mxArray *fields, const char *group) {
     if (group) append(&key, group), append(&key, ".");
     append(&key, name);
     if (!value) fail_input("%.80s: no value", key.start);
-    if (mxIsStruct(value) && zp_key_find(key.start) < 0)
+    if (mxIsStruct(value) && zp_key_find(key.start) < 0 && !is_named(key.start))
       set_fields(value, key.start);
     else
       set_key(key.start, value);

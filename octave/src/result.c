@@ -65,18 +65,16 @@ mxArray *keys_struct(void) {
   return keys;
 }
 
-/* The struct that key `name` is a field of: "lower.ribbon.thickness" is one of all.lower.ribbon; => *field, its name.
- */
-static mxArray *group_of(mxArray *all, const char *name, const char **field) {
+/* Set what `name` says: "lower.ribbon.thickness" is a field of structs[index].lower.ribbon. */
+static void set_inside(mxArray *structs, size_t index, const char *name, mxArray *value) {
   const char *dot;
-  for (; (dot = strchr(name, '.')); name = dot + 1) {
+  for (; (dot = strchr(name, '.')); name = dot + 1, index = 0) {
     char group[32];
     snprintf(group, sizeof group, "%.*s", (int)(dot - name), name);
-    if (!mxGetField(all, 0, group)) set(all, 0, group, new_struct());
-    all = mxGetField(all, 0, group);
+    if (!mxGetField(structs, index, group)) set(structs, index, group, new_struct());
+    structs = mxGetField(structs, index, group);
   }
-  *field = name;
-  return all;
+  set(structs, index, name, value);
 }
 
 /* All keys, with groups as structs, in a form that zipact accepts, too. */
@@ -86,9 +84,7 @@ static mxArray *definition_struct(ZpStudy study, const ZpActuatorDef *def) {
     const ZpKey *key = zp_key(i);
     char name[ZP_KEY_NAME_SIZE];
     mxArray *value = key_value(key, zp_key_in_def(i) ? zp_def_get(def, i) : (double)study, zp_def_text(def, i));
-    const char *field;
-    mxArray *group = group_of(all, zp_key_name(i, name), &field);
-    set(group, 0, field, value);
+    set_inside(all, 0, zp_key_name(i, name), value);
   }
   return all;
 }
@@ -203,9 +199,11 @@ void set_result(mxArray *structs, size_t index, const ZpResult *result, const Zp
   set(structs, index, "good", mxCreateLogicalScalar(zp_outcome_good(zp_result_outcome(result))));
   set(structs, index, "message", mxCreateString(zp_result_message(result)));
   set(structs, index, "notes", notes_cell(result));
-  for (size_t i = 0; i < zp_result_scalars(result); i++)
-    if (!set_frequency(structs, index, zp_result_scalar(result, i)))
-      set(structs, index, zp_result_scalar(result, i)->name, mxCreateDoubleScalar(zp_result_scalar(result, i)->value));
+  for (size_t i = 0; i < zp_result_scalars(result); i++) {
+    const ZpScalar *scalar = zp_result_scalar(result, i);
+    if (!set_frequency(structs, index, scalar))
+      set_inside(structs, index, scalar->name, mxCreateDoubleScalar(scalar->value));
+  }
   if (zp_result_sensitivities(result) > 0) set(structs, index, "sensitivity", sensitivity_struct(result));
   if (zp_result_series(result)) set(structs, index, "series", series_struct(zp_result_series(result)));
   if (zp_result_shapes(result)) set(structs, index, "shapes", shapes_struct(zp_result_shapes(result)));
