@@ -36,7 +36,7 @@ static size_t reserve(const ZpModel *model, ZpEval *e, void *block) {
   double **stations[] = {&e->gaps.own, &e->gaps.next, &e->gaps.along0, &e->gaps.along1};
   for (size_t k = 0; k < sizeof stations / sizeof stations[0]; k++)
     *stations[k] = zp_arena_take(&arena, model->nodes);
-  e->D = (double(*)[4])(void *)zp_arena_take(&arena, 12 * model->stride);
+  e->D = zp_arena_take_of(&arena, 3 * model->stride, sizeof *e->D);
   e->mean_v = zp_arena_take(&arena, 2 * model->stride);
   e->unused = zp_arena_take(&arena, 2 * model->stride);
   e->none = zp_arena_take(&arena, model->stride);

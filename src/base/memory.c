@@ -43,10 +43,13 @@ void zp_free(void *memory) {
   free(block_of(memory));
 }
 
-double *zp_arena_take(ZpArena *arena, size_t count) {
-  size_t per_line = ZP_ALIGNMENT / sizeof(double);
-  size_t bytes = (count + per_line - 1) / per_line * ZP_ALIGNMENT;
-  double *array = arena->base ? (double *)(void *)(arena->base + arena->used) : NULL;
+void *zp_arena_take_of(ZpArena *arena, size_t count, size_t size) {
+  size_t bytes = (count * size + ZP_ALIGNMENT - 1) / ZP_ALIGNMENT * ZP_ALIGNMENT;
+  void *array = arena->base ? arena->base + arena->used : NULL;
   arena->used += bytes + ZP_ALIGNMENT;
   return array;
+}
+
+double *zp_arena_take(ZpArena *arena, size_t count) {
+  return zp_arena_take_of(arena, count, sizeof(double));
 }

@@ -17,7 +17,9 @@ typedef struct ZpArena {
   size_t used;
 } ZpArena;
 
-/* Next array of `count` doubles, aligned; NULL while adding up. */
+/* Next array of `count` doubles, aligned; NULL while adding up. The same of items of `size` bytes, whatever a pointer
+ * takes. */
 double *zp_arena_take(ZpArena *arena, size_t count);
+void *zp_arena_take_of(ZpArena *arena, size_t count, size_t size);
 
 #endif

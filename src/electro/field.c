@@ -182,10 +182,9 @@ static void fill_potentials(ZpField *f) {
 static size_t reserve(ZpField *f, void *block) {
   ZpArena arena = {block, 0};
   size_t nx = 2 * columns_of(&f->params) + 1, ny = 2 * rows_of(&f->params) + 1, pairs = 2 * f->params.stations;
-  const size_t size = sizeof(double);
-  f->column = (void *)zp_arena_take(&arena, nx * ((sizeof *f->column + size - 1) / size));
-  f->row = (void *)zp_arena_take(&arena, ny * ((sizeof *f->row + size - 1) / size));
-  f->profile = (void *)zp_arena_take(&arena, nx * (sizeof *f->profile / size));
+  f->column = zp_arena_take_of(&arena, nx, sizeof *f->column);
+  f->row = zp_arena_take_of(&arena, ny, sizeof *f->row);
+  f->profile = zp_arena_take_of(&arena, nx, sizeof *f->profile);
   double **arrays[] = {&f->Fx, &f->Fy};
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_arena_take(&arena, pairs);

@@ -25,7 +25,7 @@ static size_t reserve(ZpGrid *g, void *block) {
   for (size_t k = 0; k < sizeof arrays / sizeof arrays[0]; k++)
     *arrays[k] = zp_arena_take(&arena, count);
   g->eps = zp_arena_take(&arena, g->columns * g->rows);
-  g->equation = (int *)(void *)zp_arena_take(&arena, (count + 1) / 2);
+  g->equation = zp_arena_take_of(&arena, count, sizeof *g->equation);
   return arena.used;
 }
 

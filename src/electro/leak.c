@@ -17,8 +17,8 @@ static size_t places(const ZpPlatesParams *plates) {
 
 void zp_leak_reserve(const ZpPlatesParams *plates, ZpLeakEval *e, ZpArena *arena) {
   size_t count = places(plates);
-  e->face = (ZpLeakFace *)(void *)zp_arena_take(arena, count * (sizeof *e->face / sizeof(double) + 1));
-  e->piece = (ZpPlatesMean *)(void *)zp_arena_take(arena, count * (sizeof *e->piece / sizeof(double)));
+  e->face = zp_arena_take_of(arena, count, sizeof *e->face);
+  e->piece = zp_arena_take_of(arena, count, sizeof *e->piece);
   zp_plates_step_reserve(plates, &e->work, arena);
 }
 

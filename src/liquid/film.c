@@ -26,7 +26,6 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
 }
 
 void zp_film_reserve(const ZpFilmParams *p, ZpFilmEval *e, ZpArena *arena) {
-  enum { DOUBLES = sizeof(ZpFilmPiece) / sizeof(double) };
   double **stations[] = {&e->rate,     &e->middle, &e->H0,    &e->H1,   &e->secant, &e->depth0, &e->depth1, &e->jet,
                          &e->coupling, &e->head,   &e->grows, &e->held, &e->force,  &e->flat,   &e->given};
   double **modes[] = {&e->flow, &e->conductance, &e->leak, &e->leak_conductance, &e->r};
@@ -35,7 +34,7 @@ void zp_film_reserve(const ZpFilmParams *p, ZpFilmEval *e, ZpArena *arena) {
   for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++)
     *modes[k] = zp_arena_take(arena, ZP_FILM_MODES * p->nodes);
   e->end = zp_arena_take(arena, ZP_FILM_STATE * p->nodes);
-  e->piece = (ZpFilmPiece *)(void *)zp_arena_take(arena, DOUBLES * p->nodes);
+  e->piece = zp_arena_take_of(arena, p->nodes, sizeof *e->piece);
   e->out = zp_arena_take(arena, 2);
 }
 

@@ -74,11 +74,10 @@ static void find_diagonal(ZpArrow *m) {
     m->diagonal[m->form->inner + i] = zp_sparse_at(&m->D, i, i);
 }
 
-/* Pointers are no longer than doubles. */
 void zp_arrow_reserve(ZpArrow *m, const ZpArrowForm *form, ZpArena *arena) {
   size_t first = 0;
   *m = (ZpArrow){.form = form};
-  m->part = (ZpArrowPart *)(void *)zp_arena_take(arena, form->blocks * (sizeof *m->part / sizeof(double)));
+  m->part = zp_arena_take_of(arena, form->blocks, sizeof *m->part);
   for (size_t k = 0; k < form->blocks; k++) {
     ZpArrowPart unused;
     reserve_part(arena->base ? &m->part[k] : &unused, &form->block[k], first, border_of(form) > 0, arena);
@@ -86,7 +85,7 @@ void zp_arrow_reserve(ZpArrow *m, const ZpArrowForm *form, ZpArena *arena) {
   }
   zp_sparse_reserve(&m->D, &form->sparsity, arena);
   zp_sparse_reserve(&m->S, &form->sparsity, arena);
-  m->diagonal = (double **)(void *)zp_arena_take(arena, form->n);
+  m->diagonal = zp_arena_take_of(arena, form->n, sizeof *m->diagonal);
   m->b = zp_arena_take(arena, form->n);
   m->left = zp_arena_take(arena, form->n);
   if (arena->base) find_diagonal(m);

@@ -15,7 +15,7 @@ static void reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpBandGr
   band->stride = symmetric ? reach * ZP_BAND_BLOCK : 2 * lower + upper + 1;
   band->entries = (symmetric ? blocks * ZP_BAND_BLOCK : n) * band->stride;
   band->a = zp_arena_take(arena, band->entries);
-  band->pivot = symmetric ? NULL : (size_t *)(void *)zp_arena_take(arena, n); /* a size_t is no larger than a double */
+  band->pivot = symmetric ? NULL : zp_arena_take_of(arena, n, sizeof *band->pivot);
 }
 
 void zp_band_reserve(ZpBand *band, size_t n, size_t lower, size_t upper, ZpArena *arena) {

@@ -105,7 +105,7 @@ static size_t reserve(Member *w, void *block) {
   double **of_nodes[] = {&w->force, &w->moved, &w->by_voltage};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_arena_take(&arena, zp_coordinates(model));
-  w->spare = (double(*)[4])(void *)zp_arena_take(&arena, 12 * zp_lanes(model));
+  w->spare = zp_arena_take_of(&arena, 3 * zp_lanes(model), sizeof *w->spare);
   return arena.used;
 }
 

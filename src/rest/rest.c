@@ -9,8 +9,8 @@
 static const double first_step = 0.01, longest_step = 0.1;
 
 static void reserve_shapes(ZpRest *rest, ZpArena *arena) {
-  const size_t members = rest->statics.members, doubles = sizeof *rest->shape_room / sizeof(double);
-  rest->shape_room = (ZpShapeRoom *)(void *)zp_arena_take(arena, members * doubles);
+  const size_t members = rest->statics.members;
+  rest->shape_room = zp_arena_take_of(arena, members, sizeof *rest->shape_room);
   for (size_t k = 0; k < members; k++) {
     ZpShapeRoom counted = {0}, *room = rest->shape_room ? &rest->shape_room[k] : &counted;
     zp_shape_reserve(rest->statics.model, room, arena);

@@ -33,7 +33,7 @@ static size_t reserve_solution(ZpStatics *s, void *block) {
 
 static size_t reserve(const ZpModel *model, ZpStatics *s, void *block) {
   ZpArena arena = {block, 0};
-  s->member = (ZpRestMember *)(void *)zp_arena_take(&arena, s->members * sizeof *s->member / sizeof(double));
+  s->member = zp_arena_take_of(&arena, s->members, sizeof *s->member);
   s->way = zp_arena_take(&arena, model->network->bodies);
   s->below = zp_arena_take(&arena, model->network->bodies);
   for (size_t k = 0; k < s->members; k++) {

@@ -8,7 +8,7 @@ static void reserve_equations(ZpDynamics *d, ZpArena *arena) {
                              &d->scale, &d->sharers, &d->from, &d->to};
   for (size_t k = 0; k < sizeof of_equations / sizeof of_equations[0]; k++)
     *of_equations[k] = zp_arena_take(arena, d->system.n);
-  d->kind = (ZpUnknown *)(void *)zp_arena_take(arena, d->system.n); /* room for doubles is more than enough */
+  d->kind = zp_arena_take_of(arena, d->system.n, sizeof *d->kind);
 }
 
 static void reserve_member(ZpMovingMember *m, ZpArena *arena) {

@@ -689,10 +689,10 @@ static size_t reserve(Cycles *c, void *block) {
   for (Mark *mark = c->mark; mark < c->mark + HISTORY; mark++) {
     mark->q = zp_arena_take(&arena, positions(c->sim));
     mark->rate = zp_arena_take(&arena, c->opening);
-    mark->slow = (double(*)[SLOW])(void *)zp_arena_take(&arena, c->sim->members * SLOW);
+    mark->slow = zp_arena_take_of(&arena, c->sim->members, sizeof *mark->slow);
   }
-  c->opens = (Opens *)(void *)zp_arena_take(&arena, c->opening * sizeof *c->opens / sizeof(double));
-  c->edge = (Edge(*)[ZP_BEADS])(void *)zp_arena_take(&arena, c->sim->members * sizeof *c->edge / sizeof(double));
+  c->opens = zp_arena_take_of(&arena, c->opening, sizeof *c->opens);
+  c->edge = zp_arena_take_of(&arena, c->sim->members, sizeof *c->edge);
   double **of_states[] = {&c->start, &c->end, &c->next};
   for (size_t k = 0; k < sizeof of_states / sizeof of_states[0]; k++)
     *of_states[k] = zp_arena_take(&arena, n);

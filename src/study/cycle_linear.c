@@ -295,9 +295,9 @@ typedef struct Room {
 static size_t reserve(ZpLinearCycle *l, void *block, Room *room) {
   ZpArena arena = {block, 0};
   const size_t rates = l->small.rates;
-  l->moved = (ZpComplex *)(void *)zp_arena_take(&arena, 2 * (l->harmonics + 1) * rates);
-  l->matrix = (ZpComplex *)(void *)zp_arena_take(&arena, 2 * rates * rates);
-  room->x = (ZpComplex *)(void *)zp_arena_take(&arena, 2 * rates);
+  l->moved = zp_arena_take_of(&arena, (l->harmonics + 1) * rates, sizeof *l->moved);
+  l->matrix = zp_arena_take_of(&arena, rates * rates, sizeof *l->matrix);
+  room->x = zp_arena_take_of(&arena, rates, sizeof *room->x);
   room->sample = zp_arena_take(&arena, PHASES * l->small.shapes);
   l->x = zp_arena_take(&arena, rates);
   l->q = zp_arena_take(&arena, zp_coordinates(l->model));

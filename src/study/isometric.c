@@ -332,7 +332,6 @@ static void raise_bias(Holder *h) {
   record(h, true, false);
 }
 
-
 /* -- derivatives ---------------------------------------------------------------------------------- */
 
 static double charge(ZpStatics *s, void *user) {

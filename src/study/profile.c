@@ -102,7 +102,7 @@ static size_t reserve(Profiler *p, void *block) {
   p->gap = zp_arena_take(&arena, n);
   p->line = zp_arena_take(&arena, n);
   p->insulator = zp_arena_take(&arena, n);
-  p->row = (void *)zp_arena_take(&arena, p->field.profiles * COLUMNS);
+  p->row = zp_arena_take_of(&arena, p->field.profiles, sizeof *p->row);
   p->wet = zp_arena_take(&arena, p->field.profiles);
   p->cover.part = zp_arena_take(&arena, n);
   return arena.used;
