@@ -1,8 +1,9 @@
-#picture animation.gif one motion time_s @output.animation :shapes.dat
-#picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage
+#picture animation.gif one motion time_s @output.animation :shapes.dat !:bodies
+#picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage !:bodies
 # The shapes of a run, or of the states of rest along the voltage (`path`), as a film. x counts from the middle of the
 # actuator; frame i is at frame_time[i] and frame_voltage[i], and its load hangs at end_x[i], end_y[i].
 load 'of_box.gp'
+load 'one_voltage.gp'
 load 'subtitle.gp'
 load 'wet.gp'
 most = 80
@@ -145,7 +146,7 @@ do for [k=1:shown_frames + hold] {
     caption = sprintf('t = %.1f %s', frame_time[i]*time, time_unit)
     if (has('contraction') && contraction_at[i] == contraction_at[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction_at[i]) < 0.005 ? 0 : contraction_at[i]*100) }
     if (!has('contraction') && has('stroke_m') && stroke_at[i] == stroke_at[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke_at[i]*length, length_unit) }
-    if (ribbons > 1) { caption = caption.sprintf('    %.4g kV', frame_voltage[i]/1000.0) }
+    if (ribbons > 1 && one_voltage) { caption = caption.sprintf('    %.4g kV', frame_voltage[i]/1000.0) }
   }
   set label 1 caption at screen 0.5,0.965 center
   # the platform, and the string with the load on it
@@ -171,7 +172,7 @@ do for [k=1:shown_frames + hold] {
        for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (side_x(side, column(x_of(r)))):(column(x_of(r) + 1)*length) \
          with lines lw 2 lc rgb metal notitle, \
        for [side=0:(ribbons > 1 ? half : -1)] 'shapes.dat' index i-1 using (is_clip(node(0)) ? side_x(side, $7) : NaN):($8*length) \
-         with points pt 5 ps 1.5 lc rgb metal notitle
+         with points pt 5 ps (members > 8 ? 0.7 : 1.5) lc rgb metal notitle
   if (lensed) {
     stats 'shapes.dat' index i-1 using (open_at($5 - middle, $6 - $8)) name 'gap' nooutput
     front = gap_min

@@ -6,5 +6,9 @@
 factor = scale(largest(sized), si)
 set ylabel label(quantity, unit(largest(sized), si)) offset 0.5
 load 'y_tics.gp'
+members = words(list)
+load 'of_members.gp'
+if (members > 4 && exists('middle')) { set key maxcols 1 spacing 0.9 } # in one of two panels
 plot for [c in present(list)] '../table.csv' using (column('time_s')*time):(column(c)*factor) \
-     with lines lw 2 dt dash(place(c, list)) lc rgb colour(place(c, list)) title word(titles, place(c, list))
+     with lines lw 2 dt member_dash(place(c, list)) lc rgb member_colour(place(c, list)) \
+     title member_named(place(c, list), word(titles, place(c, list)))

@@ -13,3 +13,4 @@ set xlabel 'x / '.length_unit
 set ylabel 'y / '.length_unit
 set xrange [-reach*length - 1.8*u:reach*length + 1.8*u]
 set yrange [box_bottom*length - 3*u:box_top*length + 1.2*u]
+if (box_top - box_bottom > 2*reach) { set xtics step(2*reach*length, 4) }
