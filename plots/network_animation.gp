@@ -82,6 +82,7 @@ set ylabel 'y / '.unit(wide, 'm')
 set tmargin 5
 set bmargin 5
 if (!flat) { set size ratio -1 }
+if (high > wide) { set xtics step(wide*length, 4) }
 set xrange [(left_most - 0.04*wide)*length:(right_most + 0.04*wide)*length]
 set yrange [(box_bottom - 0.2*high)*length:(box_top + 0.1*high)*length]
 slower = delay/100.0*(shown_frames - 1)/(end - begin)
@@ -92,7 +93,7 @@ set label 2 subtitle at screen 0.5,0.925 center
 set label 3 pace at screen 0.5,0.885 center
 set label 4 (path ? '' : foot).(flat ? (path ? '' : '; ').'x and y have different scales' : '') at screen 0.5,0.025 center font ',11' tc rgb '#555555'
 
-thick = 0.012*high*length*(flat ? 1 : 2)
+thick = 0.012*min(high, wide)*length*(flat ? 1 : 2)
 grey = '#555555'
 set object 1 rectangle from from_x[1]*length,-thick to to_x[1]*length,2*thick fc rgb grey fs solid noborder
 do for [k=1:shown_frames + hold] {
