@@ -47,6 +47,7 @@ PICTURES = {
     "stack.svg": "stack/plots/members.svg",
     "stack-unlike.svg": "stack-unlike/plots/members.svg",
     "network.svg": "network/plots/members.svg",
+    "ports.svg": "ports/plots/voltages.svg",
     "tree.gif": "tree/plots/animation.gif",
     "tree-slow.svg": "tree-slow/plots/stroke.svg",
     "column.gif": "column/plots/animation.gif",
