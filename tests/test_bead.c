@@ -500,6 +500,16 @@ static double gap_at_end(ZpSim *sim, const ZpActuatorDef *def) {
   return shape.gap[k] + (at - (double)k) * (shape.gap[k + 1] - shape.gap[k]);
 }
 
+/* A bead that reaches the platform has no end that a front could overtake. */
+TEST(bead_up_to_the_platform_does_not_starve) {
+  ZpActuatorDef def =
+      DEF(BEAD, {"bead.volume", 5e-6}, {"ribbon.length", 60e-3}, {"ribbon.thickness", 35e-6}, {"mesh.nodes", 21},
+          {"load.mass", 8e-3}, {"drive.voltage", 10e3}, {"solver.end_time", 0.3}, {"output.errors", false});
+  const ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert(zp_result_get(result, "zip_time_s") > 0);
+  ck_assert(isnan(zp_result_get(result, "starved_time_s")));
+}
+
 /* It starves when the front has reached its end: there the gap is then as thin as the insulators are for the field. */
 TEST(starved_where_the_front_meets_the_end) {
   ZpActuatorDef def = DEF(BEAD, {"mesh.nodes", 31}, {"bead.volume", 30e-9});

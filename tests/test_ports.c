@@ -299,6 +299,26 @@ TEST(voltage_of_a_program_is_that_of_all) {
   ck_near(sim[1].state->U, 3e3, 1e-15);
 }
 
+/* A run has a constant drive where each member has one, whichever comes first: else its outcome says nothing of
+ * closing.
+ */
+TEST(drive_is_constant_if_all_are) {
+  static const char *const members[] = {
+      "a: {upper: frame, lower: hand}, b: {upper: frame, lower: foot, drive: {waveform: square, frequency: 5 Hz}}",
+      "b: {upper: frame, lower: foot, drive: {waveform: square, frequency: 5 Hz}}, a: {upper: frame, lower: hand}",
+      "a: {upper: frame, lower: hand}, b: {upper: frame, lower: foot}"};
+  for (int k = 0; k < 3; k++) {
+    char text[512];
+    snprintf(text, sizeof text,
+             OF_ALL "drive.voltage: 10 kV\nbodies: {hand: {mass: 4 g}, foot: {mass: 4 g}}\n"
+                    "solver.end_time: 90 ms\nmembers: {%s}\n",
+             members[k]);
+    const ZpResult *result = run(text);
+    ck_assert(number(result, "members.a.zip_time_s") > 0);
+    ck_assert_int_eq(result->outcome, k < 2 ? ZP_REACHED_END : ZP_ZIPPED);
+  }
+}
+
 /* Snapshots have the sources and controllers of all ports. */
 TEST(run_on_several_ports_continues) {
   const ZpActuatorDef def =

@@ -131,7 +131,8 @@ static void note_closing(ZpSim *sim) {
 }
 
 /* Has a zip front overtaken its bead? The meniscus is then where the film is thinner than the liquid equivalent to the
- * insulators. Ribbons that have been closed from the start have no front. */
+ * insulators. Ribbons that have been closed from the start have no front, and a bead that reaches the platform has none
+ * behind it. */
 static void note_starving(ZpSim *sim, const ZpMovingMember *moved) {
   const ZpModel *model = sim->model;
   ZpState *state = sim->state;
@@ -140,7 +141,8 @@ static void note_starving(ZpSim *sim, const ZpMovingMember *moved) {
   const double *gap = moved->eval.plates.gap;
   for (int half = 0; half < zp_beads(&model->film); half++) {
     ZpBeadPlace end = zp_bead_place(&model->film, half, state->bead[half].reach);
-    if (zp_bead_at(&end, gap) < model->plates.d) state->starved_time = state->t;
+    const bool ends_before_platform = end.near != end.far;
+    if (ends_before_platform && zp_bead_at(&end, gap) < model->plates.d) state->starved_time = state->t;
   }
 }
 

@@ -261,8 +261,12 @@ static void summarize_members(const ZpSim *sim, const ZpModel *model, ZpResult *
                      zp_sim_member_zip_time(sim, k));
 }
 
-static bool has_constant_drive(const ZpModel *model) {
-  return zp_waveform_is_constant(&model->waveform) && model->def.control.kind == ZP_CONTROL_NONE;
+/* Of all members. */
+static bool has_constant_drive(const ZpModel *first) {
+  bool constant = true;
+  for (const ZpModel *model = first; model < first + first->members; model++)
+    constant &= zp_waveform_is_constant(&model->waveform) && model->def.control.kind == ZP_CONTROL_NONE;
+  return constant;
 }
 
 static ZpStop stop_of(const ZpModel *model) {

@@ -59,6 +59,7 @@ const fixedSteps = {
     'ribbon.thickness': '100 um', 'load.mass': '25 g', 'damping.internal': '1000 us',
   },
   'two in series': {'liquid.model': 'none', 'stack.series': '2', 'mesh.nodes': '31', 'solver.end_time': '20 ms'},
+  'sixty in series': {'liquid.model': 'none', 'stack.series': '60', 'mesh.nodes': '9', 'ribbon.thickness': '100 um', 'load.mass': '1 g', 'solver.end_time': '1 ms'},
   'a platform that turns': {
     'liquid.model': 'none', 'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false',
     'load.offset': '2 mm', 'mesh.nodes': '31', 'solver.end_time': '20 ms',
