@@ -149,25 +149,27 @@ static const char *find_part(const char *name) {
   return found;
 }
 
-/* "unknown key; load has mass, share, ..."; false if there is no such group. */
+/* "unknown key; load has mass, share, ..."; of a group within the group its name. False if there is no such group. */
 static bool list_group(const char *name, char *text, size_t size) {
-  bool found = false;
+  const char *before = "";
   size_t used = 0;
   for (int i = 0; i < zp_key_count(); i++) {
     const char *key = zp_key(i)->name, *rest = key + group_length(key);
     if (!*rest || !same_group(name, key)) continue;
-    if (found && used + strlen(rest) + sizeof ", ..." >= size) {
+    const size_t length = strcspn(rest + 1, ".");
+    if (strncmp(before, rest + 1, length) == 0 && (before[length] == 0 || before[length] == '.')) continue;
+    if (used > 0 && used + length + sizeof ", ..." >= size) {
       snprintf(text + used, size - used, ", ...");
       return true;
     }
-    if (found)
-      snprintf(text + used, size - used, ", %s", rest + 1);
+    if (used > 0)
+      snprintf(text + used, size - used, ", %.*s", (int)length, rest + 1);
     else
-      snprintf(text, size, "unknown key; %.*s has %s", (int)group_length(key), key, rest + 1);
-    found = true;
+      snprintf(text, size, "unknown key; %.*s has %.*s", (int)group_length(key), key, (int)length, rest + 1);
+    before = rest + 1;
     used = strlen(text);
   }
-  return found;
+  return used > 0;
 }
 
 static void say_unknown(const char *name, char *text, size_t size) {
