@@ -455,7 +455,8 @@ static const struct {
     {"bodies: {hand: {moves: none}}\nmembers: {m: {upper: frame, lower: hand}}", "bodies: each one is held"},
     {"members: {m: {upper: frame, lower: hand}}", "bodies: missing; members.m is between bodies"},
     {"isometric.body: hand", "isometric.body = hand: there is no such body"},
-    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstudy: stationary\nsensitivity.by: members.m.upper",
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstudy: stationary\nsensitivity.by: "
+     "members.m.upper",
      "members.m.upper says which bodies or ports are joined"},
 };
 

@@ -170,7 +170,8 @@ static PyMethodDef methods[] = {
     {"keys", keys, METH_NOARGS, "(name, kind, unit, default, min, max, help, choices) of each key."},
     {"signals", signals, METH_NOARGS, "(name, unit, help) of each signal of a simulation."},
     {"read_scenario", read_scenario, METH_VARARGS,
-     "read_scenario(path), read_scenario(name, text): one Definition per run, and the scenario as the command writes it."},
+     "read_scenario(path), read_scenario(name, text): one Definition per run, and the scenario as the command writes "
+     "it."},
     {"unpack_result", unpack_result, METH_O, "The Result that was packed."},
     {NULL, NULL, 0, NULL},
 };
