@@ -68,8 +68,8 @@ typedef struct ZpStepping {
 /* The method of solver.integrator. */
 const ZpStepping *zp_stepping_of(const ZpModel *model);
 
-/* Connect a source, which must outlive the simulation, between the drive and the electrodes of a simulation with
- * implicit steps; from now on it determines the voltage. False if there is no memory. */
+/* Connect a source, which must outlive the simulation, between the drive and the electrodes on the first port of a
+ * simulation with implicit steps; from now on it determines the voltage. False if there is no memory. */
 bool zp_sim_connect(ZpSim *sim, const ZpSource *source);
 
 /* Arrays for the liquid of all members, in the uppermost simulation. */

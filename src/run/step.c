@@ -71,7 +71,11 @@ const ZpStepping *zp_stepping_of(const ZpModel *model) {
 
 bool zp_sim_connect(ZpSim *sim, const ZpSource *source) {
   zp_dynamics_destroy(&sim->dynamics);
-  return zp_dynamics_create(sim->model, (const ZpSource *const[]){source}, &sim->dynamics);
+  const ZpSource **of = zp_calloc(sim->members, sizeof(ZpSource *));
+  if (of) of[0] = source;
+  const bool made = of && zp_dynamics_create(sim->model, of, &sim->dynamics);
+  zp_free(of);
+  return made;
 }
 
 /* -- how long a step may be ------------------------------------------------------------------------ */
