@@ -961,7 +961,8 @@ static void put_gnuplot(const char *script) {
 
 /* A gnuplot that says where it is, ignores what can be ignored, leaves the work to a child and never ends. */
 static void put_hanging_gnuplot(void) {
-  put_gnuplot("#!/bin/sh\ntrap '' INT TERM HUP\necho $$ >starting.$$ && mv starting.$$ started\nsleep 1000\nsleep 1000\n");
+  put_gnuplot(
+      "#!/bin/sh\ntrap '' INT TERM HUP\necho $$ >starting.$$ && mv starting.$$ started\nsleep 1000\nsleep 1000\n");
 }
 static bool nothing_runs(const char *started) {
   size_t size;
