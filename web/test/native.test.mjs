@@ -59,7 +59,6 @@ const fixedSteps = {
     'ribbon.thickness': '100 um', 'load.mass': '25 g', 'damping.internal': '1000 us',
   },
   'two in series': {'liquid.model': 'none', 'stack.series': '2', 'mesh.nodes': '31', 'solver.end_time': '20 ms'},
-  'sixty in series': {'liquid.model': 'none', 'stack.series': '60', 'mesh.nodes': '9', 'ribbon.thickness': '100 um', 'load.mass': '1 g', 'solver.end_time': '1 ms'},
   'a platform that turns': {
     'liquid.model': 'none', 'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false',
     'load.offset': '2 mm', 'mesh.nodes': '31', 'solver.end_time': '20 ms',
@@ -92,6 +91,14 @@ for (const [name, changes] of Object.entries(fixedSteps)) {
     }
   });
 }
+
+test('sixty in series hang as with the command: their arrays fit, though a pointer has four bytes', () => {
+  const values = new Map([['liquid.model', 'none'], ['stack.series', '60'], ['mesh.nodes', '9']]), core = new Core(module);
+  const theirs = native('stationary', values);
+  core.resolve(values);
+  const ours = core.study('stationary', ['opening_m']);
+  assert.ok(Math.abs(ours.scalars.opening_m - theirs.opening_m) < 1e-9 * theirs.opening_m, `${ours.scalars.opening_m}, ${theirs.opening_m}`);
+});
 
 test('the simulation that runs along ends where the study does, with fixed steps', () => {
   const values = new Map([['liquid.model', 'bead'], ['solver.time_step', '200 us'], ['solver.end_time', '40 ms']]);
