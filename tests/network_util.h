@@ -17,6 +17,20 @@ static ZpActuatorDef def_of(const char *text) {
   return def;
 }
 
+/* A scenario is refused, when it is read or by the study, with these words. */
+static void ck_scenario_refused(ZpStudy study, const char *text, const char *says) {
+  ZpScenario *s = new_scenario();
+  ZpActuatorDef def = {0};
+  ZpError err = {ZP_OK, ""};
+  ZpStatus status = zp_scenario_parse(s, text, strlen(text), "network.yaml", &err);
+  if (status == ZP_OK) status = zp_scenario_def(s, 0, &def, &err);
+  if (status == ZP_OK) status = zp_study_check(study, &def, &err);
+  zp_def_clear(&def);
+  printf("%s\n", err.message);
+  ck_assert_int_eq(status, ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, says) != NULL, "no '%s' in: %s", says, err.message);
+}
+
 static double number(const ZpResult *result, const char *name) {
   ck_assert_msg(zp_result_has(result, name), "no %s", name);
   return zp_result_get(result, name);

@@ -727,6 +727,19 @@ TEST(study_out_of_range) {
   zp_def_destroy(def);
 }
 
+/* Derivatives beyond the last place are left out with one note. */
+TEST(full_list_of_derivatives_is_told_of) {
+  ZpResult *result = zp_result_create(ZP_STUDY_STATIONARY);
+  for (int k = 0; k < 512; k++)
+    zp_result_add_sensitivity(result, "stroke_m", zp_key_find("load.mass"), k);
+  ck_assert_ptr_null(zp_result_note_text(result, 0));
+  for (int k = 0; k < 2; k++)
+    zp_result_add_sensitivity(result, "stroke_m", zp_key_find("gravity"), k);
+  ck_assert_str_eq(zp_result_note_text(result, 0), "sensitivity: only the first 512 derivatives are kept");
+  ck_assert_ptr_null(zp_result_note_text(result, 1));
+  zp_result_destroy(result);
+}
+
 /* A wrong number of a part or of a key has an answer of its own. */
 TEST(what_is_out_of_range_has_an_answer) {
   ZpError err = {0};

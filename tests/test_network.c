@@ -462,13 +462,5 @@ static const struct {
 };
 
 TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {
-  ZpScenario *s = new_scenario();
-  ZpActuatorDef def = {0};
-  ZpError err = {ZP_OK, ""};
-  ZpStatus status = zp_scenario_parse(s, wrong[_i].text, strlen(wrong[_i].text), "network.yaml", &err);
-  if (status == ZP_OK) status = zp_scenario_def(s, 0, &def, &err);
-  zp_def_clear(&def);
-  printf("%s\n", err.message);
-  ck_assert_int_eq(status, ZP_BAD_INPUT);
-  ck_assert_msg(strstr(err.message, wrong[_i].says) != NULL, "no '%s' in: %s", wrong[_i].says, err.message);
+  ck_scenario_refused(ZP_STUDY_STATIONARY, wrong[_i].text, wrong[_i].says);
 }

@@ -73,6 +73,13 @@ int zp_instance_next(const ZpActuatorDef *def, int index);
 const char *zp_def_name(const ZpActuatorDef *def, ZpInstanceKind kind, int number, char text[ZP_NAME_SIZE]);
 ZpStatus zp_def_set_names(ZpActuatorDef *def, const ZpGivenName *name, size_t count, ZpError *err);
 
+/* The kind that a key's value names: ZP_OF_BODY, ZP_OF_PORT; ZP_NAMED_KINDS: none. Rows that stand for those of all
+ * count. */
+ZpInstanceKind zp_key_names(int key);
+static inline bool zp_key_is_name(int key) {
+  return zp_key_names(key) < ZP_NAMED_KINDS;
+}
+
 /* The name of a key for a message: of a member of a network "members.left.drive.voltage". */
 const char *zp_def_key_shown(const ZpActuatorDef *def, int key, char text[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]);
 #define ZP_KEY_SHOWN(def, key) zp_def_key_shown(def, key, (char[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]){0})

@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/rule.h"
 
 /* A kind of them: their rows in the table of keys, what their names begin with, and the first of their indices. */
 typedef struct Kind {
@@ -112,6 +113,15 @@ const char *zp_instance_key_name(int index, char text[ZP_KEY_NAME_SIZE]) {
 const char *zp_key_of_one(const char *name) {
   static const char begin[] = "member_K.";
   return strncmp(name, begin, sizeof begin - 1) == 0 ? name + sizeof begin - 1 : name;
+}
+
+ZpInstanceKind zp_key_names(int key) {
+  const ZpInstance at = zp_key_instance(key);
+  if (at.row == ZP_KEY(member_K.port)) return ZP_OF_PORT;
+  const bool body = key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) ||
+                    at.row == ZP_KEY(member_K.lower) || at.row == ZP_KEY(spring_K.first) ||
+                    at.row == ZP_KEY(spring_K.second);
+  return body ? ZP_OF_BODY : ZP_NAMED_KINDS;
 }
 
 size_t zp_instances_from(const ZpActuatorDef *def, int index) {

@@ -141,15 +141,6 @@ char *zp_names_text(ZpGivenNames *names, const char *text) {
   return whole;
 }
 
-ZpInstanceKind zp_key_names(int key) {
-  const ZpInstance at = zp_key_instance(key);
-  if (at.row == ZP_KEY(member_K.port)) return ZP_OF_PORT;
-  const bool body = key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) ||
-                    at.row == ZP_KEY(member_K.lower) || at.row == ZP_KEY(spring_K.first) ||
-                    at.row == ZP_KEY(spring_K.second);
-  return body ? ZP_OF_BODY : ZP_NAMED_KINDS;
-}
-
 /* The name of one; NULL: it has none. */
 static const char *name_of(const ZpGivenNames *names, ZpInstanceKind kind, int number) {
   for (size_t k = 0; k < names->count; k++)

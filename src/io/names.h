@@ -30,13 +30,6 @@ char *zp_names_text(ZpGivenNames *names, const char *text);
 /* "members" and the like. */
 const char *zp_names_plural(ZpInstanceKind kind);
 
-/* The kind that a key's value names: ZP_OF_BODY, ZP_OF_PORT; ZP_NAMED_KINDS: none. Rows that stand for those of all
- * count. */
-ZpInstanceKind zp_key_names(int key);
-static inline bool zp_key_is_name(int key) {
-  return zp_key_names(key) < ZP_NAMED_KINDS;
-}
-
 /* The group of a path of one name or less: "members", "bodies", "springs"; ZP_INSTANCE_KINDS: it is none. */
 ZpInstanceKind zp_names_group(const char *path);
 

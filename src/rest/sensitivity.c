@@ -18,12 +18,10 @@ static bool is_numerical(const char *name) {
   return false;
 }
 
-/* Names of bodies and ports are numbers to the table of keys. */
+/* Names of bodies and ports are numbers to the table of keys; a member is upright or upside down. */
 static bool key_is_of_place(int key) {
   const int row = zp_key_instance(key).row;
-  return row == ZP_KEY(member_K.upper) || row == ZP_KEY(member_K.lower) || row == ZP_KEY(member_K.angle) ||
-         row == ZP_KEY(member_K.port) || row == ZP_KEY(spring_K.first) || row == ZP_KEY(spring_K.second) ||
-         row == ZP_KEY(body_K.at.x);
+  return zp_key_is_name(key) || row == ZP_KEY(member_K.angle) || row == ZP_KEY(body_K.at.x);
 }
 
 ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *err) {

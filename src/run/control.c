@@ -8,14 +8,10 @@
 
 static const double rounding = 1e-9; /* of a period: a time that is meant to be that of a sample */
 
-static bool is_controlled(const ZpSim *sim) {
-  return sim->model->control.kind != ZP_CONTROL_NONE;
-}
-
-static bool is_any_controlled(const ZpSim *sim) {
+bool zp_sim_any_controlled(const ZpSim *sim) {
   bool any = false;
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    any |= is_controlled(m);
+    any |= zp_sim_is_controlled(m);
   return any;
 }
 
@@ -23,7 +19,7 @@ static bool is_any_controlled(const ZpSim *sim) {
 
 double zp_sim_setpoint(const ZpSim *sim) {
   const ZpState *state = sim->state;
-  if (!is_controlled(sim)) return 0;
+  if (!zp_sim_is_controlled(sim)) return 0;
   return state->setpoint_by_hand ? zp_ramp_value(&state->setpoint_input, state->t)
                                  : zp_waveform_voltage(&sim->model->setpoint, state->t);
 }
@@ -36,7 +32,7 @@ double zp_sim_controlled(ZpSim *sim) {
 
 void zp_sim_start_control(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    if (!is_controlled(m)) continue;
+    if (!zp_sim_is_controlled(m)) continue;
     m->state->control = zp_control_start();
     zp_sim_hold_port(m, (ZpRamp){0, 0, m->state->t, INFINITY});
   }
@@ -95,7 +91,7 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
     sim->control = (ZpOwnControl){.since = 0};
     return ZP_OK;
   }
-  if (is_any_controlled(sim))
+  if (zp_sim_any_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "controller: the model already has that of control.kind; use control.kind none");
   if (!controller->voltage) return zp_fail(err, ZP_BAD_INPUT, "controller: its function `voltage` is missing");
   if (!(controller->period >= shortest && controller->period <= longest))
@@ -110,7 +106,8 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
 static double due(const ZpSim *sim) {
   const ZpControl *c = &sim->model->control;
   const ZpControlState *state = &sim->state->control;
-  return is_controlled(sim) ? fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state)) : INFINITY;
+  return zp_sim_is_controlled(sim) ? fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state))
+                                   : INFINITY;
 }
 
 double zp_sim_control_due(const ZpSim *sim) {
@@ -123,9 +120,9 @@ double zp_sim_control_due(const ZpSim *sim) {
 /* Controllers of several ports sample before any of them gives its output. */
 bool zp_sim_control(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++)
-    if (is_controlled(m) && m->state->t >= zp_control_sample_time(&m->model->control, &m->state->control))
+    if (zp_sim_is_controlled(m) && m->state->t >= zp_control_sample_time(&m->model->control, &m->state->control))
       take_sample(m);
   for (ZpSim *m = sim; m < sim + sim->members; m++)
-    if (is_controlled(m)) give_output(m);
+    if (zp_sim_is_controlled(m)) give_output(m);
   return ask(sim);
 }

@@ -60,12 +60,9 @@ void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
 
 /* Whoever holds the voltage. */
 static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
-  bool controlled = sim->model->control.kind != ZP_CONTROL_NONE, any = false;
-  for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    any |= m->model->control.kind != ZP_CONTROL_NONE;
-  if (input == ZP_INPUT_VOLTAGE && any)
+  if (input == ZP_INPUT_VOLTAGE && zp_sim_any_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "voltage: the controller sets it (control.kind); set the setpoint");
-  if (input == ZP_INPUT_SETPOINT && !controlled)
+  if (input == ZP_INPUT_SETPOINT && !zp_sim_is_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "setpoint: there is no controller; set control.kind");
   return ZP_OK;
 }

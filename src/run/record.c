@@ -231,8 +231,7 @@ static void fill_state(const ZpSim *sim, double *row) {
   row[SIGNAL_voltage] = state->U;
   row[SIGNAL_command] = zp_sim_is_fed(sim) ? zp_sim_command(sim) : state->U;
   row[SIGNAL_source_voltage] = zp_sim_is_fed(sim) ? state->supply.voltage : state->U;
-  row[SIGNAL_cable_energy] =
-      zp_sim_is_fed(sim) && zp_leads_port(sim->model) ? zp_supply_coupling_cable_energy(sim, state->U) : 0;
+  row[SIGNAL_cable_energy] = zp_sim_has_supply(sim) ? zp_supply_coupling_cable_energy(sim, state->U) : 0;
   row[SIGNAL_setpoint] = zp_sim_setpoint(sim);
   row[SIGNAL_measured] = sim->model->control.kind == ZP_CONTROL_NONE ? 0 : state->control.measured;
   row[SIGNAL_load_work] = parts * state->load_work;

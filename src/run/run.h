@@ -29,6 +29,9 @@ bool zp_sim_control(ZpSim *sim);
  * present time. */
 void zp_sim_resume_control(ZpSim *sim);
 
+/* Has any port one of the model's controllers? */
+bool zp_sim_any_controlled(const ZpSim *sim);
+
 /* Start the controllers of all ports: the voltage is 0 until the first output. */
 void zp_sim_start_control(ZpSim *sim);
 
@@ -153,12 +156,21 @@ static inline size_t zp_sim_next(const ZpSim *m) {
   return zp_next_on_port(m->model);
 }
 
-static inline ZpSim *zp_sim_first(ZpSim *m) {
+static inline const ZpSim *zp_sim_first(const ZpSim *m) {
   return m - m->model->number;
 }
 
 static inline ZpSim *zp_sim_lead(ZpSim *m) {
-  return zp_sim_first(m) + m->model->network->ends[m->model->number].port;
+  return m - m->model->number + m->model->network->ends[m->model->number].port;
+}
+
+/* Is it the first member on a port with a supply that acts? With a controller? */
+static inline bool zp_sim_has_supply(const ZpSim *m) {
+  return zp_sim_is_fed(m) && zp_leads_port(m->model);
+}
+
+static inline bool zp_sim_is_controlled(const ZpSim *m) {
+  return m->model->control.kind != ZP_CONTROL_NONE;
 }
 
 /* A simulation that starts at coordinates q [2 stride] (NULL: straight) with a given hanging opening, without computing

@@ -200,7 +200,7 @@ static void start(ZpSim *sim) {
 static ZpStatus check_one(const ZpSim *sim, ZpError *err) {
   const ZpActuatorDef *def = &sim->model->def;
   bool measured = def->control.kind != ZP_CONTROL_NONE && def->control.signal == ZP_CONTROL_CONTRACTION;
-  if (!measured || (sim - sim->model->number)->settled != ZP_REACHED_END || sim->state->opening0 > 0) return ZP_OK;
+  if (!measured || zp_sim_first(sim)->settled != ZP_REACHED_END || sim->state->opening0 > 0) return ZP_OK;
   return zp_fail(
       err, ZP_BAD_INPUT,
       "control.signal = contraction: with this load, gravity and mount.tilt the actuator is closed at rest, so "

@@ -13,7 +13,7 @@ static bool create_implicit(ZpSim *sim) {
   const size_t members = sim->members;
   const ZpSource **source = zp_calloc(members, sizeof(ZpSource *));
   for (size_t k = 0; source && k < members; k++) {
-    if (!zp_sim_is_fed(sim + k) || !zp_leads_port(sim[k].model)) continue;
+    if (!zp_sim_has_supply(sim + k)) continue;
     zp_supply_coupling_create(sim + k);
     source[k] = &sim[k].feed.source;
     sim->fed++;
@@ -267,20 +267,16 @@ typedef struct Step {
   ZpStepLimit limit;
 } Step;
 
-static bool has_supply(const ZpSim *m) {
-  return zp_sim_is_fed(m) && zp_leads_port(m->model);
-}
-
 /* At the supplies of all ports. */
 static void let_commands_arrive(ZpSim *sim) {
   for (ZpSim *m = sim; m < sim + sim->members; m++)
-    if (has_supply(m)) zp_supply_coupling_arrive(m);
+    if (zp_sim_has_supply(m)) zp_supply_coupling_arrive(m);
 }
 
 static double next_event(const ZpSim *sim, double latest) {
   double next = INFINITY;
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    if (has_supply(m)) next = fmin(next, zp_supply_coupling_event(m, latest));
+    if (zp_sim_has_supply(m)) next = fmin(next, zp_supply_coupling_event(m, latest));
   return next;
 }
 

@@ -37,7 +37,7 @@ static ZpSupplyState followed(const ZpSim *sim, const ZpState *from, double to) 
 
 /* Inner voltage at the end of a step of h. */
 static double inner_after(const ZpSim *sim, double h) {
-  double t = sim->state->t, latest = (sim - sim->model->number)->dynamics.latest;
+  double t = sim->state->t, latest = zp_sim_first(sim)->dynamics.latest;
   return followed(sim, sim->state, h == latest - t ? latest : t + h).voltage;
 }
 
@@ -319,8 +319,7 @@ static double at_bleeder(const ZpSim *sim) {
 }
 
 static const ZpMovingMember *moved_of(const ZpSim *m) {
-  const size_t number = m->model->number;
-  return (m - number)->dynamics.member + number;
+  return zp_sim_first(m)->dynamics.member + m->model->number;
 }
 
 /* Charge that one part of a member has taken over the last step, C. */
@@ -425,7 +424,7 @@ bool zp_supply_coupling_step(ZpSim *sim, double latest) {
   const bool moves = latest - sim->state->t >= ZP_SUPPLY_SHORTEST;
   if (moves && !(zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0)) return false;
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    const bool fed = zp_sim_is_fed(m) && zp_leads_port(m->model);
+    const bool fed = zp_sim_has_supply(m);
     if (fed && moves) zp_supply_coupling_end(m);
     if (fed && !moves) m->state->supply = followed(m, m->state, latest);
   }
@@ -437,8 +436,7 @@ bool zp_supply_coupling_step(ZpSim *sim, double latest) {
 /* -- what came of it ------------------------------------------------------------------------------- */
 
 ZpCurrents zp_sim_currents(ZpSim *sim, double duration) {
-  const size_t supplies = sim->dynamics.ports; /* beside others: their currents have no common peak */
-  bool apart = sim->fed > 0 && (supplies > 1 || !zp_sim_is_fed(sim));
+  bool apart = sim->fed > 1; /* currents of several sources have no common peak */
   for (ZpSim *m = sim; m < sim + sim->members && sim->fed > 0; m++)
     apart |= !zp_sim_is_fed(m);
   bool jumped = isinf(sim->feed.peak) || (sim->fed == 0 && zp_sim_get(sim, "charging_loss") > 0);

@@ -115,11 +115,12 @@ void zp_result_add_of(ZpResult *result, const char *name, const char *called, co
 }
 
 void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, double value) {
-  if (result->sensitivities < ZP_MAX_SENSITIVITIES)
+  if (result->sensitivities < ZP_MAX_SENSITIVITIES) {
     result->sensitivity[result->sensitivities++] = (ZpSensitivity){output, key, value};
-  else if (!result->cut)
-    zp_result_note(result, "sensitivity: only the first %d derivatives are kept", ZP_MAX_SENSITIVITIES);
-  result->cut |= result->sensitivities == ZP_MAX_SENSITIVITIES;
+    return;
+  }
+  if (!result->cut) zp_result_note(result, "sensitivity: only the first %d derivatives are kept", ZP_MAX_SENSITIVITIES);
+  result->cut = true;
 }
 
 void zp_result_note(ZpResult *result, const char *format, ...) {

@@ -44,7 +44,7 @@ struct ZpResult {
   size_t scalars, scalar_room;
   ZpName *names;                                   /* of scalars of members */
   ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
-  bool cut;                                        /* there is no room for another one */
+  bool cut;                                        /* there was no room for another one */
   size_t sensitivities;
   ZpTable *series;          /* the study's table; NULL if it has none */
   ZpShapes *shapes;         /* NULL if it has none */
