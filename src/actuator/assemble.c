@@ -21,13 +21,27 @@ static size_t leader_of(const ZpTies *ties, const ZpTie *tie) {
   return first->coordinate;
 }
 
+/* Which swing a coordinate has, of a member on bodies in the plane; below 0: none. */
+static int swing_at(const ZpModel *model, size_t k) {
+  const ZpTopology *t = &model->topology;
+  const size_t node = k / 2;
+  if (!model->network->plane) return -1;
+  if (node == zp_lower(t, t->platform.first)) return (int)(k % 2);
+  return node == zp_lower(t, t->platform.last) ? 2 + (int)(k % 2) : -1;
+}
+
 /* Station by station: coordinates of its nodes, then unknowns of the laws. */
 static size_t number(const ZpTies *ties, ZpAssembly *a) {
   int next = 0;
   for (size_t i = 0; i < a->nodes; i++) {
     for (size_t k = 2 * a->s * i; k < 2 * a->s * (i + 1); k++) {
       const ZpTie *tie = zp_tie_of(ties, k);
+      const int swing = swing_at(ties->first + ties->member, k);
       size_t leader = tie ? leader_of(ties, tie) : k;
+      if (swing >= 0) {
+        a->equation[k] = -2 - swing;
+        continue;
+      }
       a->factor[k] = tie ? tie->factor : 1;
       a->offset[k] = tie ? tie->offset : 0;
       a->equation[k] = a->factor[k] == 0 ? -1 : leader < k ? a->equation[leader] : next++;
@@ -229,6 +243,37 @@ static int equation_at(const ZpAssembly *a, int place, size_t first, size_t inne
   return is_inner(a, place) ? place + (int)first : (int)(inner + a->block.to[(size_t)place - a->block.n]);
 }
 
+/* Unknowns of the bodies of a member => its part of the border, and its swings. */
+static size_t meet_bodies(ZpAssembly *a, const ZpModel *model, size_t *to) {
+  const ZpEnds *ends = &model->network->ends[model->number];
+  const size_t body[] = {ends->lower, ends->upper};
+  size_t count = 0;
+  for (int b = 0; b < 2; b++)
+    for (int way = 0; way < ZP_WAYS; way++) {
+      const long unknown = zp_network_unknown(model->network, body[b], (ZpWay)way);
+      if (unknown < 0) continue;
+      for (int k = 0; k < ZP_SWINGS; k++)
+        a->swing[k].place[count] = (int)(a->block.n + count);
+      to[count++] = (size_t)unknown;
+    }
+  for (int k = 0; k < ZP_SWINGS; k++)
+    a->swing[k].count = count;
+  return count;
+}
+
+/* Unknowns of the bodies that springs and joints join => [springs + joints] cliques. */
+static void join_bodies(const ZpNetwork *network, ZpClique *clique, size_t *ends) {
+  for (size_t k = 0; k < network->springs + network->joints; k++) {
+    const size_t *body = k < network->springs ? network->spring[k].body : network->joint[k - network->springs].body;
+    size_t *own = ends + ZP_SWING_WAYS * k, count = 0;
+    for (int way = 0; way < ZP_SWING_WAYS; way++) {
+      const long unknown = zp_network_unknown(network, body[way / ZP_WAYS], (ZpWay)(way % ZP_WAYS));
+      if (unknown >= 0) own[count++] = (size_t)unknown;
+    }
+    clique[k] = (ZpClique){count, own};
+  }
+}
+
 static void renumber(size_t count, const int *of, int *places) {
   for (size_t k = 0; k < count; k++)
     if (places[k] >= 0) places[k] = of[places[k]];
@@ -243,6 +288,9 @@ static void join(ZpAssembly *a, const int *of, size_t first, size_t inner, size_
     if (a->place[k] >= 0) a->equation[k] = equation_at(a, a->place[k], first, inner);
   for (size_t c = 0; c < own; c++)
     a->extra_equation[c] = equation_at(a, a->extra_place[c], first, inner);
+  for (size_t k = 0; k < ZP_SWINGS; k++)
+    for (size_t c = 0; c < a->swing[k].count; c++)
+      a->swing[k].equation[c] = equation_at(a, a->swing[k].place[c], first, inner);
   for (size_t k = 0; k < a->parts.count; k++)
     a->parts.common[k] = (size_t)equation_at(a, of[a->parts.common[k]], first, inner);
   a->n = n;
@@ -252,20 +300,25 @@ static void join(ZpAssembly *a, const int *of, size_t first, size_t inner, size_
 bool zp_assembly_join(ZpAssembly *const a[], const ZpModel *first, size_t members, size_t common, ZpArrowForm *form) {
   Shared shared;
   size_t room = 0, used = 0, inner = 0, before = 0;
-  const size_t springs = first ? first->network->springs : 0;
+  const ZpNetwork *network = first ? first->network : NULL;
+  const bool plane = network && network->plane;
+  const size_t springs = network ? network->springs + network->joints : 0;
   ZpClique *spring = zp_calloc(springs + 1, sizeof *spring);
-  size_t *ends = zp_calloc(2 * springs + 1, sizeof *ends);
+  size_t *ends = zp_calloc(ZP_SWING_WAYS * springs + 1, sizeof *ends);
   bool made = open_shared(a, members, &shared) && spring && ends;
-  if (made && first) find_shared(a, first, &shared);
-  if (made && first) find_springs(a, first, &shared, spring, ends);
+  if (made && network && !plane) find_shared(a, first, &shared);
+  if (made && network && !plane) find_springs(a, first, &shared, spring, ends);
+  if (made && plane) join_bodies(network, spring, ends);
+  if (plane) shared.count = network->unknowns;
   for (size_t k = 0; made && k < members; k++)
-    room += shared.of_each[k] + 1;
+    room += shared.of_each[k] + 1 + (plane ? ZP_SWING_WAYS : 0);
   size_t *to = zp_calloc(room + 1, sizeof *to);
   ZpArrowBlock *block = zp_calloc(members, sizeof *block);
   made = made && to && block;
   for (size_t k = 0; k < members && made; k++) {
     place(a[k], shared.of[k], to + used);
     inner += a[k]->block.n;
+    if (plane) shared.of_each[k] = meet_bodies(a[k], first + k, to + used);
     a[k]->block.band.border = shared.of_each[k] + (a[k]->port >= 0);
     if (a[k]->port >= 0) a[k]->block.to[shared.of_each[k]] = shared.count + (size_t)a[k]->port;
     used += a[k]->block.band.border;
@@ -330,6 +383,18 @@ void zp_assembly_place(const ZpAssembly *a, const double *equations, double *nod
     }
 }
 
+double zp_assembly_swung(const ZpSwing *swing, const double *step) {
+  double sum = 0;
+  for (size_t k = 0; k < swing->count; k++)
+    sum += swing->factor[k] * step[swing->equation[k]];
+  return sum;
+}
+
+/* Coordinate 2 j + c => where it is among nodes [2 stride]. */
+static double *of_nodes(const ZpAssembly *a, size_t coordinate, double *nodes) {
+  return nodes + coordinate / 2 + coordinate % 2 * a->stride;
+}
+
 void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, double *restrict nodes) {
   const int *equation = a->equation;
   const double *factor = a->factor;
@@ -339,6 +404,9 @@ void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, doubl
     x[j] = of_x >= 0 ? factor[2 * j] * step[of_x] : 0;
     y[j] = of_y >= 0 ? factor[2 * j + 1] * step[of_y] : 0;
   }
+  if (a->swing->count == 0) return;
+  for (size_t k = 0; k < 2 * a->count; k++)
+    if (equation[k] < -1) *of_nodes(a, k, nodes) = zp_assembly_swung(&a->swing[-2 - equation[k]], step);
 }
 
 void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
@@ -359,18 +427,31 @@ static void add_by(const ZpAssembly *a, const int *number, const double *restric
   }
 }
 
+/* Forces on coordinates that have a swing. */
+static void add_swings(const ZpAssembly *a, bool by_place, const double *nodes, double *sums) {
+  for (size_t k = 0; a->swing->count > 0 && k < 2 * a->count; k++) {
+    if (a->equation[k] >= -1) continue;
+    const ZpSwing *swing = &a->swing[-2 - a->equation[k]];
+    const int *number = by_place ? swing->place : swing->equation;
+    for (size_t c = 0; c < swing->count; c++)
+      sums[number[c]] += swing->factor[c] * nodes[k / 2 + k % 2 * a->stride];
+  }
+}
+
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
   add_by(a, a->equation, nodes, equations);
+  add_swings(a, false, nodes, equations);
 }
 
 void zp_assembly_sum(const ZpAssembly *a, const double *nodes, double *equations) {
   memset(equations, 0, a->n * sizeof *equations);
-  add_by(a, a->equation, nodes, equations);
+  zp_assembly_add(a, nodes, equations);
 }
 
 void zp_assembly_sum_places(const ZpAssembly *a, const double *nodes, double *places) {
   memset(places, 0, (a->block.n + a->block.band.border) * sizeof *places);
   add_by(a, a->place, nodes, places);
+  add_swings(a, true, nodes, places);
 }
 
 void zp_assembly_add_masses(const ZpAssembly *a, const double *mass, double *equations) {
@@ -387,8 +468,31 @@ static __attribute__((noinline)) void add_joined(const ZpAssembly *a, size_t row
   *zp_band_entry(K, i, j) += a->factor[row] * a->factor[column] * value;
 }
 
+/* The unknowns of a coordinate => how many; of one that has no swing itself. */
+static size_t unknowns_of(const ZpAssembly *a, size_t k, const int **place, const double **factor) {
+  const ZpSwing *swing = a->place[k] < -1 ? &a->swing[-2 - a->place[k]] : NULL;
+  *place = swing ? swing->place : &a->place[k];
+  *factor = swing ? swing->factor : &a->factor[k];
+  return swing ? swing->count : a->place[k] >= 0;
+}
+
+static __attribute__((noinline)) void add_swung(const ZpAssembly *a, size_t row, size_t column, double value,
+                                                ZpBand *K) {
+  const int *i, *j;
+  const double *by_row, *by_column;
+  const size_t rows = unknowns_of(a, row, &i, &by_row), columns = unknowns_of(a, column, &j, &by_column);
+  for (size_t r = 0; r < rows; r++)
+    for (size_t c = 0; c < columns; c++)
+      if (!a->block.band.symmetric || i[r] <= j[c])
+        *zp_band_entry(K, (size_t)i[r], (size_t)j[c]) += by_row[r] * by_column[c] * value;
+}
+
 ZP_INLINE void add(const ZpAssembly *a, size_t row, size_t column, double value, ZpBand *K) {
   int i = a->place[row], j = a->place[column];
+  if (i < -1 || j < -1) {
+    add_swung(a, row, column, value, K);
+    return;
+  }
   if (i < 0 || j < 0 || (a->block.band.symmetric && i > j)) return;
   if (a->block.band.border > 0)
     add_joined(a, row, column, value, K);

@@ -8,6 +8,15 @@
 #include "math/arrow.h"
 #include "math/parts.h"
 
+/* A coordinate of the lower platform of a member on bodies in the plane, which goes with several unknowns: its change
+ * is the sum of their changes times these factors, which depend on where the bodies are (actuator/plane.h). */
+enum { ZP_SWINGS = 4, ZP_SWING_WAYS = 6 };
+typedef struct ZpSwing {
+  size_t count;
+  int equation[ZP_SWING_WAYS], place[ZP_SWING_WAYS];
+  double factor[ZP_SWING_WAYS];
+} ZpSwing;
+
 typedef struct ZpAssembly {
   size_t s, nodes;    /* ribbons; stations, N */
   size_t count;       /* nodes */
@@ -15,13 +24,15 @@ typedef struct ZpAssembly {
   size_t n;           /* equations, of all members of a system */
   ZpArrowBlock block; /* of the matrix of the system: node i meets nodes i - 2 .. i + 2. A symmetric band keeps its
                          upper triangle only, in groups of a station, or of two of one ribbon, if they fit */
-  int *equation;      /* [2 count] numbered station by station; coordinates that are always the same share theirs */
+  int *equation;      /* [2 count] numbered station by station; coordinates that are always the same share theirs; -1:
+                         held; below: -2 - k of the coordinate that has swing k */
   int *place;         /* [2 count] row and column in the block; those from block.n on are in its border */
   ZpParts parts;      /* halves, and the equations that both have */
   size_t own;         /* unknowns of the laws at each station, which come after its coordinates */
   long port;          /* the common unknown that it meets (zp_assembly_join); below 0: none */
   int *extra_equation, *extra_place; /* [own N] */
   double *factor, *offset;           /* [2 count] a coordinate is this times its unknown plus this, m */
+  ZpSwing swing[ZP_SWINGS]; /* in the plane: x and y of the left and of the right end of the lower platform */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: place of the first of station i, the others
                  following it; else -1 */
 } ZpAssembly;
@@ -46,8 +57,10 @@ void zp_assembly_gather(const ZpAssembly *assembly, const double *nodes, double 
 void zp_assembly_place(const ZpAssembly *assembly, const double *equations, double *nodes);
 
 /* The change of a coordinate by a step [n]; 0 of what is held. */
+double zp_assembly_swung(const ZpSwing *swing, const double *step);
 static inline double zp_assembly_change(const ZpAssembly *a, const double *step, size_t coordinate) {
   int equation = a->equation[coordinate];
+  if (equation < -1) return zp_assembly_swung(&a->swing[-2 - equation], step);
   return equation >= 0 ? a->factor[coordinate] * step[equation] : 0;
 }
 

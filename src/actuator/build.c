@@ -371,6 +371,7 @@ static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {
     if (model->masses.y.inverse[j] > 0) weight += a->weight[j];
   model->total_weight =
       weight / (double)zp_halves(&model->topology) + zp_end_share(model) * fabs(model->def.load.force);
+  if (model->network->plane) memset(a->weight, 0, model->stride * sizeof *a->weight); /* bodies turn it: system/links.h */
   model->mass = a->mass;
   model->weight = a->weight;
 }

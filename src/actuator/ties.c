@@ -55,9 +55,9 @@ static ZpTies list(const ZpModel *first, size_t members, size_t member) {
   ZpTies ties = {.first = first, .members = members, .member = member};
   const ZpTopology *t = &first[member].topology;
   const ZpNetwork *network = first->network;
-  const bool hangs = members > 1 && !network->body[network->ends[member].upper].held;
-  if (members > 1) add_end(&ties, true);
-  if (members > 1) add_end(&ties, false);
+  const bool joined = members > 1 && !network->plane, hangs = joined && !network->body[network->ends[member].upper].held;
+  if (joined) add_end(&ties, true);
+  if (joined) add_end(&ties, false);
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
     add_joint(&ties, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &zp_joint_way[joint->kind]);
   return ties;
@@ -93,6 +93,7 @@ static ZpTie tie_of_body(const ZpModel *first, size_t body) {
 }
 
 ZpTie zp_tie_of_held(const ZpModel *first, size_t members) {
+  if (first->network->plane) return (ZpTie){0};
   if (zp_is_network(first)) return tie_of_body(first, first->network->watched);
   const size_t member = zp_shares_load(first) ? 0 : members - 1;
   const ZpTopology *t = &first->topology;

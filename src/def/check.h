@@ -13,7 +13,7 @@ static const double zp_tilt_rounding = 1e-5;
  * they bend. */
 static const double zp_most_opening = 0.98;
 
-/* Largest number of members of a system, of its bodies and of its springs. */
+/* Largest number of members of a system, of its bodies, of its springs and of its joints. */
 enum { ZP_MOST_MEMBERS = 1024 };
 
 /* One byte per key, in the order of the table: the offset of a key or group in this struct is its number. */
@@ -35,6 +35,7 @@ typedef enum ZpInstanceKind {
   ZP_OF_MEMBER,
   ZP_OF_BODY,
   ZP_OF_SPRING,
+  ZP_OF_JOINT,
   ZP_INSTANCE_KINDS,
   ZP_OF_PORT = ZP_INSTANCE_KINDS,
   ZP_NAMED_KINDS
@@ -97,6 +98,9 @@ int zp_instance_count(const ZpActuatorDef *def, ZpInstanceKind kind);
 static inline bool zp_def_network(const ZpActuatorDef *def) {
   return zp_instance_count(def, ZP_OF_BODY) > 0;
 }
+
+/* Does one of them move in the plane? */
+bool zp_def_plane(const ZpActuatorDef *def);
 
 /* Keys in the order of the table, those of members and so on where their rows stand: below 0 if the first one comes
  * first. */

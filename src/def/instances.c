@@ -23,8 +23,9 @@ static const Kind kind[ZP_INSTANCE_KINDS] = {
     [ZP_OF_MEMBER] = {ZP_KEY_GROUP(member_K), "member_", ZP_KEYS},
     [ZP_OF_BODY] = {ZP_KEY_GROUP(body_K), "body_", ZP_KEYS + AFTER(member_K)},
     [ZP_OF_SPRING] = {ZP_KEY_GROUP(spring_K), "spring_", ZP_KEYS + AFTER(member_K) + AFTER(body_K)},
+    [ZP_OF_JOINT] = {ZP_KEY_GROUP(joint_K), "joint_", ZP_KEYS + AFTER(member_K) + AFTER(body_K) + AFTER(spring_K)},
 };
-enum { END = ZP_KEYS + AFTER(member_K) + AFTER(body_K) + AFTER(spring_K) };
+enum { END = ZP_KEYS + AFTER(member_K) + AFTER(body_K) + AFTER(spring_K) + AFTER(joint_K) };
 
 static int rows_of(const Kind *k) {
   return k->rows.end - k->rows.first;
@@ -120,7 +121,8 @@ ZpInstanceKind zp_key_names(int key) {
   if (at.row == ZP_KEY(member_K.port)) return ZP_OF_PORT;
   const bool body = key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) ||
                     at.row == ZP_KEY(member_K.lower) || at.row == ZP_KEY(spring_K.first) ||
-                    at.row == ZP_KEY(spring_K.second);
+                    at.row == ZP_KEY(spring_K.second) || at.row == ZP_KEY(joint_K.first) ||
+                    at.row == ZP_KEY(joint_K.second);
   return body ? ZP_OF_BODY : ZP_NAMED_KINDS;
 }
 

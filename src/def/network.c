@@ -2,10 +2,12 @@
 #include "def/network.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/fail.h"
 #include "base/memory.h"
 #include "def/rule.h"
+#include "math/elementary.h"
 
 enum { FRAME };
 
@@ -29,7 +31,24 @@ static size_t hung_by(const ZpActuatorDef *def, double body) {
   return count;
 }
 
+bool zp_def_plane(const ZpActuatorDef *def) {
+  bool plane = false;
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
+    plane |= value_of(def, ZP_KEY(body_K.moves), (size_t)b) == ZP_MOVES_PLANE;
+  return plane;
+}
+
 void zp_network_member(const ZpActuatorDef *def, int member, ZpActuatorDef *one) {
+  if (zp_def_plane(def)) { /* bodies have their masses themselves, and turn the platform */
+    one->isometric.body = 0;
+    one->load = zp_def_unloaded(def).load;
+    one->load.mass = one->load.force = 0;
+    one->actuator.symmetry = ZP_SYMMETRY_NONE;
+    one->platform.rotates = true;
+    one->platform.electrode = false;
+    if (zp_def_liquid(def) == ZP_LIQUID_NONE) one->liquid.model = ZP_LIQUID_NONE;
+    return;
+  }
   const size_t number = (size_t)member;
   const double lower = value_of(def, ZP_KEY(member_K.lower), number);
   const double all = lower > 0 ? value_of(def, ZP_KEY(body_K.mass), (size_t)lower) : 0;
@@ -75,7 +94,7 @@ static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err)
   if (upper == lower)
     return zp_fail(err, ZP_BAD_INPUT, "members.%s: both of its ends are at %s; give two bodies", name,
                    SHOWN(def, ZP_OF_BODY, upper));
-  if (angle > near && fabs(angle - half_turn) > near)
+  if (!zp_def_plane(def) && angle > near && fabs(angle - half_turn) > near)
     return zp_fail(err, ZP_BAD_INPUT,
                    "members.%s.angle = %g degree: 0 (it opens downwards) or 180 (upwards), as bodies "
                    "move up and down",
@@ -84,10 +103,10 @@ static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err)
 }
 
 static bool moves(const ZpActuatorDef *def, int body) {
-  return body > 0 && value_of(def, ZP_KEY(body_K.moves), (size_t)body) == ZP_MOVES_VERTICAL;
+  return body > 0 && value_of(def, ZP_KEY(body_K.moves), (size_t)body) != ZP_MOVES_NONE;
 }
 
-/* A member or a spring that names a body. */
+/* A member, a spring or a joint that names a body. */
 static const char *who_names(const ZpActuatorDef *def, int body, char text[ZP_NAME_SIZE]) {
   for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++)
     if (value_of(def, ZP_KEY(member_K.upper), (size_t)k) == body ||
@@ -97,6 +116,10 @@ static const char *who_names(const ZpActuatorDef *def, int body, char text[ZP_NA
     if (value_of(def, ZP_KEY(spring_K.first), (size_t)k) == body ||
         value_of(def, ZP_KEY(spring_K.second), (size_t)k) == body)
       return zp_def_name(def, ZP_OF_SPRING, k, text);
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_JOINT); k++)
+    if (value_of(def, ZP_KEY(joint_K.first), (size_t)k) == body ||
+        value_of(def, ZP_KEY(joint_K.second), (size_t)k) == body)
+      return zp_def_name(def, ZP_OF_JOINT, k, text);
   return "nothing";
 }
 
@@ -108,23 +131,66 @@ static ZpStatus check_given(const ZpActuatorDef *def, int body, ZpError *err) {
 }
 
 static ZpStatus check_body(const ZpActuatorDef *def, int body, ZpError *err) {
-  if (!moves(def, body) || hung_by(def, body) > 0) return ZP_OK;
+  if (moves(def, body) && value_of(def, ZP_KEY(body_K.moves), (size_t)body) == ZP_MOVES_VERTICAL &&
+      value_of(def, ZP_KEY(body_K.force.x), (size_t)body) != 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "bodies.%s.force: the first value, to the right, must be 0: the body moves up and down",
+                   SHOWN(def, ZP_OF_BODY, body));
+  if (!moves(def, body) || zp_def_plane(def) || hung_by(def, body) > 0) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "bodies.%s: nothing holds it; give a member with lower: %s (one that opens upwards has "
                  "angle: 180 degree), or moves: none",
                  SHOWN(def, ZP_OF_BODY, body), SHOWN(def, ZP_OF_BODY, body));
 }
 
-static ZpStatus check_spring(const ZpActuatorDef *def, int spring, ZpError *err) {
-  const char *name = SHOWN(def, ZP_OF_SPRING, spring);
-  const int first = body_in(def, ZP_KEY(spring_K.first), spring),
-            second = body_in(def, ZP_KEY(spring_K.second), spring);
-  if (first < 0 || second < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "springs.%s.between: give two bodies, the upper one first: [frame, hand]", name);
-  if (first == second)
-    return zp_fail(err, ZP_BAD_INPUT, "springs.%s.between: both ends are at %s; give two bodies", name,
-                   SHOWN(def, ZP_OF_BODY, first));
+/* The two bodies of a spring or a joint. */
+static ZpStatus check_pair(const ZpActuatorDef *def, const char *group, const char *name, const int body[2],
+                           ZpError *err) {
+  if (body[0] < 0 || body[1] < 0)
+    return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: give two bodies: [frame, hand]", group, name);
+  if (body[0] == body[1])
+    return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: both ends are at %s; give two bodies", group, name,
+                   SHOWN(def, ZP_OF_BODY, body[0]));
   return ZP_OK;
+}
+
+static ZpStatus check_spring(const ZpActuatorDef *def, int spring, ZpError *err) {
+  const int body[] = {body_in(def, ZP_KEY(spring_K.first), spring), body_in(def, ZP_KEY(spring_K.second), spring)};
+  return check_pair(def, "springs", SHOWN(def, ZP_OF_SPRING, spring), body, err);
+}
+
+static bool turns(const ZpActuatorDef *def, int body) {
+  return body > 0 && value_of(def, ZP_KEY(body_K.moves), (size_t)body) == ZP_MOVES_PLANE;
+}
+
+static ZpStatus check_joint(const ZpActuatorDef *def, int joint, ZpError *err) {
+  const int body[] = {body_in(def, ZP_KEY(joint_K.first), joint), body_in(def, ZP_KEY(joint_K.second), joint)};
+  const char *name = SHOWN(def, ZP_OF_JOINT, joint);
+  ZpStatus status = check_pair(def, "joints", name, body, err);
+  if (status != ZP_OK || turns(def, body[0]) || turns(def, body[1])) return status;
+  return zp_fail(err, ZP_BAD_INPUT, "joints.%s: neither %s nor %s moves in the plane; give one of them moves: plane",
+                 name, SHOWN(def, ZP_OF_BODY, body[0]), SHOWN(def, ZP_OF_BODY, body[1]));
+}
+
+/* Numbers that count for bodies in the plane only: a body that moves up and down has no use for them. */
+static ZpStatus check_unused(const ZpActuatorDef *def, ZpError *err) {
+  static const int row[] = {ZP_KEY(body_K.inertia), ZP_KEY(body_K.angle), ZP_KEY(body_K.torque)};
+  static const int first[] = {ZP_KEY(member_K.upper_at.x), ZP_KEY(spring_K.from_at.x)},
+                   last[] = {ZP_KEY(member_K.lower_at.y), ZP_KEY(spring_K.to_at.y)};
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++)
+      if (!turns(def, b) && moves(def, b) && value_of(def, row[k], (size_t)b) != 0)
+        return zp_fail(err, ZP_BAD_INPUT, "bodies.%s.%s: the body moves up and down; give moves: plane, or leave it out",
+                       SHOWN(def, ZP_OF_BODY, b), strrchr(zp_key(row[k])->name, '.') + 1);
+  for (size_t k = 0; !zp_def_plane(def) && def->given && k < def->given->count; k++) {
+    const ZpInstance at = zp_key_instance(def->given->value[k].key);
+    for (int of = 0; of < 2; of++)
+      if (at.row >= first[of] && at.row <= last[of])
+        return zp_fail(err, ZP_BAD_INPUT, "%s: all bodies move up and down; give one moves: plane, or leave it out",
+                       ZP_KEY_NAME(def->given->value[k].key));
+  }
+  if (zp_def_plane(def) || zp_instance_count(def, ZP_OF_JOINT) == 0) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "joints: no body moves in the plane; give one moves: plane");
 }
 
 /* A member between two bodies, and how far it opens at most, m. */
@@ -141,6 +207,17 @@ static Between between(const ZpActuatorDef *def, int member) {
   return (Between){turned ? lower : upper, turned ? upper : lower, zp_most_opening * (length - def->platform.length)};
 }
 
+/* Joints and springs lead from one body to another. => do they lead to a new one? */
+static bool reach(const ZpActuatorDef *def, ZpInstanceKind kind, int first, int second, bool *reached) {
+  bool more = false;
+  for (int k = 1; k <= zp_instance_count(def, kind); k++) {
+    const int one = body_in(def, first, k), other = body_in(def, second, k);
+    if (reached[one] == reached[other]) continue;
+    reached[one] = reached[other] = more = true;
+  }
+  return more;
+}
+
 /* Is each body joined to what is held, by members and bodies between? */
 static ZpStatus check_reached(const ZpActuatorDef *def, const Between *member, bool *reached, ZpError *err) {
   const int bodies = zp_instance_count(def, ZP_OF_BODY), members = zp_instance_count(def, ZP_OF_MEMBER);
@@ -152,11 +229,13 @@ static ZpStatus check_reached(const ZpActuatorDef *def, const Between *member, b
       if (reached[m->high] == reached[m->low]) continue;
       reached[m->high] = reached[m->low] = more = true;
     }
+    if (zp_def_plane(def)) more |= reach(def, ZP_OF_JOINT, ZP_KEY(joint_K.first), ZP_KEY(joint_K.second), reached);
+    if (zp_def_plane(def)) more |= reach(def, ZP_OF_SPRING, ZP_KEY(spring_K.first), ZP_KEY(spring_K.second), reached);
   }
   for (int b = 1; b <= bodies; b++)
     if (!reached[b])
-      return zp_fail(err, ZP_BAD_INPUT, "bodies.%s: no members lead from it to the frame or to a body that is held",
-                     SHOWN(def, ZP_OF_BODY, b));
+      return zp_fail(err, ZP_BAD_INPUT, "bodies.%s: nothing holds it: no members%s lead from it to the frame or to a body that is held",
+                     SHOWN(def, ZP_OF_BODY, b), zp_def_plane(def) ? ", joints or springs" : "");
   return ZP_OK;
 }
 
@@ -205,11 +284,51 @@ static ZpStatus check_parts(const ZpActuatorDef *def, ZpError *err) {
     status = check_body(def, b, err);
   for (int k = 1; k <= zp_instance_count(def, ZP_OF_SPRING) && status == ZP_OK; k++)
     status = check_spring(def, k, err);
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_JOINT) && status == ZP_OK; k++)
+    status = check_joint(def, k, err);
+  if (status == ZP_OK) status = check_unused(def, err);
   bool any = false;
   for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
     any |= moves(def, b);
   if (status == ZP_OK && !any) return zp_fail(err, ZP_BAD_INPUT, "bodies: each one is held; let one move");
   return status;
+}
+
+/* A point of a body in the drawing, m. */
+static void point_of(const ZpActuatorDef *def, int body, const double at[2], double to[2]) {
+  const size_t b = (size_t)body;
+  const double turns = body > 0 ? value_of(def, ZP_KEY(body_K.angle), b) / (2 * zp_pi) : 0;
+  const double c = zp_cosine_of(turns), s = zp_sine_of(turns);
+  to[0] = (body > 0 ? value_of(def, ZP_KEY(body_K.at.x), b) : 0) + c * at[0] - s * at[1];
+  to[1] = (body > 0 ? value_of(def, ZP_KEY(body_K.at.y), b) : 0) + s * at[0] + c * at[1];
+}
+
+/* In the plane: does each member reach from its upper to its lower end in the drawing? */
+static ZpStatus check_reach(const ZpActuatorDef *def, const Between *member, ZpError *err) {
+  static const double near = 1e-9;
+  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++) {
+    const size_t n = (size_t)k;
+    const double upper_at[] = {value_of(def, ZP_KEY(member_K.upper_at.x), n), value_of(def, ZP_KEY(member_K.upper_at.y), n)};
+    const double lower_at[] = {value_of(def, ZP_KEY(member_K.lower_at.x), n), value_of(def, ZP_KEY(member_K.lower_at.y), n)};
+    const double angle = value_of(def, ZP_KEY(member_K.angle), n), turns = isnan(angle) ? 0 : angle / (2 * zp_pi);
+    double upper[2], lower[2];
+    point_of(def, body_in(def, ZP_KEY(member_K.upper), k), upper_at, upper);
+    point_of(def, body_in(def, ZP_KEY(member_K.lower), k), lower_at, lower);
+    const double x = lower[0] - upper[0], y = lower[1] - upper[1];
+    const double opens = zp_sine_of(turns) * x - zp_cosine_of(turns) * y, apart = sqrt(x * x + y * y);
+    const char *name = SHOWN(def, ZP_OF_MEMBER, k);
+    if (opens < -near)
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "members.%s: in the drawing its lower end is %g mm on the wrong side of its upper one; move a "
+                     "body or a point, or give members.%s.angle the direction in which it opens",
+                     name, -1e3 * opens, name);
+    if (apart > member[k - 1].reach + near)
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "members.%s: it opens by 0 to %g mm, but its ends are apart by %g mm too much in the drawing; "
+                     "move a body or a point, or change a length",
+                     name, 1e3 * member[k - 1].reach, 1e3 * (apart - member[k - 1].reach));
+  }
+  return ZP_OK;
 }
 
 /* With arrays for each body. `held`: a body that is held in addition, 0: none. */
@@ -223,7 +342,8 @@ static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
   for (int k = 0; k < members && made; k++)
     member[k] = between(def, k + 1);
   ZpStatus status = made ? check_reached(def, member, reached, err) : zp_fail_memory(err);
-  if (status == ZP_OK) status = check_lengths(def, held, member, heights, heights + bodies, err);
+  if (status == ZP_OK && zp_def_plane(def)) status = check_reach(def, member, err);
+  if (status == ZP_OK && !zp_def_plane(def)) status = check_lengths(def, held, member, heights, heights + bodies, err);
   zp_free(member);
   zp_free(heights);
   zp_free(reached);
@@ -267,29 +387,58 @@ static void join_stack(const ZpActuatorDef *def, ZpNetwork *n) {
   n->ends[n->members - 1] = (ZpEnds){.upper = MOUNT, .lower = LOAD, .turned = true};
 }
 
+/* Both keys of a point. */
+#define POINT(key, number)                                                                                             \
+  { value_of(def, ZP_KEY(key.x), number), value_of(def, ZP_KEY(key.y), number) }
+
+static double angle_of(const ZpActuatorDef *def, size_t number) {
+  const double angle = value_of(def, ZP_KEY(member_K.angle), number);
+  return isnan(angle) ? 0 : angle;
+}
+
 /* As the keys say. No body has the load. */
 static void join_bodies(const ZpActuatorDef *def, ZpNetwork *n) {
   n->load = n->bodies;
   n->watched = (size_t)def->isometric.body;
   for (size_t b = 1; b < n->bodies; b++) {
-    n->body[b] = (ZpBody){.held = value_of(def, ZP_KEY(body_K.moves), b) == ZP_MOVES_NONE,
-                          .y = value_of(def, ZP_KEY(body_K.at.y), b)};
+    const ZpMoves moves = (ZpMoves)value_of(def, ZP_KEY(body_K.moves), b);
+    n->body[b] = (ZpBody){
+        .held = moves == ZP_MOVES_NONE,
+        .moves = moves,
+        .x = value_of(def, ZP_KEY(body_K.at.x), b),
+        .y = value_of(def, ZP_KEY(body_K.at.y), b),
+        .angle = value_of(def, ZP_KEY(body_K.angle), b),
+        .mass = value_of(def, ZP_KEY(body_K.mass), b),
+        .inertia = value_of(def, ZP_KEY(body_K.inertia), b),
+        .force = {value_of(def, ZP_KEY(body_K.force.x), b), value_of(def, ZP_KEY(body_K.force.y), b)},
+        .torque = value_of(def, ZP_KEY(body_K.torque), b)};
+    n->plane |= moves == ZP_MOVES_PLANE;
     n->pulled |= value_of(def, ZP_KEY(body_K.force.y), b) != 0;
   }
   for (size_t k = 0; k < n->members; k++)
     n->ends[k] = (ZpEnds){.upper = (size_t)value_of(def, ZP_KEY(member_K.upper), k + 1),
                           .lower = (size_t)value_of(def, ZP_KEY(member_K.lower), k + 1),
-                          .turned = is_turned(def, k + 1)};
+                          .turned = !n->plane && is_turned(def, k + 1),
+                          .angle = angle_of(def, k + 1),
+                          .at = {POINT(member_K.upper_at, k + 1), POINT(member_K.lower_at, k + 1)}};
   for (size_t k = 0; k < n->springs; k++)
     n->spring[k] = (ZpLink){.body = {(size_t)value_of(def, ZP_KEY(spring_K.first), k + 1),
                                      (size_t)value_of(def, ZP_KEY(spring_K.second), k + 1)},
                             .stiffness = value_of(def, ZP_KEY(spring_K.stiffness), k + 1),
                             .rest = value_of(def, ZP_KEY(spring_K.rest), k + 1),
-                            .kind = (ZpSpringKind)value_of(def, ZP_KEY(spring_K.kind), k + 1)};
+                            .kind = (ZpSpringKind)value_of(def, ZP_KEY(spring_K.kind), k + 1),
+                            .at = {POINT(spring_K.from_at, k + 1), POINT(spring_K.to_at, k + 1)}};
+  for (size_t k = 0; k < n->joints; k++)
+    n->joint[k] = (ZpBodyJoint){.type = (ZpJointType)value_of(def, ZP_KEY(joint_K.type), k + 1),
+                                .body = {(size_t)value_of(def, ZP_KEY(joint_K.first), k + 1),
+                                         (size_t)value_of(def, ZP_KEY(joint_K.second), k + 1)},
+                                .at = POINT(joint_K.at, k + 1)};
 }
 
 static bool are_abreast(const ZpEnds *one, const ZpEnds *other) {
-  return one->upper == other->upper && one->lower == other->lower && one->turned == other->turned;
+  for (int k = 0; k < 2; k++)
+    if (one->at[k][0] != other->at[k][0] || one->at[k][1] != other->at[k][1]) return false;
+  return one->angle == other->angle && one->upper == other->upper && one->lower == other->lower && one->turned == other->turned;
 }
 
 /* The first member at a body whose lower end it is, or else whose upper one it is. */
@@ -340,17 +489,26 @@ static void find_ports(const ZpActuatorDef *def, ZpNetwork *n, size_t *last) {
   }
 }
 
+/* Unknowns of bodies in the plane. */
+static void find_unknowns(ZpNetwork *n) {
+  for (size_t body = 0; n->plane && body < n->bodies; body++) {
+    n->body[body].unknown = n->unknowns;
+    n->unknowns += n->body[body].held ? 0 : n->body[body].moves == ZP_MOVES_PLANE ? ZP_WAYS : 1;
+  }
+}
+
 /* Leaders, members abreast, order: all that follows from the ends. */
 static void look(ZpNetwork *n) {
-  n->hangs = n->springs == 0 && !n->pulled;
+  find_unknowns(n);
+  n->hangs = n->springs == 0 && !n->pulled && !n->plane;
   for (size_t body = 0; body < n->bodies; body++)
-    if (!n->body[body].held) n->body[body].leader = leader_of(n, body);
+    if (!n->body[body].held && !n->plane) n->body[body].leader = leader_of(n, body);
   for (size_t k = 0; k < n->members; k++) {
     ZpEnds *one = &n->ends[k];
     n->opposed |= one->turned;
     n->hangs &= !one->turned && !n->body[one->lower].held && n->body[one->lower].leader == k;
     for (size_t other = 0; other < n->members; other++)
-      one->abreast += are_abreast(one, &n->ends[other]);
+      one->abreast += other == k || (!n->plane && are_abreast(one, &n->ends[other]));
   }
   find_path(n);
   for (size_t k = 0; k < n->members; k++)
@@ -360,18 +518,24 @@ static void look(ZpNetwork *n) {
 
 ZpNetwork *zp_network_create(const ZpActuatorDef *def) {
   const bool given = zp_def_network(def);
-  const size_t members = (size_t)zp_def_members(def), springs = (size_t)zp_instance_count(def, ZP_OF_SPRING);
+  const size_t members = (size_t)zp_def_members(def), springs = (size_t)zp_instance_count(def, ZP_OF_SPRING),
+               joints = (size_t)zp_instance_count(def, ZP_OF_JOINT);
   const size_t bodies = given                    ? (size_t)zp_instance_count(def, ZP_OF_BODY) + 1
                         : zp_def_antagonist(def) ? 3
                         : zp_def_parallel(def)   ? 2
                                                  : members + 1;
   ZpNetwork *n = zp_calloc(1, sizeof *n + bodies * sizeof *n->body + members * sizeof *n->ends +
-                                  springs * sizeof *n->spring + members * sizeof *n->order);
+                                  springs * sizeof *n->spring + joints * sizeof *n->joint + members * sizeof *n->order);
   if (!n) return NULL;
-  *n = (ZpNetwork){.bodies = bodies, .members = members, .springs = springs, .body = (ZpBody *)(void *)(n + 1)};
+  *n = (ZpNetwork){.bodies = bodies,
+                   .members = members,
+                   .springs = springs,
+                   .joints = joints,
+                   .body = (ZpBody *)(void *)(n + 1)};
   n->ends = (ZpEnds *)(void *)(n->body + bodies);
   n->spring = (ZpLink *)(void *)(n->ends + members);
-  n->order = (size_t *)(void *)(n->spring + springs);
+  n->joint = (ZpBodyJoint *)(void *)(n->spring + springs);
+  n->order = (size_t *)(void *)(n->joint + joints);
   n->body[FRAME].held = true;
   if (given)
     join_bodies(def, n);
@@ -386,10 +550,16 @@ bool zp_network_abreast(const ZpNetwork *n, size_t one, size_t other) {
   return are_abreast(&n->ends[one], &n->ends[other]);
 }
 
+long zp_network_unknown(const ZpNetwork *n, size_t body, ZpWay way) {
+  const ZpBody *b = &n->body[body];
+  if (b->held || (b->moves != ZP_MOVES_PLANE && way != ZP_WAY_UP)) return -1;
+  return (long)(b->unknown + (b->moves == ZP_MOVES_PLANE ? way : 0));
+}
+
 bool zp_network_alike(const ZpNetwork *one, const ZpNetwork *other) {
   bool alike = one->bodies == other->bodies && one->members == other->members && one->load == other->load;
   for (size_t k = 0; alike && k < one->bodies; k++)
-    alike = one->body[k].held == other->body[k].held;
+    alike = one->body[k].moves == other->body[k].moves && one->body[k].held == other->body[k].held;
   for (size_t k = 0; alike && k < one->members; k++)
     alike = are_abreast(&one->ends[k], &other->ends[k]);
   return alike;
@@ -411,7 +581,10 @@ static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_HAS(PLATFORM), "bodies join platforms"),
     ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(load.mass, load.drop_height), ZP_NETWORK, ZP_NEVER, own_load),
     ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(stack.series, stack.lower_voltage), ZP_NETWORK, ZP_NEVER, own_ends),
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(mount.tilt), "bodies move up and down"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(mount.tilt), "gravity acts downwards on bodies"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_NOT(liquid.model, ZP_LIQUID_NONE), ZP_PLANE, ZP_NEVER,
+               "the liquid between platforms is modelled for level ones only"),
+    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(actuator.held_clip, ZP_HELD_NONE), "bodies hold platforms, not clips"),
     ZP_RULE(PHYSICS, ZP_NETWORK, ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT),
             "straight ribbons do not reach the bodies"),
     ZP_RULE(EQUATION, ZP_NETWORK, ZP_IS(ribbon.plasticity, false),

@@ -4,11 +4,21 @@
 
 #include "def/def.h"
 
-/* Rigid, and free to move up and down unless it is held. Its height is 0 where all members above it are closed. */
+/* Ways in which a body in the plane moves. */
+typedef enum ZpWay { ZP_WAY_ALONG, ZP_WAY_UP, ZP_WAY_TURNS, ZP_WAYS } ZpWay;
+
+/* Rigid. Where all bodies move up and down, its height is 0 where all members above it are closed. */
 typedef struct ZpBody {
   bool held;
-  double y;      /* of one that is held, m */
-  size_t leader; /* of one that moves: the first member with its lower end there, or else with its upper one */
+  double y;       /* its place in the drawing, m; of one that moves up and down it counts in the plane only */
+  size_t leader;  /* of one that moves up and down: the first member with its lower end there, or else its upper one */
+  ZpMoves moves;  /* the rest counts in the plane: */
+  double x;       /* its place in the drawing, m */
+  double angle;   /* and that of its own axes, rad */
+  double mass;    /* kg */
+  double inertia; /* about its place, kg m2 */
+  double force[2], torque; /* constant, at its place: N, N m */
+  size_t unknown; /* number of its first unknown among those of all bodies */
 } ZpBody;
 
 /* The bodies at the ends of a member. */
@@ -20,18 +30,30 @@ typedef struct ZpEnds {
   size_t abreast; /* members between these two bodies that open the same way, this one included */
   size_t port;    /* the first member of those on its port, which have one voltage and one source */
   size_t next;    /* the next one on it; 0: none */
+  double angle;   /* in the plane: direction in which it opens in the drawing, anticlockwise from straight down, rad, */
+  double at[2][2]; /* and the points of the upper and of the lower body that it is fixed to, m */
 } ZpEnds;
 
 /* A spring between two bodies; the first one is the upper. */
 typedef struct ZpLink {
   size_t body[2];
   double stiffness; /* N/m */
-  double rest;      /* difference of their heights without a force, m */
+  double rest;      /* difference of their heights, in the plane distance of both points, without a force, m */
   ZpSpringKind kind;
+  double at[2][2]; /* in the plane: the points of both bodies, m */
 } ZpLink;
 
+/* A joint between two bodies in the plane, at a point of the drawing. */
+typedef struct ZpBodyJoint {
+  ZpJointType type;
+  size_t body[2];
+  double at[2]; /* m */
+} ZpBodyJoint;
+
 typedef struct ZpNetwork {
-  size_t bodies, members, springs;
+  size_t bodies, members, springs, joints;
+  size_t unknowns; /* in the plane: of all bodies */
+  bool plane;     /* a body moves in the plane, so that members stand on bodies as they turn (theory, section 34) */
   size_t load;    /* the body that the load hangs on; `bodies`: none, as each has its own */
   size_t watched; /* the body that study isometric holds; 0: none */
   bool pulled;    /* a force acts on a body */
@@ -40,6 +62,7 @@ typedef struct ZpNetwork {
   ZpBody *body;   /* [bodies]; the first one is the frame, to which the uppermost members are fixed */
   ZpEnds *ends;   /* [members] */
   ZpLink *spring; /* [springs] */
+  ZpBodyJoint *joint; /* [joints] */
   size_t *order;  /* [members] from the frame on: where all hang, a member comes after the one that it hangs on */
 } ZpNetwork;
 
@@ -48,6 +71,9 @@ ZpNetwork *zp_network_create(const ZpActuatorDef *def);
 
 /* Are two members side by side: between the same bodies, and opening the same way? */
 bool zp_network_abreast(const ZpNetwork *network, size_t one, size_t other);
+
+/* In the plane: number of the unknown with which a body moves in a way; below 0: it does not. */
+long zp_network_unknown(const ZpNetwork *network, size_t body, ZpWay way);
 
 /* Do the same bodies hold the same members? Mounts may be at other heights. */
 bool zp_network_alike(const ZpNetwork *one, const ZpNetwork *other);

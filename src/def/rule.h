@@ -37,6 +37,7 @@ typedef enum ZpTest {
   ZP_TEST_SET_WITHIN, /* any key from this one to another differs from its default */
   ZP_TEST_SEVERAL,    /* several members: zp_def_members; or a network */
   ZP_TEST_NETWORK,    /* bodies are given */
+  ZP_TEST_PLANE,      /* and one moves in the plane */
   ZP_TEST_HAS,        /* the device of this actuator.kind has any of a set of ZP_DEVICE_ bits */
   ZP_TEST_LACKS,      /* it has none of them */
   ZP_TEST_NEVER       /* never holds */
@@ -67,6 +68,7 @@ typedef struct ZpCondition {
 #define ZP_LACKS(device)          ZP_CONDITION(actuator.kind, LACKS, ZP_DEVICE_##device)
 #define ZP_SEVERAL                ZP_CONDITION(stack.series, SEVERAL, 0)
 #define ZP_NETWORK                ZP_CONDITION(body_K.mass, NETWORK, 0)
+#define ZP_PLANE                  ZP_CONDITION(body_K.moves, PLANE, 0)
 #define ZP_BIT(word)              (1 << (word))
 
 /* If `when` and `also` hold, `needs` must hold. */

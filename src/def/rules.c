@@ -76,6 +76,8 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
     return zp_def_members(def) > 1 || zp_def_network(def);
   case ZP_TEST_NETWORK:
     return zp_def_network(def);
+  case ZP_TEST_PLANE:
+    return zp_def_plane(def);
   default:
     return holds_for(c, value_of(def, c->key));
   }
@@ -194,6 +196,9 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
   case ZP_TEST_NETWORK:
     snprintf(text, size, "bodies");
     break;
+  case ZP_TEST_PLANE:
+    snprintf(text, size, "bodies that move in the plane");
+    break;
   default:
     snprintf(text, size, "%s%s %s", key->name, is_set_of_words || !before[c->test] ? "" : before[c->test], value);
   }
@@ -206,6 +211,10 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
   bool unequal = zp_def_parallel(def) && c->test == ZP_TEST_SEVERAL;
   if (zp_def_network(def) && (c->test == ZP_TEST_SEVERAL || c->test == ZP_TEST_NETWORK)) {
     snprintf(text, WORDS, "bodies");
+    return;
+  }
+  if (c->test == ZP_TEST_PLANE) {
+    snprintf(text, WORDS, "moves = plane");
     return;
   }
   if (zp_key_is_row(key) && given_of(def, key) >= 0) {

@@ -21,7 +21,7 @@ static bool is_of_port(int key) {
 /* Does it say where the member is, in a network? */
 static bool is_of_place(int key) {
   const int row = zp_key_instance(key).row;
-  return row == ZP_KEY(member_K.upper) || row == ZP_KEY(member_K.lower) || row == ZP_KEY(member_K.angle);
+  return row >= ZP_KEY(member_K.upper) && row < ZP_KEY(member_K.port);
 }
 
 bool zp_key_is_of_network(int index) {

@@ -302,7 +302,7 @@ static json_t *distribution_schema(void) {
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
-/* The name of a property, of those of all members, bodies or springs a pattern: in the place of K stands a number. */
+/* The name of a property, of those of all members, bodies, springs or joints a pattern: in the place of K stands a number. */
 static void property_name(const char *name, size_t size, char *text) {
   static const char number[] = "_K", numbers[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
   const char *at = strstr(name, number);
@@ -356,16 +356,21 @@ static void add_pair(json_t **properties, const char *name) {
   set(properties, name, json_pack("{s:o}", "anyOf", either));
 }
 
-/* Members, bodies and springs by their names: in their group, or with a dotted name. */
+/* Members, bodies, springs and joints by their names: in their group, or with a dotted name. */
 static void add_named(json_t **schema, ZpInstanceKind kind) {
+  static const struct {
+    ZpInstanceKind kind;
+    const char *name;
+  } pair[] = {{ZP_OF_MEMBER, "upper_at"}, {ZP_OF_MEMBER, "lower_at"}, {ZP_OF_BODY, "at"},
+              {ZP_OF_BODY, "force"},      {ZP_OF_SPRING, "between"},  {ZP_OF_SPRING, "from_at"},
+              {ZP_OF_SPRING, "to_at"},    {ZP_OF_JOINT, "between"},   {ZP_OF_JOINT, "at"}};
   static const char name[] = "[a-z][a-z0-9_]{0,30}";
   const char *plural = zp_names_plural(kind);
   char one[ZP_VALUE_SIZE], pattern[ZP_VALUE_SIZE];
   snprintf(one, sizeof one, "%sK", zp_instance_begins(kind));
   json_t *keys = group_schema(one, strlen(one)), *properties = json_object_get(keys, "properties");
-  if (kind == ZP_OF_SPRING) add_pair(&properties, "between");
-  if (kind == ZP_OF_BODY) add_pair(&properties, "at");
-  if (kind == ZP_OF_BODY) add_pair(&properties, "force");
+  for (size_t k = 0; k < sizeof pair / sizeof pair[0]; k++)
+    if (pair[k].kind == kind) add_pair(&properties, pair[k].name);
   snprintf(pattern, sizeof pattern, "^%s$", name);
   json_t *all = json_object_get(*schema, "properties"), *dotted = json_object_get(*schema, "patternProperties");
   set(&all, plural,

@@ -601,8 +601,7 @@ static ZpStatus take_parts(Reader *reader, int key, const ZpYamlItem *item, ZpEr
 
 /* -- a text ---------------------------------------------------------------------------------------- */
 
-/* Both keys of a pair: of `between` the bodies, of `at` and `force` x and y. A body that moves vertically takes no
- * force sideways, so that x of force must be 0. => how many keys are found. */
+/* Both keys of a pair: of `between` the bodies, of others x and y => how many keys are found. */
 static int keys_of_pair(const char *path, int key[2]) {
   char name[ZP_PATH_SIZE];
   const char *last = strrchr(path, '.');
@@ -621,15 +620,11 @@ static ZpStatus take_pair(Reader *reader, const ZpYamlItem *item, const int key[
   const char *word = item->word;
   if (item->count != 2)
     return fail_at(reader, item->path, item->line, err, "takes two values, such as [%s]",
-                   key[0] >= 0 && zp_key_is_name(key[0]) ? "frame, hand" : "0 mm, -50 mm");
+                   zp_key_is_name(key[0]) ? "frame, hand" : "0 mm, -50 mm");
   for (int k = 0; k < 2; k++, word += strlen(word) + 1) {
     const ZpYamlItem part = {ZP_YAML_VALUE, item->path, item->line, word, 1};
-    if (key[k] < 0 && strtod(word, NULL) != 0)
-      return fail_at(reader, item->path, item->line, err,
-                     "the first value, to the right, must be 0: the body moves up and "
-                     "down");
-    ZpStatus status = key[k] < 0 ? ZP_OK : check_first(reader, item, line_of(reader, key[k]), err);
-    if (status == ZP_OK && key[k] >= 0) status = take_values(reader, key[k], &part, err);
+    ZpStatus status = check_first(reader, item, line_of(reader, key[k]), err);
+    if (status == ZP_OK) status = take_values(reader, key[k], &part, err);
     if (status != ZP_OK) return status;
   }
   return ZP_OK;
@@ -686,7 +681,7 @@ static ZpStatus take_named(Reader *reader, const ZpYamlItem *item, ZpError *err)
     return status == ZP_OK ? take_values(reader, key, item, err) : status;
   }
   int pair[2];
-  if (item->kind == ZP_YAML_LIST && keys_of_pair(item->path, pair) > 0) return take_pair(reader, item, pair, err);
+  if (item->kind == ZP_YAML_LIST && keys_of_pair(item->path, pair) == 2) return take_pair(reader, item, pair, err);
   size_t part;
   const int ranged = key_of_part(item->path, &part), first = first_of_group(item->path);
   if (ranged >= 0) return take_part(reader, item, ranged, part, err);

@@ -397,6 +397,8 @@ static const struct {
     {"ohm", "a resistance"},
     {"rad", "an angle"},
     {"N m/rad", "a torsional stiffness"},
+    {"N m", "a torque"},
+    {"kg m2", "a moment of inertia"},
 };
 
 ZpStatus zp_unit_fail_dimension(const char *to, ZpError *err) {

@@ -36,6 +36,9 @@ static size_t reserve(const ZpModel *model, ZpStatics *s, void *block) {
   s->member = zp_arena_take_of(&arena, s->members, sizeof *s->member);
   s->way = zp_arena_take(&arena, model->network->bodies);
   s->below = zp_arena_take(&arena, model->network->bodies);
+  s->pose = zp_arena_take_of(&arena, model->network->bodies, sizeof *s->pose);
+  s->good = zp_arena_take_of(&arena, model->network->bodies, sizeof *s->good);
+  s->place = zp_arena_take_of(&arena, model->network->bodies, sizeof *s->place);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember unused = {0}, *m = block ? &s->member[k] : &unused;
     reserve_member(m, model, &arena);
@@ -52,6 +55,10 @@ void zp_statics_lay_straight(ZpStatics *s) {
     zp_place_straight(m->model, m->q);
     memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
   }
+}
+
+static bool in_plane(const ZpStatics *s) {
+  return s->plane.bodies > 0;
 }
 
 /* Do rows of ties join the members? If not, each is at rest in the frame of the platform that it hangs on. */
@@ -78,8 +85,11 @@ static bool number(ZpStatics *s) {
   }
   bool joined = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, 0, &s->form);
   s->n = s->form.n;
-  joined = joined && zp_assembly_parts(of, s->members, s->n, &s->parts) &&
-           (!is_joined(s) || zp_springs_create(s->model, of, &s->springs));
+  joined = joined && zp_assembly_parts(of, s->members, s->n, &s->parts);
+  if (in_plane(s))
+    joined = joined && zp_links_create(&s->plane, s->form.inner, &s->links);
+  else
+    joined = joined && (!is_joined(s) || zp_springs_create(s->model, of, &s->springs));
   zp_free(of);
   return joined;
 }
@@ -101,7 +111,11 @@ bool zp_statics_create(const ZpModel *model, bool held, ZpStatics *s) {
     s->biased |= model[k].bias != 0;
     if (model->network->ends[k].lower == model->network->load) s->own_load += model[k].def.load.mass;
   }
-  made = made && zp_heights_create(model->network, &s->heights);
+  made = made && zp_plane_create(model, &s->plane);
+  made = made && (in_plane(s) || zp_heights_create(model->network, &s->heights));
+  if (made && in_plane(s)) zp_plane_drawn(&s->plane, s->pose);
+  for (size_t b = 0; made && b < s->plane.bodies; b++)
+    if (!model->network->body[b].held) s->scale = fmax(s->scale, s->plane.body[b].mass * model->def.gravity);
   if (made && number(s)) s->solution = zp_calloc(1, reserve_solution(s, NULL));
   if (!s->solution) {
     zp_statics_destroy(s);
@@ -123,6 +137,8 @@ void zp_statics_destroy(ZpStatics *s) {
   zp_arrow_form_destroy(&s->form);
   zp_heights_destroy(&s->heights);
   zp_springs_destroy(&s->springs);
+  zp_links_destroy(&s->links);
+  zp_plane_destroy(&s->plane);
   zp_free(s->parts.common);
   zp_free(s->memory);
   zp_free(s->solution);
@@ -148,11 +164,13 @@ enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
 
 /* The present point => good, and back. */
 static void keep(ZpStatics *s) {
+  if (in_plane(s)) memcpy(s->good, s->pose, s->plane.bodies * sizeof *s->pose);
   for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
     if (!m->idle) memcpy(m->good, m->q, zp_coordinates(m->model) * sizeof *m->q);
 }
 
 static void go_to_kept(ZpStatics *s) {
+  if (in_plane(s)) memcpy(s->pose, s->good, s->plane.bodies * sizeof *s->pose);
   for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
     if (!m->idle) memcpy(m->q, m->good, zp_coordinates(m->model) * sizeof *m->q);
 }
@@ -160,6 +178,7 @@ static void go_to_kept(ZpStatics *s) {
 void zp_statics_take_tensions(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++)
     memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
+  zp_links_take(&s->links);
 }
 
 /* Start from the straight shape and let what acts by these shares grow, first by `step`, if the equilibrium is too far
@@ -305,6 +324,27 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
   return info;
 }
 
+/* Bodies in the plane: members first reach from body to body as in the drawing, then all find their rest. */
+static ZpNewtonInfo hang_in_plane(ZpStatics *s) {
+  s->U = s->suction = 0;
+  if (s->biased) s->bias = 0;
+  s->contact_acts = false;
+  s->posed = true;
+  zp_plane_drawn(&s->plane, s->pose);
+  ZpNewtonInfo info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
+  s->posed = false;
+  if (!zp_newton_good(info.end)) return info;
+  keep(s);
+  info = zp_statics_solve(s, MOST_ITERATIONS);
+  if (!is_found(s, info)) {
+    go_back(s);
+    info = zp_statics_relax(s, 0);
+  }
+  info = let_faces_push(s, info);
+  if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
+  return info;
+}
+
 bool zp_statics_bias(ZpStatics *s) {
   bool biased = !s->biased || grow(s, &s->bias, 1, true, 0.05);
   if (biased) s->bias = 1;
@@ -331,6 +371,7 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->opposed && s->has_load) return hang_between(s);
+  if (in_plane(s)) return hang_in_plane(s);
   s->U = s->suction = 0;
   if (s->biased) s->bias = 0;
   s->contact_acts = false;
@@ -657,6 +698,7 @@ static void position(void *self, double *q) {
   const ZpStatics *s = self;
   for (size_t k = s->members; k-- > 0;)
     zp_assembly_gather(&s->member[k].assembly, s->member[k].q, q);
+  if (in_plane(s)) zp_plane_gather(&s->plane, s->form.inner, s->pose, q);
 }
 
 /* Springs grow with the weight. */
@@ -664,6 +706,17 @@ static void add_springs(ZpStatics *s, double *r) {
   if (s->springs.count == 0) return;
   position(s, s->at);
   zp_springs_add_force(&s->springs, s->share, s->at, s->at, r);
+}
+
+/* Unknowns of bodies => 0, while they stay where they are. */
+static void hold_bodies(const ZpStatics *s, double *r) {
+  memset(r + s->form.inner, 0, (s->n - s->form.inner) * sizeof *r);
+}
+
+/* Of bodies in the plane, and between them. */
+static void add_links(ZpStatics *s, double *r) {
+  zp_links_add_force(&s->links, s->share, s->pose, s->pose, r);
+  if (s->posed) hold_bodies(s, r);
 }
 
 static ZpEnd residual(void *self, double *r, double *size) {
@@ -676,9 +729,14 @@ static ZpEnd residual(void *self, double *r, double *size) {
     if (m->idle) continue;
     ZpSpan here = zp_statics_span(s, k);
     zp_system_force(m->model, &here, &m->eval, m->force);
+    if (in_plane(s)) zp_plane_swing(&s->plane, k, s->pose, &m->assembly);
     zp_assembly_add(&m->assembly, m->force, r);
+    if (in_plane(s)) zp_links_add_weight(&s->links, k, s->share, s->pose, &m->assembly, m->q, r);
   }
-  add_springs(s, r);
+  if (in_plane(s))
+    add_links(s, r);
+  else
+    add_springs(s, r);
   s->reaction = zp_statics_hold_rate(s, zp_statics_away(s), r);
   double largest = largest_of(s, r);
   if (size) *size = largest / s->scale;
@@ -686,6 +744,24 @@ static ZpEnd residual(void *self, double *r, double *size) {
 }
 
 /* -- stiffness ------------------------------------------------------------------------------------ */
+
+/* The force on an end of the lower platform, with the tension that the last step predicted in the strip beside it. */
+static ZpVector force_on_platform(const ZpRestMember *m, int end) {
+  const ZpTopology *t = &m->model->topology;
+  const size_t j = zp_lower(t, end == 0 ? t->platform.first : t->platform.last),
+               edge = end == 0 ? j - m->model->s : j;
+  const ZpForces f = zp_forces(m->model, m->force);
+  const double lacks = (end == 0 ? -1 : 1) * (m->tension[edge] - m->eval.edges.T[edge]);
+  return (ZpVector){f.x[j] + lacks * m->eval.edges.ux[edge], f.y[j] + lacks * m->eval.edges.uy[edge]};
+}
+
+/* What turns of the bodies of a member add to its stiffness. */
+static void add_stand(const ZpStatics *s, size_t which, ZpBand *K) {
+  const ZpRestMember *m = &s->member[which];
+  const ZpVector force[] = {force_on_platform(m, 0), force_on_platform(m, 1)};
+  zp_plane_add_turns(&s->plane, which, s->pose, &m->assembly, force, 1, K);
+  zp_links_add_weight_stiffness(&s->links, which, s->share, s->pose, &m->assembly, m->q, K);
+}
 
 /* Add the stiffness of each member, or its part beside edges. */
 static void add_members(ZpStatics *s, bool beside_edges, ZpArrow *K) {
@@ -700,8 +776,10 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpArrow *K) {
       zp_system_add_stiffness_beside_edges(m->model, &here, &m->assembly, &m->eval, &K->part[k].A);
     else
       zp_system_add_stiffness(m->model, &here, &m->assembly, &m->eval, &K->part[k].A);
+    if (in_plane(s)) add_stand(s, k, &K->part[k].A);
   }
   zp_arrow_mirror(K);
+  if (in_plane(s)) zp_links_add_stiffness(&s->links, s->share, s->pose, s->pose, true, &K->D);
   if (s->springs.count > 0) {
     position(s, s->at);
     zp_springs_add_stiffness(&s->springs, s->share, s->at, s->at, true, s->form.inner, &K->D);
@@ -712,6 +790,8 @@ static void add_members(ZpStatics *s, bool beside_edges, ZpArrow *K) {
 static void stiffness(void *self, ZpArrow *K, double *r) {
   ZpStatics *s = self;
   add_members(s, false, K);
+  for (size_t i = s->form.inner; s->posed && i < s->n; i++)
+    zp_arrow_prescribe(K, i, holding(s), 0, NULL, s->row);
   if (!zp_statics_holds(s)) return;
   size_t platform = zp_statics_platform(s);
   zp_arrow_prescribe(K, platform, holding(s), r ? r[platform] / holding(s) : 0, r, s->row);
@@ -776,6 +856,8 @@ static double largest_rotation(ZpStatics *s, const double *step) {
     for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
       if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
   }
+  for (size_t i = s->form.inner; in_plane(s) && i < s->n && !isnan(most); i++) /* bodies, by the same length */
+    if (!(fabs(step[i]) / s->plane.length <= most)) most = fabs(step[i]) / s->plane.length;
   return most;
 }
 
@@ -864,17 +946,25 @@ static double seen_by(const ZpStatics *s, size_t which, double y) {
   return zp_network_sign(network, which) * (y - s->nearer * zp_network_origin(network, which));
 }
 
-const double *zp_statics_heights(ZpStatics *s) {
+static void find_heights(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++)
     s->heights.opening[k] = opening_of(&s->member[k]);
   zp_heights_find(&s->heights, s->nearer);
-  return s->heights.y;
+}
+
+const ZpPose *zp_statics_places(ZpStatics *s) {
+  const ZpNetwork *network = s->model->network;
+  if (!in_plane(s)) find_heights(s);
+  for (size_t b = 0; b < network->bodies; b++)
+    s->place[b] = in_plane(s) ? zp_plane_place(&s->plane, b, s->pose)
+                              : (ZpPose){network->body[b].x, s->heights.y[b], network->body[b].angle};
+  return s->place;
 }
 
 /* Bodies to the heights that the openings of all members say; then each member to the bodies at its ends. */
 static void place_between(ZpStatics *s) {
   const ZpNetwork *network = s->model->network;
-  zp_statics_heights(s);
+  find_heights(s);
   for (size_t k = 0; k < s->members; k++) {
     ZpRestMember *m = &s->member[k];
     zp_place_top(m->model, seen_by(s, k, s->heights.y[network->ends[k].upper]), m->q);
@@ -884,12 +974,12 @@ static void place_between(ZpStatics *s) {
 
 /* Each member places its bodies slightly differently, by a term of second order. */
 static void meet(ZpStatics *s) {
-  if (is_joined(s) && s->members > 1) place_between(s);
+  if (!in_plane(s) && is_joined(s) && s->members > 1) place_between(s);
 }
 
 /* Closed faces would be parted: members that are open follow those that are less so. */
 void zp_statics_rejoin(ZpStatics *s) {
-  if (!is_joined(s) || s->members == 1) return;
+  if (in_plane(s) || !is_joined(s) || s->members == 1) return;
   for (size_t k = 0; k < s->members; k++)
     s->heights.weight[k] = 1 / (opening_of(&s->member[k]) * opening_of(&s->member[k]) + DBL_MIN);
   place_between(s);
@@ -897,11 +987,22 @@ void zp_statics_rejoin(ZpStatics *s) {
     s->heights.weight[k] = 1;
 }
 
+/* Bodies, by a fraction of a step. */
+static void move_bodies(ZpStatics *s, const double *step, double fraction) {
+  zp_links_predict(&s->links, s->pose, step, fraction);
+  zp_plane_gather(&s->plane, s->form.inner, s->pose, s->at);
+  for (size_t i = s->form.inner; i < s->n; i++)
+    s->at[i] += fraction * step[i];
+  zp_plane_poses(&s->plane, s->form.inner, s->at, s->pose);
+}
+
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
+  if (in_plane(s) && !s->posed) move_bodies(s, step, fraction);
   for (size_t k = 0; k < s->members; k++) {
     if (s->member[k].idle) continue;
     turn_edges(&s->member[k], step, fraction);
+    if (in_plane(s)) zp_plane_put_platform(&s->plane, k, s->pose, s->nearer, s->member[k].q);
     zp_place_edges(s->member[k].model, &s->member[k].assembly, s->member[k].moved, s->member[k].q);
   }
   meet(s);
@@ -1073,6 +1174,8 @@ static void save(void *self, void *to) {
   place[0] = s->U;
   place[1] = s->load;
   place[2] = s->bias;
+  if (in_plane(s)) memcpy(place + 3, s->pose, s->plane.bodies * sizeof *s->pose);
+  if (in_plane(s)) memcpy(place + 3 + 3 * s->plane.bodies, s->links.pull, s->model->network->joints * sizeof *s->links.pull);
 }
 
 static void restore(void *self, const void *from) {
@@ -1087,6 +1190,8 @@ static void restore(void *self, const void *from) {
   s->U = place[0];
   s->load = place[1];
   s->bias = place[2];
+  if (in_plane(s)) memcpy(s->pose, place + 3, s->plane.bodies * sizeof *s->pose);
+  if (in_plane(s)) memcpy(s->links.pull, place + 3 + 3 * s->plane.bodies, s->model->network->joints * sizeof *s->links.pull);
 }
 
 /* -- members that move alike ----------------------------------------------------------------------- */
@@ -1137,7 +1242,8 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .alike = are_alike(s) ? s->members : 0,
                           .save = save,
                           .restore = restore,
-                          .save_size = (s->members * (zp_lanes(model) + zp_coordinates(model)) + 3) * sizeof(double),
+                          .save_size = (s->members * (zp_lanes(model) + zp_coordinates(model)) + 3 +
+                                         3 * (s->plane.bodies + model->network->joints)) * sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
                           .m_scale = of[along].scale};
 }

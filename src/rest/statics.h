@@ -7,6 +7,7 @@
 #include "actuator/heights.h"
 #include "actuator/shape.h"
 #include "solve/continuation.h"
+#include "system/links.h"
 #include "system/springs.h"
 #include "system/system.h"
 
@@ -35,6 +36,12 @@ typedef struct ZpStatics {
   bool has_load;        /* one body has the load, whose mass is a parameter; in a network each has its own */
   ZpHeights heights;    /* of the bodies that members join */
   ZpSprings springs;    /* between bodies */
+  ZpPlanar plane;        /* of bodies that move in the plane, */
+  ZpLinks links;        /* what joins them, */
+  ZpPose *pose;         /* [bodies] where they are at the present point, */
+  ZpPose *good;         /* and at the last equilibrium */
+  ZpPose *place;        /* [bodies] work space */
+  bool posed;           /* bodies stay where they are in the drawing, while a start is sought */
   double *way, *below;  /* [bodies] work space */
   double *at;           /* [n] the present unknowns, where springs act; work space */
   size_t n;             /* equations of all */
@@ -147,8 +154,9 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
 
-/* Heights of all bodies at the present point [bodies], m; valid until the next call. */
-const double *zp_statics_heights(ZpStatics *statics);
+/* Places of all bodies at the present point [bodies], and their angles, as they are given in the drawing; valid until
+ * the next call. */
+const ZpPose *zp_statics_places(ZpStatics *statics);
 
 /* 1, or -1 of a lower antagonist: upside down, its platform falls as the load rises. */
 double zp_statics_factor(const ZpStatics *statics, size_t which);

@@ -39,6 +39,9 @@ static const ZpColumn of_member[] = {
     {"#.voltage_V", "V", "voltage between the electrodes of #"},
 };
 static const ZpColumn of_body[] = {{"#.y_m", "m", "height of #: 0 where all members above it are closed"}};
+static const ZpColumn in_plane[] = {{"#.x_m", "m", "place of #, to the right"},
+                                    {"#.y_m", "m", "height of #"},
+                                    {"#.angle_rad", "rad", "angle of #, anticlockwise"}};
 enum { OF_MEMBER = sizeof of_member / sizeof of_member[0] };
 
 /* Parts of the table, and what stands before their names among the numbers of the result. */
@@ -54,7 +57,9 @@ static size_t parts_of(const ZpModel *model, Part part[PARTS]) {
   const bool shared = zp_shares_load(model);
   if (zp_is_network(model)) {
     part[0] = (Part){{of_member, OF_MEMBER, network->members, zp_member_called, model->whole}, "members."};
-    part[1] = (Part){{of_body, 1, network->bodies - 1, zp_body_called, model->whole}, "bodies."};
+    part[1] = (Part){{network->plane ? in_plane : of_body, network->plane ? ZP_WAYS : 1, network->bodies - 1,
+                      zp_body_called, model->whole},
+                     "bodies."};
     part[2] = (Part){{.column = &closed_members, .count = 1}, ""};
     return 3;
   }
@@ -83,9 +88,13 @@ static void network_values(ZpStatics *s, double *values) {
     *values++ = zp_statics_member_force(s, k);
     *values++ = zp_statics_member_voltage(s, k);
   }
-  const double *y = zp_statics_heights(s);
-  for (size_t body = 1; body < s->model->network->bodies; body++)
-    *values++ = y[body];
+  const ZpPose *place = zp_statics_places(s);
+  const bool plane = s->model->network->plane;
+  for (size_t body = 1; body < s->model->network->bodies; body++) {
+    if (plane) *values++ = place[body].x;
+    *values++ = place[body].y;
+    if (plane) *values++ = place[body].turn;
+  }
   *values = (double)zp_closed_members(s);
 }
 

@@ -58,26 +58,31 @@ static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
   return "no equilibrium found within the largest number of iterations";
 }
 
-static double height_of(ZpStatics *s, void *body) {
-  return zp_statics_heights(s)[*(const size_t *)body];
+/* Number 0, 1 .. of the places of bodies, as they stand in the result. */
+static double place_of(ZpStatics *s, void *number) {
+  const bool plane = s->model->network->plane;
+  const size_t at = *(const size_t *)number, body = 1 + (plane ? at / ZP_WAYS : at);
+  const ZpPose place = zp_statics_places(s)[body];
+  const double of[ZP_WAYS] = {place.x, place.y, place.turn};
+  return of[plane ? at % ZP_WAYS : ZP_WAY_UP];
 }
 
-/* The heights of all bodies, which are numbers of the result already. */
-static void derive_heights(ZpRestSensitivity *slope, ZpResult *result) {
+/* The places of all bodies, which are numbers of the result already. */
+static void derive_places(ZpRestSensitivity *slope, ZpResult *result) {
   const bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD);
-  size_t body = 0;
+  size_t number = 0;
   for (size_t k = 0; k < result->scalars; k++) {
     const char *name = result->scalar[k].name;
     if (strncmp(name, "bodies.", 7) != 0) continue;
-    body++;
-    zp_result_add_sensitivity(result, name, slope->key, found ? zp_rest_sensitivity_of(slope, height_of, &body) : NAN);
+    zp_result_add_sensitivity(result, name, slope->key, found ? zp_rest_sensitivity_of(slope, place_of, &number) : NAN);
+    number++;
   }
 }
 
 static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   (void)user;
   if (zp_is_network(slope->at->model)) {
-    derive_heights(slope, result);
+    derive_places(slope, result);
     return;
   }
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD), two = zp_is_pair(&slope->at->member->model->topology);

@@ -1,0 +1,429 @@
+#include "system/links.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/memory.h"
+
+/* -- creation -------------------------------------------------------------------------------------- */
+
+static const ZpNetwork *network_of(const ZpLinks *links) {
+  return links->plane->first->network;
+}
+
+/* A point of a body, given along its own axes from its place. */
+static ZpVector arm_of(const ZpPlanar *plane, size_t body, const double at[2]) {
+  const ZpVector own = {at[0], at[1]};
+  return zp_sum(plane->body[body].place, zp_turned(zp_direction(plane->first->network->body[body].angle), own));
+}
+
+/* A point of the drawing. */
+static ZpVector arm_to(const ZpPlanar *plane, size_t body, const double at[2]) {
+  const ZpPose *drawn = &plane->body[body].drawn;
+  return (ZpVector){at[0] - drawn->x, at[1] - drawn->y};
+}
+
+bool zp_links_create(const ZpPlanar *plane, size_t inner, ZpLinks *links) {
+  *links = (ZpLinks){.plane = plane, .inner = inner};
+  if (plane->bodies == 0) return true;
+  const ZpNetwork *network = network_of(links);
+  links->spring = zp_calloc(network->springs + 1, sizeof *links->spring);
+  links->joint = zp_calloc(network->joints + 1, sizeof *links->joint);
+  links->pull = zp_calloc(network->joints + 1, sizeof *links->pull);
+  links->found = zp_calloc(network->joints + 1, sizeof *links->found);
+  for (size_t k = 0; k < network->members; k++)
+    links->stiffness = fmax(links->stiffness, plane->first[k].axial_stiffness);
+  if (!links->spring || !links->joint || !links->pull || !links->found) return false;
+  for (size_t k = 0; k < network->springs; k++)
+    for (int e = 0; e < 2; e++)
+      links->spring[k].arm[e] = arm_of(plane, network->spring[k].body[e], network->spring[k].at[e]);
+  for (size_t k = 0; k < network->joints; k++)
+    for (int e = 0; e < 2; e++)
+      links->joint[k].arm[e] = arm_to(plane, network->joint[k].body[e], network->joint[k].at);
+  return true;
+}
+
+void zp_links_destroy(ZpLinks *links) {
+  zp_free(links->spring);
+  zp_free(links->joint);
+  zp_free(links->pull);
+  zp_free(links->found);
+  *links = (ZpLinks){0};
+}
+
+/* -- forces ---------------------------------------------------------------------------------------- */
+
+static void add_way(const ZpLinks *links, size_t body, int way, double force, double *f) {
+  const long unknown = links->plane->body[body].unknown[way];
+  if (unknown >= 0) f[links->inner + (size_t)unknown] += force;
+}
+
+static void add_torque(const ZpLinks *links, size_t body, double torque, double *f) {
+  add_way(links, body, ZP_WAY_TURNS, torque / links->plane->length, f);
+}
+
+/* A force on a point of a body over a span. */
+static void add_at(const ZpLinks *links, size_t body, ZpVector arm, ZpVector force, const ZpPose *from,
+                   const ZpPose *to, double *f) {
+  add_way(links, body, ZP_WAY_ALONG, force.x, f);
+  add_way(links, body, ZP_WAY_UP, force.y, f);
+  add_torque(links, body, zp_along(force, zp_pose_sweep(&from[body], &to[body], arm)), f);
+}
+
+/* Both points of a link: their distance at the start and at the end of a span. */
+typedef struct Apart {
+  ZpVector before, after, mean;
+} Apart;
+
+static ZpVector apart_at(const size_t body[2], const ZpArms *arms, const ZpPose *pose) {
+  return zp_difference(zp_pose_point(&pose[body[1]], arms->arm[1]), zp_pose_point(&pose[body[0]], arms->arm[0]));
+}
+
+static Apart apart(const size_t body[2], const ZpArms *arms, const ZpPose *from, const ZpPose *to) {
+  const ZpVector before = apart_at(body, arms, from), after = apart_at(body, arms, to);
+  return (Apart){before, after, zp_times(0.5, zp_sum(before, after))};
+}
+
+/* A force on the second point, and its opposite on the first one. */
+static void add_both(const ZpLinks *links, const size_t body[2], const ZpArms *arms, ZpVector force,
+                     const ZpPose *from, const ZpPose *to, double *f) {
+  add_at(links, body[1], arms->arm[1], force, from, to, f);
+  add_at(links, body[0], arms->arm[0], zp_times(-1, force), from, to, f);
+}
+
+static double size_of(ZpVector a) {
+  return sqrt(zp_along(a, a));
+}
+
+/* Mean pull of a spring over a span, and its derivative by the length at the end, or at both. */
+typedef struct Pull {
+  double mean, slope;
+} Pull;
+
+static Pull pull_of(const ZpLink *link, double before, double after, bool still) {
+  const double s0 = zp_link_deformed(link, before), s1 = zp_link_deformed(link, after), longer = after - before;
+  const bool even = (s0 != 0) == (s1 != 0) || longer == 0;
+  const double mean = even ? 0.5 * (s0 + s1) : 0.5 * (s1 * s1 - s0 * s0) / longer;
+  double slope = even ? (s1 != 0 ? 0.5 : 0) : (s1 - mean) / longer;
+  if (still) slope = s1 != 0;
+  return (Pull){link->stiffness * mean, link->stiffness * slope};
+}
+
+static void add_spring(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to, double *f) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  const Apart d = apart(link->body, &links->spring[k], from, to);
+  const double before = size_of(d.before), after = size_of(d.after);
+  if (before + after == 0) return; /* without a length it has no direction */
+  const double pull = share * pull_of(link, before, after, true).mean;
+  add_both(links, link->body, &links->spring[k], zp_times(-2 * pull / (before + after), d.mean), from, to, f);
+}
+
+/* Normal of the way along which a slide goes, which turns with its first body. */
+static ZpVector normal_of(const ZpLinks *links, const ZpBodyJoint *joint) {
+  return zp_across(zp_direction(network_of(links)->body[joint->body[0]].angle));
+}
+
+static ZpVector turned_by(const ZpPose *pose, ZpVector drawn) {
+  return zp_turned(zp_direction(pose->turn), drawn);
+}
+
+/* How far the second body has turned against the first one, rad. */
+static double turned(const size_t body[2], const ZpPose *pose) {
+  return pose[body[1]].turn - pose[body[0]].turn;
+}
+
+static double torsion(const ZpLinks *links) {
+  return links->stiffness * links->plane->length * links->plane->length;
+}
+
+/* What a joint keeps at 0 at these poses: distances, m, and an angle, rad. */
+static void missed(const ZpLinks *links, size_t k, const ZpPose *pose, double by[ZP_PULLS]) {
+  const ZpBodyJoint *joint = &network_of(links)->joint[k];
+  const ZpVector d = apart_at(joint->body, &links->joint[k], pose);
+  const bool slides = joint->type == ZP_JOINS_SLIDE;
+  by[0] = slides ? zp_along(d, turned_by(&pose[joint->body[0]], normal_of(links, joint))) : d.x;
+  by[1] = slides ? 0 : d.y;
+  by[2] = joint->type == ZP_JOINS_PIN ? 0 : turned(joint->body, pose);
+}
+
+static void add_joint(ZpLinks *links, size_t k, const ZpPose *from, const ZpPose *to, double *f) {
+  const ZpBodyJoint *joint = &network_of(links)->joint[k];
+  const size_t one = joint->body[0], other = joint->body[1];
+  double before[ZP_PULLS], after[ZP_PULLS], *pull = links->found[k];
+  missed(links, k, from, before);
+  missed(links, k, to, after);
+  for (int c = 0; c < ZP_PULLS; c++)
+    pull[c] = -0.5 * (c == 2 ? torsion(links) : links->stiffness) * (before[c] + after[c]);
+  ZpVector force = {pull[0], pull[1]};
+  if (joint->type == ZP_JOINS_SLIDE) {
+    const ZpVector normal = normal_of(links, joint), d = apart(joint->body, &links->joint[k], from, to).mean;
+    const ZpVector mean = zp_times(0.5, zp_sum(turned_by(&from[one], normal), turned_by(&to[one], normal)));
+    force = zp_times(pull[0], mean);
+    add_torque(links, one, pull[0] * zp_along(d, zp_pose_sweep(&from[one], &to[one], normal)), f);
+  }
+  add_both(links, joint->body, &links->joint[k], force, from, to, f);
+  add_torque(links, other, pull[2], f);
+  add_torque(links, one, -pull[2], f);
+}
+
+/* Weight and constant force of a body, at its centre and at its place. */
+static void add_constant(const ZpLinks *links, size_t b, double share, const ZpPose *from, const ZpPose *to,
+                         double *f) {
+  const ZpBody *body = &network_of(links)->body[b];
+  const ZpVector force = {share * body->force[0], share * body->force[1]};
+  add_way(links, b, ZP_WAY_UP, -share * links->plane->body[b].mass * links->plane->first->def.gravity, f);
+  add_at(links, b, links->plane->body[b].place, force, from, to, f);
+  add_torque(links, b, share * body->torque, f);
+}
+
+void zp_links_add_force(ZpLinks *links, double share, const ZpPose *from, const ZpPose *to, double *f) {
+  const ZpNetwork *network = network_of(links);
+  for (size_t b = 0; b < network->bodies; b++)
+    add_constant(links, b, share, from, to, f);
+  for (size_t k = 0; k < network->springs; k++)
+    add_spring(links, k, share, from, to, f);
+  for (size_t k = 0; k < network->joints; k++)
+    add_joint(links, k, from, to, f);
+}
+
+/* -- stiffness ------------------------------------------------------------------------------------- */
+
+enum { BOTH = 2 * ZP_WAYS };
+
+/* Entries of a link of two bodies, by their motion along, up and by an angle. */
+typedef struct Entries {
+  double of[BOTH][BOTH];
+} Entries;
+
+static void add_product(double factor, const double by[BOTH], Entries *e) {
+  for (int i = 0; i < BOTH; i++)
+    for (int j = 0; j < BOTH; j++)
+      e->of[i][j] += factor * by[i] * by[j];
+}
+
+static void put(const ZpLinks *links, const size_t body[2], const Entries *e, ZpSparse *D) {
+  for (int i = 0; i < BOTH; i++)
+    for (int j = 0; j < BOTH; j++) {
+      const long row = links->plane->body[body[i / ZP_WAYS]].unknown[i % ZP_WAYS],
+                 column = links->plane->body[body[j / ZP_WAYS]].unknown[j % ZP_WAYS];
+      const double unit = (i % ZP_WAYS == ZP_WAY_TURNS ? links->plane->length : 1) *
+                          (j % ZP_WAYS == ZP_WAY_TURNS ? links->plane->length : 1);
+      if (row >= 0 && column >= 0) *zp_sparse_at(D, (size_t)row, (size_t)column) += e->of[i][j] / unit;
+    }
+}
+
+/* Both points of a link from the centres of their bodies, as they have turned. */
+typedef struct Reach {
+  ZpVector of[2];
+} Reach;
+
+static Reach reach(const size_t body[2], const ZpArms *arms, const ZpPose *pose) {
+  return (Reach){{turned_by(&pose[body[0]], arms->arm[0]), turned_by(&pose[body[1]], arms->arm[1])}};
+}
+
+/* Derivative of the distance of both points along a direction. */
+static void along(ZpVector direction, const Reach *r, double by[BOTH]) {
+  for (int b = 0; b < 2; b++) {
+    const double sign = b == 0 ? -1 : 1;
+    by[ZP_WAYS * b + ZP_WAY_ALONG] = sign * direction.x;
+    by[ZP_WAYS * b + ZP_WAY_UP] = sign * direction.y;
+    by[ZP_WAYS * b + ZP_WAY_TURNS] = sign * zp_along(direction, zp_across(r->of[b]));
+  }
+}
+
+/* Minus the second derivative of that distance, times a force. */
+static void bend(double force, ZpVector direction, const Reach *r, Entries *e) {
+  e->of[ZP_WAY_TURNS][ZP_WAY_TURNS] -= force * zp_along(direction, r->of[0]);
+  e->of[ZP_WAYS + ZP_WAY_TURNS][ZP_WAYS + ZP_WAY_TURNS] += force * zp_along(direction, r->of[1]);
+}
+
+static void add_spring_stiffness(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to,
+                                 bool still, ZpSparse *D) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  const ZpVector d = apart_at(link->body, &links->spring[k], to);
+  const double length = size_of(d), part = still ? 1 : 0.5;
+  const Pull pull = pull_of(link, size_of(apart_at(link->body, &links->spring[k], from)), length, still);
+  if (length == 0) return;
+  const ZpVector direction = zp_times(1 / length, d);
+  const Reach r = reach(link->body, &links->spring[k], to);
+  Entries e = {{{0}}};
+  double by[BOTH];
+  along(direction, &r, by);
+  add_product(share * pull.slope, by, &e);
+  bend(-part * share * pull.mean, direction, &r, &e);
+  along(zp_across(direction), &r, by);
+  add_product(part * share * pull.mean / length, by, &e);
+  put(links, link->body, &e, D);
+}
+
+static void add_joint_stiffness(const ZpLinks *links, size_t k, const ZpPose *to, bool still, ZpSparse *D) {
+  static const ZpVector axis[] = {{1, 0}, {0, 1}};
+  const ZpBodyJoint *joint = &network_of(links)->joint[k];
+  const bool slides = joint->type == ZP_JOINS_SLIDE;
+  const Reach r = reach(joint->body, &links->joint[k], to);
+  const double part = still ? 1 : 0.5, *pull = still ? links->pull[k] : links->found[k];
+  Entries e = {{{0}}};
+  double by[BOTH];
+  for (int c = 0; c < (slides ? 1 : 2); c++) {
+    const ZpVector normal = turned_by(&to[joint->body[0]], normal_of(links, joint));
+    const ZpVector direction = slides ? normal : axis[c], d = apart_at(joint->body, &links->joint[k], to);
+    along(direction, &r, by);
+    if (slides) { /* its direction turns with the first body */
+      double rate[BOTH];
+      along(zp_across(normal), &r, rate);
+      for (int i = 0; i < BOTH; i++) {
+        e.of[ZP_WAY_TURNS][i] -= part * pull[c] * rate[i];
+        e.of[i][ZP_WAY_TURNS] -= part * pull[c] * rate[i];
+      }
+      e.of[ZP_WAY_TURNS][ZP_WAY_TURNS] += part * pull[c] * zp_along(d, normal);
+      by[ZP_WAY_TURNS] += zp_along(d, zp_across(normal));
+    }
+    add_product(part * links->stiffness, by, &e);
+    bend(part * pull[c], direction, &r, &e);
+  }
+  const double turns[BOTH] = {[ZP_WAY_TURNS] = -1, [ZP_WAYS + ZP_WAY_TURNS] = 1};
+  if (joint->type != ZP_JOINS_PIN) add_product(part * torsion(links), turns, &e);
+  put(links, joint->body, &e, D);
+}
+
+/* A constant force whose point turns with its body. */
+static void add_constant_stiffness(const ZpLinks *links, size_t b, double share, const ZpPose *to, bool still,
+                                   ZpSparse *D) {
+  const ZpBody *body = &network_of(links)->body[b];
+  const long turns = links->plane->body[b].unknown[ZP_WAY_TURNS];
+  const ZpVector force = {body->force[0], body->force[1]};
+  const double unit = links->plane->length * links->plane->length;
+  if (turns < 0) return;
+  *zp_sparse_at(D, (size_t)turns, (size_t)turns) +=
+      (still ? 1 : 0.5) * share * zp_along(force, turned_by(&to[b], links->plane->body[b].place)) / unit;
+}
+
+void zp_links_add_stiffness(const ZpLinks *links, double share, const ZpPose *from, const ZpPose *to, bool still,
+                            ZpSparse *D) {
+  const ZpNetwork *network = network_of(links);
+  for (size_t b = 0; b < network->bodies; b++)
+    add_constant_stiffness(links, b, share, to, still, D);
+  for (size_t k = 0; k < network->springs; k++)
+    add_spring_stiffness(links, k, share, from, to, still, D);
+  for (size_t k = 0; k < network->joints; k++)
+    add_joint_stiffness(links, k, to, still, D);
+}
+
+/* -- joints under a step ---------------------------------------------------------------------------- */
+
+/* The change of an unknown of a body in a step, m or rad. */
+static double change_of(const ZpLinks *links, size_t body, int way, const double *step) {
+  const long unknown = links->plane->body[body].unknown[way];
+  const double unit = way == ZP_WAY_TURNS ? links->plane->length : 1;
+  return unknown < 0 ? 0 : step[links->inner + (size_t)unknown] / unit;
+}
+
+void zp_links_predict(ZpLinks *links, const ZpPose *pose, const double *step, double fraction) {
+  for (size_t k = 0; k < network_of(links)->joints; k++) {
+    const ZpBodyJoint *joint = &network_of(links)->joint[k];
+    const Reach r = reach(joint->body, &links->joint[k], pose);
+    const ZpVector d = apart_at(joint->body, &links->joint[k], pose),
+                   normal = turned_by(&pose[joint->body[0]], normal_of(links, joint));
+    const bool slides = joint->type == ZP_JOINS_SLIDE;
+    double change[BOTH], moves[ZP_PULLS] = {0};
+    for (int i = 0; i < BOTH; i++)
+      change[i] = fraction * change_of(links, joint->body[i / ZP_WAYS], i % ZP_WAYS, step);
+    for (int c = 0; c < (slides ? 1 : 2); c++) {
+      double by[BOTH];
+      along(slides ? normal : c == 0 ? (ZpVector){1, 0} : (ZpVector){0, 1}, &r, by);
+      if (slides) by[ZP_WAY_TURNS] += zp_along(d, zp_across(normal));
+      for (int i = 0; i < BOTH; i++)
+        moves[c] += by[i] * change[i];
+    }
+    if (joint->type != ZP_JOINS_PIN) moves[2] = change[ZP_WAYS + ZP_WAY_TURNS] - change[ZP_WAY_TURNS];
+    for (int c = 0; c < ZP_PULLS; c++)
+      links->pull[k][c] = links->found[k][c] - (c == 2 ? torsion(links) : links->stiffness) * moves[c];
+  }
+}
+
+void zp_links_take(ZpLinks *links) {
+  if (links->plane->bodies > 0) memcpy(links->pull, links->found, network_of(links)->joints * sizeof *links->pull);
+}
+
+/* -- energy ---------------------------------------------------------------------------------------- */
+
+static double energy_of_body(const ZpLinks *links, size_t b, const ZpPose *pose) {
+  const ZpBody *body = &network_of(links)->body[b];
+  const ZpPlaneBody *own = &links->plane->body[b];
+  const ZpVector now = zp_pose_point(&pose[b], own->place), drawn = zp_pose_point(&own->drawn, own->place);
+  const ZpVector force = {body->force[0], body->force[1]};
+  return own->mass * links->plane->first->def.gravity * (pose[b].y - own->drawn.y) -
+         zp_along(force, zp_difference(now, drawn)) - body->torque * pose[b].turn;
+}
+
+double zp_links_energy(const ZpLinks *links, const ZpPose *pose) {
+  const ZpNetwork *network = network_of(links);
+  double sum = 0;
+  for (size_t b = 0; b < network->bodies; b++)
+    if (!network->body[b].held) sum += energy_of_body(links, b, pose);
+  for (size_t k = 0; k < network->springs; k++)
+    sum += zp_link_energy(&network->spring[k], size_of(apart_at(network->spring[k].body, &links->spring[k], pose)));
+  for (size_t k = 0; k < network->joints; k++) {
+    double by[ZP_PULLS];
+    missed(links, k, pose, by);
+    sum += 0.5 * (links->stiffness * (by[0] * by[0] + by[1] * by[1]) + torsion(links) * by[2] * by[2]);
+  }
+  return sum;
+}
+
+/* -- weight of ribbons ----------------------------------------------------------------------------- */
+
+/* Gravity as a member sees it, m/s2, and how that changes as its frame turns. */
+typedef struct Gravity {
+  ZpVector down, turned; /* 1/rad of the latter */
+} Gravity;
+
+static Gravity gravity_in(const ZpLinks *links, size_t member, const ZpPose *pose) {
+  const ZpVector axis = zp_stand_axis(&links->plane->stand[member], pose);
+  const ZpVector down = zp_turned_back(axis, (ZpVector){0, -links->plane->first->def.gravity});
+  return (Gravity){down, zp_times(-1, zp_across(down))};
+}
+
+/* Is it a node of the ribbons, not of a platform, which is part of a body? */
+static bool is_free(const ZpAssembly *a, size_t j) {
+  return a->equation[zp_x_of(j)] >= 0;
+}
+
+void zp_links_add_weight(const ZpLinks *links, size_t member, double share, const ZpPose *pose, const ZpAssembly *a,
+                         const double *nodes, double *r) {
+  const ZpModel *model = links->plane->first + member;
+  const ZpStand *stand = &links->plane->stand[member];
+  const ZpNodes at = zp_nodes(model, nodes);
+  const Gravity g = gravity_in(links, member, pose);
+  const double gravity = model->def.gravity;
+  for (size_t j = 0; j < model->count; j++) {
+    const double mass = share * model->mass[j];
+    if (!is_free(a, j)) continue;
+    zp_assembly_add_one(a, zp_x_of(j), mass * g.down.x, r);
+    zp_assembly_add_one(a, zp_y_of(j), mass * g.down.y, r);
+    if (stand->still) continue;
+    const ZpVector point = zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]});
+    add_way(links, stand->upper, ZP_WAY_UP, -mass * gravity, r);
+    add_torque(links, stand->upper, -mass * gravity * (point.x - pose[stand->upper].x), r);
+  }
+}
+
+void zp_links_add_weight_stiffness(const ZpLinks *links, size_t member, double share, const ZpPose *pose,
+                                   const ZpAssembly *a, const double *nodes, ZpBand *K) {
+  const ZpModel *model = links->plane->first + member;
+  const ZpStand *stand = &links->plane->stand[member];
+  const ZpNodes at = zp_nodes(model, nodes);
+  const Gravity g = gravity_in(links, member, pose);
+  const int turns = zp_plane_border(links->plane, member, true, ZP_WAY_TURNS, a);
+  const double unit = links->plane->length;
+  if (turns < 0) return;
+  for (size_t j = 0; j < model->count; j++) {
+    const double mass = share * model->mass[j];
+    if (!is_free(a, j)) continue;
+    const ZpVector point = zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]});
+    *zp_band_entry(K, (size_t)a->place[zp_x_of(j)], (size_t)turns) -= mass * g.turned.x / unit;
+    *zp_band_entry(K, (size_t)a->place[zp_y_of(j)], (size_t)turns) -= mass * g.turned.y / unit;
+    *zp_band_entry(K, (size_t)turns, (size_t)turns) -=
+        mass * model->def.gravity * (point.y - pose[stand->upper].y) / (unit * unit);
+  }
+}
