@@ -409,12 +409,27 @@ void zp_assembly_changes(const ZpAssembly *a, const double *restrict step, doubl
     if (equation[k] < -1) *of_nodes(a, k, nodes) = zp_assembly_swung(&a->swing[-2 - equation[k]], step);
 }
 
+/* A force on a coordinate that has a swing, by the unknowns of its bodies. */
+static void add_swing(const ZpAssembly *a, size_t k, bool by_place, double force, double *sums) {
+  const ZpSwing *swing = &a->swing[-2 - a->equation[k]];
+  const int *number = by_place ? swing->place : swing->equation;
+  for (size_t c = 0; c < swing->count; c++)
+    sums[number[c]] += swing->factor[c] * force;
+}
+
+static void add_swings(const ZpAssembly *a, bool by_place, const double *nodes, double *sums) {
+  for (size_t k = 0; a->swing->count > 0 && k < 2 * a->count; k++)
+    if (a->equation[k] < -1) add_swing(a, k, by_place, nodes[k / 2 + k % 2 * a->stride], sums);
+}
+
 void zp_assembly_add_one(const ZpAssembly *a, size_t k, double force, double *equations) {
   if (a->equation[k] >= 0) equations[a->equation[k]] += a->factor[k] * force;
+  if (a->equation[k] < -1) add_swing(a, k, false, force, equations);
 }
 
 void zp_assembly_add_place(const ZpAssembly *a, size_t k, double force, double *places) {
   if (a->place[k] >= 0) places[a->place[k]] += a->factor[k] * force;
+  if (a->place[k] < -1) add_swing(a, k, true, force, places);
 }
 
 /* Forces on nodes, summed over what has the same number. */
@@ -424,17 +439,6 @@ static void add_by(const ZpAssembly *a, const int *number, const double *restric
     int of_x = number[2 * j], of_y = number[2 * j + 1];
     if (of_x >= 0) sums[of_x] += factor[2 * j] * x[j];
     if (of_y >= 0) sums[of_y] += factor[2 * j + 1] * y[j];
-  }
-}
-
-/* Forces on coordinates that have a swing. */
-static void add_swings(const ZpAssembly *a, bool by_place, const double *nodes, double *sums) {
-  for (size_t k = 0; a->swing->count > 0 && k < 2 * a->count; k++) {
-    if (a->equation[k] >= -1) continue;
-    const ZpSwing *swing = &a->swing[-2 - a->equation[k]];
-    const int *number = by_place ? swing->place : swing->equation;
-    for (size_t c = 0; c < swing->count; c++)
-      sums[number[c]] += swing->factor[c] * nodes[k / 2 + k % 2 * a->stride];
   }
 }
 

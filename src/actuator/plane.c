@@ -265,3 +265,77 @@ void zp_plane_add_turns(const ZpPlanar *plane, size_t member, const ZpPose *pose
     put(of[1][ZP_WAY_UP], upper, across.y / unit, K);
   }
 }
+
+/* -- masses ---------------------------------------------------------------------------------------- */
+
+static bool is_of_platform(const ZpTopology *t, size_t j) {
+  return j / t->ribbons == t->platform.first || j / t->ribbons == t->platform.last;
+}
+
+static double change_of(const ZpPlanar *plane, size_t body, int way, size_t inner, const double *u) {
+  const long unknown = plane->body[body].unknown[way];
+  return unknown < 0 ? 0 : u[inner + (size_t)unknown] / unit_of(plane, way);
+}
+
+void zp_plane_carry(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *nodes,
+                    const double *u, double *moved) {
+  const ZpModel *model = plane->first + member;
+  const ZpStand *stand = &plane->stand[member];
+  const ZpVector axis = zp_stand_axis(stand, pose), arm = zp_turned(zp_direction(pose[stand->upper].turn), stand->arm);
+  const double turns = change_of(plane, stand->upper, ZP_WAY_TURNS, inner, u);
+  const ZpVector shift = zp_turned_back(axis, zp_sum((ZpVector){change_of(plane, stand->upper, ZP_WAY_ALONG, inner, u),
+                                                                change_of(plane, stand->upper, ZP_WAY_UP, inner, u)},
+                                                     zp_times(turns, zp_across(arm))));
+  const ZpNodes at = zp_nodes(model, nodes);
+  const ZpForces to = zp_forces(model, moved);
+  for (size_t j = 0; !stand->still && j < model->count; j++) {
+    if (is_of_platform(&model->topology, j)) continue;
+    const ZpVector by = zp_sum(shift, zp_times(turns, zp_across((ZpVector){at.x[j] - stand->middle, at.y[j]})));
+    to.x[j] += by.x;
+    to.y[j] += by.y;
+  }
+}
+
+void zp_plane_carry_back(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *nodes,
+                         const double *force, double *u) {
+  const ZpModel *model = plane->first + member;
+  const ZpStand *stand = &plane->stand[member];
+  const ZpVector axis = zp_stand_axis(stand, pose), arm = zp_turned(zp_direction(pose[stand->upper].turn), stand->arm);
+  const ZpNodes at = zp_nodes(model, nodes), f = zp_nodes(model, force);
+  ZpVector sum = {0, 0};
+  double torque = 0;
+  for (size_t j = 0; !stand->still && j < model->count; j++) {
+    if (is_of_platform(&model->topology, j)) continue;
+    const ZpVector one = {f.x[j], f.y[j]};
+    sum = zp_sum(sum, one);
+    torque += zp_along(one, zp_across((ZpVector){at.x[j] - stand->middle, at.y[j]}));
+  }
+  sum = zp_turned(axis, sum);
+  const double of[ZP_WAYS] = {sum.x, sum.y, torque + zp_along(sum, zp_across(arm))};
+  for (int way = 0; way < ZP_WAYS; way++) {
+    const long unknown = plane->body[stand->upper].unknown[way];
+    if (unknown >= 0) u[inner + (size_t)unknown] += of[way] / unit_of(plane, way);
+  }
+}
+
+/* Of an unknown of a body, kg. */
+static double mass_of(const ZpPlanar *plane, size_t body, int way) {
+  const ZpPlaneBody *b = &plane->body[body];
+  return way == ZP_WAY_TURNS ? b->inertia / (plane->length * plane->length) : b->mass;
+}
+
+void zp_plane_weigh(const ZpPlanar *plane, size_t inner, const double *u, double *mu) {
+  for (size_t b = 0; b < plane->bodies; b++)
+    for (int way = 0; way < ZP_WAYS; way++) {
+      const long unknown = plane->body[b].unknown[way];
+      if (unknown >= 0) mu[inner + (size_t)unknown] += mass_of(plane, b, way) * u[inner + (size_t)unknown];
+    }
+}
+
+void zp_plane_add_masses(const ZpPlanar *plane, size_t inner, double *mass) {
+  for (size_t b = 0; b < plane->bodies; b++)
+    for (int way = 0; way < ZP_WAYS; way++) {
+      const long unknown = plane->body[b].unknown[way];
+      if (unknown >= 0) mass[inner + (size_t)unknown] += mass_of(plane, b, way);
+    }
+}

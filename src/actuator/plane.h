@@ -117,6 +117,18 @@ int zp_plane_border(const ZpPlanar *plane, size_t member, bool upper, ZpWay way,
 /* Factors of the lower platform's coordinates by the unknowns of bodies at these poses, eq. (34.2). */
 void zp_plane_swing(const ZpPlanar *plane, size_t member, const ZpPose *pose, ZpAssembly *assembly);
 
+/* Nodes of a member that are not part of a body, where it sees them: moved += what the motion u [n] of its upper body
+ * adds to their motion, as the member sees it; u [n] += what forces on them, as it sees them, do to that body. Vectors
+ * of the member stay those of its frame, eq. (34.5). */
+void zp_plane_carry(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *nodes,
+                    const double *u, double *moved);
+void zp_plane_carry_back(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *nodes,
+                         const double *force, double *u);
+
+/* Masses of bodies: mass [n] +=, of a turn its inertia over length^2; mu [n] += mass times u. */
+void zp_plane_add_masses(const ZpPlanar *plane, size_t inner, double *mass);
+void zp_plane_weigh(const ZpPlanar *plane, size_t inner, const double *u, double *mu);
+
 /* K += what turns of a member's bodies change of the forces on its lower platform's ends, as it sees them; `share` of
  * it: 1 at rest, eq. (34.3). */
 void zp_plane_add_turns(const ZpPlanar *plane, size_t member, const ZpPose *pose, const ZpAssembly *assembly,

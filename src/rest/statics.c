@@ -1261,6 +1261,7 @@ bool zp_statics_stable(ZpStatics *s) {
 
 void zp_statics_masses(const ZpStatics *s, double *mass) {
   memset(mass, 0, s->n * sizeof *mass);
+  if (in_plane(s)) zp_plane_add_masses(&s->plane, s->form.inner, mass);
   for (size_t k = 0; k < s->members; k++)
     zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
 }
@@ -1274,15 +1275,37 @@ static double momentum_of(const ZpRestMember *m) {
   return sum;
 }
 
+/* Eq. (34.7): nodes move with the frame of their member, too. */
+static void weigh_in_plane(ZpStatics *s, const double *u, double *mu) {
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    ZpForces moved = zp_forces(m->model, m->moved);
+    zp_assembly_changes(&m->assembly, u, m->moved);
+    zp_plane_carry(&s->plane, k, s->pose, s->form.inner, m->q, u, m->moved);
+    for (size_t j = 0; j < m->model->count; j++) {
+      const double mass = m->assembly.equation[zp_x_of(j)] >= 0 ? m->model->mass[j] : 0; /* else it is a body's */
+      moved.x[j] *= mass;
+      moved.y[j] *= mass;
+    }
+    zp_assembly_add(&m->assembly, m->moved, mu);
+    zp_plane_carry_back(&s->plane, k, s->pose, s->form.inner, m->q, m->moved, mu);
+  }
+  zp_plane_weigh(&s->plane, s->form.inner, u, mu);
+}
+
 /* Eq. (29.3): where all hang, a member moves relative to its upper platform, and with that platform, which moves by the
  * way of its body. */
 void zp_statics_weigh(void *self, const double *u, double *mu) {
   ZpStatics *s = self;
   const ZpNetwork *network = s->model->network;
   const bool hang = s->members > 1 && !s->shared;
+  memset(mu, 0, s->n * sizeof *mu);
+  if (in_plane(s)) {
+    weigh_in_plane(s, u, mu);
+    return;
+  }
   memset(s->way, 0, network->bodies * sizeof *s->way);
   memset(s->below, 0, network->bodies * sizeof *s->below);
-  memset(mu, 0, s->n * sizeof *mu);
   for (size_t i = 0; i < s->members; i++) {
     const size_t k = network->order[i];
     const double way = s->way[network->ends[k].upper];

@@ -342,7 +342,7 @@ void zp_links_predict(ZpLinks *links, const ZpPose *pose, const double *step, do
 }
 
 void zp_links_take(ZpLinks *links) {
-  if (links->plane->bodies > 0) memcpy(links->pull, links->found, network_of(links)->joints * sizeof *links->pull);
+  if (links->plane) memcpy(links->pull, links->found, network_of(links)->joints * sizeof *links->pull);
 }
 
 /* -- energy ---------------------------------------------------------------------------------------- */
