@@ -442,6 +442,10 @@ static void add_by(const ZpAssembly *a, const int *number, const double *restric
   }
 }
 
+void zp_assembly_add_free(const ZpAssembly *a, const double *nodes, double *equations) {
+  add_by(a, a->equation, nodes, equations);
+}
+
 void zp_assembly_add(const ZpAssembly *a, const double *nodes, double *equations) {
   add_by(a, a->equation, nodes, equations);
   add_swings(a, false, nodes, equations);

@@ -74,6 +74,7 @@ void zp_assembly_changes(const ZpAssembly *assembly, const double *step, double 
 
 /* equations [n] += forces on nodes [2 stride], summed over what has the same equation; += a force on one coordinate. */
 void zp_assembly_add(const ZpAssembly *assembly, const double *nodes, double *equations);
+void zp_assembly_add_free(const ZpAssembly *assembly, const double *nodes, double *equations); /* but on swings */
 void zp_assembly_add_one(const ZpAssembly *assembly, size_t coordinate, double force, double *equations);
 
 /* Forces on nodes [2 stride] => sums over what has the same equation [n]; equations [n] += masses [count]. */

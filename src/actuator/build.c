@@ -855,6 +855,7 @@ const ZpActuatorDef *zp_model_def(const ZpModel *model) {
 }
 
 size_t zp_state_size(const ZpModel *model) {
-  return sizeof(ZpState) +
-         (12 * model->stride + zp_extra_unknowns(model) + model->kept + model->ledger.rows) * sizeof(double);
+  return sizeof(ZpState) + (12 * model->stride + zp_extra_unknowns(model) + model->kept + model->ledger.rows +
+                            zp_state_bodies_size(model)) *
+                               sizeof(double);
 }

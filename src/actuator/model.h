@@ -201,7 +201,7 @@ typedef struct ZpState {
       U_change;  /* implicit, behind a source: mean rate of U over the last step, V/s, and its change, V/s^2 */
   double data[]; /* q [2 stride], v [2 stride], held force [2 stride], where it was found [2 stride],
                     mean velocity and acceleration of the last implicit step [4 stride], the laws' own unknowns [own N]
-                    and state [kept], the ledger [rows] */
+                    and state [kept], the ledger [rows]; of the first member bodies in the plane (zp_state_bodies) */
 } ZpState;
 
 /* Where the coordinates and velocities of a state stand. */
@@ -479,6 +479,16 @@ static inline double *zp_law_state(const ZpModel *model, const struct ZpTerm *te
 /* The ledger, [rows]: what rows of losses have lost since it was opened, and what rows of energies held then, J. */
 static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride + zp_extra_unknowns(model) + model->kept;
+}
+
+/* Bodies in the plane, in the state of the first member: their unknowns, the velocities of these, and mean velocity and
+ * mean acceleration over the last step, each [unknowns]; how many numbers these are. */
+static inline size_t zp_state_bodies_size(const ZpModel *model) {
+  return model->number == 0 ? 4 * model->network->unknowns : 0;
+}
+
+static inline double *zp_state_bodies(const ZpModel *model, ZpState *state) {
+  return zp_state_ledger(model, state) + model->ledger.rows;
 }
 
 /* The number of a row; that of all rows if it is none of them. */

@@ -272,7 +272,7 @@ static bool is_of_platform(const ZpTopology *t, size_t j) {
   return j / t->ribbons == t->platform.first || j / t->ribbons == t->platform.last;
 }
 
-static double change_of(const ZpPlanar *plane, size_t body, int way, size_t inner, const double *u) {
+double zp_plane_change(const ZpPlanar *plane, size_t body, int way, size_t inner, const double *u) {
   const long unknown = plane->body[body].unknown[way];
   return unknown < 0 ? 0 : u[inner + (size_t)unknown] / unit_of(plane, way);
 }
@@ -282,9 +282,9 @@ void zp_plane_carry(const ZpPlanar *plane, size_t member, const ZpPose *pose, si
   const ZpModel *model = plane->first + member;
   const ZpStand *stand = &plane->stand[member];
   const ZpVector axis = zp_stand_axis(stand, pose), arm = zp_turned(zp_direction(pose[stand->upper].turn), stand->arm);
-  const double turns = change_of(plane, stand->upper, ZP_WAY_TURNS, inner, u);
-  const ZpVector shift = zp_turned_back(axis, zp_sum((ZpVector){change_of(plane, stand->upper, ZP_WAY_ALONG, inner, u),
-                                                                change_of(plane, stand->upper, ZP_WAY_UP, inner, u)},
+  const double turns = zp_plane_change(plane, stand->upper, ZP_WAY_TURNS, inner, u);
+  const ZpVector shift = zp_turned_back(axis, zp_sum((ZpVector){zp_plane_change(plane, stand->upper, ZP_WAY_ALONG, inner, u),
+                                                                zp_plane_change(plane, stand->upper, ZP_WAY_UP, inner, u)},
                                                      zp_times(turns, zp_across(arm))));
   const ZpNodes at = zp_nodes(model, nodes);
   const ZpForces to = zp_forces(model, moved);
@@ -338,4 +338,149 @@ void zp_plane_add_masses(const ZpPlanar *plane, size_t inner, double *mass) {
       const long unknown = plane->body[b].unknown[way];
       if (unknown >= 0) mass[inner + (size_t)unknown] += mass_of(plane, b, way);
     }
+}
+
+/* -- motion ---------------------------------------------------------------------------------------- */
+
+/* How far the origin of a member's frame is from where it is in the drawing, as seen there. */
+static ZpVector gone(const ZpPlanar *plane, const ZpStand *stand, const ZpPose *pose) {
+  const ZpVector drawn = zp_sum(centre_of(plane, stand->upper), stand->arm);
+  return zp_turned_back(stand->axis, zp_difference(zp_stand_origin(stand, pose), drawn));
+}
+
+void zp_plane_to_drawing(const ZpPlanar *plane, size_t member, const ZpPose *pose, double *nodes) {
+  const ZpStand *stand = &plane->stand[member];
+  const ZpForces at = zp_forces(plane->first + member, nodes);
+  const ZpVector turn = zp_direction(pose[stand->upper].turn), way = gone(plane, stand, pose);
+  for (size_t j = 0; !stand->still && j < plane->first[member].count; j++) {
+    const ZpVector to = zp_sum(way, zp_turned(turn, (ZpVector){at.x[j] - stand->middle, at.y[j]}));
+    at.x[j] = stand->middle + to.x;
+    at.y[j] = to.y;
+  }
+}
+
+void zp_plane_from_drawing(const ZpPlanar *plane, size_t member, const ZpPose *pose, double *nodes) {
+  const ZpModel *model = plane->first + member;
+  const ZpStand *stand = &plane->stand[member];
+  const ZpForces at = zp_forces(model, nodes);
+  const ZpVector turn = zp_direction(pose[stand->upper].turn), way = gone(plane, stand, pose);
+  for (size_t j = 0; !stand->still && j < model->count; j++) {
+    if (is_of_platform(&model->topology, j)) continue;
+    const ZpVector to = zp_turned_back(turn, zp_difference((ZpVector){at.x[j] - stand->middle, at.y[j]}, way));
+    at.x[j] = stand->middle + to.x;
+    at.y[j] = to.y;
+  }
+  zp_plane_put_platform(plane, member, pose, 1, nodes);
+}
+
+void zp_plane_turn(const ZpPlanar *plane, size_t member, const ZpPose *pose, bool to_drawing, double *vectors) {
+  const ZpStand *stand = &plane->stand[member];
+  const ZpForces at = zp_forces(plane->first + member, vectors);
+  const ZpVector turn = zp_direction(pose[stand->upper].turn);
+  for (size_t j = 0; !stand->still && j < plane->first[member].count; j++) {
+    const ZpVector a = {at.x[j], at.y[j]}, b = to_drawing ? zp_turned(turn, a) : zp_turned_back(turn, a);
+    at.x[j] = b.x;
+    at.y[j] = b.y;
+  }
+}
+
+ZpVector zp_plane_rate(const ZpPlanar *plane, size_t body, const ZpPose *pose, ZpVector arm, size_t inner,
+                       const double *u) {
+  const ZpVector centre = {zp_plane_change(plane, body, ZP_WAY_ALONG, inner, u), zp_plane_change(plane, body, ZP_WAY_UP, inner, u)};
+  const ZpVector across = zp_across(zp_turned(zp_direction(pose[body].turn), arm));
+  return zp_sum(centre, zp_times(zp_plane_change(plane, body, ZP_WAY_TURNS, inner, u), across));
+}
+
+void zp_plane_put_rates(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *u,
+                        double *rates) {
+  const ZpModel *model = plane->first + member;
+  const ZpTopology *t = &model->topology;
+  const ZpStand *stand = &plane->stand[member];
+  const ZpVector axis = zp_stand_axis(stand, pose);
+  const ZpForces to = zp_forces(model, rates);
+  for (int e = 0; e < 2; e++) {
+    const size_t station = e == 0 ? t->platform.first : t->platform.last;
+    const ZpVector arm = zp_sum(stand->arm, end_of_platform(model, stand->axis, e));
+    const ZpVector lower = zp_turned_back(axis, zp_plane_rate(plane, stand->lower, pose, stand->node[e], inner, u)),
+                   upper = zp_turned_back(axis, zp_plane_rate(plane, stand->upper, pose, arm, inner, u));
+    to.x[zp_lower(t, station)] = lower.x;
+    to.y[zp_lower(t, station)] = lower.y;
+    to.x[zp_upper(t, station)] = upper.x;
+    to.y[zp_upper(t, station)] = upper.y;
+  }
+}
+
+static void add_way(const ZpPlanar *plane, size_t body, int way, double force, size_t inner, double *f) {
+  const long unknown = plane->body[body].unknown[way];
+  if (unknown >= 0) f[inner + (size_t)unknown] += force / unit_of(plane, way);
+}
+
+/* A force on a point of a body over a span. */
+static void add_at(const ZpPlanar *plane, size_t body, ZpVector arm, ZpVector force, const ZpPose *from,
+                   const ZpPose *to, size_t inner, double *f) {
+  add_way(plane, body, ZP_WAY_ALONG, force.x, inner, f);
+  add_way(plane, body, ZP_WAY_UP, force.y, inner, f);
+  add_way(plane, body, ZP_WAY_TURNS, zp_along(force, zp_pose_sweep(&from[body], &to[body], arm)), inner, f);
+}
+
+/* With s a node from the origin, in the directions of the drawing: the member sees r = R(-turn) s, so that
+ *   r1 - r0 = mean R(-turn) (s1 - s0) + (R(-turn1) - R(-turn0)) mean s. */
+void zp_plane_add_force(const ZpPlanar *plane, size_t member, const ZpPose *from, const ZpPose *to, size_t inner,
+                        const double *start, const double *end, const ZpAssembly *a, double *force, double *f) {
+  const ZpModel *model = plane->first + member;
+  const ZpTopology *t = &model->topology;
+  const ZpStand *stand = &plane->stand[member];
+  const double turn0 = from[stand->upper].turn, turn1 = to[stand->upper].turn, half = 0.5 * (turn1 - turn0);
+  const ZpVector at0 = zp_direction(turn0), at1 = zp_direction(turn1), middle = zp_direction(0.5 * (turn0 + turn1)),
+                 apart = zp_direction(half);
+  const double sweep = half == 0 ? 1 : apart.y / half;
+  const ZpNodes r0 = zp_nodes(model, start), r1 = zp_nodes(model, end);
+  const ZpForces on = zp_forces(model, force);
+  ZpVector sum = {0, 0};
+  double torque = 0;
+  for (size_t j = 0; !stand->still && j < model->count; j++) {
+    if (j == zp_upper(t, t->platform.first) || j == zp_upper(t, t->platform.last)) continue;
+    const ZpVector own = {on.x[j], on.y[j]};
+    const ZpVector s0 = zp_turned(at0, (ZpVector){r0.x[j] - stand->middle, r0.y[j]}),
+                   s1 = zp_turned(at1, (ZpVector){r1.x[j] - stand->middle, r1.y[j]});
+    const ZpVector mean = zp_times(0.5, zp_sum(s0, s1)), outside = zp_times(apart.x, zp_turned(middle, own));
+    torque -= sweep * zp_along(own, zp_across(zp_turned_back(middle, mean)));
+    sum = zp_sum(sum, outside);
+    on.x[j] = outside.x;
+    on.y[j] = outside.y;
+  }
+  zp_assembly_add_free(a, force, f);
+  for (int e = 0; e < 2; e++) {
+    const size_t j = zp_lower(t, e == 0 ? t->platform.first : t->platform.last);
+    add_at(plane, stand->lower, stand->node[e], zp_turned(stand->axis, (ZpVector){on.x[j], on.y[j]}), from, to, inner,
+           f);
+  }
+  if (stand->still) return;
+  add_at(plane, stand->upper, stand->arm, zp_turned(stand->axis, zp_times(-1, sum)), from, to, inner, f);
+  add_way(plane, stand->upper, ZP_WAY_TURNS, torque, inner, f);
+}
+
+void zp_plane_add_inertia(const ZpPlanar *plane, size_t member, const ZpPose *pose, const ZpAssembly *a, double of_mass,
+                          const double *nodes, ZpBand *K) {
+  const ZpModel *model = plane->first + member;
+  const ZpStand *stand = &plane->stand[member];
+  const ZpNodes at = zp_nodes(model, nodes);
+  const ZpVector axis = zp_stand_axis(stand, pose), arm = zp_turned(zp_direction(pose[stand->upper].turn), stand->arm);
+  int of[ZP_WAYS];
+  for (int way = 0; way < ZP_WAYS; way++)
+    of[way] = zp_plane_border(plane, member, true, (ZpWay)way, a);
+  for (size_t j = 0; !stand->still && j < model->count; j++) {
+    if (is_of_platform(&model->topology, j)) continue;
+    const double mass = of_mass * model->mass[j], unit = plane->length;
+    const ZpVector from = zp_sum(arm, zp_turned(axis, (ZpVector){at.x[j] - stand->middle, at.y[j]}));
+    const ZpVector along = zp_turned_back(axis, (ZpVector){1, 0}), up = zp_turned_back(axis, (ZpVector){0, 1}),
+                   turn = zp_times(1 / unit, zp_turned_back(axis, zp_across(from)));
+    const ZpVector by[ZP_WAYS] = {along, up, turn};
+    for (int way = 0; way < ZP_WAYS; way++) {
+      put(a->place[zp_x_of(j)], of[way], mass * by[way].x, K);
+      put(a->place[zp_y_of(j)], of[way], mass * by[way].y, K);
+      for (int other = way; other < ZP_WAYS; other++)
+        put(of[way], of[other], mass * zp_along(by[way], by[other]), K);
+    }
+  }
 }

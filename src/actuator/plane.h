@@ -129,6 +129,36 @@ void zp_plane_carry_back(const ZpPlanar *plane, size_t member, const ZpPose *pos
 void zp_plane_add_masses(const ZpPlanar *plane, size_t inner, double *mass);
 void zp_plane_weigh(const ZpPlanar *plane, size_t inner, const double *u, double *mu);
 
+/* -- motion ---------------------------------------------------------------------------------------- */
+
+/* In motion the unknowns of nodes are their places in the frame in which the member stands in the drawing, which does
+ * not move, so that masses are constant. `nodes` as the member sees them => as they stand there, and back. */
+void zp_plane_to_drawing(const ZpPlanar *plane, size_t member, const ZpPose *pose, double *nodes);
+void zp_plane_from_drawing(const ZpPlanar *plane, size_t member, const ZpPose *pose, double *nodes);
+
+/* Velocities or forces of nodes, turned in the same way. */
+void zp_plane_turn(const ZpPlanar *plane, size_t member, const ZpPose *pose, bool to_drawing, double *vectors);
+
+/* The change of a body's pose, m or rad, by changes or rates u [n] of unknowns; velocity of a point of it, `arm` from
+ * its centre in the drawing. */
+double zp_plane_change(const ZpPlanar *plane, size_t body, int way, size_t inner, const double *u);
+ZpVector zp_plane_rate(const ZpPlanar *plane, size_t body, const ZpPose *pose, ZpVector arm, size_t inner,
+                       const double *u);
+
+/* Velocities of the ends of both platforms, as the member sees them, by rates u [n] of bodies. */
+void zp_plane_put_rates(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *u,
+                        double *rates);
+
+/* Mean forces of laws on nodes over a span, as the member sees them => f [n] +=: on its nodes, which are taken to the
+ * drawing in `force`, and on its bodies, eq. (34.6). Their work is that of the forces along the way of the nodes as the
+ * member sees it. */
+void zp_plane_add_force(const ZpPlanar *plane, size_t member, const ZpPose *from, const ZpPose *to, size_t inner,
+                        const double *start, const double *end, const ZpAssembly *assembly, double *force, double *f);
+
+/* K += inertia of nodes that move with the frame of the upper body; `of_mass` 1/s2. */
+void zp_plane_add_inertia(const ZpPlanar *plane, size_t member, const ZpPose *pose, const ZpAssembly *assembly,
+                          double of_mass, const double *nodes, ZpBand *K);
+
 /* K += what turns of a member's bodies change of the forces on its lower platform's ends, as it sees them; `share` of
  * it: 1 at rest, eq. (34.3). */
 void zp_plane_add_turns(const ZpPlanar *plane, size_t member, const ZpPose *pose, const ZpAssembly *assembly,

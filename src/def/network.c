@@ -550,6 +550,15 @@ bool zp_network_abreast(const ZpNetwork *n, size_t one, size_t other) {
   return are_abreast(&n->ends[one], &n->ends[other]);
 }
 
+const ZpColumn *zp_body_columns(bool plane, size_t *count) {
+  static const ZpColumn vertical[] = {{"#.y_m", "m", "height of #: 0 where all members above it are closed"}};
+  static const ZpColumn in_plane[ZP_WAYS] = {{"#.x_m", "m", "place of #, to the right"},
+                                             {"#.y_m", "m", "height of #"},
+                                             {"#.angle_rad", "rad", "angle of #, anticlockwise"}};
+  *count = plane ? ZP_WAYS : 1;
+  return plane ? in_plane : vertical;
+}
+
 long zp_network_unknown(const ZpNetwork *n, size_t body, ZpWay way) {
   const ZpBody *b = &n->body[body];
   if (b->held || (b->moves != ZP_MOVES_PLANE && way != ZP_WAY_UP)) return -1;

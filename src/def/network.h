@@ -2,6 +2,8 @@
 #ifndef ZP_DEF_NETWORK_H
 #define ZP_DEF_NETWORK_H
 
+#include <zipact/table.h>
+
 #include "def/def.h"
 
 /* Ways in which a body in the plane moves. */
@@ -71,6 +73,9 @@ ZpNetwork *zp_network_create(const ZpActuatorDef *def);
 
 /* Are two members side by side: between the same bodies, and opening the same way? */
 bool zp_network_abreast(const ZpNetwork *network, size_t one, size_t other);
+
+/* Columns of a table for each body: where it is. */
+const ZpColumn *zp_body_columns(bool plane, size_t *count);
 
 /* In the plane: number of the unknown with which a body moves in a way; below 0: it does not. */
 long zp_network_unknown(const ZpNetwork *network, size_t body, ZpWay way);

@@ -41,6 +41,8 @@ static size_t reserve(ZpDynamics *d, void *block) {
   d->row = zp_arena_take(&arena, most_places(d));
   d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
   d->by_voltage.charge = zp_arena_take(&arena, zp_coordinates(d->member->model));
+  d->pose0 = zp_arena_take_of(&arena, d->plane.bodies, sizeof *d->pose0);
+  d->pose1 = zp_arena_take_of(&arena, d->plane.bodies, sizeof *d->pose1);
   return arena.used;
 }
 
@@ -121,11 +123,44 @@ static void ask_source(const ZpDynamics *d, ZpMovingPort *port) {
   port->law = port->source->law(port->source->self, &step);
 }
 
+static bool in_plane(const ZpDynamics *d) {
+  return d->plane.bodies > 0;
+}
+
+/* Unknowns => nodes, as the member sees them. */
+static void place_nodes(const ZpDynamics *d, const ZpMovingMember *m, const ZpPose *pose, const double *q,
+                        double *nodes) {
+  zp_assembly_place(&m->assembly, q, nodes);
+  if (in_plane(d)) zp_plane_from_drawing(&d->plane, (size_t)(m - d->member), pose, nodes);
+}
+
+/* Weight of ribbons that stand on bodies in the plane. */
+static void add_ribbons(const ZpDynamics *d, const ZpMovingMember *m, double *f) {
+  const ZpModel *model = m->model;
+  const ZpVector down = zp_turned_back(d->plane.stand[m - d->member].axis, (ZpVector){0, -model->def.gravity});
+  for (size_t j = 0; j < model->count; j++) {
+    if (m->assembly.equation[zp_x_of(j)] < 0) continue;
+    zp_assembly_add_one(&m->assembly, zp_x_of(j), model->mass[j] * down.x, f);
+    zp_assembly_add_one(&m->assembly, zp_y_of(j), model->mass[j] * down.y, f);
+  }
+}
+
+/* Forces of the laws of a member => its unknowns and those of its bodies. */
+static void add_laws(const ZpDynamics *d, ZpMovingMember *m, double *f) {
+  if (!in_plane(d)) {
+    zp_assembly_add(&m->assembly, m->force, f);
+    return;
+  }
+  zp_plane_add_force(&d->plane, (size_t)(m - d->member), d->pose0, d->pose1, d->form.inner, m->start, m->end,
+                     &m->assembly, m->force, f);
+  add_ribbons(d, m, f);
+}
+
 /* => energies of bending and field, with which an imbalance is compared. */
 static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
   const ZpModel *model = m->model;
   const ZpEval *e = &m->eval;
-  zp_assembly_place(&m->assembly, q0, m->start);
+  place_nodes(d, m, d->pose0, q0, m->start);
   memcpy(m->end, m->start, zp_coordinates(model) * sizeof *m->end);
   ZpSpan span = span_of(d, m);
   zp_system_begin(model, &span, &m->eval);
@@ -139,6 +174,7 @@ static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
 static double begin(void *self, const double *q0, const double *v0) {
   ZpDynamics *d = self;
   double energy = zp_springs_energy(&d->springs, q0);
+  if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q0, d->pose0);
   (void)v0;
   memcpy(d->from, q0, d->system.n * sizeof *q0);
   for (size_t k = 0; k < d->members; k++)
@@ -155,12 +191,12 @@ static void gather_own(ZpMovingMember *m, const double *q) {
 static void add_force(ZpDynamics *d, ZpMovingMember *m, const double *q1, double *f) {
   const ZpModel *model = m->model;
   m->U1 = m->port ? zp_voltage_at_port(model, q1[m->port->unknown]) : end_voltage(d, m);
-  zp_assembly_place(&m->assembly, q1, m->end);
+  place_nodes(d, m, d->pose1, q1, m->end);
   gather_own(m, q1);
   ZpSpan span = span_of(d, m);
   zp_system_force(model, &span, &m->eval, m->force);
   if (model->field) memcpy(m->gap, m->eval.plates.gap, model->nodes * sizeof *m->gap);
-  zp_assembly_add(&m->assembly, m->force, f);
+  add_laws(d, m, f);
   for (size_t c = 0; c < zp_extra_unknowns(model); c++)
     f[m->assembly.extra_equation[c]] = m->eval.extra_residual[c];
 }
@@ -169,10 +205,14 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   ZpDynamics *d = self;
   d->h = h;
   memset(f, 0, d->system.n * sizeof *f);
+  if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q1, d->pose1);
   for (size_t k = 0; k < d->members; k++)
     add_force(d, &d->member[k], q1, f);
   memcpy(d->to, q1, d->system.n * sizeof *q1);
-  zp_springs_add_force(&d->springs, 1, d->from, d->to, f);
+  if (in_plane(d))
+    zp_links_add_force(&d->links, 1, d->pose0, d->pose1, f);
+  else
+    zp_springs_add_force(&d->springs, 1, d->from, d->to, f);
   for (ZpMovingPort *port = d->port; port < d->port + d->ports; port++) {
     ask_source(d, port);
     f[port->unknown] = port->law.lacks / lead_of(port)->model->parts;
@@ -236,18 +276,38 @@ static void add_source(ZpDynamics *d, const ZpMovingPort *port, ZpArrow *J) {
   *J->diagonal[port->unknown] = fmax(slope, least_slope(port));
 }
 
+/* What bodies in the plane add to the matrix of a member. Unknowns of its nodes are then changes as it sees them. */
+static void add_stand(const ZpDynamics *d, size_t k, ZpBand *A) {
+  const ZpMovingMember *m = &d->member[k];
+  const ZpTopology *t = &m->model->topology;
+  const size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
+  const ZpForces f = zp_forces(m->model, m->force);
+  const ZpVector own[] = {{f.x[left], f.y[left]}, {f.x[right], f.y[right]}}, turn = zp_turned_back(
+      zp_direction(d->pose1[d->plane.stand[k].upper].turn), (ZpVector){1, 0});
+  ZpVector force[2]; /* they have been taken to the drawing */
+  for (int e = 0; e < 2; e++)
+    force[e] = d->plane.stand[k].still ? own[e] : zp_turned(turn, own[e]);
+  zp_plane_add_turns(&d->plane, k, d->pose1, &m->assembly, force, 0.5, A);
+  zp_plane_add_inertia(&d->plane, k, d->pose1, &m->assembly, 2 / (d->h * d->h), m->end, A);
+}
+
 static void tangent(void *self, ZpArrow *J) {
   ZpDynamics *d = self;
   zp_arrow_clear(J);
   for (size_t k = 0; k < d->members; k++) {
     ZpMovingMember *m = &d->member[k];
     ZpSpan span = span_of(d, m);
+    if (in_plane(d)) zp_plane_swing(&d->plane, k, d->pose1, &m->assembly);
     zp_system_add_stiffness(m->model, &span, &m->assembly, &m->eval, &J->part[k].A);
+    if (in_plane(d)) add_stand(d, k, &J->part[k].A);
   }
   zp_arrow_mirror(J);
   for (const ZpMovingPort *port = d->port; port < d->port + d->ports; port++)
     add_source(d, port, J);
-  zp_springs_add_stiffness(&d->springs, 1, d->from, d->to, false, d->form.inner, &J->D);
+  if (in_plane(d))
+    zp_links_add_stiffness(&d->links, 1, d->pose0, d->pose1, false, &J->D);
+  else
+    zp_springs_add_stiffness(&d->springs, 1, d->from, d->to, false, d->form.inner, &J->D);
   zp_arrow_close(J);
 }
 
@@ -256,9 +316,52 @@ static double *head_in(const ZpMovingMember *m, size_t i, int k, double *x) {
   return &x[m->assembly.extra_equation[zp_film_mode_at(i, k)]];
 }
 
+/* Forces on the unknowns of a member's nodes => forces as it sees them, each at one node, in `moved`. */
+static void see_forces(const ZpDynamics *d, ZpMovingMember *m, const double *r) {
+  const int *equation = m->assembly.equation;
+  const size_t s = m->model->s;
+  const ZpForces to = zp_forces(m->model, m->moved);
+  for (size_t j = 0; j < m->model->count; j++) {
+    const int x = equation[zp_x_of(j)], y = equation[zp_y_of(j)];
+    const bool again = j % s > 0 && x == equation[zp_x_of(j - 1)]; /* of a clip */
+    to.x[j] = x >= 0 && !again ? r[x] : 0;
+    to.y[j] = y >= 0 && !again ? r[y] : 0;
+  }
+  zp_plane_turn(&d->plane, (size_t)(m - d->member), d->pose1, false, m->moved);
+}
+
+/* The frames of members turn the unknowns of their nodes. */
+static void turn_frames(ZpDynamics *d, double *r) {
+  for (ZpMovingMember *m = d->member; m < d->member + d->members && in_plane(d); m++) {
+    const size_t k = (size_t)(m - d->member);
+    if (d->plane.stand[k].still) continue;
+    see_forces(d, m, r);
+    for (size_t j = 0; j < m->model->count; j++)
+      for (size_t c = 0; c < 2; c++) {
+        const int equation = m->assembly.equation[zp_x_of(j) + c];
+        const bool again = j % m->model->s > 0 && equation == m->assembly.equation[zp_x_of(j - 1) + c];
+        if (equation >= 0 && !again) r[equation] = *zp_coordinate(m->model, m->moved, zp_x_of(j) + c);
+      }
+    zp_plane_carry_back(&d->plane, k, d->pose1, d->form.inner, m->end, m->moved, r);
+  }
+}
+
+static void turn_frames_back(ZpDynamics *d, double *x) {
+  for (ZpMovingMember *m = d->member; m < d->member + d->members && in_plane(d); m++) {
+    const size_t k = (size_t)(m - d->member);
+    if (d->plane.stand[k].still) continue;
+    zp_assembly_changes(&m->assembly, x, m->moved);
+    zp_plane_carry(&d->plane, k, d->pose1, d->form.inner, m->end, x, m->moved);
+    zp_plane_turn(&d->plane, k, d->pose1, true, m->moved);
+    zp_assembly_gather(&m->assembly, m->moved, x);
+  }
+}
+
 /* The matrix has other unknowns than the heads at stations with a cavity (zp_film_mix). */
 static void turn(void *self, double *r) {
-  const ZpDynamics *d = self;
+  ZpDynamics *d = self;
+  turn_frames(d, r);
+  if (!d->member->model->has_film) return;
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     for (size_t i = 0; i < m->model->nodes; i++) {
       double *first = head_in(m, i, 0, r), *second = head_in(m, i, 1, r);
@@ -267,7 +370,9 @@ static void turn(void *self, double *r) {
 }
 
 static void turn_back(void *self, double *x) {
-  const ZpDynamics *d = self;
+  ZpDynamics *d = self;
+  turn_frames_back(d, x);
+  if (!d->member->model->has_film) return;
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     for (size_t i = 0; i < m->model->nodes; i++)
       *head_in(m, i, 0, x) -= zp_film_mix(&m->model->film, &m->eval.film, i) * *head_in(m, i, 1, x);
@@ -287,6 +392,8 @@ typedef struct Pair {
   double factor[2];   /* of the upper and of the lower one: 1, or -1 upside down */
   double upper_share; /* of the pair's mass */
   double reduced;     /* mass of their relative motion, kg */
+  int sideways[2];    /* in the plane: equations along x of both, */
+  ZpVector normal;    /* and the direction in which they part; along y it has the factors */
 } Pair;
 
 static Pair pair_of(const ZpMovingMember *m, size_t i) {
@@ -298,7 +405,9 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
                equation[zp_y_of(lower)],
                {factor[zp_y_of(upper)], factor[zp_y_of(lower)]},
                1,
-               0};
+               0,
+               {equation[zp_x_of(upper)], equation[zp_x_of(lower)]},
+               m->normal};
   if (pair.lower < 0) return pair;
   double below = m->model->mass[lower] + (is_platform(m, i) ? m->added + m->with[1] : 0);
   pair.reduced = below;
@@ -312,6 +421,8 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
 /* How fast the faces of a pair part, by the rates of all unknowns. */
 static double parting(Pair pair, const double *v) {
   double lower = pair.factor[1] * v[pair.lower];
+  if (pair.normal.x != 0 && pair.upper >= 0)
+    lower += pair.normal.x * (v[pair.sideways[1]] - v[pair.sideways[0]]);
   return pair.upper >= 0 ? pair.factor[0] * v[pair.upper] - lower : -lower;
 }
 
@@ -320,20 +431,30 @@ static double parting(Pair pair, const double *v) {
 static void bring_nearer(Pair pair, double by, double *x) {
   x[pair.lower] += pair.factor[1] * (by * (pair.upper >= 0 ? pair.upper_share : 1));
   if (pair.upper >= 0) x[pair.upper] -= pair.factor[0] * (by * (1 - pair.upper_share));
+  if (pair.normal.x == 0 || pair.upper < 0) return;
+  x[pair.sideways[1]] += pair.normal.x * (by * pair.upper_share);
+  x[pair.sideways[0]] -= pair.normal.x * (by * (1 - pair.upper_share));
+}
+
+/* The height of a node that moves, as its member sees it. */
+static double height_at(const ZpDynamics *d, const ZpMovingMember *m, size_t node, const double *q1) {
+  if (in_plane(d)) return zp_nodes(m->model, m->end).y[node];
+  return zp_assembly_position(&m->assembly, zp_y_of(node), q1);
 }
 
 /* A first guess. Faces that overlap keep their overlap, and faces that would pass through each other overlap a little.
  */
-static void keep_apart(const ZpMovingMember *m, double *q1) {
+static void keep_apart(const ZpDynamics *d, ZpMovingMember *m, double *q1) {
   const ZpModel *model = m->model;
   const ZpTopology *t = &model->topology;
   const double *y = zp_nodes(model, m->start).y, little = 0.5 * model->faces.depth;
+  if (in_plane(d)) place_nodes(d, m, d->pose1, q1, m->end);
   for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(m, i);
     if (pair.lower < 0) continue;
     double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.flat_height;
-    if (pair.upper >= 0) upper = zp_assembly_position(&m->assembly, zp_y_of(zp_upper(t, i)), q1);
-    double overlap = zp_assembly_position(&m->assembly, zp_y_of(zp_lower(t, i)), q1) - upper;
+    if (pair.upper >= 0) upper = height_at(d, m, zp_upper(t, i), q1);
+    double overlap = height_at(d, m, zp_lower(t, i), q1) - upper;
     bool overlapped = m->eval.plates_start.gap[i] < 0;
     if (!(overlap > 0) && !overlapped) continue;
     overlap += overlapped ? m->eval.plates_start.gap[i] : -fmin(little, overlap);
@@ -351,9 +472,11 @@ static void attempt(void *self, double *q1) {
   ZpDynamics *d = self;
   d->fewest = SIZE_MAX;
   release_cavities(d);
+  if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q1, d->pose1);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
-    if (m->model->field) keep_apart(m, q1);
+    if (in_plane(d)) m->normal = zp_across(zp_direction(d->pose1[d->plane.stand[m - d->member].upper].turn));
+    if (m->model->field) keep_apart(d, m, q1);
   }
 }
 
@@ -364,7 +487,7 @@ static double unforeseen_of_one(const ZpDynamics *d, ZpMovingMember *m, const do
   const ZpContactEval *faces = &m->eval.faces;
   double work = 0, *foreseen = m->foreseen, *before = m->gap;
   const double *gap = m->eval.plates.gap;
-  zp_assembly_place(&m->assembly, q1, m->end);
+  place_nodes(d, m, d->pose1, q1, m->end);
   if (!model->field) return 0;
   gather_own(m, q1);
   if (model->has_film) work += zp_film_unforeseen(&model->film, m->own, &m->eval.film);
@@ -383,8 +506,9 @@ static double unforeseen_of_one(const ZpDynamics *d, ZpMovingMember *m, const do
 }
 
 static double unforeseen(void *self, const double *q1) {
-  const ZpDynamics *d = self;
+  ZpDynamics *d = self;
   double work = 0;
+  if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q1, d->pose1);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++)
     work += unforeseen_of_one(d, m, q1);
   return work;
@@ -622,6 +746,7 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
   memset(d->mass, 0, d->system.n * sizeof *d->mass);
   for (size_t k = 0; k < d->members; k++)
     add_masses(d, &d->member[k], state ? zp_state_added(d->member[k].model, state[k]) : 0);
+  if (in_plane(d)) zp_plane_add_masses(&d->plane, d->form.inner, d->mass);
   find_joined_masses(d);
   for (size_t k = 0; k < d->members; k++)
     set_dampers(&d->member[k]);
@@ -668,8 +793,11 @@ static bool join(ZpDynamics *d) {
     of[k]->port = d->member[k].port ? d->member[k].port - d->port : -1;
   }
   bool joined = zp_assembly_join(of, d->member->model, d->members, d->ports, &d->form) &&
-                zp_assembly_parts(of, d->members, d->form.n, &d->parts) &&
-                zp_springs_create(d->member->model, of, &d->springs);
+                zp_assembly_parts(of, d->members, d->form.n, &d->parts);
+  if (in_plane(d))
+    joined = joined && zp_links_create(&d->plane, d->form.inner, &d->links);
+  else
+    joined = joined && zp_springs_create(d->member->model, of, &d->springs);
   zp_free(of);
   return joined;
 }
@@ -683,8 +811,8 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .begin = begin,
                             .residual = force,
                             .tangent = tangent,
-                            .turn = film ? turn : NULL,
-                            .turn_back = film ? turn_back : NULL,
+                            .turn = film || in_plane(d) ? turn : NULL,
+                            .turn_back = film || in_plane(d) ? turn_back : NULL,
                             .inertia = film ? inertia : NULL,
                             .attempt = attempt,
                             .resolved = resolved,
@@ -736,7 +864,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *const source[], Zp
   if (!d->member) return false;
   for (size_t k = 0; k < d->members; k++)
     if (!create_member(model, k, &d->member[k])) return false;
-  if (!open_ports(d, source) || !join(d)) return false;
+  if (!zp_plane_create(model, &d->plane) || !open_ports(d, source) || !join(d)) return false;
   d->system = system_of(d);
   d->memory = zp_calloc(1, reserve(d, NULL));
   if (!d->memory) return false;
@@ -755,6 +883,8 @@ void zp_dynamics_destroy(ZpDynamics *d) {
     zp_system_destroy(&d->member[k].eval);
   }
   zp_springs_destroy(&d->springs);
+  zp_links_destroy(&d->links);
+  zp_plane_destroy(&d->plane);
   zp_arrow_form_destroy(&d->form);
   zp_free(d->parts.common);
   zp_free(d->port);
@@ -802,6 +932,48 @@ static void set_accuracy(ZpDynamics *d, const ZpState *state) {
     d->scale[port->unknown] = port->source->scale * of_length / reference;
 }
 
+/* Places or rates of nodes, as the member sees them => of its unknowns. */
+static void gather(const ZpDynamics *d, ZpMovingMember *m, bool rates, const double *nodes, double *unknowns) {
+  const size_t k = (size_t)(m - d->member);
+  if (in_plane(d)) {
+    memcpy(m->moved, nodes, zp_coordinates(m->model) * sizeof *nodes);
+    if (rates)
+      zp_plane_turn(&d->plane, k, d->pose0, true, m->moved);
+    else
+      zp_plane_to_drawing(&d->plane, k, d->pose0, m->moved);
+    nodes = m->moved;
+  }
+  zp_assembly_gather(&m->assembly, nodes, unknowns);
+}
+
+/* And back: rates, at the end of the step. */
+static void spread(const ZpDynamics *d, const ZpMovingMember *m, const double *unknowns, double *nodes) {
+  const size_t k = (size_t)(m - d->member);
+  zp_assembly_changes(&m->assembly, unknowns, nodes);
+  if (!in_plane(d)) return;
+  zp_plane_turn(&d->plane, k, d->pose1, false, nodes);
+  zp_plane_put_rates(&d->plane, k, d->pose1, d->form.inner, unknowns, nodes);
+}
+
+/* Bodies in the plane, from the state of the first member and back. */
+static void load_bodies(ZpDynamics *d, ZpState *state) {
+  const size_t n = d->plane.first->network->unknowns, inner = d->form.inner;
+  const double *from = zp_state_bodies(d->plane.first, state);
+  double *const to[] = {d->q, d->v, d->history.w, d->history.a};
+  for (size_t k = 0; k < 4; k++)
+    memcpy(to[k] + inner, from + k * n, n * sizeof *from);
+  zp_plane_poses(&d->plane, inner, d->q, d->pose0);
+  memcpy(d->pose1, d->pose0, d->plane.bodies * sizeof *d->pose0);
+}
+
+static void store_bodies(const ZpDynamics *d, ZpState *state) {
+  const size_t n = d->plane.first->network->unknowns;
+  double *to = zp_state_bodies(d->plane.first, state);
+  const double *const from[] = {d->q, d->v, d->history.w, d->history.a};
+  for (size_t k = 0; k < 4; k++)
+    memcpy(to + k * n, from[k] + d->form.inner, n * sizeof *to);
+}
+
 /* The state of one member at the start of the step => q, v and what else evolves. */
 static void load_one(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   const ZpModel *model = m->model;
@@ -809,10 +981,11 @@ static void load_one(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
   m->U0 = state->U;
   m->mean_v = zp_state_mean_v(model, state);
   memcpy(m->start, zp_state_q(model, state), zp_coordinates(model) * sizeof *m->start);
-  zp_assembly_gather(&m->assembly, zp_state_q(model, state), d->q);
-  zp_assembly_gather(&m->assembly, zp_state_v(model, state), d->v);
-  zp_assembly_gather(&m->assembly, m->mean_v, d->history.w);
-  zp_assembly_gather(&m->assembly, zp_state_mean_a(model, state), d->history.a);
+  const double *const from[] = {zp_state_q(model, state), zp_state_v(model, state), m->mean_v,
+                                zp_state_mean_a(model, state)};
+  double *const to[] = {d->q, d->v, d->history.w, d->history.a};
+  for (int k = 0; k < 4; k++)
+    gather(d, m, k > 0, from[k], to[k]);
   const double *own = zp_state_own(model, state);
   for (size_t c = 0; c < zp_extra_unknowns(model); c++) {
     size_t i = (size_t)m->assembly.extra_equation[c];
@@ -823,6 +996,7 @@ static void load_one(ZpDynamics *d, ZpMovingMember *m, ZpState *state) {
 
 /* Of all: a coordinate that members share is that of the first one. */
 static void load(ZpDynamics *d, ZpState *const state[]) {
+  if (in_plane(d)) load_bodies(d, state[0]);
   for (size_t k = d->members; k-- > 0;)
     load_one(d, &d->member[k], state[k]);
   for (const ZpMovingPort *port = d->port; port < d->port + d->ports; port++) {
@@ -839,10 +1013,11 @@ static void load(ZpDynamics *d, ZpState *const state[]) {
 /* Motion and the laws' own numbers at the end of the step => state. */
 static void store(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) {
   const ZpModel *model = m->model;
-  zp_assembly_place(&m->assembly, d->q, zp_state_q(model, state));
-  zp_assembly_changes(&m->assembly, d->v, zp_state_v(model, state));
-  zp_assembly_changes(&m->assembly, d->history.w, zp_state_mean_v(model, state));
-  zp_assembly_changes(&m->assembly, d->history.a, zp_state_mean_a(model, state));
+  place_nodes(d, m, d->pose1, d->q, zp_state_q(model, state));
+  spread(d, m, d->v, zp_state_v(model, state));
+  spread(d, m, d->history.w, zp_state_mean_v(model, state));
+  spread(d, m, d->history.a, zp_state_mean_a(model, state));
+  if (in_plane(d) && model->number == 0) store_bodies(d, state);
   memcpy(zp_state_own(model, state), m->own, zp_extra_unknowns(model) * sizeof *m->own);
   memcpy(zp_state_own(model, state) + zp_extra_unknowns(model), m->eval.memory_end, model->kept * sizeof *m->own);
   state->t = end_time(d);

@@ -8,6 +8,7 @@
 
 #include "actuator/assemble.h"
 #include "solve/implicit.h"
+#include "system/links.h"
 #include "system/springs.h"
 #include "system/system.h"
 #include "term/source.h"
@@ -41,6 +42,7 @@ typedef struct ZpMovingMember {
   double *gap;           /* [N] gaps of the last force, m */
   double *foreseen;      /* [N] contact force that the last tangent predicts after a correction, N */
   double with[2];        /* mass that ties join to its upper platform and to its lower one, kg */
+  ZpVector normal;       /* in the plane: the direction that it sees as up, where its nodes are unknowns */
   double added;          /* mass on each end that carries the load, in addition to that of the model, kg */
 } ZpMovingMember;
 
@@ -56,6 +58,9 @@ typedef struct ZpDynamics {
   double *joined;                /* [border] mass of all nodes that move with an unknown of the border, kg */
   double *lost;                  /* [members] velocity that its platform loses where several land side by side, m/s */
   ZpSprings springs;             /* between bodies, */
+  ZpPlanar plane;                /* of bodies in the plane, */
+  ZpLinks links;                 /* what joins them, */
+  ZpPose *pose0, *pose1;         /* [bodies] and where they are at the step's start and at its end */
   double *from, *to;             /* [n] and the unknowns between which they act: at the step's start and at its end */
   ZpUnknown *kind;               /* [n] */
   double *scale, *sharers;       /* [n] */

@@ -39,7 +39,14 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
                      zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }
 
-double zp_sim_height(const ZpSim *first, size_t body) {
+/* Poses of bodies in the plane => first->pose. */
+static const ZpPose *poses_of(const ZpSim *first) {
+  zp_plane_poses(&first->dynamics.plane, 0, zp_state_bodies(first->model, first->state), first->pose);
+  return first->pose;
+}
+
+/* Of one that moves up and down. */
+static double height_of(const ZpSim *first, size_t body) {
   const ZpNetwork *network = first->model->network;
   const ZpBody *at = &network->body[body];
   if (at->held) return at->y;
@@ -50,23 +57,57 @@ double zp_sim_height(const ZpSim *first, size_t body) {
          zp_network_sign(network, at->leader) * *zp_coordinate(leader->model, q, k);
 }
 
+ZpPose zp_sim_place(const ZpSim *first, size_t body) {
+  const ZpNetwork *network = first->model->network;
+  if (network->plane) return zp_plane_place(&first->dynamics.plane, body, poses_of(first));
+  return (ZpPose){network->body[body].x, height_of(first, body), network->body[body].angle};
+}
+
 double zp_sim_lifted(const ZpSim *first) {
-  const ZpActuatorDef *def = first->model->whole;
+  const ZpNetwork *network = first->model->network;
   double work = 0;
-  for (int body = 1; body < (int)first->model->network->bodies; body++) {
-    const double mass = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.mass), body)),
-                 up = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.force.y), body));
-    if (!first->model->network->body[body].held)
-      work += (mass * def->gravity - up) * zp_sim_height(first, (size_t)body);
+  for (size_t b = 1; b < network->bodies; b++) {
+    const ZpBody *body = &network->body[b];
+    const ZpPose at = zp_sim_place(first, b);
+    if (body->held) continue;
+    work += (body->mass * first->model->whole->gravity - body->force[1]) * at.y;
+    if (network->plane) work -= body->force[0] * at.x + body->torque * at.turn;
   }
   return work;
 }
 
+/* Kinetic energy of bodies without the platforms on them, whose nodes have theirs, J. */
+static double bodies_in_motion(const ZpSim *sim) {
+  const ZpPlanar *plane = &sim->dynamics.plane;
+  const ZpNetwork *network = sim->model->network;
+  const double *rate = zp_state_bodies(sim->model, sim->state) + network->unknowns;
+  const ZpPose *pose = poses_of(sim);
+  double sum = 0;
+  for (size_t b = 0; b < network->bodies; b++) {
+    const ZpVector v = zp_plane_rate(plane, b, pose, plane->body[b].place, 0, rate);
+    const double turns = zp_plane_change(plane, b, ZP_WAY_TURNS, 0, rate);
+    sum += 0.5 * (network->body[b].mass * zp_along(v, v) + network->body[b].inertia * turns * turns);
+  }
+  return sum;
+}
+
 void zp_sim_add_springs(const ZpSim *sim, double *ledger) {
   const ZpNetwork *network = sim->model->network;
+  if (network->plane) {
+    const ZpSim *first = sim - sim->model->number;
+    const ZpLinks *links = &first->dynamics.links;
+    const ZpPose *pose = poses_of(first);
+    double *weight = zp_ledger_at(sim->model, ledger, &zp_row_gravity_energy);
+    *weight += zp_links_ribbons_energy(links, sim->model->number, pose, zp_state_q(sim->model, sim->state));
+    if (sim != first) return;
+    *weight += zp_links_weight_energy(links, pose);
+    *zp_ledger_at(sim->model, ledger, &zp_row_spring_energy) += zp_links_energy(links, pose);
+    ledger[0] += bodies_in_motion(sim);
+    return;
+  }
   for (size_t k = 0; sim->model->number == 0 && k < network->springs; k++) {
     const ZpLink *link = &network->spring[k];
-    const double length = zp_sim_height(sim, link->body[0]) - zp_sim_height(sim, link->body[1]);
+    const double length = height_of(sim, link->body[0]) - height_of(sim, link->body[1]);
     *zp_ledger_at(sim->model, ledger, &zp_row_spring_energy) += zp_link_energy(link, length) / sim->model->parts;
   }
 }

@@ -71,7 +71,6 @@ enum { NUMBERS_PARALLEL = sizeof of_parallel / sizeof of_parallel[0] };
 static const ZpColumn of_member[] = {{"#.opening_m", "m", "distance between the platforms' faces of #"},
                                      {"#.zipped_length_m", "m", "closed length of one half of #"},
                                      {"#.voltage_V", "V", "voltage between the electrodes of #"}};
-static const ZpColumn of_body[] = {{"#.y_m", "m", "height of #: 0 where all members above it are closed"}};
 enum { NUMBERS_MEMBER = sizeof of_member / sizeof of_member[0] };
 
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
@@ -119,7 +118,9 @@ ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
   if (!zp_def_network(def)) return zp_table_of(part, members > 1 ? 2 : 1, capacity);
   const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY);
   part[1] = (ZpColumnPart){of_member, NUMBERS_MEMBER, (size_t)members, zp_member_called, def};
-  part[2] = (ZpColumnPart){of_body, 1, bodies, zp_body_called, def};
+  size_t count;
+  const ZpColumn *of_body = zp_body_columns(zp_def_plane(def), &count);
+  part[2] = (ZpColumnPart){of_body, count, bodies, zp_body_called, def};
   return zp_table_of(part, 3, capacity);
 }
 
@@ -127,7 +128,9 @@ ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
 static size_t columns_of(const ZpSim *sim) {
   const ZpModel *model = sim->model;
   const size_t bodies = zp_is_network(model) ? model->network->bodies - 1 : 0;
-  return SIGNAL_COUNT + sim->members * numbers_of_each(model) + bodies;
+  size_t of_body;
+  zp_body_columns(model->network->plane, &of_body);
+  return SIGNAL_COUNT + sim->members * numbers_of_each(model) + of_body * bodies;
 }
 
 size_t zp_sim_row_size(const ZpSim *sim) {
@@ -419,8 +422,13 @@ static void fill_bodies(const ZpSim *sim, double *row, double *place) {
                                 SIGNAL_end_velocity};
   for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
     row[none[k]] = NAN;
-  for (size_t body = 1; body < sim->model->network->bodies; body++)
-    *place++ = zp_sim_height(sim, body);
+  const bool plane = sim->model->network->plane;
+  for (size_t body = 1; body < sim->model->network->bodies; body++) {
+    const ZpPose at = zp_sim_place(sim, body);
+    if (plane) *place++ = at.x;
+    *place++ = at.y;
+    if (plane) *place++ = at.turn;
+  }
 }
 
 /* Signals of all members together, and numbers of each. */

@@ -110,6 +110,7 @@ struct ZpSim {
   int signal; /* the key control.signal */
   ZpEval eval;
   double *relax_work;            /* [12 stride] work space of settling */
+  ZpPose *pose;                  /* of the first member: [bodies] work space */
   ZpTable *series;               /* belongs to the caller; NULL: no record */
   ZpShapes *shapes;              /* belongs to the caller; NULL: no record */
   ZpTable *trace;                /* likewise */
@@ -265,13 +266,14 @@ ZpBalance zp_sim_energy_balance(ZpSim *sim, ZpElectric now);
 /* Count energies and losses from now on. */
 void zp_sim_start_balance(ZpSim *sim);
 
-/* The height of a body of the system, of which this is the first member, m. */
-double zp_sim_height(const ZpSim *first, size_t body);
+/* The place of a body of the system, of which this is the first member, and its angle. */
+ZpPose zp_sim_place(const ZpSim *first, size_t body);
 
 /* Of a network: work against the weights of its bodies and the forces on them, from height 0 to the present ones, J. */
 double zp_sim_lifted(const ZpSim *first);
 
-/* Of the first member: the energy of springs between bodies, added to its row of the ledger. */
+/* Of the first member: the energy of springs and joints between bodies; of bodies in the plane also that of their
+ * weights and of their motion, and of any member that of its ribbons' weight: added to rows of the ledger. */
 void zp_sim_add_springs(const ZpSim *sim, double *ledger);
 
 /* Close the account of the source at the present time, including a jump that is still open; a held field that is out of

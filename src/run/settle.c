@@ -141,6 +141,13 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }
 
+/* Bodies in the plane. */
+static void start_bodies(ZpSim *sim, const ZpStatics *rest) {
+  double *to = zp_state_bodies(sim->model, sim->state);
+  memset(to, 0, zp_state_bodies_size(sim->model) * sizeof *to);
+  zp_plane_gather(&rest->plane, 0, rest->pose, to);
+}
+
 void zp_sim_hang(ZpSim *sim) {
   const ZpNetwork *network = sim->model->network;
   for (size_t i = 0; i < sim->members && !zp_shares_load(sim->model); i++) {
@@ -159,6 +166,7 @@ static bool settle_members(ZpSim *sim, const ZpHooks *hooks) {
   if (!found && sim->settled == ZP_REACHED_END) sim->settled = ZP_NOT_SETTLED;
   for (size_t k = 0; opened && k < sim->members; k++)
     start_member(sim + k, &rest.statics, k);
+  if (opened && sim->model->network->plane) start_bodies(sim, &rest.statics);
   if (opened) zp_sim_hang(sim);
   zp_rest_close(&rest);
   return opened;
@@ -168,5 +176,5 @@ bool zp_sim_settle(ZpSim *sim, const ZpHooks *hooks) {
   bool goes_on = sim->model->def.initial.state == ZP_INITIAL_CHECKPOINT; /* which has start and reference */
   sim->settled = goes_on ? ZP_BAD_ARGUMENT : ZP_REACHED_END;             /* until a state is given */
   if (goes_on) return true;
-  return sim->members > 1 ? settle_members(sim, hooks) : settle_one(sim, hooks);
+  return sim->members > 1 || sim->model->network->plane ? settle_members(sim, hooks) : settle_one(sim, hooks);
 }

@@ -70,11 +70,12 @@ static bool allocate(ZpSim *sim) {
   sim->kept = zp_calloc(1, zp_state_size(model));
   sim->before = zp_calloc(1, zp_state_size(model));
   sim->relax_work = zp_calloc(6 * zp_coordinates(model), sizeof(double));
+  sim->pose = zp_calloc(model->network->bodies, sizeof *sim->pose);
   sim->row = zp_calloc(signals, sizeof(double));
   zp_sim_place_rows(sim);
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
+  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work && sim->pose &&
          sim->row && make_shape_room(sim);
 }
 
@@ -250,6 +251,7 @@ static void destroy_one(ZpSim *sim) {
   zp_free(sim->kept);
   zp_free(sim->before);
   zp_free(sim->relax_work);
+  zp_free(sim->pose);
   zp_free(sim->row);
   zp_free(sim->shape_memory);
 }

@@ -316,7 +316,7 @@ static void smooth(ZpImplicit *s, double h, bool all, int power, double *v) {
     for (size_t i = 0; i < n; i++)
       slow[i] = 2 * s->system->mass[i] / (h * h) * fast[i];
     if (all) add_inertia(s, 2 / (h * h), fast, slow);
-    zp_arrow_solve(&s->A, slow);
+    solve(s, slow);
     for (size_t i = 0; i < n; i++)
       fast[i] = kind_of(s->system, i) == ZP_SECOND_ORDER ? fast[i] - slow[i] : 0;
   }

@@ -38,10 +38,6 @@ static const ZpColumn of_member[] = {
     {"#.force_N", "N", "force with which # pulls its bodies together"},
     {"#.voltage_V", "V", "voltage between the electrodes of #"},
 };
-static const ZpColumn of_body[] = {{"#.y_m", "m", "height of #: 0 where all members above it are closed"}};
-static const ZpColumn in_plane[] = {{"#.x_m", "m", "place of #, to the right"},
-                                    {"#.y_m", "m", "height of #"},
-                                    {"#.angle_rad", "rad", "angle of #, anticlockwise"}};
 enum { OF_MEMBER = sizeof of_member / sizeof of_member[0] };
 
 /* Parts of the table, and what stands before their names among the numbers of the result. */
@@ -57,9 +53,9 @@ static size_t parts_of(const ZpModel *model, Part part[PARTS]) {
   const bool shared = zp_shares_load(model);
   if (zp_is_network(model)) {
     part[0] = (Part){{of_member, OF_MEMBER, network->members, zp_member_called, model->whole}, "members."};
-    part[1] = (Part){{network->plane ? in_plane : of_body, network->plane ? ZP_WAYS : 1, network->bodies - 1,
-                      zp_body_called, model->whole},
-                     "bodies."};
+    size_t count;
+    const ZpColumn *of_body = zp_body_columns(network->plane, &count);
+    part[1] = (Part){{of_body, count, network->bodies - 1, zp_body_called, model->whole}, "bodies."};
     part[2] = (Part){{.column = &closed_members, .count = 1}, ""};
     return 3;
   }

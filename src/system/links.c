@@ -356,11 +356,17 @@ static double energy_of_body(const ZpLinks *links, size_t b, const ZpPose *pose)
          zp_along(force, zp_difference(now, drawn)) - body->torque * pose[b].turn;
 }
 
-double zp_links_energy(const ZpLinks *links, const ZpPose *pose) {
+double zp_links_weight_energy(const ZpLinks *links, const ZpPose *pose) {
   const ZpNetwork *network = network_of(links);
   double sum = 0;
   for (size_t b = 0; b < network->bodies; b++)
     if (!network->body[b].held) sum += energy_of_body(links, b, pose);
+  return sum;
+}
+
+double zp_links_energy(const ZpLinks *links, const ZpPose *pose) {
+  const ZpNetwork *network = network_of(links);
+  double sum = 0;
   for (size_t k = 0; k < network->springs; k++)
     sum += zp_link_energy(&network->spring[k], size_of(apart_at(network->spring[k].body, &links->spring[k], pose)));
   for (size_t k = 0; k < network->joints; k++) {
@@ -426,4 +432,20 @@ void zp_links_add_weight_stiffness(const ZpLinks *links, size_t member, double s
     *zp_band_entry(K, (size_t)turns, (size_t)turns) -=
         mass * model->def.gravity * (point.y - pose[stand->upper].y) / (unit * unit);
   }
+}
+
+double zp_links_ribbons_energy(const ZpLinks *links, size_t member, const ZpPose *pose, const double *nodes) {
+  const ZpModel *model = links->plane->first + member;
+  const ZpTopology *t = &model->topology;
+  const ZpStand *stand = &links->plane->stand[member];
+  const ZpNodes at = zp_nodes(model, nodes);
+  double sum = 0;
+  for (size_t j = 0; j < model->count; j++) {
+    const size_t station = j / t->ribbons;
+    if (station == t->platform.first || station == t->platform.last) continue; /* part of a body */
+    const double drawn = stand->axis.y * (zp_straight_x(model, station) - stand->middle);
+    sum += model->mass[j] * model->def.gravity *
+           (zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]}).y - drawn);
+  }
+  return sum;
 }

@@ -39,8 +39,11 @@ void zp_links_add_stiffness(const ZpLinks *links, double share, const ZpPose *fr
 void zp_links_predict(ZpLinks *links, const ZpPose *pose, const double *step, double fraction);
 void zp_links_take(ZpLinks *links);
 
-/* Energy of all that they store, 0 of weights and constant forces in the drawing, J. */
+/* Energy of springs and joints; of weights and constant forces of bodies, 0 in the drawing; of the weight of a member's
+ * ribbons, whose nodes it sees, 0 where they are straight there, J. */
 double zp_links_energy(const ZpLinks *links, const ZpPose *pose);
+double zp_links_weight_energy(const ZpLinks *links, const ZpPose *pose);
+double zp_links_ribbons_energy(const ZpLinks *links, size_t member, const ZpPose *pose, const double *nodes);
 
 /* Weight of the ribbons of a member, which its frame turns, at rest: r [n] += forces on its nodes and on its upper
  * body; K += minus their derivative. `nodes`: where it sees its nodes. */
