@@ -332,6 +332,7 @@ static ZpNewtonInfo hang_in_plane(ZpStatics *s) {
   s->posed = true;
   zp_plane_drawn(&s->plane, s->pose);
   ZpNewtonInfo info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
+  if (!zp_newton_good(info.end)) info = zp_statics_relax(s, 0);
   s->posed = false;
   if (!zp_newton_good(info.end)) return info;
   keep(s);
