@@ -271,6 +271,11 @@ static inline bool zp_is_network(const ZpModel *model) {
   return model->network->load == model->network->bodies;
 }
 
+/* Is there one angle to tell of? In a network bodies have theirs. */
+static inline bool zp_tells_angle(const ZpModel *model) {
+  return zp_has_angle(&model->topology) && !zp_is_network(model);
+}
+
 /* How many members lie side by side with this one, itself included. */
 static inline size_t zp_abreast(const ZpModel *model) {
   return model->network->ends[model->number].abreast;

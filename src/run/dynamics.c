@@ -674,13 +674,25 @@ static double liquid_at(const ZpModel *model, size_t station) {
   return model->has_film ? zp_outer_side(&model->outer) * zp_film_length(&model->film, station) : 0;
 }
 
+/* Of an end of a platform on a body in the plane, against a force on its faces: in the drawing, kg. */
+static double mass_of_swing(const ZpDynamics *d, const ZpMovingMember *m, size_t i) {
+  const ZpAssembly *a = &m->assembly;
+  const ZpSwing *swing = &a->swing[-2 - a->equation[zp_y_of(zp_lower(&m->model->topology, i))]];
+  double inverse = 0;
+  for (size_t k = 0; k < swing->count; k++)
+    inverse += swing->factor[k] * swing->factor[k] / d->mass[swing->equation[k]];
+  return 1 / inverse;
+}
+
 /* The damper of faces acts within the step. But a film slows faces itself: with a film, faces that meet without liquid
  * are damped after the step. */
-static void set_dampers(ZpMovingMember *m) {
+static void set_dampers(const ZpDynamics *d, ZpMovingMember *m) {
   const ZpModel *model = m->model;
   for (size_t i = 1; i < model->nodes && model->field && !model->has_film; i++) {
     Pair pair = pair_of(m, i);
-    if (pair.lower >= 0) zp_contact_damp(&model->faces, i, pair.reduced, &m->eval.faces);
+    const double reduced = pair.lower < -1 ? mass_of_swing(d, m, i) : pair.reduced;
+    if (pair.lower >= 0 || (pair.lower < -1 && isfinite(reduced)))
+      zp_contact_damp(&model->faces, i, reduced, &m->eval.faces);
   }
 }
 
@@ -747,9 +759,12 @@ static void weigh(ZpDynamics *d, ZpState *const state[]) {
   for (size_t k = 0; k < d->members; k++)
     add_masses(d, &d->member[k], state ? zp_state_added(d->member[k].model, state[k]) : 0);
   if (in_plane(d)) zp_plane_add_masses(&d->plane, d->form.inner, d->mass);
+  if (in_plane(d)) zp_plane_drawn(&d->plane, d->pose1);
+  for (size_t k = 0; in_plane(d) && k < d->members; k++)
+    zp_plane_swing(&d->plane, k, d->pose1, &d->member[k].assembly);
   find_joined_masses(d);
   for (size_t k = 0; k < d->members; k++)
-    set_dampers(&d->member[k]);
+    set_dampers(d, &d->member[k]);
 }
 
 /* The voltage behind a source has a rate and no inertia. All halves have it in common. */

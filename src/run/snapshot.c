@@ -175,6 +175,12 @@ static void walk_rows(ZpPack *p, const ZpModel *model, double *data) {
     zp_pack_field(p, model->ledger.row[k]->name, ZP_REAL, row ? row + k : NULL, 1);
 }
 
+/* Bodies in the plane, behind those. */
+static void walk_bodies(ZpPack *p, const ZpModel *model, double *data) {
+  const size_t count = zp_state_bodies_size(model), before = data_of(model) - count;
+  if (count > 0) zp_pack_field(p, "bodies", ZP_REAL, data ? data + before : NULL, count);
+}
+
 static void print_value(const ZpKey *key, double value, char text[64]) {
   bool bare = strcmp(key->unit, "1") == 0;
   if (key->type == ZP_KEY_BOOL)
@@ -326,6 +332,7 @@ static void walk(ZpPack *p, const ZpModel *model, ZpState *numbers, double *data
   walk_network(p, network_of(model), NULL);
   walk_arrays(p, model, data);
   walk_rows(p, model, data);
+  walk_bodies(p, model, data);
 }
 
 size_t zp_snapshot_size(const ZpModel *model) {
@@ -386,6 +393,7 @@ static ZpStatus read_one(const ZpModel *model, const void *bytes, size_t size, Z
   memcpy(state, &numbers, offsetof(ZpState, data));
   walk_arrays(&p, model, state->data);
   walk_rows(&p, model, state->data);
+  walk_bodies(&p, model, state->data);
   status = zp_pack_end(&p, err);
   for (size_t k = 0; k < model->ledger.rows && status == ZP_OK; k++)
     if (!isfinite(zp_state_ledger(model, state)[k]))

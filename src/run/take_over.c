@@ -65,6 +65,8 @@ static void take_state(ZpSim *sim, const ZpSim *from) {
   double opening0 = state->opening0, stretch = model->L / from->model->L;
   memcpy(state, from->state, sizeof *state + (size_t)(zp_state_own(model, state) - state->data) * sizeof(double));
   take_own(sim, from);
+  memcpy(zp_state_bodies(model, state), zp_state_bodies(from->model, from->state),
+         zp_state_bodies_size(model) * sizeof(double));
   double *moving[] = {zp_state_v(model, state), zp_state_mean_v(model, state), zp_state_mean_a(model, state)};
   zp_stretch(model, stretch, zp_state_q(model, state));
   for (size_t k = 0; k < sizeof moving / sizeof moving[0]; k++)

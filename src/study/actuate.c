@@ -46,7 +46,7 @@ static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
   zp_result_add(result, "opening_m", "m", zp_at_end(sim, result, "opening"));
   zp_result_add(result, "start_opening_m", "m", zp_table_get(result->series, 0, "opening_m"));
   zp_result_add(result, "widest_opening_m", "m", widest_opening(result->series));
-  if (zp_has_angle(&sim->model->topology)) zp_result_add(result, "angle_rad", "rad", zp_at_end(sim, result, "angle"));
+  if (zp_tells_angle(sim->model)) zp_result_add(result, "angle_rad", "rad", zp_at_end(sim, result, "angle"));
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
@@ -116,7 +116,8 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (model->supply.acts && isfinite(limit) && highest > 0)
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (!zp_is_pair(&model->topology)) return;
-  bool rises = zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology);
+  bool rises =
+      zp_is_network(model) || (zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology));
   double work = rises ? work_on_load(sim, model, before, result) : work_along_path(sim, model, result);
   work += work_on_change(sim) - before.on_change - (zp_at_end(sim, result, "load_work") - before.load_work);
   zp_result_add(result, "mechanical_work_J", "J", work);

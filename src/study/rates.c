@@ -25,7 +25,7 @@ typedef enum Of { ANY, PAIRS, TURNING, WITH_FIELD, FED, WITH_FILM, WITH_BEAD, LE
 static bool is_of(const ZpModel *model, Of of) {
   const bool is[] = {[ANY] = true,
                      [PAIRS] = zp_is_pair(&model->topology),
-                     [TURNING] = zp_has_angle(&model->topology),
+                     [TURNING] = zp_tells_angle(model),
                      [WITH_FIELD] = model->field,
                      [FED] = model->supply.acts,
                      [WITH_FILM] = model->has_film,

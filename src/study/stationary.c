@@ -91,7 +91,7 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   if (two)
     zp_result_add_sensitivity(result, "opening_m", slope->key,
                               found ? zp_rest_sensitivity_of(slope, zp_output_opening, NULL) : NAN);
-  if (zp_has_angle(&slope->at->member->model->topology))
+  if (zp_tells_angle(slope->at->member->model))
     zp_result_add_sensitivity(result, "angle_rad", slope->key,
                               found ? zp_rest_sensitivity_of(slope, zp_output_angle, NULL) : NAN);
 }
@@ -108,7 +108,7 @@ static void run(ZpEquilibria *at) {
            s->stopped ? "interrupted" : words_of(s, info.end));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
   if (zp_is_pair(t)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
-  if (zp_has_angle(t)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
+  if (zp_tells_angle(at->model)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
   if (found) zp_equilibria_add_members(at);
   zp_result_add(result, "iterations", "count", info.iterations);
   zp_result_add(result, "residual", "1", isfinite(info.residual) ? info.residual : NAN);
