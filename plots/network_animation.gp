@@ -1,5 +1,5 @@
-#picture animation.gif one motion time_s @output.animation :shapes.dat :bodies
-#picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage :bodies
+#picture animation.gif one motion time_s @output.animation :shapes.dat :bodies !:planar
+#picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage :bodies !:planar
 # The members of a network, each at the place of its lower body (bodies.NAME.at), and the bodies as bars, as a film.
 load 'of_box.gp'
 load 'one_voltage.gp'

@@ -9,7 +9,7 @@ _count(i) = i == i ? (nodes = nodes + 1) : (members = members + 1)
 stats 'shapes.dat' index 0 using (_count($4), 1) nooutput
 ribbons = (STATS_columns - 4)/2
 nodes = nodes/members
-half = ribbons > 1 && actuator_kind eq 'electro_ribbon' && actuator_symmetry eq 'half'
+half = ribbons > 1 && actuator_kind eq 'electro_ribbon' && actuator_symmetry eq 'half' && !exists('in_plane')
 stats 'shapes.dat' using 1:(column(x_of(1))) name 'upper' nooutput
 frames = int(upper_max_x) + 1
 array frame_time[frames]

@@ -1,4 +1,4 @@
-#picture shape.svg one shape :shapes.dat
+#picture shape.svg one shape :shapes.dat !:planar
 # The loaded shape at rest.
 load 'of_box.gp'
 title = 'Shape at rest'.(half ? ', left half' : '')

@@ -192,6 +192,14 @@ ZpVector zp_stand_inside(const ZpStand *stand, const ZpPose *pose, ZpVector outs
   return (ZpVector){stand->middle + inside.x, inside.y};
 }
 
+void zp_plane_draw(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t count, double *x, double *y) {
+  for (size_t j = 0; j < count; j++) {
+    const ZpVector at = zp_stand_outside(&plane->stand[member], pose, (ZpVector){x[j], y[j]});
+    x[j] = at.x;
+    y[j] = at.y;
+  }
+}
+
 void zp_plane_put_platform(const ZpPlanar *plane, size_t member, const ZpPose *pose, double nearer, double *nodes) {
   const ZpModel *model = plane->first + member;
   const ZpTopology *t = &model->topology;

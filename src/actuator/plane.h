@@ -107,6 +107,9 @@ ZpVector zp_stand_origin(const ZpStand *stand, const ZpPose *pose);
 ZpVector zp_stand_outside(const ZpStand *stand, const ZpPose *pose, ZpVector inside);
 ZpVector zp_stand_inside(const ZpStand *stand, const ZpPose *pose, ZpVector outside);
 
+/* Where nodes of a member that it sees at x and y are in the drawing, in place. */
+void zp_plane_draw(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t count, double *x, double *y);
+
 /* Put the ends of a member's lower platform where its bodies are; `nearer`: that share of their way from where the
  * straight member has them. */
 void zp_plane_put_platform(const ZpPlanar *plane, size_t member, const ZpPose *pose, double nearer, double *nodes);

@@ -127,6 +127,11 @@ void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member) 
     y[j] += fall;
 }
 
+void zp_many_stand(const ZpManyShapes *all, const ZpPlanar *plane, const ZpPose *pose, size_t member) {
+  const size_t from = member * all->nodes;
+  zp_plane_draw(plane, member, pose, all->nodes, all->array[0] + from, all->array[1] + from);
+}
+
 void zp_many_give(const ZpManyShapes *all, ZpShape *shape) {
   shape->x = all->array[0];
   shape->y = all->array[1];

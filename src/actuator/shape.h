@@ -4,7 +4,7 @@
 
 #include "base/table.h"
 
-#include "actuator/model.h"
+#include "actuator/plane.h"
 
 /* Room for what follows from a shape. */
 typedef struct ZpShapeRoom {
@@ -39,6 +39,9 @@ void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, c
 
 /* Hang a member that was put on the one above it. */
 void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member);
+
+/* Put a member that was put where its bodies in the plane are. */
+void zp_many_stand(const ZpManyShapes *all, const ZpPlanar *plane, const ZpPose *pose, size_t member);
 
 /* All that were put => the shape's arrays. */
 void zp_many_give(const ZpManyShapes *all, ZpShape *shape);

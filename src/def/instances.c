@@ -151,6 +151,13 @@ int zp_instance_count(const ZpActuatorDef *def, ZpInstanceKind of) {
   return end > 0 && last.kind == of ? last.number : 0;
 }
 
+bool zp_def_plane(const ZpActuatorDef *def) {
+  bool plane = false;
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
+    plane |= zp_instances_get(def, zp_key_of_instance(ZP_KEY(body_K.moves), b)) == ZP_MOVES_PLANE;
+  return plane;
+}
+
 int zp_instance_next(const ZpActuatorDef *def, int index) {
   const Kind *k = kind;
   const bool is_row = zp_key_is_row(index);

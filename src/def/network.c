@@ -7,7 +7,6 @@
 #include "base/fail.h"
 #include "base/memory.h"
 #include "def/rule.h"
-#include "math/elementary.h"
 
 enum { FRAME };
 
@@ -29,13 +28,6 @@ static size_t hung_by(const ZpActuatorDef *def, double body) {
   for (const ZpAssignment *given = def->given->value; given < def->given->value + def->given->count; given++)
     count += given->value == body && zp_key_instance(given->key).row == ZP_KEY(member_K.lower);
   return count;
-}
-
-bool zp_def_plane(const ZpActuatorDef *def) {
-  bool plane = false;
-  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
-    plane |= value_of(def, ZP_KEY(body_K.moves), (size_t)b) == ZP_MOVES_PLANE;
-  return plane;
 }
 
 void zp_network_member(const ZpActuatorDef *def, int member, ZpActuatorDef *one) {
@@ -297,8 +289,7 @@ static ZpStatus check_parts(const ZpActuatorDef *def, ZpError *err) {
 /* A point of a body in the drawing, m. */
 static void point_of(const ZpActuatorDef *def, int body, const double at[2], double to[2]) {
   const size_t b = (size_t)body;
-  const double turns = body > 0 ? value_of(def, ZP_KEY(body_K.angle), b) / (2 * zp_pi) : 0;
-  const double c = zp_cosine_of(turns), s = zp_sine_of(turns);
+  const double angle = body > 0 ? value_of(def, ZP_KEY(body_K.angle), b) : 0, c = cos(angle), s = sin(angle);
   to[0] = (body > 0 ? value_of(def, ZP_KEY(body_K.at.x), b) : 0) + c * at[0] - s * at[1];
   to[1] = (body > 0 ? value_of(def, ZP_KEY(body_K.at.y), b) : 0) + s * at[0] + c * at[1];
 }
@@ -310,12 +301,12 @@ static ZpStatus check_reach(const ZpActuatorDef *def, const Between *member, ZpE
     const size_t n = (size_t)k;
     const double upper_at[] = {value_of(def, ZP_KEY(member_K.upper_at.x), n), value_of(def, ZP_KEY(member_K.upper_at.y), n)};
     const double lower_at[] = {value_of(def, ZP_KEY(member_K.lower_at.x), n), value_of(def, ZP_KEY(member_K.lower_at.y), n)};
-    const double angle = value_of(def, ZP_KEY(member_K.angle), n), turns = isnan(angle) ? 0 : angle / (2 * zp_pi);
+    const double given = value_of(def, ZP_KEY(member_K.angle), n), angle = isnan(given) ? 0 : given;
     double upper[2], lower[2];
     point_of(def, body_in(def, ZP_KEY(member_K.upper), k), upper_at, upper);
     point_of(def, body_in(def, ZP_KEY(member_K.lower), k), lower_at, lower);
     const double x = lower[0] - upper[0], y = lower[1] - upper[1];
-    const double opens = zp_sine_of(turns) * x - zp_cosine_of(turns) * y, apart = sqrt(x * x + y * y);
+    const double opens = sin(angle) * x - cos(angle) * y, apart = sqrt(x * x + y * y);
     const char *name = SHOWN(def, ZP_OF_MEMBER, k);
     if (opens < -near)
       return zp_fail(err, ZP_BAD_INPUT,

@@ -219,6 +219,9 @@ void zp_plot_define(const void *of, FILE *file) {
   if (zp_def_network(&plot->def)) {
     define_names(&plot->def, "members_named", ZP_OF_MEMBER, file);
     define_names(&plot->def, "bodies_named", ZP_OF_BODY, file);
+    define_names(&plot->def, "springs_named", ZP_OF_SPRING, file);
+    define_names(&plot->def, "joints_named", ZP_OF_JOINT, file);
+    if (zp_def_plane(&plot->def)) define_count(file, "", "in_plane", 1);
   }
   define_columns(plot, file);
   define_lists(plot, file);

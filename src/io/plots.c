@@ -79,6 +79,7 @@ static bool has_flag(const ZpPlot *plot, const char *name) {
     bool holds;
   } flag[] = {{"samples", samples},
               {"bodies", zp_def_network(&plot->def)},
+              {"planar", zp_def_plane(&plot->def)},
               {"ports", zp_def_network(&plot->def) && is_on_several_ports(&plot->def)},
               {"axis", axis},
               {"plane", grid && plot->axes == 2},

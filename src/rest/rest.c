@@ -35,7 +35,7 @@ static bool create(ZpRest *rest, const ZpModel *model, bool held, void (*reserve
     zp_track_reserve(&rest->track, &rest->square, &rest->statics.form, &rest->statics.newton, &arena);
     rest->held = zp_arena_take(&arena, zp_rest_save_size(rest));
     reserve_shapes(rest, &arena);
-    if (rest->statics.members > 1)
+    if (rest->statics.members > 1 || model->network->plane)
       zp_many_reserve(&rest->shapes, rest->statics.members, model->count, model->nodes, &arena);
     if (reserve) reserve(user, &arena);
   }
@@ -63,8 +63,9 @@ ZpShape zp_rest_shape(ZpRest *rest, double time, ZpMargins *margins) {
     const ZpModel *model = s->member[k].model;
     shape = zp_statics_shape(s, k, time, rest->shape_room[k]);
     if (margins) zp_margins_join(margins, zp_margins_of(model, &shape));
-    if (s->members == 1) return shape;
+    if (s->members == 1 && !s->model->network->plane) return shape;
     zp_many_put(&rest->shapes, s->model, k, &shape);
+    if (s->model->network->plane) zp_many_stand(&rest->shapes, &s->plane, s->pose, k);
   }
   for (size_t k = 0; k < s->members && !s->shared; k++)
     zp_many_hang(&rest->shapes, s->model, s->model->network->order[k]);

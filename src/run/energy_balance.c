@@ -39,8 +39,7 @@ ZpLeakNow zp_sim_leak(ZpSim *sim) {
                      zp_law_memory(model, &zp_term_leak, zp_state_memory(model, state)));
 }
 
-/* Poses of bodies in the plane => first->pose. */
-static const ZpPose *poses_of(const ZpSim *first) {
+const ZpPose *zp_sim_poses(const ZpSim *first) {
   zp_plane_poses(&first->dynamics.plane, 0, zp_state_bodies(first->model, first->state), first->pose);
   return first->pose;
 }
@@ -59,7 +58,7 @@ static double height_of(const ZpSim *first, size_t body) {
 
 ZpPose zp_sim_place(const ZpSim *first, size_t body) {
   const ZpNetwork *network = first->model->network;
-  if (network->plane) return zp_plane_place(&first->dynamics.plane, body, poses_of(first));
+  if (network->plane) return zp_plane_place(&first->dynamics.plane, body, zp_sim_poses(first));
   return (ZpPose){network->body[body].x, height_of(first, body), network->body[body].angle};
 }
 
@@ -81,7 +80,7 @@ static double bodies_in_motion(const ZpSim *sim) {
   const ZpPlanar *plane = &sim->dynamics.plane;
   const ZpNetwork *network = sim->model->network;
   const double *rate = zp_state_bodies(sim->model, sim->state) + network->unknowns;
-  const ZpPose *pose = poses_of(sim);
+  const ZpPose *pose = zp_sim_poses(sim);
   double sum = 0;
   for (size_t b = 0; b < network->bodies; b++) {
     const ZpVector v = zp_plane_rate(plane, b, pose, plane->body[b].place, 0, rate);
@@ -96,7 +95,7 @@ void zp_sim_add_springs(const ZpSim *sim, double *ledger) {
   if (network->plane) {
     const ZpSim *first = sim - sim->model->number;
     const ZpLinks *links = &first->dynamics.links;
-    const ZpPose *pose = poses_of(first);
+    const ZpPose *pose = zp_sim_poses(first);
     double *weight = zp_ledger_at(sim->model, ledger, &zp_row_gravity_energy);
     *weight += zp_links_ribbons_energy(links, sim->model->number, pose, zp_state_q(sim->model, sim->state));
     if (sim != first) return;

@@ -553,10 +553,14 @@ void zp_sim_read(ZpSim *sim, double *row) {
 /* The shapes of all, member after member. */
 static ZpShape join_shapes(ZpSim *sim) {
   ZpShape shape = sim->shape;
-  if (sim->members == 1) return shape;
+  const bool plane = sim->model->network->plane;
+  if (sim->members == 1 && !plane) return shape;
+  const ZpPose *pose = plane ? zp_sim_poses(sim) : NULL;
   size_t member = 0;
-  for (ZpSim *m = sim; m < sim + sim->members; m++, member++)
+  for (ZpSim *m = sim; m < sim + sim->members; m++, member++) {
     zp_many_put(&sim->all, sim->model, member, &m->shape);
+    if (plane) zp_many_stand(&sim->all, &sim->dynamics.plane, pose, member);
+  }
   zp_many_give(&sim->all, &shape);
   return shape;
 }

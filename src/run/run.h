@@ -266,6 +266,9 @@ ZpBalance zp_sim_energy_balance(ZpSim *sim, ZpElectric now);
 /* Count energies and losses from now on. */
 void zp_sim_start_balance(ZpSim *sim);
 
+/* Poses of bodies in the plane [bodies], by the first member; valid until the next call. */
+const ZpPose *zp_sim_poses(const ZpSim *first);
+
 /* The place of a body of the system, of which this is the first member, and its angle. */
 ZpPose zp_sim_place(const ZpSim *first, size_t body);
 

@@ -170,7 +170,7 @@ static ZpSim *create_straight(const ZpModel *model) {
     sim->states[k] = sim[k].state;
   }
   made = made && sim->stepping->create(sim) && make_liquid_room(sim);
-  if (made && (members == 1 || make_room(sim, members))) return sim;
+  if (made && ((members == 1 && !model->network->plane) || make_room(sim, members))) return sim;
   zp_sim_destroy(sim);
   return NULL;
 }
