@@ -2,7 +2,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "actuator/ties.h"
+#include "actuator/plane.h"
 #include "base/fail.h"
 #include "base/kernel.h"
 #include "def/device.h"
@@ -707,6 +707,24 @@ static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table,
   return fault ? zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: row %zu: %s", of, row + 1, fault) : ZP_OK;
 }
 
+/* Does the pull of the member turn its lower body clockwise in the drawing: about the first pin of that body, or without
+ * one about its place? */
+static bool closing_turns_back(const ZpModel *model) {
+  const ZpNetwork *network = model->network;
+  const ZpEnds *ends = &network->ends[model->number];
+  const ZpBody *body = &network->body[ends->lower];
+  double about[2] = {body->x, body->y};
+  for (size_t k = network->joints; k-- > 0;) {
+    const ZpBodyJoint *joint = &network->joint[k];
+    if (joint->type != ZP_JOINS_PIN || (joint->body[0] != ends->lower && joint->body[1] != ends->lower)) continue;
+    about[0] = joint->at[0];
+    about[1] = joint->at[1];
+  }
+  const ZpVector at = zp_turned(zp_direction(body->angle), (ZpVector){ends->at[1][0], ends->at[1][1]});
+  const ZpVector from = {body->x + at.x - about[0], body->y + at.y - about[1]};
+  return zp_along(from, zp_direction(ends->angle)) < 0; /* the pull is across that direction */
+}
+
 static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) {
   size_t bytes = table ? table->rows * sizeof *a->time : 0;
   const bool is_drive = model->def.control.kind == ZP_CONTROL_NONE;
@@ -719,6 +737,7 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
   model->waveform = zp_waveform_of(&model->def, &copy);
   model->setpoint = zp_setpoint_of(&model->def, &copy);
   model->control = zp_control_of(&model->def);
+  if (model->def.control.signal == ZP_CONTROL_ANGLE && model->network->plane && closing_turns_back(model)) model->control.sense = 1;
   model->supply = zp_supply_of(&model->def);
   model->supply.acts &= model->field;
 }

@@ -100,6 +100,8 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_WITH, ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
     ZP_RULE_IF(PHYSICS, ZP_ONE_OF(control.signal, ZP_BIT(ZP_CONTROL_OPENING) | ZP_BIT(ZP_CONTROL_CONTRACTION)), ZP_WITH,
                ZP_HAS(PAIR), "one ribbon has no opening; use control.signal stroke"),
+    ZP_RULE_IF(PHYSICS, ZP_IS(control.signal, ZP_CONTROL_ANGLE), ZP_WITH,
+               ZP_IS(platform.rotates, true), "only a body that turns has an angle"),
     ZP_RULE(PHYSICS, ZP_WITH, ZP_IS(drive.waveform, ZP_WAVEFORM_STEP),
             "the controller sets the voltage, up to drive.voltage; setpoint.waveform is the setpoint over time"),
     ZP_RULE_IF(PHYSICS, ZP_WITH, ZP_NOT(setpoint.waveform, ZP_WAVEFORM_TABLE), ZP_SET(setpoint.value),

@@ -106,16 +106,16 @@ static ZpStatus fail_number(int index, const char *reason, ZpError *err) {
 
 /* Keys in the unit of control.signal: numbers without a unit, or with any of these units. */
 static const struct {
-  const char *key, *unit[3];
-} of_signal[] = {{"control.proportional", {"V", "V/m", "V/F"}},
-                 {"control.integral", {"V/s", "V/m/s", "V/F/s"}},
-                 {"control.noise", {"m", "F"}},
-                 {"setpoint.value", {"m", "F"}},
-                 {"setpoint.offset", {"m", "F"}}};
+  const char *key, *unit[4];
+} of_signal[] = {{"control.proportional", {"V", "V/m", "V/F", "V/rad"}},
+                 {"control.integral", {"V/s", "V/m/s", "V/F/s", "V/rad/s"}},
+                 {"control.noise", {"m", "F", "rad"}},
+                 {"setpoint.value", {"m", "F", "rad"}},
+                 {"setpoint.offset", {"m", "F", "rad"}}};
 
 static bool read_unit_of_signal(const ZpKey *key, const char *unit, ZpUnitScale *scale) {
   for (size_t i = 0; i < sizeof of_signal / sizeof of_signal[0]; i++)
-    for (int k = 0; k < 3 && of_signal[i].unit[k] && strcmp(zp_key_of_one(key->name), of_signal[i].key) == 0; k++)
+    for (int k = 0; k < 4 && of_signal[i].unit[k] && strcmp(zp_key_of_one(key->name), of_signal[i].key) == 0; k++)
       if (zp_unit_scale(unit, of_signal[i].unit[k], scale, NULL) == ZP_OK) return true;
   return false;
 }

@@ -11,6 +11,8 @@ double zp_setpoint_signal(const ZpRest *rest, const ZpSetpointSignal *signal) {
     return zp_statics_stroke(s);
   case ZP_CONTROL_CAPACITANCE:
     return zp_statics_capacitance(s);
+  case ZP_CONTROL_ANGLE:
+    return NAN; /* of a network, which has no equilibrium of one setpoint */
   case ZP_CONTROL_CONTRACTION:
     return 1 - zp_statics_opening(s) / signal->hanging;
   default:

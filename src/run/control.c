@@ -25,6 +25,9 @@ double zp_sim_setpoint(const ZpSim *sim) {
 }
 
 double zp_sim_controlled(ZpSim *sim) {
+  const ZpModel *model = sim->model;
+  if (model->def.control.signal == ZP_CONTROL_ANGLE && model->network->plane)
+    return zp_sim_place(sim - model->number, model->network->ends[model->number].lower).turn;
   const char *name = zp_key(sim->signal)->choices[sim->model->def.control.signal].word;
   const bool alone = sim->model->apart || zp_is_network(sim->model);
   return alone ? zp_sim_own_signal(sim, zp_signal_find(name)) : zp_sim_get(sim, name);

@@ -47,13 +47,17 @@ static const ZpColumn columns[] = {
 #include "run/columns.def"
 };
 
-/* Signals of a controller of a length, and of one of a capacitance. */
+/* Signals of a controller of a length, of one of a capacitance, and of one of an angle. */
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "m", "_m", help)
 static const ZpColumn columns_of_length[] = {
 #include "run/columns.def"
 };
 #define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "F", "_F", help)
 static const ZpColumn columns_of_capacitance[] = {
+#include "run/columns.def"
+};
+#define ZP_CONTROLLED(name, help) ZP_SIGNAL(name, "rad", "_rad", help)
+static const ZpColumn columns_of_angle[] = {
 #include "run/columns.def"
 };
 #undef ZP_SIGNAL
@@ -94,7 +98,8 @@ const ZpColumn *zp_signal_columns_of(const ZpActuatorDef *def, size_t *count) {
   static const ZpColumn *const of[ZpControlSignal_COUNT] = {[ZP_CONTROL_OPENING] = columns_of_length,
                                                             [ZP_CONTROL_STROKE] = columns_of_length,
                                                             [ZP_CONTROL_CONTRACTION] = columns,
-                                                            [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance};
+                                                            [ZP_CONTROL_CAPACITANCE] = columns_of_capacitance,
+                                                            [ZP_CONTROL_ANGLE] = columns_of_angle};
   *count = 0;
   if (!def) return NULL;
   *count = SIGNAL_COUNT;

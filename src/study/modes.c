@@ -180,6 +180,8 @@ static const ZpRule rule[] = {
             "the eigenvalues of the control loop are computed for plates only"),
     ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(bead.suction, 0),
             "the eigenvalues of the control loop are computed without suction only"),
+    ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_NOT(control.signal, ZP_CONTROL_ANGLE),
+            "the eigenvalues of the control loop are computed for the signals of an actuator only"),
     ZP_RULE(PHYSICS, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_SET(setpoint.value), "a controller has a setpoint"),
     ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),
                ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),
