@@ -246,8 +246,11 @@ static void summarize_network(const ZpSim *sim, const ZpModel *model, ZpResult *
     zp_result_add_of(result, "members.#.zip_time_s", called, "s", sim[k].state->zip_time);
     zp_result_add_of(result, "members.#.closed_from_s", called, "s", sim[k].state->closed_from);
   }
+  size_t columns;
+  const ZpColumn *column = zp_body_columns(model->network->plane, &columns);
   for (size_t body = 1; body < model->network->bodies; body++)
-    add_last(result, "bodies", "y_m", zp_body_called(model->whole, body, room), "m", result);
+    for (size_t c = 0; c < columns; c++) /* "#.x_m" */
+      add_last(result, "bodies", column[c].name + 2, zp_body_called(model->whole, body, room), column[c].unit, result);
 }
 
 /* When each member of a series has closed. */

@@ -570,25 +570,36 @@ static void add_periodic(const Cycles *c, ZpResult *result, const char *name, co
   zp_result_add(result, name, unit, c->repeats == 1 ? value : NAN);
 }
 
-static void add_of(const Cycles *c, ZpResult *result, const char *pattern, const char *called, double value) {
-  zp_result_add_of(result, pattern, called, "m", c->repeats == 1 ? value : NAN);
+static void add_of(const Cycles *c, ZpResult *result, const char *pattern, const char *called, const char *unit,
+                   double value) {
+  zp_result_add_of(result, pattern, called, unit, c->repeats == 1 ? value : NAN);
 }
 
-/* Each member of a network has an opening, each body a height. */
+/* The range of a number of a body: "#.y_m" => bodies.#.y_min_m, bodies.#.y_max_m. */
+static void add_body(const Cycles *c, ZpResult *result, const char *called, const ZpColumn *of) {
+  char column[2 * ZP_NAME_SIZE], least[2 * ZP_NAME_SIZE], most[2 * ZP_NAME_SIZE];
+  const int name = (int)(strrchr(of->name, '_') - of->name);
+  snprintf(column, sizeof column, "%s%s", called, of->name + 1);
+  snprintf(least, sizeof least, "bodies.%.*s_min%s", name, of->name, of->name + name);
+  snprintf(most, sizeof most, "bodies.%.*s_max%s", name, of->name, of->name + name);
+  const Range range = range_of(c, column);
+  add_of(c, result, least, called, of->unit, range.least);
+  add_of(c, result, most, called, of->unit, range.most);
+}
+
+/* Each member of a network has an opening, each body a place. */
 static void summarize_network(const Cycles *c, ZpResult *result) {
   char room[ZP_NAME_SIZE];
   for (size_t k = 1; k <= c->model->members; k++) {
     const char *called = zp_member_called(c->model->whole, k, room);
-    add_of(c, result, "members.#.opening_min_m", called, c->opens[k - 1].opening.least);
-    add_of(c, result, "members.#.opening_max_m", called, c->opens[k - 1].opening.most);
+    add_of(c, result, "members.#.opening_min_m", called, "m", c->opens[k - 1].opening.least);
+    add_of(c, result, "members.#.opening_max_m", called, "m", c->opens[k - 1].opening.most);
   }
   for (size_t body = 1; body < c->model->network->bodies; body++) {
-    const char *called = zp_body_called(c->model->whole, body, room);
-    char column[2 * ZP_NAME_SIZE];
-    snprintf(column, sizeof column, "%s.y_m", called);
-    const Range y = range_of(c, column);
-    add_of(c, result, "bodies.#.y_min_m", called, y.least);
-    add_of(c, result, "bodies.#.y_max_m", called, y.most);
+    size_t columns;
+    const ZpColumn *column = zp_body_columns(c->model->network->plane, &columns);
+    for (size_t k = 0; k < columns; k++)
+      add_body(c, result, zp_body_called(c->model->whole, body, room), &column[k]);
   }
 }
 
