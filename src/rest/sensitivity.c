@@ -18,10 +18,12 @@ static bool is_numerical(const char *name) {
   return false;
 }
 
-/* Names of bodies and ports are numbers to the table of keys; a member is upright or upside down. */
-static bool key_is_of_place(int key) {
+/* Names of bodies and ports are numbers to the table of keys; between bodies that move up and down a member is upright
+ * or upside down. */
+static bool key_is_of_place(const ZpActuatorDef *def, int key) {
   const int row = zp_key_instance(key).row;
-  return zp_key_is_name(key) || row == ZP_KEY(member_K.angle) || row == ZP_KEY(body_K.at.x);
+  const bool fixed = !zp_def_plane(def) && (row == ZP_KEY(member_K.angle) || row == ZP_KEY(body_K.at.x));
+  return zp_key_is_name(key) || fixed;
 }
 
 ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *err) {
@@ -36,7 +38,7 @@ ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *e
   if (is_numerical(k->name))
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
                    ZP_KEY_NAME(key));
-  if (key_is_of_place(key))
+  if (key_is_of_place(def, key))
     return zp_fail(err, ZP_BAD_INPUT,
                    "sensitivity.by: %s says which bodies or ports are joined, so it has no derivative",
                    ZP_KEY_SHOWN(def, key));
@@ -105,12 +107,24 @@ static void place_member(const ZpRestMember *at, ZpRestMember *near) {
   if (near->model->L != at->model->L) zp_stretch(near->model, near->model->L / at->model->L, near->q);
 }
 
+/* Bodies in the plane with the present unknowns, or with those that the last solution gives at an offset. */
+static void stand(ZpRestSensitivity *p, ZpStatics *near, double offset) {
+  const ZpStatics *at = p->at;
+  zp_plane_gather(&at->plane, at->form.inner, at->pose, p->row);
+  for (size_t i = at->form.inner; i < at->n && offset != 0; i++)
+    p->row[i] += offset * p->by_key[i];
+  zp_plane_poses(&near->plane, near->form.inner, p->row, near->pose);
+  for (size_t which = 0; which < near->members; which++)
+    zp_plane_put_platform(&near->plane, which, near->pose, 1, near->member[which].q);
+}
+
 /* Actuator k in the present state. */
 static ZpStatics *place(ZpRestSensitivity *p, int k) {
   const ZpStatics *at = p->at;
   ZpStatics *near = &p->near[k];
   for (size_t which = 0; which < at->members; which++)
     place_member(&at->member[which], &near->member[which]);
+  if (at->model->network->plane) stand(p, near, 0);
   zp_statics_rejoin(near);
   near->U = at->U;
   near->bias = at->bias;
@@ -139,6 +153,7 @@ static ZpStatics *place_along(ZpRestSensitivity *p, int k) {
     for (size_t j = 0; j < lanes; j++)
       near->member[which].tension[j] = at->tension[j] + offset * tension[j];
   }
+  if (near->model->network->plane) stand(p, near, offset);
   return near;
 }
 
@@ -206,6 +221,19 @@ static void add_springs(ZpRestSensitivity *p) {
   }
 }
 
+/* Of bodies in the plane, on which members stand: all forces, where the neighbours are. */
+static void add_all(ZpRestSensitivity *p) {
+  p->exact = false;
+  for (int k = 0; k < p->by.count; k++) {
+    const double weight = p->by.near[k].weight;
+    residual(&p->near[k], p->row);
+    for (size_t i = 0; i < p->at->n; i++)
+      p->by_key[i] += weight * p->row[i];
+    for (size_t which = 0; which < p->at->members; which++)
+      add_scaling(p, which, &p->near[k].member[which], weight);
+  }
+}
+
 /* Derivatives by the key if nothing moves except by scaling: forces => by_key, coordinates => rate, tensions,
  * reaction. */
 static void differentiate(ZpRestSensitivity *p) {
@@ -217,7 +245,8 @@ static void differentiate(ZpRestSensitivity *p) {
   memset(p->by_key, 0, at->n * sizeof *p->by_key);
   for (int k = 0; k < p->by.count; k++)
     away += p->by.near[k].weight * zp_statics_away(place(p, k));
-  for (size_t which = 0; which < at->members && p->by.count > 0; which++)
+  if (at->model->network->plane) add_all(p);
+  for (size_t which = 0; which < at->members && p->by.count > 0 && !at->model->network->plane; which++)
     add_forces(p, which);
   if (at->springs.count > 0) add_springs(p);
   p->reaction = zp_statics_hold_rate(at, away, p->by_key);
