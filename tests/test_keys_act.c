@@ -46,6 +46,21 @@
 #define BESIDE BODIES " member_2.upper=0 member_2.lower=2 member_3.upper=0"
 #define SPRUNG BESIDE " member_3.lower=2 spring_1.first=0 spring_1.second=1 spring_1.stiffness=1e6N/m"
 
+/* Bodies in the plane: a pendulum beside an actuator; a body on a stiff spring; one that hangs on an actuator; two. */
+#define BESIDE_AN_ACTUATOR                                                                                             \
+  "study=stationary mesh.nodes=5 drive.voltage=0 body_1.moves=plane body_1.mass=1g body_1.inertia=1e-9 "               \
+  "body_1.at.x=300mm body_1.at.y=-100mm body_2.mass=1g member_1.upper=frame member_1.lower=2"
+#define PENDULUM BESIDE_AN_ACTUATOR " joint_1.first=0 joint_1.second=1 joint_1.at.x=300mm"
+#define BOUNCY                                                                                                         \
+  BESIDE_AN_ACTUATOR " spring_1.first=0 spring_1.second=1 spring_1.stiffness=1e5N/m spring_1.rest=100mm "              \
+                     "spring_1.from_at.x=300mm spring_1.to_at.y=10mm"
+#define UNDER                                                                                                          \
+  "study=stationary mesh.nodes=11 drive.voltage=0 body_1.moves=plane body_1.at.y=-1mm member_1.upper=frame "           \
+  "member_1.lower=1"
+#define UNDER_BOTH                                                                                                     \
+  UNDER " body_1.mass=1g body_2.moves=plane body_2.mass=1g body_2.at.x=300mm body_2.at.y=-1mm member_2.upper=frame "   \
+        "member_2.lower=2 member_2.upper_at.x=300mm joint_1.first=0 joint_1.at.x=150mm joint_1.at.y=-1mm"
+
 /* Two at one load in the middle, looked at before anything moves. */
 #define OPPOSED                                                                                                        \
   "study=actuate gravity=0 stack.series=2 stack.distance=10mm mesh.nodes=21 drive.voltage=2kV solver.end_time=1ns "    \

@@ -9,7 +9,8 @@ static const char all_kinds[] =
     "study: stationary\nmesh.nodes: 13\n"
     "bodies:\n"
     "  base: {mass: 5 g, at: [0, -5 mm]}\n"
-    "  arm: {moves: plane, mass: 9 g, inertia: 1e-6 kg m2, at: [10 mm, -30 mm], angle: 20 degree, force: [20 mN, 3 mN], "
+    "  arm: {moves: plane, mass: 9 g, inertia: 1e-6 kg m2, at: [10 mm, -30 mm], angle: 20 degree, force: [20 mN, 3 "
+    "mN], "
     "torque: 0.3 mN m}\n"
     "  hand: {moves: plane, mass: 3 g, inertia: 1e-6 kg m2, at: [20 mm, -60 mm]}\n"
     "  crank: {moves: plane, mass: 1 g, inertia: 1e-6 kg m2, at: [90 mm, -20 mm]}\n"
@@ -20,7 +21,8 @@ static const char all_kinds[] =
     "  bond: {type: weld, between: [hand, bob], at: [60 mm, -60 mm]}\n"
     "springs:\n"
     "  soft: {between: [arm, crank], from_at: [1 mm, 2 mm], to_at: [-3 mm, 4 mm], stiffness: 5 N/m, rest: 60 mm}\n"
-    "  rope: {between: [frame, bob], from_at: [100 mm, 0], to_at: [0 mm, 1 mm], stiffness: 5 N/m, rest: 40 mm, kind: pull}\n"
+    "  rope: {between: [frame, bob], from_at: [100 mm, 0], to_at: [0 mm, 1 mm], stiffness: 5 N/m, rest: 40 mm, kind: "
+    "pull}\n"
     "members:\n"
     "  lifts: {upper: frame, lower: base}\n"
     "  leans: {upper: base, lower: arm, upper_at: [5 mm, -2 mm], lower_at: [3 mm, 1 mm], angle: 10 degree}\n"
@@ -127,7 +129,8 @@ TEST(four_bars_close) {
       "bodies:\n  crank: {moves: plane, mass: 4 g, inertia: 1e-6 kg m2, at: [0, -20 mm]}\n"
       "  coupler: {moves: plane, mass: 2 g, inertia: 1e-6 kg m2, at: [60 mm, -10 mm]}\n"
       "  rocker: {moves: plane, mass: 2 g, inertia: 1e-6 kg m2, at: [120 mm, -30 mm]}\n"
-      "joints:\n  a: {between: [frame, crank], at: [-60 mm, -20 mm]}\n  b: {between: [crank, coupler], at: [10 mm, -15 mm]}\n"
+      "joints:\n  a: {between: [frame, crank], at: [-60 mm, -20 mm]}\n  b: {between: [crank, coupler], at: [10 mm, -15 "
+      "mm]}\n"
       "  c: {between: [coupler, rocker], at: [110 mm, -5 mm]}\n  d: {between: [rocker, frame], at: [125 mm, -60 mm]}\n"
       "members: {lifts: {upper: frame, lower: crank}}\n");
   const double A[] = {-0.06, -0.02}, B[] = {0.01, -0.015}, C[] = {0.11, -0.005}, D[] = {0.125, -0.06};
@@ -148,7 +151,8 @@ TEST(four_bars_close) {
   ck_assert_double_lt(fabs(number(rest, "bodies.rocker.angle_rad") - rocker), 3e-8);
 }
 
-/* Stiffness of a weightless actuator where it is nearly closed: of its opening, N/m, and of its platform's turn, N m. */
+/* Stiffness of a weightless actuator where it is nearly closed: of its opening, N/m, and of its platform's turn, N m.
+ */
 typedef struct Stiffness {
   double opens, turns;
 } Stiffness;
@@ -167,12 +171,13 @@ static Stiffness stiffness_of(double width) {
 
 /* A beam on a pin that a force turns against two actuators, one twice as far from the pin. */
 TEST(lever_balances) {
-  ZpActuatorDef def = def_of(
-      "study: stationary\nmesh.nodes: 31\nribbon.density: 0\ngravity: 0\n"
-      "bodies: {beam: {moves: plane, at: [50 mm, 0], force: [0, -4 uN]}}\n"
-      "joints: {pivot: {between: [frame, beam], at: [0, 0]}}\n"
-      "members:\n  near: {upper: frame, lower: beam, upper_at: [100 mm, 0], lower_at: [50 mm, 0], ribbon.width: 20 mm}\n"
-      "  far: {upper: frame, lower: beam, upper_at: [200 mm, 0], lower_at: [150 mm, 0], ribbon.width: 10 mm}\n");
+  ZpActuatorDef def =
+      def_of("study: stationary\nmesh.nodes: 31\nribbon.density: 0\ngravity: 0\n"
+             "bodies: {beam: {moves: plane, at: [50 mm, 0], force: [0, -4 uN]}}\n"
+             "joints: {pivot: {between: [frame, beam], at: [0, 0]}}\n"
+             "members:\n  near: {upper: frame, lower: beam, upper_at: [100 mm, 0], lower_at: [50 mm, 0], ribbon.width: "
+             "20 mm}\n"
+             "  far: {upper: frame, lower: beam, upper_at: [200 mm, 0], lower_at: [150 mm, 0], ribbon.width: 10 mm}\n");
   const Stiffness near = stiffness_of(20e-3), far = stiffness_of(10e-3);
   const double against = near.opens * 0.1 * 0.1 + near.turns + far.opens * 0.2 * 0.2 + far.turns;
   const double turns = number(answer_of(ZP_STUDY_STATIONARY, &def), "bodies.beam.angle_rad");
@@ -241,8 +246,9 @@ TEST(turned_drawing_has_turned_answers) {
 
 #define RUNS "mesh.nodes: 13\ndrive.voltage: 5 kV\nsolver: {end_time: 30 ms, stop_when_zipped: false}\n"
 #define ON_RAIL                                                                                                        \
-  RUNS "bodies:\n  top: {%s at: [0, -6 mm]}\n  hand: {moves: plane, mass: 3 g, inertia: 1e-6 kg m2, at: [0, -12 mm]}\n" \
-       "members:\n  one: {upper: frame, lower: top}\n  two: {upper: top, lower: hand}\n"
+  RUNS                                                                                                                 \
+      "bodies:\n  top: {%s at: [0, -6 mm]}\n  hand: {moves: plane, mass: 3 g, inertia: 1e-6 kg m2, at: [0, -12 mm]}\n" \
+      "members:\n  one: {upper: frame, lower: top}\n  two: {upper: top, lower: hand}\n"
 
 /* A body that moves up and down, against one that slides on a vertical rail: of the frame, turned by 90 degree. */
 TEST(rail_leads_up_and_down) {
@@ -271,9 +277,10 @@ TEST(welded_bodies_are_one) {
                                   "joints: {bond: {type: weld, between: [base, tip], at: [20 mm, -20 mm]},\n"
                                   "  pin: {between: [frame, base], at: [-50 mm, -8 mm]}}\n"
                                   "members: {lifts: {upper: frame, lower: base, lower_at: [-10 mm, 0]}}\n"),
-                one = def_of(RUNS "bodies:\n  base: {moves: plane, mass: 6 g, inertia: 4.5e-6 kg m2, at: [20 mm, -13 mm]}\n"
-                                  "joints: {pin: {between: [frame, base], at: [-50 mm, -8 mm]}}\n"
-                                  "members: {lifts: {upper: frame, lower: base, lower_at: [-20 mm, 5 mm]}}\n");
+                one = def_of(RUNS
+                             "bodies:\n  base: {moves: plane, mass: 6 g, inertia: 4.5e-6 kg m2, at: [20 mm, -13 mm]}\n"
+                             "joints: {pin: {between: [frame, base], at: [-50 mm, -8 mm]}}\n"
+                             "members: {lifts: {upper: frame, lower: base, lower_at: [-20 mm, 5 mm]}}\n");
   for (int motion = 0; motion < 2; motion++) {
     const ZpStudy study = motion ? ZP_STUDY_ACTUATE : ZP_STUDY_STATIONARY;
     const double a = number(answer_of(study, &two), "bodies.base.angle_rad"),
@@ -290,19 +297,21 @@ static const struct {
   double most; /* measured */
 } conserves[] = {
     {"all kinds", all_kinds, 3.1e-7},
-    {"pin", RUNS "bodies: {arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 mm]}}\n"
-                 "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+    {"pin",
+     RUNS "bodies: {arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 mm]}}\n"
+          "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n",
      6.6e-10},
     {"on a body that turns",
      RUNS "bodies:\n  arm: {moves: plane, mass: 3 g, inertia: 1e-6 kg m2, at: [0, -5 mm], torque: 0.2 mN m}\n"
           "  hand: {moves: plane, mass: 4 g, inertia: 1e-6 kg m2, at: [0, -10 mm], force: [10 mN, 2 mN]}\n"
           "members:\n  m: {upper: frame, lower: arm}\n  n: {upper: arm, lower: hand, upper_at: [0, -1 mm]}\n",
      9e-9},
-    {"slide", RUNS "bodies:\n  arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 mm], angle: 20 degree}\n"
-                   "  bob: {moves: plane, mass: 2 g, inertia: 1e-6 kg m2, at: [10 mm, -20 mm]}\n"
-                   "joints: {p: {type: slide, between: [arm, bob], at: [10 mm, -15 mm]}}\n"
-                   "springs: {s: {between: [arm, bob], to_at: [-3 mm, 1 mm], stiffness: 20 N/m, rest: 10 mm}}\n"
-                   "members: {m: {upper: frame, lower: arm}}\n",
+    {"slide",
+     RUNS "bodies:\n  arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 mm], angle: 20 degree}\n"
+          "  bob: {moves: plane, mass: 2 g, inertia: 1e-6 kg m2, at: [10 mm, -20 mm]}\n"
+          "joints: {p: {type: slide, between: [arm, bob], at: [10 mm, -15 mm]}}\n"
+          "springs: {s: {between: [arm, bob], to_at: [-3 mm, 1 mm], stiffness: 20 N/m, rest: 10 mm}}\n"
+          "members: {m: {upper: frame, lower: arm}}\n",
      1.1e-8},
 };
 

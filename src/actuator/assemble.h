@@ -32,7 +32,7 @@ typedef struct ZpAssembly {
   long port;          /* the common unknown that it meets (zp_assembly_join); below 0: none */
   int *extra_equation, *extra_place; /* [own N] */
   double *factor, *offset;           /* [2 count] a coordinate is this times its unknown plus this, m */
-  ZpSwing swing[ZP_SWINGS]; /* in the plane: x and y of the left and of the right end of the lower platform */
+  ZpSwing swing[ZP_SWINGS];          /* in the plane: x and y of the left and of the right end of the lower platform */
   int *first; /* [N] where all coordinates of stations i .. i + 2 are free: place of the first of station i, the others
                  following it; else -1 */
 } ZpAssembly;

@@ -371,7 +371,8 @@ static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {
     if (model->masses.y.inverse[j] > 0) weight += a->weight[j];
   model->total_weight =
       weight / (double)zp_halves(&model->topology) + zp_end_share(model) * fabs(model->def.load.force);
-  if (model->network->plane) memset(a->weight, 0, model->stride * sizeof *a->weight); /* bodies turn it: system/links.h */
+  if (model->network->plane)
+    memset(a->weight, 0, model->stride * sizeof *a->weight); /* bodies turn it: system/links.h */
   model->mass = a->mass;
   model->weight = a->weight;
 }
@@ -707,8 +708,8 @@ static ZpStatus check_table(const ZpActuatorDef *def, const ZpDriveTable *table,
   return fault ? zp_fail(err, ZP_BAD_INPUT, "%s.waveform = table: row %zu: %s", of, row + 1, fault) : ZP_OK;
 }
 
-/* Does the pull of the member turn its lower body clockwise in the drawing: about the first pin of that body, or without
- * one about its place? */
+/* Does the pull of the member turn its lower body clockwise in the drawing: about the first pin of that body, or
+ * without one about its place? */
 static bool closing_turns_back(const ZpModel *model) {
   const ZpNetwork *network = model->network;
   const ZpEnds *ends = &network->ends[model->number];
@@ -737,7 +738,8 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
   model->waveform = zp_waveform_of(&model->def, &copy);
   model->setpoint = zp_setpoint_of(&model->def, &copy);
   model->control = zp_control_of(&model->def);
-  if (model->def.control.signal == ZP_CONTROL_ANGLE && model->network->plane && closing_turns_back(model)) model->control.sense = 1;
+  if (model->def.control.signal == ZP_CONTROL_ANGLE && model->network->plane && closing_turns_back(model))
+    model->control.sense = 1;
   model->supply = zp_supply_of(&model->def);
   model->supply.acts &= model->field;
 }
@@ -834,6 +836,7 @@ static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, Zp
     status = fill(&ties, table, model + k, err);
   }
   if (status == ZP_OK && !zp_shares_load(model)) carry(model);
+  if (status == ZP_OK) status = zp_plane_check(model, err);
   return status == ZP_OK && model->members > 1 ? check_carried(model, err) : status;
 }
 

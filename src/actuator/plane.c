@@ -1,6 +1,8 @@
 #include "actuator/plane.h"
 
+#include "base/fail.h"
 #include "base/memory.h"
+#include "def/check.h"
 #include "math/elementary.h"
 
 /* -- vectors --------------------------------------------------------------------------------------- */
@@ -25,6 +27,36 @@ static ZpVector point_of(const ZpBody *body, const double at[2]) {
 /* End `j` of a platform of a member, from its middle. */
 static ZpVector end_of_platform(const ZpModel *model, ZpVector axis, int j) {
   return zp_times((j == 0 ? -0.5 : 0.5) * model->def.platform.length, axis);
+}
+
+static ZpStatus check_reach(const ZpModel *model, ZpError *err) {
+  static const double near = 1e-9;
+  const ZpNetwork *network = model->network;
+  const ZpEnds *ends = &network->ends[model->number];
+  const double most = zp_most_opening * 2 * model->L;
+  const ZpVector apart = zp_difference(point_of(&network->body[ends->lower], ends->at[1]),
+                                       point_of(&network->body[ends->upper], ends->at[0]));
+  const double opens = -zp_along(apart, zp_across(zp_direction(ends->angle))), distance = sqrt(zp_along(apart, apart));
+  char name[ZP_NAME_SIZE];
+  zp_def_name(model->whole, ZP_OF_MEMBER, (int)model->number + 1, name);
+  if (opens < -near)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "members.%s: in the drawing its lower end is %g mm on the wrong side of its upper one; move a body "
+                   "or a point, or give members.%s.angle the direction in which it opens",
+                   name, -1e3 * opens, name);
+  if (distance > most + near)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "members.%s: it opens by 0 to %g mm, but its ends are apart by %g mm too much in the drawing; move "
+                   "a body or a point, or change a length",
+                   name, 1e3 * most, 1e3 * (distance - most));
+  return ZP_OK;
+}
+
+ZpStatus zp_plane_check(const ZpModel *first, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (size_t k = 0; first->network->plane && k < first->members && status == ZP_OK; k++)
+    status = check_reach(first + k, err);
+  return status;
 }
 
 /* The four ends of the platforms of a member: on its upper and on its lower body, left and right => their masses. */
@@ -89,15 +121,15 @@ static ZpStand stand_of(const ZpPlanar *plane, size_t member) {
   const ZpJoint *platform = &model->topology.platform;
   End end[ENDS];
   find_ends(model, end);
-  return (ZpStand){
-      .upper = ends->upper,
-      .lower = ends->lower,
-      .axis = zp_direction(ends->angle),
-      .arm = zp_difference(point_of(&network->body[ends->upper], ends->at[0]), centre_of(plane, ends->upper)),
-      .node = {zp_difference(end[2].at, centre_of(plane, ends->lower)),
-               zp_difference(end[3].at, centre_of(plane, ends->lower))},
-      .middle = 0.5 * (zp_straight_x(model, platform->first) + zp_straight_x(model, platform->last)),
-      .still = network->body[ends->upper].held};
+  return (ZpStand){.upper = ends->upper,
+                   .lower = ends->lower,
+                   .axis = zp_direction(ends->angle),
+                   .arm =
+                       zp_difference(point_of(&network->body[ends->upper], ends->at[0]), centre_of(plane, ends->upper)),
+                   .node = {zp_difference(end[2].at, centre_of(plane, ends->lower)),
+                            zp_difference(end[3].at, centre_of(plane, ends->lower))},
+                   .middle = 0.5 * (zp_straight_x(model, platform->first) + zp_straight_x(model, platform->last)),
+                   .still = network->body[ends->upper].held};
 }
 
 bool zp_plane_create(const ZpModel *first, ZpPlanar *plane) {
@@ -291,9 +323,10 @@ void zp_plane_carry(const ZpPlanar *plane, size_t member, const ZpPose *pose, si
   const ZpStand *stand = &plane->stand[member];
   const ZpVector axis = zp_stand_axis(stand, pose), arm = zp_turned(zp_direction(pose[stand->upper].turn), stand->arm);
   const double turns = zp_plane_change(plane, stand->upper, ZP_WAY_TURNS, inner, u);
-  const ZpVector shift = zp_turned_back(axis, zp_sum((ZpVector){zp_plane_change(plane, stand->upper, ZP_WAY_ALONG, inner, u),
-                                                                zp_plane_change(plane, stand->upper, ZP_WAY_UP, inner, u)},
-                                                     zp_times(turns, zp_across(arm))));
+  const ZpVector shift =
+      zp_turned_back(axis, zp_sum((ZpVector){zp_plane_change(plane, stand->upper, ZP_WAY_ALONG, inner, u),
+                                             zp_plane_change(plane, stand->upper, ZP_WAY_UP, inner, u)},
+                                  zp_times(turns, zp_across(arm))));
   const ZpNodes at = zp_nodes(model, nodes);
   const ZpForces to = zp_forces(model, moved);
   for (size_t j = 0; !stand->still && j < model->count; j++) {
@@ -394,7 +427,8 @@ void zp_plane_turn(const ZpPlanar *plane, size_t member, const ZpPose *pose, boo
 
 ZpVector zp_plane_rate(const ZpPlanar *plane, size_t body, const ZpPose *pose, ZpVector arm, size_t inner,
                        const double *u) {
-  const ZpVector centre = {zp_plane_change(plane, body, ZP_WAY_ALONG, inner, u), zp_plane_change(plane, body, ZP_WAY_UP, inner, u)};
+  const ZpVector centre = {zp_plane_change(plane, body, ZP_WAY_ALONG, inner, u),
+                           zp_plane_change(plane, body, ZP_WAY_UP, inner, u)};
   const ZpVector across = zp_across(zp_turned(zp_direction(pose[body].turn), arm));
   return zp_sum(centre, zp_times(zp_plane_change(plane, body, ZP_WAY_TURNS, inner, u), across));
 }

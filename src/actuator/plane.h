@@ -19,9 +19,9 @@ typedef struct ZpVector {
 } ZpVector;
 
 typedef struct ZpPlaneBody {
-  ZpPose drawn;         /* in the drawing */
-  ZpVector place;       /* its place, from its centre, m */
-  double mass, inertia; /* kg; about the centre, kg m2 */
+  ZpPose drawn;          /* in the drawing */
+  ZpVector place;        /* its place, from its centre, m */
+  double mass, inertia;  /* kg; about the centre, kg m2 */
   long unknown[ZP_WAYS]; /* in the border; below 0: it does not move this way */
 } ZpPlaneBody;
 
@@ -42,6 +42,9 @@ typedef struct ZpPlanar {
   ZpStand *stand;         /* [members] */
   double length;          /* the unknown of a turn is this times the angle, m, so that its equation is a force */
 } ZpPlanar;
+
+/* Does each member of a system reach from its upper to its lower end in the drawing? */
+ZpStatus zp_plane_check(const ZpModel *first, ZpError *err);
 
 /* Of a system. False if there is no memory. */
 bool zp_plane_create(const ZpModel *first, ZpPlanar *plane);
@@ -114,7 +117,8 @@ void zp_plane_draw(const ZpPlanar *plane, size_t member, const ZpPose *pose, siz
  * straight member has them. */
 void zp_plane_put_platform(const ZpPlanar *plane, size_t member, const ZpPose *pose, double nearer, double *nodes);
 
-/* Where an unknown of the lower or of the upper body of a member is in its block; below 0: it does not move that way. */
+/* Where an unknown of the lower or of the upper body of a member is in its block; below 0: it does not move that way.
+ */
 int zp_plane_border(const ZpPlanar *plane, size_t member, bool upper, ZpWay way, const ZpAssembly *assembly);
 
 /* Factors of the lower platform's coordinates by the unknowns of bodies at these poses, eq. (34.2). */

@@ -55,7 +55,8 @@ static ZpTies list(const ZpModel *first, size_t members, size_t member) {
   ZpTies ties = {.first = first, .members = members, .member = member};
   const ZpTopology *t = &first[member].topology;
   const ZpNetwork *network = first->network;
-  const bool joined = members > 1 && !network->plane, hangs = joined && !network->body[network->ends[member].upper].held;
+  const bool joined = members > 1 && !network->plane,
+             hangs = joined && !network->body[network->ends[member].upper].held;
   if (joined) add_end(&ties, true);
   if (joined) add_end(&ties, false);
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)

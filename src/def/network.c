@@ -172,7 +172,8 @@ static ZpStatus check_unused(const ZpActuatorDef *def, ZpError *err) {
   for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
     for (size_t k = 0; k < sizeof row / sizeof row[0]; k++)
       if (!turns(def, b) && moves(def, b) && value_of(def, row[k], (size_t)b) != 0)
-        return zp_fail(err, ZP_BAD_INPUT, "bodies.%s.%s: the body moves up and down; give moves: plane, or leave it out",
+        return zp_fail(err, ZP_BAD_INPUT,
+                       "bodies.%s.%s: the body moves up and down; give moves: plane, or leave it out",
                        SHOWN(def, ZP_OF_BODY, b), strrchr(zp_key(row[k])->name, '.') + 1);
   for (size_t k = 0; !zp_def_plane(def) && def->given && k < def->given->count; k++) {
     const ZpInstance at = zp_key_instance(def->given->value[k].key);
@@ -226,7 +227,8 @@ static ZpStatus check_reached(const ZpActuatorDef *def, const Between *member, b
   }
   for (int b = 1; b <= bodies; b++)
     if (!reached[b])
-      return zp_fail(err, ZP_BAD_INPUT, "bodies.%s: nothing holds it: no members%s lead from it to the frame or to a body that is held",
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "bodies.%s: nothing holds it: no members%s lead from it to the frame or to a body that is held",
                      SHOWN(def, ZP_OF_BODY, b), zp_def_plane(def) ? ", joints or springs" : "");
   return ZP_OK;
 }
@@ -286,42 +288,6 @@ static ZpStatus check_parts(const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
-/* A point of a body in the drawing, m. */
-static void point_of(const ZpActuatorDef *def, int body, const double at[2], double to[2]) {
-  const size_t b = (size_t)body;
-  const double angle = body > 0 ? value_of(def, ZP_KEY(body_K.angle), b) : 0, c = cos(angle), s = sin(angle);
-  to[0] = (body > 0 ? value_of(def, ZP_KEY(body_K.at.x), b) : 0) + c * at[0] - s * at[1];
-  to[1] = (body > 0 ? value_of(def, ZP_KEY(body_K.at.y), b) : 0) + s * at[0] + c * at[1];
-}
-
-/* In the plane: does each member reach from its upper to its lower end in the drawing? */
-static ZpStatus check_reach(const ZpActuatorDef *def, const Between *member, ZpError *err) {
-  static const double near = 1e-9;
-  for (int k = 1; k <= zp_instance_count(def, ZP_OF_MEMBER); k++) {
-    const size_t n = (size_t)k;
-    const double upper_at[] = {value_of(def, ZP_KEY(member_K.upper_at.x), n), value_of(def, ZP_KEY(member_K.upper_at.y), n)};
-    const double lower_at[] = {value_of(def, ZP_KEY(member_K.lower_at.x), n), value_of(def, ZP_KEY(member_K.lower_at.y), n)};
-    const double given = value_of(def, ZP_KEY(member_K.angle), n), angle = isnan(given) ? 0 : given;
-    double upper[2], lower[2];
-    point_of(def, body_in(def, ZP_KEY(member_K.upper), k), upper_at, upper);
-    point_of(def, body_in(def, ZP_KEY(member_K.lower), k), lower_at, lower);
-    const double x = lower[0] - upper[0], y = lower[1] - upper[1];
-    const double opens = sin(angle) * x - cos(angle) * y, apart = sqrt(x * x + y * y);
-    const char *name = SHOWN(def, ZP_OF_MEMBER, k);
-    if (opens < -near)
-      return zp_fail(err, ZP_BAD_INPUT,
-                     "members.%s: in the drawing its lower end is %g mm on the wrong side of its upper one; move a "
-                     "body or a point, or give members.%s.angle the direction in which it opens",
-                     name, -1e3 * opens, name);
-    if (apart > member[k - 1].reach + near)
-      return zp_fail(err, ZP_BAD_INPUT,
-                     "members.%s: it opens by 0 to %g mm, but its ends are apart by %g mm too much in the drawing; "
-                     "move a body or a point, or change a length",
-                     name, 1e3 * member[k - 1].reach, 1e3 * (apart - member[k - 1].reach));
-  }
-  return ZP_OK;
-}
-
 /* With arrays for each body. `held`: a body that is held in addition, 0: none. */
 static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
   const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY) + 1;
@@ -333,7 +299,6 @@ static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
   for (int k = 0; k < members && made; k++)
     member[k] = between(def, k + 1);
   ZpStatus status = made ? check_reached(def, member, reached, err) : zp_fail_memory(err);
-  if (status == ZP_OK && zp_def_plane(def)) status = check_reach(def, member, err);
   if (status == ZP_OK && !zp_def_plane(def)) status = check_lengths(def, held, member, heights, heights + bodies, err);
   zp_free(member);
   zp_free(heights);
@@ -393,16 +358,15 @@ static void join_bodies(const ZpActuatorDef *def, ZpNetwork *n) {
   n->watched = (size_t)def->isometric.body;
   for (size_t b = 1; b < n->bodies; b++) {
     const ZpMoves moves = (ZpMoves)value_of(def, ZP_KEY(body_K.moves), b);
-    n->body[b] = (ZpBody){
-        .held = moves == ZP_MOVES_NONE,
-        .moves = moves,
-        .x = value_of(def, ZP_KEY(body_K.at.x), b),
-        .y = value_of(def, ZP_KEY(body_K.at.y), b),
-        .angle = value_of(def, ZP_KEY(body_K.angle), b),
-        .mass = value_of(def, ZP_KEY(body_K.mass), b),
-        .inertia = value_of(def, ZP_KEY(body_K.inertia), b),
-        .force = {value_of(def, ZP_KEY(body_K.force.x), b), value_of(def, ZP_KEY(body_K.force.y), b)},
-        .torque = value_of(def, ZP_KEY(body_K.torque), b)};
+    n->body[b] = (ZpBody){.held = moves == ZP_MOVES_NONE,
+                          .moves = moves,
+                          .x = value_of(def, ZP_KEY(body_K.at.x), b),
+                          .y = value_of(def, ZP_KEY(body_K.at.y), b),
+                          .angle = value_of(def, ZP_KEY(body_K.angle), b),
+                          .mass = value_of(def, ZP_KEY(body_K.mass), b),
+                          .inertia = value_of(def, ZP_KEY(body_K.inertia), b),
+                          .force = {value_of(def, ZP_KEY(body_K.force.x), b), value_of(def, ZP_KEY(body_K.force.y), b)},
+                          .torque = value_of(def, ZP_KEY(body_K.torque), b)};
     n->plane |= moves == ZP_MOVES_PLANE;
     n->pulled |= value_of(def, ZP_KEY(body_K.force.y), b) != 0;
   }
@@ -429,7 +393,8 @@ static void join_bodies(const ZpActuatorDef *def, ZpNetwork *n) {
 static bool are_abreast(const ZpEnds *one, const ZpEnds *other) {
   for (int k = 0; k < 2; k++)
     if (one->at[k][0] != other->at[k][0] || one->at[k][1] != other->at[k][1]) return false;
-  return one->angle == other->angle && one->upper == other->upper && one->lower == other->lower && one->turned == other->turned;
+  return one->angle == other->angle && one->upper == other->upper && one->lower == other->lower &&
+         one->turned == other->turned;
 }
 
 /* The first member at a body whose lower end it is, or else whose upper one it is. */
@@ -518,11 +483,8 @@ ZpNetwork *zp_network_create(const ZpActuatorDef *def) {
   ZpNetwork *n = zp_calloc(1, sizeof *n + bodies * sizeof *n->body + members * sizeof *n->ends +
                                   springs * sizeof *n->spring + joints * sizeof *n->joint + members * sizeof *n->order);
   if (!n) return NULL;
-  *n = (ZpNetwork){.bodies = bodies,
-                   .members = members,
-                   .springs = springs,
-                   .joints = joints,
-                   .body = (ZpBody *)(void *)(n + 1)};
+  *n = (ZpNetwork){
+      .bodies = bodies, .members = members, .springs = springs, .joints = joints, .body = (ZpBody *)(void *)(n + 1)};
   n->ends = (ZpEnds *)(void *)(n->body + bodies);
   n->spring = (ZpLink *)(void *)(n->ends + members);
   n->joint = (ZpBodyJoint *)(void *)(n->spring + springs);

@@ -20,7 +20,7 @@ typedef struct ZpBody {
   double mass;    /* kg */
   double inertia; /* about its place, kg m2 */
   double force[2], torque; /* constant, at its place: N, N m */
-  size_t unknown; /* number of its first unknown among those of all bodies */
+  size_t unknown;          /* number of its first unknown among those of all bodies */
 } ZpBody;
 
 /* The bodies at the ends of a member. */
@@ -55,17 +55,17 @@ typedef struct ZpBodyJoint {
 typedef struct ZpNetwork {
   size_t bodies, members, springs, joints;
   size_t unknowns; /* in the plane: of all bodies */
-  bool plane;     /* a body moves in the plane, so that members stand on bodies as they turn (theory, section 34) */
-  size_t load;    /* the body that the load hangs on; `bodies`: none, as each has its own */
-  size_t watched; /* the body that study isometric holds; 0: none */
-  bool pulled;    /* a force acts on a body */
-  bool opposed;   /* a member is upside down: it pulls the load the other way */
-  bool hangs;     /* each body that moves hangs on one member alone, so that weights give the force in all members */
-  ZpBody *body;   /* [bodies]; the first one is the frame, to which the uppermost members are fixed */
-  ZpEnds *ends;   /* [members] */
-  ZpLink *spring; /* [springs] */
+  bool plane;      /* a body moves in the plane, so that members stand on bodies as they turn (theory, section 34) */
+  size_t load;     /* the body that the load hangs on; `bodies`: none, as each has its own */
+  size_t watched;  /* the body that study isometric holds; 0: none */
+  bool pulled;     /* a force acts on a body */
+  bool opposed;    /* a member is upside down: it pulls the load the other way */
+  bool hangs;      /* each body that moves hangs on one member alone, so that weights give the force in all members */
+  ZpBody *body;    /* [bodies]; the first one is the frame, to which the uppermost members are fixed */
+  ZpEnds *ends;    /* [members] */
+  ZpLink *spring;  /* [springs] */
   ZpBodyJoint *joint; /* [joints] */
-  size_t *order;  /* [members] from the frame on: where all hang, a member comes after the one that it hangs on */
+  size_t *order;      /* [members] from the frame on: where all hang, a member comes after the one that it hangs on */
 } ZpNetwork;
 
 /* That of an actuator, a stack or a network; NULL if there is no memory. Freed as one block, by zp_free. */

@@ -302,7 +302,8 @@ static json_t *distribution_schema(void) {
   return json_pack("{s:s, s:o}", "description", "values are drawn", "anyOf", kinds);
 }
 
-/* The name of a property, of those of all members, bodies, springs or joints a pattern: in the place of K stands a number. */
+/* The name of a property, of those of all members, bodies, springs or joints a pattern: in the place of K stands a
+ * number. */
 static void property_name(const char *name, size_t size, char *text) {
   static const char number[] = "_K", numbers[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
   const char *at = strstr(name, number);

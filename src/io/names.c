@@ -9,9 +9,11 @@
 #include "def/rule.h"
 #include "io/value.h"
 
-static const char *const group[ZP_NAMED_KINDS] = {
-    [ZP_OF_MEMBER] = "members", [ZP_OF_BODY] = "bodies", [ZP_OF_SPRING] = "springs",
-    [ZP_OF_JOINT] = "joints", [ZP_OF_PORT] = "ports"};
+static const char *const group[ZP_NAMED_KINDS] = {[ZP_OF_MEMBER] = "members",
+                                                  [ZP_OF_BODY] = "bodies",
+                                                  [ZP_OF_SPRING] = "springs",
+                                                  [ZP_OF_JOINT] = "joints",
+                                                  [ZP_OF_PORT] = "ports"};
 static const char frame[] = "frame";
 
 bool zp_names_copy(const ZpGivenNames *from, ZpGivenNames *names) {

@@ -749,14 +749,13 @@ static ZpEnd residual(void *self, double *r, double *size) {
 /* The force on an end of the lower platform, with the tension that the last step predicted in the strip beside it. */
 static ZpVector force_on_platform(const ZpRestMember *m, int end) {
   const ZpTopology *t = &m->model->topology;
-  const size_t j = zp_lower(t, end == 0 ? t->platform.first : t->platform.last),
-               edge = end == 0 ? j - m->model->s : j;
+  const size_t j = zp_lower(t, end == 0 ? t->platform.first : t->platform.last), edge = end == 0 ? j - m->model->s : j;
   const ZpForces f = zp_forces(m->model, m->force);
   const double lacks = (end == 0 ? -1 : 1) * (m->tension[edge] - m->eval.edges.T[edge]);
   return (ZpVector){f.x[j] + lacks * m->eval.edges.ux[edge], f.y[j] + lacks * m->eval.edges.uy[edge]};
 }
 
-/* What turns of the bodies of a member add to its stiffness. */
+/* Part of the stiffness of a member by the turns of its bodies. */
 static void add_stand(const ZpStatics *s, size_t which, ZpBand *K) {
   const ZpRestMember *m = &s->member[which];
   const ZpVector force[] = {force_on_platform(m, 0), force_on_platform(m, 1)};
@@ -1176,7 +1175,8 @@ static void save(void *self, void *to) {
   place[1] = s->load;
   place[2] = s->bias;
   if (in_plane(s)) memcpy(place + 3, s->pose, s->plane.bodies * sizeof *s->pose);
-  if (in_plane(s)) memcpy(place + 3 + 3 * s->plane.bodies, s->links.pull, s->model->network->joints * sizeof *s->links.pull);
+  if (in_plane(s))
+    memcpy(place + 3 + 3 * s->plane.bodies, s->links.pull, s->model->network->joints * sizeof *s->links.pull);
 }
 
 static void restore(void *self, const void *from) {
@@ -1192,7 +1192,8 @@ static void restore(void *self, const void *from) {
   s->load = place[1];
   s->bias = place[2];
   if (in_plane(s)) memcpy(s->pose, place + 3, s->plane.bodies * sizeof *s->pose);
-  if (in_plane(s)) memcpy(s->links.pull, place + 3 + 3 * s->plane.bodies, s->model->network->joints * sizeof *s->links.pull);
+  if (in_plane(s))
+    memcpy(s->links.pull, place + 3 + 3 * s->plane.bodies, s->model->network->joints * sizeof *s->links.pull);
 }
 
 /* -- members that move alike ----------------------------------------------------------------------- */
@@ -1244,7 +1245,8 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .save = save,
                           .restore = restore,
                           .save_size = (s->members * (zp_lanes(model) + zp_coordinates(model)) + 3 +
-                                         3 * (s->plane.bodies + model->network->joints)) * sizeof(double),
+                                        3 * (s->plane.bodies + model->network->joints)) *
+                                       sizeof(double),
                           .q_scale = 0.01 * model->L * sqrt(zp_parts_unknowns(&s->parts, s->n)),
                           .m_scale = of[along].scale};
 }

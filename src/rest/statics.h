@@ -36,7 +36,7 @@ typedef struct ZpStatics {
   bool has_load;        /* one body has the load, whose mass is a parameter; in a network each has its own */
   ZpHeights heights;    /* of the bodies that members join */
   ZpSprings springs;    /* between bodies */
-  ZpPlanar plane;        /* of bodies that move in the plane, */
+  ZpPlanar plane;       /* of bodies that move in the plane, */
   ZpLinks links;        /* what joins them, */
   ZpPose *pose;         /* [bodies] where they are at the present point, */
   ZpPose *good;         /* and at the last equilibrium */

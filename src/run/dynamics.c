@@ -276,14 +276,14 @@ static void add_source(ZpDynamics *d, const ZpMovingPort *port, ZpArrow *J) {
   *J->diagonal[port->unknown] = fmax(slope, least_slope(port));
 }
 
-/* What bodies in the plane add to the matrix of a member. Unknowns of its nodes are then changes as it sees them. */
+/* Part of the matrix of a member by its bodies in the plane. Unknowns of its nodes are changes as it sees them. */
 static void add_stand(const ZpDynamics *d, size_t k, ZpBand *A) {
   const ZpMovingMember *m = &d->member[k];
   const ZpTopology *t = &m->model->topology;
   const size_t left = zp_lower(t, t->platform.first), right = zp_lower(t, t->platform.last);
   const ZpForces f = zp_forces(m->model, m->force);
-  const ZpVector own[] = {{f.x[left], f.y[left]}, {f.x[right], f.y[right]}}, turn = zp_turned_back(
-      zp_direction(d->pose1[d->plane.stand[k].upper].turn), (ZpVector){1, 0});
+  const ZpVector own[] = {{f.x[left], f.y[left]}, {f.x[right], f.y[right]}},
+                 turn = zp_turned_back(zp_direction(d->pose1[d->plane.stand[k].upper].turn), (ZpVector){1, 0});
   ZpVector force[2]; /* they have been taken to the drawing */
   for (int e = 0; e < 2; e++)
     force[e] = d->plane.stand[k].still ? own[e] : zp_turned(turn, own[e]);
@@ -421,8 +421,7 @@ static Pair pair_of(const ZpMovingMember *m, size_t i) {
 /* How fast the faces of a pair part, by the rates of all unknowns. */
 static double parting(Pair pair, const double *v) {
   double lower = pair.factor[1] * v[pair.lower];
-  if (pair.normal.x != 0 && pair.upper >= 0)
-    lower += pair.normal.x * (v[pair.sideways[1]] - v[pair.sideways[0]]);
+  if (pair.normal.x != 0 && pair.upper >= 0) lower += pair.normal.x * (v[pair.sideways[1]] - v[pair.sideways[0]]);
   return pair.upper >= 0 ? pair.factor[0] * v[pair.upper] - lower : -lower;
 }
 
@@ -961,7 +960,7 @@ static void gather(const ZpDynamics *d, ZpMovingMember *m, bool rates, const dou
   zp_assembly_gather(&m->assembly, nodes, unknowns);
 }
 
-/* And back: rates, at the end of the step. */
+/* Rates of the unknowns at the end of the step => of nodes, as the member sees them. */
 static void spread(const ZpDynamics *d, const ZpMovingMember *m, const double *unknowns, double *nodes) {
   const size_t k = (size_t)(m - d->member);
   zp_assembly_changes(&m->assembly, unknowns, nodes);

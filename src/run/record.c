@@ -423,8 +423,8 @@ double zp_sim_hanging(const ZpSim *sim) {
 
 /* Heights of the bodies of a network, which has no opening of its own. */
 static void fill_bodies(const ZpSim *sim, double *row, double *place) {
-  static const size_t none[] = {SIGNAL_stroke, SIGNAL_opening, SIGNAL_contraction, SIGNAL_zipped_length,
-                                SIGNAL_end_velocity, SIGNAL_angle};
+  static const size_t none[] = {SIGNAL_stroke,        SIGNAL_opening,      SIGNAL_contraction,
+                                SIGNAL_zipped_length, SIGNAL_end_velocity, SIGNAL_angle};
   for (size_t k = 0; k < sizeof none / sizeof none[0]; k++)
     row[none[k]] = NAN;
   const bool plane = sim->model->network->plane;

@@ -75,8 +75,8 @@ static bool allocate(ZpSim *sim) {
   zp_sim_place_rows(sim);
   sim->seen = zp_margins_none();
   sim->stepping = zp_stepping_of(model);
-  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work && sim->pose &&
-         sim->row && make_shape_room(sim);
+  return zp_system_create(model, true, &sim->eval) && sim->state && sim->kept && sim->before && sim->relax_work &&
+         sim->pose && sim->row && make_shape_room(sim);
 }
 
 void zp_sim_lay_beads(ZpSim *sim) {

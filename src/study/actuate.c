@@ -116,8 +116,7 @@ static void summarize_source(ZpSim *sim, const ZpModel *model, const ZpRunInfo *
   if (model->supply.acts && isfinite(limit) && highest > 0)
     zp_result_add(result, "source_voltage_margin", "1", limit / highest);
   if (!zp_is_pair(&model->topology)) return;
-  bool rises =
-      zp_is_network(model) || (zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology));
+  bool rises = zp_is_network(model) || (zp_has_platform(&model->topology) && !zp_platform_turns(&model->topology));
   double work = rises ? work_on_load(sim, model, before, result) : work_along_path(sim, model, result);
   work += work_on_change(sim) - before.on_change - (zp_at_end(sim, result, "load_work") - before.load_work);
   zp_result_add(result, "mechanical_work_J", "J", work);

@@ -85,8 +85,8 @@ static Apart apart(const size_t body[2], const ZpArms *arms, const ZpPose *from,
 }
 
 /* A force on the second point, and its opposite on the first one. */
-static void add_both(const ZpLinks *links, const size_t body[2], const ZpArms *arms, ZpVector force,
-                     const ZpPose *from, const ZpPose *to, double *f) {
+static void add_both(const ZpLinks *links, const size_t body[2], const ZpArms *arms, ZpVector force, const ZpPose *from,
+                     const ZpPose *to, double *f) {
   add_at(links, body[1], arms->arm[1], force, from, to, f);
   add_at(links, body[0], arms->arm[0], zp_times(-1, force), from, to, f);
 }
@@ -136,7 +136,7 @@ static double torsion(const ZpLinks *links) {
   return links->stiffness * links->plane->length * links->plane->length;
 }
 
-/* What a joint keeps at 0 at these poses: distances, m, and an angle, rad. */
+/* Numbers that a joint keeps at 0: distances, m, and an angle, rad. */
 static void missed(const ZpLinks *links, size_t k, const ZpPose *pose, double by[ZP_PULLS]) {
   const ZpBodyJoint *joint = &network_of(links)->joint[k];
   const ZpVector d = apart_at(joint->body, &links->joint[k], pose);
@@ -444,8 +444,8 @@ double zp_links_ribbons_energy(const ZpLinks *links, size_t member, const ZpPose
     const size_t station = j / t->ribbons;
     if (station == t->platform.first || station == t->platform.last) continue; /* part of a body */
     const double drawn = stand->axis.y * (zp_straight_x(model, station) - stand->middle);
-    sum += model->mass[j] * model->def.gravity *
-           (zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]}).y - drawn);
+    sum +=
+        model->mass[j] * model->def.gravity * (zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]}).y - drawn);
   }
   return sum;
 }
