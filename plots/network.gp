@@ -18,6 +18,7 @@ list = ''
 do for [name in members_named] { list = list.name.'.opening_m ' }
 titles = escaped(members_named)
 quantity = 'opening'
+si = 'm'
 sized = list
 load 'curves.gp'
 unset multiplot
