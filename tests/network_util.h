@@ -24,7 +24,10 @@ static void ck_scenario_refused(ZpStudy study, const char *text, const char *say
   ZpError err = {ZP_OK, ""};
   ZpStatus status = zp_scenario_parse(s, text, strlen(text), "network.yaml", &err);
   if (status == ZP_OK) status = zp_scenario_def(s, 0, &def, &err);
+  ZpModel *model = NULL;
   if (status == ZP_OK) status = zp_study_check(study, &def, &err);
+  if (status == ZP_OK) status = zp_model_create(&def, &model, &err);
+  zp_model_destroy(model);
   zp_def_clear(&def);
   printf("%s\n", err.message);
   ck_assert_int_eq(status, ZP_BAD_INPUT);

@@ -324,3 +324,87 @@ TESTS(energy_is_conserved, 0, LENGTH_OF(conserves)) {
   printf("%s: %.3g\n", conserves[_i].name, error);
   ck_assert_double_lt(fabs(error), 3 * conserves[_i].most);
 }
+
+/* -- inputs ---------------------------------------------------------------------------------------- */
+
+/* The work of forces that a program sets on a body is booked. */
+TEST(forces_by_hand_are_booked) {
+  static const char text[] =
+      "mesh.nodes: 13\nsolver.tolerance: 1e-6\ndrive.voltage: 0 V\nbodies: {arm: {moves: plane, mass: 9 g, inertia: "
+      "1e-5 kg m2, at: [0, -5 mm]}}\n"
+      "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n";
+  char name[ZP_INPUT_NAME_SIZE];
+  ZpActuatorDef a = def_of(text);
+  const char *const inputs[] = {"voltage", "arm.force_x", "arm.force_y", "arm.torque"};
+  const double value[] = {0, 20e-3, 30e-3, 1e-3};
+  int count = 0;
+  for (int input = zp_def_input_next(&a, -1); input >= 0; input = zp_def_input_next(&a, input), count++) {
+    ck_assert_str_eq(zp_def_input_name(&a, input, name), inputs[count]);
+    ck_assert_int_eq(zp_def_input_find(&a, name), input);
+  }
+  ck_assert_int_eq(count, 4);
+  ZpSim *sim = data_sim_of(&a);
+  for (int k = 1; k < count; k++)
+    ck_ok(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&a, inputs[k]), value[k], 0, &err));
+  ck_says(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&a, "arm.torque"), 2e4, 0, &err), ZP_BAD_INPUT,
+          "arm.torque");
+  ck_says(zp_sim_set_input(sim, (ZpInput)1000, 0, 0, &err), ZP_BAD_INPUT, "there is no such input");
+  ZpRunInfo *info = zp_run_info_create();
+  zp_sim_run(sim, 0.02, false, NULL, info);
+  /* at rest at the start: the energy of motion, bending and weight is their work */
+  const double work = zp_sim_get(sim, "load_work"), imbalance = zp_sim_get(sim, "energy_imbalance");
+  printf("work %.6g J, imbalance %.2g J\n", work, imbalance);
+  ck_assert_double_gt(work, 1e-6);
+  ck_assert_double_lt(fabs(imbalance), 1e-8 * work);
+  zp_run_info_destroy(info);
+}
+
+/* -- wrong networks -------------------------------------------------------------------------------- */
+
+#define HELD_ARM "bodies: {arm: {moves: plane, mass: 1 g, inertia: 1 g mm2, at: [0, -5 mm]}}\n"
+#define LIFTED   HELD_ARM "members: {m: {upper: frame, lower: arm}}\n"
+static const struct {
+  ZpStudy study;
+  const char *text, *says;
+} wrong[] = {
+    {ZP_STUDY_STATIONARY,
+     "bodies: {a: {}}\nmembers: {m: {upper: frame, lower: a}}\njoints: {p: {between: [frame, a]}}\n",
+     "joints.p: neither frame nor a moves in the plane"},
+    {ZP_STUDY_STATIONARY, LIFTED "joints: {p: {between: [frame, leg]}}\n",
+     "joints.p.between: leg is not given in bodies"},
+    {ZP_STUDY_STATIONARY, LIFTED "joints: {p: {between: [arm, arm]}}\n", "joints.p.between: both ends are at arm"},
+    {ZP_STUDY_STATIONARY, LIFTED "joints: {p: {type: pin}}\n", "joints.p.between: give two bodies"},
+    {ZP_STUDY_STATIONARY, LIFTED "joints: {p: {type: glue, between: [frame, arm]}}\n", "not one of pin, slide, weld"},
+    {ZP_STUDY_STATIONARY,
+     "bodies: {arm: {moves: plane}, leg: {moves: plane}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+     "bodies.leg: nothing holds it"},
+    {ZP_STUDY_STATIONARY,
+     "study: stationary\nbodies: {arm: {moves: plane, at: [0, -95 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+     "members.m: it opens by 0 to 88.2 mm, but its ends are apart by 6.8 mm too much in the drawing"},
+    {ZP_STUDY_STATIONARY,
+     "study: stationary\nbodies: {arm: {moves: plane, at: [0, 5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+     "its lower end is 5 mm on the wrong side"},
+    {ZP_STUDY_ACTUATE, "bodies: {arm: {moves: plane, mass: 1 g}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+     "bodies.arm.inertia = 0: a body that moves in the plane needs it in motion"},
+    {ZP_STUDY_ACTUATE, "bodies: {arm: {moves: plane, inertia: 1 g mm2}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+     "bodies.arm.mass = 0"},
+    {ZP_STUDY_STATIONARY, "bodies: {a: {force: [1 mN, 0]}}\nmembers: {m: {upper: frame, lower: a}}\n",
+     "bodies.a.force: the first value, to the right, must be 0"},
+    {ZP_STUDY_STATIONARY, "bodies: {a: {torque: 1 mN m}}\nmembers: {m: {upper: frame, lower: a}}\n",
+     "bodies.a.torque: the body moves up and down"},
+    {ZP_STUDY_STATIONARY, "bodies: {a: {}}\nmembers: {m: {upper: frame, lower: a, upper_at: [1 mm, 0]}}\n",
+     "upper_at.x: all bodies move up and down"},
+    {ZP_STUDY_STATIONARY, LIFTED "liquid.model: submerged\n",
+     "the liquid between platforms is modelled for level ones only"},
+    {ZP_STUDY_ISOMETRIC, LIFTED "isometric: {body: arm, separation: 5 mm}\n",
+     "isometric.body = arm: where bodies move in"},
+    {ZP_STUDY_ACTUATE, LIFTED "control: {kind: pi, signal: angle}\nsetpoint.value: 3 mm\nload.mass: 1 g\n",
+     "each body has a mass of its own"},
+    {ZP_STUDY_ACTUATE, "control: {kind: pi, signal: angle}\nsetpoint.value: 3 degree\n",
+     "requires platform.rotates true; only a body that turns has an angle"},
+    {ZP_STUDY_STATIONARY, HELD_ARM "members: {m: {upper: frame, lower: arm, angle: 200 degree}}\n", "180 degree"},
+};
+
+TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {
+  ck_scenario_refused(wrong[_i].study, wrong[_i].text, wrong[_i].says);
+}

@@ -148,6 +148,19 @@ typedef enum ZpInput {
 /* The word for an input; "unknown" for any other number. */
 ZP_API const char *zp_input_name(ZpInput input);
 
+/* Inputs of an actuator or a network, which are numbers of a ZpInput or, in a network, above them:
+ *   NAME.voltage, NAME.setpoint          of a member that has a port of its own, or its first one; V, in the unit of
+ *                                        control.signal
+ *   NAME.force_x, NAME.force_y, NAME.torque   on a body that moves, beside its force and torque, at its place; N, N m;
+ *                                        -10 kN to 10 kN and kN m; to the right and torques in the plane only
+ * A network has no "load". Each number after `input`, from -1 on; -1: there is none. Its name and unit; NULL: there is
+ * no such input. The number of a name; -1: there is none. */
+enum { ZP_INPUT_NAME_SIZE = 48 };
+ZP_API int zp_def_input_next(const ZpActuatorDef *def, int input);
+ZP_API const char *zp_def_input_name(const ZpActuatorDef *def, int input, char text[ZP_INPUT_NAME_SIZE]);
+ZP_API const char *zp_def_input_unit(const ZpActuatorDef *def, int input);
+ZP_API int zp_def_input_find(const ZpActuatorDef *def, const char *name);
+
 /* Set an input: from now on it has this value, SI, and changes by `rate` per second (at most 1e12 in size), until it is
  * set again or reaches the end of its range, where it stays. The voltage jumps to `value`, as with zp_sim_set_voltage,
  * and then changes without loss. The work of the voltage is the signal electric_work, that of the load the signal

@@ -878,6 +878,6 @@ const ZpActuatorDef *zp_model_def(const ZpModel *model) {
 
 size_t zp_state_size(const ZpModel *model) {
   return sizeof(ZpState) + (12 * model->stride + zp_extra_unknowns(model) + model->kept + model->ledger.rows +
-                            zp_state_bodies_size(model)) *
+                            zp_state_bodies_size(model) + zp_state_pushes_size(model)) *
                                sizeof(double);
 }

@@ -204,6 +204,9 @@ typedef struct ZpState {
                     and state [kept], the ledger [rows]; of the first member bodies in the plane (zp_state_bodies) */
 } ZpState;
 
+/* Bytes. */
+size_t zp_state_size(const ZpModel *model);
+
 /* Where the coordinates and velocities of a state stand. */
 static inline double *zp_state_q(const ZpModel *model, ZpState *state) {
   (void)model;
@@ -486,14 +489,32 @@ static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
   return state->data + 12 * model->stride + zp_extra_unknowns(model) + model->kept;
 }
 
-/* Bodies in the plane, in the state of the first member: their unknowns, the velocities of these, and mean velocity and
- * mean acceleration over the last step, each [unknowns]; how many numbers these are. */
+/* Of a network, in the state of its first member: forces and torques that a program sets on bodies, [bodies][3]. */
+enum { ZP_RAMP_NUMBERS = sizeof(ZpRamp) / sizeof(double), ZP_PUSHES = 3 };
+static inline size_t zp_state_pushes_size(const ZpModel *model) {
+  return model->number == 0 && zp_is_network(model) ? ZP_PUSHES * ZP_RAMP_NUMBERS * model->network->bodies : 0;
+}
+
+/* Bodies in the plane, there, too: their unknowns, the velocities of these, and mean velocity and mean acceleration
+ * over the last step, each [unknowns]; how many numbers these are. */
 static inline size_t zp_state_bodies_size(const ZpModel *model) {
   return model->number == 0 ? 4 * model->network->unknowns : 0;
 }
 
 static inline double *zp_state_bodies(const ZpModel *model, ZpState *state) {
   return zp_state_ledger(model, state) + model->ledger.rows;
+}
+
+static inline ZpRamp *zp_state_push(const ZpModel *first, ZpState *state, size_t body, size_t way) {
+  double *from = zp_state_bodies(first, state) + zp_state_bodies_size(first);
+  return (ZpRamp *)(void *)(from + ZP_RAMP_NUMBERS * (ZP_PUSHES * body + way));
+}
+
+/* For reading. */
+static inline ZpRamp zp_state_pushed(const ZpModel *first, const ZpState *state, size_t body, size_t way) {
+  const double *from = state->data + (zp_state_size(first) - offsetof(ZpState, data)) / sizeof(double) -
+                       zp_state_pushes_size(first) + ZP_RAMP_NUMBERS * (ZP_PUSHES * body + way);
+  return (ZpRamp){from[0], from[1], from[2], from[3]};
 }
 
 /* The number of a row; that of all rows if it is none of them. */
@@ -521,8 +542,6 @@ static inline double *zp_state_mean_v(const ZpModel *model, ZpState *state) {
 static inline double *zp_state_mean_a(const ZpModel *model, ZpState *state) {
   return state->data + 10 * model->stride;
 }
-
-size_t zp_state_size(const ZpModel *model);
 
 /* As zp_model_create_driven, but without laws. */
 ZpStatus zp_model_build(const ZpActuatorDef *def, const ZpDriveTable *table, ZpModel **out, ZpError *err);

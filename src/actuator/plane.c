@@ -37,8 +37,8 @@ static ZpStatus check_reach(const ZpModel *model, ZpError *err) {
   const ZpVector apart = zp_difference(point_of(&network->body[ends->lower], ends->at[1]),
                                        point_of(&network->body[ends->upper], ends->at[0]));
   const double opens = -zp_along(apart, zp_across(zp_direction(ends->angle))), distance = sqrt(zp_along(apart, apart));
-  char name[ZP_NAME_SIZE];
-  zp_def_name(model->whole, ZP_OF_MEMBER, (int)model->number + 1, name);
+  char room[ZP_NAME_SIZE];
+  const char *name = zp_def_name(model->whole, ZP_OF_MEMBER, (int)model->number + 1, room);
   if (opens < -near)
     return zp_fail(err, ZP_BAD_INPUT,
                    "members.%s: in the drawing its lower end is %g mm on the wrong side of its upper one; move a body "

@@ -187,6 +187,9 @@ void zp_def_take_supply(ZpActuatorDef *def);
 /* That of any member while drive.voltage is replaced by `voltage`, V. */
 double zp_def_member_voltage(const ZpActuatorDef *def, int member, double voltage);
 
+/* Has each body that moves in the plane a mass and an inertia? */
+ZpStatus zp_check_motion_of_bodies(const ZpActuatorDef *def, ZpError *err);
+
 /* May study isometric hold the body isometric.body at isometric.separation? */
 ZpStatus zp_check_held_body(const ZpActuatorDef *def, ZpError *err);
 

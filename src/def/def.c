@@ -544,6 +544,7 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
 ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);
   if (status == ZP_OK) status = zp_rule_fail(zp_rule_refusing(true, def), "motion ", def, err);
+  if (status == ZP_OK) status = zp_check_motion_of_bodies(def, err);
   return status == ZP_OK ? zp_check_mass(def, err) : status;
 }
 

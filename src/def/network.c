@@ -135,20 +135,27 @@ static ZpStatus check_body(const ZpActuatorDef *def, int body, ZpError *err) {
                  SHOWN(def, ZP_OF_BODY, body), SHOWN(def, ZP_OF_BODY, body));
 }
 
-/* The two bodies of a spring or a joint. */
-static ZpStatus check_pair(const ZpActuatorDef *def, const char *group, const char *name, const int body[2],
-                           ZpError *err) {
-  if (body[0] < 0 || body[1] < 0)
-    return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: give two bodies: [frame, hand]", group, name);
-  if (body[0] == body[1])
-    return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: both ends are at %s; give two bodies", group, name,
-                   SHOWN(def, ZP_OF_BODY, body[0]));
-  return ZP_OK;
+/* The two bodies of a spring or a joint, by its keys. */
+static ZpStatus check_pair(const ZpActuatorDef *def, const char *group, ZpInstanceKind kind, int number,
+                           const int row[2], ZpError *err) {
+  const char *name = SHOWN(def, kind, number);
+  int body[2];
+  for (int k = 0; k < 2; k++) {
+    const double named = value_of(def, row[k], (size_t)number);
+    body[k] = body_in(def, row[k], number);
+    if (isnan(named)) return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: give two bodies: [frame, hand]", group, name);
+    if (body[k] < 0)
+      return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: %s is not given in bodies; add it there, or name another one",
+                     group, name, SHOWN(def, ZP_OF_BODY, (int)named));
+  }
+  if (body[0] != body[1]) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%s.%s.between: both ends are at %s; give two bodies", group, name,
+                 SHOWN(def, ZP_OF_BODY, body[0]));
 }
 
 static ZpStatus check_spring(const ZpActuatorDef *def, int spring, ZpError *err) {
-  const int body[] = {body_in(def, ZP_KEY(spring_K.first), spring), body_in(def, ZP_KEY(spring_K.second), spring)};
-  return check_pair(def, "springs", SHOWN(def, ZP_OF_SPRING, spring), body, err);
+  static const int row[] = {ZP_KEY(spring_K.first), ZP_KEY(spring_K.second)};
+  return check_pair(def, "springs", ZP_OF_SPRING, spring, row, err);
 }
 
 static bool turns(const ZpActuatorDef *def, int body) {
@@ -156,12 +163,12 @@ static bool turns(const ZpActuatorDef *def, int body) {
 }
 
 static ZpStatus check_joint(const ZpActuatorDef *def, int joint, ZpError *err) {
-  const int body[] = {body_in(def, ZP_KEY(joint_K.first), joint), body_in(def, ZP_KEY(joint_K.second), joint)};
-  const char *name = SHOWN(def, ZP_OF_JOINT, joint);
-  ZpStatus status = check_pair(def, "joints", name, body, err);
-  if (status != ZP_OK || turns(def, body[0]) || turns(def, body[1])) return status;
+  static const int row[] = {ZP_KEY(joint_K.first), ZP_KEY(joint_K.second)};
+  ZpStatus status = check_pair(def, "joints", ZP_OF_JOINT, joint, row, err);
+  const int one = body_in(def, row[0], joint), other = body_in(def, row[1], joint);
+  if (status != ZP_OK || turns(def, one) || turns(def, other)) return status;
   return zp_fail(err, ZP_BAD_INPUT, "joints.%s: neither %s nor %s moves in the plane; give one of them moves: plane",
-                 name, SHOWN(def, ZP_OF_BODY, body[0]), SHOWN(def, ZP_OF_BODY, body[1]));
+                 SHOWN(def, ZP_OF_JOINT, joint), SHOWN(def, ZP_OF_BODY, one), SHOWN(def, ZP_OF_BODY, other));
 }
 
 /* Numbers that count for bodies in the plane only: a body that moves up and down has no use for them. */
@@ -180,7 +187,7 @@ static ZpStatus check_unused(const ZpActuatorDef *def, ZpError *err) {
     for (int of = 0; of < 2; of++)
       if (at.row >= first[of] && at.row <= last[of])
         return zp_fail(err, ZP_BAD_INPUT, "%s: all bodies move up and down; give one moves: plane, or leave it out",
-                       ZP_KEY_NAME(def->given->value[k].key));
+                       ZP_KEY_SHOWN(def, def->given->value[k].key));
   }
   if (zp_def_plane(def) || zp_instance_count(def, ZP_OF_JOINT) == 0) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "joints: no body moves in the plane; give one moves: plane");
@@ -306,8 +313,23 @@ static ZpStatus check_places(const ZpActuatorDef *def, int held, ZpError *err) {
   return status;
 }
 
+ZpStatus zp_check_motion_of_bodies(const ZpActuatorDef *def, ZpError *err) {
+  static const int row[] = {ZP_KEY(body_K.mass), ZP_KEY(body_K.inertia)};
+  for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
+    for (size_t k = 0; k < sizeof row / sizeof row[0]; k++)
+      if (turns(def, b) && value_of(def, row[k], (size_t)b) == 0)
+        return zp_fail(err, ZP_BAD_INPUT, "bodies.%s.%s = 0: a body that moves in the plane needs it in motion",
+                       SHOWN(def, ZP_OF_BODY, b), strrchr(zp_key(row[k])->name, '.') + 1);
+  return ZP_OK;
+}
+
 ZpStatus zp_check_held_body(const ZpActuatorDef *def, ZpError *err) {
   const int body = def->isometric.body;
+  if (zp_def_plane(def))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "isometric.body = %s: where bodies move in the plane none of them can be held for a force; give it "
+                   "moves: none and read members.NAME.force_N of study equilibrium",
+                   SHOWN(def, ZP_OF_BODY, body));
   if (!moves(def, body))
     return zp_fail(err, ZP_BAD_INPUT, "isometric.body = %s: it is held already; name a body that moves",
                    SHOWN(def, ZP_OF_BODY, body));

@@ -41,6 +41,7 @@ static size_t reserve(ZpDynamics *d, void *block) {
   d->row = zp_arena_take(&arena, most_places(d));
   d->by_voltage.force = zp_arena_take(&arena, zp_coordinates(d->member->model));
   d->by_voltage.charge = zp_arena_take(&arena, zp_coordinates(d->member->model));
+  d->push = zp_arena_take(&arena, d->member->model->network->bodies);
   d->pose0 = zp_arena_take_of(&arena, d->plane.bodies, sizeof *d->pose0);
   d->pose1 = zp_arena_take_of(&arena, d->plane.bodies, sizeof *d->pose1);
   return arena.used;
@@ -156,6 +157,43 @@ static void add_laws(const ZpDynamics *d, ZpMovingMember *m, double *f) {
   add_ribbons(d, m, f);
 }
 
+/* Mean over the step of what a program sets on a body, which changes linearly, N or N m. */
+static double mean_push(const ZpDynamics *d, size_t body, size_t way) {
+  const ZpMovingMember *first = d->member;
+  const ZpRamp push = zp_state_pushed(first->model, first->state, body, way);
+  return 0.5 * (zp_ramp_value(&push, d->t) + zp_ramp_value(&push, end_time(d)));
+}
+
+/* Forces that a program sets on bodies. */
+static void add_pushes(ZpDynamics *d, double *f) {
+  const ZpModel *first = d->member->model;
+  if (!zp_is_network(first)) return;
+  for (size_t b = 0; b < first->network->bodies; b++) {
+    d->push[b] = mean_push(d, b, ZP_WAY_UP);
+    for (size_t way = 0; in_plane(d) && way < ZP_WAYS; way++)
+      d->links.push[b][way] = mean_push(d, b, way);
+  }
+  if (!in_plane(d)) zp_springs_add_push(&d->springs, d->push, f);
+}
+
+/* Their work over the step, of one part, J. */
+static double pushed_bodies(const ZpDynamics *d) {
+  const ZpModel *first = d->member->model;
+  double work = 0;
+  if (!zp_is_network(first)) return 0;
+  for (size_t b = 0; b < first->network->bodies; b++) {
+    if (!in_plane(d)) {
+      work += d->push[b] * (zp_springs_height(&d->springs, b, d->to) - zp_springs_height(&d->springs, b, d->from));
+      continue;
+    }
+    const ZpPose before = zp_plane_place(&d->plane, b, d->pose0), after = zp_plane_place(&d->plane, b, d->pose1);
+    const double *push = d->links.push[b];
+    work += push[ZP_WAY_ALONG] * (after.x - before.x) + push[ZP_WAY_UP] * (after.y - before.y) +
+            push[ZP_WAY_TURNS] * (after.turn - before.turn);
+  }
+  return work / first->parts;
+}
+
 /* => energies of bending and field, with which an imbalance is compared. */
 static double begin_one(ZpDynamics *d, ZpMovingMember *m, const double *q0) {
   const ZpModel *model = m->model;
@@ -209,6 +247,7 @@ static ZpEnd force(void *self, const double *q1, double h, double *f) {
   for (size_t k = 0; k < d->members; k++)
     add_force(d, &d->member[k], q1, f);
   memcpy(d->to, q1, d->system.n * sizeof *q1);
+  add_pushes(d, f);
   if (in_plane(d))
     zp_links_add_force(&d->links, 1, d->pose0, d->pose1, f);
   else
@@ -1132,6 +1171,8 @@ void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
 
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   release_cavities(d);
+  memcpy(d->to, d->q, d->system.n * sizeof *d->q);
+  state[0]->load_work += pushed_bodies(d);
   for (size_t k = 0; k < d->members; k++)
     book(d, &d->member[k], state[k]);
   book_impacts(d, state[0]);

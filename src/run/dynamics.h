@@ -61,6 +61,7 @@ typedef struct ZpDynamics {
   ZpPlanar plane;                /* of bodies in the plane, */
   ZpLinks links;                 /* what joins them, */
   ZpPose *pose0, *pose1;         /* [bodies] and where they are at the step's start and at its end */
+  double *push;                  /* [bodies] mean of the forces upwards that a program sets, N */
   double *from, *to;             /* [n] and the unknowns between which they act: at the step's start and at its end */
   ZpUnknown *kind;               /* [n] */
   double *scale, *sharers;       /* [n] */

@@ -1,8 +1,11 @@
 /* Inputs: what a program changes while a simulation runs. Their work is booked: of the voltage by energy_balance.c, of
  * the load step by step. docs/theory.md, section 17. */
 #include <math.h>
+#include <stdio.h>
+#include <string.h>
 
 #include "base/fail.h"
+#include "def/rule.h"
 #include "run/run.h"
 
 typedef struct Input {
@@ -19,6 +22,104 @@ static const double most_rate = 1e12;    /* per second: too fast for any time st
 const char *zp_input_name(ZpInput input) {
   return (size_t)input < ZP_INPUT_COUNT ? inputs[input].name : "unknown";
 }
+
+/* -- of a network ---------------------------------------------------------------------------------- */
+
+/* An input beyond those of one actuator: of member 1 .. or of body 1 .. */
+typedef struct Named {
+  int member, body; /* 0: it is none of them */
+  int which;        /* 0: voltage, 1: setpoint; a ZpWay */
+} Named;
+
+enum { OF_MEMBER = 2 };
+
+static Named named(const ZpActuatorDef *def, int input) {
+  const int members = zp_def_members(def), from = input - ZP_INPUT_COUNT, beyond = from - OF_MEMBER * members;
+  const int bodies = zp_instance_count(def, ZP_OF_BODY);
+  if (from < 0 || !zp_def_network(def) || beyond >= ZP_WAYS * bodies) return (Named){0};
+  if (beyond < 0) return (Named){.member = 1 + from / OF_MEMBER, .which = from % OF_MEMBER};
+  return (Named){.body = 1 + beyond / ZP_WAYS, .which = beyond % ZP_WAYS};
+}
+
+static int last_input(const ZpActuatorDef *def) {
+  if (!zp_def_network(def)) return ZP_INPUT_COUNT;
+  return ZP_INPUT_COUNT + OF_MEMBER * zp_def_members(def) + ZP_WAYS * zp_instance_count(def, ZP_OF_BODY);
+}
+
+static bool is_controlled(const ZpActuatorDef *def, int member) {
+  return zp_def_member(def, member).control.kind != ZP_CONTROL_NONE;
+}
+
+/* Does a member have a port of its own, or its first one, whose voltage is set, or whose setpoint? */
+static bool has_port(const ZpActuatorDef *def, int member, bool setpoint) {
+  return zp_def_port(def, member) == member && is_controlled(def, member) == setpoint;
+}
+
+/* Is a member on the port of all? */
+static bool has_common_port(const ZpActuatorDef *def, bool controlled) {
+  bool has = false;
+  for (int k = 1; k <= zp_def_members(def); k++)
+    has |= zp_def_port(def, k) == 0;
+  return has && (def->control.kind != ZP_CONTROL_NONE) == controlled;
+}
+
+static bool exists(const ZpActuatorDef *def, int input) {
+  const bool network = zp_def_network(def);
+  if (input < 0) return false;
+  if (input == ZP_INPUT_LOAD) return !network;
+  if (input < ZP_INPUT_COUNT)
+    return network ? has_common_port(def, input == ZP_INPUT_SETPOINT)
+                   : (input == ZP_INPUT_SETPOINT) == (def->control.kind != ZP_CONTROL_NONE);
+  const Named of = named(def, input);
+  if (of.member > 0) return has_port(def, of.member, of.which == 1);
+  if (of.body == 0) return false;
+  const double moves = zp_def_get(def, zp_key_of_instance(ZP_KEY(body_K.moves), of.body));
+  return moves == ZP_MOVES_PLANE || (moves == ZP_MOVES_VERTICAL && of.which == ZP_WAY_UP);
+}
+
+int zp_def_input_next(const ZpActuatorDef *def, int input) {
+  for (int next = input + 1; def && next < last_input(def); next++)
+    if (exists(def, next)) return next;
+  return -1;
+}
+
+static const struct {
+  const char *name, *unit;
+} of_member[] = {{"voltage", "V"}, {"setpoint", "1"}},
+  of_body[] = {{"force_x", "N"}, {"force_y", "N"}, {"torque", "N m"}};
+
+const char *zp_def_input_name(const ZpActuatorDef *def, int input, char text[ZP_INPUT_NAME_SIZE]) {
+  char called[ZP_NAME_SIZE];
+  if (!def || !exists(def, input)) return NULL;
+  if (input < ZP_INPUT_COUNT) {
+    snprintf(text, ZP_INPUT_NAME_SIZE, "%s", inputs[input].name);
+    return text;
+  }
+  const Named of = named(def, input);
+  if (of.member > 0)
+    snprintf(text, ZP_INPUT_NAME_SIZE, "%s.%s", zp_def_name(def, ZP_OF_MEMBER, of.member, called),
+             of_member[of.which].name);
+  else
+    snprintf(text, ZP_INPUT_NAME_SIZE, "%s.%s", zp_def_name(def, ZP_OF_BODY, of.body, called), of_body[of.which].name);
+  return text;
+}
+
+const char *zp_def_input_unit(const ZpActuatorDef *def, int input) {
+  if (!def || !exists(def, input)) return NULL;
+  const Named of = named(def, input);
+  return input < ZP_INPUT_COUNT ? inputs[input].unit
+         : of.member > 0        ? of_member[of.which].unit
+                                : of_body[of.which].unit;
+}
+
+int zp_def_input_find(const ZpActuatorDef *def, const char *name) {
+  char text[ZP_INPUT_NAME_SIZE];
+  for (int input = zp_def_input_next(def, -1); input >= 0; input = zp_def_input_next(def, input))
+    if (strcmp(zp_def_input_name(def, input, text), name) == 0) return input;
+  return -1;
+}
+
+/* -- setting --------------------------------------------------------------------------------------- */
 
 /* The ramp from now on, which ends at the end of the input's range. */
 static ZpRamp ramp_within(double value, double rate, double t, double least, double most) {
@@ -92,12 +193,47 @@ static ZpStatus set_load(ZpSim *sim, double load, double rate, ZpError *err) {
   return ZP_OK;
 }
 
+/* Voltage of a port of its own, in the range of drive.voltage. */
+static ZpStatus set_port(ZpSim *lead, double voltage, double rate, ZpError *err) {
+  const ZpKey *key = zp_key(lead->drive);
+  const double worst = rate > 0 ? key->max : voltage;
+  ZpActuatorDef scratch = lead->model->def;
+  ZpStatus status = zp_def_set(&scratch, lead->drive, voltage, err);
+  for (ZpSim *m = lead; m && status == ZP_OK; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL)
+    status = zp_def_check_voltage(&m->model->def, worst, err);
+  if (status == ZP_OK) zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, key->min, key->max));
+  return status;
+}
+
+/* An input of a member or a body. */
+static ZpStatus set_named(ZpSim *sim, int input, double value, double rate, ZpError *err) {
+  const Named of = named(sim->model->whole, input);
+  if (of.member > 0 && of.which == 0) return set_port(sim + of.member - 1, value, rate, err);
+  if (of.member > 0) return set_setpoint(sim + of.member - 1, value, rate, err);
+  if (!(fabs(value) <= most_load))
+    return zp_fail(err, ZP_BAD_INPUT, "%s = %g is out of range; %g to %g",
+                   zp_def_input_name(sim->model->whole, input, (char[ZP_INPUT_NAME_SIZE]){0}), value, -most_load,
+                   most_load);
+  *zp_state_push(sim->model, sim->state, (size_t)of.body, (size_t)of.which) =
+      ramp_within(value, rate, sim->state->t, -most_load, most_load);
+  return ZP_OK;
+}
+
 ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err) {
-  if ((size_t)input >= ZP_INPUT_COUNT)
-    return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
+  char text[ZP_INPUT_NAME_SIZE];
+  const ZpActuatorDef *def = sim->model->whole;
+  const bool beyond = (size_t)input >= ZP_INPUT_COUNT;
+  const char *name = beyond ? zp_def_input_name(def, (int)input, text) : inputs[input].name,
+             *unit = beyond ? zp_def_input_unit(def, (int)input) : inputs[input].unit;
+  if (!name) return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
   if (!(fabs(rate) <= most_rate))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: a rate of %g %s/s is out of range; %g to %g %s/s", inputs[input].name, rate,
-                   inputs[input].unit, -most_rate, most_rate, inputs[input].unit);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: a rate of %g %s/s is out of range; %g to %g %s/s", name, rate, unit,
+                   -most_rate, most_rate, unit);
+  if (beyond) {
+    ZpStatus status = set_named(sim, (int)input, value, rate, err);
+    if (status == ZP_OK) sim->cut = false;
+    return status;
+  }
   static ZpStatus (*const set[ZP_INPUT_COUNT])(ZpSim *, double, double, ZpError *) = {
       [ZP_INPUT_VOLTAGE] = set_voltage, [ZP_INPUT_LOAD] = set_load, [ZP_INPUT_SETPOINT] = set_setpoint};
   ZpStatus status = check_free(sim, input, err);

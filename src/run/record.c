@@ -500,7 +500,7 @@ static void read_at(ZpSim *sim, double voltage, double *row) {
 ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err) {
   static const double part = 1e-5, least = 1e-2; /* of the voltage, and V: far from the rounding of differences */
   double above[SIGNAL_COUNT], below[SIGNAL_COUNT];
-  if ((size_t)input >= ZP_INPUT_COUNT)
+  if ((size_t)input >= ZP_INPUT_COUNT && !zp_def_input_unit(sim->model->whole, (int)input))
     return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
   memset(slope, 0, SIGNAL_COUNT * sizeof *slope);
   if (input == ZP_INPUT_SETPOINT) slope[SIGNAL_setpoint] = 1; /* the controller measures at its next sample */

@@ -175,10 +175,11 @@ static void walk_rows(ZpPack *p, const ZpModel *model, double *data) {
     zp_pack_field(p, model->ledger.row[k]->name, ZP_REAL, row ? row + k : NULL, 1);
 }
 
-/* Bodies in the plane, behind those. */
+/* Bodies in the plane, and what a program does to the bodies of a network, behind those. */
 static void walk_bodies(ZpPack *p, const ZpModel *model, double *data) {
-  const size_t count = zp_state_bodies_size(model), before = data_of(model) - count;
-  if (count > 0) zp_pack_field(p, "bodies", ZP_REAL, data ? data + before : NULL, count);
+  const size_t bodies = zp_state_bodies_size(model), pushes = zp_state_pushes_size(model), all = data_of(model);
+  if (bodies > 0) zp_pack_field(p, "bodies", ZP_REAL, data ? data + all - pushes - bodies : NULL, bodies);
+  if (pushes > 0) zp_pack_field(p, "pushes", ZP_REAL, data ? data + all - pushes : NULL, pushes);
 }
 
 static void print_value(const ZpKey *key, double value, char text[64]) {

@@ -93,11 +93,20 @@ static double corner_of(const ZpSim *m) {
                         : zp_waveform_next_corner(&m->model->waveform, state->t);
 }
 
+/* Of what a program sets on bodies. */
+static double corner_of_pushes(const ZpSim *sim) {
+  double corner = INFINITY;
+  for (size_t k = 0; k < zp_state_pushes_size(sim->model) / ZP_RAMP_NUMBERS; k++)
+    corner = fmin(corner, zp_ramp_corner(zp_state_push(sim->model, sim->state, 0, k), sim->state->t));
+  return corner;
+}
+
 double zp_sim_next_corner(ZpSim *sim) {
   const ZpState *state = sim->state;
   double voltage = INFINITY;
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
     if (zp_leads_port(m->model)) voltage = fmin(voltage, corner_of(m));
+  voltage = fmin(voltage, corner_of_pushes(sim));
   double load = fmin(next_change(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
   return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
 }
@@ -126,6 +135,9 @@ static double resolution_of(ZpSim *lead) {
 static double resolution(ZpSim *sim) {
   double longest =
       hand_resolution(&zp_sim_loaded(sim)->state->load_input, zp_eval_weight_scale(sim->model), sim->state->t);
+  for (size_t k = 0; k < zp_state_pushes_size(sim->model) / ZP_RAMP_NUMBERS; k++)
+    longest = fmin(longest, hand_resolution(zp_state_push(sim->model, sim->state, 0, k),
+                                            zp_eval_weight_scale(sim->model), sim->state->t));
   for (ZpSim *m = sim; m < sim + sim->members; m++)
     if (zp_leads_port(m->model)) longest = fmin(longest, resolution_of(m));
   return longest;

@@ -31,9 +31,10 @@ bool zp_links_create(const ZpPlanar *plane, size_t inner, ZpLinks *links) {
   links->joint = zp_calloc(network->joints + 1, sizeof *links->joint);
   links->pull = zp_calloc(network->joints + 1, sizeof *links->pull);
   links->found = zp_calloc(network->joints + 1, sizeof *links->found);
+  links->push = zp_calloc(network->bodies, sizeof *links->push);
   for (size_t k = 0; k < network->members; k++)
     links->stiffness = fmax(links->stiffness, plane->first[k].axial_stiffness);
-  if (!links->spring || !links->joint || !links->pull || !links->found) return false;
+  if (!links->spring || !links->joint || !links->pull || !links->found || !links->push) return false;
   for (size_t k = 0; k < network->springs; k++)
     for (int e = 0; e < 2; e++)
       links->spring[k].arm[e] = arm_of(plane, network->spring[k].body[e], network->spring[k].at[e]);
@@ -48,6 +49,7 @@ void zp_links_destroy(ZpLinks *links) {
   zp_free(links->joint);
   zp_free(links->pull);
   zp_free(links->found);
+  zp_free(links->push);
   *links = (ZpLinks){0};
 }
 
@@ -170,10 +172,11 @@ static void add_joint(ZpLinks *links, size_t k, const ZpPose *from, const ZpPose
 static void add_constant(const ZpLinks *links, size_t b, double share, const ZpPose *from, const ZpPose *to,
                          double *f) {
   const ZpBody *body = &network_of(links)->body[b];
-  const ZpVector force = {share * body->force[0], share * body->force[1]};
+  const double *push = links->push[b];
+  const ZpVector force = {share * body->force[0] + push[ZP_WAY_ALONG], share * body->force[1] + push[ZP_WAY_UP]};
   add_way(links, b, ZP_WAY_UP, -share * links->plane->body[b].mass * links->plane->first->def.gravity, f);
   add_at(links, b, links->plane->body[b].place, force, from, to, f);
-  add_torque(links, b, share * body->torque, f);
+  add_torque(links, b, share * body->torque + push[ZP_WAY_TURNS], f);
 }
 
 void zp_links_add_force(ZpLinks *links, double share, const ZpPose *from, const ZpPose *to, double *f) {

@@ -21,6 +21,7 @@ typedef struct ZpLinks {
   double stiffness;          /* of joints, N/m: that of an edge of the stiffest strip */
   double (*pull)[ZP_PULLS];  /* [joints] forces and torque that the last step predicted, N and N m, with which the next
                                 stiffness begins: those of joints that it has bent would turn bodies back */
+  double (*push)[ZP_WAYS];   /* [bodies] forces at their places and torques that a program sets, N, N m */
   double (*found)[ZP_PULLS]; /* [joints] those of the last forces */
 } ZpLinks;
 

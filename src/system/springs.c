@@ -16,7 +16,7 @@ static ZpBodyHeight height_of(const ZpNetwork *network, ZpAssembly *const assemb
 bool zp_springs_create(const ZpModel *first, ZpAssembly *const assembly[], ZpSprings *springs) {
   const ZpNetwork *network = first->network;
   *springs = (ZpSprings){.first = first, .count = network->springs};
-  if (springs->count == 0) return true;
+  if (!zp_is_network(first)) return true;
   springs->height = zp_calloc(network->bodies, sizeof *springs->height);
   for (size_t b = 0; springs->height && b < network->bodies; b++)
     springs->height[b] = height_of(network, assembly, first, b);
@@ -86,6 +86,17 @@ void zp_springs_add_stiffness(const ZpSprings *s, double share, const double *st
       *zp_sparse_at(D, row->equation - inner, column->equation - inner) += sign * slope * row->factor * column->factor;
     }
   }
+}
+
+void zp_springs_add_push(const ZpSprings *s, const double *push, double *f) {
+  for (size_t b = 0; b < s->first->network->bodies; b++) {
+    const ZpBodyHeight *h = &s->height[b];
+    if (!h->held) f[h->equation] += h->factor * push[b] / s->first->parts;
+  }
+}
+
+double zp_springs_height(const ZpSprings *s, size_t body, const double *at) {
+  return height_at(&s->height[body], at);
 }
 
 double zp_springs_energy(const ZpSprings *s, const double *at) {

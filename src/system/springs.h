@@ -28,7 +28,7 @@ static inline double zp_link_energy(const ZpLink *link, double length) {
 typedef struct ZpSprings {
   const ZpModel *first;
   size_t count;         /* 0: there are none, and nothing else is used */
-  ZpBodyHeight *height; /* [bodies] */
+  ZpBodyHeight *height; /* [bodies]; NULL: no body is named */
 } ZpSprings;
 
 /* Of a system whose equations have been numbered, by the assemblies of its members. False if there is no memory. */
@@ -43,6 +43,12 @@ void zp_springs_add_force(const ZpSprings *springs, double share, const double *
  * `inner`. */
 void zp_springs_add_stiffness(const ZpSprings *springs, double share, const double *start, const double *end,
                               bool still, size_t inner, ZpSparse *D);
+
+/* Forces upwards on bodies [bodies], N, added to f [n]. */
+void zp_springs_add_push(const ZpSprings *springs, const double *push, double *f);
+
+/* Height of a body by the unknowns [n], m. */
+double zp_springs_height(const ZpSprings *springs, size_t body, const double *at);
 
 /* Their energy, of one part, J. */
 double zp_springs_energy(const ZpSprings *springs, const double *at);
