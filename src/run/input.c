@@ -83,10 +83,8 @@ int zp_def_input_next(const ZpActuatorDef *def, int input) {
   return -1;
 }
 
-static const struct {
-  const char *name, *unit;
-} of_member[] = {{"voltage", "V"}, {"setpoint", "1"}},
-  of_body[] = {{"force_x", "N"}, {"force_y", "N"}, {"torque", "N m"}};
+static const Input of_member[] = {{"voltage", "V"}, {"setpoint", "1"}};
+static const Input of_body[] = {{"force_x", "N"}, {"force_y", "N"}, {"torque", "N m"}};
 
 const char *zp_def_input_name(const ZpActuatorDef *def, int input, char text[ZP_INPUT_NAME_SIZE]) {
   char called[ZP_NAME_SIZE];
