@@ -1,6 +1,6 @@
 /* The FMUs that `zipact fmu` writes, in an importer: what they say, what they compute, and what they refuse. Every test
  * is run for FMI 2 and for FMI 3. */
-#include "check_util.h"
+#include "data_util.h"
 
 #include <malloc.h>
 #include <pthread.h>
@@ -1292,6 +1292,91 @@ VERSION_TESTS(stacks) {
   ck_assert_int_eq(fmu_enter(&instance, 0), OK);
   ck_assert_int_ne(fmu_exit(&instance), OK);
   ck_assert_msg(strstr(last_message, "an FMU contains a single actuator") != NULL, "%s", last_message);
+  fmu_free(&instance);
+  fmu_close(&fmu);
+}
+
+/* A network: two actuators on bodies that turn, one on a channel of its own; forces on bodies. */
+static const char network[] =
+    "mesh.nodes: 9\nsolver: {end_time: 20 ms, tolerance: 1e-4}\n"
+    "bodies:\n  arm: {moves: plane, mass: 6 g, inertia: 2000 g mm2, at: [0, -6 mm]}\n  hand: {mass: 3 g, at: [0, -12 "
+    "mm]}\n"
+    "joints: {pivot: {between: [frame, arm], at: [-60 mm, -6 mm]}}\n"
+    "members:\n  lifts: {upper: frame, lower: arm}\n"
+    "  grips: {upper: arm, lower: hand, upper_at: [0, -1 mm], drive: {waveform: sine, voltage: 3 kV, offset: 1 kV, "
+    "frequency: 50 Hz}}\ndrive.voltage: 4 kV\n";
+
+static const struct {
+  const char *input;
+  double value;
+} set_in_network[] = {
+    {"voltage", 3e3}, {"grips.voltage", 1.5e3}, {"arm.torque", 1e-3}, {"arm.force_x", 5e-3}, {"hand.force_y", -4e-3}};
+
+/* Outputs of the FMU, and columns of the table of a run. */
+static const char *const seen_in_network[][2] = {{"lifts.opening", "lifts.opening_m"},
+                                                 {"grips.electrode_voltage", "grips.voltage_V"},
+                                                 {"arm.x", "arm.x_m"},
+                                                 {"arm.angle", "arm.angle_rad"},
+                                                 {"hand.y", "hand.y_m"},
+                                                 {"charge", "charge_C"}};
+
+/* The simulation of it by inputs of the same names, 10 ms long => numbers of the table. */
+static void simulate_network(const char *text, double *number) {
+  ZpScenario *scenario = new_scenario();
+  ZpActuatorDef def = {0};
+  ZpError err;
+  ck_assert_int_eq(zp_scenario_parse(scenario, text, strlen(text), "network.yaml", &err), ZP_OK);
+  ck_assert_int_eq(zp_scenario_def(scenario, 0, &def, &err), ZP_OK);
+  ck_assert_int_eq(zp_def_forget_ports(&def, &err), ZP_OK);
+  ZpSim *sim = data_sim_of(&def);
+  for (size_t k = 0; k < LENGTH_OF(set_in_network); k++)
+    ck_assert_msg(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&def, set_in_network[k].input),
+                                   set_in_network[k].value, 0, &err) == ZP_OK,
+                  "%s", err.message);
+  ZpRunInfo *info = zp_run_info_create();
+  for (int k = 0; k < 10; k++)
+    zp_sim_step(sim, (k + 1) * 1e-3 - k * 1e-3, NULL, info);
+  zp_run_info_destroy(info);
+  ZpTable *columns = zp_signal_table(&def, 1);
+  double *row = calloc(zp_sim_columns(sim), sizeof *row);
+  zp_sim_read_columns(sim, zp_sim_columns(sim), row);
+  for (size_t k = 0; k < LENGTH_OF(seen_in_network); k++)
+    for (size_t c = 0; c < zp_table_columns(columns); c++)
+      if (strcmp(zp_table_column(columns, c)->name, seen_in_network[k][1]) == 0) number[k] = row[c];
+  free(row);
+  zp_table_destroy(columns);
+  zp_def_clear(&def);
+}
+
+VERSION_TESTS(network_is_that_of_a_program) {
+  double number[LENGTH_OF(seen_in_network)];
+  char path[128];
+  snprintf(path, sizeof path, "%s-network-%d.yaml", scratch, _i);
+  write_file(path, network);
+  simulate_network(network, number);
+  Fmu fmu = made(_i, path);
+  Instance instance = new_instance(&fmu);
+  fmu_start(&instance);
+  for (size_t k = 0; k < LENGTH_OF(set_in_network); k++)
+    fmu_set(&instance, set_in_network[k].input, set_in_network[k].value);
+  void *state = NULL;
+  for (int k = 0; k < 5; k++)
+    must_step(&instance, k * 1e-3, (k + 1) * 1e-3 - k * 1e-3);
+  ck_assert_int_eq(fmu_get_state(&instance, &state), OK);
+  for (int again = 0; again < 2; again++) {
+    for (int k = 5; k < 10; k++)
+      must_step(&instance, k * 1e-3, (k + 1) * 1e-3 - k * 1e-3);
+    for (size_t k = 0; k < LENGTH_OF(number); k++)
+      ck_assert_msg(fmu_get(&instance, seen_in_network[k][0]) == number[k], "%s = %.17g, expected %.17g",
+                    seen_in_network[k][0], fmu_get(&instance, seen_in_network[k][0]), number[k]);
+    ck_assert_int_eq(fmu_set_state(&instance, state), OK);
+  }
+  ck_assert_int_eq(fmu_free_state(&instance, &state), OK);
+  ck_assert_int_eq(fmu_reset(&instance), OK);
+  fmu_set(&instance, "bodies.hand.mass", 4e-3);
+  fmu_start(&instance);
+  must_step(&instance, 0, 1e-3);
+  ck_assert_double_lt(fmu_get(&instance, "hand.y"), number[4] - 1e-4); /* it hangs lower */
   fmu_free(&instance);
   fmu_close(&fmu);
 }

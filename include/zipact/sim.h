@@ -161,6 +161,14 @@ ZP_API const char *zp_def_input_name(const ZpActuatorDef *def, int input, char t
 ZP_API const char *zp_def_input_unit(const ZpActuatorDef *def, int input);
 ZP_API int zp_def_input_find(const ZpActuatorDef *def, const char *name);
 
+/* The member whose port an input belongs to, from 1; 0: that of all members without one of their own; below 0: it is
+ * none of a port. *which: ZP_INPUT_VOLTAGE or ZP_INPUT_SETPOINT, of another input its number. */
+ZP_API int zp_def_input_member(const ZpActuatorDef *def, int input, int *which);
+
+/* Replace the waveforms of members that have ports of their own by ramps that begin with the values at t = 0, and their
+ * setpoints by these values, as for a program that sets them by inputs. ZP_MACHINE: no memory. */
+ZP_API ZpStatus zp_def_forget_ports(ZpActuatorDef *def, ZpError *err);
+
 /* Set an input: from now on it has this value, SI, and changes by `rate` per second (at most 1e12 in size), until it is
  * set again or reaches the end of its range, where it stays. The voltage jumps to `value`, as with zp_sim_set_voltage,
  * and then changes without loss. The work of the voltage is the signal electric_work, that of the load the signal
@@ -173,6 +181,12 @@ ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double
  * not change. Signals are polynomials of second degree in the voltage, so the central difference that is used is exact
  * up to rounding, and up to 1e-6 where the breakdown cap begins to act. ZP_BAD_INPUT if there is no such input. */
 ZP_API ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err);
+
+/* How many numbers the table of this simulation's runs has in a row: the signals, of several members then numbers of
+ * each member and body. The first `columns` of them now, SI; their derivatives, as zp_sim_input_slopes. */
+ZP_API size_t zp_sim_columns(const ZpSim *sim);
+ZP_API void zp_sim_read_columns(ZpSim *sim, size_t columns, double *row);
+ZP_API ZpStatus zp_sim_column_slopes(ZpSim *sim, ZpInput input, size_t columns, double *slope, ZpError *err);
 
 /* A controller of the program's own, which sets the voltage at equal intervals. */
 typedef struct ZpController {

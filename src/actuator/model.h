@@ -490,7 +490,8 @@ static inline double *zp_state_ledger(const ZpModel *model, ZpState *state) {
 }
 
 /* Of a network, in the state of its first member: forces and torques that a program sets on bodies, [bodies][3]. */
-enum { ZP_RAMP_NUMBERS = sizeof(ZpRamp) / sizeof(double), ZP_PUSHES = 3 };
+enum { ZP_PUSHES = 3 };
+#define ZP_RAMP_NUMBERS (sizeof(ZpRamp) / sizeof(double))
 static inline size_t zp_state_pushes_size(const ZpModel *model) {
   return model->number == 0 && zp_is_network(model) ? ZP_PUSHES * ZP_RAMP_NUMBERS * model->network->bodies : 0;
 }

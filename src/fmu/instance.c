@@ -6,18 +6,21 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/instances.h"
+#include "run/run.h"
 
 /* -- life ------------------------------------------------------------------------------------------ */
 
 ZpStatus zp_fmu_reset(ZpFmu *fmu, ZpError *err) {
+  zp_def_clear(&fmu->def);
   ZpStatus status = zp_fmu_start_def(&fmu->start, &fmu->def, err);
   if (status != ZP_OK) return status;
   fmu->phase = ZP_FMU_INSTANTIATED;
   fmu->start_time = fmu->time = 0;
   memset(fmu->rate, 0, sizeof fmu->rate);
   memset(fmu->input, 0, sizeof fmu->input);
-  fmu->input[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&fmu->def);
-  fmu->input[ZP_INPUT_SETPOINT] = zp_fmu_first_setpoint(&fmu->def);
+  for (int input = zp_def_input_next(&fmu->def, -1); input >= 0; input = zp_def_input_next(&fmu->def, input))
+    fmu->input[input] = zp_fmu_first(&fmu->def, input);
   fmu->prepared = false;
   return ZP_OK;
 }
@@ -47,6 +50,7 @@ static void drop_model(ZpFmu *fmu) {
 void zp_fmu_destroy(ZpFmu *fmu) {
   if (!fmu) return;
   drop_model(fmu);
+  zp_def_clear(&fmu->def);
   zp_free(fmu);
 }
 
@@ -56,9 +60,12 @@ void zp_fmu_destroy(ZpFmu *fmu) {
 static bool is_built(const ZpFmu *fmu) {
   if (!fmu->sim) return false;
   for (int key = 0; key < ZP_KEYS; key++) {
-    double wanted = zp_def_get(&fmu->def, key), has = zp_def_get(zp_model_def(fmu->model), key);
+    double wanted = zp_def_get(&fmu->def, key), has = zp_def_get(fmu->model->whole, key);
     if (wanted != has && !(isnan(wanted) && isnan(has))) return false;
   }
+  const ZpActuatorDef *whole = fmu->model->whole;
+  for (size_t k = 0; fmu->def.given && k < fmu->def.given->count; k++)
+    if (zp_def_get(whole, fmu->def.given->value[k].key) != fmu->def.given->value[k].value) return false;
   return true;
 }
 
@@ -78,8 +85,8 @@ static ZpStatus keep_origin(ZpFmu *fmu, ZpError *err) {
 
 static ZpStatus build(ZpFmu *fmu, ZpError *err) {
   drop_model(fmu);
-  if (zp_def_members(&fmu->def) > 1 || zp_def_network(&fmu->def))
-    return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator",
+  if (zp_def_members(&fmu->def) > 1 && !zp_def_network(&fmu->def))
+    return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator or a network",
                    zp_def_members(&fmu->def));
   ZpStatus status = zp_model_create(&fmu->def, &fmu->model, err);
   if (status == ZP_OK) status = zp_sim_create(fmu->model, NULL, &fmu->sim, err);
@@ -94,12 +101,12 @@ ZpStatus zp_fmu_need_model(ZpFmu *fmu, ZpError *err) {
 }
 
 static bool has_input(const ZpFmu *fmu, int input) {
-  return zp_fmu_is_input(input, fmu->def.control.kind != ZP_CONTROL_NONE);
+  return zp_def_input_unit(&fmu->def, input) != NULL;
 }
 
 /* Read the current signals. */
 static void read_row(ZpFmu *fmu) {
-  zp_sim_read(fmu->sim, fmu->row);
+  zp_sim_read_columns(fmu->sim, (size_t)zp_fmu_outputs(&fmu->def), fmu->row);
   fmu->stale = false;
 }
 
@@ -116,9 +123,9 @@ ZpStatus zp_fmu_prepare(ZpFmu *fmu, ZpError *err) {
   if (fmu->prepared) return ZP_OK;
   ZpStatus status = zp_fmu_need_model(fmu, err);
   if (status == ZP_OK) status = zp_sim_restore(fmu->sim, fmu->origin, zp_sim_state_size(fmu->sim), err);
-  for (int input = 0; input < ZP_INPUT_COUNT && status == ZP_OK; input++)
-    if (has_input(fmu, input))
-      status = zp_sim_set_input(fmu->sim, (ZpInput)input, fmu->input[input], fmu->rate[input], err);
+  for (int input = zp_def_input_next(&fmu->def, -1); input >= 0 && status == ZP_OK;
+       input = zp_def_input_next(&fmu->def, input))
+    status = zp_sim_set_input(fmu->sim, (ZpInput)input, fmu->input[input], fmu->rate[input], err);
   if (status != ZP_OK) return status;
   fmu->row[ZP_FMU_SIGNAL_current] = fmu->row[ZP_FMU_SIGNAL_power] = 0;
   read_row_again(fmu);
@@ -134,11 +141,19 @@ ZpStatus zp_fmu_begin(ZpFmu *fmu, ZpError *err) {
 
 /* -- variables ------------------------------------------------------------------------------------- */
 
+/* Keys of a network are parameters where they are given. */
+static bool has_parameter(const ZpFmu *fmu, int key) {
+  if (key < ZP_KEYS) return zp_fmu_is_parameter(key, fmu->start.value[key]);
+  for (size_t k = 0; k < fmu->start.givens; k++)
+    if (fmu->start.given[k].key == key) return zp_fmu_is_parameter(key, fmu->start.given[k].value);
+  return false;
+}
+
 static ZpStatus find(const ZpFmu *fmu, uint32_t reference, ZpFmuVariable *variable, ZpError *err) {
   bool found = zp_fmu_find(reference, variable);
-  if (found && variable->role == ZP_FMU_PARAMETER)
-    found = zp_fmu_is_parameter(variable->index, fmu->start.value[variable->index]);
+  if (found && variable->role == ZP_FMU_PARAMETER) found = has_parameter(fmu, variable->index);
   if (found && variable->role == ZP_FMU_INPUT) found = has_input(fmu, variable->index);
+  if (found && variable->role == ZP_FMU_OUTPUT) found = variable->index < zp_fmu_outputs(&fmu->def);
   return found ? ZP_OK : zp_fail(err, ZP_BAD_INPUT, "value reference %u: there is no such variable", reference);
 }
 
@@ -146,7 +161,7 @@ static ZpStatus find_typed(const ZpFmu *fmu, uint32_t reference, ZpKeyType type,
                            ZpError *err) {
   ZpStatus status = find(fmu, reference, variable, err);
   if (status != ZP_OK || zp_fmu_type(*variable) == type) return status;
-  return zp_fail(err, ZP_BAD_INPUT, "%s: this variable has another type", zp_fmu_text(*variable).name);
+  return zp_fail(err, ZP_BAD_INPUT, "%s: this variable has another type", zp_fmu_text(&fmu->def, *variable).name);
 }
 
 static ZpStatus get_output(ZpFmu *fmu, int index, double *value, ZpError *err) {
@@ -173,7 +188,8 @@ ZpStatus zp_fmu_get(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double *valu
 
 static ZpStatus set_input(ZpFmu *fmu, ZpInput input, double value, double rate, ZpError *err) {
   if (fmu->phase & (ZP_FMU_TERMINATED | ZP_FMU_FAILED))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: the simulation has ended", zp_input_name(input));
+    return zp_fail(err, ZP_BAD_INPUT, "%s: the simulation has ended",
+                   zp_fmu_text(&fmu->def, (ZpFmuVariable){ZP_FMU_INPUT, (int)input}).name);
   ZpStatus status = fmu->prepared ? zp_sim_set_input(fmu->sim, input, value, rate, err) : ZP_OK;
   if (status != ZP_OK) return status;
   fmu->input[input] = value;
@@ -204,7 +220,8 @@ static ZpStatus set_parameter(ZpFmu *fmu, int key, double value, ZpError *err) {
   bool running = fmu->phase & (ZP_FMU_STEPPING | ZP_FMU_AT_EVENT);
   if (running && zp_fmu_is_tunable(key)) return tune(fmu, key, value, err);
   if (!(fmu->phase & (ZP_FMU_INSTANTIATED | ZP_FMU_INITIALIZING)))
-    return zp_fail(err, ZP_BAD_INPUT, "%s: a fixed parameter can be set until initialization ends", zp_key(key)->name);
+    return zp_fail(err, ZP_BAD_INPUT, "%s: a fixed parameter can be set until initialization ends",
+                   zp_fmu_text(&fmu->def, (ZpFmuVariable){ZP_FMU_PARAMETER, key}).name);
   ZpStatus status = zp_def_set(&fmu->def, key, value, err);
   if (status == ZP_OK) fmu->prepared = false;
   return status;
@@ -216,14 +233,15 @@ ZpStatus zp_fmu_set(ZpFmu *fmu, uint32_t reference, ZpKeyType type, double value
   if (status != ZP_OK) return status;
   if (variable.role == ZP_FMU_INPUT) return set_input(fmu, (ZpInput)variable.index, value, 0, err);
   if (variable.role == ZP_FMU_PARAMETER) return set_parameter(fmu, variable.index, value, err);
-  return zp_fail(err, ZP_BAD_INPUT, "%s: only inputs and parameters can be set", zp_fmu_text(variable).name);
+  return zp_fail(err, ZP_BAD_INPUT, "%s: only inputs and parameters can be set", zp_fmu_text(&fmu->def, variable).name);
 }
 
 ZpStatus zp_fmu_set_rate(ZpFmu *fmu, uint32_t reference, double rate, ZpError *err) {
   ZpFmuVariable variable;
   ZpStatus status = find(fmu, reference, &variable, err);
   if (status != ZP_OK) return status;
-  if (variable.role != ZP_FMU_INPUT) return zp_fail(err, ZP_BAD_INPUT, "%s: not an input", zp_fmu_text(variable).name);
+  if (variable.role != ZP_FMU_INPUT)
+    return zp_fail(err, ZP_BAD_INPUT, "%s: not an input", zp_fmu_text(&fmu->def, variable).name);
   return set_input(fmu, (ZpInput)variable.index, fmu->input[variable.index], rate, err);
 }
 
@@ -248,16 +266,17 @@ ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpE
   return zp_fail(err, ZP_MACHINE, "%s", info.message);
 }
 
-ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], ZpError *err) {
+ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_OUTPUTS], ZpError *err) {
   ZpFmuVariable input;
   ZpStatus status = find(fmu, by, &input, err);
   if (status == ZP_OK && input.role != ZP_FMU_INPUT)
     status = zp_fail(err, ZP_BAD_INPUT, "derivatives with respect to %s: available for inputs only",
-                     zp_fmu_text(input).name);
+                     zp_fmu_text(&fmu->def, input).name);
   if (status == ZP_OK) status = zp_fmu_prepare(fmu, err);
-  if (status == ZP_OK) status = zp_sim_input_slopes(fmu->sim, (ZpInput)input.index, slope, err);
-  for (int k = 0; k < ZP_FMU_SIGNALS && status == ZP_OK; k++)
-    if (!zp_fmu_follows(k, (ZpInput)input.index)) slope[k] = 0;
+  const int outputs = zp_fmu_outputs(&fmu->def);
+  if (status == ZP_OK) status = zp_sim_column_slopes(fmu->sim, (ZpInput)input.index, (size_t)outputs, slope, err);
+  for (int k = 0; k < outputs && status == ZP_OK; k++)
+    if (!zp_fmu_follows(&fmu->def, k, input.index)) slope[k] = 0;
   return status;
 }
 
@@ -265,7 +284,8 @@ ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpErro
   ZpFmuVariable output;
   ZpStatus status = find(fmu, reference, &output, err);
   if (status == ZP_OK && output.role != ZP_FMU_OUTPUT)
-    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: available for outputs only", zp_fmu_text(output).name);
+    status = zp_fail(err, ZP_BAD_INPUT, "derivatives of %s: available for outputs only",
+                     zp_fmu_text(&fmu->def, output).name);
   if (status == ZP_OK) *signal = output.index;
   return status;
 }

@@ -23,15 +23,15 @@ typedef enum ZpFmuPhase {
 typedef struct ZpFmu {
   ZpFmuStart start;
   ZpFmuPhase phase;
-  double start_time, time;                            /* s, as counted by the importer */
-  double input[ZP_INPUT_COUNT], rate[ZP_INPUT_COUNT]; /* as last set */
-  ZpActuatorDef def;                                  /* parameters */
-  ZpModel *model;                                     /* built from its Def; NULL: not yet */
+  double start_time, time;                          /* s, as counted by the importer */
+  double input[ZP_FMU_INPUTS], rate[ZP_FMU_INPUTS]; /* as last set */
+  ZpActuatorDef def;                                /* parameters */
+  ZpModel *model;                                   /* built from its Def; NULL: not yet */
   ZpSim *sim;
   unsigned char *origin;      /* the snapshot from which every run of this model starts */
   bool prepared;              /* the simulation has started with these parameters */
   bool stale;                 /* inputs have changed since `row` was read */
-  double row[ZP_FMU_SIGNALS]; /* outputs */
+  double row[ZP_FMU_OUTPUTS]; /* outputs */
 } ZpFmu;
 
 /* How a step ended. */
@@ -74,11 +74,11 @@ ZpStatus zp_fmu_set_rate(ZpFmu *fmu, uint32_t reference, double rate, ZpError *e
  * current time; ZP_MACHINE, and the phase becomes failed, if the solver fails. Does not allocate memory. */
 ZpStatus zp_fmu_step(ZpFmu *fmu, double end, bool to_event, ZpFmuStep *step, ZpError *err);
 
-/* The derivatives of outputs with respect to input `by` at this instant, indexed by signal. ZP_BAD_INPUT if `by` is not
- * an input. */
-ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_SIGNALS], ZpError *err);
+/* The derivatives of outputs with respect to input `by` at this instant, in the order of a row. ZP_BAD_INPUT if `by` is
+ * not an input. */
+ZpStatus zp_fmu_slopes(ZpFmu *fmu, uint32_t by, double slope[ZP_FMU_OUTPUTS], ZpError *err);
 
-/* The signal of an output. ZP_BAD_INPUT if it is not an output. */
+/* The place of an output in a row. ZP_BAD_INPUT if it is not an output. */
 ZpStatus zp_fmu_signal(const ZpFmu *fmu, uint32_t reference, int *signal, ZpError *err);
 
 /* The complete state and all set values, as bytes that may be stored. zp_fmu_load: ZP_BAD_INPUT if they are damaged or

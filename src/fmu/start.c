@@ -4,6 +4,8 @@
 #include <math.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
+#include "def/rule.h"
 #include "drive/waveform.h"
 
 /* FNV-1a of a text, with its final 0. */
@@ -30,14 +32,21 @@ bool zp_fmu_has_number(int index) {
 }
 
 ZpStatus zp_fmu_start_def(const ZpFmuStart *start, ZpActuatorDef *def, ZpError *err) {
-  ZpAssignment list[ZP_KEYS];
+  const size_t most = ZP_KEYS + (size_t)start->givens;
   size_t count = 0;
   if (!start->token[0]) return zp_fail(err, ZP_BAD_INPUT, "this binary has no start values; `zipact fmu` writes them");
-  if (start->layout != zp_fmu_keys_mark())
+  if (start->layout != zp_fmu_keys_mark() || start->givens > ZP_FMU_GIVEN || start->names > ZP_FMU_NAMES)
     return zp_fail(err, ZP_BAD_INPUT, "the start values were written by a version of zipact with other keys");
-  for (int key = 0; key < ZP_KEYS; key++) /* an FMU has no members */
+  ZpAssignment *list = zp_calloc(most, sizeof *list);
+  if (!list) return zp_fail_memory(err);
+  for (int key = 0; key < ZP_KEYS; key++) /* rows of members and so on have no value themselves */
     if (zp_fmu_has_number(key)) list[count++] = (ZpAssignment){key, start->value[key]};
-  return zp_def_resolve(def, list, count, err);
+  for (size_t k = 0; k < start->givens; k++)
+    list[count++] = start->given[k];
+  ZpStatus status = zp_def_resolve(def, list, count, err);
+  if (status == ZP_OK && start->names > 0) status = zp_def_set_names(def, start->name, (size_t)start->names, err);
+  zp_free(list);
+  return status;
 }
 
 /* A voltage that does not begin as a step does is stored as that of a ramp, whose offset is the first one and whose end
@@ -57,10 +66,17 @@ void zp_fmu_forget_waveforms(ZpActuatorDef *def, const ZpDriveTable *table) {
   def->drive.rise_time = any_rise_time;
 }
 
-double zp_fmu_first_voltage(const ZpActuatorDef *def) {
-  return def->drive.waveform == ZP_WAVEFORM_STEP ? def->drive.voltage : def->drive.offset;
-}
-
-double zp_fmu_first_setpoint(const ZpActuatorDef *def) {
-  return isnan(def->setpoint.value) ? 0 : def->setpoint.value;
+double zp_fmu_first(const ZpActuatorDef *def, int input) {
+  int which;
+  const int member = zp_def_input_member(def, input, &which);
+  if (member < 0 || which == ZP_INPUT_LOAD) return 0;
+  const bool voltage = which == ZP_INPUT_VOLTAGE;
+  const int ramp = member > 0 ? zp_key_of_instance(ZP_KEY(member_K.drive.waveform), member) : ZP_KEY(drive.waveform);
+  const bool step = zp_def_get(def, ramp) == ZP_WAVEFORM_STEP;
+  const int row = member == 0
+                      ? (voltage ? (step ? ZP_KEY(drive.voltage) : ZP_KEY(drive.offset)) : ZP_KEY(setpoint.value))
+                  : voltage ? (step ? ZP_KEY(member_K.drive.voltage) : ZP_KEY(member_K.drive.offset))
+                            : ZP_KEY(member_K.setpoint.value);
+  const double value = zp_def_get(def, member > 0 ? zp_key_of_instance(row, member) : row);
+  return isnan(value) ? 0 : value;
 }

@@ -18,6 +18,7 @@ typedef struct Kept {
   size_t phase;
   ZpRowStart row_start;
   double parameter[ZP_KEYS]; /* 0 of a key without a number */
+  double given[ZP_FMU_GIVEN];
 } Kept;
 
 static void walk(ZpPack *p, Kept *kept) {
@@ -29,10 +30,13 @@ static void walk(ZpPack *p, Kept *kept) {
   zp_pack_field(p, "row_start.energy", ZP_REAL, &kept->row_start.energy, 1);
   zp_pack_field(p, "start_time", ZP_REAL, &kept->fmu.start_time, 1);
   zp_pack_field(p, "time", ZP_REAL, &kept->fmu.time, 1);
-  zp_pack_field(p, "inputs", ZP_REAL, kept->fmu.input, ZP_INPUT_COUNT);
-  zp_pack_field(p, "rates", ZP_REAL, kept->fmu.rate, ZP_INPUT_COUNT);
-  zp_pack_field(p, "outputs", ZP_REAL, kept->fmu.row, ZP_FMU_SIGNALS);
+  const size_t givens = (size_t)kept->fmu.start.givens, inputs = givens > 0 ? ZP_FMU_INPUTS : ZP_INPUT_COUNT,
+               outputs = givens > 0 ? ZP_FMU_OUTPUTS : ZP_FMU_SIGNALS;
+  zp_pack_field(p, "inputs", ZP_REAL, kept->fmu.input, inputs);
+  zp_pack_field(p, "rates", ZP_REAL, kept->fmu.rate, inputs);
+  zp_pack_field(p, "outputs", ZP_REAL, kept->fmu.row, outputs);
   zp_pack_field(p, "parameters", ZP_REAL, kept->parameter, ZP_KEYS);
+  if (givens > 0) zp_pack_field(p, "network", ZP_REAL, kept->given, givens);
 }
 
 static Kept kept_of(const ZpFmu *fmu) {
@@ -40,11 +44,13 @@ static Kept kept_of(const ZpFmu *fmu) {
   if (fmu->prepared) kept.row_start = zp_sim_row_start(fmu->sim);
   for (int key = 0; key < ZP_KEYS; key++)
     if (zp_fmu_has_number(key)) kept.parameter[key] = zp_def_get(&fmu->def, key);
+  for (size_t k = 0; k < fmu->start.givens; k++)
+    kept.given[k] = zp_def_get(&fmu->def, fmu->start.given[k].key);
   return kept;
 }
 
 size_t zp_fmu_state_size(const ZpFmu *fmu) {
-  Kept kept;
+  Kept kept = {.fmu = {.start = fmu->start}};
   ZpPack p = zp_pack_count();
   walk(&p, &kept);
   return p.used + (fmu->prepared ? zp_sim_state_size(fmu->sim) : 0);
@@ -90,10 +96,16 @@ ZpStatus zp_fmu_load(ZpFmu *fmu, const void *bytes, size_t size, ZpError *err) {
   const size_t own = zp_pack_first(byte, size);
   Kept kept = {.fmu = *fmu};
   ZpFmuStart start = fmu->start;
+  ZpActuatorDef def = {0};
   ZpStatus status = read_record(byte, own, size, &kept, err);
   memcpy(start.value, kept.parameter, sizeof start.value);
-  if (status == ZP_OK) status = zp_fmu_start_def(&start, &kept.fmu.def, err);
+  for (size_t k = 0; k < start.givens; k++)
+    start.given[k].value = kept.given[k];
+  if (status == ZP_OK) status = zp_fmu_start_def(&start, &def, err);
+  if (status == ZP_OK) status = zp_def_assign(&fmu->def, &def, err);
+  zp_def_clear(&def);
   if (status != ZP_OK) return status;
+  kept.fmu.def = fmu->def;
   *fmu = kept.fmu;
   if (fmu->prepared) status = restore(fmu, kept.row_start, byte + own, size - own, err);
   fmu->phase = status == ZP_OK ? (ZpFmuPhase)kept.phase : ZP_FMU_FAILED;

@@ -5,6 +5,7 @@
 
 #include <stdint.h>
 
+#include "def/def.h"
 #include "run/info.h"
 
 /* Positions of the signals in a row, and their number. */
@@ -14,12 +15,20 @@ enum {
 #include "run/columns.def"
   ZP_FMU_SIGNALS
 };
+
+/* Largest number of members and of bodies of a network in an FMU, of its inputs, and of its outputs, which are the
+ * signals, then numbers of members and bodies. */
+enum {
+  ZP_FMU_MEMBERS = 256,
+  ZP_FMU_INPUTS = ZP_INPUT_COUNT + 5 * ZP_FMU_MEMBERS,
+  ZP_FMU_OUTPUTS = ZP_FMU_SIGNALS + 6 * ZP_FMU_MEMBERS
+};
 #undef ZP_SIGNAL
 #undef ZP_ROW
 
 typedef enum ZpFmuRole { ZP_FMU_TIME, ZP_FMU_INPUT, ZP_FMU_OUTPUT, ZP_FMU_PARAMETER } ZpFmuRole;
 
-/* A variable: its role, and its input, signal or key. */
+/* A variable: its role, and its input, output or key. */
 typedef struct ZpFmuVariable {
   ZpFmuRole role;
   int index;
@@ -30,25 +39,28 @@ typedef struct ZpFmuVariable {
 bool zp_fmu_find(uint32_t reference, ZpFmuVariable *variable);
 uint32_t zp_fmu_reference(ZpFmuVariable variable);
 
-/* Its name, "voltage", "opening" or "ribbon.length"; its unit, "1" of keys without one and of words; a line of help.
- * The voltage between the electrodes is called electrode_voltage, because the input has the name voltage. */
+/* Its name, "voltage", "opening" or "ribbon.length", of a network "left.opening", "hand.y" or
+ * "members.left.ribbon.length"; its unit, "1" of keys without one and of words; a line of help. The voltage between the
+ * electrodes is called electrode_voltage, because the input has the name voltage. */
+enum { ZP_FMU_NAME_SIZE = ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE };
 typedef struct ZpFmuText {
-  const char *name, *unit, *help;
+  char name[ZP_FMU_NAME_SIZE];
+  const char *unit, *help;
 } ZpFmuText;
-ZpFmuText zp_fmu_text(ZpFmuVariable variable);
+ZpFmuText zp_fmu_text(const ZpActuatorDef *def, ZpFmuVariable variable);
+
+/* Numbers in a row: signals and, of a network, those of members and bodies. */
+int zp_fmu_outputs(const ZpActuatorDef *def);
 
 /* The type of its values, which selects the getter and setter of the standards: ZP_KEY_REAL, _INT, _BOOL or _ENUM. */
 ZpKeyType zp_fmu_type(ZpFmuVariable variable);
 
-/* Is signal `index` an output? All signals are, except the time, the setpoint, which is an input, and signals that only
- * a study computes. */
+/* Is number `index` of a row an output? All are, except the time, the setpoint, which is an input, and signals that
+ * only a study computes. */
 bool zp_fmu_is_output(int index);
 
-/* Does an FMU of these keys have that input? With a controller the setpoint replaces the voltage. */
-bool zp_fmu_is_input(int index, bool controlled);
-
 /* Does output `index` respond to the input at once, without motion? */
-bool zp_fmu_follows(int index, ZpInput input);
+bool zp_fmu_follows(const ZpActuatorDef *def, int index, int input);
 
 /* Is key `index` a parameter if its value is `value`? Parameters are keys of the actuator and its solver with a number
  * or a word; not the drive and the setpoint, which the inputs replace, and not `auto` and `none`, which a tool cannot

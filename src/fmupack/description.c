@@ -16,23 +16,28 @@
 #include "io/number.h"
 #include "io/units.h"
 
-enum { MOST_VARIABLES = 1 + ZP_INPUT_COUNT + ZP_FMU_SIGNALS + ZP_KEYS };
+enum { MOST_VARIABLES = 1 + ZP_FMU_INPUTS + ZP_FMU_OUTPUTS + ZP_KEYS + ZP_FMU_GIVEN };
 
 /* The variables of a plan, in order. */
 typedef struct List {
+  const ZpActuatorDef *def;
   ZpFmuVariable item[MOST_VARIABLES];
   int count;
 } List;
 
 static void list_variables(const ZpFmuPlan *plan, List *list) {
+  list->def = plan->def;
   list->count = 0;
   if (plan->version == 3) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_TIME, 0};
-  for (int k = 0; k < ZP_INPUT_COUNT; k++)
-    if (zp_fmu_is_input(k, plan->controlled)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_INPUT, k};
-  for (int k = 0; k < ZP_FMU_SIGNALS; k++)
+  for (int k = zp_def_input_next(plan->def, -1); k >= 0; k = zp_def_input_next(plan->def, k))
+    list->item[list->count++] = (ZpFmuVariable){ZP_FMU_INPUT, k};
+  for (int k = 0; k < zp_fmu_outputs(plan->def); k++)
     if (zp_fmu_is_output(k)) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_OUTPUT, k};
   for (int k = 0; k < ZP_KEYS; k++)
     if (zp_fmu_is_parameter(k, plan->start->value[k])) list->item[list->count++] = (ZpFmuVariable){ZP_FMU_PARAMETER, k};
+  for (size_t k = 0; k < plan->start->givens; k++)
+    if (zp_fmu_is_parameter(plan->start->given[k].key, plan->start->given[k].value))
+      list->item[list->count++] = (ZpFmuVariable){ZP_FMU_PARAMETER, plan->start->given[k].key};
 }
 
 /* -- attributes ------------------------------------------------------------------------------------ */
@@ -50,33 +55,33 @@ static void put_number(FILE *file, const char *attribute, double value) {
 }
 
 /* The customary unit, if it differs; otherwise NULL. */
-static const char *display_unit(ZpFmuVariable variable) {
-  if (variable.role == ZP_FMU_INPUT && variable.index == ZP_INPUT_VOLTAGE)
+static const char *display_unit(const ZpActuatorDef *def, ZpFmuVariable variable) {
+  if (variable.role == ZP_FMU_INPUT && strcmp(zp_fmu_text(def, variable).unit, "V") == 0)
     return zp_key(zp_key_find("drive.voltage"))->shown;
   if (variable.role != ZP_FMU_PARAMETER) return NULL;
   const ZpKey *key = zp_key(variable.index);
   return *key->shown && strcmp(key->shown, key->unit) != 0 ? key->shown : NULL;
 }
 
-static bool has_unit(ZpFmuVariable variable) {
-  return zp_fmu_type(variable) == ZP_KEY_REAL && strcmp(zp_fmu_text(variable).unit, "1") != 0;
+static bool has_unit(const ZpActuatorDef *def, ZpFmuVariable variable) {
+  return zp_fmu_type(variable) == ZP_KEY_REAL && strcmp(zp_fmu_text(def, variable).unit, "1") != 0;
 }
 
 /* -- units ----------------------------------------------------------------------------------------- */
 
-static bool same_unit(ZpFmuVariable a, ZpFmuVariable b) {
-  return has_unit(a) && has_unit(b) && strcmp(zp_fmu_text(a).unit, zp_fmu_text(b).unit) == 0;
+static bool same_unit(const ZpActuatorDef *def, ZpFmuVariable a, ZpFmuVariable b) {
+  return has_unit(def, a) && has_unit(def, b) && strcmp(zp_fmu_text(def, a).unit, zp_fmu_text(def, b).unit) == 0;
 }
 
-static bool same_display(ZpFmuVariable a, ZpFmuVariable b) {
-  const char *one = display_unit(a), *other = display_unit(b);
-  return same_unit(a, b) && one && other && strcmp(one, other) == 0;
+static bool same_display(const ZpActuatorDef *def, ZpFmuVariable a, ZpFmuVariable b) {
+  const char *one = display_unit(def, a), *other = display_unit(def, b);
+  return same_unit(def, a, b) && one && other && strcmp(one, other) == 0;
 }
 
 /* Is item k the first with its unit? */
-static bool is_first(const List *list, int k, bool (*same)(ZpFmuVariable, ZpFmuVariable)) {
+static bool is_first(const List *list, int k, bool (*same)(const ZpActuatorDef *, ZpFmuVariable, ZpFmuVariable)) {
   for (int j = 0; j < k; j++)
-    if (same(list->item[j], list->item[k])) return false;
+    if (same(list->def, list->item[j], list->item[k])) return false;
   return true;
 }
 
@@ -102,7 +107,7 @@ static ZpStatus put_display(FILE *file, const char *shown, const char *unit, ZpE
 static ZpStatus put_unit(FILE *file, const List *list, int first, ZpError *err) {
   ZpBaseUnits powers;
   ZpStatus status = ZP_OK;
-  const char *unit = zp_fmu_text(list->item[first]).unit;
+  const char *unit = zp_fmu_text(list->def, list->item[first]).unit;
   fputs("    <Unit", file);
   put_text(file, "name", unit);
   fputs(">\n", file);
@@ -115,8 +120,9 @@ static ZpStatus put_unit(FILE *file, const List *list, int first, ZpError *err) 
     fputs("/>\n", file);
   }
   for (int k = first; k < list->count && status == ZP_OK; k++)
-    if (same_unit(list->item[first], list->item[k]) && display_unit(list->item[k]) && is_first(list, k, same_display))
-      status = put_display(file, display_unit(list->item[k]), unit, err);
+    if (same_unit(list->def, list->item[first], list->item[k]) && display_unit(list->def, list->item[k]) &&
+        is_first(list, k, same_display))
+      status = put_display(file, display_unit(list->def, list->item[k]), unit, err);
   fputs("    </Unit>\n", file);
   return status;
 }
@@ -125,7 +131,7 @@ static ZpStatus put_units(FILE *file, const List *list, ZpError *err) {
   ZpStatus status = ZP_OK;
   fputs("  <UnitDefinitions>\n", file);
   for (int k = 0; k < list->count && status == ZP_OK; k++)
-    if (has_unit(list->item[k]) && is_first(list, k, same_unit)) status = put_unit(file, list, k, err);
+    if (has_unit(list->def, list->item[k]) && is_first(list, k, same_unit)) status = put_unit(file, list, k, err);
   fputs("  </UnitDefinitions>\n", file);
   return status;
 }
@@ -134,7 +140,7 @@ static ZpStatus put_units(FILE *file, const List *list, ZpError *err) {
 
 /* The type of a key of words has the name of the key; no variable has that name. */
 static void put_type_name(FILE *file, const char *attribute, ZpFmuVariable variable) {
-  fprintf(file, " %s=\"words.%s\"", attribute, zp_fmu_text(variable).name);
+  fprintf(file, " %s=\"words.%s\"", attribute, zp_key(variable.index)->name);
 }
 
 static void put_words(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
@@ -153,10 +159,17 @@ static void put_words(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable)
   fputs(two ? "      </Enumeration>\n    </SimpleType>\n" : "    </EnumerationType>\n", file);
 }
 
+/* Have both variables the same row of keys? */
+static bool same_words(const ZpActuatorDef *def, ZpFmuVariable a, ZpFmuVariable b) {
+  (void)def;
+  return a.role == ZP_FMU_PARAMETER && b.role == ZP_FMU_PARAMETER && zp_key(a.index) == zp_key(b.index);
+}
+
 static void put_types(FILE *file, const ZpFmuPlan *plan, const List *list) {
   fputs("  <TypeDefinitions>\n", file);
   for (int k = 0; k < list->count; k++)
-    if (zp_fmu_type(list->item[k]) == ZP_KEY_ENUM) put_words(file, plan, list->item[k]);
+    if (zp_fmu_type(list->item[k]) == ZP_KEY_ENUM && is_first(list, k, same_words))
+      put_words(file, plan, list->item[k]);
   fputs("  </TypeDefinitions>\n", file);
 }
 
@@ -174,19 +187,19 @@ static void put_causality(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable varia
 }
 
 static void put_head(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
-  put_text(file, "name", zp_fmu_text(variable).name);
+  put_text(file, "name", zp_fmu_text(plan->def, variable).name);
   fprintf(file, " valueReference=\"%u\"", zp_fmu_reference(variable));
-  put_text(file, "description", zp_fmu_text(variable).help);
+  put_text(file, "description", zp_fmu_text(plan->def, variable).help);
   put_causality(file, plan, variable);
 }
 
 /* Unit, range. */
-static void put_range(FILE *file, ZpFmuVariable variable) {
-  const char *shown = display_unit(variable);
-  if (has_unit(variable)) put_text(file, "unit", zp_fmu_text(variable).unit);
-  if (has_unit(variable) && shown) put_text(file, "displayUnit", shown);
+static void put_range(FILE *file, const ZpActuatorDef *def, ZpFmuVariable variable) {
+  const char *shown = display_unit(def, variable);
+  if (has_unit(def, variable)) put_text(file, "unit", zp_fmu_text(def, variable).unit);
+  if (has_unit(def, variable) && shown) put_text(file, "displayUnit", shown);
   if (zp_fmu_type(variable) == ZP_KEY_BOOL || zp_fmu_type(variable) == ZP_KEY_ENUM) return;
-  bool voltage = variable.role == ZP_FMU_INPUT && variable.index == ZP_INPUT_VOLTAGE;
+  bool voltage = variable.role == ZP_FMU_INPUT && strcmp(zp_fmu_text(def, variable).unit, "V") == 0;
   int key = voltage ? zp_key_find("drive.voltage") : variable.role == ZP_FMU_PARAMETER ? variable.index : -1;
   if (key < 0) return;
   put_number(file, "min", zp_key(key)->min);
@@ -195,7 +208,8 @@ static void put_range(FILE *file, ZpFmuVariable variable) {
 
 static void put_start(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variable) {
   if (variable.role != ZP_FMU_PARAMETER && variable.role != ZP_FMU_INPUT) return;
-  double value = variable.role == ZP_FMU_PARAMETER ? plan->start->value[variable.index] : plan->first[variable.index];
+  double value = variable.role == ZP_FMU_PARAMETER ? zp_def_get(plan->def, variable.index)
+                                                   : zp_fmu_first(plan->def, variable.index);
   if (zp_fmu_type(variable) == ZP_KEY_BOOL)
     fprintf(file, " start=\"%s\"", value != 0 ? "true" : "false");
   else
@@ -224,7 +238,7 @@ static void put_variable(FILE *file, const ZpFmuPlan *plan, ZpFmuVariable variab
   fprintf(file, "%s<%s", two ? ">\n      " : "    ", type_word(plan, variable));
   if (!two) put_head(file, plan, variable);
   if (zp_fmu_type(variable) == ZP_KEY_ENUM) put_type_name(file, "declaredType", variable);
-  put_range(file, variable);
+  put_range(file, plan->def, variable);
   put_start(file, plan, variable);
   fputs(two ? "/>\n    </ScalarVariable>\n" : "/>\n", file);
 }
@@ -236,7 +250,7 @@ static void put_dependencies(FILE *file, const ZpFmuPlan *plan, const List *list
   fputs(" dependencies=\"", file);
   for (int j = 0; j < list->count; j++) {
     ZpFmuVariable input = list->item[j];
-    if (input.role != ZP_FMU_INPUT || !zp_fmu_follows(list->item[k].index, (ZpInput)input.index)) continue;
+    if (input.role != ZP_FMU_INPUT || !zp_fmu_follows(list->def, list->item[k].index, input.index)) continue;
     fprintf(file, "%s%u", between, plan->version == 2 ? (unsigned)j + 1 : zp_fmu_reference(input));
     between = " ";
   }
@@ -284,7 +298,9 @@ static void put_root(FILE *file, const ZpFmuPlan *plan) {
   fprintf(file, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiModelDescription fmiVersion=\"%d.0\"", plan->version);
   put_text(file, "modelName", plan->name);
   put_text(file, plan->version == 2 ? "guid" : "instantiationToken", plan->start->token);
-  put_text(file, "description", "An electrostatic zipping actuator");
+  put_text(file, "description",
+           zp_def_network(plan->def) ? "Electrostatic zipping actuators between bodies"
+                                     : "An electrostatic zipping actuator");
   put_text(file, "version", ZP_VERSION);
   put_text(file, "generationTool", "zipact " ZP_VERSION);
   fprintf(file, " variableNamingConvention=\"structured\"%s>\n",
@@ -322,21 +338,27 @@ static void put_experiment(FILE *file, const ZpFmuPlan *plan) {
   fputs("/>\n", file);
 }
 
-ZpStatus zp_fmu_describe(const void *of, FILE *file, ZpError *err) {
-  const ZpFmuPlan *plan = of;
-  List list;
-  list_variables(plan, &list);
+static ZpStatus describe(const ZpFmuPlan *plan, List *list, FILE *file, ZpError *err) {
+  list_variables(plan, list);
   put_root(file, plan);
   put_capabilities(file, plan);
-  ZpStatus status = put_units(file, &list, err);
-  put_types(file, plan, &list);
+  ZpStatus status = put_units(file, list, err);
+  put_types(file, plan, list);
   put_experiment(file, plan);
   fputs("  <ModelVariables>\n", file);
-  for (int k = 0; k < list.count; k++)
-    put_variable(file, plan, list.item[k]);
+  for (int k = 0; k < list->count; k++)
+    put_variable(file, plan, list->item[k]);
   fputs("  </ModelVariables>\n", file);
-  put_structure(file, plan, &list);
+  put_structure(file, plan, list);
   fputs("</fmiModelDescription>\n", file);
+  return status;
+}
+
+ZpStatus zp_fmu_describe(const void *of, FILE *file, ZpError *err) {
+  List *list = calloc(1, sizeof *list);
+  if (!list) return zp_fail_memory(err);
+  ZpStatus status = describe(of, list, file, err);
+  free(list);
   return status;
 }
 
@@ -356,6 +378,12 @@ ZpStatus zp_fmu_describe_build(const void *plan, FILE *file, ZpError *err) {
 ZpStatus zp_fmu_describe_terminals(const void *of, FILE *file, ZpError *err) {
   const ZpFmuPlan *plan = of;
   (void)err;
+  if (zp_def_network(plan->def)) { /* the current is that of all ports together */
+    fputs("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n"
+          "</fmiTerminalsAndIcons>\n",
+          file);
+    return ZP_OK;
+  }
   fprintf(file,
           "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<fmiTerminalsAndIcons fmiVersion=\"3.0\">\n  <Terminals>\n"
           "    <Terminal name=\"electrodes\" matchingRule=\"bus\" description=\"the electrical port: the commanded "
@@ -363,6 +391,6 @@ ZpStatus zp_fmu_describe_terminals(const void *of, FILE *file, ZpError *err) {
           "      <TerminalMemberVariable variableName=\"%s\" memberName=\"v\" variableKind=\"signal\"/>\n"
           "      <TerminalMemberVariable variableName=\"current\" memberName=\"i\" variableKind=\"signal\"/>\n"
           "    </Terminal>\n  </Terminals>\n</fmiTerminalsAndIcons>\n",
-          plan->controlled ? "command" : "voltage");
+          plan->def->control.kind != ZP_CONTROL_NONE ? "command" : "voltage");
   return ZP_OK;
 }

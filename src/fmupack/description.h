@@ -11,14 +11,13 @@
 
 /* The content of the description of an FMU. */
 typedef struct ZpFmuPlan {
-  int version;                  /* of FMI: 2 or 3 */
-  const char *name;             /* of the model */
-  const ZpFmuStart *start;      /* parameters */
-  bool controlled;              /* the setpoint replaces the voltage as input */
-  double first[ZP_INPUT_COUNT]; /* start value of the input */
-  double end, step;             /* default experiment, s */
-  double tolerance;             /* and its relative error */
-  const ZpKit *sources;         /* files of the kit, including those in sources/ */
+  int version;              /* of FMI: 2 or 3 */
+  const char *name;         /* of the model */
+  const ZpFmuStart *start;  /* parameters, */
+  const ZpActuatorDef *def; /* as a Def */
+  double end, step;         /* default experiment, s */
+  double tolerance;         /* and its relative error */
+  const ZpKit *sources;     /* files of the kit, including those in sources/ */
 } ZpFmuPlan;
 
 /* Name of all binaries, and of the model in them. */

@@ -29,10 +29,11 @@ enum { MOST_STEPS = 1000 };           /* of it */
 static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
   uint64_t sum[2] = {UINT64_C(0xcbf29ce484222325), UINT64_C(0x9e3779b97f4a7c15)};
   const unsigned char *byte = (const unsigned char *)start->value;
+  const size_t size = sizeof *start - offsetof(ZpFmuStart, value); /* values, keys of a network, names */
   for (int k = 0; k < 2; k++) {
     for (const char *c = ZP_VERSION; *c; c++)
       sum[k] = (sum[k] ^ (unsigned char)*c) * UINT64_C(0x100000001b3);
-    for (size_t i = 0; i < sizeof start->value; i++)
+    for (size_t i = 0; i < size; i++)
       sum[k] = (sum[k] ^ byte[i]) * UINT64_C(0x100000001b3);
   }
   snprintf(token, ZP_FMU_TOKEN_SIZE, "{%08x-%04x-%04x-%04x-%012llx}", (unsigned)(sum[0] >> 32),
@@ -41,8 +42,12 @@ static void make_token(const ZpFmuStart *start, char token[ZP_FMU_TOKEN_SIZE]) {
 }
 
 static ZpStatus check(const ZpScenario *scenario, int version, const ZpActuatorDef *def, ZpError *err) {
-  if (zp_def_members(def) > 1 || zp_def_network(def))
-    return zp_fail(err, ZP_BAD_INPUT, "a stack of %d members: an FMU contains a single actuator", zp_def_members(def));
+  if (zp_def_members(def) > 1 && !zp_def_network(def))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "a stack of %d members: an FMU contains a single actuator or a network; give bodies and members",
+                   zp_def_members(def));
+  if (zp_def_members(def) > ZP_FMU_MEMBERS || zp_instance_count(def, ZP_OF_BODY) > ZP_FMU_MEMBERS)
+    return zp_fail(err, ZP_BAD_INPUT, "an FMU has at most %d members and %d bodies", ZP_FMU_MEMBERS, ZP_FMU_MEMBERS);
   if (version != 2 && version != 3) return zp_fail(err, ZP_BAD_INPUT, "FMI %d is not supported; use 2 or 3", version);
   if (zp_scenario_count(scenario) != 1)
     return zp_fail(err, ZP_BAD_INPUT, "the scenario has a list of values, but an FMU contains a single actuator");
@@ -63,31 +68,48 @@ static ZpStatus forget_waveforms(ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
+/* Keys of members, bodies, springs and joints, and their names. */
+static ZpStatus fill_network(const ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) {
+  if (!def->given) return ZP_OK;
+  if (def->given->count > ZP_FMU_GIVEN || def->given->names > ZP_FMU_NAMES)
+    return zp_fail(err, ZP_BAD_INPUT, "%zu keys of members and bodies, %zu names: an FMU has at most %d and %d",
+                   def->given->count, def->given->names, ZP_FMU_GIVEN, ZP_FMU_NAMES);
+  start->givens = def->given->count;
+  start->names = def->given->names;
+  for (size_t k = 0; k < def->given->count; k++)
+    start->given[k] = def->given->value[k];
+  for (size_t k = 0; k < def->given->names; k++)
+    start->name[k] = def->given->name[k];
+  return ZP_OK;
+}
+
 static ZpStatus fill_start(ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) {
   memset(start, 0, sizeof *start);
   ZpStatus status = forget_waveforms(def, err);
+  if (status == ZP_OK) status = zp_def_forget_ports(def, err);
   if (status != ZP_OK) return status;
-  if (zp_fmu_first_voltage(def) < 0)
+  if (zp_fmu_first(def, ZP_INPUT_VOLTAGE) < 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.offset: the voltage is %g V at t = 0, where the input of an FMU starts; it takes 0 V or more",
-                   zp_fmu_first_voltage(def));
+                   zp_fmu_first(def, ZP_INPUT_VOLTAGE));
   def->solver.tolerance = zp_def_tolerance(def); /* importers need a number */
   memcpy(start->mark, ZP_FMU_MARK, ZP_FMU_MARK_SIZE);
   start->size = sizeof *start;
   start->layout = zp_fmu_keys_mark();
   for (int key = 0; key < ZP_KEYS; key++)
     if (zp_fmu_has_number(key)) start->value[key] = zp_def_get(def, key);
+  status = fill_network(def, start, err);
   make_token(start, start->token);
-  return ZP_OK;
+  return status;
 }
 
 /* -- files of text --------------------------------------------------------------------------------- */
 
-static void put_row(FILE *file, ZpFmu *fmu) {
+static void put_row(FILE *file, const ZpFmu *fmu) {
   char text[ZP_NUMBER_SIZE];
   zp_number_print(fmu->time, text, sizeof text);
   fputs(text, file);
-  for (int k = 0; k < ZP_FMU_SIGNALS; k++) {
+  for (int k = 0; k < zp_fmu_outputs(&fmu->def); k++) {
     if (!zp_fmu_is_output(k)) continue;
     zp_number_print(fmu->row[k], text, sizeof text);
     fprintf(file, ",%s", isnan(fmu->row[k]) ? "" : text);
@@ -103,8 +125,8 @@ static ZpStatus put_expected(const void *of, FILE *file, ZpError *err) {
   ZpStatus status = zp_fmu_create(plan->start, &fmu, err);
   if (status != ZP_OK) return status;
   fputs("time", file);
-  for (int k = 0; k < ZP_FMU_SIGNALS; k++)
-    if (zp_fmu_is_output(k)) fprintf(file, ",%s", zp_fmu_text((ZpFmuVariable){ZP_FMU_OUTPUT, k}).name);
+  for (int k = 0; k < zp_fmu_outputs(plan->def); k++)
+    if (zp_fmu_is_output(k)) fprintf(file, ",%s", zp_fmu_text(plan->def, (ZpFmuVariable){ZP_FMU_OUTPUT, k}).name);
   fputc('\n', file);
   status = zp_fmu_prepare(fmu, err);
   if (status == ZP_OK) put_row(file, fmu);
@@ -124,16 +146,23 @@ static ZpStatus put_page(const void *of, FILE *file, ZpError *err) {
   zp_html_text(file, plan->name);
   fputs("</title></head><body>\n<h1>", file);
   zp_html_text(file, plan->name);
-  fprintf(
-      file,
-      "</h1>\n<p>An electrostatic zipping actuator, simulated by zipact " ZP_VERSION
-      ". The input <code>%s</code> drives it, the input <code>load</code> pulls at it. Outputs are the signals, "
-      "parameters the keys of zipact; modelDescription.xml has a line about each. All numbers are SI.</p>\n"
-      "<p>The input starts at the value that the scenario's waveform has at t = 0; the waveform is not played.</p>\n"
-      "<p><a href=\"expected.csv\">expected.csv</a> has the outputs of the default experiment. The binaries compute "
-      "them "
-      "to the last bit, other builds of the sources to the tolerance in its last line.</p>\n</body></html>\n",
-      zp_input_name(plan->controlled ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
+  fputs("</h1>\n<p>Simulated by zipact " ZP_VERSION ": ", file);
+  if (zp_def_network(plan->def))
+    fputs("electrostatic zipping actuators between bodies. Each channel has an input for its voltage or its setpoint, "
+          "each body inputs for a force and a torque.",
+          file);
+  else
+    fprintf(file,
+            "an electrostatic zipping actuator. The input <code>%s</code> drives it, the input <code>load</code> pulls "
+            "at it.",
+            zp_input_name(plan->def->control.kind != ZP_CONTROL_NONE ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
+  fputs(" Outputs are the signals, parameters the keys of zipact; modelDescription.xml has a line about each. All "
+        "numbers are SI.</p>\n"
+        "<p>Voltages and setpoints start at the values that the scenario's waveforms have at t = 0; the waveforms are "
+        "not played.</p>\n"
+        "<p><a href=\"expected.csv\">expected.csv</a> has the outputs of the default experiment. The binaries compute "
+        "them to the last bit, other builds of the sources to the tolerance in its last line.</p>\n</body></html>\n",
+        file);
   return ZP_OK;
 }
 
@@ -152,7 +181,17 @@ static ZpStatus put_start_source(const void *plan, FILE *file, ZpError *err) {
     zp_number_print(start->value[key], text, sizeof text);
     fprintf(file, "    /* %s */ %s,\n", zp_key(key)->name, isnan(start->value[key]) ? "NAN" : text);
   }
-  fputs("  }\n};\n", file);
+  fprintf(file, "  },\n  .givens = %llu,\n  .names = %llu,\n  .given = {{0}", (unsigned long long)start->givens,
+          (unsigned long long)start->names);
+  for (size_t k = 0; k < start->givens; k++) {
+    zp_number_print(start->given[k].value, text, sizeof text);
+    fprintf(file, ",\n    [%zu] = {%d, %s}", k, start->given[k].key, isnan(start->given[k].value) ? "NAN" : text);
+  }
+  fputs("},\n  .name = {{0}", file);
+  for (size_t k = 0; k < start->names; k++)
+    fprintf(file, ",\n    [%zu] = {%d, %d, \"%s\"}", k, start->name[k].kind, start->name[k].number,
+            start->name[k].text);
+  fputs("}};\n", file);
   return ZP_OK;
 }
 
@@ -257,29 +296,29 @@ static char *model_name(const char *path) {
 
 ZpStatus zp_fmu_write(const ZpScenario *scenario, int version, const char *kit, const char *path, ZpError *err) {
   ZpActuatorDef def = {0};
-  ZpFmuStart start;
+  ZpFmuStart *start = calloc(1, sizeof *start);
   ZpKit names = {NULL, 0};
-  ZpStatus status = zp_scenario_def(scenario, 0, &def, err);
+  ZpStatus status = start ? ZP_OK : zp_fail_memory(err);
+  if (status == ZP_OK) status = zp_scenario_def(scenario, 0, &def, err);
   if (status == ZP_OK) status = check(scenario, version, &def, err);
   if (status == ZP_OK) status = look_into(kit, &names, err);
-  if (status == ZP_OK) status = fill_start(&def, &start, err);
+  if (status == ZP_OK) status = fill_start(&def, start, err);
   char *name = status == ZP_OK ? model_name(path) : NULL;
   if (status == ZP_OK && !name) status = zp_fail_memory(err);
   if (status == ZP_OK) {
     const double end = fmin(def.solver.end_time, MOST_STEPS * step_size);
-    const ZpFmuPlan plan = {
-        .version = version,
-        .name = name,
-        .start = &start,
-        .controlled = def.control.kind != ZP_CONTROL_NONE,
-        .first = {[ZP_INPUT_VOLTAGE] = zp_fmu_first_voltage(&def), [ZP_INPUT_SETPOINT] = zp_fmu_first_setpoint(&def)},
-        .end = end,
-        .step = fmin(step_size, end),
-        .tolerance = def.solver.tolerance,
-        .sources = &names};
+    const ZpFmuPlan plan = {.version = version,
+                            .name = name,
+                            .start = start,
+                            .def = &def,
+                            .end = end,
+                            .step = fmin(step_size, end),
+                            .tolerance = def.solver.tolerance,
+                            .sources = &names};
     status = write_archive(&plan, kit, path, err);
   }
   zp_def_clear(&def);
+  free(start);
   free(name);
   zp_kit_free(&names);
   return status;

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/instances.h"
 #include "def/rule.h"
 #include "run/run.h"
 
@@ -103,7 +104,7 @@ const char *zp_def_input_name(const ZpActuatorDef *def, int input, char text[ZP_
 }
 
 const char *zp_def_input_unit(const ZpActuatorDef *def, int input) {
-  if (!def || !exists(def, input)) return NULL;
+  if (!def || input < 0 || !exists(def, input)) return NULL;
   const Named of = named(def, input);
   return input < ZP_INPUT_COUNT ? inputs[input].unit
          : of.member > 0        ? of_member[of.which].unit
@@ -115,6 +116,50 @@ int zp_def_input_find(const ZpActuatorDef *def, const char *name) {
   for (int input = zp_def_input_next(def, -1); input >= 0; input = zp_def_input_next(def, input))
     if (strcmp(zp_def_input_name(def, input, text), name) == 0) return input;
   return -1;
+}
+
+int zp_def_input_member(const ZpActuatorDef *def, int input, int *which) {
+  *which = input;
+  if (input < ZP_INPUT_COUNT) return 0;
+  const Named of = named(def, input);
+  if (of.member > 0) *which = of.which == 0 ? ZP_INPUT_VOLTAGE : ZP_INPUT_SETPOINT;
+  return of.member > 0 ? of.member : -1;
+}
+
+/* Take all keys of a group away from a member. */
+static ZpStatus take_away(ZpActuatorDef *def, int member, int first, int last, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int row = first; row <= last && status == ZP_OK; row++)
+    status = zp_instances_set(def, zp_key_of_instance(row, member), NAN, err);
+  return status;
+}
+
+static ZpStatus forget_port(ZpActuatorDef *def, int member, ZpError *err) {
+  const ZpActuatorDef one = zp_def_member(def, member);
+  const ZpDriveTable none = {0};
+  const ZpWaveform voltage = zp_waveform_of(&one, &none), setpoint = zp_setpoint_of(&one, &none);
+  const bool scaled = zp_def_get(def, zp_key_of_instance(ZP_KEY(member_K.drive.scaled), member)) != 0,
+             controlled = one.control.kind != ZP_CONTROL_NONE;
+  const ZpAssignment as_ramp[] = {{ZP_KEY(member_K.drive.voltage), zp_waveform_largest(&voltage)},
+                                  {ZP_KEY(member_K.drive.waveform), ZP_WAVEFORM_RAMP},
+                                  {ZP_KEY(member_K.drive.offset), zp_waveform_voltage(&voltage, 0)},
+                                  {ZP_KEY(member_K.drive.rise_time), 1},
+                                  {ZP_KEY(member_K.drive.scaled), scaled}};
+  ZpStatus status = take_away(def, member, ZP_KEY(member_K.drive.voltage), ZP_KEY(member_K.source.model) - 1, err);
+  if (status == ZP_OK)
+    status = take_away(def, member, ZP_KEY(member_K.setpoint.value), ZP_KEY(member_K.setpoint.duty), err);
+  for (size_t k = 0; k < (controlled ? 1 : sizeof as_ramp / sizeof as_ramp[0]) && status == ZP_OK; k++)
+    status = zp_instances_set(def, zp_key_of_instance(as_ramp[k].key, member), as_ramp[k].value, err);
+  if (status != ZP_OK || !controlled) return status;
+  return zp_instances_set(def, zp_key_of_instance(ZP_KEY(member_K.setpoint.value), member),
+                          zp_waveform_voltage(&setpoint, 0), err);
+}
+
+ZpStatus zp_def_forget_ports(ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int k = 1; k <= zp_def_members(def) && status == ZP_OK; k++)
+    if (zp_def_port(def, k) == k) status = forget_port(def, k, err);
+  return status;
 }
 
 /* -- setting --------------------------------------------------------------------------------------- */
@@ -157,8 +202,24 @@ void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage) {
   }
 }
 
+void zp_sim_hold_common_port(ZpSim *sim, ZpRamp voltage) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (!m->model->apart && zp_leads_port(m->model)) zp_sim_hold_port(m, voltage);
+}
+
+ZpSim *zp_sim_port_of(ZpSim *sim, int input) {
+  if (input == ZP_INPUT_VOLTAGE) return sim;
+  const Named of = named(sim->model->whole, input);
+  return of.member > 0 && of.which == 0 ? sim + of.member - 1 : NULL;
+}
+
 /* Whoever holds the voltage. */
 static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
+  if (zp_is_network(sim->model)) {
+    if (exists(sim->model->whole, (int)input)) return ZP_OK;
+    return zp_fail(err, ZP_BAD_INPUT, "%s: the network has no such input; name the member, body or channel",
+                   zp_input_name(input));
+  }
   if (input == ZP_INPUT_VOLTAGE && zp_sim_any_controlled(sim))
     return zp_fail(err, ZP_BAD_INPUT, "voltage: the controller sets it (control.kind); set the setpoint");
   if (input == ZP_INPUT_SETPOINT && !zp_sim_is_controlled(sim))
@@ -171,7 +232,11 @@ static ZpStatus set_voltage(ZpSim *sim, double voltage, double rate, ZpError *er
   ZpStatus status = check_voltage(sim, voltage, err);
   if (status == ZP_OK && rate > 0) status = check_voltage(sim, key->max, err);
   if (status != ZP_OK) return status;
-  zp_sim_hold_voltage(sim, ramp_within(voltage, rate, sim->state->t, key->min, key->max));
+  const ZpRamp ramp = ramp_within(voltage, rate, sim->state->t, key->min, key->max);
+  if (zp_is_network(sim->model))
+    zp_sim_hold_common_port(sim, ramp);
+  else
+    zp_sim_hold_voltage(sim, ramp);
   return ZP_OK;
 }
 

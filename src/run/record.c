@@ -488,30 +488,44 @@ void zp_sim_start_row(ZpSim *sim) {
     count_from_here(m);
 }
 
-/* All signals if the voltage had another value => row; the state does not change. */
-static void read_at(ZpSim *sim, double voltage, double *row) {
+/* All numbers if the voltage of an input had another value => slope [columns] += weight times them; the state does not
+ * change. */
+static void add_at(ZpSim *sim, ZpInput input, double voltage, double weight, size_t columns, double *slope) {
+  const ZpRamp ramp = {voltage, 0, sim->state->t, INFINITY};
   zp_sim_keep_states(sim);
-  zp_sim_hold_voltage(sim, (ZpRamp){voltage, 0, sim->state->t, INFINITY});
+  if (input != ZP_INPUT_VOLTAGE)
+    zp_sim_hold_port(zp_sim_port_of(sim, (int)input), ramp);
+  else if (zp_is_network(sim->model))
+    zp_sim_hold_common_port(sim, ramp);
+  else
+    zp_sim_hold_voltage(sim, ramp);
   fill_row(sim, ALL);
   zp_sim_take_states_back(sim);
-  memcpy(row, sim->row, SIGNAL_COUNT * sizeof *row);
+  for (size_t k = 0; k < columns; k++)
+    slope[k] += weight * sim->row[k];
+}
+
+size_t zp_sim_columns(const ZpSim *sim) {
+  return columns_of(sim);
+}
+
+ZpStatus zp_sim_column_slopes(ZpSim *sim, ZpInput input, size_t columns, double *slope, ZpError *err) {
+  static const double part = 1e-5, least = 1e-2; /* of the voltage, and V: far from the rounding of differences */
+  if (!zp_def_input_unit(sim->model->whole, (int)input) && (size_t)input >= ZP_INPUT_COUNT)
+    return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
+  memset(slope, 0, columns * sizeof *slope);
+  if (input == ZP_INPUT_SETPOINT) slope[SIGNAL_setpoint] = 1; /* the controller measures at its next sample */
+  ZpSim *lead = zp_sim_port_of(sim, (int)input);
+  if (!lead) return ZP_OK; /* a load acts on what moves only */
+  double voltage = zp_sim_is_fed(lead) ? zp_sim_command(lead) : lead->state->U;
+  double half = fmax(least, part * fabs(voltage)), up = voltage + half, down = voltage - half;
+  add_at(sim, input, up, 1 / (up - down), columns, slope);
+  add_at(sim, input, down, -1 / (up - down), columns, slope);
+  return ZP_OK;
 }
 
 ZpStatus zp_sim_input_slopes(ZpSim *sim, ZpInput input, double *slope, ZpError *err) {
-  static const double part = 1e-5, least = 1e-2; /* of the voltage, and V: far from the rounding of differences */
-  double above[SIGNAL_COUNT], below[SIGNAL_COUNT];
-  if ((size_t)input >= ZP_INPUT_COUNT && !zp_def_input_unit(sim->model->whole, (int)input))
-    return zp_fail(err, ZP_BAD_INPUT, "input %d: there is no such input", (int)input);
-  memset(slope, 0, SIGNAL_COUNT * sizeof *slope);
-  if (input == ZP_INPUT_SETPOINT) slope[SIGNAL_setpoint] = 1; /* the controller measures at its next sample */
-  if (input != ZP_INPUT_VOLTAGE) return ZP_OK;                /* a load acts on what moves only */
-  double voltage = zp_sim_is_fed(sim) ? zp_sim_command(sim) : sim->state->U;
-  double half = fmax(least, part * fabs(voltage)), up = voltage + half, down = voltage - half;
-  read_at(sim, up, above);
-  read_at(sim, down, below);
-  for (size_t k = 0; k < SIGNAL_COUNT; k++)
-    slope[k] = (above[k] - below[k]) / (up - down);
-  return ZP_OK;
+  return zp_sim_column_slopes(sim, input, SIGNAL_COUNT, slope, err);
 }
 
 /* A row of the ledger that is no signal: of several members the sum, or the largest; NAN: none has it. */

@@ -288,6 +288,12 @@ void zp_sim_close_balance(ZpSim *sim);
 void zp_sim_hold_port(ZpSim *lead, ZpRamp voltage);
 void zp_sim_hold_voltage(ZpSim *sim, ZpRamp voltage);
 
+/* That of the port of all members that have none of their own. */
+void zp_sim_hold_common_port(ZpSim *sim, ZpRamp voltage);
+
+/* The member whose port has the voltage that an input sets; NULL: it sets no voltage. */
+ZpSim *zp_sim_port_of(ZpSim *sim, int input);
+
 /* Let the voltage jump: an ideal source charges at once. */
 void zp_sim_jump(ZpSim *sim, double voltage);
 
@@ -307,9 +313,6 @@ ZpLeakNow zp_sim_leak(ZpSim *sim);
 
 /* Time at which member 1, 2, ... of a series has closed, s; NAN: it has not. */
 double zp_sim_member_zip_time(const ZpSim *sim, size_t member);
-
-/* As zp_sim_read, with numbers of each member and body: `columns` of zp_signal_table. */
-void zp_sim_read_columns(ZpSim *sim, size_t columns, double *row);
 
 /* Number of values in the row of a member; that of the first of several includes the numbers of each. */
 size_t zp_sim_row_size(const ZpSim *sim);

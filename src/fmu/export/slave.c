@@ -141,7 +141,7 @@ ZpSlaveStatus zp_slave_derivative(ZpSlave *slave, bool adjoint, const uint32_t *
                                   const uint32_t *known, size_t knowns, const double *seed, double *sensitivity) {
   ZpError err;
   ZpStatus status = ZP_OK;
-  double slope[ZP_FMU_SIGNALS];
+  double slope[ZP_FMU_OUTPUTS];
   for (size_t k = 0; k < (adjoint ? knowns : unknowns); k++)
     sensitivity[k] = 0;
   for (size_t j = 0; j < knowns && status == ZP_OK; j++) {
