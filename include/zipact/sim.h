@@ -129,8 +129,9 @@ ZP_API ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hook
 /* Set the voltage from now on, V; drive.waveform has no effect any more. An ideal source charges the electrodes at
  * once: its work is U dQ, and the part of it that the field does not store is the signal charging_loss. A voltage that
  * is replaced before the simulation continues has no effect (unless a field had to be solved for it); an unchanged
- * voltage costs nothing. The same as zp_sim_set_input with rate 0. ZP_BAD_INPUT if the voltage is out of the range of
- * drive.voltage, and as zp_def_check_voltage. */
+ * voltage costs nothing. The same as zp_sim_set_input with rate 0; in a network it sets the voltages of all members in
+ * proportion, as drive.voltage does, where zp_sim_set_input sets one channel. ZP_BAD_INPUT if the voltage is out of the
+ * range of drive.voltage, and as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err);
 
 /* Inputs that a program can change while a simulation runs. */

@@ -84,12 +84,13 @@ bool zp_fmu_is_tunable(int index) {
 }
 
 /* Of each role: its first references, of one actuator and of what is beyond it in a network, and where that begins. */
-static const struct {
+typedef struct Range {
   int first, of_network, beyond, most;
-} range[] = {[ZP_FMU_TIME] = {0, 0, 1, 0},
-             [ZP_FMU_INPUT] = {FIRST_INPUT, FIRST_INPUT_OF_NETWORK, ZP_INPUT_COUNT, ZP_FMU_INPUTS},
-             [ZP_FMU_OUTPUT] = {FIRST_OUTPUT, FIRST_OUTPUT_OF_NETWORK, ZP_FMU_SIGNALS, ZP_FMU_OUTPUTS},
-             [ZP_FMU_PARAMETER] = {FIRST_PARAMETER, FIRST_PARAMETER_OF_NETWORK, ZP_KEYS, 1 << 29}};
+} Range;
+static const Range range[] = {[ZP_FMU_TIME] = {0, 0, 1, 0},
+                              [ZP_FMU_INPUT] = {FIRST_INPUT, FIRST_INPUT_OF_NETWORK, ZP_INPUT_COUNT, ZP_FMU_INPUTS},
+                              [ZP_FMU_OUTPUT] = {FIRST_OUTPUT, FIRST_OUTPUT_OF_NETWORK, ZP_FMU_SIGNALS, ZP_FMU_OUTPUTS},
+                              [ZP_FMU_PARAMETER] = {FIRST_PARAMETER, FIRST_PARAMETER_OF_NETWORK, ZP_KEYS, 1 << 29}};
 
 bool zp_fmu_find(uint32_t reference, ZpFmuVariable *variable) {
   const int place = reference < 1U << 30 ? (int)reference : -1;

@@ -227,17 +227,17 @@ static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
   return ZP_OK;
 }
 
-static ZpStatus set_voltage(ZpSim *sim, double voltage, double rate, ZpError *err) {
+/* By one of two ways to hold it. */
+static ZpStatus hold(ZpSim *sim, double voltage, double rate, void (*way)(ZpSim *sim, ZpRamp voltage), ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
   ZpStatus status = check_voltage(sim, voltage, err);
   if (status == ZP_OK && rate > 0) status = check_voltage(sim, key->max, err);
-  if (status != ZP_OK) return status;
-  const ZpRamp ramp = ramp_within(voltage, rate, sim->state->t, key->min, key->max);
-  if (zp_is_network(sim->model))
-    zp_sim_hold_common_port(sim, ramp);
-  else
-    zp_sim_hold_voltage(sim, ramp);
-  return ZP_OK;
+  if (status == ZP_OK) way(sim, ramp_within(voltage, rate, sim->state->t, key->min, key->max));
+  return status;
+}
+
+static ZpStatus set_voltage(ZpSim *sim, double voltage, double rate, ZpError *err) {
+  return hold(sim, voltage, rate, zp_is_network(sim->model) ? zp_sim_hold_common_port : zp_sim_hold_voltage, err);
 }
 
 static ZpStatus set_setpoint(ZpSim *sim, double setpoint, double rate, ZpError *err) {
@@ -306,5 +306,9 @@ ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, 
 }
 
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {
-  return zp_sim_set_input(sim, ZP_INPUT_VOLTAGE, voltage, 0, err);
+  if (!zp_is_network(sim->model)) return zp_sim_set_input(sim, ZP_INPUT_VOLTAGE, voltage, 0, err);
+  if (zp_sim_any_controlled(sim))
+    return zp_fail(err, ZP_BAD_INPUT, "voltage: a controller sets that of a channel (control.kind); set each input");
+  sim->cut = false;
+  return hold(sim, voltage, 0, zp_sim_hold_voltage, err);
 }
