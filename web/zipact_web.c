@@ -17,11 +17,15 @@
 #include "def/device.h"
 #include "io/value.h"
 #include "run/info.h"
+#include "run/run.h"
 #include "study/result.h"
 
 #define EXPORT __attribute__((visibility("default"), used))
 
 enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
+
+/* How many numbers the page reads of each; frame.js names them. */
+enum { MEMBER_NUMBERS = 14, BODY_NUMBERS = 5, SPRING_NUMBERS = 6, JOINT_NUMBERS = 4 };
 
 /* Number of signals. */
 #define ZP_SIGNAL(name, unit, suffix, help) +1
@@ -52,6 +56,7 @@ typedef struct ZpWeb {
   ZpModel *model;
   ZpSim *sim;
   double row[SIGNALS];
+  double part[MEMBER_NUMBERS]; /* the longest of the above */
   ZpResult *result;
 } ZpWeb;
 
@@ -315,32 +320,109 @@ EXPORT int zp_web_nodes(ZpWeb *web) {
   return (int)web->model->topology.stations;
 }
 
-static const ZpModel *member_of(const ZpWeb *web, int member) {
-  return web->model + member;
+/* What the page draws of each member, body, spring and joint, beside the shapes: `values`, valid until the next call.
+ */
+static const double *give(ZpWeb *web, const double *values, size_t count) {
+  memcpy(web->part, values, count * sizeof *values);
+  return web->part;
 }
 
-static ZpActuatorDef ribbon_of(const ZpWeb *web, int member, int ribbon) {
-  const ZpActuatorDef *def = &member_of(web, member)->def;
-  return ribbon > 0 ? zp_def_lower(def) : *def;
+static double own_signal(ZpWeb *web, int member, const char *name) {
+  return zp_sim_own_signal(web->sim + member, zp_signal_find(name));
 }
 
-/* Thicknesses of ribbon 0, the upper one, or 1 of a member, m. */
-EXPORT double zp_web_insulator(const ZpWeb *web, int member, int ribbon) {
-  return ribbon_of(web, member, ribbon).insulator.thickness;
+/* Middle of a member in the drawing, m: where bodies move up and down, its lower body's; else 0, or NAN: its shape is
+ * in the drawing as it is. */
+static double middle_of(const ZpWeb *web, int member) {
+  const ZpNetwork *network = web->model->network;
+  if (!zp_is_network(web->model)) return 0;
+  return network->plane ? NAN : network->body[network->ends[member].lower].x;
 }
 
-EXPORT double zp_web_metal(const ZpWeb *web, int member, int ribbon) {
-  return ribbon_of(web, member, ribbon).ribbon.thickness;
+/* Voltage of its electrodes, V; opening, m; liquid equivalent to both insulators; thicknesses of the upper and the
+ * lower insulator and metal; lengths of its ribbons and of its platform; does the platform attract; its middle, m; is
+ * it upside down; numbers of the bodies at its upper and its lower end. */
+EXPORT const double *zp_web_member(ZpWeb *web, int member) {
+  const ZpModel *model = web->model + member;
+  const ZpActuatorDef *def = &model->def, lower = zp_def_lower(def);
+  const ZpEnds *ends = &web->model->network->ends[member];
+  const double values[MEMBER_NUMBERS] = {own_signal(web, member, "voltage"),
+                                         own_signal(web, member, "opening"),
+                                         zp_model_get(model, "insulator_offset"),
+                                         def->insulator.thickness,
+                                         lower.insulator.thickness,
+                                         def->ribbon.thickness,
+                                         lower.ribbon.thickness,
+                                         def->ribbon.length,
+                                         def->platform.length,
+                                         def->platform.electrode,
+                                         middle_of(web, member),
+                                         ends->turned,
+                                         (double)ends->upper,
+                                         (double)ends->lower};
+  return give(web, values, MEMBER_NUMBERS);
 }
 
-EXPORT double zp_web_insulator_offset(const ZpWeb *web, int member) {
-  return zp_model_get(member_of(web, member), "insulator_offset");
+/* Numbers of bodies, springs and joints of a network: 0 of an actuator or a stack. */
+EXPORT int zp_web_bodies(const ZpWeb *web) {
+  return zp_is_network(web->model) ? (int)web->model->network->bodies : 0;
 }
 
-/* The voltage of a member if the first one has `voltage`, V. */
-EXPORT double zp_web_member_voltage(const ZpWeb *web, int member, double voltage) {
-  bool lower = member > 0 && zp_def_antagonist(&web->def);
-  return lower ? zp_def_lower_voltage(&web->def, voltage) : voltage;
+EXPORT int zp_web_springs(const ZpWeb *web) {
+  return (int)web->model->network->springs;
+}
+
+EXPORT int zp_web_joints(const ZpWeb *web) {
+  return (int)web->model->network->joints;
+}
+
+/* Place of a body, body 0 the frame: x, y, m, and angle, rad; its mass, kg; 1 if it is held. */
+EXPORT const double *zp_web_body(ZpWeb *web, int body) {
+  const ZpBody *one = &web->model->network->body[body];
+  const ZpPose at = zp_sim_place(web->sim, (size_t)body);
+  const double values[BODY_NUMBERS] = {at.x, at.y, at.turn, one->mass, one->held};
+  return give(web, values, BODY_NUMBERS);
+}
+
+/* A point of a body that is given from its place along its own axes. */
+static ZpVector point_of(const ZpWeb *web, size_t body, const double at[2]) {
+  const ZpPose pose = zp_sim_place(web->sim, body);
+  return zp_pose_point(&pose, (ZpVector){at[0], at[1]});
+}
+
+/* Ends of a spring, x and y of each, m, and the bodies there. */
+EXPORT const double *zp_web_spring(ZpWeb *web, int spring) {
+  const ZpLink *link = &web->model->network->spring[spring];
+  const ZpVector from = point_of(web, link->body[0], link->at[0]), to = point_of(web, link->body[1], link->at[1]);
+  const double values[SPRING_NUMBERS] = {from.x, from.y, to.x, to.y, (double)link->body[0], (double)link->body[1]};
+  return give(web, values, SPRING_NUMBERS);
+}
+
+/* Place of a joint on its first body, m, and its bodies. */
+EXPORT const double *zp_web_joint(ZpWeb *web, int joint) {
+  const ZpBodyJoint *one = &web->model->network->joint[joint];
+  const ZpBody *body = &web->model->network->body[one->body[0]];
+  const ZpVector out = {one->at[0] - body->x, one->at[1] - body->y};
+  const ZpVector arm = zp_turned_back(zp_direction(body->angle), out);
+  const ZpVector at = point_of(web, one->body[0], (const double[2]){arm.x, arm.y});
+  const double values[JOINT_NUMBERS] = {at.x, at.y, (double)one->body[0], (double)one->body[1]};
+  return give(web, values, JOINT_NUMBERS);
+}
+
+/* Pull at the load of an actuator or at a body of a network that moves with a force to the right and up, N, until the
+ * next pull. What moves up and down takes the force up alone. */
+EXPORT int zp_web_pull(ZpWeb *web, int body, double right, double up) {
+  ZpError err;
+  char called[ZP_NAME_SIZE], name[ZP_INPUT_NAME_SIZE];
+  if (!zp_is_network(web->model)) return say(web, zp_sim_set_input(web->sim, ZP_INPUT_LOAD, -up, 0, &err), err.message);
+  static const char *const way[] = {"force_x", "force_y"};
+  ZpStatus status = ZP_OK;
+  for (int k = 0; status == ZP_OK && k < 2; k++) {
+    snprintf(name, sizeof name, "%s.%s", zp_body_called(&web->def, (size_t)body, called), way[k]);
+    const int input = zp_def_input_find(&web->def, name);
+    if (input >= 0 || k == 1) status = zp_sim_set_input(web->sim, (ZpInput)input, k ? up : right, 0, &err);
+  }
+  return say(web, status, err.message);
 }
 
 /* x and y [members * nodes * 2] of interleaved faces, gap and line force [members * nodes]. */

@@ -12,6 +12,22 @@ const system = {
   },
 };
 
+/** What the page draws beside shapes: parts, and how many there are of each kind. Only a network has bodies. */
+export const kinds = {member: 'members', body: 'bodies', spring: 'springs', joint: 'joints'};
+
+/** Numbers of each part: of a member the voltage of its electrodes (V), its opening (m), the liquid equivalent to both insulators, thicknesses of the
+ * upper and the lower insulator and metal, lengths of its ribbons and platform (m), 1 if the platform attracts, its middle
+ * in the drawing (m; NaN: its shape is in the drawing as it is), 1 if it is upside down, and the bodies at its ends, of
+ * which 0 is the frame; of a body its place (m, rad), mass (kg), and 1 if it is held; of a spring its ends, and of a joint
+ * its place (m), both with their bodies. */
+export const ofPart = {
+  member: ['voltage', 'opening', 'offset', 'upperInsulator', 'lowerInsulator', 'upperMetal', 'lowerMetal', 'length', 'platform', 'electrode',
+           'middle', 'turned', 'upper', 'lower'],
+  body: ['x', 'y', 'angle', 'mass', 'held'],
+  spring: ['fromX', 'fromY', 'toX', 'toY', 'from', 'to'],
+  joint: ['x', 'y', 'from', 'to'],
+};
+
 /** A wrong value, a refused scenario, no memory: with the message of the command. */
 export class Refused extends Error {}
 
@@ -136,7 +152,7 @@ export class Core {
     this.#check(this.#c.zp_web_start(this.#web, goOn ? 1 : 0));
     this.nodes = this.#c.zp_web_nodes(this.#web);
     this.halves = this.#c.zp_web_halves(this.#web);
-    this.members = this.#c.zp_web_members(this.#web);
+    for (const name of Object.values(kinds)) this[name] = this.#c[`zp_web_${name}`](this.#web);
   }
 
   setVoltage(voltage) {
@@ -164,11 +180,14 @@ export class Core {
     return this.#c.zp_web_zip_time(this.#web);
   }
 
-  /** Numbers of a member of a stack if the electrodes of the first one have `voltage`: see `ofMember` of frame.js. */
-  member(k, voltage) {
-    const c = this.#c, web = this.#web;
-    return [c.zp_web_member_voltage(web, k, voltage), c.zp_web_insulator_offset(web, k),
-            ...[0, 1].map((r) => c.zp_web_insulator(web, k, r)), ...[0, 1].map((r) => c.zp_web_metal(web, k, r))];
+  /** Numbers of a part, as `ofPart` names them. Valid until the next call. */
+  part(kind, k) {
+    return this.#doubles(this.#c[`zp_web_${kind}`](this.#web, k), ofPart[kind].length);
+  }
+
+  /** Pull at the load, or at body `body` of a network, with a force to the right and up, N. */
+  pull({body, right, up}) {
+    this.#check(this.#c.zp_web_pull(this.#web, body, right, up));
   }
 
   /** Insulator faces: x, y [members 2 nodes], upper and lower alternating; gap, lineForce [members nodes]; film and

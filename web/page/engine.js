@@ -41,14 +41,15 @@ export class Engine {
   }
 
   /** {values: those of the scenario if it has changed, voltage: of the source, V, restart: from hanging, pressed: a button
-   * set the voltage, span: time to run, s, frame: array to fill} => {frame, failure, stopped} of Motion. The answer to a
+   * set the voltage, pull: force of the pointer on a load, span: time to run, s, frame: array to fill} => {frame, failure, stopped} of Motion. The answer to a
    * restart is its first instant. */
-  #move({values, voltage, restart, pressed, span, frame}) {
+  #move({values, voltage, restart, pressed, pull, span, frame}) {
     const motion = this.#motion, {start, frame: budget} = this.#limits;
     if (values) this.#core.resolve(values);
     if (restart) motion.restart(voltage, start);
     else if (values) motion.change(voltage, start);
     if (pressed && !restart) motion.switchTo(voltage, start);
+    if (pull) motion.pull(pull);
     const advanced = restart || motion.ended ? 0 : motion.advance(span, budget);
     const filled = write(frame, motion, advanced);
     motion.samples.length = 0;

@@ -1,5 +1,5 @@
-// What the picture shows, in metres from the middle of the upper platform, y up: the halves of every actuator of a
-// frame, platforms, mounts and load.
+// What the picture shows, in metres from the middle of the upper platform, of a network in those of its drawing, y up:
+// the halves of every actuator of a frame, platforms, what holds them, bodies, joints, springs and loads.
 
 const clip = 3.5e-3; // length of a clip
 const between = 10e-3; // of two actuators side by side
@@ -7,10 +7,9 @@ const mostColumns = 5; // equal parallel actuators that are drawn; of more only 
 
 /** How the arrays of a member are laid out: `last`, the station of the left half at the platform, counted from the clip;
  * is the right half modelled, too (`whole`), or is there one ribbon pair on a `hinge` without a platform; lengths, m. */
-function layoutOf(frame) {
+function layoutOf(frame, {length: ribbon, platform: given}) {
   const nodes = frame.get('nodes'), whole = frame.get('halves') === 2, hinge = frame.get('halves') === 0;
-  const platform = hinge ? 0 : frame.get('platform.length'), ribbon = frame.get('ribbon.length');
-  const last = (whole ? nodes / 2 : nodes) - 1, length = hinge ? ribbon : (ribbon - platform) / 2;
+  const platform = hinge ? 0 : given, last = (whole ? nodes / 2 : nodes) - 1, length = hinge ? ribbon : (ribbon - platform) / 2;
   return {nodes, whole, hinge, platform, last, length, l: length / last};
 }
 
@@ -33,14 +32,15 @@ function halfOf(frame, layout, member, right) {
   const {nodes, whole, hinge, platform, last, length, l} = layout;
   const at = Array.from({length: last + 1}, (_, i) => (right && whole ? nodes - 1 - i : i));
   const mirror = right && !whole ? -1 : 1, outward = right ? 1 : -1, first = hinge ? 0 : 1;
+  const out = {x: outward * clip * Math.cos(member.angle), y: outward * clip * Math.sin(member.angle)};
   const x = [], y = [];
   for (const r of [0, 1]) {
-    x[r] = at.map((i) => mirror * (member.x[2 * i + r] - member.middle));
+    x[r] = at.map((i) => member.middle + mirror * (member.x[2 * i + r] - member.own));
     y[r] = at.map((i) => member.y[2 * i + r]);
     if (hinge) continue;
     const [a, b] = member.platforms[r];
-    x[r] = [x[r][0] + outward * clip, ...x[r], (a.x + b.x) / 2];
-    y[r] = [y[r][0], ...y[r], (a.y + b.y) / 2];
+    x[r] = [x[r][0] + out.x, ...x[r], (a.x + b.x) / 2];
+    y[r] = [y[r][0] + out.y, ...y[r], (a.y + b.y) / 2];
   }
   const wet = member.wet[whole && right ? 1 : 0] / l;
   const below = wet > last ? last + ((wet - last) * l) / (platform / 2 || 1) : wet; // as if the platform were one station more
@@ -56,27 +56,40 @@ function halfOf(frame, layout, member, right) {
 /** The upper and the lower platform, each as its left and right end; none on a hinge. */
 function platformsOf({whole, hinge, platform, last}, member) {
   if (hinge) return [];
-  const point = (r, i) => ({x: member.x[2 * i + r] - member.middle, y: member.y[2 * i + r]});
+  const point = (r, i) => ({x: member.middle + member.x[2 * i + r] - member.own, y: member.y[2 * i + r]});
   return [0, 1].map((r) => {
     const left = point(r, last);
     return [left, whole ? point(r, last + 1) : {x: left.x + platform, y: left.y}];
   });
 }
 
-function memberOf(frame, layout, k, bead) {
+/** Member k. `own`: x of its middle in its own frame, `middle`: in the picture; `angle`: of its upper platform, rad. */
+function memberOf(frame, k, bead) {
   const {upperInsulator, lowerInsulator, upperMetal, lowerMetal, wetLength, ...member} = frame.member(k);
-  const {hinge, platform, last, length} = layout;
-  member.middle = hinge ? length / 2 : member.x[2 * last] + platform / 2;
+  const layout = layoutOf(frame, member), {hinge, platform, last, length} = layout;
+  member.own = hinge ? length / 2 : member.x[2 * last] + platform / 2;
+  const drawn = Number.isNaN(member.middle);
+  if (drawn) member.middle = member.own;
   member.wet = bead ? wetLength : [Infinity, Infinity];
   member.platforms = platformsOf(layout, member);
+  const [[left, right] = []] = member.platforms;
+  member.angle = hinge ? 0 : Math.atan2(right.y - left.y, right.x - left.x);
   return {
     halves: (hinge ? [false] : [false, true]).map((right) => halfOf(frame, layout, member, right)),
     platforms: member.platforms,
     insulator: [upperInsulator, lowerInsulator],
     metal: [upperMetal, lowerMetal],
-    turned: frame.get('stack.distance') > 0 && k > 0,
+    electrode: hinge || member.electrode !== 0,
+    angle: member.angle,
+    turned: member.turned !== 0,
+    drawn, // its shape is in the drawing as it is: it moves in the plane
+    voltage: member.voltage,
+    bodies: [member.upper, member.lower],
+    reach: member.length / 2 + (hinge ? 0 : clip),
   };
 }
+
+const middleOf = ([a, b]) => ({x: (a.x + b.x) / 2, y: (a.y + b.y) / 2});
 
 /** Horizontal places of actuators side by side: of each member where they share one floor, of its copies on each floor. */
 function placesOf(frame, members, pitch) {
@@ -92,32 +105,88 @@ function loadedEnds({platforms, halves: [{x, y}]}) {
   return platforms[1] ?? [end, end];
 }
 
-/** The lowest point of all ribbons, 0 if they are above. */
-function lowestOf(members) {
-  let lowest = 0;
-  for (const {y} of members.flatMap(({halves}) => halves))
-    for (const height of y.flat()) lowest = Math.min(lowest, height);
-  return lowest;
+/** What encloses all ribbons: left, right, top, bottom. */
+function boxOf(members, points = []) {
+  const box = {left: Infinity, right: -Infinity, top: -Infinity, bottom: Infinity};
+  const enclose = (x, y) => {
+    box.left = Math.min(box.left, x);
+    box.right = Math.max(box.right, x);
+    box.top = Math.max(box.top, y);
+    box.bottom = Math.min(box.bottom, y);
+  };
+  for (const {x, y} of members.flatMap(({halves}) => halves))
+    for (const r of [0, 1]) x[r].forEach((at, i) => enclose(at, y[r][i]));
+  for (const {x, y} of points) enclose(x, y);
+  return box;
+}
+
+/** An actuator or a stack: the load is on the last member. */
+function stackOf(frame, members) {
+  const count = members.length, distance = frame.get('stack.distance'), opposed = distance > 0;
+  const reach = members[0].reach, pitch = 2 * reach + between, places = placesOf(frame, count, pitch);
+  members.forEach((member, k) => (member.places = places.of(k)));
+  const loaded = members[opposed ? 0 : count - 1], [left, right] = loadedEnds(loaded), {bottom} = boxOf(members);
+  const middle = middleOf([left, right]), tilt = Math.atan2(right.y - left.y, right.x - left.x), offset = frame.get('load.offset');
+  const wide = reach + ((places.columns - 1) / 2) * pitch, hinge = members[0].platforms.length === 0;
+  const columns = [...new Set(members.flatMap((member) => member.places))];
+  return {
+    opposed,
+    columns: places.columns,
+    joined: places.columns > 1 ? {from: places.of(0)[0], to: places.of(count - 1).at(-1)} : null, // rigid links of columns
+    box: {left: -wide, right: wide, top: 0, bottom: Math.min(bottom, opposed ? -distance : 0)},
+    supports: hinge
+      ? [{x: members[0].halves[0].x[0][0], y: 0, angle: Math.PI / 2, half: 4.5e-3}]
+      : columns.flatMap((x) => [{x, y: 0, angle: 0, half: 9e-3}, ...(opposed ? [{x, y: -distance, angle: Math.PI, half: 9e-3}] : [])]),
+    loads: [{body: 0, mass: frame.get('load.mass'), hangs: !opposed, aside: false,
+             x: middle.x + offset * Math.cos(tilt), y: middle.y + offset * Math.sin(tilt)}],
+    bodies: [], springs: [], joints: [],
+    openingAt: right.x + 3e-3,
+    focus: places.abreast ? members[0] : loaded, // the member that lens and profiles show, in its left half
+  };
+}
+
+/** A network: members and joints where their bodies are; each body as the lines from its place to all that is fixed to it. */
+function networkOf(frame, members) {
+  const bodies = frame.parts('body'), springs = frame.parts('spring'), joints = frame.parts('joint');
+  const fixed = bodies.map(({x, y}) => [{x, y}]), supports = [], carries = bodies.map(() => false);
+  for (const member of members) {
+    member.places = [0];
+    member.platforms.forEach((ends, r) => {
+      const body = member.bodies[r], at = middleOf(ends), up = (r === 0) !== member.turned;
+      fixed[body].push(at);
+      if (bodies[body].held) supports.push({...at, angle: member.angle + (up ? 0 : Math.PI), half: 9e-3});
+    });
+    carries[member.bodies[0]] = true;
+  }
+  for (const {x, y, from, to} of joints) {
+    fixed[from].push({x, y});
+    fixed[to].push({x, y});
+    if (bodies[from].held || bodies[to].held) supports.push({x, y, angle: 0, half: 3e-3});
+  }
+  for (const {fromX, fromY, toX, toY, from, to} of springs) {
+    fixed[from].push({x: fromX, y: fromY});
+    fixed[to].push({x: toX, y: toY});
+  }
+  const moving = bodies.map((body, k) => ({...body, body: k, fixed: fixed[k]})).filter(({held}) => !held);
+  const inPlane = members.some(({drawn}) => drawn);
+  return {
+    opposed: false,
+    columns: 1,
+    joined: null,
+    box: boxOf(members, [...moving.flatMap((body) => body.fixed), ...supports.flatMap(({x, y, half}) => [{x: x - half, y}, {x: x + half, y}])]),
+    supports,
+    loads: moving.filter(({mass}) => mass > 0).map(({body, mass, x, y}) => ({body, mass, x, y, hangs: !inPlane && !carries[body], aside: inPlane})),
+    bodies: moving,
+    springs: springs.map(({fromX, fromY, toX, toY}) => [{x: fromX, y: fromY}, {x: toX, y: toY}]),
+    joints,
+    openingAt: NaN, // no single one
+    focus: members[0],
+  };
 }
 
 /** (frame, is there a bead?) => all that is drawn of it. */
 export function geometryOf(frame, bead) {
-  const count = frame.get('members'), layout = layoutOf(frame), {hinge} = layout;
-  const distance = frame.get('stack.distance'), opposed = distance > 0;
-  const reach = frame.get('ribbon.length') / 2 + (hinge ? 0 : clip), pitch = 2 * reach + between, places = placesOf(frame, count, pitch);
-  const members = Array.from({length: count}, (_, k) => ({...memberOf(frame, layout, k, bead), places: places.of(k)}));
-  const loaded = members[opposed ? 0 : count - 1], [left, right] = loadedEnds(loaded);
-  const middle = {x: (left.x + right.x) / 2, y: (left.y + right.y) / 2}, tilt = Math.atan2(right.y - left.y, right.x - left.x);
-  const offset = frame.get('load.offset');
-  return {
-    members, hinge, opposed, columns: places.columns,
-    joined: places.columns > 1 ? {from: places.of(0)[0], to: places.of(count - 1).at(-1)} : null, // rigid links of columns
-    reach: reach + ((places.columns - 1) / 2) * pitch,
-    bottom: opposed ? Math.min(lowestOf(members), -distance) : lowestOf(members),
-    mounts: opposed ? [0, -distance] : [0], // heights
-    load: {x: middle.x + offset * Math.cos(tilt), y: middle.y + offset * Math.sin(tilt)},
-    gravity: frame.get('mount.tilt'),
-    openingAt: right.x + 3e-3,
-    focus: places.abreast ? members[0] : loaded, // the member that lens and profiles show, in its left half
-  };
+  const members = Array.from({length: frame.get('members')}, (_, k) => memberOf(frame, k, bead));
+  const network = frame.get('bodies') > 0;
+  return {members, network, gravity: frame.get('mount.tilt'), ...(network ? networkOf : stackOf)(frame, members)};
 }

@@ -4,6 +4,8 @@ import {Remote} from './remote.js';
 
 const mostOwed = 0.25; // s of simulated time; what a slow engine cannot run is left out
 
+const mostNoted = 4000; // instants of a curve; then every second one goes
+
 /** The motion so far: s, m, V, V, A. */
 const noTrace = () => ({time: [], stroke: [], voltage: [], command: [], current: []});
 
@@ -11,6 +13,7 @@ export class Live {
   frame = null; // the newest
   end = null; // {failure}, {stopped}, {broken} or {refused}: why it does not continue, until something changes
   trace = noTrace(); // since a button changed the voltage
+  openings = {time: [], of: []}; // the same of the members of a network: s, and for each m
   pace = 1; // share of the time asked for that was run, lately
   #remote;
   #values; // of the scenario
@@ -38,6 +41,11 @@ export class Live {
   /** A button was pressed: another voltage from now on. */
   switchTo(voltage) {
     this.#want({voltage, pressed: true});
+  }
+
+  /** The pointer pulls at a load: {body, right, up}, N, from now on. */
+  pull(force) {
+    this.#want({pull: force});
   }
 
   /** Changes while the engine is busy are sent together, the newest of each kind. */
@@ -76,19 +84,35 @@ export class Live {
   }
 
   #show(frame) {
-    if (frame.get('marks') !== this.#marks) this.trace = noTrace();
+    if (frame.get('marks') !== this.#marks) {
+      this.trace = noTrace();
+      this.openings = {time: [], of: []};
+    }
     this.#marks = frame.get('marks');
     this.#spare = this.frame?.data ?? new Float64Array(0);
     this.frame = frame;
     frame.eachSample((...sample) => this.#note(sample));
+    if (frame.get('bodies') > 0) this.#noteOpenings(frame);
     if (this.#asked > 0) this.pace += 0.1 * (frame.get('advanced') / this.#asked - this.pace);
+  }
+
+  #noteOpenings(frame) {
+    const {time, of} = this.openings, seen = frame.parts('member').map(({opening}) => opening);
+    if (of.length !== seen.length) this.openings = {time: [frame.get('since')], of: seen.map((opening) => [opening])};
+    else {
+      time.push(frame.get('since'));
+      seen.forEach((opening, k) => of[k].push(opening));
+    }
+    if (time.length < mostNoted) return;
+    const half = (list) => list.filter((_, k) => k % 2 === 0);
+    this.openings = {time: half(time), of: of.map(half)};
   }
 
   /** `sample`: in the order of the lists of the trace. */
   #note(sample) {
-    const most = 4000, lists = Object.entries(this.trace);
+    const lists = Object.entries(this.trace);
     lists.forEach(([, list], k) => list.push(sample[k]));
-    if (this.trace.time.length < most) return;
+    if (this.trace.time.length < mostNoted) return;
     this.trace = Object.fromEntries(lists.map(([name, list]) => [name, list.filter((_, k) => k % 2 === 0)]));
   }
 }

@@ -260,6 +260,36 @@ makePresets($('presets'), scenario.presets, (values) => {
 for (const button of ['step', 'hold', 'release']) $(button).addEventListener('click', () => press(button));
 $('pause').addEventListener('click', () => pause(!paused));
 
+// -- the pointer pulls at a load
+
+let grip = null;
+const picture = $('picture');
+const offset = (event) => [event.offsetX, event.offsetY];
+
+function pullTo(force) {
+  view.pull = force;
+  live.pull(force);
+}
+
+function letGo() {
+  if (!grip) return;
+  pullTo(grip.pull(...grip.from));
+  grip = view.pull = null;
+}
+
+picture.addEventListener('pointerdown', (event) => {
+  const found = view.picture.grip(...offset(event));
+  if (!found) return;
+  event.preventDefault();
+  grip = {...found, from: offset(event)};
+  picture.setPointerCapture(event.pointerId);
+});
+picture.addEventListener('pointermove', (event) => {
+  if (grip) pullTo(grip.pull(...offset(event)));
+  else picture.classList.toggle('loaded', view.picture.grip(...offset(event)) !== null);
+});
+for (const kind of ['pointerup', 'pointercancel', 'lostpointercapture']) picture.addEventListener(kind, letGo);
+
 const undo = () => apply(history.undo()) && remember();
 const redo = () => apply(history.redo()) && remember();
 $('undo').addEventListener('click', undo);

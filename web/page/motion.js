@@ -55,6 +55,11 @@ export class Motion {
     this.#mark();
   }
 
+  /** Pull at a load from now on: {body, right, up}, N. */
+  pull(force) {
+    if (!this.ended) this.core.pull(force);
+  }
+
   #begin(goOn, limit) {
     this.failure = 'it did not start';
     this.core.allow(limit);

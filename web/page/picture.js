@@ -5,25 +5,28 @@ const steel = 7850; // kg/m3, of the weight that is drawn
 const margin = {top: 8e-3, side: 2.5e-3, string: 5e-3, bottom: 4e-3}; // m around the actuator
 const magnification = 25; // of the lens
 const narrow = 500, legendHeight = 40; // px: the legend of the field is below the actuators of a narrow picture
+const pullStiffness = 5; // N/m: force of the pointer over its distance from the load
 const thinnest = 1.6; // px of a metal strip that would be thinner, not in the lens
 
 /** A half of a member on the screen (geometry.js), `place` m to the right. */
 class Half {
-  constructor(half, {turned}, to, place = 0) {
+  constructor(half, {turned, angle}, to, place = 0) {
     this.half = half;
     this.x = half.x.map((of) => of.map((x) => to.x(x + place)));
     this.y = half.y.map((of) => of.map((y) => to.y(y)));
-    this.outward = [turned ? to.scale : -to.scale, turned ? -to.scale : to.scale]; // px down per m outward of ribbon 0 and 1
+    this.axis = {x: Math.cos(angle), y: -Math.sin(angle)}; // along the upper platform
+    const up = to.scale * (turned ? -1 : 1), across = {x: up * this.axis.y, y: -up * this.axis.x};
+    this.outward = [across, {x: -across.x, y: -across.y}]; // px per m outward of ribbon 0 and 1
   }
 
   /** Path along ribbon r at a distance from its face, m, up to place `end`, a number of points with its fraction; the
    * other way round: backwards. */
   along(context, r, outward, backwards = false, end = this.x[r].length - 1) {
-    const shift = outward * this.outward[r], whole = Math.floor(end);
+    const shift = {x: outward * this.outward[r].x, y: outward * this.outward[r].y}, whole = Math.floor(end);
     const places = Array.from({length: whole + 1}, (_, i) => i);
     if (whole < end) places.push(end);
     if (backwards) places.reverse();
-    for (const at of places) context.lineTo(this.#at(this.x[r], at), this.#at(this.y[r], at) + shift);
+    for (const at of places) context.lineTo(this.#at(this.x[r], at) + shift.x, this.#at(this.y[r], at) + shift.y);
   }
 
   /** Between two points of a list. */
@@ -42,10 +45,11 @@ class Half {
 
   /** The liquid between the ribbons, up to `outward` from their faces, coloured by the field; a bead up to its end, with
    * its meniscus. */
-  liquid(context, {largest, electrode}, outward) {
-    const {first, last, field, wetEnd} = this.half, x = this.x[0], span = x[last] - x[first];
-    const gradient = context.createLinearGradient(x[first], 0, x[last], 0);
-    field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max((x[first + i] - x[first]) / span, 0), 1), shade(E / largest)));
+  liquid(context, {largest}, electrode, outward) {
+    const {first, last, field, wetEnd} = this.half, x = this.x[0], y = this.y[0], {axis} = this;
+    const along = (i) => (x[i] - x[first]) * axis.x + (y[i] - y[first]) * axis.y, span = along(last);
+    const gradient = context.createLinearGradient(x[first], y[first], x[first] + span * axis.x, y[first] + span * axis.y);
+    field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max(along(first + i) / span, 0), 1), shade(E / largest)));
     if (!electrode) gradient.addColorStop(1, shade(0));
     context.fillStyle = gradient;
     const end = Math.min(wetEnd, x.length - 1);
@@ -73,6 +77,12 @@ function zipFront({x, y, gap, first}, insulator) {
   return {x: between(x[0]), y: (between(y[0]) + between(y[1])) / 2};
 }
 
+/** Middle of a load and its side, px. */
+function middleOf({x, y, mass, hangs}, to) {
+  const size = Math.cbrt(mass / steel) * to.scale;
+  return {x: to.x(x), y: to.y(y) + (hangs ? margin.string * to.scale + size / 2 : 0), size};
+}
+
 /** Middle and radius of the lens, px. */
 function lensPlace(width, height) {
   const radius = Math.min(84, height * 0.19, width * 0.15);
@@ -82,15 +92,16 @@ function lensPlace(width, height) {
 export class Picture {
   #canvas;
   #context;
-  #view = null; // width and depth shown, m; follows the actuator softly
+  #view = null; // what is shown: left, right, top and bottom, m; follows the actuators softly
+  #shown = null; // the loads of the last picture, and its scale
 
   constructor(canvas) {
     this.#canvas = canvas;
     this.#context = canvas.getContext('2d');
   }
 
-  /** scene: geometry (of geometry.js), largest field (V/m), bath (is there liquid around?), electrode (does the platform
-   * attract?), opening (m), mass (kg), hanging (opening without voltage, m; NaN: unknown), texts. */
+  /** scene: geometry (of geometry.js), largest field (V/m), bath (is there liquid around?), opening (m), hanging (opening
+   * without voltage, m; NaN: unknown), pull (null, or {body, right, up}, N), texts. */
   draw(scene, still) {
     const context = this.#context, ratio = Math.min(devicePixelRatio, 2);
     const {clientWidth: width, clientHeight: height} = this.#canvas;
@@ -103,10 +114,18 @@ export class Picture {
       context.fillRect(0, 0, width, height);
     }
     const to = this.#fit(scene, width, height, still);
-    for (const [k, y] of scene.geometry.mounts.entries()) this.#mounts(scene.geometry, y, k > 0, to);
+    this.#shown = {loads: scene.geometry.loads, to};
+    for (const support of scene.geometry.supports) this.#support(support, to);
     this.#hanging(scene, to);
+    const {geometry} = scene, [hanging, sitting] = [true, false].map((hangs) => geometry.loads.filter((load) => load.hangs === hangs));
+    this.#bodies(geometry, to);
+    for (const load of sitting) this.#load(load, scene, to);
     this.#ribbons(scene, to);
-    this.#load(scene, to);
+    this.#links(geometry, to);
+    for (const load of hanging) this.#load(load, scene, to);
+    for (const load of sitting) this.#mass(load, scene, to);
+    this.#voltages(scene, to);
+    this.#pull(scene, to);
     this.#opening(scene, to);
     this.#scaleBar(to, width, height);
     if (to.lens) this.#lens(scene, to, width, height);
@@ -146,37 +165,34 @@ export class Picture {
     context.fillText('gravity', x - size - 8, y);
   }
 
-  /** The view: all actuators, the load and some margin, with the same scale in both directions; beside the lens if they
-   * are deep. Where there is no room for both, there is no lens. */
-  #fit(scene, width, height, still) {
-    const {geometry, mass} = scene, below = Math.max(-geometry.bottom, 1.1 * (geometry.opposed ? 0 : scene.hanging || 0));
-    const under = geometry.opposed ? margin.top : margin.string + Math.cbrt(mass / steel) + margin.bottom;
-    const wanted = {width: 2 * (geometry.reach + margin.side), depth: below + under};
+  /** The view: all actuators, loads and some margin, with the same scale in both directions; beside the lens if they are
+   * deep. Where there is no room for both, there is no lens. */
+  #fit({geometry: {box, loads}, hanging}, width, height, still) {
+    const largest = (list) => list.reduce((most, {mass}) => Math.max(most, Math.cbrt(mass / steel)), 0), below = loads.filter(({hangs}) => hangs);
+    const deepest = Math.max(-box.bottom, 1.1 * (below.length ? hanging || 0 : 0));
+    const under = below.length ? margin.string + largest(below) + margin.bottom : margin.top + largest(loads) / 2;
+    const wanted = {left: box.left - margin.side, right: box.right + margin.side, top: box.top + margin.top, bottom: -deepest - under};
     const soft = this.#view && !still ? 0.12 : 1;
     this.#view ??= wanted;
-    for (const key of ['width', 'depth']) this.#view[key] += soft * (wanted[key] - this.#view[key]);
-    const free = width < narrow ? height - legendHeight : height, {width: wide, depth} = this.#view;
-    const scale = Math.min(width / wide, free / (depth + margin.top));
-    const top = margin.top * scale + Math.max(0, 0.35 * (free - (depth + margin.top) * scale));
+    for (const key of Object.keys(wanted)) this.#view[key] += soft * (wanted[key] - this.#view[key]);
+    const free = width < narrow ? height - legendHeight : height, {left, right, top, bottom} = this.#view;
+    const wide = right - left, deep = top - bottom, scale = Math.min(width / wide, free / deep);
+    const above = top * scale + Math.max(0, 0.35 * (free - deep * scale)); // px of y = 0
     const {at, radius} = lensPlace(width, height), covered = at.x + radius + 8 - (width - wide * scale) / 2;
-    const deep = top - scale * geometry.bottom > at.y - radius, spare = (width - wide * scale) / 2;
-    const middle = width / 2 + (deep ? Math.min(Math.max(covered, 0), spare) : 0);
-    return {scale, x: (x) => middle + scale * x, y: (y) => top - scale * y, lens: !deep || covered <= spare};
+    const low = above - scale * box.bottom > at.y - radius, spare = (width - wide * scale) / 2;
+    const middle = width / 2 + (low ? Math.min(Math.max(covered, 0), spare) : 0) - (scale * (left + right)) / 2;
+    return {scale, x: (x) => middle + scale * x, y: (y) => above - scale * y, lens: !low || covered <= spare};
   }
 
-  /** What holds the uppermost platform of each column, or the lowest one of antagonists, from below; a hinge. */
-  #mounts({members, hinge}, y, below, to) {
-    const context = this.#context, way = below ? -1 : 1;
-    const places = new Set(members.flatMap((member) => member.places));
-    for (const place of places) {
-      context.save();
-      const x = hinge ? members[0].halves[0].x[0][0] : place;
-      context.translate(to.x(x), to.y(y));
-      if (hinge) context.rotate(-Math.PI / 2);
-      context.scale(1, -way);
-      this.#mount(4.5e-3 * to.scale, (hinge ? 4.5e-3 : 9e-3) * to.scale);
-      context.restore();
-    }
+  /** What holds a platform or a joint, from the direction of its angle. */
+  #support({x, y, angle, half}, to) {
+    const context = this.#context;
+    context.save();
+    context.translate(to.x(x), to.y(y));
+    context.rotate(-angle);
+    context.scale(1, -1);
+    this.#mount(4.5e-3 * to.scale, half * to.scale);
+    context.restore();
   }
 
   /** A bar with hatches at `height` px above the origin, and what hangs from it. */
@@ -198,7 +214,7 @@ export class Picture {
 
   #hanging(scene, to) {
     if (!(scene.hanging > 0)) return;
-    const context = this.#context, y = to.y(-scene.hanging), half = 0.6 * scene.geometry.reach;
+    const context = this.#context, y = to.y(-scene.hanging), half = 0.6 * scene.geometry.box.right, [{mass}] = scene.geometry.loads;
     context.strokeStyle = context.fillStyle = theme.colour.soft;
     context.lineWidth = 1;
     context.setLineDash([4, 5]);
@@ -210,7 +226,7 @@ export class Picture {
     context.font = '12px system-ui, sans-serif';
     context.textAlign = 'right';
     context.textBaseline = 'bottom';
-    const words = 'hangs here without voltage', room = (half - Math.cbrt(scene.mass / steel) / 2) * to.scale;
+    const words = 'hangs here without voltage', room = (half - Math.cbrt(mass / steel) / 2) * to.scale;
     if (scene.opening < 0.75 * scene.hanging && context.measureText(words).width < room - 6) context.fillText(words, to.x(half), y - 3);
   }
 
@@ -218,14 +234,14 @@ export class Picture {
     const {geometry} = scene;
     for (const member of geometry.members)
       for (const place of member.places) this.#member(scene, member, to, place);
-    if (geometry.joined) this.#links(geometry, to);
+    if (geometry.joined) this.#bar(geometry, to);
   }
 
   #member(scene, member, to, place) {
     const context = this.#context, {insulator, metal} = member;
     for (const half of member.halves) {
       const drawn = new Half(half, member, to, place);
-      drawn.liquid(context, scene, insulator);
+      drawn.liquid(context, scene, member.electrode, insulator);
       context.fillStyle = theme.colour.metal;
       for (const r of [0, 1]) drawn.layer(context, r, insulator[r], insulator[r] + Math.max(metal[r], thinnest / to.scale));
       if (member.platforms.length) this.#clip(drawn, half, to);
@@ -249,7 +265,7 @@ export class Picture {
   }
 
   /** The rigid bar that joins the lowest platforms of columns. */
-  #links({load, joined}, to) {
+  #bar({loads: [load], joined}, to) {
     const context = this.#context, y = to.y(load.y) + Math.max(4, 0.6e-3 * to.scale);
     context.strokeStyle = theme.colour.metal;
     context.lineWidth = 2;
@@ -259,22 +275,114 @@ export class Picture {
     context.stroke();
   }
 
-  #clip({x, y}, {first, outward}, to) {
-    const context = this.#context, length = Math.abs(x[0][0] - x[0][first]), height = Math.max(9, 2.4e-3 * to.scale);
-    context.fillStyle = theme.colour.load;
+  /** Bodies of a network: rigid lines from the place of each to what is fixed to it. */
+  #bodies({bodies}, to) {
+    const context = this.#context;
+    context.strokeStyle = theme.colour.soft;
+    context.lineWidth = Math.max(4, 1e-3 * to.scale);
+    context.lineCap = 'round';
     context.beginPath();
-    context.roundRect(outward < 0 ? x[0][0] : x[0][first], (y[0][0] + y[1][0] - height) / 2, length, height, 3);
-    context.fill();
+    for (const {fixed: [place, ...points]} of bodies)
+      for (const point of points) {
+        context.moveTo(to.x(place.x), to.y(place.y));
+        context.lineTo(to.x(point.x), to.y(point.y));
+      }
+    context.stroke();
+    context.lineCap = 'butt';
   }
 
-  /** The load hangs on a string along gravity. Between antagonists, and where gravity does not point down, it sits on the
-   * platform. */
-  #load(scene, to) {
-    if (!(scene.mass > 0)) return;
-    const context = this.#context, side = Math.cbrt(scene.mass / steel) * to.scale, {load, gravity, opposed} = scene.geometry;
-    const hangs = !opposed && Math.cos(gravity) > 0.3, string = hangs ? margin.string * to.scale : 0;
-    const from = {x: to.x(load.x), y: to.y(load.y)};
-    const at = {x: from.x + string * Math.sin(gravity), y: opposed ? from.y - side / 2 : from.y + string * Math.abs(Math.cos(gravity))};
+  /** Joints as circles, springs as zigzags. */
+  #links({joints, springs}, to) {
+    const context = this.#context;
+    context.strokeStyle = theme.colour.accent;
+    context.lineWidth = 1.5;
+    for (const [from, end] of springs) {
+      const a = {x: to.x(from.x), y: to.y(from.y)}, d = {x: to.x(end.x) - a.x, y: to.y(end.y) - a.y};
+      const length = Math.hypot(d.x, d.y) || 1, turns = 12, wide = 5;
+      context.beginPath();
+      context.moveTo(a.x, a.y);
+      for (let k = 1; k < turns; k++) {
+        const side = k === 1 || k === turns - 1 ? 0 : k % 2 ? wide : -wide;
+        context.lineTo(a.x + (d.x * k) / turns - (side * d.y) / length, a.y + (d.y * k) / turns + (side * d.x) / length);
+      }
+      context.lineTo(a.x + d.x, a.y + d.y);
+      context.stroke();
+    }
+    context.fillStyle = theme.colour.panel;
+    for (const {x, y} of joints) {
+      context.beginPath();
+      context.arc(to.x(x), to.y(y), 4, 0, 2 * Math.PI);
+      context.fill();
+      context.stroke();
+    }
+  }
+
+  /** The voltage of each member of a network, where there is room above it. */
+  #voltages({geometry: {network, members}, texts}, to) {
+    if (!network) return;
+    const context = this.#context;
+    context.font = '12px system-ui, sans-serif';
+    for (const [k, {platforms: [[left, right]], reach}] of members.entries()) {
+      const wide = context.measureText(texts.voltages[k]).width;
+      if (wide + 16 > reach * to.scale) continue;
+      this.#label(texts.voltages[k], to.x((left.x + right.x) / 2 + 9e-3) + 10, to.y((left.y + right.y) / 2) - 16);
+    }
+  }
+
+  /** A force with which the pointer pulls at a load: an arrow from there. */
+  #pull({pull, geometry: {loads}, texts}, to) {
+    const load = pull && loads.find(({body}) => body === pull.body);
+    if (!load) return;
+    const context = this.#context, {x, y} = middleOf(load, to), reach = to.scale / pullStiffness;
+    const tip = {x: x + pull.right * reach, y: y - pull.up * reach}, angle = Math.atan2(tip.y - y, tip.x - x);
+    context.strokeStyle = context.fillStyle = theme.colour.accent;
+    context.lineWidth = 2;
+    context.beginPath();
+    context.moveTo(x, y);
+    context.lineTo(tip.x, tip.y);
+    context.stroke();
+    context.beginPath();
+    context.moveTo(tip.x, tip.y);
+    for (const turn of [2.7, -2.7]) context.lineTo(tip.x + 10 * Math.cos(angle + turn), tip.y + 10 * Math.sin(angle + turn));
+    context.fill();
+    context.font = '600 13px system-ui, sans-serif';
+    this.#label(texts.pull, tip.x + 10, tip.y);
+  }
+
+  /** The load at this place of the canvas, px => {body, pull: of another place, the force that the pointer has there, N};
+   * null if there is none. A load that moves up and down is pulled up and down alone. */
+  grip(x, y) {
+    const {loads = [], to} = this.#shown ?? {};
+    const seen = loads.map((load) => {
+      const middle = middleOf(load, to);
+      return {...load, distance: Math.hypot(x - middle.x, y - middle.y) - middle.size / 2};
+    });
+    const nearest = seen.reduce((best, one) => (one.distance < best.distance ? one : best), {distance: 14});
+    if (nearest.body === undefined) return null;
+    const {body, aside} = nearest, force = pullStiffness / to.scale;
+    return {body, pull: (right, down) => ({body, right: aside ? (right - x) * force : 0, up: (y - down) * force})};
+  }
+
+  #clip({x, y, axis}, {first, outward}, to) {
+    const context = this.#context, length = Math.hypot(x[0][0] - x[0][first], y[0][0] - y[0][first]), height = Math.max(9, 2.4e-3 * to.scale);
+    context.fillStyle = theme.colour.load;
+    context.save();
+    context.translate((x[0][0] + x[1][0]) / 2, (y[0][0] + y[1][0]) / 2);
+    context.rotate(Math.atan2(axis.y, axis.x));
+    context.beginPath();
+    context.roundRect(outward < 0 ? 0 : -length, -height / 2, length, height, 3);
+    context.fill();
+    context.restore();
+  }
+
+  /** A load hangs on a string along gravity. Where it does not hang, and where gravity does not point down, it sits on what
+   * carries it. */
+  #load({body, mass, x, y, hangs: may}, scene, to) {
+    if (!(mass > 0)) return;
+    const context = this.#context, side = Math.cbrt(mass / steel) * to.scale, {gravity} = scene.geometry;
+    const hangs = may && Math.cos(gravity) > 0.3, string = hangs ? margin.string * to.scale : 0;
+    const from = {x: to.x(x), y: to.y(y)};
+    const at = {x: from.x + string * Math.sin(gravity), y: may ? from.y + string * Math.abs(Math.cos(gravity)) : from.y - side / 2};
     context.strokeStyle = theme.colour.load;
     context.lineWidth = 1.5;
     context.beginPath();
@@ -286,12 +394,20 @@ export class Picture {
     context.roundRect(at.x - side / 2, at.y, side, side, Math.min(4, side / 5));
     context.fill();
     context.font = '600 13px system-ui, sans-serif';
-    if (opposed) return this.#label(scene.texts.mass, at.x - side / 2 - 7 - context.measureText(scene.texts.mass).width, at.y + side / 2);
+    if (!may) return;
     const inside = side > 44;
     context.textBaseline = 'middle';
     context.textAlign = inside ? 'center' : 'left';
     context.fillStyle = inside ? theme.colour.panel : theme.colour.ink;
-    context.fillText(scene.texts.mass, inside ? at.x : at.x + side / 2 + 7, at.y + side / 2);
+    context.fillText(scene.texts.masses.get(body), inside ? at.x : at.x + side / 2 + 7, at.y + side / 2);
+  }
+
+  /** The mass of a load that sits, below it. */
+  #mass({body, mass, x, y}, {texts}, to) {
+    if (!(mass > 0)) return;
+    const context = this.#context, words = texts.masses.get(body), side = Math.cbrt(mass / steel) * to.scale;
+    context.font = '600 13px system-ui, sans-serif';
+    this.#label(words, to.x(x) - context.measureText(words).width / 2, to.y(y) + side / 2 + 14);
   }
 
   /** Words over what is drawn, from x on. */
@@ -359,7 +475,7 @@ export class Picture {
     context.fill();
     context.clip();
     const half = new Half(member.halves[0], member, inside);
-    half.liquid(context, scene, [0, 0]);
+    half.liquid(context, scene, member.electrode, [0, 0]);
     for (const r of [0, 1]) {
       context.fillStyle = theme.colour.insulator;
       half.layer(context, r, 0, insulator[r]);

@@ -97,6 +97,21 @@ export function timePlot(place, data) {
   });
 }
 
+/** Openings of the members of a network over time, with their numbers. */
+export function openingsPlot(place, data) {
+  const ends = () => ({x: axisEnds([1e3 * (data.openings.time.at(-1) ?? 0), 10]), y: axisEnds(...data.openings.of.map((of) => scaled(of, 1e3)), [1e-3])});
+  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('opening / mm', {size: 44})}, ends, (plot) => {
+    const {time, of} = data.openings, context = plot.ctx, ratio = devicePixelRatio;
+    of.forEach((opening, k) => {
+      curve(plot, scaled(time, 1e3), scaled(opening, 1e3), {colour: k % 2 ? 'warm' : 'accent', dash: k % 4 < 2 ? [] : [6, 3]});
+      if (!time.length) return;
+      context.font = `${11 * ratio}px system-ui, sans-serif`;
+      context.fillStyle = theme.colour.ink;
+      context.fillText(`${k + 1}`, plot.valToPos(1e3 * time.at(-1), 'x', true) + 4 * ratio, plot.valToPos(1e3 * opening.at(-1), 'y', true) + 4 * ratio);
+    });
+  });
+}
+
 /** Consecutive points of one branch with the same stability; each piece includes the first point of the next one. */
 export function pieces({branch, stable}) {
   const found = [];

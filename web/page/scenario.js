@@ -8,7 +8,7 @@ export const beginning = new Map();
 /** Sliders in their order: range and step in the unit of the key, within its range. */
 export const sliders = [
   {key: 'drive.voltage', label: 'Voltage', min: 0, max: 12, step: 0.1},
-  {key: 'load.mass', label: 'Load', min: 0, max: 100, step: 0.5},
+  {key: 'load.mass', label: 'Load', min: 0, max: 100, step: 0.5, acts: (core) => !isNetwork(core)},
   {key: 'ribbon.thickness', label: 'Steel thickness', min: 20, max: 200, step: 1},
   {key: 'ribbon.length', label: 'Length', min: 40, max: 200, step: 1},
   {key: 'ribbon.width', label: 'Width', min: 4, max: 40, step: 0.1},
@@ -24,6 +24,8 @@ const liquid = (core) => {
   const {choices} = core.keys.get('liquid.model');
   return choices[core.effective('liquid.model')].word;
 };
+/** Is it a network, whose bodies have masses of their own and no single stroke? */
+export const isNetwork = (core) => core.settings().some(({name}) => name.startsWith('body_'));
 const isWet = (core) => liquid(core) !== 'none', isBead = (core) => liquid(core) === 'bead';
 const isFed = (core) => core.value('source.model') !== 0;
 
@@ -79,6 +81,14 @@ export function supplyWords(core) {
 /** The same actuator for studies of equilibria, which apply drive.voltage to the electrodes without a supply. */
 export const atRest = (values) => new Map([...values].filter(([key]) => !key.startsWith('source.')));
 
+// Keys of the parts of a network; body 0 is the frame.
+const named = (part, k, keys) => Object.fromEntries(Object.entries(keys).map(([key, text]) => [`${part}_${k}.${key}`, text]));
+const body = (k, keys) => named('body', k, keys);
+const member = (k, upper, lower, keys = {}) => named('member', k, {upper: `${upper}`, lower: `${lower}`, ...keys});
+const joint = (k, first, second, x, y) => named('joint', k, {first: `${first}`, second: `${second}`, 'at.x': `${x} mm`, 'at.y': `${y} mm`});
+const plane = {moves: 'plane'};
+const diagonal = (k, from, to) => named('spring', k, {first: '1', second: '2', 'from_at.x': '40 mm', 'from_at.y': `${from} mm`, 'to_at.x': '-40 mm', 'to_at.y': `${to} mm`, stiffness: '60 N/m', rest: '22.6 mm', kind: 'push'});
+
 /** Presets by topic, with their values in the order of the sliders. A preset replaces the whole scenario. */
 export const presets = [
   {of: 'Actuators', name: 'The paper’s', help: '50 µm steel lifts 8 g', values: {}},
@@ -102,6 +112,9 @@ export const presets = [
   {of: 'Arrangements', name: 'Leaning', help: 'gravity points 60 degrees to the right of downwards; a spring opens the actuator', values: {'actuator.symmetry': 'none', 'mount.tilt': '60 degree', 'load.mass': '4 g', 'load.stiffness': '5 N/m', 'load.rest_opening': '20 mm', 'drive.voltage': '8 kV', 'liquid.model': 'none', 'mesh.nodes': '31'}},
   {of: 'Arrangements', name: 'Fold', help: 'electro-origami: a strip zips onto a plate about a hinge with a spring', values: {'actuator.kind': 'hinge', 'ribbon.length': '40 mm', 'ribbon.thickness': '1 mm', 'lower.ribbon.thickness': '100 um', 'hinge.stiffness': '0.4 mN m/rad', 'hinge.rest_angle': '20 degree', 'load.mass': '0 g', 'drive.voltage': '8 kV'}},
   {of: 'Arrangements', name: 'Pre-opened', help: 'ribbons bowed apart near the clips are open without a load', values: {'segment_1.length': '20 mm', 'segment_1.curvature': '5 1/m', 'load.mass': '2 g', 'liquid.model': 'none'}},
+  {of: 'Networks', name: 'Tree', help: 'a bar, and on it two hands of 6 g and 8 g: each actuator lifts all below it', values: {...body(1, {mass: '4 g'}), ...body(2, {mass: '6 g', 'at.x': '-110 mm'}), ...body(3, {mass: '8 g', 'at.x': '110 mm'}), ...member(1, 0, 1, {'ribbon.width': '40 mm'}), ...member(2, 1, 2), ...member(3, 1, 3), 'mesh.nodes': '31'}},
+  {of: 'Networks', name: 'Joint', help: 'antagonists turn a forearm on its pivot: the left one has 5 kV, the right one nothing', values: {...body(1, {...plane, mass: '12 g', inertia: '2000 g mm2', 'at.y': '-8 mm'}), ...joint(1, 0, 1, 0, 6), ...member(1, 0, 1, {'upper_at.x': '-60 mm', 'lower_at.x': '-60 mm'}), ...member(2, 0, 1, {'upper_at.x': '60 mm', 'lower_at.x': '60 mm', 'drive.voltage': '0 kV'}), 'drive.voltage': '5 kV', 'damping.drag': '0.02 N s2/m2', 'mesh.nodes': '31'}},
+  {of: 'Networks', name: 'Gripper', help: 'actuators lift two fingers on pins, which close on a soft block', values: {...body(1, {...plane, mass: '5 g', inertia: '6000 g mm2', 'at.x': '-50 mm', 'at.y': '-8 mm'}), ...body(2, {...plane, mass: '5 g', inertia: '6000 g mm2', 'at.x': '50 mm', 'at.y': '-8 mm'}), ...joint(1, 0, 1, -110, -8), ...joint(2, 0, 2, 110, -8), ...member(1, 0, 1, {'upper_at.x': '-55 mm', 'lower_at.x': '-5 mm'}), ...member(2, 0, 2, {'upper_at.x': '55 mm', 'lower_at.x': '5 mm'}), ...diagonal(1, -54, -70), ...diagonal(2, -70, -54), 'drive.voltage': '5 kV', 'damping.drag': '0.02 N s2/m2', 'mesh.nodes': '31'}},
 ];
 
 const usualFactor = 10; // of slow motion

@@ -41,10 +41,12 @@ const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
   release = NaN; // V, where it opens again
+  pull = null; // the force with which the pointer pulls at a load: {body, right, up}, N
   #time; // what the plots show
   #rest;
   #profile = {length: 1, force: new Float64Array(2), field: new Float64Array(2), largest: 1};
   #current; // trace
+  #openings; // of the members of a network
   #chart; // volts, y, and the scenario's voltage and mass
   #liquid = {length: 1, film: new Float64Array(2), pressure: new Float64Array(2)};
   #notes = [];
@@ -61,6 +63,7 @@ export class View {
     this.#time = {run: null, trace: live.trace};
     this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
     this.#current = {trace: live.trace};
+    this.#openings = {openings: live.openings};
     this.#chart = {volts: chart.volts, y: chart.y, fresh: (k) => chart.fresh(k), voltage: 0, mass: 0};
   }
 
@@ -75,6 +78,7 @@ export class View {
       [plots.profilePlot, 'profile', this.#profile],
       [plots.currentPlot, 'current', this.#current],
       [plots.liquidPlot, 'liquid', this.#liquid],
+      [plots.openingsPlot, 'openings', this.#openings],
     ];
     for (const [make, place, data] of all) {
       await breath();
@@ -150,6 +154,7 @@ export class View {
     const {frame} = this.live, scene = this.#scene(frame);
     this.picture.draw(scene, still);
     this.#time.trace = this.#rest.trace = this.#current.trace = this.live.trace;
+    this.#openings.openings = this.live.openings;
     this.#rest.now = {voltage: frame.get('voltage'), stroke: frame.get('stroke')};
     this.#plots[this.#next++ % this.#plots.length].update(); // one plot a frame: each 20 times a second
     this.#numbers(frame, scene);
@@ -162,10 +167,12 @@ export class View {
 
   /** Texts of the picture. */
   #texts(frame, geometry, word) {
-    const parallel = frame.get('stack.parallel'), many = geometry.members.length > 1 && !geometry.joined && !geometry.opposed;
+    const parallel = frame.get('stack.parallel'), many = geometry.members.length > 1 && !geometry.joined && !geometry.opposed && !geometry.network;
     const unseen = parallel > 1 && geometry.columns === 1 ? `one of ${parallel} side by side` : null;
     return {
-      mass: pretty(this.core.print('load.mass', frame.get('load.mass'))),
+      masses: new Map(geometry.loads.map(({body, mass}) => [body, pretty(this.core.print('load.mass', mass))])),
+      voltages: geometry.members.map(({voltage}, k) => `${k + 1}: ${fixed(voltage / 1e3, 2)} kV`),
+      pull: this.pull ? `${fixed(1e3 * Math.hypot(this.pull.right, this.pull.up), 0)} mN` : '',
       opening: `${fixed(1e3 * frame.get('opening'), 1)} mm`,
       wet: word !== 'none',
       where: [wetWords[word], unseen].filter(Boolean),
@@ -178,15 +185,18 @@ export class View {
     const geometry = geometryOf(frame, word === 'bead'), [{length, field, lineForce, film, pressure}] = geometry.focus.halves;
     Object.assign(this.#liquid, {length, film, pressure});
     $('of-liquid').hidden = word === 'none';
+    for (const id of ['plot-time', 'plot-voltage', 'of-chart']) $(id).hidden = geometry.network; // it has no single stroke or load
+    $('of-openings').hidden = !geometry.network;
+    $('time-title').textContent = geometry.network ? 'The run' : 'Stroke over time';
+    $('voltage-title').textContent = geometry.network ? 'Rest' : 'Stroke over voltage';
     Object.assign(this.#profile, {length, field, force: lineForce, largest: strongest});
     return {
       geometry,
       texts: this.#texts(frame, geometry, word),
       opening: frame.get('opening'),
-      mass: frame.get('load.mass'),
       bath: word === 'submerged',
       largest: strongest,
-      electrode: geometry.hinge || frame.get('platform.electrode') !== 0,
+      pull: this.pull,
       hanging: frame.get('opening') / (1 - frame.get('contraction')), // by the definition of the contraction
     };
   }
@@ -209,7 +219,11 @@ export class View {
   /** The same in words, for screen readers. */
   describe() {
     const {frame} = this.live;
-    $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * frame.get('opening'), 1)} millimetres open, ` +
+    const {openings} = this.live, at = openings.of.map((of, k) => `${k + 1}: ${fixed(1e3 * of.at(-1), 1)}`).join(', ');
+    $('plot-openings').setAttribute('aria-label', `Openings of the members over time, now ${at} millimetres`);
+    if (openings.of.length)
+      $('picture').setAttribute('aria-label', `A network of ${openings.of.length} actuators, open by ${at} millimetres`);
+    else $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * frame.get('opening'), 1)} millimetres open, ` +
       `${fixed(1e3 * frame.get('zipped_length'), 1)} millimetres of each half zipped, at ${fixed(frame.get('voltage') / 1e3, 2)} kilovolts`);
     const film = frame.get('film_thickness'), now = this.live.trace.current.at(-1) ?? NaN;
     $('plot-current').setAttribute('aria-label', `Current of the source over time, now ${fixed(1e6 * now, 1)} microamperes; voltage of the electrodes and command`);

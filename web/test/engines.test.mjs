@@ -88,7 +88,7 @@ test('a change after a failure starts from hanging', () => {
 function moved(from, count) {
   const zeros = (n) => new Float64Array(n), at = (k) => [1e-3 * k, 2e-6 * k, k, k, 1e-9 * k];
   const core = {
-    members: 1, nodes: 2, halves: 1, read: (columns) => columns.map(() => 0), effective: () => 0, value: () => 0, member: () => [0, 0, 0, 0, 0, 0],
+    members: 1, bodies: 0, springs: 0, joints: 0, nodes: 2, halves: 1, part: () => [], read: (columns) => columns.map(() => 0), effective: () => 0, value: () => 0,
     shape: () => ({x: zeros(4), y: zeros(4), gap: zeros(2), lineForce: zeros(2), film: zeros(0), pressure: zeros(0), wetLength: zeros(0)}),
   };
   return {core, time: 0, zero: 0, marks: 1, samples: Array.from({length: count}, (_, k) => at(from + k)).flat()};

@@ -88,8 +88,8 @@ test('one drives an actuator through a supply, with and without liquid, from one
 
 /** Volume of the bead of a half of member k from the thickness of its film, m3. */
 function volumeOf(frame, k, right) {
-  const {gap, wetLength} = frame.member(k), n = gap.length, last = (frame.get('halves') === 2 ? n / 2 : n) - 1;
-  const l = (frame.get('ribbon.length') - frame.get('platform.length')) / 2 / last, reach = wetLength[Number(right)] / l;
+  const {gap, wetLength, length, platform} = frame.member(k), n = gap.length, last = (frame.get('halves') === 2 ? n / 2 : n) - 1;
+  const l = (length - platform) / 2 / last, reach = wetLength[Number(right)] / l;
   const film = (i) => gap[right ? n - 1 - i : i] + 2e-6; // the roughness
   let area = 0;
   for (let i = 0; i < reach; i++) {
@@ -149,16 +149,17 @@ function geometryAt(values) {
   assert.equal(failure, null);
   return {engine, frame: new Frame(frame), ...geometryOf(new Frame(frame), false)};
 }
+const presetOf = (wanted) => scenario.presets.find(({name}) => name === wanted).values;
 const near = (a, b) => assert.ok(Math.abs(a - b) < 1e-9, `${a}, ${b}`);
 const dry = {'liquid.model': 'none', 'mesh.nodes': '21'};
 
 test('a series: each member hangs on the one above, and the load on the lowest', () => {
-  const {members, frame, load, mounts, bottom} = geometryAt({...dry, 'stack.series': '3'});
+  const {members, frame, loads: [load], supports, box: {bottom}} = geometryAt({...dry, 'stack.series': '3'});
   assert.equal(members.length, 3);
   members.slice(1).forEach(({platforms: [upper]}, k) => near(upper[0].y, members[k].platforms[1][0].y));
   near(load.y, -frame.get('opening'));
   near(bottom, load.y);
-  assert.deepEqual(mounts, [0]);
+  assert.deepEqual(supports.map(({y}) => y), [0]);
   for (const {halves: [left, right]} of members) {
     left.x[0].forEach((x, i) => near(x, -right.x[0][i]));
     near(left.x[0].at(-1), 0);
@@ -166,19 +167,19 @@ test('a series: each member hangs on the one above, and the load on the lowest',
 });
 
 test('antagonists: the lower one is upside down on its mount, and the load is between both', () => {
-  const {members: [upper, lower], frame, load, mounts, focus} = geometryAt({...dry, 'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g'});
+  const {members: [upper, lower], frame, loads: [load], supports, focus} = geometryAt({...dry, 'stack.series': '2', 'stack.distance': '20 mm', 'stack.lower_voltage': '2 kV', 'load.mass': '0.5 g'});
   near(lower.platforms[0][0].y, -20e-3);
   near(lower.platforms[1][0].y, upper.platforms[1][0].y);
   near(load.y, upper.platforms[1][0].y);
   assert.equal(focus, upper, 'lens and profiles show the one that carries it');
   assert.ok(lower.turned && !upper.turned);
-  assert.deepEqual(mounts, [0, -20e-3]);
+  assert.deepEqual(supports.map(({y}) => y), [0, -20e-3]);
   assert.equal(frame.member(1).voltage, 2e3);
   assert.ok(lower.halves[0].field[0] > 1e6 && upper.halves[0].field[0] === 0);
 });
 
 test('a whole actuator: its right half is not the mirror image; a platform that turns is drawn so', () => {
-  const {members: [{halves: [left, right], platforms: [, [a, b]]}], load} = geometryAt({...dry, 'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false', 'load.offset': '2 mm'});
+  const {members: [{halves: [left, right], platforms: [, [a, b]]}], loads: [load]} = geometryAt({...dry, 'actuator.symmetry': 'none', 'platform.rotates': 'true', 'platform.electrode': 'false', 'load.offset': '2 mm'});
   assert.ok(b.y < a.y - 1e-4, 'the right end is lower');
   near(Math.hypot(b.x - a.x, b.y - a.y), 10e-3);
   near(left.x[1].at(-1), right.x[1].at(-1));
@@ -200,6 +201,33 @@ test('side by side: equal ones are copies, unequal ones have their own strips; a
   const fold = geometryAt({'actuator.kind': 'hinge', 'mesh.nodes': '21', 'lower.insulator.thickness': '50 um'}), [{halves, platforms, insulator}] = fold.members;
   assert.deepEqual([halves.length, platforms.length, halves[0].x[0].length], [1, 0, 21]);
   assert.deepEqual(insulator, [130e-6, 50e-6]);
+});
+
+test('a network: members where their bodies are, each with its voltage; a body that is pulled moves that way', () => {
+  const tree = presetOf('Tree'), {members, bodies, loads, supports, frame} = geometryAt({...tree, 'mesh.nodes': '9', 'member_3.drive.voltage': '5 kV'});
+  assert.equal(frame.get('bodies'), 4);
+  assert.deepEqual(members.map(({platforms: [, [a, b]]}) => Math.round(500 * (a.x + b.x))), [0, -110, 110]); // mm
+  members.forEach(({platforms, bodies: [upper, lower]}) => platforms.forEach(([a], r) => near(a.y, bodies.find(({body}) => body === [upper, lower][r])?.y ?? 0)));
+  assert.deepEqual([supports.length, loads.map(({hangs}) => hangs)], [1, [false, true, true]]);
+
+  const joint = geometryAt({...presetOf('Joint'), 'mesh.nodes': '9'}), [{x, y, from, to}] = joint.joints;
+  near(x, 0);
+  near(y, 6e-3);
+  assert.deepEqual([from, to, joint.loads[0].aside, joint.supports.length], [0, 1, true, 3]);
+  const go = (question) => new Frame(joint.engine.answer({span: 10e-3, ...question}).frame), turned = () => go({}).part('body', 1).angle;
+  const [left, right] = go({voltage: 4e3, pressed: true}).parts('member').map(({voltage}) => voltage);
+  assert.deepEqual([left, right], [4e3, 0]);
+  joint.engine.answer({values: new Map(Object.entries({...presetOf('Joint'), 'mesh.nodes': '9'})), voltage: 0, restart: true, span: 0});
+  const still = turned();
+  assert.ok(Math.abs(still) < 1e-9, `it hangs straight: ${still}`);
+  const pulled = go({pull: {body: 1, right: 0.1, up: 0}}).part('body', 1).angle;
+  assert.ok(pulled > 1e-4, `below its pin, it turns anticlockwise: ${pulled}`);
+});
+
+test('a load that is pulled down opens further, and says why if it may not', () => {
+  const {engine} = geometryAt(dry), go = (question) => new Frame(engine.answer({span: 5e-3, ...question}).frame).get('opening'), before = go({});
+  assert.ok(go({pull: {body: 0, right: 0, up: -0.05}}) > before + 1e-5);
+  assert.match(engine.answer({pull: {body: 0, right: 0, up: -1e9}, span: 0}).refused, /load/);
 });
 
 test('a stack continues when the load changes, and starts again when it becomes another one', () => {
