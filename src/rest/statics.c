@@ -326,9 +326,6 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
 
 /* Bodies in the plane: members first reach from body to body as in the drawing, then all find their rest. */
 static ZpNewtonInfo hang_in_plane(ZpStatics *s) {
-  s->U = s->suction = 0;
-  if (s->biased) s->bias = 0;
-  s->contact_acts = false;
   s->posed = true;
   zp_plane_drawn(&s->plane, s->pose);
   ZpNewtonInfo info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
@@ -372,10 +369,10 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
 
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->opposed && s->has_load) return hang_between(s);
-  if (in_plane(s)) return hang_in_plane(s);
   s->U = s->suction = 0;
   if (s->biased) s->bias = 0;
   s->contact_acts = false;
+  if (in_plane(s)) return hang_in_plane(s);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->share, 0.01);
   if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */

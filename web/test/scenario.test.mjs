@@ -210,18 +210,22 @@ test('a network: members where their bodies are, each with its voltage; a body t
   members.forEach(({platforms, bodies: [upper, lower]}) => platforms.forEach(([a], r) => near(a.y, bodies.find(({body}) => body === [upper, lower][r])?.y ?? 0)));
   assert.deepEqual([supports.length, loads.map(({hangs}) => hangs)], [1, [false, true, true]]);
 
-  const joint = geometryAt({...presetOf('Joint'), 'mesh.nodes': '9'}), [{x, y, from, to}] = joint.joints;
-  near(x, 0);
-  near(y, 6e-3);
-  assert.deepEqual([from, to, joint.loads[0].aside, joint.supports.length], [0, 1, true, 3]);
+  const keys = {...presetOf('Joint'), 'mesh.nodes': '9', 'joint_1.first': '1', 'joint_1.second': '0'}, joint = geometryAt(keys), [{x, y, from, to}] = joint.joints;
+  assert.ok(Math.hypot(x, y - 6e-3) < 1e-8, `a joint gives way a little: ${y}`);
+  assert.deepEqual([to, from, joint.loads[0].aside, joint.supports.length], [0, 1, true, 3]);
   const go = (question) => new Frame(joint.engine.answer({span: 10e-3, ...question}).frame), turned = () => go({}).part('body', 1).angle;
   const [left, right] = go({voltage: 4e3, pressed: true}).parts('member').map(({voltage}) => voltage);
   assert.deepEqual([left, right], [4e3, 0]);
-  joint.engine.answer({values: new Map(Object.entries({...presetOf('Joint'), 'mesh.nodes': '9'})), voltage: 0, restart: true, span: 0});
+  joint.engine.answer({values: new Map(Object.entries(keys)), voltage: 0, restart: true, span: 0});
   const still = turned();
   assert.ok(Math.abs(still) < 1e-9, `it hangs straight: ${still}`);
   const pulled = go({pull: {body: 1, right: 0.1, up: 0}}).part('body', 1).angle;
   assert.ok(pulled > 1e-4, `below its pin, it turns anticlockwise: ${pulled}`);
+
+  const {springs, bodies: fingers} = geometryAt({...presetOf('Gripper'), 'mesh.nodes': '9'});
+  near(springs[0][0].x, -springs[1][1].x);
+  near(springs[0][0].y, springs[1][1].y);
+  for (const [{x, y}, k] of [[springs[1][0], 0], [springs[0][1], 1]]) near(Math.hypot(x - fingers[k].x, y - fingers[k].y), Math.hypot(40e-3, 70e-3));
 });
 
 test('a load that is pulled down opens further, and says why if it may not', () => {
