@@ -16,7 +16,7 @@
 %   ZIPACT(STUDY, FILE, ...) takes a scenario file first, ZIPACT(STUDY, KEYS, ...) a struct:
 %   keys.load.mass = '20 g'. ZIPACT('run', FILE) runs the study that the file names.
 %
-%   A network has structs of its bodies, members and springs by name, with their keys:
+%   A network has structs of its bodies, joints, members and springs by name, with their keys:
 %
 %      arm.bodies.hand.mass = '20 g';
 %      arm.members.left = struct('upper', 'frame', 'lower', 'hand');

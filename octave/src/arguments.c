@@ -119,9 +119,9 @@ double quantity_of(const char *key, const char *name, const mxArray *value) {
 
 /* -- keys ---------------------------------------------------------------------------------------------- */
 
-/* Does it name bodies, members or springs, one of them, or one of its keys? */
+/* Does it name bodies, joints, members or springs, one of them, or one of its keys? */
 static bool is_named(const char *name) {
-  static const char *const group[] = {"bodies", "members", "springs"};
+  static const char *const group[] = {"bodies", "joints", "members", "springs"};
   const size_t length = strcspn(name, ".");
   bool found = false;
   for (size_t i = 0; i < sizeof group / sizeof *group; i++)

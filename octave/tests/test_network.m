@@ -1,4 +1,4 @@
-% Networks: structs of bodies, members and springs give the numbers of the file.
+% Networks: structs of bodies, joints, members and springs give the numbers of the file.
 1;
 
 file = fullfile(fileparts(mfilename('fullpath')), '..', '..', 'examples', 'network.yaml');
@@ -35,6 +35,20 @@ zipact_plot(moved);
 lines = findobj(gca(), 'type', 'line');
 check(numel(lines) == 3 && isequal(get(lines(end), 'ydata')(:), 1e3 * moved.series.bar_y_m), 'heights are drawn');
 close('all');
+
+% a joint
+plane.mesh.nodes = 11;
+plane.bodies.arm = struct('moves', 'plane', 'mass', '12 g', 'inertia', '2000 g mm2');
+plane.bodies.arm.at = {0, '-8 mm'};
+plane.joints.pivot.type = 'pin';
+plane.joints.pivot.between = {'frame', 'arm'};
+plane.joints.pivot.at = {0, '6 mm'};
+plane.members.left = struct('upper', 'frame', 'lower', 'arm');
+plane.members.left.upper_at = {'-60 mm', 0};
+plane.members.left.lower_at = {'-60 mm', 0};
+turned = zipact('stationary', plane, 'bodies.arm.torque', '1 mN m');
+still = zipact('stationary', plane);
+check(turned.bodies.arm.angle_rad > still.bodies.arm.angle_rad + 1e-3, 'a torque turns a body on its pin');
 
 % by pairs, over a file, in lists
 other = zipact('stationary', file, 'mesh.nodes', 11, 'members.lift_2.ribbon.thickness', 50e-6);
@@ -91,6 +105,6 @@ refuse('members.hand.upper: hand is a name in bodies already', 'members.hand.upp
 refuse('bodies.Hand.mass: "Hand" is no name', 'bodies.Hand.mass', 1);
 refuse('bodies.free: nothing holds it', 'bodies.free', struct());
 refuse('springs.rope.between: takes two values', 'springs.rope.between', {'frame'});
-refuse('springs.rope.between: give two bodies', 'springs.rope', struct('between', {{'frame', 'nobody'}}, 'stiffness', 1));
+refuse('springs.rope.between: nobody is not given in bodies', 'springs.rope', struct('between', {{'frame', 'nobody'}}, 'stiffness', 1));
 
 disp('test_network: passed');

@@ -33,6 +33,20 @@ def hand(**keys):
     return network
 
 
+def joint(**keys):
+    """examples/joint.yaml, by hand."""
+    network = zipact.Network(study="actuate", damping__drag="0.02 N s2/m2", solver__stop_when_zipped=False, output__shapes=200)
+    network["mesh.nodes"], network["output.animation"] = 31, True
+    network.bodies["forearm"] = {"moves": "plane", "mass": "12 g", "inertia": "2000 g mm2", "at": [0, "-8 mm"]}
+    network.joints["pivot"] = {"type": "pin", "between": ["frame", "forearm"], "at": [0, "6 mm"]}
+    follow = {"kind": "pi", "signal": "angle", "proportional": "80 kV/rad", "integral": "2000 kV/rad/s"}
+    moves = {"waveform": "square", "value": "2 degree", "offset": "-2 degree", "frequency": "1 Hz", "rise_time": "100 ms"}
+    for name, x in {"left": "-60 mm", "right": "60 mm"}.items():
+        network.members[name] = {"upper": "frame", "lower": "forearm", "upper_at": [x, 0], "lower_at": [x, 0],
+                                 "drive.voltage": "8 kV", "control": follow, "setpoint": moves}
+    return network.replace(keys)
+
+
 def assert_same(one, other):
     assert one.outcome == other.outcome and list(one.series) == list(other.series)
     np.testing.assert_array_equal(one.series.values_2d, other.series.values_2d)
@@ -44,6 +58,16 @@ def test_same_bits_as_the_file(study):
     read = zipact.read_scenario(os.path.join(EXAMPLES, "network.yaml"))
     assert isinstance(read, zipact.Network)
     assert_same(read.run(study, **SHORT), example().run(study, **SHORT))
+
+
+def test_joints():
+    read = zipact.read_scenario(os.path.join(EXAMPLES, "joint.yaml"))
+    ours = joint().run(**SHORT)
+    assert_same(read.run(**SHORT), ours)
+    assert ours.bodies["forearm"]["angle_rad"] == ours.series["forearm.angle_rad"][-1] != 0
+    assert list(read.joints) == ["pivot"] and read["joints.pivot.type"] == "pin"
+    slid = joint(**{"joints.pivot.type": "slide"})
+    assert slid.joints["pivot"]["type"] == "slide" and slid != joint()
 
 
 def test_same_bits_as_the_command(tmp_path):
@@ -170,7 +194,7 @@ WRONG = {
     "bodies.free: nothing holds it": ("bodies.free", {}),
     "bodies.hand.force: the first value, to the right, must be 0": ("bodies.hand.force", [1, 0]),
     "springs.rope.between: takes two values": ("springs.rope.between", ["frame"]),
-    "springs.rope.between: give two bodies": ("springs.rope", {"between": ["frame", "nobody"], "stiffness": 1}),
+    "springs.rope.between: nobody is not given in bodies": ("springs.rope", {"between": ["frame", "nobody"], "stiffness": 1}),
     "left: takes a dict": ("members.left", 3),
     "members: takes a dict": ("members", 3),
     "load.mas: unknown key; did you mean load.mass?": ("load.mas", 1),

@@ -34,11 +34,11 @@ class Key(NamedTuple):
 
 
 class Keys(dict[str, Key]):
-    """Every key by its name, "load.mass". Those of all members, bodies and springs are listed once, with K in the place of a number;
-    KEYS["member_3.ribbon.thickness"] is found as well, though not by `in` or get."""
+    """Every key by its name, "load.mass". Those of all members, bodies, joints and springs are listed once, with K in the
+    place of a number; KEYS["member_3.ribbon.thickness"] is found as well, though not by `in` or get."""
 
     def __missing__(self, name: str) -> Key:
-        row, numbers = re.subn(r"^(member|body|spring)_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", r"\1_K.", name)
+        row, numbers = re.subn(r"^(member|body|joint|spring)_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", r"\1_K.", name)
         if numbers == 0 or row not in self:
             raise KeyError(name)
         return self[row]._replace(name=name)

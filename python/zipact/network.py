@@ -13,8 +13,8 @@ from .actuator import Actuator, Progress, actuator_of, differences, given_keys, 
 from .keywords import Keywords  # made from keys.def when the wheel is built
 from .result import Result
 
-NUMBERED = re.compile(r"(member|body|spring)_(\d+)\.(.+)")  # a key as a Definition has it
-GROUPS = {"body": "bodies", "member": "members", "spring": "springs"}
+NUMBERED = re.compile(r"(member|body|joint|spring)_(\d+)\.(.+)")  # a key as a Definition has it
+GROUPS = {"body": "bodies", "joint": "joints", "member": "members", "spring": "springs"}
 NAMES = ("upper", "lower", "first", "second", "port")  # keys whose values are names
 
 
@@ -37,7 +37,7 @@ class Given(UserDict[str, Any]):
 
 
 class Named(UserDict[str, Given]):
-    """Bodies, members or springs by their names, each a dict of its keys."""
+    """Bodies, joints, members or springs by their names, each a dict of its keys."""
 
     def __setitem__(self, name: str, keys: Mapping[str, Any]) -> None:
         self.data[name] = Given(checked_dict(name, keys))
@@ -59,8 +59,13 @@ class Network(MutableMapping[str, Any]):
         result = network.run("actuate", solver__end_time=0.4)
         result.members["left"]["zip_time_s"], result.series["hand.y_m"]
 
+    Bodies also move in the plane, on joints:
+
+        network.bodies["arm"] = {"moves": "plane", "mass": "12 g", "inertia": "2000 g mm2", "at": [0, "-8 mm"]}
+        network.joints["pivot"] = {"type": "pin", "between": ["frame", "arm"], "at": [0, "6 mm"]}
+
     It has what was given, and can be changed. As a mapping it has the keys of the top level and those of all bodies,
-    members and springs, as network["members.left.ribbon.thickness"]. The library checks names and values when it runs.
+    joints, members and springs, as network["members.left.ribbon.thickness"]. The library checks names and values when it runs.
     """
 
     def __init__(self, groups: Mapping[str, Any] | None = None, **keys: Unpack[Keywords]) -> None:
@@ -72,6 +77,11 @@ class Network(MutableMapping[str, Any]):
     def bodies(self) -> Named:
         """The bodies by name. The frame, which is held, always exists."""
         return self._named["bodies"]
+
+    @property
+    def joints(self) -> Named:
+        """What joins bodies that move in the plane, by name."""
+        return self._named["joints"]
 
     @property
     def members(self) -> Named:
@@ -177,7 +187,7 @@ def yaml(value: Any) -> str:
 
 
 def named_keys(text: str) -> dict[str, str]:
-    """The keys of bodies, members and springs in a scenario that the library has written, and their values as texts."""
+    """The keys of bodies, joints, members and springs in a scenario that the library has written, and their values as texts."""
     found, group = {}, ""
     for line in text.splitlines():
         key, _, value = line.partition(":")

@@ -164,7 +164,7 @@ void zp_network_member(const ZpActuatorDef *def, int member, ZpActuatorDef *one)
 /* Is each key of a port given at its first member, and has a voltage of its own one to be a multiple of? */
 ZpStatus zp_check_ports(const ZpActuatorDef *def, ZpError *err);
 
-/* Do bodies, members and springs fit together? */
+/* Do bodies, members, springs and joints fit together? */
 ZpStatus zp_check_network(const ZpActuatorDef *def, ZpError *err);
 
 /* Are the two members of a series antagonists, between mounts at stack.distance? The voltage of the lower one if the

@@ -443,7 +443,7 @@ static ZpStatus check_preset_complete(ZpPreset preset, int nodes, const ZpAssign
   return ZP_OK;
 }
 
-/* Keys of members, bodies and springs determine no value of another key. */
+/* Keys of members, bodies, springs and joints determine no value of another key. */
 static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpStatus status = ZP_OK;
   for (size_t i = 0; i < count && status == ZP_OK; i++)

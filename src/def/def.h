@@ -32,7 +32,7 @@
 #define ZP_OF_SCENARIO(name, type, def, help)
 struct ZpActuatorDef {
 #include "def/keys.def"
-  struct ZpInstances *given; /* of keys of members, bodies and springs; NULL: none is */
+  struct ZpInstances *given; /* of keys of members, bodies, springs and joints; NULL: none is */
 };
 
 /* The name of a member, a body or a spring. */
@@ -42,7 +42,7 @@ typedef struct ZpGivenName {
   char text[ZP_NAME_SIZE];
 } ZpGivenName;
 
-/* The given values of keys of members, bodies and springs, in the order of their indices, and their names. */
+/* The given values of keys of members, bodies, springs and joints, in the order of their indices, and their names. */
 typedef struct ZpInstances {
   const ZpActuatorDef *of; /* it frees them; others only use them */
   size_t count, room;

@@ -1,5 +1,5 @@
-/* Keys of members, bodies and springs: their names and order, and their values, which a Def has only where they are
- * given. */
+/* Keys of members, bodies, springs and joints: their names and order, and their values, which a Def has only where they
+ * are given. */
 #include "def/instances.h"
 
 #include <math.h>

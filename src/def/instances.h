@@ -1,4 +1,4 @@
-/* The values of keys of members, bodies and springs in a Def: def/check.h has what others may know of them. */
+/* The values of keys of members, bodies, springs and joints in a Def: def/check.h has what others may know of them. */
 #ifndef ZP_DEF_INSTANCES_H
 #define ZP_DEF_INSTANCES_H
 

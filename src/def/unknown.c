@@ -221,7 +221,7 @@ void zp_key_unknown(const char *name, char *text, size_t size) {
   if (number > 0)
     say_of_instance(zp_instance_begins(kind), number, rest, text, size);
   else if (numbered)
-    snprintf(text, size, "unknown key; members, bodies and springs have the numbers 1 to %d", ZP_MOST_MEMBERS);
+    snprintf(text, size, "unknown key; members, bodies, springs and joints have the numbers 1 to %d", ZP_MOST_MEMBERS);
   else
     say_unknown(name, text, size);
 }
