@@ -13,9 +13,10 @@
 static void note_bare_numbers(const ZpScenario *scenario) {
   double value;
   for (int i = 0; zp_key(i); i++) {
-    char name[ZP_KEY_NAME_SIZE];
+    char name[ZP_SCENARIO_KEY_SIZE];
     if (!zp_scenario_bare_number(scenario, i, &value)) continue;
-    fprintf(stderr, "zipact: %s: %.6g taken as %.6g %s\n", zp_key_name(i, name), value, value, zp_key(i)->unit);
+    fprintf(stderr, "zipact: %s: %.6g taken as %.6g %s\n", zp_scenario_key(scenario, i, name), value, value,
+            zp_key(i)->unit);
   }
 }
 

@@ -155,9 +155,9 @@ static void print_row(const ZpReport *report, size_t index) {
   ZpActuatorDef *def = zp_def_create();
   const bool good = zp_scenario_def(report->scenario, index, def, NULL) == ZP_OK;
   for (size_t k = 0; k < lists && good; k++) {
-    char text[64], name[ZP_KEY_NAME_SIZE];
+    char text[64], name[ZP_SCENARIO_KEY_SIZE];
     zp_value_print(list[k], zp_def_get(def, list[k]), text, sizeof text);
-    printf("  %s = %-10s", zp_key_name(list[k], name), text);
+    printf("  %s = %-10s", zp_scenario_key(report->scenario, list[k], name), text);
   }
   zp_def_destroy(def);
   if (!good) return;

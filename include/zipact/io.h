@@ -41,6 +41,11 @@ ZP_API size_t zp_scenario_count(const ZpScenario *scenario);
 /* Keys that have lists or distributions, in key order; *count of them. Valid until the scenario changes. */
 ZP_API const int *zp_scenario_lists(const ZpScenario *scenario, size_t *count);
 
+/* The name of a key as a scenario writes it: "members.left.ribbon.thickness" where zp_key_name has
+ * "member_1.ribbon.thickness". Written to `text`. */
+enum { ZP_SCENARIO_KEY_SIZE = 128 };
+ZP_API const char *zp_scenario_key(const ZpScenario *scenario, int key, char text[ZP_SCENARIO_KEY_SIZE]);
+
 /* Was `key`, which has a unit, given as a number without a unit, other than 0? Then it was taken as SI, and *value is
  * the first such value, SI. */
 ZP_API bool zp_scenario_bare_number(const ZpScenario *scenario, int key, double *value);

@@ -3,9 +3,11 @@
 #ifndef ZP_IO_NAMES_H
 #define ZP_IO_NAMES_H
 
+#include <zipact/io.h>
+
 #include "def/check.h"
 
-enum { ZP_PATH_SIZE = 128 }; /* bytes of a key with a name, with the final 0 */
+enum { ZP_PATH_SIZE = ZP_SCENARIO_KEY_SIZE }; /* bytes of a key with a name, with the final 0 */
 
 typedef struct ZpGivenNames {
   ZpGivenName *name;

@@ -68,9 +68,6 @@ ZpStatus zp_scenario_given(const ZpScenario *scenario, size_t index, ZpActuatorD
  * list. Requires a scenario whose cases can be made. */
 void zp_scenario_values(const ZpScenario *scenario, size_t index, double *value);
 
-/* The name of a key, with the names of members, bodies and springs. */
-const char *zp_scenario_key(const ZpScenario *scenario, int key, char text[ZP_PATH_SIZE]);
-
 /* Keys whose lists are combined, in key order: of those that vary together only the last one. */
 const int *zp_scenario_axes(const ZpScenario *scenario, size_t *count);
 

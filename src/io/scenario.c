@@ -775,7 +775,7 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   return status;
 }
 
-const char *zp_scenario_key(const ZpScenario *s, int key, char text[ZP_PATH_SIZE]) {
+const char *zp_scenario_key(const ZpScenario *s, int key, char text[ZP_SCENARIO_KEY_SIZE]) {
   return zp_names_key(&s->names, key, text);
 }
 
