@@ -150,7 +150,7 @@ static void run(Problem *p) {
   ZpResult *result = p->at.result;
   if (!find_equilibrium(p)) return;
   v->K = &s->newton.K;
-  if (s->members > 1 && !s->shared) {
+  if ((s->members > 1 && !s->shared) || s->model->network->plane) {
     v->weigh = zp_statics_weigh;
     v->self = s;
   }
