@@ -3,6 +3,7 @@
 #include "network_util.h"
 
 #include "actuator/model.h"
+#include "actuator/plane.h"
 #include "rest/statics.h"
 
 static const char all_kinds[] =
@@ -28,10 +29,38 @@ static const char all_kinds[] =
     "  leans: {upper: base, lower: arm, upper_at: [5 mm, -2 mm], lower_at: [3 mm, 1 mm], angle: 10 degree}\n"
     "  hangs: {upper: arm, lower: hand, upper_at: [1 mm, -3 mm], lower_at: [2 mm, 2 mm], angle: 5 degree}\n";
 
+/* Eq. (34.4): the way of a point of a body that turns by any angle. */
+TEST(points_sweep_their_way) {
+  static const ZpVector arm = {0.7, -0.4};
+  for (int k = 0; k < 4; k++) {
+    const double turns[] = {0, 1e-9, 0.5, 3};
+    const ZpPose from = {0.1, 0.2, 0.3}, to = {0.1, 0.2, 0.3 + turns[k]};
+    const ZpVector way = zp_difference(zp_pose_point(&to, arm), zp_pose_point(&from, arm)),
+                   sweep = zp_times(to.turn - from.turn, zp_pose_sweep(&from, &to, arm));
+    ck_assert_double_lt(hypot(way.x - sweep.x, way.y - sweep.y), 1e-15);
+  }
+}
+
 /* Forces on bodies of about their weight, N. */
 static double some(size_t i) {
   return 0.05 * sin(1.0 + 1.7 * (double)i);
 }
+
+/* Without joints, and with light bodies, whose platforms have their centres of mass far from their places. */
+static const char soft_kinds[] =
+    "study: stationary\nmesh.nodes: 13\nplatform.length: 20 mm\nribbon.density: 30000\n"
+    "bodies:\n"
+    "  arm: {moves: plane, mass: 0.1 g, at: [40 mm, -10 mm], angle: -15 degree, force: [-20 mN, -20 mN], torque: -0.8 "
+    "mN m}\n"
+    "  hand: {moves: plane, mass: 2 g, at: [0, -25 mm]}\n"
+    "springs:\n"
+    "  one: {between: [frame, arm], from_at: [90 mm, 10 mm], to_at: [5 mm, 2 mm], stiffness: 20 N/m, rest: 30 mm}\n"
+    "  two: {between: [arm, hand], to_at: [10 mm, 1 mm], stiffness: 5 N/m, rest: 20 mm}\n"
+    "members:\n"
+    "  lifts: {upper: frame, lower: arm, lower_at: [-40 mm, -6 mm]}\n"
+    "  hangs: {upper: arm, lower: hand, upper_at: [-35 mm, -3 mm], lower_at: [2 mm, 2 mm], angle: 5 degree}\n";
+
+static const char *const derivatives[] = {all_kinds, soft_kinds};
 
 /* The residual at a fraction of a step from a point that is kept. */
 static void residual_at(ZpStatics *s, const void *kept, const double *step, double fraction, double *r) {
@@ -44,9 +73,9 @@ static void residual_at(ZpStatics *s, const void *kept, const double *step, doub
 
 /* Forces on bodies move all by K^-1 times them; residuals change by as much. So also what is soft counts: along a
  * direction of one's own choice the stiffness of edges and joints would hide it. */
-TEST(stiffness_is_the_derivative_of_forces) {
+TESTS(stiffness_is_the_derivative_of_forces, 0, LENGTH_OF(derivatives)) {
   static const double fraction = 1e-4;
-  ZpActuatorDef def = def_of(all_kinds);
+  ZpActuatorDef def = def_of(derivatives[_i]);
   ZpModel *model;
   ZpStatics s;
   ck_ok(zp_model_create(&def, &model, &err));
@@ -68,8 +97,61 @@ TEST(stiffness_is_the_derivative_of_forces) {
     off = fmax(off, fabs(by - is));
   }
   printf("off by %.2g of %.2g N\n", off, some(0));
-  ck_assert_double_lt(off, 1e-4); /* 3.8e-5 measured, of joints of 1e8 N/m; second order of the step */
+  ck_assert_double_lt(off, 1e-4); /* 4.8e-5 and 1.8e-5 measured, of joints of 1e8 N/m and of edges; second order of
+                                      the step */
   free(u), free(one), free(other), free(kept);
+  zp_statics_destroy(&s);
+  zp_model_destroy(model);
+}
+
+/* Eq. (34.6): what forces of a member do along the way of nodes and bodies in the drawing is what they do along the way
+ * that the member sees, for any turn of its bodies over the span. */
+TEST(forces_on_bodies_work_as_on_nodes) {
+  ZpActuatorDef def = def_of(soft_kinds);
+  ZpModel *model;
+  ZpStatics s;
+  ck_ok(zp_model_create(&def, &model, &err));
+  ck_assert(zp_statics_create(model, false, &s));
+  const ZpPlanar *plane = &s.plane;
+  const ZpAssembly *a = &s.member[1].assembly;
+  const ZpTopology *t = &model[1].topology;
+  const size_t size = zp_coordinates(&model[1]), inner = s.form.inner;
+  double *nodes[2], *seen[2], *q[2], *force = calloc(size, sizeof *force), *f = calloc(s.n, sizeof *f);
+  ZpPose pose[2][3];
+  double inside = 0, outside = 0;
+  for (size_t end = 0; end < 2; end++) {
+    seen[end] = calloc(size, sizeof(double)), nodes[end] = calloc(size, sizeof(double));
+    q[end] = calloc(s.n, sizeof(double));
+    zp_plane_drawn(plane, pose[end]);
+    for (size_t b = 1; b < 3; b++) {
+      pose[end][b].x += 0.01 * some(5 + b + 10 * end);
+      pose[end][b].turn += 20 * some(b + 10 * end);
+    }
+    const ZpForces at = zp_forces(&model[1], seen[end]);
+    for (size_t j = 0; j < model[1].count; j++) {
+      const size_t clip = j / t->ribbons == 0 || j / t->ribbons == t->stations - 1 ? j - j % t->ribbons : j;
+      const bool held = j == zp_upper(t, t->platform.first) || j == zp_upper(t, t->platform.last);
+      at.x[j] = 0.1 * some(held ? j : clip + 7 + 100 * end);
+      at.y[j] = 0.1 * some(held ? j : clip + 8 + 200 * end);
+      zp_forces(&model[1], force).x[j] = some(j + 900);
+      zp_forces(&model[1], force).y[j] = some(j + 1100);
+    }
+    zp_plane_put_platform(plane, 1, pose[end], 1, seen[end]);
+    memcpy(nodes[end], seen[end], size * sizeof(double));
+    zp_plane_to_drawing(plane, 1, pose[end], nodes[end]);
+    zp_assembly_gather(a, nodes[end], q[end]);
+    zp_plane_gather(plane, inner, pose[end], q[end]);
+  }
+  for (size_t k = 0; k < size; k++)
+    inside += force[k] * (seen[1][k] - seen[0][k]);
+  zp_plane_add_force(plane, 1, pose[0], pose[1], inner, seen[0], seen[1], a, force, f);
+  for (size_t i = 0; i < s.n; i++)
+    outside += f[i] * (q[1][i] - q[0][i]);
+  printf("turned by %.3g, %.6g J, off by %.2g\n", pose[1][1].turn - pose[0][1].turn, inside, outside / inside - 1);
+  ck_near(outside, inside, 1e-12);
+  for (int end = 0; end < 2; end++)
+    free(seen[end]), free(nodes[end]), free(q[end]);
+  free(force), free(f);
   zp_statics_destroy(&s);
   zp_model_destroy(model);
 }
@@ -186,6 +268,65 @@ TEST(lever_balances) {
   ck_near(turns, -4e-6 * 0.05 / against, 3e-6);
 }
 
+/* A beam that is welded to the frame: how far a force and a torque bend the joint, which is as stiff as the stiffest
+ * edge, and as that times the square of the flexible length in torsion. */
+TEST(joints_give) {
+  ZpActuatorDef def = def_of(
+      "study: stationary\nmesh.nodes: 21\ngravity: 0\n"
+      "bodies:\n  beam: {moves: plane, at: [60 mm, -5 mm], force: [3 N, 5 N], torque: 1 N m}\n  hand: {mass: 2 g}\n"
+      "joints: {bond: {type: weld, between: [frame, beam], at: [40 mm, -5 mm]}}\n"
+      "members:\n  stiff: {upper: frame, lower: hand, upper_at: [300 mm, 0], lower_at: [300 mm, 0], ribbon.width: 20 "
+      "mm}\n  other: {upper: frame, lower: hand, ribbon.width: 10 mm}\n");
+  ZpModel *model;
+  ck_ok(zp_model_create(&def, &model, &err));
+  const double k = model->axial_stiffness, L = model->L;
+  zp_model_destroy(model);
+  const ZpResult *rest = answer_of(ZP_STUDY_STATIONARY, &def);
+  const double turns = number(rest, "bodies.beam.angle_rad"), x = number(rest, "bodies.beam.x_m") - 0.06,
+               y = number(rest, "bodies.beam.y_m") + 0.005, torque = 1 + 5 * 0.02;
+  printf("turned by %.6g, off by %.2g; moved by %.6g and %.6g, off by %.2g and %.2g\n", turns,
+         turns * k * L * L / torque - 1, x, y, x * k / 3 - 1, (y - 0.02 * turns) * k / 5 - 1);
+  ck_near(turns, torque / (k * L * L), 1e-6);
+  ck_near(x, 3 / k, 2e-5); /* second order of the turn */
+  ck_near(y - 0.02 * turns, 5 / k, 1e-6);
+}
+
+/* A spring, against the constant force and torque that it has become: on a light body, whose platforms have its centre
+ * of mass far from its place. */
+static const char sprung[] =
+    "study: stationary\nmesh.nodes: 13\n"
+    "bodies: {arm: {moves: plane, mass: 0.1 g, at: [40 mm, -10 mm], angle: %s, torque: -1 mN m%s}}\n%s"
+    "members: {lifts: {upper: frame, lower: arm, lower_at: [%s]}}\n";
+
+TEST(spring_is_a_force_at_its_point) {
+  static const double from[] = {90e-3, 10e-3}, to[] = {5e-3, 2e-3}, stiffness = 20, rest = 30e-3;
+  char text[2][1024], push[256];
+  snprintf(text[0], sizeof text[0], sprung, "30 degree", "",
+           "springs: {s: {between: [frame, arm], from_at: [90 mm, 10 mm], to_at: [5 mm, 2 mm], stiffness: 20 N/m, "
+           "rest: 30 mm}}\n",
+           "-35 mm, 20 mm");
+  ZpActuatorDef a = def_of(text[0]);
+  const ZpResult *one = answer_of(ZP_STUDY_STATIONARY, &a);
+  const double x = number(one, "bodies.arm.x_m"), y = number(one, "bodies.arm.y_m"),
+               turn = number(one, "bodies.arm.angle_rad");
+  const double arm[] = {cos(turn) * to[0] - sin(turn) * to[1], sin(turn) * to[0] + cos(turn) * to[1]};
+  const double apart[] = {from[0] - x - arm[0], from[1] - y - arm[1]}, length = hypot(apart[0], apart[1]),
+               pull = stiffness * (length - rest) / length, force[] = {pull * apart[0], pull * apart[1]};
+  snprintf(push, sizeof push, "%.17g, force: [%.17g, %.17g]", -1e-3 + arm[0] * force[1] - arm[1] * force[0], force[0],
+           force[1]);
+  snprintf(text[1], sizeof text[1], sprung, "30 degree", "", "", "-35 mm, 20 mm");
+  char *torque = strstr(text[1], "-1 mN m"), after[1024];
+  snprintf(after, sizeof after, "%s", torque + strlen("-1 mN m"));
+  snprintf(torque, sizeof text[1] - (size_t)(torque - text[1]), "%s%s", push, after);
+  ZpActuatorDef b = def_of(text[1]);
+  const ZpResult *other = answer_of(ZP_STUDY_STATIONARY, &b);
+  printf("at %.6g, %.6g, turned to %.6g; off by %.2g, %.2g, %.2g\n", x, y, turn, number(other, "bodies.arm.x_m") - x,
+         number(other, "bodies.arm.y_m") - y, number(other, "bodies.arm.angle_rad") - turn);
+  ck_assert_double_lt(fabs(number(other, "bodies.arm.x_m") - x), 1e-10);
+  ck_assert_double_lt(fabs(number(other, "bodies.arm.y_m") - y), 1e-10);
+  ck_assert_double_lt(fabs(number(other, "bodies.arm.angle_rad") - turn), 1e-8);
+}
+
 /* -- two ways --------------------------------------------------------------------------------------- */
 
 /* Without gravity the whole drawing may be turned: bodies then turn as much, and openings stay. */
@@ -290,6 +431,64 @@ TEST(welded_bodies_are_one) {
   }
 }
 
+/* A member whose lower body is led by a rail, against one whose upper body it is, which stands on its head: its frame
+ * and the ribbons move with the body. No body turns: clips are level in the frame of the upper one. The slope at lower
+ * platforms has other errors of the mesh than that at upper ones. */
+#define ON_HEAD                                                                                                        \
+  "gravity: 0\nribbon.density: 30000\nmesh.nodes: 41\ndrive.voltage: 5 kV\n"                                           \
+  "solver: {end_time: 30 ms, stop_when_zipped: false}\n"                                                               \
+  "bodies: {arm: {moves: plane, mass: 1 g, inertia: 1e-6 kg m2, at: [1 mm, -12 mm], angle: 70 degree, force: [0, "     \
+  "-30 mN]}}\n"                                                                                                        \
+  "joints: {rail: {type: slide, between: [arm, frame], at: [0, 0]}}\nmembers: {m: {%s}}\n"
+
+TEST(member_stands_on_either_body) {
+  char text[2][1024];
+  snprintf(text[0], sizeof text[0], ON_HEAD, "upper: frame, lower: arm");
+  snprintf(text[1], sizeof text[1], ON_HEAD, "upper: arm, lower: frame, angle: 180 degree");
+  ZpActuatorDef a = def_of(text[0]), b = def_of(text[1]);
+  for (int motion = 0; motion < 2; motion++) {
+    const ZpStudy study = motion ? ZP_STUDY_ACTUATE : ZP_STUDY_STATIONARY;
+    const double one = number(answer_of(study, &a), "bodies.arm.y_m"),
+                 other = number(answer_of(study, &b), "bodies.arm.y_m");
+    printf("%s: %.6g, off by %.2g\n", motion ? "in motion" : "at rest", one, other / one - 1);
+    ck_near(other, one, motion ? 2e-4 : 1e-8);
+  }
+  const ZpResult *one = answer_of(ZP_STUDY_MODES, &a), *other = answer_of(ZP_STUDY_MODES, &b);
+  for (int k = 1; k <= 2; k++) {
+    char name[32];
+    snprintf(name, sizeof name, "frequency_%d_Hz", k);
+    printf("%s: %.6g, off by %.2g\n", name, number(one, name), number(other, name) / number(one, name) - 1);
+    ck_near(number(other, name), number(one, name), 4e-3); /* 5e-5 and 1.2e-3 measured */
+  }
+}
+
+/* A member that hangs on two welded bodies, against one that hangs on one with the mass, the inertia and the centre of
+ * both: its frame has another centre to turn about. */
+#define HANGS "hand: {moves: plane, mass: 3 g, inertia: 1e-6 kg m2, at: [30 mm, -35 mm]}\n"
+
+TEST(member_hangs_on_welded_bodies) {
+  ZpActuatorDef two = def_of(RUNS "ribbon.density: 30000\nbodies:\n"
+                                  "  base: {moves: plane, mass: 4 g, inertia: 1e-6 kg m2, at: [10 mm, -8 mm]}\n"
+                                  "  tip: {moves: plane, mass: 2 g, inertia: 2e-6 kg m2, at: [40 mm, -23 mm]}\n  " HANGS
+                                  "joints: {bond: {type: weld, between: [base, tip], at: [20 mm, -20 mm]},\n"
+                                  "  pin: {between: [frame, base], at: [-50 mm, -8 mm]}}\n"
+                                  "members: {lifts: {upper: frame, lower: base, lower_at: [-10 mm, 0]},\n"
+                                  "  hangs: {upper: tip, lower: hand, upper_at: [-10 mm, 3 mm]}}\n"),
+                one = def_of(RUNS
+                             "ribbon.density: 30000\n"
+                             "bodies:\n  base: {moves: plane, mass: 6 g, inertia: 4.5e-6 kg m2, at: [20 mm, -13 mm]}\n"
+                             "  " HANGS "joints: {pin: {between: [frame, base], at: [-50 mm, -8 mm]}}\n"
+                             "members: {lifts: {upper: frame, lower: base, lower_at: [-20 mm, 5 mm]},\n"
+                             "  hangs: {upper: base, lower: hand, upper_at: [10 mm, -7 mm]}}\n");
+  const ZpResult *a = answer_of(ZP_STUDY_MODES, &two), *b = answer_of(ZP_STUDY_MODES, &one);
+  for (int k = 1; k <= 5; k++) {
+    char name[32];
+    snprintf(name, sizeof name, "frequency_%d_Hz", k);
+    printf("%s: %.6g, off by %.2g\n", name, number(b, name), number(a, name) / number(b, name) - 1);
+    ck_near(number(a, name), number(b, name), 1e-6);
+  }
+}
+
 /* -- energy ---------------------------------------------------------------------------------------- */
 
 static const struct {
@@ -313,6 +512,22 @@ static const struct {
           "springs: {s: {between: [arm, bob], to_at: [-3 mm, 1 mm], stiffness: 20 N/m, rest: 10 mm}}\n"
           "members: {m: {upper: frame, lower: arm}}\n",
      1.1e-8},
+    {"rope that gets taut",
+     RUNS
+     "bodies: {arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 mm]}}\n"
+     "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\n"
+     "springs: {rope: {between: [frame, arm], from_at: [0, -60 mm], stiffness: 20 N/m, rest: 41.75 mm, kind: pull}}\n"
+     "members: {m: {upper: frame, lower: arm}}\n",
+     8.4e-10},
+    {"far from its centre",
+     RUNS "platform.length: 20 mm\nsolver.tolerance: 1e-2\n"
+          "bodies:\n  arm: {moves: plane, mass: 0.1 g, inertia: 1e-8 kg m2, at: [30 mm, -8 mm], force: [10 mN, 5 mN], "
+          "torque: -0.3 mN m}\n  hand: {moves: plane, mass: 3 g, inertia: 1e-6 kg m2, at: [0, -14 mm]}\n"
+          "springs:\n  s: {between: [frame, arm], from_at: [60 mm, 0], stiffness: 5 N/m, rest: 20 mm}\n"
+          "  rope: {between: [frame, hand], from_at: [0, -60 mm], stiffness: 5 N/m, rest: 48 mm, kind: pull}\n"
+          "members:\n  m: {upper: frame, lower: arm, lower_at: [-30 mm, 1 mm]}\n"
+          "  n: {upper: arm, lower: hand, upper_at: [-30 mm, -1 mm]}\n",
+     2.6e-6},
 };
 
 TESTS(energy_is_conserved, 0, LENGTH_OF(conserves)) {
@@ -327,36 +542,150 @@ TESTS(energy_is_conserved, 0, LENGTH_OF(conserves)) {
 
 /* -- inputs ---------------------------------------------------------------------------------------- */
 
-/* The work of forces that a program sets on a body is booked. */
-TEST(forces_by_hand_are_booked) {
-  static const char text[] =
-      "mesh.nodes: 13\nsolver.tolerance: 1e-6\ndrive.voltage: 0 V\nbodies: {arm: {moves: plane, mass: 9 g, inertia: "
-      "1e-5 kg m2, at: [0, -5 mm]}}\n"
-      "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n";
-  char name[ZP_INPUT_NAME_SIZE];
+/* A number of the table of a run. */
+static double column_of(ZpSim *sim, const ZpActuatorDef *def, const char *name) {
+  ZpTable *table = zp_signal_table(def, 1);
+  double *row = calloc(zp_sim_columns(sim), sizeof *row), found = NAN;
+  zp_sim_read_columns(sim, zp_sim_columns(sim), row);
+  for (size_t c = 0; c < zp_table_columns(table); c++)
+    if (strcmp(zp_table_column(table, c)->name, name) == 0) found = row[c];
+  free(row);
+  zp_table_destroy(table);
+  return found;
+}
+
+/* The work of forces that a program sets on a body is booked, beside that of its own force and torque. */
+static const struct {
+  const char *body, *inputs[4];
+} set_by_hand[] = {
+    {"solver.tolerance: 1e-6\nbodies: {arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 mm], force: [5 "
+     "mN, "
+     "-3 mN], torque: 0.2 mN m}}\n"
+     "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n",
+     {"voltage", "arm.force_x", "arm.force_y", "arm.torque"}},
+    {"solver.tolerance: 1e-6\nbodies: {arm: {mass: 9 g, force: [0, -3 mN]}}\nmembers: {m: {upper: frame, lower: "
+     "arm}}\n",
+     {"voltage", "arm.force_y"}},
+};
+
+TESTS(forces_by_hand_are_booked, 0, LENGTH_OF(set_by_hand)) {
+  static const double value[] = {0, 20e-3, 30e-3, 1e-3};
+  const char *const *inputs = set_by_hand[_i].inputs;
+  char name[ZP_INPUT_NAME_SIZE], text[512];
+  snprintf(text, sizeof text, "mesh.nodes: 13\ndrive.voltage: 0 V\n%s", set_by_hand[_i].body);
   ZpActuatorDef a = def_of(text);
-  const char *const inputs[] = {"voltage", "arm.force_x", "arm.force_y", "arm.torque"};
-  const double value[] = {0, 20e-3, 30e-3, 1e-3};
   int count = 0;
   for (int input = zp_def_input_next(&a, -1); input >= 0; input = zp_def_input_next(&a, input), count++) {
+    ck_assert_int_lt(count, 4);
     ck_assert_str_eq(zp_def_input_name(&a, input, name), inputs[count]);
     ck_assert_int_eq(zp_def_input_find(&a, name), input);
   }
-  ck_assert_int_eq(count, 4);
+  ck_assert(count == 4 || !inputs[count]);
   ZpSim *sim = data_sim_of(&a);
   for (int k = 1; k < count; k++)
     ck_ok(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&a, inputs[k]), value[k], 0, &err));
-  ck_says(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&a, "arm.torque"), 2e4, 0, &err), ZP_BAD_INPUT,
-          "arm.torque");
+  ck_says(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&a, inputs[count - 1]), 2e4, 0, &err), ZP_BAD_INPUT,
+          inputs[count - 1]);
   ck_says(zp_sim_set_input(sim, (ZpInput)1000, 0, 0, &err), ZP_BAD_INPUT, "there is no such input");
   ZpRunInfo *info = zp_run_info_create();
   zp_sim_run(sim, 0.02, false, NULL, info);
   /* at rest at the start: the energy of motion, bending and weight is their work */
   const double work = zp_sim_get(sim, "load_work"), imbalance = zp_sim_get(sim, "energy_imbalance");
   printf("work %.6g J, imbalance %.2g J\n", work, imbalance);
-  ck_assert_double_gt(work, 1e-6);
+  ck_assert_double_gt(work, 5e-7);
   ck_assert_double_lt(fabs(imbalance), 1e-8 * work);
   zp_run_info_destroy(info);
+}
+
+/* Heavy bodies, which actuators do not hold: forces and a torque that rise until they end at the bound of their range,
+ * against the way that they give. */
+TEST(ramps_move_heavy_bodies) {
+  static const double rate = 1e6, most = 1e4, end = 0.02;
+  static const struct {
+    const char *input, *column;
+    double mass;
+  } of[] = {{"block.force_x", "block.x_m", 1000},
+            {"block.torque", "block.angle_rad", 1000},
+            {"hand.force_y", "hand.y_m", -500}};
+  ZpActuatorDef def = def_of(
+      "mesh.nodes: 9\ndrive.voltage: 0 V\ngravity: 0\n"
+      "bodies:\n  block: {moves: plane, mass: 1000 kg, inertia: 1000 kg m2, at: [0, -20 mm], force: [0, -20 mN]}\n"
+      "  hand: {mass: 500 kg, at: [200 mm, -20 mm], force: [0, -20 mN]}\n"
+      "members:\n  m: {upper: frame, lower: block}\n"
+      "  n: {upper: frame, lower: hand, upper_at: [200 mm, 0]}\n");
+  const double rises = most / rate, stays = end - rises;
+  ZpSim *sim = data_sim_of(&def);
+  double before[LENGTH_OF(of)], off = 0;
+  for (size_t k = 0; k < LENGTH_OF(of); k++) {
+    before[k] = column_of(sim, &def, of[k].column);
+    ck_ok(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&def, of[k].input), 0, of[k].mass > 0 ? rate : -rate, &err));
+  }
+  ZpRunInfo *info = zp_run_info_create();
+  zp_sim_run(sim, end, false, NULL, info);
+  for (size_t k = 0; k < LENGTH_OF(of); k++) {
+    const double way = most / of[k].mass * (rises * rises / 6 + 0.5 * rises * stays + 0.5 * stays * stays),
+                 gone = column_of(sim, &def, of[k].column) - before[k];
+    printf("%s: %.6g, off by %.2g\n", of[k].column, gone, gone / way - 1);
+    off = fmax(off, fabs(gone / way - 1));
+  }
+  ck_assert_double_lt(off, 6e-4); /* 2.3e-4 measured: steps, which momentum does not depend on */
+  const double impulse = most * (0.5 * rises + stays),
+               energy = 0.5 * impulse * impulse * (1.0 / 1000 + 1.0 / 1000 + 1.0 / 500);
+  printf("kinetic energy off by %.2g\n", zp_sim_get(sim, "kinetic_energy") / energy - 1);
+  ck_near(zp_sim_get(sim, "kinetic_energy"), energy, 6e-5); /* 1.8e-5 measured: ribbons */
+  zp_run_info_destroy(info);
+}
+
+/* Of two members on one port, a third one with a controller, a body that moves up and down, one in the plane. */
+TEST(inputs_have_names_and_units) {
+  static const struct {
+    const char *name, *unit;
+  } of[] = {{"voltage", "V"},     {"left.voltage", "V"}, {"follows.setpoint", "1"}, {"arm.force_x", "N"},
+            {"arm.force_y", "N"}, {"arm.torque", "N m"}, {"hand.force_y", "N"}};
+  ZpActuatorDef def = def_of(
+      "mesh.nodes: 9\n"
+      "bodies:\n  arm: {moves: plane, mass: 5 g, inertia: 1e-6 kg m2, at: [0, -20 mm]}\n  hand: {mass: 2 g}\n"
+      "  wall: {moves: none}\n"
+      "members:\n  all: {upper: frame, lower: arm}\n  left: {upper: frame, lower: hand, port: pair, drive.voltage: 2 "
+      "kV}\n  right: {upper: frame, lower: hand, port: pair}\n"
+      "  follows: {upper: frame, lower: hand, control: {kind: pi, signal: opening, proportional: 1 kV/mm}, "
+      "setpoint.value: 40 mm}\n");
+  char name[ZP_INPUT_NAME_SIZE];
+  size_t count = 0;
+  for (int input = zp_def_input_next(&def, -1); input >= 0; input = zp_def_input_next(&def, input), count++) {
+    printf("%s\n", zp_def_input_name(&def, input, name));
+    ck_assert(count < LENGTH_OF(of));
+    ck_assert_str_eq(zp_def_input_name(&def, input, name), of[count].name);
+    ck_assert_str_eq(zp_def_input_unit(&def, input), of[count].unit);
+  }
+  ck_assert(count == LENGTH_OF(of));
+  ZpSim *sim = data_sim_of(&def);
+  ck_ok(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&def, "follows.setpoint"), 0, 0, &err));
+  ZpRunInfo *info = zp_run_info_create();
+  zp_sim_step(sim, 5e-3, NULL, info);
+  ck_assert_double_gt(column_of(sim, &def, "follows.voltage_V"), 0); /* before it was to open */
+  zp_run_info_destroy(info);
+}
+
+/* Work on bodies between two places, beside that on springs. */
+TEST(mechanical_work_is_that_of_all_forces) {
+  ZpActuatorDef def = def_of(
+      RUNS "bodies: {arm: {moves: plane, mass: 4 g, inertia: 1e-6 kg m2, at: [10 mm, -8 mm], force: [30 mN, 5 mN], "
+           "torque: 0.4 mN m}}\n"
+           "joints: {p: {between: [frame, arm], at: [60 mm, -5 mm]}}\nmembers: {m: {upper: frame, lower: arm}}\n");
+  static const char *const places[] = {"bodies.arm.x_m", "bodies.arm.y_m", "bodies.arm.angle_rad"};
+  const double against[] = {-30e-3, 4e-3 * def.gravity - 5e-3, -0.4e-3};
+  const ZpResult *end = answer_of(ZP_STUDY_ACTUATE, &def);
+  def.drive.voltage = 0;
+  const ZpResult *start = answer_of(ZP_STUDY_STATIONARY, &def);
+  double work = 0;
+  for (size_t k = 0; k < LENGTH_OF(places); k++) {
+    const double one = against[k] * (number(end, places[k]) - number(start, places[k]));
+    printf("%s: %.6g J\n", places[k], one);
+    work += one;
+  }
+  printf("off by %.2g\n", number(end, "mechanical_work_J") / work - 1);
+  ck_near(number(end, "mechanical_work_J"), work, 3e-5); /* of the joint */
 }
 
 /* -- wrong networks -------------------------------------------------------------------------------- */
