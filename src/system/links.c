@@ -106,8 +106,8 @@ static Pull pull_of(const ZpLink *link, double before, double after, bool still)
   const double s0 = zp_link_deformed(link, before), s1 = zp_link_deformed(link, after), longer = after - before;
   const bool even = (s0 != 0) == (s1 != 0) || longer == 0;
   const double mean = even ? 0.5 * (s0 + s1) : 0.5 * (s1 * s1 - s0 * s0) / longer;
-  double slope = even ? (s1 != 0 ? 0.5 : 0) : (s1 - mean) / longer;
-  if (still) slope = s1 != 0;
+  double slope = even ? (zp_link_acts(link, after) ? 0.5 : 0) : (s1 - mean) / longer;
+  if (still) slope = zp_link_acts(link, after);
   return (Pull){link->stiffness * mean, link->stiffness * slope};
 }
 

@@ -39,11 +39,13 @@ static double length_at(const ZpSprings *s, const ZpLink *link, const double *x)
 /* Over a span: the deformation at start and end, and by how much the spring becomes longer, m. */
 typedef struct Way {
   double s0, s1, longer;
+  bool acts; /* at the end */
 } Way;
 
 static Way way_of(const ZpSprings *s, const ZpLink *link, const double *start, const double *end) {
   const double before = length_at(s, link, start), after = length_at(s, link, end);
-  return (Way){zp_link_deformed(link, before), zp_link_deformed(link, after), after - before};
+  return (Way){zp_link_deformed(link, before), zp_link_deformed(link, after), after - before,
+               zp_link_acts(link, after)};
 }
 
 /* Does it act at both ends of the span, or at neither? */
@@ -58,8 +60,8 @@ static double mean_of(Way way) {
 
 /* The derivative of that by the length at the end, or by that of both ends. */
 static double slope_of(Way way, bool still) {
-  if (still) return way.s1 != 0 ? 1 : 0;
-  if (is_even(way)) return way.s1 != 0 ? 0.5 : 0;
+  if (still) return way.acts ? 1 : 0;
+  if (is_even(way)) return way.acts ? 0.5 : 0;
   return (way.s1 - mean_of(way)) / way.longer;
 }
 

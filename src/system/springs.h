@@ -20,6 +20,11 @@ static inline double zp_link_deformed(const ZpLink *link, double length) {
   return link->kind == ZP_SPRING_PUSH && longer > 0 ? 0 : longer;
 }
 
+/* Has it a stiffness at this length? */
+static inline bool zp_link_acts(const ZpLink *link, double length) {
+  return link->kind == ZP_SPRING_BOTH || zp_link_deformed(link, length) != 0;
+}
+
 static inline double zp_link_energy(const ZpLink *link, double length) {
   const double way = zp_link_deformed(link, length);
   return 0.5 * link->stiffness * way * way;
