@@ -204,6 +204,47 @@ TEST(pendulum_swings) {
   ck_assert_double_lt(off, 1e-6);
 }
 
+/* Two bodies that are welded and the member between them, as one rigid body: slow modes on a rail and about a pin,
+ * where a soft spring of its rest length holds them, against the mass of all, and against its moment of inertia about
+ * the pin. */
+static const char one_rigid[] =
+    "study: stationary\nmesh.nodes: 21\ngravity: 0\n"
+    "bodies:\n  arm: {moves: plane, mass: 2 g, inertia: 1e-6 kg m2, at: [20 mm, -10 mm]}\n"
+    "  hand: {moves: plane, mass: 1 g, inertia: 1e-6 kg m2, at: [20 mm, -25 mm]}\n"
+    "joints:\n  bond: {type: weld, between: [arm, hand], at: [20 mm, -20 mm]}\n"
+    "  leads: {type: %s, between: [frame, arm], at: [-30 mm, -10 mm]}\n"
+    "springs: {soft: {between: [frame, arm], from_at: [%s], stiffness: 0.5 N/m, rest: 100 mm}}\n"
+    "members: {m: {upper: arm, lower: hand}}\n";
+
+TEST(ribbons_move_with_their_bodies) {
+  static const double k = 0.5, lever = 50e-3, pin[] = {-30e-3, -10e-3};
+  const double pi = 3.14159265358979323846;
+  for (int pinned = 0; pinned < 2; pinned++) {
+    char text[1024];
+    snprintf(text, sizeof text, one_rigid, pinned ? "pin" : "slide", pinned ? "20 mm, -110 mm" : "120 mm, -10 mm");
+    ZpActuatorDef def = def_of(text);
+    ZpModel *model;
+    ZpStatics s;
+    ck_ok(zp_model_create(&def, &model, &err));
+    ck_assert(zp_statics_create(model, false, &s));
+    ck_assert(zp_newton_good(zp_statics_find_rest(&s).end));
+    double mass = 3e-3, inertia = 2e-6;
+    inertia += 2e-3 * 50e-3 * 50e-3 + 1e-3 * (50e-3 * 50e-3 + 15e-3 * 15e-3);
+    const ZpNodes at = zp_nodes(model, s.member[0].q);
+    for (size_t j = 0; j < model->count; j++) {
+      const ZpVector node = zp_stand_outside(&s.plane.stand[0], s.pose, (ZpVector){at.x[j], at.y[j]});
+      mass += model->mass[j];
+      inertia += model->mass[j] * ((node.x - pin[0]) * (node.x - pin[0]) + (node.y - pin[1]) * (node.y - pin[1]));
+    }
+    zp_statics_destroy(&s);
+    zp_model_destroy(model);
+    const double is = sqrt(pinned ? k * lever * lever / inertia : k / mass) / (2 * pi),
+                 found = number(answer_of(ZP_STUDY_MODES, &def), "frequency_1_Hz");
+    printf("%s: %.6g Hz, off by %.2g\n", pinned ? "about a pin" : "on a rail", found, found / is - 1);
+    ck_near(found, is, 4e-5); /* 1.3e-5 measured: ribbons bend */
+  }
+}
+
 /* A crank, a coupler and a rocker that an actuator moves, against the closed kinematics of the four-bar linkage. */
 TEST(four_bars_close) {
   ZpActuatorDef def = def_of(
