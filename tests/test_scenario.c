@@ -1,5 +1,6 @@
 /* Scenarios, values and keys: what is read, what is refused and with which words, and that all that is
  * written reads back to the same bits. */
+#include <glob.h>
 #include <locale.h>
 #include <pthread.h>
 
@@ -956,6 +957,22 @@ TEST(members_that_are_none_are_refused) {
 
 /* Members vary where the table has their keys: after those of the stack, in the order of their numbers, and before what
  * follows. */
+/* Those with data files name them relative to the folder of the file. */
+TEST(examples_are_written_as_they_are_read) {
+  glob_t found;
+  ck_assert_int_eq(glob(ZP_SOURCE_DIR "/examples/*.yaml", 0, NULL, &found), 0);
+  for (size_t k = 0; k < found.gl_pathc; k++) {
+    ZpScenario *s = new_scenario(), *back = new_scenario();
+    ZpError err = {0};
+    ck_assert_msg(zp_scenario_read(s, found.gl_pathv[k], &err) == ZP_OK, "%s", err.message);
+    char *text = written(s);
+    ck_assert_msg(zp_scenario_parse(back, text, strlen(text), ZP_SOURCE_DIR "/examples/again.yaml", &err) == ZP_OK,
+                  "%s: %s", found.gl_pathv[k], err.message);
+    ck_assert_str_eq(written(back), text);
+  }
+  globfree(&found);
+}
+
 TEST(members_vary_in_the_order_of_the_table) {
   ZpScenario *s =
       scenario_of("gravity: [1, 2]\nmember_12: {ribbon: {thickness: [50 um, 60 um]}}\nstack.series: [12, 13]\n"
