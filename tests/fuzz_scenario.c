@@ -23,9 +23,10 @@ static void require(int condition, const char *what, const ZpError *err) {
 static void compare_defs(const ZpActuatorDef *a, const ZpActuatorDef *b) {
   for (int i = 0; zp_key(i); i++) {
     double x = zp_def_get(a, i), y = zp_def_get(b, i);
+    if ((isnan(x) && isnan(y)) || memcmp(&x, &y, sizeof x) == 0) continue;
     ZpError where;
     snprintf(where.message, sizeof where.message, "%s: %.17g, %.17g", ZP_KEY_NAME(i), x, y);
-    require((isnan(x) && isnan(y)) || memcmp(&x, &y, sizeof x) == 0, "value changed", &where);
+    require(false, "value changed", &where);
   }
 }
 
