@@ -308,13 +308,21 @@ void zp_plane_add_turns(const ZpPlanar *plane, size_t member, const ZpPose *pose
 
 /* -- masses ---------------------------------------------------------------------------------------- */
 
-static bool is_of_platform(const ZpTopology *t, size_t j) {
-  return j / t->ribbons == t->platform.first || j / t->ribbons == t->platform.last;
-}
-
 double zp_plane_change(const ZpPlanar *plane, size_t body, int way, size_t inner, const double *u) {
   const long unknown = plane->body[body].unknown[way];
   return unknown < 0 ? 0 : u[inner + (size_t)unknown] / unit_of(plane, way);
+}
+
+void zp_plane_push(const ZpPlanar *plane, size_t body, int way, double force, size_t inner, double *f) {
+  const long unknown = plane->body[body].unknown[way];
+  if (unknown >= 0) f[inner + (size_t)unknown] += force / unit_of(plane, way);
+}
+
+void zp_plane_push_at(const ZpPlanar *plane, size_t body, ZpVector arm, ZpVector force, const ZpPose *from,
+                      const ZpPose *to, size_t inner, double *f) {
+  zp_plane_push(plane, body, ZP_WAY_ALONG, force.x, inner, f);
+  zp_plane_push(plane, body, ZP_WAY_UP, force.y, inner, f);
+  zp_plane_push(plane, body, ZP_WAY_TURNS, zp_along(force, zp_pose_sweep(&from[body], &to[body], arm)), inner, f);
 }
 
 void zp_plane_carry(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *nodes,
@@ -330,7 +338,7 @@ void zp_plane_carry(const ZpPlanar *plane, size_t member, const ZpPose *pose, si
   const ZpNodes at = zp_nodes(model, nodes);
   const ZpForces to = zp_forces(model, moved);
   for (size_t j = 0; !stand->still && j < model->count; j++) {
-    if (is_of_platform(&model->topology, j)) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     const ZpVector by = zp_sum(shift, zp_times(turns, zp_across((ZpVector){at.x[j] - stand->middle, at.y[j]})));
     to.x[j] += by.x;
     to.y[j] += by.y;
@@ -346,17 +354,15 @@ void zp_plane_carry_back(const ZpPlanar *plane, size_t member, const ZpPose *pos
   ZpVector sum = {0, 0};
   double torque = 0;
   for (size_t j = 0; !stand->still && j < model->count; j++) {
-    if (is_of_platform(&model->topology, j)) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     const ZpVector one = {f.x[j], f.y[j]};
     sum = zp_sum(sum, one);
     torque += zp_along(one, zp_across((ZpVector){at.x[j] - stand->middle, at.y[j]}));
   }
   sum = zp_turned(axis, sum);
   const double of[ZP_WAYS] = {sum.x, sum.y, torque + zp_along(sum, zp_across(arm))};
-  for (int way = 0; way < ZP_WAYS; way++) {
-    const long unknown = plane->body[stand->upper].unknown[way];
-    if (unknown >= 0) u[inner + (size_t)unknown] += of[way] / unit_of(plane, way);
-  }
+  for (int way = 0; way < ZP_WAYS; way++)
+    zp_plane_push(plane, stand->upper, way, of[way], inner, u);
 }
 
 /* Of an unknown of a body, kg. */
@@ -406,7 +412,7 @@ void zp_plane_from_drawing(const ZpPlanar *plane, size_t member, const ZpPose *p
   const ZpForces at = zp_forces(model, nodes);
   const ZpVector turn = zp_direction(pose[stand->upper].turn), way = gone(plane, stand, pose);
   for (size_t j = 0; !stand->still && j < model->count; j++) {
-    if (is_of_platform(&model->topology, j)) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     const ZpVector to = zp_turned_back(turn, zp_difference((ZpVector){at.x[j] - stand->middle, at.y[j]}, way));
     at.x[j] = stand->middle + to.x;
     at.y[j] = to.y;
@@ -452,19 +458,6 @@ void zp_plane_put_rates(const ZpPlanar *plane, size_t member, const ZpPose *pose
   }
 }
 
-static void add_way(const ZpPlanar *plane, size_t body, int way, double force, size_t inner, double *f) {
-  const long unknown = plane->body[body].unknown[way];
-  if (unknown >= 0) f[inner + (size_t)unknown] += force / unit_of(plane, way);
-}
-
-/* A force on a point of a body over a span. */
-static void add_at(const ZpPlanar *plane, size_t body, ZpVector arm, ZpVector force, const ZpPose *from,
-                   const ZpPose *to, size_t inner, double *f) {
-  add_way(plane, body, ZP_WAY_ALONG, force.x, inner, f);
-  add_way(plane, body, ZP_WAY_UP, force.y, inner, f);
-  add_way(plane, body, ZP_WAY_TURNS, zp_along(force, zp_pose_sweep(&from[body], &to[body], arm)), inner, f);
-}
-
 /* With s a node from the origin, in the directions of the drawing: the member sees r = R(-turn) s, so that
  *   r1 - r0 = mean R(-turn) (s1 - s0) + (R(-turn1) - R(-turn0)) mean s. */
 void zp_plane_add_force(const ZpPlanar *plane, size_t member, const ZpPose *from, const ZpPose *to, size_t inner,
@@ -494,12 +487,12 @@ void zp_plane_add_force(const ZpPlanar *plane, size_t member, const ZpPose *from
   zp_assembly_add_free(a, force, f);
   for (int e = 0; e < 2; e++) {
     const size_t j = zp_lower(t, e == 0 ? t->platform.first : t->platform.last);
-    add_at(plane, stand->lower, stand->node[e], zp_turned(stand->axis, (ZpVector){on.x[j], on.y[j]}), from, to, inner,
-           f);
+    zp_plane_push_at(plane, stand->lower, stand->node[e], zp_turned(stand->axis, (ZpVector){on.x[j], on.y[j]}), from,
+                     to, inner, f);
   }
   if (stand->still) return;
-  add_at(plane, stand->upper, stand->arm, zp_turned(stand->axis, zp_times(-1, sum)), from, to, inner, f);
-  add_way(plane, stand->upper, ZP_WAY_TURNS, torque, inner, f);
+  zp_plane_push_at(plane, stand->upper, stand->arm, zp_turned(stand->axis, zp_times(-1, sum)), from, to, inner, f);
+  zp_plane_push(plane, stand->upper, ZP_WAY_TURNS, torque, inner, f);
 }
 
 void zp_plane_add_inertia(const ZpPlanar *plane, size_t member, const ZpPose *pose, const ZpAssembly *a, double of_mass,
@@ -512,7 +505,7 @@ void zp_plane_add_inertia(const ZpPlanar *plane, size_t member, const ZpPose *po
   for (int way = 0; way < ZP_WAYS; way++)
     of[way] = zp_plane_border(plane, member, true, (ZpWay)way, a);
   for (size_t j = 0; !stand->still && j < model->count; j++) {
-    if (is_of_platform(&model->topology, j)) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     const double mass = of_mass * model->mass[j], unit = plane->length;
     const ZpVector from = zp_sum(arm, zp_turned(axis, (ZpVector){at.x[j] - stand->middle, at.y[j]}));
     const ZpVector along = zp_turned_back(axis, (ZpVector){1, 0}), up = zp_turned_back(axis, (ZpVector){0, 1}),

@@ -43,6 +43,11 @@ typedef struct ZpPlanar {
   double length;          /* the unknown of a turn is this times the angle, m, so that its equation is a force */
 } ZpPlanar;
 
+/* Is a node part of a platform, and so of a body? */
+static inline bool zp_is_of_platform(const ZpTopology *t, size_t node) {
+  return node / t->ribbons == t->platform.first || node / t->ribbons == t->platform.last;
+}
+
 /* Does each member of a system reach from its upper to its lower end in the drawing? */
 ZpStatus zp_plane_check(const ZpModel *first, ZpError *err);
 
@@ -151,6 +156,11 @@ void zp_plane_turn(const ZpPlanar *plane, size_t member, const ZpPose *pose, boo
 double zp_plane_change(const ZpPlanar *plane, size_t body, int way, size_t inner, const double *u);
 ZpVector zp_plane_rate(const ZpPlanar *plane, size_t body, const ZpPose *pose, ZpVector arm, size_t inner,
                        const double *u);
+
+/* f [n] += a force along a way of a body, about its centre, N or N m; the mean force over a span on a point of it. */
+void zp_plane_push(const ZpPlanar *plane, size_t body, int way, double force, size_t inner, double *f);
+void zp_plane_push_at(const ZpPlanar *plane, size_t body, ZpVector arm, ZpVector force, const ZpPose *from,
+                      const ZpPose *to, size_t inner, double *f);
 
 /* Velocities of the ends of both platforms, as the member sees them, by rates u [n] of bodies. */
 void zp_plane_put_rates(const ZpPlanar *plane, size_t member, const ZpPose *pose, size_t inner, const double *u,

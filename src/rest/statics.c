@@ -1283,7 +1283,7 @@ static void weigh_in_plane(ZpStatics *s, const double *u, double *mu) {
     zp_assembly_changes(&m->assembly, u, m->moved);
     zp_plane_carry(&s->plane, k, s->pose, s->form.inner, m->q, u, m->moved);
     for (size_t j = 0; j < m->model->count; j++) {
-      const double mass = m->assembly.equation[zp_x_of(j)] >= 0 ? m->model->mass[j] : 0; /* else it is a body's */
+      const double mass = zp_is_of_platform(&m->model->topology, j) ? 0 : m->model->mass[j];
       moved.x[j] *= mass;
       moved.y[j] *= mass;
     }

@@ -140,7 +140,7 @@ static void add_ribbons(const ZpDynamics *d, const ZpMovingMember *m, double *f)
   const ZpModel *model = m->model;
   const ZpVector down = zp_turned_back(d->plane.stand[m - d->member].axis, (ZpVector){0, -model->def.gravity});
   for (size_t j = 0; j < model->count; j++) {
-    if (m->assembly.equation[zp_x_of(j)] < 0) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     zp_assembly_add_one(&m->assembly, zp_x_of(j), model->mass[j] * down.x, f);
     zp_assembly_add_one(&m->assembly, zp_y_of(j), model->mass[j] * down.y, f);
   }

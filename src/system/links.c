@@ -55,21 +55,13 @@ void zp_links_destroy(ZpLinks *links) {
 
 /* -- forces ---------------------------------------------------------------------------------------- */
 
-static void add_way(const ZpLinks *links, size_t body, int way, double force, double *f) {
-  const long unknown = links->plane->body[body].unknown[way];
-  if (unknown >= 0) f[links->inner + (size_t)unknown] += force;
-}
-
 static void add_torque(const ZpLinks *links, size_t body, double torque, double *f) {
-  add_way(links, body, ZP_WAY_TURNS, torque / links->plane->length, f);
+  zp_plane_push(links->plane, body, ZP_WAY_TURNS, torque, links->inner, f);
 }
 
-/* A force on a point of a body over a span. */
 static void add_at(const ZpLinks *links, size_t body, ZpVector arm, ZpVector force, const ZpPose *from,
                    const ZpPose *to, double *f) {
-  add_way(links, body, ZP_WAY_ALONG, force.x, f);
-  add_way(links, body, ZP_WAY_UP, force.y, f);
-  add_torque(links, body, zp_along(force, zp_pose_sweep(&from[body], &to[body], arm)), f);
+  zp_plane_push_at(links->plane, body, arm, force, from, to, links->inner, f);
 }
 
 /* Both points of a link: their distance at the start and at the end of a span. */
@@ -97,26 +89,12 @@ static double size_of(ZpVector a) {
   return sqrt(zp_along(a, a));
 }
 
-/* Mean pull of a spring over a span, and its derivative by the length at the end, or at both. */
-typedef struct Pull {
-  double mean, slope;
-} Pull;
-
-static Pull pull_of(const ZpLink *link, double before, double after, bool still) {
-  const double s0 = zp_link_deformed(link, before), s1 = zp_link_deformed(link, after), longer = after - before;
-  const bool even = (s0 != 0) == (s1 != 0) || longer == 0;
-  const double mean = even ? 0.5 * (s0 + s1) : 0.5 * (s1 * s1 - s0 * s0) / longer;
-  double slope = even ? (zp_link_acts(link, after) ? 0.5 : 0) : (s1 - mean) / longer;
-  if (still) slope = zp_link_acts(link, after);
-  return (Pull){link->stiffness * mean, link->stiffness * slope};
-}
-
 static void add_spring(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to, double *f) {
   const ZpLink *link = &network_of(links)->spring[k];
   const Apart d = apart(link->body, &links->spring[k], from, to);
   const double before = size_of(d.before), after = size_of(d.after);
   if (before + after == 0) return; /* without a length it has no direction */
-  const double pull = share * pull_of(link, before, after, true).mean;
+  const double pull = share * zp_link_pull(link, before, after, true).mean;
   add_both(links, link->body, &links->spring[k], zp_times(-2 * pull / (before + after), d.mean), from, to, f);
 }
 
@@ -174,7 +152,8 @@ static void add_constant(const ZpLinks *links, size_t b, double share, const ZpP
   const ZpBody *body = &network_of(links)->body[b];
   const double *push = links->push[b];
   const ZpVector force = {share * body->force[0] + push[ZP_WAY_ALONG], share * body->force[1] + push[ZP_WAY_UP]};
-  add_way(links, b, ZP_WAY_UP, -share * links->plane->body[b].mass * links->plane->first->def.gravity, f);
+  zp_plane_push(links->plane, b, ZP_WAY_UP, -share * links->plane->body[b].mass * links->plane->first->def.gravity,
+                links->inner, f);
   add_at(links, b, links->plane->body[b].place, force, from, to, f);
   add_torque(links, b, share * body->torque + push[ZP_WAY_TURNS], f);
 }
@@ -234,6 +213,25 @@ static void along(ZpVector direction, const Reach *r, double by[BOTH]) {
   }
 }
 
+/* How many distances a joint keeps at 0: along both axes, of a slide across its way. */
+static int distances(const ZpBodyJoint *joint) {
+  return joint->type == ZP_JOINS_SLIDE ? 1 : 2;
+}
+
+/* Derivative of distance `c`, whose direction turns with the first body of a slide => that direction. */
+static ZpVector missed_by(const ZpLinks *links, size_t k, int c, const ZpPose *pose, const Reach *r, double by[BOTH]) {
+  const ZpBodyJoint *joint = &network_of(links)->joint[k];
+  if (joint->type != ZP_JOINS_SLIDE) {
+    const ZpVector axis = c == 0 ? (ZpVector){1, 0} : (ZpVector){0, 1};
+    along(axis, r, by);
+    return axis;
+  }
+  const ZpVector normal = turned_by(&pose[joint->body[0]], normal_of(links, joint));
+  along(normal, r, by);
+  by[ZP_WAY_TURNS] += zp_along(apart_at(joint->body, &links->joint[k], pose), zp_across(normal));
+  return normal;
+}
+
 /* Minus the second derivative of that distance, times a force. */
 static void bend(double force, ZpVector direction, const Reach *r, Entries *e) {
   e->of[ZP_WAY_TURNS][ZP_WAY_TURNS] -= force * zp_along(direction, r->of[0]);
@@ -245,7 +243,7 @@ static void add_spring_stiffness(const ZpLinks *links, size_t k, double share, c
   const ZpLink *link = &network_of(links)->spring[k];
   const ZpVector d = apart_at(link->body, &links->spring[k], to);
   const double length = size_of(d), part = still ? 1 : 0.5;
-  const Pull pull = pull_of(link, size_of(apart_at(link->body, &links->spring[k], from)), length, still);
+  const ZpPull pull = zp_link_pull(link, size_of(apart_at(link->body, &links->spring[k], from)), length, still);
   if (length == 0) return;
   const ZpVector direction = zp_times(1 / length, d);
   const Reach r = reach(link->body, &links->spring[k], to);
@@ -259,28 +257,27 @@ static void add_spring_stiffness(const ZpLinks *links, size_t k, double share, c
   put(links, link->body, &e, D);
 }
 
+/* The same of a slide's, beside its bend: its direction turns with the first body. */
+static void turn_slide(double force, ZpVector normal, ZpVector d, const Reach *r, Entries *e) {
+  double rate[BOTH];
+  along(zp_across(normal), r, rate);
+  for (int i = 0; i < BOTH; i++) {
+    e->of[ZP_WAY_TURNS][i] -= force * rate[i];
+    e->of[i][ZP_WAY_TURNS] -= force * rate[i];
+  }
+  e->of[ZP_WAY_TURNS][ZP_WAY_TURNS] += force * zp_along(d, normal);
+}
+
 static void add_joint_stiffness(const ZpLinks *links, size_t k, const ZpPose *to, bool still, ZpSparse *D) {
-  static const ZpVector axis[] = {{1, 0}, {0, 1}};
   const ZpBodyJoint *joint = &network_of(links)->joint[k];
-  const bool slides = joint->type == ZP_JOINS_SLIDE;
   const Reach r = reach(joint->body, &links->joint[k], to);
   const double part = still ? 1 : 0.5, *pull = still ? links->pull[k] : links->found[k];
   Entries e = {{{0}}};
-  double by[BOTH];
-  for (int c = 0; c < (slides ? 1 : 2); c++) {
-    const ZpVector normal = turned_by(&to[joint->body[0]], normal_of(links, joint));
-    const ZpVector direction = slides ? normal : axis[c], d = apart_at(joint->body, &links->joint[k], to);
-    along(direction, &r, by);
-    if (slides) { /* its direction turns with the first body */
-      double rate[BOTH];
-      along(zp_across(normal), &r, rate);
-      for (int i = 0; i < BOTH; i++) {
-        e.of[ZP_WAY_TURNS][i] -= part * pull[c] * rate[i];
-        e.of[i][ZP_WAY_TURNS] -= part * pull[c] * rate[i];
-      }
-      e.of[ZP_WAY_TURNS][ZP_WAY_TURNS] += part * pull[c] * zp_along(d, normal);
-      by[ZP_WAY_TURNS] += zp_along(d, zp_across(normal));
-    }
+  for (int c = 0; c < distances(joint); c++) {
+    double by[BOTH];
+    const ZpVector direction = missed_by(links, k, c, to, &r, by);
+    if (joint->type == ZP_JOINS_SLIDE)
+      turn_slide(part * pull[c], direction, apart_at(joint->body, &links->joint[k], to), &r, &e);
     add_product(part * links->stiffness, by, &e);
     bend(part * pull[c], direction, &r, &e);
   }
@@ -314,27 +311,16 @@ void zp_links_add_stiffness(const ZpLinks *links, double share, const ZpPose *fr
 
 /* -- joints under a step ---------------------------------------------------------------------------- */
 
-/* The change of an unknown of a body in a step, m or rad. */
-static double change_of(const ZpLinks *links, size_t body, int way, const double *step) {
-  const long unknown = links->plane->body[body].unknown[way];
-  const double unit = way == ZP_WAY_TURNS ? links->plane->length : 1;
-  return unknown < 0 ? 0 : step[links->inner + (size_t)unknown] / unit;
-}
-
 void zp_links_predict(ZpLinks *links, const ZpPose *pose, const double *step, double fraction) {
   for (size_t k = 0; k < network_of(links)->joints; k++) {
     const ZpBodyJoint *joint = &network_of(links)->joint[k];
     const Reach r = reach(joint->body, &links->joint[k], pose);
-    const ZpVector d = apart_at(joint->body, &links->joint[k], pose),
-                   normal = turned_by(&pose[joint->body[0]], normal_of(links, joint));
-    const bool slides = joint->type == ZP_JOINS_SLIDE;
     double change[BOTH], moves[ZP_PULLS] = {0};
     for (int i = 0; i < BOTH; i++)
-      change[i] = fraction * change_of(links, joint->body[i / ZP_WAYS], i % ZP_WAYS, step);
-    for (int c = 0; c < (slides ? 1 : 2); c++) {
+      change[i] = fraction * zp_plane_change(links->plane, joint->body[i / ZP_WAYS], i % ZP_WAYS, links->inner, step);
+    for (int c = 0; c < distances(joint); c++) {
       double by[BOTH];
-      along(slides ? normal : c == 0 ? (ZpVector){1, 0} : (ZpVector){0, 1}, &r, by);
-      if (slides) by[ZP_WAY_TURNS] += zp_along(d, zp_across(normal));
+      missed_by(links, k, c, pose, &r, by);
       for (int i = 0; i < BOTH; i++)
         moves[c] += by[i] * change[i];
     }
@@ -393,11 +379,6 @@ static Gravity gravity_in(const ZpLinks *links, size_t member, const ZpPose *pos
   return (Gravity){down, zp_times(-1, zp_across(down))};
 }
 
-/* Is it a node of the ribbons, not of a platform, which is part of a body? */
-static bool is_free(const ZpAssembly *a, size_t j) {
-  return a->equation[zp_x_of(j)] >= 0;
-}
-
 void zp_links_add_weight(const ZpLinks *links, size_t member, double share, const ZpPose *pose, const ZpAssembly *a,
                          const double *nodes, double *r) {
   const ZpModel *model = links->plane->first + member;
@@ -407,12 +388,12 @@ void zp_links_add_weight(const ZpLinks *links, size_t member, double share, cons
   const double gravity = model->def.gravity;
   for (size_t j = 0; j < model->count; j++) {
     const double mass = share * model->mass[j];
-    if (!is_free(a, j)) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     zp_assembly_add_one(a, zp_x_of(j), mass * g.down.x, r);
     zp_assembly_add_one(a, zp_y_of(j), mass * g.down.y, r);
     if (stand->still) continue;
     const ZpVector point = zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]});
-    add_way(links, stand->upper, ZP_WAY_UP, -mass * gravity, r);
+    zp_plane_push(links->plane, stand->upper, ZP_WAY_UP, -mass * gravity, links->inner, r);
     add_torque(links, stand->upper, -mass * gravity * (point.x - pose[stand->upper].x), r);
   }
 }
@@ -428,7 +409,7 @@ void zp_links_add_weight_stiffness(const ZpLinks *links, size_t member, double s
   if (turns < 0) return;
   for (size_t j = 0; j < model->count; j++) {
     const double mass = share * model->mass[j];
-    if (!is_free(a, j)) continue;
+    if (zp_is_of_platform(&model->topology, j)) continue;
     const ZpVector point = zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]});
     *zp_band_entry(K, (size_t)a->place[zp_x_of(j)], (size_t)turns) -= mass * g.turned.x / unit;
     *zp_band_entry(K, (size_t)a->place[zp_y_of(j)], (size_t)turns) -= mass * g.turned.y / unit;
@@ -445,7 +426,7 @@ double zp_links_ribbons_energy(const ZpLinks *links, size_t member, const ZpPose
   double sum = 0;
   for (size_t j = 0; j < model->count; j++) {
     const size_t station = j / t->ribbons;
-    if (station == t->platform.first || station == t->platform.last) continue; /* part of a body */
+    if (zp_is_of_platform(t, j)) continue;
     const double drawn = stand->axis.y * (zp_straight_x(model, station) - stand->middle);
     sum +=
         model->mass[j] * model->def.gravity * (zp_stand_outside(stand, pose, (ZpVector){at.x[j], at.y[j]}).y - drawn);

@@ -36,39 +36,23 @@ static double length_at(const ZpSprings *s, const ZpLink *link, const double *x)
   return height_at(&s->height[link->body[0]], x) - height_at(&s->height[link->body[1]], x);
 }
 
-/* Over a span: the deformation at start and end, and by how much the spring becomes longer, m. */
-typedef struct Way {
-  double s0, s1, longer;
-  bool acts; /* at the end */
-} Way;
-
-static Way way_of(const ZpSprings *s, const ZpLink *link, const double *start, const double *end) {
-  const double before = length_at(s, link, start), after = length_at(s, link, end);
-  return (Way){zp_link_deformed(link, before), zp_link_deformed(link, after), after - before,
-               zp_link_acts(link, after)};
+/* Where it acts at one end of the span alone, the mean is over the part in which it acts. */
+ZpPull zp_link_pull(const ZpLink *link, double before, double after, bool still) {
+  const double s0 = zp_link_deformed(link, before), s1 = zp_link_deformed(link, after), longer = after - before;
+  const bool even = (s0 != 0) == (s1 != 0) || longer == 0, acts = zp_link_acts(link, after);
+  const double mean = even ? 0.5 * (s0 + s1) : 0.5 * (s1 * s1 - s0 * s0) / longer;
+  const double slope = still ? acts : even ? 0.5 * acts : (s1 - mean) / longer;
+  return (ZpPull){link->stiffness * mean, link->stiffness * slope};
 }
 
-/* Does it act at both ends of the span, or at neither? */
-static bool is_even(Way way) {
-  return (way.s0 != 0) == (way.s1 != 0) || way.longer == 0;
-}
-
-/* Its mean pull, as a deformation, m. */
-static double mean_of(Way way) {
-  return is_even(way) ? 0.5 * (way.s0 + way.s1) : 0.5 * (way.s1 * way.s1 - way.s0 * way.s0) / way.longer;
-}
-
-/* The derivative of that by the length at the end, or by that of both ends. */
-static double slope_of(Way way, bool still) {
-  if (still) return way.acts ? 1 : 0;
-  if (is_even(way)) return way.acts ? 0.5 : 0;
-  return (way.s1 - mean_of(way)) / way.longer;
+static ZpPull pull_of(const ZpSprings *s, const ZpLink *link, const double *start, const double *end, bool still) {
+  return zp_link_pull(link, length_at(s, link, start), length_at(s, link, end), still);
 }
 
 void zp_springs_add_force(const ZpSprings *s, double share, const double *start, const double *end, double *f) {
   for (size_t k = 0; k < s->count; k++) {
     const ZpLink *link = &s->first->network->spring[k];
-    const double pull = share * link->stiffness * mean_of(way_of(s, link, start, end)) / s->first->parts;
+    const double pull = share * pull_of(s, link, start, end, true).mean / s->first->parts;
     for (size_t e = 0; e < 2; e++) {
       const ZpBodyHeight *h = &s->height[link->body[e]];
       if (!h->held) f[h->equation] += (e == 0 ? -pull : pull) * h->factor;
@@ -80,7 +64,7 @@ void zp_springs_add_stiffness(const ZpSprings *s, double share, const double *st
                               size_t inner, ZpSparse *D) {
   for (size_t k = 0; k < s->count; k++) {
     const ZpLink *link = &s->first->network->spring[k];
-    const double slope = share * link->stiffness * slope_of(way_of(s, link, start, end), still) / s->first->parts;
+    const double slope = share * pull_of(s, link, start, end, still).slope / s->first->parts;
     for (size_t e = 0; e < 4; e++) {
       const ZpBodyHeight *row = &s->height[link->body[e / 2]], *column = &s->height[link->body[e % 2]];
       if (row->held || column->held) continue;

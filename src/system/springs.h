@@ -25,6 +25,13 @@ static inline bool zp_link_acts(const ZpLink *link, double length) {
   return link->kind == ZP_SPRING_BOTH || zp_link_deformed(link, length) != 0;
 }
 
+/* Mean pull over a span between two lengths, N, whose work is the decrease of the energy, and its derivative by the
+ * length at the end (of both lengths where `still`), N/m. */
+typedef struct ZpPull {
+  double mean, slope;
+} ZpPull;
+ZpPull zp_link_pull(const ZpLink *link, double before, double after, bool still);
+
 static inline double zp_link_energy(const ZpLink *link, double length) {
   const double way = zp_link_deformed(link, length);
   return 0.5 * link->stiffness * way * way;
