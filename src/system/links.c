@@ -257,7 +257,8 @@ static void add_spring_stiffness(const ZpLinks *links, size_t k, double share, c
   put(links, link->body, &e, D);
 }
 
-/* The same of a slide's, beside its bend: its direction turns with the first body. */
+/* Minus the second derivative of a slide's distance beside its bend, times a force: its direction turns with the first
+ * body. */
 static void turn_slide(double force, ZpVector normal, ZpVector d, const Reach *r, Entries *e) {
   double rate[BOTH];
   along(zp_across(normal), r, rate);
