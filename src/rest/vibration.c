@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/kernel.h"
 #include "math/eigen.h"
 
 /* Relative change of omega^2 in a round: far above what rounding leaves at N = 2001, far below what a mesh gives. */
@@ -14,6 +15,7 @@ void zp_vibration_reserve(ZpVibration *v, size_t n, size_t most, ZpArena *arena)
   v->mass = zp_arena_take(arena, n);
   v->weighed = zp_arena_take(arena, n);
   v->u = zp_arena_take(arena, v->m * n);
+  v->mu = zp_arena_take(arena, v->m * n);
   v->next = zp_arena_take(arena, v->m * n);
 }
 
@@ -51,14 +53,38 @@ void zp_vibration_take_out(const ZpVibration *v, const double *rows, size_t coun
     }
 }
 
-/* Make the rows of `rows` orthogonal and of length 1 with respect to the masses. */
-static void orthonormalize(const ZpVibration *v, double *rows) {
+/* a . b, by partial sums. */
+ZP_KERNEL static double product(size_t n, const double *restrict a, const double *restrict b) {
+  double lane[ZP_LANES] = {0};
+  size_t i = 0;
+  for (; i + ZP_LANES <= n; i += ZP_LANES)
+    for (size_t k = 0; k < ZP_LANES; k++)
+      lane[k] += a[i + k] * b[i + k];
+  for (; i < n; i++)
+    lane[i % ZP_LANES] += a[i] * b[i];
+  return zp_sum_lanes(lane);
+}
+
+/* to += a x */
+ZP_KERNEL static void add(size_t n, double a, const double *restrict x, double *restrict to) {
+  for (size_t i = 0; i < n; i++)
+    to[i] += a * x[i];
+}
+
+/* Make the vectors orthogonal and of length 1 with respect to the masses, and weigh them. */
+static void orthonormalize(ZpVibration *v) {
+  const size_t n = v->n;
   for (size_t j = 0; j < v->m; j++) {
-    double *row = rows + j * v->n;
-    zp_vibration_take_out(v, rows, j, row);
-    double scale = 1 / sqrt(zp_vibration_inner(v, row, row));
-    for (size_t i = 0; i < v->n; i++)
+    double *row = v->u + j * n, *heavy = v->mu + j * n;
+    for (int twice = 0; twice < 2; twice++) /* once leaves what rounding makes */
+      for (size_t k = 0; k < j; k++)
+        add(n, -product(n, v->mu + k * n, row), v->u + k * n, row);
+    weigh(v, row, heavy);
+    const double scale = 1 / sqrt(product(n, row, heavy));
+    for (size_t i = 0; i < n; i++) {
       row[i] *= scale;
+      heavy[i] *= scale;
+    }
   }
 }
 
@@ -66,15 +92,28 @@ void zp_vibration_start(ZpVibration *v) {
   for (size_t j = 0; j < v->m; j++)
     for (size_t i = 0; i < v->n; i++)
       v->u[j * v->n + i] = scattered((i + 1) * (j + 1)) + (i % v->m == j);
-  orthonormalize(v, v->u);
+  orthonormalize(v);
 }
 
 /* K^-1 m u of vector j => its row of next. */
 static double *deflect(ZpVibration *v, size_t j) {
   double *next = v->next + j * v->n;
-  weigh(v, v->u + j * v->n, next);
+  memcpy(next, v->mu + j * v->n, v->n * sizeof *next);
   zp_arrow_solve(v->K, next);
   return next;
+}
+
+/* Each new vector is the sum of all rows of next, with its column of `turn`. Pieces of all fit the cache together. */
+static void recombine(ZpVibration *v) {
+  enum { PIECE = 1024 };
+  const size_t n = v->n, m = v->m;
+  memset(v->u, 0, m * n * sizeof *v->u);
+  for (size_t first = 0; first < n; first += PIECE) {
+    const size_t piece = n - first < PIECE ? n - first : PIECE;
+    for (size_t j = 0; j < m; j++)
+      for (size_t k = 0; k < m; k++)
+        add(piece, v->turn[k * m + j], v->next + k * n + first, v->u + j * n + first);
+  }
 }
 
 void zp_vibration_iterate(ZpVibration *v) {
@@ -83,19 +122,13 @@ void zp_vibration_iterate(ZpVibration *v) {
     deflect(v, j);
   /* of u, orthonormal in m: u' m K^-1 m u has the eigenvalues 1 / omega^2 */
   for (size_t j = 0; j < m; j++)
-    for (size_t k = 0; k < m; k++)
-      v->reduced[j * m + k] = -0.5 * (zp_vibration_inner(v, v->u + j * n, v->next + k * n) +
-                                      zp_vibration_inner(v, v->u + k * n, v->next + j * n));
+    for (size_t k = 0; k <= j; k++)
+      v->reduced[j * m + k] = v->reduced[k * m + j] = -product(n, v->mu + j * n, v->next + k * n);
   zp_eigen_symmetric(m, v->reduced, v->turn);
-  for (size_t j = 0; j < m; j++) {
+  for (size_t j = 0; j < m; j++)
     v->omega2[j] = -1 / v->reduced[j * m + j];
-    double *to = v->u + j * n;
-    memset(to, 0, n * sizeof *to);
-    for (size_t k = 0; k < m; k++)
-      for (size_t i = 0; i < n; i++)
-        to[i] += v->turn[k * m + j] * v->next[k * n + i];
-  }
-  orthonormalize(v, v->u);
+  recombine(v);
+  orthonormalize(v);
 }
 
 double zp_vibration_residual(ZpVibration *v, size_t j) {

@@ -17,7 +17,8 @@ typedef struct ZpVibration {
   void *self;
   double *mass;     /* [n] by equation, filled by the caller */
   double *weighed;  /* [n] work space */
-  double *u, *next; /* [m][n] the subspace, with norm 1 in the inner product of the mass; K^-1 m of it */
+  double *u, *mu;   /* [m][n] the subspace, with norm 1 in the inner product of the mass; m of it */
+  double *next;     /* [m][n] K^-1 m of it */
   double reduced[ZP_VIBRATIONS * ZP_VIBRATIONS], turn[ZP_VIBRATIONS * ZP_VIBRATIONS];
   double omega2[ZP_VIBRATIONS];
 } ZpVibration;
