@@ -42,7 +42,7 @@ typedef struct Text {
 
 static void series(int n, Text *text) {
   for (int k = 1; k <= n; k++)
-    WRITE(text, "bodies.b%d.mass: %s\n", k, k == n ? "8 g" : "10 mg");
+    WRITE(text, "bodies.b%d.mass: %s\n", k, k == n ? "8 g" : "1 mg");
   for (int k = 1; k <= n; k++) {
     if (k == 1)
       WRITE(text, "members.m1: {upper: frame, lower: b1}\n");
@@ -60,7 +60,7 @@ static void side_by_side(int n, Text *text) {
 /* Member k hangs on the body of member k / 2. All are of one width, and the leaves together weigh 8 g. */
 static void tree(int n, Text *text) {
   for (int k = 1; k <= n; k++)
-    WRITE(text, "bodies.b%d.mass: %g g\n", k, 2 * k > n ? 16.0 / (n + 1) : 0.01);
+    WRITE(text, "bodies.b%d.mass: %g g\n", k, 2 * k > n ? 16.0 / (n + 1) : 0.001);
   for (int k = 1; k <= n; k++) {
     if (k == 1)
       WRITE(text, "members.m1: {upper: frame, lower: b1}\n");

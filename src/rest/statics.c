@@ -52,6 +52,7 @@ static size_t edge_count(const ZpRestMember *m) {
 
 void zp_statics_lay_straight(ZpStatics *s) {
   for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    if (m->idle) continue;
     zp_place_straight(m->model, m->q);
     memset(m->tension, 0, zp_lanes(m->model) * sizeof *m->tension);
   }
@@ -155,12 +156,24 @@ double zp_statics_tolerance(const ZpStatics *s) {
   return largest;
 }
 
+/* Do members share no unknown? */
+static bool are_apart(const ZpStatics *s) {
+  return s->form.n == s->form.inner;
+}
+
+static void move_each(void *self, const double *step, double unused);
+static double no_length(void *self, const double *step);
+
 ZpNewtonInfo zp_statics_solve(ZpStatics *s, int most) {
   ZpStaticSystem system = zp_statics_system(s);
+  if (are_apart(s)) {
+    system.move = move_each;
+    system.length = no_length;
+  }
   return zp_newton(&system, zp_statics_tolerance(s), most, &s->newton);
 }
 
-enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30 };
+enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30, USUAL_ITERATIONS = 16 };
 
 /* The present point => good, and back. */
 static void keep(ZpStatics *s) {
@@ -179,6 +192,11 @@ void zp_statics_take_tensions(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++)
     memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
   zp_links_take(&s->links);
+}
+
+static void set_idle(ZpStatics *s, bool idle) {
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    m->idle = idle;
 }
 
 /* Start from the straight shape and let what acts by these shares grow, first by `step`, if the equilibrium is too far
@@ -367,14 +385,27 @@ const char *zp_statics_no_rest(const ZpStatics *s) {
              : "no hanging equilibrium found";
 }
 
+static double turned_by(const ZpRestMember *m, double most);
+
+/* Members apart that the last iterations have brought to rest wait while the others come to it step by step. */
+static ZpNewtonInfo step_those_left(ZpStatics *s) {
+  static const double near = 1e-3; /* rad */
+  for (size_t k = 0; k < s->members && are_apart(s) && s->members > 1; k++)
+    s->member[k].idle = turned_by(&s->member[k], 0) < near && zp_band_negative(&s->newton.K.part[k].LU) == 0;
+  ZpNewtonInfo info = step_by_step(s, &s->nearer, &s->share, 0.01);
+  set_idle(s, false);
+  return zp_newton_good(info.end) ? zp_statics_solve(s, MOST_ITERATIONS) : info;
+}
+
 ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->opposed && s->has_load) return hang_between(s);
   s->U = s->suction = 0;
   if (s->biased) s->bias = 0;
   s->contact_acts = false;
   if (in_plane(s)) return hang_in_plane(s);
-  ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
-  if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->share, 0.01);
+  const bool many = are_apart(s) && s->members > 1; /* all iterate until the last one is at rest */
+  ZpNewtonInfo info = zp_statics_solve(s, many ? USUAL_ITERATIONS : MOST_ITERATIONS);
+  if (!is_found(s, info)) info = step_those_left(s);
   if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */
   info = let_faces_push(s, info);
   info = let_menisci_draw(s, info);
@@ -843,24 +874,33 @@ static void turn(ZpRestMember *m, const double *step) {
                    m->stretch);
 }
 
-/* The largest rotation of an edge in a step, rad; NAN if any is NAN. */
+/* The largest rotation of an edge of a member in the last step that was examined, rad, or `most` if that is more; NAN
+ * if any is NAN. */
+static double turned_by(const ZpRestMember *m, double most) {
+  for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
+    if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
+  return most;
+}
+
+static double rotation_of(ZpRestMember *m, const double *step, double most) {
+  turn(m, step);
+  return turned_by(m, most);
+}
+
+/* Of all. */
 static double largest_rotation(ZpStatics *s, const double *step) {
   double most = 0;
-  for (size_t k = 0; k < s->members; k++) {
-    ZpRestMember *m = &s->member[k];
-    if (m->idle) continue;
-    turn(m, step);
-    for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
-      if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
-  }
+  for (size_t k = 0; k < s->members; k++)
+    if (!s->member[k].idle) most = rotation_of(&s->member[k], step, most);
   for (size_t i = s->form.inner; in_plane(s) && i < s->n && !isnan(most); i++) /* bodies, by the same length */
     if (!(fabs(step[i]) / s->plane.length <= most)) most = fabs(step[i]) / s->plane.length;
   return most;
 }
 
+static const double longest_turn = 0.5; /* rad, up to which linearised rotations are valid */
+
 static double length(void *self, const double *step) {
-  static const double longest = 0.5; /* rad, up to which linearised rotations are valid */
-  return largest_rotation(self, step) / longest;
+  return largest_rotation(self, step) / longest_turn;
 }
 
 /* The largest relative change of a gap of a member, insulators included, in the step that has turned its edges. */
@@ -993,16 +1033,38 @@ static void move_bodies(ZpStatics *s, const double *step, double fraction) {
   zp_plane_poses(&s->plane, s->form.inner, s->at, s->pose);
 }
 
+static void move_member(ZpStatics *s, size_t k, const double *step, double fraction) {
+  ZpRestMember *m = &s->member[k];
+  turn_edges(m, step, fraction);
+  if (in_plane(s)) zp_plane_put_platform(&s->plane, k, s->pose, s->nearer, m->q);
+  zp_place_edges(m->model, &m->assembly, m->moved, m->q);
+}
+
 static void move(void *self, const double *step, double fraction) {
   ZpStatics *s = self;
   if (in_plane(s) && !s->posed) move_bodies(s, step, fraction);
+  for (size_t k = 0; k < s->members; k++)
+    if (!s->member[k].idle) move_member(s, k, step, fraction);
+  meet(s);
+}
+
+/* Members that share no unknown move each on their own. */
+static void move_each(void *self, const double *step, double unused) {
+  ZpStatics *s = self;
+  (void)unused;
   for (size_t k = 0; k < s->members; k++) {
     if (s->member[k].idle) continue;
-    turn_edges(&s->member[k], step, fraction);
-    if (in_plane(s)) zp_plane_put_platform(&s->plane, k, s->pose, s->nearer, s->member[k].q);
-    zp_place_edges(s->member[k].model, &s->member[k].assembly, s->member[k].moved, s->member[k].q);
+    const double turns = rotation_of(&s->member[k], step, 0) / longest_turn;
+    move_member(s, k, step, turns > 1 ? 1 / turns : 1);
   }
   meet(s);
+}
+
+/* Each member has its own length. */
+static double no_length(void *self, const double *step) {
+  (void)self;
+  (void)step;
+  return 0;
 }
 
 /* With the liquid where it is at these positions. */
@@ -1065,11 +1127,6 @@ static ZpNewtonInfo descend(ZpStatics *s, bool (*enough)(void *user), void *user
   system.length = fall_length;
   return zp_descend_until(&system, 1, zp_statics_tolerance(s), MOST_FOR_AN_UNKNOWN * (int)s->n, enough, user,
                           &s->newton);
-}
-
-static void set_idle(ZpStatics *s, bool idle) {
-  for (ZpRestMember *m = s->member; m < s->member + s->members; m++)
-    m->idle = idle;
 }
 
 /* Is a member, the only one that is not idle, near an equilibrium? Then to it; else it stays. */
