@@ -213,8 +213,8 @@ static void row(const Shape *shape, int n) {
 }
 
 static void table(int most) {
-  printf("%-13s %5s %6s %6s %8s %8s %7s %7s %8s %6s\n", "", "n", "steps", "it", "step", "iter.", "hang", "mode", "pull-in",
-         "KiB");
+  printf("%-13s %5s %6s %6s %8s %8s %7s %7s %8s %6s\n", "", "n", "steps", "it", "step", "iter.", "hang", "mode",
+         "pull-in", "KiB");
   for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++)
     for (int n = 1; n <= most; n = 2 * n + 1)
       row(&shapes[k], n);

@@ -81,6 +81,38 @@ TEST(weightless_ones_in_series_are_as_one) {
   free(members);
 }
 
+/* Of many members beside each other, each with a load of its own, some take more iterations than most do: they go on
+ * alone. */
+TEST(each_of_many_hangs_as_if_alone) {
+  enum { MANY = 120 };
+  char *text = NULL, *members = NULL;
+  size_t size, length;
+  FILE *bodies = open_memstream(&text, &size), *hung = open_memstream(&members, &length);
+  fprintf(bodies, OF_ALL "bodies:\n");
+  fprintf(hung, "members:\n");
+  for (int k = 0; k < MANY; k++) {
+    fprintf(bodies, "  b%d: {mass: %g g}\n", k, 4 + 3.0 * k);
+    fprintf(hung, "  m%d: {upper: frame, lower: b%d}\n", k, k);
+  }
+  fclose(hung);
+  fprintf(bodies, "%s", members);
+  fclose(bodies);
+  ZpActuatorDef many = def_of(text);
+  const ZpResult *all = answer_of(ZP_STUDY_STATIONARY, &many);
+  double most = 0;
+  for (int k = 0; k < MANY; k++) {
+    ZpActuatorDef one = DEF({"mesh.nodes", 21}, {"load.mass", 1e-3 * (4 + 3.0 * k)});
+    const double alone = answered_value(ZP_STUDY_STATIONARY, &one, "opening_m");
+    char name[32];
+    snprintf(name, sizeof name, "members.m%d.opening_m", k);
+    most = fmax(most, fabs(number(all, name) / alone - 1));
+  }
+  printf("off by %.2g; %g iterations\n", most, number(all, "iterations"));
+  ck_below(most, 1.3e-15); /* 4.4e-16 measured */
+  free(text);
+  free(members);
+}
+
 /* Members of several kinds, springs and a mount around two bodies, named in two orders. */
 static const char both_orders[2][1024] = {
     OF_ALL

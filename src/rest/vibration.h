@@ -15,10 +15,10 @@ typedef struct ZpVibration {
   const ZpArrow *K;                                       /* factored; belongs to the caller */
   void (*weigh)(void *self, const double *u, double *mu); /* m u, both [n]; NULL: masses are lumped, in `mass` */
   void *self;
-  double *mass;     /* [n] by equation, filled by the caller */
-  double *weighed;  /* [n] work space */
-  double *u, *mu;   /* [m][n] the subspace, with norm 1 in the inner product of the mass; m of it */
-  double *next;     /* [m][n] K^-1 m of it */
+  double *mass;    /* [n] by equation, filled by the caller */
+  double *weighed; /* [n] work space */
+  double *u, *mu;  /* [m][n] the subspace, with norm 1 in the inner product of the mass; m of it */
+  double *next;    /* [m][n] K^-1 m of it */
   double reduced[ZP_VIBRATIONS * ZP_VIBRATIONS], turn[ZP_VIBRATIONS * ZP_VIBRATIONS];
   double omega2[ZP_VIBRATIONS];
 } ZpVibration;
