@@ -296,9 +296,10 @@ TESTS(two_abreast_are_one_twice_as_wide, 0, 2) {
 /* Zip, hold and release of two bodies on four members and two springs. */
 TESTS(energy_balances, 0, 3) {
   static const ZpLiquidModel liquid[] = {ZP_LIQUID_NONE, ZP_LIQUID_SUBMERGED, ZP_LIQUID_BEAD};
-  static const double within[] = {2e-8, 8e-7, 3e-7}; /* 7.2e-9, 3.0e-7, 1.2e-7 measured */
+  static const double within[] = {2e-8, 1.1e-8, 2.5e-8}; /* 7.2e-9, 3.9e-9, 8.5e-9 measured */
   ZpActuatorDef def = def_of(both_orders[0]);
   def.liquid.model = liquid[_i];
+  if (_i > 0) def.solver.tolerance = 1e-5;
   def.drive.waveform = ZP_WAVEFORM_SQUARE;
   def.drive.frequency = 1 / 0.12;
   def.drive.rise_time = 5e-3;
