@@ -177,6 +177,10 @@ ZP_API ZpStatus zp_def_forget_ports(ZpActuatorDef *def, ZpError *err);
  * voltage that is or becomes other than 0 also as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
 
+/* The same for the input called `name` ("voltage", "left.voltage", "hand.force_y"). ZP_BAD_INPUT also names the nearest
+ * input if there is none of that name. */
+ZP_API ZpStatus zp_sim_set_input_named(ZpSim *sim, const char *name, double value, double rate, ZpError *err);
+
 /* The derivatives of all signals by an input at this instant, at fixed positions, SI, in the order of
  * zp_signal_columns: what a small jump of the input changes at once (docs/theory.md, section 17). The simulation does
  * not change. Signals are polynomials of second degree in the voltage, so the central difference that is used is exact
@@ -204,8 +208,9 @@ typedef struct ZpController {
  * the voltage stays. ZP_BAD_INPUT if the period is out of range or there is no function. */
 ZP_API ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpError *err);
 
-/* Present value of the signal called `name` ("stroke"), SI; NAN if there is none. This does not affect
- * the simulation, but uses its work space: one thread at a time, as with all calls. */
+/* Present value of the signal called `name` ("stroke"), SI, or of a number of a member or body, as zp_signal_table has
+ * it, without its unit ("left.opening", "hand.y", "member_2_opening"); NAN if there is none. This does not affect the
+ * simulation, but uses its work space: one thread at a time, as with all calls. */
 ZP_API double zp_sim_get(ZpSim *sim, const char *name);
 
 /* Present values of all signals, SI, in the order of zp_signal_columns: a row. The mean current is over the time since

@@ -75,6 +75,9 @@ PyObject *read_scenario(PyObject *module, PyObject *args);
 /* Takes `result` over. */
 PyObject *result_new(State *state, ZpResult *result);
 
+/* (name, unit, help) of each column. */
+PyObject *columns_of(const ZpTable *table);
+
 /* (what Result.pack gave) => Result. */
 PyObject *unpack_result(PyObject *module, PyObject *bytes);
 

@@ -108,17 +108,22 @@ static PyObject *get_sensitivities(PyObject *self, void *unused) {
 
 /* -- arrays ---------------------------------------------------------------------------------------- */
 
-/* ((name, unit, help) of each column, rows) */
-static PyObject *get_series(PyObject *self, void *unused) {
-  (void)unused;
-  const ZpTable *table = zp_result_series(of(self));
-  if (!table) Py_RETURN_NONE;
+PyObject *columns_of(const ZpTable *table) {
   PyObject *columns = PyTuple_New((Py_ssize_t)zp_table_columns(table));
   for (size_t i = 0; columns && i < zp_table_columns(table); i++) {
     const ZpColumn *column = zp_table_column(table, i);
     PyObject *item = Py_BuildValue("(sss)", column->name, column->unit, column->help);
     if (!item || PyTuple_SetItem(columns, (Py_ssize_t)i, item)) Py_CLEAR(columns);
   }
+  return columns;
+}
+
+/* (its columns, rows) */
+static PyObject *get_series(PyObject *self, void *unused) {
+  (void)unused;
+  const ZpTable *table = zp_result_series(of(self));
+  if (!table) Py_RETURN_NONE;
+  PyObject *columns = columns_of(table);
   if (!columns) return NULL;
   PyObject *rows = view_of_rows(((Result *)self)->state, self, zp_table_row(table, 0), zp_table_rows(table),
                                 zp_table_columns(table));
@@ -153,7 +158,8 @@ static PyObject *get_shapes(PyObject *self, void *unused) {
   const ZpShapes *shapes = zp_result_shapes(of(self));
   if (!shapes || zp_shapes_frames(shapes) == 0) Py_RETURN_NONE;
   ZpShape first = zp_shapes_get(shapes, 0);
-  return Py_BuildValue("{sNsNsNsNsNsNsN}", "heads", frame_heads(shapes), "x", film(self, first.x, 3), "y",
+  return Py_BuildValue("{snsNsNsNsNsNsNsN}", "members", (Py_ssize_t)zp_shapes_members(shapes), "heads",
+                       frame_heads(shapes), "x", film(self, first.x, 3), "y",
                        film(self, first.y, 3), "gap", film(self, first.gap, 2), "line_force",
                        film(self, first.line_force, 2), "insulator_field", film(self, first.insulator_field, 2),
                        "stress", film(self, first.stress, 3));

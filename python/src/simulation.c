@@ -15,6 +15,7 @@ typedef struct Simulation {
   ZpSim *sim;
   ZpRunInfo *info;               /* of the last step */
   int end_time_key, voltage_key; /* keys with the units and ranges of dt and voltage */
+  ZpTable *columns;              /* names and units of the signals */
   double time;                   /* s */
   double hand_voltage;           /* voltage last set by step, V; NAN: none yet */
   int64_t steps;                 /* steps so far */
@@ -52,6 +53,11 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
   ZpStatus status = compile(self, &hooks, &err);
   watch_end(&watch);
   if (!watch.failed && status == ZP_OK) {
+    self->columns = zp_signal_table(((Definition *)definition)->def, 1);
+    if (!self->columns) {
+      Py_DECREF(self);
+      return PyErr_NoMemory();
+    }
     self->time = zp_sim_get(self->sim, "time"); /* not 0 if it starts from a checkpoint */
     return (PyObject *)self;
   }
@@ -63,6 +69,7 @@ static PyObject *simulation_new(PyTypeObject *type, PyObject *args, PyObject *kw
 static void simulation_dealloc(PyObject *object) {
   Simulation *self = (Simulation *)object;
   zp_run_info_destroy(self->info);
+  zp_table_destroy(self->columns);
   zp_sim_destroy(self->sim);
   zp_model_destroy(self->model);
   Py_XDECREF(self->definition);
@@ -149,14 +156,8 @@ static PyObject *simulation_set_input(PyObject *object, PyObject *args, PyObject
   if (!PyArg_ParseTupleAndKeywords(args, names, "Ud|d", known, &word, &value, &rate)) return NULL;
   const char *name = text_of(self->state, word, "input");
   if (!name || refuse_busy(self)) return NULL;
-  ZpInput input = 0;
-  while (input < ZP_INPUT_COUNT && strcmp(zp_input_name(input), name) != 0)
-    input++;
-  if (input == ZP_INPUT_COUNT)
-    return raise_input(self->state, "%.40s: unknown input; use %s, %s or %s", name, zp_input_name(ZP_INPUT_VOLTAGE),
-                       zp_input_name(ZP_INPUT_LOAD), zp_input_name(ZP_INPUT_SETPOINT));
   ZpError err;
-  if (zp_sim_set_input(self->sim, input, value, rate, &err) != ZP_OK) return raise_error(self->state, &err);
+  if (zp_sim_set_input_named(self->sim, name, value, rate, &err) != ZP_OK) return raise_error(self->state, &err);
   self->hand_voltage = NAN; /* of the next step's voltage none is a repetition */
   Py_RETURN_NONE;
 }
@@ -166,15 +167,35 @@ static PyObject *simulation_set_input(PyObject *object, PyObject *args, PyObject
 static PyObject *simulation_read_into(PyObject *object, PyObject *out) {
   Simulation *self = (Simulation *)object;
   Py_buffer buffer;
-  size_t count;
-  zp_signal_columns(&count);
   if (refuse_busy(self) || PyObject_GetBuffer(out, &buffer, PyBUF_CONTIG | PyBUF_FORMAT)) return NULL;
-  bool fits =
-      buffer.ndim == 1 && buffer.shape[0] == (Py_ssize_t)count && buffer.format && strcmp(buffer.format, "d") == 0;
-  if (fits) zp_sim_read(self->sim, buffer.buf);
+  const size_t all = zp_table_columns(self->columns);
+  size_t whole; /* without those of members and bodies */
+  zp_signal_columns(&whole);
+  const size_t count = buffer.ndim == 1 ? (size_t)buffer.shape[0] : 0;
+  const bool fits = (count == all || count == whole) && buffer.format && strcmp(buffer.format, "d") == 0;
+  if (fits) zp_sim_read_columns(self->sim, count, buffer.buf);
   PyBuffer_Release(&buffer);
-  if (!fits) return raise_input(self->state, "out: takes an array of %zu float64, one per signal", count);
+  if (!fits) return raise_input(self->state, "out: takes an array of %zu float64, one per signal", all);
   Py_RETURN_NONE;
+}
+
+static PyObject *simulation_columns(PyObject *object, PyObject *unused) {
+  (void)unused;
+  return columns_of(((Simulation *)object)->columns);
+}
+
+/* (name, unit) of each input. */
+static PyObject *simulation_inputs(PyObject *object, PyObject *unused) {
+  (void)unused;
+  const ZpActuatorDef *def = ((Definition *)((Simulation *)object)->definition)->def;
+  PyObject *list = PyList_New(0);
+  for (int input = zp_def_input_next(def, -1); list && input >= 0; input = zp_def_input_next(def, input)) {
+    char name[ZP_INPUT_NAME_SIZE];
+    PyObject *item = Py_BuildValue("(ss)", zp_def_input_name(def, input, name), zp_def_input_unit(def, input));
+    if (!item || PyList_Append(list, item)) Py_CLEAR(list);
+    Py_XDECREF(item);
+  }
+  return list;
 }
 
 static PyObject *simulation_get(PyObject *object, PyObject *name) {
@@ -195,7 +216,9 @@ static PyObject *simulation_shape(PyObject *object, PyObject *unused) {
   Simulation *self = (Simulation *)object;
   if (refuse_busy(self)) return NULL;
   ZpShape shape = zp_sim_shape(self->sim);
-  size_t nodes = (size_t)zp_model_get(self->model, "nodes"), ribbons = (size_t)zp_model_get(self->model, "ribbons");
+  const size_t members = (size_t)zp_def_members(((Definition *)self->definition)->def);
+  const size_t nodes = members * (size_t)zp_model_get(self->model, "nodes");
+  const size_t ribbons = (size_t)zp_model_get(self->model, "ribbons");
   return Py_BuildValue("(nNNNNNN)", (Py_ssize_t)shape.zipped, view_if_any(self, shape.x, nodes, ribbons),
                        view_if_any(self, shape.y, nodes, ribbons), view_if_any(self, shape.gap, 1, nodes),
                        view_if_any(self, shape.line_force, 1, nodes),
@@ -269,7 +292,10 @@ static PyMethodDef methods[] = {
     {"set_input", (PyCFunction)(void (*)(void))simulation_set_input, METH_VARARGS | METH_KEYWORDS,
      "set_input(name, value, rate=0.0)\n--\n\n"
      "From now on an input has this value and changes with rate per second, until it is set again or the end of\n"
-     "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N)."},
+     "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N); of a network\n"
+     "one of its `inputs`, as 'left.voltage' or 'hand.force_y'."},
+    {"input_units", simulation_inputs, METH_NOARGS, "(name, unit) of each input."},
+    {"columns", simulation_columns, METH_NOARGS, "(column, unit, help) of each signal."},
     {"get", simulation_get, METH_O, "Present value of a signal, SI; nan for an unknown name."},
     {"read_into", simulation_read_into, METH_O, "Fill an array of float64 with the present values of all signals."},
     {"shape", simulation_shape, METH_NOARGS,

@@ -8,7 +8,7 @@ import threading
 import numpy as np
 import pytest
 import zipact
-from zipact.batch import column_name
+from zipact.actuator import column_name
 
 VOLTAGES = np.linspace(3e3, 9e3, 13)
 
@@ -73,7 +73,7 @@ def test_headings_of_all_keys(tmp_path):
     command = [os.environ["ZIPACT_COMMAND"], "stationary", *settings, "--set", "mesh.nodes=11"]
     subprocess.run([*command, "--no-plots", "--quiet", "-o", tmp_path], check=True)
     heading = (tmp_path / "table.csv").read_text().splitlines()[0].split(",")
-    assert heading[: heading.index("outcome")] == [column_name(key.name) for key in keys]
+    assert heading[: heading.index("outcome")] == [column_name(key.name, key.unit) for key in keys]
     assert len(keys) > 60
 
 

@@ -307,7 +307,7 @@ def test_diverged_simulation_is_used_up():
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        (("mass", 1.0), "mass: unknown input; use voltage, load or setpoint"),
+        (("mass", 1.0), "mass: unknown input; use voltage or load"),
         (("load", 2e4), "load = 20000 N is out of range"),
         (("voltage", -1.0), "drive.voltage"),
         (("voltage", 1.0, float("nan")), "a rate of nan V/s is out of range"),

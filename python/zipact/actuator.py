@@ -35,15 +35,20 @@ class Key(NamedTuple):
 
 class Keys(dict[str, Key]):
     """Every key by its name, "load.mass". Those of all members, bodies, joints and springs are listed once, with K in the
-    place of a number; KEYS["member_3.ribbon.thickness"] is found as well, though not by `in` or get."""
+    place of a number; KEYS["member_3.ribbon.thickness"] and KEYS["members.left.ribbon.thickness"] are found as well, though
+    not by `in` or get."""
 
     def __missing__(self, name: str) -> Key:
         row, numbers = re.subn(r"^(member|body|joint|spring)_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", r"\1_K.", name)
+        group, _, rest = name.partition(".")
+        if group in GROUPS.values():
+            row, numbers = f"{next(one for one in GROUPS if GROUPS[one] == group)}_K.{rest.partition('.')[2]}", 1
         if numbers == 0 or row not in self:
             raise KeyError(name)
         return self[row]._replace(name=name)
 
 
+GROUPS = {"body": "bodies", "joint": "joints", "member": "members", "spring": "springs"}  # of a network
 KEYS = Keys({row[0]: Key(*row[:7], dict(row[7])) for row in _zipact.keys()})
 
 FILES = ("data.file", "drive.file", "setpoint.file", "initial.file")  # kept as absolute paths, as in a scenario
@@ -58,7 +63,7 @@ def key_name(keyword: str) -> str:
 
 def is_key(name: str) -> bool:
     try:
-        return KEYS[name].name == name and not re.match("[a-z]+_K[.]", name)
+        return KEYS[name].name == name and not re.match("[a-z]+_K[.]|(bodies|joints|members|springs)[.]", name)
     except KeyError:
         return False
 
@@ -73,6 +78,20 @@ def given_keys(groups: Mapping[str, Any] | None, keywords: Mapping[str, Any]) ->
         else:
             given[key] = value
     return given
+
+
+def combinations(groups: Mapping[str, Any] | None, lists: Mapping[str, Iterable[Any]]) -> list[dict[str, Any]]:
+    """Each combination of the values of some keys; the last key varies fastest."""
+    given = given_keys(groups, lists)
+    for name, values in given.items():
+        if isinstance(values, str) or not isinstance(values, Iterable):
+            raise _zipact.InputError(f"{name}: sweep takes a list of values")
+    return [dict(zip(given, row, strict=True)) for row in itertools.product(*given.values())]
+
+
+def column_name(name: str, unit: str) -> str:
+    """("load.mass", "kg") => "load.mass_kg", ("ribbon.density", "kg/m3") => "ribbon.density_kg_per_m3", as the command writes it"""
+    return name if unit == "1" else f"{name}_{unit.replace('/', '_per_').replace(' ', '_')}"
 
 
 def plain_value(name: str, value: Any) -> Any:
@@ -143,11 +162,7 @@ class Actuator(Mapping[str, Any]):
 
     def sweep(self, groups: Mapping[str, Any] | None = None, **lists: Iterable[Any]) -> list["Actuator"]:
         """One actuator for each combination of values; the last key varies fastest."""
-        given = given_keys(groups, lists)
-        for name, values in given.items():
-            if isinstance(values, str) or not isinstance(values, Iterable):
-                raise _zipact.InputError(f"{name}: sweep takes a list of values")
-        return [self.replace(dict(zip(given, row, strict=True))) for row in itertools.product(*given.values())]
+        return [self.replace(case) for case in combinations(groups, lists)]
 
     def run(self, study: str | None = None, *, progress: Progress | None = None) -> Result:
         """Run a study, by default that of key `study`. Other threads run meanwhile; Ctrl-C stops the call."""

@@ -1,9 +1,10 @@
 """Many runs at once, on all cores."""
 
 import csv
+import functools
 import os
 import threading
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor, as_completed
 from contextlib import nullcontext
 from typing import TYPE_CHECKING, Any
@@ -11,7 +12,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ._zipact import Error, InputError
-from .actuator import KEYS, Actuator
+from .actuator import KEYS, Actuator, column_name
+from .network import Network
 from .result import Result
 
 if TYPE_CHECKING:
@@ -20,13 +22,13 @@ if TYPE_CHECKING:
 
 
 class Batch(Sequence[Result]):
-    """Results in the order of their actuators. batch["zip_time_s"] is the array of this number in all runs, nan if a run
+    """Results in the order of their actuators or networks. batch["zip_time_s"] is the array of this number in all runs, nan if a run
     does not have it. If a run raised an exception, it takes the place of the result."""
 
-    def __init__(self, results: Iterable[Result | Exception], actuators: Iterable[Actuator]) -> None:
+    def __init__(self, results: Iterable[Result | Exception], actuators: Iterable[Actuator | Network]) -> None:
         self.results = list(results)
         self.actuators = list(actuators)
-        """the simulated actuators"""
+        """the simulated actuators or networks"""
 
     @property
     def errors(self) -> dict[int, Exception]:
@@ -48,9 +50,14 @@ class Batch(Sequence[Result]):
 
     @property
     def varied(self) -> list[str]:
-        """the keys in which the actuators differ"""
-        keys = dict.fromkeys(key for actuator in self.actuators for key in actuator)
-        return [key for key in keys if len({actuator[key] for actuator in self.actuators}) > 1]
+        """the keys in which the actuators or networks differ"""
+        keys = dict.fromkeys(key for values in self.values for key in values)
+        return [key for key in keys if len({value_in(values, key) for values in self.values}) > 1]
+
+    @functools.cached_property
+    def values(self) -> list[Mapping[str, Any]]:
+        """every key of each actuator or network with its value, SI"""
+        return [values_of(actuator) for actuator in self.actuators]
 
     @property
     def units(self) -> dict[str, str]:
@@ -66,8 +73,8 @@ class Batch(Sequence[Result]):
         import pandas
 
         rows: list[dict[str, Any]] = []
-        for actuator, found in zip(self.actuators, self.results, strict=True):
-            row = {key: actuator[key] for key in self.varied}
+        for values, found in zip(self.values, self.results, strict=True):
+            row = {key: value_in(values, key) for key in self.varied}
             answer = {"outcome": found.outcome} | dict(found) if isinstance(found, Result) else {"outcome": "error"}
             rows.append(row | answer | ({"error": str(found)} if isinstance(found, Exception) else {}))
         frame = pandas.DataFrame(rows)
@@ -96,11 +103,11 @@ class Batch(Sequence[Result]):
         """The rows of table.csv, after their heading."""
         varied, found = self.varied, [result for result in self.results if isinstance(result, Result)]
         numbers = list(dict.fromkeys(name for result in found for name in result if name not in result.timings))
-        rows: list[list[Any]] = [[column_name(key) for key in varied] + ["outcome", *numbers]]
-        for actuator, result in zip(self.actuators, self.results, strict=True):
+        rows: list[list[Any]] = [[column_name(key, KEYS[key].unit) for key in varied] + ["outcome", *numbers]]
+        for values, result in zip(self.values, self.results, strict=True):
             answers = [result.get(name, np.nan) for name in numbers] if isinstance(result, Result) else [np.nan] * len(numbers)
             outcome = result.outcome if isinstance(result, Result) else "error"
-            rows.append([cell(actuator[key]) for key in varied] + [outcome] + [cell(answer) for answer in answers])
+            rows.append([cell(value_in(values, key)) for key in varied] + [outcome] + [cell(answer) for answer in answers])
         return rows
 
     def __repr__(self) -> str:
@@ -108,10 +115,18 @@ class Batch(Sequence[Result]):
         return f"<Batch of {len(self)} results{f', {errors} of them errors' if errors else ''}>"
 
 
-def column_name(key: str) -> str:
-    """load.mass => load.mass_kg, ribbon.density => ribbon.density_kg_per_m3, as the command writes it"""
-    unit = KEYS[key].unit.replace("/", "_per_").replace(" ", "_")
-    return key if unit == "1" else f"{key}_{unit}"
+def values_of(actuator: Actuator | Network) -> Mapping[str, Any]:
+    """Every key with its value; of a network that the library refuses what was given."""
+    if isinstance(actuator, Actuator):
+        return actuator
+    try:
+        return actuator._values()
+    except InputError:
+        return {key: value if isinstance(value, (int, float, str)) else repr(value) for key, value in actuator.items()}
+
+
+def value_in(values: Mapping[str, Any], key: str) -> Any:
+    return values[key] if key in values else None
 
 
 def cell(value: Any) -> Any:
@@ -131,7 +146,7 @@ class BatchError(Error):
         return BatchError, (self.batch,)
 
 
-def _run(actuator: Actuator, study: str | None, progress: Callable[[str, float], Any] | None = None) -> Result | Exception:
+def _run(actuator: Actuator | Network, study: str | None, progress: Callable[[str, float], Any] | None = None) -> Result | Exception:
     """A function of the module, so that other processes can import it."""
     try:
         return actuator.run(study, progress=progress)
@@ -139,7 +154,7 @@ def _run(actuator: Actuator, study: str | None, progress: Callable[[str, float],
         return error
 
 
-def _found(run: "Future[Result | Exception]", actuator: Actuator, study: str | None) -> Result | Exception:
+def _found(run: "Future[Result | Exception]", actuator: Actuator | Network, study: str | None) -> Result | Exception:
     """The result of a run, or the exception of its lost worker. A run that never started becomes interrupted here."""
     if run.cancelled():
         return _run(actuator, study, lambda stage, fraction: True)
@@ -160,7 +175,7 @@ def _executor(given: Any) -> Any:
 
 
 def run_batch(
-    actuators: Iterable[Actuator],
+    actuators: Iterable[Actuator] | Iterable[Network],
     study: str | None = None,
     *,
     workers: int | None = None,
@@ -168,7 +183,7 @@ def run_batch(
     progress: Callable[[int, int], Any] | None = None,
     return_exceptions: bool = False,
 ) -> Batch:
-    """Run a study on each actuator, as many at once as there are cores, or `workers`. The results equal those of separate
+    """Run a study on each actuator or network, as many at once as there are cores, or `workers`. The results equal those of separate
     runs to the last bit.
 
     A run that raises an exception, such as InputError if the study refuses its actuator, does not stop the others. When
@@ -181,10 +196,10 @@ def run_batch(
     `progress` is called with the number of finished runs and of all runs. If it returns true or raises an exception, or
     at Ctrl-C, the other runs stop, with the outcome interrupted; in an `executor`, running ones finish first.
     """
-    actuators = list(actuators)
-    for actuator in actuators:
-        if not isinstance(actuator, Actuator):
-            raise InputError(f"run_batch: takes actuators, not {type(actuator).__name__}")
+    given = [actuator.copy() if isinstance(actuator, Network) else actuator for actuator in actuators]
+    for actuator in given:
+        if not isinstance(actuator, (Actuator, Network)):
+            raise InputError(f"run_batch: takes actuators or networks, not {type(actuator).__name__}")
     if workers is not None and (not isinstance(workers, int) or workers < 1):
         raise InputError(f"workers = {workers!r}: takes a whole number of at least 1")
     if workers is not None and executor is not None:
@@ -204,14 +219,14 @@ def run_batch(
     with end:
         runs: list[Future[Result | Exception]] = []
         try:
-            runs += (pool.submit(_run, actuator, study, *hooks) for actuator in actuators)
+            runs += (pool.submit(_run, actuator, study, *hooks) for actuator in given)
             for done, _ in enumerate(as_completed(runs), 1):
                 if progress and progress(done, len(runs)):
                     stop_all()
         except BaseException:
             stop_all()
             raise
-    batch = Batch((_found(run, actuator, study) for run, actuator in zip(runs, actuators, strict=True)), actuators)
+    batch = Batch((_found(run, actuator, study) for run, actuator in zip(runs, given, strict=True)), given)
     if batch.errors and not return_exceptions:
         raise BatchError(batch) from next(iter(batch.errors.values()))
     return batch

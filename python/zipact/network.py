@@ -5,16 +5,27 @@ import json
 import os
 import re
 from collections import UserDict
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from typing import Any, Unpack
 
 from . import _zipact
-from .actuator import Actuator, Progress, actuator_of, differences, given_keys, key_name, plain_number, plain_value, values_of
+from .actuator import (
+    GROUPS,
+    Actuator,
+    Progress,
+    actuator_of,
+    combinations,
+    differences,
+    given_keys,
+    key_name,
+    plain_number,
+    plain_value,
+    values_of,
+)
 from .keywords import Keywords  # made from keys.def when the wheel is built
 from .result import Result
 
 NUMBERED = re.compile(r"(member|body|joint|spring)_(\d+)\.(.+)")  # a key as a Definition has it
-GROUPS = {"body": "bodies", "joint": "joints", "member": "members", "spring": "springs"}
 NAMES = ("upper", "lower", "first", "second", "port")  # keys whose values are names
 
 
@@ -102,10 +113,15 @@ class Network(MutableMapping[str, Any]):
     def copy(self) -> "Network":
         return copy.copy(self)
 
+    def sweep(self, groups: Mapping[str, Any] | None = None, **lists: Iterable[Any]) -> list["Network"]:
+        """One network for each combination of values; the last key varies fastest:
+        network.sweep({"members.left.ribbon.thickness": ["50 um", "60 um"]}, drive__voltage=[6e3, 8e3])"""
+        return [self.replace(case) for case in combinations(groups, lists)]
+
     def run(self, study: str | None = None, *, progress: Progress | None = None, **keys: Unpack[Keywords]) -> Result:
         """Run a study, by default that of key `study`, with other values of some keys."""
         case = self.replace(**keys, **({} if study is None else {"study": study}))
-        return Result(case._definition().run(progress), case)
+        return Result(case._definition.run(progress), case)
 
     def scenario(self) -> str:
         """The network as a scenario in YAML, for which the command gives the same result."""
@@ -118,14 +134,25 @@ class Network(MutableMapping[str, Any]):
         """The network itself: no arrays drive it."""
         return self
 
-    def _definition(self) -> _zipact.Definition:
+    def _read(self) -> tuple[_zipact.Definition, str]:
+        """What the library reads in it, and that as the command writes it."""
         try:
-            definitions, _ = _zipact.read_scenario("network", self.scenario())
+            definitions, text = _zipact.read_scenario("network", self.scenario())
         except _zipact.InputError as error:
             raise _zipact.InputError(re.sub(r"^network[:\d]*: ", "", str(error))) from None
         if len(definitions) > 1:
-            raise _zipact.InputError("a network takes one value for each key; run it once for each value of a list")
-        return definitions[0]
+            raise _zipact.InputError("a network takes one value for each key; use sweep and run_batch for the values of a list")
+        return definitions[0], text
+
+    @property
+    def _definition(self) -> _zipact.Definition:
+        return self._read()[0]
+
+    def _values(self) -> dict[str, Any]:
+        """Every key with its value, SI: of a single actuator's keys all, of those of its parts what is given."""
+        definition, text = self._read()
+        top, own = by_names(values_of(definition), named_keys(text))
+        return top | own
 
     def _groups(self) -> dict[str, Any]:
         """All that was given, as Network takes it."""
@@ -198,9 +225,9 @@ def named_keys(text: str) -> dict[str, str]:
     return found
 
 
-def _network_of(definition: _zipact.Definition, texts: Mapping[str, str]) -> Network:
-    """A network with the keys that differ from the defaults; with all keys if these do not give the same definition."""
-    values, top, own = values_of(definition), {}, {}
+def by_names(values: Mapping[str, Any], texts: Mapping[str, str]) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Values of the top level, and of parts by their names, {"members.left.upper": "frame"}, as they are in `texts`."""
+    top, own = {}, {}
     names = {group: list(dict.fromkeys(re.findall(rf"^{group}\.\w+", "\n".join(texts), re.M))) for group in GROUPS.values()}
     for key, value in values.items():
         numbered = NUMBERED.fullmatch(key)
@@ -210,8 +237,15 @@ def _network_of(definition: _zipact.Definition, texts: Mapping[str, str]) -> Net
             own[name] = texts.get(name, value) if rest in NAMES else value
         else:
             top[key] = value
+    return top, own
+
+
+def _network_of(definition: _zipact.Definition, texts: Mapping[str, str]) -> Network:
+    """A network with the keys that differ from the defaults; with all keys if these do not give the same definition."""
+    values = values_of(definition)
+    top, own = by_names(values, texts)
     network = Network({key: value for key, value in differences(definition).items() if key in top} | own)
-    return network if values_of(network._definition()) == values else Network(top | own)
+    return network if values_of(network._definition) == values else Network(top | own)
 
 
 def read_scenario(path: str | os.PathLike[str]) -> Actuator | Network | list[Actuator] | list[Network]:

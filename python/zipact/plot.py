@@ -10,6 +10,9 @@ from matplotlib.axes import Axes
 
 from ._zipact import InputError
 from .actuator import KEYS
+from .batch import value_in
+from .drawing import Drawing
+from .network import Network
 
 if TYPE_CHECKING:
     from .batch import Batch
@@ -33,11 +36,10 @@ def nan_where(hidden: np.ndarray, values: np.ndarray) -> np.ndarray:
     return np.where(hidden, np.nan, values)
 
 
-def outline(ax: Axes, x: np.ndarray, y: np.ndarray, **style: Any) -> list[Any]:
-    """The ribbons of one shape; where x jumps back, the next of several actuators begins."""
-    ends = np.flatnonzero(np.diff(x[:, 0]) < -0.5 * np.ptp(x[:, 0])) + 1
-    parts = zip(np.split(x, ends), np.split(y, ends), strict=True)
-    return [line for of_x, of_y in parts for line in ax.plot(MILLI * of_x, MILLI * of_y, **style)]
+def outline(ax: Axes, film: "Shapes", frame: int, **style: Any) -> list[Any]:
+    """The ribbons of one shape, member by member."""
+    parts = zip(*(np.split(of[frame], film.members) for of in (film.x, film.y)), strict=True)
+    return [line for x, y in parts for line in ax.plot(MILLI * x, MILLI * y, **style)]
 
 
 # -- by study -------------------------------------------------------------------------------------------
@@ -120,16 +122,18 @@ def isometric(result: "Result", table: "Table", ax: Axes | None) -> Axes:
 def modes(result: "Result", table: "Table", ax: Axes | None) -> Axes:
     ax = new_axes(ax, "x / mm", "y / mm")
     film, most = result.shapes, 4
-    outline(ax, film.x[0], film.y[0], color=GREY)
+    outline(ax, film, 0, color=GREY)
     for mode in range(min(most, len(film.time) - 1)):
         colour = colormaps["viridis"](mode / most)
-        lines = outline(ax, film.x[mode + 1], film.y[mode + 1], color=colour)
+        lines = outline(ax, film, mode + 1, color=colour)
         lines[0].set_label(f"{table['frequency_Hz'][mode]:.4g} Hz")
     ax.legend()
     return ax
 
 
 def stationary(result: "Result", table: "Table", ax: Axes | None) -> Axes:
+    if isinstance(result.actuator, Network):
+        return Drawing(result, ax).axes
     ax = shapes(result.shapes, ax)
     ax.set_aspect("equal")
     return ax
@@ -227,17 +231,17 @@ def batch(batch: "Batch", y: str | None, x: str | None, ax: Axes | None) -> Axes
     numeric = [key for key in varied if KEYS[key].kind not in ("word", "text", "bool")]
     if not numeric or (x is not None and x not in varied):
         raise InputError(f"x = {x!r}: the actuators differ in {', '.join(varied) or 'no key'}; x must be one of these keys")
-    x = x or max(numeric, key=lambda key: len({actuator[key] for actuator in batch.actuators}))
+    x = x or max(numeric, key=lambda key: len({value_in(values, key) for values in batch.values}))
     y = y or next((name for found in batch if not isinstance(found, Exception) for name in found), "")
     unit_x, unit_y = KEYS[x].unit, batch.units.get(y, "1")
-    across, up = np.array([actuator[x] for actuator in batch.actuators], dtype=float), batch[y]
+    across, up = np.array([value_in(values, x) for values in batch.values], dtype=float), batch[y]
     (by_x, shown_x), (by_y, shown_y) = shown_unit(unit_x, across), shown_unit(unit_y, up)
     name = y.removesuffix("_" + unit_y.replace("/", "_per_")).replace("_", " ")
     ax = new_axes(ax, axis_label(x, shown_x), axis_label(name, shown_y))
     others = [key for key in varied if key != x]
     groups: dict[tuple[str, ...], list[int]] = {}
-    for place, actuator in enumerate(batch.actuators):
-        groups.setdefault(tuple(value_text(key, actuator[key]) for key in others), []).append(place)
+    for place, values in enumerate(batch.values):
+        groups.setdefault(tuple(value_text(key, value_in(values, key)) for key in others), []).append(place)
     for line, (words, places) in enumerate(groups.items()):
         order = sorted(places, key=lambda place: across[place])
         colour = colormaps["viridis"](0.9 * line / max(1, len(groups) - 1))
@@ -262,8 +266,8 @@ def shapes(film: "Shapes", ax: Axes | None = None) -> Axes:
     """All shapes over time, early ones pale."""
     ax = new_axes(ax, "x / mm", "y / mm")
     shades = np.linspace(1, 0.15, len(film.time))[::-1]
-    for x, y, shade in zip(film.x, film.y, shades, strict=True):
-        outline(ax, x, y, color=colormaps["viridis_r"](shade), linewidth=1)
+    for frame, shade in enumerate(shades):
+        outline(ax, film, frame, color=colormaps["viridis_r"](shade), linewidth=1)
     return ax
 
 

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from .actuator import Actuator
+    from .drawing import Animation
     from .network import Network
 
 
@@ -76,6 +77,8 @@ class Shapes(NamedTuple):
     """[frames, nodes] V/m; None for kind ribbon; nan without insulators"""
     stress: np.ndarray | None
     """[frames, nodes, ribbons] Pa, largest stress of the metal in the section; None in study profile"""
+    members: int
+    """of a series or a network, whose nodes follow one another, member by member; else 1"""
 
     def plot(self, ax: "Axes | None" = None) -> "Axes":
         """Draw all shapes, early ones pale, late ones dark."""
@@ -112,7 +115,7 @@ def array(view: Any) -> Any:
 def shapes_of(parts: Mapping[str, Any]) -> Shapes:
     time, voltage, zipped = np.array(parts["heads"], dtype=float).T
     arrays = (array(parts[name]) for name in ("x", "y", "gap", "line_force", "insulator_field", "stress"))
-    return Shapes(time, voltage, zipped.astype(int), *arrays)
+    return Shapes(time, voltage, zipped.astype(int), *arrays, parts["members"])
 
 
 def grouped(numbers: Mapping[str, float], group: str) -> dict[str, dict[str, float]]:
@@ -189,6 +192,13 @@ class Result(Mapping[str, float]):
         from . import plot
 
         return plot.result(self, ax)
+
+    def animate(self, ax: "Axes | None" = None, frames: int = 80) -> "Animation":
+        """A film of a run by matplotlib, evenly in time, of at most so many frames: of a network with its bodies, joints and
+        springs. A notebook shows it; animate().save("zip.gif") writes it."""
+        from .drawing import Animation
+
+        return Animation(self, ax, frames)
 
     def save(self, directory: str | os.PathLike[str], templates: str | os.PathLike[str] = "") -> None:
         """Write the files of the command: scenario.yaml, summary.json, table.csv, results.h5, plots/, ...; and drive.csv

@@ -1,5 +1,6 @@
 /* Inputs: what a program changes while a simulation runs. Their work is booked: of the voltage by energy_balance.c, of
  * the load step by step. docs/theory.md, section 17. */
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -217,7 +218,7 @@ ZpSim *zp_sim_port_of(ZpSim *sim, int input) {
 static ZpStatus check_free(const ZpSim *sim, ZpInput input, ZpError *err) {
   if (zp_is_network(sim->model)) {
     if (exists(sim->model->whole, (int)input)) return ZP_OK;
-    return zp_fail(err, ZP_BAD_INPUT, "%s: the network has no such input; name the member, body or channel",
+    return zp_fail(err, ZP_BAD_INPUT, "%s: the network has no such input; name the member or the body",
                    zp_input_name(input));
   }
   if (input == ZP_INPUT_VOLTAGE && zp_sim_any_controlled(sim))
@@ -303,6 +304,29 @@ ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, 
   if (status == ZP_OK) status = set[input](sim, value, rate, err);
   if (status == ZP_OK) sim->cut = false;
   return status;
+}
+
+/* The reason why `name` is not an input: with the nearest one, or the few of an actuator. */
+static ZpStatus refuse_name(const ZpActuatorDef *def, const char *name, ZpError *err) {
+  char one[ZP_INPUT_NAME_SIZE], nearest[ZP_INPUT_NAME_SIZE] = "";
+  int least = INT_MAX;
+  for (int input = zp_def_input_next(def, -1); input >= 0; input = zp_def_input_next(def, input)) {
+    const int distance = zp_word_distance(zp_def_input_name(def, input, one), name);
+    if (distance < least) memcpy(nearest, one, sizeof one);
+    least = distance < least ? distance : least;
+  }
+  if (zp_def_network(def))
+    return zp_fail(err, ZP_BAD_INPUT, "%.80s: unknown input; did you mean %s?", name, nearest);
+  return zp_fail(err, ZP_BAD_INPUT, "%.80s: unknown input; use %s or load", name,
+                 zp_input_name(is_controlled(def, 1) ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
+}
+
+ZpStatus zp_sim_set_input_named(ZpSim *sim, const char *name, double value, double rate, ZpError *err) {
+  const ZpActuatorDef *def = sim->model->whole;
+  int input = zp_def_input_find(def, name);
+  for (int k = 0; k < ZP_INPUT_COUNT && input < 0; k++) /* not of this one: the refusal says why */
+    if (strcmp(inputs[k].name, name) == 0) input = k;
+  return input < 0 ? refuse_name(def, name, err) : zp_sim_set_input(sim, (ZpInput)input, value, rate, err);
 }
 
 ZpStatus zp_sim_set_voltage(ZpSim *sim, double voltage, ZpError *err) {

@@ -112,21 +112,47 @@ static size_t numbers_of_each(const ZpModel *first) {
   return first->members == 1 ? 0 : zp_abreast(first) > 1 ? NUMBERS_PARALLEL : 1;
 }
 
-ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
-  const int members = zp_def_members(def);
-  size_t signals;
-  const ZpColumn *column = zp_signal_columns_of(def, &signals);
-  if (!def) return NULL;
-  ZpColumnPart part[3] = {{.column = column, .count = signals},
-                          {.column = of_series, .count = 1, .members = (size_t)members}};
-  if (zp_def_parallel(def)) part[1].column = of_parallel, part[1].count = NUMBERS_PARALLEL;
-  if (!zp_def_network(def)) return zp_table_of(part, members > 1 ? 2 : 1, capacity);
-  const size_t bodies = (size_t)zp_instance_count(def, ZP_OF_BODY);
-  part[1] = (ZpColumnPart){of_member, NUMBERS_MEMBER, (size_t)members, zp_member_called, def};
+/* The columns of a row: signals, then numbers of each member, then of each body => how many parts. */
+static size_t parts_of(const ZpActuatorDef *def, ZpColumnPart part[3]) {
+  const size_t members = (size_t)zp_def_members(def);
   size_t count;
+  part[0] = (ZpColumnPart){.column = zp_signal_columns_of(def, &count)};
+  part[0].count = count;
+  part[1] = (ZpColumnPart){.column = of_series, .count = 1, .members = members};
+  if (zp_def_parallel(def)) part[1].column = of_parallel, part[1].count = NUMBERS_PARALLEL;
+  if (!zp_def_network(def)) return members > 1 ? 2 : 1;
+  part[1] = (ZpColumnPart){of_member, NUMBERS_MEMBER, members, zp_member_called, def};
   const ZpColumn *of_body = zp_body_columns(zp_def_plane(def), &count);
-  part[2] = (ZpColumnPart){of_body, count, bodies, zp_body_called, def};
-  return zp_table_of(part, 3, capacity);
+  part[2] = (ZpColumnPart){of_body, count, (size_t)zp_instance_count(def, ZP_OF_BODY), zp_body_called, def};
+  return 3;
+}
+
+ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
+  ZpColumnPart part[3];
+  return def ? zp_table_of(part, parts_of(def, part), capacity) : NULL;
+}
+
+/* Is a column called `name`, without its unit? */
+static bool is_called(const ZpColumn *column, const char *called, const char *name) {
+  char text[ZP_KEY_NAME_SIZE + ZP_NAME_SIZE];
+  const size_t length = strlen(name);
+  zp_named(column->name, called, text);
+  return strncmp(text, name, length) == 0 && text[length] == '_' && strcmp(text + length + 1, column->unit) == 0;
+}
+
+/* The column of a member or a body called "left.opening"; 0: there is none. */
+static size_t column_beyond(const ZpActuatorDef *def, const char *name) {
+  ZpColumnPart part[3];
+  const size_t parts = parts_of(def, part);
+  size_t k = SIGNAL_COUNT;
+  for (size_t p = 1; p < parts; p++)
+    for (size_t of = 1; of <= part[p].members; of++) {
+      char room[ZP_NAME_SIZE];
+      const char *called = (part[p].name ? part[p].name : zp_member_called)(def, of, room);
+      for (size_t c = 0; c < part[p].count; c++, k++)
+        if (is_called(&part[p].column[c], called, name)) return k;
+    }
+  return 0;
 }
 
 /* Rows of the ledger that are no signals have their places behind all columns. */
@@ -554,10 +580,11 @@ double zp_sim_own_signal(ZpSim *sim, int signal) {
 }
 
 double zp_sim_get(ZpSim *sim, const char *name) {
-  int k = zp_signal_find(name);
-  if (k < 0) return unlisted(sim, name);
-  fill_row(sim, row_of[k] ? taken_by(row_of[k]) : takes[k]);
-  return sim->row[k];
+  const int k = zp_signal_find(name);
+  const size_t beyond = k < 0 ? column_beyond(sim->model->whole, name) : 0;
+  if (k < 0 && beyond == 0) return unlisted(sim, name);
+  fill_row(sim, beyond > 0 ? STATE : row_of[k] ? taken_by(row_of[k]) : takes[k]);
+  return sim->row[beyond > 0 ? beyond : (size_t)k];
 }
 
 void zp_sim_read_columns(ZpSim *sim, size_t columns, double *row) {
