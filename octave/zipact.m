@@ -43,10 +43,14 @@
 %      sim = zipact('open', KEY, VALUE, ...)       % or FILE, or a struct, as above
 %      time = zipact('step', sim, dt)              % s, or a text as '1 ms'
 %      time = zipact('step', sim, dt, voltage)     % V; holds from now on
+%      zipact('input', sim, 'load', 0.05)          % an input holds until it is set again, SI
+%      zipact('input', sim, 'left.voltage', 5e3, 1e5)    % of a network's member or body; changes
+%                                                  % by 1e5 V/s
+%      zipact('inputs', sim)                       % name and unit of each input
 %      time = zipact('control', sim, @(time, opening) 1e6 * (opening - 8e-3), 'opening', 1e-3, 0.5)
 %                                                  % a controller: called now and every 1 ms
 %                                                  % until 0.5 s; it returns the voltage
-%      now = zipact('read', sim)                   % all signals: now.stroke_m ...
+%      now = zipact('read', sim)                   % all signals: now.stroke_m, now.hand_y_m ...
 %      shape = zipact('shape', sim)                % as in RESULT.shapes, one frame
 %      state = zipact('save', sim)                 % bytes; for the same actuator only
 %      time = zipact('restore', sim, state)        % resumes there, with identical bits

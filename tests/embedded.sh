@@ -1,6 +1,6 @@
 #!/bin/sh
-# An installed zipact is found by pkg-config and by CMake, and the library user's program of the README
-# builds against it.   embedded.sh BUILD_DIR SCRATCH
+# An installed zipact is found by pkg-config and by CMake, and the programs of examples/ that use the library
+# build against it.   embedded.sh BUILD_DIR SCRATCH
 set -eu
 build=$1 scratch=$2
 here=$(cd "$(dirname "$0")/.." && pwd)
@@ -14,6 +14,9 @@ flags="$flags -fno-lto" # quick to link
 # shellcheck disable=SC2046,SC2086
 cc $flags -o "$scratch/by_pkg_config" "$here/examples/embedded.c" $(pkg-config --cflags --libs zipact)
 "$scratch/by_pkg_config"
+# shellcheck disable=SC2046,SC2086
+cc $flags -Wall -Wextra -Werror -o "$scratch/network" "$here/examples/network.c" $(pkg-config --cflags --libs zipact) -lm
+"$scratch/network"
 mkdir "$scratch/project"
 cp "$here/examples/embedded.c" "$scratch/project/"
 cat >"$scratch/project/CMakeLists.txt" <<'CMAKE'
@@ -27,4 +30,4 @@ cmake -S "$scratch/project" -B "$scratch/project/build" -DCMAKE_PREFIX_PATH="$sc
   -DCMAKE_C_FLAGS="$flags" >/dev/null
 cmake --build "$scratch/project/build" >/dev/null
 "$scratch/project/build/by_cmake"
-echo "2 passed, 0 failed"
+echo "3 passed, 0 failed"

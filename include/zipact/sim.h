@@ -177,8 +177,8 @@ ZP_API ZpStatus zp_def_forget_ports(ZpActuatorDef *def, ZpError *err);
  * voltage that is or becomes other than 0 also as zp_def_check_voltage. */
 ZP_API ZpStatus zp_sim_set_input(ZpSim *sim, ZpInput input, double value, double rate, ZpError *err);
 
-/* The same for the input called `name` ("voltage", "left.voltage", "hand.force_y"). ZP_BAD_INPUT also names the nearest
- * input if there is none of that name. */
+/* zp_sim_set_input for the input called `name` ("voltage", "left.voltage", "hand.force_y"). ZP_BAD_INPUT also names the
+ * nearest input if there is none of that name. */
 ZP_API ZpStatus zp_sim_set_input_named(ZpSim *sim, const char *name, double value, double rate, ZpError *err);
 
 /* The derivatives of all signals by an input at this instant, at fixed positions, SI, in the order of

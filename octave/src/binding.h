@@ -69,6 +69,8 @@ extern const ZpHooks watch_hooks;
 
 mxArray *simulation_open(int count, const mxArray *const *value);
 mxArray *simulation_step(int count, const mxArray *const *value);
+mxArray *simulation_input(int count, const mxArray *const *value);
+mxArray *simulation_inputs(int count, const mxArray *const *value);
 mxArray *simulation_control(int count, const mxArray *const *value);
 mxArray *simulation_read(int count, const mxArray *const *value);
 mxArray *simulation_shape(int count, const mxArray *const *value);

@@ -10,11 +10,13 @@
 typedef struct Simulation {
   struct Simulation *next;
   uint64_t handle;
+  ZpActuatorDef *def;
   ZpModel *model;
   ZpSim *sim;
-  ZpRunInfo *info; /* of the last step or run */
-  bool ended;      /* values are invalid until a state is restored */
-  bool runs;       /* its controller is running: it can only be read */
+  ZpRunInfo *info;  /* of the last step or run */
+  ZpTable *columns; /* names of the signals */
+  bool ended;       /* values are invalid until a state is restored */
+  bool runs;        /* its controller is running: it can only be read */
 } Simulation;
 
 static Simulation *simulations; /* open simulations */
@@ -26,8 +28,10 @@ static void take_arguments(const char *command, int count, int least, int most) 
 
 static void free_simulation(Simulation *simulation) {
   zp_run_info_destroy(simulation->info);
+  zp_table_destroy(simulation->columns);
   zp_sim_destroy(simulation->sim);
   zp_model_destroy(simulation->model);
+  zp_def_destroy(simulation->def);
   free(simulation);
 }
 
@@ -65,11 +69,15 @@ static mxArray *new_double(double value) {
 mxArray *simulation_open(int count, const mxArray *const *value) {
   ZpError err;
   read_scenario(count, value);
-  if (zp_scenario_count(call.scenario) != 1) fail_input("open: takes one actuator, not lists of values");
+  if (zp_scenario_count(call.scenario) != 1) fail_input("open: takes one actuator or network, not lists of values");
   const ZpActuatorDef *def = read_def(0);
-  Simulation made = {.next = simulations, .handle = new_handle(), .info = zp_run_info_create()};
+  Simulation made = {.next = simulations,
+                     .handle = new_handle(),
+                     .def = zp_def_copy(def),
+                     .info = zp_run_info_create(),
+                     .columns = zp_signal_table(def, 1)};
   Simulation *simulation = malloc(sizeof made);
-  if (!simulation) fail_memory();
+  if (!simulation || !made.columns) fail_memory();
   watch_begin();
   ZpStatus status = zp_data_sim_create(def, &watch_hooks, &made.model, &made.sim, &err);
   bool interrupted = watch_end();
@@ -99,6 +107,40 @@ mxArray *simulation_step(int count, const mxArray *const *value) {
   if (outcome == ZP_INTERRUPTED) fail_interrupted();
   if (outcome != ZP_REACHED_END) fail_numerics(zp_run_info_message(simulation->info));
   return new_double(zp_sim_get(simulation->sim, "time"));
+}
+
+static double number_of(const char *name, const mxArray *value) {
+  if (!mxIsDouble(value) || mxIsComplex(value) || mxIsSparse(value) || mxGetNumberOfElements(value) != 1)
+    fail_input("%s: takes one number, SI", name);
+  return mxGetScalar(value);
+}
+
+/* simulation, name, value, rate per second */
+mxArray *simulation_input(int count, const mxArray *const *value) {
+  take_arguments("input", count, 3, 4);
+  Simulation *simulation = *find_free(value[0]);
+  const char *name = text_of(value[1], "input");
+  const double number = number_of("value", value[2]), rate = count > 3 ? number_of("rate", value[3]) : 0;
+  ZpError err;
+  if (zp_sim_set_input_named(simulation->sim, name, number, rate, &err) != ZP_OK) fail(&err);
+  return NULL;
+}
+
+/* simulation => name and unit of each input */
+mxArray *simulation_inputs(int count, const mxArray *const *value) {
+  take_arguments("inputs", count, 1, 1);
+  const ZpActuatorDef *def = (*find(value[0]))->def;
+  size_t inputs = 0;
+  for (int input = zp_def_input_next(def, -1); input >= 0; input = zp_def_input_next(def, input))
+    inputs++;
+  mxArray *found = mxCreateStructMatrix(1, inputs, 0, NULL);
+  size_t at = 0;
+  for (int input = zp_def_input_next(def, -1); input >= 0; input = zp_def_input_next(def, input), at++) {
+    char name[ZP_INPUT_NAME_SIZE];
+    set(found, at, "name", mxCreateString(zp_def_input_name(def, input, name)));
+    set(found, at, "unit", mxCreateString(zp_def_input_unit(def, input)));
+  }
+  return found;
 }
 
 /* -- a controller of the user's own -------------------------------------------------------------------- */
@@ -134,15 +176,15 @@ static _Noreturn void fail_controller(const Controller *controller) {
   fail_input("controller: takes a function that returns one number, the voltage");
 }
 
-static void check_signal(const char *signal) {
-  size_t count;
-  const ZpColumn *column = zp_signal_columns(&count);
-  for (size_t k = 0; k < count; k++) {
-    size_t length = strlen(signal);
-    bool same = strncmp(column[k].name, signal, length) == 0;
-    if (same && length && (column[k].name[length] == 0 || column[k].name[length] == '_')) return;
+static void check_signal(const ZpTable *columns, const char *signal) {
+  const size_t length = strlen(signal);
+  for (size_t k = 0; k < zp_table_columns(columns) && length > 0; k++) {
+    const char *name = zp_table_column(columns, k)->name;
+    if (strncmp(name, signal, length) == 0 && (name[length] == 0 || name[length] == '_')) return;
   }
-  fail_input("signal: unknown signal %.60s; use, for example, opening, contraction or capacitance", signal);
+  fail_input("signal: unknown signal %.60s; use, for example, opening, contraction or capacitance, of a network "
+             "left.opening or hand.y",
+             signal);
 }
 
 /* simulation, function, signal, period, end => time */
@@ -152,7 +194,7 @@ mxArray *simulation_control(int count, const mxArray *const *value) {
   ZpError err;
   if (!mxIsFunctionHandle(value[1])) fail_input("controller: takes a function handle, @(time, signal) voltage");
   Controller controller = {.function = (mxArray *)value[1], .signal = text_of(value[2], "signal")};
-  check_signal(controller.signal);
+  check_signal(simulation->columns, controller.signal);
   double period = quantity_of("control.period", "period", value[3]);
   double end = quantity_of("solver.end_time", "end time", value[4]);
   if (simulation->ended) fail_numerics("the simulation has diverged; restore a state to continue");
@@ -174,13 +216,12 @@ mxArray *simulation_control(int count, const mxArray *const *value) {
 mxArray *simulation_read(int count, const mxArray *const *value) {
   take_arguments("read", count, 1, 1);
   Simulation *simulation = *find(value[0]);
-  size_t signals;
-  const ZpColumn *column = zp_signal_columns(&signals);
+  const size_t signals = zp_table_columns(simulation->columns);
   double *row = mxCalloc(signals, sizeof *row);
-  zp_sim_read(simulation->sim, row);
+  zp_sim_read_columns(simulation->sim, signals, row);
   mxArray *found = new_struct();
   for (size_t i = 0; i < signals; i++)
-    set(found, 0, column[i].name, new_double(row[i]));
+    set(found, 0, zp_table_column(simulation->columns, i)->name, new_double(row[i]));
   return found;
 }
 
@@ -188,8 +229,9 @@ mxArray *simulation_shape(int count, const mxArray *const *value) {
   take_arguments("shape", count, 1, 1);
   Simulation *simulation = *find(value[0]);
   ZpShape shape = zp_sim_shape(simulation->sim);
-  size_t ribbons = (size_t)zp_model_get(simulation->model, "ribbons");
-  call.film = zp_shapes_create(ribbons, (size_t)zp_model_get(simulation->model, "nodes"), 2);
+  const size_t members = (size_t)zp_def_members(simulation->def);
+  const size_t nodes = members * (size_t)zp_model_get(simulation->model, "nodes");
+  call.film = zp_shapes_create((size_t)zp_model_get(simulation->model, "ribbons"), nodes, 2);
   if (!call.film) fail_memory();
   zp_shapes_offer(call.film, &shape);
   return shapes_struct(call.film);

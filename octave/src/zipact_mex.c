@@ -115,6 +115,8 @@ static const struct {
     {"version", version},
     {"open", simulation_open},
     {"step", simulation_step},
+    {"input", simulation_input},
+    {"inputs", simulation_inputs},
     {"control", simulation_control},
     {"read", simulation_read},
     {"shape", simulation_shape},
@@ -128,7 +130,8 @@ static mxArray *answer(const char *name, int count, const mxArray *const *value)
     if (strcmp(name, command[i].name) == 0) return command[i].answer(count, value);
   if (zp_key_choice(zp_key_find("study"), name) >= 0) return run_study(name, count, value);
   fail_input(
-      "%.80s: neither a study nor one of run, keys, version, open, step, control, read, shape, save, restore, close",
+      "%.80s: neither a study nor one of run, keys, version, open, step, input, inputs, control, read, shape, save, "
+      "restore, close",
       name);
 }
 

@@ -74,10 +74,53 @@ free = zipact('stationary', arm);
 pushed = zipact('stationary', arm, 'bodies.hand.force', {0, '20 mN'});
 check(free.good && pushed.bodies.hand.y_m > free.bodies.hand.y_m + 1e-4, 'a force');
 
-% stepping by hand goes the same way
-sim = zipact('open', arm);
-zipact('step', sim, 1e-3);
-check(zipact('read', sim).time_s == 1e-3, 'a step');
+% stepping by hand goes the same way, with numbers of members and bodies
+short = {'mesh.nodes', 11, 'solver.time_step', '100 us'};
+run = zipact('actuate', network, short{:}, 'solver.end_time', '4 ms');
+sim = zipact('open', network, short{:});
+zipact('step', sim, '4 ms');
+now = zipact('read', sim);
+check(isequal(fieldnames(run.series), fieldnames(now)), 'names of the signals');
+last = cellfun(@(column) column(end), struct2cell(rmfield(run.series, {'current_A', 'power_W'})), 'UniformOutput', false);
+check(isequaln(last, struct2cell(rmfield(now, {'current_A', 'power_W'}))), 'as the study, to the same bits');
+check(isequaln(zipact('shape', sim).y_m, run.shapes.y_m(:, :, end)), 'shapes of all members');
+zipact('close', sim);
+
+% inputs by name
+fingers = fullfile(fileparts(file), 'ports.yaml');
+sim = zipact('open', fingers, 'mesh.nodes', 11);
+inputs = zipact('inputs', sim);
+check(isequal({inputs.name}, {'voltage', 'b.voltage', 'c.setpoint', 'thumb.force_y', 'finger.force_y', 'wrist.force_y'}), 'inputs');
+check(isequal({inputs.unit}, {'V', 'V', '1', 'N', 'N', 'N'}), 'units of inputs');
+height = zipact('read', sim).wrist_y_m;
+zipact('input', sim, 'voltage', 2e3);
+zipact('input', sim, 'b.voltage', 3e3, 1e5);
+zipact('input', sim, 'wrist.force_y', 0.1);
+zipact('step', sim, '10 ms');
+now = zipact('read', sim);
+check(now.a_voltage_V == 2e3 && abs(now.b_voltage_V / 4e3 - 1) < 1e-12 && now.wrist_y_m > height + 1e-4, 'inputs act');
+wrong = {{'b.volt', 1}, 'b.volt: unknown input; did you mean b.voltage?';
+         {'load', 1}, 'load: the network has no such input';
+         {'wrist.force_y', 1e5}, 'wrist.force_y = 100000 is out of range';
+         {'voltage', 'high'}, 'value: takes one number';
+         {'voltage', 1, [1 2]}, 'rate: takes one number';
+         {'voltage'}, 'input: takes 3 to 4 arguments';
+         {3, 1}, 'input: '};
+for k = 1:rows(wrong)
+  try
+    zipact('input', sim, wrong{k, 1}{:});
+    check(false, 'was taken: %s', wrong{k, 2});
+  catch problem
+    told = strrep(problem.message, 'zipact_mex: ', '');
+    check(strcmp(problem.identifier, 'zipact:input') && strncmp(told, wrong{k, 2}, numel(wrong{k, 2})), '%s', told);
+  end
+end
+zipact('close', sim);
+
+% a controller reads a body
+sim = zipact('open', arm, 'liquid.model', 'none');
+zipact('control', sim, @(time, y) 1e3 * (y < 0), 'hand.y', '1 ms', '3 ms');
+check(zipact('read', sim).left_voltage_V == 1e3, 'a controller of a height');
 zipact('close', sim);
 
 % what is wrong

@@ -159,10 +159,9 @@ static PyObject *get_shapes(PyObject *self, void *unused) {
   if (!shapes || zp_shapes_frames(shapes) == 0) Py_RETURN_NONE;
   ZpShape first = zp_shapes_get(shapes, 0);
   return Py_BuildValue("{snsNsNsNsNsNsNsN}", "members", (Py_ssize_t)zp_shapes_members(shapes), "heads",
-                       frame_heads(shapes), "x", film(self, first.x, 3), "y",
-                       film(self, first.y, 3), "gap", film(self, first.gap, 2), "line_force",
-                       film(self, first.line_force, 2), "insulator_field", film(self, first.insulator_field, 2),
-                       "stress", film(self, first.stress, 3));
+                       frame_heads(shapes), "x", film(self, first.x, 3), "y", film(self, first.y, 3), "gap",
+                       film(self, first.gap, 2), "line_force", film(self, first.line_force, 2), "insulator_field",
+                       film(self, first.insulator_field, 2), "stress", film(self, first.stress, 3));
 }
 
 static PyObject *get_field(PyObject *self, void *unused) {

@@ -315,8 +315,7 @@ static ZpStatus refuse_name(const ZpActuatorDef *def, const char *name, ZpError 
     if (distance < least) memcpy(nearest, one, sizeof one);
     least = distance < least ? distance : least;
   }
-  if (zp_def_network(def))
-    return zp_fail(err, ZP_BAD_INPUT, "%.80s: unknown input; did you mean %s?", name, nearest);
+  if (zp_def_network(def)) return zp_fail(err, ZP_BAD_INPUT, "%.80s: unknown input; did you mean %s?", name, nearest);
   return zp_fail(err, ZP_BAD_INPUT, "%.80s: unknown input; use %s or load", name,
                  zp_input_name(is_controlled(def, 1) ? ZP_INPUT_SETPOINT : ZP_INPUT_VOLTAGE));
 }
