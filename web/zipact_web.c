@@ -191,7 +191,7 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs the studies actuate and equilibrium only; use the command for the others");
-  if (def->drive.waveform != ZP_WAVEFORM_STEP)
+  if (def->drive.waveform != ZP_WAVEFORM_STEP && !zp_def_network(def))
     return zp_fail(err, ZP_BAD_INPUT, "buttons set the voltage on this page; use the command for drive.waveform");
   if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
     return zp_fail(err, ZP_BAD_INPUT, "this page reads no tables; use the command for setpoint.waveform = table");
@@ -259,6 +259,16 @@ EXPORT int zp_web_start(ZpWeb *web, int go_on) {
   web->model = model;
   web->sim = sim;
   return say(web, ZP_OK, "");
+}
+
+/* Has a network waveforms or controllers that play from the start on, until a voltage is set? */
+EXPORT int zp_web_plays(const ZpWeb *web) {
+  bool plays = false;
+  for (int k = 1; zp_def_network(&web->def) && k <= zp_def_members(&web->def); k++) {
+    const ZpActuatorDef one = zp_def_member(&web->def, k);
+    plays |= one.drive.waveform != ZP_WAVEFORM_STEP || one.drive.delay > 0 || one.control.kind != ZP_CONTROL_NONE;
+  }
+  return plays;
 }
 
 EXPORT int zp_web_set_voltage(ZpWeb *web, double voltage) {

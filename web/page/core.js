@@ -155,6 +155,11 @@ export class Core {
     for (const name of Object.values(kinds)) this[name] = this.#c[`zp_web_${name}`](this.#web);
   }
 
+  /** Has the scenario, a network, waveforms or controllers that play from the start on, until a voltage is set? */
+  get plays() {
+    return this.#c.zp_web_plays(this.#web) !== 0;
+  }
+
   setVoltage(voltage) {
     this.#check(this.#c.zp_web_set_voltage(this.#web, voltage));
   }
@@ -211,7 +216,7 @@ export class Core {
   // -- studies
 
   /** Run the scenario in study `name` => its message, whether it completed, notes, the requested scalars, the columns of
-   * its table, or those of `wanted`. */
+   * its table, or those of `wanted`: names, or their ends, as ".opening_m" of each member. */
   study(name, scalars, wanted = null) {
     const c = this.#c, web = this.#web;
     this.#put(name);
@@ -221,7 +226,7 @@ export class Core {
     const table = this.#doubles(c.zp_web_table(web), rows * columns);
     const column = (k) => Float64Array.from({length: rows}, (_, row) => table[row * columns + k]);
     const names = Array.from({length: columns}, (_, k) => this.#string(c.zp_web_column(web, k)));
-    const kept = names.flatMap((name, k) => (!wanted || wanted.includes(name) ? [[name, column(k)]] : []));
+    const kept = names.flatMap((name, k) => (!wanted || wanted.some((end) => name === end || (end.startsWith('.') && name.endsWith(end))) ? [[name, column(k)]] : []));
     return {
       message,
       good,

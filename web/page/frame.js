@@ -73,6 +73,11 @@ export class Frame {
     return Object.fromEntries(ofPart[kind].map((name, i) => [name, this.data[from + i]]));
   }
 
+  /** Do bodies of a network move in the plane? */
+  get inPlane() {
+    return this.get('bodies') > 0 && Number.isNaN(this.part('member', 0).middle);
+  }
+
   /** All parts of a kind. */
   parts(kind) {
     return Array.from({length: this.get(kinds[kind])}, (_, k) => this.part(kind, k));

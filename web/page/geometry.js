@@ -168,7 +168,7 @@ function networkOf(frame, members) {
     fixed[to].push({x: toX, y: toY});
   }
   const moving = bodies.map((body, k) => ({...body, body: k, fixed: fixed[k]})).filter(({held}) => !held);
-  const inPlane = members.some(({drawn}) => drawn);
+  const {inPlane} = frame;
   return {
     opposed: false,
     columns: 1,

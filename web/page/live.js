@@ -9,11 +9,25 @@ const mostNoted = 4000; // instants of a curve; then every second one goes
 /** The motion so far: s, m, V, V, A. */
 const noTrace = () => ({time: [], stroke: [], voltage: [], command: [], current: []});
 
+/** That of the parts of a network: s; for each member m and V; for each body that moves its angle (rad) in the plane, else
+ * its height (m). */
+const noParts = () => ({time: [], openings: [], voltages: [], bodies: []});
+
+function partsOf(frame) {
+  const members = frame.parts('member'), bodies = frame.parts('body').filter(({held}) => !held);
+  const inPlane = frame.inPlane;
+  return {
+    openings: members.map(({opening}) => opening),
+    voltages: members.map(({voltage}) => voltage),
+    bodies: bodies.map(({y, angle}) => (inPlane ? angle : y)),
+  };
+}
+
 export class Live {
   frame = null; // the newest
   end = null; // {failure}, {stopped}, {broken} or {refused}: why it does not continue, until something changes
   trace = noTrace(); // since a button changed the voltage
-  openings = {time: [], of: []}; // the same of the members of a network: s, and for each m
+  parts = noParts(); // the same of a network
   pace = 1; // share of the time asked for that was run, lately
   #remote;
   #values; // of the scenario
@@ -86,26 +100,26 @@ export class Live {
   #show(frame) {
     if (frame.get('marks') !== this.#marks) {
       this.trace = noTrace();
-      this.openings = {time: [], of: []};
+      this.parts = noParts();
     }
     this.#marks = frame.get('marks');
     this.#spare = this.frame?.data ?? new Float64Array(0);
     this.frame = frame;
     frame.eachSample((...sample) => this.#note(sample));
-    if (frame.get('bodies') > 0) this.#noteOpenings(frame);
+    if (frame.get('bodies') > 0) this.#noteParts(frame);
     if (this.#asked > 0) this.pace += 0.1 * (frame.get('advanced') / this.#asked - this.pace);
   }
 
-  #noteOpenings(frame) {
-    const {time, of} = this.openings, seen = frame.parts('member').map(({opening}) => opening);
-    if (of.length !== seen.length) this.openings = {time: [frame.get('since')], of: seen.map((opening) => [opening])};
-    else {
-      time.push(frame.get('since'));
-      seen.forEach((opening, k) => of[k].push(opening));
-    }
-    if (time.length < mostNoted) return;
+  #noteParts(frame) {
+    const seen = partsOf(frame), kinds = Object.keys(seen);
+    if (kinds.some((kind) => this.parts[kind].length !== seen[kind].length))
+      this.parts = {time: [], ...Object.fromEntries(kinds.map((kind) => [kind, seen[kind].map(() => [])]))};
+    this.parts.time.push(frame.get('since'));
+    for (const kind of kinds) seen[kind].forEach((value, k) => this.parts[kind][k].push(value));
+    if (this.parts.time.length < mostNoted) return;
     const half = (list) => list.filter((_, k) => k % 2 === 0);
-    this.openings = {time: half(time), of: of.map(half)};
+    for (const kind of kinds) this.parts[kind] = this.parts[kind].map(half);
+    this.parts.time = half(this.parts.time);
   }
 
   /** `sample`: in the order of the lists of the trace. */

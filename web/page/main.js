@@ -118,7 +118,7 @@ function ending({result, refused, stopped, broken: words}) {
   return refused ?? (stopped ? scenario.tooLong(core, stopped) : result.message);
 }
 
-const runColumns = ['time_s', 'stroke_m'], restColumns = ['voltage_V', 'stroke_m', 'stable', 'branch'];
+const runColumns = ['time_s', 'stroke_m', '.opening_m'], restColumns = ['voltage_V', 'stroke_m', 'stable', 'branch', '.opening_m'];
 const runStudy = new Study(module, 'actuate', ['zip_time_s', 'closed_from_s', 'max_stress_Pa', 'yield_margin', 'breakdown_margin', 'allowed_voltage_V'], runColumns, (answer) => view.showRun(answer, ending(answer)));
 const restStudy = new Study(module, 'equilibrium', ['pull_in_voltage_V', 'release_voltage_V'], restColumns, (answer) => {
   view.showRest(answer, ending(answer));

@@ -23,17 +23,19 @@ export class Motion {
     return this.failure !== null || this.stopped !== null;
   }
 
-  /** Start from the hanging equilibrium, found within `limit` ms, with the voltage on from now. */
+  /** Start from the hanging equilibrium, found within `limit` ms, with the voltage on from now; at drive.voltage with what
+   * a network plays. */
   restart(voltage, limit) {
     this.#begin(false, limit);
-    this.#switch(voltage);
+    if (!this.core.plays || voltage !== this.core.value('drive.voltage')) this.#switch(voltage);
     this.time = 0;
     this.#mark();
   }
 
-  /** The scenario has changed: continue in it; after a failure, or in an actuator of another kind, from its start. */
+  /** The scenario has changed: continue in it; after a failure, in an actuator of another kind, or in a network that plays
+   * waveforms, from its start. */
   change(voltage, limit) {
-    if (this.ended || !this.#continues(limit)) return this.restart(voltage, limit);
+    if (this.ended || this.core.plays || !this.#continues(limit)) return this.restart(voltage, limit);
     if (this.core.signal('command') !== voltage || this.core.members > 1) this.#switch(voltage);
   }
 

@@ -68,6 +68,11 @@ export class Tiles {
     for (const [name, tile] of this.#studies) if (name === study) tile.classList.toggle('due', due);
   }
 
+  /** Is there no such number? */
+  hide(name, hidden) {
+    this.#values.get(name).closest('div').hidden = hidden;
+  }
+
   show(name, text) {
     const number = this.#values.get(name);
     if (number.textContent !== text) number.textContent = text;

@@ -1,7 +1,7 @@
 // The plots. uPlot makes axes and scales; curves are drawn here, because branches turn back in voltage.
 import uPlot from 'uplot';
 import {axisEnds} from './numbers.js';
-import {theme} from './theme.js';
+import {colours, theme} from './theme.js';
 
 /** Draw xs, ys over scale `y` of `plot`, with gaps at NaN. */
 function curve(plot, xs, ys, {colour, width = 2, dash = [], y = 'y'}) {
@@ -84,30 +84,20 @@ class Plot {
 
 const scaled = (values, factor) => Array.from(values, (value) => value * factor);
 
-/** Stroke over time: the run of study actuate, and the live simulation. */
-export function timePlot(place, data) {
-  const ends = () => ({
-    x: axisEnds([data.run, data.trace].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), [10]),
-    y: axisEnds(scaled(data.run?.stroke ?? [], 1e3), scaled(data.trace.stroke, 1e3), [1e-3]),
-  });
-  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('stroke / mm', {size: 44})}, ends, (plot) => {
-    if (data.run) curve(plot, scaled(data.run.time, 1e3), scaled(data.run.stroke, 1e3), {colour: 'soft', width: 1.5, dash: [5, 4]});
-    curve(plot, scaled(data.trace.time, 1e3), scaled(data.trace.stroke, 1e3), {colour: 'accent', width: 2.5});
-    if (data.trace.time.length) dot(plot, 1e3 * data.trace.time.at(-1), 1e3 * data.trace.stroke.at(-1), 'accent');
-  });
-}
+/** How curve k of several is drawn, and its item in a legend. */
+export const styleOf = (k, several = true) => (several ? {colour: `part-${k % colours}`, dash: [[], [7, 4], [2, 3]][Math.floor(k / colours) % 3]} : {colour: 'accent'});
 
-/** Openings of the members of a network over time, with their numbers. */
-export function openingsPlot(place, data) {
-  const ends = () => ({x: axisEnds([1e3 * (data.openings.time.at(-1) ?? 0), 10]), y: axisEnds(...data.openings.of.map((of) => scaled(of, 1e3)), [1e-3])});
-  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis('opening / mm', {size: 44})}, ends, (plot) => {
-    const {time, of} = data.openings, context = plot.ctx, ratio = devicePixelRatio;
-    of.forEach((opening, k) => {
-      curve(plot, scaled(time, 1e3), scaled(opening, 1e3), {colour: k % 2 ? 'warm' : 'accent', dash: k % 4 < 2 ? [] : [6, 3]});
-      if (!time.length) return;
-      context.font = `${11 * ratio}px system-ui, sans-serif`;
-      context.fillStyle = theme.colour.ink;
-      context.fillText(`${k + 1}`, plot.valToPos(1e3 * time.at(-1), 'x', true) + 4 * ratio, plot.valToPos(1e3 * opening.at(-1), 'y', true) + 4 * ratio);
+/** Values over time, of the live simulation and in `run`, if there is one, of study actuate: each a list `of` curves over
+ * `time`. `label` and `factor`, from SI, are of the y axis. */
+export function timePlot(place, data) {
+  const all = () => [...(data.run?.of ?? []), ...data.live.of].map((of) => scaled(of, data.factor));
+  const ends = () => ({x: axisEnds([data.run, data.live].map((c) => 1e3 * (c?.time.at(-1) ?? 0)), [10]), y: axisEnds(...all(), [data.least])});
+  return new Plot(place, {x: axis('time / ms', {size: 34}), y: axis(() => data.label, {size: 44})}, ends, (plot) => {
+    const {run, live, factor} = data, several = live.of.length > 1, x = scaled(live.time, 1e3);
+    run?.of.forEach((of, k) => curve(plot, scaled(run.time, 1e3), scaled(of, factor), {...styleOf(k, several), ...(several ? {} : {colour: 'soft'}), width: 1, dash: [5, 4]}));
+    live.of.forEach((of, k) => {
+      curve(plot, x, scaled(of, factor), {...styleOf(k, several), width: several ? 2 : 2.5});
+      if (x.length) dot(plot, x.at(-1), factor * of.at(-1), styleOf(k, several).colour);
     });
   });
 }
@@ -124,19 +114,21 @@ export function pieces({branch, stable}) {
   return found;
 }
 
-/** Stroke over voltage: all equilibria, and the current state. */
+/** Stroke, or openings of members, over voltage: all equilibria, and the current state. */
 export function voltagePlot(place, data) {
   const ends = () => ({
     x: axisEnds([data.highest / 1e3]),
-    y: axisEnds(scaled(data.rest?.stroke ?? [], 1e3), scaled(data.trace.stroke, 1e3), [1e-3]),
+    y: axisEnds(...[...(data.rest?.of ?? []), ...data.live.of].map((of) => scaled(of, 1e3)), [1e-3]),
   });
-  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis('stroke / mm', {size: 44})}, ends, (plot) => {
-    if (data.rest) {
-      const x = scaled(data.rest.voltage, 1e-3), y = scaled(data.rest.stroke, 1e3);
-      for (const {from, to, stable} of pieces(data.rest))
-        curve(plot, x.slice(from, to), y.slice(from, to), stable ? {colour: 'ink'} : {colour: 'warm', width: 1.5, dash: [4, 4]});
-    }
-    dot(plot, data.now.voltage / 1e3, 1e3 * data.now.stroke, 'accent');
+  return new Plot(place, {x: axis('voltage / kV', {size: 34}), y: axis(() => data.label, {size: 44})}, ends, (plot) => {
+    const {rest, live, now} = data, several = live.of.length > 1;
+    rest?.of.forEach((of, k) => {
+      const x = scaled(rest.voltage, 1e-3), y = scaled(of, 1e3), {colour} = styleOf(k);
+      for (const {from, to, stable} of pieces(rest))
+        curve(plot, x.slice(from, to), y.slice(from, to),
+          stable ? {colour: several ? colour : 'ink'} : {colour: several ? colour : 'warm', width: several ? 1 : 1.5, dash: [4, 4]});
+    });
+    live.of.forEach((of, k) => dot(plot, now / 1e3, 1e3 * of.at(-1), styleOf(k, several).colour));
   });
 }
 

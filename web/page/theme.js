@@ -1,6 +1,8 @@
 // Colours of style.css for the canvas, and the colour scale of the field.
 
-const names = ['paper', 'panel', 'ink', 'soft', 'line', 'accent', 'warm', 'metal', 'insulator', 'load', 'bath'];
+export const colours = 6; // of curves of several parts
+const parts = Array.from({length: colours}, (_, k) => `part-${k}`);
+const names = ['paper', 'panel', 'ink', 'soft', 'line', 'accent', 'warm', 'metal', 'insulator', 'load', 'bath', ...parts];
 const shades = 256;
 
 function parse(colour) {

@@ -37,6 +37,14 @@ function list(place, sentences) {
 }
 /** Text for liquid.model beside the picture. */
 const wetWords = {bead: 'a bead of oil at each clip, air beyond', submerged: 'in a bath of oil'};
+/** Of a table: the openings of the members of a network, or the stroke. */
+function curvesOf(columns) {
+  const openings = Object.entries(columns).filter(([name]) => name.endsWith('.opening_m')).map(([, column]) => column);
+  return openings.length ? openings : [columns.stroke_m];
+}
+
+const mostNamed = 12; // parts in a legend
+const ofNetwork = ['stroke', 'opening', 'contraction', 'zipped']; // tiles that a network has no single number for
 const largest = (values) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export class View {
@@ -46,13 +54,16 @@ export class View {
   #rest;
   #profile = {length: 1, force: new Float64Array(2), field: new Float64Array(2), largest: 1};
   #current; // trace
-  #openings; // of the members of a network
+  #voltages = {live: {time: [], of: []}, run: null, label: 'voltage / kV', factor: 1e-3, least: 1}; // of the members of a network
+  #bodies = {live: {time: [], of: []}, run: null, label: '', factor: 1, least: 1e-3};
   #chart; // volts, y, and the scenario's voltage and mass
   #liquid = {length: 1, film: new Float64Array(2), pressure: new Float64Array(2)};
   #notes = [];
   #notice = null;
   #plots = [];
   #next = 0; // plot to draw
+  #styleOf; // of a curve
+  #named = ''; // what the legends name
 
   /** `highest`: highest voltage of the equilibria, V; `chart`: {volts, y, fresh} of the design chart. */
   constructor(core, live, highest, chart) {
@@ -60,10 +71,9 @@ export class View {
     this.live = live;
     this.picture = new Picture($('picture'));
     this.tiles = new Tiles($('numbers'), tiles);
-    this.#time = {run: null, trace: live.trace};
-    this.#rest = {rest: null, highest, trace: live.trace, now: {voltage: 0, stroke: 0}};
+    this.#time = {run: null, live: {time: [], of: []}, label: '', factor: 1e3, least: 1e-3};
+    this.#rest = {rest: null, highest, live: {of: []}, label: '', now: 0};
     this.#current = {trace: live.trace};
-    this.#openings = {openings: live.openings};
     this.#chart = {volts: chart.volts, y: chart.y, fresh: (k) => chart.fresh(k), voltage: 0, mass: 0};
   }
 
@@ -71,6 +81,7 @@ export class View {
   async makePlots(breath) {
     await breath();
     const plots = await import('./plots.js');
+    this.#styleOf = plots.styleOf;
     const all = [
       [plots.timePlot, 'time', this.#time],
       [plots.voltagePlot, 'voltage', this.#rest],
@@ -78,7 +89,8 @@ export class View {
       [plots.profilePlot, 'profile', this.#profile],
       [plots.currentPlot, 'current', this.#current],
       [plots.liquidPlot, 'liquid', this.#liquid],
-      [plots.openingsPlot, 'openings', this.#openings],
+      [plots.timePlot, 'voltages', this.#voltages],
+      [plots.timePlot, 'bodies', this.#bodies],
     ];
     for (const [make, place, data] of all) {
       await breath();
@@ -100,7 +112,7 @@ export class View {
   /** The answer of study actuate, with its message `words`. */
   showRun({result}, words) {
     const columns = result?.columns;
-    this.#time.run = columns ? {time: columns.time_s, stroke: columns.stroke_m} : null;
+    this.#time.run = columns ? {time: columns.time_s, of: curvesOf(columns)} : null;
     const scalars = result?.scalars ?? {};
     this.tiles.show('zip', digits(1e3 * (scalars.zip_time_s ?? NaN)));
     this.tiles.show('closed', digits(1e3 * (scalars.closed_from_s ?? NaN)));
@@ -117,7 +129,7 @@ export class View {
   showRest({result}, words) {
     const columns = result?.columns;
     this.#rest.rest = columns
-      ? {voltage: columns.voltage_V, stroke: columns.stroke_m, stable: columns.stable, branch: columns.branch}
+      ? {voltage: columns.voltage_V, of: curvesOf(columns), stable: columns.stable, branch: columns.branch}
       : null;
     this.release = result?.scalars.release_voltage_V ?? NaN;
     this.tiles.show('pullin', digits((result?.scalars.pull_in_voltage_V ?? NaN) / 1e3));
@@ -153,9 +165,12 @@ export class View {
   draw(still) {
     const {frame} = this.live, scene = this.#scene(frame);
     this.picture.draw(scene, still);
-    this.#time.trace = this.#rest.trace = this.#current.trace = this.live.trace;
-    this.#openings.openings = this.live.openings;
-    this.#rest.now = {voltage: frame.get('voltage'), stroke: frame.get('stroke')};
+    const {trace, parts} = this.live, {network} = scene.geometry, {time} = network ? parts : trace;
+    this.#time.live = this.#rest.live = {time, of: network ? parts.openings : [trace.stroke]};
+    Object.assign(this.#voltages.live, {time, of: parts.voltages});
+    Object.assign(this.#bodies.live, {time, of: parts.bodies});
+    this.#current.trace = trace;
+    this.#rest.now = frame.get('voltage');
     this.#plots[this.#next++ % this.#plots.length].update(); // one plot a frame: each 20 times a second
     this.#numbers(frame, scene);
   }
@@ -170,13 +185,13 @@ export class View {
     const parallel = frame.get('stack.parallel'), many = geometry.members.length > 1 && !geometry.joined && !geometry.opposed && !geometry.network;
     const unseen = parallel > 1 && geometry.columns === 1 ? `one of ${parallel} side by side` : null;
     return {
-      masses: new Map(geometry.loads.map(({body, mass}) => [body, pretty(this.core.print('load.mass', mass))])),
+      masses: new Map(geometry.loads.map(({body, mass}) => [body, (geometry.network ? `body ${body}, ` : '') + pretty(this.core.print('load.mass', mass))])),
       voltages: geometry.members.map(({voltage}, k) => `${k + 1}: ${fixed(voltage / 1e3, 2)} kV`),
       pull: this.pull ? `${fixed(1e3 * Math.hypot(this.pull.right, this.pull.up), 0)} mN` : '',
       opening: `${fixed(1e3 * frame.get('opening'), 1)} mm`,
       wet: word !== 'none',
       where: [wetWords[word], unseen].filter(Boolean),
-      front: many ? 'lowest zip front' : 'zip front',
+      front: many ? 'lowest zip front' : geometry.network ? 'zip front of member 1' : 'zip front',
     };
   }
 
@@ -185,10 +200,7 @@ export class View {
     const geometry = geometryOf(frame, word === 'bead'), [{length, field, lineForce, film, pressure}] = geometry.focus.halves;
     Object.assign(this.#liquid, {length, film, pressure});
     $('of-liquid').hidden = word === 'none';
-    for (const id of ['plot-time', 'plot-voltage', 'of-chart']) $(id).hidden = geometry.network; // it has no single stroke or load
-    $('of-openings').hidden = !geometry.network;
-    $('time-title').textContent = geometry.network ? 'The run' : 'Stroke over time';
-    $('voltage-title').textContent = geometry.network ? 'Rest' : 'Stroke over voltage';
+    this.#showParts(frame, geometry);
     Object.assign(this.#profile, {length, field, force: lineForce, largest: strongest});
     return {
       geometry,
@@ -199,6 +211,38 @@ export class View {
       pull: this.pull,
       hanging: frame.get('opening') / (1 - frame.get('contraction')), // by the definition of the contraction
     };
+  }
+
+  /** What the plots show of a network, which has no single stroke or load, and their legends. */
+  #showParts(frame, {network, members, bodies}) {
+    const {inPlane} = frame, word = network ? 'opening' : 'stroke', named = JSON.stringify([network && members.length, bodies.map(({body}) => body), inPlane]);
+    if (named === this.#named) return;
+    this.#named = named;
+    $('plots').classList.toggle('network', network);
+    $('of-chart').hidden = network;
+    $('of-voltages').hidden = $('of-bodies').hidden = !network;
+    $('time-title').textContent = network ? 'Openings over time' : 'Stroke over time';
+    $('voltage-title').textContent = network ? 'Openings over voltage' : 'Stroke over voltage';
+    $('bodies-title').textContent = inPlane ? 'Angles of the bodies' : 'Heights of the bodies';
+    $('profile-title').textContent = network ? 'Along the ribbon of member 1, now' : 'Along the ribbon, now';
+    $('liquid-title').textContent = network ? 'The liquid of member 1, now' : 'The liquid, now';
+    $('electrodes').textContent = network ? 'electrodes of member 1' : 'electrodes';
+    this.#time.label = this.#rest.label = `${word} / mm`;
+    Object.assign(this.#bodies, inPlane ? {label: 'angle / degree', factor: 180 / Math.PI, least: 0.1} : {label: 'height / mm', factor: 1e3, least: 1e-3});
+    for (const name of ofNetwork) this.tiles.hide(name, network);
+    const of = {member: network ? members.map((_, k) => k + 1) : [], body: network ? bodies.map(({body}) => body) : []};
+    for (const [place, kind] of [['plot-time', 'member'], ['plot-voltages', 'member'], ['plot-bodies', 'body']])
+      this.#legend($(place).parentElement.querySelector('.parts'), of[kind].map((number) => `${kind} ${number}`));
+  }
+
+  #legend(place, words) {
+    list(place, words.length > mostNamed ? [...words.slice(0, mostNamed), `and ${words.length - mostNamed} more`] : words);
+    [...place.children].forEach((item, k) => {
+      const {colour, dash} = this.#styleOf(k, words.length > 1);
+      item.style.setProperty('--part', `var(--${colour})`);
+      if (k < mostNamed) item.classList.add(`dash-${dash ? [0, 7, 2].indexOf(dash[0] ?? 0) : 0}`);
+      else item.classList.add('more');
+    });
   }
 
   #numbers(frame, {geometry, opening}) {
@@ -219,17 +263,20 @@ export class View {
   /** The same in words, for screen readers. */
   describe() {
     const {frame} = this.live;
-    const {openings} = this.live, at = openings.of.map((of, k) => `${k + 1}: ${fixed(1e3 * of.at(-1), 1)}`).join(', ');
-    $('plot-openings').setAttribute('aria-label', `Openings of the members over time, now ${at} millimetres`);
-    if (openings.of.length)
-      $('picture').setAttribute('aria-label', `A network of ${openings.of.length} actuators, open by ${at} millimetres`);
+    const {openings, voltages, bodies} = this.live.parts, {inPlane} = frame;
+    const now = (of, factor, places) => of.map((values, k) => `${k + 1}: ${fixed(factor * values.at(-1), places)}`).join(', '), at = now(openings, 1e3, 1);
+    $('plot-voltages').setAttribute('aria-label', `Voltages of the members over time, now ${now(voltages, 1e-3, 2)} kilovolts`);
+    $('plot-bodies').setAttribute('aria-label', inPlane ? `Angles of the bodies over time, now ${now(bodies, 180 / Math.PI, 2)} degrees`
+      : `Heights of the bodies over time, now ${now(bodies, 1e3, 1)} millimetres`);
+    if (frame.get('bodies') > 0)
+      $('picture').setAttribute('aria-label', `A network of ${openings.length} actuators, open by ${at} millimetres`);
     else $('picture').setAttribute('aria-label', `Two ribbons, ${fixed(1e3 * frame.get('opening'), 1)} millimetres open, ` +
       `${fixed(1e3 * frame.get('zipped_length'), 1)} millimetres of each half zipped, at ${fixed(frame.get('voltage') / 1e3, 2)} kilovolts`);
-    const film = frame.get('film_thickness'), now = this.live.trace.current.at(-1) ?? NaN;
-    $('plot-current').setAttribute('aria-label', `Current of the source over time, now ${fixed(1e6 * now, 1)} microamperes; voltage of the electrodes and command`);
+    const film = frame.get('film_thickness'), current = this.live.trace.current.at(-1) ?? NaN;
+    $('plot-current').setAttribute('aria-label', `Current of the source over time, now ${fixed(1e6 * current, 1)} microamperes; voltage of the electrodes and command`);
     $('plot-liquid').setAttribute('aria-label', 'Pressure and thickness of the liquid between the faces along the ribbon; ' +
       (film > 0 ? `a film of ${digits(1e6 * film)} micrometres at a quarter of the length` : 'none at a quarter of the length'));
-    $('plot-time').setAttribute('aria-label', `Stroke over time. ${$('time-note').textContent}`);
-    $('plot-voltage').setAttribute('aria-label', `Stroke over voltage, all equilibria. ${$('voltage-note').textContent}`);
+    $('plot-time').setAttribute('aria-label', `${$('time-title').textContent}${openings.length ? `, now ${at} millimetres` : ''}. ${$('time-note').textContent}`);
+    $('plot-voltage').setAttribute('aria-label', `${$('voltage-title').textContent}, all equilibria. ${$('voltage-note').textContent}`);
   }
 }

@@ -4,7 +4,7 @@ import {readFileSync} from 'node:fs';
 import {register} from 'node:module';
 import {test} from 'node:test';
 import {Core} from '../page/core.js';
-import {Engine} from '../page/engine.js';
+import {Engine, limits} from '../page/engine.js';
 import {Frame, mostSamples, sampled, write} from '../page/frame.js';
 import * as scenario from '../page/scenario.js';
 
@@ -105,6 +105,26 @@ test('a long trace keeps every second sample, from its beginning to its end', ()
   live.trace.time.forEach((time, k) => assert.ok(Math.abs(time - 2e-3 * k) < 1e-12, `sample ${k} at ${time}`));
   assert.deepEqual([live.trace.stroke, live.trace.voltage, live.trace.command, live.trace.current].map((list) => list[1000]), [4e-3, 2000, 2000, 1e-9 * 2000]);
   assert.ok(mostSamples >= 50 && sampled.length === 5);
+});
+
+test('the curves of a network: openings, voltages and heights since a button, and anew for other parts', () => {
+  const live = new Live(module), worker = workers.at(-1), engine = new Engine(module, limits.worker);
+  const hands = (count) => new Map([['mesh.nodes', '9'], ['liquid.model', 'none'], ...Array.from({length: count}, (_, k) => k + 1)
+    .flatMap((k) => [[`body_${k}.mass`, `${2 * k} g`], [`member_${k}.upper`, '0'], [`member_${k}.lower`, `${k}`]])]);
+  const go = (question) => {
+    live.advance(2e-3);
+    worker.say(engine.answer({span: 2e-3, ...question}));
+  };
+  live.restart(hands(2), 3e3);
+  go({values: hands(2), voltage: 3e3, restart: true});
+  go({});
+  const {time, openings, voltages, bodies} = live.parts;
+  assert.deepEqual([time.length, openings.length, voltages.map((of) => of.at(-1)), bodies.length], [2, 2, [3e3, 3e3], 2]);
+  openings.forEach((of, k) => of.forEach((opening, at) => assert.ok(Math.abs(opening + bodies[k][at]) < 1e-9, 'each hangs on its member')));
+  assert.ok(openings[1][0] > openings[0][0]);
+  live.restart(hands(3), 0);
+  go({values: hands(3), voltage: 0, restart: true});
+  assert.deepEqual([live.parts.time.length, live.parts.openings.length, live.parts.voltages[2]], [1, 3, [0]]);
 });
 
 test('of scenarios that come while a study is busy, the newest is answered', () => {

@@ -14,6 +14,44 @@ const native = (study, values) => JSON.parse(execFileSync(
   command, [study, ...Object.entries(values).flatMap(([key, text]) => ['--set', `${key}=${text}`]), '-o', folder, '--json', '--quiet', '--no-plots'],
   {encoding: 'utf8', stdio: ['ignore', 'pipe', 'ignore']}));
 
+test('a network: plots of each member and body with units; the pointer turns a body', {timeout: 300e3}, async () => {
+  const browser = await launch(), trouble = [];
+  try {
+    const page = await browser.newPage({viewport: {width: 1280, height: 900}});
+    page.on('console', (message) => message.type() === 'log' || trouble.push(message.text()));
+    page.on('pageerror', (error) => trouble.push(String(error)));
+    await page.goto(`${address}#slow=1`);
+    const label = (id) => page.getAttribute(`#${id}`, 'aria-label'), legend = (id) => page.$$eval(`figure:has(#${id}) .parts li`, (items) => items.map(({textContent}) => textContent));
+    const until = (id, words) => page.waitForFunction(([i, w]) => new RegExp(w).test(document.getElementById(i).getAttribute('aria-label')), [id, words], {timeout: 120e3, polling: 200});
+    assert.deepEqual(await legend('plot-time'), []);
+    await page.click('button:text-is("Joint")');
+    await until('plot-voltages', 'now 1: 5.00, 2: 0.00 kilovolts');
+    assert.match(await label('plot-time'), /^Openings over time, now 1: [0-9.]+, 2: [0-9.]+ millimetres/);
+    assert.deepEqual([await legend('plot-time'), await legend('plot-voltages'), await legend('plot-bodies')], [['member 1', 'member 2'], ['member 1', 'member 2'], ['body 1']]);
+    assert.deepEqual([await page.isHidden('#of-chart'), await page.isHidden('#n-stroke'), await page.isVisible('#plot-bodies')], [true, true, true]);
+    const angle = async () => Number((await label('plot-bodies')).match(/now 1: (\S+) degrees/)[1].replace('−', '-'));
+    await page.waitForTimeout(2500);
+    const still = await angle(), {x, y, width} = await page.locator('#picture').boundingBox();
+    await page.mouse.move(x + width / 2, y + 10);
+    for (let down = 10; !(await page.evaluate(() => document.getElementById('picture').classList.contains('loaded'))); down += 6) {
+      assert.ok(down < 400, 'the forearm is under the pointer');
+      await page.mouse.move(x + width / 2, y + down);
+    }
+    await page.mouse.down();
+    await page.mouse.move(x + 0.9 * width, y + 200, {steps: 5});
+    await page.waitForTimeout(2500);
+    const pulled = await angle();
+    await page.mouse.up();
+    assert.ok(pulled > still + 0.3, `${still}, pulled ${pulled} degrees`);
+    await page.click('button:text-is("The paper’s")');
+    await page.waitForFunction(() => document.getElementById('of-bodies').hidden);
+    assert.deepEqual([await legend('plot-time'), await page.isVisible('#n-stroke'), await page.textContent('#time-title')], [[], true, 'Stroke over time']);
+  } finally {
+    await browser.close();
+  }
+  assert.deepEqual(trouble, []);
+});
+
 test('an actuator with a supply: its numbers, its zip, its controls', {timeout: 300e3}, async () => {
   const values = {'liquid.model': 'none', 'mesh.nodes': '21'}, supply = {'source.supply': 'converter_10kv'};
   const run = native('actuate', {...values, ...supply}), rest = native('equilibrium', {...values, 'drive.voltage': '12 kV'}); // of rest without the supply

@@ -228,6 +228,33 @@ test('a network: members where their bodies are, each with its voltage; a body t
   for (const [{x, y}, k] of [[springs[1][0], 0], [springs[0][1], 1]]) near(Math.hypot(x - fingers[k].x, y - fingers[k].y), Math.hypot(40e-3, 70e-3));
 });
 
+test('Step plays the waveforms and controllers of channels; release ends waveforms; a change begins again', () => {
+  const two = {'mesh.nodes': '9', 'liquid.model': 'none', 'body_1.mass': '4 g', 'body_2.mass': '4 g', 'member_1.upper': '0', 'member_1.lower': '1', 'member_2.upper': '0', 'member_2.lower': '2'};
+  const waves = {...two, 'drive.voltage': '6 kV', 'member_2.drive.waveform': 'ramp', 'member_2.drive.rise_time': '100 ms'};
+  const {engine} = geometryAt(waves), go = (question) => new Frame(engine.answer({span: 10e-3, ...question}).frame).parts('member').map(({voltage}) => voltage);
+  go({voltage: 6e3, restart: true});
+  const [first, second] = go({});
+  near(first, 6e3);
+  near(second, 600);
+  assert.deepEqual(go({voltage: 0, pressed: true}), [0, 0]);
+  const again = new Frame(engine.answer({values: new Map(Object.entries({...waves, 'ribbon.thickness': '60 um'})), voltage: 6e3, span: 10e-3}).frame);
+  near(again.get('time'), 10e-3);
+  near(again.part('member', 1).voltage, 600);
+  const held = new Engine(module, {study: Infinity, start: Infinity, frame: Infinity}), controlled = new Map(Object.entries({...two, 'drive.voltage': '8 kV', 'member_2.control.kind': 'pi', 'member_2.control.proportional': '1 kV/mm', 'member_2.control.integral': '0 kV/mm/s', 'member_2.setpoint.value': '8 mm'}));
+  held.answer({values: controlled, voltage: 8e3, restart: true, span: 0});
+  const [, {voltage}] = new Frame(held.answer({span: 10e-3}).frame).parts('member');
+  assert.ok(voltage > 1e3 && voltage < 8e3, `${voltage} V`);
+  assert.match(held.answer({voltage: 0, pressed: true, span: 1e-3}).refused, /a controller sets that of a channel/);
+});
+
+test('studies of a network give the openings of its members', () => {
+  const core = new Core(module), values = new Map(Object.entries({...presetOf('Tree'), 'mesh.nodes': '9', 'liquid.model': 'none', 'output.errors': 'false'}));
+  core.resolve(values);
+  const {columns} = core.study('equilibrium', [], ['voltage_V', '.opening_m']);
+  assert.deepEqual(Object.keys(columns), ['voltage_V', 'member_1.opening_m', 'member_2.opening_m', 'member_3.opening_m']);
+  assert.ok(columns['member_3.opening_m'][0] > columns['member_2.opening_m'][0]);
+});
+
 test('a load that is pulled down opens further, and says why if it may not', () => {
   const {engine} = geometryAt(dry), go = (question) => new Frame(engine.answer({span: 5e-3, ...question}).frame).get('opening'), before = go({});
   assert.ok(go({pull: {body: 0, right: 0, up: -0.05}}) > before + 1e-5);
