@@ -157,6 +157,17 @@ EXPORT void zp_web_clear(ZpWeb *web) {
   web->asked = (ZpStudy)0;
 }
 
+/* What a key of a scenario with names of bodies and members is called here; NULL: it is none. */
+static const char *numbered(const char *key) {
+  static const char *const kind[][2] = {{"bodies.", "body_1.mass"},
+                                        {"members.", "member_1.upper"},
+                                        {"joints.", "joint_1.at.x"},
+                                        {"springs.", "spring_1.rest"}};
+  for (size_t k = 0; k < sizeof kind / sizeof kind[0]; k++)
+    if (strncmp(key, kind[k][0], strlen(kind[k][0])) == 0) return kind[k][1];
+  return NULL;
+}
+
 /* Text "ribbon.length=80 mm" => one more assignment. Messages are those of the command's --set. */
 EXPORT int zp_web_assign(ZpWeb *web) {
   ZpError err;
@@ -167,7 +178,9 @@ EXPORT int zp_web_assign(ZpWeb *web) {
   double value;
   char message[sizeof err.message + TEXT_SIZE], reason[256];
   if (key < 0) {
+    const char *like = numbered(web->text);
     zp_key_unknown(web->text, reason, sizeof reason);
+    if (like) snprintf(reason, sizeof reason, "this page numbers bodies, members, joints and springs, as %s", like);
     snprintf(message, sizeof message, "%.80s=%.80s: %s", web->text, sign + 1, reason);
   } else if (sign[1] == 0)
     snprintf(message, sizeof message, "%s=: empty; give a value", web->text);
@@ -193,8 +206,11 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
                    "this page runs the studies actuate and equilibrium only; use the command for the others");
   if (def->drive.waveform != ZP_WAVEFORM_STEP && !zp_def_network(def))
     return zp_fail(err, ZP_BAD_INPUT, "buttons set the voltage on this page; use the command for drive.waveform");
-  if (def->setpoint.waveform == ZP_WAVEFORM_TABLE)
-    return zp_fail(err, ZP_BAD_INPUT, "this page reads no tables; use the command for setpoint.waveform = table");
+  for (int k = 1; k <= zp_def_members(def); k++) {
+    const ZpActuatorDef one = zp_def_member(def, k);
+    if (one.drive.waveform == ZP_WAVEFORM_TABLE || one.setpoint.waveform == ZP_WAVEFORM_TABLE)
+      return zp_fail(err, ZP_BAD_INPUT, "this page reads no tables; use the command for waveform = table");
+  }
   if (def->initial.state == ZP_INITIAL_CHECKPOINT)
     return zp_fail(err, ZP_BAD_INPUT, "this page reads no files; use the command for initial.state = checkpoint");
   if (def->solver.integrator != ZP_INTEGRATOR_IMPLICIT)

@@ -148,14 +148,30 @@ static PyObject *simulation_step(PyObject *object, PyObject *const *args, Py_ssi
   return NULL;
 }
 
+/* A number, or a text with a unit for an input that has one. */
+static int value_of_input(const Simulation *self, const char *name, PyObject *object, double *value) {
+  static const char *const like[] = {"drive.voltage", "body_K.force.y", "body_K.torque"}; /* keys of these units */
+  const ZpActuatorDef *def = ((Definition *)self->definition)->def;
+  const char *unit = zp_def_input_unit(def, zp_def_input_find(def, name));
+  for (size_t k = 0; PyUnicode_Check(object) && unit && k < sizeof like / sizeof like[0]; k++) {
+    const int key = zp_key_find(like[k]);
+    if (strcmp(zp_key(key)->unit, unit) == 0) return quantity_of(self->state, key, name, object, value);
+  }
+  *value = PyFloat_AsDouble(object);
+  if (!PyErr_Occurred()) return 0;
+  PyErr_Clear();
+  raise_input(self->state, "%.80s: takes a number", name);
+  return -1;
+}
+
 static PyObject *simulation_set_input(PyObject *object, PyObject *args, PyObject *names) {
   static char *known[] = {"", "value", "rate", NULL};
   Simulation *self = (Simulation *)object;
-  PyObject *word;
+  PyObject *word, *given;
   double value, rate = 0;
-  if (!PyArg_ParseTupleAndKeywords(args, names, "Ud|d", known, &word, &value, &rate)) return NULL;
+  if (!PyArg_ParseTupleAndKeywords(args, names, "UO|d", known, &word, &given, &rate)) return NULL;
   const char *name = text_of(self->state, word, "input");
-  if (!name || refuse_busy(self)) return NULL;
+  if (!name || value_of_input(self, name, given, &value) || refuse_busy(self)) return NULL;
   ZpError err;
   if (zp_sim_set_input_named(self->sim, name, value, rate, &err) != ZP_OK) return raise_error(self->state, &err);
   self->hand_voltage = NAN; /* of the next step's voltage none is a repetition */
@@ -291,7 +307,7 @@ static PyMethodDef methods[] = {
      "until one is given, drive.waveform applies. Raises NumericsError if the solver fails."},
     {"set_input", (PyCFunction)(void (*)(void))simulation_set_input, METH_VARARGS | METH_KEYWORDS,
      "set_input(name, value, rate=0.0)\n--\n\n"
-     "From now on an input has this value and changes with rate per second, until it is set again or the end of\n"
+     "From now on an input has this value (SI, or a text with a unit) and changes with rate per second, until it is set again or the end of\n"
      "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N); of a network\n"
      "one of its `inputs`, as 'left.voltage' or 'hand.force_y'."},
     {"input_units", simulation_inputs, METH_NOARGS, "(name, unit) of each input."},

@@ -239,6 +239,8 @@ def test_draws(study):
     if study in ("actuate", "cycle"):
         shown = [text.get_text() for text in axes.get_legend().get_texts()]
         assert shown == ["hand, height", "other, height", "left, opening", "right, opening"]
+        inside = joint(solver__end_time="5 ms", mesh__nodes=11).run().plot()
+        assert [text.get_text() for text in inside.get_legend().get_texts()] == ["forearm, angle", "left, opening", "right, opening"]
     if study == "stationary":
         assert [len(line.get_xdata()) for line in axes.lines[:4]] == [22] * 4  # two whole ribbons of each member
     pyplot.close("all")
@@ -280,7 +282,7 @@ def test_inputs_by_name():
     at = simulation["wrist.y"]
     simulation.set_input("voltage", 2e3)
     simulation.set_input("b.voltage", 3e3, rate=1e5)
-    simulation.set_input("wrist.force_y", 0.1)
+    simulation.set_input("wrist.force_y", "100 mN")
     simulation.step("10 ms")
     assert simulation["a.voltage"] == 2e3 and simulation["b.voltage"] == pytest.approx(4e3, rel=1e-12)  # 0 measured
     assert simulation["wrist.y"] > at + 1e-4 and simulation["load_work"] > 0
@@ -339,6 +341,9 @@ def test_signals_of_a_stack():
         (lambda s: s.set_input("load", 1.0), "load: the network has no such input; name the member or the body"),
         (lambda s: s.set_input("wrist.force_y", 1e5), "wrist.force_y = 100000 is out of range; -10000 to 10000"),
         (lambda s: s.set_input("b.voltage", -1.0), "drive.voltage = -1 V: out of range"),
+        (lambda s: s.set_input("b.voltage", "3 mm"), 'b.voltage = "3 mm": not a voltage'),
+        (lambda s: s.set_input("c.setpoint", "3 mm"), "c.setpoint: takes a number"),
+        (lambda s: s.set_input("wrist.force_y", None), "wrist.force_y: takes a number"),
         (lambda s: s.step(1e-3, voltage=1e3), "voltage: a controller sets that of a channel"),
         (lambda s: s["wrist.z"], "wrist.z: unknown signal; did you mean wrist.y?"),
         (lambda s: s.read(np.empty(3)), "out: takes an array of"),

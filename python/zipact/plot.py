@@ -51,16 +51,22 @@ def names_of(table: "Table", ending: str) -> list[str]:
 
 
 def network(table: "Table", ax: Axes | None) -> Axes:
-    """Heights of bodies, openings and voltages of members."""
-    ax = new_axes(ax, "time / ms", "height, opening / mm")
+    """Heights of bodies, openings and voltages of members; in the plane angles of bodies and openings."""
+    angles = names_of(table, ".angle_rad")
+    ax = new_axes(ax, "time / ms", "opening / mm" if angles else "height, opening / mm")
     time, right = MILLI * table["time_s"], ax.twinx()
-    for name in names_of(table, ".y_m"):
-        ax.plot(time, MILLI * table[name + ".y_m"], label=f"{name}, height")
-    for name in names_of(table, ".voltage_V"):
-        (line,) = ax.plot(time, MILLI * table[name + ".opening_m"], linestyle="--", label=f"{name}, opening")
-        right.plot(time, KILO * table[name + ".voltage_V"], color=line.get_color(), linestyle=":", linewidth=1)
-    right.set_ylabel("voltage (dotted) / kV")
-    ax.legend(fontsize="small")
+    for name in angles or names_of(table, ".y_m"):
+        label, of = (f"{name}, angle", np.degrees(table[name + ".angle_rad"])) if angles else (f"{name}, height", MILLI * table[name + ".y_m"])
+        (right if angles else ax).plot(time, of, label=label)
+    for place, name in enumerate(names_of(table, ".voltage_V"), len(angles)):
+        (line,) = ax.plot(time, MILLI * table[name + ".opening_m"], linestyle="--", label=f"{name}, opening", **({"color": f"C{place}"} if angles else {}))
+        if not angles:
+            right.plot(time, KILO * table[name + ".voltage_V"], color=line.get_color(), linestyle=":", linewidth=1)
+    right.set_ylabel("angle / degree" if angles else "voltage (dotted) / kV")
+    if not angles:
+        right.set_ylim(bottom=min(0, right.get_ylim()[0]))
+    drawn = [line for axes in ((right, ax) if angles else (ax,)) for line in axes.lines]
+    ax.legend(handles=drawn, fontsize="small")
     return ax
 
 

@@ -147,7 +147,7 @@ function stackOf(frame, members) {
 
 /** A network: members and joints where their bodies are; each body as the lines from its place to all that is fixed to it. */
 function networkOf(frame, members) {
-  const bodies = frame.parts('body'), springs = frame.parts('spring'), joints = frame.parts('joint');
+  const {inPlane} = frame, bodies = frame.parts('body'), springs = frame.parts('spring'), joints = frame.parts('joint');
   const fixed = bodies.map(({x, y}) => [{x, y}]), supports = [], carries = bodies.map(() => false);
   for (const member of members) {
     member.places = [0];
@@ -166,9 +166,10 @@ function networkOf(frame, members) {
   for (const {fromX, fromY, toX, toY, from, to} of springs) {
     fixed[from].push({x: fromX, y: fromY});
     fixed[to].push({x: toX, y: toY});
+    if (inPlane && bodies[from].held) supports.push({x: fromX, y: fromY, angle: 0, half: 3e-3});
+    if (inPlane && bodies[to].held) supports.push({x: toX, y: toY, angle: 0, half: 3e-3});
   }
   const moving = bodies.map((body, k) => ({...body, body: k, fixed: fixed[k]})).filter(({held}) => !held);
-  const {inPlane} = frame;
   return {
     opposed: false,
     columns: 1,

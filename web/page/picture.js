@@ -48,6 +48,7 @@ class Half {
   liquid(context, {largest}, electrode, outward) {
     const {first, last, field, wetEnd} = this.half, x = this.x[0], y = this.y[0], {axis} = this;
     const along = (i) => (x[i] - x[first]) * axis.x + (y[i] - y[first]) * axis.y, span = along(last);
+    if (span === 0) return; // the picture has no room
     const gradient = context.createLinearGradient(x[first], y[first], x[first] + span * axis.x, y[first] + span * axis.y);
     field.forEach((E, i) => gradient.addColorStop(Math.min(Math.max(along(first + i) / span, 0), 1), shade(E / largest)));
     if (!electrode) gradient.addColorStop(1, shade(0));
