@@ -2,7 +2,7 @@
 %
 %   ZIPACT_PLOT(RESULT) draws the table of RESULT, as ZIPACT returns it: stroke over time,
 %   opening or force over voltage, force along the ribbons, frequencies; of study stationary
-%   the ribbons at rest; of a network the heights of its bodies. It also draws an array of
+%   the ribbons at rest; of a network the heights of its bodies, in the plane their angles. It also draws an array of
 %   results of the same study.
 %
 %   See also ZIPACT.
@@ -10,7 +10,7 @@ function zipact_plot(result)
   if ~isstruct(result) || isempty(result) || ~isfield(result, 'series') || numel(unique({result.study})) > 1
     error('zipact:input', 'zipact_plot: takes a result of zipact, or several of one study');
   end
-  [x, y, labels, style] = axes_of(result(1));
+  [x, y, labels, style, names] = axes_of(result(1));
   held = ishold();
   for i = 1:numel(result)
     plot(x(result(i).series), y(result(i).series), style);
@@ -20,9 +20,10 @@ function zipact_plot(result)
   xlabel(labels{1});
   ylabel(labels{2});
   grid('on');
+  if ~isempty(names), legend(names, 'interpreter', 'none'); end
 end
 
-function [x, y, labels, style] = axes_of(result)
+function [x, y, labels, style, names] = axes_of(result)
   style = '-';
   switch result.study
     case {'actuate', 'cycle'}
@@ -45,10 +46,16 @@ function [x, y, labels, style] = axes_of(result)
     otherwise
       error('zipact:input', 'zipact_plot: there is no picture for study %s', result.study);
   end
-  names = fieldnames(result.series)';
-  bodies = names(~cellfun('isempty', regexp(names, '\w_y_m$')));
+  columns = fieldnames(result.series)';
+  ending = '_y_m'; factor = 1e3; shown = 'height / mm';
+  if any(~cellfun('isempty', regexp(columns, '\w_angle_rad$')))
+    ending = '_angle_rad'; factor = 180 / pi; shown = 'angle / degree';
+  end
+  bodies = columns(~cellfun('isempty', regexp(columns, ['\w' ending '$'])));
+  names = {};
   if any(strcmp(result.study, {'actuate', 'cycle', 'equilibrium'})) && ~isempty(bodies)
-    y = @(s) 1e3 * cell2mat(cellfun(@(name) s.(name), bodies, 'UniformOutput', false));
-    labels{2} = 'height / mm';
+    y = @(s) factor * cell2mat(cellfun(@(name) s.(name), bodies, 'UniformOutput', false));
+    labels{2} = shown;
+    names = strrep(bodies, ending, '');
   end
 end

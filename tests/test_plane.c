@@ -682,6 +682,39 @@ TEST(ramps_move_heavy_bodies) {
   zp_run_info_destroy(info);
 }
 
+/* Numbers of members and bodies have their names without units. */
+TEST(numbers_of_parts_have_names) {
+  static const char *const of[] = {"bodies: {arm: {moves: plane, mass: 9 g, inertia: 1e-5 kg m2, at: [0, -5 "
+                                   "mm]}}\nmembers: {a: {upper: frame, lower: "
+                                   "arm}, b: {upper: frame, lower: arm}}\n",
+                                   "bodies: {hand: {mass: 9 g}}\nmembers: {a: {upper: frame, lower: hand}}\n",
+                                   "stack.series: 3\n", "stack.parallel: 2\nmember_2.ribbon.thickness: 60 um\n",
+                                   "load.mass: 8 g\n"};
+  static const size_t more[] = {2 * 3 + 3, 3 + 1, 3, 2 * 2, 0};
+  for (size_t k = 0; k < LENGTH_OF(of); k++) {
+    char text[512], name[64];
+    snprintf(text, sizeof text, "mesh.nodes: 9\nliquid.model: none\n%s", of[k]);
+    ZpActuatorDef def = def_of(text);
+    ZpSim *sim = data_sim_of(&def);
+    ZpRunInfo *info = zp_run_info_create();
+    zp_sim_step(sim, 2e-3, NULL, info);
+    ZpTable *table = zp_signal_table(&def, 1);
+    size_t signals;
+    zp_signal_columns(&signals);
+    ck_assert(zp_table_columns(table) == signals + more[k]);
+    for (size_t c = signals; c < zp_table_columns(table); c++) {
+      const ZpColumn *column = zp_table_column(table, c);
+      snprintf(name, sizeof name, "%.*s", (int)(strlen(column->name) - strlen(column->unit) - 1), column->name);
+      printf("%s %.6g\n", name, zp_sim_get(sim, name));
+      ck_assert_double_eq(zp_sim_get(sim, name), column_of(sim, &def, column->name));
+    }
+    ck_assert(isnan(zp_sim_get(sim, "nobody.opening")) && isnan(zp_sim_get(sim, "a.")) &&
+              isnan(zp_sim_get(sim, "a.zipped")));
+    zp_table_destroy(table);
+    zp_run_info_destroy(info);
+  }
+}
+
 /* Of two members on one port, a third one with a controller, a body that moves up and down, one in the plane. */
 TEST(inputs_have_names_and_units) {
   static const struct {
@@ -706,7 +739,9 @@ TEST(inputs_have_names_and_units) {
   }
   ck_assert(count == LENGTH_OF(of));
   ZpSim *sim = data_sim_of(&def);
-  ck_ok(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&def, "follows.setpoint"), 0, 0, &err));
+  ck_says(zp_sim_set_input_named(sim, "left.volt", 0, 0, &err), ZP_BAD_INPUT, "did you mean left.voltage?");
+  ck_says(zp_sim_set_input_named(sim, "load", 0, 0, &err), ZP_BAD_INPUT, "load: the network has no such input");
+  ck_ok(zp_sim_set_input_named(sim, "follows.setpoint", 0, 0, &err));
   ZpRunInfo *info = zp_run_info_create();
   zp_sim_step(sim, 5e-3, NULL, info);
   ck_assert_double_gt(column_of(sim, &def, "follows.voltage_V"), 0); /* before it was to open */

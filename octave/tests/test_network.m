@@ -34,6 +34,7 @@ figure('visible', 'off');
 zipact_plot(moved);
 lines = findobj(gca(), 'type', 'line');
 check(numel(lines) == 3 && isequal(get(lines(end), 'ydata')(:), 1e3 * moved.series.bar_y_m), 'heights are drawn');
+check(isequal(get(legend(), 'string'), {'bar', 'left_hand', 'right_hand'}), 'a legend');
 close('all');
 
 % a joint
@@ -48,6 +49,10 @@ plane.members.left.upper_at = {'-60 mm', 0};
 plane.members.left.lower_at = {'-60 mm', 0};
 turned = zipact('stationary', plane, 'bodies.arm.torque', '1 mN m');
 still = zipact('stationary', plane);
+figure('visible', 'off');
+zipact_plot(zipact('actuate', plane, 'solver.end_time', '2 ms'));
+check(strcmp(get(get(gca(), 'ylabel'), 'string'), 'angle / degree') && isequal(get(legend(), 'string'), {'arm'}), 'angles are drawn');
+close('all');
 check(turned.bodies.arm.angle_rad > still.bodies.arm.angle_rad + 1e-3, 'a torque turns a body on its pin');
 
 % by pairs, over a file, in lists

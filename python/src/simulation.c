@@ -307,7 +307,8 @@ static PyMethodDef methods[] = {
      "until one is given, drive.waveform applies. Raises NumericsError if the solver fails."},
     {"set_input", (PyCFunction)(void (*)(void))simulation_set_input, METH_VARARGS | METH_KEYWORDS,
      "set_input(name, value, rate=0.0)\n--\n\n"
-     "From now on an input has this value (SI, or a text with a unit) and changes with rate per second, until it is set again or the end of\n"
+     "From now on an input has this value (SI, or a text with a unit) and changes with rate per second, until it is "
+     "set again or the end of\n"
      "its range is reached: 'voltage' (V), or 'load', a force that pulls the lower platform down (N); of a network\n"
      "one of its `inputs`, as 'left.voltage' or 'hand.force_y'."},
     {"input_units", simulation_inputs, METH_NOARGS, "(name, unit) of each input."},

@@ -29,6 +29,14 @@ def test_hold(tmp_path):
     assert os.path.getsize(tmp_path / "hold.svg") > 5000
 
 
+def test_lever(tmp_path):
+    pytest.importorskip("matplotlib")
+    said = run("lever.py", tmp_path / "lever.gif")
+    worst, target, before, after = map(float, re.findall(r"[\d.]*\d", said))
+    assert worst < 0.01 and target == 1.5 and before + 50 < after < 5000  # 0.0034 measured
+    assert os.path.getsize(tmp_path / "lever.gif") > 50000
+
+
 @pytest.mark.nightly
 def test_notebooks():
     """They print what is committed."""

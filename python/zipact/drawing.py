@@ -18,7 +18,7 @@ from .network import Network
 if TYPE_CHECKING:
     from .result import Result
 
-METAL, RIGID, GROUND, SPRING, BETWEEN = "#37434d", "#777777", "#222222", "#009e73", "#e2f1fa"
+METAL, RIGID, GROUND, SPRING, BETWEEN = "#37434d", "#777777", "#222222", "#009e73", "#cfe6f4"
 MILLI = 1e3  # from SI
 FILM = 4800.0  # ms, which a film takes, unless its frames would be too short or too long
 SHORTEST, LONGEST = 20.0, 400.0  # ms, of a frame
