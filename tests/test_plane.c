@@ -664,7 +664,7 @@ TEST(ramps_move_heavy_bodies) {
   double before[LENGTH_OF(of)], off = 0;
   for (size_t k = 0; k < LENGTH_OF(of); k++) {
     before[k] = column_of(sim, &def, of[k].column);
-    ck_ok(zp_sim_set_input(sim, (ZpInput)zp_def_input_find(&def, of[k].input), 0, of[k].mass > 0 ? rate : -rate, &err));
+    ck_ok(zp_sim_set_input_named(sim, of[k].input, 0, of[k].mass > 0 ? rate : -rate, &err));
   }
   ZpRunInfo *info = zp_run_info_create();
   zp_sim_run(sim, end, false, NULL, info);
