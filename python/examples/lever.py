@@ -42,7 +42,7 @@ def hold(network: zipact.Network, end_time: float) -> np.ndarray:
 def main(film: str = "lever.gif") -> None:
     network = lever()
     result = network.run("actuate", solver__end_time=0.4, output__shapes=200)
-    result.animate(frames=50).save(film, writer="pillow", dpi=60)
+    result.animate(frames=50).save(film, dpi=60)
     time, angle, voltage = hold(network, end_time=2.0).T
     before, after = (np.abs(time - instant) < 0.05 for instant in (0.95, 1.95))
     worst = np.abs(angle - TARGET)[before | after].max()

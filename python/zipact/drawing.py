@@ -294,7 +294,16 @@ class Animation(FuncAnimation):
             title.set_text(f"t = {MILLI * time[frame]:.1f} ms\n{pace}")
             return [title, *self.drawing.show(frame)]
 
-        super().__init__(self.drawing.axes.figure, draw, self.shown, interval=interval, blit=False, repeat_delay=1000, cache_frame_data=False)
+        figure = self.drawing.axes.figure
+        if ax is None:
+            draw(0)
+            figure.canvas.draw()
+            figure.set_layout_engine("none")  # once: all frames have the same layout
+        super().__init__(figure, draw, self.shown, interval=interval, blit=False, repeat_delay=1000, cache_frame_data=False)
+
+    def save(self, filename: Any, writer: Any = None, **options: Any) -> None:
+        """As FuncAnimation.save; a GIF needs nothing but Pillow."""
+        super().save(filename, writer or ("pillow" if str(filename).lower().endswith(".gif") else None), **options)
 
     def _repr_html_(self) -> str:
         """The film, in place of its first frame."""

@@ -63,7 +63,9 @@ def network(table: "Table", ax: Axes | None) -> Axes:
         if not angles:
             right.plot(time, KILO * table[name + ".voltage_V"], color=line.get_color(), linestyle=":", linewidth=1)
     right.set_ylabel("angle / degree" if angles else "voltage (dotted) / kV")
-    if not angles:
+    if angles:
+        right.margins(y=0.3)  # an opening may change as an angle does
+    else:
         right.set_ylim(bottom=min(0, right.get_ylim()[0]))
     drawn = [line for axes in ((right, ax) if angles else (ax,)) for line in axes.lines]
     ax.legend(handles=drawn, fontsize="small")
