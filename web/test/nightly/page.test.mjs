@@ -172,7 +172,9 @@ pageTest('what the core warns of is shown, for the run and for the states of res
 });
 
 pageTest('a slider dragged with the mouse while it runs: one change; plots follow', {}, async (page) => {
-  const note = await page.textContent('#voltage-note'), {x, y, width, height} = await (await page.$('#ribbon-thickness')).boundingBox();
+  const note = await page.textContent('#voltage-note'), slider = page.locator('#ribbon-thickness');
+  await slider.scrollIntoViewIfNeeded();
+  const {x, y, width, height} = await slider.boundingBox();
   await page.mouse.move(x + width * 0.2, y + height / 2);
   await page.mouse.down();
   for (let k = 0; k <= 20; k++) await page.mouse.move(x + width * (0.2 + 0.01 * k), y + height / 2);
