@@ -39,4 +39,16 @@ static double number(const ZpResult *result, const char *name) {
   return zp_result_get(result, name);
 }
 
+/* A number of the table of a run. */
+static inline double column_of(ZpSim *sim, const ZpActuatorDef *def, const char *name) {
+  ZpTable *table = zp_signal_table(def, 1);
+  double *row = calloc(zp_sim_columns(sim), sizeof *row), found = NAN;
+  zp_sim_read_columns(sim, zp_sim_columns(sim), row);
+  for (size_t c = 0; c < zp_table_columns(table); c++)
+    if (strcmp(zp_table_column(table, c)->name, name) == 0) found = row[c];
+  free(row);
+  zp_table_destroy(table);
+  return found;
+}
+
 #endif

@@ -588,18 +588,6 @@ TESTS(energy_is_conserved, 0, LENGTH_OF(conserves)) {
 
 /* -- inputs ---------------------------------------------------------------------------------------- */
 
-/* A number of the table of a run. */
-static double column_of(ZpSim *sim, const ZpActuatorDef *def, const char *name) {
-  ZpTable *table = zp_signal_table(def, 1);
-  double *row = calloc(zp_sim_columns(sim), sizeof *row), found = NAN;
-  zp_sim_read_columns(sim, zp_sim_columns(sim), row);
-  for (size_t c = 0; c < zp_table_columns(table); c++)
-    if (strcmp(zp_table_column(table, c)->name, name) == 0) found = row[c];
-  free(row);
-  zp_table_destroy(table);
-  return found;
-}
-
 /* The work of forces that a program sets on a body is booked, beside that of its own force and torque. */
 static const struct {
   const char *body, *inputs[4];

@@ -497,13 +497,20 @@ static inline size_t zp_state_pushes_size(const ZpModel *model) {
 }
 
 /* Bodies in the plane, there, too: their unknowns, the velocities of these, and mean velocity and mean acceleration
- * over the last step, each [unknowns]; how many numbers these are. */
+ * over the last step, each [unknowns], and the strains of springs with friction [springs]; how many numbers these
+ * are. */
 static inline size_t zp_state_bodies_size(const ZpModel *model) {
-  return model->number == 0 ? 4 * model->network->unknowns : 0;
+  const ZpNetwork *network = model->network;
+  return model->number == 0 ? 4 * network->unknowns + (network->plane ? network->springs : 0) : 0;
 }
 
 static inline double *zp_state_bodies(const ZpModel *model, ZpState *state) {
   return zp_state_ledger(model, state) + model->ledger.rows;
+}
+
+/* How far the faces of each spring that rubs have shifted without sliding, m; 0 of others. */
+static inline double *zp_state_strains(const ZpModel *first, ZpState *state) {
+  return zp_state_bodies(first, state) + 4 * first->network->unknowns;
 }
 
 static inline ZpRamp *zp_state_push(const ZpModel *first, ZpState *state, size_t body, size_t way) {

@@ -155,7 +155,19 @@ static ZpStatus check_pair(const ZpActuatorDef *def, const char *group, ZpInstan
 
 static ZpStatus check_spring(const ZpActuatorDef *def, int spring, ZpError *err) {
   static const int row[] = {ZP_KEY(spring_K.first), ZP_KEY(spring_K.second)};
-  return check_pair(def, "springs", ZP_OF_SPRING, spring, row, err);
+  const ZpStatus status = check_pair(def, "springs", ZP_OF_SPRING, spring, row, err);
+  const double friction = value_of(def, ZP_KEY(spring_K.friction), (size_t)spring);
+  if (status != ZP_OK || friction == 0) return status;
+  if (isnan(value_of(def, ZP_KEY(spring_K.direction), (size_t)spring)))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "springs.%s.friction = %g: it acts across a direction; give springs.%s.direction, that from the "
+                   "first body's face to the second body (90 degree: the first one is below), or leave it out",
+                   SHOWN(def, ZP_OF_SPRING, spring), friction, SHOWN(def, ZP_OF_SPRING, spring));
+  if (value_of(def, ZP_KEY(spring_K.kind), (size_t)spring) == ZP_SPRING_PUSH) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "springs.%s.friction = %g: only faces that push each other rub; give springs.%s.kind: push, or leave "
+                 "it out",
+                 SHOWN(def, ZP_OF_SPRING, spring), friction, SHOWN(def, ZP_OF_SPRING, spring));
 }
 
 static bool turns(const ZpActuatorDef *def, int body) {
@@ -174,7 +186,7 @@ static ZpStatus check_joint(const ZpActuatorDef *def, int joint, ZpError *err) {
 /* Numbers that count for bodies in the plane only: a body that moves up and down has no use for them. */
 static ZpStatus check_unused(const ZpActuatorDef *def, ZpError *err) {
   static const int row[] = {ZP_KEY(body_K.inertia), ZP_KEY(body_K.angle), ZP_KEY(body_K.torque)};
-  static const int first[] = {ZP_KEY(member_K.upper_at.x), ZP_KEY(spring_K.from_at.x)},
+  static const int first[] = {ZP_KEY(member_K.upper_at.x), ZP_KEY(spring_K.direction)},
                    last[] = {ZP_KEY(member_K.lower_at.y), ZP_KEY(spring_K.to_at.y)};
   for (int b = 1; b <= zp_instance_count(def, ZP_OF_BODY); b++)
     for (size_t k = 0; k < sizeof row / sizeof row[0]; k++)
@@ -404,6 +416,8 @@ static void join_bodies(const ZpActuatorDef *def, ZpNetwork *n) {
                             .stiffness = value_of(def, ZP_KEY(spring_K.stiffness), k + 1),
                             .rest = value_of(def, ZP_KEY(spring_K.rest), k + 1),
                             .kind = (ZpSpringKind)value_of(def, ZP_KEY(spring_K.kind), k + 1),
+                            .direction = value_of(def, ZP_KEY(spring_K.direction), k + 1),
+                            .friction = value_of(def, ZP_KEY(spring_K.friction), k + 1),
                             .at = {POINT(spring_K.from_at, k + 1), POINT(spring_K.to_at, k + 1)}};
   for (size_t k = 0; k < n->joints; k++)
     n->joint[k] = (ZpBodyJoint){.type = (ZpJointType)value_of(def, ZP_KEY(joint_K.type), k + 1),

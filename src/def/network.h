@@ -42,7 +42,10 @@ typedef struct ZpLink {
   double stiffness; /* N/m */
   double rest;      /* difference of their heights, in the plane distance of both points, without a force, m */
   ZpSpringKind kind;
-  double at[2][2]; /* in the plane: the points of both bodies, m */
+  double direction; /* in the plane: in which it measures that distance, in the drawing, rad, fixed to the first body;
+                       NAN: that of the line between both points */
+  double friction;  /* coefficient, across the direction; 0: none */
+  double at[2][2];  /* in the plane: the points of both bodies, m */
 } ZpLink;
 
 /* A joint between two bodies in the plane, at a point of the drawing. */

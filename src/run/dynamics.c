@@ -697,6 +697,12 @@ static double resolved(void *self, size_t i) {
   return i >= inner ? d->port[i - inner].law.resolved : 1;
 }
 
+/* Of friction of bodies in the plane. */
+static void overlooks(void *self, const double *v0, double h, double *e) {
+  const ZpDynamics *d = self;
+  zp_links_add_overshoot(&d->links, d->pose0, d->pose1, v0, h, e);
+}
+
 static void inertia(void *self, const double *a, double *f) {
   ZpDynamics *d = self;
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
@@ -869,6 +875,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .inertia = film ? inertia : NULL,
                             .attempt = attempt,
                             .resolved = resolved,
+                            .overlooks = in_plane(d) ? overlooks : NULL,
                             .choose = film ? choose : NULL,
                             .unforeseen = unforeseen};
 }
@@ -1015,6 +1022,7 @@ static void load_bodies(ZpDynamics *d, ZpState *state) {
   double *const to[] = {d->q, d->v, d->history.w, d->history.a};
   for (size_t k = 0; k < 4; k++)
     memcpy(to[k] + inner, from + k * n, n * sizeof *from);
+  memcpy(d->links.strain, zp_state_strains(d->plane.first, state), d->plane.first->network->springs * sizeof *from);
   zp_plane_poses(&d->plane, inner, d->q, d->pose0);
   memcpy(d->pose1, d->pose0, d->plane.bodies * sizeof *d->pose0);
 }
@@ -1169,10 +1177,19 @@ void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
   load(d, state);
 }
 
+/* Friction between bodies in the plane takes what slides; its loss is booked with the first member. */
+static void book_friction(ZpDynamics *d, ZpState *state) {
+  const ZpModel *first = d->plane.first;
+  if (!in_plane(d)) return;
+  *zp_state_row(first, state, &zp_row_contact_loss) +=
+      zp_links_slide(&d->links, d->pose0, d->pose1, zp_state_strains(first, state));
+}
+
 void zp_dynamics_end(ZpDynamics *d, ZpState *const state[]) {
   release_cavities(d);
   memcpy(d->to, d->q, d->system.n * sizeof *d->q);
   state[0]->load_work += pushed_bodies(d);
+  book_friction(d, state[0]);
   for (size_t k = 0; k < d->members; k++)
     book(d, &d->member[k], state[k]);
   book_impacts(d, state[0]);

@@ -100,7 +100,8 @@ void zp_sim_add_springs(const ZpSim *sim, double *ledger) {
     *weight += zp_links_ribbons_energy(links, sim->model->number, pose, zp_state_q(sim->model, sim->state));
     if (sim != first) return;
     *weight += zp_links_weight_energy(links, pose);
-    *zp_ledger_at(sim->model, ledger, &zp_row_spring_energy) += zp_links_energy(links, pose);
+    *zp_ledger_at(sim->model, ledger, &zp_row_spring_energy) +=
+        zp_links_energy(links, pose, zp_state_strains(sim->model, sim->state));
     ledger[0] += bodies_in_motion(sim);
     return;
   }

@@ -146,6 +146,7 @@ static void start_bodies(ZpSim *sim, const ZpStatics *rest) {
   double *to = zp_state_bodies(sim->model, sim->state);
   memset(to, 0, zp_state_bodies_size(sim->model) * sizeof *to);
   zp_plane_gather(&rest->plane, 0, rest->pose, to);
+  zp_links_hold(&rest->links, rest->pose, zp_state_strains(sim->model, sim->state));
 }
 
 void zp_sim_hang(ZpSim *sim) {

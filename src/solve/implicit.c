@@ -271,6 +271,7 @@ static double local_error(ZpImplicit *s, double h, const double *q, const double
     filtered_error(s, h, q, v, history);
   else
     memset(s->r, 0, system->n * sizeof *s->r);
+  if (system->overlooks) system->overlooks(system->self, v, h, s->r);
   for (size_t i = 0; system->kind && i < system->n; i++) {
     if (system->kind[i] == ZP_SECOND_ORDER) continue;
     double share = share_resolved(system, i);

@@ -55,6 +55,9 @@ typedef struct ZpImplicitSystem {
   /* The share of the error (18.9) of first-order unknown i that counts, 0 to 1, at the last residual: less than 1 for
    * what decays within the step, if the equations have this decay exactly. NULL: all. */
   double (*resolved)(void *self, size_t i);
+  /* e [n] += local errors of the step that the last residual is of, in its unknowns, which its accelerations do not
+   * tell, such as of a force that turns around within it. May be NULL. */
+  void (*overlooks)(void *self, const double *v0, double h, double *e);
   /* Called after each correction, which has led to y1: chooses the branches of kinked laws for the next residual. False
    * while they change one by one, which may take many iterations. May be NULL. */
   bool (*choose)(void *self, const double *y1);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/memory.h"
+#include "system/friction.h"
 
 /* -- creation -------------------------------------------------------------------------------------- */
 
@@ -32,9 +33,10 @@ bool zp_links_create(const ZpPlanar *plane, size_t inner, ZpLinks *links) {
   links->pull = zp_calloc(network->joints + 1, sizeof *links->pull);
   links->found = zp_calloc(network->joints + 1, sizeof *links->found);
   links->push = zp_calloc(network->bodies, sizeof *links->push);
+  links->strain = zp_calloc(network->springs + 1, sizeof *links->strain);
   for (size_t k = 0; k < network->members; k++)
     links->stiffness = fmax(links->stiffness, plane->first[k].axial_stiffness);
-  if (!links->spring || !links->joint || !links->pull || !links->found || !links->push) return false;
+  if (!links->spring || !links->joint || !links->pull || !links->found || !links->push || !links->strain) return false;
   for (size_t k = 0; k < network->springs; k++)
     for (int e = 0; e < 2; e++)
       links->spring[k].arm[e] = arm_of(plane, network->spring[k].body[e], network->spring[k].at[e]);
@@ -50,6 +52,7 @@ void zp_links_destroy(ZpLinks *links) {
   zp_free(links->pull);
   zp_free(links->found);
   zp_free(links->push);
+  zp_free(links->strain);
   *links = (ZpLinks){0};
 }
 
@@ -89,8 +92,81 @@ static double size_of(ZpVector a) {
   return sqrt(zp_along(a, a));
 }
 
+static ZpVector turned_by(const ZpPose *pose, ZpVector drawn) {
+  return zp_turned(zp_direction(pose->turn), drawn);
+}
+
+/* How far the second point is from the first one in a direction of the drawing that turns with the first body. */
+static double measured(const size_t body[2], const ZpArms *arms, ZpVector drawn, const ZpPose *pose) {
+  return zp_along(apart_at(body, arms, pose), turned_by(&pose[body[0]], drawn));
+}
+
+/* A force in that direction on the second point, and its opposite on the first body. */
+static void add_in(const ZpLinks *links, const size_t body[2], const ZpArms *arms, ZpVector drawn, double push,
+                   const ZpPose *from, const ZpPose *to, double *f) {
+  const ZpPose *before = &from[body[0]], *after = &to[body[0]];
+  const ZpVector mean = zp_times(0.5, zp_sum(turned_by(before, drawn), turned_by(after, drawn)));
+  add_torque(links, body[0], push * zp_along(apart(body, arms, from, to).mean, zp_pose_sweep(before, after, drawn)), f);
+  add_both(links, body, arms, zp_times(push, mean), from, to, f);
+}
+
+/* -- springs with a direction, and their friction --------------------------------------------------- */
+
+static bool is_directed(const ZpLink *link) {
+  return !isnan(link->direction);
+}
+
+/* The direction of a spring, in which it pushes the second body, and that of its friction. */
+static ZpVector facing(const ZpLink *link) {
+  return zp_direction(link->direction);
+}
+
+static ZpVector beside(const ZpLink *link) {
+  return zp_across(facing(link));
+}
+
+/* How much longer a spring is than at rest, m. */
+static double gap_of(const ZpLinks *links, size_t k, const ZpPose *pose) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  return measured(link->body, &links->spring[k], facing(link), pose) - link->rest;
+}
+
+/* Where its second point is beside the direction, m, counted from where the drawing has it. */
+static double shift(const ZpLinks *links, size_t k, const ZpPose *pose) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  const ZpArms *arms = &links->spring[k];
+  const ZpPose *one = &links->plane->body[link->body[0]].drawn, *other = &links->plane->body[link->body[1]].drawn;
+  const ZpVector drawn =
+      zp_sum((ZpVector){other->x - one->x, other->y - one->y}, zp_difference(arms->arm[1], arms->arm[0]));
+  return measured(link->body, arms, beside(link), pose) - zp_along(drawn, beside(link));
+}
+
+/* At rest, where both ends of the span are the same, it sticks where it was drawn: eq. (34.10). */
+static ZpFriction friction_of(const ZpLinks *links, size_t k, const ZpPose *from, const ZpPose *to) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  const double gap = gap_of(links, k, to), now = shift(links, k, to);
+  if (from == to) return gap > 0 ? (ZpFriction){0} : (ZpFriction){.mean = now, .end = now, .by_moved = 1};
+  const ZpRub rub = {link->friction, links->strain[k], now - shift(links, k, from), {gap_of(links, k, from), gap}};
+  return zp_friction(&rub);
+}
+
+static void add_directed(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to,
+                         double *f) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  const ZpArms *arms = &links->spring[k];
+  const double before = link->rest + gap_of(links, k, from), after = link->rest + gap_of(links, k, to);
+  add_in(links, link->body, arms, facing(link), -share * zp_link_pull(link, before, after, true).mean, from, to, f);
+  if (link->friction == 0) return;
+  const double drag = share * link->stiffness * friction_of(links, k, from, to).mean;
+  add_in(links, link->body, arms, beside(link), -drag, from, to, f);
+}
+
 static void add_spring(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to, double *f) {
   const ZpLink *link = &network_of(links)->spring[k];
+  if (is_directed(link)) {
+    add_directed(links, k, share, from, to, f);
+    return;
+  }
   const Apart d = apart(link->body, &links->spring[k], from, to);
   const double before = size_of(d.before), after = size_of(d.after);
   if (before + after == 0) return; /* without a length it has no direction */
@@ -101,10 +177,6 @@ static void add_spring(const ZpLinks *links, size_t k, double share, const ZpPos
 /* Normal of the way along which a slide goes, which turns with its first body. */
 static ZpVector normal_of(const ZpLinks *links, const ZpBodyJoint *joint) {
   return zp_across(zp_direction(network_of(links)->body[joint->body[0]].angle));
-}
-
-static ZpVector turned_by(const ZpPose *pose, ZpVector drawn) {
-  return zp_turned(zp_direction(pose->turn), drawn);
 }
 
 /* How far the second body has turned against the first one, rad. */
@@ -119,9 +191,10 @@ static double torsion(const ZpLinks *links) {
 /* Numbers that a joint keeps at 0: distances, m, and an angle, rad. */
 static void missed(const ZpLinks *links, size_t k, const ZpPose *pose, double by[ZP_PULLS]) {
   const ZpBodyJoint *joint = &network_of(links)->joint[k];
-  const ZpVector d = apart_at(joint->body, &links->joint[k], pose);
+  const ZpArms *arms = &links->joint[k];
+  const ZpVector d = apart_at(joint->body, arms, pose);
   const bool slides = joint->type == ZP_JOINS_SLIDE;
-  by[0] = slides ? zp_along(d, turned_by(&pose[joint->body[0]], normal_of(links, joint))) : d.x;
+  by[0] = slides ? measured(joint->body, arms, normal_of(links, joint), pose) : d.x;
   by[1] = slides ? 0 : d.y;
   by[2] = joint->type == ZP_JOINS_PIN ? 0 : turned(joint->body, pose);
 }
@@ -134,14 +207,10 @@ static void add_joint(ZpLinks *links, size_t k, const ZpPose *from, const ZpPose
   missed(links, k, to, after);
   for (int c = 0; c < ZP_PULLS; c++)
     pull[c] = -0.5 * (c == 2 ? torsion(links) : links->stiffness) * (before[c] + after[c]);
-  ZpVector force = {pull[0], pull[1]};
-  if (joint->type == ZP_JOINS_SLIDE) {
-    const ZpVector normal = normal_of(links, joint), d = apart(joint->body, &links->joint[k], from, to).mean;
-    const ZpVector mean = zp_times(0.5, zp_sum(turned_by(&from[one], normal), turned_by(&to[one], normal)));
-    force = zp_times(pull[0], mean);
-    add_torque(links, one, pull[0] * zp_along(d, zp_pose_sweep(&from[one], &to[one], normal)), f);
-  }
-  add_both(links, joint->body, &links->joint[k], force, from, to, f);
+  if (joint->type == ZP_JOINS_SLIDE)
+    add_in(links, joint->body, &links->joint[k], normal_of(links, joint), pull[0], from, to, f);
+  else
+    add_both(links, joint->body, &links->joint[k], (ZpVector){pull[0], pull[1]}, from, to, f);
   add_torque(links, other, pull[2], f);
   add_torque(links, one, -pull[2], f);
 }
@@ -177,10 +246,14 @@ typedef struct Entries {
   double of[BOTH][BOTH];
 } Entries;
 
-static void add_product(double factor, const double by[BOTH], Entries *e) {
+static void add_products(double factor, const double by[BOTH], const double other[BOTH], Entries *e) {
   for (int i = 0; i < BOTH; i++)
     for (int j = 0; j < BOTH; j++)
-      e->of[i][j] += factor * by[i] * by[j];
+      e->of[i][j] += factor * by[i] * other[j];
+}
+
+static void add_product(double factor, const double by[BOTH], Entries *e) {
+  add_products(factor, by, by, e);
 }
 
 static void put(const ZpLinks *links, const size_t body[2], const Entries *e, ZpSparse *D) {
@@ -213,6 +286,15 @@ static void along(ZpVector direction, const Reach *r, double by[BOTH]) {
   }
 }
 
+/* Derivative of how far the second point is in a direction that turns with the first body => that direction. */
+static ZpVector measured_by(const size_t body[2], const ZpArms *arms, ZpVector drawn, const ZpPose *pose,
+                            const Reach *r, double by[BOTH]) {
+  const ZpVector direction = turned_by(&pose[body[0]], drawn);
+  along(direction, r, by);
+  by[ZP_WAY_TURNS] += zp_along(apart_at(body, arms, pose), zp_across(direction));
+  return direction;
+}
+
 /* How many distances a joint keeps at 0: along both axes, of a slide across its way. */
 static int distances(const ZpBodyJoint *joint) {
   return joint->type == ZP_JOINS_SLIDE ? 1 : 2;
@@ -226,10 +308,7 @@ static ZpVector missed_by(const ZpLinks *links, size_t k, int c, const ZpPose *p
     along(axis, r, by);
     return axis;
   }
-  const ZpVector normal = turned_by(&pose[joint->body[0]], normal_of(links, joint));
-  along(normal, r, by);
-  by[ZP_WAY_TURNS] += zp_along(apart_at(joint->body, &links->joint[k], pose), zp_across(normal));
-  return normal;
+  return measured_by(joint->body, &links->joint[k], normal_of(links, joint), pose, r, by);
 }
 
 /* Minus the second derivative of that distance, times a force. */
@@ -238,9 +317,53 @@ static void bend(double force, ZpVector direction, const Reach *r, Entries *e) {
   e->of[ZP_WAYS + ZP_WAY_TURNS][ZP_WAYS + ZP_WAY_TURNS] += force * zp_along(direction, r->of[1]);
 }
 
+/* Minus the second derivative beside that, times the force, where the direction turns with the first body. */
+static void turn_direction(double force, ZpVector normal, ZpVector d, const Reach *r, Entries *e) {
+  double rate[BOTH];
+  along(zp_across(normal), r, rate);
+  for (int i = 0; i < BOTH; i++) {
+    e->of[ZP_WAY_TURNS][i] -= force * rate[i];
+    e->of[i][ZP_WAY_TURNS] -= force * rate[i];
+  }
+  e->of[ZP_WAY_TURNS][ZP_WAY_TURNS] += force * zp_along(d, normal);
+}
+
+static void add_curved(double force, ZpVector direction, ZpVector d, const Reach *r, Entries *e) {
+  turn_direction(force, direction, d, r, e);
+  bend(force, direction, r, e);
+}
+
+static void add_directed_stiffness(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to,
+                                   bool still, ZpSparse *D) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  const ZpArms *arms = &links->spring[k];
+  const ZpVector d = apart_at(link->body, arms, to);
+  const double before = link->rest + gap_of(links, k, from), after = link->rest + gap_of(links, k, to);
+  const double part = still ? 1 : 0.5, factor = share * link->stiffness;
+  const ZpPull pull = zp_link_pull(link, before, after, still);
+  const Reach r = reach(link->body, arms, to);
+  Entries e = {{{0}}};
+  double facing_by[BOTH], beside_by[BOTH];
+  const ZpVector normal = measured_by(link->body, arms, facing(link), to, &r, facing_by),
+                 across = measured_by(link->body, arms, beside(link), to, &r, beside_by);
+  add_product(share * pull.slope, facing_by, &e);
+  add_curved(-part * share * pull.mean, normal, d, &r, &e);
+  if (link->friction > 0) {
+    const ZpFriction drag = friction_of(links, k, from, to);
+    add_product(factor * drag.by_moved, beside_by, &e);
+    add_products(factor * drag.by_gap, beside_by, facing_by, &e);
+    add_curved(-part * factor * drag.mean, across, d, &r, &e);
+  }
+  put(links, link->body, &e, D);
+}
+
 static void add_spring_stiffness(const ZpLinks *links, size_t k, double share, const ZpPose *from, const ZpPose *to,
                                  bool still, ZpSparse *D) {
   const ZpLink *link = &network_of(links)->spring[k];
+  if (is_directed(link)) {
+    add_directed_stiffness(links, k, share, from, to, still, D);
+    return;
+  }
   const ZpVector d = apart_at(link->body, &links->spring[k], to);
   const double length = size_of(d), part = still ? 1 : 0.5;
   const ZpPull pull = zp_link_pull(link, size_of(apart_at(link->body, &links->spring[k], from)), length, still);
@@ -257,18 +380,6 @@ static void add_spring_stiffness(const ZpLinks *links, size_t k, double share, c
   put(links, link->body, &e, D);
 }
 
-/* Minus the second derivative of a slide's distance beside its bend, times a force: its direction turns with the first
- * body. */
-static void turn_slide(double force, ZpVector normal, ZpVector d, const Reach *r, Entries *e) {
-  double rate[BOTH];
-  along(zp_across(normal), r, rate);
-  for (int i = 0; i < BOTH; i++) {
-    e->of[ZP_WAY_TURNS][i] -= force * rate[i];
-    e->of[i][ZP_WAY_TURNS] -= force * rate[i];
-  }
-  e->of[ZP_WAY_TURNS][ZP_WAY_TURNS] += force * zp_along(d, normal);
-}
-
 static void add_joint_stiffness(const ZpLinks *links, size_t k, const ZpPose *to, bool still, ZpSparse *D) {
   const ZpBodyJoint *joint = &network_of(links)->joint[k];
   const Reach r = reach(joint->body, &links->joint[k], to);
@@ -277,10 +388,12 @@ static void add_joint_stiffness(const ZpLinks *links, size_t k, const ZpPose *to
   for (int c = 0; c < distances(joint); c++) {
     double by[BOTH];
     const ZpVector direction = missed_by(links, k, c, to, &r, by);
-    if (joint->type == ZP_JOINS_SLIDE)
-      turn_slide(part * pull[c], direction, apart_at(joint->body, &links->joint[k], to), &r, &e);
+    const double force = part * pull[c];
     add_product(part * links->stiffness, by, &e);
-    bend(part * pull[c], direction, &r, &e);
+    if (joint->type == ZP_JOINS_SLIDE)
+      add_curved(force, direction, apart_at(joint->body, &links->joint[k], to), &r, &e);
+    else
+      bend(force, direction, &r, &e);
   }
   const double turns[BOTH] = {[ZP_WAY_TURNS] = -1, [ZP_WAYS + ZP_WAY_TURNS] = 1};
   if (joint->type != ZP_JOINS_PIN) add_product(part * torsion(links), turns, &e);
@@ -335,6 +448,53 @@ void zp_links_take(ZpLinks *links) {
   if (links->plane) memcpy(links->pull, links->found, network_of(links)->joints * sizeof *links->pull);
 }
 
+/* -- friction over a step ---------------------------------------------------------------------------- */
+
+static bool rubs(const ZpLinks *links, size_t k) {
+  return network_of(links)->spring[k].friction > 0;
+}
+
+void zp_links_hold(const ZpLinks *links, const ZpPose *pose, double *strain) {
+  for (size_t k = 0; k < network_of(links)->springs; k++) {
+    if (!rubs(links, k)) continue;
+    const double most = zp_friction_bound(network_of(links)->spring[k].friction, gap_of(links, k, pose));
+    strain[k] = fmin(fmax(shift(links, k, pose), -most), most);
+  }
+}
+
+double zp_links_slide(const ZpLinks *links, const ZpPose *from, const ZpPose *to, double *strain) {
+  double lost = 0;
+  for (size_t k = 0; k < network_of(links)->springs; k++) {
+    if (!rubs(links, k)) continue;
+    const ZpFriction over = friction_of(links, k, from, to);
+    strain[k] = over.end;
+    lost += network_of(links)->spring[k].stiffness * over.lost;
+  }
+  return lost;
+}
+
+/* The way back of a motion over a span at constant acceleration; 0: it does not turn around. */
+static double way_back(double moved, double rate, double h) {
+  const double end = 2 * moved / h - rate;
+  return rate * end < 0 ? 0.5 * h * end * end / fabs(rate - end) : 0;
+}
+
+void zp_links_add_overshoot(const ZpLinks *links, const ZpPose *from, const ZpPose *to, const double *rate, double h,
+                            double *e) {
+  for (size_t k = 0; k < network_of(links)->springs; k++) {
+    const ZpLink *link = &network_of(links)->spring[k];
+    if (!rubs(links, k) || friction_of(links, k, from, to).lost == 0) continue;
+    const Reach r = reach(link->body, &links->spring[k], from);
+    double by[BOTH], start = 0;
+    measured_by(link->body, &links->spring[k], beside(link), from, &r, by);
+    for (int i = 0; i < BOTH; i++)
+      start += by[i] * zp_plane_change(links->plane, link->body[i / ZP_WAYS], i % ZP_WAYS, links->inner, rate);
+    const double back = way_back(shift(links, k, to) - shift(links, k, from), start, h);
+    for (int i = 0; i < BOTH; i++)
+      zp_plane_push(links->plane, link->body[i / ZP_WAYS], i % ZP_WAYS, by[i] * back, links->inner, e);
+  }
+}
+
 /* -- energy ---------------------------------------------------------------------------------------- */
 
 static double energy_of_body(const ZpLinks *links, size_t b, const ZpPose *pose) {
@@ -354,11 +514,18 @@ double zp_links_weight_energy(const ZpLinks *links, const ZpPose *pose) {
   return sum;
 }
 
-double zp_links_energy(const ZpLinks *links, const ZpPose *pose) {
+static double length_of(const ZpLinks *links, size_t k, const ZpPose *pose) {
+  const ZpLink *link = &network_of(links)->spring[k];
+  return is_directed(link) ? link->rest + gap_of(links, k, pose)
+                           : size_of(apart_at(link->body, &links->spring[k], pose));
+}
+
+double zp_links_energy(const ZpLinks *links, const ZpPose *pose, const double *strain) {
   const ZpNetwork *network = network_of(links);
   double sum = 0;
   for (size_t k = 0; k < network->springs; k++)
-    sum += zp_link_energy(&network->spring[k], size_of(apart_at(network->spring[k].body, &links->spring[k], pose)));
+    sum += zp_link_energy(&network->spring[k], length_of(links, k, pose)) +
+           0.5 * network->spring[k].stiffness * strain[k] * strain[k];
   for (size_t k = 0; k < network->joints; k++) {
     double by[ZP_PULLS];
     missed(links, k, pose, by);

@@ -23,13 +23,14 @@ typedef struct ZpLinks {
                                 stiffness begins: those of joints that it has bent would turn bodies back */
   double (*push)[ZP_WAYS];   /* [bodies] forces at their places and torques that a program sets, N, N m */
   double (*found)[ZP_PULLS]; /* [joints] those of the last forces */
+  double *strain;            /* [springs] elastic shift of those that rub at the start of a span, m */
 } ZpLinks;
 
 /* False if there is no memory. */
 bool zp_links_create(const ZpPlanar *plane, size_t inner, ZpLinks *links);
 void zp_links_destroy(ZpLinks *links);
 
-/* f [n] += mean forces over a span of the poses [bodies], of which `share` acts, of joints all. */
+/* f [n] += mean forces over a span of the poses [bodies], of which `share` acts, of joints all. One array: rest. */
 void zp_links_add_force(ZpLinks *links, double share, const ZpPose *from, const ZpPose *to, double *f);
 
 /* D += minus their derivative by the unknowns at the end, of both ends where `still`. */
@@ -40,9 +41,20 @@ void zp_links_add_stiffness(const ZpLinks *links, double share, const ZpPose *fr
 void zp_links_predict(ZpLinks *links, const ZpPose *pose, const double *step, double fraction);
 void zp_links_take(ZpLinks *links);
 
-/* Energy of springs and joints; of weights and constant forces of bodies, 0 in the drawing; of the weight of a member's
- * ribbons, whose nodes it sees, 0 where they are straight there, J. */
-double zp_links_energy(const ZpLinks *links, const ZpPose *pose);
+/* Friction: its strains [springs] where a rest begins to move, those that it can bear there; over a span the strains at
+ * its end => what has slid takes, J, eq. (34.9). */
+void zp_links_hold(const ZpLinks *links, const ZpPose *pose, double *strain);
+double zp_links_slide(const ZpLinks *links, const ZpPose *from, const ZpPose *to, double *strain);
+
+/* e [n] += errors of unknowns where a body slides over a span of length h that begins at rates [n] and comes back
+ * within it: the way back, over which friction acts the other way, eq. (34.11). */
+void zp_links_add_overshoot(const ZpLinks *links, const ZpPose *from, const ZpPose *to, const double *rate, double h,
+                            double *e);
+
+/* Energy of springs, with the strains [springs] of those that rub, and joints; of weights and constant forces of
+ * bodies, 0 in the drawing; of the weight of a member's ribbons, whose nodes it sees, 0 where they are straight there,
+ * J. */
+double zp_links_energy(const ZpLinks *links, const ZpPose *pose, const double *strain);
 double zp_links_weight_energy(const ZpLinks *links, const ZpPose *pose);
 double zp_links_ribbons_energy(const ZpLinks *links, size_t member, const ZpPose *pose, const double *nodes);
 
