@@ -1,15 +1,18 @@
 #picture members.svg one motion :bodies
-# Heights of the bodies of a network, in the plane their angles, and openings of its members, over time.
+# Heights of the bodies of a network, in the plane their angles, or where none turns their places to the right, and openings
+# of its members, over time.
 load 'functions.gp'
-turns = exists('in_plane')
-title = (turns ? 'Angles' : 'Heights').' of the bodies and openings of the members over time'
+plane = exists('in_plane')
+turns = 0
+do for [name in bodies_named] { if (plane && of('highest_', name.'.angle_rad') - of('lowest_', name.'.angle_rad') > 1e-3) { turns = 1 } }
+title = (turns ? 'Angles' : plane ? 'Places' : 'Heights').' of the bodies and openings of the members over time'
 load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
 list = ''
-do for [name in bodies_named] { list = list.name.(turns ? '.angle_rad ' : '.y_m ') }
+do for [name in bodies_named] { list = list.name.(turns ? '.angle_rad ' : plane ? '.x_m ' : '.y_m ') }
 titles = escaped(bodies_named)
-quantity = turns ? 'angle' : 'height'
+quantity = turns ? 'angle' : plane ? 'x' : 'height'
 si = turns ? 'rad' : 'm'
 sized = list
 load 'curves.gp'

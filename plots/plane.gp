@@ -53,6 +53,31 @@ _bar(k, end, i) = _key('member_%d_angle', k, 0) + _turn(limb_body[2*k - 2 + end]
 bar_x(k, end, i) = 0.5*platform_length*cos(_bar(k, end, i))
 bar_y(k, end, i) = 0.5*platform_length*sin(_bar(k, end, i))
 
+# A spring with a direction, _facing, leads to its second end from where that is above its first body's face. Faces are
+# drawn of those that rub and of those of the frame that push, as far as second ends go along them.
+_directed(k) = exists(sprintf('spring_%d_direction', k))
+has_face(k) = _directed(k) && _key('spring_%d_kind', k, 'both') eq 'push' && (_key('spring_%d_friction', k, 0) > 0 || limb_body[2*members + 2*k - 1] == 0)
+_facing(k, i) = _key('spring_%d_direction', k, 0) + _turn(limb_body[2*members + 2*k - 1], i) - _drawn(limb_body[2*members + 2*k - 1], 'angle')
+_apart_x(k, i) = limb_x(2*members + 2*k, i) - limb_x(2*members + 2*k - 1, i)
+_apart_y(k, i) = limb_y(2*members + 2*k, i) - limb_y(2*members + 2*k - 1, i)
+_beside(k, i) = cos(_facing(k, i))*_apart_y(k, i) - sin(_facing(k, i))*_apart_x(k, i)
+_above(k, i) = cos(_facing(k, i))*_apart_x(k, i) + sin(_facing(k, i))*_apart_y(k, i)
+spring_x(k, i) = limb_x(2*members + 2*k, i) - (_directed(k) ? cos(_facing(k, i))*_above(k, i) : _apart_x(k, i))
+spring_y(k, i) = limb_y(2*members + 2*k, i) - (_directed(k) ? sin(_facing(k, i))*_above(k, i) : _apart_y(k, i))
+# a point of the face of spring k, `s` along it and `depth` below it
+face_x(k, i, s, depth) = limb_x(2*members + 2*k - 1, i) + cos(_facing(k, i))*(_key('spring_%d_rest', k, 0) - depth) - sin(_facing(k, i))*s
+face_y(k, i, s, depth) = limb_y(2*members + 2*k - 1, i) + sin(_facing(k, i))*(_key('spring_%d_rest', k, 0) - depth) + cos(_facing(k, i))*s
+array face_from[springs + 1]
+array face_to[springs + 1]
+do for [k=1:springs] {
+  face_from[k] = _beside(k, 1)
+  face_to[k] = _beside(k, 1)
+  do for [i=1:shown] {
+    face_from[k] = min(face_from[k], _beside(k, i))
+    face_to[k] = max(face_to[k], _beside(k, i))
+  }
+}
+
 # the box around all
 do for [i=1:shown] {
   do for [n=1:limbs] {

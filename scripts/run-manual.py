@@ -55,6 +55,8 @@ PICTURES = {
     "joint.gif": "joint/plots/animation.gif",
     "joint.svg": "joint/plots/members.svg",
     "gripper.gif": "gripper/plots/animation.gif",
+    "inchworm.gif": "inchworm/plots/animation.gif",
+    "inchworm.svg": "inchworm/plots/members.svg",
     "stack-steps.svg": "stack-steps/plots/stroke.svg",
     "stack-modes.svg": "stack-modes/plots/modes.svg",
     "antagonists.svg": "antagonists/plots/shapes.svg",

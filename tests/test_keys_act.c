@@ -51,6 +51,9 @@
   "study=stationary mesh.nodes=5 drive.voltage=0 body_1.moves=plane body_1.mass=1g body_1.inertia=1e-9 "               \
   "body_1.at.x=300mm body_1.at.y=-100mm body_2.mass=1g member_1.upper=frame member_1.lower=2"
 #define PENDULUM BESIDE_AN_ACTUATOR " joint_1.first=0 joint_1.second=1 joint_1.at.x=300mm"
+#define TOUCHES                                                                                                        \
+  "body_1.force.x=9.81mN spring_1.first=0 spring_1.second=1 spring_1.stiffness=1e6N/m spring_1.kind=push "             \
+  "spring_1.from_at.x=300mm spring_1.from_at.y=-100mm"
 #define BOUNCY                                                                                                         \
   BESIDE_AN_ACTUATOR " spring_1.first=0 spring_1.second=1 spring_1.stiffness=1e5N/m spring_1.rest=100mm "              \
                      "spring_1.from_at.x=300mm spring_1.to_at.y=10mm"

@@ -416,10 +416,19 @@ static ZpVector point_of(const ZpWeb *web, size_t body, const double at[2]) {
   return zp_pose_point(&pose, (ZpVector){at[0], at[1]});
 }
 
+/* Where a spring begins that ends at `to`: with a direction the point of its first body in that direction. */
+static ZpVector begin_of(const ZpWeb *web, const ZpLink *link, ZpVector to) {
+  const ZpVector from = point_of(web, link->body[0], link->at[0]);
+  if (isnan(link->direction)) return from;
+  const double turns = zp_sim_place(web->sim, link->body[0]).turn - web->model->network->body[link->body[0]].angle;
+  const ZpVector facing = zp_direction(link->direction + turns);
+  return zp_difference(to, zp_times(zp_along(zp_difference(to, from), facing), facing));
+}
+
 /* Ends of a spring, x and y of each, m, and the bodies there. */
 EXPORT const double *zp_web_spring(ZpWeb *web, int spring) {
   const ZpLink *link = &web->model->network->spring[spring];
-  const ZpVector from = point_of(web, link->body[0], link->at[0]), to = point_of(web, link->body[1], link->at[1]);
+  const ZpVector to = point_of(web, link->body[1], link->at[1]), from = begin_of(web, link, to);
   const double values[SPRING_NUMBERS] = {from.x, from.y, to.x, to.y, (double)link->body[0], (double)link->body[1]};
   return give(web, values, SPRING_NUMBERS);
 }
