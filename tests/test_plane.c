@@ -60,7 +60,22 @@ static const char soft_kinds[] =
     "  lifts: {upper: frame, lower: arm, lower_at: [-40 mm, -6 mm]}\n"
     "  hangs: {upper: arm, lower: hand, upper_at: [-35 mm, -3 mm], lower_at: [2 mm, 2 mm], angle: 5 degree}\n";
 
-static const char *const derivatives[] = {all_kinds, soft_kinds};
+/* A block that sticks between a floor and a wall on a body that turns, and a spring with a direction. */
+static const char touching[] =
+    "study: stationary\nmesh.nodes: 13\n"
+    "bodies:\n  arm: {moves: plane, mass: 9 g, inertia: 1e-6 kg m2, at: [10 mm, -30 mm], angle: 20 degree}\n"
+    "  block: {moves: plane, mass: 5 g, inertia: 1e-6 kg m2, at: [15 mm, -10 mm], angle: -10 degree, force: [3 mN, "
+    "0]}\n"
+    "springs:\n"
+    "  foot: {between: [arm, block], from_at: [1 mm, 2 mm], to_at: [-6 mm, -4 mm], direction: 80 degree, rest: 16 mm, "
+    "stiffness: 50 N/m, kind: push, friction: 0.5}\n"
+    "  toe: {between: [arm, block], from_at: [2 mm, 1 mm], to_at: [8 mm, -2 mm], direction: 125 degree, rest: 7 mm, "
+    "stiffness: 40 N/m, kind: push, friction: 0.3}\n"
+    "  guide: {between: [frame, arm], from_at: [60 mm, 10 mm], direction: -170 degree, rest: 40 mm, stiffness: 20 "
+    "N/m}\n"
+    "members: {lifts: {upper: frame, lower: arm}}\n";
+
+static const char *const derivatives[] = {all_kinds, soft_kinds, touching};
 
 /* The residual at a fraction of a step from a point that is kept. */
 static void residual_at(ZpStatics *s, const void *kept, const double *step, double fraction, double *r) {

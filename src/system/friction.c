@@ -19,27 +19,22 @@ typedef struct Touch {
 static Touch touch_of(const ZpRub *rub) {
   const double before = zp_friction_bound(rub->friction, rub->gap[0]),
                after = zp_friction_bound(rub->friction, rub->gap[1]);
-  if (before > 0 && after > 0) return (Touch){0, 1, {before, after}};
-  if (before > 0) return (Touch){0, rub->gap[1] > 0 ? crossing(rub) : 1, {before, 0}};
-  if (after > 0) return (Touch){rub->gap[0] > 0 ? crossing(rub) : 0, 1, {0, after}};
-  return (Touch){0};
+  if (before == 0 && after == 0) return (Touch){0};
+  return (Touch){rub->gap[0] > 0 ? crossing(rub) : 0, rub->gap[1] > 0 ? crossing(rub) : 1, {before, after}};
 }
 
-/* When the strain comes to its bound on either side, and which; at the end if it does not. */
-static double slides_at(const Touch *touch, double strain, double stuck, double *side) {
-  for (*side = -1; *side <= 1; *side += 2) {
-    const double over = *side * stuck - touch->bound[1], under = fmin(*side * strain - touch->bound[0], 0);
-    if (over > 0) return touch->from + (touch->to - touch->from) * under / (under - over);
-  }
-  return touch->to;
+/* When the strain comes to its bound on the side to which it goes; at the end if it does not. `stuck`: where it would
+ * end without a bound. */
+static double slides_at(const Touch *touch, double side, double strain, double stuck) {
+  const double over = side * stuck - touch->bound[1], under = fmin(side * strain - touch->bound[0], 0);
+  return over > 0 ? touch->from + (touch->to - touch->from) * under / (under - over) : touch->to;
 }
 
 /* The strain grows with the way until it comes to the bound, and then is the bound. */
 ZpFriction zp_friction(const ZpRub *rub) {
   const Touch touch = touch_of(rub);
-  double side;
-  const double stuck = rub->strain + (touch.to - touch.from) * rub->moved;
-  const double slides = slides_at(&touch, rub->strain, stuck, &side);
+  const double stuck = rub->strain + (touch.to - touch.from) * rub->moved, side = copysign(1, stuck);
+  const double slides = slides_at(&touch, side, rub->strain, stuck);
   const double sticks = slides - touch.from, left = touch.to - slides;
   const double bound = rub->strain + sticks * rub->moved, end = left > 0 ? side * touch.bound[1] : stuck;
   const double sooner = touch.from > 0 ? touch.from / (rub->gap[0] - rub->gap[1]) : 0; /* contact begins later */
