@@ -348,6 +348,21 @@ TEST(forces_are_of_an_energy) {
   zp_model_destroy(model);
 }
 
+/* A pendulum above a floor that it does not touch. */
+TEST(lifted_contact_does_not_stick) {
+  ZpActuatorDef def =
+      def_of("study: stationary\nmesh.nodes: 9\n"
+             "bodies:\n  bob: {moves: plane, mass: 7 g, inertia: 3e-6 kg m2, at: [300 mm, -80 mm], force: [3 mN, 0]}\n"
+             "  hand: {mass: 2 g}\n"
+             "joints: {pin: {type: pin, between: [frame, bob], at: [300 mm, 0]}}\n"
+             "springs: {floor: {between: [frame, bob], from_at: [300 mm, -81 mm], direction: 90 degree, kind: push, "
+             "stiffness: 5000 N/m, friction: 1}}\n"
+             "members: {other: {upper: frame, lower: hand}}\n");
+  const double angle = number(answer_of(ZP_STUDY_STATIONARY, &def), "bodies.bob.angle_rad");
+  printf("turned by %.6g, off by %.2g\n", angle, angle / atan(3e-3 / (7e-3 * g)) - 1);
+  ck_near(angle, atan(3e-3 / (7e-3 * g)), 1e-9);
+}
+
 /* The order in which springs and bodies are named. */
 TEST(names_do_not_matter) {
   static const char *const order[] = {"one: %s, two: %s", "zwei: %s, eins: %s"};

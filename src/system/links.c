@@ -145,7 +145,7 @@ static double shift(const ZpLinks *links, size_t k, const ZpPose *pose) {
 static ZpFriction friction_of(const ZpLinks *links, size_t k, const ZpPose *from, const ZpPose *to) {
   const ZpLink *link = &network_of(links)->spring[k];
   const double gap = gap_of(links, k, to), now = shift(links, k, to);
-  if (from == to) return gap > 0 ? (ZpFriction){0} : (ZpFriction){.mean = now, .end = now, .by_moved = 1};
+  if (from == to) return gap < 0 ? (ZpFriction){.mean = now, .end = now, .by_moved = 1} : (ZpFriction){0};
   const ZpRub rub = {link->friction, links->strain[k], now - shift(links, k, from), {gap_of(links, k, from), gap}};
   return zp_friction(&rub);
 }

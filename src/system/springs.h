@@ -22,8 +22,7 @@ static inline double zp_link_deformed(const ZpLink *link, double length) {
 
 /* Has it a stiffness at this length? */
 static inline bool zp_link_acts(const ZpLink *link, double length) {
-  if (link->kind == ZP_SPRING_PULL) return length >= link->rest;
-  return link->kind == ZP_SPRING_BOTH || length <= link->rest;
+  return link->kind == ZP_SPRING_BOTH || zp_link_deformed(link, length) != 0;
 }
 
 /* Mean pull over a span between two lengths, N, whose work is the decrease of the energy, and its derivative by the
