@@ -89,6 +89,24 @@ const joint = (k, first, second, x, y) => named('joint', k, {first: `${first}`, 
 const plane = {moves: 'plane'};
 const diagonal = (k, from, to) => named('spring', k, {first: '1', second: '2', 'from_at.x': '40 mm', 'from_at.y': `${from} mm`, 'to_at.x': '-40 mm', 'to_at.y': `${to} mm`, stiffness: '60 N/m', rest: '22.6 mm', kind: 'push'});
 
+// An inchworm: feet 1 and 3 with pads 2 and 4, as in examples/inchworm.yaml.
+const point = (key, x, y) => ({[`${key}.x`]: `${x} mm`, [`${key}.y`]: `${y} mm`});
+const foot = (k, x) => body(k, {...plane, mass: '4 g', inertia: '4000 g mm2', ...point('at', x, 45)});
+const pad = (k, x) => body(k, {...plane, mass: '1 g', inertia: '200 g mm2', ...point('at', x, -8), angle: '90 degree'});
+const slide = (k, first, second, x) => ({...joint(k, first, second, x, 0), [`joint_${k}.type`]: 'slide'});
+const lift = (k, on, x, keys = {}) => member(k, on, on + 1, {...point('upper_at', x, -45), 'lower_at.x': '5 mm', 'ribbon.width': '25.4 mm', ...keys});
+const press = (k, on, x) => named('spring', k, {first: `${on}`, second: `${on + 1}`, ...point('from_at', x, -45), direction: '-90 degree', stiffness: '30 N/m', rest: '19 mm', kind: 'push'});
+const grip = (k, on) => named('spring', k, {first: '0', second: `${on}`, ...point('from_at', 0, -8), direction: '90 degree', stiffness: '5000 N/m', kind: 'push', friction: '1'});
+const across = (k, stiffness, rest) => named('spring', k, {first: '1', second: '3', ...point('from_at', 40, 20), ...point('to_at', -40, 20), direction: '0', stiffness, rest, kind: 'push'});
+const inchworm = {
+  ...foot(1, -40), ...pad(2, -62), ...foot(3, 57), ...pad(4, 79),
+  ...slide(1, 0, 1, -62), ...slide(2, 0, 3, 79), ...slide(3, 2, 1, -62), ...slide(4, 4, 3, 79),
+  ...lift(1, 1, -22, {'drive.delay': '0.5 s'}), ...lift(2, 3, 22),
+  ...member(3, 1, 3, {...point('upper_at', 40, 20), ...point('lower_at', -40, 20), angle: '90 degree', 'drive.voltage': '5.5 kV', 'drive.rise_time': '50 ms', 'drive.duty': '0.5', 'drive.delay': '0.56 s'}),
+  ...press(1, 1, -22), ...press(2, 3, 22), ...grip(3, 2), ...grip(4, 4), ...across(5, '4 N/m', '33 mm'), ...across(6, '30 N/m', '7 mm'),
+  'drive.waveform': 'square', 'drive.voltage': '8 kV', 'drive.frequency': '1 Hz', 'drive.duty': '0.45', 'drive.rise_time': '20 ms', 'damping.drag': '0.02 N s2/m2', 'mesh.nodes': '21',
+};
+
 /** Presets by topic, with their values in the order of the sliders. A preset replaces the whole scenario. */
 export const presets = [
   {of: 'Actuators', name: 'The paper’s', help: '50 µm steel lifts 8 g', values: {}},
@@ -115,6 +133,7 @@ export const presets = [
   {of: 'Networks', name: 'Tree', help: 'a bar, and on it two hands of 6 g and 8 g: each actuator lifts all below it', values: {...body(1, {mass: '4 g'}), ...body(2, {mass: '6 g', 'at.x': '-110 mm'}), ...body(3, {mass: '8 g', 'at.x': '110 mm'}), ...member(1, 0, 1, {'ribbon.width': '40 mm'}), ...member(2, 1, 2), ...member(3, 1, 3), 'mesh.nodes': '31'}},
   {of: 'Networks', name: 'Joint', help: 'antagonists turn a forearm on its pivot: the left one has 5 kV, the right one nothing', values: {...body(1, {...plane, mass: '12 g', inertia: '2000 g mm2', 'at.y': '-8 mm'}), ...joint(1, 0, 1, 0, 6), ...member(1, 0, 1, {'upper_at.x': '-60 mm', 'lower_at.x': '-60 mm'}), ...member(2, 0, 1, {'upper_at.x': '60 mm', 'lower_at.x': '60 mm', 'drive.voltage': '0 kV'}), 'drive.voltage': '5 kV', 'damping.drag': '0.02 N s2/m2', 'mesh.nodes': '31'}},
   {of: 'Networks', name: 'Gripper', help: 'actuators lift two fingers on pins, which close on a soft block', values: {...body(1, {...plane, mass: '5 g', inertia: '6000 g mm2', 'at.x': '-50 mm', 'at.y': '-8 mm'}), ...body(2, {...plane, mass: '5 g', inertia: '6000 g mm2', 'at.x': '50 mm', 'at.y': '-8 mm'}), ...joint(1, 0, 1, -110, -8), ...joint(2, 0, 2, 110, -8), ...member(1, 0, 1, {'upper_at.x': '-55 mm', 'lower_at.x': '-5 mm'}), ...member(2, 0, 2, {'upper_at.x': '55 mm', 'lower_at.x': '5 mm'}), ...diagonal(1, -54, -70), ...diagonal(2, -70, -54), 'drive.voltage': '5 kV', 'damping.drag': '0.02 N s2/m2', 'mesh.nodes': '31'}},
+  {of: 'Networks', name: 'Inchworm', help: 'Step plays three channels: pads grip the floor in turn while the body contracts and extends', values: inchworm},
 ];
 
 const usualFactor = 10; // of slow motion

@@ -228,6 +228,16 @@ test('a network: members where their bodies are, each with its voltage; a body t
   for (const [{x, y}, k] of [[springs[1][0], 0], [springs[0][1], 1]]) near(Math.hypot(x - fingers[k].x, y - fingers[k].y), Math.hypot(40e-3, 70e-3));
 });
 
+test('the inchworm of the presets walks: Step plays its channels, its pads grip and slide', () => {
+  const {engine} = geometryAt({...presetOf('Inchworm'), 'mesh.nodes': '13'}), go = (question) => new Frame(engine.answer({span: 50e-3, ...question}).frame);
+  const pads = (frame) => [2, 4].map((k) => frame.part('body', k).x);
+  const from = pads(go({voltage: 8e3, restart: true}));
+  let to;
+  for (let k = 0; k < 18; k++) to = pads(go({}));
+  assert.ok(to[0] - from[0] > 5e-3, `the rear pad has moved by ${to[0] - from[0]} m`);
+  assert.ok(Math.abs(to[1] - from[1]) < 1e-3, `the front pad holds: ${to[1] - from[1]} m`);
+});
+
 test('Step plays the waveforms and controllers of channels; release ends waveforms; a change begins again', () => {
   const two = {'mesh.nodes': '9', 'liquid.model': 'none', 'body_1.mass': '4 g', 'body_2.mass': '4 g', 'member_1.upper': '0', 'member_1.lower': '1', 'member_2.upper': '0', 'member_2.lower': '2'};
   const waves = {...two, 'drive.voltage': '6 kV', 'member_2.drive.waveform': 'ramp', 'member_2.drive.rise_time': '100 ms'};
