@@ -426,6 +426,65 @@ TEST(cycle_of_a_tree_loses_what_it_takes) {
            5e-6 * range); /* 7e-7 measured */
 }
 
+/* -- one member ------------------------------------------------------------------------------------ */
+
+#define PROFILE "study: profile\nprofile.shape: %s\nisometric.separation: 2 mm\nmesh.nodes: 21\n"
+#define OTHER   "ribbon.thickness: 60 um, insulator.thickness: 100 um, drive.voltage: 6 kV"
+static const char *const of_several[] = {
+    PROFILE "profile.member: other\nbodies: {hand: {mass: 8 g}}\nmembers: {one: {upper: frame, lower: hand},\n"
+            "  other: {upper: frame, lower: hand, " OTHER "}}\n",
+    PROFILE "profile.member: other\nliquid.model: none\nbodies: {hand: {moves: plane, mass: 8 g, at: [0, -10 mm]}}\n"
+            "members: {one: {upper: frame, lower: hand},\n"
+            "  other: {upper: frame, lower: hand, angle: 1, " OTHER "}}\n",
+    PROFILE "profile.member: member_2\nstack.series: 2\nmember_2: {" OTHER "}\n",
+    PROFILE "profile.member: 2\nstack.parallel: 2\nmember_2: {" OTHER "}\n",
+    PROFILE "bodies: {hand: {}, foot: {mass: 1 g}}\nmembers: {a: {upper: frame, lower: hand},\n"
+            "  b: {upper: hand, lower: foot}}\nribbon.thickness: 60 um\ninsulator.thickness: 100 um\n"
+            "drive.voltage: 6 kV\n",
+};
+
+/* Its profile is that of a single actuator with its keys, to the last bit; of bodies in the plane without platforms'
+ * electrodes and liquid, as these have none. */
+TESTS(profile_of_a_member, 0, 2 * LENGTH_OF(of_several)) {
+  const char *pattern = of_several[_i / 2];
+  char text[1024], single[1024];
+  const bool plane = strstr(pattern, "plane");
+  snprintf(text, sizeof text, pattern, _i % 2 ? "cubic" : "held");
+  snprintf(single, sizeof single,
+           PROFILE "ribbon.thickness: 60 um\ninsulator.thickness: 100 um\ndrive.voltage: 6 kV\n%s",
+           _i % 2 ? "cubic" : "held", plane ? "platform.electrode: false\nliquid.model: none\n" : "");
+  const ZpActuatorDef def = def_of(text), alone = def_of(single);
+  const ZpResult *a = answer_of(ZP_STUDY_PROFILE, &def), *b = answer_of(ZP_STUDY_PROFILE, &alone);
+  for (size_t k = 0; k < a->scalars; k++)
+    if (!isnan(b->scalar[k].value)) ck_assert_double_eq(number(a, b->scalar[k].name), b->scalar[k].value);
+  ck_assert_uint_eq(a->series->rows, b->series->rows);
+  for (size_t k = 0; k < a->series->rows; k++)
+    ck_assert_double_eq(zp_table_get(a->series, k, "field_N_per_m"), zp_table_get(b->series, k, "field_N_per_m"));
+}
+
+static const struct {
+  const char *text, *says;
+} wrong_profiles[] = {
+    {"profile.member: x\nbodies: {hand: {}}\nmembers: {a: {upper: frame, lower: hand}}",
+     "profile.member = x: there is no such member"},
+    {"bodies: {hand: {}}\nmembers: {a: {upper: frame, lower: hand}, b: {upper: frame, lower: hand, ribbon.width: 9 "
+     "mm}}",
+     "profile.member: missing; members differ, so name the one whose force is computed, such as a"},
+    {"profile.member: 3\nstack.series: 2", "profile.member = member_3: there is no such member"},
+    {"profile.member: b\nisometric.separation: 50 mm\nbodies: {hand: {}}\nmembers: {a: {upper: frame, lower: hand},"
+     " b: {upper: frame, lower: hand, ribbon.length: 40 mm}}",
+     "members.b: isometric.separation = 0.05 m: out of reach"},
+    {"profile.member: b\nbodies: {hand: {}}\nmembers: {a: {upper: frame, lower: hand},"
+     " b: {upper: frame, lower: hand, insulator.thickness: 0}}",
+     "members.b: insulator.thickness = 0 m"},
+};
+
+TESTS(wrong_profiles_are_refused, 0, LENGTH_OF(wrong_profiles)) {
+  ck_scenario_refused(ZP_STUDY_PROFILE, wrong_profiles[_i].text, wrong_profiles[_i].says);
+}
+
+/* -- the language ---------------------------------------------------------------------------------- */
+
 /* What a scenario of this text writes. */
 static char *written(const char *from) {
   char *text = NULL;

@@ -49,6 +49,8 @@ static const char *needs_of(ZpStudy study) {
     return "isometric.separation=8 mm; drive.voltage=6 kV";
   case ZP_STUDY_MODES:
     return "modes.voltage=1 kV";
+  case ZP_STUDY_PROFILE:
+    return "profile.member=1";
   default:
     return "";
   }

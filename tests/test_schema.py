@@ -79,7 +79,7 @@ for key in keys:
     ok("%s: its default %s is right" % (name, default), not fault("%s: %s" % (name, default)))
     for choice in key["choices"]:
         ok("%s: %s is right" % (name, choice["word"]), not fault("%s: %s" % (name, choice["word"])))
-    is_a_name = name in ("member_12.upper", "member_12.lower", "member_12.port", "spring_12.first", "spring_12.second", "joint_12.first", "joint_12.second", "isometric.body")
+    is_a_name = name in ("member_12.upper", "member_12.lower", "member_12.port", "spring_12.first", "spring_12.second", "joint_12.first", "joint_12.second", "isometric.body", "profile.member")
     ok("%s: a word that is none of its own" % name, key["type"] == "text" or is_a_name or fault(name + ": quux"))
 
 # every example, and what the command writes

@@ -74,8 +74,8 @@ int zp_instance_next(const ZpActuatorDef *def, int index);
 const char *zp_def_name(const ZpActuatorDef *def, ZpInstanceKind kind, int number, char text[ZP_NAME_SIZE]);
 ZpStatus zp_def_set_names(ZpActuatorDef *def, const ZpGivenName *name, size_t count, ZpError *err);
 
-/* The kind that a key's value names: ZP_OF_BODY, ZP_OF_PORT; ZP_NAMED_KINDS: none. Rows that stand for those of all
- * count. */
+/* The kind that a key's value names: ZP_OF_MEMBER, ZP_OF_BODY, ZP_OF_PORT; ZP_NAMED_KINDS: none. Rows that stand for
+ * those of all count. */
 ZpInstanceKind zp_key_names(int key);
 static inline bool zp_key_is_name(int key) {
   return zp_key_names(key) < ZP_NAMED_KINDS;
@@ -156,6 +156,9 @@ bool zp_def_parallel(const ZpActuatorDef *def);
  * last member carries load.mass and load.force, each other member a link. Of two antagonists the first carries the
  * load, and the last is upside down. Parallel members share the load equally. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
+
+/* Are two members the same actuator, but for their loads and the controller of the first one? */
+bool zp_def_alike(const ZpActuatorDef *one, const ZpActuatorDef *other);
 
 /* Are bodies given? Then members are what their keys say, and this sets the load of one: its part of the mass and of
  * the force of the body at its lower end. */

@@ -119,6 +119,7 @@ const char *zp_key_of_one(const char *name) {
 ZpInstanceKind zp_key_names(int key) {
   const ZpInstance at = zp_key_instance(key);
   if (at.row == ZP_KEY(member_K.port)) return ZP_OF_PORT;
+  if (key == ZP_KEY(profile.member)) return ZP_OF_MEMBER;
   const bool body = key == ZP_KEY(isometric.body) || at.row == ZP_KEY(member_K.upper) ||
                     at.row == ZP_KEY(member_K.lower) || at.row == ZP_KEY(spring_K.first) ||
                     at.row == ZP_KEY(spring_K.second) || at.row == ZP_KEY(joint_K.first) ||

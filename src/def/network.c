@@ -79,6 +79,9 @@ static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err)
   const double half_turn = zp_key(ZP_KEY(member_K.angle))->max;
   const char *name = SHOWN(def, ZP_OF_MEMBER, member);
   const double angle = fabs(value_of(def, ZP_KEY(member_K.angle), (size_t)member));
+  const ZpAssignment *value;
+  if (zp_instances_of(def, ZP_OF_MEMBER, member, &value) == 0 && def->profile.member == member)
+    return zp_fail(err, ZP_BAD_INPUT, "profile.member = %s: there is no such member", name);
   ZpStatus status = check_end(def, ZP_KEY(member_K.upper), member, err);
   if (status == ZP_OK) status = check_end(def, ZP_KEY(member_K.lower), member, err);
   if (status != ZP_OK) return status;

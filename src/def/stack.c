@@ -227,6 +227,18 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
   return one;
 }
 
+bool zp_def_alike(const ZpActuatorDef *one, const ZpActuatorDef *other) {
+  ZpActuatorDef loaded = *one;
+  loaded.load = other->load;
+  loaded.control = other->control;
+  loaded.setpoint = other->setpoint;
+  for (int key = 0; key < zp_key_count(); key++) {
+    const double a = zp_def_get(&loaded, key), b = zp_def_get(other, key);
+    if (a != b && !(isnan(a) && isnan(b))) return false;
+  }
+  return true;
+}
+
 /* A key of a member that the stack does not have. */
 static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
   if (zp_def_network(def)) return ZP_OK;

@@ -122,8 +122,13 @@ ZpStatus zp_names_value(ZpGivenNames *names, bool known, int key, const char *wo
   *number = 0;
   if (kind == ZP_OF_BODY && length == strlen(frame) && strncmp(word, frame, length) == 0) return ZP_OK;
   const size_t before = names->count;
+  ZpInstanceKind numbered;
+  const char *rest;
+  *number = zp_instance_named(word, &numbered, &rest); /* member_2 of a stack */
+  if (*number > 0 && numbered == kind && (size_t)(rest - word) == length) return ZP_OK;
   *number = number_of(names, kind, word, length, err);
-  if (known && kind == ZP_OF_BODY && names->count > before) return zp_fail(err, ZP_BAD_INPUT, "there is no such body");
+  if (known && kind != ZP_OF_PORT && names->count > before)
+    return zp_fail(err, ZP_BAD_INPUT, "there is no such %s", kind == ZP_OF_BODY ? "body" : "member");
   return *number > 0 ? ZP_OK : err ? err->status : ZP_BAD_INPUT;
 }
 

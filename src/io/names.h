@@ -22,8 +22,8 @@ void zp_names_free(ZpGivenNames *names);
  * none, or it belongs to another group. */
 ZpStatus zp_names_path(ZpGivenNames *names, const char *path, char *text, size_t size, ZpError *err);
 
-/* The body or port that the value of a key names => its number, 0 of the frame, as above. Else a value of that key.
- * `known`: the name of a body must be. */
+/* The member, body or port that the value of a key names => its number, 0 of the frame, as above. Else a value of that
+ * key. `known`: the name must be, unless it is that of a port. */
 ZpStatus zp_names_value(ZpGivenNames *names, bool known, int key, const char *word, double *number, ZpError *err);
 
 /* A text in which keys are named => with numbers in the place of names, to be freed; NULL: there is no memory. */

@@ -1258,24 +1258,11 @@ static double carried_weight(const ZpStatics *s, size_t which) {
   return (def->load.mass + hung_on(s, which)) * def->gravity;
 }
 
-/* Are two members the same actuator, but for their loads and the controller of the first one? */
-static bool is_same(const ZpActuatorDef *one, const ZpActuatorDef *other) {
-  ZpActuatorDef loaded = *one;
-  loaded.load = other->load;
-  loaded.control = other->control;
-  loaded.setpoint = other->setpoint;
-  for (int key = 0; key < zp_key_count(); key++) {
-    double a = zp_def_get(&loaded, key), b = zp_def_get(other, key);
-    if (a != b && !(isnan(a) && isnan(b))) return false;
-  }
-  return true;
-}
-
 /* Members in series that are the same and carry the same weight reach their limit points all at once. */
 static bool are_alike(const ZpStatics *s) {
   if (is_joined(s)) return false;
   for (size_t k = 1; k < s->members; k++)
-    if (carried_weight(s, k) != carried_weight(s, 0) || !is_same(&s->member[k].model->def, &s->member->model->def))
+    if (carried_weight(s, k) != carried_weight(s, 0) || !zp_def_alike(&s->member[k].model->def, &s->member->model->def))
       return false;
   return s->members > 1;
 }

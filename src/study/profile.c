@@ -611,19 +611,61 @@ static const ZpRule rule[] = {
         "the field at the clip is infinite without an insulator, and its grid keeps closed faces a nanometre apart"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_NOT(electro.insulator_offset, 0),
             "the plates law, which it compares with the field, is infinite at the clip"),
-    ZP_RULE(NOT_MODELLED, ZP_SEVERAL, ZP_NEVER, "it compares forces in a single actuator; use stack.series 1"),
     ZP_RULE_STARTS,
 };
 const ZpRules zp_rules_profile = ZP_RULES_OF(rule);
 
-ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
-  return def->profile.shape == ZP_PROFILE_HELD ? zp_check_held(def, err) : ZP_OK;
+/* May the first member stand for all? */
+static bool members_are_alike(const ZpActuatorDef *def) {
+  const ZpActuatorDef first = zp_def_member(def, 1);
+  bool alike = true;
+  for (int k = 2; k <= zp_def_members(def) && alike; k++) {
+    const ZpActuatorDef other = zp_def_member(def, k);
+    alike = zp_def_alike(&first, &other);
+  }
+  return alike;
 }
 
-/* As in study isometric, the load does not count. The model is that of plates: the shape has no voltage, and the field
- * is solved here. */
+/* The actuator alone whose force is computed. As in study isometric, the load does not count. The lower platform is
+ * held level, so one half is modelled even if a body would turn it. */
+static ZpActuatorDef profiled(const ZpActuatorDef *def) {
+  const bool several = zp_def_network(def) || zp_def_members(def) > 1;
+  const int member = def->profile.member > 0 ? def->profile.member : 1;
+  const ZpActuatorDef one = several ? zp_def_member(def, member) : *def;
+  ZpActuatorDef bare = zp_def_unloaded(&one);
+  bare.profile.member = 0;
+  if (zp_def_plane(def)) bare.actuator.symmetry = ZP_SYMMETRY_HALF;
+  if (zp_def_plane(def)) bare.platform.rotates = false;
+  return bare;
+}
+
+static ZpStatus check_profiled(const ZpActuatorDef *one, ZpError *err) {
+  ZpStatus status = zp_rule_fail(zp_rules_find(&zp_rules_profile, false, one), "study profile ", one, err);
+  if (status != ZP_OK || one->profile.shape != ZP_PROFILE_HELD) return status;
+  return zp_check_held(one, err);
+}
+
+ZpStatus zp_check_profile(const ZpActuatorDef *def, ZpError *err) {
+  const int member = def->profile.member, members = zp_def_members(def);
+  char name[ZP_NAME_SIZE];
+  if (member > members)
+    return zp_fail(err, ZP_BAD_INPUT, "profile.member = %s: there is no such member",
+                   zp_def_name(def, ZP_OF_MEMBER, member, name));
+  if (member == 0 && members > 1 && !members_are_alike(def))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "profile.member: missing; members differ, so name the one whose force is computed, such as %s",
+                   zp_def_name(def, ZP_OF_MEMBER, 1, name));
+  const ZpActuatorDef one = profiled(def);
+  ZpError reason;
+  ZpStatus status = check_profiled(&one, &reason);
+  if (status == ZP_OK) return ZP_OK;
+  if (!zp_def_network(def) && members == 1) return zp_fail(err, status, "%s", reason.message);
+  return zp_fail_member(def, member > 0 ? member : 1, status, &reason, err);
+}
+
+/* The model is that of plates: the shape has no voltage, and the field is solved here. */
 ZpStatus zp_study_profile(const ZpTask *task, ZpResult *result, ZpError *err) {
-  ZpActuatorDef bare = zp_def_unloaded(task->def);
+  ZpActuatorDef bare = profiled(task->def);
   bare.electro.model = ZP_ELECTRO_PLATES;
   ZpModel *model;
   ZpStatus status = zp_model_create(&bare, &model, err);
