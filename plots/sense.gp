@@ -1,4 +1,4 @@
-#picture sense.svg one motion sensed_stroke_m @sense.frequency
+#picture sense.svg one motion sensed_stroke_m =sense_window_s
 # What a meter of the capacitance reads.
 title = 'Stroke by its capacitance over time'
 load 'note.gp'

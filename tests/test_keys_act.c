@@ -353,7 +353,7 @@ static bool is_of_files(const char *key) {
 
 /* Keys of a port of its own act as those of all, whose rows are here: test_ports. */
 static bool is_of_port(const char *key) {
-  static const char *const groups[] = {"drive.", "source.", "control.", "setpoint."};
+  static const char *const groups[] = {"drive.", "source.", "sense.", "control.", "setpoint."};
   const char *one = zp_key_of_one(key);
   bool found = false;
   for (size_t i = 0; i < LENGTH_OF(groups); i++)

@@ -117,6 +117,109 @@ TEST(members_apart_move_as_each_alone) {
   ck_assert_double_lt(number(all, "energy_error"), 1e-8);
 }
 
+/* -- meters ---------------------------------------------------------------------------------------- */
+
+#define METER "frequency: 2 kHz, amplitude: 50 V, sampling_rate: 32 kHz, bits: 14"
+#define SLOW  ", bandwidth: 200 Hz"
+#define ONE   USUAL "drive.voltage: 8 kV\nload.mass: 20 g\n"
+
+static const char *const read_by_meter[] = {"sensed_capacitance_F", "sensed_stroke_m"};
+
+/* The columns of a meter in every row of two runs, of which the first one has a name before them. */
+static void ck_reads_as(const ZpResult *result, const char *name, const ZpResult *as) {
+  size_t count = 0;
+  for (size_t k = 0; k < LENGTH_OF(read_by_meter); k++) {
+    char column[64];
+    snprintf(column, sizeof column, "%s%s", name, read_by_meter[k]);
+    for (size_t row = 0; row < as->series->rows; row++) {
+      const double a = zp_table_get(result->series, row, column), b = zp_table_get(as->series, row, read_by_meter[k]);
+      ck_assert_int_eq(isnan(a), isnan(b));
+      if (isnan(a)) continue;
+      ck_assert_double_eq(a, b);
+      count++;
+    }
+  }
+  ck_assert_uint_gt(count, as->series->rows);
+}
+
+/* The last reading. */
+static void ck_ends_as(const ZpResult *result, const char *name, const ZpResult *as, double within) {
+  for (size_t k = 0; k < LENGTH_OF(read_by_meter); k++) {
+    char column[64];
+    snprintf(column, sizeof column, "%s%s", name, read_by_meter[k]);
+    agree(column, at_end(result, column), at_end(as, read_by_meter[k]), within);
+  }
+}
+
+/* Given to all or to the member, to the last bit. */
+TESTS(meter_of_a_network_of_one, 0, 2) {
+  static const char *const of[] = {"sense: {" METER SLOW ", noise: 1 nA}\n", ""}, *const own[] = {
+                                                                                      "", ", sense: {" METER SLOW
+                                                                                          ", noise: 1 nA}"};
+  static const char *const told[] = {"sense_window_s", "sense_capacitance_error_F", "sense_stroke_error_m",
+                                     "sense_stroke_error"};
+  char text[1024];
+  snprintf(text, sizeof text,
+           USUAL "drive.voltage: 8 kV\n%sbodies: {hand: {mass: 20 g}}\n"
+                 "members: {only: {upper: frame, lower: hand%s}}\n",
+           of[_i], own[_i]);
+  const ZpResult *one = run(ONE "sense: {" METER SLOW ", noise: 1 nA}\n"), *all = run(text);
+  ck_reads_as(all, "only.", one);
+  for (size_t k = 0; k < LENGTH_OF(told); k++) {
+    char name[64];
+    snprintf(name, sizeof name, "members.only.%s", told[k]);
+    ck_assert_double_eq(number(all, name), number(one, told[k]));
+  }
+}
+
+/* Each tells the stroke of its member alone: between bodies, and side by side in a stack. */
+TEST(meters_of_two) {
+  const ZpResult *one = run(ONE "sense: {" METER SLOW "}\n"),
+                 *other = run(USUAL "drive.voltage: 6 kV\nload.mass: 14 g\nsense: {" METER ", bandwidth: 400 Hz}\n"),
+                 *both = run(USUAL "drive.voltage: 8 kV\n" TWO "members:\n"
+                                   "  a: {upper: frame, lower: hand, sense: {" METER SLOW "}}\n"
+                                   "  b: {upper: frame, lower: foot, drive.voltage: 6 kV,\n"
+                                   "      sense: {" METER ", bandwidth: 400 Hz}}\n"),
+                 *stack = run(USUAL "drive.voltage: 8 kV\nload.mass: 40 g\nstack.parallel: 2\n"
+                                    "member_2.sense: {" METER SLOW "}\n");
+  ck_ends_as(both, "a.", one, 3e-3);          /* 1.2e-3 measured: bits of a range by another largest capacitance */
+  ck_ends_as(both, "b.", other, 1.7e-3);      /* 5.7e-4 measured */
+  ck_ends_as(stack, "member_2_", one, 1e-12); /* 5.9e-14 measured */
+  ck_assert_int_eq(zp_result_has(stack, "member_1_sense_stroke_error_m"), false);
+}
+
+/* It reads the capacitance of all on its port, whose strokes it does not tell. */
+TEST(meter_of_a_port) {
+  const ZpResult *one = run(ONE "sense: {" METER SLOW "}\n"),
+                 *both = run(USUAL "drive.voltage: 8 kV\n" EQUAL "members:\n"
+                                   "  a: {upper: frame, lower: hand, port: p, sense: {" METER SLOW "}}\n"
+                                   "  b: {upper: frame, lower: foot, port: p}\n");
+  const size_t last = both->series->rows - 1;
+  agree("both", zp_table_get(both->series, last, "a.sensed_capacitance_F"),
+        2 * zp_table_get(one->series, one->series->rows - 1, "sensed_capacitance_F"), 1e-12);
+  ck_assert(isnan(zp_table_get(both->series, last, "a.sensed_stroke_m")));
+  ck_assert(!zp_result_has(both, "members.a.sense_stroke_error_m"));
+}
+
+/* So does a controller: of two with twice the setpoint and half the gain as of one. */
+TEST(controller_of_the_capacitance_of_a_port) {
+  static const char pi[] = "control: {kind: pi, signal: capacitance, proportional: %s, integral: %s}";
+  char text[1024], of[2][256];
+  snprintf(of[0], sizeof of[0], pi, "40 V/pF", "4000 V/pF/s");
+  snprintf(of[1], sizeof of[1], pi, "20 V/pF", "2000 V/pF/s");
+  snprintf(text, sizeof text, ONE "%s\nsetpoint.value: 20 pF\n", of[0]);
+  const ZpResult *one = run(text);
+  snprintf(text, sizeof text,
+           USUAL "drive.voltage: 8 kV\n" EQUAL "members:\n  a: {upper: frame, lower: hand, port: p, %s,\n"
+                 "      setpoint.value: 40 pF}\n  b: {upper: frame, lower: foot, port: p}\n",
+           of[1]);
+  const ZpResult *both = run(text);
+  agree("voltage", at_end(both, "b.voltage_V"), at_end(one, "voltage_V"), 1e-12);
+  agree("capacitance", at_end(both, "capacitance_F"), 2 * at_end(one, "capacitance_F"), 1e-12);
+}
+
+/* -- waveforms ------------------------------------------------------------------------------------- */
+
 /* A delay shifts a waveform: as a table with the same corners, of times in ms and voltages in kV. */
 static const struct {
   const char *drive;
@@ -381,6 +484,21 @@ static const struct {
     {ZP_STUDY_MODES, "stack.parallel: 2\nmember_2.control.kind: pi\nmember_2.setpoint.value: 30 mm", "one controller"},
     {ZP_STUDY_CYCLE, "stack.parallel: 2\nmember_2.drive.waveform: sine\ndrive: {waveform: sine, frequency: 10 Hz}",
      "one drive gives the period"},
+    {ZP_STUDY_ACTUATE,
+     EQUAL "members: {a: {upper: frame, lower: hand, port: p}, b: {upper: frame, lower: foot, port: p, "
+           "sense.frequency: 1 kHz}}",
+     "members.b.sense.frequency: give this key at the first member with the same port, a"},
+    {ZP_STUDY_ACTUATE,
+     EQUAL "members: {a: {upper: frame, lower: hand, sense.frequency: 1 kHz}, b: {upper: frame, "
+           "lower: foot}}",
+     "members.a: sense.frequency = 1000 Hz: requires sense.amplitude"},
+    {ZP_STUDY_ACTUATE,
+     EQUAL "members: {a: {upper: frame, lower: hand, sense.bits: 12}, b: {upper: frame, lower: foot}}",
+     "members.a: sense.bits = 12: requires sense.frequency"},
+    {ZP_STUDY_ACTUATE,
+     EQUAL "electro.model: field\nmembers: {a: {upper: frame, lower: hand, sense: {" METER
+           "}}, b: {upper: frame, lower: foot}}",
+     "requires electro.model plates, but it is field"},
     {ZP_STUDY_CYCLE, "drive: {waveform: sine, frequency: 10 Hz, delay: 1 ms}", "what is periodic has no begin"},
     {ZP_STUDY_CYCLE,
      "stack.parallel: 2\ndrive: {waveform: sine, frequency: 10 Hz}\nmember_2.drive.voltage: 3 kV\nsource: {model: "

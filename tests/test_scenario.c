@@ -948,8 +948,8 @@ TEST(members_that_are_none_are_refused) {
       {"member_K.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
       {"member_03.ribbon.thickness=60 um", "have the numbers 1 to 1024"},
       {"member_3.ribbon.thicknes=60 um", "mean member_3.ribbon.thickness?"},
-      {"member_12.load.mass=60 g",
-       "member_12 has upper, lower, angle, upper_at, lower_at, port, drive, source, control, setpoint, ribbon, "},
+      {"member_12.load.mass=60 g", "member_12 has upper, lower, angle, upper_at, lower_at, port, drive, source, sense, "
+                                   "control, setpoint, ribbon, "},
       {"member_12=60 um", "such as member_12.upper"},
       {"member_12.ribbon.thickness=1 m", "out of range; 1 um to 5000 um or auto"},
       {"stack.series=2000", "out of range; 1 to 1024"}};

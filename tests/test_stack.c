@@ -639,7 +639,7 @@ TEST(what_unlike_ones_lack_is_said) {
     Setting set;
     ZpStudy study;
     const char *says;
-  } refused[] = {{{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "study profile does not support this"},
+  } refused[] = {{{"mesh.nodes", 21}, ZP_STUDY_PROFILE, "profile.member: missing"},
                  {{"member_4.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "requires stack.parallel of at least 4"},
                  {{"member_1024.ribbon.thickness", 60e-6}, ZP_STUDY_STATIONARY, "of at least 1024, but it is 3"},
                  {{"stack.link_mass", 1e-3}, ZP_STUDY_STATIONARY, "requires stack.series at least 2"},
@@ -715,7 +715,7 @@ TEST(what_a_stack_lacks_is_said) {
       {{"stack.parallel", 2}, {"actuator.kind", ZP_KIND_RIBBON}, ZP_STUDY_STATIONARY, "actuator.kind electro_ribbon"},
       {{"stack.series", 2}, {"load.stop_opening", 1e-2}, ZP_STUDY_LIMITS, "between the platforms of a single actuator"},
       {{"stack.series", 2}, {"isometric.separation", 177e-3}, ZP_STUDY_ISOMETRIC, "of all members = 0.1764 m"},
-      {{"stack.series", 2}, {"mesh.nodes", 21}, ZP_STUDY_PROFILE, "use stack.series 1"},
+      {{"stack.series", 2}, {"profile.member", 3}, ZP_STUDY_PROFILE, "profile.member = member_3: there is no such"},
       {{"stack.series", 2}, {"member_3.ribbon.thickness", 60e-6}, ZP_STUDY_LIMITS, "stack.series of at least 3"},
       {{"stack.link_mass", 2}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series at least 2"},
       {{"member_1.ribbon.thickness", 60e-6}, {"mesh.nodes", 21}, ZP_STUDY_LIMITS, "stack.series of at least 2"}};

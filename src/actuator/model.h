@@ -313,6 +313,14 @@ static inline double zp_port_voltage(const ZpModel *lead, double voltage) {
   return lead->apart ? zp_member_voltage(lead, voltage) : voltage;
 }
 
+/* Is a member of the system, of which this is the first, on a port of its own? */
+static inline bool zp_has_ports(const ZpModel *first) {
+  bool apart = false;
+  for (const ZpModel *model = first; model < first + first->members; model++)
+    apart |= model->apart;
+  return apart;
+}
+
 /* Is it the first of those on its port, which has the source? */
 static inline bool zp_leads_port(const ZpModel *model) {
   return model->network->ends[model->number].port == model->number;

@@ -157,7 +157,7 @@ bool zp_def_parallel(const ZpActuatorDef *def);
  * load, and the last is upside down. Parallel members share the load equally. */
 ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member);
 
-/* Are two members the same actuator, but for their loads and the controller of the first one? */
+/* Are two members the same actuator, but for their loads and the meter and the controller of the first one? */
 bool zp_def_alike(const ZpActuatorDef *one, const ZpActuatorDef *other);
 
 /* Are bodies given? Then members are what their keys say, and this sets the load of one: its part of the mass and of
@@ -183,6 +183,9 @@ bool zp_key_is_of_network(int index);
 
 /* The first member of those on the port of a member; 0: the port of all that have no key of a port. */
 int zp_def_port(const ZpActuatorDef *def, int member);
+
+/* The first member on port 1, 2, ... that has a meter, where members have ports or bodies; 0: there is none. */
+int zp_def_metered(const ZpActuatorDef *def, int number);
 
 /* Set what source.supply sets. */
 void zp_def_take_supply(ZpActuatorDef *def);

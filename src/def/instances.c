@@ -292,3 +292,10 @@ ZpStatus zp_instances_set(ZpActuatorDef *def, int index, double value, ZpError *
   *at = (ZpAssignment){index, value};
   return ZP_OK;
 }
+
+ZpStatus zp_instances_take_away(ZpActuatorDef *def, int member, int first, int last, ZpError *err) {
+  ZpStatus status = ZP_OK;
+  for (int row = first; row <= last && status == ZP_OK; row++)
+    status = zp_instances_set(def, zp_key_of_instance(row, member), NAN, err);
+  return status;
+}

@@ -9,6 +9,9 @@
 double zp_instances_get(const ZpActuatorDef *def, int index);
 ZpStatus zp_instances_set(ZpActuatorDef *def, int index, double value, ZpError *err);
 
+/* Take the keys of these rows away from a member. */
+ZpStatus zp_instances_take_away(ZpActuatorDef *def, int member, int first, int last, ZpError *err);
+
 /* The place in def->given of the first value whose key is `index` or a later one; their number: there is none. */
 size_t zp_instances_from(const ZpActuatorDef *def, int index);
 

@@ -576,7 +576,8 @@ double zp_network_depth(const ZpNetwork *n) {
 /* -- rules ----------------------------------------------------------------------------------------- */
 
 static const char own_load[] = "each body has a mass of its own: give bodies.NAME.mass, a force on it and springs",
-                  own_ends[] = "each member has the bodies at its ends: give members.NAME.upper and lower";
+                  own_ends[] = "each member has the bodies at its ends: give members.NAME.upper and lower",
+                  field_meter[] = "the stroke that a meter of a member tells is that of the plates law; use plates";
 
 static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_HAS(PLATFORM), "bodies join platforms"),
@@ -590,7 +591,12 @@ static const ZpRule rule[] = {
             "straight ribbons do not reach the bodies"),
     ZP_RULE(EQUATION, ZP_NETWORK, ZP_IS(ribbon.plasticity, false),
             "how the members had been bent before they were joined is not known"),
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(sense.frequency), "a meter tells the opening of a single actuator"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_NETWORK, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_UNSET(sense.frequency),
+               field_meter),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.port, member_K.setpoint.duty), ZP_SET(sense.frequency),
+               ZP_NOT(electro.model, ZP_ELECTRO_FIELD), field_meter),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET(member_K.sense.frequency), ZP_ANY, ZP_NOT(electro.model, ZP_ELECTRO_FIELD),
+               field_meter),
 };
 
 static const ZpRules rules = ZP_RULES_OF(rule);

@@ -176,7 +176,7 @@ static void leave_unused(const ZpActuatorDef *def, int lead, ZpActuatorDef *one)
   }
 }
 
-/* Is it the first member on its port? It has the controller. */
+/* Is it the first member on its port? It has the meter and the controller. */
 static bool leads(const ZpActuatorDef *def, int member) {
   const int lead = zp_def_port(def, member);
   bool first = lead == 0 || lead == member;
@@ -194,8 +194,22 @@ static void take_port(const ZpActuatorDef *def, int member, ZpActuatorDef *one) 
   if (lead > 0) take_given(def, lead, true, one);
   if (lead > 0) leave_unused(def, lead, one);
   if (leads(def, member)) return;
+  one->sense = fresh.sense;
   one->control = fresh.control;
   one->setpoint = fresh.setpoint;
+}
+
+int zp_def_metered(const ZpActuatorDef *def, int number) {
+  bool apart = zp_def_network(def);
+  int found = 0, member = 0;
+  for (int k = 1; k <= zp_def_members(def); k++)
+    apart |= zp_def_port(def, k) > 0;
+  while (apart && found < number && member++ < zp_def_members(def)) {
+    const int lead = zp_def_port(def, member);
+    const double own = lead > 0 ? of_port(def, ZP_KEY(member_K.sense.frequency), lead) : (double)NAN;
+    found += leads(def, member) && !isnan(isnan(own) ? def->sense.frequency : own);
+  }
+  return found == number ? member : 0;
 }
 
 /* Members of a stack without a series are side by side, unequal. */
@@ -230,6 +244,7 @@ ZpActuatorDef zp_def_member(const ZpActuatorDef *def, int member) {
 bool zp_def_alike(const ZpActuatorDef *one, const ZpActuatorDef *other) {
   ZpActuatorDef loaded = *one;
   loaded.load = other->load;
+  loaded.sense = other->sense;
   loaded.control = other->control;
   loaded.setpoint = other->setpoint;
   for (int key = 0; key < zp_key_count(); key++) {

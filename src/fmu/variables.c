@@ -72,8 +72,9 @@ bool zp_fmu_follows(const ZpActuatorDef *def, int index, int input) {
 }
 
 bool zp_fmu_is_parameter(int index, double value) {
-  const bool shapes =
-      zp_key_is_name(index) || zp_key_instance(index).row == ZP_KEY(body_K.moves); /* the outputs, too */
+  const int row = zp_key_instance(index).row;
+  const bool meters = row >= ZP_KEY(member_K.sense.frequency) && row <= ZP_KEY(member_K.sense.seed);
+  const bool shapes = meters || zp_key_is_name(index) || row == ZP_KEY(body_K.moves); /* the outputs, too */
   if (index >= ZP_KEYS) return !shapes && !isnan(value);
   if (!zp_fmu_has_number(index) || zp_key_is_material(index) || isnan(value)) return false;
   return !(zp_key_purposes(index) & ZP_NO_PARAMETER);

@@ -440,7 +440,7 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
   return zp_statics_relax(s, voltage);
 }
 
-static double stroke_of(const ZpStatics *s, size_t which) {
+double zp_statics_member_stroke(const ZpStatics *s, size_t which) {
   const ZpRestMember *m = &s->member[which];
   return zp_stroke(&m->model->topology, zp_nodes(m->model, m->q).y);
 }
@@ -458,7 +458,7 @@ static double of_all(const ZpStatics *s, double (*number)(const ZpStatics *s, si
 }
 
 double zp_statics_stroke(const ZpStatics *s) {
-  return of_all(s, stroke_of);
+  return of_all(s, zp_statics_member_stroke);
 }
 
 double zp_statics_opening(const ZpStatics *s) {
@@ -531,14 +531,15 @@ double zp_statics_charge(const ZpStatics *s) {
   return sum;
 }
 
-static double capacitance_of(const ZpRestMember *m, double U) {
-  return m->model->parts * totals(m, U).capacitance;
+double zp_statics_member_capacitance(const ZpStatics *s, size_t which) {
+  const ZpRestMember *m = &s->member[which];
+  return m->model->parts * totals(m, zp_statics_member_voltage(s, which)).capacitance;
 }
 
 double zp_statics_capacitance(const ZpStatics *s) {
   double sum = 0;
   for (size_t k = 0; k < s->members; k++)
-    sum += capacitance_of(&s->member[k], zp_statics_member_voltage(s, k));
+    sum += zp_statics_member_capacitance(s, k);
   return sum;
 }
 
@@ -578,7 +579,7 @@ static double deepest_crossing(const ZpModel *model, double U) {
 static const char *fault_of_stations(const ZpRestMember *m, double U, bool contact_acts) {
   static const double beyond_plates = 1.1; /* fields around the ends add less to plates */
   if (!m->model->field) return NULL;
-  double least = INFINITY, capacitance = capacitance_of(m, U);
+  double least = INFINITY, capacitance = m->model->parts * totals(m, U).capacitance;
   for (size_t i = 0; i < m->model->nodes; i++)
     least = fmin(least, m->eval.plates.gap[i]);
   if (contact_acts && least < -deepest_overlap(m->model, U)) return "the insulators' faces overlap";

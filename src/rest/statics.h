@@ -201,8 +201,11 @@ void zp_statics_weigh(void *statics, const double *u, double *mu);
  * antagonists that of the upper one; in series their sum. */
 double zp_statics_closed_length(const ZpStatics *statics);
 
-/* Of a member: voltage, V; opening, closed length, m; force with which it pulls the load up at the present point, N. */
+/* Of a member: voltage, V; capacitance, F; stroke, opening, closed length, m; force with which it pulls the load up at
+ * the present point, N. */
 double zp_statics_member_voltage(const ZpStatics *statics, size_t which);
+double zp_statics_member_capacitance(const ZpStatics *statics, size_t which);
+double zp_statics_member_stroke(const ZpStatics *statics, size_t which);
 double zp_statics_member_opening(const ZpStatics *statics, size_t which);
 double zp_statics_member_closed(const ZpStatics *statics, size_t which);
 double zp_statics_member_force(ZpStatics *statics, size_t which);

@@ -24,11 +24,20 @@ double zp_sim_setpoint(const ZpSim *sim) {
                                  : zp_waveform_voltage(&sim->model->setpoint, state->t);
 }
 
+static double capacitance_at_port(ZpSim *lead, int signal) {
+  ZpSim *m = lead;
+  double sum = zp_sim_own_signal(m, signal);
+  while (zp_sim_next(m) > 0)
+    sum += zp_sim_own_signal(m += zp_sim_next(m), signal);
+  return sum;
+}
+
 double zp_sim_controlled(ZpSim *sim) {
   const ZpModel *model = sim->model;
   if (model->def.control.signal == ZP_CONTROL_ANGLE && model->network->plane)
     return zp_sim_place(sim - model->number, model->network->ends[model->number].lower).turn;
   const char *name = zp_key(sim->signal)->choices[sim->model->def.control.signal].word;
+  if (model->def.control.signal == ZP_CONTROL_CAPACITANCE) return capacitance_at_port(sim, zp_signal_find(name));
   const bool alone = sim->model->apart || zp_is_network(sim->model);
   return alone ? zp_sim_own_signal(sim, zp_signal_find(name)) : zp_sim_get(sim, name);
 }

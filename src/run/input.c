@@ -127,14 +127,6 @@ int zp_def_input_member(const ZpActuatorDef *def, int input, int *which) {
   return of.member > 0 ? of.member : -1;
 }
 
-/* Take all keys of a group away from a member. */
-static ZpStatus take_away(ZpActuatorDef *def, int member, int first, int last, ZpError *err) {
-  ZpStatus status = ZP_OK;
-  for (int row = first; row <= last && status == ZP_OK; row++)
-    status = zp_instances_set(def, zp_key_of_instance(row, member), NAN, err);
-  return status;
-}
-
 static ZpStatus forget_port(ZpActuatorDef *def, int member, ZpError *err) {
   const ZpActuatorDef one = zp_def_member(def, member);
   const ZpDriveTable none = {0};
@@ -146,9 +138,10 @@ static ZpStatus forget_port(ZpActuatorDef *def, int member, ZpError *err) {
                                   {ZP_KEY(member_K.drive.offset), zp_waveform_voltage(&voltage, 0)},
                                   {ZP_KEY(member_K.drive.rise_time), 1},
                                   {ZP_KEY(member_K.drive.scaled), scaled}};
-  ZpStatus status = take_away(def, member, ZP_KEY(member_K.drive.voltage), ZP_KEY(member_K.source.model) - 1, err);
+  ZpStatus status =
+      zp_instances_take_away(def, member, ZP_KEY(member_K.drive.voltage), ZP_KEY(member_K.source.model) - 1, err);
   if (status == ZP_OK)
-    status = take_away(def, member, ZP_KEY(member_K.setpoint.value), ZP_KEY(member_K.setpoint.duty), err);
+    status = zp_instances_take_away(def, member, ZP_KEY(member_K.setpoint.value), ZP_KEY(member_K.setpoint.duty), err);
   for (size_t k = 0; k < (controlled ? 1 : sizeof as_ramp / sizeof as_ramp[0]) && status == ZP_OK; k++)
     status = zp_instances_set(def, zp_key_of_instance(as_ramp[k].key, member), as_ramp[k].value, err);
   if (status != ZP_OK || !controlled) return status;

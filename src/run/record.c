@@ -77,6 +77,30 @@ static const ZpColumn of_member[] = {{"#.opening_m", "m", "distance between the 
                                      {"#.voltage_V", "V", "voltage between the electrodes of #"}};
 enum { NUMBERS_MEMBER = sizeof of_member / sizeof of_member[0] };
 
+/* Of each port that has a meter, where members have ports or bodies: study actuate fills them after the run. */
+static const ZpColumn of_meter[] = {
+    {"#.sensed_capacitance_F", "F",
+     "last reading of the capacitance meter on the port of #; empty before the first one"},
+    {"#.sensed_stroke_m", "m", "stroke of # at rest that has this capacitance; empty where others are on its port"}};
+static const ZpColumn of_meter_of_stack[] = {
+    {"member_#_sensed_capacitance_F", "F",
+     "last reading of the capacitance meter on the port of member #; empty before the first one"},
+    {"member_#_sensed_stroke_m", "m",
+     "stroke of member # at rest that has this capacitance; empty where others are on its port"}};
+enum { NUMBERS_METER = sizeof of_meter / sizeof of_meter[0] };
+enum { PARTS = 4 }; /* of the columns of a row */
+
+static const char *metered_called(const void *def, size_t number, char text[ZP_NAME_SIZE]) {
+  return zp_member_called(def, (size_t)zp_def_metered(def, (int)number), text);
+}
+
+static size_t meters_of(const ZpActuatorDef *def) {
+  size_t count = 0;
+  while (zp_def_metered(def, (int)count + 1) > 0)
+    count++;
+  return count;
+}
+
 #define ZP_SIGNAL(name, unit, suffix, help) #name,
 #define ZP_ROW(name)                        #name,
 static const char *const names[] = {
@@ -112,23 +136,29 @@ static size_t numbers_of_each(const ZpModel *first) {
   return first->members == 1 ? 0 : zp_abreast(first) > 1 ? NUMBERS_PARALLEL : 1;
 }
 
-/* The columns of a row: signals, then numbers of each member, then of each body => how many parts. */
-static size_t parts_of(const ZpActuatorDef *def, ZpColumnPart part[3]) {
-  const size_t members = (size_t)zp_def_members(def);
-  size_t count;
+/* The columns of a row: signals, then numbers of each member, of each body, of each meter => how many parts. */
+static size_t parts_of(const ZpActuatorDef *def, ZpColumnPart part[PARTS]) {
+  const size_t members = (size_t)zp_def_members(def), meters = meters_of(def);
+  const bool network = zp_def_network(def), parallel = zp_def_parallel(def);
+  size_t parts = 1, count;
   part[0] = (ZpColumnPart){.column = zp_signal_columns_of(def, &count)};
   part[0].count = count;
-  part[1] = (ZpColumnPart){.column = of_series, .count = 1, .members = members};
-  if (zp_def_parallel(def)) part[1].column = of_parallel, part[1].count = NUMBERS_PARALLEL;
-  if (!zp_def_network(def)) return members > 1 ? 2 : 1;
-  part[1] = (ZpColumnPart){of_member, NUMBERS_MEMBER, members, zp_member_called, def};
-  const ZpColumn *of_body = zp_body_columns(zp_def_plane(def), &count);
-  part[2] = (ZpColumnPart){of_body, count, (size_t)zp_instance_count(def, ZP_OF_BODY), zp_body_called, def};
-  return 3;
+  if (network) {
+    part[parts++] = (ZpColumnPart){of_member, NUMBERS_MEMBER, members, zp_member_called, def};
+    const ZpColumn *of_body = zp_body_columns(zp_def_plane(def), &count);
+    part[parts++] = (ZpColumnPart){of_body, count, (size_t)zp_instance_count(def, ZP_OF_BODY), zp_body_called, def};
+  } else if (members > 1) {
+    part[parts++] = (ZpColumnPart){.column = parallel ? of_parallel : of_series,
+                                   .count = parallel ? NUMBERS_PARALLEL : 1,
+                                   .members = members};
+  }
+  if (meters > 0)
+    part[parts++] = (ZpColumnPart){network ? of_meter : of_meter_of_stack, NUMBERS_METER, meters, metered_called, def};
+  return parts;
 }
 
 ZpTable *zp_signal_table(const ZpActuatorDef *def, size_t capacity) {
-  ZpColumnPart part[3];
+  ZpColumnPart part[PARTS];
   return def ? zp_table_of(part, parts_of(def, part), capacity) : NULL;
 }
 
@@ -142,7 +172,7 @@ static bool is_called(const ZpColumn *column, const char *called, const char *na
 
 /* The column of a member or a body called "left.opening"; 0: there is none. */
 static size_t column_beyond(const ZpActuatorDef *def, const char *name) {
-  ZpColumnPart part[3];
+  ZpColumnPart part[PARTS];
   const size_t parts = parts_of(def, part);
   size_t k = SIGNAL_COUNT;
   for (size_t p = 1; p < parts; p++)
@@ -161,7 +191,8 @@ static size_t columns_of(const ZpSim *sim) {
   const size_t bodies = zp_is_network(model) ? model->network->bodies - 1 : 0;
   size_t of_body;
   zp_body_columns(model->network->plane, &of_body);
-  return SIGNAL_COUNT + sim->members * numbers_of_each(model) + of_body * bodies;
+  return SIGNAL_COUNT + sim->members * numbers_of_each(model) + of_body * bodies +
+         NUMBERS_METER * meters_of(model->whole);
 }
 
 size_t zp_sim_row_size(const ZpSim *sim) {
@@ -176,6 +207,8 @@ void zp_sim_place_rows(ZpSim *sim) {
       signal++;
     sim->row_at[k] = signal < SIGNAL_COUNT ? signal : columns_of(sim) + k;
   }
+  for (size_t k = NUMBERS_METER * meters_of(sim->model->whole); sim->row && k > 0; k--)
+    sim->row[columns_of(sim) - k] = NAN;
 }
 
 /* Does any law of these members have the row? */
@@ -462,14 +495,27 @@ static void fill_bodies(const ZpSim *sim, double *row, double *place) {
   }
 }
 
+/* Keep what the trace of its port is made of. */
+static void keep_own(ZpSim *sim) {
+  const double *row = sim->row;
+  const double own[ZP_TRACE_COLUMNS] = {[ZP_TRACE_TIME] = row[SIGNAL_time],
+                                        [ZP_TRACE_VOLTAGE] = row[SIGNAL_voltage],
+                                        [ZP_TRACE_CHARGE] = row[SIGNAL_charge],
+                                        [ZP_TRACE_CAPACITANCE] = row[SIGNAL_capacitance],
+                                        [ZP_TRACE_STROKE] = row[SIGNAL_stroke]};
+  memcpy(sim->own_row, own, sizeof own);
+}
+
 /* Signals of all members together, and numbers of each. */
 static void fill_row(ZpSim *sim, unsigned what) {
   fill_own_row(sim, what);
+  keep_own(sim);
   if (sim->members == 1 && !zp_is_network(sim->model)) return;
   double *row = sim->row, *place = row + SIGNAL_COUNT, whole = zp_sim_hanging(sim);
   place = put_member(sim, place);
   for (ZpSim *m = sim + 1; m < sim + sim->members; m++) {
     fill_own_row(m, what);
+    keep_own(m);
     place = put_member(m, place);
     join_row(sim->model, row, m->row);
   }
@@ -673,25 +719,35 @@ static void look(ZpSim *sim) {
     if (m->watched) zp_margins_join(&m->seen, m->now);
 }
 
-void zp_sim_trace(ZpSim *sim, ZpTable *trace) {
-  sim->trace = trace;
+void zp_sim_trace(ZpSim *lead, ZpTable *trace) {
+  lead->trace = trace;
+}
+
+/* The row of a port, by its first member, where the whole system has this stroke. */
+static void fill_trace(const ZpSim *lead, double stroke, double *values) {
+  double leaked = 0;
+  size_t count = 0;
+  memcpy(values, lead->own_row, sizeof lead->own_row);
+  for (const ZpSim *m = lead; m; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL) {
+    leaked += m->model->parts * m->state->leaked;
+    if (count++ == 0) continue;
+    values[ZP_TRACE_CHARGE] += m->own_row[ZP_TRACE_CHARGE];
+    values[ZP_TRACE_CAPACITANCE] += m->own_row[ZP_TRACE_CAPACITANCE];
+  }
+  values[ZP_TRACE_CHARGE] += leaked;
+  if (count > 1) values[ZP_TRACE_STROKE] = count == lead->model->members ? stroke : (double)NAN;
 }
 
 static void offer_trace(const ZpSim *sim, bool last) {
-  const double *row = sim->row;
-  double leaked = 0;
-  for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    leaked += m->model->parts * m->state->leaked;
-  double values[ZP_TRACE_COLUMNS] = {[ZP_TRACE_TIME] = row[SIGNAL_time],
-                                     [ZP_TRACE_VOLTAGE] = row[SIGNAL_voltage],
-                                     [ZP_TRACE_CHARGE] = row[SIGNAL_charge] + leaked,
-                                     [ZP_TRACE_CAPACITANCE] = row[SIGNAL_capacitance],
-                                     [ZP_TRACE_STROKE] = row[SIGNAL_stroke]};
-  if (!sim->trace) return;
-  if (last)
-    zp_table_keep_last(sim->trace, values);
-  else
-    zp_table_offer(sim->trace, values);
+  double values[ZP_TRACE_COLUMNS];
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
+    if (!m->trace) continue;
+    fill_trace(m, sim->row[SIGNAL_stroke], values);
+    if (last)
+      zp_table_keep_last(m->trace, values);
+    else
+      zp_table_offer(m->trace, values);
+  }
 }
 
 void zp_sim_offer_record(ZpSim *sim) {

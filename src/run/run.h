@@ -39,7 +39,7 @@ void zp_sim_start_control(ZpSim *sim);
 double zp_sim_setpoint(const ZpSim *lead);
 
 /* The signal that its controller measures, without noise: of the whole actuator, or, in a network and on a port apart,
- * of this member. */
+ * of this member; the capacitance is that of all on the port. */
 double zp_sim_controlled(ZpSim *lead);
 
 /* A signal of one member alone. */
@@ -97,6 +97,15 @@ typedef enum ZpStop {
 /* Instants within a step at which a run ends. */
 typedef enum ZpLanding { ZP_LANDS_NOWHERE, ZP_LANDS_CLOSED, ZP_LANDS_RESTED, ZP_LANDS_SHORTED } ZpLanding;
 
+/* A trace of a port over a run, as columns of a table. */
+enum { ZP_TRACE_TIME, ZP_TRACE_VOLTAGE, ZP_TRACE_CHARGE, ZP_TRACE_CAPACITANCE, ZP_TRACE_STROKE, ZP_TRACE_COLUMNS };
+const ZpColumn *zp_trace_columns(size_t *count);
+
+/* From now on also offer rows to this trace, as often as to the records; NULL: no trace. The charge is what the source
+ * has supplied to electrodes and insulators, C. The stroke is that of the only member on the port, or of the whole
+ * stack; NAN: there is none. */
+void zp_sim_trace(ZpSim *lead, ZpTable *trace);
+
 struct ZpSim {
   const ZpModel *model;
   ZpState *state;
@@ -109,20 +118,21 @@ struct ZpSim {
   int drive;  /* the key drive.voltage, which has the range of voltages that a program sets */
   int signal; /* the key control.signal */
   ZpEval eval;
-  double *relax_work;            /* [12 stride] work space of settling */
-  ZpPose *pose;                  /* of the first member: [bodies] work space */
-  ZpTable *series;               /* belongs to the caller; NULL: no record */
-  ZpShapes *shapes;              /* belongs to the caller; NULL: no record */
-  ZpTable *trace;                /* likewise */
-  ZpTable *samples;              /* likewise, of a controller */
-  double *row;                   /* one value per signal, then rows of the ledger that are no signals */
-  size_t row_at[ZP_MOST_ROWS];   /* places of rows of the ledger in it */
-  ZpShapeRoom shape_room;        /* of the shape that zp_sim_shape returns */
-  void *shape_memory;            /* memory of shape_room */
-  ZpShape shape;                 /* this member at the last row with margins */
-  ZpMargins now;                 /* the smallest margins of the materials in the row */
-  bool watched;                  /* whether margins are followed over time */
-  ZpMargins seen;                /* the smallest margins of this member so far */
+  double *relax_work;               /* [12 stride] work space of settling */
+  ZpPose *pose;                     /* of the first member: [bodies] work space */
+  ZpTable *series;                  /* belongs to the caller; NULL: no record */
+  ZpShapes *shapes;                 /* belongs to the caller; NULL: no record */
+  ZpTable *trace;                   /* likewise, of its port, by its first member */
+  double own_row[ZP_TRACE_COLUMNS]; /* of that trace: what this member has in the last row */
+  ZpTable *samples;                 /* likewise, of a controller */
+  double *row;                      /* one value per signal, then rows of the ledger that are no signals */
+  size_t row_at[ZP_MOST_ROWS];      /* places of rows of the ledger in it */
+  ZpShapeRoom shape_room;           /* of the shape that zp_sim_shape returns */
+  void *shape_memory;               /* memory of shape_room */
+  ZpShape shape;                    /* this member at the last row with margins */
+  ZpMargins now;                    /* the smallest margins of the materials in the row */
+  bool watched;                     /* whether margins are followed over time */
+  ZpMargins seen;                   /* the smallest margins of this member so far */
   double row_time, row_charge;   /* of the last row before the present time, for the mean current: per part, the charge
                                     that sources have given to it; the first member has all of a supply */
   double row_energy;             /* of that row, for the mean power, of the whole actuator */
@@ -299,14 +309,6 @@ void zp_sim_jump(ZpSim *sim, double voltage);
 
 /* Change the voltage without loss while nothing moves. */
 void zp_sim_glide(ZpSim *sim, double voltage);
-
-/* A trace of a run, as columns of a table. */
-enum { ZP_TRACE_TIME, ZP_TRACE_VOLTAGE, ZP_TRACE_CHARGE, ZP_TRACE_CAPACITANCE, ZP_TRACE_STROKE, ZP_TRACE_COLUMNS };
-const ZpColumn *zp_trace_columns(size_t *count);
-
-/* From now on also offer rows to this trace, as often as to the records; NULL: no trace. The charge is what the source
- * has supplied to electrodes and insulators, C. */
-void zp_sim_trace(ZpSim *sim, ZpTable *trace);
 
 /* The present leakage of one part; all 0 without leakage. */
 ZpLeakNow zp_sim_leak(ZpSim *sim);

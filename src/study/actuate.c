@@ -401,15 +401,12 @@ static ZpStatus simulate(ZpSim *sim, const ZpModel *model, const ZpCheckpoint *s
   return zp_sim_checkpoint(sim, &result->checkpoint, err);
 }
 
-/* With a meter: its readings. */
+/* With meters: their readings. */
 static ZpStatus simulate_sensed(ZpSim *sim, const ZpTask *task, const ZpModel *model, ZpResult *result, ZpError *err) {
-  ZpTable *trace = zp_sense_trace();
-  if (!trace) return zp_fail_memory(err);
-  zp_sim_trace(sim, trace);
-  ZpStatus status = simulate(sim, model, task->input.start, task->hooks, result, err);
-  if (status == ZP_OK && zp_outcome_good(result->outcome)) status = zp_sense(task, model, trace, result, err);
-  zp_sim_trace(sim, NULL);
-  zp_table_destroy(trace);
+  ZpStatus status =
+      zp_sense_begin(sim) ? simulate(sim, model, task->input.start, task->hooks, result, err) : zp_fail_memory(err);
+  if (status == ZP_OK && zp_outcome_good(result->outcome)) status = zp_sense(task, sim, result, err);
+  zp_sense_end(sim);
   return status;
 }
 
@@ -421,7 +418,7 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
   ZpSim *sim;
   ZpStatus status = zp_sim_create(model, task->hooks, &sim, err);
   if (status != ZP_OK) return status;
-  if (zp_senses(def))
+  if (zp_senses(model))
     status = simulate_sensed(sim, task, model, result, err);
   else
     status = simulate(sim, model, task->input.start, task->hooks, result, err);

@@ -33,12 +33,21 @@ static const ZpColumn closed_members = {"closed_members", "1", "number of closed
 
 /* Of each member and each body of a network. */
 static const ZpColumn of_member[] = {
+    {"#.stroke_m", "m", "height of the clip of # over its lower platform, signed"},
     {"#.opening_m", "m", "distance between the platforms' faces of #"},
+    {"#.capacitance_F", "F", "capacitance of the electrodes of #"},
     {"#.zipped_length_m", "m", "closed length of one half of #"},
     {"#.force_N", "N", "force with which # pulls its bodies together"},
     {"#.voltage_V", "V", "voltage between the electrodes of #"},
 };
 enum { OF_MEMBER = sizeof of_member / sizeof of_member[0] };
+
+/* Of each member of a stack that has ports. */
+static const ZpColumn at_ports[] = {
+    {"member_#_stroke_m", "m", "height of the clip of member # over its lower platform, signed"},
+    {"member_#_capacitance_F", "F", "capacitance of the electrodes of member #"},
+};
+enum { AT_PORTS = sizeof at_ports / sizeof at_ports[0] };
 
 /* Parts of the table, and what stands before their names among the numbers of the result. */
 typedef struct Part {
@@ -65,7 +74,8 @@ static size_t parts_of(const ZpModel *model, Part part[PARTS]) {
                                     : (ZpColumnPart){.column = &opening, .count = 1, .members = model->members},
                    ""};
   part[1] = (Part){{.column = shared ? &stiffness : &closed_members, .count = 1}, ""};
-  return 2;
+  part[2] = (Part){{.column = at_ports, .count = AT_PORTS, .members = model->members}, ""};
+  return zp_has_ports(model) ? 3 : 2;
 }
 
 /* => how many values there are. */
@@ -79,7 +89,9 @@ static size_t values_of(const ZpModel *model) {
 
 static void network_values(ZpStatics *s, double *values) {
   for (size_t k = 0; k < s->members; k++) {
+    *values++ = zp_statics_member_stroke(s, k);
     *values++ = zp_statics_member_opening(s, k);
+    *values++ = zp_statics_member_capacitance(s, k);
     *values++ = zp_statics_member_closed(s, k);
     *values++ = zp_statics_member_force(s, k);
     *values++ = zp_statics_member_voltage(s, k);
@@ -94,19 +106,13 @@ static void network_values(ZpStatics *s, double *values) {
   *values = (double)zp_closed_members(s);
 }
 
-/* Their values at the present point. The stiffness is then factored. */
-static void member_values(ZpRest *rest, double *values) {
-  ZpStatics *s = &rest->statics;
-  if (zp_is_network(s->model)) {
-    network_values(s, values);
-    return;
-  }
-  if (s->members == 1) return;
+/* Of members in series, antagonists, or members side by side. The stiffness is then factored. */
+static double *stack_values(ZpStatics *s, double *values) {
   if (!s->shared) {
     for (size_t k = 0; k < s->members; k++)
       *values++ = zp_statics_member_opening(s, k);
-    *values = (double)zp_closed_members(s);
-    return;
+    *values++ = (double)zp_closed_members(s);
+    return values;
   }
   if (s->opposed) {
     *values++ = zp_statics_member_voltage(s, 1);
@@ -117,7 +123,23 @@ static void member_values(ZpRest *rest, double *values) {
     *values++ = zp_statics_member_force(s, k);
     *values++ = zp_statics_member_closed(s, k);
   }
-  *values = zp_statics_load_stiffness(s);
+  *values++ = zp_statics_load_stiffness(s);
+  return values;
+}
+
+/* Their values at the present point. */
+static void member_values(ZpRest *rest, double *values) {
+  ZpStatics *s = &rest->statics;
+  if (zp_is_network(s->model)) {
+    network_values(s, values);
+    return;
+  }
+  if (s->members == 1) return;
+  values = stack_values(s, values);
+  for (size_t k = 0; k < s->members && zp_has_ports(s->model); k++) {
+    *values++ = zp_statics_member_stroke(s, k);
+    *values++ = zp_statics_member_capacitance(s, k);
+  }
 }
 
 void zp_equilibria_add_members(ZpEquilibria *at) {

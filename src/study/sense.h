@@ -5,14 +5,16 @@
 #include "run/run.h"
 #include "study/studies.h"
 
-/* Is a meter asked for? */
-bool zp_senses(const ZpActuatorDef *def);
+/* Is a meter asked for, on any port of the system of which this is the first member? */
+bool zp_senses(const ZpModel *first);
 
-/* Record that a simulation keeps for the meter, from its start on; NULL if there is no memory. */
-ZpTable *zp_sense_trace(void);
+/* From now on a simulation keeps a record for the meter of each port; false if there is no memory. To be ended in any
+ * case. */
+bool zp_sense_begin(ZpSim *sim);
+void zp_sense_end(ZpSim *sim);
 
-/* (trace of a whole run, sim at its end) => numbers of the summary, columns of the series. Finds the
- * equilibria along which the capacitance determines the stroke. */
-ZpStatus zp_sense(const ZpTask *task, const ZpModel *model, const ZpTable *trace, ZpResult *result, ZpError *err);
+/* (sim at the end of a whole run) => numbers of the summary, columns of the series. Finds the equilibria along which
+ * the capacitance determines the stroke. */
+ZpStatus zp_sense(const ZpTask *task, const ZpSim *sim, ZpResult *result, ZpError *err);
 
 #endif
