@@ -31,7 +31,7 @@ static void find(Held *h) {
   ck_assert(zp_rest_open(&h->rest, h->model, NULL, NULL));
   ck_assert(zp_setpoint_find(&h->rest, &h->signal, h->model->def.setpoint.value));
   ck_assert(zp_plant_create(&h->rest, &h->signal, &h->plant));
-  h->linear = (ZpLinear){h->plant.n, h->plant.A, h->plant.b, h->plant.c};
+  h->linear = (ZpLinear){h->plant.n, 1, h->plant.A, h->plant.b, h->plant.c};
   ck_assert_uint_lt(h->plant.n + ZP_LOOP_OWN, MOST);
 }
 
@@ -160,11 +160,11 @@ static double polynomial_at(double re, double im, const ZpControl *c, int whole,
 TESTS(loop_around_an_integrator, 0, 4) {
   static const double delays[] = {0, 1e-3, 0.4e-3, 2.7e-3};
   const double zero[1] = {0}, b[1] = {-1}, one[1] = {1}, delay = delays[_i];
-  const ZpLinear integrator = {1, zero, b, one};
+  const ZpLinear integrator = {1, 1, zero, b, one};
   const ZpControl c = {.sense = 1, .proportional = 150, .integral = 9e3, .period = 1e-3, .delay = delay};
   int whole = (int)floor(delay / c.period + 1e-9);
   ZpGrowth growth[MOST];
-  size_t count = zp_closed_loop(&c, &integrator, c.proportional, 0, growth, work);
+  size_t count = zp_closed_loop(&c, &integrator, &c.proportional, 0, growth, work);
   ck_assert_uint_ge(count, 1);
   for (size_t k = 0; k < count; k++) {
     if (!(growth[k].factor > 1e-6)) continue;
@@ -179,12 +179,12 @@ TESTS(loop_around_an_integrator, 0, 4) {
 /* The gain at the stability limit, K_p T = 2 without integral and delay. */
 TEST(loop_at_its_limit) {
   const double zero[1] = {0}, b[1] = {-1}, one[1] = {1};
-  const ZpLinear integrator = {1, zero, b, one};
+  const ZpLinear integrator = {1, 1, zero, b, one};
   const ZpControl c = {.sense = 1, .period = 1e-3};
   ZpGrowth growth[MOST];
-  ck_assert_uint_eq(zp_closed_loop(&c, &integrator, 1999, 0, growth, work), 1);
+  ck_assert_uint_eq(zp_closed_loop(&c, &integrator, (double[]){1999}, 0, growth, work), 1);
   ck_assert_double_lt(growth->rate, 0);
-  zp_closed_loop(&c, &integrator, 2001, 0, growth, work);
+  zp_closed_loop(&c, &integrator, (double[]){2001}, 0, growth, work);
   ck_assert_double_gt(growth->rate, 0);
   ck_near(growth->frequency, 500, 1e-12);
 }
@@ -383,7 +383,7 @@ TEST(undamped_no_gains_hold) {
     for (double integral = 10; integral < 1e7; integral *= 3) {
       ZpControl c = h.model->control;
       c.integral = integral;
-      ck_assert_uint_gt(zp_closed_loop(&c, &h.linear, proportional, h.plant.neutral, growth, work), 0);
+      ck_assert_uint_gt(zp_closed_loop(&c, &h.linear, &proportional, h.plant.neutral, growth, work), 0);
       slowest = fmin(slowest, growth->rate);
     }
   ck_assert_double_gt(slowest, 0);
@@ -421,7 +421,7 @@ TESTS(swings_as_its_eigenvalue_says, 0, 3) {
   Held h = hold(&def);
   find(&h);
   ZpGrowth loop[MOST];
-  zp_closed_loop(&h.model->control, &h.linear, def.control.proportional, h.plant.neutral, loop, work);
+  zp_closed_loop(&h.model->control, &h.linear, &def.control.proportional, h.plant.neutral, loop, work);
   size_t swing = 0;
   while (!(loop[swing].frequency > 1))
     swing++;

@@ -190,17 +190,9 @@ static void project(const Work *all, const Member *w, const ZpBand *K, double *r
 
 /* Of the rods => factors. */
 static void find_internal_damping(Member *w) {
-  const ZpModel *model = w->model;
-  ZpEval *e = w->eval;
-  const double *q = w->q;
-  zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod_start);
-  zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod);
-  zp_rod_damping(&model->rod, &e->rod_start, &e->rod, &e->rod_step, w->spare, e->D);
-  for (size_t k = 0; k < 3 * (model->count - model->s); k++)
-    for (size_t c = 0; c < 4; c++)
-      e->D[k][c] *= model->internal_damping;
+  zp_system_internal_damping(w->model, w->q, w->eval, w->spare);
   zp_arrow_clear(&w->factors);
-  zp_assemble_edges(&w->assembly, (const double(*)[4])e->D, &w->factors.part->A);
+  zp_assemble_edges(&w->assembly, (const double(*)[4])w->eval->D, &w->factors.part->A);
 }
 
 /* -- the liquid ------------------------------------------------------------------------------------ */
@@ -754,7 +746,7 @@ static void close_linear(Work *all) {
 bool zp_plant_create(ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
   const ZpSupply supply = zp_supply_of(&rest->statics.member->model->def);
   Work *w;
-  *plant = (ZpPlant){0};
+  *plant = (ZpPlant){.inputs = 1};
   bool done = open_linear(rest, signal, &w) && fill(w, &supply, plant);
   close_linear(w);
   return done;

@@ -11,8 +11,9 @@ typedef struct ZpPlant {
   size_t n;       /* states */
   size_t neutral; /* number of its eigenvalues, and of those of any loop, that are 0: liquid at the edges may stay there
                    */
+  size_t inputs;  /* as many as signals: 1, or one of each controller */
   double *A;      /* [n * n], row by row */
-  double *b, *c;  /* [n] */
+  double *b, *c;  /* [inputs][n] */
   void *memory;
 } ZpPlant;
 

@@ -28,6 +28,7 @@ static size_t reserve_solution(ZpStatics *s, void *block) {
   zp_newton_reserve(&s->newton, &s->form, &arena);
   s->row = zp_arena_take(&arena, s->n);
   s->at = zp_arena_take(&arena, s->n);
+  s->spare = zp_arena_take_of(&arena, 3 * zp_lanes(s->model), sizeof *s->spare);
   return arena.used;
 }
 
@@ -499,6 +500,7 @@ double zp_statics_closed_length(const ZpStatics *s) {
 
 double zp_statics_member_voltage(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->member[which].model;
+  if (s->ports) return zp_voltage_at_port(model, s->ports[model->network->ends[which].port]);
   return model->ratio * s->U + s->bias * model->bias;
 }
 
@@ -1188,6 +1190,21 @@ void zp_statics_by_voltage(ZpStatics *s, double U, double *r_m) {
   zp_statics_hold_rate(s, 0, r_m);
 }
 
+void zp_statics_by_port(ZpStatics *s, size_t lead, double U, double *r_m) {
+  memset(r_m, 0, s->n * sizeof *r_m);
+  for (size_t k = lead, next = 1; next > 0; k += next) {
+    ZpRestMember *m = &s->member[k];
+    ZpSpan span = zp_statics_span(s, k);
+    ZpByVoltage by = {.force = m->force};
+    span.U0 = span.U1 = zp_voltage_at_port(m->model, U);
+    zp_system_by_voltage(m->model, &span, &m->eval, &by);
+    for (size_t j = 0; j < zp_coordinates(m->model); j++)
+      m->force[j] *= zp_part_of_port(m->model);
+    zp_assembly_add(&m->assembly, m->force, r_m);
+    next = zp_next_on_port(m->model);
+  }
+}
+
 static void by_voltage(void *self, double *r_m) {
   ZpStatics *s = self;
   zp_statics_by_voltage(s, s->U, r_m);
@@ -1293,11 +1310,27 @@ ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
                           .m_scale = of[along].scale};
 }
 
-/* The exact stiffness of the present point, factored => newton.K. False if it is singular. */
-static bool tangent(ZpStatics *s) {
+void zp_statics_exact_stiffness(ZpStatics *s) {
   exact_residual(s, s->newton.r);
   stiffness(s, &s->newton.K, NULL);
+}
+
+/* Factored. False if it is singular. */
+static bool tangent(ZpStatics *s) {
+  zp_statics_exact_stiffness(s);
   return zp_arrow_factor(&s->newton.K);
+}
+
+void zp_statics_internal_damping(ZpStatics *s) {
+  ZpArrow *K = &s->newton.K;
+  zp_arrow_clear(K);
+  for (size_t k = 0; k < s->members; k++) {
+    ZpRestMember *m = &s->member[k];
+    zp_system_internal_damping(m->model, m->q, &m->eval, s->spare);
+    zp_assemble_edges(&m->assembly, (const double(*)[4])m->eval.D, &K->part[k].A);
+  }
+  zp_arrow_mirror(K);
+  zp_arrow_close(K);
 }
 
 bool zp_statics_stable(ZpStatics *s) {

@@ -48,6 +48,7 @@ typedef struct ZpStatics {
   ZpArrowForm form; /* of the stiffness; with a bead also terms of low rank, because all forces depend on its reach */
   ZpParts parts;
   double U;            /* of the first member, V */
+  const double *ports; /* [members] voltages of ports, by their first members, V; NULL: all slow ones follow U */
   bool biased;         /* a member has a constant voltage of its own, */
   double bias;         /* and the share of it that acts */
   double own_load;     /* load.mass, kg */
@@ -64,6 +65,7 @@ typedef struct ZpStatics {
   bool contact_acts;   /* faces push on each other; if false they may pass through each other (to find a start) */
   double scale;        /* force that a residual is relative to, N */
   ZpNewtonWork newton; /* work space of Newton's method: the last stiffness, mostly factored, and unbalanced forces */
+  double (*spare)[4];  /* [3 edges] work space */
   double *row;         /* [n] of the last stiffness while the platform was held: its row as if it were free */
   bool (*stop)(const void *caller); /* called now and then; true stops. NULL: none */
   const void *caller;
@@ -111,6 +113,13 @@ double zp_statics_hold_rate(const ZpStatics *statics, double away, double *r_m);
 
 /* Derivative of the forces by the voltage, at voltage U and the last residual => r_m [n], N/V. */
 void zp_statics_by_voltage(ZpStatics *statics, double U, double *r_m);
+
+/* That by the voltage of a port alone, by its first member, if it were U. */
+void zp_statics_by_port(ZpStatics *statics, size_t lead, double U, double *r_m);
+
+/* The exact stiffness of the present point, not factored; the damping of the strips there, N s/m => newton.K. */
+void zp_statics_exact_stiffness(ZpStatics *statics);
+void zp_statics_internal_damping(ZpStatics *statics);
 
 /* The tensions of the last residual become those with which the next stiffness begins. */
 void zp_statics_take_tensions(ZpStatics *statics);

@@ -167,7 +167,22 @@ static void run(Problem *p) {
   if (found) report(p);
 }
 
-static const char one_loop[] = "the eigenvalues of a closed loop are those of one controller and one opening";
+/* Of the control loop at a setpoint: of that of all, and of each member's. */
+#define ZP_CONTROLLED ZP_NOT(control.kind, ZP_CONTROL_NONE)
+#define ZP_RULES_OF_A_LOOP                                                                                             \
+  ZP_RULE(NOT_MODELLED, ZP_CONTROLLED, ZP_IS(electro.model, ZP_ELECTRO_PLATES),                                        \
+          "the eigenvalues of the control loop are computed for plates only"),                                         \
+      ZP_RULE(NOT_MODELLED, ZP_CONTROLLED, ZP_IS(bead.suction, 0),                                                     \
+              "the eigenvalues of the control loop are computed without suction only"),                                \
+      ZP_RULE(PHYSICS, ZP_CONTROLLED, ZP_SET(setpoint.value), "a controller has a setpoint"),                          \
+      ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),                                \
+                 ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),                                                            \
+                 "there the boost acts in full on any error, so the loop has no eigenvalues; or use another setpoint")
+
+static const char dry_loops[] = "the eigenvalues of loops of members are computed without liquid only";
+
+static const ZpRule rule_of_a_loop[] = {ZP_RULES_OF_A_LOOP};
+static const ZpRules rules_of_a_loop = ZP_RULES_OF(rule_of_a_loop);
 
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_ANY, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the shear law of mass_spring has no energy"),
@@ -175,29 +190,44 @@ static const ZpRule rule[] = {
             "it neglects the mass of the liquid, which is far larger than that of the ribbons; use none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(modes.voltage, 0),
             "the stiffness of a computed field is not available; use plates"),
-    /* the control loop at a setpoint */
-    ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
-            "the eigenvalues of the control loop are computed for plates only"),
-    ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(bead.suction, 0),
-            "the eigenvalues of the control loop are computed without suction only"),
-    ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_NOT(control.signal, ZP_CONTROL_ANGLE),
-            "the eigenvalues of the control loop are computed for the signals of an actuator only"),
-    ZP_RULE(PHYSICS, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_SET(setpoint.value), "a controller has a setpoint"),
-    ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),
-               ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),
-               "there the boost acts in full on any error, so the loop has no eigenvalues; or use another setpoint"),
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(control.kind, ZP_CONTROL_NONE), one_loop),
-    ZP_RULE(NOT_MODELLED, ZP_SET_WITHIN(member_K.drive.voltage, member_K.setpoint.duty),
-            ZP_IS(control.kind, ZP_CONTROL_NONE), one_loop),
-    ZP_RULE(NOT_MODELLED, ZP_SET(member_K.control.kind), ZP_NEVER, one_loop),
+    ZP_RULES_OF_A_LOOP,
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(control.signal, ZP_CONTROL_ANGLE), ZP_CONTROLLED, ZP_PLANE,
+               "the eigenvalues of the control loop are computed for the angle of a body only"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_NETWORK, ZP_CONTROLLED, ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.port, member_K.setpoint.duty), ZP_CONTROLLED,
+               ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
+    ZP_RULE(NOT_MODELLED, ZP_SET(member_K.control.kind), ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
 };
+#undef ZP_RULES_OF_A_LOOP
+#undef ZP_CONTROLLED
 const ZpRules zp_rules_modes = ZP_RULES_OF(rule);
+
+/* Several loops sample at the same times. */
+static ZpStatus check_loops(const ZpActuatorDef *def, ZpError *err) {
+  double period = NAN;
+  ZpStatus status = ZP_OK;
+  for (int k = 1; k <= zp_def_members(def) && zp_def_members(def) > 1 && status == ZP_OK; k++) {
+    const ZpActuatorDef one = zp_def_member(def, k);
+    ZpError reason;
+    if (one.control.kind == ZP_CONTROL_NONE) continue;
+    if (isnan(period)) period = one.control.period;
+    status = zp_rule_fail(zp_rules_find(&rules_of_a_loop, false, &one), "study modes ", &one, &reason);
+    if (status == ZP_OK && one.control.period != period)
+      status = zp_fail(&reason, ZP_BAD_INPUT,
+                       "control.period = %g s: the eigenvalues of several loops are those from sample to sample; give "
+                       "all the period of the first one, %g s",
+                       one.control.period, period);
+    if (status != ZP_OK) zp_fail_member(def, k, status, &reason, err);
+  }
+  return status;
+}
 
 ZpStatus zp_check_modes(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = zp_check_mass(def, err);
+  if (status == ZP_OK) status = check_loops(def, err);
   if (status == ZP_OK) status = zp_check_sensitivity(def, err);
   return status == ZP_OK ? zp_def_check_voltage(def, def->modes.voltage, err) : status;
 }

@@ -200,3 +200,12 @@ void zp_system_by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, Z
   for (size_t k = 0; k < model->laws; k++)
     if (model->law[k].term->by_voltage) model->law[k].term->by_voltage(model, span, e, sum);
 }
+
+void zp_system_internal_damping(const ZpModel *model, const double *q, ZpEval *e, double (*spare)[4]) {
+  zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod_start);
+  zp_rod_eval(&model->rod, q, zp_nodes(model, q).y, &e->rod);
+  zp_rod_damping(&model->rod, &e->rod_start, &e->rod, &e->rod_step, spare, e->D);
+  for (size_t k = 0; k < 3 * (model->count - model->s); k++)
+    for (size_t c = 0; c < 4; c++)
+      e->D[k][c] *= model->internal_damping;
+}

@@ -32,6 +32,10 @@ typedef struct ZpTerms {
 /* Forces of all terms without some laws, which are evaluated nevertheless, because others may need what they find. */
 void zp_system_force_without(const ZpModel *model, const ZpSpan *span, const ZpTerms *without, ZpEval *eval, double *F);
 
+/* Stiffness of edges that internal damping would add over a step of 1 s, at coordinates q => eval->D, N s/m; `spare` is
+ * as long. */
+void zp_system_internal_damping(const ZpModel *model, const double *q, ZpEval *eval, double (*spare)[4]);
+
 /* K += -dF/d(coordinates at the end), at the last force. It is exact at rest; over a span it is close to that, and
  * symmetric. */
 void zp_system_add_stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *eval,
