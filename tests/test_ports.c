@@ -218,6 +218,59 @@ TEST(controller_of_the_capacitance_of_a_port) {
   agree("capacitance", at_end(both, "capacitance_F"), 2 * at_end(one, "capacitance_F"), 1e-12);
 }
 
+/* -- cycles ---------------------------------------------------------------------------------------- */
+
+#define CYCLES                                                                                                         \
+  "study: cycle\nmesh.nodes: 13\nliquid.model: none\ndrive: {waveform: sine, frequency: 20 Hz, voltage: 6 kV}\n"       \
+  "cycle: {method: motion, tolerance: 1e-5, most_cycles: 200}\ndamping.internal: 1 ms\n"
+
+static const ZpResult *cycle_of(const char *text) {
+  const ZpActuatorDef def = def_of(text);
+  return answer_of(ZP_STUDY_CYCLE, &def);
+}
+
+/* Members that do not touch have the cycles of each alone: one behind a supply of its own, one on a square wave. */
+TEST(cycles_of_members_apart) {
+  static const char supply[] = "source: {model: amplifier, resistance: 100 Mohm, capacitance: 20 pF}",
+                    *const square = "drive: {waveform: square, voltage: 5 kV, rise_time: 5 ms}";
+  char text[1024];
+  snprintf(text, sizeof text,
+           CYCLES TWO "members:\n  a: {upper: frame, lower: hand, %s}\n"
+                      "  b: {upper: frame, lower: foot, %s}\n",
+           supply, square);
+  const ZpResult *both = cycle_of(text);
+  snprintf(text, sizeof text, CYCLES "load.mass: 20 g\n%s\n", supply);
+  const ZpResult *a = cycle_of(text),
+                 *b = cycle_of("study: cycle\nmesh.nodes: 13\nliquid.model: none\nload.mass: 14 g\n"
+                               "drive: {waveform: square, frequency: 20 Hz, voltage: 5 kV, rise_time: 5 ms}\n"
+                               "cycle: {method: motion, tolerance: 1e-5, most_cycles: 200}\ndamping.internal: 1 ms\n");
+  ck_assert(number(both, "periodic") == 1);
+  agree("range of a", number(both, "members.a.opening_max_m") - number(both, "members.a.opening_min_m"),
+        number(a, "opening_max_m") - number(a, "opening_min_m"), 8e-6); /* 2.7e-6 measured */
+  agree("range of b", number(both, "members.b.opening_max_m") - number(both, "members.b.opening_min_m"),
+        number(b, "opening_max_m") - number(b, "opening_min_m"), 4e-6);
+  agree("energy", number(both, "energy_per_cycle_J"), number(a, "energy_per_cycle_J") + number(b, "energy_per_cycle_J"),
+        7e-7); /* 2.3e-7 measured */
+}
+
+/* The largest frequency at which a network closes is that of its slowest member. */
+TEST(network_closes_as_often_as_its_slowest) {
+  static const char fast[] = "study: cycle\nmesh.nodes: 9\nliquid.model: none\n"
+                             "drive: {waveform: square, voltage: 10 kV, frequency: 2 Hz}\nsolver.tolerance: 1e-3\n"
+                             "cycle: {method: motion, tolerance: 1e-2, most_cycles: 6, closing_frequency: true}\n"
+                             "damping: {internal: 1 ms, drag: 0.5 N s2/m2}\n";
+  char text[1024];
+  snprintf(text, sizeof text, "%sload.mass: 4 g\n", fast);
+  const ZpResult *one = cycle_of(text);
+  snprintf(text, sizeof text,
+           "%s"
+           "bodies: {hand: {mass: 4 g}}\nmembers: {a: {upper: frame, lower: hand}}\n",
+           fast);
+  const ZpResult *network = cycle_of(text);
+  ck_assert(number(network, "closes") == number(network, "members.a.closes"));
+  agree("frequency", number(network, "closing_frequency_Hz"), number(one, "closing_frequency_Hz"), 1e-12);
+}
+
 /* -- waveforms ------------------------------------------------------------------------------------- */
 
 /* A delay shifts a waveform: as a table with the same corners, of times in ms and voltages in kV. */
@@ -483,8 +536,18 @@ static const struct {
     {ZP_STUDY_ACTUATE, "stack.parallel: 2\nmember_2.control.kind: pi", "setpoint.value"},
     {ZP_STUDY_MODES, "stack.parallel: 2\nmember_2.control.kind: pi\nmember_2.setpoint.value: 30 mm",
      "without liquid only"},
-    {ZP_STUDY_CYCLE, "stack.parallel: 2\nmember_2.drive.waveform: sine\ndrive: {waveform: sine, frequency: 10 Hz}",
+    {ZP_STUDY_CYCLE, "stack.parallel: 2\nmember_2.drive.frequency: 5 Hz\ndrive: {waveform: sine, frequency: 10 Hz}",
      "one drive gives the period"},
+    {ZP_STUDY_CYCLE,
+     "stack.parallel: 2\nmember_2.drive: {waveform: ramp, rise_time: 1 ms}\ndrive: {waveform: sine, frequency: 10 Hz}",
+     "member 2 of the stack: drive.waveform = ramp: the drive is periodic"},
+    {ZP_STUDY_CYCLE,
+     "stack.parallel: 2\nmember_2.drive.waveform: sine\ndrive: {waveform: sine, frequency: 10 Hz}\ncycle.method: "
+     "linear",
+     "the linear answer is that of one drive"},
+    {ZP_STUDY_CYCLE,
+     "stack.parallel: 2\nmember_2: {control.kind: pi, setpoint.value: 5 mm}\ndrive: {waveform: sine, frequency: 10 Hz}",
+     "for a controller use study actuate"},
     {ZP_STUDY_ACTUATE,
      EQUAL "members: {a: {upper: frame, lower: hand, port: p}, b: {upper: frame, lower: foot, port: p, "
            "sense.frequency: 1 kHz}}",
@@ -501,10 +564,6 @@ static const struct {
            "}}, b: {upper: frame, lower: foot}}",
      "requires electro.model plates, but it is field"},
     {ZP_STUDY_CYCLE, "drive: {waveform: sine, frequency: 10 Hz, delay: 1 ms}", "what is periodic has no begin"},
-    {ZP_STUDY_CYCLE,
-     "stack.parallel: 2\ndrive: {waveform: sine, frequency: 10 Hz}\nmember_2.drive.voltage: 3 kV\nsource: {model: "
-     "amplifier, resistance: 1 Mohm}",
-     "one supply"},
 };
 
 TESTS(wrong_ports_are_refused, 0, LENGTH_OF(wrong)) {

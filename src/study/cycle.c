@@ -587,14 +587,23 @@ static void add_body(const Cycles *c, ZpResult *result, const char *called, cons
   add_of(c, result, most, called, of->unit, range.most);
 }
 
-/* Each member of a network has an opening, each body a place. */
+/* Has an opening been closed in the cycle? */
+static bool closes(const Cycles *c, size_t which) {
+  return c->opens[which].opening.least < zp_closed_opening(c->sim[which].model, hanging(c, which));
+}
+
+/* Each member of a network has an opening, each body a place. It closes if all members do. */
 static void summarize_network(const Cycles *c, ZpResult *result) {
   char room[ZP_NAME_SIZE];
+  bool all = true;
   for (size_t k = 1; k <= c->model->members; k++) {
     const char *called = zp_member_called(c->model->whole, k, room);
     add_of(c, result, "members.#.opening_min_m", called, "m", c->opens[k - 1].opening.least);
     add_of(c, result, "members.#.opening_max_m", called, "m", c->opens[k - 1].opening.most);
+    zp_result_add_of(result, "members.#.closes", called, "count", closes(c, k - 1));
+    all &= closes(c, k - 1);
   }
+  zp_result_add(result, "closes", "count", all);
   for (size_t body = 1; body < c->model->network->bodies; body++) {
     size_t columns;
     const ZpColumn *column = zp_body_columns(c->model->network->plane, &columns);
@@ -619,7 +628,7 @@ static void summarize_motion(const Cycles *c, ZpResult *result) {
   add_periodic(c, result, "opening_max_m", "m", opening.most);
   add_periodic(c, result, "stroke_amplitude_m", "m", half_range(c, "stroke_m"));
   add_periodic(c, result, "phase_rad", "rad", phase_of(c));
-  zp_result_add(result, "closes", "count", opening.least < zp_closed_opening(c->model, hanging(c, 0)));
+  zp_result_add(result, "closes", "count", closes(c, 0));
 }
 
 /* Work on the load over what the source gives in a cycle. */
@@ -836,25 +845,27 @@ static ZpStatus find_closing_frequency(const ZpTask *task, ZpResult *result, ZpE
   return ZP_OK;
 }
 
+static const char no_begin[] = "what is periodic has no begin",
+                  no_control[] = "it finds the periodic motion under a periodic voltage; for a controller use study "
+                                 "actuate with a periodic setpoint";
+
 static const ZpRule rule[] = {
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(cycle.closing_frequency, false), "it is that of one opening"),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_NOT(cycle.method, ZP_CYCLE_LINEAR), "the linear answer is that of a stack"),
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(control.kind, ZP_CONTROL_NONE),
-            "it finds the periodic motion under a periodic voltage; for a controller use study actuate with a periodic "
-            "setpoint"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(control.kind, ZP_CONTROL_NONE), no_control),
+    ZP_RULE(PHYSICS, ZP_SET(member_K.control.kind), ZP_NEVER, no_control),
     ZP_RULE(PHYSICS, ZP_ANY,
             ZP_ONE_OF(drive.waveform, ZP_BIT(ZP_WAVEFORM_STEP) | ZP_BIT(ZP_WAVEFORM_SINE) | ZP_BIT(ZP_WAVEFORM_SQUARE)),
             "the drive is periodic (step: sine)"),
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(drive.delay), "what is periodic has no begin"),
-    ZP_RULE(NOT_MODELLED, ZP_SET_WITHIN(member_K.drive.waveform, member_K.setpoint.duty), ZP_NEVER,
-            "one drive gives the period of all"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(member_K.drive.voltage), ZP_IS(source.model, ZP_SOURCE_IDEAL),
-            "its map has the state of one supply"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(drive.delay), no_begin),
+    ZP_RULE(PHYSICS, ZP_SET(member_K.drive.delay), ZP_NEVER, no_begin),
+    ZP_RULE(PHYSICS, ZP_SET(member_K.drive.frequency), ZP_NEVER, "one drive gives the period of all"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_UNSET(load.change_mass), "the load is periodic, too; use study actuate"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it opens and closes"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
     ZP_RULE_STARTS,
     /* the linear answer */
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.drive.waveform, member_K.setpoint.duty),
+               ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_NEVER, "the linear answer is that of one drive"),
     ZP_RULE(EQUATION, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
             "the shear law of mass_spring has no energy"),
     ZP_RULE(NOT_MODELLED, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
@@ -871,7 +882,23 @@ static const ZpRule rule[] = {
 };
 const ZpRules zp_rules_cycle = ZP_RULES_OF(rule);
 
+/* A step of a member alone is a constant voltage, which has any period. */
+static ZpStatus check_waveforms(const ZpActuatorDef *def, ZpError *err) {
+  for (int k = 1; k <= zp_def_members(def) && zp_def_members(def) > 1; k++) {
+    const ZpActuatorDef one = zp_def_member(def, k);
+    const ZpWaveformKind kind = one.drive.waveform;
+    ZpError reason;
+    if (kind != ZP_WAVEFORM_RAMP && kind != ZP_WAVEFORM_TABLE) continue;
+    zp_fail(&reason, ZP_BAD_INPUT, "drive.waveform = %s: the drive is periodic; use step, sine or square",
+            zp_key(ZP_KEY(drive.waveform))->choices[kind].word);
+    return zp_fail_member(def, k, ZP_BAD_INPUT, &reason, err);
+  }
+  return ZP_OK;
+}
+
 ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
+  ZpStatus status = check_waveforms(def, err);
+  if (status != ZP_OK) return status;
   return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
 }
 
