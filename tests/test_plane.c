@@ -821,3 +821,40 @@ static const struct {
 TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {
   ck_scenario_refused(wrong[_i].study, wrong[_i].text, wrong[_i].says);
 }
+
+/* -- what falls ------------------------------------------------------------------------------------ */
+
+#define FALLING                                                                                                        \
+  "mesh.nodes: 9\nliquid.model: none\noutput.errors: false\nmembers: {a: {upper: frame, lower: arm}}\nbodies:\n"       \
+  "  arm: {moves: plane, mass: 8 g, inertia: 1000 g mm2, at: [0, -10 mm]}\n"                                           \
+  "  wall: {moves: none, at: [80 mm, 0], angle: 90 degree}\n"                                                          \
+  "  cart: {moves: plane, mass: 5 g, inertia: 1000 g mm2, at: [80 mm, -10 mm]}\n"
+static const char *const falling[] = {
+    FALLING "joints: {rail: {type: slide, between: [wall, cart], at: [80 mm, -10 mm]}}\n",
+    FALLING "springs: {s: {between: [frame, cart], stiffness: 10 N/m, rest: 5 mm, kind: push, from_at: [80 mm, 0]}}\n",
+};
+
+/* Every study names the body that nothing holds; a stop below holds it. */
+TESTS(body_that_falls_has_a_name, 0, LENGTH_OF(falling)) {
+  static const ZpStudy study[] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS, ZP_STUDY_MODES,
+                                  ZP_STUDY_ACTUATE};
+  const ZpActuatorDef def = def_of(falling[_i]);
+  for (size_t k = 0; k < LENGTH_OF(study); k++) {
+    const ZpResult *result = study_of(study[k], &def);
+    printf("%s\n", result->message);
+    ck_assert_int_eq(result->outcome, ZP_NOT_SETTLED);
+    ck_assert_msg(strstr(result->message, "bodies.cart moves away") && strstr(result->message, "mm down"), "%s",
+                  result->message);
+  }
+}
+
+TEST(stop_holds_what_falls) {
+  char text[2048];
+  snprintf(
+      text, sizeof text, "%s%s", falling[0],
+      "springs: {stop: {between: [frame, cart], stiffness: 10 N/m, rest: 20 mm, kind: pull, from_at: [80 mm, 0]}}\n");
+  const ZpActuatorDef def = def_of(text);
+  const ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
+  ck_assert_int_eq(result->outcome, ZP_CONVERGED);
+  ck_near(zp_result_get(result, "bodies.cart.y_m"), -(20e-3 + 5e-3 * 9.81 / 10), 1e-6);
+}

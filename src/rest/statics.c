@@ -2,6 +2,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "actuator/place.h"
@@ -380,7 +381,39 @@ bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
   return false;
 }
 
-const char *zp_statics_no_rest(const ZpStatics *s) {
+/* How far bodies in the plane have moved from their places in the drawing, m, the farthest one => *body. */
+static ZpPose farthest(ZpStatics *s, size_t *body) {
+  ZpPose most = {0};
+  zp_plane_drawn(&s->plane, s->good);
+  for (size_t b = 1; b < s->plane.bodies; b++) {
+    const ZpPose from = zp_plane_place(&s->plane, b, s->good), to = zp_plane_place(&s->plane, b, s->pose);
+    const ZpPose moved = {to.x - from.x, to.y - from.y, to.turn - from.turn};
+    if (!(moved.x * moved.x + moved.y * moved.y > most.x * most.x + most.y * most.y)) continue;
+    most = moved;
+    *body = b;
+  }
+  return most;
+}
+
+const char *zp_statics_fallen(ZpStatics *s, char text[ZP_NO_REST_SIZE]) {
+  static const double far = 10, mm = 1e3; /* far: lengths of a ribbon */
+  size_t body = 0;
+  if (!in_plane(s)) return NULL;
+  const ZpPose moved = farthest(s, &body);
+  const double down = -moved.y, aside = fabs(moved.x);
+  if (body == 0 || !(fmax(down, aside) > far * s->plane.length)) return NULL;
+  snprintf(
+      text, ZP_NO_REST_SIZE,
+      "no hanging equilibrium found: bodies.%s moves away, %.0f mm %s so far; nothing holds it there: add a spring "
+      "of kind both, or one of kind push or pull as a stop",
+      zp_body_called(s->model->whole, body, (char[ZP_NAME_SIZE]){0}), mm * fmax(down, aside),
+      down > aside ? "down" : "sideways");
+  return text;
+}
+
+const char *zp_statics_no_rest(ZpStatics *s, char text[ZP_NO_REST_SIZE]) {
+  const char *fallen = zp_statics_fallen(s, text);
+  if (fallen) return fallen;
   return s->bias < 1
              ? "a member pulls in below its own constant voltage (stack.lower_voltage; drive.voltage, not scaled)"
              : "no hanging equilibrium found";

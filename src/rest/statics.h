@@ -151,8 +151,12 @@ bool zp_statics_bias(ZpStatics *statics);
  * isometric's voltage does: then *jumped becomes true. False if one of these falls does not converge. */
 bool zp_statics_bias_held(ZpStatics *statics, bool *jumped);
 
-/* Why there is no equilibrium at which a voltage could begin to rise. */
-const char *zp_statics_no_rest(const ZpStatics *statics);
+/* Why there is no equilibrium at which a voltage could begin to rise, where the search for it has ended. */
+enum { ZP_NO_REST_SIZE = 256 };
+const char *zp_statics_no_rest(ZpStatics *statics, char text[ZP_NO_REST_SIZE]);
+
+/* Which body in the plane has left its place by far in that search, as nothing stops it, in a sentence; NULL: none. */
+const char *zp_statics_fallen(ZpStatics *statics, char text[ZP_NO_REST_SIZE]);
 
 /* From the hanging equilibrium up to `voltage` on the hanging branch, to within a millionth of its end. False if the
  * branch ends before, at the pull-in, or if the field cannot be solved (zp_statics_trouble). */

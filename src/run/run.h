@@ -5,6 +5,7 @@
 #include "run/info.h"
 
 #include "actuator/shape.h"
+#include "rest/statics.h"
 #include "run/dynamics.h"
 #include "run/paper_motion.h"
 #include "run/still.h"
@@ -138,6 +139,7 @@ struct ZpSim {
   double row_energy;             /* of that row, for the mean power, of the whole actuator */
   double own_charge, own_energy; /* of the last row: that charge and source energy, without the members below */
   ZpOutcome settled;             /* ZP_REACHED_END once the hanging equilibrium is known */
+  char falls[ZP_NO_REST_SIZE];   /* why it is not known, where a body falls; else empty */
   int64_t settle_steps;
   double settle_residual;
   const ZpStepping *stepping;     /* the method of time stepping */

@@ -76,6 +76,7 @@ static bool find_rest(ZpSim *sim, const ZpHooks *hooks, ZpRest *rest, bool *foun
   rest->statics.caller = hooks;
   const ZpNewtonInfo info = zp_statics_find_rest(&rest->statics);
   *found = zp_newton_good(info.end);
+  if (!*found) zp_statics_fallen(&rest->statics, sim->falls);
   sim->settle_steps = info.iterations;
   sim->settle_residual = info.residual;
   if (rest->statics.stopped) sim->settled = ZP_INTERRUPTED;

@@ -378,9 +378,12 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     snprintf(text, size, "interrupted at %g s; the results so far are kept", t);
     break;
   case ZP_NOT_SETTLED:
-    snprintf(text, size,
-             "no hanging equilibrium was found: after %lld steps the unbalanced force is still %g of the weight",
-             (long long)sim->settle_steps, sim->settle_residual);
+    if (*sim->falls)
+      snprintf(text, size, "%s", sim->falls);
+    else
+      snprintf(text, size,
+               "no hanging equilibrium was found: after %lld steps the unbalanced force is still %g of the weight",
+               (long long)sim->settle_steps, sim->settle_residual);
     break;
   case ZP_DIVERGED:
     if (sim->eval.fault)

@@ -93,16 +93,16 @@ static void note(Follower *f) {
         f->shorted);
 }
 
-static void describe(const Follower *f) {
+static void describe(Follower *f) {
   ZpResult *r = f->at.result;
-  const ZpStatics *statics = &f->at.rest.statics;
+  ZpStatics *statics = &f->at.rest.statics;
   size_t size = sizeof r->message;
   bool stopped = statics->stopped, lost = zp_limits_lost(f->limits);
   r->outcome = stopped ? ZP_INTERRUPTED : !f->limits->hangs ? ZP_NOT_SETTLED : lost ? ZP_BRANCH_LOST : ZP_FOLLOWED;
   if (stopped)
     snprintf(r->message, size, "interrupted at %.4g V; the results so far are kept", fabs(statics->U));
   else if (!f->limits->hangs)
-    snprintf(r->message, size, "%s", zp_statics_no_rest(statics));
+    snprintf(r->message, size, "%s", zp_statics_no_rest(statics, (char[ZP_NO_REST_SIZE]){0}));
   else if (!isnan(f->shorted) && isnan(f->limits->limit[ZP_LIMIT_PULL_IN].value))
     snprintf(r->message, size, "short circuit at %.4g V: electrodes without an insulator touch", f->shorted);
   else

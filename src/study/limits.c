@@ -93,13 +93,14 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   zp_result_add_sensitivity(result, "mass_kg", slope->key, mass);
 }
 
-static void describe(const Finder *f, ZpResult *r) {
-  const ZpStatics *statics = &f->at.rest.statics;
+static void describe(Finder *f, ZpResult *r) {
+  ZpStatics *statics = &f->at.rest.statics;
   bool stopped = statics->stopped, hangs = f->limits->hangs, lost = zp_limits_lost(f->limits);
   r->outcome = stopped ? ZP_INTERRUPTED : !hangs ? ZP_NOT_SETTLED : lost ? ZP_BRANCH_LOST : ZP_CONVERGED;
   if (stopped || !hangs)
     snprintf(r->message, sizeof r->message, "%s",
-             stopped ? "interrupted; the results so far are kept" : zp_statics_no_rest(statics));
+             stopped ? "interrupted; the results so far are kept"
+                     : zp_statics_no_rest(statics, (char[ZP_NO_REST_SIZE]){0}));
   else
     zp_describe_limits(statics, f->limits, true, r);
 }

@@ -124,11 +124,14 @@ static bool find_equilibrium(Problem *p) {
   const size_t size = sizeof result->message;
   ZpNewtonInfo info = zp_statics_find_rest(s);
   result->outcome = s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
-  snprintf(result->message, size, "%s", s->stopped ? "interrupted" : "no hanging equilibrium found");
-  if (!zp_newton_good(info.end)) return false;
+  if (!zp_newton_good(info.end)) {
+    snprintf(result->message, size, "%s",
+             s->stopped ? "interrupted" : zp_statics_no_rest(s, (char[ZP_NO_REST_SIZE]){0}));
+    return false;
+  }
   double voltage = s->member->model->def.modes.voltage;
   if (!zp_statics_bias(s)) {
-    snprintf(result->message, size, "%s", zp_statics_no_rest(s));
+    snprintf(result->message, size, "%s", zp_statics_no_rest(s, (char[ZP_NO_REST_SIZE]){0}));
   } else if (voltage > 0 && s->member->model->field && !zp_statics_ramp_voltage(s, voltage)) {
     note_pulled_in(p, voltage);
   } else if (zp_statics_shorted(s)) {

@@ -40,7 +40,10 @@ static void fill_rows(const ZpStatics *s, size_t which, const ZpShape *shape, Zp
   }
 }
 
-static const char *words_of(const ZpStatics *s, ZpNewtonEnd end) {
+static const char *words_of(ZpStatics *s, ZpNewtonEnd end, char text[ZP_NO_REST_SIZE]) {
+  const bool ended = zp_newton_good(end) || end == ZP_NEWTON_REFUSED;
+  const char *fallen = ended ? NULL : zp_statics_fallen(s, text);
+  if (fallen) return fallen;
   switch (end) {
   case ZP_NEWTON_CONVERGED:
     return "residual below tolerance";
@@ -105,7 +108,7 @@ static void run(ZpEquilibria *at) {
   result->outcome = found ? ZP_CONVERGED : s->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
   snprintf(result->message, sizeof result->message, "%s%s",
            info.end == ZP_NEWTON_REFUSED ? "the equilibrium found is impossible: " : "",
-           s->stopped ? "interrupted" : words_of(s, info.end));
+           s->stopped ? "interrupted" : words_of(s, info.end, (char[ZP_NO_REST_SIZE]){0}));
   zp_result_add(result, "stroke_m", "m", found ? zp_statics_stroke(s) : NAN);
   if (zp_is_pair(t)) zp_result_add(result, "opening_m", "m", found ? zp_statics_opening(s) : NAN);
   if (zp_tells_angle(at->model)) zp_result_add(result, "angle_rad", "rad", found ? zp_statics_angle(s) : NAN);
