@@ -363,6 +363,15 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
   return diverged(sim) ? ZP_DIVERGED : ZP_REACHED_END;
 }
 
+static void describe_unsettled(const ZpSim *sim, char *text, size_t size) {
+  if (*sim->falls)
+    snprintf(text, size, "%s", sim->falls);
+  else
+    snprintf(text, size,
+             "no hanging equilibrium was found: after %lld steps the unbalanced force is still %g of the weight",
+             (long long)sim->settle_steps, sim->settle_residual);
+}
+
 static void describe(const ZpSim *sim, ZpRunInfo *info) {
   char *text = info->message;
   size_t size = sizeof info->message;
@@ -378,12 +387,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
     snprintf(text, size, "interrupted at %g s; the results so far are kept", t);
     break;
   case ZP_NOT_SETTLED:
-    if (*sim->falls)
-      snprintf(text, size, "%s", sim->falls);
-    else
-      snprintf(text, size,
-               "no hanging equilibrium was found: after %lld steps the unbalanced force is still %g of the weight",
-               (long long)sim->settle_steps, sim->settle_residual);
+    describe_unsettled(sim, text, size);
     break;
   case ZP_DIVERGED:
     if (sim->eval.fault)
