@@ -291,6 +291,14 @@ bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
   return true;
 }
 
+const double *zp_rest_sensitivity_member(const ZpRestSensitivity *p, size_t which) {
+  return of_member(p, p->rate, which, 2);
+}
+
+const double *zp_rest_sensitivity_bodies(const ZpRestSensitivity *p) {
+  return p->by_key + p->at->form.inner;
+}
+
 double zp_rest_sensitivity_of(ZpRestSensitivity *p, ZpOutput output, void *user) {
   double sum = 0;
   for (int k = 0; k < p->by.count; k++) {

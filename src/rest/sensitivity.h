@@ -44,6 +44,10 @@ void zp_rest_sensitivity_close(ZpRestSensitivity *slope);
 /* Compute rate, tension and reaction at the present point, an equilibrium. False if the stiffness is singular. */
 bool zp_rest_sensitivity_solve(ZpRestSensitivity *slope, int inputs);
 
+/* The rate of the coordinates of a member [2 stride] and, where bodies move in the plane, that of their unknowns. */
+const double *zp_rest_sensitivity_member(const ZpRestSensitivity *slope, size_t which);
+const double *zp_rest_sensitivity_bodies(const ZpRestSensitivity *slope);
+
 /* The derivative of an output along the last solution. */
 double zp_rest_sensitivity_of(ZpRestSensitivity *slope, ZpOutput output, void *user);
 

@@ -157,22 +157,32 @@ static double left_to_close(const ZpModel *model, const ZpState *state) {
   return opening(model, state) - zp_closed_opening(model, state->opening0);
 }
 
-static double left_of(const ZpSim *m, ZpLanding landing) {
+double zp_sim_left_of(const ZpSim *m, ZpLanding landing) {
   if (landing == ZP_LANDS_SHORTED) return left_to_short(m->model, m->state);
   if (landing == ZP_LANDS_RESTED) return left_to_rest(m->state);
   return left_to_close(m->model, m->state);
 }
 
-double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
+/* After closing a member may have opened again. */
+static bool may_be_last(const ZpSim *m, ZpLanding landing) {
+  return landing == ZP_LANDS_RESTED || isnan(m->before->zip_time);
+}
+
+size_t zp_sim_decides(const ZpSim *sim, ZpLanding landing) {
   const bool first = landing == ZP_LANDS_SHORTED || sim->model->network->opposed;
   double left = first ? INFINITY : -INFINITY;
-  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
-    if (first)
-      left = fmin(left, left_of(m, landing));
-    else if (landing == ZP_LANDS_RESTED || isnan(m->before->zip_time)) /* after closing it may have opened again */
-      left = fmax(left, left_of(m, landing));
+  size_t which = 0;
+  for (size_t k = 0; k < sim->members; k++) {
+    const double own = zp_sim_left_of(sim + k, landing);
+    if (first ? !(own < left) : !may_be_last(sim + k, landing) || !(own > left)) continue;
+    left = own;
+    which = k;
   }
-  return left;
+  return which;
+}
+
+double zp_sim_left(const ZpSim *sim, ZpLanding landing) {
+  return zp_sim_left_of(sim + zp_sim_decides(sim, landing), landing);
 }
 
 ZpOutcome zp_sim_end(const ZpSim *sim) {

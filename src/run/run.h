@@ -186,9 +186,9 @@ static inline bool zp_sim_is_controlled(const ZpSim *m) {
   return m->model->control.kind != ZP_CONTROL_NONE;
 }
 
-/* A simulation that starts at coordinates q [2 stride] (NULL: straight) with a given hanging opening, without computing
- * its hanging equilibrium. NULL: there is no memory. */
-ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0);
+/* A simulation of nearly the same actuators, with these models, that starts near `sim`, which has not moved: at `offset`
+ * along the rates [members] of its states, without computing its hanging equilibrium. NULL: there is no memory. */
+ZpSim *zp_sim_create_near(const ZpSim *sim, const ZpModel *model, ZpState *const rate[], double offset);
 
 /* Start at rest at coordinates q of all nodes, bent there from the natural shape for the first time. */
 void zp_sim_start_at(ZpSim *sim, const double *q);
@@ -196,14 +196,21 @@ void zp_sim_start_at(ZpSim *sim, const double *q);
 /* Would a run end in the present state? */
 bool zp_sim_stops(const ZpSim *sim, ZpStop stop);
 
-/* Distance of the state from an instant of ending, m: positive before it, 0 at it. */
+/* Distance of the state from an instant of ending, m: positive before it, 0 at it. That of one member, and the member
+ * whose distance is that of all. */
 double zp_sim_left(const ZpSim *sim, ZpLanding landing);
+double zp_sim_left_of(const ZpSim *m, ZpLanding landing);
+size_t zp_sim_decides(const ZpSim *sim, ZpLanding landing);
 
 /* As zp_sim_run, with this end. */
 ZpOutcome zp_sim_run_until(ZpSim *sim, double end_time, ZpStop stop, const ZpHooks *hooks, ZpRunInfo *info);
 
-/* Time of the next corner of the inputs, s. */
-double zp_sim_next_corner(ZpSim *sim);
+/* The next corner of the inputs: its time, s, and how many of them have it, to rounding. */
+typedef struct ZpCorner {
+  double t;
+  size_t inputs;
+} ZpCorner;
+ZpCorner zp_sim_next_corner(ZpSim *sim);
 
 /* Copy the states of all members of a series, or of the only one, to `before`, and back. */
 void zp_sim_keep_states(ZpSim *sim);

@@ -14,37 +14,57 @@ static const double part = 1e-7;
 
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
-/* Derivative of the hanging equilibrium by a key => rate, of coordinates and opening0. */
-static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *rate, ZpError *err) {
-  const ZpModel *model = rest->statics.member->model;
+static double opening_of(ZpStatics *s, void *which) {
+  return zp_statics_member_opening(s, *(const size_t *)which);
+}
+
+/* Derivative of the hanging equilibrium by a key => rate [members], of coordinates, opening0 and bodies. */
+static ZpStatus rate_of_hanging(ZpRest *rest, int key, ZpState *const rate[], ZpError *err) {
+  const ZpModel *first = rest->statics.model;
   ZpRestSensitivity slope;
   ZpStatus status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
-  if (status == ZP_OK && zp_rest_sensitivity_solve(&slope, ZP_SETS_LOAD)) {
-    memcpy(zp_state_q(model, rate), slope.rate, zp_coordinates(model) * sizeof *slope.rate);
-    rate->opening0 = zp_is_pair(&model->topology) ? zp_rest_sensitivity_of(&slope, zp_output_opening, NULL) : 0;
+  const bool found = status == ZP_OK && zp_rest_sensitivity_solve(&slope, ZP_SETS_LOAD);
+  for (size_t which = 0; found && which < first->members; which++) {
+    const ZpModel *model = first + which;
+    memcpy(zp_state_q(model, rate[which]), zp_rest_sensitivity_member(&slope, which),
+           zp_coordinates(model) * sizeof *slope.rate);
+    rate[which]->opening0 = zp_is_pair(&model->topology) ? zp_rest_sensitivity_of(&slope, opening_of, &which) : 0;
   }
+  if (found && first->network->plane)
+    memcpy(zp_state_bodies(first, rate[0]), zp_rest_sensitivity_bodies(&slope),
+           first->network->unknowns * sizeof *slope.by_key);
   zp_rest_sensitivity_close(&slope);
   return status;
 }
 
 static ZpStatus create_near(ZpRunSensitivity *rates, ZpKeyRates *of, ZpError *err) {
-  const ZpModel *model = rates->sim->model;
-  bool straight = model->def.initial.state == ZP_INITIAL_STRAIGHT;
   for (int k = 0; k < of->by.count; k++) {
-    zp_state_along(model, rates->sim->state, of->rate, of->by.near[k].offset, rates->before);
-    double *q = straight ? NULL : zp_state_q(model, rates->before);
-    of->near[k] = zp_sim_create_at(of->by.near[k].model, q, rates->before->opening0);
+    of->near[k] = zp_sim_create_near(rates->sim, of->by.near[k].model, of->rate, of->by.near[k].offset);
     if (!of->near[k]) return zp_fail_memory(err);
     of->near[k]->dynamics.lead = &rates->sim->dynamics;
   }
   return ZP_OK;
 }
 
-static void take_rate(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
-  const ZpModel *model = rates->sim->model;
-  memset(of->rate, 0, zp_state_size(model));
+/* Of the state of one member, in which the neighbours are now. */
+static void take_rate_of(const ZpSim *sim, const ZpKeyRates *of, size_t which) {
+  const ZpSim *m = sim + which;
+  memset(of->rate[which], 0, zp_state_size(m->model));
   for (int k = 0; k < of->by.count; k++)
-    zp_state_add_rate(model, rates->sim->state, of->near[k]->state, of->by.near[k].weight, of->rate);
+    zp_state_add_rate(m->model, m->state, of->near[k][which].state, of->by.near[k].weight, of->rate[which]);
+}
+
+static void take_rate(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
+  for (size_t which = 0; which < rates->sim->members; which++)
+    take_rate_of(rates->sim, of, which);
+}
+
+static bool allocate_key(const ZpSim *sim, ZpKeyRates *of) {
+  of->rate = zp_calloc(sim->members, sizeof(ZpState *));
+  bool made = of->rate != NULL;
+  for (size_t which = 0; which < sim->members && made; which++)
+    made = (of->rate[which] = zp_calloc(1, zp_state_size(sim[which].model))) != NULL;
+  return made;
 }
 
 static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRates *of, ZpError *err) {
@@ -52,8 +72,7 @@ static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRa
   bool hangs = zp_is_pair(&model->topology) || model->def.initial.state == ZP_INITIAL_EQUILIBRIUM;
   of->lost = INFINITY;
   of->last[0].t = of->last[1].t = NAN;
-  of->rate = zp_calloc(1, zp_state_size(model));
-  if (!of->rate) return zp_fail_memory(err);
+  if (!allocate_key(rates->sim, of)) return zp_fail_memory(err);
   ZpStatus status = zp_finite_difference_open(&of->by, model, key, part, err);
   if (status == ZP_OK && hangs) status = rate_of_hanging(rest, key, of->rate, err);
   if (status == ZP_OK) status = create_near(rates, of, err);
@@ -62,14 +81,13 @@ static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRa
 }
 
 static bool allocate(ZpRunSensitivity *rates) {
-  const ZpModel *model = rates->sim->model;
-  size_t n = rates->sim->dynamics.system.n;
+  const ZpSim *sim = rates->sim;
+  size_t n = sim->dynamics.system.n;
   rates->key = zp_calloc(rates->keys, sizeof *rates->key);
-  rates->before = zp_calloc(1, zp_state_size(model));
-  rates->wet = zp_calloc(model->nodes, sizeof *rates->wet);
+  rates->wet = zp_calloc(sim->members * sim->model->nodes, sizeof *rates->wet);
   rates->work = zp_calloc(7 * n, sizeof *rates->work);
   rates->motion = rates->work + 6 * n;
-  return rates->key && rates->before && rates->wet && rates->work;
+  return rates->key && rates->wet && rates->work;
 }
 
 ZpStatus zp_run_sensitivity_open(ZpRunSensitivity *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err) {
@@ -85,16 +103,19 @@ ZpStatus zp_run_sensitivity_open(ZpRunSensitivity *rates, ZpSim *sim, const int 
   return status;
 }
 
+static void close_key(const ZpSim *sim, ZpKeyRates *of) {
+  for (int k = 0; k < of->by.count; k++)
+    zp_sim_destroy(of->near[k]);
+  zp_finite_difference_close(&of->by);
+  for (size_t which = 0; of->rate && which < sim->members; which++)
+    zp_free(of->rate[which]);
+  zp_free(of->rate);
+}
+
 void zp_run_sensitivity_close(ZpRunSensitivity *rates) {
-  for (size_t j = 0; rates->key && j < rates->keys; j++) {
-    ZpKeyRates *of = &rates->key[j];
-    for (int k = 0; k < of->by.count; k++)
-      zp_sim_destroy(of->near[k]);
-    zp_finite_difference_close(&of->by);
-    zp_free(of->rate);
-  }
+  for (size_t j = 0; rates->key && j < rates->keys; j++)
+    close_key(rates->sim, &rates->key[j]);
   zp_free(rates->key);
-  zp_free(rates->before);
   zp_free(rates->wet);
   zp_free(rates->work);
   rates->sim->rates = NULL;
@@ -109,8 +130,10 @@ static double time_of(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k
   return t == rates->to ? of->to[k] : of->from[k] + share * (of->to[k] - of->from[k]);
 }
 
-static double corner_of(ZpSim *sim, double end_time) {
-  return fmin(zp_sim_next_corner(sim), end_time);
+/* The end of the run is one of its inputs. */
+static ZpCorner corner_of(ZpSim *sim, double end_time) {
+  const ZpCorner corner = zp_sim_next_corner(sim);
+  return corner.t < end_time ? corner : (ZpCorner){end_time, 1};
 }
 
 /* An ideal source gives a neighbour exactly the voltage of its own waveform: a rounding would be a jump, at which the
@@ -121,51 +144,82 @@ static void set_voltage(const ZpSim *sim, ZpSim *near) {
   if (sim->state->U == sim->state->base_U) near->state->base_U = near->state->U;
 }
 
-static void begin_near(const ZpRunSensitivity *rates, ZpKeyRates *of, int k, bool at_corner, double end_time) {
+/* Where the run is at a corner, its neighbours are at theirs. Of several inputs that have the next one together a key
+ * may move some, and then in a neighbour these are before or behind the others. */
+static void begin_interval(const ZpRunSensitivity *rates, ZpKeyRates *of, int k, double end_time) {
+  ZpSim *near = of->near[k];
+  const ZpCorner corner = corner_of(rates->sim, end_time), other = corner_of(near, end_time);
+  of->from[k] = near->state->t;
+  of->to[k] = corner.t < end_time ? other.t : end_time;
+  of->splits |= corner.t < end_time && corner.inputs != other.inputs;
+}
+
+static void begin_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k) {
   const ZpSim *sim = rates->sim;
   ZpSim *near = of->near[k];
   double t = time_of(rates, of, k, sim->state->t);
-  zp_state_along(sim->model, sim->state, of->rate, of->by.near[k].offset, near->state);
-  near->state->t = t;
-  set_voltage(sim, near);
+  for (size_t which = 0; which < sim->members; which++) {
+    zp_state_along(sim[which].model, sim[which].state, of->rate[which], of->by.near[k].offset, near[which].state);
+    near[which].state->t = t;
+    set_voltage(sim + which, near + which);
+  }
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
-  if (zp_sim_is_fed(near)) zp_supply_coupling_arrive(near);
-  memcpy(near->before, near->state, zp_state_size(near->model));
-  if (!at_corner) return;
-  of->from[k] = t;
-  of->to[k] = corner_of(rates->sim, end_time) < end_time ? corner_of(near, end_time) : end_time;
+  zp_supply_coupling_arrive(near);
+  zp_sim_keep_states(near);
+}
+
+static void begin_key(const ZpRunSensitivity *rates, ZpKeyRates *of, bool at_corner, double end_time) {
+  if (at_corner) of->splits = false;
+  for (int k = 0; k < of->by.count; k++) {
+    begin_near(rates, of, k);
+    if (at_corner) begin_interval(rates, of, k, end_time);
+  }
 }
 
 void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time) {
   ZpSim *sim = rates->sim;
   bool at_corner = sim->state->t >= rates->to;
-  memcpy(rates->before, sim->state, zp_state_size(sim->model));
   rates->taken = sim->dynamics.stepper.counts.steps;
   for (ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
-    for (int k = 0; k < of->by.count && !isfinite(of->lost); k++)
-      begin_near(rates, of, k, at_corner, end_time);
+    if (!isfinite(of->lost)) begin_key(rates, of, at_corner, end_time);
   if (!at_corner) return;
   rates->from = sim->state->t;
-  rates->to = corner_of(sim, end_time);
+  rates->to = corner_of(sim, end_time).t;
 }
 
 /* -- and ends ---------------------------------------------------------------------------------------- */
 
 static void lose(const ZpRunSensitivity *rates, ZpKeyRates *of, const char *cause) {
-  of->lost = rates->before->t;
+  of->lost = rates->sim->before->t;
   of->cause = cause;
 }
 
-/* Has the bead covered a station in this step that it did not cover in the step before, or the reverse? */
-static bool meniscus_passes(ZpRunSensitivity *rates) {
-  const ZpMovingMember *m = rates->sim->dynamics.member;
+/* Has the bead of a member covered a station in this step that it did not cover in the step before, or the reverse? */
+static bool meniscus_passes(const ZpMovingMember *m, bool *wet) {
   bool passes = false;
   for (size_t i = 1; i < m->model->nodes && m->model->has_bead; i++) {
-    bool wet = zp_film_covers(&m->model->film, &m->eval.film, i);
-    passes |= wet != rates->wet[i] && rates->before->t > 0;
-    rates->wet[i] = wet;
+    const bool covers = zp_film_covers(&m->model->film, &m->eval.film, i);
+    passes |= covers != wet[i];
+    wet[i] = covers;
   }
   return passes;
+}
+
+static bool any_meniscus_passes(ZpRunSensitivity *rates) {
+  const ZpDynamics *d = &rates->sim->dynamics;
+  const bool has_begun = rates->sim->before->t > 0;
+  bool passes = false;
+  for (size_t k = 0; k < d->members; k++)
+    passes |= meniscus_passes(&d->member[k], rates->wet + k * d->member->model->nodes);
+  return passes && has_begun;
+}
+
+/* Has a limit of the current begun or ended at any port? */
+static bool any_mode_changes(const ZpSim *sim) {
+  bool changes = false;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    changes |= m->state->supply_mode != m->before->supply_mode;
+  return changes;
 }
 
 /* Does the run end at the end of this step, although its state ended it before? */
@@ -176,11 +230,16 @@ static bool ends_late(const ZpSim *sim) {
 /* An event in the run's step that has no derivative. What a meniscus leaves at a station that it passes, and how long a
  * supply is at its limit, depend on when within the step it happens. NULL: none. */
 static const char *cause_of_loss(ZpRunSensitivity *rates) {
-  if (rates->sim->state->supply_mode != rates->before->supply_mode)
-    return "a limit of the supply's current begins or ends";
+  if (any_mode_changes(rates->sim)) return "a limit of the supply's current begins or ends";
   if (ends_late(rates->sim)) return "the run ends at the end of a step, not at the instant that ends it";
-  return meniscus_passes(rates) ? "the meniscus of a bead passes a node; liquid.model none or submerged has them"
-                                : NULL;
+  return any_meniscus_passes(rates) ? "the meniscus of a bead passes a node; liquid.model none or submerged has them"
+                                    : NULL;
+}
+
+/* The same, of one key: has the step ended at a corner of several inputs of which it moves some? */
+static const char *cause_of_key(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
+  return of->splits && rates->sim->state->t >= rates->to ? "it moves one of several corners of inputs that coincide"
+                                                         : NULL;
 }
 
 /* Does the step's matrix filter velocities, because of faces or menisci? */
@@ -188,16 +247,16 @@ static bool takes_matrix(const ZpRunSensitivity *rates) {
   return rates->sim->model->has_bead || rates->sim->dynamics.filters;
 }
 
-/* Does the step end where a slew rate begins or ceases to limit the supply? */
+/* Does the step end where a slew rate begins or ceases to limit a supply? */
 static bool ends_at_event(const ZpRunSensitivity *rates) {
-  return zp_sim_is_fed(rates->sim) && rates->sim->state->t >= rates->event;
+  return rates->sim->fed > 0 && rates->sim->state->t >= rates->event.t;
 }
 
 /* There the neighbours' steps end at their own events. */
 static double end_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k) {
   const ZpSim *near = of->near[k];
-  double h = rates->sim->state->t - rates->before->t;
-  if (ends_at_event(rates)) return zp_supply_coupling_event(near, near->state->t + 2 * h);
+  double h = rates->sim->state->t - rates->sim->before->t;
+  if (ends_at_event(rates)) return zp_supply_coupling_event(near + rates->event.lead, near->state->t + 2 * h);
   return time_of(rates, of, k, rates->sim->state->t) + of->by.near[k].offset * of->late;
 }
 
@@ -220,41 +279,49 @@ static bool move(ZpRunSensitivity *rates, ZpKeyRates *of) {
 
 static void arrive(ZpSim *near) {
   zp_dynamics_end(&near->dynamics, near->states);
-  if (zp_sim_is_fed(near)) zp_supply_coupling_end(near);
+  zp_supply_coupling_end(near);
   zp_sim_arrive(near);
 }
 
-/* When a neighbouring actuator closes, if the run closes in this step: where the neighbour's path of the same step
+/* When a neighbouring member closes, if that of the run closes in this step: where the neighbour's path of the same step
  * passes the limit, even outside the step. A front that arrives is detected only at the end of a step, which is not the
  * exact instant. `now` and `before` are of the run, at the end and the start of the step. */
-static double closing_near(const ZpRunSensitivity *rates, const ZpSim *near, double before, double now,
-                           double carried) {
-  const ZpSim *sim = rates->sim;
+static double closing_near(const ZpSim *sim, const ZpSim *near, double before, double now, double carried) {
   if (isnan(now)) return NAN;
   if (now == before) return carried;
-  if (sim->landing == ZP_LANDS_CLOSED) return near->state->t;
+  if (sim->landing == ZP_LANDS_CLOSED && now == zp_sim_zip_time(sim)) return near->state->t;
   return now < sim->state->t ? zp_sim_crossing(near) : NAN;
+}
+
+static void note_closing(const ZpSim *sim, size_t which, ZpSim *near) {
+  const ZpState *now = sim[which].state, *before = sim[which].before, *start = near->before;
+  ZpState *state = near->state;
+  state->zip_time = closing_near(sim, near, before->zip_time, now->zip_time, start->zip_time);
+  double closed = closing_near(sim, near, before->closed_from, now->closed_from, start->closed_from);
+  if (now->closed_from != before->closed_from && !isnan(closed))
+    zp_sim_close(near, (ZpOpeningAt){closed, zp_closed_opening(near->model, state->opening0)});
+  state->closed_from = closed;
+}
+
+/* Nothing moves in so short a step. */
+static void pass_time(ZpSim *near, double t) {
+  for (ZpSim *m = near; m < near + near->members; m++)
+    m->state->t = t;
 }
 
 /* Take the neighbours from the start of the run's step to its end. */
 static bool follow_step(ZpRunSensitivity *rates, ZpKeyRates *of, bool moves) {
-  const ZpState *now = rates->sim->state, *before = rates->before;
   for (int k = 0; k < of->by.count; k++)
-    memcpy(of->near[k]->state, of->near[k]->before, zp_state_size(of->near[k]->model));
+    zp_sim_take_states_back(of->near[k]);
   if (moves && !move(rates, of)) return false;
   for (int k = 0; k < of->by.count; k++) {
     ZpSim *near = of->near[k];
     if (moves)
       arrive(near);
     else
-      near->state->t = end_near(rates, of, k);
-    ZpState *state = near->state;
-    const ZpState *start = near->before;
-    state->zip_time = closing_near(rates, near, before->zip_time, now->zip_time, start->zip_time);
-    double closed = closing_near(rates, near, before->closed_from, now->closed_from, start->closed_from);
-    if (now->closed_from != before->closed_from && !isnan(closed))
-      zp_sim_close(near, (ZpOpeningAt){closed, zp_closed_opening(near->model, state->opening0)});
-    state->closed_from = closed;
+      pass_time(near, end_near(rates, of, k));
+    for (size_t which = 0; which < near->members; which++)
+      note_closing(rates->sim, which, near + which);
   }
   take_rate(rates, of);
   return true;
@@ -268,9 +335,16 @@ static double rate_of(const ZpKeyRates *of, double (*number)(ZpSim *near, const 
   return sum;
 }
 
-/* Until the run ends. */
-static double left_of(ZpSim *near, const void *landing) {
-  return zp_sim_left(near, *(const ZpLanding *)landing);
+/* The end of a run, and the member that decides on it. */
+typedef struct End {
+  ZpLanding landing;
+  size_t decides;
+} End;
+
+/* Until then. */
+static double left_of(ZpSim *near, const void *end) {
+  const End *e = end;
+  return zp_sim_left_of(near + e->decides, e->landing);
 }
 
 static double length_of(ZpSim *near, const void *unused) {
@@ -286,13 +360,13 @@ static double current_of(ZpSim *near, const void *which) {
  * is left there is linear in the derivative of the end. */
 static bool follow_landing(ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
+  const End end = {sim->landing, zp_sim_decides(sim, sim->landing)};
   if (!follow_step(rates, of, true)) return false;
-  double first = rate_of(of, left_of, &sim->landing),
-         trial = first * (sim->state->t - rates->before->t) / sim->left_before;
+  double first = rate_of(of, left_of, &end), trial = first * (sim->state->t - sim->before->t) / sim->left_before;
   if (first == 0) return true;
   of->late = trial;
   if (!follow_step(rates, of, true)) return false;
-  of->late = trial * first / (first - rate_of(of, left_of, &sim->landing));
+  of->late = trial * first / (first - rate_of(of, left_of, &end));
   return isfinite(of->late) && follow_step(rates, of, true);
 }
 
@@ -312,7 +386,7 @@ static void follow_peak(const ZpRunSensitivity *rates, ZpKeyRates *of) {
   const ZpSim *sim = rates->sim;
   const ZpSupplyCoupling *feed = &sim->feed;
   const int which = sim->model->supply.resistance > 0 ? ZP_CURRENT_AT_END : ZP_CURRENT_MEAN;
-  double start = rates->before->t, end = sim->state->t;
+  double start = sim->before->t, end = sim->state->t;
   ZpCurrentRate now = {which == ZP_CURRENT_MEAN ? 0.5 * (start + end) : end, feed->current[which],
                        rate_of(of, current_of, &which)};
   bool passed = of->at_peak && feed->largest == ZP_SUPPLY_CURRENTS && start != rates->from && !isnan(of->last[1].t);
@@ -328,7 +402,7 @@ static void follow_peak(const ZpRunSensitivity *rates, ZpKeyRates *of) {
  * the neighbours' peaks would compare instants at which only one of them has a peak. */
 static void follow_currents(const ZpRunSensitivity *rates, ZpKeyRates *of) {
   const int of_step = ZP_CURRENT_MEAN;
-  double mean = rates->sim->feed.current[of_step], h = rates->sim->state->t - rates->before->t;
+  double mean = rates->sim->feed.current[of_step], h = rates->sim->state->t - rates->sim->before->t;
   of->square += 2 * mean * rate_of(of, current_of, &of_step) * h + mean * mean * rate_of(of, length_of, NULL);
   follow_peak(rates, of);
 }
@@ -355,8 +429,9 @@ void zp_run_sensitivity_follow(ZpRunSensitivity *rates) {
   for (size_t k = 0; k < rates->keys; k++) {
     ZpKeyRates *of = &rates->key[k];
     if (isfinite(of->lost)) continue;
-    if (cause)
-      lose(rates, of, cause);
+    const char *own = cause ? cause : cause_of_key(rates, of);
+    if (own)
+      lose(rates, of, own);
     else if (!follow_key(rates, of))
       lose(rates, of, "the derivative of a step was not found");
   }
@@ -373,6 +448,6 @@ ZpCurrents zp_run_rate_of_currents(const ZpRunSensitivity *rates, size_t k) {
   double T = rates->sim->state->t;
   ZpCurrents now = zp_sim_currents(rates->sim, T);
   if (isnan(now.peak)) return now;
-  double by_T = now.rms * now.rms * of->rate->t;
+  double by_T = now.rms * now.rms * of->rate[0]->t;
   return (ZpCurrents){of->peak, now.rms > 0 ? (of->square - by_T) / (2 * now.rms * T) : 0};
 }

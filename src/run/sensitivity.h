@@ -19,7 +19,8 @@ typedef struct ZpKeyRates {
   double from[ZP_DIFFERENCE_POINTS]; /* their last corner */
   double to[ZP_DIFFERENCE_POINTS];   /* and their next one, s */
   double late;                       /* derivative of the end of the step, beyond that by corners, s */
-  ZpState *rate;       /* derivatives of the numbers of the run's state; of its time where a key moves it */
+  bool splits;         /* it moves one of several inputs that have the next corner together */
+  ZpState **rate;      /* [members] derivatives of the numbers of the run's states; of their time where a key moves it */
   double square, peak; /* of the integral of the current's square and of its largest size so far (supply_coupling.h) */
   ZpCurrentRate last[2]; /* the currents of the last two steps, the later one first; t is NAN before there is one */
   bool at_peak;          /* the later one is the largest so far */
@@ -31,13 +32,12 @@ typedef struct ZpRunSensitivity {
   ZpSim *sim;      /* the run */
   ZpKeyRates *key; /* [keys] */
   size_t keys;
-  ZpState *before; /* the run's state where the step under way begins */
-  int64_t taken;   /* its steps until then */
-  double from, to; /* its last corner and its next one, s */
-  double event; /* where a slew rate begins or ceases to limit the supply in the step under way, s; INFINITY: nowhere */
-  bool *wet;    /* [N] stations that the liquid of a bead covers */
-  double *work; /* [6 n] */
-  double *motion; /* [n] */
+  int64_t taken;       /* its steps until the step under way begins */
+  double from, to;     /* its last corner and its next one, s */
+  ZpSupplyEvent event; /* where a slew rate begins or ceases to limit a supply in that step */
+  bool *wet;           /* [members N] stations that the liquid of a bead covers */
+  double *work;        /* [6 n] */
+  double *motion;      /* [n] */
 } ZpRunSensitivity;
 
 /* Follow a run, which has not begun, by these keys; in any case to be closed, before the run. ZP_BAD_INPUT names a key

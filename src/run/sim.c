@@ -235,14 +235,25 @@ ZpStatus zp_sim_create(const ZpModel *model, const ZpHooks *hooks, ZpSim **out, 
   return ZP_OK;
 }
 
-ZpSim *zp_sim_create_at(const ZpModel *model, const double *q, double opening0) {
-  ZpSim *sim = create_straight(model);
-  if (!sim) return NULL;
-  sim->state->opening0 = opening0;
-  if (q) zp_sim_start_at(sim, q);
-  sim->settled = ZP_REACHED_END;
-  start(sim);
-  return sim;
+/* Where one member of these begins, as settling puts it. */
+static void start_near(const ZpSim *m, const ZpState *rate, double offset, ZpSim *near) {
+  ZpState *state = near->state, *at = near->before;
+  zp_state_along(m->model, m->state, rate, offset, at);
+  state->opening0 = at->opening0;
+  memcpy(zp_state_bodies(near->model, state), zp_state_bodies(near->model, at),
+         zp_state_bodies_size(near->model) * sizeof(double));
+  if (m->model->def.initial.state != ZP_INITIAL_STRAIGHT) zp_sim_start_at(near, zp_state_q(near->model, at));
+}
+
+ZpSim *zp_sim_create_near(const ZpSim *sim, const ZpModel *model, ZpState *const rate[], double offset) {
+  ZpSim *near = create_straight(model);
+  if (!near) return NULL;
+  for (size_t k = 0; k < sim->members; k++)
+    start_near(sim + k, rate[k], offset, near + k);
+  zp_sim_hang(near);
+  near->settled = ZP_REACHED_END;
+  start(near);
+  return near;
 }
 
 static void destroy_one(ZpSim *sim) {

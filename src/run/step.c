@@ -101,14 +101,24 @@ static double corner_of_pushes(const ZpSim *sim) {
   return corner;
 }
 
-double zp_sim_next_corner(ZpSim *sim) {
-  const ZpState *state = sim->state;
-  double voltage = INFINITY;
+static void add_corner(double t, ZpCorner *next) {
+  static const double rounding = 1e-12;
+  if (fabs(t - next->t) <= rounding * next->t)
+    next->inputs++;
+  else if (t < next->t)
+    next->inputs = 1;
+  next->t = fmin(next->t, t);
+}
+
+ZpCorner zp_sim_next_corner(ZpSim *sim) {
+  ZpCorner next = {INFINITY, 0};
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    if (zp_leads_port(m->model)) voltage = fmin(voltage, corner_of(m));
-  voltage = fmin(voltage, corner_of_pushes(sim));
-  double load = fmin(next_change(sim), zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, state->t));
-  return fmin(fmin(voltage, zp_sim_control_due(sim)), load);
+    if (zp_leads_port(m->model)) add_corner(corner_of(m), &next);
+  add_corner(corner_of_pushes(sim), &next);
+  add_corner(zp_sim_control_due(sim), &next);
+  add_corner(next_change(sim), &next);
+  add_corner(zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, sim->state->t), &next);
+  return next;
 }
 
 /* Longest step, s, for an input that a program sets and whose size matters from `least` on; never so short that time
@@ -279,30 +289,17 @@ typedef struct Step {
   ZpStepLimit limit;
 } Step;
 
-/* At the supplies of all ports. */
-static void let_commands_arrive(ZpSim *sim) {
-  for (ZpSim *m = sim; m < sim + sim->members; m++)
-    if (zp_sim_has_supply(m)) zp_supply_coupling_arrive(m);
-}
-
-static double next_event(const ZpSim *sim, double latest) {
-  double next = INFINITY;
-  for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    if (zp_sim_has_supply(m)) next = fmin(next, zp_supply_coupling_event(m, latest));
-  return next;
-}
-
 /* Changes that are due now, and how long nothing from outside stops the motion. */
 static Step begin(ZpSim *sim, double end_time) {
   const ZpState *state = sim->state;
   if (sim->rates) zp_run_sensitivity_begin(sim->rates, end_time);
   if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
-  if (sim->fed > 0) let_commands_arrive(sim);
-  double corner = zp_sim_next_corner(sim), latest = fmin(end_time, corner);
+  zp_supply_coupling_arrive(sim);
+  double corner = zp_sim_next_corner(sim).t, latest = fmin(end_time, corner);
   if (!sim->stepping->fine) latest = fmin(latest, state->t + resolution(sim));
   if (sim->fed > 0) {
-    double event = next_event(sim, latest);
-    corner = fmin(corner, event);
+    const ZpSupplyEvent event = zp_supply_coupling_next(sim, latest);
+    corner = fmin(corner, event.t);
     latest = fmin(latest, corner);
     if (sim->rates) sim->rates->event = event;
   }

@@ -403,7 +403,7 @@ static double capacitance_now(ZpSim *sim) {
 }
 
 /* A jump of the command that no limit of the current holds back, through a resistance too small to last. */
-void zp_supply_coupling_arrive(ZpSim *sim) {
+static void arrive(ZpSim *sim) {
   ZpCommand command = command_of(sim);
   const ZpSupply *supply = &sim->model->supply;
   ZpState *state = sim->state;
@@ -413,23 +413,48 @@ void zp_supply_coupling_arrive(ZpSim *sim) {
   if (supply->resistance * capacitance_now(sim) < instant) jump(sim, state->supply.voltage);
 }
 
-void zp_supply_coupling_end(ZpSim *sim) {
+static void end(ZpSim *sim) {
   sim->state->supply = followed(sim, sim->before, sim->state->t);
   sim->state->supply_mode = sim->feed.mode;
   book(sim);
 }
 
-/* Of all ports. */
-bool zp_supply_coupling_step(ZpSim *sim, double latest) {
-  const bool moves = latest - sim->state->t >= ZP_SUPPLY_SHORTEST;
-  if (moves && !(zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0)) return false;
-  for (ZpSim *m = sim; m < sim + sim->members; m++) {
-    const bool fed = zp_sim_has_supply(m);
-    if (fed && moves) zp_supply_coupling_end(m);
-    if (fed && !moves) m->state->supply = followed(m, m->state, latest);
+/* -- of all ports ---------------------------------------------------------------------------------- */
+
+void zp_supply_coupling_arrive(ZpSim *sim) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (zp_sim_has_supply(m)) arrive(m);
+}
+
+ZpSupplyEvent zp_supply_coupling_next(const ZpSim *sim, double latest) {
+  ZpSupplyEvent next = {0, INFINITY};
+  for (size_t k = 0; k < sim->members; k++) {
+    const double t = zp_sim_has_supply(sim + k) ? zp_supply_coupling_event(sim + k, latest) : INFINITY;
+    if (t < next.t) next = (ZpSupplyEvent){k, t};
   }
-  for (ZpSim *m = sim; m < sim + sim->members && !moves; m++)
+  return next;
+}
+
+void zp_supply_coupling_end(ZpSim *sim) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (zp_sim_has_supply(m)) end(m);
+}
+
+/* Only time advances. */
+static void stay(ZpSim *sim, double latest) {
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
+    if (zp_sim_has_supply(m)) m->state->supply = followed(m, m->state, latest);
+  for (ZpSim *m = sim; m < sim + sim->members; m++)
     m->state->t = latest;
+}
+
+bool zp_supply_coupling_step(ZpSim *sim, double latest) {
+  if (latest - sim->state->t < ZP_SUPPLY_SHORTEST) {
+    stay(sim, latest);
+    return true;
+  }
+  if (!(zp_dynamics_step(&sim->dynamics, sim->states, latest) > 0)) return false;
+  zp_supply_coupling_end(sim);
   return true;
 }
 

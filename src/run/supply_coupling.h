@@ -48,15 +48,22 @@ double zp_sim_command(const ZpSim *sim);
 /* At the start a constant source of its own charges the electrodes of a member, those of the supply have no voltage. */
 void zp_supply_coupling_start(ZpSim *sim);
 
-/* Before a step: jumps of the command arrive. */
+/* Before a step, at all ports: jumps of the command arrive. */
 void zp_supply_coupling_arrive(ZpSim *sim);
 
 /* A field of a member that was computed again, or a surface, holds another charge at the same voltage than `before` (of
  * one part, C): the supply gives the difference. */
 void zp_supply_coupling_renew(ZpSim *member, double before);
 
-/* The next event of the supply before `latest`, s. */
+/* The next event of the supply before `latest`, s; INFINITY: there is none. */
 double zp_supply_coupling_event(const ZpSim *sim, double latest);
+
+/* The first one at any port: the member whose supply has it, and its time, s. */
+typedef struct ZpSupplyEvent {
+  size_t lead;
+  double t;
+} ZpSupplyEvent;
+ZpSupplyEvent zp_supply_coupling_next(const ZpSim *sim, double latest);
 
 /* Longest step, s, for a supply whose voltages matter from `least` (V) on. */
 double zp_supply_coupling_resolution(const ZpSim *sim, double least);
@@ -64,7 +71,7 @@ double zp_supply_coupling_resolution(const ZpSim *sim, double least);
 /* One step of all members that ends at `latest` or before. False if none was found. Its start is in sim->before. */
 bool zp_supply_coupling_step(ZpSim *sim, double latest);
 
-/* After a step of the dynamics that is found otherwise, without a limit in it. */
+/* After a step of the dynamics that is found otherwise, without a limit in it, at all ports. */
 void zp_supply_coupling_end(ZpSim *sim);
 
 /* A mean current has flowed for a time h behind an ideal source. */

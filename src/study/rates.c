@@ -19,12 +19,12 @@ ZpStatus zp_rates_open(ZpRunSensitivity *rates, ZpSim *sim, ZpError *err) {
 
 /* -- numbers --------------------------------------------------------------------------------------- */
 
-/* Models that have a number. */
-typedef enum Of { ANY, PAIRS, TURNING, WITH_FIELD, FED, WITH_FILM, WITH_BEAD, LEAKING, DAMPED, YIELDING } Of;
+/* Models that have a number. In a network bodies and members have places and openings of their own. */
+typedef enum Of { LOADED, PAIRS, TURNING, WITH_FIELD, FED, WITH_FILM, WITH_BEAD, LEAKING, DAMPED, YIELDING } Of;
 
 static bool is_of(const ZpModel *model, Of of) {
-  const bool is[] = {[ANY] = true,
-                     [PAIRS] = zp_is_pair(&model->topology),
+  const bool is[] = {[LOADED] = !zp_is_network(model),
+                     [PAIRS] = zp_is_pair(&model->topology) && !zp_is_network(model),
                      [TURNING] = zp_tells_angle(model),
                      [WITH_FIELD] = model->field,
                      [FED] = model->supply.acts,
@@ -36,6 +36,14 @@ static bool is_of(const ZpModel *model, Of of) {
   return is[of];
 }
 
+/* Has any member a number? */
+static bool has(const ZpSim *sim, Of of) {
+  bool any = false;
+  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+    any |= is_of(m->model, of);
+  return any;
+}
+
 /* Numbers at the end of a run: their name, the signal, of which models. */
 typedef struct EndNumber {
   const char *name, *unit, *signal;
@@ -45,7 +53,7 @@ typedef struct EndNumber {
 static const EndNumber at_end[] = {{"opening_m", "m", "opening", PAIRS},
                                    {"contraction", "1", "contraction", PAIRS},
                                    {"angle_rad", "rad", "angle", TURNING},
-                                   {"stroke_m", "m", "stroke", ANY},
+                                   {"stroke_m", "m", "stroke", LOADED},
                                    {"internal_loss_J", "J", "internal_loss", DAMPED},
                                    {"plastic_loss_J", "J", "plastic_loss", YIELDING},
                                    {"contact_loss_J", "J", "contact_loss", WITH_FIELD},
@@ -67,26 +75,68 @@ static double signal_of(ZpSim *sim, const void *name) {
   return zp_sim_get(sim, name);
 }
 
-static double zip_time_of(ZpSim *sim, const void *unused) {
-  (void)unused;
-  return sim->state->zip_time;
+/* Of a member, by its number. */
+static double zip_time_of(ZpSim *sim, const void *which) {
+  return sim[*(const size_t *)which].state->zip_time;
 }
 
-static double closed_from_of(ZpSim *sim, const void *unused) {
-  (void)unused;
-  return sim->state->closed_from;
+static double closed_from_of(ZpSim *sim, const void *which) {
+  return sim[*(const size_t *)which].state->closed_from;
 }
+
+static double opening_of(ZpSim *sim, const void *which) {
+  const ZpSim *m = sim + *(const size_t *)which;
+  return zp_opening(&m->model->topology, zp_state_motion(m->model, m->state).y);
+}
+
+/* Of a body, along one way. */
+typedef struct Place {
+  size_t body;
+  ZpWay way;
+} Place;
+
+static double place_of(ZpSim *sim, const void *place) {
+  const Place *at = place;
+  const ZpPose pose = zp_sim_place(sim, at->body);
+  const double of[ZP_WAYS] = {pose.x, pose.y, pose.turn};
+  return of[at->way];
+}
+
+typedef double Number(ZpSim *sim, const void *user);
 
 /* A run that was interrupted, or has used up its steps, ends at an instant that no physics sets. */
-static double rate_at_end(const ZpRunSensitivity *rates, size_t k, const ZpResult *result, const char *signal) {
+static double rate_at_end(const ZpRunSensitivity *rates, size_t k, const ZpResult *result, Number *number,
+                          const void *user) {
   bool none = isfinite(rates->key[k].lost) || !zp_outcome_good(result->outcome);
-  return none ? NAN : zp_run_rate_of(rates, k, signal_of, signal);
+  return none ? NAN : zp_run_rate_of(rates, k, number, user);
 }
 
 /* An actuator that has closed before the derivatives were lost was open for no instant since then. */
-static double rate_of_closed_from(const ZpRunSensitivity *rates, size_t k, const ZpResult *result) {
-  double from = zp_result_get(result, "closed_from_s");
-  return from < rates->key[k].lost ? zp_run_rate_of(rates, k, closed_from_of, NULL) : NAN;
+static double rate_since(const ZpRunSensitivity *rates, size_t k, double from, double rate) {
+  return from < rates->key[k].lost ? rate : NAN;
+}
+
+/* Of an instant of all members: that of the member whose instant it is. If it is that of several, and the key does not
+ * move all of them alike, there is none. */
+static double rate_of_all(const ZpRunSensitivity *rates, size_t k, Number *instant, double of_all) {
+  static const double alike = 1e-4;
+  double rate = NAN;
+  for (size_t which = 0; which < rates->sim->members; which++) {
+    if (instant(rates->sim, &which) != of_all) continue;
+    const double own = zp_run_rate_of(rates, k, instant, &which);
+    if (fabs(own - rate) > alike * fabs(own)) return NAN;
+    rate = own;
+  }
+  return rate;
+}
+
+static void add_instants(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
+  const ZpSim *sim = rates->sim;
+  const int key = rates->key[k].by.key;
+  const double closed = rate_of_all(rates, k, closed_from_of, zp_sim_closed_from(sim));
+  zp_result_add_sensitivity(result, "zip_time_s", key, rate_of_all(rates, k, zip_time_of, zp_sim_zip_time(sim)));
+  zp_result_add_sensitivity(result, "closed_from_s", key,
+                            rate_since(rates, k, zp_result_get(result, "closed_from_s"), closed));
 }
 
 static void add_currents(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
@@ -97,16 +147,51 @@ static void add_currents(const ZpRunSensitivity *rates, size_t k, ZpResult *resu
 }
 
 static void add_key(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
-  const ZpModel *model = rates->sim->model;
+  const ZpSim *sim = rates->sim;
   int key = rates->key[k].by.key;
-  if (is_of(model, PAIRS)) {
-    zp_result_add_sensitivity(result, "zip_time_s", key, zp_run_rate_of(rates, k, zip_time_of, NULL));
-    zp_result_add_sensitivity(result, "closed_from_s", key, rate_of_closed_from(rates, k, result));
-  }
+  if (zp_is_pair(&sim->model->topology)) add_instants(rates, k, result);
   for (size_t i = 0; i < AT_END; i++)
-    if (is_of(model, at_end[i].of))
-      zp_result_add_sensitivity(result, at_end[i].name, key, rate_at_end(rates, k, result, at_end[i].signal));
-  if (is_of(model, FED)) add_currents(rates, k, result);
+    if (has(sim, at_end[i].of))
+      zp_result_add_sensitivity(result, at_end[i].name, key,
+                                rate_at_end(rates, k, result, signal_of, at_end[i].signal));
+  if (has(sim, FED)) add_currents(rates, k, result);
+}
+
+/* Of those numbers of a member that are in the summary. */
+static void add_member(const ZpRunSensitivity *rates, size_t k, size_t which, ZpResult *result) {
+  char room[ZP_NAME_SIZE];
+  const int key = rates->key[k].by.key;
+  const char *called = zp_member_called(rates->sim->model->whole, which + 1, room);
+  const double zip = zp_run_rate_of(rates, k, zip_time_of, &which),
+               closed = zp_run_rate_of(rates, k, closed_from_of, &which);
+  zp_result_add_sensitivity_of(result, "member_#_zip_time_s", called, key, zip);
+  zp_result_add_sensitivity_of(result, "members.#.opening_m", called, key,
+                               rate_at_end(rates, k, result, opening_of, &which));
+  zp_result_add_sensitivity_of(result, "members.#.zip_time_s", called, key, zip);
+  zp_result_add_sensitivity_of(result, "members.#.closed_from_s", called, key,
+                               rate_since(rates, k, closed_from_of(rates->sim, &which), closed));
+}
+
+static void add_body(const ZpRunSensitivity *rates, size_t k, size_t body, ZpResult *result) {
+  const ZpModel *model = rates->sim->model;
+  char room[ZP_NAME_SIZE], name[ZP_NAME_SIZE];
+  const char *called = zp_body_called(model->whole, body, room);
+  size_t columns;
+  const ZpColumn *column = zp_body_columns(model->network->plane, &columns);
+  for (size_t c = 0; c < columns; c++) {
+    const Place place = {body, model->network->plane ? (ZpWay)c : ZP_WAY_UP};
+    snprintf(name, sizeof name, "bodies.%s", column[c].name); /* "#.x_m" */
+    zp_result_add_sensitivity_of(result, name, called, rates->key[k].by.key,
+                                 rate_at_end(rates, k, result, place_of, &place));
+  }
+}
+
+static void add_parts(const ZpRunSensitivity *rates, size_t k, ZpResult *result) {
+  const ZpModel *model = rates->sim->model;
+  for (size_t which = 0; which < model->members; which++)
+    add_member(rates, k, which, result);
+  for (size_t body = 1; body < model->network->bodies && zp_is_network(model); body++)
+    add_body(rates, k, body, result);
 }
 
 /* Has a failure ended the derivatives by all keys, which end at once? */
@@ -138,7 +223,7 @@ double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
 }
 
 static void add_value(const ZpRunSensitivity *rates, const EndNumber *number, ZpResult *result) {
-  if (!is_of(rates->sim->model, number->of) || zp_result_has(result, number->name)) return;
+  if (!has(rates->sim, number->of) || zp_result_has(result, number->name)) return;
   zp_result_add(result, number->name, number->unit, zp_at_end(rates->sim, result, number->signal));
 }
 
@@ -148,6 +233,8 @@ void zp_rates_add(const ZpRunSensitivity *rates, ZpResult *result) {
     add_value(rates, &at_end[i], result);
   for (size_t k = 0; k < rates->keys; k++)
     add_key(rates, k, result);
+  for (size_t k = 0; k < rates->keys; k++)
+    add_parts(rates, k, result);
   note_lost(rates, result);
 }
 

@@ -123,6 +123,21 @@ void zp_result_add_sensitivity(ZpResult *result, const char *output, int key, do
   result->cut = true;
 }
 
+/* The name of a scalar that zp_result_add_of has added; NULL: there is none. */
+static const char *name_of(const ZpResult *result, const char *pattern, const char *called) {
+  char text[2 * ZP_NAME_SIZE];
+  if (zp_named(pattern, called, NULL) > sizeof text) return NULL;
+  zp_named(pattern, called, text);
+  for (size_t i = 0; i < result->scalars; i++)
+    if (strcmp(result->scalar[i].name, text) == 0) return result->scalar[i].name;
+  return NULL;
+}
+
+void zp_result_add_sensitivity_of(ZpResult *result, const char *output, const char *called, int key, double value) {
+  const char *name = name_of(result, output, called);
+  if (name) zp_result_add_sensitivity(result, name, key, value);
+}
+
 void zp_result_note(ZpResult *result, const char *format, ...) {
   va_list args, again;
   va_start(args, format);

@@ -30,6 +30,9 @@ void zp_result_clear(ZpResult *result);
 /* Add a scalar of one of several: what it is called stands in the place of # in the name. */
 void zp_result_add_of(ZpResult *result, const char *name, const char *called, const char *unit, double value);
 
+/* Add a derivative of a scalar of this name, which zp_result_add_of has added; nothing where none has. */
+void zp_result_add_sensitivity_of(ZpResult *result, const char *name, const char *called, int key, double value);
+
 /* The result of a study. */
 struct ZpResult {
   ZpStudy study;
@@ -43,7 +46,7 @@ struct ZpResult {
   ZpScalar *scalar;  /* [scalars] in the order of the summary */
   size_t scalars, scalar_room;
   ZpName *names;                                   /* of scalars of members */
-  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* key by key, in the order of sensitivity.by */
+  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* of all key by key, in the order of sensitivity.by, then of parts */
   bool cut;                                        /* there was no room for another one */
   size_t sensitivities;
   ZpTable *series;          /* the study's table; NULL if it has none */
