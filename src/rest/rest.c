@@ -155,7 +155,7 @@ double zp_rest_capacitance(const ZpRest *rest) {
 ZpStatus zp_rest_sensitivity(ZpRest *rest, int key, double *stroke, double *opening, ZpError *err) {
   ZpRestSensitivity slope;
   *stroke = *opening = NAN;
-  ZpStatus status = zp_rest_sensitivity_check(&rest->statics.member->model->def, key, err);
+  ZpStatus status = zp_rest_sensitivity_check(rest->statics.model->whole, key, err);
   if (status != ZP_OK) return status;
   status = zp_rest_sensitivity_open(&slope, &rest->statics, key, err);
   if (status == ZP_OK && zp_rest_sensitivity_solve(&slope, ZP_SETS_LOAD)) {

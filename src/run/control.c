@@ -115,18 +115,11 @@ ZpStatus zp_sim_set_controller(ZpSim *sim, const ZpController *controller, ZpErr
 
 /* -- both ------------------------------------------------------------------------------------------ */
 
-static double due(const ZpSim *sim) {
-  const ZpControl *c = &sim->model->control;
-  const ZpControlState *state = &sim->state->control;
-  return zp_sim_is_controlled(sim) ? fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state))
-                                   : INFINITY;
-}
-
-double zp_sim_control_due(const ZpSim *sim) {
-  double first = own_sample_time(&sim->control);
-  for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    first = fmin(first, due(m));
-  return first;
+double zp_sim_control_due(const ZpSim *m) {
+  const ZpControl *c = &m->model->control;
+  const ZpControlState *state = &m->state->control;
+  if (!zp_sim_is_controlled(m)) return own_sample_time(&m->control);
+  return fmin(zp_control_sample_time(c, state), zp_control_output_time(c, state));
 }
 
 /* Controllers of several ports sample before any of them gives its output. */

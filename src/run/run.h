@@ -20,8 +20,8 @@ typedef struct ZpOwnControl {
   ZpError fault;           /* the reason why its voltage was refused */
 } ZpOwnControl;
 
-/* Of all ports: time of the next sample or output of a controller, s; INFINITY without a controller. */
-double zp_sim_control_due(const ZpSim *sim);
+/* Of one member: time of the next sample or output of its controller, s; INFINITY without a controller. */
+double zp_sim_control_due(const ZpSim *m);
 
 /* Take the samples and give the outputs that are due, if any. False if a voltage is refused. */
 bool zp_sim_control(ZpSim *sim);
@@ -192,6 +192,9 @@ ZpSim *zp_sim_create_near(const ZpSim *sim, const ZpModel *model, ZpState *const
 
 /* Start at rest at coordinates q of all nodes, bent there from the natural shape for the first time. */
 void zp_sim_start_at(ZpSim *sim, const double *q);
+
+/* Voltage of one member that no supply holds back, now, V. */
+double zp_sim_voltage_now(const ZpSim *m);
 
 /* Would a run end in the present state? */
 bool zp_sim_stops(const ZpSim *sim, ZpStop stop);

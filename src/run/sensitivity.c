@@ -8,9 +8,12 @@
 #include "rest/sensitivity.h"
 #include "run/snapshot.h"
 
-/* Steps of a key. They are so small that the first touch of two faces, where (9.6) has a corner, is hardly ever between
- * the points of a difference, but they are above rounding. */
-static const double part = 1e-7;
+/* Steps of a key, as a part of it. They are so small that the first touch of two faces, where (9.6) has a corner, is
+ * hardly ever between the points of a difference, but they are above rounding. In the plane the rounding of positions
+ * stretches ribbons, whose forces then push bodies along the ways in which these are free. */
+static double part_of(const ZpModel *first) {
+  return first->network->plane ? 1e-6 : 1e-7;
+}
 
 /* -- where the runs begin ---------------------------------------------------------------------------- */
 
@@ -73,7 +76,7 @@ static ZpStatus open_key(ZpRunSensitivity *rates, ZpRest *rest, int key, ZpKeyRa
   of->lost = INFINITY;
   of->last[0].t = of->last[1].t = NAN;
   if (!allocate_key(rates->sim, of)) return zp_fail_memory(err);
-  ZpStatus status = zp_finite_difference_open(&of->by, model, key, part, err);
+  ZpStatus status = zp_finite_difference_open(&of->by, model, key, part_of(model), err);
   if (status == ZP_OK && hangs) status = rate_of_hanging(rest, key, of->rate, err);
   if (status == ZP_OK) status = create_near(rates, of, err);
   if (status == ZP_OK) take_rate(rates, of);
@@ -136,22 +139,12 @@ static ZpCorner corner_of(ZpSim *sim, double end_time) {
   return corner.t < end_time ? corner : (ZpCorner){end_time, 1};
 }
 
-/* An ideal source gives a neighbour exactly the voltage of its own waveform: a rounding would be a jump, at which the
- * account of the work closes. Neighbours' accounts close where the run's does. */
+/* An ideal source gives a neighbour exactly the voltage of its own waveform or controller: a rounding would be a jump,
+ * at which the account of the work closes. Neighbours' accounts close where the run's does. */
 static void set_voltage(const ZpSim *sim, ZpSim *near) {
   if (zp_sim_is_fed(sim)) return;
-  near->state->U = zp_waveform_voltage(&near->model->waveform, near->state->t);
+  near->state->U = zp_sim_voltage_now(near);
   if (sim->state->U == sim->state->base_U) near->state->base_U = near->state->U;
-}
-
-/* Where the run is at a corner, its neighbours are at theirs. Of several inputs that have the next one together a key
- * may move some, and then in a neighbour these are before or behind the others. */
-static void begin_interval(const ZpRunSensitivity *rates, ZpKeyRates *of, int k, double end_time) {
-  ZpSim *near = of->near[k];
-  const ZpCorner corner = corner_of(rates->sim, end_time), other = corner_of(near, end_time);
-  of->from[k] = near->state->t;
-  of->to[k] = corner.t < end_time ? other.t : end_time;
-  of->splits |= corner.t < end_time && corner.inputs != other.inputs;
 }
 
 static void begin_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int k) {
@@ -163,28 +156,39 @@ static void begin_near(const ZpRunSensitivity *rates, const ZpKeyRates *of, int 
     near[which].state->t = t;
     set_voltage(sim + which, near + which);
   }
+  zp_sim_control(near);
   if (t >= zp_sim_load_due(near)) zp_sim_change_load(near);
   zp_supply_coupling_arrive(near);
   zp_sim_keep_states(near);
 }
 
-static void begin_key(const ZpRunSensitivity *rates, ZpKeyRates *of, bool at_corner, double end_time) {
-  if (at_corner) of->splits = false;
+void zp_run_sensitivity_begin(ZpRunSensitivity *rates) {
+  rates->taken = rates->sim->dynamics.stepper.counts.steps;
+  for (ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
+    for (int k = 0; k < of->by.count && !isfinite(of->lost); k++)
+      begin_near(rates, of, k);
+}
+
+/* Of several inputs that have the next corner together a key may move some, and then in a neighbour these are before or
+ * behind the others. */
+static void begin_interval(ZpKeyRates *of, ZpCorner corner, double end_time) {
+  of->splits = false;
   for (int k = 0; k < of->by.count; k++) {
-    begin_near(rates, of, k);
-    if (at_corner) begin_interval(rates, of, k, end_time);
+    const ZpCorner own = corner_of(of->near[k], end_time);
+    of->from[k] = of->near[k]->state->t;
+    of->to[k] = corner.t < end_time ? own.t : end_time;
+    of->splits |= corner.t < end_time && own.inputs != corner.inputs;
   }
 }
 
-void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time) {
+void zp_run_sensitivity_look_ahead(ZpRunSensitivity *rates, double end_time) {
   ZpSim *sim = rates->sim;
-  bool at_corner = sim->state->t >= rates->to;
-  rates->taken = sim->dynamics.stepper.counts.steps;
+  if (sim->state->t < rates->to) return;
+  const ZpCorner corner = corner_of(sim, end_time);
   for (ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
-    if (!isfinite(of->lost)) begin_key(rates, of, at_corner, end_time);
-  if (!at_corner) return;
+    if (!isfinite(of->lost)) begin_interval(of, corner, end_time);
   rates->from = sim->state->t;
-  rates->to = corner_of(sim, end_time).t;
+  rates->to = corner.t;
 }
 
 /* -- and ends ---------------------------------------------------------------------------------------- */

@@ -45,8 +45,10 @@ typedef struct ZpRunSensitivity {
 ZpStatus zp_run_sensitivity_open(ZpRunSensitivity *rates, ZpSim *sim, const int *key, size_t keys, ZpError *err);
 void zp_run_sensitivity_close(ZpRunSensitivity *rates);
 
-/* A step begins, of a run until end_time, s; it has ended. */
-void zp_run_sensitivity_begin(ZpRunSensitivity *rates, double end_time);
+/* A step begins, before controllers act; then nothing but a motion is left until the next corner of a run until
+ * end_time, s; the step has ended. */
+void zp_run_sensitivity_begin(ZpRunSensitivity *rates);
+void zp_run_sensitivity_look_ahead(ZpRunSensitivity *rates, double end_time);
 void zp_run_sensitivity_follow(ZpRunSensitivity *rates);
 
 /* The derivative by the k-th key of a number that a simulation has now. */

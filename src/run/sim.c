@@ -13,6 +13,7 @@
 #include "run/hooks.h"
 #include "run/margins.h"
 #include "run/run.h"
+#include "run/sensitivity.h"
 #include "run/snapshot.h"
 
 const char *zp_outcome_name(ZpOutcome outcome) {
@@ -175,8 +176,7 @@ static ZpSim *create_straight(const ZpModel *model) {
   return NULL;
 }
 
-/* Voltage of one member that no supply holds back, now. */
-static double voltage_now(const ZpSim *m) {
+double zp_sim_voltage_now(const ZpSim *m) {
   const ZpState *state = m->state;
   return state->by_hand ? zp_ramp_value(&state->voltage_input, state->t)
                         : zp_waveform_voltage(&m->model->waveform, state->t);
@@ -191,7 +191,7 @@ static void start(ZpSim *sim) {
   zp_sim_start_control(sim);
   for (ZpSim *m = sim; m < sim + sim->members; m++) {
     if (!zp_sim_is_fed(m))
-      zp_sim_jump(m, voltage_now(m));
+      zp_sim_jump(m, zp_sim_voltage_now(m));
     else if (zp_leads_port(m->model))
       zp_supply_coupling_start(m);
   }
@@ -347,6 +347,7 @@ static ZpOutcome advance(ZpSim *sim, double end_time, const ZpHooks *hooks, ZpRu
   if (nothing_recorded(sim)) zp_sim_offer_record(sim);
   while (state->t < end_time) {
     if (info->steps >= model->def.solver.max_steps) return ZP_STEP_LIMIT;
+    if (sim->rates) zp_run_sensitivity_begin(sim->rates);
     if (!zp_sim_control(sim)) return ZP_BAD_ARGUMENT;
     keep_before_cut(sim, end_time);
     zp_sim_advance(sim, end_time, info);
@@ -514,7 +515,7 @@ ZpOutcome zp_sim_step_to_event(ZpSim *sim, double dt, const ZpHooks *hooks, ZpRu
 static void resume_one(ZpSim *sim) {
   zp_sim_resume_control(sim);
   if (sim->settled == ZP_BAD_ARGUMENT) sim->settled = ZP_REACHED_END;
-  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, voltage_now(sim));
+  if (!zp_sim_is_fed(sim)) zp_sim_jump(sim, zp_sim_voltage_now(sim));
   sim->cut = sim->negative = false;
 }
 

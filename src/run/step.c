@@ -112,10 +112,11 @@ static void add_corner(double t, ZpCorner *next) {
 
 ZpCorner zp_sim_next_corner(ZpSim *sim) {
   ZpCorner next = {INFINITY, 0};
-  for (const ZpSim *m = sim; m < sim + sim->members; m++)
+  for (const ZpSim *m = sim; m < sim + sim->members; m++) {
     if (zp_leads_port(m->model)) add_corner(corner_of(m), &next);
+    add_corner(zp_sim_control_due(m), &next);
+  }
   add_corner(corner_of_pushes(sim), &next);
-  add_corner(zp_sim_control_due(sim), &next);
   add_corner(next_change(sim), &next);
   add_corner(zp_ramp_corner(&zp_sim_loaded(sim)->state->load_input, sim->state->t), &next);
   return next;
@@ -292,7 +293,7 @@ typedef struct Step {
 /* Changes that are due now, and how long nothing from outside stops the motion. */
 static Step begin(ZpSim *sim, double end_time) {
   const ZpState *state = sim->state;
-  if (sim->rates) zp_run_sensitivity_begin(sim->rates, end_time);
+  if (sim->rates) zp_run_sensitivity_look_ahead(sim->rates, end_time);
   if (state->t >= zp_sim_load_due(sim)) zp_sim_change_load(sim);
   zp_supply_coupling_arrive(sim);
   double corner = zp_sim_next_corner(sim).t, latest = fmin(end_time, corner);

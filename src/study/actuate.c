@@ -429,8 +429,6 @@ static ZpStatus run(const ZpTask *task, const ZpModel *model, ZpResult *result, 
 static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
             "the derivatives follow implicit steps"),
-    ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_IS(control.kind, ZP_CONTROL_NONE),
-            "a controller's samples and limits are not differentiated"),
     ZP_RULE(NOT_MODELLED, ZP_SET(sensitivity.by), ZP_NOT(initial.state, ZP_INITIAL_CHECKPOINT),
             "a checkpoint does not contain its derivatives by a key"),
     ZP_RULE_DERIVATIVES,

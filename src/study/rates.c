@@ -12,7 +12,7 @@
 
 ZpStatus zp_rates_open(ZpRunSensitivity *rates, ZpSim *sim, ZpError *err) {
   int key[ZP_MAX_SENSITIVITY_KEYS], keys;
-  ZpStatus status = zp_sensitivity_keys(zp_model_def(sim->model), key, &keys, err);
+  ZpStatus status = zp_sensitivity_keys(sim->model->whole, key, &keys, err);
   *rates = (ZpRunSensitivity){.sim = sim};
   return status == ZP_OK && keys > 0 ? zp_run_sensitivity_open(rates, sim, key, (size_t)keys, err) : status;
 }
