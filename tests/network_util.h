@@ -7,7 +7,7 @@
 #include "study/studies.h"
 
 /* A scenario as a Def, without errors unless it says so. */
-static ZpActuatorDef def_of(const char *text) {
+static inline ZpActuatorDef def_of(const char *text) {
   ZpActuatorDef def = {0};
   ZpScenario *s = new_scenario();
   ck_ok(zp_scenario_parse(s, text, strlen(text), "network.yaml", &err));
@@ -18,7 +18,7 @@ static ZpActuatorDef def_of(const char *text) {
 }
 
 /* A scenario is refused, when it is read or by the study, with these words. */
-static void ck_scenario_refused(ZpStudy study, const char *text, const char *says) {
+static inline void ck_scenario_refused(ZpStudy study, const char *text, const char *says) {
   ZpScenario *s = new_scenario();
   ZpActuatorDef def = {0};
   ZpError err = {ZP_OK, ""};
@@ -34,7 +34,7 @@ static void ck_scenario_refused(ZpStudy study, const char *text, const char *say
   ck_assert_msg(strstr(err.message, says) != NULL, "no '%s' in: %s", says, err.message);
 }
 
-static double number(const ZpResult *result, const char *name) {
+static inline double number(const ZpResult *result, const char *name) {
   ck_assert_msg(zp_result_has(result, name), "no %s", name);
   return zp_result_get(result, name);
 }

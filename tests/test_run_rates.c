@@ -532,9 +532,7 @@ TEST(refusals) {
     const char *key;
     double value;
     const char *by, *words;
-  } wrong[] = {{"control.kind", ZP_CONTROL_PI, "gravity", "control.kind"},
-               {"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "requires solver.integrator implicit"},
-               {"stack.series", 2, "gravity", "stack.series"},
+  } wrong[] = {{"solver.integrator", ZP_INTEGRATOR_EXPLICIT, "gravity", "requires solver.integrator implicit"},
                {"solver.tolerance", 1e-4, "solver.tolerance", "a setting of the computation"}};
   for (size_t k = 0; k < LENGTH_OF(wrong); k++) {
     ZpActuatorDef def = motion();

@@ -92,20 +92,6 @@ static PyObject *get_scalars(PyObject *self, void *unused) {
   return list;
 }
 
-/* (output, key, derivative) */
-static PyObject *get_sensitivities(PyObject *self, void *unused) {
-  (void)unused;
-  const ZpResult *result = of(self);
-  PyObject *list = PyTuple_New((Py_ssize_t)zp_result_sensitivities(result));
-  for (size_t i = 0; list && i < zp_result_sensitivities(result); i++) {
-    const ZpSensitivity *s = zp_result_sensitivity(result, i);
-    char key[ZP_KEY_NAME_SIZE];
-    PyObject *item = Py_BuildValue("(ssd)", s->output, zp_key_name(s->key, key), s->value);
-    if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
-  }
-  return list;
-}
-
 /* -- arrays ---------------------------------------------------------------------------------------- */
 
 PyObject *columns_of(const ZpTable *table) {
@@ -177,38 +163,57 @@ static PyObject *get_field(PyObject *self, void *unused) {
                        view_of_rows(state, self, map->permittivity, nx - 1, ny - 1));
 }
 
-/* -- files ----------------------------------------------------------------------------------------- */
+/* -- with a scenario ------------------------------------------------------------------------------- */
 
-static ZpStatus write_report(const char *directory, const char *text, const char *templates, ZpResult *result,
-                             ZpError *err) {
-  ZpScenario *scenario = zp_scenario_create();
-  if (!scenario) {
-    *err = (ZpError){ZP_MACHINE, "no memory"};
-    return ZP_MACHINE;
-  }
-  ZpReport report = {.directory = directory,
-                     .scenario = scenario,
-                     .result = &result,
-                     .count = 1,
-                     .wall_time = zp_result_get(result, "wall_time_s"),
-                     .templates = *templates ? templates : NULL};
-  ZpStatus status = zp_scenario_parse(scenario, text, strlen(text), "scenario", err);
-  if (status == ZP_OK) status = zp_report_write(&report, NULL, err);
+/* The scenario of this text; NULL with an error of Python's. */
+static ZpScenario *scenario_of(State *state, PyObject *text) {
+  const char *words = text_of(state, text, "scenario");
+  ZpScenario *scenario = words ? zp_scenario_create() : NULL;
+  ZpError err;
+  if (!scenario) return words ? (ZpScenario *)PyErr_NoMemory() : NULL;
+  if (zp_scenario_parse(scenario, words, strlen(words), "scenario", &err) == ZP_OK) return scenario;
   zp_scenario_destroy(scenario);
-  return status;
+  return (ZpScenario *)raise_error(state, &err);
 }
+
+/* Keys as the scenario calls them. */
+static PyObject *result_sensitivities(PyObject *self, PyObject *text) {
+  const ZpResult *result = of(self);
+  const size_t count = zp_result_sensitivities(result);
+  ZpScenario *scenario = count > 0 ? scenario_of(((Result *)self)->state, text) : NULL;
+  if (count > 0 && !scenario) return NULL;
+  PyObject *list = PyTuple_New((Py_ssize_t)count);
+  for (size_t i = 0; list && i < count; i++) {
+    const ZpSensitivity *s = zp_result_sensitivity(result, i);
+    char key[ZP_SCENARIO_KEY_SIZE];
+    PyObject *item = Py_BuildValue("(ssd)", s->output, zp_scenario_key(scenario, s->key, key), s->value);
+    if (!item || PyTuple_SetItem(list, (Py_ssize_t)i, item)) Py_CLEAR(list);
+  }
+  zp_scenario_destroy(scenario);
+  return list;
+}
+
+/* -- files ----------------------------------------------------------------------------------------- */
 
 /* Keeps the interpreter lock, because HDF5 does not support several threads. */
 static PyObject *result_save(PyObject *object, PyObject *args) {
   Result *self = (Result *)object;
-  PyObject *directory, *scenario, *folder;
-  if (!PyArg_ParseTuple(args, "UUU", &directory, &scenario, &folder)) return NULL;
+  PyObject *directory, *text, *folder;
+  if (!PyArg_ParseTuple(args, "UUU", &directory, &text, &folder)) return NULL;
   const char *where = text_of(self->state, directory, "directory");
-  const char *text = where ? text_of(self->state, scenario, "scenario") : NULL;
-  const char *templates = text ? text_of(self->state, folder, "templates") : NULL;
+  const char *templates = where ? text_of(self->state, folder, "templates") : NULL;
+  ZpScenario *scenario = templates ? scenario_of(self->state, text) : NULL;
+  if (!scenario) return NULL;
+  const ZpReport report = {.directory = where,
+                           .scenario = scenario,
+                           .result = &self->result,
+                           .count = 1,
+                           .wall_time = zp_result_get(self->result, "wall_time_s"),
+                           .templates = *templates ? templates : NULL};
   ZpError err;
-  if (!templates) return NULL;
-  if (write_report(where, text, templates, self->result, &err) != ZP_OK) return raise_error(self->state, &err);
+  const ZpStatus status = zp_report_write(&report, NULL, &err);
+  zp_scenario_destroy(scenario);
+  if (status != ZP_OK) return raise_error(self->state, &err);
   Py_RETURN_NONE;
 }
 
@@ -227,13 +232,14 @@ static PyGetSetDef getters[] = {
     {"notes", get_notes, NULL, "Notes: sentences about breakdown, yield, and limits of the model and of the mesh.",
      NULL},
     {"scalars", get_scalars, NULL, "(name, unit, value, follows from wall time) of each number.", NULL},
-    {"sensitivities", get_sensitivities, NULL, "(output, key, derivative) of each derivative.", NULL},
     {"series", get_series, NULL, "((name, unit, help) of each column, rows), or None.", NULL},
     {"shapes", get_shapes, NULL, "Arrays of a film of shapes, or None.", NULL},
     {"field", get_field, NULL, "Arrays of a map of the field, or None.", NULL},
     {NULL, NULL, NULL, NULL, NULL},
 };
 static PyMethodDef methods[] = {
+    {"sensitivities", result_sensitivities, METH_O,
+     "sensitivities(scenario): (output, key as the scenario calls it, derivative) of each derivative."},
     {"save", result_save, METH_VARARGS, "save(directory, scenario, templates): write the files of the command."},
     {"pack", result_pack, METH_NOARGS, "Everything as bytes, for unpack_result."},
     {NULL, NULL, 0, NULL},

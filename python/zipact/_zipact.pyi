@@ -26,10 +26,10 @@ class Result:
     message: str
     notes: tuple[str, ...]
     scalars: tuple[tuple[str, str, float, bool], ...]
-    sensitivities: tuple[tuple[str, str, float], ...]
     series: tuple[tuple[tuple[str, str, str], ...], View] | None
     shapes: Mapping[str, Any] | None
     field: Mapping[str, View] | None
+    def sensitivities(self, scenario: str, /) -> tuple[tuple[str, str, float], ...]: ...
     def save(self, directory: str, scenario: str, templates: str, /) -> None: ...
     def pack(self) -> bytes: ...
 

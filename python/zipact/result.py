@@ -154,8 +154,9 @@ class Result(Mapping[str, float]):
         self.timings = {name for name, _, _, timing in found.scalars if timing}
         """names of numbers that depend on wall time: they differ from run to run"""
         self.sensitivity: dict[str, dict[str, float]] = {}
-        """derivatives in SI units: sensitivity["stroke_m"]["ribbon.thickness"], with respect to the keys of sensitivity.by"""
-        for output, key, value in found.sensitivities:
+        """derivatives in SI units: sensitivity["stroke_m"]["ribbon.thickness"], with respect to the keys of sensitivity.by
+        as the scenario calls them: "members.left.ribbon.thickness"; of parts sensitivity["members.left.opening_m"]"""
+        for output, key, value in found.sensitivities(actuator.scenario()):
             self.sensitivity.setdefault(output, {})[key] = value
         self.series = None if found.series is None else Table(found.series[0], array(found.series[1]))
         """the study's table, or None"""

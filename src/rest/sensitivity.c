@@ -34,16 +34,16 @@ ZpStatus zp_rest_sensitivity_check(const ZpActuatorDef *def, int key, ZpError *e
         "sensitivity.by: requires electro.model plates; the derivatives of a computed field are not available");
   if (k->type != ZP_KEY_REAL && k->type != ZP_KEY_REAL_AUTO)
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is not a real number, so it has no derivative",
-                   ZP_KEY_NAME(key));
+                   ZP_KEY_SHOWN(def, key));
   if (is_numerical(k->name))
     return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is a setting of the computation, not a physical quantity",
-                   ZP_KEY_NAME(key));
+                   ZP_KEY_SHOWN(def, key));
   if (key_is_of_place(def, key))
     return zp_fail(err, ZP_BAD_INPUT,
                    "sensitivity.by: %s says which bodies or ports are joined, so it has no derivative",
                    ZP_KEY_SHOWN(def, key));
   if (isnan(zp_def_get(def, key)))
-    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is %s: give it a number", ZP_KEY_NAME(key), k->text);
+    return zp_fail(err, ZP_BAD_INPUT, "sensitivity.by: %s is %s: give it a number", ZP_KEY_SHOWN(def, key), k->text);
   return ZP_OK;
 }
 

@@ -242,7 +242,7 @@ static const char *cause_of_loss(ZpRunSensitivity *rates) {
 
 /* The same, of one key: has the step ended at a corner of several inputs of which it moves some? */
 static const char *cause_of_key(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
-  return of->splits && rates->sim->state->t >= rates->to ? "it moves one of several corners of inputs that coincide"
+  return of->splits && rates->sim->state->t >= rates->to ? "the key moves one of several corners of inputs that coincide"
                                                          : NULL;
 }
 

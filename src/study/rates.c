@@ -213,7 +213,7 @@ static void note_lost(const ZpRunSensitivity *rates, ZpResult *result) {
   for (const ZpKeyRates *of = rates->key; of < rates->key + rates->keys; of++)
     if (isfinite(of->lost))
       zp_result_note(result, "sensitivity: from %.6g ms on there are no derivatives by %s: %s", 1e3 * of->lost,
-                     ZP_KEY_NAME(of->by.key), of->cause);
+                     ZP_KEY_SHOWN(rates->sim->model->whole, of->by.key), of->cause);
 }
 
 double zp_at_end(ZpSim *sim, const ZpResult *result, const char *signal) {
@@ -293,14 +293,14 @@ static ZpStatus settle(const ZpTask *task, ZpStudyRun run, const Other *c, ZpRes
 }
 
 /* Name as many as fit of the derivatives that were there before. */
-static void note_unsettled(const ZpSensitivity *before, ZpResult *result) {
+static void note_unsettled(const ZpActuatorDef *def, const ZpSensitivity *before, ZpResult *result) {
   enum { LIST = 128 };
   char list[LIST] = "";
   size_t count = 0, used = 0;
   for (size_t i = 0; i < result->sensitivities; i++) {
     const ZpSensitivity *s = &before[i];
     if (isnan(s->value) || !isnan(result->sensitivity[i].value)) continue;
-    const char *comma = count++ > 0 ? ", " : "", *key = ZP_KEY_NAME(s->key);
+    const char *comma = count++ > 0 ? ", " : "", *key = ZP_KEY_SHOWN(def, s->key);
     size_t needed = strlen(comma) + strlen(s->output) + strlen(" by ") + strlen(key);
     if (used + needed < LIST) used += (size_t)snprintf(list + used, LIST - used, "%s%s by %s", comma, s->output, key);
   }
@@ -329,7 +329,7 @@ ZpStatus zp_rates_settle(const ZpTask *task, ZpStudyRun run, ZpResult *result, Z
   if (status == ZP_OK) status = settle(task, run, &c, result, &share, err);
   c = with_steps(task->def, result);
   if (status == ZP_OK && share > same) status = settle(task, run, &c, result, &share, err);
-  note_unsettled(before, result);
+  note_unsettled(task->def, before, result);
   zp_free(before);
   return status;
 }

@@ -63,7 +63,7 @@ ZpStatus zp_finite_difference_open(ZpFiniteDifference *by, const ZpModel *model,
   if (status == ZP_MACHINE) return zp_fail_memory(err);
   if (status != ZP_OK)
     return zp_fail(err, status, "sensitivity.by: %s = %g %s cannot be changed by %g %% either way: %.200s",
-                   ZP_KEY_NAME(key), value, row->unit, PERCENT * FARTHEST * part, reason.message);
+                   ZP_KEY_SHOWN(model->whole, key), value, row->unit, PERCENT * FARTHEST * part, reason.message);
   return ZP_OK;
 }
 
