@@ -7,7 +7,7 @@
   ALL "solver: {tolerance: 1e-7, time_step: " steps ", end_time: " end ", stop_when_zipped: false}\n"
 
 #define ANGLE                                                                                                          \
-  "control: {kind: pi, signal: angle, proportional: 80 kV/rad, integral: 500 kV/rad/s, period: 1 ms}, "               \
+  "control: {kind: pi, signal: angle, proportional: 80 kV/rad, integral: 500 kV/rad/s, period: 1 ms}, "                \
   "setpoint.value: -0.5 degree"
 
 static ZpResult *run_by(const ZpActuatorDef *given, const char *by) {
@@ -55,10 +55,11 @@ static const Run
                                                "bodies: {link: {mass: 2 g}, hand: {mass: 8 g}}\n"
                                                "members:\n  top: {upper: frame, lower: link, drive.voltage: 10 kV}\n"
                                                "  low: {upper: link, lower: hand, ribbon.thickness: 90 um}\n"},
-    until = {"until zipped", ALL "solver: {tolerance: 1e-7, time_step: 5e-5, end_time: 250 ms, stop_when_zipped: true}\n"
-                                                    "drive.voltage: 9 kV\nbodies: {link: {mass: 2 g}, hand: {mass: 8 g}}\n"
-                                                    "members:\n  top: {upper: frame, lower: link, drive.voltage: 10 kV}\n"
-                                                    "  low: {upper: link, lower: hand, ribbon.thickness: 90 um}\n"},
+    until = {"until zipped",
+             ALL "solver: {tolerance: 1e-7, time_step: 5e-5, end_time: 250 ms, stop_when_zipped: true}\n"
+                 "drive.voltage: 9 kV\nbodies: {link: {mass: 2 g}, hand: {mass: 8 g}}\n"
+                 "members:\n  top: {upper: frame, lower: link, drive.voltage: 10 kV}\n"
+                 "  low: {upper: link, lower: hand, ribbon.thickness: 90 um}\n"},
     bath = {"bath", "study: actuate\nmesh.nodes: 11\nliquid.model: submerged\n"
                     "solver: {tolerance: 1e-7, time_step: 5e-4, end_time: 60 ms, stop_when_zipped: false}\n"
                     "drive.voltage: 6 kV\nbodies: {hand: {mass: 20 g}}\n"
@@ -128,21 +129,21 @@ static const struct {
     {&column, "members.low.zip_time_s", "member_1.drive.voltage", 1e-4, 2.3e-6}, /* 7.8e-7 */
     {&until, "zip_time_s", "body_1.mass", 1e-6, 7.5e-5},                         /* 2.5e-5 */
     {&until, "source_energy_J", "body_1.mass", 1e-6, 2.4e-4},                    /* 8.3e-5 */
-    {&until, "members.top.opening_m", "body_1.mass", 1e-6, 1.1e-5}, /* 3.8e-6 */
+    {&until, "members.top.opening_m", "body_1.mass", 1e-6, 1.1e-5},              /* 3.8e-6 */
     {&bath, "bodies.hand.y_m", "member_2.ribbon.thickness", 1e-5, 1.8e-8},       /* 6.3e-9 */
     {&bath, "viscous_loss_J", "medium.kinematic_viscosity", 1e-5, 2e-7},         /* 6.9e-8 */
     {&opposed, "opening_m", "stack.distance", 1e-5, 3e-8},                       /* 1.1e-8 */
     {&opposed, "opening_m", "stack.voltage_ratio", 1e-4, 5e-7},                  /* 1.8e-7 */
-    {&held, "bodies.arm.angle_rad", "body_1.inertia", 1e-4, 4.2e-4}, /* 1.4e-4: it hardly moves */
-    {&held, "bodies.arm.angle_rad", "member_1.setpoint.value", 1e-4, 2.3e-5}, /* 7.8e-6 */
-    {&held, "source_energy_J", "member_1.control.proportional", 1e-4, 4e-6}, /* 1.4e-6 */
-    {&held, "source_energy_J", "member_1.control.integral", 1e-4, 6.5e-5}, /* 2.2e-5 */
-    {&loop, "opening_m", "control.integral", 1e-4, 2e-5},                /* 7.1e-6 */
-    {&loop, "opening_m", "control.proportional", 1e-4, 1.8e-5},          /* 6.0e-6 */
-    {&loop, "opening_m", "ribbon.thickness", 1e-5, 3e-7},                /* 1.1e-7 */
-    {&loop, "source_energy_J", "source.resistance", 1e-4, 1.2e-5},       /* 4.3e-6 */
-    {&series, "opening_m", "member_2.ribbon.thickness", 1e-6, 6e-7},     /* 1.9e-7 */
-    {&series, "contraction", "stack.link_mass", 1e-5, 2.4e-5},           /* 8.1e-6 */
+    {&held, "bodies.arm.angle_rad", "body_1.inertia", 1e-4, 4.2e-4},             /* 1.4e-4: it hardly moves */
+    {&held, "bodies.arm.angle_rad", "member_1.setpoint.value", 1e-4, 2.3e-5},    /* 7.8e-6 */
+    {&held, "source_energy_J", "member_1.control.proportional", 1e-4, 4e-6},     /* 1.4e-6 */
+    {&held, "source_energy_J", "member_1.control.integral", 1e-4, 6.5e-5},       /* 2.2e-5 */
+    {&loop, "opening_m", "control.integral", 1e-4, 2e-5},                        /* 7.1e-6 */
+    {&loop, "opening_m", "control.proportional", 1e-4, 1.8e-5},                  /* 6.0e-6 */
+    {&loop, "opening_m", "ribbon.thickness", 1e-5, 3e-7},                        /* 1.1e-7 */
+    {&loop, "source_energy_J", "source.resistance", 1e-4, 1.2e-5},               /* 4.3e-6 */
+    {&series, "opening_m", "member_2.ribbon.thickness", 1e-6, 6e-7},             /* 1.9e-7 */
+    {&series, "contraction", "stack.link_mass", 1e-5, 2.4e-5},                   /* 8.1e-6 */
 };
 
 TESTS(derivatives_are_differences, 0, LENGTH_OF(row)) {
@@ -165,7 +166,8 @@ TEST(network_of_one_has_those_of_its_member) {
                                         {"source_energy_J", "source_energy_J"},
                                         {"charge_C", "charge_C"}};
   const ZpActuatorDef one = def_of(ALONE),
-                      network = def_of(DRY "bodies: {hand: {mass: 8 g}}\nmembers: {only: {upper: frame, lower: hand}}\n");
+                      network =
+                          def_of(DRY "bodies: {hand: {mass: 8 g}}\nmembers: {only: {upper: frame, lower: hand}}\n");
   const ZpResult *a = run_by(&one, "ribbon.thickness"), *b = run_by(&network, "ribbon.thickness");
   for (size_t k = 0; k < LENGTH_OF(same); k++) {
     const double alone = slope_in(a, same[k][1], "ribbon.thickness"),
@@ -186,19 +188,19 @@ TEST(equal_members_have_those_of_one) {
     const double alone = slope_in(a, "opening_m", by[k]), joined = slope_in(b, "members.b.opening_m", by[k]);
     printf("by %s: off by %.2g, energy %.2g\n", by[k], fabs(joined / alone - 1),
            fabs(slope_in(b, "source_energy_J", by[k]) / slope_in(a, "source_energy_J", by[k]) / 2 - 1));
-    ck_near(joined, alone, 2.6e-7);                                                                   /* 8.8e-8 measured */
+    ck_near(joined, alone, 2.6e-7); /* 8.8e-8 measured */
     ck_near(slope_in(b, "source_energy_J", by[k]), 2 * slope_in(a, "source_energy_J", by[k]), 2.7e-6); /* 9.1e-7 */
   }
 }
 
 /* A key of all members is that of each of them together, eq. (20.6) being linear. */
 TEST(key_of_all_is_the_sum_over_members) {
-  const ZpActuatorDef def =
-      def_of(DRY "bodies: {link: {mass: 3 g}, hand: {mass: 8 g}}\nmembers:\n"
-                 "  a: {upper: frame, lower: link, ribbon.thickness: 130 um, drive.voltage: 8 kV}\n"
-                 "  b: {upper: link, lower: hand, ribbon.thickness: 130 um, drive.voltage: 8 kV}\n"),
-      all = def_of(DRY "ribbon.thickness: 130 um\nbodies: {link: {mass: 3 g}, hand: {mass: 8 g}}\n"
-                       "members:\n  a: {upper: frame, lower: link}\n  b: {upper: link, lower: hand}\n");
+  const ZpActuatorDef def = def_of(DRY
+                                   "bodies: {link: {mass: 3 g}, hand: {mass: 8 g}}\nmembers:\n"
+                                   "  a: {upper: frame, lower: link, ribbon.thickness: 130 um, drive.voltage: 8 kV}\n"
+                                   "  b: {upper: link, lower: hand, ribbon.thickness: 130 um, drive.voltage: 8 kV}\n"),
+                      all = def_of(DRY "ribbon.thickness: 130 um\nbodies: {link: {mass: 3 g}, hand: {mass: 8 g}}\n"
+                                       "members:\n  a: {upper: frame, lower: link}\n  b: {upper: link, lower: hand}\n");
   static const char *const key[] = {"ribbon.thickness", "drive.voltage"};
   for (size_t k = 0; k < LENGTH_OF(key); k++) {
     char of[2][64], both[256];
@@ -221,15 +223,15 @@ TEST(key_of_all_is_the_sum_over_members) {
 
 /* Of two ramps that end together one ends before or after the other where its own key moves it. */
 TEST(corners_that_part_end_them) {
-  const ZpActuatorDef together =
-                          def_of(RAMPS "  b: {upper: frame, lower: foot, drive: {voltage: 4 kV, waveform: ramp, "
-                                       "rise_time: 8 ms}}\n"),
+  const ZpActuatorDef together = def_of(RAMPS "  b: {upper: frame, lower: foot, drive: {voltage: 4 kV, waveform: ramp, "
+                                              "rise_time: 8 ms}}\n"),
                       apart = def_of(RAMPS "  b: {upper: frame, lower: foot, drive: {voltage: 4 kV, waveform: ramp, "
                                            "rise_time: 9 ms}}\n");
   const ZpResult *result = run_by(&together, "member_1.drive.rise_time");
   ck_assert(isnan(slope_in(result, "bodies.hand.y_m", "member_1.drive.rise_time")));
   ck_assert_ptr_nonnull(note_of(result, "the key moves one of several corners of inputs that coincide"));
-  ck_assert(isfinite(slope_in(run_by(&apart, "member_1.drive.rise_time"), "bodies.hand.y_m", "member_1.drive.rise_time")));
+  ck_assert(
+      isfinite(slope_in(run_by(&apart, "member_1.drive.rise_time"), "bodies.hand.y_m", "member_1.drive.rise_time")));
   ck_assert(isfinite(slope_in(run_by(&together, "body_1.mass"), "bodies.hand.y_m", "body_1.mass")));
 }
 

@@ -186,8 +186,9 @@ static inline bool zp_sim_is_controlled(const ZpSim *m) {
   return m->model->control.kind != ZP_CONTROL_NONE;
 }
 
-/* A simulation of nearly the same actuators, with these models, that starts near `sim`, which has not moved: at `offset`
- * along the rates [members] of its states, without computing its hanging equilibrium. NULL: there is no memory. */
+/* A simulation of nearly the same actuators, with these models, that starts near `sim`, which has not moved: at
+ * `offset` along the rates [members] of its states, without computing its hanging equilibrium. NULL: there is no
+ * memory. */
 ZpSim *zp_sim_create_near(const ZpSim *sim, const ZpModel *model, ZpState *const rate[], double offset);
 
 /* Start at rest at coordinates q of all nodes, bent there from the natural shape for the first time. */

@@ -240,10 +240,11 @@ static const char *cause_of_loss(ZpRunSensitivity *rates) {
                                     : NULL;
 }
 
-/* The same, of one key: has the step ended at a corner of several inputs of which it moves some? */
+/* An event that has no derivative by one key: a corner of several inputs of which it moves some. NULL: none. */
 static const char *cause_of_key(const ZpRunSensitivity *rates, const ZpKeyRates *of) {
-  return of->splits && rates->sim->state->t >= rates->to ? "the key moves one of several corners of inputs that coincide"
-                                                         : NULL;
+  return of->splits && rates->sim->state->t >= rates->to
+             ? "the key moves one of several corners of inputs that coincide"
+             : NULL;
 }
 
 /* Does the step's matrix filter velocities, because of faces or menisci? */
@@ -287,9 +288,9 @@ static void arrive(ZpSim *near) {
   zp_sim_arrive(near);
 }
 
-/* When a neighbouring member closes, if that of the run closes in this step: where the neighbour's path of the same step
- * passes the limit, even outside the step. A front that arrives is detected only at the end of a step, which is not the
- * exact instant. `now` and `before` are of the run, at the end and the start of the step. */
+/* When a neighbouring member closes, if that of the run closes in this step: where the neighbour's path of the same
+ * step passes the limit, even outside the step. A front that arrives is detected only at the end of a step, which is
+ * not the exact instant. `now` and `before` are of the run, at the end and the start of the step. */
 static double closing_near(const ZpSim *sim, const ZpSim *near, double before, double now, double carried) {
   if (isnan(now)) return NAN;
   if (now == before) return carried;

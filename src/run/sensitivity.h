@@ -19,8 +19,8 @@ typedef struct ZpKeyRates {
   double from[ZP_DIFFERENCE_POINTS]; /* their last corner */
   double to[ZP_DIFFERENCE_POINTS];   /* and their next one, s */
   double late;                       /* derivative of the end of the step, beyond that by corners, s */
-  bool splits;         /* it moves one of several inputs that have the next corner together */
-  ZpState **rate;      /* [members] derivatives of the numbers of the run's states; of their time where a key moves it */
+  bool splits;                       /* it moves one of several inputs that have the next corner together */
+  ZpState **rate; /* [members] derivatives of the numbers of the run's states; of their time where a key moves it */
   double square, peak; /* of the integral of the current's square and of its largest size so far (supply_coupling.h) */
   ZpCurrentRate last[2]; /* the currents of the last two steps, the later one first; t is NAN before there is one */
   bool at_peak;          /* the later one is the largest so far */

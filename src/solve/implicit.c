@@ -523,8 +523,8 @@ static double rate_rounding(const ZpDifferenceSteps *steps) {
   return DBL_EPSILON * sum / 3;
 }
 
-/* Passes with the factored Jacobian of one of the steps: the next pass corrects what it lacks of the exact tangent. Where
- * rounding in stiff edges pushes soft bodies, passes end above the rounding of positions. */
+/* Passes with the factored Jacobian of one of the steps: the next pass corrects what it lacks of the exact tangent.
+ * Where rounding in stiff edges pushes soft bodies, passes end above the rounding of positions. */
 static bool find_rate(const ZpDifferenceSteps *steps, const Rates *r) {
   enum { PATIENCE = 10, MOST_PASSES = 40 };
   static const double pushed = 20; /* times that rounding */

@@ -45,9 +45,10 @@ struct ZpResult {
                       * (theory, eqs. (9.4) and (9.5)); below 1 no errors are estimated. INFINITY: no such length */
   ZpScalar *scalar;  /* [scalars] in the order of the summary */
   size_t scalars, scalar_room;
-  ZpName *names;                                   /* of scalars of members */
-  ZpSensitivity sensitivity[ZP_MAX_SENSITIVITIES]; /* of all key by key, in the order of sensitivity.by, then of parts */
-  bool cut;                                        /* there was no room for another one */
+  ZpName *names; /* of scalars of members */
+  ZpSensitivity
+      sensitivity[ZP_MAX_SENSITIVITIES]; /* of all key by key, in the order of sensitivity.by, then of parts */
+  bool cut;                              /* there was no room for another one */
   size_t sensitivities;
   ZpTable *series;          /* the study's table; NULL if it has none */
   ZpShapes *shapes;         /* NULL if it has none */

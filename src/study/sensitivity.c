@@ -33,8 +33,8 @@ static void note_differences(ZpResult *result, const ZpActuatorDef *def, const i
   enum { LONGEST = ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE + 2 };
   char names[ZP_MAX_SENSITIVITY_KEYS * LONGEST];
   for (int k = 0, length = 0; k < keys; k++)
-    length += snprintf(names + length, sizeof names - (size_t)length, "%s%s", k > 0 ? ", " : "",
-                       ZP_KEY_SHOWN(def, key[k]));
+    length +=
+        snprintf(names + length, sizeof names - (size_t)length, "%s%s", k > 0 ? ", " : "", ZP_KEY_SHOWN(def, key[k]));
   if (keys > 0)
     zp_result_note(result, "sensitivity: differences of fourth order stand for derivatives of some forces, by %s",
                    names);
@@ -43,8 +43,7 @@ static void note_differences(ZpResult *result, const ZpActuatorDef *def, const i
 ZpStatus zp_sensitivity_of(ZpRest *rest, ZpDerive *derive, void *user, ZpResult *result, ZpError *err) {
   const ZpActuatorDef *def = rest->statics.model->whole;
   int key[ZP_MAX_SENSITIVITY_KEYS], by_difference[ZP_MAX_SENSITIVITY_KEYS], keys, differences = 0;
-  ZpStatus status =
-      zp_keys_named("sensitivity.by", def->sensitivity.by, ZP_MAX_SENSITIVITY_KEYS, key, &keys, err);
+  ZpStatus status = zp_keys_named("sensitivity.by", def->sensitivity.by, ZP_MAX_SENSITIVITY_KEYS, key, &keys, err);
   for (int k = 0; k < keys && status == ZP_OK; k++) {
     ZpRestSensitivity slope;
     status = zp_rest_sensitivity_open(&slope, &rest->statics, key[k], err);
