@@ -26,16 +26,17 @@ static inline double log_uniform(uint64_t *state, double from, double to) {
 /* Options of the command; keys that are as by default are left out. */
 static inline void print_design(const ZpActuatorDef *def) {
   const ZpActuatorDef plain = zp_actuator_def_default();
-  for (int k = 0; k < zp_key_count(); k++) {
+  for (int k = zp_def_next_key(def, -1); k >= 0; k = zp_def_next_key(def, k)) {
     const ZpKey *key = zp_key(k);
+    char name[ZP_KEY_NAME_SIZE];
     double value = zp_def_get(def, k);
     if (isnan(value) || value == zp_def_get(&plain, k)) continue;
     if (key->type == ZP_KEY_BOOL)
-      printf(" --set %s=%s", key->name, value == 0 ? "false" : "true");
+      printf(" --set %s=%s", zp_key_name(k, name), value == 0 ? "false" : "true");
     else if (key->type == ZP_KEY_ENUM)
-      printf(" --set %s=%s", key->name, key->choices[(int)value].word);
+      printf(" --set %s=%s", zp_key_name(k, name), key->choices[(int)value].word);
     else
-      printf(" --set %s=%.17g", key->name, value);
+      printf(" --set %s=%.17g", zp_key_name(k, name), value);
   }
   printf("\n");
 }

@@ -1,12 +1,13 @@
 /* Do derivatives of runs in time agree with differences of runs? Random runs, drawn from a seed.
  *
- *   rates [COUNT [SEED [TOLERANCE]]]   each number that actuate differentiates by one random key, at the default
- *                                      tolerance, beside differences of runs with TOLERANCE (1e-7) and keys 0.1 % to
- *                                      each side, and 0.01 % if one of them does not agree to 1 %. They agree if they
- *                                      differ by at most 1 %, or by three times what the two differences differ. Every
- *                                      other derivative is printed, with a command that repeats it. Status 1 if there
- *                                      is one. Derivatives without a difference, whose number some run lacks, count
- *                                      apart
+ *   rates [COUNT [SEED [TOLERANCE [SERIES]]]]
+ *
+ * Each number that actuate differentiates by one random key, at the default tolerance, beside differences of runs with
+ * TOLERANCE (1e-7) and keys 0.1 % to each side, and 0.01 % if one of them does not agree to 1 %. They agree if they
+ * differ by at most 1 %, or by three times what the two differences differ. Every other derivative is printed, with a
+ * command that repeats it. Status 1 if there is one. Derivatives without a difference, whose number some run lacks,
+ * count apart. SERIES (1): of so many members in series, the second one thinner or thicker; half of the keys are its
+ * thickness.
  */
 #include <inttypes.h>
 #include <math.h>
@@ -57,6 +58,15 @@ static int key_of(const ZpActuatorDef *def, uint64_t *state) {
   if (k < ALWAYS) return zp_key_find(always[k]);
   if (k == ALWAYS && def->source.model == ZP_SOURCE_AMPLIFIER) return zp_key_find("source.resistance");
   return zp_key_find(def->liquid.model == ZP_LIQUID_NONE ? "ribbon.density" : "medium.kinematic_viscosity");
+}
+
+/* => the key of the derivatives. */
+static int join(int series, uint64_t *state, ZpActuatorDef *def, int key) {
+  if (series == 1) return key;
+  def->stack.series = series;
+  const int thickness = zp_key_find("member_2.ribbon.thickness");
+  zp_def_set(def, thickness, def->ribbon.thickness * log_uniform(state, 0.7, 1.4), NULL);
+  return draw(state) < 0.5 ? thickness : key;
 }
 
 static void print_run(const ZpActuatorDef *def) {
@@ -164,13 +174,13 @@ static bool has_any(const ZpResult *result) {
 }
 
 /* One run; false if a derivative disagrees. */
-static bool check(uint64_t seed, double tolerance, Count *count) {
+static bool check(uint64_t seed, double tolerance, int series, Count *count) {
   uint64_t state = seed;
   ZpActuatorDef def = run_of(&state);
-  int key = key_of(&def, &state);
+  int key = join(series, &state, &def, key_of(&def, &state));
   double value = zp_def_get(&def, key);
   Reference reference = {.step = {1, 1}};
-  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", zp_key(key)->name);
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", zp_key_name(key, (char[ZP_KEY_NAME_SIZE]){0}));
   ZpResult *result = run(&def);
   bool agree = true, compared = result && has_any(result);
   if (compared && refer(def, key, tolerance, 0, &reference) && !all_agree(result, &reference, value))
@@ -190,9 +200,10 @@ int main(int argc, char **argv) {
   int runs = argc > 1 ? atoi(argv[1]) : 200, failed = 0;
   uint64_t seed = argc > 2 ? strtoull(argv[2], NULL, 10) : 1;
   double tolerance = argc > 3 ? strtod(argv[3], NULL) : 1e-7;
+  int series = argc > 4 ? atoi(argv[4]) : 1;
   Count count = {0};
   for (int k = 0; k < runs; k++)
-    failed += !check(seed + (uint64_t)k, tolerance, &count);
+    failed += !check(seed + (uint64_t)k, tolerance, series, &count);
   printf("%d derivatives agree, %d do not, in %d of %d runs; %d are null, %d without a difference\n", count.agree,
          count.disagree, failed, runs, count.null, count.alone);
   return failed > 0;

@@ -166,7 +166,7 @@ def test_results():
 
 
 def test_derivatives_have_the_names_of_the_scenario():
-    network = hand(solver__end_time="5 ms", sensitivity__by="members.left.ribbon.thickness, bodies.hand.mass, gravity")
+    network = hand(sensitivity__by="members.left.ribbon.thickness, bodies.hand.mass, gravity")
     network.members["left"]["ribbon.thickness"] = "90 um"
     result = network.run()
     names = ["members.left.ribbon.thickness", "bodies.hand.mass", "gravity"]
@@ -174,7 +174,7 @@ def test_derivatives_have_the_names_of_the_scenario():
     at, by = result["bodies.hand.y_m"], result.sensitivity["bodies.hand.y_m"]["members.left.ribbon.thickness"]
     network.members["left"]["ribbon.thickness"] = 90.01e-6
     assert network.run()["bodies.hand.y_m"] - at == pytest.approx(by * 1e-8, rel=1e-2)
-    assert pickle.loads(pickle.dumps(result)).sensitivity == result.sensitivity
+    assert pickle.loads(pickle.dumps(result)).sensitivity["bodies.hand.y_m"] == result.sensitivity["bodies.hand.y_m"]
 
 
 def test_a_mount_a_force_and_a_body_without_mass():
