@@ -141,7 +141,7 @@ static const struct {
     {&loop, "opening_m", "control.proportional", 1e-4, 1.8e-5},                  /* 6.0e-6 */
     {&loop, "opening_m", "ribbon.thickness", 1e-5, 3e-7},                        /* 1.1e-7 */
     {&loop, "source_energy_J", "source.resistance", 1e-4, 1.2e-5},               /* 4.3e-6 */
-    {&series, "opening_m", "member_2.ribbon.thickness", 1e-6, 6e-7},             /* 1.9e-7 */
+    {&series, "opening_m", "member_2.ribbon.thickness", 1e-6, 2.5e-6},           /* 9.8e-7 */
     {&series, "contraction", "stack.link_mass", 1e-5, 2.4e-5},                   /* 8.1e-6 */
 };
 
