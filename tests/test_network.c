@@ -242,6 +242,72 @@ TEST(held_body_is_a_held_platform) {
   compare(answer_of(ZP_STUDY_ISOMETRIC, &stack), answer_of(ZP_STUDY_ISOMETRIC, &network), "force_N", 1e-13);
 }
 
+/* -- members of any device ------------------------------------------------------------------------- */
+
+static const struct {
+  const char *kind, *keys;
+  bool moves; /* may its upper end be on a body that moves? */
+} device[] = {
+    {"ribbon", "ribbon.length: 45 mm\n", true},
+    {"flange", "ribbon.length: 45 mm\nelectro.gap_offset: 0.1 mm\n", false},
+    {"mouth", "ribbon.length: 45 mm\n", true},
+    {"hinge",
+     "ribbon.length: 40 mm\nribbon.thickness: 1 mm\nlower.ribbon.thickness: 100 um\nhinge.stiffness: 0.4 mN m/rad\n"
+     "hinge.rest_angle: 20 degree\n",
+     true},
+};
+
+/* => a scenario of members of this device and what follows. */
+static char *of_device(int which, const char *rest) {
+  static char text[1024];
+  snprintf(text, sizeof text, OF_ALL "actuator.kind: %s\n%sdrive.voltage: 3 kV\nsolver.end_time: 20 ms\n%s",
+           device[which].kind, device[which].keys, rest);
+  return text;
+}
+
+/* Members beside each other with a body below them are as one actuator with its part of the mass. */
+TESTS(any_device_is_a_member, 0, LENGTH_OF(device)) {
+  ZpActuatorDef alone = def_of(of_device(_i, "load.mass: 4 g\n"));
+  ZpActuatorDef two = def_of(of_device(_i, "bodies: {bar: {mass: 8 g}}\nmembers: {a: {upper: frame, lower: bar}, b: "
+                                           "{upper: frame, lower: bar}}\n"));
+  const ZpResult *a = answer_of(ZP_STUDY_STATIONARY, &alone), *b = answer_of(ZP_STUDY_STATIONARY, &two);
+  ck_near(number(b, "bodies.bar.y_m"), -number(a, "stroke_m"), 1e-13);
+  compare(answer_of(ZP_STUDY_MODES, &alone), answer_of(ZP_STUDY_MODES, &two), "frequency_1_Hz", 1e-8);
+  a = answer_of(ZP_STUDY_ACTUATE, &alone), b = answer_of(ZP_STUDY_ACTUATE, &two);
+  printf("in motion: off by %.2g\n", fabs(-number(b, "bodies.bar.y_m") / number(a, "stroke_m") - 1));
+  ck_near(number(b, "bodies.bar.y_m"), -number(a, "stroke_m"), 1e-11);
+  ck_assert_double_eq(number(a, "steps"), number(b, "steps"));
+  if (_i == 0) return; /* without electrodes */
+  compare(answer_of(ZP_STUDY_LIMITS, &alone), answer_of(ZP_STUDY_LIMITS, &two), "release_voltage_V", 1e-8);
+}
+
+/* One that hangs on a body that moves is in the frame of this body; what a body of no mass carries hangs on it. */
+TESTS(any_device_hangs_on_another, 0, LENGTH_OF(device)) {
+  if (!device[_i].moves) return;
+  ZpActuatorDef chain =
+      def_of(of_device(_i, "ribbon.density: 0\ninsulator.density: 0\nbodies: {link: {mass: 1 g}, bar: "
+                           "{mass: 3 g}}\nmembers: {a: {upper: frame, lower: link}, b: {upper: "
+                           "link, lower: bar}}\n"));
+  ZpActuatorDef upper = def_of(of_device(_i, "ribbon.density: 0\ninsulator.density: 0\nload.mass: 4 g\n")),
+                lower = def_of(of_device(_i, "ribbon.density: 0\ninsulator.density: 0\nload.mass: 3 g\n"));
+  const double fall = answered_value(ZP_STUDY_STATIONARY, &upper, "stroke_m"),
+               further = answered_value(ZP_STUDY_STATIONARY, &lower, "stroke_m");
+  const ZpResult *r = answer_of(ZP_STUDY_STATIONARY, &chain);
+  ck_near(number(r, "bodies.link.y_m"), -fall, 1e-12);
+  ck_near(number(r, "bodies.bar.y_m"), -fall - further, 1e-12);
+}
+
+/* Two straight guided ribbons in series without weight: springs of 12 EI / L^3 and their masses. */
+TEST(guided_ribbons_in_series_vibrate_as_springs) {
+  ZpActuatorDef def = def_of(of_device(0, "gravity: 0\nribbon.density: 1e-3 kg/m3\ninsulator.density: 0\n"
+                                          "insulator.young_modulus: 0\nbodies: {link: {mass: 3 g}, bar: {mass: 3 g}}\n"
+                                          "members: {a: {upper: frame, lower: link}, b: {upper: link, lower: bar}}\n"));
+  def.mesh.nodes = 81;
+  const double L = 45e-3, t = 50e-6, EI = 200e9 / (1 - 0.285 * 0.285) * 12.7e-3 * t * t * t / 12;
+  const double omega2 = 12 * EI / (L * L * L) / 3e-3 * (3 - sqrt(5)) / 2;
+  ck_near(answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), sqrt(omega2) / (2 * 3.14159265358979323846), 1e-3);
+}
+
 /* -- in motion ------------------------------------------------------------------------------------- */
 
 /* n equal springs and masses in a row: omega_j = 2 omega sin((2 j - 1) pi / (4 n + 2)). */
@@ -532,8 +598,11 @@ static const struct {
     {"bodies: {hand: {}}\nmembers: {hand: {upper: frame, lower: hand}}", "hand is a name in bodies already"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nload.mass: 20 g", "load.mass = 0.02 kg"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstack.series: 3", "stack.series = 3"},
-    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nactuator.kind: hinge",
+    {"bodies: {hand: {moves: plane, inertia: 1 g cm2}}\nmembers: {m: {upper: frame, lower: hand}}\nactuator.kind: "
+     "hinge",
      "actuator.kind electro_ribbon"},
+    {"bodies: {a: {}, b: {}}\nmembers: {m: {upper: frame, lower: a}, n: {upper: a, lower: b}}\nactuator.kind: flange",
+     "members.n.upper = a: the flat electrode of actuator.kind = flange stands still"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {stiffness: 3 N/m}}",
      "springs.s.between: give two bodies"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {between: [hand, hand]}}",

@@ -38,7 +38,7 @@ static size_t reserve(ZpHeights *h, size_t unknowns, void *block) {
   ZpArena arena = {block, 0};
   zp_sparse_reserve(&h->matrix, &h->sparsity, &arena);
   h->right = zp_arena_take(&arena, unknowns);
-  h->opening = zp_arena_take(&arena, h->network->members);
+  h->reach = zp_arena_take(&arena, h->network->members);
   h->weight = zp_arena_take(&arena, h->network->members);
   h->y = zp_arena_take(&arena, h->network->bodies);
   return arena.used;
@@ -70,7 +70,7 @@ static void add_end(ZpHeights *h, size_t member, size_t end, double nearer) {
   const size_t body[] = {n->ends[member].upper, n->ends[member].lower};
   const ZpBody *other = &n->body[body[1 - end]];
   if (n->body[body[end]].held) return;
-  const double w = h->weight[member], down = zp_network_sign(n, member) * h->opening[member];
+  const double w = h->weight[member], down = zp_network_sign(n, member) * h->reach[member];
   const size_t i = h->unknown[body[end]];
   *zp_sparse_at(&h->matrix, i, i) += w;
   h->right[i] += end == 0 ? w * down : -w * down;
@@ -80,7 +80,7 @@ static void add_end(ZpHeights *h, size_t member, size_t end, double nearer) {
     *zp_sparse_at(&h->matrix, i, h->unknown[body[1 - end]]) -= w;
 }
 
-/* The sum of weight (y_upper - y_lower - opening)^2 is least. A member that is upside down has its upper body below. */
+/* The sum of weight (y_upper - y_lower - reach)^2 is least. A member that is upside down has its upper body below. */
 void zp_heights_find(ZpHeights *h, double nearer) {
   const ZpNetwork *n = h->network;
   zp_sparse_clear(&h->matrix);

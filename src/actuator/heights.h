@@ -1,5 +1,5 @@
-/* Heights of the bodies of a network at given openings of its members: of a tree exactly; where several lead to a body,
- * those at which all openings together change least, eq. (32.3). */
+/* Heights of the bodies of a network at given reaches of its members (zp_reach): of a tree exactly; where several lead
+ * to a body, those at which all reaches together change least, eq. (32.3). */
 #ifndef ZP_ACTUATOR_HEIGHTS_H
 #define ZP_ACTUATOR_HEIGHTS_H
 
@@ -8,9 +8,9 @@
 
 typedef struct ZpHeights {
   const ZpNetwork *network;
-  double *opening, *weight; /* [members] what is given, m; how much each counts */
-  double *y;                /* [bodies] what is found, m */
-  size_t *unknown;          /* [bodies] */
+  double *reach, *weight; /* [members] what is given, m; how much each counts */
+  double *y;              /* [bodies] what is found, m */
+  size_t *unknown;        /* [bodies] */
   ZpSparsity sparsity;
   ZpSparse matrix;
   double *right; /* [unknowns] */
@@ -21,7 +21,7 @@ typedef struct ZpHeights {
 bool zp_heights_create(const ZpNetwork *network, ZpHeights *heights);
 void zp_heights_destroy(ZpHeights *heights);
 
-/* opening, weight => y. Bodies that are held are at `nearer` times their heights. */
+/* reach, weight => y. Bodies that are held are at `nearer` times their heights. */
 void zp_heights_find(ZpHeights *heights, double nearer);
 
 #endif

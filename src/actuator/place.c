@@ -25,8 +25,9 @@ typedef struct Path {
 } Path;
 
 /* The one that ends at the lower platform of the left or right half: from the upper platform, or from a clip that is
- * held. */
+ * held; without a platform at the right end of the lower ribbon, from its left one. */
 static Path path_to_platform(const ZpTopology *t, const int *equation, bool right) {
+  if (!zp_has_platform(t)) return (Path){zp_lower(t, 0), zp_lower(t, t->stations - 1), false};
   size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
   return equation[zp_x_of(clip)] < 0 ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
 }
@@ -99,7 +100,7 @@ void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double 
 
 void zp_place_top(const ZpModel *model, double height, double *nodes) {
   const ZpTopology *t = &model->topology;
-  double *y = zp_forces(model, nodes).y, rise = height - y[zp_upper(t, t->platform.first)];
+  double *y = zp_forces(model, nodes).y, rise = height - y[zp_top_node(t)];
   for (size_t j = 0; j < zp_lanes(model); j++)
     y[j] += rise;
 }

@@ -110,7 +110,7 @@ void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, c
                                                one->gap, one->line_force, one->insulator_field};
   for (size_t k = 0; k < ZP_SHAPE_ARRAYS; k++) {
     size_t size = k < ZP_NODE_ARRAYS ? all->nodes : all->stations;
-    memcpy(all->array[k] + member * size, from[k], size * sizeof *from[k]);
+    if (from[k]) memcpy(all->array[k] + member * size, from[k], size * sizeof *from[k]); /* without electrodes: none */
   }
   double *y = all->array[1] + member * all->nodes;
   const double sign = zp_network_sign(first->network, member), origin = zp_network_origin(first->network, member);
@@ -121,7 +121,7 @@ void zp_many_put(const ZpManyShapes *all, const ZpModel *first, size_t member, c
 void zp_many_hang(const ZpManyShapes *all, const ZpModel *first, size_t member) {
   const ZpTopology *t = &first[member].topology;
   const ZpBody *upper = &first->network->body[first->network->ends[member].upper];
-  double *y = all->array[1] + member * all->nodes, fall = -y[zp_upper(t, t->platform.first)];
+  double *y = all->array[1] + member * all->nodes, fall = -y[zp_top_node(t)];
   if (!upper->held) fall += (all->array[1] + upper->leader * all->nodes)[zp_load_node(&first[upper->leader].topology)];
   for (size_t j = 0; j < all->nodes; j++)
     y[j] += fall;
@@ -136,9 +136,9 @@ void zp_many_give(const ZpManyShapes *all, ZpShape *shape) {
   shape->x = all->array[0];
   shape->y = all->array[1];
   shape->stress = all->array[2];
-  shape->gap = all->array[3];
-  shape->line_force = all->array[4];
-  shape->insulator_field = all->array[5];
+  if (shape->gap) shape->gap = all->array[3];
+  if (shape->line_force) shape->line_force = all->array[4];
+  if (shape->insulator_field) shape->insulator_field = all->array[5];
 }
 
 ZpShapes *zp_model_shapes(const ZpModel *model, size_t capacity) {

@@ -2,8 +2,15 @@
 
 #include "base/pair.h"
 
-/* Of platforms, the upper one on a body that moves. */
-static const ZpJointWay linked = {.held = {{true, false}, {true, false}}};
+/* What holds a member, on a body that moves: a platform; a clamp or a hinge. */
+static const ZpJointWay linked = {.held = {{true, false}, {true, false}}},
+                        clamped = {.held = {{true, false}, {true, false}}, .unites = true};
+
+static const ZpJointWay *way_of(const ZpJoint *joint, bool hangs) {
+  if (hangs && joint->kind == ZP_JOINT_PLATFORM) return &linked;
+  if (hangs && (joint->kind == ZP_JOINT_CLAMP || joint->kind == ZP_JOINT_HINGE)) return &clamped;
+  return &zp_joint_way[joint->kind];
+}
 
 static void add(ZpTies *ties, ZpTie tie) {
   ties->tie[ties->count++] = tie;
@@ -60,7 +67,7 @@ static ZpTies list(const ZpModel *first, size_t members, size_t member) {
   if (joined) add_end(&ties, true);
   if (joined) add_end(&ties, false);
   for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
-    add_joint(&ties, joint, hangs && joint->kind == ZP_JOINT_PLATFORM ? &linked : &zp_joint_way[joint->kind]);
+    add_joint(&ties, joint, way_of(joint, hangs));
   return ties;
 }
 
@@ -97,9 +104,7 @@ ZpTie zp_tie_of_held(const ZpModel *first, size_t members) {
   if (first->network->plane) return (ZpTie){0};
   if (zp_is_network(first)) return tie_of_body(first, first->network->watched);
   const size_t member = zp_shares_load(first) ? 0 : members - 1;
-  const ZpTopology *t = &first->topology;
-  const size_t from = zp_has_platform(t) ? zp_upper(t, t->platform.first) : zp_lower(t, 0);
-  ZpTie tie = {member, zp_y_of(zp_load_node(&first[member].topology)), 0, zp_y_of(from), 1, 0, -1};
+  ZpTie tie = {member, zp_height_at(first + member, false), 0, zp_height_at(first, true), 1, 0, -1};
   resolve(first, members, &tie);
   return tie;
 }

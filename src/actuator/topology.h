@@ -125,6 +125,11 @@ static inline size_t zp_load_node(const ZpTopology *t) {
   return zp_lower(t, t->platform.first);
 }
 
+/* The node that holds the whole: of the upper platform, or of the left end. */
+static inline size_t zp_top_node(const ZpTopology *t) {
+  return zp_upper(t, zp_has_platform(t) ? t->platform.first : 0);
+}
+
 /* How many halves are modelled, each with an end of ribbons on which the load hangs: 2 from clip to clip, else 1. */
 static inline size_t zp_halves(const ZpTopology *t) {
   return t->platform.last - t->platform.first + 1;
@@ -152,6 +157,12 @@ static inline double zp_stroke(const ZpTopology *t, const double *y) {
 /* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */
 static inline double zp_opening(const ZpTopology *t, const double *y) {
   return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - zp_platform_middle(t, y) : NAN;
+}
+
+/* (y of all nodes) => how far its lower end is below its upper one, which bodies of a network hold, m: its opening; of
+ * ribbons without a platform the right end below the left one. */
+static inline double zp_reach(const ZpTopology *t, const double *y) {
+  return zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y);
 }
 
 #endif

@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "base/memory.h"
+#include "def/device.h"
 #include "def/rule.h"
 
 enum { FRAME };
@@ -94,6 +95,12 @@ static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err)
                    "members.%s.angle = %g degree: 0 (it opens downwards) or 180 (upwards), as bodies "
                    "move up and down",
                    name, angle * 180 / half_turn);
+  if (upper > 0 && zp_def_has(def, ZP_DEVICE_PLATE) &&
+      value_of(def, ZP_KEY(body_K.moves), (size_t)upper) != ZP_MOVES_NONE)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "members.%s.upper = %s: the flat electrode of actuator.kind = flange stands still; give frame, or a "
+                   "body with moves: none",
+                   name, SHOWN(def, ZP_OF_BODY, upper));
   return ZP_OK;
 }
 
@@ -208,18 +215,19 @@ static ZpStatus check_unused(const ZpActuatorDef *def, ZpError *err) {
   return zp_fail(err, ZP_BAD_INPUT, "joints: no body moves in the plane; give one moves: plane");
 }
 
-/* A member between two bodies, and how far it opens at most, m. */
+/* A member between two bodies, and how far one may be below the other, m. */
 typedef struct Between {
   int high, low;
-  double reach;
+  double least, most;
 } Between;
 
 static Between between(const ZpActuatorDef *def, int member) {
   const double own = value_of(def, ZP_KEY(member_K.ribbon.length), (size_t)member);
   const double length = isnan(own) ? def->ribbon.length : own;
   const int upper = body_in(def, ZP_KEY(member_K.upper), member), lower = body_in(def, ZP_KEY(member_K.lower), member);
-  const bool turned = is_turned(def, (size_t)member);
-  return (Between){turned ? lower : upper, turned ? upper : lower, zp_most_opening * (length - def->platform.length)};
+  const bool turned = is_turned(def, (size_t)member), platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
+  return (Between){turned ? lower : upper, turned ? upper : lower, platform ? 0 : -length,
+                   platform ? zp_most_opening * (length - def->platform.length) : length};
 }
 
 /* Joints and springs lead from one body to another. => do they lead to a new one? */
@@ -255,7 +263,7 @@ static ZpStatus check_reached(const ZpActuatorDef *def, const Between *member, b
   return ZP_OK;
 }
 
-/* Do heights exist at which all members open by 0 to their lengths? Bounds are passed along the members until none
+/* Do heights exist that all members reach? Bounds are passed along the members until none
  * moves: the largest and the least height of each body. */
 static ZpStatus check_lengths(const ZpActuatorDef *def, int held, const Between *member, double *most, double *least,
                               ZpError *err) {
@@ -272,16 +280,16 @@ static ZpStatus check_lengths(const ZpActuatorDef *def, int held, const Between 
     more = false;
     for (const Between *m = member; m < member + members; m++) {
       const int high = m->high, low = m->low;
-      const double above[] = {fmin(most[high], most[low] + m->reach), fmax(least[high], least[low])};
-      const double below[] = {fmin(most[low], most[high]), fmax(least[low], least[high] - m->reach)};
+      const double above[] = {fmin(most[high], most[low] + m->most), fmax(least[high], least[low] + m->least)};
+      const double below[] = {fmin(most[low], most[high] - m->least), fmax(least[low], least[high] - m->most)};
       const double misses = fmax(above[1] - above[0], below[1] - below[0]);
       if (misses > 1e-9)
         return zp_fail(err, ZP_BAD_INPUT,
-                       "members.%s: it opens by 0 to %g mm, but %s and %s are apart by %g mm too %s; "
+                       "members.%s: it opens by %g to %g mm, but %s and %s are apart by %g mm too %s; "
                        "move a body that is held, or change a length",
-                       SHOWN(def, ZP_OF_MEMBER, (int)(m - member) + 1), 1e3 * m->reach, SHOWN(def, ZP_OF_BODY, high),
-                       SHOWN(def, ZP_OF_BODY, low), 1e3 * misses,
-                       least[high] - most[low] > m->reach ? "much" : "little");
+                       SHOWN(def, ZP_OF_MEMBER, (int)(m - member) + 1), 1e3 * m->least, 1e3 * m->most,
+                       SHOWN(def, ZP_OF_BODY, high), SHOWN(def, ZP_OF_BODY, low), 1e3 * misses,
+                       least[high] - most[low] > m->most ? "much" : "little");
       more |= above[0] < most[high] || above[1] > least[high] || below[0] < most[low] || below[1] > least[low];
       most[high] = above[0], least[high] = above[1];
       most[low] = below[0], least[low] = below[1];
@@ -580,10 +588,12 @@ static const char own_load[] = "each body has a mass of its own: give bodies.NAM
                   field_meter[] = "the stroke that a meter of a member tells is that of the plates law; use plates";
 
 static const ZpRule rule[] = {
-    ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_HAS(PLATFORM), "bodies join platforms"),
-    ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(load.mass, load.drop_height), ZP_NETWORK, ZP_NEVER, own_load),
+    ZP_RULE_IF(PHYSICS, ZP_SET(load.mass), ZP_NETWORK, ZP_NEVER, own_load),
+    ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(load.offset, load.drop_height), ZP_NETWORK, ZP_NEVER, own_load),
     ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(stack.series, stack.lower_voltage), ZP_NETWORK, ZP_NEVER, own_ends),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(mount.tilt), "gravity acts downwards on bodies"),
+    ZP_RULE(NOT_MODELLED, ZP_PLANE, ZP_HAS(PLATFORM),
+            "what turns the ends of members without platforms is not modelled"),
     ZP_RULE_IF(NOT_MODELLED, ZP_NOT(liquid.model, ZP_LIQUID_NONE), ZP_PLANE, ZP_NEVER,
                "the liquid between platforms is modelled for level ones only"),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_IS(actuator.held_clip, ZP_HELD_NONE), "bodies hold platforms, not clips"),

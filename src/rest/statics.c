@@ -237,6 +237,10 @@ static double opening_of(const ZpRestMember *m) {
   return zp_opening(&m->model->topology, zp_nodes(m->model, m->q).y);
 }
 
+static double reach_of(const ZpRestMember *m) {
+  return zp_reach(&m->model->topology, zp_nodes(m->model, m->q).y);
+}
+
 /* Has any gap, insulators included, changed since the last good state by so large a share that this is another
  * branch? */
 static bool member_has_jumped(const ZpRestMember *m) {
@@ -1021,7 +1025,7 @@ static double seen_by(const ZpStatics *s, size_t which, double y) {
 
 static void find_heights(ZpStatics *s) {
   for (size_t k = 0; k < s->members; k++)
-    s->heights.opening[k] = opening_of(&s->member[k]);
+    s->heights.reach[k] = reach_of(&s->member[k]);
   zp_heights_find(&s->heights, s->nearer);
 }
 
@@ -1054,7 +1058,7 @@ static void meet(ZpStatics *s) {
 void zp_statics_rejoin(ZpStatics *s) {
   if (in_plane(s) || !is_joined(s) || s->members == 1) return;
   for (size_t k = 0; k < s->members; k++)
-    s->heights.weight[k] = 1 / (opening_of(&s->member[k]) * opening_of(&s->member[k]) + DBL_MIN);
+    s->heights.weight[k] = 1 / (reach_of(&s->member[k]) * reach_of(&s->member[k]) + DBL_MIN);
   place_between(s);
   for (size_t k = 0; k < s->members; k++)
     s->heights.weight[k] = 1;

@@ -788,7 +788,7 @@ static void find_joined_masses(ZpDynamics *d) {
     add_at_border(d, m, d->joined);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
     const ZpTopology *t = &m->model->topology;
-    const size_t node[] = {zp_upper(t, t->platform.first), zp_load_node(t)};
+    const size_t node[] = {zp_top_node(t), zp_load_node(t)};
     const double abreast = (double)zp_abreast(m->model);
     for (int k = 0; k < 2; k++) {
       const double own = mass_at(m, node[k]), others = mass_of_others(d, m, node[k]);

@@ -148,9 +148,8 @@ static size_t parts_of(const ZpActuatorDef *def, ZpColumnPart part[PARTS]) {
     const ZpColumn *of_body = zp_body_columns(zp_def_plane(def), &count);
     part[parts++] = (ZpColumnPart){of_body, count, (size_t)zp_instance_count(def, ZP_OF_BODY), zp_body_called, def};
   } else if (members > 1) {
-    part[parts++] = (ZpColumnPart){.column = parallel ? of_parallel : of_series,
-                                   .count = parallel ? NUMBERS_PARALLEL : 1,
-                                   .members = members};
+    part[parts++] = (ZpColumnPart){
+        .column = parallel ? of_parallel : of_series, .count = parallel ? NUMBERS_PARALLEL : 1, .members = members};
   }
   if (meters > 0)
     part[parts++] = (ZpColumnPart){network ? of_meter : of_meter_of_stack, NUMBERS_METER, meters, metered_called, def};
