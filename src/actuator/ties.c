@@ -2,7 +2,7 @@
 
 #include "base/pair.h"
 
-/* What holds a member, on a body that moves: a platform; a clamp or a hinge. */
+/* Joints that hold a member on a body that moves: a platform; a clamp or a hinge. */
 static const ZpJointWay linked = {.held = {{true, false}, {true, false}}},
                         clamped = {.held = {{true, false}, {true, false}}, .unites = true};
 
