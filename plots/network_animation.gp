@@ -1,6 +1,7 @@
 #picture animation.gif one motion time_s @output.animation :shapes.dat :bodies !:planar
 #picture animation.gif one branch|held_branch voltage_V @output.animation :shapes.dat +drive.voltage :bodies !:planar
-# The members of a network, each at the place of its lower body (bodies.NAME.at), and the bodies as bars, as a film.
+# The members of a network, each with its platform or its right end at the place of its lower body (bodies.NAME.at), and
+# the bodies as bars, as a film.
 load 'of_box.gp'
 load 'one_voltage.gp'
 load 'subtitle.gp'
@@ -34,11 +35,12 @@ unset datafile columnheaders
 # where members are, and how far bodies reach; body 0 is the frame
 node(c) = column(4) == column(4) ? int(column(4)) : -1
 member_of(n) = n/nodes + 1
-load_node = half ? nodes - 1 : nodes/2 - 1
-array middle[members]
+has_platform = actuator_kind eq 'electro_ribbon'
+load_node = !has_platform || half ? nodes - 1 : nodes/2 - 1
+array middle[members] # of the platform, or the right end
 array place_x[members]
-_middle(n, x) = n % nodes == load_node ? (middle[member_of(n)] = x + platform_length/2) : 0
-stats 'shapes.dat' index 0 using (node(0) < 0 ? 0 : _middle(node(0), $5), 1) nooutput
+_middle(n, x) = n % nodes == load_node ? (middle[member_of(n)] = x + (has_platform ? platform_length/2 : 0)) : 0
+stats 'shapes.dat' index 0 using (node(0) < 0 ? 0 : _middle(node(0), column(x_of(ribbons))), 1) nooutput
 array from_x[bodies + 1]
 array to_x[bodies + 1]
 array holds[bodies] # does a member hang on it?
@@ -51,8 +53,9 @@ do for [k=1:members] {
   at_x = number(sprintf('body_%d_at_x', lower))
   place_x[k] = at_x == at_x ? at_x : 0
   do for [b in sprintf('%d %d', lower, upper)] {
-    from_x[b + 1] = min(from_x[b + 1], place_x[k] - platform_length/2)
-    to_x[b + 1] = max(to_x[b + 1], place_x[k] + platform_length/2)
+    held_x = has_platform || b == lower ? place_x[k] : place_x[k] - middle[k] # the clamp is at 0
+    from_x[b + 1] = min(from_x[b + 1], held_x - platform_length/2)
+    to_x[b + 1] = max(to_x[b + 1], held_x + platform_length/2)
   }
 }
 _x(side, n, x) = n < 0 ? NaN : place_x[member_of(n)] + (side == 1 ? middle[member_of(n)] - x : x - middle[member_of(n)])
@@ -106,7 +109,7 @@ do for [k=1:shown_frames + hold] {
     if (bodies <= 12 && holds[b]) { set label b + 10 word(bodies_named, b) at to_x[b + 1]*length,y+thick left offset 0.3,0.6 font ',11' tc rgb '#37434d' front }
     if (bodies <= 12 && !holds[b]) { set label b + 10 word(bodies_named, b) at (from_x[b + 1] + to_x[b + 1])/2*length,y-thick center offset 0,-0.6 font ',11' tc rgb '#37434d' front }
   }
-  plot for [side=0:half] 'shapes.dat' index i-1 using (_x(side, node(0), $5)*length):($6*length):($8*length) with filledcurves fc rgb '#e2f1fa' notitle, \
+  plot for [side=0:half] 'shapes.dat' index i-1 using (has_platform ? _x(side, node(0), $5)*length : NaN):($6*length):($8*length) with filledcurves fc rgb '#e2f1fa' notitle, \
        for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (_x(side, node(0), column(x_of(r)))*length):(column(x_of(r) + 1)*length) \
          with lines lw 2 lc rgb '#37434d' notitle, \
        for [side=0:half] 'shapes.dat' index i-1 using (node(0) % nodes == 0 || (!half && node(0) % nodes == nodes - 1) ? _x(side, node(0), $7)*length : NaN):($8*length) \
