@@ -243,11 +243,13 @@ const char *zp_def_name(const ZpActuatorDef *def, ZpInstanceKind of, int number,
 }
 
 const char *zp_def_key_shown(const ZpActuatorDef *def, int key, char text[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]) {
+  static const char *const group[ZP_INSTANCE_KINDS] = {
+      [ZP_OF_MEMBER] = "members", [ZP_OF_BODY] = "bodies", [ZP_OF_SPRING] = "springs", [ZP_OF_JOINT] = "joints"};
   const ZpInstance at = zp_key_instance(key);
-  if (at.number == 0 || at.kind != ZP_OF_MEMBER || !zp_def_network(def)) return zp_key_name(key, text);
+  if (at.number == 0 || !group[at.kind] || !zp_def_network(def)) return zp_key_name(key, text);
   char name[ZP_NAME_SIZE];
-  snprintf(text, ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE, "members.%s%s", zp_def_name(def, at.kind, at.number, name),
-           rest_of_row(&kind[at.kind], at.row));
+  snprintf(text, ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE, "%s.%s%s", group[at.kind],
+           zp_def_name(def, at.kind, at.number, name), rest_of_row(&kind[at.kind], at.row));
   return text;
 }
 

@@ -148,18 +148,9 @@ static ZpFmuText text_beyond(const ZpActuatorDef *def, int index) {
 
 /* "members.left.ribbon.length" */
 static ZpFmuText text_of_key(const ZpActuatorDef *def, int index) {
-  static const char *const group[] = {
-      [ZP_OF_MEMBER] = "members", [ZP_OF_BODY] = "bodies", [ZP_OF_SPRING] = "springs", [ZP_OF_JOINT] = "joints"};
   const ZpKey *key = zp_key(index);
-  const ZpInstance at = zp_key_instance(index);
   ZpFmuText text = {.unit = key->unit, .help = key->help};
-  char room[ZP_NAME_SIZE], row[ZP_KEY_NAME_SIZE];
-  const char *name = zp_key_name(index, row);
-  if (at.number > 0)
-    snprintf(text.name, sizeof text.name, "%s.%s%s", group[at.kind], zp_def_name(def, at.kind, at.number, room),
-             strchr(name, '.'));
-  else
-    snprintf(text.name, sizeof text.name, "%s", name);
+  snprintf(text.name, sizeof text.name, "%s", ZP_KEY_SHOWN(def, index));
   return text;
 }
 
