@@ -620,6 +620,10 @@ static const struct {
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstudy: stationary\nsensitivity.by: "
      "members.m.upper",
      "members.m.upper says which bodies or ports are joined"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {between: [frame, hand], stiffness: "
+     "2 "
+     "N/m, rest: 10 mm}}\nstudy: stationary\nsensitivity.by: springs.s.friction",
+     "sensitivity.by: springs.s.friction = 0"},
 };
 
 TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {

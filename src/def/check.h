@@ -81,7 +81,7 @@ static inline bool zp_key_is_name(int key) {
   return zp_key_names(key) < ZP_NAMED_KINDS;
 }
 
-/* The name of a key for a message: of a member of a network "members.left.drive.voltage". */
+/* The name of a key for a message: of a part of a network "members.left.drive.voltage". */
 const char *zp_def_key_shown(const ZpActuatorDef *def, int key, char text[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]);
 #define ZP_KEY_SHOWN(def, key) zp_def_key_shown(def, key, (char[ZP_KEY_NAME_SIZE + 2 * ZP_NAME_SIZE]){0})
 
