@@ -620,11 +620,19 @@ static const struct {
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstudy: stationary\nsensitivity.by: "
      "members.m.upper",
      "members.m.upper says which bodies or ports are joined"},
-    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {between: [frame, hand], stiffness: "
-     "2 "
-     "N/m, rest: 10 mm}}\nstudy: stationary\nsensitivity.by: springs.s.friction",
-     "sensitivity.by: springs.s.friction = 0"},
 };
+
+TEST(messages_name_parts_as_the_scenario_does) {
+  static const char *const key[][2] = {{"spring_1.stiffness", "springs.coil.stiffness"},
+                                       {"body_2.mass", "bodies.foot.mass"},
+                                       {"member_1.ribbon.width", "members.lifts.ribbon.width"},
+                                       {"load.mass", "load.mass"}};
+  const ZpActuatorDef def =
+      def_of("bodies: {hand: {}, foot: {}}\nmembers: {lifts: {upper: frame, lower: hand}, low: {upper: hand, lower: "
+             "foot}}\nsprings: {coil: {between: [frame, foot], stiffness: 2 N/m, rest: 10 mm}}\n");
+  for (size_t k = 0; k < LENGTH_OF(key); k++)
+    ck_assert_str_eq(ZP_KEY_SHOWN(&def, zp_key_find(key[k][0])), key[k][1]);
+}
 
 TESTS(wrong_networks_are_refused, 0, LENGTH_OF(wrong)) {
   ck_scenario_refused(ZP_STUDY_STATIONARY, wrong[_i].text, wrong[_i].says);
