@@ -171,13 +171,12 @@ static void run(Problem *p) {
 }
 
 /* Of the control loop at a setpoint: of that of all, and of each member's. */
-#define ZP_CONTROLLED ZP_NOT(control.kind, ZP_CONTROL_NONE)
 #define ZP_RULES_OF_A_LOOP                                                                                             \
-  ZP_RULE(NOT_MODELLED, ZP_CONTROLLED, ZP_IS(electro.model, ZP_ELECTRO_PLATES),                                        \
+  ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(electro.model, ZP_ELECTRO_PLATES),                \
           "the eigenvalues of the control loop are computed for plates only"),                                         \
-      ZP_RULE(NOT_MODELLED, ZP_CONTROLLED, ZP_IS(bead.suction, 0),                                                     \
+      ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(bead.suction, 0),                             \
               "the eigenvalues of the control loop are computed without suction only"),                                \
-      ZP_RULE(PHYSICS, ZP_CONTROLLED, ZP_SET(setpoint.value), "a controller has a setpoint"),                          \
+      ZP_RULE(PHYSICS, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_SET(setpoint.value), "a controller has a setpoint"),  \
       ZP_RULE_IF(PHYSICS, ZP_IS(setpoint.value, 0), ZP_ABOVE(control.boost_voltage, 0),                                \
                  ZP_NOT(control.kind, ZP_CONTROL_BOOST_PI),                                                            \
                  "there the boost acts in full on any error, so the loop has no eigenvalues; or use another setpoint")
@@ -194,18 +193,18 @@ static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_IS(electro.model, ZP_ELECTRO_FIELD), ZP_IS(modes.voltage, 0),
             "the stiffness of a computed field is not available; use plates"),
     ZP_RULES_OF_A_LOOP,
-    ZP_RULE_IF(NOT_MODELLED, ZP_IS(control.signal, ZP_CONTROL_ANGLE), ZP_CONTROLLED, ZP_PLANE,
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(control.signal, ZP_CONTROL_ANGLE), ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_PLANE,
                "the eigenvalues of the control loop are computed for the angle of a body only"),
-    ZP_RULE_IF(NOT_MODELLED, ZP_NETWORK, ZP_CONTROLLED, ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
-    ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.port, member_K.setpoint.duty), ZP_CONTROLLED,
-               ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
+    ZP_RULE_IF(NOT_MODELLED, ZP_NETWORK, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(liquid.model, ZP_LIQUID_NONE),
+               dry_loops),
+    ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.port, member_K.setpoint.duty),
+               ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
     ZP_RULE(NOT_MODELLED, ZP_SET(member_K.control.kind), ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,
 };
 #undef ZP_RULES_OF_A_LOOP
-#undef ZP_CONTROLLED
 const ZpRules zp_rules_modes = ZP_RULES_OF(rule);
 
 /* Several loops sample at the same times. */
