@@ -17,6 +17,10 @@ void zp_vibration_reserve(ZpVibration *v, size_t n, size_t most, ZpArena *arena)
   v->u = zp_arena_take(arena, v->m * n);
   v->mu = zp_arena_take(arena, v->m * n);
   v->next = zp_arena_take(arena, v->m * n);
+  v->reduced = zp_arena_take(arena, v->m * v->m);
+  v->turn = zp_arena_take(arena, v->m * v->m);
+  v->omega2 = zp_arena_take(arena, v->m);
+  v->before = zp_arena_take(arena, v->m);
 }
 
 /* Multiples of the golden ratio, which scatter over -1 .. 1. */
@@ -138,19 +142,18 @@ double zp_vibration_residual(ZpVibration *v, size_t j) {
   return sqrt(zp_vibration_inner(v, left, left));
 }
 
-static bool settled(const ZpVibration *v, const double *before, size_t modes) {
+static bool settled(const ZpVibration *v, size_t modes) {
   for (size_t j = 0; j < modes; j++)
-    if (!(fabs(v->omega2[j] - before[j]) < settled_to * fabs(v->omega2[j]))) return false;
+    if (!(fabs(v->omega2[j] - v->before[j]) < settled_to * fabs(v->omega2[j]))) return false;
   return true;
 }
 
 bool zp_vibration_solve(ZpVibration *v, size_t modes) {
   enum { MOST_ROUNDS = 200 };
-  double before[ZP_VIBRATIONS] = {0};
   for (int round = 0; round < MOST_ROUNDS; round++) {
-    memcpy(before, v->omega2, sizeof before);
+    memcpy(v->before, v->omega2, v->m * sizeof *v->before);
     zp_vibration_iterate(v);
-    if (round > 0 && settled(v, before, modes)) return true;
+    if (round > 0 && settled(v, modes)) return true;
   }
   return false;
 }

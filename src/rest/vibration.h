@@ -8,19 +8,19 @@
 
 #include "math/arrow.h"
 
-enum { ZP_VIBRATIONS = 24 }; /* most */
+enum { ZP_VIBRATIONS = 24 }; /* a usual number of vectors */
 
 typedef struct ZpVibration {
   size_t n, m;                                            /* equations, vectors iterated */
   const ZpArrow *K;                                       /* factored; belongs to the caller */
   void (*weigh)(void *self, const double *u, double *mu); /* m u, both [n]; NULL: masses are lumped, in `mass` */
   void *self;
-  double *mass;    /* [n] by equation, filled by the caller */
-  double *weighed; /* [n] work space */
-  double *u, *mu;  /* [m][n] the subspace, with norm 1 in the inner product of the mass; m of it */
-  double *next;    /* [m][n] K^-1 m of it */
-  double reduced[ZP_VIBRATIONS * ZP_VIBRATIONS], turn[ZP_VIBRATIONS * ZP_VIBRATIONS];
-  double omega2[ZP_VIBRATIONS];
+  double *mass;            /* [n] by equation, filled by the caller */
+  double *weighed;         /* [n] work space */
+  double *u, *mu;          /* [m][n] the subspace, with norm 1 in the inner product of the mass; m of it */
+  double *next;            /* [m][n] K^-1 m of it */
+  double *reduced, *turn;  /* [m][m] the inverse of the stiffness in the subspace, and what diagonalises it */
+  double *omega2, *before; /* [m] squares of the angular frequencies, 1/s2, and those of the iteration before */
 } ZpVibration;
 
 /* Take the arrays for n equations and at most `most` vectors from `arena`. */

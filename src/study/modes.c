@@ -18,26 +18,32 @@ static const ZpColumn columns[] = {
     {"frequency_Hz", "Hz", "frequency"},
     {"residual", "1", "largest relative error of the squared frequency"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MODES = 8, SUBSPACE = 16 };
+enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static const char *const names[MODES] = {"frequency_1_Hz", "frequency_2_Hz", "frequency_3_Hz", "frequency_4_Hz",
-                                         "frequency_5_Hz", "frequency_6_Hz", "frequency_7_Hz", "frequency_8_Hz"};
+static const char frequency[] = "frequency_#_Hz";
+
+/* "1" of the first mode. */
+static const char *number_of(size_t mode, char text[ZP_NAME_SIZE]) {
+  snprintf(text, ZP_NAME_SIZE, "%zu", mode + 1);
+  return text;
+}
 
 typedef struct Problem {
   ZpEquilibria at;
   ZpVibration vibration;
+  size_t most; /* modes that are asked for */
   double *equilibrium;
 } Problem;
 
 static void reserve(void *user, ZpArena *arena) {
   Problem *p = user;
-  zp_vibration_reserve(&p->vibration, p->at.rest.statics.n, SUBSPACE, arena);
+  zp_vibration_reserve(&p->vibration, p->at.rest.statics.n, 2 * p->most, arena);
   p->equilibrium = zp_arena_take(arena, zp_rest_save_size(&p->at.rest));
 }
 
 /* How many modes are told of? */
-static size_t count(const ZpVibration *v) {
-  return v->m < MODES ? v->m : MODES;
+static size_t count(const Problem *p) {
+  return p->vibration.m < p->most ? p->vibration.m : p->most;
 }
 
 static void move_member(ZpRestMember *m, const double *u, double amplitude) {
@@ -68,10 +74,11 @@ static void report(Problem *p) {
   ZpVibration *v = &p->vibration;
   zp_rest_save(&p->at.rest, p->equilibrium);
   record_shape(p, 0, NULL);
-  for (size_t j = 0; j < count(v); j++) {
-    double frequency = sqrt(v->omega2[j]) / two_pi;
-    zp_result_add(p->at.result, names[j], "Hz", frequency);
-    zp_table_offer(p->at.result->series, (double[COLUMNS]){(double)(j + 1), frequency, zp_vibration_residual(v, j)});
+  for (size_t j = 0; j < count(p); j++) {
+    char room[ZP_NAME_SIZE];
+    const double f = sqrt(v->omega2[j]) / two_pi;
+    zp_result_add_of(p->at.result, frequency, number_of(j, room), "Hz", f);
+    zp_table_offer(p->at.result->series, (double[COLUMNS]){(double)(j + 1), f, zp_vibration_residual(v, j)});
     record_shape(p, j + 1, v->u + j * v->n);
   }
 }
@@ -98,11 +105,13 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *result) {
   ZpStatics *s = &p->at.rest.statics;
   p->at.rest.system.restore(s, p->equilibrium);
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_LOAD | ZP_SETS_MODES_VOLTAGE);
-  for (size_t j = 0; j < count(&p->vibration); j++) {
+  for (size_t j = 0; j < count(p); j++) {
     Mode mode = {&p->at.rest.statics.newton.K, p->at.rest.statics.newton.r, p->vibration.u + j * p->vibration.n,
                  p->vibration.omega2[j]};
     double by_key = found ? zp_rest_sensitivity_of(slope, stiffness_of_mode, &mode) : NAN;
-    zp_result_add_sensitivity(result, names[j], slope->key, by_key / (2 * two_pi * sqrt(p->vibration.omega2[j])));
+    char room[ZP_NAME_SIZE];
+    zp_result_add_sensitivity_of(result, frequency, number_of(j, room), slope->key,
+                                 by_key / (2 * two_pi * sqrt(p->vibration.omega2[j])));
   }
 }
 
@@ -113,8 +122,8 @@ static void note_pulled_in(Problem *p, double voltage) {
   if (!trouble) result->outcome = ZP_PULLED_IN;
   snprintf(result->message, sizeof result->message, "no hanging equilibrium at modes.voltage = %g V: %s", voltage,
            trouble ? trouble : "the actuator pulls in below it");
-  for (size_t j = 0; j < count(&p->vibration); j++)
-    zp_result_add(result, names[j], "Hz", NAN);
+  for (size_t j = 0; j < count(p); j++)
+    zp_result_add_of(result, frequency, number_of(j, (char[ZP_NAME_SIZE]){0}), "Hz", NAN);
 }
 
 /* Go to the hanging equilibrium at modes.voltage. */
@@ -159,7 +168,7 @@ static void run(Problem *p) {
   }
   zp_statics_masses(s, v->mass);
   zp_vibration_start(v);
-  bool found = zp_vibration_solve(v, count(v));
+  bool found = zp_vibration_solve(v, count(p));
   result->outcome = found ? ZP_CONVERGED : ZP_STEP_LIMIT;
   if (found)
     snprintf(result->message, sizeof result->message, "lowest frequency %.5g Hz", sqrt(v->omega2[0]) / two_pi);
@@ -240,9 +249,10 @@ ZpStatus zp_study_modes(const ZpTask *task, ZpResult *result, ZpError *err) {
   dry.liquid.model = ZP_LIQUID_NONE;
   Problem *p = zp_calloc(1, sizeof *p);
   if (!p) return zp_fail_memory(err);
-  p->at = (ZpEquilibria){.task = task, .result = result, .stage = "hanging", .shapes = MODES + 1};
+  p->most = (size_t)dry.modes.count;
+  p->at = (ZpEquilibria){.task = task, .result = result, .stage = "hanging", .shapes = p->most + 1};
   ZpStatus status = zp_equilibria_open(&p->at, &dry, reserve, p, err);
-  if (status == ZP_OK) result->series = zp_table_create(columns, COLUMNS, MODES);
+  if (status == ZP_OK) result->series = zp_table_create(columns, COLUMNS, p->most);
   if (status == ZP_OK && !result->series) status = zp_fail_memory(err);
   if (status == ZP_OK) {
     run(p);
