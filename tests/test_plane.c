@@ -834,6 +834,21 @@ static const char *const falling[] = {
     FALLING "springs: {s: {between: [frame, cart], stiffness: 10 N/m, rest: 5 mm, kind: push, from_at: [80 mm, 0]}}\n",
 };
 
+/* A torque that its weight does not hold turns a body round and round. */
+TEST(body_that_spins_has_a_name) {
+  static const char free[] =
+      "study: stationary\nmesh.nodes: 13\nliquid.model: none\n"
+      "bodies: {arm: {moves: plane, mass: 5 g, inertia: 1 g cm2, torque: 1 mN m}, hand: {mass: 8 g, "
+      "at: [0.2, -8 mm]}}\n"
+      "joints: {pivot: {type: pin, between: [frame, arm], at: [0, 5 mm]}}\n"
+      "members: {lifts: {upper: frame, lower: hand, upper_at: [0.2, 0]}}\n";
+  const ZpActuatorDef def = def_of(free);
+  const ZpResult *result = study_of(ZP_STUDY_STATIONARY, &def);
+  printf("%s\n", result->message);
+  ck_assert_int_eq(result->outcome, ZP_NOT_SETTLED);
+  ck_assert_msg(strstr(result->message, "bodies.arm turns"), "%s", result->message);
+}
+
 /* Every study names the body that nothing holds; a stop below holds it. */
 TESTS(body_that_falls_has_a_name, 0, LENGTH_OF(falling)) {
   static const ZpStudy study[] = {ZP_STUDY_STATIONARY, ZP_STUDY_EQUILIBRIUM, ZP_STUDY_LIMITS, ZP_STUDY_MODES,

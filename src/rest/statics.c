@@ -349,18 +349,20 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
 }
 
 /* Bodies in the plane: members first reach from body to body as in the drawing, then all find their rest. */
+static ZpNewtonInfo relax_in_plane(ZpStatics *s);
+
 static ZpNewtonInfo hang_in_plane(ZpStatics *s) {
   s->posed = true;
   zp_plane_drawn(&s->plane, s->pose);
   ZpNewtonInfo info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
-  if (!zp_newton_good(info.end)) info = zp_statics_relax(s, 0);
+  if (!zp_newton_good(info.end)) info = relax_in_plane(s);
   s->posed = false;
   if (!zp_newton_good(info.end)) return info;
   keep(s);
   info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) {
     go_back(s);
-    info = zp_statics_relax(s, 0);
+    info = relax_in_plane(s);
   }
   info = let_faces_push(s, info);
   if (zp_newton_good(info.end) && zp_statics_fault(s)) info.end = ZP_NEWTON_REFUSED;
@@ -385,33 +387,59 @@ bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
   return false;
 }
 
-/* How far bodies in the plane have moved from their places in the drawing, m, the farthest one => *body. */
-static ZpPose farthest(ZpStatics *s, size_t *body) {
-  ZpPose most = {0};
-  zp_plane_drawn(&s->plane, s->good);
+/* How far a body has moved and turned from its place in the drawing, m, rad. */
+static ZpPose moved_from_drawing(ZpStatics *s, size_t body) {
+  const ZpPose *drawn = &s->plane.body[body].drawn, to = zp_plane_place(&s->plane, body, s->pose);
+  return (ZpPose){.x = to.x - drawn->x, .y = to.y - drawn->y, .turn = to.turn};
+}
+
+/* A body that nothing stops: farther than a ribbon is long, or turned more often than anything could bear. */
+static bool is_away(const ZpStatics *s, const ZpPose *moved) {
+  static const double far = 10, often = 100; /* lengths of a ribbon; rad */
+  return fmax(fabs(moved->x), fabs(moved->y)) > far * s->plane.length || fabs(moved->turn) > often;
+}
+
+/* The first body that is away; 0: none is. */
+static size_t runaway(ZpStatics *s, ZpPose *moved) {
   for (size_t b = 1; b < s->plane.bodies; b++) {
-    const ZpPose from = zp_plane_place(&s->plane, b, s->good), to = zp_plane_place(&s->plane, b, s->pose);
-    const ZpPose moved = {to.x - from.x, to.y - from.y, to.turn - from.turn};
-    if (!(moved.x * moved.x + moved.y * moved.y > most.x * most.x + most.y * most.y)) continue;
-    most = moved;
-    *body = b;
+    *moved = moved_from_drawing(s, b);
+    if (is_away(s, moved)) return b;
   }
-  return most;
+  return 0;
+}
+
+static bool runs_away(void *statics) {
+  ZpPose moved;
+  return runaway(statics, &moved) > 0;
+}
+
+static ZpNewtonInfo relax_in_plane(ZpStatics *s) {
+  s->U = 0;
+  ZpNewtonInfo info = zp_statics_relax_until(s, runs_away, s);
+  if (runs_away(s)) info.end = ZP_NEWTON_SLOW;
+  return info;
 }
 
 const char *zp_statics_fallen(ZpStatics *s, char text[ZP_NO_REST_SIZE]) {
-  static const double far = 10, mm = 1e3; /* far: lengths of a ribbon */
-  size_t body = 0;
-  if (!in_plane(s)) return NULL;
-  const ZpPose moved = farthest(s, &body);
+  static const double mm = 1e3, turn = 6.283185307179586;
+  ZpPose moved;
+  const size_t body = in_plane(s) ? runaway(s, &moved) : 0;
+  if (body == 0) return NULL;
   const double down = -moved.y, aside = fabs(moved.x);
-  if (body == 0 || !(fmax(down, aside) > far * s->plane.length)) return NULL;
-  snprintf(
-      text, ZP_NO_REST_SIZE,
-      "no hanging equilibrium found: bodies.%s moves away, %.0f mm %s so far; nothing holds it there: add a spring "
-      "of kind both, or one of kind push or pull as a stop",
-      zp_body_called(s->model->whole, body, (char[ZP_NAME_SIZE]){0}), mm * fmax(down, aside),
-      down > aside ? "down" : "sideways");
+  const char *called = zp_body_called(s->model->whole, body, (char[ZP_NAME_SIZE]){0});
+  if (fabs(moved.turn) > turn && fmax(down, aside) < s->plane.length)
+    snprintf(text, ZP_NO_REST_SIZE,
+             "no hanging equilibrium found: bodies.%s turns, %.0f times so far; nothing stops it: reduce its torque or "
+             "forces, or add a spring",
+             called, fabs(moved.turn) / turn);
+  else
+    snprintf(text, ZP_NO_REST_SIZE,
+             "no hanging equilibrium found: bodies.%s moves away, %.0f mm %s so far; nothing holds it there: add a "
+             "spring of kind both, or one of kind push or pull as a stop",
+             called, mm * fmax(fabs(down), aside),
+             aside > fabs(down) ? "sideways"
+             : down > 0         ? "down"
+                                : "up");
   return text;
 }
 
