@@ -187,8 +187,9 @@ static bool owns(const ZpActuatorDef *def) {
 }
 
 void zp_def_clear(ZpActuatorDef *def) {
-  if (owns(def)) zp_free(def->given->name);
-  if (owns(def)) zp_free(def->given);
+  ZpInstances *own = owns(def) ? def->given : NULL;
+  if (own) zp_free(own->name);
+  zp_free(own);
   def->given = NULL;
 }
 
