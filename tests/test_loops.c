@@ -65,7 +65,7 @@ static void ck_has(const ZpResult *all, double growth, double frequency) {
         fmin(least, hypot(number(all, name[0]) / growth - 1, frequency > 0 ? number(all, name[1]) / frequency - 1 : 0));
   }
   printf("%g 1/s: off by %.2g\n", growth, least);
-  ck_below(least, 1e-4);
+  ck_below(least, 1.2e-5); /* 4.0e-6 measured */
 }
 
 /* Two that do not touch: the slowest motion of each is one of both. In a stack, too, where one of them is held. */
