@@ -300,6 +300,12 @@ TESTS(any_device_hangs_on_another, 0, LENGTH_OF(device)) {
   chain.solver.end_time = 2e-3;
   const double rests = number(answer_of(ZP_STUDY_STATIONARY, &chain), "bodies.bar.y_m");
   ck_near(number(answer_of(ZP_STUDY_ACTUATE, &chain), "bodies.bar.y_m"), rests, 1e-6);
+  chain.drive.voltage = 3e3; /* and its clamp goes with the body */
+  const ZpResult *moved = answer_of(ZP_STUDY_ACTUATE, &chain);
+  const ZpShape shape = zp_shapes_get(moved->shapes, moved->shapes->frames - 1);
+  const size_t each = moved->shapes->nodes * moved->shapes->ribbons / 2;
+  for (size_t r = 0; r < moved->shapes->ribbons; r++)
+    ck_assert_double_lt(fabs(shape.y[each + r] - number(moved, "bodies.link.y_m")), 1e-12);
 }
 
 /* Two straight guided ribbons in series without weight: springs of 12 EI / L^3 and their masses. */
