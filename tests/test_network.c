@@ -308,6 +308,23 @@ TESTS(any_device_hangs_on_another, 0, LENGTH_OF(device)) {
     ck_assert_double_lt(fabs(shape.y[each + r] - number(moved, "bodies.link.y_m")), 1e-12);
 }
 
+/* A ribbon without a platform may rise above its clamp, here to a mount: without weight it is the mirror image of one
+ * that hangs as far below. */
+TEST(ribbon_rises_to_a_mount) {
+  static const char mounts[2][256] = {"gravity: 0\nbodies: {up: {moves: none, at.y: 5 mm}, hand: {mass: 1 g}}\n"
+                                      "members: {a: {upper: frame, lower: up}, b: {upper: frame, lower: hand}}\n",
+                                      "gravity: 0\nbodies: {down: {moves: none, at.y: -5 mm}, hand: {mass: 1 g}}\n"
+                                      "members: {a: {upper: frame, lower: down}, b: {upper: frame, lower: hand}}\n"};
+  double force[2];
+  for (int k = 0; k < 2; k++) {
+    const ZpActuatorDef def = def_of(of_device(0, mounts[k]));
+    force[k] = number(answer_of(ZP_STUDY_STATIONARY, &def), "members.a.force_N");
+  }
+  printf("pull %.9g N, %.9g N\n", force[0], force[1]);
+  ck_assert_double_gt(force[1], 1e-3);
+  ck_near(force[0], -force[1], 1e-12);
+}
+
 /* Two straight guided ribbons in series without weight: springs of 12 EI / L^3 and their masses. */
 TEST(guided_ribbons_in_series_vibrate_as_springs) {
   ZpActuatorDef def = def_of(of_device(0, "gravity: 0\nribbon.density: 1e-3 kg/m3\ninsulator.density: 0\n"
@@ -610,6 +627,7 @@ static const struct {
     {"bodies: {Hand: {mass: 1 g}}", "is no name"},
     {"bodies: {hand: {}}\nmembers: {hand: {upper: frame, lower: hand}}", "hand is a name in bodies already"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nload.mass: 20 g", "load.mass = 0.02 kg"},
+    {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nload.share: 0.3", "load.share = 0.3"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nstack.series: 3", "stack.series = 3"},
     {"bodies: {hand: {moves: plane, inertia: 1 g cm2}}\nmembers: {m: {upper: frame, lower: hand}}\nactuator.kind: "
      "hinge",

@@ -24,12 +24,12 @@ typedef struct Path {
   bool returns;
 } Path;
 
-/* The one that ends at the lower platform of the left or right half: from the upper platform, or from a clip that is
- * held; without a platform at the right end of the lower ribbon, from its left one. */
+/* The one that ends at the lower platform of the left or right half, or at the right end of the lower ribbon: from the
+ * upper platform, or from a clip or clamp that is held. */
 static Path path_to_platform(const ZpTopology *t, const int *equation, bool right) {
-  if (!zp_has_platform(t)) return (Path){zp_lower(t, 0), zp_lower(t, t->stations - 1), false};
+  const size_t lower = t->ribbons - 1;
   size_t clip = right ? t->nodes - t->ribbons : 0, platform = zp_upper(t, right ? t->platform.last : t->platform.first);
-  return equation[zp_x_of(clip)] < 0 ? (Path){clip + 1, platform + 1, false} : (Path){platform, clip, true};
+  return equation[zp_x_of(clip)] < 0 ? (Path){clip + lower, platform + lower, false} : (Path){platform, clip, true};
 }
 
 enum { MOST_PATHS = 4 };

@@ -263,8 +263,8 @@ static ZpStatus check_reached(const ZpActuatorDef *def, const Between *member, b
   return ZP_OK;
 }
 
-/* Do heights exist that all members reach? Bounds are passed along the members until none
- * moves: the largest and the least height of each body. */
+/* Do heights exist that all members reach? Bounds are passed along the members until none moves: the largest and the
+ * least height of each body. */
 static ZpStatus check_lengths(const ZpActuatorDef *def, int held, const Between *member, double *most, double *least,
                               ZpError *err) {
   const int bodies = zp_instance_count(def, ZP_OF_BODY), members = zp_instance_count(def, ZP_OF_MEMBER);
@@ -588,8 +588,7 @@ static const char own_load[] = "each body has a mass of its own: give bodies.NAM
                   field_meter[] = "the stroke that a meter of a member tells is that of the plates law; use plates";
 
 static const ZpRule rule[] = {
-    ZP_RULE_IF(PHYSICS, ZP_SET(load.mass), ZP_NETWORK, ZP_NEVER, own_load),
-    ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(load.offset, load.drop_height), ZP_NETWORK, ZP_NEVER, own_load),
+    ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(load.mass, load.drop_height), ZP_NETWORK, ZP_NEVER, own_load),
     ZP_RULE_IF(PHYSICS, ZP_SET_WITHIN(stack.series, stack.lower_voltage), ZP_NETWORK, ZP_NEVER, own_ends),
     ZP_RULE(NOT_MODELLED, ZP_NETWORK, ZP_UNSET(mount.tilt), "gravity acts downwards on bodies"),
     ZP_RULE(NOT_MODELLED, ZP_PLANE, ZP_HAS(PLATFORM),

@@ -21,11 +21,19 @@ static int given_of(const ZpActuatorDef *def, int row) {
   return -1;
 }
 
+/* The default of a key, for this device. */
+static double default_of(const ZpActuatorDef *def, int key) {
+  const ZpDevice *device = zp_device_of(def->actuator.kind);
+  for (size_t k = 0; k < device->given_count; k++)
+    if (device->given[k].key == key) return device->given[k].value;
+  return zp_key(key)->def;
+}
+
 static bool is_set(const ZpActuatorDef *def, int key) {
   if (zp_key_is_row(key)) return given_of(def, key) >= 0;
   const char *text = zp_def_text(def, key);
   if (text) return *text != 0;
-  double value = zp_def_get(def, key), plain = zp_key(key)->def;
+  double value = zp_def_get(def, key), plain = default_of(def, key);
   return value != plain && !(isnan(value) && isnan(plain));
 }
 

@@ -69,6 +69,10 @@ static bool is_joined(const ZpStatics *s) {
   return s->shared || s->linked;
 }
 
+static bool are_apart(const ZpStatics *s) {
+  return s->members > 1 && !is_joined(s);
+}
+
 static bool create_member(const ZpStatics *s, size_t which) {
   const ZpModel *model = s->model + which;
   const ZpTies ties = is_joined(s) ? zp_ties_of(s->model, s->members, which) : zp_ties_of(model, 1, 0);
@@ -156,23 +160,6 @@ double zp_statics_tolerance(const ZpStatics *s) {
     largest = fmax(largest, 4 * DBL_EPSILON * model->L * model->axial_stiffness / s->scale);
   }
   return largest;
-}
-
-/* Do members share no unknown? */
-static bool are_apart(const ZpStatics *s) {
-  return s->form.n == s->form.inner;
-}
-
-static void move_each(void *self, const double *step, double unused);
-static double no_length(void *self, const double *step);
-
-ZpNewtonInfo zp_statics_solve(ZpStatics *s, int most) {
-  ZpStaticSystem system = zp_statics_system(s);
-  if (are_apart(s)) {
-    system.move = move_each;
-    system.length = no_length;
-  }
-  return zp_newton(&system, zp_statics_tolerance(s), most, &s->newton);
 }
 
 enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30, USUAL_ITERATIONS = 16 };
@@ -348,9 +335,40 @@ static ZpNewtonInfo hang_between(ZpStatics *s) {
   return info;
 }
 
-/* Bodies in the plane: members first reach from body to body as in the drawing, then all find their rest. */
-static ZpNewtonInfo relax_in_plane(ZpStatics *s);
+/* How far a body has moved and turned from its place in the drawing, m, rad. */
+static ZpPose moved_from_drawing(ZpStatics *s, size_t body) {
+  const ZpPose *drawn = &s->plane.body[body].drawn, to = zp_plane_place(&s->plane, body, s->pose);
+  return (ZpPose){.x = to.x - drawn->x, .y = to.y - drawn->y, .turn = to.turn};
+}
 
+/* Nothing stops a body that is far away, or has turned more often than anything could bear. */
+static bool is_away(const ZpStatics *s, const ZpPose *moved) {
+  static const double far = 10, often = 100; /* lengths of a ribbon; rad */
+  return fmax(fabs(moved->x), fabs(moved->y)) > far * s->plane.length || fabs(moved->turn) > often;
+}
+
+/* The first body that is away; 0: none is. */
+static size_t runaway(ZpStatics *s, ZpPose *moved) {
+  for (size_t b = 1; b < s->plane.bodies; b++) {
+    *moved = moved_from_drawing(s, b);
+    if (is_away(s, moved)) return b;
+  }
+  return 0;
+}
+
+static bool runs_away(void *statics) {
+  ZpPose moved;
+  return runaway(statics, &moved) > 0;
+}
+
+static ZpNewtonInfo relax_in_plane(ZpStatics *s) {
+  s->U = 0;
+  ZpNewtonInfo info = zp_statics_relax_until(s, runs_away, s);
+  if (runs_away(s)) info.end = ZP_NEWTON_SLOW;
+  return info;
+}
+
+/* Bodies in the plane: members first reach from body to body as in the drawing, then all find their rest. */
 static ZpNewtonInfo hang_in_plane(ZpStatics *s) {
   s->posed = true;
   zp_plane_drawn(&s->plane, s->pose);
@@ -387,39 +405,6 @@ bool zp_statics_bias_held(ZpStatics *s, bool *jumped) {
   return false;
 }
 
-/* How far a body has moved and turned from its place in the drawing, m, rad. */
-static ZpPose moved_from_drawing(ZpStatics *s, size_t body) {
-  const ZpPose *drawn = &s->plane.body[body].drawn, to = zp_plane_place(&s->plane, body, s->pose);
-  return (ZpPose){.x = to.x - drawn->x, .y = to.y - drawn->y, .turn = to.turn};
-}
-
-/* A body that nothing stops: farther than a ribbon is long, or turned more often than anything could bear. */
-static bool is_away(const ZpStatics *s, const ZpPose *moved) {
-  static const double far = 10, often = 100; /* lengths of a ribbon; rad */
-  return fmax(fabs(moved->x), fabs(moved->y)) > far * s->plane.length || fabs(moved->turn) > often;
-}
-
-/* The first body that is away; 0: none is. */
-static size_t runaway(ZpStatics *s, ZpPose *moved) {
-  for (size_t b = 1; b < s->plane.bodies; b++) {
-    *moved = moved_from_drawing(s, b);
-    if (is_away(s, moved)) return b;
-  }
-  return 0;
-}
-
-static bool runs_away(void *statics) {
-  ZpPose moved;
-  return runaway(statics, &moved) > 0;
-}
-
-static ZpNewtonInfo relax_in_plane(ZpStatics *s) {
-  s->U = 0;
-  ZpNewtonInfo info = zp_statics_relax_until(s, runs_away, s);
-  if (runs_away(s)) info.end = ZP_NEWTON_SLOW;
-  return info;
-}
-
 const char *zp_statics_fallen(ZpStatics *s, char text[ZP_NO_REST_SIZE]) {
   static const double mm = 1e3, turn = 6.283185307179586;
   ZpPose moved;
@@ -451,12 +436,18 @@ const char *zp_statics_no_rest(ZpStatics *s, char text[ZP_NO_REST_SIZE]) {
              : "no hanging equilibrium found";
 }
 
-static double turned_by(const ZpRestMember *m, double most);
+/* The largest rotation of an edge of a member in the last step that was examined, rad, or `most` if that is more; NAN
+ * if any is NAN. */
+static double turned_by(const ZpRestMember *m, double most) {
+  for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
+    if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
+  return most;
+}
 
 /* Members apart that the last iterations have brought to rest wait while the others come to it step by step. */
 static ZpNewtonInfo step_those_left(ZpStatics *s) {
   static const double near = 1e-3; /* rad */
-  for (size_t k = 0; k < s->members && are_apart(s) && s->members > 1; k++)
+  for (size_t k = 0; k < s->members && are_apart(s); k++)
     s->member[k].idle = turned_by(&s->member[k], 0) < near && zp_band_negative(&s->newton.K.part[k].LU) == 0;
   ZpNewtonInfo info = step_by_step(s, &s->nearer, &s->share, 0.01);
   set_idle(s, false);
@@ -469,8 +460,8 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   if (s->biased) s->bias = 0;
   s->contact_acts = false;
   if (in_plane(s)) return hang_in_plane(s);
-  const bool many = are_apart(s) && s->members > 1; /* all iterate until the last one is at rest */
-  ZpNewtonInfo info = zp_statics_solve(s, many ? USUAL_ITERATIONS : MOST_ITERATIONS);
+  /* members apart all iterate until the last one is at rest */
+  ZpNewtonInfo info = zp_statics_solve(s, are_apart(s) ? USUAL_ITERATIONS : MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_those_left(s);
   if (s->member->model->is_rod && !is_found(s, info)) info = zp_statics_relax(s, 0); /* limp springs relax */
   info = let_faces_push(s, info);
@@ -942,14 +933,6 @@ static void turn(ZpRestMember *m, const double *step) {
                    m->stretch);
 }
 
-/* The largest rotation of an edge of a member in the last step that was examined, rad, or `most` if that is more; NAN
- * if any is NAN. */
-static double turned_by(const ZpRestMember *m, double most) {
-  for (size_t j = 0; j < edge_count(m) && !isnan(most); j++)
-    if (!(fabs(m->rotation[j]) <= most)) most = fabs(m->rotation[j]);
-  return most;
-}
-
 static double rotation_of(ZpRestMember *m, const double *step, double most) {
   turn(m, step);
   return turned_by(m, most);
@@ -1116,7 +1099,7 @@ static void move(void *self, const double *step, double fraction) {
   meet(s);
 }
 
-/* Members that share no unknown move each on their own. */
+/* Members that rows of ties do not join share no unknown: each moves on its own. */
 static void move_each(void *self, const double *step, double unused) {
   ZpStatics *s = self;
   (void)unused;
@@ -1133,6 +1116,15 @@ static double no_length(void *self, const double *step) {
   (void)self;
   (void)step;
   return 0;
+}
+
+ZpNewtonInfo zp_statics_solve(ZpStatics *s, int most) {
+  ZpStaticSystem system = zp_statics_system(s);
+  if (!is_joined(s)) {
+    system.move = move_each;
+    system.length = no_length;
+  }
+  return zp_newton(&system, zp_statics_tolerance(s), most, &s->newton);
 }
 
 /* With the liquid where it is at these positions. */
@@ -1224,7 +1216,7 @@ static bool set_aside(ZpStatics *s) {
 
 ZpNewtonInfo zp_statics_relax_until(ZpStatics *s, bool (*enough)(void *user), void *user) {
   int before = 0;
-  if (s->members > 1 && !is_joined(s) && set_aside(s)) before = descend(s, enough, user).iterations;
+  if (are_apart(s) && set_aside(s)) before = descend(s, enough, user).iterations;
   set_idle(s, false);
   ZpNewtonInfo info = descend(s, enough, user);
   info.iterations += before;

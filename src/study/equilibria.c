@@ -136,7 +136,8 @@ static void member_values(ZpRest *rest, double *values) {
   }
   if (s->members == 1) return;
   values = stack_values(s, values);
-  for (size_t k = 0; k < s->members && zp_has_ports(s->model); k++) {
+  const size_t told = zp_has_ports(s->model) ? s->members : 0;
+  for (size_t k = 0; k < told; k++) {
     *values++ = zp_statics_member_stroke(s, k);
     *values++ = zp_statics_member_capacitance(s, k);
   }
