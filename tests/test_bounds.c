@@ -365,7 +365,7 @@ static bool has_its_own_words(const char *key, double value) {
   static const char *const ends[] = {"member_8.upper", "member_8.lower", "spring_8.first", "spring_8.second"};
   for (size_t k = 0; k < LENGTH_OF(ends); k++) /* no such body, or the body below hangs on nothing */
     if (strcmp(key, ends[k]) == 0) return value > 8 || strcmp(key, "member_8.lower") == 0 || k == 3;
-  if (strstr(key, "er_at.")) return true; /* far from its other end */
+  if (strncmp(key, "member_8.", 9) == 0 && strstr(key, "_at.")) return true; /* far from its other end */
   if (strcmp(key, "body_8.inertia") == 0 || strcmp(key, "body_8.moves") == 0) return value == 0;
   if (strcmp(key, "isometric.body") == 0) return value > 0;
   if (strncmp(key, "member_8.", 9) == 0) {

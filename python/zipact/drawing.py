@@ -14,6 +14,7 @@ from matplotlib.patches import Polygon
 
 from ._zipact import InputError
 from .network import Network
+from .result import grouped
 
 if TYPE_CHECKING:
     from .result import Result
@@ -50,17 +51,6 @@ class Pose(NamedTuple):
         return self.x + cos * u - sin * v, self.y + sin * u + cos * v
 
 
-def parts_of(values: Mapping[str, Any], group: str) -> dict[str, dict[str, Any]]:
-    """{"members.left.upper": "frame"} => {"left": {"upper": "frame"}}"""
-    found: dict[str, dict[str, Any]] = {}
-    for key, value in values.items():
-        first, _, rest = key.partition(".")
-        if first == group:
-            name, _, key = rest.partition(".")
-            found.setdefault(name, {})[key] = value
-    return found
-
-
 def at(keys: Mapping[str, Any], key: str) -> tuple[float, float]:
     """A point of the drawing, m."""
     x, y = (keys.get(f"{key}.{way}", 0.0) for way in "xy")
@@ -80,8 +70,8 @@ class Drawing:
         self.parts: list[Part] = []
         actuator = result.actuator
         self.values = actuator._values() if isinstance(actuator, Network) else actuator
-        self.members = parts_of(self.values, "members")
-        self.bodies = parts_of(self.values, "bodies")
+        self.members = grouped(self.values, "members")
+        self.bodies = grouped(self.values, "bodies")
         self.poses = self._poses(result)
         self.plane = any(f"bodies.{name}.angle_rad" in result or f"{name}.angle_rad" in (result.series or ()) for name in self.bodies)
         self._ribbons()
@@ -201,7 +191,7 @@ class Drawing:
                 self._name(name, y * 0 + right, y, va="bottom", position=(3, 3))
             elif name != "frame" and len(self.bodies) <= MOST_NAMES:
                 self._name(name, y * 0 + (left + right) / 2, y, ha="center", position=(0, -5))
-        for keys in parts_of(self.values, "springs").values():
+        for keys in grouped(self.values, "springs").values():
             middle = [sum(ends[body]) / 2 for body in (keys["first"], keys["second"])]
             self._spring(*((self.poses[keys[end]].y * 0 + x, self.poses[keys[end]].y) for end, x in zip(("first", "second"), middle, strict=True)))
 
@@ -224,9 +214,9 @@ class Drawing:
                 turned = (angle if isinstance(angle, float) else 0.0) + pose.turn - pose.drawn
                 where = fixed(body, at(keys, f"{end}_at"))
                 self._bar(*where, turned, self.values["platform.length"], color=GROUND if body == "frame" else RIGID)
-        for keys in parts_of(self.values, "springs").values():
+        for keys in grouped(self.values, "springs").values():
             self._spring(fixed(keys["first"], at(keys, "from_at")), fixed(keys["second"], at(keys, "to_at")))
-        for keys in parts_of(self.values, "joints").values():
+        for keys in grouped(self.values, "joints").values():
             points = [fixed(body, self._own(body, at(keys, "at"))) for body in (keys["first"], keys["second"])]
             marker = "o" if keys.get("type", "pin") == "pin" else "s"
             self.line(points[:1], color=GROUND, marker=marker, markerfacecolor="white", markersize=6, linestyle="none", zorder=6)

@@ -2,7 +2,7 @@
 
 import os
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -118,10 +118,13 @@ def shapes_of(parts: Mapping[str, Any]) -> Shapes:
     return Shapes(time, voltage, zipped.astype(int), *arrays, parts["members"])
 
 
-def grouped(numbers: Mapping[str, float], group: str) -> dict[str, dict[str, float]]:
+T = TypeVar("T")
+
+
+def grouped(values: Mapping[str, T], group: str) -> dict[str, dict[str, T]]:
     """{"bodies.hand.y_m": 0.0} => {"hand": {"y_m": 0.0}}"""
-    found: dict[str, dict[str, float]] = {}
-    for path, value in numbers.items():
+    found: dict[str, dict[str, T]] = {}
+    for path, value in values.items():
         first, _, rest = path.partition(".")
         if first == group:
             name, _, number = rest.partition(".")
