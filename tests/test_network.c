@@ -653,6 +653,15 @@ static const struct {
      "members.m.upper says which bodies or ports are joined"},
 };
 
+TEST(arguments_are_refused_by_the_names_of_parts) {
+  ZpScenario *s = new_scenario();
+  ZpError err = {ZP_OK, ""};
+  static const char text[] = "bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\n";
+  ck_ok(zp_scenario_parse(s, text, strlen(text), "network.yaml", &err));
+  ck_assert_int_eq(zp_scenario_set(s, "bodies.hand.mas=1 g", &err), ZP_BAD_INPUT);
+  ck_assert_msg(strstr(err.message, "did you mean bodies.hand.mass?"), "%s", err.message);
+}
+
 TEST(messages_name_parts_as_the_scenario_does) {
   static const char *const key[][2] = {{"spring_1.stiffness", "springs.coil.stiffness"},
                                        {"body_2.mass", "bodies.foot.mass"},

@@ -20,7 +20,7 @@ static const NotModelled not_modelled[] = {
     {"pressure", "pressure", "give air.breakdown_field at the pressure of the surroundings"},
     {"altitude", "altitude", "give air.breakdown_field at that altitude"},
     {"buoyan", "buoyancy of the load", "subtract it from load.mass"},
-    {"friction", "friction", NULL},
+    {"friction", "friction between ribbons", "springs.NAME.friction is that of a body on a floor or a wall"},
     {"adhesive", "adhesive", "add its thickness to insulator.thickness"},
     {"glue", "glue", "add its thickness to insulator.thickness"},
     {"adhes", "adhesion", NULL},

@@ -765,6 +765,7 @@ ZpStatus zp_scenario_set(ZpScenario *s, const char *assignment, ZpError *err) {
   if (!zp_names_copy(&s->names, &reader.names)) return zp_fail_memory(err);
   reader.key = key_of_argument(&source, &reader.names, (size_t)(equals - assignment), err);
   if (reader.key < 0) {
+    zp_names_tell(&reader.names, err);
     close_reader(&reader);
     return ZP_BAD_INPUT;
   }
