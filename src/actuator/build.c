@@ -656,7 +656,7 @@ static void derive(ZpModel *model) {
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
-  model->flat = zp_def_has(def, ZP_DEVICE_PLATE);
+  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER);
   model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel : 1;
   model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);

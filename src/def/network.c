@@ -95,7 +95,7 @@ static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err)
                    "members.%s.angle = %g degree: 0 (it opens downwards) or 180 (upwards), as bodies "
                    "move up and down",
                    name, angle * 180 / half_turn);
-  if (upper > 0 && zp_def_has(def, ZP_DEVICE_PLATE) &&
+  if (upper > 0 && zp_def_has(def, ZP_DEVICE_COUNTER) &&
       value_of(def, ZP_KEY(body_K.moves), (size_t)upper) != ZP_MOVES_NONE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "members.%s.upper = %s: the flat electrode of actuator.kind = flange stands still; give frame, or a "

@@ -3,7 +3,7 @@
 
 static const ZpAssignment given[] = {{ZP_KEY(load.share), 1}};
 
-const ZpDevice zp_device_flange = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_PLATE,
+const ZpDevice zp_device_flange = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_COUNTER,
                                    .touches = "clamp (electro.gap_offset = 0 m)",
                                    .lay = zp_lay_ribbon,
                                    ZP_GIVEN(given)};

@@ -106,7 +106,7 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
 
 static const ZpRule rule[] = {
     /* lateral edges */
-    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_LACKS(PLATE),
+    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_LACKS(COUNTER),
             "the width of a flange's flat electrode is not known"),
     ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's surface has no edges"),
