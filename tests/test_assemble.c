@@ -105,7 +105,7 @@ TESTS(held_platform_is_at_its_opening, 0, LENGTH_OF(systems)) {
   for (size_t i = t->platform.first; i <= t->platform.last; i++)
     y[zp_lower(t, i)] = zp_tie_place(&row, upper, s);
   ck_assert_uint_eq(row.coordinate, zp_y_of(zp_lower(t, t->platform.first)));
-  ck_assert_double_eq_tol(zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y), s, 1e-16);
+  ck_assert_double_eq_tol(zp_reach(t, (ZpNodes){y, y}), s, 1e-16);
   ck_assert(row.factor == 0 || row.to_member != row.member); /* it hangs on what is held, or on another member */
 }
 

@@ -13,7 +13,8 @@ enum { METAL, TAPE, LAYERS };
 
 static void layers_of(const ZpActuatorDef *def, double thickness, ZpLayer layer[LAYERS]) {
   layer[METAL] = (ZpLayer){thickness, def->ribbon.young_modulus, def->ribbon.poisson_ratio, def->ribbon.density};
-  layer[TAPE] = (ZpLayer){def->insulator.thickness, def->insulator.young_modulus, 0, def->insulator.density};
+  double tape = isnan(def->insulator.thickness) ? 0 : def->insulator.thickness; /* a film that is its own insulator */
+  layer[TAPE] = (ZpLayer){tape, def->insulator.young_modulus, 0, def->insulator.density};
 }
 
 static ZpSection section_of(const ZpActuatorDef *def, double thickness) {
@@ -219,13 +220,13 @@ static double platform_length(const ZpModel *model) {
 /* The strength of a layer, as a displacement over eps0; infinite for bare metal, so the other insulator is the weaker
  * one. */
 static double strength_of(const ZpActuatorDef *def) {
-  return def->insulator.thickness == 0 ? INFINITY : def->insulator.permittivity * def->insulator.breakdown_field;
+  return zp_insulator_thickness(def) == 0 ? INFINITY : def->insulator.permittivity * def->insulator.breakdown_field;
 }
 
 static ZpSeriesParams series_of(const ZpActuatorDef *upper, const ZpActuatorDef *lower) {
   const ZpActuatorDef *weaker = strength_of(lower) < strength_of(upper) ? lower : upper;
-  double thickness = upper->insulator.thickness / upper->insulator.permittivity +
-                     lower->insulator.thickness / lower->insulator.permittivity;
+  double thickness = zp_insulator_thickness(upper) / upper->insulator.permittivity +
+                     zp_insulator_thickness(lower) / lower->insulator.permittivity;
   return (ZpSeriesParams){thickness, weaker->insulator.permittivity, weaker->insulator.breakdown_field,
                           upper->medium.permittivity};
 }
@@ -238,8 +239,9 @@ static double least_h(double d) {
 
 static ZpPlatesParams plates_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double share = def->electro.voltage_share, offset = def->electro.insulator_offset;
-  double eps_m = def->medium.permittivity, d = isnan(offset) ? model->series.thickness * eps_m : offset;
+  double share = model->mirror * def->electro.voltage_share, offset = def->electro.insulator_offset;
+  double eps_m = def->medium.permittivity,
+         d = model->mirror * (isnan(offset) ? model->series.thickness * eps_m : offset);
   return (ZpPlatesParams){.nodes = model->nodes,
                           .lanes = model->stride,
                           .k = def->electro.force_scale * 0.5 * ZP_EPS0 * eps_m * def->ribbon.width * share * share,
@@ -262,7 +264,7 @@ static ZpLeakParams leak_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   double insulators = def->insulator.resistivity, liquid = def->medium.resistivity, both = zp_insulation(def);
   return (ZpLeakParams){.insulators = 2 * model->plates.k / model->plates.d,
-                        .conductance = isnan(insulators) ? 0 : def->ribbon.width / (insulators * both),
+                        .conductance = isnan(insulators) ? 0 : model->mirror * def->ribbon.width / (insulators * both),
                         .discharge = isnan(liquid) ? 0 : 1 / (liquid * ZP_EPS0 * def->medium.permittivity)};
 }
 
@@ -276,7 +278,7 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
                          .columns = 2 * ((ALONG + model->nodes - 2) / (model->nodes - 1)),
                          .w = def->ribbon.width,
                          .b = def->ribbon.thickness,
-                         .t = def->insulator.thickness,
+                         .t = zp_insulator_thickness(def),
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity,
                          .eps_out = model->has_bead ? 1 : def->medium.permittivity,
@@ -367,8 +369,9 @@ static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {
     masses[k]->x = masses_along(0, model, ties, mass[k], a->inverse[k][0], a->pair[k][0]);
     masses[k]->y = masses_along(1, model, ties, mass[k], a->inverse[k][1], a->pair[k][1]);
   }
+  const double *moves = model->topology.along ? model->masses.x.inverse : model->masses.y.inverse;
   for (size_t j = 0; j < model->count; j++)
-    if (model->masses.y.inverse[j] > 0) weight += a->weight[j];
+    if (moves[j] > 0) weight += a->weight[j];
   model->total_weight =
       weight / (double)zp_halves(&model->topology) + zp_end_share(model) * fabs(model->def.load.force);
   if (model->network->plane)
@@ -529,7 +532,7 @@ static double compliance_of(const ZpActuatorDef *def) {
   static const double typical = 1e9;      /* Pa, of a polymer tape, where insulator.young_modulus is not given */
   static const double thinnest = 0.26e-6; /* m: two of these have the least range of contact */
   double E = def->insulator.young_modulus > 0 ? def->insulator.young_modulus : typical;
-  return fmax(def->insulator.thickness, thinnest) / E;
+  return fmax(zp_insulator_thickness(def), thinnest) / E;
 }
 
 /* Largest attraction of closed faces short of a breakdown, N/m: that of the liquid if the law is capped, else that of
@@ -586,6 +589,13 @@ static ZpPlatesParams air_of(const ZpModel *model) {
   return air;
 }
 
+/* Beyond the electrodes of a pouch. */
+static ZpPlatesParams no_law(const ZpPlatesParams *plates) {
+  ZpPlatesParams none = *plates;
+  none.k = none.relative = 0;
+  return none;
+}
+
 /* Eqs. (22.1) to (22.3). */
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
@@ -595,9 +605,9 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .platform_end = model->topology.platform.last,
                        .flat_length = platform_length(model),
                        .w = def->ribbon.width,
-                       .mu = def->medium.kinematic_viscosity * def->medium.density,
+                       .mu = model->mirror * model->mirror * def->medium.kinematic_viscosity * def->medium.density,
                        .rho = def->liquid.inertia ? def->medium.density : 0,
-                       .roughness = def->film.roughness};
+                       .roughness = model->mirror * def->film.roughness};
   zp_film_modes(&film, def->liquid.lateral_flow);
   return film;
 }
@@ -641,9 +651,27 @@ static double spring_frequency(const ZpModel *model) {
 
 /* Direction of gravity, eq. (27.4). A component that is only the rounding of the angle is set to 0. */
 static void find_fall(ZpModel *model) {
-  double turns = model->def.mount.tilt / (2 * zp_pi), fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
+  double turns = model->def.mount.tilt / (2 * zp_pi) + (model->topology.along ? 0.25 : 0), fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
   for (int k = 0; k < 2; k++)
     model->fall[k] = fabs(fall[k]) < zp_tilt_rounding ? 0 : fall[k];
+  model->pull[model->topology.along ? 0 : 1] = model->topology.along ? 1 : -1;
+}
+
+/* Section 40. One of two films is modelled; pouches in series are alike. */
+static void derive_pouch(ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  double closed = def->ribbon.length - def->pouch.electrode_length, area = def->pouch.fill * closed * closed / zp_pi;
+  model->in_series = 1;
+  model->mirror = model->stroke_by = 1;
+  if (!zp_def_has(def, ZP_DEVICE_POUCH)) return;
+  model->pouch = (ZpPouchParams){.w = def->ribbon.width,
+                                 .volume = 0.5 * area * def->ribbon.width,
+                                 .electrode = def->pouch.electrode_length,
+                                 .length = def->ribbon.length};
+  model->mirror = 0.5;
+  model->in_series = (size_t)def->pouch.count;
+  model->stroke_by = -(double)def->pouch.count;
+  model->stroke_at = def->pouch.count * zp_pouch_chord(def->ribbon.length, zp_pouch_angle(def->ribbon.length, area));
 }
 
 static void derive(ZpModel *model) {
@@ -656,8 +684,9 @@ static void derive(ZpModel *model) {
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
-  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER);
-  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel : 1;
+  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH);
+  derive_pouch(model);
+  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel : (double)model->in_series / model->mirror;
   model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   model->l = model->L / (double)zp_half_elements(t);
   ZpActuatorDef lower = zp_def_lower(def);
@@ -682,8 +711,8 @@ static void derive(ZpModel *model) {
                                .suction = def->bead.suction,
                                .returned = def->bead.returned,
                                .tension = def->medium.surface_tension};
-  model->air = air_of(model);
-  if (model->has_bead) model->plates.air = &model->air;
+  model->air = model->pouch.w > 0 ? no_law(&model->plates) : air_of(model);
+  if (model->has_bead || model->pouch.w > 0) model->plates.air = &model->air;
   model->outer = outer_of(def);
   model->own = model->has_film ? ZP_FILM_MODES : 0;
   model->leaks = model->field && !(isnan(def->insulator.resistivity) && isnan(def->medium.resistivity));

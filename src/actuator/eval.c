@@ -38,9 +38,16 @@ static size_t reserve(const ZpModel *model, ZpEval *e, void *block) {
     *stations[k] = zp_arena_take(&arena, model->nodes);
   e->D = zp_arena_take_of(&arena, 3 * model->stride, sizeof *e->D);
   e->mean_v = zp_arena_take(&arena, 2 * model->stride);
+  e->by_volume = zp_arena_take(&arena, model->pouch.w > 0 ? 2 * model->stride : 0);
   e->unused = zp_arena_take(&arena, 2 * model->stride);
   e->none = zp_arena_take(&arena, model->stride);
   return arena.used;
+}
+
+/* The electrodes of a pouch end; beyond them no law acts. */
+static void cover_electrodes(const ZpModel *model, ZpEval *e) {
+  for (size_t i = 0; i + 1 < model->nodes; i++)
+    e->cover.part[i] = fmin(fmax(model->pouch.electrode / model->l - (double)i, 0), 1);
 }
 
 bool zp_eval_create(const ZpModel *model, ZpEval *e) {
@@ -49,7 +56,8 @@ bool zp_eval_create(const ZpModel *model, ZpEval *e) {
   e->memory = zp_calloc(1, reserve(model, e, NULL));
   if (!e->memory) return false;
   reserve(model, e, e->memory);
-  if (model->has_bead) e->plates_start.cover = e->plates.cover = &e->cover;
+  if (model->plates.air) e->plates_start.cover = e->plates.cover = &e->cover;
+  if (model->pouch.w > 0) cover_electrodes(model, e);
   return true;
 }
 

@@ -51,6 +51,8 @@ typedef struct ZpEval {
   ZpGapDerivatives gaps;        /* sum of the terms that depend on gaps */
   double (*D)[4];               /* [3 edges] stiffness of edges */
   double *mean_v;               /* [2 stride] of a span, m/s */
+  double *by_volume;            /* [2 stride] volume of a pouch by the coordinates, the mean over the span, m^2 */
+  double pressure;              /* in it, the mean over the span, Pa */
   double *unused;               /* [2 stride] of forces that are computed for the sake of other laws */
   const double *none;           /* [stride] zeros */
   double drag_power;            /* lost now, W */

@@ -26,6 +26,7 @@
 #include "liquid/bead.h"
 #include "liquid/film.h"
 #include "liquid/outer.h"
+#include "liquid/pouch.h"
 #include "paper/massspring.h"
 #include "paper/surface.h"
 #include "paper/zip.h"
@@ -120,7 +121,8 @@ struct ZpModel {
   ZpLeakParams leak;
   bool has_bead; /* the film ends, and beyond it is air */
   ZpBeadParams bead;
-  ZpPlatesParams air;            /* the law there */
+  ZpPlatesParams air;            /* the law there; of a pouch that beyond its electrodes: none */
+  ZpPouchParams pouch;
   ZpOuterParams outer;           /* of liquid outside */
   size_t own;                    /* unknowns of the laws at each station, in motion */
   size_t kept;                   /* numbers of state of all laws, in motion */
@@ -135,7 +137,11 @@ struct ZpModel {
   ZpMasses masses;      /* true masses */
   ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */
   double pseudo_mass;   /* kg, in units of the pseudo-time step */
+  size_t in_series;     /* equal pouches: each is a part, and all have the same load; else 1 */
+  double mirror;        /* share of gaps and voltage that is on this side of the middle plane: 1/2 of a pouch, else 1 */
+  double stroke_by, stroke_at; /* the stroke is the first times how far the load hangs (zp_hangs_by), plus this, m */
   double fall[2];       /* direction of gravity, x and y: a unit vector */
+  double pull[2];       /* that in which load.force acts */
   const double *weight; /* [stride] of each node with its load, N */
   const double *mass;   /* [stride] kg */
   double total_weight;  /* of what moves, of one half, N */
@@ -250,6 +256,12 @@ static inline double zp_load_at(const ZpModel *model, const double *q) {
   return sum / (double)zp_halves(t);
 }
 
+/* (coordinates of all nodes, or their changes) => how far the point that the load hangs on is in the direction in which
+ * load.force acts, m. */
+static inline double zp_load_down(const ZpModel *model, ZpNodes n) {
+  return model->pull[0] * zp_load_at(model, n.x) + model->pull[1] * zp_load_at(model, n.y);
+}
+
 /* Share of the load that the modelled part carries: load.share at each end. */
 static inline double zp_load_share(const ZpModel *model) {
   return (double)zp_halves(&model->topology) * zp_end_share(model);
@@ -258,14 +270,25 @@ static inline double zp_load_share(const ZpModel *model) {
 /* Force of the whole actuator's load downwards, N: load.force and the part of its weight that acts downwards. */
 static inline double zp_load_pull(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  return model->parts * zp_load_share(model) * (def->load.force - def->load.mass * def->gravity * model->fall[1]);
+  return model->parts / (double)model->in_series * zp_load_share(model) *
+         (def->load.force + def->load.mass * def->gravity * (model->fall[0] * model->pull[0] + model->fall[1] * model->pull[1]));
+}
+
+/* (coordinates of all nodes) => stroke, m; (their changes or rates) => its own. */
+static inline double zp_stroke(const ZpModel *model, ZpNodes nodes) {
+  return model->stroke_by * zp_hangs_by(&model->topology, nodes) + model->stroke_at;
+}
+
+static inline double zp_stroke_change(const ZpModel *model, ZpNodes changes) {
+  return model->stroke_by * zp_hangs_by(&model->topology, changes);
 }
 
 /* Work against this pull, J, while the point that the load hangs on moves by (along, up), m. */
 static inline double zp_load_work(const ZpModel *model, double along, double up) {
   const ZpActuatorDef *def = &model->def;
   double weight = def->load.mass * def->gravity;
-  double work = def->load.force * up - weight * (model->fall[0] * along + model->fall[1] * up);
+  double work = -def->load.force * (model->pull[0] * along + model->pull[1] * up) -
+                weight * (model->fall[0] * along + model->fall[1] * up);
   return model->parts * zp_load_share(model) * work;
 }
 
@@ -397,17 +420,31 @@ static inline double zp_closed_opening(const ZpModel *model, double hanging) {
   return fmax(0.01 * hanging, model->faces.depth);
 }
 
-/* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
-static inline double zp_contact_length(const ZpModel *model) {
-  return model->parts * (double)zp_halves(&model->topology) * (model->L + model->plates.flat_length);
+/* (sum of lengths over g + d, 1) => capacitance of the modelled part, F. */
+static inline double zp_part_capacitance(const ZpModel *model, double inverse_gap) {
+  const ZpActuatorDef *def = &model->def;
+  return model->mirror * model->mirror * ZP_EPS0 * def->medium.permittivity * def->ribbon.width * inverse_gap;
 }
 
-/* Views of coordinates of all nodes, or of velocities and forces along them: only this room knows where x and y stand.
- * Those of a node are at zp_upper and zp_lower of its station. */
-typedef struct ZpNodes {
-  const double *x, *y;
-} ZpNodes;
+/* Parts that bear the load side by side. */
+static inline double zp_parts_abreast(const ZpModel *model) {
+  return model->parts / (double)model->in_series;
+}
 
+/* Where study isometric holds the load's end: the opening, or the length of a pouch at its strain, m. */
+static inline double zp_held_opening(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  if (model->pouch.w == 0) return def->isometric.separation;
+  return model->stroke_at / (double)model->in_series - def->isometric.strain * def->ribbon.length;
+}
+
+/* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
+static inline double zp_contact_length(const ZpModel *model) {
+  double length = model->pouch.w > 0 ? model->pouch.electrode : model->L;
+  return model->parts * (double)zp_halves(&model->topology) * (length + model->plates.flat_length);
+}
+
+/* Forces on all nodes: only this room knows where x and y stand. */
 typedef struct ZpForces {
   double *x, *y; /* to add to */
 } ZpForces;

@@ -6,6 +6,15 @@ void zp_place_straight(const ZpModel *model, double *nodes) {
     to.x[j] = zp_straight_x(model, j / model->s);
     to.y[j] = 0;
   }
+  if (model->pouch.w > 0) zp_place_pouch(model, 0, nodes);
+}
+
+void zp_place_pouch(const ZpModel *model, double zipped, double *nodes) {
+  const ZpForces to = zp_forces(model, nodes);
+  for (size_t j = 0; j < model->count; j++) {
+    zp_pouch_place(&model->pouch, zipped, (double)j * model->l, &to.x[j], &to.y[j]);
+    to.y[j] = -to.y[j];
+  }
 }
 
 /* Place the nodes from..to of one ribbon, to the right or to the left, at the ends of edges `d`, which point to the

@@ -8,6 +8,9 @@
 /* Place all nodes [2 stride] on straight ribbons. */
 void zp_place_straight(const ZpModel *model, double *nodes);
 
+/* A pouch as the closed law has it, with so much of its films zipped, m. */
+void zp_place_pouch(const ZpModel *model, double zipped, double *nodes);
+
 /* Place all nodes [2 stride] at the ends of edges, of which those of node j and of the next one of its ribbon is at j.
  * What misses a held end is spread along the ribbons that lead there. What the lower platforms of two halves miss each
  * other by, each half takes half of. */

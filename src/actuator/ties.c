@@ -104,7 +104,8 @@ ZpTie zp_tie_of_held(const ZpModel *first, size_t members) {
   if (first->network->plane) return (ZpTie){0};
   if (zp_is_network(first)) return tie_of_body(first, first->network->watched);
   const size_t member = zp_shares_load(first) ? 0 : members - 1;
-  ZpTie tie = {member, zp_height_at(first + member, false), 0, zp_height_at(first, true), 1, 0, -1};
+  const double down = first->topology.along ? 1 : -1;
+  ZpTie tie = {member, zp_height_at(first + member, false), 0, zp_height_at(first, true), 1, 0, down};
   resolve(first, members, &tie);
   return tie;
 }

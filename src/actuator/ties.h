@@ -31,7 +31,7 @@ ZpTies zp_ties_of(const ZpModel *first, size_t members, size_t member);
 /* The coordinate of a member that is the height of the body at its upper or at its lower end. */
 static inline size_t zp_height_at(const ZpModel *model, bool upper) {
   const ZpTopology *t = &model->topology;
-  return zp_y_of(upper ? zp_top_node(t) : zp_load_node(t));
+  return zp_pulled(t, upper ? zp_top_node(t) : zp_load_node(t));
 }
 
 /* Where a row puts its coordinate if the free one is at `to`, m. */

@@ -19,6 +19,7 @@ typedef enum ZpJointKind {
   ZP_JOINT_GUIDE,    /* free to move; horizontal */
   ZP_JOINT_FREE,     /* free to move and to turn */
   ZP_JOINT_PLATFORM, /* rigid and horizontal; the upper one is held, the lower one slides vertically */
+  ZP_JOINT_SEAM,     /* horizontal; free to move along x */
   ZP_JOINT_TURNING,  /* rigid; the upper one is held and horizontal, the lower one moves and turns in the plane */
   ZP_JOINT_KINDS
 } ZpJointKind;
@@ -48,7 +49,13 @@ typedef struct ZpTopology {
   ZpJoint joint[ZP_MOST_JOINTS];
   ZpJoint platform; /* the one that the load hangs on; of one ribbon and of a hinge the right end. Of a half, a half of
                        the platform */
+  bool along;       /* the load pulls along the ribbon, to the right, instead of down */
 } ZpTopology;
+
+/* Views of coordinates of all nodes, or of velocities. Those of a node are at zp_upper and zp_lower of its station. */
+typedef struct ZpNodes {
+  const double *x, *y;
+} ZpNodes;
 
 /* (def) => its topology. */
 ZpTopology zp_topology_of(const ZpActuatorDef *def);
@@ -149,9 +156,20 @@ static inline size_t zp_half_elements(const ZpTopology *t) {
   return t->platform.first;
 }
 
-/* (y of all nodes) => height of the clip, the hinge or the left end over the lower platform or the right end, m. */
-static inline double zp_stroke(const ZpTopology *t, const double *y) {
-  return y[zp_lower(t, 0)] - zp_platform_middle(t, y);
+/* The coordinate of a node along which the load pulls. */
+static inline size_t zp_pulled(const ZpTopology *t, size_t node) {
+  return t->along ? zp_x_of(node) : zp_y_of(node);
+}
+
+/* How far a node is lifted against the load, m. */
+static inline double zp_lifted(const ZpTopology *t, ZpNodes n, size_t node) {
+  return t->along ? -n.x[node] : n.y[node];
+}
+
+/* How far the lower platform or the right end is from the clip, the hinge or the left end in the direction in which the
+ * load pulls, m. */
+static inline double zp_hangs_by(const ZpTopology *t, ZpNodes n) {
+  return t->along ? zp_platform_middle(t, n.x) - n.x[zp_lower(t, 0)] : n.y[zp_lower(t, 0)] - zp_platform_middle(t, n.y);
 }
 
 /* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */
@@ -159,10 +177,10 @@ static inline double zp_opening(const ZpTopology *t, const double *y) {
   return zp_is_pair(t) ? y[zp_upper(t, t->platform.first)] - zp_platform_middle(t, y) : NAN;
 }
 
-/* (y of all nodes) => how far its lower end is below its upper one, which bodies of a network hold, m: its opening; of
- * ribbons without a platform the right end below the left one. */
-static inline double zp_reach(const ZpTopology *t, const double *y) {
-  return zp_has_platform(t) ? zp_opening(t, y) : zp_stroke(t, y);
+/* How far its lower end is below its upper one, which bodies of a network hold, m: its opening; of ribbons without a
+ * platform as the load hangs. */
+static inline double zp_reach(const ZpTopology *t, ZpNodes n) {
+  return zp_has_platform(t) ? zp_opening(t, n.y) : zp_hangs_by(t, n);
 }
 
 #endif

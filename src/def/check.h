@@ -209,6 +209,9 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);
 
+/* Thickness of the insulating layer on a ribbon, m; of a film that is the insulator itself (auto), that of the film. */
+double zp_insulator_thickness(const ZpActuatorDef *def);
+
 /* Checks of segments, which must fit into their ribbon, and of lower.*, which requires two ribbons. */
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
 

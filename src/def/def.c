@@ -26,6 +26,8 @@
   {#path #name, ZP_KEY_REAL, unit, shown, def, min, max, help, NULL, NULL},
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, "auto"},
+#define ZP_REAL_OR_AUTO(path, name, unit, shown, def, min, max, help)                                                  \
+  {#path #name, ZP_KEY_REAL_AUTO, unit, shown, def, min, max, help, NULL, "auto"},
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help)                                                          \
   {#path #name, ZP_KEY_REAL_AUTO, unit, shown, NAN, min, max, help, NULL, "none"},
 #define ZP_INT(path, name, def, min, max, help) {#path #name, ZP_KEY_INT, "1", "", def, min, max, help, NULL, NULL},
@@ -57,6 +59,7 @@ static const size_t offsets[] = {
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)           .name = (def),
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) .field = (def),
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           .name = NAN,
+#define ZP_REAL_OR_AUTO(path, name, unit, shown, def, min, max, help)   .name = (def),
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           .name = NAN,
 #define ZP_INT(path, name, def, min, max, help)                         .name = (def),
 #define ZP_BOOL(path, name, def, help)                                  .name = (def),
@@ -536,7 +539,7 @@ ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   const ZpActuatorDef *of[] = {def, &lower};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
   for (int k = 0; k < 2; k++)
-    if (of[k]->ribbon.density == 0 && of[k]->insulator.density * of[k]->insulator.thickness == 0)
+    if (of[k]->ribbon.density == 0 && (isnan(of[k]->insulator.thickness) || of[k]->insulator.density * of[k]->insulator.thickness == 0))
       return zp_fail(err, ZP_BAD_INPUT, "%s = 0 kg/m3: a moving ribbon needs a mass", key[k]);
   return ZP_OK;
 }

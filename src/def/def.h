@@ -24,6 +24,7 @@
 #define ZP_REAL(path, name, unit, shown, def, min, max, help)           double name;
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help) double field;
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help)           double name;
+#define ZP_REAL_OR_AUTO(path, name, unit, shown, def, min, max, help)   double name;
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help)           double name;
 #define ZP_INT(path, name, def, min, max, help)                         int name;
 #define ZP_BOOL(path, name, def, help)                                  bool name;

@@ -32,9 +32,13 @@ int zp_def_key_of_ribbon(const ZpActuatorDef *def, int ribbon, int key) {
   return own >= 0 && is_given(def, own) ? -1 : key;
 }
 
+double zp_insulator_thickness(const ZpActuatorDef *def) {
+  return isnan(def->insulator.thickness) ? def->ribbon.thickness : def->insulator.thickness;
+}
+
 double zp_insulation(const ZpActuatorDef *def) {
-  double lower = def->lower.insulator.thickness;
-  return def->insulator.thickness + (isnan(lower) ? def->insulator.thickness : lower);
+  double upper = zp_insulator_thickness(def), lower = def->lower.insulator.thickness;
+  return upper + (isnan(lower) ? upper : lower);
 }
 
 /* Has any segment a thickness that differs from that of the ribbon? */

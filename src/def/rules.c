@@ -11,6 +11,7 @@ enum { WORDS = 256, VALUE = 96 };
 /* -- conditions ------------------------------------------------------------------------------------ */
 
 static double value_of(const ZpActuatorDef *def, int key) {
+  if (key == ZP_KEY(insulator.thickness)) return zp_insulator_thickness(def);
   return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
 }
 

@@ -73,7 +73,7 @@ static double signal_along(ZpStatics *s, const ZpLoop *loop, const double *x) {
   double sum = 0;
   switch (model->def.control.signal) {
   case ZP_CONTROL_STROKE:
-    return zp_stroke(&model->topology, moved_by(s, loop->lead, x).y);
+    return zp_stroke_change(model, moved_by(s, loop->lead, x));
   case ZP_CONTROL_CONTRACTION:
     return -zp_opening(&model->topology, moved_by(s, loop->lead, x).y) / loop->hanging;
   case ZP_CONTROL_ANGLE:

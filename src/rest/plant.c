@@ -167,7 +167,7 @@ static void find_shapes(Member *w) {
   v->K = &w->factors;
   memset(v->mass, 0, n * sizeof *v->mass);
   zp_assembly_add_masses(&w->assembly, w->model->mass, v->mass);
-  if (w->below > 0) v->mass[w->assembly.equation[zp_y_of(zp_load_node(&w->model->topology))]] += w->below;
+  if (w->below > 0) v->mass[w->assembly.equation[zp_pulled(&w->model->topology, zp_load_node(&w->model->topology))]] += w->below;
   zp_vibration_start(v);
   zp_vibration_solve(v, v->m - v->m / 3);
   for (size_t j = 0; j < v->m; j++)
@@ -338,7 +338,7 @@ static void turn_to_platform(Member *w) {
   const size_t n = w->assembly.n, node = zp_load_node(&w->model->topology);
   double v[SHAPES] = {0};
   for (size_t j = 0; j < w->m; j++)
-    v[j] = moved_by(w, j).y[node];
+    v[j] = zp_lifted(&w->model->topology, moved_by(w, j), node);
   const double raised = copysign(sqrt(zp_dot(w->m, v, v)), v[0]);
   v[0] += raised;
   const double square = zp_dot(w->m, v, v);
@@ -358,7 +358,7 @@ static void turn_to_platform(Member *w) {
 /* A force on the platform, as of another member at the same load. */
 static void add_deflection(Member *w) {
   memset(w->y, 0, w->assembly.n * sizeof *w->y);
-  w->y[w->assembly.equation[zp_y_of(zp_load_node(&w->model->topology))]] = 1;
+  w->y[w->assembly.equation[zp_pulled(&w->model->topology, zp_load_node(&w->model->topology))]] = 1;
   zp_arrow_solve(&w->factors, w->y);
   if (w->m < w->assembly.n) add_shape(w, w->y);
 }
@@ -379,7 +379,7 @@ static void find_motions(Member *w) {
   }
   if (w->shares) turn_to_platform(w);
   for (size_t j = 0; j < w->m; j++) {
-    w->lift[j] = moved_by(w, j).y[zp_load_node(&model->topology)];
+    w->lift[j] = zp_lifted(&model->topology, moved_by(w, j), zp_load_node(&model->topology));
     find_rate(w, j);
   }
   if (model->has_film) find_flows(w);
@@ -398,8 +398,9 @@ static void find_signal(const Work *all, Member *w, const ZpSetpointSignal *sign
       *by += w->model->parts * along_shape(w, w->by_voltage, j);
       continue;
     }
-    const double *y = moved_by(w, j).y;
-    *by += signal->kind == ZP_CONTROL_STROKE    ? zp_stroke(t, y)
+    const ZpNodes moved = moved_by(w, j);
+    const double *y = moved.y;
+    *by += signal->kind == ZP_CONTROL_STROKE    ? zp_stroke_change(w->model, moved)
            : signal->kind == ZP_CONTROL_OPENING ? zp_opening(t, y)
                                                 : -zp_opening(t, y) / signal->hanging;
   }

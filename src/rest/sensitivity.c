@@ -53,7 +53,7 @@ static void set_inputs(ZpStatics *s, int inputs) {
   if (inputs & ZP_SETS_LOAD) s->load = s->own_load;
   if (inputs & ZP_SETS_VOLTAGE) s->U = zp_drive_voltage(s->model);
   if (inputs & ZP_SETS_MODES_VOLTAGE) s->U = def->modes.voltage;
-  if (inputs & ZP_SETS_OPENING) s->opening = def->isometric.separation;
+  if (inputs & ZP_SETS_OPENING) s->opening = zp_held_opening(s->model);
 }
 
 /* -- neighbouring actuators ----------------------------------------------------------------------- */

@@ -88,7 +88,7 @@ static bool number(ZpStatics *s) {
   s->held = zp_tie_of_held(s->model, is_joined(s) ? s->members : 1);
   for (size_t k = 0; k < s->members; k++) {
     of[k] = &s->member[k].assembly;
-    of[k]->block.band.rank = zp_bead_rank(s->member[k].model);
+    of[k]->block.band.rank = zp_bead_rank(s->member[k].model) + zp_pouch_rank(s->member[k].model);
   }
   bool joined = zp_assembly_join(of, is_joined(s) ? s->model : NULL, s->members, 0, &s->form);
   s->n = s->form.n;
@@ -167,19 +167,27 @@ enum { MOST_ITERATIONS = 50, STEP_ITERATIONS = 30, USUAL_ITERATIONS = 16 };
 /* The present point => good, and back. */
 static void keep(ZpStatics *s) {
   if (in_plane(s)) memcpy(s->good, s->pose, s->plane.bodies * sizeof *s->pose);
-  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
-    if (!m->idle) memcpy(m->good, m->q, zp_coordinates(m->model) * sizeof *m->q);
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    if (m->idle) continue;
+    memcpy(m->good, m->q, zp_coordinates(m->model) * sizeof *m->q);
+    m->good_pressure = m->tension[zp_pressure_place(m->model)];
+  }
 }
 
 static void go_to_kept(ZpStatics *s) {
   if (in_plane(s)) memcpy(s->pose, s->good, s->plane.bodies * sizeof *s->pose);
-  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
-    if (!m->idle) memcpy(m->q, m->good, zp_coordinates(m->model) * sizeof *m->q);
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    if (m->idle) continue;
+    memcpy(m->q, m->good, zp_coordinates(m->model) * sizeof *m->q);
+    m->tension[zp_pressure_place(m->model)] = m->good_pressure;
+  }
 }
 
 void zp_statics_take_tensions(ZpStatics *s) {
-  for (size_t k = 0; k < s->members; k++)
-    memcpy(s->member[k].tension, s->member[k].eval.edges.T, edge_count(&s->member[k]) * sizeof *s->member[k].tension);
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    memcpy(m->tension, m->eval.edges.T, edge_count(m) * sizeof *m->tension);
+    m->tension[zp_pressure_place(m->model)] = m->eval.pressure;
+  }
   zp_links_take(&s->links);
 }
 
@@ -225,7 +233,7 @@ static double opening_of(const ZpRestMember *m) {
 }
 
 static double reach_of(const ZpRestMember *m) {
-  return zp_reach(&m->model->topology, zp_nodes(m->model, m->q).y);
+  return zp_reach(&m->model->topology, zp_nodes(m->model, m->q));
 }
 
 /* Has any gap, insulators included, changed since the last good state by so large a share that this is another
@@ -470,11 +478,29 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   return info;
 }
 
+/* A slack pouch has no shape to start from: it is held where nothing is zipped, until a voltage pulls. */
+static ZpNewtonInfo hold_along(ZpStatics *s) {
+  s->from = s->model->stroke_at / (double)s->model->in_series;
+  s->nearer = 0;
+  return let_faces_push(s, zp_statics_solve(s, MOST_ITERATIONS));
+}
+
+bool zp_statics_take_up(ZpStatics *s, void (*passed)(void *user), void *user) {
+  enum { STEPS = 40 };
+  bool held = true;
+  for (int k = (int)(s->nearer * STEPS); k < STEPS && held; k++) {
+    held = grow(s, &s->nearer, (k + 1.0) / STEPS, false, 1);
+    if (held) passed(user);
+  }
+  return held;
+}
+
 ZpNewtonInfo zp_statics_hold(ZpStatics *s, double opening) {
   s->opening = opening;
   s->contact_acts = false;
   s->U = s->load = s->suction = 0;
   zp_statics_lay_straight(s);
+  if (s->model->topology.along) return hold_along(s);
   ZpNewtonInfo info = zp_statics_solve(s, MOST_ITERATIONS);
   if (!is_found(s, info)) info = step_by_step(s, &s->nearer, &s->nearer, 0.05);
   /* ribbons that sag by more than the opening have no straight shape to start from */
@@ -499,7 +525,7 @@ ZpNewtonInfo zp_statics_close(ZpStatics *s, double voltage) {
 
 double zp_statics_member_stroke(const ZpStatics *s, size_t which) {
   const ZpRestMember *m = &s->member[which];
-  return zp_stroke(&m->model->topology, zp_nodes(m->model, m->q).y);
+  return zp_stroke(m->model, zp_nodes(m->model, m->q));
 }
 
 double zp_statics_member_opening(const ZpStatics *s, size_t which) {
@@ -603,9 +629,7 @@ double zp_statics_capacitance(const ZpStatics *s) {
 
 /* Capacitance of closed faces, whole actuator, F. */
 static double closed_capacitance(const ZpModel *model) {
-  const ZpActuatorDef *def = &model->def;
-  double per_length = zp_plates_inverse_gap(&model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  return per_length * zp_contact_length(model);
+  return zp_part_capacitance(model, zp_plates_inverse_gap(&model->plates, 0)) * zp_contact_length(model);
 }
 
 /* Force per length of faces, N/m, with which a load that falls upwards presses those of the platform together, or the
@@ -687,8 +711,12 @@ ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeR
  * where the row puts it. A step moves it there while the edges rotate, so there is no closing error to spread along the
  * ribbons. */
 
+static size_t load_coordinate(const ZpRestMember *m) {
+  return zp_pulled(&m->model->topology, zp_load_node(&m->model->topology));
+}
+
 static size_t height_of(const ZpRestMember *m) {
-  return (size_t)m->assembly.equation[zp_y_of(zp_load_node(&m->model->topology))];
+  return (size_t)m->assembly.equation[load_coordinate(m)];
 }
 
 size_t zp_statics_platform(const ZpStatics *s) {
@@ -706,13 +734,13 @@ static double holding(const ZpStatics *s) {
 double zp_statics_away(const ZpStatics *s) {
   const ZpRestMember *m = s->member + s->held.member;
   if (!zp_statics_holds(s)) return 0;
-  return zp_tie_place(&s->held, 0, s->nearer * s->opening) - *zp_coordinate(m->model, m->q, s->held.coordinate);
+  return zp_tie_place(&s->held, 0, s->from + s->nearer * (s->opening - s->from)) - *zp_coordinate(m->model, m->q, s->held.coordinate);
 }
 
 double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
   if (!zp_statics_holds(s)) return 0;
   size_t row = zp_statics_platform(s);
-  double reaction = r_m[row];
+  double reaction = s->held.by_input < 0 ? r_m[row] : -r_m[row];
   r_m[row] = holding(s) * away;
   return reaction;
 }
@@ -1015,12 +1043,10 @@ static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
   const ZpModel *model = m->model;
   const ZpForces moved = zp_forces(model, m->moved);
   turn(m, step);
+  if (zp_pouch_rank(model) > 0)
+    m->tension[zp_pressure_place(model)] = zp_pouch_predicted(model, &m->eval, m->moved, fraction);
   edges_turned(edge_count(m), fraction, model->is_rod ? model->rod.S : NULL, model->spring.K_D, &m->eval.edges,
                m->rotation, m->stretch, m->tension, moved.x, moved.y);
-}
-
-static size_t load_coordinate(const ZpRestMember *m) {
-  return zp_y_of(zp_load_node(&m->model->topology));
 }
 
 double zp_statics_factor(const ZpStatics *s, size_t which) {

@@ -21,7 +21,8 @@ typedef struct ZpRestMember {
   double *moved;              /* [2 stride] work space of a move */
   double *rotation, *stretch; /* [edges] by the last step that was examined, rad, m */
   double *force;              /* [2 stride] */
-  double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied */
+  double *good;               /* [2 stride] the last equilibrium while weight, curvature or opening are applied, */
+  double good_pressure;       /* with the pressure of a pouch, Pa */
   double closed;              /* gap at which it counts as closed, m; zp_quasistatic_start */
   bool idle;                  /* of a series, whose members are at rest each by itself: it stays where it is, */
   bool falls;                 /* unless it is far from an equilibrium */
@@ -57,6 +58,7 @@ typedef struct ZpStatics {
   double share;        /* share of weight and natural curvature that acts: 1, or less while they are applied */
   double suction;      /* share of the suction at menisci that acts: 1, or less while it is applied */
   bool opposed;        /* they are antagonists */
+  double from;         /* opening from which that of a held platform is approached, m */
   double nearer;       /* share of the opening, and of the distance of mounts: 1, or less while it is approached */
   ZpTie held;          /* the row of a held platform, */
   double opening;      /* and its input, m; NAN: it does not act */
@@ -166,6 +168,10 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * ribbon as far below its hinge (below L), without load and voltage. Go from the straight shape to the equilibrium
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
+
+/* A pouch is held where nothing is zipped. Follow the equilibria from there to where it is to be held, and call `passed`
+ * at each. False if the branch ends before. */
+bool zp_statics_take_up(ZpStatics *statics, void (*passed)(void *user), void *user);
 
 /* Places of all bodies at the present point [bodies], and their angles, as they are given in the drawing; valid until
  * the next call. */

@@ -1160,10 +1160,10 @@ static void book_impacts(ZpDynamics *d, ZpState *state) {
 /* Store the state at the step's end, and book the work of the load input. */
 static void arrive(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state) {
   const ZpModel *model = m->model;
-  const double *y = zp_state_motion(model, state).y;
-  double before = zp_load_at(model, y), hung = mean_load(d, m);
+  const ZpNodes at = zp_nodes(model, zp_state_q(model, state));
+  double before = zp_load_down(model, at), hung = mean_load(d, m);
   store(d, m, state);
-  state->load_work += hung * (before - zp_load_at(model, y));
+  state->load_work += hung * (zp_load_down(model, at) - before);
   if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, m->eval.plates.gap);
 }
 

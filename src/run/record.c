@@ -278,7 +278,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   const ZpState *state = sim->state;
   ZpMotion motion = zp_state_motion(model, state);
   const ZpTopology *t = &model->topology;
-  row[SIGNAL_stroke] = zp_stroke(t, motion.y);
+  row[SIGNAL_stroke] = zp_stroke(model, (ZpNodes){motion.x, motion.y});
   row[SIGNAL_end_velocity] = zp_platform_middle(t, motion.vy);
   row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
   row[SIGNAL_film_thickness] = film_thickness(model, state);

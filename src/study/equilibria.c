@@ -49,6 +49,14 @@ static const ZpColumn at_ports[] = {
 };
 enum { AT_PORTS = sizeof at_ports / sizeof at_ports[0] };
 
+/* Of a pouch. */
+static const ZpColumn of_pouch[] = {
+    {"strain", "1", "contraction over the length of the films, from the length with nothing zipped"},
+    {"contraction", "1", "zipped length over the length of the electrodes"},
+    {"pressure_Pa", "Pa", "pressure of the liquid"},
+};
+enum { OF_POUCH = sizeof of_pouch / sizeof of_pouch[0] };
+
 /* Parts of the table, and what stands before their names among the numbers of the result. */
 typedef struct Part {
   ZpColumnPart columns;
@@ -67,6 +75,10 @@ static size_t parts_of(const ZpModel *model, Part part[PARTS]) {
     part[1] = (Part){{of_body, count, network->bodies - 1, zp_body_called, model->whole}, "bodies."};
     part[2] = (Part){{.column = &closed_members, .count = 1}, ""};
     return 3;
+  }
+  if (model->members == 1 && model->pouch.w > 0) {
+    part[0] = (Part){{.column = of_pouch, .count = OF_POUCH}, ""};
+    return 1;
   }
   if (model->members == 1) return 0;
   part[0] = (Part){network->opposed ? (ZpColumnPart){.column = lower, .count = LOWER}
@@ -127,6 +139,14 @@ static double *stack_values(ZpStatics *s, double *values) {
   return values;
 }
 
+static void pouch_values(const ZpStatics *s, double *values) {
+  const ZpModel *model = s->model;
+  if (model->pouch.w == 0) return;
+  values[0] = zp_statics_stroke(s) / ((double)model->in_series * model->pouch.length);
+  values[1] = zp_statics_closed_length(s) / model->pouch.electrode;
+  values[2] = s->member->eval.pressure;
+}
+
 /* Their values at the present point. */
 static void member_values(ZpRest *rest, double *values) {
   ZpStatics *s = &rest->statics;
@@ -134,7 +154,10 @@ static void member_values(ZpRest *rest, double *values) {
     network_values(s, values);
     return;
   }
-  if (s->members == 1) return;
+  if (s->members == 1) {
+    pouch_values(s, values);
+    return;
+  }
   values = stack_values(s, values);
   const size_t told = zp_has_ports(s->model) ? s->members : 0;
   for (size_t k = 0; k < told; k++) {

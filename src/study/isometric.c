@@ -25,7 +25,7 @@ static const ZpColumn columns[] = {
     {"stable", "1", "1: stable, 0: unstable"},
     {"passed", "1", "1: a rising voltage passes through this state, 0: it jumps over it"},
 };
-enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000 };
+enum { COLUMNS = sizeof columns / sizeof columns[0], MOST_POINTS = 5000, MOST_BEYOND = 2000, TAKEN = 50 };
 
 /* The branch is searched for other states at drive.voltage up to this multiple of it. */
 static const double look_beyond = 1.25;
@@ -58,12 +58,12 @@ static void reserve(void *user, ZpArena *arena) {
 
 /* The force that holds the platform, whole actuator, N. */
 static double holding(Holder *h) {
-  return h->at.model->parts * zp_statics_holding(&h->at.rest.statics);
+  return zp_parts_abreast(h->at.model) * zp_statics_holding(&h->at.rest.statics);
 }
 
 /* The force under voltage, whole actuator, N; exact enough for comparisons of states. */
 static double force(const Holder *h) {
-  return h->at.model->parts * h->at.rest.statics.reaction - h->unpowered;
+  return zp_parts_abreast(h->at.model) * h->at.rest.statics.reaction - h->unpowered;
 }
 
 /* Distance of the held end of a fold to the right of the hinge, m. */
@@ -89,18 +89,23 @@ static void record(Holder *h, bool passed, bool last) {
   zp_equilibria_add(&h->at, (double[COLUMNS]){s->U, force, ZP_ELECTRIC_VALUES(s), stable, passed}, h->points++, last);
 }
 
-/* Is the present state possible, as a point on the way? Its force is at most the attraction of closed faces, of a
- * series that of one member. */
-static bool is_possible(Holder *h) {
-  const ZpStatics *s = &h->at.rest.statics;
+/* The largest attraction of closed faces, of a series that of one member, N. */
+static double strongest(const ZpStatics *s) {
   double most = 0;
   for (size_t k = 0; k < s->members; k++) {
     const ZpModel *model = s->member[k].model;
+    if (model->topology.along) return INFINITY; /* the films pull like a lever */
     double closed = zp_plates_law(&model->plates, zp_statics_member_voltage(s, k), 0).W * zp_contact_length(model);
     most = s->shared ? most + closed : fmax(most, closed);
   }
+  return most;
+}
+
+/* Is the present state possible, as a point on the way? */
+static bool is_possible(Holder *h) {
+  const ZpStatics *s = &h->at.rest.statics;
   h->fault = zp_statics_fault_of_stations(&h->at.rest.statics);
-  if (!h->fault && force(h) > most) h->fault = "the force is above the attraction of closed faces";
+  if (!h->fault && force(h) > strongest(s)) h->fault = "the force is above the attraction of closed faces";
   return !h->fault;
 }
 
@@ -311,16 +316,29 @@ static void raise_voltage(Holder *h, ZpNewtonInfo *info) {
 static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
   ZpStatics *s = &h->at.rest.statics;
   s->bias = 0;
-  *info = zp_statics_hold(s, h->at.model->def.isometric.separation);
+  *info = zp_statics_hold(s, zp_held_opening(h->at.model));
   if (!zp_newton_good(info->end)) {
     h->outcome = ZP_NOT_SETTLED;
     return;
   }
-  h->unpowered = holding(h);
+  h->unpowered = s->nearer == 1 ? holding(h) : 0; /* a pouch that contracts without voltage is slack */
   h->unpowered_moment = moment(h);
   zp_quasistatic_start(&h->at.rest); /* from now on a gap tells which members are closed */
   zp_rest_save(&h->at.rest, h->unpowered_state);
   record(h, true, false);
+}
+
+static void record_passed(void *user) {
+  record(user, true, false);
+}
+
+/* A pouch contracts to where it is held, under voltage. */
+static void take_up(Holder *h, ZpNewtonInfo *info) {
+  ZpStatics *s = &h->at.rest.statics;
+  const bool there = zp_statics_take_up(s, record_passed, h);
+  if (!there) h->outcome = ZP_BRANCH_LOST;
+  *info = zp_statics_solve(s, TAKEN);
+  zp_rest_save(&h->at.rest, h->answer);
 }
 
 /* Raise constant voltages that members have of their own, over all turns. */
@@ -383,6 +401,7 @@ static void run(Holder *h) {
   hold_unpowered(h, &info);
   if (h->outcome == ZP_CONVERGED && h->at.rest.statics.biased) raise_bias(h);
   if (h->outcome == ZP_CONVERGED && voltage > 0) raise_voltage(h, &info);
+  if (h->outcome == ZP_CONVERGED && s->nearer < 1) take_up(h, &info);
   if (s->stopped) h->outcome = ZP_INTERRUPTED;
   summarize(h, &info);
   describe(h, h->at.result->message, sizeof h->at.result->message);
@@ -419,7 +438,8 @@ static ZpStatus check_series(const ZpActuatorDef *def, ZpError *err) {
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PAIR), "it holds a platform, or the free end of the lower of two ribbons"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(ENDS),
+            "it holds a platform, the free end of the lower of two ribbons, or the lower end of a pouch"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
     ZP_RULE(PHYSICS, ZP_NETWORK, ZP_ABOVE(isometric.body, 0), "it holds one of the bodies"),
     ZP_RULE(PHYSICS, ZP_ABOVE(isometric.body, 0), ZP_NETWORK, "there are no bodies; it holds the lower platform"),

@@ -62,7 +62,6 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
     zp_term_plates.electric(model, span, e, at, U, sum);
     return;
   }
-  const ZpActuatorDef *def = &model->def;
   bool later = at == ZP_SPAN_END && !zp_span_is_still(span);
   ZpLeakStep step = step_of(model, span, e);
   const ZpPlatesEval *gaps = at == ZP_SPAN_START ? step.start : step.end;
@@ -70,7 +69,7 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
   sum->force += totals.force;
   sum->charge += totals.charge;
   sum->potential += totals.potential;
-  sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  sum->capacitance += zp_part_capacitance(model, totals.inverse_gap);
   if (later) sum->passed += zp_leak_passed(&e->leak);
 }
 

@@ -41,13 +41,12 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 
 static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, ZpSpanEnd at, double U,
                      ZpElectric *sum) {
-  const ZpActuatorDef *def = &model->def;
   const ZpPlatesEval *gaps = at == ZP_SPAN_START ? start_of(span, e) : &e->plates;
   ZpPlatesTotals totals = zp_plates_totals(&model->plates, gaps, U);
   sum->force += totals.force;
   sum->charge += totals.charge;
   sum->potential += totals.potential;
-  sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * totals.inverse_gap;
+  sum->capacitance += zp_part_capacitance(model, totals.inverse_gap);
 }
 
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {

@@ -1,4 +1,5 @@
-/* Weight of all that has a mass, along gravity; load.force and the load input, downwards. Eq. (27.4). */
+/* Weight of all that has a mass, along gravity; load.force and the load input, downwards, of a pouch along its film. Eq.
+ * (27.4). */
 #include "base/kernel.h"
 #include "term/term.h"
 
@@ -20,8 +21,8 @@ static void add_load(const ZpModel *model, double hung, double down, double *F) 
   ZpForces to = zp_forces(model, F);
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     double part = zp_load_part(model, i) / ends;
-    to.x[zp_lower(t, i)] += part * (hung * model->fall[0]);
-    to.y[zp_lower(t, i)] += part * (hung * model->fall[1] - down);
+    to.x[zp_lower(t, i)] += part * (hung * model->fall[0] + down * model->pull[0]);
+    to.y[zp_lower(t, i)] += part * (hung * model->fall[1] + down * model->pull[1]);
   }
 }
 
@@ -81,7 +82,7 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
     double along = x[j] - zp_straight_x(model, j / model->s);
     row[0] -= model->weight[j] * (model->fall[0] * along + model->fall[1] * y[j]);
   }
-  row[0] += constant_of(model) * zp_load_at(model, y);
+  row[0] -= constant_of(model) * zp_load_down(model, zp_nodes(model, now->end));
   row[0] -= now->hung * (model->fall[0] * (zp_load_at(model, x) - now->hung_at[0]) +
                          model->fall[1] * (zp_load_at(model, y) - now->hung_at[1]));
 }

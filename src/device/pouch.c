@@ -1,0 +1,32 @@
+/* A pouch, Peano-HASEL: two films sealed at both ends around a fixed volume of liquid. The films mirror each other; the
+ * upper one is modelled, over the middle plane, with its left end at the top and the load at its right end. Section
+ * 40. */
+#include <math.h>
+
+#include "device/device.h"
+
+static void lay(const ZpActuatorDef *def, ZpTopology *t) {
+  t->stations = (size_t)def->mesh.nodes;
+  t->along = true;
+  zp_join(t, ZP_JOINT_CLAMP, 0, 0);
+  zp_join(t, ZP_JOINT_SEAM, t->stations - 1, t->stations - 1);
+  t->platform = t->joint[1];
+}
+
+/* A polyester film of 18 um, which is its own insulator, and an ester. */
+static const ZpAssignment given[] = {{ZP_KEY(ribbon.length), 20e-3},
+                                     {ZP_KEY(ribbon.width), 50e-3},
+                                     {ZP_KEY(ribbon.thickness), 18e-6},
+                                     {ZP_KEY(ribbon.young_modulus), 4e9},
+                                     {ZP_KEY(ribbon.poisson_ratio), 0.38},
+                                     {ZP_KEY(ribbon.density), 1390},
+                                     {ZP_KEY(ribbon.yield_stress), 100e6},
+                                     {ZP_KEY(insulator.thickness), NAN},
+                                     {ZP_KEY(insulator.permittivity), 3.3},
+                                     {ZP_KEY(insulator.breakdown_field), 300e6},
+                                     {ZP_KEY(electro.breakdown_cap), 0},
+                                     {ZP_KEY(mesh.nodes), 201},
+                                     {ZP_KEY(drive.voltage), 6e3},
+                                     {ZP_KEY(load.mass), 0.2}};
+
+const ZpDevice zp_device_pouch = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_POUCH, .touches = "seam", .lay = lay, ZP_GIVEN(given)};

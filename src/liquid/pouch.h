@@ -1,0 +1,40 @@
+/* A pouch: two films, sealed at both ends around a fixed volume of liquid, which mirror each other. One film is
+ * described, above their middle plane. docs/theory.md, section 40.
+ *
+ * Letters: h height of the film over the middle plane, m; x along the pouch, m; w width, m; V volume between the film
+ * and the middle plane, m^3; p pressure of the liquid, Pa. */
+#ifndef ZP_LIQUID_POUCH_H
+#define ZP_LIQUID_POUCH_H
+
+#include <stddef.h>
+
+typedef struct ZpPouchParams {
+  double w;         /* m; 0: there is no pouch */
+  double volume;    /* V that one film encloses, m^3 */
+  double electrode; /* length of the electrodes from the left seam on, m */
+  double length;    /* of a film, m */
+} ZpPouchParams;
+
+/* How much stiffer than any liquid the volume is held while a pressure is sought, Pa: what is found does not depend on
+ * it, eq. (40.6). */
+static const double zp_pouch_modulus = 1e11;
+
+/* Half opening angle of an arc of `length` which, with its mirror image, encloses `area`, eq. (40.1); area up to
+ * length^2 / pi: a circle, pi/2. rad */
+double zp_pouch_angle(double length, double area);
+
+/* Chord of that arc, m. */
+double zp_pouch_chord(double length, double angle);
+
+/* Place of the point of the film `s` from the left seam, of a pouch whose films lie on each other up to `zipped` and
+ * are an arc beyond, m. */
+void zp_pouch_place(const ZpPouchParams *pouch, double zipped, double s, double *x, double *h);
+
+/* (x, heights of n nodes) => V, eq. (40.4), m^3. */
+double zp_pouch_volume(const ZpPouchParams *pouch, size_t n, const double *x, const double *h);
+
+/* V by x and h of node i, m^2. */
+double zp_pouch_by_x(const ZpPouchParams *pouch, size_t n, const double *h, size_t i);
+double zp_pouch_by_h(const ZpPouchParams *pouch, size_t n, const double *x, size_t i);
+
+#endif

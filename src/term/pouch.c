@@ -1,0 +1,102 @@
+/* The liquid that the films of a pouch enclose: a uniform pressure, the multiplier that keeps its volume. Eqs. (40.4)
+ * to (40.6). */
+#include <string.h>
+
+#include "term/term.h"
+
+const ZpRow zp_row_pressure = ZP_SHOWN(pressure, "Pa", "_Pa", "pressure of the liquid in a pouch; 0 without one");
+
+static bool acts(const ZpModel *model) {
+  return model->pouch.w > 0;
+}
+
+/* The pressure of the last step. */
+static size_t state(const ZpModel *model) {
+  (void)model;
+  return 1;
+}
+
+size_t zp_pouch_rank(const ZpModel *model) {
+  return acts(model);
+}
+
+/* The pressure at which the search stands, Pa. */
+static double sought(const ZpModel *model, const ZpSpan *span) {
+  if (span->memory) return *zp_law_memory(model, &zp_term_pouch, span->memory);
+  return span->tension ? span->tension[zp_pressure_place(model)] : 0;
+}
+
+/* Add the volume by the coordinates at one end, times a share => rate [2 stride]. */
+static void add_rates(const ZpModel *model, const double *q, const double *gap, double share, double *rate) {
+  const ZpForces by = zp_forces(model, rate);
+  for (size_t i = 0; i < model->nodes; i++) {
+    by.x[i] += share * zp_pouch_by_x(&model->pouch, model->nodes, gap, i);
+    by.y[i] -= share * zp_pouch_by_h(&model->pouch, model->nodes, zp_nodes(model, q).x, i);
+  }
+}
+
+/* The mean over the span: times the change of the coordinates it is that of the volume. */
+static void find_rates(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
+  const double *before = zp_span_is_still(span) ? e->plates.gap : e->plates_start.gap;
+  memset(e->by_volume, 0, zp_coordinates(model) * sizeof *e->by_volume);
+  add_rates(model, span->start, before, 0.5, e->by_volume);
+  add_rates(model, span->end, e->plates.gap, 0.5, e->by_volume);
+}
+
+static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
+  const ZpPouchParams *pouch = &model->pouch;
+  double V = zp_pouch_volume(pouch, model->nodes, zp_nodes(model, span->end).x, e->plates.gap);
+  find_rates(model, span, e);
+  e->pressure = sought(model, span) - zp_pouch_modulus * (V / pouch->volume - 1);
+  for (size_t k = 0; k < zp_coordinates(model); k++)
+    F[k] += e->pressure * e->by_volume[k];
+  if (span->memory) e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
+}
+
+double zp_pouch_predicted(const ZpModel *model, const ZpEval *e, const double *moved, double fraction) {
+  double change = 0;
+  for (size_t k = 0; k < zp_coordinates(model); k++)
+    change += e->by_volume[k] * moved[k];
+  return e->pressure - fraction * zp_pouch_modulus * change / model->pouch.volume;
+}
+
+/* Add minus a pressure times the second derivatives of the volume. */
+static void bend(const ZpModel *model, double pressure, const ZpAssembly *a, ZpBand *K) {
+  const double value = 0.5 * pressure * model->pouch.w;
+  for (size_t i = 0; i + 1 < model->nodes; i++) {
+    const size_t x[] = {zp_x_of(i), zp_x_of(i + 1)}, y[] = {zp_y_of(i), zp_y_of(i + 1)};
+    for (int m = 0; m < 4; m++) { /* V has (h_i + h_j) (x_j - x_i) / 2, and dh = -dy */
+      zp_assemble_entry(a, x[m / 2], y[m % 2], m / 2 ? value : -value, K);
+      zp_assemble_entry(a, y[m % 2], x[m / 2], m / 2 ? value : -value, K);
+    }
+  }
+}
+
+/* The pressure follows the volume at the end: a term of rank one. */
+static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
+  const double k = zp_pouch_modulus / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
+  double *u = zp_band_term(K, K->u, K->rank - 1), *v = zp_band_term(K, K->v, K->rank - 1);
+  bend(model, both * sought(model, span), a, K);
+  for (size_t i = 0; i < model->nodes; i++) {
+    const size_t x = zp_x_of(i), y = zp_y_of(i);
+    const ZpForces by = zp_forces(model, e->by_volume);
+    zp_assembly_add_place(a, x, k * by.x[i], u);
+    zp_assembly_add_place(a, y, k * by.y[i], u);
+    zp_assembly_add_place(a, x, zp_pouch_by_x(&model->pouch, model->nodes, e->plates.gap, i), v);
+    zp_assembly_add_place(a, y, -zp_pouch_by_h(&model->pouch, model->nodes, zp_nodes(model, span->end).x, i), v);
+  }
+}
+
+static void show(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
+  (void)e;
+  row[0] += sought(model, now);
+}
+
+/* Its volume is fixed: it does no work, and stores nothing. */
+const ZpTerm zp_term_pouch = {.name = "pouch",
+                              .row = {&zp_row_pressure},
+                              .acts = acts,
+                              .state = state,
+                              .force = force,
+                              .stiffness = stiffness,
+                              .now = show};
