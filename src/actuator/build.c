@@ -364,6 +364,7 @@ static void fill_masses(ZpModel *model, const ZpTies *ties, Arrays *a) {
     a->mass[j] = node_mass(model, j);
     a->pseudo[j] = model->pseudo_mass;
     a->weight[j] = a->mass[j] * model->def.gravity;
+    if (j == zp_load_node(&model->topology)) a->mass[j] += zp_series_inertia(model);
   }
   for (size_t k = 0; k < 2; k++) {
     masses[k]->x = masses_along(0, model, ties, mass[k], a->inverse[k][0], a->pair[k][0]);

@@ -240,6 +240,12 @@ static inline double zp_end_share(const ZpModel *model) {
   return model->def.load.share / model->def.stack.parallel;
 }
 
+/* Equal pouches in series move their load together: to one of them it has more inertia than weight by so much, eq.
+ * (40.8), kg. */
+static inline double zp_series_inertia(const ZpModel *model) {
+  return ((double)model->in_series - 1) * zp_end_share(model) * model->def.load.mass;
+}
+
 /* Factor on that for the platform's end at a station: 1, or by (19.4) of a load that hangs off the centre. */
 static inline double zp_load_part(const ZpModel *model, size_t station) {
   const ZpTopology *t = &model->topology;

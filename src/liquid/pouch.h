@@ -17,7 +17,7 @@ typedef struct ZpPouchParams {
 
 /* How much stiffer than any liquid the volume is held while a pressure is sought, Pa: what is found does not depend on
  * it, eq. (40.6). */
-static const double zp_pouch_modulus = 1e11;
+static const double zp_pouch_modulus = 1e13;
 
 /* Half opening angle of an arc of `length` which, with its mirror image, encloses `area`, eq. (40.1); area up to
  * length^2 / pi: a circle, pi/2. rad */

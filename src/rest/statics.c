@@ -784,6 +784,7 @@ ZpSpan zp_statics_span(const ZpStatics *s, size_t which) {
   span.faces_pass = !s->contact_acts;
   span.beyond = zp_eval_beyond(&m->eval);
   span.tension = m->tension;
+  span.pressure = m->tension[zp_pressure_place(m->model)];
   return span;
 }
 

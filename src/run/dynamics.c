@@ -849,6 +849,7 @@ static bool join(ZpDynamics *d) {
   if (!of) return false;
   for (size_t k = 0; k < d->members; k++) {
     of[k] = &d->member[k].assembly;
+    of[k]->block.band.rank = zp_pouch_rank(d->member[k].model);
     of[k]->port = d->member[k].port ? d->member[k].port - d->port : -1;
   }
   bool joined = zp_assembly_join(of, d->member->model, d->members, d->ports, &d->form) &&

@@ -191,8 +191,9 @@ static inline bool zp_sim_is_controlled(const ZpSim *m) {
  * memory. */
 ZpSim *zp_sim_create_near(const ZpSim *sim, const ZpModel *model, ZpState *const rate[], double offset);
 
-/* Start at rest at coordinates q of all nodes, bent there from the natural shape for the first time. */
-void zp_sim_start_at(ZpSim *sim, const double *q);
+/* Start at rest at coordinates q of all nodes, bent there from the natural shape for the first time; `pressure` of a
+ * pouch, Pa. */
+void zp_sim_start_at(ZpSim *sim, const double *q, double pressure);
 
 /* Voltage of one member that no supply holds back, now, V. */
 double zp_sim_voltage_now(const ZpSim *m);

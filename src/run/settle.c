@@ -7,7 +7,6 @@
 #include "actuator/place.h"
 #include "def/tolerance.h"
 #include "rest/rest.h"
-#include "ribbon/rod_plastic.h"
 #include "run/hooks.h"
 #include "run/run.h"
 #include "solve/relax.h"
@@ -83,10 +82,11 @@ static bool find_rest(ZpSim *sim, const ZpHooks *hooks, ZpRest *rest, bool *foun
   return true;
 }
 
-static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, bool *found) {
+static bool solve(ZpSim *sim, const ZpHooks *hooks, double *q, double *pressure, bool *found) {
   ZpRest rest;
   const bool opened = find_rest(sim, hooks, &rest, found);
   if (opened) memcpy(q, rest.statics.member->q, zp_coordinates(sim->model) * sizeof *q);
+  if (opened) *pressure = rest.statics.member->eval.pressure;
   zp_rest_close(&rest);
   return opened;
 }
@@ -106,14 +106,16 @@ static void relax(ZpSim *sim, const ZpHooks *hooks, double *q) {
   sim->settle_residual = info.residual;
 }
 
-/* Strain that has become plastic on the way is permanent. */
-void zp_sim_start_at(ZpSim *sim, const double *q) {
+/* Laws have the state that they have at rest: strain that has become plastic on the way is permanent. */
+void zp_sim_start_at(ZpSim *sim, const double *q, double pressure) {
   const ZpModel *model = sim->model;
   ZpSpan there = zp_span_at(q);
+  there.pressure = pressure;
   memcpy(zp_state_q(model, sim->state), q, zp_coordinates(model) * sizeof *q);
   zp_system_force(model, &there, &sim->eval, sim->relax_work + zp_coordinates(model));
-  double *strain = zp_law_state(model, &zp_term_rod, sim->state);
-  if (strain) memcpy(strain, sim->eval.rod_step.strain_end, zp_rod_plastic_count(&model->rod) * sizeof *q);
+  for (const ZpLaw *law = model->law; law < model->law + model->laws; law++)
+    if (law->term->state_at_rest && law->state > 0)
+      memcpy(zp_law_state(model, law->term, sim->state), sim->eval.memory_end + law->at, law->state * sizeof *q);
 }
 
 /* The only member. */
@@ -123,11 +125,12 @@ static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
   /* a single straight ribbon needs neither a start nor a reference */
   if (!zp_is_pair(&model->topology) && model->def.initial.state == ZP_INITIAL_STRAIGHT) return true;
   bool found;
-  if (!solve(sim, hooks, q, &found)) return false;
+  double pressure = 0;
+  if (!solve(sim, hooks, q, &pressure, &found)) return false;
   if (!found && sim->settled == ZP_REACHED_END) relax(sim, hooks, q);
   if (sim->settled != ZP_REACHED_END) return true;
   if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
-  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) zp_sim_start_at(sim, q);
+  if (model->def.initial.state == ZP_INITIAL_EQUILIBRIUM) zp_sim_start_at(sim, q, pressure);
   return true;
 }
 
@@ -137,7 +140,7 @@ static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const double *q = rest->member[which].q;
   sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
-  zp_sim_start_at(sim, q);
+  zp_sim_start_at(sim, q, rest->member[which].eval.pressure);
   if (zp_abreast(model) > 1)
     sim->state->link_force = (zp_load_pull(model) - zp_statics_member_force(rest, which)) / model->parts;
 }

@@ -27,7 +27,7 @@ typedef struct Finder {
 /* -- the actuator ----------------------------------------------------------------------------------- */
 
 static double mass_of_one(const ZpModel *model) {
-  double sum = -zp_load_share(model) * model->def.load.mass, platform = 0;
+  double sum = -zp_load_share(model) * model->def.load.mass - zp_series_inertia(model), platform = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
   for (size_t i = 0; zp_has_platform(&model->topology) && i < model->s; i++)

@@ -23,7 +23,11 @@ size_t zp_pouch_rank(const ZpModel *model) {
 /* The pressure at which the search stands, Pa. */
 static double sought(const ZpModel *model, const ZpSpan *span) {
   if (span->memory) return *zp_law_memory(model, &zp_term_pouch, span->memory);
-  return span->tension ? span->tension[zp_pressure_place(model)] : 0;
+  return span->pressure;
+}
+
+double zp_state_pressure(const ZpModel *model, ZpState *state) {
+  return acts(model) ? *zp_law_state(model, &zp_term_pouch, state) : 0;
 }
 
 /* Add the volume by the coordinates at one end, times a share => rate [2 stride]. */
@@ -50,7 +54,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   e->pressure = sought(model, span) - zp_pouch_modulus * (V / pouch->volume - 1);
   for (size_t k = 0; k < zp_coordinates(model); k++)
     F[k] += e->pressure * e->by_volume[k];
-  if (span->memory) e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
+  e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
 }
 
 double zp_pouch_predicted(const ZpModel *model, const ZpEval *e, const double *moved, double fraction) {
@@ -97,6 +101,7 @@ const ZpTerm zp_term_pouch = {.name = "pouch",
                               .row = {&zp_row_pressure},
                               .acts = acts,
                               .state = state,
+                              .state_at_rest = true,
                               .force = force,
                               .stiffness = stiffness,
                               .now = show};

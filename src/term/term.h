@@ -33,8 +33,8 @@ typedef struct ZpSpan {
   const double *a;           /* of such a step: accelerations, so v - h/2 a are mean velocities */
   ZpCachedField beyond;      /* difference of a computed field from the plates law; all 0: none */
   const ZpState *paper;      /* of an instant: front and held forces of the paper's Bezier surface; NULL: polyline */
-  const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N, then the pressure of a
-                                pouch at which it stands, Pa (zp_pressure_place); NULL: of the last force, 0 */
+  const double *tension;     /* [edges] tension that a solver predicts, for the stiffness, N; NULL: of the last force */
+  double pressure;           /* at rest: pressure of a pouch at which its search stands, Pa */
 } ZpSpan;
 
 typedef enum ZpSpanEnd { ZP_SPAN_START, ZP_SPAN_END } ZpSpanEnd;
@@ -63,6 +63,7 @@ typedef struct ZpTerm {
   /* How many numbers of state does the term have? They begin at 0. Its force over a step, or its loss, writes those at
    * the end into its part of eval->memory_end. NULL: none. */
   size_t (*state)(const ZpModel *model);
+  bool state_at_rest; /* its force at rest, too, writes the state there into eval->memory_end */
   /* Does the model have this term? NULL: every model has it. */
   bool (*acts)(const ZpModel *model);
   /* Allocate the term's own work space, beyond the arrays of an eval, and place what it finds at the end of a span;
@@ -122,13 +123,16 @@ double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double 
 double zp_term_meniscus_head(const ZpModel *model, double suction, double U, double g, double H, double level);
 double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H);
 
-/* Of a pouch: where its pressure stands behind the tensions that a solver predicts; that which the last force foresees
+/* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; that which the last force foresees
  * after a fraction of a change of the coordinates [2 stride], Pa; number of terms of rank one that it adds to the band. */
 static inline size_t zp_pressure_place(const ZpModel *model) {
   return model->count - model->s;
 }
 double zp_pouch_predicted(const ZpModel *model, const ZpEval *eval, const double *moved, double fraction);
 size_t zp_pouch_rank(const ZpModel *model);
+
+/* The pressure of a pouch in a state, Pa; 0 without one. */
+double zp_state_pressure(const ZpModel *model, ZpState *state);
 
 /* Number of terms of rank one that a bead at rest adds to the band of the stiffness. */
 size_t zp_bead_rank(const ZpModel *model);

@@ -65,6 +65,7 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
   if (key == ZP_KEY(gravity)) {
     add(zp_lanes(model), span->share * model->fall[0], model->mass, to.x);
     add(zp_lanes(model), span->share * model->fall[1], model->mass, to.y);
+    add_load(model, -span->share * zp_series_inertia(model), 0, F);
   } else if (key == ZP_KEY(load.mass)) {
     add_load(model, carried * model->def.gravity, 0, F);
   } else if (key == ZP_KEY(load.force)) {
