@@ -253,8 +253,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .platform_end = model->topology.platform.last,
                           .level = level_faces(model),
                           .flat_length = def->platform.electrode ? platform_length(model) : 0,
-                          .flat = model->flat,
-                          .flat_height = def->electro.gap_offset};
+                          .flat = model->flat};
 }
 
 /* Eq. (25.3). The resistivity of a material that does not conduct is NAN. */
@@ -308,6 +307,7 @@ typedef struct Arrays {
   double *shear_B, *per_moment, *per_force; /* ZpStressParams */
   double *weight, *mass, *pseudo;           /* [stride] */
   double *inverse[2][2], *pair[2][2];       /* ZpAxisMasses, of true and of pseudo-masses, along x and y */
+  double *face;                             /* [nodes] ZpPlatesParams */
   double *time, *voltage;                   /* ZpDriveTable */
 } Arrays;
 
@@ -321,6 +321,7 @@ static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a)
     a->inverse[k / 2][k % 2] = zp_arena_take(&arena, model->stride);
     a->pair[k / 2][k % 2] = zp_arena_take(&arena, model->nodes);
   }
+  a->face = zp_arena_take(&arena, model->nodes);
   a->time = zp_arena_take(&arena, rows);
   a->voltage = zp_arena_take(&arena, rows);
   return arena.used;
@@ -467,6 +468,15 @@ static ZpHingeParams hinge_of(const ZpModel *model) {
   return (ZpHingeParams){1 / (1 / def->hinge.stiffness + share.compliance), def->hinge.rest_angle - share.turn};
 }
 
+/* Eq. (35.1). */
+static void fill_face(ZpModel *model, Arrays *a) {
+  const ZpActuatorDef *def = &model->def;
+  for (size_t i = 0; i < model->nodes; i++)
+    a->face[i] = def->electro.gap_offset +
+                 def->counter.height * zp_power((double)i / (double)(model->nodes - 1), def->counter.power);
+  model->plates.face = model->air.face = a->face;
+}
+
 /* Its joints may yield. */
 static void fill_plastic(ZpModel *model) {
   if (!model->def.ribbon.plasticity) return;
@@ -557,7 +567,8 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   const ZpActuatorDef *def = &model->def;
   double range = zp_contact_range(zp_insulation(def));
   double depth = fmin(fmax(part * model->plates.d, zp_contact_range(0)), range);
-  double layers = compliance_of(def) + (model->s > 1 ? compliance_of(lower) : 0);
+  bool both = zp_def_has(def, ZP_DEVICE_PAIR | ZP_DEVICE_SHAPED);
+  double layers = compliance_of(def) + (both ? compliance_of(lower) : 0);
   double stiffest = def->ribbon.width / layers * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
@@ -780,6 +791,7 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
     fill_rod(model, &arrays);
   else
     fill_chain(model, &arrays);
+  fill_face(model, &arrays);
   fill_plastic(model);
   fill_stress(model, &arrays);
   fill_masses(model, ties, &arrays);

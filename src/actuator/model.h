@@ -99,7 +99,7 @@ struct ZpModel {
   size_t stride;          /* count, rounded up */
   bool field;             /* there are electrodes that attract each other */
   bool field_solved;      /* in two dimensions, beyond the plates law */
-  bool flat;              /* one ribbon below a flat electrode */
+  bool flat;              /* one ribbon below a rigid electrode */
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1; of each in parallel */
   double L, l;            /* flexible length of a half or of the one ribbon, element, m */
   ZpRibbon ribbon[2];     /* upper or only one, lower one */

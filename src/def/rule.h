@@ -21,6 +21,7 @@ enum {
   ZP_DEVICE_OPEN = 8,       /* two ribbons whose right ends are free */
   ZP_DEVICE_HINGE = 16,     /* a hinge at the left end of the lower ribbon */
   ZP_DEVICE_COUNTER = 32,   /* one ribbon and a rigid counter electrode */
+  ZP_DEVICE_SHAPED = 256,   /* a counter electrode whose shape counter.* says */
   ZP_DEVICE_PAPERS = 64     /* the ends that the paper's steps, zipping and surface know */
 };
 

@@ -70,7 +70,7 @@ ZP_KERNEL static void gaps(size_t nodes, const double *restrict x, const double 
 
 static void gaps_below_flat(const ZpPlatesParams *p, const double *x, const double *y, ZpPlatesEval *e) {
   for (size_t i = 0; i < p->nodes; i++)
-    e->gap[i] = p->flat_height - y[i];
+    e->gap[i] = p->face[i] - y[i];
   for (size_t i = 0; i + 1 < p->nodes; i++)
     e->dx[i] = x[i + 1] - x[i];
 }

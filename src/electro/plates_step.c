@@ -258,7 +258,7 @@ static void level_elements(const ZpPlatesParams *p, const Laws *laws, const ZpPl
     element(p, laws, e0, e1, p->level.of[k].element, s);
 }
 
-/* Forces on both nodes of station i, or on the one below a flat electrode. */
+/* Forces on both nodes of station i, or on the one below a rigid electrode. */
 static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along, double closing) {
   if (p->flat) {
     s->Fx[i] = 2 * along;

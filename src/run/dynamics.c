@@ -490,7 +490,7 @@ static void keep_apart(const ZpDynamics *d, ZpMovingMember *m, double *q1) {
   for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(m, i);
     if (pair.lower < 0) continue;
-    double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.flat_height;
+    double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.face[i];
     if (pair.upper >= 0) upper = height_at(d, m, zp_upper(t, i), q1);
     double overlap = height_at(d, m, zp_lower(t, i), q1) - upper;
     bool overlapped = m->eval.plates_start.gap[i] < 0;
