@@ -756,9 +756,31 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
 }
 
 #ifndef ZP_WITHOUT_FIELD
-/* Contribution of the lateral edges, up to a gap larger than that of ribbons that hang straight down. */
+/* The cross-section of a ribbon over a counter electrode. Bare metals are followed down to a tenth of their gap, far
+ * beyond pull-in. */
+static void put_over_plate(const ZpModel *model, ZpEdgeParams *params) {
+  static const double tenth = 0.1;
+  const ZpActuatorDef lower = zp_def_lower(&model->def);
+  double least = INFINITY;
+  for (size_t i = 0; i < model->nodes; i++)
+    least = fmin(least, model->plates.face[i]);
+  params->plate = true;
+  params->plate_t = lower.insulator.thickness;
+  params->plate_eps = lower.insulator.permittivity;
+  params->least = tenth * least;
+}
+
+/* A gap larger than that of ribbons that hang straight down, m. */
+static double largest_gap(const ZpModel *model) {
+  static const double halves = 2.5, bend = 1.25; /* of the flexible length: two ribbons, one */
+  double most = 0;
+  for (size_t i = 0; model->flat && i < model->nodes; i++)
+    most = fmax(most, model->plates.face[i]);
+  return model->flat ? most + bend * model->L : halves * model->L;
+}
+
+/* Contribution of the lateral edges. */
 static ZpStatus make_edges(ZpModel *model, ZpError *err) {
-  static const double halves = 2.5; /* of the flexible length */
   const ZpActuatorDef *def = &model->def;
   if (!model->field || !def->electro.edges) return ZP_OK;
   ZpEdgeParams params = {.w = def->ribbon.width,
@@ -766,12 +788,13 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
                          .t = def->insulator.thickness,
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity};
+  if (model->flat) put_over_plate(model, &params);
   model->plates.edges = &model->edge_law;
-  ZpStatus status = zp_edges_make(&params, halves * model->L, &model->edge_law, err);
+  ZpStatus status = zp_edges_make(&params, largest_gap(model), &model->edge_law, err);
   if (status != ZP_OK || !model->has_bead) return status;
   params.eps_m = 1;
   model->air.edges = &model->air_edges;
-  return zp_edges_make(&params, halves * model->L, &model->air_edges, err);
+  return zp_edges_make(&params, largest_gap(model), &model->air_edges, err);
 }
 #endif
 
@@ -781,17 +804,18 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
   Arrays arrays;
   model->memory = zp_calloc(1, reserve(model, rows, NULL, &arrays));
   ZpStatus status = model->memory ? ZP_OK : zp_fail_memory(err);
-#ifndef ZP_WITHOUT_FIELD
-  if (status == ZP_OK) status = make_edges(model, err);
-#endif
   if (status != ZP_OK) return status;
   reserve(model, rows, model->memory, &arrays);
+  fill_face(model, &arrays);
+#ifndef ZP_WITHOUT_FIELD
+  status = make_edges(model, err);
+  if (status != ZP_OK) return status;
+#endif
   fill_waveform(model, table, &arrays);
   if (model->is_rod)
     fill_rod(model, &arrays);
   else
     fill_chain(model, &arrays);
-  fill_face(model, &arrays);
   fill_plastic(model);
   fill_stress(model, &arrays);
   fill_masses(model, ties, &arrays);

@@ -684,6 +684,10 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
                    "counter.height = %g m: the counter electrode is too steep for a ribbon to lie on it; with "
                    "ribbon.length = %g m and counter.power = %g at most %g m",
                    height, def->ribbon.length, def->counter.power, height * steepest / slope);
+  if (def->electro.edges && zp_def_has(def, ZP_DEVICE_COUNTER) && zp_insulation(def) == 0 && gap_at_clamp(def) == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges = true: requires an insulator where the faces touch at the clamp; the field at the "
+                   "edges of bare faces that touch is infinite");
   return ZP_OK;
 }
 

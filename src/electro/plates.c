@@ -24,7 +24,7 @@ double zp_plates_least_h(const ZpPlatesParams *p, double U) {
 /* The gap at which the edges' law is evaluated. From there it continues as a straight line: into the range of the cap,
  * and beyond the ends of the fit. */
 static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
-  double least = h_c - p->d > 0 ? h_c - p->d : 0, bounded = gap > least ? gap : least;
+  double start = p->edges->least, least = h_c - p->d > start ? h_c - p->d : start, bounded = gap > least ? gap : least;
   return bounded < p->edges->largest ? bounded : p->edges->largest;
 }
 
@@ -35,7 +35,7 @@ static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPl
   law->W -= K * v.slope;
   law->P -= K * (v.e + v.slope * (gap - at));
   law->q += 2 * p->k * U * (v.e + v.slope * (gap - at));
-  if (cap > 0 && gap < cap && cap < p->edges->largest) law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
+  if (cap > p->edges->least && gap < cap && cap < p->edges->largest) law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
 }
 
 ZpPlatesLaw zp_plates_law(const ZpPlatesParams *p, double U, double gap) {

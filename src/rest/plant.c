@@ -314,7 +314,8 @@ static void move_end(Member *w, End *end, const ZpSetpointSignal *signal) {
 }
 
 static void find_end(Member *w, int half, const ZpSetpointSignal *signal) {
-  static const double little = 1e-7; /* m */
+  static const double usual = 1e-7, of_length = 1e-5; /* m */
+  const double little = fmin(usual, of_length * w->model->L);
   const ZpFilmParams *film = &w->model->film;
   End *end = &w->end[w->ends++];
   *end = (End){.half = half};
