@@ -610,6 +610,7 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .rho = def->liquid.inertia ? def->medium.density : 0,
                        .roughness = def->film.roughness};
   zp_film_modes(&film, def->liquid.lateral_flow);
+  film.outlet |= zp_ends_free(&model->topology);
   return film;
 }
 
