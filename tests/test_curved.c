@@ -19,6 +19,10 @@ static ZpActuatorDef curved_def(double n, double eta, double beta, int nodes) {
              {"drive.voltage", unit_voltage() * sqrt(beta)});
 }
 
+static double value_of(ZpStudy study, const ZpActuatorDef *def, const char *name) {
+  return zp_result_get(converged_of(study, def), name);
+}
+
 static double beta_of(double voltage) {
   double share = voltage / unit_voltage();
   return share * share;
@@ -37,11 +41,12 @@ TESTS(limit_points_of_the_boundary_value_problem, 0, LENGTH_OF(pull_ins)) {
   ZpActuatorDef def = curved_def(of->n, of->eta, 1.2 * of->beta, 241);
   Point limit = limit_of(&def);
   printf("n %g, eta %g: beta %.6f, tip %.4f\n", of->n, of->eta, beta_of(limit.voltage), -limit.stroke / delta);
-  ck_near(beta_of(limit.voltage), of->beta, 3e-4); 
-  ck_near(-limit.stroke / delta, of->tip, 1e-3);
+  ck_near(beta_of(limit.voltage), of->beta, 9e-5);
+  ck_near(-limit.stroke / delta, of->tip, 4.5e-4);
 }
 
 TEST(limits_finds_them_and_its_errors_bound_what_is_missed) {
+  static const double slopes = 4e-6; /* (delta / L)^2: the boundary-value problem is that of small ones */
   for (size_t i = 1; i < LENGTH_OF(pull_ins); i++) {
     const PullIn *of = &pull_ins[i];
     ZpActuatorDef def = curved_def(of->n, of->eta, 1.2 * of->beta, 61);
@@ -51,7 +56,7 @@ TEST(limits_finds_them_and_its_errors_bound_what_is_missed) {
     double error = zp_result_get(result, "pull_in_voltage_error_V");
     printf("n %g: %.4f V, %.4f V exact, error %.1e\n", of->n, found, exact, error / exact);
     ck_near(found, exact, 6e-4);
-    ck_below(fabs(found - exact), 3 * error);
+    ck_below(fabs(found - exact), 3 * error + slopes * exact);
   }
 }
 
@@ -63,7 +68,7 @@ TEST(pull_in_converges_with_the_square_of_the_mesh) {
   }
   double order = log2(missed[0] / missed[1]);
   printf("%.2e %.2e %.2e, order %.2f\n", missed[0], missed[1], missed[2], order);
-  ck_assert_double_eq_tol(order, 2, 0.2);
+  ck_assert_double_eq_tol(order, 2, 0.15);
 }
 
 /* A power of 0 is a flange with that gap, bit by bit. */
@@ -128,7 +133,7 @@ TESTS(contact_begins_at_the_clamp, 0, 2) {
   ZpActuatorDef def = curved_def(2, of->eta, 1.2 * of->beta, 1201);
   Point onset = onset_of(&def);
   printf("eta %g: beta %.6f, tip %.6f\n", of->eta, beta_of(onset.voltage), -onset.stroke / delta);
-  ck_near(beta_of(onset.voltage), of->beta, 2e-3);
+  ck_near(beta_of(onset.voltage), of->beta, 3.8e-4);
   ck_near(-onset.stroke / delta, of->tip, 2e-3);
 }
 
@@ -153,7 +158,7 @@ TEST(thin_insulator_snaps_a_little_and_a_thick_one_does_not) {
   ZpActuatorDef thin = curved_def(2, 0.05, 0.6, 241), thick_one = curved_def(2, 0.2, 1, 241);
   snap_of(&thin, 0.2, &crest, &dip);
   printf("eta 0.05: snaps at %.5f, back at %.5f\n", crest, dip);
-  ck_near(crest, 0.10672, 1e-3);
+  ck_near(crest, 0.10672, 6e-4);
   ck_near(dip, 0.106, 5e-3);
   snap_of(&thick_one, 0.9, &crest, &dip);
   ck_assert_double_nan(crest);
@@ -169,20 +174,13 @@ TESTS(cubic_electrode_closes_without_a_jump, 0, 2) {
   ck_assert_double_nan(zp_result_get(result, "pull_in_voltage_V"));
 }
 
-/* Where the closed part ends, each metre of it has released the field's energy and stored that of its curvature. A
- * strip that is bent as the electrode is on all its length closes the last part of it where both are equal: eq. (35.3). */
-TEST(closing_voltage_of_a_parabola) {
-  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_CURVED}, {"mesh.nodes", 121}, {"output.errors", 0});
-  ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
-  printf("%s\n", result->message);
-}
-
 /* -- motion ------------------------------------------------------------------------------------------ */
 
-/* A step of the voltage zips it; the energy is kept, with and without oil. */
-TESTS(energy_is_kept_while_it_zips, 0, 2) {
-  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_CURVED}, {"drive.voltage", 600}, {"solver.end_time", 0.2},
-                          {"mesh.nodes", 41}, {"damping.internal", _i ? 1e-4 : 0});
+/* A step of the voltage zips it; the energy is kept: free, with damping, in oil, with lateral edges. */
+TESTS(energy_is_kept_while_it_zips, 0, 4) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_CURVED}, {"drive.voltage", _i == 2 ? 2000 : 600},
+                          {"solver.end_time", 0.2}, {"mesh.nodes", 41}, {"damping.internal", _i ? 1e-4 : 0},
+                          {"liquid.model", _i == 2 ? ZP_LIQUID_SUBMERGED : ZP_LIQUID_NONE}, {"electro.edges", _i == 3});
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   size_t last = result->series->rows - 1;
   double off = zp_table_get(result->series, last, "energy_imbalance_J"),
@@ -217,5 +215,87 @@ TESTS(derivatives_by_the_shape_are_those_of_differences, 0, 3) {
   }
   double slope = derivative_of(result, "pull_in_voltage_V", key), difference = (found[1] - found[0]) / (2 * by);
   printf("%s: %.8g, by difference %.8g\n", keys[_i], slope, difference);
-  ck_near(slope, difference, 1e-5);
+  ck_near(slope, difference, 1.3e-8);
+}
+
+/* -- small devices ----------------------------------------------------------------------------------- */
+
+/* Every length times c under c times the voltage: the same shapes, frequencies over c, times times c. */
+static ZpActuatorDef scaled(ZpActuatorDef def, double c) {
+  double *const lengths[] = {&def.ribbon.length,   &def.ribbon.width,        &def.ribbon.thickness,
+                             &def.counter.height,  &def.insulator.thickness, &def.electro.gap_offset,
+                             &def.platform.length, &def.drive.voltage,       &def.modes.voltage,
+                             &def.solver.end_time, &def.damping.internal,    &def.isometric.separation};
+  for (size_t k = 0; k < LENGTH_OF(lengths); k++)
+    *lengths[k] *= c;
+  def.gravity /= c;
+  def.load.mass *= c * c * c;
+  return def;
+}
+
+/* A curved electrode, a clamped strip over a flange, and two ribbons, from 0.1 m to 1 mm and to 0.1 mm. The insulators
+ * of the smallest are 0.13 um thick: faces that touch count as a nanometre apart there, and layers as 0.26 um. */
+TESTS(a_smaller_device, 0, 6) {
+  const bool smallest = _i % 2;
+  const double c = smallest ? 1e-3 : 1e-2;
+  const ZpActuatorDef devices[] = {
+      DEF({"actuator.kind", ZP_KIND_CURVED}, {"modes.voltage", 200}),
+      DEF({"actuator.kind", ZP_KIND_FLANGE}, {"actuator.right_end", ZP_END_CLAMPED}, {"ribbon.thickness", 2e-3},
+          {"electro.gap_offset", 4e-3}, {"electro.breakdown_cap", 0}, {"electro.edges", 1}, {"gravity", 0},
+          {"load.mass", 0}, {"drive.voltage", 1e6}, {"modes.voltage", 4e5}),
+      DEF({"gravity", 0.5}, {"electro.breakdown_cap", 0}, {"liquid.model", ZP_LIQUID_NONE}, {"load.mass", 0.1},
+          {"damping.internal", 1e-4}, {"solver.end_time", 1}),
+  };
+  ZpActuatorDef large = devices[_i / 2], small = scaled(large, c);
+  ZpResult *of = study_of(ZP_STUDY_LIMITS, &large), *its = study_of(ZP_STUDY_LIMITS, &small);
+  double closing = zp_result_get(of, "closing_voltage_V"), release = zp_result_get(of, "release_voltage_V");
+  printf("%s\n%s\n", of->message, its->message);
+  ck_near(zp_result_get(its, "closing_voltage_V"), c * closing, smallest ? 1e-3 : 1e-7);
+  ck_near(zp_result_get(its, "release_voltage_V"), c * release, smallest ? 2e-2 : 1e-7);
+  ck_near(value_of(ZP_STUDY_MODES, &small, "frequency_1_Hz"), value_of(ZP_STUDY_MODES, &large, "frequency_1_Hz") / c,
+          1.2e-8);
+  of = study_of(ZP_STUDY_ACTUATE, &large);
+  its = study_of(ZP_STUDY_ACTUATE, &small);
+  ck_assert_int_eq(of->outcome, its->outcome);
+  if (_i / 2 == 2) ck_near(zp_result_get(its, "zip_time_s"), c * zp_result_get(of, "zip_time_s"), 5e-3);
+}
+
+/* -- refused ----------------------------------------------------------------------------------------- */
+
+typedef struct Refused {
+  Setting setting[4];
+  const char *says;
+} Refused;
+
+static const Refused refused[] = {
+    {{{"actuator.kind", ZP_KIND_CURVED}, {"counter.height", -1e-3}}, "the counter electrode cuts the ribbon"},
+    {{{"actuator.kind", ZP_KIND_CURVED}, {"counter.height", 0.2}}, "too steep for a ribbon to lie on it"},
+    {{{"actuator.kind", ZP_KIND_FLANGE}, {"counter.height", 1e-3}}, "no counter electrode with a shape"},
+    {{{"actuator.kind", ZP_KIND_FLANGE}, {"lower.insulator.thickness", 1e-5}}, "one insulator or two equal ones"},
+    {{{"actuator.kind", ZP_KIND_CURVED}, {"lower.ribbon.thickness", 1e-5}}, "no lower ribbon"},
+    {{{"actuator.kind", ZP_KIND_CURVED}, {"lower.insulator.density", 1e3}}, "does not matter"},
+    {{{"actuator.kind", ZP_KIND_CURVED}, {"liquid.model", ZP_LIQUID_BEAD}}, "the bead is modelled"},
+    {{{"actuator.kind", ZP_KIND_CURVED}, {"electro.edges", 1}, {"insulator.thickness", 0}},
+     "the edges of bare faces that touch is infinite"},
+};
+
+TESTS(what_has_no_meaning_is_refused, 0, LENGTH_OF(refused)) {
+  ZpActuatorDef def;
+  const Refused *of = &refused[_i];
+  size_t count = 0;
+  while (count < LENGTH_OF(of->setting) && of->setting[count].key)
+    count++;
+  memset(&def, 0, sizeof def);
+  ck_ok(resolve(&def, of->setting, count, &err));
+  ck_says(zp_def_check(&def, &err), ZP_BAD_INPUT, of->says);
+}
+
+/* Electrodes that lean towards the ribbon, and bare ones that touch nowhere at rest, are none of these. */
+TEST(what_has_a_meaning_is_not) {
+  ZpActuatorDef leans = DEF({"actuator.kind", ZP_KIND_CURVED}, {"counter.height", -1e-3}, {"electro.gap_offset", 2e-3});
+  ZpActuatorDef bare = DEF({"actuator.kind", ZP_KIND_CURVED}, {"electro.gap_offset", 2e-3}, {"insulator.thickness", 0},
+                           {"electro.edges", 1}, {"drive.voltage", 10});
+  ck_ok(zp_def_check(&leans, &err));
+  ck_ok(zp_def_check(&bare, &err));
+  ck_assert_int_eq(study_of(ZP_STUDY_STATIONARY, &bare)->outcome, ZP_CONVERGED);
 }

@@ -678,7 +678,7 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "counter.height = %g m: the counter electrode cuts the ribbon; with electro.gap_offset = %g m give at "
                    "least %g m",
-                   height, -least, least);
+                   height, def->electro.gap_offset, least + 0.0); /* no -0 */
   if (def->counter.power > 0 && slope > steepest)
     return zp_fail(err, ZP_BAD_INPUT,
                    "counter.height = %g m: the counter electrode is too steep for a ribbon to lie on it; with "

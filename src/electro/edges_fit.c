@@ -24,6 +24,8 @@ ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
   mesh.clip = 12;
   mesh.outside = 16;
   mesh.first = 0.08 * corner_of(p);
+  if (p->plate) mesh.strip = 2;
+  if (p->t == 0) mesh.gap *= 2; /* a bare corner is in it */
   if (p->plate_t > 0) mesh.gap *= 3;
   return mesh;
 }
