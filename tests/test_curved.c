@@ -41,7 +41,7 @@ TESTS(limit_points_of_the_boundary_value_problem, 0, LENGTH_OF(pull_ins)) {
   ZpActuatorDef def = curved_def(of->n, of->eta, 1.2 * of->beta, 241);
   Point limit = limit_of(&def);
   printf("n %g, eta %g: beta %.6f, tip %.4f\n", of->n, of->eta, beta_of(limit.voltage), -limit.stroke / delta);
-  ck_near(beta_of(limit.voltage), of->beta, 9e-5);
+  ck_near(beta_of(limit.voltage), of->beta, 8e-5);
   ck_near(-limit.stroke / delta, of->tip, 4.5e-4);
 }
 
@@ -56,7 +56,7 @@ TEST(limits_finds_them_and_its_errors_bound_what_is_missed) {
     double error = zp_result_get(result, "pull_in_voltage_error_V");
     printf("n %g: %.4f V, %.4f V exact, error %.1e\n", of->n, found, exact, error / exact);
     ck_near(found, exact, 6e-4);
-    ck_below(fabs(found - exact), 3 * error + slopes * exact);
+    ck_below(fabs(found - exact), 0.5 * error + slopes * exact);
   }
 }
 
@@ -133,7 +133,7 @@ TESTS(contact_begins_at_the_clamp, 0, 2) {
   ZpActuatorDef def = curved_def(2, of->eta, 1.2 * of->beta, 1201);
   Point onset = onset_of(&def);
   printf("eta %g: beta %.6f, tip %.6f\n", of->eta, beta_of(onset.voltage), -onset.stroke / delta);
-  ck_near(beta_of(onset.voltage), of->beta, 3.8e-4);
+  ck_near(beta_of(onset.voltage), of->beta, 3.6e-4);
   ck_near(-onset.stroke / delta, of->tip, 2e-3);
 }
 
@@ -172,6 +172,27 @@ TESTS(cubic_electrode_closes_without_a_jump, 0, 2) {
   ck_assert_double_nan(crest);
   ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
   ck_assert_double_nan(zp_result_get(result, "pull_in_voltage_V"));
+}
+
+/* A ribbon that lies on a steep electrode is not stretched, and each of its stations is on the electrode: (35.2). */
+TEST(closed_ribbon_lies_on_the_electrode) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_CURVED}, {"counter.height", 20e-3}, {"drive.voltage", 4e3});
+  ZpRest rest;
+  start_at_rest(&rest, &def, 0.02);
+  while (rest.statics.U < def.drive.voltage)
+    ck_assert(zp_branch_advance(&rest.branch));
+  const ZpModel *model = rest.statics.member->model;
+  const double *x = rest.statics.member->q, *y = x + model->stride;
+  double off = 0, strain = 0;
+  for (size_t i = 0; i < model->nodes; i++) {
+    const double share = x[i] / model->L;
+    off = fmax(off, fabs(y[i] - def.counter.height * share * share));
+    if (i > 0) strain = fmax(strain, fabs(hypot(x[i] - x[i - 1], y[i] - y[i - 1]) / model->l - 1));
+  }
+  printf("off the electrode by %.2g um, strain %.1e, slope %.2f\n", 1e6 * off, strain, 2 * def.counter.height / model->L);
+  ck_below(off, 3e-6);
+  ck_below(strain, 1e-5);
+  zp_rest_close(&rest);
 }
 
 /* -- motion ------------------------------------------------------------------------------------------ */
@@ -253,7 +274,7 @@ TESTS(a_smaller_device, 0, 6) {
   ck_near(zp_result_get(its, "closing_voltage_V"), c * closing, smallest ? 1e-3 : 1e-7);
   ck_near(zp_result_get(its, "release_voltage_V"), c * release, smallest ? 2e-2 : 1e-7);
   ck_near(value_of(ZP_STUDY_MODES, &small, "frequency_1_Hz"), value_of(ZP_STUDY_MODES, &large, "frequency_1_Hz") / c,
-          1.2e-8);
+          8e-9);
   of = study_of(ZP_STUDY_ACTUATE, &large);
   its = study_of(ZP_STUDY_ACTUATE, &small);
   ck_assert_int_eq(of->outcome, its->outcome);

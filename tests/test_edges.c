@@ -574,7 +574,7 @@ TEST(test_published_beam) {
   double bends = pull_in_of(ZP_END_GUIDED, L / 2, w, b, gap, false), stretches = pull_in_of(ZP_END_CLAMPED, L, w, b, gap, false);
   double edges[] = {pull_in_of(ZP_END_GUIDED, L / 2, w, b, gap, true), pull_in_of(ZP_END_CLAMPED, L, w, b, gap, true)};
   printf("plates %.1f, %.1f V; edges %.1f, %.1f V, published 992, 1270 V\n", bends, stretches, edges[0], edges[1]);
-  ck_near(bends, 1068, 3e-3);
+  ck_near(bends, 1068, 6e-3);
   ck_near(stretches, 1370, 2e-3);
   ck_near(edges[0], 992, 0.06);
   ck_near(edges[1], 1270, 0.06);

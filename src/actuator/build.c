@@ -468,12 +468,35 @@ static ZpHingeParams hinge_of(const ZpModel *model) {
   return (ZpHingeParams){1 / (1 / def->hinge.stiffness + share.compliance), def->hinge.rest_angle - share.turn};
 }
 
-/* Eq. (35.1). */
-static void fill_face(ZpModel *model, Arrays *a) {
+/* Height of a counter electrode at x, eq. (35.1), m. */
+static double counter_at(const ZpModel *model, double x) {
   const ZpActuatorDef *def = &model->def;
-  for (size_t i = 0; i < model->nodes; i++)
-    a->face[i] = def->electro.gap_offset +
-                 def->counter.height * zp_power((double)i / (double)(model->nodes - 1), def->counter.power);
+  return def->electro.gap_offset + def->counter.height * zp_power(fmin(x / model->L, 1), def->counter.power);
+}
+
+/* The place on it that is an element's length from the one at x, in a straight line, eq. (35.2). */
+static double next_on_counter(const ZpModel *model, double x) {
+  enum { HALVINGS = 52 };
+  const double y = counter_at(model, x);
+  double near = 0, far = model->l;
+  for (int k = 0; k < HALVINGS; k++) {
+    const double middle = 0.5 * (near + far), rise = counter_at(model, x + middle) - y;
+    if (middle * middle + rise * rise > model->l * model->l)
+      far = middle;
+    else
+      near = middle;
+  }
+  return x + far;
+}
+
+/* A ribbon that lies on the electrode has its stations there. */
+static void fill_face(ZpModel *model, Arrays *a) {
+  const bool flat = model->def.counter.height == 0 || model->def.counter.power == 0;
+  double x = 0;
+  for (size_t i = 0; i < model->nodes; i++) {
+    a->face[i] = counter_at(model, x);
+    x = flat ? x + model->l : next_on_counter(model, x);
+  }
   model->plates.face = model->air.face = a->face;
 }
 
