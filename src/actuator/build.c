@@ -307,7 +307,7 @@ typedef struct Arrays {
   double *shear_B, *per_moment, *per_force; /* ZpStressParams */
   double *weight, *mass, *pseudo;           /* [stride] */
   double *inverse[2][2], *pair[2][2];       /* ZpAxisMasses, of true and of pseudo-masses, along x and y */
-  double *face;                             /* [nodes] ZpPlatesParams */
+  double *face, *face_x;                    /* [nodes] of a counter electrode */
   double *time, *voltage;                   /* ZpDriveTable */
 } Arrays;
 
@@ -322,6 +322,7 @@ static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a)
     a->pair[k / 2][k % 2] = zp_arena_take(&arena, model->nodes);
   }
   a->face = zp_arena_take(&arena, model->nodes);
+  a->face_x = zp_arena_take(&arena, model->nodes);
   a->time = zp_arena_take(&arena, rows);
   a->voltage = zp_arena_take(&arena, rows);
   return arena.used;
@@ -494,10 +495,12 @@ static void fill_face(ZpModel *model, Arrays *a) {
   const bool flat = model->def.counter.height == 0 || model->def.counter.power == 0;
   double x = 0;
   for (size_t i = 0; i < model->nodes; i++) {
+    a->face_x[i] = x;
     a->face[i] = counter_at(model, x);
     x = flat ? x + model->l : next_on_counter(model, x);
   }
   model->plates.face = model->air.face = a->face;
+  model->face_x = a->face_x;
 }
 
 /* Its joints may yield. */

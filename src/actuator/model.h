@@ -113,6 +113,7 @@ struct ZpModel {
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
+  const double *face_x;  /* [nodes] x of the places of a counter electrode that stations face, m, eq. (35.2) */
   ZpContactParams faces; /* of unilateral contact */
   bool has_film;         /* of liquid between the faces */
   ZpFilmParams film;
