@@ -48,13 +48,15 @@ static double drag(const ZpModel *model, double length, double v) {
   return -model->outer.drag * model->film.w * length * fabs(v) * v;
 }
 
-/* The pair has the momentum M(g) Y'; its kinetic energy also acts on the gap. Together their work is its change. */
-static void push_pair(const ZpModel *model, const ZpSpan *span, const Faces *of, double g0, double g1, double *Fy) {
+/* The pair has the momentum M(g) Y'; its kinetic energy also acts on the gap. Together their work is its change.
+ * => force on each face, N. */
+static void push_pair(const ZpModel *model, const ZpSpan *span, const Faces *of, double g0, double g1,
+                      double push[2]) {
   double before = zp_outer_pair(&model->outer, g0) * of->Y0, after = zp_outer_pair(&model->outer, g1) * of->Y1;
   double on_both = -0.5 * of->length * (after - before) / span->h;
   double on_gap = 0.5 * of->length * zp_outer_pair_slope(&model->outer, g0, g1) * of->Y0 * of->Y1;
-  Fy[of->node[0]] += on_both + on_gap;
-  Fy[of->node[1]] += on_both - on_gap;
+  push[0] = on_both + on_gap;
+  push[1] = on_both - on_gap;
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -62,9 +64,10 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++) {
     Faces of = faces_over(model, span, i);
-    if (of.count == 2) push_pair(model, span, &of, e->plates_start.gap[i], e->plates.gap[i], Fy);
+    double push[2] = {0, 0};
+    if (of.count == 2) push_pair(model, span, &of, e->plates_start.gap[i], e->plates.gap[i], push);
     for (size_t k = 0; k < of.count; k++)
-      Fy[of.node[k]] += drag(model, of.length, of.rate[k]);
+      Fy[of.node[k]] += push[k] + drag(model, of.length, of.rate[k]);
   }
 }
 
@@ -104,9 +107,10 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
   zp_plates_gaps(&model->plates, now->end, zp_nodes(model, now->end).y, &e->plates);
   for (size_t i = 0; i < model->nodes; i++) {
     Faces of = faces_at(model, i);
-    double Y = 0.5 * (v[of.node[0]] + v[of.node[1]]), sides = 0;
+    double Y = 0.5 * (v[of.node[0]] + v[of.node[1]]), squares = 0;
     for (size_t k = 0; k < of.count; k++)
-      sides += zp_outer_side(&model->outer) * (v[of.node[k]] * v[of.node[k]]);
+      squares += v[of.node[k]] * v[of.node[k]];
+    double sides = zp_outer_side(&model->outer) * squares;
     row[STORED] += 0.5 * of.length * (sides + moved_by_both(model, e->plates.gap[i]) * Y * Y);
   }
 }
