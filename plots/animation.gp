@@ -169,6 +169,8 @@ do for [k=1:shown_frames + hold] {
   plot for [side=0:half] for [j=0:(ribbons > 1 ? parts-1 : -1)] 'shapes.dat' index i-1 \
          using (side_x(side, _bar(j))):(yu*length):((side == 1 ? xu - xl : xl - xu)*length):((yl - yu)*length):(coloured ? shown(yu - yl, volts) : 0xe2f1fa) \
          with vectors nohead lw 5 lc rgb variable notitle, \
+       for [c=1:counter] 'shapes.dat' index i-1 using (side_x(0, counter_x($4))):(counter_face(counter_x($4))*length) \
+         with lines lw 5 lc rgb '#aaaaaa' notitle, \
        for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (side_x(side, column(x_of(r)))):(column(x_of(r) + 1)*length) \
          with lines lw 2 lc rgb metal notitle, \
        for [side=0:(ribbons > 1 ? half : -1)] 'shapes.dat' index i-1 using (is_clip(node(0)) ? side_x(side, $7) : NaN):($8*length) \

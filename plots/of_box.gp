@@ -1,6 +1,6 @@
 # shapes.dat: how many shapes there are, `frames`, at frame_time[k] and frame_voltage[k], of how many ribbons and, one below
-# the other, members of how many nodes; whether they are the left half of a symmetric actuator; the box around all of them,
-# and whether x and y may have the same scale. Column x_of(k) and the next one are x and y of ribbon k.
+# the other, members of how many nodes; whether they are the left half of a symmetric actuator; the box around all of them
+# and a counter electrode, and whether x and y may have the same scale. Column x_of(k) and the next one are x and y of ribbon k.
 load 'functions.gp'
 x_of(k) = 2*k + 3
 members = 0
@@ -24,4 +24,10 @@ box_left = min(upper_min_x, lower_min_x)
 box_right = max(upper_max_x, lower_max_x)
 box_bottom = min(upper_min_y, lower_min_y)
 box_top = max(upper_max_y, lower_max_y)
+load 'counter.gp'
+if (counter) {
+  box_right = max(box_right, ribbon_length)
+  box_top = max(box_top, max(counter_face(0), counter_face(ribbon_length)))
+  box_bottom = min(box_bottom, min(counter_face(0), counter_face(ribbon_length)))
+}
 same_scale = box_top - box_bottom > 0.25*(box_right - box_left) && box_right - box_left > 0.15*(box_top - box_bottom)

@@ -22,5 +22,7 @@ if (ribbons > 1) {
   plot for [k=1:ribbons] 'shapes.dat' index 0 using (column(x_of(k))*length):(column(x_of(k)+1)*length) with lines lw 2.5 dt dash(k) lc rgb colour(k) \
        title word('upper lower', k)
 } else {
-  plot 'shapes.dat' index 0 using ($5*length):($6*length) with lines lw 2.5 lc rgb colour(1) notitle
+  plot for [c=1:counter] 'shapes.dat' index 0 using (counter_x($4)*length):(counter_face(counter_x($4))*length) with lines lw 5 lc rgb '#aaaaaa' \
+         title 'counter electrode', \
+       'shapes.dat' index 0 using ($5*length):($6*length) with lines lw 2.5 lc rgb colour(1) notitle
 }

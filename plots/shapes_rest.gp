@@ -59,6 +59,7 @@ if (same_scale) {
   set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 }
 voltage = scale(drive_voltage, 'V')
-plot for [k=1:|at|] for [r=1:ribbons] 'shapes.dat' index at[k]-1 using (column(x_of(r))*length):(column(x_of(r)+1)*length) with lines lw 2 dt 2-stable[k] \
+plot for [c=1:counter] 'shapes.dat' index 0 using (counter_x($4)*length):(counter_face(counter_x($4))*length) with lines lw 5 lc rgb '#aaaaaa' notitle, \
+     for [k=1:|at|] for [r=1:ribbons] 'shapes.dat' index at[k]-1 using (column(x_of(r))*length):(column(x_of(r)+1)*length) with lines lw 2 dt 2-stable[k] \
      lc rgb shade((k - 1.0)/(|stable| - 1)) \
      title (r == 1 ? sprintf('%.3g %s', frame_voltage[at[k]]*voltage, unit(drive_voltage, 'V')) : '')

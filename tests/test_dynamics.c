@@ -229,7 +229,7 @@ static void set_end(Plates *p, size_t end, const double *gap, uint64_t *seed) {
     for (size_t r = 0; r < model->s; r++) {
       size_t j = model->s * i + r;
       x[j] = (i ? x[j - model->s] : 0) + 2e-3 * (1 + 0.2 * noise(seed));
-      y[j] = model->flat ? model->plates.flat_height - gap[i] : r ? y[j - 1] - gap[i] : 1e-3 * noise(seed);
+      y[j] = model->flat ? model->plates.face[i] - gap[i] : r ? y[j - 1] - gap[i] : 1e-3 * noise(seed);
     }
   zp_plates_gaps(&model->plates, x, y, &p->eval[end]);
 }

@@ -633,7 +633,7 @@ static const struct {
      "hinge",
      "actuator.kind electro_ribbon"},
     {"bodies: {a: {}, b: {}}\nmembers: {m: {upper: frame, lower: a}, n: {upper: a, lower: b}}\nactuator.kind: flange",
-     "members.n.upper = a: the flat electrode of actuator.kind = flange stands still"},
+     "members.n.upper = a: the counter electrode stands still"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {stiffness: 3 N/m}}",
      "springs.s.between: give two bodies"},
     {"bodies: {hand: {}}\nmembers: {m: {upper: frame, lower: hand}}\nsprings: {s: {between: [hand, hand]}}",

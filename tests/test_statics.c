@@ -4,7 +4,7 @@
 #include "check_util.h"
 
 #include "elastica.h"
-#include "rest/rest.h"
+#include "limit_util.h"
 
 #define MM(x) ((x)*1e-3)
 
@@ -427,38 +427,6 @@ static ZpActuatorDef flange_def(ZpRightEnd end, double b, double g) {
              {"ribbon.plane", ZP_PLANE_STRESS}, {"gravity", 0}, {"load.mass", 0}, {"ribbon.thickness", thick},
              {"insulator.thickness", 0}, {"medium.permittivity", 1}, {"medium.breakdown_field", V / (0.1 * g)},
              {"electro.gap_offset", g}, {"drive.voltage", 1.2 * V}, {"output.samples", 20000});
-}
-
-/* A point of the branch. */
-typedef struct Point {
-  double stroke, voltage;
-} Point;
-
-/* The top of the parabola through three points of voltage over stroke. */
-static Point top_of(const Point *p) {
-  double d01 = (p[1].voltage - p[0].voltage) / (p[1].stroke - p[0].stroke);
-  double d12 = (p[2].voltage - p[1].voltage) / (p[2].stroke - p[1].stroke);
-  double half = (d12 - d01) / (p[2].stroke - p[0].stroke); /* of the second derivative */
-  double stroke = 0.5 * (p[0].stroke + p[1].stroke) - 0.5 * d01 / half;
-  double from = stroke - p[0].stroke;
-  return (Point){stroke, p[0].voltage + from * (d01 + half * (stroke - p[1].stroke))};
-}
-
-/* The first limit point, in steps short enough for a parabola. */
-static Point limit_of(const ZpActuatorDef *def) {
-  ZpModel *model = model_of(def);
-  ZpRest rest;
-  ck_assert(zp_rest_open(&rest, model, NULL, NULL));
-  ck_assert(zp_newton_good(zp_statics_find_rest(&rest.statics).end));
-  ck_assert(zp_rest_follow_by(&rest, true, 0.01, 0.01));
-  Point point[3] = {{0, 0}, {0, 0}, {0, 0}};
-  while (point[2].voltage >= point[1].voltage) {
-    ck_assert(zp_branch_advance(&rest.branch));
-    memmove(point, point + 1, 2 * sizeof *point);
-    point[2] = (Point){zp_statics_stroke(&rest.statics), rest.statics.U};
-  }
-  zp_rest_close(&rest);
-  return top_of(point);
 }
 
 TESTS(test_pull_in, 0, 2) {

@@ -30,6 +30,10 @@ typedef struct Case {
     "electro.gap_offset", 2e-4                                                                                         \
   }
 
+#define CURVED                                                                                                         \
+  {"actuator.kind", ZP_KIND_CURVED}, {"insulator.thickness", 0}, {                                                     \
+    "lower.insulator.thickness", 2e-4                                                                                  \
+  }
 #define FOLD                                                                                                           \
   {"actuator.kind", ZP_KIND_HINGE}, {"hinge.stiffness", 1e-4}, {                                                       \
     "hinge.rest_angle", 0.5                                                                                            \
@@ -53,6 +57,8 @@ static const Case cases[] = {
     {"platform that turns, faces in touch", SET(SOFT, TURNS, {"drive.voltage", 10}), 4.5e-7, 5e3, true},
     {"particles", SET(SOFT, {"ribbon.model", ZP_RIBBON_MASS_SPRING}), 1e-4, 5e3, false},
     {"flange", SET(SOFT, FLANGE), 1e-4, 1e3, false},
+    {"curved electrode", SET(SOFT, CURVED), 1e-4, 1e3, false},
+    {"curved electrode, faces in touch", SET(SOFT, CURVED, {"drive.voltage", 10}), 4.5e-7, 1e3, true},
     {"clamped flange", SET(SOFT, FLANGE, {"actuator.right_end", ZP_END_CLAMPED}), 1e-4, 1e3, true},
     {"fold", SET(SOFT, FOLD), 1e-4, 5e3, false},
     {"fold of short thick strips, whose spring is as stiff as they are",
@@ -83,7 +89,8 @@ static void bend(ZpStatics *s, double gap) {
     bool lower = j != upper;
     if (s->member->assembly.equation[2 * j] >= 0) x[j] += 0.1 * model->l * noise(&seed);
     double rise = gap > 0 ? 0.3 * gap * noise(&seed) : 0.1 * model->l * noise(&seed);
-    y[j] = lower ? y[upper] - gap - rise : rise;
+    double from = model->flat ? model->plates.face[j] - gap : 0;
+    y[j] = lower ? y[upper] - gap - rise : from + rise;
   }
   const ZpTies ties = zp_ties_of(model, 1, 0);
   for (const ZpTie *tie = ties.tie; tie < ties.tie + ties.count; tie++) {

@@ -22,7 +22,7 @@
 
 #define EXPORT __attribute__((visibility("default"), used))
 
-enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512 };
+enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512, MOST_NODES = 2001 };
 
 /* How many numbers the page reads of each; frame.js names them. */
 enum { MEMBER_NUMBERS = 14, BODY_NUMBERS = 5, SPRING_NUMBERS = 6, JOINT_NUMBERS = 4 };
@@ -57,6 +57,7 @@ typedef struct ZpWeb {
   ZpSim *sim;
   double row[SIGNALS];
   double part[MEMBER_NUMBERS]; /* the longest of the above */
+  double pair[2][2 * MOST_NODES]; /* x and y of a counter electrode and the ribbon below it, as of two ribbons */
   ZpResult *result;
 } ZpWeb;
 
@@ -197,10 +198,10 @@ EXPORT int zp_web_assign(ZpWeb *web) {
 }
 
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
-  if (!zp_def_has(def, ZP_DEVICE_PAIR))
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "this page supports kinds with two ribbons, electro_ribbon, hinge and mouth; use the command for the others");
+  if (!zp_def_has(def, ZP_DEVICE_PAIR | ZP_DEVICE_COUNTER))
+    return zp_fail(err, ZP_BAD_INPUT, "this page draws two faces, and a ribbon alone has one; use the command for it");
+  if (!zp_def_has(def, ZP_DEVICE_PAIR) && zp_def_network(def))
+    return zp_fail(err, ZP_BAD_INPUT, "this page draws networks of two ribbons; use the command for counter electrodes");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs the studies actuate and equilibrium only; use the command for the others");
@@ -335,10 +336,10 @@ EXPORT int zp_web_members(ZpWeb *web) {
   return (int)web->model->members;
 }
 
-/* Modelled halves of each: 1, which has a mirror image, or 2; 0 of a hinge, which has neither. */
+/* Modelled halves of each: 1, which has a mirror image, or 2; 0 without a platform, which has neither. */
 EXPORT int zp_web_halves(ZpWeb *web) {
   const ZpTopology *topology = &web->model->topology;
-  return zp_is_open_pair(topology) ? 0 : (int)zp_halves(topology);
+  return zp_has_platform(topology) ? (int)zp_halves(topology) : 0;
 }
 
 /* Stations of each ribbon. */
@@ -461,12 +462,22 @@ EXPORT int zp_web_pull(ZpWeb *web, int body, double right, double up) {
 }
 
 /* x and y [members * nodes * 2] of interleaved faces, gap and line force [members * nodes]. */
+static const double *paired(ZpWeb *web, size_t axis, const double *face, const double *ribbon) {
+  const ZpTopology *topology = &web->model->topology;
+  if (zp_is_pair(topology)) return ribbon;
+  for (size_t i = 0; i < topology->stations; i++) {
+    web->pair[axis][2 * i] = face[i];
+    web->pair[axis][2 * i + 1] = ribbon[i];
+  }
+  return web->pair[axis];
+}
+
 EXPORT const double *zp_web_x(ZpWeb *web) {
-  return zp_sim_shape(web->sim).x;
+  return paired(web, 0, web->model->face_x, zp_sim_shape(web->sim).x);
 }
 
 EXPORT const double *zp_web_y(ZpWeb *web) {
-  return zp_sim_shape(web->sim).y;
+  return paired(web, 1, web->model->plates.face, zp_sim_shape(web->sim).y);
 }
 
 EXPORT const double *zp_web_gap(ZpWeb *web) {

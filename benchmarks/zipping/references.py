@@ -112,16 +112,19 @@ def newton(function, x):
     return x
 
 
-def electrode(free):
-    """Largest b of w'''' = b / (1 - w)^2 with a clamped left end and the right one free or guided: pull-in."""
+def electrode(free, power=0, eta=0, travels=(0.35, 0.5)):
+    """Largest b of w'''' = b / (eta + x^power - w)^2 with a clamped left end and the right one free or guided: pull-in."""
     def load(travel, start):
         def misses(x):
-            w, slope, bending, shear = runge_kutta(lambda s, y: [y[1], y[2], y[3], x[2] / (1 - y[0]) ** 2], [0, 0, x[0], x[1]], 400)
+            w, slope, bending, shear = runge_kutta(lambda s, y: [y[1], y[2], y[3], x[2] / (eta + s**power - y[0]) ** 2], [0, 0, x[0], x[1]], 400)
             return [w - travel, bending if free else slope, shear]
 
         return newton(misses, start)
 
-    low, high, start = 0.35, 0.5, [1.5 if free else 3, -1.5 if free else -6, 1.5 if free else 4]
+    (low, high), steps = travels, 12
+    start = [0.1, -0.2, 0.2]
+    for k in range(1, steps + 1):  # from a small travel on, each solution the start of the next
+        start = load(k * low / steps, start)
     golden = 0.5 * (math.sqrt(5) - 1)
     for _ in range(30):
         left, right = high - golden * (high - low), low + golden * (high - low)
@@ -173,6 +176,8 @@ SOLVED = {
     "modes_free_1": (lambda: frequency(False, 1), EXACT, 5e-3),
     "pull_in_guided": (lambda: electrode(False), SHOT, 5e-3),
     "pull_in_free": (lambda: electrode(True), SHOT, 5e-3),
+    "pull_in_curved_1": (lambda: electrode(True, 1, 0.2, (0.45, 0.6)), SHOT, 5e-3),
+    "pull_in_curved_1.5": (lambda: electrode(True, 1.5, 0.05, (0.33, 0.43)), SHOT, 5e-3),
     "force_wedge_1mm": (lambda: wedge(1e-3, math.inf), SERIES, 5e-3),
     "force_wedge_2mm": (lambda: wedge(2e-3, math.inf), SERIES, 5e-3),
     "force_wedge_4mm": (lambda: wedge(4e-3, math.inf), SERIES, 5e-3),

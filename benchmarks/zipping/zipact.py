@@ -40,8 +40,14 @@ def flange(end):
             "medium.breakdown_field": "1 GV/m", "electro.gap_offset": "1 mm", "drive.voltage": "30 kV"}
 
 
+def curved(power, eta):
+    """A beam beside a curved electrode, 100 mm long and 1 mm thick; the electrode rises by 1 mm and has an insulator of eta mm."""
+    return {**flange("free"), "actuator.kind": "curved", "electro.gap_offset": 0, "counter.height": "1 mm", "counter.power": power,
+            "lower.insulator.thickness": "%g mm" % (4 * eta), "lower.insulator.permittivity": 4, "electro.breakdown_cap": "false"}
+
+
 def load_of_voltage(voltage):
-    """eps0 w V^2 L^4 / (2 EI g^3) of flange()."""
+    """eps0 w V^2 L^4 / (2 EI g^3) of flange() and curved()."""
     return 8.8541878128e-12 * voltage**2 * 0.1**4 / (2 * 200e9 * 1e-9 / 12 * 1e-9)
 
 
@@ -71,6 +77,8 @@ CASES = {
     "modes_hanging_5kV": ("modes", {**DRY, "modes.voltage": "5 kV"}, lambda s: s["frequencies_Hz"][0]),
     "pull_in_guided": ("limits", flange("guided"), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_free": ("limits", flange("free"), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
+    "pull_in_curved_1": ("limits", curved(1, 0.2), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
+    "pull_in_curved_1.5": ("limits", curved(1.5, 0.05), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_8g": ("limits", DRY, lambda s: s["pull_in_voltage_V"]),
     "pull_in_8g_no_breakdown": ("limits", {**DRY, "electro.breakdown_cap": "false"}, lambda s: s["pull_in_voltage_V"]),
     "closing_61g": ("limits", {**DRY, "load.mass": "61 g"}, lambda s: s["closing_voltage_V"]),

@@ -706,7 +706,7 @@ static inline void add_above(int i, int j, double value, ZpBand *K) {
 
 void zp_assemble_own_by_gap(const ZpAssembly *a, size_t c, size_t station, double value, ZpBand *K) {
   const size_t upper = 2 * a->s * station + 1, lower = upper + 2 * (a->s - 1);
-  add_above(a->extra_place[c], a->place[upper], a->factor[upper] * value, K);
+  if (a->s == 2) add_above(a->extra_place[c], a->place[upper], a->factor[upper] * value, K);
   add_above(a->extra_place[c], a->place[lower], a->factor[lower] * -value, K);
 }
 

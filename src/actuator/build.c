@@ -255,8 +255,7 @@ static ZpPlatesParams plates_of(const ZpModel *model) {
                           .platform_end = model->topology.platform.last,
                           .level = level_faces(model),
                           .flat_length = def->platform.electrode ? platform_length(model) : 0,
-                          .flat = model->flat,
-                          .flat_height = def->electro.gap_offset};
+                          .flat = model->flat};
 }
 
 /* Eq. (25.3). The resistivity of a material that does not conduct is NAN. */
@@ -310,6 +309,7 @@ typedef struct Arrays {
   double *shear_B, *per_moment, *per_force; /* ZpStressParams */
   double *weight, *mass, *pseudo;           /* [stride] */
   double *inverse[2][2], *pair[2][2];       /* ZpAxisMasses, of true and of pseudo-masses, along x and y */
+  double *face, *face_x;                    /* [nodes] of a counter electrode */
   double *time, *voltage;                   /* ZpDriveTable */
 } Arrays;
 
@@ -323,6 +323,8 @@ static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a)
     a->inverse[k / 2][k % 2] = zp_arena_take(&arena, model->stride);
     a->pair[k / 2][k % 2] = zp_arena_take(&arena, model->nodes);
   }
+  a->face = zp_arena_take(&arena, model->nodes);
+  a->face_x = zp_arena_take(&arena, model->nodes);
   a->time = zp_arena_take(&arena, rows);
   a->voltage = zp_arena_take(&arena, rows);
   return arena.used;
@@ -471,6 +473,40 @@ static ZpHingeParams hinge_of(const ZpModel *model) {
   return (ZpHingeParams){1 / (1 / def->hinge.stiffness + share.compliance), def->hinge.rest_angle - share.turn};
 }
 
+/* Height of a counter electrode at x, eq. (35.1), m. */
+static double counter_at(const ZpModel *model, double x) {
+  const ZpActuatorDef *def = &model->def;
+  return def->electro.gap_offset + def->counter.height * zp_power(fmin(x / model->L, 1), def->counter.power);
+}
+
+/* The place on it that is an element's length from the one at x, in a straight line, eq. (35.2). */
+static double next_on_counter(const ZpModel *model, double x) {
+  enum { HALVINGS = 52 };
+  const double y = counter_at(model, x);
+  double near = 0, far = model->l;
+  for (int k = 0; k < HALVINGS; k++) {
+    const double middle = 0.5 * (near + far), rise = counter_at(model, x + middle) - y;
+    if (middle * middle + rise * rise > model->l * model->l)
+      far = middle;
+    else
+      near = middle;
+  }
+  return x + far;
+}
+
+/* A ribbon that lies on the electrode has its stations there. */
+static void fill_face(ZpModel *model, Arrays *a) {
+  const bool flat = model->def.counter.height == 0 || model->def.counter.power == 0;
+  double x = 0;
+  for (size_t i = 0; i < model->nodes; i++) {
+    a->face_x[i] = x;
+    a->face[i] = counter_at(model, x);
+    x = flat ? x + model->l : next_on_counter(model, x);
+  }
+  model->plates.face = model->air.face = a->face;
+  model->face_x = a->face_x;
+}
+
 /* Its joints may yield. */
 static void fill_plastic(ZpModel *model) {
   if (!model->def.ribbon.plasticity) return;
@@ -561,7 +597,8 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   const ZpActuatorDef *def = &model->def;
   double range = zp_contact_range(zp_insulation(def));
   double depth = fmin(fmax(part * model->plates.d, zp_contact_range(0)), range);
-  double layers = compliance_of(def) + (model->s > 1 ? compliance_of(lower) : 0);
+  bool both = zp_def_has(def, ZP_DEVICE_PAIR | ZP_DEVICE_SHAPED);
+  double layers = compliance_of(def) + (both ? compliance_of(lower) : 0);
   double stiffest = def->ribbon.width / layers * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
@@ -610,6 +647,7 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .rho = def->liquid.inertia ? def->medium.density : 0,
                        .roughness = model->mirror * def->film.roughness};
   zp_film_modes(&film, def->liquid.lateral_flow);
+  film.outlet |= zp_ends_free(&model->topology);
   return film;
 }
 
@@ -775,9 +813,31 @@ static void fill_waveform(ZpModel *model, const ZpDriveTable *table, Arrays *a) 
 }
 
 #ifndef ZP_WITHOUT_FIELD
-/* Contribution of the lateral edges, up to a gap larger than that of ribbons that hang straight down. */
+/* The cross-section of a ribbon over a counter electrode. Bare metals are followed down to a tenth of their gap, far
+ * beyond pull-in. */
+static void put_over_plate(const ZpModel *model, ZpEdgeParams *params) {
+  static const double tenth = 0.1;
+  const ZpActuatorDef lower = zp_def_lower(&model->def);
+  double least = INFINITY;
+  for (size_t i = 0; i < model->nodes; i++)
+    least = fmin(least, model->plates.face[i]);
+  params->plate = true;
+  params->plate_t = lower.insulator.thickness;
+  params->plate_eps = lower.insulator.permittivity;
+  params->least = tenth * least;
+}
+
+/* A gap larger than that of ribbons that hang straight down, m. */
+static double largest_gap(const ZpModel *model) {
+  static const double halves = 2.5, bend = 1.25; /* of the flexible length: two ribbons, one */
+  double most = 0;
+  for (size_t i = 0; model->flat && i < model->nodes; i++)
+    most = fmax(most, model->plates.face[i]);
+  return model->flat ? most + bend * model->L : halves * model->L;
+}
+
+/* Contribution of the lateral edges. */
 static ZpStatus make_edges(ZpModel *model, ZpError *err) {
-  static const double halves = 2.5; /* of the flexible length */
   const ZpActuatorDef *def = &model->def;
   if (!model->field || !def->electro.edges) return ZP_OK;
   ZpEdgeParams params = {.w = def->ribbon.width,
@@ -785,12 +845,13 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
                          .t = def->insulator.thickness,
                          .eps_m = def->medium.permittivity,
                          .eps_i = def->insulator.permittivity};
+  if (model->flat) put_over_plate(model, &params);
   model->plates.edges = &model->edge_law;
-  ZpStatus status = zp_edges_make(&params, halves * model->L, &model->edge_law, err);
+  ZpStatus status = zp_edges_make(&params, largest_gap(model), &model->edge_law, err);
   if (status != ZP_OK || !model->has_bead) return status;
   params.eps_m = 1;
   model->air.edges = &model->air_edges;
-  return zp_edges_make(&params, halves * model->L, &model->air_edges, err);
+  return zp_edges_make(&params, largest_gap(model), &model->air_edges, err);
 }
 #endif
 
@@ -800,11 +861,13 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
   Arrays arrays;
   model->memory = zp_calloc(1, reserve(model, rows, NULL, &arrays));
   ZpStatus status = model->memory ? ZP_OK : zp_fail_memory(err);
-#ifndef ZP_WITHOUT_FIELD
-  if (status == ZP_OK) status = make_edges(model, err);
-#endif
   if (status != ZP_OK) return status;
   reserve(model, rows, model->memory, &arrays);
+  fill_face(model, &arrays);
+#ifndef ZP_WITHOUT_FIELD
+  status = make_edges(model, err);
+  if (status != ZP_OK) return status;
+#endif
   fill_waveform(model, table, &arrays);
   if (model->is_rod)
     fill_rod(model, &arrays);

@@ -117,8 +117,9 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, con
 }
 
 double zp_eval_weight_scale(const ZpModel *model) {
-  static const double least_weight = 1e-3; /* N */
-  return fmax(model->total_weight, least_weight);
+  static const double least_weight = 1e-3, bends = 1e3; /* N; of the force that bends a ribbon */
+  double small = bends * zp_ribbon_section(model, 0).EI / (model->L * model->L);
+  return fmax(model->total_weight, fmin(least_weight, small));
 }
 
 double zp_eval_imbalance(const ZpModel *model, const double *a) {

@@ -100,7 +100,7 @@ struct ZpModel {
   size_t stride;          /* count, rounded up */
   bool field;             /* there are electrodes that attract each other */
   bool field_solved;      /* in two dimensions, beyond the plates law */
-  bool flat;              /* one ribbon below a flat electrode */
+  bool flat;              /* one ribbon below a rigid electrode */
   double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1; of each in parallel */
   double L, l;            /* flexible length of a half or of the one ribbon, element, m */
   ZpRibbon ribbon[2];     /* upper or only one, lower one */
@@ -114,6 +114,7 @@ struct ZpModel {
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
+  const double *face_x;  /* [nodes] x of the places of a counter electrode that stations face, m, eq. (35.2) */
   ZpContactParams faces; /* of unilateral contact */
   bool has_film;         /* of liquid between the faces */
   ZpFilmParams film;

@@ -4,7 +4,7 @@
 
 double zp_front_length(const ZpModel *model, double voltage) {
   const ZpActuatorDef *def = &model->def;
-  bool pair = zp_is_pair(&model->topology), zips = pair || (model->flat && def->electro.gap_offset == 0);
+  bool pair = zp_is_pair(&model->topology), zips = pair || (model->flat && model->plates.face[0] == 0);
   if (!zips || voltage == 0 || def->electro.surface != ZP_SURFACE_POLYLINE) return INFINITY;
   ZpPlatesLaw closed = zp_plates_law(&model->plates, voltage, 0);
   double upper = zp_ribbon_section(model, 0).EI, lower = zp_ribbon_section(model, 1).EI;

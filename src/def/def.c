@@ -551,8 +551,13 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_check_mass(def, err) : status;
 }
 
-/* Two ribbons touch at their joint; a flange touches at its clamp if its gap there is 0, otherwise only beyond pull-in.
- */
+/* The gap of one ribbon over a counter electrode at its clamp, m. */
+static double gap_at_clamp(const ZpActuatorDef *def) {
+  return def->electro.gap_offset + (def->counter.power == 0 ? def->counter.height : 0);
+}
+
+/* Two ribbons touch at their joint; one over a counter electrode touches at its clamp if its gap there is 0, otherwise
+ * only beyond pull-in. */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
   ZpStatus ours = check_there(def, err);
   if (ours != ZP_OK) return ours;
@@ -560,7 +565,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
-  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && def->electro.gap_offset == 0);
+  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && gap_at_clamp(def) == 0);
   if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
@@ -668,6 +673,27 @@ static ZpStatus check_bare(const ZpActuatorDef *def, ZpError *err) {
                  "faces that touch is infinite");
 }
 
+/* Checks of a counter electrode with a shape. */
+static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
+  const double height = def->counter.height, least = -def->electro.gap_offset, steepest = 1;
+  const double slope = fabs(height) * fmax(def->counter.power, 1) / def->ribbon.length;
+  if (height < least)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "counter.height = %g m: the counter electrode cuts the ribbon; with electro.gap_offset = %g m give at "
+                   "least %g m",
+                   height, def->electro.gap_offset, least + 0.0); /* no -0 */
+  if (def->counter.power > 0 && slope > steepest)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "counter.height = %g m: the counter electrode is too steep for a ribbon to lie on it; with "
+                   "ribbon.length = %g m and counter.power = %g at most %g m",
+                   height, def->ribbon.length, def->counter.power, height * steepest / slope);
+  if (def->electro.edges && zp_def_has(def, ZP_DEVICE_COUNTER) && zp_insulation(def) == 0 && gap_at_clamp(def) == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "electro.edges = true: requires an insulator where the faces touch at the clamp; the field at the "
+                   "edges of bare faces that touch is infinite");
+  return ZP_OK;
+}
+
 /* Checks of lengths and numbers of nodes. */
 static ZpStatus check_sizes(const ZpActuatorDef *def, ZpError *err) {
   if (zp_def_has(def, ZP_DEVICE_PLATFORM) && def->platform.length > 0.9 * def->ribbon.length)
@@ -698,8 +724,8 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of numbers that depend on each other, in the order in which they are asked: of the mass that members of a
  * stack share before those of the members. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,  check_sizes, check_bare,      zp_check_ribbons, check_change, zp_check_stack,
-    check_offset, check_tilt,  check_waveforms, check_control,    check_meter};
+    check_build,    check_sizes,  check_counter, check_bare,      zp_check_ribbons, check_change,
+    zp_check_stack, check_offset, check_tilt,    check_waveforms, check_control,    check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);

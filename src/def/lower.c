@@ -82,9 +82,14 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
               "the paper's springs are those of a straight strip of one thickness")
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.permittivity), ZP_HAS(PAIR),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.segment_3.curvature), ZP_HAS(PAIR),
             "the other kinds have no lower ribbon"),
-    ZP_RULE(EQUATION, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.permittivity),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.insulator.material, lower.insulator.breakdown_field),
+            ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PAIR | ZP_DEVICE_SHAPED),
+            "the other kinds have one ribbon, and one insulator or two equal ones"),
+    ZP_RULE_IF(PHYSICS, ZP_SET(lower.insulator.density), ZP_IS(lower.insulator.material, ZP_INSULATOR_NONE),
+               ZP_HAS(PAIR), "the mass of an electrode that stands still does not matter"),
+    ZP_RULE(EQUATION, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.breakdown_field),
             ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the paper's mechanics makes both ribbons equal"),
     ZP_SEGMENT(segment_1),
     ZP_SEGMENT(segment_2),

@@ -98,7 +98,7 @@ static ZpStatus check_member(const ZpActuatorDef *def, int member, ZpError *err)
   if (upper > 0 && zp_def_has(def, ZP_DEVICE_COUNTER) &&
       value_of(def, ZP_KEY(body_K.moves), (size_t)upper) != ZP_MOVES_NONE)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "members.%s.upper = %s: the flat electrode of actuator.kind = flange stands still; give frame, or a "
+                   "members.%s.upper = %s: the counter electrode stands still; give frame, or a "
                    "body with moves: none",
                    name, SHOWN(def, ZP_OF_BODY, upper));
   return ZP_OK;

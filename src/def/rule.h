@@ -22,6 +22,7 @@ enum {
   ZP_DEVICE_HINGE = 16,     /* a hinge at the left end of the lower ribbon */
   ZP_DEVICE_COUNTER = 32,   /* one ribbon and a rigid counter electrode */
   ZP_DEVICE_POUCH = 128,    /* two films that mirror each other around a fixed volume of liquid; one is modelled */
+  ZP_DEVICE_SHAPED = 256,   /* a counter electrode whose shape counter.* says */
   ZP_DEVICE_PAPERS = 64,    /* the ends that the paper's steps, zipping and surface know */
   ZP_DEVICE_ENDS = ZP_DEVICE_PAIR | ZP_DEVICE_POUCH /* an end that hangs on electrodes, and may be held */
 };

@@ -1,4 +1,5 @@
-/* Contribution to the plates law of the field beyond the lateral edges of two strips that face each other. Per length
+/* Contribution to the plates law of the field beyond the lateral edges of two strips that face each other, or of one
+ * over a wide plate. Per length
  * of the strips the capacitance depends on their gap alone where that changes slowly; the field of the cross-section
  * across the strips is solved at some gaps once, and a smooth law goes through them, docs/theory.md section 16. */
 #ifndef ZP_ELECTRO_EDGES_H
@@ -7,11 +8,15 @@
 #include "base/fail.h"
 #include "electro/field.h"
 
-/* Two parallel strips, an insulator on each of their facing sides, in liquid. */
+/* Two parallel strips, an insulator on each of their facing sides, in liquid; or one of them over a plate that is much
+ * wider, eq. (36.1). */
 typedef struct ZpEdgeParams {
-  double w;            /* width, m */
-  double b, t;         /* thickness of metal and of insulator, m; t > 0 */
-  double eps_m, eps_i; /* relative permittivity of liquid and insulator */
+  double w;                   /* width, m */
+  double b, t;                /* thickness of metal and of insulator, m; of two strips t > 0 */
+  double eps_m, eps_i;        /* relative permittivity of liquid and insulator */
+  bool plate;                 /* a plate instead of the other strip, */
+  double plate_t, plate_eps;  /* thickness of its insulator, m, 0 without; relative permittivity */
+  double least;               /* smallest gap of bare metals that counts, m; > 0 where there is no insulator */
 } ZpEdgeParams;
 
 /* The mesh on which the law is solved; about 1e-4 of the capacitance while strips are close, 6e-4 at a third of their
@@ -28,8 +33,8 @@ enum { ZP_EDGE_TERMS = 18 };
 /* e(g) / w with e = C' / (eps0 eps_m) - w / (g + d), a polynomial in z(g), eqs. (16.1), (16.2). Beyond its ends it
  * continues straight. */
 typedef struct ZpEdgeLaw {
-  double largest;          /* it holds for gaps 0 .. largest, m */
-  double d;                /* liquid thickness that stands for both insulators, m */
+  double least, largest;   /* it holds for gaps least .. largest, m; least is 0 with an insulator */
+  double d;                /* liquid thickness that stands for all insulators, m */
   double s0;               /* square root of the middle of g + d, m^0.5 */
   double stretch;          /* so that z is in [-1, 1] */
   double p[ZP_EDGE_TERMS]; /* coefficients of z^k, 1/m */

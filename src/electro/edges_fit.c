@@ -10,6 +10,12 @@
 /* A quarter of the cross-section, with a mirror in the middle of the strips; upper and lower half are both solved. */
 enum { MIRRORED = 2, STATIONS = 3, TERMS = ZP_EDGE_TERMS };
 
+/* Size of the field's corner at the strip's edge, m: that of its insulator; of a bare one its distance from the image
+ * in the plate, or its thickness. */
+static double corner_of(const ZpEdgeParams *p) {
+  return p->t > 0 ? p->t : fmin(p->b, 2 * (p->plate_t + p->least));
+}
+
 ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
   static const double tape = 130e-6, widest = 50e-3; /* m: of size 1 */
   ZpFieldMesh mesh = zp_field_mesh(fmax(p->t / tape, p->w / widest));
@@ -17,18 +23,22 @@ ZpFieldMesh zp_edges_mesh(const ZpEdgeParams *p) {
   mesh.insulator = 2;
   mesh.clip = 12;
   mesh.outside = 16;
-  mesh.first = 0.08 * p->t; /* the field's corner at the strip's edge is as large as the insulator */
+  mesh.first = 0.08 * corner_of(p);
+  if (p->plate) mesh.strip = 2;
+  if (p->t == 0) mesh.gap *= 2; /* a bare corner is in it */
+  if (p->plate_t > 0) mesh.gap *= 3;
   return mesh;
 }
 
-/* Capacitance per length at one gap: twice the energy at 1 V, of all that is mirrored. */
+/* Capacitance per length at one gap: twice the energy at 1 V, of all that is mirrored. A plate is the middle plane of
+ * two strips, eq. (36.1): half of the gap between their insulators has half of the voltage. */
 static double solve_at(ZpField *f, const ZpEdgeParams *p, double g) {
-  double to_edge = 0.5 * p->w - f->params.clip, half = 0.5 * g;
+  double to_edge = 0.5 * p->w - f->params.clip, half = p->plate ? g + p->plate_t : 0.5 * g;
   const double x[STATIONS] = {0, 0.5 * to_edge, to_edge}, upper[STATIONS] = {half, half, half},
                lower[STATIONS] = {-half, -half, -half};
   ZpContact faces = {x, upper, x, lower, 1};
   if (zp_field_solve(f, &faces) != ZP_FIELD_SOLVED) return NAN;
-  return 2 * MIRRORED * zp_grid_energy(&f->grid);
+  return (p->plate ? 2 : 1) * 2 * MIRRORED * zp_grid_energy(&f->grid);
 }
 
 bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t count, const double *gap, double *C) {
@@ -41,6 +51,8 @@ bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t
                           .eps_m = p->eps_m,
                           .eps_out = p->eps_m,
                           .eps_i = p->eps_i,
+                          .slab = 2 * p->plate_t,
+                          .eps_slab = p->plate_eps,
                           .clip = graded * 0.5 * p->w,
                           .electrode = true,
                           .mesh = *mesh};
@@ -57,14 +69,14 @@ bool zp_edges_capacitance(const ZpEdgeParams *p, const ZpFieldMesh *mesh, size_t
 /* z = stretch (s - s0) / (s + s0): like a logarithm over the range, but it needs square roots only, which are the same
  * everywhere. */
 static void choose_variable(ZpEdgeLaw *law) {
-  double most = law->largest + law->d, middle = sqrt(law->d * most), s = sqrt(most);
+  double least = law->least + law->d, most = law->largest + law->d, middle = sqrt(least * most), s = sqrt(most);
   law->s0 = sqrt(middle);
   law->stretch = (s + law->s0) / (s - law->s0);
 }
 
 static double gap_at(const ZpEdgeLaw *law, double z) {
   double part = z / law->stretch, s = law->s0 * (1 + part) / (1 - part);
-  return fmax(s * s - law->d, 0);
+  return fmax(s * s - law->d, law->least);
 }
 
 /* Roots of Chebyshev's polynomial of degree TERMS, cos((2 k + 1) a), a = pi / (2 TERMS), by their recurrence: no
@@ -133,11 +145,17 @@ static ZpStatus fit(const ZpEdgeParams *p, ZpEdgeLaw *law, ZpError *err) {
   return ZP_OK;
 }
 
+/* Liquid thickness that stands for the insulators of a strip and a plate, m. */
+static double insulator_of(const ZpEdgeParams *p) {
+  return p->t * p->eps_m / p->eps_i + (p->plate_t > 0 ? p->plate_t * p->eps_m / p->plate_eps : 0);
+}
+
 ZpStatus zp_edges_make(const ZpEdgeParams *p, double largest, ZpEdgeLaw *law, ZpError *err) {
   static const double worst = 1e-2;
   memset(law, 0, sizeof *law);
   law->largest = largest;
-  law->d = 2 * p->t * p->eps_m / p->eps_i;
+  law->d = p->plate ? insulator_of(p) : 2 * p->t * p->eps_m / p->eps_i;
+  law->least = law->d > 0 ? 0 : p->least;
   choose_variable(law);
   ZpStatus status = fit(p, law, err);
   if (status != ZP_OK || law->error < worst) return status;

@@ -133,8 +133,23 @@ static bool between_electrodes(const ZpField *f, size_t c) {
   return f->column[2 * c].electrodes && f->column[2 * c + 2].electrodes;
 }
 
+/* Is row r of elements in the slab? It has the middle third of those of the gap. */
+static bool in_slab(const ZpField *f, size_t r) {
+  const ZpFieldRow *middle = &f->row[2 * r + 1];
+  return f->params.slab > 0 && middle->layer == GAP && middle->share > 1.0 / 3 && middle->share < 2.0 / 3;
+}
+
+/* Where a row of the gap lies between faces that are so far apart, 0 to 1. */
+static double share_of_gap(const ZpField *f, double share, double apart) {
+  if (f->params.slab == 0) return share;
+  const double liquid = 0.5 * (1 - f->params.slab / apart), of_third = 3 * share;
+  if (of_third < 1) return of_third * liquid;
+  return of_third > 2 ? 1 - (3 - of_third) * liquid : liquid + (of_third - 1) * (1 - 2 * liquid);
+}
+
 static double permittivity(const ZpField *f, size_t c, size_t r) {
   size_t layer = f->row[2 * r + 1].layer;
+  if (in_slab(f, r)) return f->params.eps_slab;
   bool metal = layer == LOWER_METAL || layer == UPPER_METAL;
   bool insulator = layer == LOWER_INSULATOR || layer == UPPER_INSULATOR;
   if (!between_electrodes(f, c)) return f->params.eps_out;
@@ -266,8 +281,9 @@ static void place_nodes(ZpField *f, const ZpContact *faces) {
     cross(f, face_at(faces, &f->column[i], 0), face_at(faces, &f->column[i], 1), at);
     for (size_t j = 0; j < g->ny; j++) {
       Point below = at[f->row[j].layer], above = at[f->row[j].layer + 1];
-      g->x[i * g->ny + j] = mix(f->row[j].share, below.x, above.x);
-      g->y[i * g->ny + j] = mix(f->row[j].share, below.y, above.y);
+      double share = f->row[j].layer == GAP ? share_of_gap(f, f->row[j].share, above.y - below.y) : f->row[j].share;
+      g->x[i * g->ny + j] = mix(share, below.x, above.x);
+      g->y[i * g->ny + j] = mix(share, below.y, above.y);
     }
   }
 }

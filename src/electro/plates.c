@@ -24,7 +24,7 @@ double zp_plates_least_h(const ZpPlatesParams *p, double U) {
 /* The gap at which the edges' law is evaluated. From there it continues as a straight line: into the range of the cap,
  * and beyond the ends of the fit. */
 static inline double edge_gap(const ZpPlatesParams *p, double h_c, double gap) {
-  double least = h_c - p->d > 0 ? h_c - p->d : 0, bounded = gap > least ? gap : least;
+  double start = p->edges->least, least = h_c - p->d > start ? h_c - p->d : start, bounded = gap > least ? gap : least;
   return bounded < p->edges->largest ? bounded : p->edges->largest;
 }
 
@@ -35,7 +35,7 @@ static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPl
   law->W -= K * v.slope;
   law->P -= K * (v.e + v.slope * (gap - at));
   law->q += 2 * p->k * U * (v.e + v.slope * (gap - at));
-  if (cap > 0 && gap < cap && cap < p->edges->largest) law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
+  if (cap > p->edges->least && gap < cap && cap < p->edges->largest) law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
 }
 
 ZpPlatesLaw zp_plates_law(const ZpPlatesParams *p, double U, double gap) {
@@ -70,7 +70,7 @@ ZP_KERNEL static void gaps(size_t nodes, const double *restrict x, const double 
 
 static void gaps_below_flat(const ZpPlatesParams *p, const double *x, const double *y, ZpPlatesEval *e) {
   for (size_t i = 0; i < p->nodes; i++)
-    e->gap[i] = p->flat_height - y[i];
+    e->gap[i] = p->face[i] - y[i];
   for (size_t i = 0; i + 1 < p->nodes; i++)
     e->dx[i] = x[i + 1] - x[i];
 }

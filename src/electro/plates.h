@@ -27,8 +27,8 @@ typedef struct ZpPlatesParams {
   double h_least;                /* g + d below which the law is not followed further, m */
   double h_switch_per_volt;      /* the authors' breakdown switch, surface.h: share / E_bd; 0 without */
   double switch_offset;          /* what it takes for g + d - g, m */
-  bool flat;                     /* one ribbon below a flat electrode instead of two that face each other */
-  double flat_height;            /* y of that electrode's face, m */
+  bool flat;                     /* one ribbon below a rigid electrode instead of two that face each other */
+  const double *face;            /* [N] y of that electrode's face at each station, m, eq. (35.1) */
   size_t platform, platform_end; /* first and last station of the platform: elements between them attract nothing */
   ZpLevelEnds level;             /* elements with a level end */
   double flat_length;            /* of its electrode, at the gap of each of these, m; 0 without */
@@ -84,7 +84,7 @@ void zp_plates_gaps(const ZpPlatesParams *params, const double *x, const double 
 
 /* (y of interleaved upper and lower nodes; flat: of one ribbon's) => the gap of station i, m. */
 static inline double zp_plates_gap(const ZpPlatesParams *params, const double *y, size_t i) {
-  return params->flat ? params->flat_height - y[i] : zp_apart(y, i);
+  return params->flat ? params->face[i] - y[i] : zp_apart(y, i);
 }
 
 /* (y as for zp_plates_gap) => the smallest gap of facing nodes, m. */

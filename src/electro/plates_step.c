@@ -59,14 +59,18 @@ ZP_INLINE Between between(double K, double h_c, double h0, double h1, bool still
   return (Between){W, slope, 0.5 * (P0 + P1), W1};
 }
 
+/* Is the difference of the potential at two gaps rounding? Then the mean force is exact to the square of theirs. */
+static bool are_near(const ZpPlatesParams *p, double g0, double g1) {
+  static const double near = 1e-8, part = 6e-5; /* m; of the distance of the metals in liquid */
+  return fabs(g1 - g0) < fmin(near, part * fmax(g1 + p->d, p->h_least));
+}
+
 /* Force between two gaps by the law with lateral edges, for which there is no such quotient in closed form. */
 static Between between_with_edges(const ZpPlatesParams *p, double U, double share, double g0, double g1) {
-  static const double near =
-      1e-8; /* m: closer, the difference of P is rounding, the mean force is exact to its square */
   ZpPlatesLaw law0 = zp_plates_law(p, U, g0), law1 = zp_plates_law(p, U, g1);
   law0.P *= share, law0.W *= share, law1.P *= share, law1.W *= share;
   Between law = {.P = 0.5 * (law0.P + law1.P), .W1 = law1.W, .W = 0.5 * (law0.W + law1.W)};
-  if (fabs(g1 - g0) < near) {
+  if (are_near(p, g0, g1)) {
     law.slope = 0.5 * share * zp_plates_slope(p, U, g1);
     return law;
   }
@@ -258,7 +262,7 @@ static void level_elements(const ZpPlatesParams *p, const Laws *laws, const ZpPl
     element(p, laws, e0, e1, p->level.of[k].element, s);
 }
 
-/* Forces on both nodes of station i, or on the one below a flat electrode. */
+/* Forces on both nodes of station i, or on the one below a rigid electrode. */
 static void act(const ZpPlatesParams *p, ZpPlatesStep *s, size_t i, double along, double closing) {
   if (p->flat) {
     s->Fx[i] = 2 * along;
@@ -363,9 +367,8 @@ static double little_voltage(double U) {
 /* For the law with edges, the difference of charges at gaps that are too close is rounding: that of forces at the two
  * sides of the voltage counts. */
 static Charges charges_with_edges(const ZpPlatesParams *p, double U, double g0, double g1) {
-  static const double close = 1e-8; /* m */
   double q0 = zp_plates_law(p, U, g0).q, q1 = zp_plates_law(p, U, g1).q, by = little_voltage(U);
-  double W = fabs(g1 - g0) < close ? (zp_plates_law(p, U + by, g1).W - zp_plates_law(p, U - by, g1).W) / (2 * by)
+  double W = are_near(p, g0, g1) ? (zp_plates_law(p, U + by, g1).W - zp_plates_law(p, U - by, g1).W) / (2 * by)
                                    : -(q1 - q0) / (g1 - g0);
   return (Charges){W, -0.5 * (q0 + q1)};
 }

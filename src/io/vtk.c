@@ -1,15 +1,18 @@
 /* For ParaView: shapes.pvd and shapes/shape_NNNN.vtp, the film of one run; field.vts, its electric field.
  *
- * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes.
+ * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes. shapes/counter.vtp
+ * is the polyline of a counter electrode, which is the same in every frame.
  * Numbers follow the XML as raw bytes, each array after its length, so nothing is rounded. */
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
 #include "base/table.h"
+#include "def/device.h"
 #include "io/file.h"
 #include "io/number.h"
 #include "io/report.h"
@@ -85,6 +88,28 @@ static void put_frame(const Vtk *vtk, const ZpShape *shape, const ZpShapes *film
   fputs("      </Lines>\n    </Piece>\n  </PolyData>\n", vtk->file);
 }
 
+/* One polyline, eq. (35.1). */
+static void put_counter(const Vtk *vtk, const ZpActuatorDef *def) {
+  enum { POINTS = 201 };
+  fprintf(vtk->file,
+          "  <PolyData>\n    <Piece NumberOfPoints=\"%d\" NumberOfVerts=\"0\" NumberOfLines=\"1\" NumberOfStrips=\"0\" "
+          "NumberOfPolys=\"0\">\n      <Points>\n",
+          POINTS);
+  begin_array(vtk, "Float64", "Points", 3, POINTS);
+  for (size_t i = 0; i < POINTS; i++) {
+    const double share = (double)i / (POINTS - 1);
+    const double y = def->electro.gap_offset + def->counter.height * pow(share, def->counter.power);
+    put_reals(vtk, (const double[]){share * def->ribbon.length, y, 0}, 3);
+  }
+  fputs("      </Points>\n      <Lines>\n", vtk->file);
+  begin_array(vtk, "Int64", "connectivity", 1, POINTS);
+  for (size_t i = 0; i < POINTS; i++)
+    put_int(vtk, i);
+  begin_array(vtk, "Int64", "offsets", 1, 1);
+  put_int(vtk, POINTS);
+  fputs("      </Lines>\n    </Piece>\n  </PolyData>\n", vtk->file);
+}
+
 /* The first index of VTK varies fastest: ours runs across the ribbons. */
 static void put_map(const Vtk *vtk, const ZpFieldMap *map) {
   const size_t points = map->nx * map->ny, cells = (map->nx - 1) * (map->ny - 1);
@@ -106,9 +131,15 @@ static void put_map(const Vtk *vtk, const ZpFieldMap *map) {
   fputs("      </Points>\n    </Piece>\n  </StructuredGrid>\n", vtk->file);
 }
 
-/* Write a frame of a film, or a map if `shape` is NULL. */
-static ZpStatus write_vtk(const char *folder, const char *name, const ZpShape *shape, const ZpShapes *film,
-                          const ZpFieldMap *map, ZpError *err) {
+/* What a file shows: a frame of a film, a map, or a counter electrode; the others are NULL. */
+typedef struct Shown {
+  const ZpShape *shape;
+  const ZpShapes *film;
+  const ZpFieldMap *map;
+  const ZpActuatorDef *counter;
+} Shown;
+
+static ZpStatus write_vtk(const char *folder, const char *name, Shown shown, ZpError *err) {
   ZpAtomic out;
   Vtk vtk = {.collected = NULL};
   ZpStatus status = zp_atomic_open(&out, folder, name, err);
@@ -118,9 +149,10 @@ static ZpStatus write_vtk(const char *folder, const char *name, const ZpShape *s
   fprintf(vtk.file,
           "<?xml version=\"1.0\"?>\n"
           "<VTKFile type=\"%s\" version=\"1.0\" byte_order=\"" BYTE_ORDER_NAME "\" header_type=\"UInt64\">\n",
-          shape ? "PolyData" : "StructuredGrid");
-  if (vtk.bytes && shape) put_frame(&vtk, shape, film);
-  if (vtk.bytes && !shape) put_map(&vtk, map);
+          shown.map ? "StructuredGrid" : "PolyData");
+  if (vtk.bytes && shown.shape) put_frame(&vtk, shown.shape, shown.film);
+  if (vtk.bytes && shown.map) put_map(&vtk, shown.map);
+  if (vtk.bytes && shown.counter) put_counter(&vtk, shown.counter);
   if (!vtk.bytes || fclose(vtk.bytes) != 0) status = zp_fail_memory(err);
   fputs("  <AppendedData encoding=\"raw\">\n_", vtk.file);
   fwrite(vtk.collected, 1, vtk.size, vtk.file);
@@ -135,12 +167,27 @@ static ZpStatus write_frames(const char *folder, const ZpShapes *shapes, ZpError
     char name[64];
     snprintf(name, sizeof name, "shape_%04zu.vtp", i);
     const ZpShape shape = zp_shapes_get(shapes, i);
-    status = write_vtk(folder, name, &shape, shapes, NULL, err);
+    status = write_vtk(folder, name, (Shown){.shape = &shape, .film = shapes}, err);
   }
   return status;
 }
 
-static ZpStatus write_collection(const ZpReport *report, const ZpShapes *shapes, ZpError *err) {
+static const char counter_file[] = "counter.vtp";
+
+/* => *has: is there a counter electrode? Then its file is written, else an earlier one is removed. Members of a network
+ * are where their bodies are: they have none. */
+static ZpStatus write_counter(const ZpReport *report, const char *folder, bool *has, ZpError *err) {
+  ZpActuatorDef def = {0};
+  ZpStatus status = zp_scenario_def(report->scenario, 0, &def, err);
+  *has = status == ZP_OK && zp_def_has(&def, ZP_DEVICE_COUNTER) && !zp_def_network(&def);
+  if (status == ZP_OK)
+    status = *has ? write_vtk(folder, counter_file, (Shown){.counter = &def}, err)
+                  : zp_remove_file(folder, counter_file, err);
+  zp_def_clear(&def);
+  return status;
+}
+
+static ZpStatus write_collection(const ZpReport *report, const ZpShapes *shapes, bool counter, ZpError *err) {
   ZpAtomic out;
   ZpStatus status = zp_atomic_open(&out, report->directory, "shapes.pvd", err);
   if (status != ZP_OK) return status;
@@ -151,6 +198,8 @@ static ZpStatus write_collection(const ZpReport *report, const ZpShapes *shapes,
     char time[ZP_NUMBER_SIZE];
     zp_number_print(zp_shapes_get(shapes, i).time, time, sizeof time);
     fprintf(out.file, "    <DataSet timestep=\"%s\" part=\"0\" file=\"shapes/shape_%04zu.vtp\"/>\n", time, i);
+    if (counter)
+      fprintf(out.file, "    <DataSet timestep=\"%s\" part=\"1\" file=\"shapes/%s\"/>\n", time, counter_file);
   }
   fputs("  </Collection>\n</VTKFile>\n", out.file);
   return zp_atomic_commit(&out, err);
@@ -182,8 +231,10 @@ static ZpStatus write_shapes(const ZpReport *report, const ZpShapes *shapes, con
   if (status == ZP_OK) status = remove_frames(folder, shapes ? shapes->frames : 0, err);
   if (status != ZP_OK || !shapes) return status;
   status = zp_make_folder(folder, err);
+  bool counter = false;
   if (status == ZP_OK) status = write_frames(folder, shapes, err);
-  return status == ZP_OK ? write_collection(report, shapes, err) : status;
+  if (status == ZP_OK) status = write_counter(report, folder, &counter, err);
+  return status == ZP_OK ? write_collection(report, shapes, counter, err) : status;
 }
 
 ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
@@ -195,5 +246,5 @@ ZpStatus zp_vtk_write(const ZpReport *report, ZpError *err) {
   free(folder);
   if (status != ZP_OK) return status;
   if (!single || !single->map) return zp_remove_file(report->directory, "field.vts", err);
-  return write_vtk(report->directory, "field.vts", NULL, NULL, single->map, err);
+  return write_vtk(report->directory, "field.vts", (Shown){.map = single->map}, err);
 }

@@ -81,6 +81,11 @@ double zp_logarithm(double x) {
   return n * ln2 + (n * rest + 2 * z * (1 + sum));
 }
 
+double zp_power(double x, double p) {
+  if (x == 0) return p == 0;
+  return 1 + zp_decay(-p * zp_logarithm(x));
+}
+
 /* Of a vector within 45 degrees of an axis: a quarter of the angle by its series, its tangent being below 0.2. */
 static double small_angle(double t) {
   enum { TERMS = 12 };

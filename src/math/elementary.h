@@ -14,6 +14,7 @@ double zp_decay(double x);     /* exp(-x) - 1, x >= 0 */
 double zp_decay_weight(double x);
 
 double zp_logarithm(double x);       /* natural, x > 0 */
+double zp_power(double x, double p); /* x^p, 0 <= x <= 1, p >= 0; 1 for p = 0 */
 double zp_angle(double y, double x); /* of the vector (x, y), -pi .. pi, rad; 0 of a vector without length */
 
 double zp_sine_squared(double p); /* sin(pi p)^2, p >= 0 */

@@ -208,7 +208,7 @@ static double *find_rate(Member *w, size_t j) {
   double *rate = w->rate + j * w->model->nodes;
   const double *y = moved_by(w, j).y;
   for (size_t i = 0; i < w->model->nodes; i++)
-    rate[i] = zp_gap_of(t, y, i);
+    rate[i] = zp_parting(t, y, i);
   return rate;
 }
 
@@ -222,10 +222,8 @@ static void find_slow_shapes(Member *w) {
     double *drag = w->force;
     zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
     memset(w->moved, 0, zp_coordinates(w->model) * sizeof *w->moved);
-    for (size_t i = 0; i < N; i++) {
-      moved.y[zp_upper(t, i)] += drag[i];
-      moved.y[zp_lower(t, i)] -= drag[i];
-    }
+    for (size_t i = 0; i < N; i++)
+      zp_part(t, moved.y, i, drag[i]);
     zp_assembly_sum(&w->assembly, w->moved, w->y);
     zp_arrow_solve(&w->factors, w->y);
     add_shape(w, w->y);
@@ -314,7 +312,8 @@ static void move_end(Member *w, End *end, const ZpSetpointSignal *signal) {
 }
 
 static void find_end(Member *w, int half, const ZpSetpointSignal *signal) {
-  static const double little = 1e-7; /* m */
+  static const double usual = 1e-7, of_length = 1e-5; /* m */
+  const double little = fmin(usual, of_length * w->model->L);
   const ZpFilmParams *film = &w->model->film;
   End *end = &w->end[w->ends++];
   *end = (End){.half = half};

@@ -79,7 +79,7 @@ void zp_quasistatic_start(ZpRest *r) {
 }
 
 bool zp_quasistatic_is_closed(ZpRest *r) {
-  return zp_closing_gap(&r->statics, NULL) <= r->track.limit;
+  return zp_closing_gap(&r->statics, NULL) <= r->track.limit || zp_statics_shorted(&r->statics);
 }
 
 double zp_quasistatic_closed_by_load(ZpRest *r, size_t which) {
@@ -156,10 +156,15 @@ static double look_step(ZpRest *r) {
 
 /* An actuator that was closed has opened once it is clear of the limit, because motion with resistance does not come
  * back. (This does not hold for one that closes: its faces overlap for a moment on the way.) */
-static bool has_opened(void *user) {
+static bool has_opened(ZpRest *r) {
   static const double clear = 3;
-  ZpRest *r = user;
   return r->was_closed && zp_closing_gap(&r->statics, NULL) > clear * r->track.limit;
+}
+
+/* The end of a fall: it has opened, or bare faces meet, whose force has no bound. */
+static bool has_fallen(void *user) {
+  ZpRest *r = user;
+  return has_opened(r) || zp_statics_shorted(&r->statics);
 }
 
 /* Shares of the voltage or of the load by which a fall goes beyond the present point. The first is for limit points: a
@@ -175,7 +180,7 @@ static bool fall(ZpRest *r, double sign, size_t first) {
   for (size_t k = first; k < SHARES && !found; k++) {
     if (k > first) zp_rest_go_to(r, r->held);
     zp_branch_set(r->track.fold.system, changed(r, m, sign * beyond[k]));
-    found = zp_newton_good(zp_statics_relax_until(&r->statics, has_opened, r).end);
+    found = zp_newton_good(zp_statics_relax_until(&r->statics, has_fallen, r).end);
   }
   return found;
 }

@@ -490,7 +490,7 @@ static void keep_apart(const ZpDynamics *d, ZpMovingMember *m, double *q1) {
   for (size_t i = 1; i < model->nodes; i++) {
     Pair pair = pair_of(m, i);
     if (pair.lower < 0) continue;
-    double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.flat_height;
+    double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.face[i];
     if (pair.upper >= 0) upper = height_at(d, m, zp_upper(t, i), q1);
     double overlap = height_at(d, m, zp_lower(t, i), q1) - upper;
     bool overlapped = m->eval.plates_start.gap[i] < 0;
@@ -919,6 +919,15 @@ static double error_of_step(const ZpActuatorDef *def) {
   return 1.5 * tolerance * sqrt(tolerance);
 }
 
+/* The usual first step, s; of small devices a thousandth of the time in which a ribbon bends. */
+static double first_step_of(const ZpModel *model, double usual) {
+  static const double of_settling = 1.0 / 64, shortest = 1e-12; /* s */
+  double first = usual;
+  for (const ZpModel *m = model; m < model + model->members; m++)
+    first = fmin(first, of_settling * m->faces.settling);
+  return fmax(first, shortest);
+}
+
 bool zp_dynamics_create(const ZpModel *model, const ZpSource *const source[], ZpDynamics *d) {
   *d = (ZpDynamics){.members = model->members};
   d->member = zp_calloc(d->members, sizeof *d->member);
@@ -935,6 +944,7 @@ bool zp_dynamics_create(const ZpModel *model, const ZpSource *const source[], Zp
   d->error = error_of_step(def);
   d->stepper.balance = 2e-6 * d->error;
   d->stepper.fixed = isnan(def->solver.time_step) ? 0 : def->solver.time_step;
+  d->stepper.first = first_step_of(model, d->stepper.first);
   return true;
 }
 

@@ -7,7 +7,7 @@
 
 #include "math/elementary.h"
 
-static const double first_step = 1e-6;     /* s */
+static const double first_step = 1e-6;     /* s, unless the owner knows better */
 static const double shortest_step = 1e-13; /* s */
 static const double newton_share = 1e-4;   /* of the accuracy: the largest error that the iteration may leave */
 static const double rounding_share = 1e-2; /* the largest if rounding stops it */
@@ -22,6 +22,7 @@ enum { MOST_ITERATIONS = 16, MOST_CHOICES = 60, PATIENCE = 8, EASY = 5, HARD = 8
 void zp_implicit_reserve(ZpImplicit *s, const ZpImplicitSystem *system, ZpArena *arena) {
   s->system = system;
   s->share = newton_share;
+  s->first = first_step;
   s->q = zp_arena_take(arena, system->n);
   s->r = zp_arena_take(arena, system->n);
   s->x = zp_arena_take(arena, system->n);
@@ -180,8 +181,7 @@ static bool is_foreseen(const ZpImplicit *s, Imbalance imbalance) {
 /* The motion that an algebraic unknown, such as a pressure, causes in a short step grows with the square of the step,
  * and its rounding with the inverse of the step: so little of its correction counts. */
 static void forgive_momentary(ZpImplicit *s, double h) {
-  static const double momentary = 1e-6; /* s */
-  double share = h / momentary;
+  double share = h / s->first;
   for (size_t i = 0; s->system->kind && share < 1 && i < s->system->n; i++)
     if (s->system->kind[i] == ZP_ALGEBRAIC) s->r[i] *= share * share;
 }
@@ -348,7 +348,7 @@ static void begin(ZpImplicit *s, const double *q, const double *v) {
 }
 
 double zp_implicit_step(ZpImplicit *s, double longest, double *q, double *v, ZpImplicitHistory *history) {
-  double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : first_step;
+  double try = s->fixed > 0 ? s->fixed : history->next > 0 ? history->next : s->first;
   bool cut = longest < try * (1 + 1e-6); /* a remainder that is only rounding would be too short a step */
   begin(s, q, v);
   s->end = ZP_END_SHORTER;

@@ -85,6 +85,8 @@ typedef struct ZpImplicit {
   double balance;  /* work that the iteration may leave unbalanced in a step, as a fraction of the energy there */
   double share;    /* of the accuracy: the error that the iteration may leave */
   double fixed;    /* length of all steps, s; 0: by the local error */
+  double first;    /* length of the first one that is tried, s; the owner may shorten it. A step that is much shorter is
+                      short for algebraic unknowns */
   double energy;   /* at the start of the present step, J */
   double reach;    /* largest unknown of the first part there, in its scale: all are rounded to its last digits */
   ZpEnd end;       /* how the last step ended; ZP_END_SHORTER: even the shortest was too long */

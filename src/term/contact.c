@@ -10,15 +10,12 @@ static bool acts(const ZpModel *model) {
 /* Up on the upper ribbon, down on the lower or only one. */
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (span->faces_pass) return;
-  const ZpTopology *t = &model->topology;
   double *Fy = zp_forces(model, F).y;
   const double *start = zp_span_is_still(span) ? e->plates.gap : e->plates_start.gap;
   ZpContactSpan faces = zp_contact_span(&model->faces, start, e->plates.gap, span->h);
   zp_contact_eval(&model->faces, &faces, &e->faces);
-  for (size_t i = 0; i < model->nodes; i++) {
-    Fy[zp_lower(t, i)] -= e->faces.push[i];
-    if (zp_is_pair(t)) Fy[zp_upper(t, i)] += e->faces.push[i];
-  }
+  for (size_t i = 0; i < model->nodes; i++)
+    zp_part(&model->topology, Fy, i, e->faces.push[i]);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {

@@ -53,7 +53,7 @@ static void begin(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
   zp_film_begin(&model->film, memory_of(model, span->memory), &e->film);
   for (size_t i = 0; i < model->nodes; i++) {
     const double *w = span->w ? zp_nodes(model, span->w).y : NULL;
-    e->film.rate[i] = w ? w[zp_upper(&model->topology, i)] - w[zp_lower(&model->topology, i)] : 0;
+    e->film.rate[i] = w ? zp_parting(&model->topology, w, i) : 0;
   }
 }
 
@@ -106,10 +106,8 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   if (zp_span_is_still(span)) return;
   double *Fy = zp_forces(model, F).y;
   solve_step(model, span, e);
-  for (size_t i = 0; i < model->nodes; i++) {
-    Fy[zp_upper(&model->topology, i)] += e->film.force[i];
-    Fy[zp_lower(&model->topology, i)] -= e->film.force[i];
-  }
+  for (size_t i = 0; i < model->nodes; i++)
+    zp_part(&model->topology, Fy, i, e->film.force[i]);
 }
 
 static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, const ZpFilmEval *e,
@@ -237,19 +235,19 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
 static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
   const double *up = zp_nodes(model, a).y;
   double *Fy = zp_forces(model, F).y;
-  for (size_t i = 0; i < model->nodes; i++) {
-    size_t upper = zp_upper(&model->topology, i), lower = zp_lower(&model->topology, i);
-    double push = zp_film_inertia(&model->film, span->h, &e->film, i) * (up[upper] - up[lower]);
-    Fy[upper] += push;
-    Fy[lower] -= push;
-  }
+  for (size_t i = 0; i < model->nodes; i++)
+    zp_part(&model->topology, Fy, i,
+            zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i));
 }
 
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, WET, ZP_HAS(ELECTRODES), "a single ribbon has no gap for a film; use liquid.model none"),
-    ZP_RULE(NOT_MODELLED, WET, ZP_HAS(PLATFORM),
-            "the film is modelled between two ribbons with a platform; use liquid.model none"),
+    ZP_RULE(NOT_MODELLED, WET, ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PLATFORM | ZP_DEVICE_COUNTER),
+            "the film is modelled between two ribbons with a platform, or over a counter electrode; use liquid.model "
+            "none"),
+    ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_HAS(PLATFORM),
+            "the bead is modelled between two ribbons with a platform; use liquid.model submerged or none"),
     ZP_RULE(EQUATION, WET, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the film acts on rods; use liquid.model none"),
     ZP_RULE(EQUATION, WET, ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's surface has no gap for a film; use liquid.model none"),

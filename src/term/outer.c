@@ -14,54 +14,71 @@ static bool acts(const ZpModel *model) {
   return model->has_film && (model->outer.rho > 0 || model->outer.drag > 0);
 }
 
-/* One station over a step: mean velocities of its upper and lower node, and of both together at start and end, m/s. */
-typedef struct Pair {
-  size_t upper, lower;
+/* One station over a step: its faces that have liquid outside, one of each ribbon; their mean velocities, and the
+ * velocity of both together at start and end, m/s. A counter electrode holds the liquid on its side of the gap. */
+typedef struct Faces {
+  size_t count, node[2]; /* upper and lower, or the only one */
   double rate[2], Y0, Y1;
   double length; /* m */
-} Pair;
+} Faces;
 
-static Pair pair_of(const ZpModel *model, const ZpSpan *span, size_t i) {
+static Faces faces_at(const ZpModel *model, size_t i) {
+  return (Faces){.count = model->s,
+                 .node = {zp_upper(&model->topology, i), zp_lower(&model->topology, i)},
+                 .length = zp_film_length(&model->film, i)};
+}
+
+static Faces faces_over(const ZpModel *model, const ZpSpan *span, size_t i) {
   const double *from = zp_nodes(model, span->start).y, *to = zp_nodes(model, span->end).y,
                *v0 = zp_nodes(model, span->v0).y;
-  Pair pair = {.upper = zp_upper(&model->topology, i),
-               .lower = zp_lower(&model->topology, i),
-               .length = zp_film_length(&model->film, i)};
-  pair.rate[0] = (to[pair.upper] - from[pair.upper]) / span->h;
-  pair.rate[1] = (to[pair.lower] - from[pair.lower]) / span->h;
-  pair.Y0 = 0.5 * (v0[pair.upper] + v0[pair.lower]);
-  pair.Y1 = pair.rate[0] + pair.rate[1] - pair.Y0;
-  return pair;
+  Faces of = faces_at(model, i);
+  for (size_t k = 0; k < of.count; k++)
+    of.rate[k] = (to[of.node[k]] - from[of.node[k]]) / span->h;
+  of.Y0 = 0.5 * (v0[of.node[0]] + v0[of.node[1]]);
+  of.Y1 = of.rate[0] + of.rate[1] - of.Y0;
+  return of;
+}
+
+/* Liquid that a pair moves beyond that of its faces, kg/m. */
+static double moved_by_both(const ZpModel *model, double gap) {
+  return model->s == 2 ? zp_outer_pair(&model->outer, gap) : 0;
 }
 
 static double drag(const ZpModel *model, double length, double v) {
   return -model->outer.drag * model->film.w * length * fabs(v) * v;
 }
 
-/* The pair has the momentum M(g) Y'; its kinetic energy also acts on the gap. Together their work is its change. */
+/* The pair has the momentum M(g) Y'; its kinetic energy also acts on the gap. Together their work is its change.
+ * => force on each face, N. */
+static void push_pair(const ZpModel *model, const ZpSpan *span, const Faces *of, double g0, double g1,
+                      double push[2]) {
+  double before = zp_outer_pair(&model->outer, g0) * of->Y0, after = zp_outer_pair(&model->outer, g1) * of->Y1;
+  double on_both = -0.5 * of->length * (after - before) / span->h;
+  double on_gap = 0.5 * of->length * zp_outer_pair_slope(&model->outer, g0, g1) * of->Y0 * of->Y1;
+  push[0] = on_both + on_gap;
+  push[1] = on_both - on_gap;
+}
+
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (zp_span_is_still(span)) return;
-  const double *g0 = e->plates_start.gap, *g1 = e->plates.gap;
   double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++) {
-    Pair pair = pair_of(model, span, i);
-    double before = zp_outer_pair(&model->outer, g0[i]) * pair.Y0,
-           after = zp_outer_pair(&model->outer, g1[i]) * pair.Y1;
-    double on_both = -0.5 * pair.length * (after - before) / span->h;
-    double on_gap = 0.5 * pair.length * zp_outer_pair_slope(&model->outer, g0[i], g1[i]) * pair.Y0 * pair.Y1;
-    Fy[pair.upper] += on_both + on_gap + drag(model, pair.length, pair.rate[0]);
-    Fy[pair.lower] += on_both - on_gap + drag(model, pair.length, pair.rate[1]);
+    Faces of = faces_over(model, span, i);
+    double push[2] = {0, 0};
+    if (of.count == 2) push_pair(model, span, &of, e->plates_start.gap[i], e->plates.gap[i], push);
+    for (size_t k = 0; k < of.count; k++)
+      Fy[of.node[k]] += push[k] + drag(model, of.length, of.rate[k]);
   }
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {
   if (zp_span_is_still(span)) return;
   for (size_t i = 0; i < model->nodes; i++) {
-    Pair pair = pair_of(model, span, i);
-    double mass = 0.5 * pair.length * zp_outer_pair(&model->outer, e->plates.gap[i]) / (span->h * span->h);
-    double per_speed = 2 * model->outer.drag * model->film.w * pair.length / span->h;
-    zp_assemble_heights(assembly, i, mass + per_speed * fabs(pair.rate[0]), mass + per_speed * fabs(pair.rate[1]), mass,
-                        K);
+    Faces of = faces_over(model, span, i);
+    double mass = 0.5 * of.length * moved_by_both(model, e->plates.gap[i]) / (span->h * span->h);
+    double per_speed = 2 * model->outer.drag * model->film.w * of.length / span->h;
+    double upper = of.count == 2 ? mass + per_speed * fabs(of.rate[0]) : 0;
+    zp_assemble_heights(assembly, i, upper, mass + per_speed * fabs(of.rate[of.count - 1]), mass, K);
   }
 }
 
@@ -70,10 +87,10 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
   const double *up = zp_nodes(model, a).y;
   double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++) {
-    size_t upper = zp_upper(&model->topology, i), lower = zp_lower(&model->topology, i);
-    double mass = zp_film_length(&model->film, i) * zp_outer_pair(&model->outer, e->plates.gap[i]);
-    Fy[upper] += 0.25 * mass * (up[upper] + up[lower]);
-    Fy[lower] += 0.25 * mass * (up[upper] + up[lower]);
+    Faces of = faces_at(model, i);
+    double mass = of.length * moved_by_both(model, e->plates.gap[i]);
+    for (size_t k = 0; k < of.count; k++)
+      Fy[of.node[k]] += 0.25 * mass * (up[of.node[0]] + up[of.node[1]]);
   }
 }
 
@@ -89,20 +106,21 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *r
   const double *v = zp_nodes(model, now->v).y;
   zp_plates_gaps(&model->plates, now->end, zp_nodes(model, now->end).y, &e->plates);
   for (size_t i = 0; i < model->nodes; i++) {
-    double upper = v[zp_upper(&model->topology, i)], lower = v[zp_lower(&model->topology, i)],
-           Y = 0.5 * (upper + lower);
-    double sides = zp_outer_side(&model->outer) * (upper * upper + lower * lower);
-    row[STORED] +=
-        0.5 * zp_film_length(&model->film, i) * (sides + zp_outer_pair(&model->outer, e->plates.gap[i]) * Y * Y);
+    Faces of = faces_at(model, i);
+    double Y = 0.5 * (v[of.node[0]] + v[of.node[1]]), squares = 0;
+    for (size_t k = 0; k < of.count; k++)
+      squares += v[of.node[k]] * v[of.node[k]];
+    double sides = zp_outer_side(&model->outer) * squares;
+    row[STORED] += 0.5 * of.length * (sides + moved_by_both(model, e->plates.gap[i]) * Y * Y);
   }
 }
 
 static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *row) {
   (void)e;
   for (size_t i = 0; i < model->nodes; i++) {
-    Pair pair = pair_of(model, span, i);
-    for (int k = 0; k < 2; k++)
-      row[DRAG] -= span->h * pair.rate[k] * drag(model, pair.length, pair.rate[k]);
+    Faces of = faces_over(model, span, i);
+    for (size_t k = 0; k < of.count; k++)
+      row[DRAG] -= span->h * of.rate[k] * drag(model, of.length, of.rate[k]);
   }
 }
 

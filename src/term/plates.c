@@ -103,19 +103,21 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
   return true;
 }
 
+#define UNEQUAL "the field at the edges is computed for two equal strips, whose middle plane is a mirror"
 static const ZpRule rule[] = {
     /* lateral edges */
-    ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_LACKS(COUNTER),
-            "the width of a flange's flat electrode is not known"),
     ZP_RULE(EQUATION, ZP_IS(electro.edges, true), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's surface has no edges"),
-    ZP_RULE(PHYSICS, ZP_IS(electro.edges, true), ZP_ABOVE(insulator.thickness, 0),
-            "the field at the edges of bare faces that touch is infinite"),
-    ZP_RULES_EQUAL_RIBBONS(NOT_MODELLED, ZP_IS(electro.edges, true),
-                           "the field at the edges is computed for two equal strips, whose middle plane is a mirror"),
+    ZP_RULE_IF(PHYSICS, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_ABOVE(insulator.thickness, 0),
+               "the field at the edges of bare faces that touch is infinite"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_UNSET(lower.insulator.thickness), UNEQUAL),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_UNSET(lower.insulator.permittivity), UNEQUAL),
+    ZP_RULE_IF(NOT_MODELLED, ZP_IS(electro.edges, true), ZP_HAS(PAIR), ZP_UNSET(lower.ribbon.thickness), UNEQUAL),
     /* the paper's offset, which is that of both insulators */
     ZP_RULES_EQUAL_INSULATORS(PHYSICS, ZP_SET(electro.insulator_offset), "the offset stands for both insulators"),
 };
+
+#undef UNEQUAL
 
 /* The rows are those of all electric terms together: run/energy_balance.c fills them. */
 const ZpTerm zp_term_plates = {.name = "plates",

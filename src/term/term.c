@@ -40,7 +40,8 @@ double zp_term_meniscus_head(const ZpModel *model, double suction, double U, dou
 }
 
 ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach) {
-  static const double last = 100e-6; /* m: short beside a ribbon, and long enough to be found */
+  static const double usual = 100e-6, of_length = 1e-2; /* m: short beside a ribbon, and long enough to be found */
+  const double last = fmin(usual, of_length * model->L);
   double share = (zp_bead_longest(&model->film) - reach) / last;
   return share < 1 ? (ZpRoom){share, -1 / last} : (ZpRoom){1, 0};
 }

@@ -6,7 +6,7 @@ const between = 10e-3; // of two actuators side by side
 const mostColumns = 5; // equal parallel actuators that are drawn; of more only one
 
 /** How the arrays of a member are laid out: `last`, the station of the left half at the platform, counted from the clip;
- * is the right half modelled, too (`whole`), or is there one ribbon pair on a `hinge` without a platform; lengths, m. */
+ * is the right half modelled, too (`whole`), or is there one pair of faces on a `hinge` or a clamp, without a platform; lengths, m. */
 function layoutOf(frame, {length: ribbon, platform: given}) {
   const nodes = frame.get('nodes'), whole = frame.get('halves') === 2, hinge = frame.get('halves') === 0;
   const platform = hinge ? 0 : given, last = (whole ? nodes / 2 : nodes) - 1, length = hinge ? ribbon : (ribbon - platform) / 2;
@@ -125,7 +125,7 @@ function stackOf(frame, members) {
   const count = members.length, distance = frame.get('stack.distance'), opposed = distance > 0;
   const reach = members[0].reach, pitch = 2 * reach + between, places = placesOf(frame, count, pitch);
   members.forEach((member, k) => (member.places = places.of(k)));
-  const loaded = members[opposed ? 0 : count - 1], [left, right] = loadedEnds(loaded), {bottom} = boxOf(members);
+  const loaded = members[opposed ? 0 : count - 1], [left, right] = loadedEnds(loaded), {top, bottom} = boxOf(members);
   const middle = middleOf([left, right]), tilt = Math.atan2(right.y - left.y, right.x - left.x), offset = frame.get('load.offset');
   const wide = reach + ((places.columns - 1) / 2) * pitch, hinge = members[0].platforms.length === 0;
   const columns = [...new Set(members.flatMap((member) => member.places))];
@@ -133,7 +133,7 @@ function stackOf(frame, members) {
     opposed,
     columns: places.columns,
     joined: places.columns > 1 ? {from: places.of(0)[0], to: places.of(count - 1).at(-1)} : null, // rigid links of columns
-    box: {left: -wide, right: wide, top: 0, bottom: Math.min(bottom, opposed ? -distance : 0)},
+    box: {left: -wide, right: wide, top: hinge ? Math.max(top, 0) : 0, bottom: Math.min(bottom, opposed ? -distance : 0)},
     supports: hinge
       ? [{x: members[0].halves[0].x[0][0], y: 0, angle: Math.PI / 2, half: 4.5e-3}]
       : columns.flatMap((x) => [{x, y: 0, angle: 0, half: 9e-3}, ...(opposed ? [{x, y: -distance, angle: Math.PI, half: 9e-3}] : [])]),
