@@ -15,19 +15,29 @@ static bool is_given(const ZpActuatorDef *def, int key) {
   return zp_key(key)->type == ZP_KEY_ENUM ? value != 0 : !isnan(value);
 }
 
+/* The key of the upper ribbon that a key of lower.* overrides; -1: it is none of these. A row of segments stands for
+ * those of all. */
+static int key_of_upper(int key) {
+  const ZpInstance at = zp_key_instance(key);
+  if (at.number > 0)
+    return at.kind == ZP_OF_LOWER_SEGMENT ? zp_key_of_instance(zp_key_find(zp_key(key)->name + sizeof prefix - 1), at.number)
+                                          : -1;
+  return key >= lower_keys.first && key < lower_keys.end ? zp_key_find(zp_key(key)->name + sizeof prefix - 1) : -1;
+}
+
 ZpActuatorDef zp_def_lower(const ZpActuatorDef *def) {
   ZpActuatorDef lower = *def;
-  for (int key = lower_keys.first; key < lower_keys.end; key++)
-    if (is_given(def, key))
-      zp_def_set(&lower, zp_key_find(zp_key(key)->name + sizeof prefix - 1), zp_def_get(def, key), NULL);
+  for (int key = lower_keys.first; key >= 0 && zp_key_instance(key).row < lower_keys.end;
+       key = zp_def_next_key(def, key))
+    if (is_given(def, key)) zp_def_set(&lower, key_of_upper(key), zp_def_get(def, key), NULL);
   return lower;
 }
 
 int zp_def_key_of_ribbon(const ZpActuatorDef *def, int ribbon, int key) {
   char name[ZP_TEXT_SIZE];
-  bool is_lower = key >= lower_keys.first && key < lower_keys.end;
-  if (is_lower) return ribbon == 0 ? -1 : zp_key_find(zp_key(key)->name + sizeof prefix - 1);
-  snprintf(name, sizeof name, "%s%s", prefix, zp_key(key)->name);
+  const int upper = key_of_upper(key);
+  if (upper >= 0) return ribbon == 0 ? -1 : upper;
+  snprintf(name, sizeof name, "%s%s", prefix, ZP_KEY_NAME(key));
   int own = ribbon == 0 ? -1 : zp_key_find(name);
   return own >= 0 && is_given(def, own) ? -1 : key;
 }
@@ -37,27 +47,28 @@ double zp_insulation(const ZpActuatorDef *def) {
   return def->insulator.thickness + (isnan(lower) ? def->insulator.thickness : lower);
 }
 
-/* Has any segment a thickness that differs from that of the ribbon? */
-static bool has_other_thickness(const ZpActuatorDef *ribbon) {
-  double b = ribbon->ribbon.thickness;
-  return (ribbon->segment_1.length > 0 && ribbon->segment_1.thickness != b) ||
-         (ribbon->segment_2.length > 0 && ribbon->segment_2.thickness != b) ||
-         (ribbon->segment_3.length > 0 && ribbon->segment_3.thickness != b);
+int zp_def_segments(const ZpActuatorDef *ribbon) {
+  int last = ZP_MOST_SEGMENTS;
+  while (last > 0 && ribbon->segment_K[last - 1].length == 0)
+    last--;
+  return last;
 }
 
 static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed, double flexible, ZpError *err) {
-  double segments = ribbon->segment_1.length + ribbon->segment_2.length + ribbon->segment_3.length;
-  if (segments > flexible * (1 + 1e-12))
+  const int last = zp_def_segments(ribbon);
+  double length = 0;
+  for (int k = 0; k < last; k++)
+    length += ribbon->segment_K[k].length;
+  if (length > flexible * (1 + 1e-12))
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "%ssegment_1.length to %ssegment_3.length: %g m together, more than the flexible length of the ribbon, %g m",
-        prefixed, prefixed, segments, flexible);
-  if (ribbon->ribbon.plasticity && has_other_thickness(ribbon))
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "%ssegment_1.thickness to %ssegment_3.thickness: ribbon.plasticity requires segments as thick as the "
-        "ribbon, %g m",
-        prefixed, prefixed, ribbon->ribbon.thickness);
+        "%ssegment_1.length to %ssegment_%d.length: %g m together, more than the flexible length of the ribbon, %g m",
+        prefixed, prefixed, last, length, flexible);
+  for (int k = 0; k < last && ribbon->ribbon.plasticity; k++)
+    if (ribbon->segment_K[k].length > 0 && ribbon->segment_K[k].thickness != ribbon->ribbon.thickness)
+      return zp_fail(err, ZP_BAD_INPUT,
+                     "%ssegment_%d.thickness = %g m: ribbon.plasticity requires segments as thick as the ribbon, %g m",
+                     prefixed, k + 1, ribbon->segment_K[k].thickness, ribbon->ribbon.thickness);
   return ZP_OK;
 }
 
@@ -72,9 +83,9 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
 /* -- rules ----------------------------------------------------------------------------------------- */
 
 #define ZP_SEGMENT(segment)                                                                                            \
-  ZP_RULE(EQUATION, ZP_ABOVE(segment.length, 0), ZP_NOT(ribbon.plane, ZP_PLANE_ANTICLASTIC),                           \
+  ZP_RULE(EQUATION, ZP_SET(segment.length), ZP_NOT(ribbon.plane, ZP_PLANE_ANTICLASTIC),                                \
           "the curl across a strip is modelled without segments, whose curl would change at a step"),                  \
-      ZP_RULE(EQUATION, ZP_ABOVE(segment.length, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),                               \
+      ZP_RULE(EQUATION, ZP_SET(segment.length), ZP_IS(ribbon.model, ZP_RIBBON_ROD),                                    \
               "the paper's springs are those of a straight strip of one thickness")
 
 static const ZpRule rule[] = {
@@ -82,12 +93,8 @@ static const ZpRule rule[] = {
             "the other kinds have no lower ribbon"),
     ZP_RULE(EQUATION, ZP_SET_WITHIN(lower.ribbon.material, lower.insulator.permittivity),
             ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the paper's mechanics makes both ribbons equal"),
-    ZP_SEGMENT(segment_1),
-    ZP_SEGMENT(segment_2),
-    ZP_SEGMENT(segment_3),
-    ZP_SEGMENT(lower.segment_1),
-    ZP_SEGMENT(lower.segment_2),
-    ZP_SEGMENT(lower.segment_3),
+    ZP_SEGMENT(segment_K),
+    ZP_SEGMENT(lower.segment_K),
 };
 #undef ZP_SEGMENT
 

@@ -14,13 +14,6 @@ static double value_of(const ZpActuatorDef *def, int key) {
   return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
 }
 
-/* The first key of this row that a member, a body or a spring has; -1: none. */
-static int given_of(const ZpActuatorDef *def, int row) {
-  for (size_t k = 0; def->given && k < def->given->count; k++)
-    if (zp_key_instance(def->given->value[k].key).row == row) return def->given->value[k].key;
-  return -1;
-}
-
 /* The default of a key, for this device. */
 static double default_of(const ZpActuatorDef *def, int key) {
   const ZpDevice *device = zp_device_of(def->actuator.kind);
@@ -30,7 +23,7 @@ static double default_of(const ZpActuatorDef *def, int key) {
 }
 
 static bool is_set(const ZpActuatorDef *def, int key) {
-  if (zp_key_is_row(key)) return given_of(def, key) >= 0;
+  if (zp_key_is_row(key)) return zp_instance_given(def, key) >= 0;
   const char *text = zp_def_text(def, key);
   if (text) return *text != 0;
   double value = zp_def_get(def, key), plain = default_of(def, key);
@@ -225,8 +218,8 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
     snprintf(text, WORDS, "moves = plane");
     return;
   }
-  if (zp_key_is_row(key) && given_of(def, key) >= 0) {
-    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, given_of(def, key)));
+  if (zp_key_is_row(key) && zp_instance_given(def, key) >= 0) {
+    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, zp_instance_given(def, key)));
     return;
   }
   show_value(key, value_of(def, key), value);

@@ -305,8 +305,9 @@ static json_t *distribution_schema(void) {
 /* The name of a property, of those of all members, bodies, springs or joints a pattern: in the place of K stands a
  * number. */
 static void property_name(const char *name, size_t size, char *text) {
-  static const char number[] = "_K", numbers[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
-  const char *at = strstr(name, number);
+  static const char number[] = "_K", segment[] = "segment_K", to_64[] = "_(?:[1-9]|[1-5][0-9]|6[0-4])",
+                    to_1024[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
+  const char *at = strstr(name, number), *numbers = strstr(name, segment) ? to_64 : to_1024;
   if (!at || at >= name + size) {
     snprintf(text, ZP_VALUE_SIZE, "%.*s", (int)size, name);
     return;
@@ -335,7 +336,7 @@ static json_t *group_schema(const char *path, size_t size) {
   for (int i = 0; i < zp_key_count(); i++) {
     const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
     if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
-    json_t **these = size == 0 && zp_key_is_row(i) ? &patterns : &properties;
+    json_t **these = strstr(rest, "_K") ? &patterns : &properties;
     put_property(these, rest, strlen(rest), reference(name));
     for (const char *dot = strchr(rest, '.'); dot && *these; dot = strchr(dot + 1, '.'))
       if (!has_property(these, rest, (size_t)(dot - rest)))
@@ -400,7 +401,7 @@ static json_t *make_schema(void) {
                              "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
                              "definitions", definitions);
   merge(&schema, group_schema("", 0));
-  for (int kind = 0; schema && kind < ZP_INSTANCE_KINDS; kind++)
+  for (int kind = 0; schema && kind < ZP_CALLED_KINDS; kind++)
     add_named(&schema, (ZpInstanceKind)kind);
   return schema;
 }

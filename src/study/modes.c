@@ -141,7 +141,7 @@ static bool find_equilibrium(Problem *p) {
   double voltage = s->member->model->def.modes.voltage;
   if (!zp_statics_bias(s)) {
     snprintf(result->message, size, "%s", zp_statics_no_rest(s, (char[ZP_NO_REST_SIZE]){0}));
-  } else if (voltage > 0 && s->member->model->field && !zp_statics_ramp_voltage(s, voltage)) {
+  } else if (voltage != 0 && zp_follows_voltage(s->member->model) && !zp_statics_ramp_voltage(s, voltage)) {
     note_pulled_in(p, voltage);
   } else if (zp_statics_shorted(s)) {
     result->outcome = ZP_SHORT_CIRCUIT;
