@@ -227,6 +227,12 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
 /* Number of the last segment with a length, of the Def of a ribbon; 0: it has none. */
 int zp_def_segments(const ZpActuatorDef *ribbon);
 
+/* Does voltage drive the curvature of a segment, or, with `by_sign`, do so with another sign where it is negative? */
+bool zp_def_drives(const ZpActuatorDef *def, bool by_sign);
+
+/* Refuse a voltage below 0 V of this key where nothing depends on its sign. */
+ZpStatus zp_check_sign(const ZpActuatorDef *def, const char *key, double voltage, ZpError *err);
+
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);
 

@@ -72,11 +72,45 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
   return ZP_OK;
 }
 
+static bool is_driven(const ZpActuatorDef *ribbon, bool by_sign) {
+  bool any = false;
+  for (int k = 0; k < zp_def_segments(ribbon); k++) {
+    const bool squared = !by_sign && ribbon->segment_K[k].curvature_per_volt_squared != 0;
+    any |= ribbon->segment_K[k].length > 0 && (ribbon->segment_K[k].curvature_per_volt != 0 || squared);
+  }
+  return any;
+}
+
+bool zp_def_drives(const ZpActuatorDef *def, bool by_sign) {
+  if (is_driven(def, by_sign)) return true;
+  const ZpActuatorDef lower = zp_def_lower(def);
+  return zp_def_has(def, ZP_DEVICE_PAIR) && is_driven(&lower, by_sign);
+}
+
+ZpStatus zp_check_sign(const ZpActuatorDef *def, const char *key, double voltage, ZpError *err) {
+  if (voltage >= 0 || zp_def_drives(def, true)) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%s = %g V: must be at least 0 V, because nothing here depends on its sign; give "
+                 "segment_1.curvature_per_volt and segment_1.length, or the voltage without its sign",
+                 key, voltage);
+}
+
+/* Of a series or a network, each member is asked by itself. */
+static ZpStatus check_signs(const ZpActuatorDef *def, ZpError *err) {
+  static const int key[] = {ZP_KEY(drive.voltage), ZP_KEY(modes.voltage)};
+  ZpStatus status = ZP_OK;
+  const bool alone = !zp_def_network(def) && zp_def_members(def) == 1;
+  for (size_t k = 0; k < sizeof key / sizeof key[0] && alone && status == ZP_OK; k++)
+    status = zp_check_sign(def, zp_key(key[k])->name, zp_def_get(def, key[k]), err);
+  return status;
+}
+
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
   double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
-  ZpStatus status = check_segments(def, "", flexible, err);
+  ZpStatus status = check_signs(def, err);
+  if (status == ZP_OK) status = check_segments(def, "", flexible, err);
   return status == ZP_OK ? check_segments(&lower, prefix, flexible, err) : status;
 }
 

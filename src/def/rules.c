@@ -77,6 +77,10 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
     return zp_def_members(def) > 1 || zp_def_network(def);
   case ZP_TEST_NETWORK:
     return zp_def_network(def);
+  case ZP_TEST_FOLLOWS:
+    return zp_def_has(def, ZP_DEVICE_ELECTRODES) || zp_def_drives(def, false);
+  case ZP_TEST_DRIVES:
+    return zp_def_drives(def, false);
   case ZP_TEST_PLANE:
     return zp_def_plane(def);
   default:
@@ -197,6 +201,12 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
   case ZP_TEST_NETWORK:
     snprintf(text, size, "bodies");
     break;
+  case ZP_TEST_FOLLOWS:
+    snprintf(text, size, "actuator.kind with electrodes, or segment_K.curvature_per_volt");
+    break;
+  case ZP_TEST_DRIVES:
+    snprintf(text, size, "curvature that voltage drives");
+    break;
   case ZP_TEST_PLANE:
     snprintf(text, size, "bodies that move in the plane");
     break;
@@ -214,8 +224,8 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
     snprintf(text, WORDS, "bodies");
     return;
   }
-  if (c->test == ZP_TEST_PLANE) {
-    snprintf(text, WORDS, "moves = plane");
+  if (c->test == ZP_TEST_PLANE || c->test == ZP_TEST_DRIVES) {
+    snprintf(text, WORDS, "%s", c->test == ZP_TEST_PLANE ? "moves = plane" : "curvature that voltage drives");
     return;
   }
   if (zp_key_is_row(key) && zp_instance_given(def, key) >= 0) {

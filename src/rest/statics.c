@@ -252,7 +252,7 @@ static bool has_jumped(const ZpStatics *s) {
     double before = zp_opening(&m->model->topology, zp_nodes(m->model, m->good).y);
     jumped |= fabs(opening_of(m) - before) >
               part * (s->opposed && s->has_load ? zp_network_depth(s->model->network) : m->model->L);
-    jumped |= member_has_jumped(m);
+    jumped |= m->model->field && member_has_jumped(m);
   }
   return jumped;
 }

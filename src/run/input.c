@@ -164,6 +164,14 @@ static ZpRamp ramp_within(double value, double rate, double t, double least, dou
   return (ZpRamp){value, rate, t, t + left};
 }
 
+/* The lowest voltage of a member's port: below 0 V only where one on it depends on the sign. */
+static double least_voltage(const ZpSim *lead) {
+  double least = 0;
+  for (const ZpSim *m = lead; m; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL)
+    if (zp_def_drives(&m->model->def, true)) least = zp_key(lead->drive)->min;
+  return least;
+}
+
 /* Says that, and why, it is out of range. */
 static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
@@ -226,7 +234,7 @@ static ZpStatus hold(ZpSim *sim, double voltage, double rate, void (*way)(ZpSim 
   const ZpKey *key = zp_key(sim->drive);
   ZpStatus status = check_voltage(sim, voltage, err);
   if (status == ZP_OK && rate > 0) status = check_voltage(sim, key->max, err);
-  if (status == ZP_OK) way(sim, ramp_within(voltage, rate, sim->state->t, key->min, key->max));
+  if (status == ZP_OK) way(sim, ramp_within(voltage, rate, sim->state->t, least_voltage(sim), key->max));
   return status;
 }
 
@@ -258,7 +266,7 @@ static ZpStatus set_port(ZpSim *lead, double voltage, double rate, ZpError *err)
   ZpStatus status = zp_def_set(&scratch, lead->drive, voltage, err);
   for (ZpSim *m = lead; m && status == ZP_OK; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL)
     status = zp_def_check_voltage(&m->model->def, worst, err);
-  if (status == ZP_OK) zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, key->min, key->max));
+  if (status == ZP_OK) zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, least_voltage(lead), key->max));
   return status;
 }
 

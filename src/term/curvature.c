@@ -83,12 +83,23 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   const ZpDriven *d = &model->driven;
   const bool still = zp_span_is_still(span);
   ZpNatural *n = &e->natural;
+  if (sum->of_charge) return;
   bend(model, span, e);
   for (size_t p = 0; p < d->places; p++)
     n->rate[p] = zp_driven_aim_rate(&d->place[p], span->U1) * (still ? 1 : zp_driven_share(&d->place[p], span->h));
   zp_driven_bend_rate(d, n->kappa[ZP_NATURAL_END], n->rate, n->by);
   const ZpForces to = zp_forces(model, sum->force);
   zp_driven_forces(&model->rod, &e->rod_step, n->by, still ? span->share : 0.5, to.x, to.y);
+}
+
+void zp_term_curvature_by_place(const ZpModel *model, const ZpSpan *span, size_t place, ZpEval *e, double *F) {
+  ZpNatural *n = &e->natural;
+  const ZpForces to = zp_forces(model, F);
+  bend(model, span, e);
+  memset(n->rate, 0, model->driven.places * sizeof *n->rate);
+  n->rate[place] = 1;
+  zp_driven_bend_rate(&model->driven, n->kappa[ZP_NATURAL_END], n->rate, n->by);
+  zp_driven_forces(&model->rod, &e->rod_step, n->by, span->share, to.x, to.y);
 }
 
 #define ZP_DRIVEN(key)                                                                                                 \
