@@ -468,9 +468,11 @@ static void refuse_field(ZpActuatorDef *def, const char *name) {
 /* Where the field of each key is. */
 #define ZP_EACH_KEY(path, field, text) offsetof(ZpActuatorDef, path field),
 #define ZP_OF_SCENARIO(...)            0,
+#define segment_K                      segment_K[0]
 static const size_t field_of[] = {
 #include "def/keys.def"
 };
+#undef segment_K
 
 TESTS(bad_fields_are_refused, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);

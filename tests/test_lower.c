@@ -120,7 +120,7 @@ TEST(what_needs_like_ribbons_is_refused) {
       {{"lower.insulator.thickness", 60e-6}, {"electro.edges", 1}, "lower.insulator.thickness auto"},
       {{"lower.insulator.permittivity", 2}, {"medium.resistivity", 1e12}, "lower.insulator.permittivity auto"},
       {{"lower.insulator.permittivity", 2}, {"electro.insulator_offset", 1e-4}, "electro.insulator_offset"},
-      {{"lower.segment_2.length", 0.05}, {"mesh.nodes", 31}, "lower.segment_3.length: 0.05 m together"},
+      {{"lower.segment_2.length", 0.05}, {"mesh.nodes", 31}, "lower.segment_2.length: 0.05 m together"},
   };
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].lower, refused[k].asks);

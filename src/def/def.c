@@ -558,7 +558,6 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   ZpStatus ours = check_there(def, err);
   if (ours != ZP_OK) return ours;
   if (zp_def_members(def) > 1) return zp_check_members_voltage(def, voltage, err);
-  if (zp_check_sign(def, "drive.voltage", voltage, err) != ZP_OK) return ZP_BAD_INPUT;
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);

@@ -177,8 +177,10 @@ static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
   bool within = voltage >= key->min && voltage <= key->max;
   ZpStatus status = ZP_OK;
-  for (const ZpSim *m = sim; m < sim + sim->members && within && status == ZP_OK; m++)
-    status = zp_def_check_voltage(&m->model->def, zp_member_voltage(m->model, voltage), err);
+  for (const ZpSim *m = sim; m < sim + sim->members && within && status == ZP_OK; m++) {
+    status = zp_check_sign(&m->model->def, "drive.voltage", voltage, err);
+    if (status == ZP_OK) status = zp_def_check_voltage(&m->model->def, zp_member_voltage(m->model, voltage), err);
+  }
   if (within) return status;
   ZpActuatorDef scratch = sim->model->def;
   return zp_def_set(&scratch, sim->drive, voltage, err);
@@ -264,8 +266,10 @@ static ZpStatus set_port(ZpSim *lead, double voltage, double rate, ZpError *err)
   const double worst = rate > 0 ? key->max : voltage;
   ZpActuatorDef scratch = lead->model->def;
   ZpStatus status = zp_def_set(&scratch, lead->drive, voltage, err);
-  for (ZpSim *m = lead; m && status == ZP_OK; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL)
-    status = zp_def_check_voltage(&m->model->def, worst, err);
+  for (ZpSim *m = lead; m && status == ZP_OK; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL) {
+    status = zp_check_sign(&m->model->def, ZP_KEY_NAME(lead->drive), voltage, err);
+    if (status == ZP_OK) status = zp_def_check_voltage(&m->model->def, worst, err);
+  }
   if (status == ZP_OK) zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, least_voltage(lead), key->max));
   return status;
 }
