@@ -112,16 +112,17 @@ def newton(function, x):
     return x
 
 
-def electrode(free):
-    """Largest b of w'''' = b / (1 - w)^2 with a clamped left end and the right one free or guided: pull-in."""
+def electrode(free, curls=0):
+    """Largest b of w'''' = b / (1 - w)^2 with a clamped left end and the right one free or guided: pull-in. The natural
+    curvature is `curls` times the root of b, towards the electrode."""
     def load(travel, start):
         def misses(x):
             w, slope, bending, shear = runge_kutta(lambda s, y: [y[1], y[2], y[3], x[2] / (1 - y[0]) ** 2], [0, 0, x[0], x[1]], 400)
-            return [w - travel, bending if free else slope, shear]
+            return [w - travel, bending - curls * math.sqrt(abs(x[2])) if free else slope, shear]
 
         return newton(misses, start)
 
-    low, high, start = 0.35, 0.5, [1.5 if free else 3, -1.5 if free else -6, 1.5 if free else 4]
+    low, high, start = 0.35, 0.6 if curls else 0.5, [1.5 if free else 3, -1.5 if free else -6, 1.5 if free else 4]
     golden = 0.5 * (math.sqrt(5) - 1)
     for _ in range(30):
         left, right = high - golden * (high - low), low + golden * (high - low)
@@ -173,6 +174,7 @@ SOLVED = {
     "modes_free_1": (lambda: frequency(False, 1), EXACT, 5e-3),
     "pull_in_guided": (lambda: electrode(False), SHOT, 5e-3),
     "pull_in_free": (lambda: electrode(True), SHOT, 5e-3),
+    "pull_in_curling": (lambda: electrode(True, 0.5), SHOT, 5e-3),
     "force_wedge_1mm": (lambda: wedge(1e-3, math.inf), SERIES, 5e-3),
     "force_wedge_2mm": (lambda: wedge(2e-3, math.inf), SERIES, 5e-3),
     "force_wedge_4mm": (lambda: wedge(4e-3, math.inf), SERIES, 5e-3),
