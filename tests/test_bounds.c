@@ -373,6 +373,7 @@ static bool has_its_own_words(const char *key, double value) {
     if (strstr(key, "waveform")) return value == ZP_WAVEFORM_TABLE || value == ZP_WAVEFORM_RAMP; /* without its time */
     if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length")) return value > 5;
   }
+  if (strcmp(key, "drive.voltage") == 0 || strcmp(key, "modes.voltage") == 0) return value < 0; /* no sign counts */
   if (strcmp(key, "control.signal") == 0) return value == ZP_CONTROL_ANGLE; /* nothing turns */
   if (strcmp(key, "sense.sampling_rate") == 0) return value < 8;
   if (strcmp(key, "control.period") == 0) return value > 1;

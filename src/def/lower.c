@@ -72,6 +72,24 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
   return ZP_OK;
 }
 
+/* An element may turn by nature by less than half a turn. */
+static ZpStatus check_turns(const ZpActuatorDef *ribbon, const char *prefixed, double flexible, ZpError *err) {
+  static const double most = 2; /* rad */
+  const double U[] = {ribbon->drive.voltage, ribbon->drive.offset, ribbon->modes.voltage};
+  const double element = flexible / (ribbon->mesh.nodes - 1);
+  for (int k = 0; k < zp_def_segments(ribbon); k++)
+    for (size_t i = 0; i < sizeof U / sizeof U[0]; i++) {
+      const double a = ribbon->segment_K[k].curvature_per_volt, b = ribbon->segment_K[k].curvature_per_volt_squared,
+                   driven = (a + b * U[i]) * U[i];
+      if (ribbon->segment_K[k].length > 0 && fabs(driven) * element > most)
+        return zp_fail(err, ZP_BAD_INPUT,
+                       "%ssegment_%d.curvature_per_volt%s: %g V would bend the segment to %g 1/m, an element by more than "
+                       "%g rad; give a lower voltage, less curvature per volt or more mesh.nodes",
+                       prefixed, k + 1, a == 0 ? "_squared" : "", U[i], driven, most);
+    }
+  return ZP_OK;
+}
+
 static bool is_driven(const ZpActuatorDef *ribbon, bool by_sign) {
   bool any = false;
   for (int k = 0; k < zp_def_segments(ribbon); k++) {
@@ -111,7 +129,9 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_signs(def, err);
   if (status == ZP_OK) status = check_segments(def, "", flexible, err);
-  return status == ZP_OK ? check_segments(&lower, prefix, flexible, err) : status;
+  if (status == ZP_OK) status = check_segments(&lower, prefix, flexible, err);
+  if (status == ZP_OK) status = check_turns(def, "", flexible, err);
+  return status == ZP_OK ? check_turns(&lower, prefix, flexible, err) : status;
 }
 
 /* -- rules ----------------------------------------------------------------------------------------- */

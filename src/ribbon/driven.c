@@ -1,5 +1,7 @@
 #include "ribbon/driven.h"
 
+#include <math.h>
+
 #include "math/elementary.h"
 
 double zp_driven_share(const ZpDrivenPlace *p, double h) {
@@ -18,12 +20,13 @@ double zp_driven_natural(double turn) {
   return zp_rod_curvature(zp_tangent(0.5 * turn));
 }
 
-/* Natural turn of joint j. */
+/* Natural turn of joint j. A voltage that a program sets may ask for more than a joint can turn. */
 static double turn_of(const ZpDriven *d, const double *kappa, size_t j) {
+  static const double most = 3; /* rad */
   double turn = d->turn[j];
   for (size_t p = 0; p < d->places; p++)
     turn += kappa[p] * d->place[p].turn[j];
-  return turn;
+  return fmin(fmax(turn, -most), most);
 }
 
 void zp_driven_bend(const ZpDriven *d, const double *kappa, double *k0) {
