@@ -374,7 +374,7 @@ static bool has_its_own_words(const char *key, double value) {
     if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length")) return value > 5;
   }
   if (strcmp(key, "drive.voltage") == 0 || strcmp(key, "modes.voltage") == 0) return value < 0; /* no sign counts */
-  if (strcmp(key, "control.signal") == 0) return value == ZP_CONTROL_ANGLE; /* nothing turns */
+  if (strcmp(key, "control.signal") == 0) return value == ZP_CONTROL_ANGLE;                     /* nothing turns */
   if (strcmp(key, "sense.sampling_rate") == 0) return value < 8;
   if (strcmp(key, "control.period") == 0) return value > 1;
   if (strcmp(key, "control.delay") == 0) return value > 8e-5;

@@ -12,7 +12,7 @@ static const double L = 0.05;
 /* A strip of 50 mm whose curvature is 10 1/m per volt. */
 #define STRIP                                                                                                          \
   {"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"ribbon.length", 0.05}, {"gravity", 0},     \
-      {"load.mass", 0}, {"drive.voltage", 10}, {"segment_1.length", 0.05}, { \
+      {"load.mass", 0}, {"drive.voltage", 10}, {"segment_1.length", 0.05}, {                                           \
     "segment_1.curvature_per_volt", 10                                                                                 \
   }
 
@@ -61,7 +61,8 @@ TESTS(tip_is_on_an_arc, 0, 3) {
 TESTS(as_a_strip_that_is_bent, 0, 2) {
   const double U = _i ? -2 : 2, a = 10, b = 3;
   const ZpActuatorDef driven = DEF(STRIP, {"segment_1.curvature_per_volt_squared", b}, {"segment_1.curvature", 4}),
-                      bent = DEF(STRIP, {"segment_1.curvature_per_volt", 0}, {"segment_1.curvature", 4 + (a + b * U) * U});
+                      bent =
+                          DEF(STRIP, {"segment_1.curvature_per_volt", 0}, {"segment_1.curvature", 4 + (a + b * U) * U});
   const Tip one = tip_of(&driven, U), other = tip_of(&bent, 0);
   ck_below(hypot(one.x - other.x, one.y - other.y) / L, 1e-12);
 }
@@ -145,8 +146,8 @@ TESTS(limits_as_of_one_that_is_bent, 0, 4) {
 
 /* k (1 - exp(-t / lag)) at any time, whatever the steps. The strip follows it, later by damping.internal. */
 TEST(step_response_with_a_lag) {
-  const ZpActuatorDef def = DEF(STRIP, {"drive.voltage", 1}, {"segment_1.curvature_lag", 0.5}, {"damping.internal", 3e-4},
-                                {"ribbon.thickness", 2e-4}, {"segment_1.thickness", 2e-4});
+  const ZpActuatorDef def = DEF(STRIP, {"drive.voltage", 1}, {"segment_1.curvature_lag", 0.5},
+                                {"damping.internal", 3e-4}, {"ribbon.thickness", 2e-4}, {"segment_1.thickness", 2e-4});
   const ZpModel *model = model_of(&def);
   ZpSim *sim = sim_of(model);
   for (int k = 1; k <= 4; k++) {
@@ -161,11 +162,10 @@ TEST(step_response_with_a_lag) {
 /* Work without a load: the strip bends to its new natural curvature and stores nothing. With one, what lifts it: of
  * slow motion the work is the rise of all energies. */
 TESTS(work_of_slow_curling, 0, 3) {
-  const ZpActuatorDef def =
-      DEF(STRIP, {"gravity", 9.81}, {"load.mass", _i > 0 ? 2e-3 : 0}, {"drive.voltage", 1}, {"ribbon.thickness", 2e-4},
-          {"segment_1.thickness", 2e-4}, {"segment_1.curvature_lag", _i == 2 ? 0.5 : 0}, {"damping.internal", 1e-3},
-          {"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 2}, {"solver.end_time", 4},
-          {"solver.tolerance", 1e-6});
+  const ZpActuatorDef def = DEF(
+      STRIP, {"gravity", 9.81}, {"load.mass", _i > 0 ? 2e-3 : 0}, {"drive.voltage", 1}, {"ribbon.thickness", 2e-4},
+      {"segment_1.thickness", 2e-4}, {"segment_1.curvature_lag", _i == 2 ? 0.5 : 0}, {"damping.internal", 1e-3},
+      {"drive.waveform", ZP_WAVEFORM_RAMP}, {"drive.rise_time", 2}, {"solver.end_time", 4}, {"solver.tolerance", 1e-6});
   ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
   const ZpTable *rows = result->series;
   const double work = zp_table_get(rows, rows->rows - 1, "curvature_work_J"),
@@ -248,7 +248,8 @@ TESTS(forces_by_voltage, 0, 2) {
   start[n / 2] += 1e-6;
   double *v0 = memory_of(n * sizeof *v0);
   if (_i)
-    span = (ZpSpan){.start = start, .end = span.end, .h = 1e-3, .U0 = 150, .U1 = 200, .share = 1, .memory = memory, .v0 = v0};
+    span = (ZpSpan){
+        .start = start, .end = span.end, .h = 1e-3, .U0 = 150, .U1 = 200, .share = 1, .memory = memory, .v0 = v0};
   if (_i) zp_system_begin(model, &span, eval);
   ZpByVoltage by = {.force = F, .charge = memory_of(n * sizeof *F)};
   zp_system_force(model, &span, eval, F + n);
@@ -356,7 +357,6 @@ TEST(refused) {
   ZpActuatorDef lag = DEF(STRIP);
   ck_says(zp_def_set_number(&lag, "segment_1.curvature_lag", -1e-3, &err), ZP_BAD_INPUT,
           "segment_1.curvature_lag = -0.001 s: out of range; 0 to 10000 s");
-  ck_says(zp_def_set_number(&lag, "segment_65.length", 1e-3, &err), ZP_BAD_INPUT,
-          "segments have the numbers 1 to 64");
+  ck_says(zp_def_set_number(&lag, "segment_65.length", 1e-3, &err), ZP_BAD_INPUT, "segments have the numbers 1 to 64");
   ck_says(zp_def_set_number(&lag, "segment_K.length", 1e-3, &err), ZP_BAD_INPUT, "1 to 64");
 }

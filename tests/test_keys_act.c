@@ -24,7 +24,7 @@
 
 /* A strip of 50 mm that voltage curls, and a pair of them that voltage parts; a second after the voltage is on. */
 #define CURLS                                                                                                          \
-  "study=actuate actuator.kind=ribbon actuator.right_end=free gravity=0 load.mass=0 ribbon.length=50mm mesh.nodes=21 "  \
+  "study=actuate actuator.kind=ribbon actuator.right_end=free gravity=0 load.mass=0 ribbon.length=50mm mesh.nodes=21 " \
   "damping.internal=20ms solver.end_time=1s segment_1.length=50mm"
 #define CURLS_A_PAIR                                                                                                   \
   "study=actuate gravity=0 load.mass=0 liquid.model=none mesh.nodes=11 electro.force_scale=0 drive.voltage=1V "        \

@@ -473,7 +473,8 @@ static void fill_natural(ZpModel *model, Arrays *a) {
   for (size_t j = 0; j < model->count; j++)
     a->rod_k0[j] = zp_driven_natural(a->turn[j]);
   for (size_t r = 0; r < model->s; r++)
-    for (const ZpPlace *place = model->ribbon[r].place; place < model->ribbon[r].place + model->ribbon[r].places; place++)
+    for (const ZpPlace *place = model->ribbon[r].place; place < model->ribbon[r].place + model->ribbon[r].places;
+         place++)
       if (is_driven(place)) {
         fill_driven(model, place, r, a->turn + (places + 1) * model->stride, a->driven + places);
         places++;

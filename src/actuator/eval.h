@@ -22,8 +22,8 @@ typedef struct ZpCachedField {
 /* As the state holds it. */
 ZpCachedField zp_state_beyond(const ZpModel *model, const ZpState *state);
 
-/* Natural curvature that voltage drives, at the last state, at the start of a span, where a jump of the voltage may have
- * changed it, and at its end. */
+/* Natural curvature that voltage drives, at the last state, at the start of a span, where a jump of the voltage may
+ * have changed it, and at its end. */
 enum { ZP_NATURAL_BEFORE, ZP_NATURAL_START, ZP_NATURAL_END, ZP_NATURAL_PLACES };
 typedef struct ZpNatural {
   double *kappa[ZP_NATURAL_PLACES]; /* [driven segments] their curvature, 1/m; at the end, part of memory_end */
@@ -41,7 +41,7 @@ typedef struct ZpEval {
   ZpRodParams bent; /* the rod with the natural curvature that acts, */
   double *k0;       /* [stride] which may be this */
   ZpNatural natural;
-  ZpEdges edges;          /* at the end, of the mechanics in use */
+  ZpEdges edges; /* at the end, of the mechanics in use */
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;

@@ -59,9 +59,9 @@ typedef struct ZpPlace {
 enum { ZP_MOST_PLACES = ZP_MOST_SEGMENTS + 1 };
 typedef struct ZpRibbon {
   ZpPlace place[ZP_MOST_PLACES];
-  size_t places;   /* 1: no segment has a length */
-  double yields;   /* yield stress of its metal, Pa */
-  ZpCurl curl;     /* across its width */
+  size_t places; /* 1: no segment has a length */
+  double yields; /* yield stress of its metal, Pa */
+  ZpCurl curl;   /* across its width */
 } ZpRibbon;
 
 /* The spring of a hinge, between the upper ribbon's direction there and the first element of the lower ribbon, which is

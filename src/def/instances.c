@@ -188,10 +188,11 @@ bool zp_def_plane(const ZpActuatorDef *def) {
 
 /* Where a Def has the number of a segment's key. */
 static size_t field_of(int index) {
-  _Static_assert(sizeof((ZpActuatorDef *)0)->segment_K == (LOWER_SEGMENTS - SEGMENTS) * sizeof(double), "one number each");
-  _Static_assert(sizeof((ZpActuatorDef *)0)->lower.segment_K == (END - LOWER_SEGMENTS) * sizeof(double), "one number each");
-  if (index < LOWER_SEGMENTS)
-    return offsetof(ZpActuatorDef, segment_K) + (size_t)(index - SEGMENTS) * sizeof(double);
+  _Static_assert(sizeof((ZpActuatorDef *)0)->segment_K == (LOWER_SEGMENTS - SEGMENTS) * sizeof(double),
+                 "one number each");
+  _Static_assert(sizeof((ZpActuatorDef *)0)->lower.segment_K == (END - LOWER_SEGMENTS) * sizeof(double),
+                 "one number each");
+  if (index < LOWER_SEGMENTS) return offsetof(ZpActuatorDef, segment_K) + (size_t)(index - SEGMENTS) * sizeof(double);
   return offsetof(ZpActuatorDef, lower.segment_K) + (size_t)(index - LOWER_SEGMENTS) * sizeof(double);
 }
 

@@ -20,8 +20,9 @@ static bool is_given(const ZpActuatorDef *def, int key) {
 static int key_of_upper(int key) {
   const ZpInstance at = zp_key_instance(key);
   if (at.number > 0)
-    return at.kind == ZP_OF_LOWER_SEGMENT ? zp_key_of_instance(zp_key_find(zp_key(key)->name + sizeof prefix - 1), at.number)
-                                          : -1;
+    return at.kind == ZP_OF_LOWER_SEGMENT
+               ? zp_key_of_instance(zp_key_find(zp_key(key)->name + sizeof prefix - 1), at.number)
+               : -1;
   return key >= lower_keys.first && key < lower_keys.end ? zp_key_find(zp_key(key)->name + sizeof prefix - 1) : -1;
 }
 
@@ -82,10 +83,11 @@ static ZpStatus check_turns(const ZpActuatorDef *ribbon, const char *prefixed, d
       const double a = ribbon->segment_K[k].curvature_per_volt, b = ribbon->segment_K[k].curvature_per_volt_squared,
                    driven = (a + b * U[i]) * U[i];
       if (ribbon->segment_K[k].length > 0 && fabs(driven) * element > most)
-        return zp_fail(err, ZP_BAD_INPUT,
-                       "%ssegment_%d.curvature_per_volt%s: %g V would bend the segment to %g 1/m, an element by more than "
-                       "%g rad; give a lower voltage, less curvature per volt or more mesh.nodes",
-                       prefixed, k + 1, a == 0 ? "_squared" : "", U[i], driven, most);
+        return zp_fail(
+            err, ZP_BAD_INPUT,
+            "%ssegment_%d.curvature_per_volt%s: %g V would bend the segment to %g 1/m, an element by more than "
+            "%g rad; give a lower voltage, less curvature per volt or more mesh.nodes",
+            prefixed, k + 1, a == 0 ? "_squared" : "", U[i], driven, most);
     }
   return ZP_OK;
 }

@@ -228,15 +228,17 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
     snprintf(text, WORDS, "%s", c->test == ZP_TEST_PLANE ? "moves = plane" : "curvature that voltage drives");
     return;
   }
-  if (zp_key_is_row(key) && zp_instance_given(def, key) >= 0) {
-    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, zp_instance_given(def, key)));
+  const int given = zp_key_is_row(key) ? zp_instance_given(def, key) : -1;
+  if (given >= 0 && !zp_key_is_of_segment(given)) {
+    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, given));
     return;
   }
+  if (given >= 0) key = given;
   show_value(key, value_of(def, key), value);
   if (zp_key(key)->type == ZP_KEY_TEXT)
     snprintf(text, WORDS, "%s", zp_key(key)->name);
   else
-    snprintf(text, WORDS, "%s = %s%s", zp_key(key)->name, value, unequal ? " with unequal members" : "");
+    snprintf(text, WORDS, "%s = %s%s", ZP_KEY_NAME(key), value, unequal ? " with unequal members" : "");
 }
 
 ZpStatus zp_rule_fail(const ZpRule *rule, const char *asks, const ZpActuatorDef *def, ZpError *err) {

@@ -85,10 +85,8 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
     zp_result_add_of(result, "#_standard_error", name, key->unit,
                      known ? fabs(fit->start[k]) * sqrt(variance * C[k][k]) : NAN);
     for (int j = 0; j < k; j++)
-      zp_result_add_of(result, correlation[j], name, "1",
-                       told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
-    if (at_bound(fit, z, k))
-      zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
+      zp_result_add_of(result, correlation[j], name, "1", told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
+    if (at_bound(fit, z, k)) zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
   }
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
   if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);

@@ -78,8 +78,9 @@ static ZpStatus fill_network(const ZpActuatorDef *def, ZpFmuStart *start, ZpErro
     givens++;
   }
   if (givens > ZP_FMU_GIVEN || names > ZP_FMU_NAMES)
-    return zp_fail(err, ZP_BAD_INPUT, "%zu keys of segments, members and bodies, %zu names: an FMU has at most %d and %d",
-                   givens, names, ZP_FMU_GIVEN, ZP_FMU_NAMES);
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%zu keys of segments, members and bodies, %zu names: an FMU has at most %d and %d", givens, names,
+                   ZP_FMU_GIVEN, ZP_FMU_NAMES);
   start->givens = givens;
   start->names = names;
   for (size_t k = 0; k < names; k++)

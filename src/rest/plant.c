@@ -7,8 +7,8 @@
  * those relative to the platform that it hangs on, which joins the members by their masses.
  *
  * State: coordinates eta [m]; rates of them and of the flows of their own, w [m + z]; volume at the edges of each bead
- * that ends [beads]; of each driven segment with a lag its curvature; behind a lag, the supply's inner voltage; behind a
- * resistance, the voltage of the electrodes. */
+ * that ends [beads]; of each driven segment with a lag its curvature; behind a lag, the supply's inner voltage; behind
+ * a resistance, the voltage of the electrodes. */
 #include "rest/plant.h"
 
 #include <math.h>

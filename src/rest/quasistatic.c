@@ -481,7 +481,8 @@ ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pul
   /* Is there a limit point further up, before faces overlap by as much as they were apart? Two that are close to each
    * other are seen along the gap only. */
   r->track.event = gap_above_overlap;
-  if (zp_track(&r->track, zp_branch_parameter_at(&r->square, top)) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
+  if (zp_track(&r->track, zp_branch_parameter_at(&r->square, top)) == ZP_TRACK_FOLD)
+    zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
   return end;
 }
 

@@ -270,7 +270,8 @@ static ZpStatus set_port(ZpSim *lead, double voltage, double rate, ZpError *err)
     status = zp_check_sign(&m->model->def, ZP_KEY_NAME(lead->drive), voltage, err);
     if (status == ZP_OK) status = zp_def_check_voltage(&m->model->def, worst, err);
   }
-  if (status == ZP_OK) zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, least_voltage(lead), key->max));
+  if (status == ZP_OK)
+    zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, least_voltage(lead), key->max));
   return status;
 }
 

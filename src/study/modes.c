@@ -194,8 +194,8 @@ static const char dry_loops[] = "the eigenvalues of loops of members are compute
 
 static const char no_curves[] = "the eigenvalues of loops of members are those of electrodes alone";
 
-static const ZpRule rule_of_a_loop[] = {ZP_RULES_OF_A_LOOP,
-                                        ZP_RULE(NOT_MODELLED, ZP_CURVES_BY_VOLTAGE, ZP_IS(control.kind, ZP_CONTROL_NONE), no_curves)};
+static const ZpRule rule_of_a_loop[] = {
+    ZP_RULES_OF_A_LOOP, ZP_RULE(NOT_MODELLED, ZP_CURVES_BY_VOLTAGE, ZP_IS(control.kind, ZP_CONTROL_NONE), no_curves)};
 static const ZpRules rules_of_a_loop = ZP_RULES_OF(rule_of_a_loop);
 
 static const ZpRule rule[] = {

@@ -53,7 +53,8 @@ static const ZpRodParams *bent_to(const ZpModel *model, const double *k0, ZpEval
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   zp_rod_eval(&model->rod, span->end, zp_nodes(model, span->end).y, &e->rod);
   e->rod_step.strain_start = strain_of(model, span);
-  zp_rod_step(bent_to(model, zp_term_natural(model, span, e), e), start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
+  zp_rod_step(bent_to(model, zp_term_natural(model, span, e), e), start_of(span, e), &e->rod,
+              zp_span_damping(model, span), &e->rod_step);
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
 }
 
@@ -85,9 +86,8 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
 static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_rod_eval(&model->rod, now->end, zp_nodes(model, now->end).y, &e->rod);
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
-  row[BENDING] +=
-      zp_rod_bending_energy(bent_to(model, zp_term_natural_of_state(model, now, e), e), &e->rod) -
-      zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
+  row[BENDING] += zp_rod_bending_energy(bent_to(model, zp_term_natural_of_state(model, now, e), e), &e->rod) -
+                  zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
   if (strain_of(model, now)) row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
 }
 
