@@ -23,7 +23,7 @@ static size_t state(const ZpModel *model) {
 static bool create(const ZpModel *model, ZpEval *e) {
   ZpNatural *n = &e->natural;
   for (size_t k = 0; k < ZP_NATURAL_PLACES; k++)
-    memcpy(n->k0[k], model->rod.k0, model->stride * sizeof *n->k0[k]);
+    memcpy(n->k0[k], model->rod.k0, zp_lanes(model) * sizeof *n->k0[k]);
   n->kappa[ZP_NATURAL_END] = e->memory_end + zp_law(model, &zp_term_curvature)->at;
   return true;
 }
