@@ -113,7 +113,7 @@ static void print_rests(void) {
   for (size_t k = 0; k < sizeof study / sizeof study[0]; k++) {
     ZpActuatorDef def = zp_actuator_def_default();
     def.mesh.nodes = 9;
-    def.segment_3.curvature = 5;
+    def.segment_K[2].curvature = 5;
     print_study("at rest", study[k], &def);
   }
 }

@@ -373,7 +373,8 @@ static bool has_its_own_words(const char *key, double value) {
     if (strstr(key, "waveform")) return value == ZP_WAVEFORM_TABLE || value == ZP_WAVEFORM_RAMP; /* without its time */
     if (strncmp(key, "segment_", 8) == 0 && strstr(key, ".length")) return value > 5;
   }
-  if (strcmp(key, "control.signal") == 0) return value == ZP_CONTROL_ANGLE; /* nothing turns */
+  if (strcmp(key, "drive.voltage") == 0 || strcmp(key, "modes.voltage") == 0) return value < 0; /* no sign counts */
+  if (strcmp(key, "control.signal") == 0) return value == ZP_CONTROL_ANGLE;                     /* nothing turns */
   if (strcmp(key, "sense.sampling_rate") == 0) return value < 8;
   if (strcmp(key, "control.period") == 0) return value > 1;
   if (strcmp(key, "control.delay") == 0) return value > 8e-5;
@@ -468,9 +469,11 @@ static void refuse_field(ZpActuatorDef *def, const char *name) {
 /* Where the field of each key is. */
 #define ZP_EACH_KEY(path, field, text) offsetof(ZpActuatorDef, path field),
 #define ZP_OF_SCENARIO(...)            0,
+#define segment_K                      segment_K[0]
 static const size_t field_of[] = {
 #include "def/keys.def"
 };
+#undef segment_K
 
 TESTS(bad_fields_are_refused, 0, zp_key_count()) {
   const ZpKey *key = zp_key(_i);

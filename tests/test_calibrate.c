@@ -308,8 +308,8 @@ TEST(bounds_have_units) {
 /* A ribbon that is bowed at its clip, of curvature 0.2 1/m before the fit. */
 static ZpActuatorDef bowed(const char *file) {
   ZpActuatorDef def = calibration(file, "segment_1.curvature");
-  def.segment_1.length = 0.03;
-  def.segment_1.curvature = 0.2;
+  def.segment_K[0].length = 0.03;
+  def.segment_K[0].curvature = 0.2;
   def.mesh.nodes = 15;
   set_text(&def, "calibrate.bounds", "segment_1.curvature = -0.5 1/m .. 0.5 1/m");
   return def;
@@ -320,7 +320,7 @@ TEST(negative_values_and_bounds) {
   static const double curvature[] = {-0.3, -0.8};
   for (int i = 0; i < 2; i++) {
     ZpActuatorDef def = bowed("bowed.csv"), truth = def;
-    truth.segment_1.curvature = curvature[i];
+    truth.segment_K[0].curvature = curvature[i];
     make_data("bowed.csv", truth, 1e-7);
     ZpResult *result = fit_to(i ? ZP_AT_BOUND : ZP_CONVERGED, &def);
     double error = zp_result_get(result, "segment_1.curvature_standard_error");
@@ -333,7 +333,7 @@ TEST(negative_values_and_bounds) {
  * too. Polished, the fit is as near as they allow; the search before comes to some percent. */
 TEST(negative_values_by_differences) {
   ZpActuatorDef def = bowed("bowed-capacitance.csv"), truth = def;
-  truth.segment_1.curvature = -0.3;
+  truth.segment_K[0].curvature = -0.3;
   FILE *file = fopen("bowed-capacitance.csv", "w");
   fputs("load_g,capacitance_pF\n", file);
   for (int g = 4; g <= 32; g *= 2) {

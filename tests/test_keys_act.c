@@ -22,6 +22,14 @@
 #define CANTILEVER                                                                                                     \
   "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 load.mass=2mg mesh.nodes=21"
 
+/* A strip of 50 mm that voltage curls, and a pair of them that voltage parts; a second after the voltage is on. */
+#define CURLS                                                                                                          \
+  "study=actuate actuator.kind=ribbon actuator.right_end=free gravity=0 load.mass=0 ribbon.length=50mm mesh.nodes=21 " \
+  "damping.internal=20ms solver.end_time=1s segment_1.length=50mm"
+#define CURLS_A_PAIR                                                                                                   \
+  "study=actuate gravity=0 load.mass=0 liquid.model=none mesh.nodes=11 electro.force_scale=0 drive.voltage=1V "        \
+  "damping.internal=2ms solver.end_time=0.5s segment_1.length=9mm segment_1.curvature_per_volt=0.3"
+
 /* Two weightless strips, 45 mm flexible, that part by 0.2 mm. */
 #define PAIR "study=stationary ribbon.density=0 load.mass=0.1g mesh.nodes=21 drive.voltage=1V"
 

@@ -45,7 +45,7 @@ TEST(each_ribbon_has_its_own_curvature) {
   static const double k = 0.02, a = 9e-3;
   ZpActuatorDef def = DEF(BOWED, {"segment_1.length", a}, {"segment_1.curvature", k}, {"lower.segment_1.curvature", 0});
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"), rises(&def, k, a), 1e-4); /* 1.5e-5 measured */
-  def.lower.segment_1.curvature = -k;
+  def.lower.segment_K[0].curvature = -k;
   ck_below(fabs(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m")), 1e-12); /* 2e-19 measured */
 }
 
@@ -56,7 +56,7 @@ TEST(ribbons_can_be_exchanged) {
           {"ribbon.thickness", 70e-6}, {"segment_1.thickness", 70e-6}, {"lower.ribbon.thickness", 50e-6},
           {"lower.segment_1.thickness", 50e-6}, {"insulator.permittivity", 3}, {"lower.insulator.permittivity", 5});
   ZpActuatorDef other = zp_def_lower(&def);
-  other.lower.ribbon.thickness = other.lower.segment_1.thickness = 70e-6;
+  other.lower.ribbon.thickness = other.lower.segment_K[0].thickness = 70e-6;
   other.lower.insulator.permittivity = 3;
   ck_assert_double_eq(other.ribbon.thickness, 50e-6);
   static const char *const names[] = {"pull_in_voltage_V", "release_voltage_V"};
@@ -120,7 +120,7 @@ TEST(what_needs_like_ribbons_is_refused) {
       {{"lower.insulator.thickness", 60e-6}, {"electro.edges", 1}, "lower.insulator.thickness auto"},
       {{"lower.insulator.permittivity", 2}, {"medium.resistivity", 1e12}, "lower.insulator.permittivity auto"},
       {{"lower.insulator.permittivity", 2}, {"electro.insulator_offset", 1e-4}, "electro.insulator_offset"},
-      {{"lower.segment_2.length", 0.05}, {"mesh.nodes", 31}, "lower.segment_3.length: 0.05 m together"},
+      {{"lower.segment_2.length", 0.05}, {"mesh.nodes", 31}, "lower.segment_2.length: 0.05 m together"},
   };
   for (size_t k = 0; k < LENGTH_OF(refused); k++) {
     ZpActuatorDef def = DEF(refused[k].lower, refused[k].asks);

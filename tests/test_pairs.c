@@ -156,9 +156,9 @@ static bool is_named(const char *message, ZpStudy study, int feature) {
   ZpActuatorDef with = {0}, without = {0};
   fill(study, feature, feature, &with, NULL);
   fill(study, NONE, NONE, &without, NULL);
-  for (int key = 0; key < zp_key_count(); key++) {
+  for (int key = zp_key_next_field(-1); key >= 0; key = zp_key_next_field(key)) {
     const ZpKey *k = zp_key(key);
-    if (!zp_key_in_def(key) || !strstr(message, k->name)) continue;
+    if (!zp_key_in_def(key) || !strstr(message, ZP_KEY_NAME(key))) continue;
     double value = zp_def_get(&with, key), plain = zp_def_get(&without, key);
     bool text = k->type == ZP_KEY_TEXT, changed = !text && value != plain && !(isnan(value) && isnan(plain));
     if (changed || find(&parsed[feature], key)) return true;

@@ -211,7 +211,7 @@ static ZpActuatorDef moving(int which) {
   }
   if (which == 4) def.actuator.symmetry = ZP_SYMMETRY_NONE;
   if (which == 5) def.liquid.model = ZP_LIQUID_BEAD;
-  if (which == 6) def.segment_1.length = 10e-3, def.segment_1.curvature = 20;
+  if (which == 6) def.segment_K[0].length = 10e-3, def.segment_K[0].curvature = 20;
   if (which == 7) def.insulator.young_modulus = 5e9, def.lower.ribbon.yield_stress = 200e6;
   return def;
 }

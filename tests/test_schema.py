@@ -56,8 +56,9 @@ def fault(document):
 
 
 def pattern_of(name):
-    """That of the name of a key of any member."""
-    return name.replace("_K", "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])").replace(".", "[.]")
+    """That of the name of a key of any member or segment."""
+    numbers = "[1-9]|[1-5][0-9]|6[0-4]" if "segment_K" in name else "[1-9][0-9]{0,2}|10[01][0-9]|102[0-4]"
+    return name.replace("_K", "_(?:%s)" % numbers).replace(".", "[.]")
 
 
 # every key, as a dotted name and in its group, with what is told of it

@@ -68,7 +68,7 @@ TESTS(test_derivatives_by_voltage, 0, 3) {
       DEF({"mesh.nodes", STATIONS}, {"electro.breakdown_cap", laws[_i].cap}, {"electro.edges", laws[_i].edges});
   Span s = make_span(&def, &seed);
   size_t n = 2 * s.model->stride;
-  ZpByVoltage by = {zp_calloc(n, sizeof(double)), zp_calloc(n, sizeof(double)), 0};
+  ZpByVoltage by = {.force = zp_calloc(n, sizeof(double)), .charge = zp_calloc(n, sizeof(double))};
   const double dU = 1, dq = 1e-9;
   double above = force_at(&s, s.U1 + dU, s.F[1]), below = force_at(&s, s.U1 - dU, s.F[0]), worst = 0, worst_charge = 0;
   double capacitance = (above - below) / (2 * dU);

@@ -132,8 +132,8 @@ TESTS(test_small_deflections_are_exact, 0, 2) {
 TEST(test_natural_curvature) {
   const double k = 8;
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
-  def.segment_1.length = L;
-  def.segment_1.curvature = k;
+  def.segment_K[0].length = L;
+  def.segment_K[0].curvature = k;
   ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   ck_near(zp_table_get(result->series, 60, "x_m"), sin(k * L) / k, 3e-5);       /* 7.5e-6 measured */
   ck_near(zp_table_get(result->series, 60, "y_m"), (1 - cos(k * L)) / k, 2e-4); /* 4.1e-5 measured */
@@ -145,8 +145,8 @@ TEST(test_natural_curvature) {
 TEST(test_two_segments) {
   const double thick = 80e-6, a = 0.4 * L, b = L - a;
   ZpActuatorDef def = beam(ZP_END_FREE, 1e-3, 0, 61);
-  def.segment_1.length = a;
-  def.segment_1.thickness = thick;
+  def.segment_K[0].length = a;
+  def.segment_K[0].thickness = thick;
   double P = def.load.mass * def.gravity;
   double beam_y =
       P * (L * L * L - b * b * b) / (3 * bending_stiffness(thick)) + P * b * b * b / (3 * bending_stiffness(thickness));
@@ -159,8 +159,8 @@ TEST(test_two_segments) {
 static double step_error(double a, int nodes) {
   const double thick = 80e-6, b = L - a;
   ZpActuatorDef def = beam(ZP_END_FREE, 1e-5, 0, nodes);
-  def.segment_1.length = a;
-  def.segment_1.thickness = thick;
+  def.segment_K[0].length = a;
+  def.segment_K[0].thickness = thick;
   double P = def.load.mass * def.gravity;
   double y =
       P * (L * L * L - b * b * b) / (3 * bending_stiffness(thick)) + P * b * b * b / (3 * bending_stiffness(thickness));
@@ -243,12 +243,12 @@ TEST(test_segments_are_integrated) {
 TEST(test_curvature_of_each_segment) {
   const double k[] = {6, -9, 4, 0}, length[] = {0.021, 0.034, 0.017, 0.028};
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 121);
-  def.segment_1.length = length[0];
-  def.segment_1.curvature = k[0];
-  def.segment_2.length = length[1];
-  def.segment_2.curvature = k[1];
-  def.segment_3.length = length[2];
-  def.segment_3.curvature = k[2];
+  def.segment_K[0].length = length[0];
+  def.segment_K[0].curvature = k[0];
+  def.segment_K[1].length = length[1];
+  def.segment_K[1].curvature = k[1];
+  def.segment_K[2].length = length[2];
+  def.segment_K[2].curvature = k[2];
   double x = 0, y = 0, angle = 0;
   for (int i = 0; i < 4; i++) {
     double turned = k[i] * length[i], chord = length[i] * (turned == 0 ? 1 : sin(turned / 2) / (turned / 2));
@@ -276,8 +276,8 @@ TESTS(test_strong_curvature, 0, 4) {
     y += l * sin(angle);
   }
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, NODES);
-  def.segment_1.length = L;
-  def.segment_1.curvature = curvatures[_i];
+  def.segment_K[0].length = L;
+  def.segment_K[0].curvature = curvatures[_i];
   ZpResult *result = converged_of(ZP_STUDY_STATIONARY, &def);
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "x_m"), x, 1e-9 * L);
   ck_assert_double_eq_tol(zp_table_get(result->series, NODES - 1, "y_m"), y, 1e-9 * L);
@@ -287,8 +287,8 @@ TESTS(test_strong_curvature, 0, 4) {
  * clamp. */
 TEST(test_curled_ribbon_is_found) {
   ZpActuatorDef def = beam(ZP_END_FREE, 0, 0, 61);
-  def.segment_1.length = L;
-  def.segment_1.curvature = 50;
+  def.segment_K[0].length = L;
+  def.segment_K[0].curvature = 50;
   ck_near(value_of(ZP_STUDY_STATIONARY, &def, "stroke_m"), -(1 - cos(50 * L)) / 50, 2e-3); /* 5.2e-4 measured */
   def.load.mass = 8e-3;
   ck_assert(isfinite(value_of(ZP_STUDY_STATIONARY, &def, "stroke_m")));

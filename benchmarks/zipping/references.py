@@ -112,12 +112,13 @@ def newton(function, x):
     return x
 
 
-def electrode(free, power=0, eta=0, travels=(0.35, 0.5)):
-    """Largest b of w'''' = b / (eta + x^power - w)^2 with a clamped left end and the right one free or guided: pull-in."""
+def electrode(free, power=0, eta=0, curls=0, travels=(0.35, 0.5)):
+    """Largest b of w'''' = b / (eta + x^power - w)^2 with a clamped left end and the right one free or guided: pull-in.
+    The natural curvature is `curls` times the root of b, towards the electrode."""
     def load(travel, start):
         def misses(x):
             w, slope, bending, shear = runge_kutta(lambda s, y: [y[1], y[2], y[3], x[2] / (eta + s**power - y[0]) ** 2], [0, 0, x[0], x[1]], 400)
-            return [w - travel, bending if free else slope, shear]
+            return [w - travel, bending - curls * math.sqrt(abs(x[2])) if free else slope, shear]
 
         return newton(misses, start)
 
@@ -176,8 +177,9 @@ SOLVED = {
     "modes_free_1": (lambda: frequency(False, 1), EXACT, 5e-3),
     "pull_in_guided": (lambda: electrode(False), SHOT, 5e-3),
     "pull_in_free": (lambda: electrode(True), SHOT, 5e-3),
-    "pull_in_curved_1": (lambda: electrode(True, 1, 0.2, (0.45, 0.6)), SHOT, 5e-3),
-    "pull_in_curved_1.5": (lambda: electrode(True, 1.5, 0.05, (0.33, 0.43)), SHOT, 5e-3),
+    "pull_in_curved_1": (lambda: electrode(True, 1, 0.2, travels=(0.45, 0.6)), SHOT, 5e-3),
+    "pull_in_curved_1.5": (lambda: electrode(True, 1.5, 0.05, travels=(0.33, 0.43)), SHOT, 5e-3),
+    "pull_in_curling": (lambda: electrode(True, curls=0.5, travels=(0.35, 0.6)), SHOT, 5e-3),
     "force_wedge_1mm": (lambda: wedge(1e-3, math.inf), SERIES, 5e-3),
     "force_wedge_2mm": (lambda: wedge(2e-3, math.inf), SERIES, 5e-3),
     "force_wedge_4mm": (lambda: wedge(4e-3, math.inf), SERIES, 5e-3),

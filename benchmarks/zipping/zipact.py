@@ -51,6 +51,12 @@ def load_of_voltage(voltage):
     return 8.8541878128e-12 * voltage**2 * 0.1**4 / (2 * 200e9 * 1e-9 / 12 * 1e-9)
 
 
+def curling(share):
+    """flange() with a natural curvature towards the electrode: `share` times the root of load_of_voltage(), times gap / length^2."""
+    per_volt = share * load_of_voltage(1) ** 0.5 * 1e-3 / 0.1**2
+    return {**flange("free"), "segment_1.length": "100 mm", "segment_1.thickness": "1 mm", "segment_1.curvature_per_volt": "%.12g 1/m/V" % per_volt}
+
+
 def wedge(separation, cap):
     return {**DRY, "profile.shape": "cubic", "isometric.separation": separation, "drive.voltage": "6 kV", "electro.breakdown_cap": cap}
 
@@ -79,6 +85,7 @@ CASES = {
     "pull_in_free": ("limits", flange("free"), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_curved_1": ("limits", curved(1, 0.2), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_curved_1.5": ("limits", curved(1.5, 0.05), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
+    "pull_in_curling": ("limits", curling(0.5), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_8g": ("limits", DRY, lambda s: s["pull_in_voltage_V"]),
     "pull_in_8g_no_breakdown": ("limits", {**DRY, "electro.breakdown_cap": "false"}, lambda s: s["pull_in_voltage_V"]),
     "closing_61g": ("limits", {**DRY, "load.mass": "61 g"}, lambda s: s["closing_voltage_V"]),

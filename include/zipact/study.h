@@ -79,6 +79,8 @@ ZP_API void zp_result_add_sensitivity(ZpResult *result, const char *output, int 
  * they are omitted; a study that has no memory for a note fails. `name` and `unit` must outlive the result. */
 ZP_API void zp_result_add(ZpResult *result, const char *name, const char *unit, double value);
 ZP_API void zp_result_add_timing(ZpResult *result, const char *name, const char *unit, double value);
+/* Append a number of one of several: what it is called stands in the place of # in the name, which is copied. */
+ZP_API void zp_result_add_of(ZpResult *result, const char *name, const char *called, const char *unit, double value);
 ZP_API void zp_result_note(ZpResult *result, const char *format, ...) ZP_PRINTF(2, 3);
 
 /* Add notes, for `model` at voltages up to `highest` (V), if the insulators break down at the clip, where the faces

@@ -44,7 +44,7 @@ bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *r
     *rate = (ZpSection){.EA = section.EA / w, .EI = section.EI / w, .mu = section.mu / w};
   if (key == ZP_KEY(ribbon.width)) return true;
   layers_of(&def, def.ribbon.thickness, layer);
-  for (size_t k = 0; model->ribbon[ribbon].is_uniform && k < sizeof of / sizeof of[0]; k++)
+  for (size_t k = 0; model->ribbon[ribbon].places == 1 && k < sizeof of / sizeof of[0]; k++)
     if (key == of[k].key) {
       *rate = zp_section_by(layer, LAYERS, w, def.ribbon.plane != ZP_PLANE_STRESS, of[k].layer, of[k].by);
       return true;
@@ -75,20 +75,24 @@ static ZpCurl curl_of(const ZpActuatorDef *def) {
 /* The sections along a ribbon from its left end on. The lower ribbon is a mirror image: `up` = -1 reverses its natural
  * curvatures. */
 static ZpRibbon ribbon_of(const ZpActuatorDef *def, double up) {
-  ZpPlace place[ZP_PLACES] = {
-      {section_of(def, def->segment_1.thickness), up * def->segment_1.curvature, def->segment_1.length},
-      {section_of(def, def->segment_2.thickness), up * def->segment_2.curvature, def->segment_2.length},
-      {section_of(def, def->segment_3.thickness), up * def->segment_3.curvature, def->segment_3.length},
-      {section_of(def, def->ribbon.thickness), 0, INFINITY},
-  };
   ZpRibbon ribbon = {.yields = def->ribbon.yield_stress, .curl = curl_of(def)};
   double along = 0;
-  for (int k = 0; k < ZP_PLACES; k++) {
-    ribbon.place[k] = place[k];
-    ribbon.place[k].end = along += place[k].end;
+  for (int k = 0; k < zp_def_segments(def); k++) {
+    if (def->segment_K[k].length == 0) continue;
+    along += def->segment_K[k].length;
+    ribbon.place[ribbon.places++] = (ZpPlace){.section = section_of(def, def->segment_K[k].thickness),
+                                              .curvature = up * def->segment_K[k].curvature,
+                                              .per_volt = up * def->segment_K[k].curvature_per_volt,
+                                              .per_volt_squared = up * def->segment_K[k].curvature_per_volt_squared,
+                                              .lag = def->segment_K[k].curvature_lag,
+                                              .end = along};
   }
-  ribbon.is_uniform = ribbon.place[ZP_REST - 1].end == 0;
+  ribbon.place[ribbon.places++] = (ZpPlace){.section = section_of(def, def->ribbon.thickness), .end = INFINITY};
   return ribbon;
+}
+
+static bool is_driven(const ZpPlace *place) {
+  return place->per_volt != 0 || place->per_volt_squared != 0;
 }
 
 /* A piece of an edge: from `from` to `to`, in edge lengths. */
@@ -105,16 +109,11 @@ static double in_edges(const ZpModel *model, double along) {
 }
 
 /* The pieces of edge `station` of the left half between the ends of segments. => how many */
-static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece piece[ZP_PLACES]) {
+static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece piece[ZP_MOST_PLACES]) {
   const ZpPlace *place = model->ribbon[ribbon].place;
   double from = 0;
   int count = 0;
-  if (model->ribbon[ribbon].is_uniform) {
-    piece[0] = (Piece){&place[ZP_REST], 0, 1};
-    return 1;
-  }
-  for (int k = 0; k < ZP_PLACES && from < 1; k++) {
-    if (place[k].end == (k > 0 ? place[k - 1].end : 0)) continue; /* a segment without length, as most are */
+  for (size_t k = 0; k < model->ribbon[ribbon].places && from < 1; k++) {
     double to = fmin(in_edges(model, place[k].end) - (double)station, 1);
     if (to <= from) continue;
     piece[count++] = (Piece){&place[k], from, to};
@@ -127,19 +126,24 @@ static int pieces_of(const ZpModel *model, size_t ribbon, size_t station, Piece 
  * step of the section counts at its place within the edge. */
 typedef struct Share {
   double compliance; /* of bending, 1 / (N m) */
-  double turn;       /* natural, rad */
+  double turn;       /* natural, rad; of one driven place per its curvature, m */
   double mass;       /* kg */
 } Share;
 
-static Share share_of(const ZpModel *model, size_t ribbon, size_t station, bool right) {
-  Piece piece[ZP_PLACES];
+/* The natural curvature of a place without voltage; while shares of one driven place are asked for, 1 there. */
+static double curvature_of(const ZpPlace *place, const ZpPlace *driven) {
+  return driven ? place == driven : place->curvature;
+}
+
+static Share share_of(const ZpModel *model, size_t ribbon, size_t station, bool right, const ZpPlace *driven) {
+  Piece piece[ZP_MOST_PLACES];
   Share share = {0, 0, 0};
   int count = pieces_of(model, ribbon, station, piece);
   for (int k = 0; k < count; k++) {
     double middle = 0.5 * (piece[k].from + piece[k].to);
     double part = (piece[k].to - piece[k].from) * (right ? middle : 1 - middle) * model->l;
     share.compliance += part / piece[k].place->section.EI;
-    share.turn += part * piece[k].place->curvature;
+    share.turn += part * curvature_of(piece[k].place, driven);
     share.mass += part * piece[k].place->section.mu;
   }
   return share;
@@ -147,12 +151,12 @@ static Share share_of(const ZpModel *model, size_t ribbon, size_t station, bool 
 
 /* The sum of the shares of the edges beside node j. A rigid edge has none; those of the right half are mirror
  * images. */
-static Share node_share(const ZpModel *model, size_t j) {
+static Share node_share(const ZpModel *model, size_t j, const ZpPlace *driven) {
   const ZpTopology *t = &model->topology;
   size_t ribbon = j % t->ribbons, station = zp_topology_station_image(t, j / t->ribbons);
   Share left = {0, 0, 0}, right = {0, 0, 0};
-  if (station > 0) left = share_of(model, ribbon, station - 1, true);
-  if (station < zp_half_elements(t)) right = share_of(model, ribbon, station, false);
+  if (station > 0) left = share_of(model, ribbon, station - 1, true, driven);
+  if (station < zp_half_elements(t)) right = share_of(model, ribbon, station, false, driven);
   return (Share){left.compliance + right.compliance, left.turn + right.turn, left.mass + right.mass};
 }
 
@@ -163,10 +167,10 @@ typedef struct LevelShare {
   double across, both_turns; /* between both: 1 / (N m); what the next one has of natural turn beside its own, rad */
 } LevelShare;
 
-static LevelShare level_share(const ZpModel *model, size_t ribbon, ZpLevelEnd level) {
+static LevelShare level_share(const ZpModel *model, size_t ribbon, ZpLevelEnd level, const ZpPlace *driven) {
   size_t station = zp_topology_element_image(&model->topology, level.element);
   bool right = level.right != (station != level.element); /* the right half is a mirror image */
-  Piece piece[ZP_PLACES];
+  Piece piece[ZP_MOST_PLACES];
   LevelShare share = {0, 0, 0, 0};
   int count = pieces_of(model, ribbon, station, piece);
   for (int k = 0; k < count; k++) {
@@ -175,15 +179,15 @@ static LevelShare level_share(const ZpModel *model, size_t ribbon, ZpLevelEnd le
     double both = (to * to * (3 - 2 * to) - from * from * (3 - 2 * from)) * (model->l / 12);
     share.compliance += own / piece[k].place->section.EI;
     share.across += both / piece[k].place->section.EI;
-    share.turn += (own + both) * piece[k].place->curvature;
-    share.both_turns += both * piece[k].place->curvature;
+    share.turn += (own + both) * curvature_of(piece[k].place, driven);
+    share.both_turns += both * curvature_of(piece[k].place, driven);
   }
   return share;
 }
 
 /* Axial compliance of an edge of the left half, m/N. */
 static double edge_compliance(const ZpModel *model, size_t ribbon, size_t station) {
-  Piece piece[ZP_PLACES];
+  Piece piece[ZP_MOST_PLACES];
   double sum = 0;
   int count = pieces_of(model, ribbon, station, piece);
   for (int k = 0; k < count; k++)
@@ -290,7 +294,7 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
 /* The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the edges beside them, which keeps
  * the centre of mass. */
 double zp_ribbon_mass(const ZpModel *model, size_t j) {
-  return model->is_rod ? node_share(model, j).mass
+  return model->is_rod ? node_share(model, j, NULL).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
 
@@ -311,7 +315,17 @@ typedef struct Arrays {
   double *inverse[2][2], *pair[2][2];       /* ZpAxisMasses, of true and of pseudo-masses, along x and y */
   double *face, *face_x;                    /* [nodes] of a counter electrode */
   double *time, *voltage;                   /* ZpDriveTable */
+  double *turn;                             /* ZpDriven: [stride], and [stride] of each of its places */
+  ZpDrivenPlace *driven;
 } Arrays;
+
+static size_t count_driven(const ZpModel *model) {
+  size_t count = 0;
+  for (size_t r = 0; r < model->s; r++)
+    for (size_t k = 0; k < model->ribbon[r].places; k++)
+      count += is_driven(&model->ribbon[r].place[k]);
+  return count;
+}
 
 static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a) {
   ZpArena arena = {block, 0};
@@ -327,6 +341,8 @@ static size_t reserve(const ZpModel *model, size_t rows, void *block, Arrays *a)
   a->face_x = zp_arena_take(&arena, model->nodes);
   a->time = zp_arena_take(&arena, rows);
   a->voltage = zp_arena_take(&arena, rows);
+  a->turn = zp_arena_take(&arena, (1 + count_driven(model)) * model->stride);
+  a->driven = zp_arena_take_of(&arena, count_driven(model), sizeof *a->driven);
   return arena.used;
 }
 
@@ -407,21 +423,14 @@ static void fill_chain(ZpModel *model, Arrays *a) {
   model->rod = rod_of(model, a);
 }
 
-static double natural_curvature(double turn) {
-  if (turn == 0) return turn; /* of most joints */
-  return zp_rod_curvature(zp_tangent(0.5 * turn));
-}
-
 /* Eq. (8.9): the joint at a held slope and the next one bend together. */
 static void fill_end(ZpModel *model, size_t ribbon, ZpLevelEnd level, Arrays *a) {
   size_t s = model->s, left = level.element * s + ribbon, right = left + s;
   size_t held = level.right ? right : left, next = level.right ? left : right;
-  LevelShare share = level_share(model, ribbon, level);
+  LevelShare share = level_share(model, ribbon, level, NULL);
   double own = share.compliance, beside = 1 / a->rod_B[next], det = own * beside - share.across * share.across;
   a->rod_B[held] = beside / det;
   a->rod_B[next] = own / det;
-  a->rod_k0[held] = natural_curvature(share.turn);
-  a->rod_k0[next] = natural_curvature(node_share(model, next).turn + share.both_turns);
   ZpRodEnd *end = &model->rod.end[model->rod.ends++];
   *end = (ZpRodEnd){held, next, left, level.right ? left - s : right, -share.across / det};
 }
@@ -434,6 +443,49 @@ static void fill_ends(ZpModel *model, Arrays *a) {
   for (size_t k = 0; k < ZP_MOST_LEVEL_ENDS; k++)
     for (size_t ribbon = 0; ribbon < model->s; ribbon++)
       if (k < levels[ribbon].count) fill_end(model, ribbon, levels[ribbon].of[k], a);
+}
+
+/* Natural turns of all joints => turn [stride], rad; of one driven place per its curvature, m. */
+static void turns_of(const ZpModel *model, const ZpPlace *driven, double *turn) {
+  for (size_t j = 0; j < model->count; j++)
+    turn[j] = node_share(model, j, driven).turn;
+  for (size_t ribbon = 0; ribbon < model->s; ribbon++) {
+    const ZpLevelEnds levels = zp_topology_level_ends(&model->topology, ribbon, ribbon);
+    for (size_t k = 0; k < levels.count; k++) {
+      const size_t left = levels.of[k].element * model->s + ribbon, right = left + model->s;
+      const LevelShare share = level_share(model, ribbon, levels.of[k], driven);
+      turn[levels.of[k].right ? right : left] = share.turn;
+      turn[levels.of[k].right ? left : right] += share.both_turns;
+    }
+  }
+}
+
+/* Eq. (38.1). Places of the other ribbon bend none of these joints. */
+static void fill_driven(ZpModel *model, const ZpPlace *place, size_t ribbon, double *turn, ZpDrivenPlace *driven) {
+  *driven = (ZpDrivenPlace){
+      .a = place->per_volt, .b = place->per_volt_squared, .lag = place->lag, .first = model->count, .turn = turn};
+  turns_of(model, place, turn);
+  for (size_t j = ribbon; j < model->count; j += model->s) {
+    if (turn[j] == 0) continue;
+    driven->end = j + 1;
+    if (driven->first > j) driven->first = j;
+  }
+}
+
+/* Natural curvatures, and how voltage changes them. */
+static void fill_natural(ZpModel *model, Arrays *a) {
+  size_t places = 0;
+  turns_of(model, NULL, a->turn);
+  for (size_t j = 0; j < model->count; j++)
+    a->rod_k0[j] = zp_driven_natural(a->turn[j]);
+  for (size_t r = 0; r < model->s; r++)
+    for (const ZpPlace *place = model->ribbon[r].place; place < model->ribbon[r].place + model->ribbon[r].places;
+         place++)
+      if (is_driven(place)) {
+        fill_driven(model, place, r, a->turn + (places + 1) * model->stride, a->driven + places);
+        places++;
+      }
+  model->driven = (ZpDriven){places, a->driven, a->turn};
 }
 
 /* A platform that turns does not bend. Its one edge stretches as the ribbon on it does, eq. (19.3). */
@@ -452,10 +504,9 @@ static void fill_rod(ZpModel *model, Arrays *a) {
   size_t last = model->nodes - 1;
   for (size_t j = 0; j < model->count; j++) {
     size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
-    Share share = node_share(model, j);
+    Share share = node_share(model, j, NULL);
     bool free = (station == 0 || station == last) && !zp_topology_holds_slope(t, station, j % t->ribbons);
     a->rod_B[j] = free ? 0 : 1 / share.compliance;
-    a->rod_k0[j] = natural_curvature(share.turn);
     if (station == last) continue;
     a->rod_l[j] = model->l;
     a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
@@ -463,12 +514,13 @@ static void fill_rod(ZpModel *model, Arrays *a) {
   fill_platform(model, a);
   model->rod = rod_of(model, a);
   fill_ends(model, a);
+  fill_natural(model, a);
 }
 
 /* The spring in series with the half element that the joint beside it does not bend. */
 static ZpHingeParams hinge_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  Share share = node_share(model, zp_lower(&model->topology, 0));
+  Share share = node_share(model, zp_lower(&model->topology, 0), NULL);
   if (!zp_is_hinge(&model->topology) || def->hinge.stiffness == 0) return (ZpHingeParams){0, 0};
   return (ZpHingeParams){1 / (1 / def->hinge.stiffness + share.compliance), def->hinge.rest_angle - share.turn};
 }
@@ -521,7 +573,7 @@ static void fill_stress_of(const ZpModel *model, size_t j, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t ribbon = j % t->ribbons, station = zp_topology_station_image(t, j / t->ribbons);
   for (size_t i = station > 0 ? station - 1 : 0; i <= station && i < zp_half_elements(t); i++) {
-    Piece piece[ZP_PLACES];
+    Piece piece[ZP_MOST_PLACES];
     int count = pieces_of(model, ribbon, i, piece);
     for (int k = 0; k < count; k++) {
       bool near = i < station ? piece[k].to > 0.5 : piece[k].from < 0.5;
@@ -548,10 +600,10 @@ static void fill_stress(ZpModel *model, Arrays *a) {
 static double frequency_bound(const ZpModel *model) {
   double stiffest = 0;
   if (!model->is_rod) return zp_massspring_frequency_bound(&model->spring, zp_ribbon_mass(model, 0));
-  const bool alike = model->ribbon[0].is_uniform && model->ribbon[1].is_uniform; /* the first edges stand for all */
+  const bool alike = model->ribbon[0].places == 1 && model->ribbon[1].places == 1; /* the first edges stand for all */
   const size_t elements = alike ? 1 : zp_half_elements(&model->topology);
   for (size_t j = 0; j < model->s * elements; j++) {
-    Piece piece[ZP_PLACES];
+    Piece piece[ZP_MOST_PLACES];
     int count = pieces_of(model, j % model->s, j / model->s, piece);
     double EA = 0, EI = 0, mu = INFINITY;
     for (int k = 0; k < count; k++) {

@@ -5,11 +5,20 @@
 
 #include "base/kernel.h"
 
+static void reserve_natural(const ZpModel *model, ZpNatural *n, ZpArena *arena) {
+  n->kappa[ZP_NATURAL_START] = zp_arena_take(arena, model->driven.places);
+  n->rate = zp_arena_take(arena, model->driven.places);
+  n->by = zp_arena_take(arena, model->stride);
+  for (size_t k = 0; k < ZP_NATURAL_PLACES; k++)
+    n->k0[k] = zp_arena_take(arena, model->stride);
+}
+
 static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {
   zp_rod_reserve(&model->rod, &e->rod_start, arena);
   zp_rod_reserve(&model->rod, &e->rod, arena);
   zp_rod_step_reserve(&model->rod, &e->rod_step, arena);
   e->k0 = zp_arena_take(arena, model->stride);
+  if (model->driven.places > 0) reserve_natural(model, &e->natural, arena);
   e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod_step.Rx, e->rod_step.Ry};
   if (model->is_rod) return;
   zp_massspring_reserve(&model->spring, &e->spring_start, arena);

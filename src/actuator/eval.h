@@ -22,15 +22,26 @@ typedef struct ZpCachedField {
 /* As the state holds it. */
 ZpCachedField zp_state_beyond(const ZpModel *model, const ZpState *state);
 
+/* Natural curvature that voltage drives, at the last state, at the start of a span, where a jump of the voltage may
+ * have changed it, and at its end. */
+enum { ZP_NATURAL_BEFORE, ZP_NATURAL_START, ZP_NATURAL_END, ZP_NATURAL_PLACES };
+typedef struct ZpNatural {
+  double *kappa[ZP_NATURAL_PLACES]; /* [driven segments] their curvature, 1/m; at the end, part of memory_end */
+  double *k0[ZP_NATURAL_PLACES];    /* [stride] that of joints */
+  double *rate;                     /* [driven segments] derivative of kappa at the end by the voltage there */
+  double *by;                       /* [stride] that of k0 */
+} ZpNatural;
+
 /* Work space of the terms, of the start and the end of a span; at rest and at an instant only of its end. */
 typedef struct ZpEval {
   const ZpModel *model;
   ZpMassSpringEval spring_start, spring; /* mass_spring */
   ZpRodEval rod_start, rod;
   ZpRodStep rod_step;
-  ZpRodParams straighter; /* the rod with a share of its natural curvature, */
-  double *k0;             /* [stride] which is this */
-  ZpEdges edges;          /* at the end, of the mechanics in use */
+  ZpRodParams bent; /* the rod with the natural curvature that acts, */
+  double *k0;       /* [stride] which may be this */
+  ZpNatural natural;
+  ZpEdges edges; /* at the end, of the mechanics in use */
   ZpPlatesEval plates_start, plates;
   ZpPlatesStep attraction;
   ZpPlatesByVoltage by_voltage;

@@ -30,6 +30,7 @@
 #include "paper/massspring.h"
 #include "paper/surface.h"
 #include "paper/zip.h"
+#include "ribbon/driven.h"
 #include "ribbon/rod_step.h"
 #include "ribbon/section.h"
 #include "ribbon/stress.h"
@@ -49,17 +50,19 @@ typedef struct ZpMasses {
 /* Section of a ribbon along a part of it, to `end` from its left end, m. */
 typedef struct ZpPlace {
   ZpSection section;
-  double curvature; /* natural, 1/m */
+  double curvature;                  /* natural, 1/m, */
+  double per_volt, per_volt_squared; /* and what voltage drives beside it, 1/(m V), 1/(m V^2), */
+  double lag;                        /* with a lag, s */
   double end;
 } ZpPlace;
 
-/* The segments from the left end on, then the rest, without end. */
-enum { ZP_REST = 3, ZP_PLACES };
+/* The places from the left end on: segments with a length, then the rest, without end. */
+enum { ZP_MOST_PLACES = ZP_MOST_SEGMENTS + 1 };
 typedef struct ZpRibbon {
-  ZpPlace place[ZP_PLACES];
-  bool is_uniform; /* no segment has a length */
-  double yields;   /* yield stress of its metal, Pa */
-  ZpCurl curl;     /* across its width */
+  ZpPlace place[ZP_MOST_PLACES];
+  size_t places; /* 1: no segment has a length */
+  double yields; /* yield stress of its metal, Pa */
+  ZpCurl curl;   /* across its width */
 } ZpRibbon;
 
 /* The spring of a hinge, between the upper ribbon's direction there and the first element of the lower ribbon, which is
@@ -110,6 +113,7 @@ struct ZpModel {
   ZpMassSpringParams spring;
   ZpMassSpringParams shear; /* the same without axial springs */
   ZpRodParams rod;          /* of mass_spring its axial springs only */
+  ZpDriven driven;          /* natural curvature that voltage drives */
   ZpPlastic plastic[2];     /* of each ribbon, where ribbon.plasticity */
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
@@ -224,9 +228,14 @@ static inline double *zp_state_v(const ZpModel *model, ZpState *state) {
   return state->data + 2 * model->stride;
 }
 
+/* Does a voltage act on anything: electrodes that attract, or curvature that it drives? */
+static inline bool zp_follows_voltage(const ZpModel *model) {
+  return model->field || model->driven.places > 0;
+}
+
 /* Section of a ribbon beyond its segments. */
 static inline ZpSection zp_ribbon_section(const ZpModel *model, size_t ribbon) {
-  return model->ribbon[ribbon].place[ZP_REST].section;
+  return model->ribbon[ribbon].place[model->ribbon[ribbon].places - 1].section;
 }
 
 /* Derivatives of a ribbon's EA, EI and mu by a key of the model, where all of its places have one section, or by the

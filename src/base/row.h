@@ -7,6 +7,7 @@
 typedef enum ZpRowKind {
   ZP_ROW_STORED, /* energy of one modelled part that it holds now, J */
   ZP_ROW_LOST,   /* energy of one modelled part that it has lost so far, J */
+  ZP_ROW_GAVE,   /* energy that something beside electrodes and load has given to one modelled part so far, J */
   ZP_ROW_SOURCE, /* energy lost so far between the source and the electrodes of the whole actuator, J */
   ZP_ROW_SIGNAL  /* a value that belongs to no balance; of several members the largest counts */
 } ZpRowKind;
@@ -25,6 +26,8 @@ typedef struct ZpRow {
   { #name, #name "_J", "J", help, ZP_ROW_STORED }
 #define ZP_LOST(name, help)                                                                                            \
   { #name, #name "_J", "J", help, ZP_ROW_LOST }
+#define ZP_GAVE(name, help)                                                                                            \
+  { #name, #name "_J", "J", help, ZP_ROW_GAVE }
 #define ZP_LOST_BY_SOURCE(name, help)                                                                                  \
   { #name, #name "_J", "J", help, ZP_ROW_SOURCE }
 #define ZP_SHOWN(name, unit, suffix, help)                                                                             \

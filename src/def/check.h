@@ -29,13 +29,16 @@ typedef struct ZpKeyNumbers {
 /* Number of keys, as a constant. */
 enum { ZP_KEYS = sizeof(ZpKeyNumbers) };
 
-/* Members, bodies and springs: a Def has as many as are given, and their keys have numbers from ZP_KEYS on. A port has
- * no keys: members name it. */
+/* Members, bodies, springs and joints have names, and a Def as many as are given; segments have numbers alone, and
+ * fields in a Def. Their keys have numbers from ZP_KEYS on. A port has no keys: members name it. */
 typedef enum ZpInstanceKind {
   ZP_OF_MEMBER,
   ZP_OF_BODY,
   ZP_OF_SPRING,
   ZP_OF_JOINT,
+  ZP_CALLED_KINDS, /* those with names */
+  ZP_OF_SEGMENT = ZP_CALLED_KINDS,
+  ZP_OF_LOWER_SEGMENT,
   ZP_INSTANCE_KINDS,
   ZP_OF_PORT = ZP_INSTANCE_KINDS,
   ZP_NAMED_KINDS
@@ -52,14 +55,29 @@ ZpInstance zp_key_instance(int index);
 /* The key that row `row` of a group such as member_K stands for, of member `number`. */
 int zp_key_of_instance(int row, int number);
 
-/* Does it stand for the keys of all members, bodies or springs? */
+/* Does it stand for the keys of all members, bodies, springs or segments? */
 bool zp_key_is_row(int index);
+
+/* How many there can be of what this row stands for. */
+int zp_instance_most(int row);
+
+/* Is it a key of a segment? */
+bool zp_key_is_of_segment(int index);
+
+/* The next key whose value a Def holds in a field, a row or a segment's; -1: there is none. Start from -1. */
+int zp_key_next_field(int index);
+
+/* Has a key of a segment another value than its default? */
+bool zp_segment_key_given(const ZpActuatorDef *def, int index);
+
+/* The first key of this row that has a value; -1: none. */
+int zp_instance_given(const ZpActuatorDef *def, int row);
 
 /* The key of this name; -1: there is none, or it stands for those of all, so that it has no value. */
 int zp_key_with_value(const char *name);
 
 /* "member_12.ribbon" => 12, the kind and ".ribbon"; 0: the name does not begin with a kind and a number from 1 to
- * ZP_MOST_MEMBERS. */
+ * the largest of this kind. */
 int zp_instance_named(const char *name, ZpInstanceKind *kind, const char **rest);
 
 /* The beginning of the names of a kind: "member_". */
@@ -205,6 +223,15 @@ ZpStatus zp_fail_member(const ZpActuatorDef *def, int member, ZpStatus status, c
 /* Conditions of a stack on other keys; may all members have this voltage, V? */
 ZpStatus zp_check_stack(const ZpActuatorDef *def, ZpError *err);
 ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpError *err);
+
+/* Number of the last segment with a length, of the Def of a ribbon; 0: it has none. */
+int zp_def_segments(const ZpActuatorDef *ribbon);
+
+/* Does voltage drive the curvature of a segment, or, with `by_sign`, do so with another sign where it is negative? */
+bool zp_def_drives(const ZpActuatorDef *def, bool by_sign);
+
+/* Refuse a voltage below 0 V of this key where nothing depends on its sign. */
+ZpStatus zp_check_sign(const ZpActuatorDef *def, const char *key, double voltage, ZpError *err);
 
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);

@@ -47,9 +47,11 @@ enum { KEY_COUNT = sizeof keys / sizeof keys[0] };
 #define NO_FIELD                              ((size_t)-1)
 #define ZP_EACH_KEY(path, field, text)        offsetof(ZpActuatorDef, path field),
 #define ZP_OF_SCENARIO(name, type, def, help) NO_FIELD,
+#define segment_K                             segment_K[0]
 static const size_t offsets[] = {
 #include "def/keys.def"
 };
+#undef segment_K
 
 /* Every key at its default. */
 #define ZP_GROUP(group) .group = {
@@ -66,6 +68,8 @@ static const size_t offsets[] = {
 #define ZP_ENUM(path, name, type, def, help)                            .name = (def),
 #define ZP_TEXT(path, name, def, help)                                  .name = def,
 #define ZP_OF_SCENARIO(name, type, def, help)
+#define ZP_EIGHT(...)       __VA_ARGS__ __VA_ARGS__ __VA_ARGS__ __VA_ARGS__ __VA_ARGS__ __VA_ARGS__ __VA_ARGS__ __VA_ARGS__
+#define ZP_MANY(group, ...) .group = {ZP_EIGHT(ZP_EIGHT({__VA_ARGS__}, ))},
 static const ZpActuatorDef plain = {
 #include "def/keys.def"
 };
@@ -340,7 +344,7 @@ ZpStatus zp_def_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
   if (index >= KEY_COUNT) return zp_instances_set(def, index, value, err);
   if (zp_key_is_row(index))
     return zp_fail(err, ZP_BAD_INPUT, "%s: give a number, 1 to %d, in the place of K", keys[index].name,
-                   ZP_MOST_MEMBERS);
+                   zp_instance_most(index));
   if (!has_field(&keys[index]))
     return zp_fail(err, ZP_BAD_INPUT, "%s: is a key of a scenario, not of a definition", keys[index].name);
   store(def, &keys[index], value);

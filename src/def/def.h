@@ -17,6 +17,13 @@
 #undef ZP_CHOICE
 #undef ZP_CHOICES_END
 
+/* Largest number of segments of a ribbon. */
+enum { ZP_MOST_SEGMENTS = 64 };
+
+#define ZP_MANY(group, ...)                                                                                            \
+  struct {                                                                                                             \
+    __VA_ARGS__                                                                                                        \
+  } group[ZP_MOST_SEGMENTS];
 #define ZP_GROUP(group) struct {
 #define ZP_GROUP_END(group)                                                                                            \
   }                                                                                                                    \

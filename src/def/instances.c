@@ -3,6 +3,7 @@
 #include "def/instances.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -10,25 +11,43 @@
 #include "base/memory.h"
 #include "def/rule.h"
 
-/* A kind of them: their rows in the table of keys, what their names begin with, and the first of their indices. */
+/* A kind of them: their rows in the table of keys, what their names begin with, how many there can be, and the first of
+ * their indices. */
 typedef struct Kind {
   ZpKeyGroup rows;
   const char *begins;
-  int first;
+  int most, first;
 } Kind;
 
 #define ROWS(group)  ((int)sizeof(((ZpKeyNumbers *)0)->group))
 #define AFTER(group) (ZP_MOST_MEMBERS * ROWS(group))
-static const Kind kind[ZP_INSTANCE_KINDS] = {
-    [ZP_OF_MEMBER] = {ZP_KEY_GROUP(member_K), "member_", ZP_KEYS},
-    [ZP_OF_BODY] = {ZP_KEY_GROUP(body_K), "body_", ZP_KEYS + AFTER(member_K)},
-    [ZP_OF_SPRING] = {ZP_KEY_GROUP(spring_K), "spring_", ZP_KEYS + AFTER(member_K) + AFTER(body_K)},
-    [ZP_OF_JOINT] = {ZP_KEY_GROUP(joint_K), "joint_", ZP_KEYS + AFTER(member_K) + AFTER(body_K) + AFTER(spring_K)},
+enum {
+  SEGMENTS = ZP_KEYS + AFTER(member_K) + AFTER(body_K) + AFTER(spring_K) + AFTER(joint_K),
+  LOWER_SEGMENTS = SEGMENTS + ZP_MOST_SEGMENTS * ROWS(segment_K),
+  END = LOWER_SEGMENTS + ZP_MOST_SEGMENTS * ROWS(lower.segment_K)
 };
-enum { END = ZP_KEYS + AFTER(member_K) + AFTER(body_K) + AFTER(spring_K) + AFTER(joint_K) };
+static const Kind kind[ZP_INSTANCE_KINDS] = {
+    [ZP_OF_MEMBER] = {ZP_KEY_GROUP(member_K), "member_", ZP_MOST_MEMBERS, ZP_KEYS},
+    [ZP_OF_BODY] = {ZP_KEY_GROUP(body_K), "body_", ZP_MOST_MEMBERS, ZP_KEYS + AFTER(member_K)},
+    [ZP_OF_SPRING] = {ZP_KEY_GROUP(spring_K), "spring_", ZP_MOST_MEMBERS, ZP_KEYS + AFTER(member_K) + AFTER(body_K)},
+    [ZP_OF_JOINT] = {ZP_KEY_GROUP(joint_K), "joint_", ZP_MOST_MEMBERS, SEGMENTS - AFTER(joint_K)},
+    [ZP_OF_SEGMENT] = {ZP_KEY_GROUP(segment_K), "segment_", ZP_MOST_SEGMENTS, SEGMENTS},
+    [ZP_OF_LOWER_SEGMENT] = {ZP_KEY_GROUP(lower.segment_K), "lower.segment_", ZP_MOST_SEGMENTS, LOWER_SEGMENTS},
+};
 
 static int rows_of(const Kind *k) {
   return k->rows.end - k->rows.first;
+}
+
+static int end_of(const Kind *k) {
+  return k->first + k->most * rows_of(k);
+}
+
+/* The kind that a row belongs to; NULL: it belongs to none. */
+static const Kind *kind_of_row(int row) {
+  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++)
+    if (row >= k->rows.first && row < k->rows.end) return k;
+  return NULL;
 }
 
 ZpInstance zp_key_instance(int index) {
@@ -41,22 +60,30 @@ ZpInstance zp_key_instance(int index) {
 }
 
 int zp_key_of_instance(int row, int number) {
-  const Kind *k = kind;
-  while (row >= k->rows.end)
-    k++;
+  const Kind *k = kind_of_row(row);
   return k->first + (number - 1) * rows_of(k) + row - k->rows.first;
 }
 
 bool zp_key_is_row(int index) {
-  bool is = false;
-  for (const Kind *k = kind; k < kind + ZP_INSTANCE_KINDS; k++)
-    is |= index >= k->rows.first && index < k->rows.end;
-  return is;
+  return kind_of_row(index) != NULL;
+}
+
+int zp_instance_most(int row) {
+  return kind_of_row(row)->most;
+}
+
+bool zp_key_is_of_segment(int index) {
+  return index >= SEGMENTS && index < END;
+}
+
+int zp_key_next_field(int index) {
+  const int next = index + 1;
+  return next == ZP_KEYS ? SEGMENTS : next == END ? -1 : next;
 }
 
 int zp_key_order(int one, int other) {
   const ZpInstance a = zp_key_instance(one), b = zp_key_instance(other);
-  if (a.number > 0 && b.number > 0) return one - other; /* kinds stand in the order of their rows */
+  if (a.number > 0 && b.number > 0 && a.kind == b.kind) return one - other;
   return a.row != b.row ? a.row - b.row : one - other;
 }
 
@@ -71,10 +98,10 @@ static int number_in(const Kind *k, const char *name, const char **rest) {
   int number = 0;
   if (strncmp(name, k->begins, length) != 0 || name[length] == '0') return 0;
   const char *digit = name + length;
-  for (; *digit >= '0' && *digit <= '9' && number <= ZP_MOST_MEMBERS; digit++)
+  for (; *digit >= '0' && *digit <= '9' && number <= k->most; digit++)
     number = 10 * number + (*digit - '0');
   *rest = digit;
-  return number <= ZP_MOST_MEMBERS ? number : 0;
+  return number <= k->most ? number : 0;
 }
 
 const char *zp_instance_begins(ZpInstanceKind of) {
@@ -147,7 +174,7 @@ size_t zp_instances_of(const ZpActuatorDef *def, ZpInstanceKind of, int number, 
 }
 
 int zp_instance_count(const ZpActuatorDef *def, ZpInstanceKind of) {
-  const size_t end = zp_instances_from(def, kind[of].first + ZP_MOST_MEMBERS * rows_of(&kind[of]));
+  const size_t end = zp_instances_from(def, end_of(&kind[of]));
   const ZpInstance last = end > 0 ? zp_key_instance(def->given->value[end - 1].key) : (ZpInstance){0};
   return end > 0 && last.kind == of ? last.number : 0;
 }
@@ -159,15 +186,53 @@ bool zp_def_plane(const ZpActuatorDef *def) {
   return plane;
 }
 
-int zp_instance_next(const ZpActuatorDef *def, int index) {
-  const Kind *k = kind;
-  const bool is_row = zp_key_is_row(index);
-  const int row = zp_key_instance(index).row;
-  while (row >= k->rows.end)
-    k++;
-  const size_t at = zp_instances_from(def, is_row ? k->first : index + 1);
+/* Where a Def has the number of a segment's key. */
+static size_t field_of(int index) {
+  _Static_assert(sizeof((ZpActuatorDef *)0)->segment_K == (LOWER_SEGMENTS - SEGMENTS) * sizeof(double),
+                 "one number each");
+  _Static_assert(sizeof((ZpActuatorDef *)0)->lower.segment_K == (END - LOWER_SEGMENTS) * sizeof(double),
+                 "one number each");
+  if (index < LOWER_SEGMENTS) return offsetof(ZpActuatorDef, segment_K) + (size_t)(index - SEGMENTS) * sizeof(double);
+  return offsetof(ZpActuatorDef, lower.segment_K) + (size_t)(index - LOWER_SEGMENTS) * sizeof(double);
+}
+
+static double of_segment(const ZpActuatorDef *def, int index) {
+  double value;
+  memcpy(&value, (const char *)def + field_of(index), sizeof value);
+  return value;
+}
+
+bool zp_segment_key_given(const ZpActuatorDef *def, int index) {
+  if (!zp_key_is_of_segment(index)) return false;
+  const double value = of_segment(def, index), plain = zp_key(index)->def;
+  return value != plain && !(isnan(value) && isnan(plain));
+}
+
+/* The first key of a kind from `index` on that has a value; -1: none. */
+static int next_given(const ZpActuatorDef *def, const Kind *k, int index) {
+  if (zp_key_is_of_segment(k->first)) {
+    while (index < end_of(k) && !zp_segment_key_given(def, index))
+      index++;
+    return index < end_of(k) ? index : -1;
+  }
+  const size_t at = zp_instances_from(def, index);
   const int next = def->given && at < def->given->count ? def->given->value[at].key : -1;
-  if (next >= 0 && (int)zp_key_instance(next).kind == (int)(k - kind)) return next;
+  return next >= 0 && next < end_of(k) ? next : -1;
+}
+
+int zp_instance_given(const ZpActuatorDef *def, int row) {
+  const Kind *k = kind_of_row(row);
+  int key = next_given(def, k, k->first);
+  while (key >= 0 && zp_key_instance(key).row != row)
+    key = next_given(def, k, key + 1);
+  return key;
+}
+
+int zp_instance_next(const ZpActuatorDef *def, int index) {
+  const bool is_row = zp_key_is_row(index);
+  const Kind *k = is_row ? kind_of_row(index) : &kind[zp_key_instance(index).kind];
+  const int next = next_given(def, k, is_row ? k->first : index + 1);
+  if (next >= 0) return next;
   return zp_key_is_row(k->rows.end) ? zp_instance_next(def, k->rows.end) : k->rows.end;
 }
 
@@ -178,6 +243,7 @@ static ZpAssignment *find(const ZpActuatorDef *def, int index) {
 }
 
 double zp_instances_get(const ZpActuatorDef *def, int index) {
+  if (zp_key_is_of_segment(index)) return of_segment(def, index);
   const ZpAssignment *found = find(def, index);
   return found ? found->value : zp_key(index)->def;
 }
@@ -279,6 +345,10 @@ ZpStatus zp_def_set_names(ZpActuatorDef *def, const ZpGivenName *name, size_t co
 }
 
 ZpStatus zp_instances_set(ZpActuatorDef *def, int index, double value, ZpError *err) {
+  if (zp_key_is_of_segment(index)) {
+    memcpy((char *)def + field_of(index), &value, sizeof value);
+    return ZP_OK;
+  }
   if (isnan(value) && !find(def, index)) return ZP_OK;
   ZpStatus status = make_own(def, err);
   if (status != ZP_OK) return status;

@@ -43,6 +43,8 @@ typedef enum ZpTest {
   ZP_TEST_PLANE,      /* and one moves in the plane */
   ZP_TEST_HAS,        /* the device of this actuator.kind has any of a set of ZP_DEVICE_ bits */
   ZP_TEST_LACKS,      /* it has none of them */
+  ZP_TEST_FOLLOWS,    /* it has electrodes, or voltage drives a curvature: zp_def_drives */
+  ZP_TEST_DRIVES,     /* voltage drives a curvature */
   ZP_TEST_NEVER       /* never holds */
 } ZpTest;
 
@@ -69,6 +71,8 @@ typedef struct ZpCondition {
 #define ZP_SET_WITHIN(name, last) ZP_CONDITION(name, SET_WITHIN, ZP_KEY(last))
 #define ZP_HAS(device)            ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_##device)
 #define ZP_LACKS(device)          ZP_CONDITION(actuator.kind, LACKS, ZP_DEVICE_##device)
+#define ZP_USES_VOLTAGE           ZP_CONDITION(actuator.kind, FOLLOWS, 0)
+#define ZP_CURVES_BY_VOLTAGE      ZP_CONDITION(segment_K.curvature_per_volt, DRIVES, 0)
 #define ZP_SEVERAL                ZP_CONDITION(stack.series, SEVERAL, 0)
 #define ZP_NETWORK                ZP_CONDITION(body_K.mass, NETWORK, 0)
 #define ZP_PLANE                  ZP_CONDITION(body_K.moves, PLANE, 0)

@@ -15,13 +15,6 @@ static double value_of(const ZpActuatorDef *def, int key) {
   return key == ZP_KEY(liquid.model) ? (double)zp_def_liquid(def) : zp_def_get(def, key);
 }
 
-/* The first key of this row that a member, a body or a spring has; -1: none. */
-static int given_of(const ZpActuatorDef *def, int row) {
-  for (size_t k = 0; def->given && k < def->given->count; k++)
-    if (zp_key_instance(def->given->value[k].key).row == row) return def->given->value[k].key;
-  return -1;
-}
-
 /* The default of a key, for this device. */
 static double default_of(const ZpActuatorDef *def, int key) {
   const ZpDevice *device = zp_device_of(def->actuator.kind);
@@ -31,7 +24,7 @@ static double default_of(const ZpActuatorDef *def, int key) {
 }
 
 static bool is_set(const ZpActuatorDef *def, int key) {
-  if (zp_key_is_row(key)) return given_of(def, key) >= 0;
+  if (zp_key_is_row(key)) return zp_instance_given(def, key) >= 0;
   const char *text = zp_def_text(def, key);
   if (text) return *text != 0;
   double value = zp_def_get(def, key), plain = default_of(def, key);
@@ -85,6 +78,10 @@ static bool holds(const ZpCondition *c, const ZpActuatorDef *def) {
     return zp_def_members(def) > 1 || zp_def_network(def);
   case ZP_TEST_NETWORK:
     return zp_def_network(def);
+  case ZP_TEST_FOLLOWS:
+    return zp_def_has(def, ZP_DEVICE_ELECTRODES) || zp_def_drives(def, false);
+  case ZP_TEST_DRIVES:
+    return zp_def_drives(def, false);
   case ZP_TEST_PLANE:
     return zp_def_plane(def);
   default:
@@ -205,6 +202,12 @@ void zp_condition_text(const ZpCondition *c, char *text, size_t size) {
   case ZP_TEST_NETWORK:
     snprintf(text, size, "bodies");
     break;
+  case ZP_TEST_FOLLOWS:
+    snprintf(text, size, "actuator.kind with electrodes, or segment_K.curvature_per_volt");
+    break;
+  case ZP_TEST_DRIVES:
+    snprintf(text, size, "curvature that voltage drives");
+    break;
   case ZP_TEST_PLANE:
     snprintf(text, size, "bodies that move in the plane");
     break;
@@ -222,19 +225,21 @@ static void show_key(const ZpCondition *c, const ZpActuatorDef *def, char text[W
     snprintf(text, WORDS, "bodies");
     return;
   }
-  if (c->test == ZP_TEST_PLANE) {
-    snprintf(text, WORDS, "moves = plane");
+  if (c->test == ZP_TEST_PLANE || c->test == ZP_TEST_DRIVES) {
+    snprintf(text, WORDS, "%s", c->test == ZP_TEST_PLANE ? "moves = plane" : "curvature that voltage drives");
     return;
   }
-  if (zp_key_is_row(key) && given_of(def, key) >= 0) {
-    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, given_of(def, key)));
+  const int given = zp_key_is_row(key) ? zp_instance_given(def, key) : -1;
+  if (given >= 0 && !zp_key_is_of_segment(given)) {
+    snprintf(text, WORDS, "%s", ZP_KEY_SHOWN(def, given));
     return;
   }
+  if (given >= 0) key = given;
   show_value(key, value_of(def, key), value);
   if (zp_key(key)->type == ZP_KEY_TEXT)
     snprintf(text, WORDS, "%s", zp_key(key)->name);
   else
-    snprintf(text, WORDS, "%s = %s%s", zp_key(key)->name, value, unequal ? " with unequal members" : "");
+    snprintf(text, WORDS, "%s = %s%s", ZP_KEY_NAME(key), value, unequal ? " with unequal members" : "");
 }
 
 ZpStatus zp_rule_fail(const ZpRule *rule, const char *asks, const ZpActuatorDef *def, ZpError *err) {

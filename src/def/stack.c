@@ -26,7 +26,7 @@ static bool is_of_place(int key) {
 
 bool zp_key_is_of_network(int index) {
   const ZpInstance at = zp_key_instance(index);
-  return at.number > 0 && (at.kind != ZP_OF_MEMBER || is_of_place(index));
+  return at.number > 0 && !zp_key_is_of_segment(index) && (at.kind != ZP_OF_MEMBER || is_of_place(index));
 }
 
 /* Is a member unlike what the other keys say? One that has a port of its own has a source of its own, too, unless both
@@ -247,7 +247,7 @@ bool zp_def_alike(const ZpActuatorDef *one, const ZpActuatorDef *other) {
   loaded.sense = other->sense;
   loaded.control = other->control;
   loaded.setpoint = other->setpoint;
-  for (int key = 0; key < zp_key_count(); key++) {
+  for (int key = zp_key_next_field(-1); key >= 0; key = zp_key_next_field(key)) {
     const double a = zp_def_get(&loaded, key), b = zp_def_get(other, key);
     if (a != b && !(isnan(a) && isnan(b))) return false;
   }

@@ -212,16 +212,18 @@ void zp_key_unknown(const char *name, char *text, size_t size) {
   const char *rest;
   ZpInstanceKind kind;
   const int number = zp_instance_named(name, &kind, &rest);
-  bool numbered = false; /* K, or a number beyond the last one */
-  for (int k = 0; number == 0 && !numbered && k < ZP_INSTANCE_KINDS; k++) {
+  int most = 0; /* of a kind whose name it has with K, or with a number beyond this last one; 0: of none */
+  for (int k = 0; number == 0 && most == 0 && k < ZP_INSTANCE_KINDS; k++) {
     const size_t length = strlen(zp_instance_begins((ZpInstanceKind)k));
-    numbered = strncmp(name, zp_instance_begins((ZpInstanceKind)k), length) == 0 && name[length] &&
-               strchr("K0123456789", name[length]);
+    const bool numbered = strncmp(name, zp_instance_begins((ZpInstanceKind)k), length) == 0 && name[length] &&
+                          strchr("K0123456789", name[length]);
+    if (numbered) most = k < ZP_CALLED_KINDS ? ZP_MOST_MEMBERS : ZP_MOST_SEGMENTS;
   }
   if (number > 0)
     say_of_instance(zp_instance_begins(kind), number, rest, text, size);
-  else if (numbered)
-    snprintf(text, size, "unknown key; members, bodies, springs and joints have the numbers 1 to %d", ZP_MOST_MEMBERS);
+  else if (most > 0)
+    snprintf(text, size, "unknown key; %s have the numbers 1 to %d",
+             most == ZP_MOST_SEGMENTS ? "segments" : "members, bodies, springs and joints", most);
   else
     say_unknown(name, text, size);
 }

@@ -97,7 +97,9 @@ static const char no_control[] = "without a controller this key has no effect; u
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(setpoint.value, setpoint.file), ZP_WITH, no_control),
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(control.signal, control.boost_band), ZP_WITH, no_control),
-    ZP_RULE(PHYSICS, ZP_WITH, ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
+    ZP_RULE(PHYSICS, ZP_WITH, ZP_USES_VOLTAGE, "a voltage does nothing to a single ribbon without them"),
+    ZP_RULE(NOT_MODELLED, ZP_WITH, ZP_AT_LEAST(drive.voltage, 0),
+            "a controller's voltage goes from 0 up to drive.voltage; give the curvature the other sign"),
     ZP_RULE_IF(PHYSICS, ZP_ONE_OF(control.signal, ZP_BIT(ZP_CONTROL_OPENING) | ZP_BIT(ZP_CONTROL_CONTRACTION)), ZP_WITH,
                ZP_HAS(PAIR), "one ribbon has no opening; use control.signal stroke"),
     ZP_RULE_IF(PHYSICS, ZP_IS(control.signal, ZP_CONTROL_ANGLE), ZP_WITH, ZP_IS(platform.rotates, true),

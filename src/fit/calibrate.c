@@ -4,23 +4,10 @@
 #include <stdlib.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "fit/fit.h"
 #include "io/report.h"
 #include "study/result.h"
-
-/* Names for summary.json made from the names of the keys. */
-typedef struct Names {
-  const char *error;
-  const char *correlation[ZP_FIT_MOST - 1]; /* with the first, second, ... key of calibrate.fit */
-} Names;
-
-#define ZP_EACH_KEY(path, field, text)                                                                                 \
-  {text "_standard_error",                                                                                             \
-   {text "_correlation_1", text "_correlation_2", text "_correlation_3", text "_correlation_4"}},
-static const Names names[] = {
-#include "def/keys.def"
-};
 
 static const ZpColumn time_column = {"time_s", "s", "time since the voltage was switched on"};
 
@@ -66,17 +53,21 @@ static const OfKind of_kind[ZP_FIT_KINDS] = {
             "no stable equilibrium"),
 };
 
+/* With the first, second, ... key of calibrate.fit. */
+static const char *const correlation[ZP_FIT_MOST - 1] = {"#_correlation_1", "#_correlation_2", "#_correlation_3",
+                                                         "#_correlation_4"};
+
 static bool at_bound(const ZpFit *fit, const double *z, int k) {
   static const double near = 1e-6;
   double low = fit->lower[k], high = fit->upper[k];
   return z[k] <= low + near * fabs(low) || z[k] >= high - near * fabs(high);
 }
 
-/* The first key that lies at its bound, or NULL. */
-static const char *key_at_bound(const ZpFit *fit, const double *z) {
+/* The first key that lies at its bound, or -1. */
+static int key_at_bound(const ZpFit *fit, const double *z) {
   for (int k = 0; k < fit->n; k++)
-    if (at_bound(fit, z, k)) return zp_key(fit->key[k])->name;
-  return NULL;
+    if (at_bound(fit, z, k)) return fit->key[k];
+  return -1;
 }
 
 /* The numbers of the summary about the keys; `square`: sum of squared weighted residuals. */
@@ -88,15 +79,14 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, doub
   double variance = fit->sigma ? 1 : reduced; /* of a weighted residual */
   for (int k = 0; k < fit->n; k++) {
     const ZpKey *key = zp_key(fit->key[k]);
+    const char *name = ZP_KEY_NAME(fit->key[k]);
     bool known = told_apart && !at_bound(fit, z, k);
-    zp_result_add(result, key->name, key->unit, z[k] * fit->start[k]);
-    zp_result_add(result, names[fit->key[k]].error, key->unit,
-                  known ? fabs(fit->start[k]) * sqrt(variance * C[k][k]) : NAN);
+    zp_result_add_of(result, "#", name, key->unit, z[k] * fit->start[k]);
+    zp_result_add_of(result, "#_standard_error", name, key->unit,
+                     known ? fabs(fit->start[k]) * sqrt(variance * C[k][k]) : NAN);
     for (int j = 0; j < k; j++)
-      zp_result_add(result, names[fit->key[k]].correlation[j], "1",
-                    told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
-    if (at_bound(fit, z, k))
-      zp_result_note(result, "%s is at a bound of its range, so it has no standard error", key->name);
+      zp_result_add_of(result, correlation[j], name, "1", told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
+    if (at_bound(fit, z, k)) zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
   }
   if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
   if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);
@@ -285,7 +275,7 @@ static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult
   if (!zp_fit_solve(fit, z, fitted) && fit->status != ZP_OK) return fit->status;
   for (size_t i = 0; i < fit->rows; i++)
     square += zp_fit_residual(fit, fitted, i) * zp_fit_residual(fit, fitted, i);
-  const char *bound = key_at_bound(fit, z);
+  const char *bound = ZP_KEY_NAME(key_at_bound(fit, z));
   bool good = isfinite(square) && !fit->stopped;
   bool has_J = good && zp_fit_jacobian(fit, z, J);
   if (fit->status != ZP_OK) return fit->status;

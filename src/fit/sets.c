@@ -6,7 +6,7 @@
 #include <strings.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "fit/fit.h"
 #include "io/data.h"
 #include "io/range.h"
@@ -135,8 +135,8 @@ static int key_of_header(ZpFit *fit, const char *name, Unit *unit) {
   unit->per = 1;
   if (take_unit(fit, name, "load", "kg", &unit->scale)) return zp_key_find("load.mass");
   if (take_unit(fit, name, "voltage", "V", &unit->scale)) return zp_key_find("drive.voltage");
-  for (int i = 0; i < zp_key_count(); i++)
-    if (zp_fit_takes(i) && take_unit(fit, name, zp_key(i)->name, zp_key(i)->unit, &unit->scale)) return i;
+  for (int i = zp_key_next_field(-1); i >= 0; i = zp_key_next_field(i))
+    if (zp_fit_takes(i) && take_unit(fit, name, ZP_KEY_NAME(i), zp_key(i)->unit, &unit->scale)) return i;
   if (gravity > 0 &&
       (take_unit(fit, name, "force", "N", &unit->scale) || take_unit(fit, name, "load", "N", &unit->scale))) {
     unit->per = gravity; /* the weight of a load */
@@ -165,11 +165,11 @@ static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const 
     twice |= set->other_key[i] == key;
   if (twice)
     return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", column,
-                   zp_key(key)->name);
+                   ZP_KEY_NAME(key));
   for (int i = 0; i < fit->n; i++)
     if (fit->key[i] == key)
       return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is given by column %.60s and cannot be fitted",
-                     zp_key(key)->name, column);
+                     ZP_KEY_NAME(key), column);
   return ZP_OK;
 }
 

@@ -47,8 +47,13 @@ size_t zp_fit_kinds(const ZpFit *fit) {
   return kinds;
 }
 
+/* Or of a body and the like. */
+static bool is_of_member(int key) {
+  return zp_key_instance(key).number > 0 && !zp_key_is_of_segment(key);
+}
+
 bool zp_fit_takes(int key) {
-  if (!zp_key_in_def(key) || zp_key_instance(key).number > 0) return false; /* a fit is of one actuator */
+  if (!zp_key_in_def(key) || is_of_member(key)) return false; /* a fit is of one actuator */
   return zp_key(key)->type == ZP_KEY_REAL || zp_key(key)->type == ZP_KEY_REAL_AUTO;
 }
 
@@ -83,7 +88,7 @@ static ZpStatus add_key(ZpFit *fit, int key, ZpError *err) {
   const char *name = ZP_KEY_NAME(key);
   if (!zp_fit_takes(key))
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s and cannot be fitted", name,
-                   zp_key_instance(key).number > 0 ? "of a member of a stack" : "not a real number");
+                   is_of_member(key) ? "of a member of a stack" : "not a real number");
   double start = zp_def_get(fit->def, key);
   if (isnan(start) || start == 0)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,

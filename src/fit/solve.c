@@ -10,7 +10,7 @@
 #include <zipact/rest.h>
 
 #include "base/fail.h"
-#include "def/def.h"
+#include "def/check.h"
 #include "fit/fit.h"
 #include "run/hooks.h"
 #include "study/result.h"
@@ -72,7 +72,7 @@ static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
   char *text = def->sensitivity.by;
   size_t size = sizeof def->sensitivity.by, used = 0;
   for (int k = 0; k < fit->n && used < size; k++)
-    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", zp_key(fit->key[k])->name);
+    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", ZP_KEY_NAME(fit->key[k]));
 }
 
 /* Of runs with derivatives, so that those are of the values; a search before them has coarser steps. */

@@ -59,7 +59,7 @@ void zp_fmu_destroy(ZpFmu *fmu) {
 /* Was the model built with these parameters? */
 static bool is_built(const ZpFmu *fmu) {
   if (!fmu->sim) return false;
-  for (int key = 0; key < ZP_KEYS; key++) {
+  for (int key = zp_key_next_field(-1); key >= 0; key = zp_key_next_field(key)) {
     double wanted = zp_def_get(&fmu->def, key), has = zp_def_get(fmu->model->whole, key);
     if (wanted != has && !(isnan(wanted) && isnan(has))) return false;
   }

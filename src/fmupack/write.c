@@ -68,17 +68,22 @@ static ZpStatus forget_waveforms(ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
-/* Keys of members, bodies, springs and joints, and their names. */
+/* Keys of segments, members, bodies, springs and joints, and their names. */
 static ZpStatus fill_network(const ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) {
-  if (!def->given) return ZP_OK;
-  if (def->given->count > ZP_FMU_GIVEN || def->given->names > ZP_FMU_NAMES)
-    return zp_fail(err, ZP_BAD_INPUT, "%zu keys of members and bodies, %zu names: an FMU has at most %d and %d",
-                   def->given->count, def->given->names, ZP_FMU_GIVEN, ZP_FMU_NAMES);
-  start->givens = def->given->count;
-  start->names = def->given->names;
-  for (size_t k = 0; k < def->given->count; k++)
-    start->given[k] = def->given->value[k];
-  for (size_t k = 0; k < def->given->names; k++)
+  const size_t names = def->given ? def->given->names : 0;
+  size_t givens = 0;
+  for (int key = zp_def_next_key(def, -1); key >= 0; key = zp_def_next_key(def, key)) {
+    if (key < ZP_KEYS) continue;
+    if (givens < ZP_FMU_GIVEN) start->given[givens] = (ZpAssignment){key, zp_def_get(def, key)};
+    givens++;
+  }
+  if (givens > ZP_FMU_GIVEN || names > ZP_FMU_NAMES)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%zu keys of segments, members and bodies, %zu names: an FMU has at most %d and %d", givens, names,
+                   ZP_FMU_GIVEN, ZP_FMU_NAMES);
+  start->givens = givens;
+  start->names = names;
+  for (size_t k = 0; k < names; k++)
     start->name[k] = def->given->name[k];
   return ZP_OK;
 }

@@ -305,15 +305,20 @@ static json_t *distribution_schema(void) {
 /* The name of a property, of those of all members, bodies, springs or joints a pattern: in the place of K stands a
  * number. */
 static void property_name(const char *name, size_t size, char *text) {
-  static const char number[] = "_K", numbers[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
-  const char *at = strstr(name, number);
+  static const char number[] = "_K", segment[] = "segment_K", to_64[] = "_(?:[1-9]|[1-5][0-9]|6[0-4])",
+                    to_1024[] = "_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])";
+  const char *at = strstr(name, number), *numbers = strstr(name, segment) ? to_64 : to_1024;
   if (!at || at >= name + size) {
     snprintf(text, ZP_VALUE_SIZE, "%.*s", (int)size, name);
     return;
   }
-  size_t used = (size_t)snprintf(text, ZP_VALUE_SIZE, "^%.*s%s", (int)(at - name), name, numbers);
-  for (const char *letter = at + sizeof number - 1; letter < name + size; letter++)
-    used += (size_t)snprintf(text + used, ZP_VALUE_SIZE - used, *letter == '.' ? "[.]" : "%c", *letter);
+  size_t used = (size_t)snprintf(text, ZP_VALUE_SIZE, "^");
+  for (const char *letter = name; letter < name + size; letter++) {
+    if (letter == at) used += (size_t)snprintf(text + used, ZP_VALUE_SIZE - used, "%s", numbers);
+    if (letter == at) letter += sizeof number - 1;
+    if (letter < name + size)
+      used += (size_t)snprintf(text + used, ZP_VALUE_SIZE - used, *letter == '.' ? "[.]" : "%c", *letter);
+  }
   snprintf(text + used, ZP_VALUE_SIZE - used, "$");
 }
 
@@ -329,17 +334,24 @@ static bool has_property(json_t **properties, const char *name, size_t size) {
   return json_object_get(*properties, text) != NULL;
 }
 
+/* Where a name of `size` bytes stands: with a number in the place of K it is a pattern. */
+static json_t **those_of(const char *name, size_t size, json_t **properties, json_t **patterns) {
+  const char *number = strstr(name, "_K");
+  return number && number < name + size ? patterns : properties;
+}
+
 /* The group `path` of `size` bytes ("" for the root): its keys, by the rest of their names, and its groups. */
 static json_t *group_schema(const char *path, size_t size) {
   json_t *properties = json_object(), *patterns = json_object();
   for (int i = 0; i < zp_key_count(); i++) {
     const char *name = zp_key(i)->name, *rest = name + size + (size > 0);
     if (strncmp(name, path, size) != 0 || (size > 0 && name[size] != '.')) continue;
-    json_t **these = size == 0 && zp_key_is_row(i) ? &patterns : &properties;
-    put_property(these, rest, strlen(rest), reference(name));
-    for (const char *dot = strchr(rest, '.'); dot && *these; dot = strchr(dot + 1, '.'))
-      if (!has_property(these, rest, (size_t)(dot - rest)))
+    put_property(those_of(rest, strlen(rest), &properties, &patterns), rest, strlen(rest), reference(name));
+    for (const char *dot = strchr(rest, '.'); dot; dot = strchr(dot + 1, '.')) {
+      json_t **these = those_of(rest, (size_t)(dot - rest), &properties, &patterns);
+      if (*these && !has_property(these, rest, (size_t)(dot - rest)))
         put_property(these, rest, (size_t)(dot - rest), group_schema(name, (size_t)(dot - name)));
+    }
   }
   json_t *schema =
       json_pack("{s:[s, s], s:b, s:o}", "type", "object", "null", "additionalProperties", 0, "properties", properties);
@@ -400,7 +412,7 @@ static json_t *make_schema(void) {
                              "Values take units (\"130 um\", \"10 kV\"); a number without a unit is in SI.",
                              "definitions", definitions);
   merge(&schema, group_schema("", 0));
-  for (int kind = 0; schema && kind < ZP_INSTANCE_KINDS; kind++)
+  for (int kind = 0; schema && kind < ZP_CALLED_KINDS; kind++)
     add_named(&schema, (ZpInstanceKind)kind);
   return schema;
 }

@@ -29,13 +29,13 @@ void zp_names_free(ZpGivenNames *names) {
 
 /* The kind whose group a path begins with => the rest behind it and its point. */
 static ZpInstanceKind kind_of(const char *path, const char **rest) {
-  for (int k = 0; k < ZP_INSTANCE_KINDS; k++) {
+  for (int k = 0; k < ZP_CALLED_KINDS; k++) {
     const size_t length = strlen(group[k]);
     if (strncmp(path, group[k], length) != 0 || (path[length] != 0 && path[length] != '.')) continue;
     *rest = path + length + (path[length] == '.');
     return (ZpInstanceKind)k;
   }
-  return ZP_INSTANCE_KINDS;
+  return ZP_CALLED_KINDS;
 }
 
 const char *zp_names_plural(ZpInstanceKind kind) {
@@ -45,7 +45,7 @@ const char *zp_names_plural(ZpInstanceKind kind) {
 ZpInstanceKind zp_names_group(const char *path) {
   const char *rest = "";
   const ZpInstanceKind kind = kind_of(path, &rest);
-  return *rest ? ZP_INSTANCE_KINDS : kind;
+  return *rest ? ZP_CALLED_KINDS : kind;
 }
 
 static bool is_name(const char *word, size_t length) {
@@ -98,7 +98,7 @@ static int number_of(ZpGivenNames *names, ZpInstanceKind kind, const char *word,
 ZpStatus zp_names_path(ZpGivenNames *names, const char *path, char *text, size_t size, ZpError *err) {
   const char *rest;
   const ZpInstanceKind kind = kind_of(path, &rest);
-  if (kind == ZP_INSTANCE_KINDS || *rest == 0) {
+  if (kind == ZP_CALLED_KINDS || *rest == 0) {
     snprintf(text, size, "%s", path);
     return ZP_OK;
   }

@@ -32,7 +32,7 @@ char *zp_names_text(ZpGivenNames *names, const char *text);
 /* "members" and the like. */
 const char *zp_names_plural(ZpInstanceKind kind);
 
-/* The group of a path of one name or less: "members", "bodies", "springs"; ZP_INSTANCE_KINDS: it is none. */
+/* The group of a path of one name or less: "members", "bodies", "springs"; ZP_CALLED_KINDS: it is none. */
 ZpInstanceKind zp_names_group(const char *path);
 
 /* The name of a key, with the name of its member, body or spring, if that has one. */

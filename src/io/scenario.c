@@ -655,7 +655,7 @@ static ZpStatus take_item(void *user, const ZpYamlItem *item, ZpError *err) {
   char path[ZP_PATH_SIZE];
   ZpError reason;
   if (reader->key >= 0) return take_values(reader, reader->key, item, err);
-  if (zp_names_group(item->path) < ZP_INSTANCE_KINDS)
+  if (zp_names_group(item->path) < ZP_CALLED_KINDS)
     return item->kind == ZP_YAML_GROUP || *item->word == 0
                ? check_no_parts(reader, -1, item->line, err)
                : fail_at(reader, item->path, item->line, err,
@@ -957,12 +957,22 @@ static void write_key(Writer *w, int key) {
   fputc('\n', w->file);
 }
 
+/* Whose rows begin at this key; ZP_INSTANCE_KINDS: it is no row, or not the first. */
+static ZpInstanceKind begins_rows_of(int key) {
+  if (!zp_key_is_row(key)) return ZP_INSTANCE_KINDS;
+  const ZpInstanceKind kind = zp_key_instance(zp_key_of_instance(key, 1)).kind;
+  const bool later = zp_key_is_row(key - 1) && zp_key_instance(zp_key_of_instance(key - 1, 1)).kind == kind;
+  return later ? ZP_INSTANCE_KINDS : kind;
+}
+
 /* All keys, those of members and so on where they are given. */
 static void write_keys(Writer *w) {
   const ZpGiven *given = &w->scenario->held.given;
   for (int i = 0; i < zp_key_count(); i++) {
-    for (size_t k = 0; zp_key_is_row(i) && !zp_key_is_row(i - 1) && k < given->count; k++)
-      if (given->slot[k]->key >= ZP_KEYS) write_key(w, given->slot[k]->key);
+    const ZpInstanceKind kind = begins_rows_of(i);
+    for (size_t k = 0; kind < ZP_INSTANCE_KINDS && k < given->count; k++)
+      if (given->slot[k]->key >= ZP_KEYS && zp_key_instance(given->slot[k]->key).kind == kind)
+        write_key(w, given->slot[k]->key);
     if (!zp_key_is_row(i)) write_key(w, i);
   }
 }

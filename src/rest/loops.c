@@ -54,7 +54,7 @@ static ZpNodes moved_by(ZpStatics *s, size_t which, const double *x) {
 static double capacitance_along(ZpStatics *s, size_t which, const double *x) {
   ZpRestMember *m = &s->member[which];
   ZpSpan span = zp_statics_span(s, which);
-  ZpByVoltage by = {.force = m->force};
+  ZpByVoltage by = {.force = m->force, .of_charge = true};
   span.U0 = span.U1 = 1; /* U dC / dq */
   zp_system_by_voltage(m->model, &span, &m->eval, &by);
   moved_by(s, which, x);

@@ -7,7 +7,8 @@
  * those relative to the platform that it hangs on, which joins the members by their masses.
  *
  * State: coordinates eta [m]; rates of them and of the flows of their own, w [m + z]; volume at the edges of each bead
- * that ends [beads]; behind a lag, the supply's inner voltage; behind a resistance, the voltage of the electrodes. */
+ * that ends [beads]; of each driven segment with a lag its curvature; behind a lag, the supply's inner voltage; behind
+ * a resistance, the voltage of the electrodes. */
 #include "rest/plant.h"
 
 #include <math.h>
@@ -16,6 +17,7 @@
 #include "liquid/film_small.h"
 #include "math/vector.h"
 #include "rest/vibration.h"
+#include "term/curvature.h"
 
 enum { SLOW = 16, SHAPES = ZP_VIBRATIONS + 2 + SLOW, OWN_FLOWS = ZP_FILM_MODES * SHAPES, RATES = SHAPES + OWN_FLOWS };
 
@@ -58,6 +60,7 @@ typedef struct Member {
   double (*spare)[4]; /* [3 edges] */
   size_t ends;
   End end[ZP_BEADS];
+  double *lagged; /* [driven segments][SHAPES] force along shapes by the curvature of one with a lag, N m */
   void *memory;
 } Member;
 
@@ -65,11 +68,12 @@ typedef struct Work {
   ZpStatics *at;
   size_t members;
   Member *member;
-  size_t m, rates, ends; /* of all: shapes, rates, beads that end */
+  size_t m, rates, ends; /* of all: shapes, rates, beads that end, */
+  size_t lags;           /* driven segments with a lag */
   double *stiffness;     /* [rates * rates] of them all, row by row, at last with the ends of beads */
   double *mass, *damping;
-  double *by_u, *by_signal; /* [m] force by the voltage of the source, N/V, which is charge by eta; signal by eta */
-  double *charge;           /* [rates] the same, also through where beads end */
+  double *by_u, *by_signal; /* [m] force by the voltage of the source, N/V; signal by eta */
+  double *charge;           /* [rates] that on electrodes, which is charge by eta, also through where beads end */
   double *x, *push;         /* [rates] work space */
   void *memory;
 } Work;
@@ -102,6 +106,7 @@ static size_t reserve(Member *w, void *block) {
   w->zeros = zp_arena_take(&arena, ZP_FILM_STATE * N);
   w->x = zp_arena_take(&arena, n);
   w->y = zp_arena_take(&arena, n);
+  w->lagged = zp_arena_take(&arena, model->driven.places * SHAPES);
   double **of_nodes[] = {&w->force, &w->moved, &w->by_voltage};
   for (size_t k = 0; k < sizeof of_nodes / sizeof of_nodes[0]; k++)
     *of_nodes[k] = zp_arena_take(&arena, zp_coordinates(model));
@@ -125,10 +130,10 @@ static void look(Member *w, double U) {
   zp_system_force(w->model, &span, w->eval, w->force);
 }
 
-/* Forces by the voltage at U, N/V. */
-static void find_by_voltage(Member *w, double U, double *force) {
+/* Forces by the voltage at U, N/V, of all laws or on electrodes alone. */
+static void find_by_voltage(Member *w, double U, bool of_charge, double *force) {
   ZpSpan span = span_of(w, U);
-  ZpByVoltage by = {.force = force};
+  ZpByVoltage by = {.force = force, .of_charge = of_charge};
   look(w, U);
   zp_system_by_voltage(w->model, &span, w->eval, &by);
 }
@@ -172,7 +177,7 @@ static void find_shapes(Member *w) {
   zp_vibration_solve(v, v->m - v->m / 3);
   for (size_t j = 0; j < v->m; j++)
     add_shape(w, v->u + j * n);
-  find_by_voltage(w, span.U1, w->by_voltage);
+  find_by_voltage(w, span.U1, false, w->by_voltage);
   zp_assembly_sum(&w->assembly, w->by_voltage, w->y);
   zp_arrow_solve(&w->factors, w->y);
   if (w->m < n) add_shape(w, w->y);
@@ -390,7 +395,7 @@ static void find_motions(Member *w) {
 static void find_signal(const Work *all, Member *w, const ZpSetpointSignal *signal) {
   const ZpTopology *t = &w->model->topology;
   const bool electric = signal->kind == ZP_CONTROL_CAPACITANCE;
-  if (electric) find_by_voltage(w, 1, w->by_voltage); /* U dC / dq, at 1 V */
+  if (electric) find_by_voltage(w, 1, true, w->by_voltage); /* U dC / dq, at 1 V */
   for (size_t j = 0; j < w->m && (electric || !w->shares || w == all->member); j++) {
     double *by = &all->by_signal[coordinate_of(w, j)];
     if (electric) {
@@ -519,13 +524,14 @@ static void solve(size_t n, const double *L, double *x) {
 
 /* Where the state has what. */
 typedef struct Layout {
-  size_t rates, edges, inner, electrodes, n;
+  size_t rates, edges, lags, inner, electrodes, n;
 } Layout;
 
 static Layout lay_out(const Work *w, const ZpSupply *supply) {
   Layout at = {.rates = w->m};
   at.edges = at.rates + w->rates;
-  at.inner = at.edges + w->ends;
+  at.lags = at.edges + w->ends;
+  at.inner = at.lags + w->lags;
   at.electrodes = at.inner + (supply->acts && isfinite(supply->rate));
   at.n = at.electrodes + (supply->acts && supply->resistance > 0);
   return at;
@@ -605,6 +611,23 @@ static void fill_electrodes(const Work *w, const ZpSupply *supply, const Layout 
     plant->b[row] = 1 / supply->resistance / all;
 }
 
+/* Curvatures that lag behind the voltage, whose column is `by_voltage`: eq. (38.2). */
+static void fill_lags(const Work *w, const Layout *at, double *by_voltage, size_t step, ZpPlant *plant) {
+  size_t row = at->lags;
+  for (const Member *of = w->member; of < w->member + w->members; of++)
+    for (size_t p = 0; p < of->model->driven.places; p++) {
+      const ZpDrivenPlace *place = &of->model->driven.place[p];
+      if (place->lag == 0) continue;
+      memset(w->push, 0, w->m * sizeof *w->push);
+      for (size_t j = 0; j < of->m; j++)
+        w->push[coordinate_of(of, j)] = of->lagged[p * SHAPES + j];
+      add_column(w, at, w->push, plant->A + row, at->n);
+      plant->A[row * at->n + row] = -1 / place->lag;
+      by_voltage[row * step] = of->model->ratio * zp_driven_aim_rate(place, of->U) / place->lag;
+      row++;
+    }
+}
+
 /* Effect of the voltage, through the supply. */
 static void fill_voltage(const Work *w, const ZpSupply *supply, const Layout *at, ZpPlant *plant) {
   const size_t n = at->n;
@@ -614,10 +637,10 @@ static void fill_voltage(const Work *w, const ZpSupply *supply, const Layout *at
     plant->b[at->inner] = supply->rate;
   }
   if (resists) fill_electrodes(w, supply, at, plant);
-  if (lags || resists)
-    add_column(w, at, w->by_u, plant->A + (resists ? at->electrodes : at->inner), n);
-  else
-    add_column(w, at, w->by_u, plant->b, 1);
+  const size_t step = lags || resists ? n : 1;
+  double *by_voltage = lags || resists ? plant->A + (resists ? at->electrodes : at->inner) : plant->b;
+  add_column(w, at, w->by_u, by_voltage, step);
+  fill_lags(w, at, by_voltage, step, plant);
 }
 
 static bool fill(const Work *w, const ZpSupply *supply, ZpPlant *plant) {
@@ -691,15 +714,34 @@ static size_t reserve_all(Work *all, void *block) {
   return arena.used;
 }
 
+/* Curvatures with a lag are states; only the others follow the voltage at once. */
+static void find_lags(Work *all, Member *w) {
+  const ZpDriven *driven = &w->model->driven;
+  const ZpSpan span = span_of(w, w->U);
+  look(w, w->U);
+  for (size_t p = 0; p < driven->places; p++) {
+    if (driven->place[p].lag == 0) continue;
+    memset(w->force, 0, zp_coordinates(w->model) * sizeof *w->force);
+    zp_term_curvature_by_place(w->model, &span, p, w->eval, w->force);
+    for (size_t j = 0; j < w->m; j++) {
+      w->lagged[p * SHAPES + j] = along_shape(w, w->force, j);
+      all->by_u[coordinate_of(w, j)] -=
+          w->model->ratio * zp_driven_aim_rate(&driven->place[p], w->U) * w->lagged[p * SHAPES + j];
+    }
+    all->lags++;
+  }
+}
+
 /* Add what a member does in its coordinates. */
 static void add_member(Work *all, Member *w, const ZpSetpointSignal *signal) {
   const ZpModel *model = w->model;
   project(all, w, &w->K, all->stiffness);
-  for (size_t j = 0; j < w->m; j++) {
-    double force = model->ratio * along_shape(w, w->by_voltage, j);
-    all->by_u[coordinate_of(w, j)] += force;
-    all->charge[coordinate_of(w, j)] += force;
-  }
+  for (size_t j = 0; j < w->m; j++)
+    all->by_u[coordinate_of(w, j)] += model->ratio * along_shape(w, w->by_voltage, j);
+  find_lags(all, w);
+  find_by_voltage(w, w->U, true, w->by_voltage);
+  for (size_t j = 0; j < w->m; j++)
+    all->charge[coordinate_of(w, j)] += model->ratio * along_shape(w, w->by_voltage, j);
   find_signal(all, w, signal);
   look(w, w->U);
   for (int half = 0; model->has_bead && half < zp_beads(&model->film); half++)

@@ -139,7 +139,7 @@ void zp_quasistatic_copy(const ZpRest *r, const ZpLimit *from, ZpLimit *to) {
 /* The parameter, changed by this share of the voltage or of the load. */
 static double changed(ZpRest *r, double m, double share) {
   double factor = 1 + share;
-  return along_load(r) ? m * factor : m * factor * factor;
+  return r->track.fold.system->square ? m * factor * factor : m * factor;
 }
 
 static double parameter(ZpRest *r) {
@@ -235,7 +235,7 @@ static bool is_higher(const Side *side, double m) {
  * voltage. */
 static double depth_of(ZpRest *r, const Side *side, double m) {
   double ratio = fmax(m / side->m, 0);
-  return side->sign * (1 - (along_load(r) ? ratio : sqrt(ratio)));
+  return side->sign * (1 - (r->track.fold.system->square ? sqrt(ratio) : ratio));
 }
 
 /* A point of the branch, `at` steps from the limit: the parameter and its derivative by the steps. */
@@ -454,12 +454,12 @@ ZpTrackEnd zp_quasistatic_drop_load(ZpRest *r, ZpLimit *at) {
 
 ZpTrackEnd zp_quasistatic_first(ZpRest *r, double top, ZpLimit *at) {
   choose(r, &r->square);
-  return go_to_first(r, top * top, at);
+  return go_to_first(r, zp_branch_parameter_at(&r->square, top), at);
 }
 
 ZpQuasistaticEnd zp_quasistatic_close_at(ZpRest *r, double top, double enough, ZpLimit *at) {
   choose(r, &r->square);
-  return change(r, top * top, enough * enough, at, NULL);
+  return change(r, zp_branch_parameter_at(&r->square, top), zp_branch_parameter_at(&r->square, enough), at, NULL);
 }
 
 bool zp_quasistatic_falls_closed(ZpRest *r, const ZpLimit *limit) {
@@ -477,7 +477,7 @@ ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pul
   zp_limit_none(pull_in, "no limit point up to drive.voltage");
   zp_limit_none(closing, "it does not close up to drive.voltage");
   choose(r, &r->square);
-  ZpQuasistaticEnd end = change(r, top * top, INFINITY, closing, pull_in);
+  ZpQuasistaticEnd end = change(r, zp_branch_parameter_at(&r->square, top), INFINITY, closing, pull_in);
   if (end == ZP_QUASISTATIC_LOST) lose(closing, lost);
   if (end == ZP_QUASISTATIC_LOST && isnan(pull_in->value)) lose(pull_in, lost);
   if (end == ZP_QUASISTATIC_ARRIVED) zp_limit_none(closing, "it does not close up to drive.voltage");
@@ -486,7 +486,8 @@ ZpQuasistaticEnd zp_quasistatic_ramp_voltage(ZpRest *r, double top, ZpLimit *pul
   /* Is there a limit point further up, before faces overlap by as much as they were apart? Two that are close to each
    * other are seen along the gap only. */
   r->track.event = gap_above_overlap;
-  if (zp_track(&r->track, top * top) == ZP_TRACK_FOLD) zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
+  if (zp_track(&r->track, zp_branch_parameter_at(&r->square, top)) == ZP_TRACK_FOLD)
+    zp_quasistatic_note(r, pull_in, ZP_TRACK_FOLD);
   return end;
 }
 

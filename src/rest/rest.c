@@ -136,7 +136,7 @@ void zp_rest_destroy(ZpRest *rest) {
 bool zp_rest_hang(ZpRest *rest, double voltage) {
   ZpStatics *s = &rest->statics;
   bool found = zp_newton_good(zp_statics_find_rest(s).end) && zp_statics_bias(s);
-  if (found && voltage > 0 && s->member->model->field) found = zp_statics_ramp_voltage(s, voltage);
+  if (found && voltage != 0 && zp_follows_voltage(s->member->model)) found = zp_statics_ramp_voltage(s, voltage);
   return found && !zp_statics_shorted(s);
 }
 

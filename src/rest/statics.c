@@ -14,6 +14,7 @@
 #include "math/vector.h"
 #include "rest/crossing.h"
 #include "solve/descend.h"
+#include "term/curvature.h"
 
 static void reserve_member(ZpRestMember *m, const ZpModel *model, ZpArena *arena) {
   double **of_coordinates[] = {&m->q, &m->moved, &m->force, &m->good};
@@ -259,7 +260,7 @@ static bool has_jumped(const ZpStatics *s) {
     double before = zp_opening(&m->model->topology, zp_nodes(m->model, m->good).y);
     jumped |= fabs(opening_of(m) - before) >
               part * (s->opposed && s->has_load ? zp_network_depth(s->model->network) : m->model->L);
-    jumped |= member_has_jumped(m);
+    jumped |= m->model->field && member_has_jumped(m);
   }
   return jumped;
 }
@@ -701,6 +702,8 @@ ZpShape zp_statics_shape(const ZpStatics *s, size_t which, double time, ZpShapeR
   for (int half = 0; m->model->has_bead && half < zp_beads(&m->model->film); half++)
     room.reach[half] = m->eval.reach[half];
   if (m->model->field) shape.gap = m->eval.plates.gap;
+  const ZpSpan here = zp_statics_span(s, which);
+  room.k0 = zp_term_natural_of_state(m->model, &here, &s->member[which].eval);
   zp_shape_fill(m->model, &room, &shape);
   return shape;
 }
@@ -1369,9 +1372,19 @@ static bool are_alike(const ZpStatics *s) {
   return s->members > 1;
 }
 
+/* Do forces at 0 V go with the voltage itself, because it drives curvature by its sign? */
+static bool is_signed(const ZpStatics *s) {
+  bool by_sign = false;
+  for (const ZpRestMember *m = s->member; m < s->member + s->members; m++)
+    for (size_t p = 0; p < m->model->driven.places; p++)
+      by_sign |= m->model->driven.place[p].a != 0;
+  return by_sign;
+}
+
 ZpBranchSystem zp_statics_branch(ZpStatics *s, ZpAlong along) {
   const ZpModel *model = s->member->model;
-  const double voltage = fmax(zp_drive_voltage(model), 1);
+  const double voltage = fmax(fabs(zp_drive_voltage(model)), 1);
+  if (along == ZP_ALONG_SQUARE && is_signed(s)) along = ZP_ALONG_VOLTAGE;
   const struct {
     double *input;
     void (*sensitivity)(void *self, double *r_m);

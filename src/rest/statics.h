@@ -94,7 +94,7 @@ ZpStaticSystem zp_statics_system(ZpStatics *statics);
 ZpNewtonInfo zp_statics_solve(ZpStatics *statics, int most);
 
 /* The static system with a parameter: the voltage; its square, to which forces are proportional, while along the
- * voltage itself nothing moves at first; or the load. */
+ * voltage itself nothing moves at first (the voltage, where it drives curvature by its sign); or the load. */
 typedef enum ZpAlong { ZP_ALONG_VOLTAGE, ZP_ALONG_SQUARE, ZP_ALONG_LOAD } ZpAlong;
 ZpBranchSystem zp_statics_branch(ZpStatics *statics, ZpAlong along);
 

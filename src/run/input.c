@@ -164,13 +164,23 @@ static ZpRamp ramp_within(double value, double rate, double t, double least, dou
   return (ZpRamp){value, rate, t, t + left};
 }
 
+/* The lowest voltage of a member's port: below 0 V only where one on it depends on the sign. */
+static double least_voltage(const ZpSim *lead) {
+  double least = 0;
+  for (const ZpSim *m = lead; m; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL)
+    if (zp_def_drives(&m->model->def, true)) least = zp_key(lead->drive)->min;
+  return least;
+}
+
 /* Says that, and why, it is out of range. */
 static ZpStatus check_voltage(const ZpSim *sim, double voltage, ZpError *err) {
   const ZpKey *key = zp_key(sim->drive);
   bool within = voltage >= key->min && voltage <= key->max;
   ZpStatus status = ZP_OK;
-  for (const ZpSim *m = sim; m < sim + sim->members && within && status == ZP_OK; m++)
-    status = zp_def_check_voltage(&m->model->def, zp_member_voltage(m->model, voltage), err);
+  for (const ZpSim *m = sim; m < sim + sim->members && within && status == ZP_OK; m++) {
+    status = zp_check_sign(&m->model->def, "drive.voltage", voltage, err);
+    if (status == ZP_OK) status = zp_def_check_voltage(&m->model->def, zp_member_voltage(m->model, voltage), err);
+  }
   if (within) return status;
   ZpActuatorDef scratch = sim->model->def;
   return zp_def_set(&scratch, sim->drive, voltage, err);
@@ -226,7 +236,7 @@ static ZpStatus hold(ZpSim *sim, double voltage, double rate, void (*way)(ZpSim 
   const ZpKey *key = zp_key(sim->drive);
   ZpStatus status = check_voltage(sim, voltage, err);
   if (status == ZP_OK && rate > 0) status = check_voltage(sim, key->max, err);
-  if (status == ZP_OK) way(sim, ramp_within(voltage, rate, sim->state->t, key->min, key->max));
+  if (status == ZP_OK) way(sim, ramp_within(voltage, rate, sim->state->t, least_voltage(sim), key->max));
   return status;
 }
 
@@ -256,9 +266,12 @@ static ZpStatus set_port(ZpSim *lead, double voltage, double rate, ZpError *err)
   const double worst = rate > 0 ? key->max : voltage;
   ZpActuatorDef scratch = lead->model->def;
   ZpStatus status = zp_def_set(&scratch, lead->drive, voltage, err);
-  for (ZpSim *m = lead; m && status == ZP_OK; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL)
-    status = zp_def_check_voltage(&m->model->def, worst, err);
-  if (status == ZP_OK) zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, key->min, key->max));
+  for (ZpSim *m = lead; m && status == ZP_OK; m = zp_sim_next(m) > 0 ? m + zp_sim_next(m) : NULL) {
+    status = zp_check_sign(&m->model->def, ZP_KEY_NAME(lead->drive), voltage, err);
+    if (status == ZP_OK) status = zp_def_check_voltage(&m->model->def, worst, err);
+  }
+  if (status == ZP_OK)
+    zp_sim_hold_port(lead, ramp_within(voltage, rate, lead->state->t, least_voltage(lead), key->max));
   return status;
 }
 

@@ -7,6 +7,7 @@
 #include "ribbon/rod_plastic.h"
 #include "run/margins.h"
 #include "run/run.h"
+#include "term/curvature.h"
 
 #define ZP_ROW(name) extern const ZpRow zp_row_##name;
 #include "term/terms.def"
@@ -310,7 +311,7 @@ static void fill_books(const ZpSim *sim, double *now, double *row) {
       *zp_ledger_at(model, now, &zp_row_film_along_loss) + *zp_ledger_at(model, now, &zp_row_film_across_loss);
   for (size_t k = 0; k < model->ledger.rows; k++) {
     ZpRowKind kind = model->ledger.row[k]->kind;
-    row[sim->row_at[k]] = (kind == ZP_ROW_STORED || kind == ZP_ROW_LOST ? model->parts : 1) * now[k];
+    row[sim->row_at[k]] = (kind == ZP_ROW_SOURCE || kind == ZP_ROW_SIGNAL ? 1 : model->parts) * now[k];
   }
   row[SIGNAL_viscous_loss] = model->parts * viscous;
   row[SIGNAL_energy_imbalance] = row[SIGNAL_electric_work] + row[SIGNAL_load_work] -
@@ -360,6 +361,8 @@ static ZpShape shape_of(ZpSim *sim) {
   }
   if (model->leaks) sim->shape_room.interface = zp_law_state(model, &zp_term_leak, sim->state);
   if (model->rod.plastic) sim->shape_room.strain = zp_law_state(model, &zp_term_rod, sim->state);
+  const ZpSpan now = zp_span_of(model, state, motion.x, motion.vx);
+  sim->shape_room.k0 = zp_term_natural_of_state(model, &now, &sim->eval);
   for (int half = 0; model->has_bead && half < ZP_BEADS; half++)
     sim->shape_room.reach[half] = state->bead[half].reach;
   zp_shape_fill(model, &sim->shape_room, &shape);

@@ -231,6 +231,20 @@ static ZpStatus walk_keys(ZpPack *p, const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
+/* Keys of segments that are not at their defaults. */
+static ZpStatus walk_segments(ZpPack *p, const ZpActuatorDef *def, ZpError *err) {
+  size_t mine = 0;
+  ZpStatus status = ZP_OK;
+  for (int i = ZP_KEYS; i >= 0; i = zp_key_next_field(i))
+    mine += zp_segment_key_given(def, i);
+  size_t count = mine;
+  zp_pack_field(p, "segments", ZP_SIZE, &count, 1);
+  if (count != mine) return zp_fail(err, ZP_BAD_INPUT, "of another model: it has other segments");
+  for (int i = ZP_KEYS; i >= 0 && status == ZP_OK; i = zp_key_next_field(i))
+    if (zp_segment_key_given(def, i)) status = walk_value(p, def, i, err);
+  return status;
+}
+
 /* Keys of bodies and springs, and where members are between them, in the record of the first member of a network.
  * Others have NULL. */
 static ZpStatus walk_network(ZpPack *p, const ZpActuatorDef *network, ZpError *err) {
@@ -306,6 +320,7 @@ static ZpStatus read_numbers(const ZpActuatorDef *def, const ZpActuatorDef *netw
   *state = (ZpState){.t = 0};
   walk_numbers(p, state);
   status = walk_keys(p, def, err);
+  if (status == ZP_OK) status = walk_segments(p, def, err);
   if (status == ZP_OK) status = walk_network(p, network, err);
   if (status == ZP_OK && p->lacks) status = zp_pack_end(p, err);
   return status == ZP_OK ? check_numbers(state, def, err) : status;
@@ -330,6 +345,7 @@ static const ZpActuatorDef *network_of(const ZpModel *model) {
 static void walk(ZpPack *p, const ZpModel *model, ZpState *numbers, double *data) {
   walk_numbers(p, numbers);
   walk_keys(p, &model->def, NULL);
+  walk_segments(p, &model->def, NULL);
   walk_network(p, network_of(model), NULL);
   walk_arrays(p, model, data);
   walk_rows(p, model, data);

@@ -20,10 +20,13 @@ typedef struct ZpBranchSystem {
   size_t alike;            /* how many equal systems it consists of, one after the other, that move alike; 0: none */
 } ZpBranchSystem;
 
-/* The parameter m at the present point. */
-static inline double zp_branch_parameter(const ZpBranchSystem *system) {
-  double input = *system->input;
+/* The parameter m at a value of the input, and at the present point. */
+static inline double zp_branch_parameter_at(const ZpBranchSystem *system, double input) {
   return system->square ? input * input : input;
+}
+
+static inline double zp_branch_parameter(const ZpBranchSystem *system) {
+  return zp_branch_parameter_at(system, *system->input);
 }
 
 static inline void zp_branch_set(const ZpBranchSystem *system, double m) {

@@ -22,10 +22,13 @@ static double largest(ZpSim *sim, const ZpResult *result, const char *signal, co
   return most;
 }
 
-/* Largest imbalance over the largest work of the source: how well energy balances. */
+/* Largest imbalance over the sum of the largest works of source, driven curvature and load: how well energy balances.
+ */
 static double energy_error(ZpSim *sim, const ZpResult *result) {
   if (isnan(zp_at_end(sim, result, "energy_imbalance"))) return NAN;
-  double work = largest(sim, result, "electric_work", "electric_work_J");
+  double work = largest(sim, result, "electric_work", "electric_work_J") +
+                largest(sim, result, "curvature_work", "curvature_work_J") +
+                largest(sim, result, "load_work", "load_work_J");
   return work > 0 ? largest(sim, result, "energy_imbalance", "energy_imbalance_J") / work : NAN;
 }
 
@@ -157,7 +160,7 @@ static void note_imbalance(const ZpActuatorDef *def, ZpResult *result) {
   static const double most = 1e-4;
   double error = zp_result_get(result, "energy_error");
   if (error > most)
-    zp_result_note(result, "the error of the energy balance is %.2g of the electric work, above %g; %s", error, most,
+    zp_result_note(result, "the error of the energy balance is %.2g of the work done, above %g; %s", error, most,
                    remedy(def));
 }
 
@@ -303,7 +306,10 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
                       ZpResult *result) {
   result->outcome = info->outcome;
   memcpy(result->message, info->message, sizeof result->message);
-  if (zp_is_pair(&model->topology)) summarize_actuator(sim, stop, result);
+  if (zp_is_pair(&model->topology))
+    summarize_actuator(sim, stop, result);
+  else if (model->driven.places > 0)
+    zp_result_add(result, "energy_error", "1", energy_error(sim, result));
   if (model->has_film) add_at_end(sim, result, of_film);
   if (model->leaks) add_at_end(sim, result, of_leak);
   if (model->rod.plastic) add_at_end(sim, result, of_yielding);
@@ -439,7 +445,7 @@ ZpStatus zp_check_actuate(const ZpActuatorDef *def, ZpError *err) {
   bool table = def->drive.waveform == ZP_WAVEFORM_TABLE; /* whose voltages are not in the Def */
   ZpStatus status = zp_check_sensitivity(def, err);
   if (status != ZP_OK || table) return status;
-  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
+  return zp_def_check_voltage(def, fmax(fabs(def->drive.voltage), fabs(def->drive.offset)), err);
 }
 
 ZpStatus zp_study_actuate(const ZpTask *task, ZpResult *result, ZpError *err) {

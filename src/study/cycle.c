@@ -327,8 +327,8 @@ static int repeats_in(Cycles *c) {
 
 /* -- shooting --------------------------------------------------------------------------------------- */
 
-/* A state as a vector: what decides, in units of its own (positions of all members, velocities, interface voltages),
- * then what is carried along: rates of the last step, and what the laws know beyond positions. */
+/* A state as a vector: what decides, in units of its own (positions of all members, velocities, interface voltages,
+ * driven curvatures), then what is carried along: rates of the last step, and what the laws know beyond positions. */
 static size_t leaked(const ZpModel *model) {
   return model->leaks ? zp_law(model, &zp_term_leak)->state : 0;
 }
@@ -336,7 +336,7 @@ static size_t leaked(const ZpModel *model) {
 static size_t deciding(const ZpSim *sim) {
   size_t sum = 2 * positions(sim);
   for (const ZpSim *m = sim; m < sim + sim->members; m++)
-    sum += leaked(m->model);
+    sum += leaked(m->model) + m->model->driven.places;
   return sum;
 }
 
@@ -359,7 +359,7 @@ static double speed_of(const Cycles *c, const ZpModel *model, size_t k) {
 
 /* Where the numbers of one member stand in a vector; the next one's follow. */
 typedef struct Place {
-  size_t q, v, leaked, carried;
+  size_t q, v, slow, carried;
 } Place;
 
 static Place first_place(const ZpSim *sim) {
@@ -368,20 +368,23 @@ static Place first_place(const ZpSim *sim) {
 
 static Place next_place(Place at, const ZpModel *model) {
   size_t n = zp_coordinates(model);
-  return (Place){at.q + n, at.v + n, at.leaked + leaked(model), at.carried + carried_by(model)};
+  return (Place){at.q + n, at.v + n, at.slow + leaked(model) + model->driven.places, at.carried + carried_by(model)};
 }
 
 static void read_state(const Cycles *c, double *x) {
   Place at = first_place(c->sim);
   for (ZpSim *m = c->sim; m < c->sim + c->sim->members; at = next_place(at, m->model), m++) {
     const double *q = zp_state_q(m->model, m->state), *v = zp_state_v(m->model, m->state);
-    const double *of_leak = zp_law_state(m->model, &zp_term_leak, m->state);
+    const double *of_leak = zp_law_state(m->model, &zp_term_leak, m->state),
+                 *kappa = zp_law_state(m->model, &zp_term_curvature, m->state);
     for (size_t k = 0; k < zp_coordinates(m->model); k++) {
       x[at.q + k] = q[k] / c->far;
       x[at.v + k] = v[k] / speed_of(c, m->model, k);
     }
     for (size_t k = 0; k < leaked(m->model); k++)
-      x[at.leaked + k] = of_leak[k] / c->highest;
+      x[at.slow + k] = of_leak[k] / c->highest;
+    for (size_t p = 0; p < m->model->driven.places; p++)
+      x[at.slow + leaked(m->model) + p] = kappa[p] * m->model->L;
     memcpy(x + at.carried, zp_state_mean_v(m->model, m->state), carried_by(m->model) * sizeof *x);
   }
 }
@@ -864,6 +867,8 @@ static const ZpRule rule[] = {
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT), "its cycles have implicit steps"),
     ZP_RULE_STARTS,
     /* the linear answer */
+    ZP_RULE(EQUATION, ZP_CURVES_BY_VOLTAGE, ZP_NOT(cycle.method, ZP_CYCLE_LINEAR),
+            "the linear answer follows the square of the voltage, and curvature the voltage itself"),
     ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.drive.waveform, member_K.setpoint.duty),
                ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_NEVER, "the linear answer is that of one drive"),
     ZP_RULE(EQUATION, ZP_IS(cycle.method, ZP_CYCLE_LINEAR), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
@@ -899,7 +904,7 @@ static ZpStatus check_waveforms(const ZpActuatorDef *def, ZpError *err) {
 ZpStatus zp_check_cycle(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_waveforms(def, err);
   if (status != ZP_OK) return status;
-  return zp_def_check_voltage(def, fmax(def->drive.voltage, fabs(def->drive.offset)), err);
+  return zp_def_check_voltage(def, fmax(fabs(def->drive.voltage), fabs(def->drive.offset)), err);
 }
 
 ZpStatus zp_study_cycle(const ZpTask *task, ZpResult *result, ZpError *err) {

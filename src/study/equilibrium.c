@@ -37,20 +37,21 @@ static void record(Follower *f, int branch) {
 
 /* -- branches ------------------------------------------------------------------------------------- */
 
-/* Follow the branch from the present equilibrium until the voltage leaves [0, drive.voltage] or makes a short circuit.
+/* Follow the branch from the present equilibrium until the voltage leaves 0 to drive.voltage or makes a short circuit.
+ * `growing`: its size, which has the sign of drive.voltage, grows.
  * => false if it was lost on the way. */
 static bool follow(Follower *f, bool growing, int mark) {
-  double top = zp_drive_voltage(f->at.model);
+  const double top = zp_drive_voltage(f->at.model), sign = top < 0 ? -1 : 1; /* of all voltages on the way */
   ZpBranch *branch = &f->at.rest.branch;
   ZpStatics *s = &f->at.rest.statics;
   record(f, mark);
-  if (!zp_rest_follow(&f->at.rest, growing)) return false;
+  if (!zp_rest_follow(&f->at.rest, growing == (sign > 0))) return false;
   for (int k = 0; k < MOST_POINTS; k++) {
     if (!zp_branch_advance(branch) || zp_statics_fault_of_stations(s)) return false;
-    if (s->U < 0) return true;
+    if (sign * s->U < 0) return true;
     if (zp_statics_shorted(s)) f->shorted = s->U;
     if (zp_statics_shorted(s)) return true;
-    bool passed = s->U > top;
+    bool passed = sign * s->U > sign * top;
     if (passed && !zp_newton_good(zp_rest_reach(&f->at.rest, top).end)) return false;
     record(f, mark);
     if (passed || zp_statics_asked_to_stop(s)) return true;
@@ -146,7 +147,7 @@ ZpStatus zp_study_equilibrium(const ZpTask *task, ZpResult *result, ZpError *err
   Follower f = {.at = {.task = task,
                        .result = result,
                        .stage = "following",
-                       .top = fmax(def->drive.voltage, 1),
+                       .top = fmax(fabs(def->drive.voltage), 1),
                        .column = columns,
                        .columns = COLUMNS,
                        .rows = (size_t)def->output.samples,

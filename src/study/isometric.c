@@ -443,6 +443,8 @@ static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_IS(platform.rotates, false), "it holds the platform level"),
     ZP_RULE(PHYSICS, ZP_NETWORK, ZP_ABOVE(isometric.body, 0), "it holds one of the bodies"),
     ZP_RULE(PHYSICS, ZP_ABOVE(isometric.body, 0), ZP_NETWORK, "there are no bodies; it holds the lower platform"),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_AT_LEAST(drive.voltage, 0),
+            "the force is that of a rising voltage; give the curvature the other sign"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

@@ -129,6 +129,8 @@ static void run(Finder *f, ZpResult *r) {
 
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(ELECTRODES), "a single ribbon has no electrodes"),
+    ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_AT_LEAST(drive.voltage, 0),
+            "limits are those of a rising voltage; give the curvature the other sign"),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

@@ -141,7 +141,7 @@ static bool find_equilibrium(Problem *p) {
   double voltage = s->member->model->def.modes.voltage;
   if (!zp_statics_bias(s)) {
     snprintf(result->message, size, "%s", zp_statics_no_rest(s, (char[ZP_NO_REST_SIZE]){0}));
-  } else if (voltage > 0 && s->member->model->field && !zp_statics_ramp_voltage(s, voltage)) {
+  } else if (voltage != 0 && zp_follows_voltage(s->member->model) && !zp_statics_ramp_voltage(s, voltage)) {
     note_pulled_in(p, voltage);
   } else if (zp_statics_shorted(s)) {
     result->outcome = ZP_SHORT_CIRCUIT;
@@ -192,7 +192,10 @@ static void run(Problem *p) {
 
 static const char dry_loops[] = "the eigenvalues of loops of members are computed without liquid only";
 
-static const ZpRule rule_of_a_loop[] = {ZP_RULES_OF_A_LOOP};
+static const char no_curves[] = "the eigenvalues of loops of members are those of electrodes alone";
+
+static const ZpRule rule_of_a_loop[] = {
+    ZP_RULES_OF_A_LOOP, ZP_RULE(NOT_MODELLED, ZP_CURVES_BY_VOLTAGE, ZP_IS(control.kind, ZP_CONTROL_NONE), no_curves)};
 static const ZpRules rules_of_a_loop = ZP_RULES_OF(rule_of_a_loop);
 
 static const ZpRule rule[] = {
@@ -209,6 +212,7 @@ static const ZpRule rule[] = {
     ZP_RULE_IF(NOT_MODELLED, ZP_SET_WITHIN(member_K.port, member_K.setpoint.duty),
                ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
     ZP_RULE(NOT_MODELLED, ZP_SET(member_K.control.kind), ZP_IS(liquid.model, ZP_LIQUID_NONE), dry_loops),
+    ZP_RULE_IF(NOT_MODELLED, ZP_CURVES_BY_VOLTAGE, ZP_NETWORK, ZP_IS(control.kind, ZP_CONTROL_NONE), no_curves),
     ZP_RULE_STARTS,
     ZP_RULE_ELASTIC,
     ZP_RULE_DERIVATIVES,

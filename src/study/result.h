@@ -27,9 +27,6 @@ void zp_result_forget_notes(ZpResult *result);
 /* Take away scalars, derivatives, notes and the table. */
 void zp_result_clear(ZpResult *result);
 
-/* Add a scalar of one of several: what it is called stands in the place of # in the name. */
-void zp_result_add_of(ZpResult *result, const char *name, const char *called, const char *unit, double value);
-
 /* Add a derivative of a scalar of this name, which zp_result_add_of has added; nothing where none has. */
 void zp_result_add_sensitivity_of(ZpResult *result, const char *name, const char *called, int key, double value);
 

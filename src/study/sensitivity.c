@@ -99,7 +99,7 @@ static double derive_limit(ZpRest *rest, const ZpLimits *limits, ZpLimitKind kin
                                        limit->null);
   }
   if (limit->end == ZP_TRACK_EVENT) rate = derive_event(rest, limits, kind, slope);
-  return load ? rate : rate / (2 * limit->value);
+  return !load && rest->square.square ? rate / (2 * limit->value) : rate;
 }
 
 /* Is it known that an output lacks a derivative? */

@@ -70,7 +70,7 @@ ZpStatus zp_finite_difference_open(ZpFiniteDifference *by, const ZpModel *model,
 int zp_key_of_neighbour(const ZpModel *model, const ZpModel *neighbour, double offset) {
   static const double rounding = 1e-9; /* over the offset, which is a small part of the key */
   int found = -1;
-  for (int key = 0; key < zp_key_count(); key++) {
+  for (int key = zp_key_next_field(-1); key >= 0; key = zp_key_next_field(key)) {
     double a = zp_def_get(&model->def, key), b = zp_def_get(&neighbour->def, key);
     if (a == b || (isnan(a) && isnan(b))) continue;
     if (found >= 0 || !(fabs(b - a - offset) <= rounding * fabs(offset))) return -1;

@@ -152,6 +152,7 @@ double zp_system_taken(const ZpModel *model, const double *start, const double *
     ZpRowKind kind = model->ledger.row[k]->kind;
     if (kind == ZP_ROW_STORED) sum += now[k] - start[k];
     if (kind == ZP_ROW_LOST) sum += now[k];
+    if (kind == ZP_ROW_GAVE) sum -= now[k];
   }
   return sum;
 }

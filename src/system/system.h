@@ -59,8 +59,8 @@ void zp_system_now(const ZpModel *model, const ZpState *state, ZpEval *eval, dou
 /* Sum of all energies in a ledger, J. */
 double zp_system_stored(const ZpModel *model, const double *ledger);
 
-/* Energy that one part has taken since its ledger was opened, J: the rise of all energies, and all losses. It is the
- * work of source and load if the energy balances. */
+/* Energy that one part has taken since its ledger was opened, J: the rise of all energies, and all losses, without what
+ * its rows say that others gave. It is the work of source and load if the energy balances. */
 double zp_system_taken(const ZpModel *model, const double *start, const double *now);
 
 /* Add what the terms have lost over a span, at its last force, to the ledger of the state. Edges are damped in implicit

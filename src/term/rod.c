@@ -1,5 +1,5 @@
 /* The rod: stretching, bending, internal damping, yielding. Eqs. (8.4), (8.12) and (18.2). */
-#include "term/term.h"
+#include "term/curvature.h"
 
 #include "ribbon/rod_plastic.h"
 
@@ -42,20 +42,19 @@ static const double *strain_of(const ZpModel *model, const ZpSpan *span) {
   return zp_law_memory(model, &zp_term_rod, span->memory);
 }
 
-/* With the share of the natural curvature that acts. */
-static const ZpRodParams *acting(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
-  if (span->share == 1) return &model->rod;
-  for (size_t j = 0; j < zp_lanes(model); j++)
-    e->k0[j] = span->share * model->rod.k0[j];
-  e->straighter = model->rod;
-  e->straighter.k0 = e->k0;
-  return &e->straighter;
+/* With these natural curvatures. */
+static const ZpRodParams *bent_to(const ZpModel *model, const double *k0, ZpEval *e) {
+  if (k0 == model->rod.k0) return &model->rod;
+  e->bent = model->rod;
+  e->bent.k0 = k0;
+  return &e->bent;
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   zp_rod_eval(&model->rod, span->end, zp_nodes(model, span->end).y, &e->rod);
   e->rod_step.strain_start = strain_of(model, span);
-  zp_rod_step(acting(model, span, e), start_of(span, e), &e->rod, zp_span_damping(model, span), &e->rod_step);
+  zp_rod_step(bent_to(model, zp_term_natural(model, span, e), e), start_of(span, e), &e->rod,
+              zp_span_damping(model, span), &e->rod_step);
   zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
 }
 
@@ -87,8 +86,8 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
 static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   zp_rod_eval(&model->rod, now->end, zp_nodes(model, now->end).y, &e->rod);
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
-  row[BENDING] +=
-      zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
+  row[BENDING] += zp_rod_bending_energy(bent_to(model, zp_term_natural_of_state(model, now, e), e), &e->rod) -
+                  zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
   if (strain_of(model, now)) row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
 }
 

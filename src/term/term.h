@@ -54,6 +54,7 @@ typedef struct ZpByVoltage {
   double *force;      /* derivative of the mean force by this voltage, N/V */
   double *charge;     /* derivative of the charge at the end by the coordinates there, C/m */
   double capacitance; /* derivative of this charge by this voltage, F */
+  bool of_charge; /* force is that on electrodes alone, which is U dC/dq at rest: no curvature that voltage drives */
 } ZpByVoltage;
 
 typedef struct ZpTerm {
