@@ -149,6 +149,7 @@ TEST(off_and_on_again) {
   Follower ramp = waiting(&(ZpDriveTable){3, corner, to});
   ramp.supply.rate = INFINITY;
   ck_assert_double_eq(follow(&ramp, DEAD, 7e-3), 0);
+  ck_near(follow(&ramp, DEAD + 1e-3, 7e-3), 210, 1e-12);
   ck_near(follow(&ramp, 50e-3, 7e-3), 500, 1e-12);
   ck_near(follow(&ramp, 170e-3, 7e-3), -400, 1e-12);
 }
@@ -319,7 +320,7 @@ static double bled_faster(double t, const Charging *c) {
   return DOUBLES / ((1 + DOUBLES / V) * exp(t / (5e8 * c->C)) - 1);
 }
 
-/* Through a bleeder that conducts better at a higher voltage, eq. (23.9). */
+/* Through a bleeder that conducts better at a higher voltage, eq. (23.10). */
 TEST(test_discharge_through_a_bleeder_of_rising_conductance) {
   Charging c = charging(
       DEF(CLOSED_ACTUATOR, {"source.sink_limit", 0}, {"source.bleeder", 5e8}, {"source.bleeder_voltage", DOUBLES}));

@@ -121,7 +121,7 @@ static double lag(const ZpCommand *c, double rate, double from, double to, doubl
 
 /* -- what the supply makes of it ------------------------------------------------------------------- */
 
-/* Share of the dead time that has passed a time h after t, eq. (23.1a). */
+/* Share of the dead time that has passed a time h after t, eq. (23.9). */
 static double ready_after(const ZpSupply *s, const ZpCommand *c, double t, double h, double ready) {
   if (is_off(c, t)) return 0;
   const double left = (1 - ready) * zp_supply_dead_time(s, level_of(c, t));

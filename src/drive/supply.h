@@ -33,7 +33,7 @@ double zp_supply_lag_rate(const ZpSupply *supply, double level);
 /* Its time from off to the first voltage, s. */
 double zp_supply_dead_time(const ZpSupply *supply, double level);
 
-/* Current through its bleeder at voltage U, A, eq. (23.9), and its derivative, S. */
+/* Current through its bleeder at voltage U, A, eq. (23.10), and its derivative, S. */
 double zp_supply_bled(const ZpSupply *supply, double U);
 double zp_supply_bled_slope(const ZpSupply *supply, double U);
 

@@ -1,5 +1,5 @@
-/* A reed: one ribbon, clamped at its left end below a flat electrode that does not move. Its right end is free and hangs
- * on a return spring (term_reed.c). In the library: src/device/reed.c. */
+/* A reed: one ribbon, clamped at its left end below a flat electrode that does not move. Its right end is free and
+ * hangs on a return spring (term_reed.c). In the library: src/device/reed.c. */
 #include "device/device.h"
 
 /* A reed of steel with a thin coating, 10 mm long, 50 um below its electrode; nothing hangs on it. */

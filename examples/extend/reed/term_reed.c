@@ -35,9 +35,5 @@ static void energy(const ZpModel *model, const ZpSpan *now, ZpEval *eval, double
   row[0] += 0.5 * model->def.reed.stiffness * y * y;
 }
 
-const ZpTerm zp_term_reed = {.name = "reed",
-                             .row = {&zp_row_reed_energy},
-                             .acts = acts,
-                             .force = force,
-                             .stiffness = stiffness,
-                             .now = energy};
+const ZpTerm zp_term_reed = {
+    .name = "reed", .row = {&zp_row_reed_energy}, .acts = acts, .force = force, .stiffness = stiffness, .now = energy};

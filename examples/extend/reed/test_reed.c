@@ -3,7 +3,10 @@
 
 #include "run/run.h"
 
-#define REED {"actuator.kind", ZP_KIND_REED}, {"ribbon.plane", ZP_PLANE_STRESS}, {"mesh.nodes", 41}
+#define REED                                                                                                           \
+  {"actuator.kind", ZP_KIND_REED}, {"ribbon.plane", ZP_PLANE_STRESS}, {                                                \
+    "mesh.nodes", 41                                                                                                   \
+  }
 
 /* Stiffness of the free end of a clamped strip without insulator, 3 E I / L^3, N/m. */
 static double of_the_end(const ZpActuatorDef *def) {
@@ -30,7 +33,8 @@ TEST(heavy_end_swings) {
 
 /* It closes and opens again, and no energy appears or vanishes. */
 TEST(energy_is_kept) {
-  ZpActuatorDef def = DEF(REED, {"reed.stiffness", 5}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 100});
+  ZpActuatorDef def =
+      DEF(REED, {"reed.stiffness", 5}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 100});
   ZpSim *sim = sim_of(model_of(&def));
   double most = 0;
   for (int k = 1; k <= 20; k++) {
