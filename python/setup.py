@@ -84,6 +84,7 @@ def choices():
     """Words of each choice type."""
     words, of = [], {}
     of["ZpStudy"] = ['"%s"' % given[1] for _, given in arguments("include/zipact/studies.def", "STUDY")]
+    of["ZpActuatorKind"] = ['"%s"' % given[1] for _, given in arguments("include/zipact/devices.def", "KIND")]
     for name, given in arguments("include/zipact/choices.def", "CHOICE|CHOICES_END"):
         if name == "CHOICE":
             words.append(given[1])

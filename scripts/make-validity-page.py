@@ -410,6 +410,96 @@ def bead_contractions(runs):
     return curves
 
 
+def published(name):
+    """Rows of a file of examples/data, as numbers."""
+    with open(os.path.join(HOME, "examples", "data", name + ".csv"), newline="") as file:
+        return [{k: float(v) for k, v in row.items()} for row in csv.DictReader(line for line in file if line[0] != "#")]
+
+
+FALLS_FITTED = (0.96, 2.9, 4.87, 6.75)  # kV; the other falls are predicted
+
+
+def passes(rows, level, rising):
+    """When the voltage first passes a level on its way up or, after the largest one, down, ms."""
+    top = max(range(len(rows)), key=lambda k: rows[k]["voltage_V"])
+    for before, after in zip(rows, rows[1:]) if rising else zip(rows[top:], rows[top + 1:]):
+        a, b = before["voltage_V"], after["voltage_V"]
+        if a < level <= b if rising else a >= level > b:
+            return 1e3 * (before["time_s"] + (level - a) / (b - a) * (after["time_s"] - before["time_s"]))
+    return None
+
+
+class Step:
+    """One step of the converter with an actuator, ms: measured and computed."""
+
+    def __init__(self, row, rows):
+        self.row, level = row, row["output_kV"]
+        low, high = 100 * level, 900 * level
+        self.to_10 = passes(rows, low, True)
+        self.rise = passes(rows, high, True) - self.to_10
+        self.fall = passes(rows, low, False) - passes(rows, high, False)
+        self.fitted = level in FALLS_FITTED
+
+
+def converter_steps(runs):
+    return [Step(row, runs.rows("converter-steps", {"drive.voltage": f"{row['output_kV']} kV"})) for row in published("converter-steps")]
+
+
+def converter_table(runs):
+    rows = []
+    for s in converter_steps(runs):
+        m = s.row
+        rows.append([f"{m['output_kV']:.2f} kV", f"{m['alone_rise_ms']:g}", f"{m['to_10_ms']:g}", f"{s.to_10:.1f}", f"{m['rise_ms']:g}", f"{s.rise:.0f}",
+                     per_cent(off(s.rise, m["rise_ms"])), f"{m['fall_ms']:g}", f"{s.fall:.0f}", per_cent(off(s.fall, m["fall_ms"])),
+                     "fitted" if s.fitted else "predicted"])
+    return table(["output", "rise alone", "to 10 %, measured", "computed", "rise, measured", "predicted", "error", "fall, measured", "computed", "error",
+                  "the fall is"], rows)
+
+
+def converter_curves(runs):
+    steps = converter_steps(runs)
+    return [{"measured": [(s.row["output_kV"], s.row[key]) for s in steps], "computed": [(s.row["output_kV"], getattr(s, name)) for s in steps]}
+            for name, key in (("rise", "rise_ms"), ("fall", "fall_ms"))]
+
+
+OWN_RESISTIVITY = 8.8e12  # ohm m, by the 18 um film's rows at 7 and 8 kV
+
+
+def retained(runs, film, resistivity=None):
+    """Attraction in the last of 50 cycles over its mean in cycles 6 to 10: that of the voltage that the liquid has."""
+    keys = {"insulator.thickness": f"{film:g} um", **({"medium.resistivity": resistivity} if resistivity else {})}
+    cycles = [0] * 51
+    for row in runs.rows("charge-retention", keys):
+        cycle = int(row["time_s"] / 2)
+        cycles[cycle] = max(cycles[cycle], (row["voltage_V"] + row["interface_voltage_V"]) ** 2)
+    return cycles[49] / (sum(cycles[5:10]) / 5)
+
+
+def retention(runs):
+    """Published rows with what is left of the displacement and what one resistivity for both films, and one of its own,
+    leave."""
+    one = {film: retained(runs, film) for film in (15, 18)}
+    own = retained(runs, 18, OWN_RESISTIVITY)
+    return [(row, row["last_mm"] / row["first_mm"], one[row["film_um"]], own if row["film_um"] == 18 else None)
+            for row in published("charge-retention")]
+
+
+def retention_table(runs):
+    rows = []
+    for row, measured, one, own in retention(runs):
+        rows.append([f"{row['film_um']:g} µm", f"{row['voltage_kV']:g} kV", f"{row['first_mm']:g} mm", f"{row['last_mm']:g} mm", f"{measured:.3f}",
+                     f"{one:.3f}", per_cent(off(one, measured)), f"{own:.3f}" if own else "–", per_cent(off(own, measured)) if own else "–"])
+    return table(["film", "voltage", "cycles 6 to 10", "cycle 50", "left", "computed, 3.4·10¹³ Ω m", "error", "8.8·10¹² Ω m", "error"], rows)
+
+
+def retention_curves(runs):
+    found = retention(runs)
+    curves = {f"{film} µm, measured": [(row["voltage_kV"], left) for row, left, _, _ in found if row["film_um"] == film] for film in (15, 18)}
+    curves["3.4·10¹³ Ω m"] = [(row["voltage_kV"], one) for row, _, one, _ in found if row["film_um"] == 15]
+    curves["8.8·10¹² Ω m"] = [(row["voltage_kV"], own) for row, _, _, own in found if own]
+    return curves
+
+
 def quick_sections(runs):
     force, strokes = field_force(runs), chain_strokes(runs)
     yield "field-limits", limits(force, "plates against field, ribbons of 100 mm", mm, "not up to 78 mm")
@@ -418,6 +508,7 @@ def quick_sections(runs):
     yield "chain-stroke", grid(strokes, "stroke / half length", "{:.3f}".format)
     yield "experiments", experiments_table(runs)
     yield "experiments-spread", spread_table(runs)
+    yield "converter-steps", converter_table(runs)
 
 
 def slow_sections(runs):
@@ -430,6 +521,7 @@ def slow_sections(runs):
     yield "chain-motion", grid(chain_motion(runs), "N", "{:g}".format)
     yield "zip-band", zip_band(runs)
     yield "bead-volume", bead_volumes(runs)
+    yield "charge-retention", retention_table(runs)
 
 
 def markers(name):
@@ -514,6 +606,13 @@ def pictures(runs):
         panel("Closed length after the voltage fell from 10 kV", "voltage it fell to / kV", "closed length of one half / mm",
               closed_lengths(runs), "set xrange [0:2]\nset yrange [-2:50]\n")])
     draw_experiments(experiments(runs), bands(runs))
+    rises, falls = converter_curves(runs)
+    draw("validity-converter", [
+        panel("Steps on an actuator: rise, 10 to 90 %", "output / kV", "rise / ms", rises, "set yrange [0:150]\n"),
+        panel("Steps on an actuator: fall, 90 to 10 %", "output / kV", "fall / ms", falls, "set yrange [0:600]\n")])
+    draw("validity-retention", [
+        panel("Displacement in cycle 50 over that in cycles 6 to 10", "voltage / kV", "left", retention_curves(runs),
+              "set yrange [0:1.3]\nset xrange [4.5:8.5]\nset key maxrows 2\n")])
     draw("validity-bead", [
         panel("Beads of several volumes at each front, 8 g, 10 kV", "time / ms", "contraction / %", bead_contractions(runs),
               "set yrange [60:101]\nset arrow 2 from graph 0, first 99 to graph 1, first 99 nohead dt 2 lc rgb '#404040'\n", points=False)])

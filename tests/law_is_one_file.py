@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A law is one file:  python3 tests/law_is_one_file.py REPO FOLDER
+"""A law is one file, and so is a device:  python3 tests/law_is_one_file.py REPO FOLDER
 
 Copies what the command is built from to FOLDER/tree, adds law/damper.c to its src/term/ with one line of keys.def and
-one of terms.def, and builds. Then the key, the columns and the numbers of the law stand in all that users read, and
-tests/test_law.c passes with the law of the library. Without one of the lines it does not compile, or a rule fails.
-The last line is "N passed, N failed".
+one of terms.def, adds the device of examples/extend/reed as docs/extending.md says, and builds. Then the keys, the
+columns and the numbers of both stand in all that users read, and tests/test_law.c and the device's test pass with what
+is in the library. Without one of the lines it does not compile, or a rule fails. The last line is "N passed, N failed".
 """
 
 import json
@@ -66,6 +66,7 @@ def copy():
     shutil.copy(tree + "/tests/law/damper.c", tree + "/src/term/damper.c")
     add_line("src/def/keys.def", KEY, "ZP_REAL(load., stop_stiffness,")
     add_line("src/term/terms.def", LAW, "ZP_TERM(drag)")
+    must(sys.executable, tree + "/examples/extend/reed/add.py", tree)
 
 
 def make():
@@ -100,15 +101,30 @@ def users_see_it():
     check(status != 0 and "level platforms only" in text, "the law refuses what it does not know")
 
 
+def device_works():
+    """The device of docs/extending.md: its word, its key, its picture, its energy."""
+    command = build + "/zipact"
+    keys = {k["key"]: k for k in json.loads(must(command, "keys", "--json"))}
+    check("reed.stiffness" in keys and "reed" in json.dumps(keys["actuator.kind"]), "`zipact keys` has the reed")
+    page = open(tree + "/docs/keys.md").read()
+    check("`reed.stiffness`" in page and "`reed_energy_J`" in page, "docs/keys.md has the reed")
+    out = folder + "/reed"
+    must(command, "run", tree + "/examples/reed.yaml", "--set", "mesh.nodes=21", "--out", out)
+    summary = json.load(open(out + "/summary.json"))
+    check(0 < summary["release_voltage_V"] < summary["pull_in_voltage_V"] < 200, "the reed closes and opens again")
+    check(os.path.getsize(out + "/plots/shapes.svg") > 1000, "the reed has a picture")
+
+
 def numbers_hold():
-    """tests/test_law.c with the law of the library."""
+    """tests/test_law.c and tests/test_reed.c with the law and the device of the library."""
     flags = must("pkg-config", "--cflags", "--libs", "check").split()
-    program = folder + "/test_law"
-    must("cc", "-std=c17", "-D_GNU_SOURCE", "-DZP_UNCONTRACTED", "-DDAMPER_OF_LIBRARY", "-I" + tree + "/include", "-I" + tree + "/src",
-         "-I" + tree + "/tests", tree + "/tests/test_law.c", tree + "/tests/suite.c", build + "/libzipact.a", "-lm", "-o", program, *flags)
-    status, text = run(program)
-    print(text.strip())
-    check(status == 0, "tests/test_law.c")
+    for name in ("test_law", "test_reed"):
+        program = folder + "/" + name
+        must("cc", "-std=c17", "-D_GNU_SOURCE", "-DZP_UNCONTRACTED", "-DDAMPER_OF_LIBRARY", "-I" + tree + "/include", "-I" + tree + "/src",
+             "-I" + tree + "/tests", tree + "/tests/" + name + ".c", tree + "/tests/suite.c", build + "/libzipact.a", "-lm", "-o", program, *flags)
+        status, text = run(program)
+        print(text.strip())
+        check(status == 0, "tests/%s.c" % name)
 
 
 def compiles(name):
@@ -120,8 +136,11 @@ def compiles(name):
 def nothing_is_forgotten():
     """What is left out is a compile error, or a rule fails."""
     rules = lambda: run(sys.executable, tree + "/tests/rules.py", tree)[1]
-    check("damper" not in rules(), "the rules pass with the law:\n" + "\n".join(l for l in rules().splitlines() if "damper" in l))
-    check(compiles("src/term/damper.c"), "the law compiles")
+    check(not re.search("damper|reed", rules()), "the rules pass with law and device:\n" + "\n".join(l for l in rules().splitlines() if re.search("damper|reed", l)))
+    check(compiles("src/term/damper.c") and compiles("src/device/reed.c"), "law and device compile")
+    back = remove("include/zipact/devices.def", "ZP_KIND(ZP_KIND_REED,", "// ZP_KIND(ZP_KIND_REED,")
+    check(not compiles("src/device/reed.c"), "without its line the device does not compile")
+    back()
     back = remove("src/def/keys.def", KEY)
     check(not compiles("src/term/damper.c"), "without its key the law does not compile")
     back()
@@ -137,6 +156,7 @@ def nothing_is_forgotten():
 copy()
 make()
 users_see_it()
+device_works()
 numbers_hold()
 nothing_is_forgotten()
 if all(results):

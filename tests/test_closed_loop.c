@@ -294,20 +294,24 @@ TEST(static_gain_is_that_of_the_branch) {
     }
 }
 
-/* A supply's resistance R and its bleeder G divide the voltage: the electrodes get 1 / (1 + R G) of a volt more. */
+/* A supply's resistance R and its bleeder G divide the voltage: the electrodes get 1 / (1 + R G) of a volt more, where
+ * G is the slope of the bleeder's current. */
 TEST(bleeder_takes_its_share_of_a_volt) {
-  const double R = 5e7, bleeder = 2e8;
+  const double R = 5e7, bleeder[] = {NAN, 2e8, 2e8}, doubles[] = {NAN, NAN, 3e3};
   ZpActuatorDef def =
       DEF({"mesh.nodes", 9}, {"control.kind", ZP_CONTROL_PI}, {"control.signal", ZP_CONTROL_CONTRACTION},
           {"setpoint.value", 0.3}, {"source.model", ZP_SOURCE_AMPLIFIER}, {"source.resistance", R});
-  double gain[2];
-  for (size_t k = 0; k < LENGTH_OF(gain); k++, def.source.bleeder = bleeder) {
+  double gain[3], U = 0;
+  for (size_t k = 0; k < LENGTH_OF(gain); k++) {
+    def.source.bleeder = bleeder[k], def.source.bleeder_voltage = doubles[k];
     Held h = hold(&def);
     find(&h);
     gain[k] = static_gain(&h);
+    U = h.rest.statics.U;
     let_go(&h);
   }
-  ck_near(gain[1], gain[0] / (1 + R / bleeder), 1e-14); /* 4.4e-16 measured */
+  ck_near(gain[1], gain[0] / (1 + R / bleeder[1]), 1e-14);                            /* 4.4e-16 measured */
+  ck_near(gain[2], gain[0] / (1 + R / bleeder[2] * (1 + 2 * U / doubles[2])), 1e-14); /* 4.4e-16 measured */
 }
 
 /* At a stable state without damping the eigenvalues are the frequencies of study modes. */

@@ -481,6 +481,8 @@ VERSION_TESTS(agrees_with_actuate) {
   expect_actuate(_i, &voltage, false,
                  SMALL STEPS
                  " --set source.model=amplifier --set 'source.slew_rate=1 V/us' --set 'source.current_limit=0.1 mA'");
+  expect_actuate(_i, &voltage, false,
+                 SMALL STEPS " --set source.model=amplifier --set source.bandwidth=50 --set 'source.dead_time=3 ms'");
 }
 
 static bool file_says(const Fmu *fmu, const char *name, const char *words) {
@@ -1043,6 +1045,20 @@ TEST(early_return_at_limits) {
   ck_assert(end.event && end.early);
   ck_assert_double_lt(fmu_get(&instance, "contraction"), 0.9);
   ck_near(fmu_get(&instance, "charge"), 0.1e-3 * end.reached, 3e-12); /* 4.2e-13 measured */
+  fmu_free(&instance);
+  fmu_close(&fmu);
+}
+
+/* So is the end of its dead time. */
+TEST(early_return_at_the_end_of_a_dead_time) {
+  Fmu fmu = made(3, SMALL " --set source.model=amplifier --set 'source.dead_time=12.3 ms'");
+  Instance instance = fmu_instantiate(&fmu, fmu.token, STEPS_TO_EVENTS);
+  fmu_start(&instance);
+  ck_assert_int_eq(((__typeof__(&fmi3EnterStepMode))fmu_function(&fmu, "EnterStepMode"))(instance.handle), OK);
+  Ended end = step_3(&instance, 0, 0.2);
+  ck_assert(end.event && end.early);
+  ck_near(end.reached, 12.3e-3, 1e-12);
+  ck_assert_double_eq(fmu_get(&instance, "charge"), 0);
   fmu_free(&instance);
   fmu_close(&fmu);
 }

@@ -244,6 +244,35 @@ TEST(work_of_a_constant_source) {
   check(&def, "source_energy_J", "drive.voltage", 1e-4, 2e-8);
 }
 
+/* A mass falls closed. A force holds a mass M up but for a small weight, which opens the ribbons by h. At t0 the part D
+ * of the mass is dropped, and the force throws the rest up with a = D g / (M - D), against which the ribbons are
+ * nothing (2e-5). So the run closes at t0 + T, T = sqrt(2 (0.99 h) / a), an event whose derivatives are known: dT/dh =
+ * T / (2h) whatever changes h, dT/dD = -T M / (2 D (M - D)). */
+TEST(mass_falls_closed) {
+  static const char *const opens[] = {"ribbon.young_modulus", "ribbon.width"};
+  const double M = 1e3, D = 500, t0 = 10e-3;
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.load.mass = M;
+  def.load.force = 0.08 - M * def.gravity;
+  ZpActuatorDef hangs = def;
+  hangs.drive.voltage = 0;
+  def.load.change_time = t0;
+  def.load.change_mass = -D;
+  def.drive.voltage = 1; /* attracts nothing */
+  def.solver.stop_when_zipped = ZP_WHEN_TRUE;
+  ZpResult *result = run_by(&def, "load.change_mass, load.change_time, ribbon.young_modulus, ribbon.width");
+  const double h = zp_result_get(result, "start_opening_m"), T = zp_result_get(result, "zip_time_s") - t0;
+  ck_near(T, sqrt(2 * 0.99 * h / (D * def.gravity / (M - D))), 5e-6);
+  ck_near(slope_in(result, "zip_time_s", "load.change_time"), 1, 3.6e-8);
+  ck_near(slope_in(result, "zip_time_s", "load.change_mass"), T * M / (2 * D * (M - D)), 4e-6);
+  for (size_t k = 0; k < LENGTH_OF(opens); k++) {
+    ck_assert_int_eq(zp_def_set_text(&hangs, zp_key_find("sensitivity.by"), opens[k], NULL), ZP_OK);
+    const double by_key = slope_in(answer_of(ZP_STUDY_STATIONARY, &hangs), "opening_m", opens[k]);
+    ck_near(slope_in(result, "zip_time_s", opens[k]), T / (2 * h) * by_key, 2.6e-6);
+  }
+}
+
 /* -- where a run ends by its state --------------------------------------------------------------------- */
 
 static ZpActuatorDef until_zipped(ZpLiquidModel liquid, int nodes, double time_step) {
@@ -524,6 +553,27 @@ TEST(slew_ends_at_an_instant_that_moves) {
   for (size_t k = 0; k < LENGTH_OF(key); k++) {
     check(&def, "peak_current_A", key[k], 1e-5, 1.2e-6); /* 3.8e-7 measured */
     check(&def, "rms_current_A", key[k], 1e-5, 9e-4);    /* 3.1e-4, of steps that are longer after a later instant */
+  }
+}
+
+/* A supply with a dead time begins at an instant that moves with it. */
+TEST(dead_time_ends_at_an_instant_that_moves) {
+  static const char *const key[] = {"source.dead_time", "source.bandwidth", "source.bleeder_voltage", "drive.voltage",
+                                    "ribbon.thickness"};
+  ZpActuatorDef def = motion();
+  def.liquid.model = ZP_LIQUID_NONE;
+  def.source.model = ZP_SOURCE_AMPLIFIER;
+  def.source.dead_time = 3.3e-3;
+  def.source.bandwidth = 100;
+  def.source.resistance = 1e7;
+  def.source.bleeder = 1e8;
+  def.source.bleeder_voltage = 2e3;
+  def.drive.voltage = 3e3; /* nowhere capped */
+  def.solver.time_step = 1e-4;
+  def.solver.end_time = 0.03;
+  for (size_t k = 0; k < LENGTH_OF(key); k++) {
+    check(&def, "stroke_m", key[k], 1e-5, 1.5e-4);        /* 5.3e-5 measured: steps are longer after a later instant */
+    check(&def, "source_energy_J", key[k], 1e-5, 4.5e-5); /* 1.5e-5 */
   }
 }
 

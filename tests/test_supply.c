@@ -6,6 +6,7 @@
 #include "drive/supply.h"
 #include "math/elementary.h"
 #include "run/run.h"
+#include "run/snapshot.h"
 
 /* -- functions of its own -------------------------------------------------------------------------- */
 
@@ -29,7 +30,7 @@ typedef struct Follower {
 } Follower;
 
 static Follower follower_of(const ZpActuatorDef *def) {
-  return (Follower){zp_supply_of(def), zp_waveform_of(def, NULL), {0, 0}, 0, 0};
+  return (Follower){zp_supply_of(def), zp_waveform_of(def, NULL), {0, 0, 0}, 0, 0};
 }
 
 /* To time `end` in steps of at most h, with events found. => inner voltage. */
@@ -99,6 +100,88 @@ TEST(test_slewed_sine_is_a_triangle) {
   f.most = 0;
   follow(&f, 2, 1e-3);
   ck_near(f.most, 0.25 * 1e5 / 100, 1e-12); /* 1.5e-13 measured */
+}
+
+/* -- dead time --------------------------------------------------------------------------------------- */
+
+static const double DEAD = 20e-3, TAU = 1 / (2 * 3.14159265358979323846 * 10); /* s */
+
+/* Steps of the command: 1 kV at 0, and the table. */
+static Follower waiting(const ZpDriveTable *table) {
+  ZpActuatorDef def = DEF({"source.model", ZP_SOURCE_AMPLIFIER}, {"source.bandwidth", 10}, {"source.dead_time", DEAD},
+                          {"drive.voltage", 1e3}, {"drive.waveform", table ? ZP_WAVEFORM_TABLE : ZP_WAVEFORM_STEP});
+  Follower f = follower_of(&def);
+  f.waveform = zp_waveform_of(&def, table);
+  return f;
+}
+
+/* Until the dead time has passed there is no voltage, then there is the exponential, in one step or in many. */
+TEST(nothing_until_the_dead_time_has_passed) {
+  Follower once = waiting(NULL), often = once;
+  ck_assert_double_eq(zp_supply_event(&once.supply, &(ZpCommand){&once.waveform, NULL}, 0, 1, once.at), DEAD);
+  ck_assert_double_eq(follow(&once, DEAD, 1), 0);
+  ck_below(follow(&often, DEAD, 1e-4), 1e-11); /* V; 4.1e-12 measured: rounding of 200 steps */
+  const double t = DEAD + 5e-3, expected = 1e3 * (1 - exp(-5e-3 / TAU));
+  ck_near(follow(&once, t, 1), expected, 1e-12); /* 3.4e-16 measured */
+  ck_near(follow(&often, t, 1e-4), expected, 1e-12);
+}
+
+/* A further step up while it rises, and a step down, find a supply that runs: they have no dead time. */
+TEST(a_running_supply_has_no_dead_time) {
+  static const double time[] = {0, 30e-3, 30e-3, 60e-3, 60e-3}, voltage[] = {1e3, 1e3, 2e3, 2e3, 500};
+  Follower f = waiting(&(ZpDriveTable){5, time, voltage});
+  const double first = 1e3 * (1 - exp(-10e-3 / TAU));
+  ck_near(follow(&f, 30e-3, 1), first, 1e-12);
+  ck_near(follow(&f, 35e-3, 1), 2e3 + (first - 2e3) * exp(-5e-3 / TAU), 1e-12);
+  const double second = 2e3 + (first - 2e3) * exp(-30e-3 / TAU);
+  ck_near(follow(&f, 64e-3, 1), 500 + (second - 500) * exp(-4e-3 / TAU), 1e-12);
+}
+
+/* A command of 0 turns the supply off, and the next step has its dead time again: the voltage goes on falling in it. A
+ * ramp through 0 does not, and a ramp that begins at 0 waits, too. */
+TEST(off_and_on_again) {
+  static const double time[] = {0, 50e-3, 50e-3, 60e-3, 60e-3}, voltage[] = {1e3, 1e3, 0, 0, 1e3};
+  Follower f = waiting(&(ZpDriveTable){5, time, voltage});
+  const double top = 1e3 * (1 - exp(-30e-3 / TAU)), low = top * exp(-30e-3 / TAU);
+  ck_near(follow(&f, 60e-3 + DEAD, 3e-3), low, 1e-12);
+  ck_near(follow(&f, 70e-3 + DEAD, 3e-3), 1e3 + (low - 1e3) * exp(-10e-3 / TAU), 1e-12);
+  static const double corner[] = {0, 100e-3, 200e-3}, to[] = {0, 1e3, -1e3};
+  Follower ramp = waiting(&(ZpDriveTable){3, corner, to});
+  ramp.supply.rate = INFINITY;
+  ck_assert_double_eq(follow(&ramp, DEAD, 7e-3), 0);
+  ck_near(follow(&ramp, DEAD + 1e-3, 7e-3), 210, 1e-12);
+  ck_near(follow(&ramp, 50e-3, 7e-3), 500, 1e-12);
+  ck_near(follow(&ramp, 170e-3, 7e-3), -400, 1e-12);
+}
+
+/* A supply with a list: dead time and rise of each step are those of its level, between the levels in proportion,
+ * beyond them those of the last. A higher command takes what is left of the dead time at its own level. */
+TEST(list_over_levels) {
+  static const double level[] = {0.5e3, 0.96e3, 1.45e3, 9e3}, dead[] = {82.1e-3, 82.1e-3, 60.2e-3, 18.9e-3},
+                      rise[] = {122e-3, 122e-3, 120.5e-3, 64e-3};
+  for (size_t k = 0; k < LENGTH_OF(level); k++) {
+    ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_MEASURED_10KV}, {"drive.voltage", level[k]});
+    Follower f = follower_of(&def);
+    ck_near(zp_supply_event(&f.supply, &(ZpCommand){&f.waveform, NULL}, 0, 1, f.at), dead[k], 1e-12);
+    ck_near(follow(&f, dead[k] + rise[k], 1), level[k] * (1 - 1.0 / 9), 1e-12);
+  }
+  static const double time[] = {0, 41.05e-3, 41.05e-3}, voltage[] = {0.96e3, 0.96e3, 9e3};
+  ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_MEASURED_10KV}, {"drive.voltage", 9e3});
+  Follower f = follower_of(&def);
+  f.waveform = zp_waveform_of(&def, &(ZpDriveTable){3, time, voltage});
+  f.waveform.kind = ZP_WAVEFORM_TABLE;
+  const double starts = 41.05e-3 + 0.5 * 18.9e-3;
+  ck_assert_double_eq(follow(&f, starts, 1e-3), 0);
+  ck_near(follow(&f, starts + 64e-3, 1), 9e3 * (1 - 1.0 / 9), 1e-12);
+}
+
+/* What is given is taken instead of the list. */
+TEST(given_instead_of_the_list) {
+  ZpActuatorDef def = DEF({"source.supply", ZP_SUPPLY_MEASURED_10KV}, {"source.dead_time", DEAD},
+                          {"source.bandwidth", 10}, {"drive.voltage", 1e3});
+  Follower f = follower_of(&def);
+  ck_assert_double_eq(follow(&f, DEAD, 1), 0);
+  ck_near(follow(&f, DEAD + 5e-3, 1), 1e3 * (1 - exp(-5e-3 / TAU)), 1e-12);
 }
 
 /* -- charging --------------------------------------------------------------------------------------- */
@@ -231,6 +314,64 @@ TEST(test_discharge_through_the_bleeder) {
   ck_near(zp_sim_get(c.sim, "bleeder_loss") - lost, stored, 1e-4);
 }
 
+static const double DOUBLES = 2; /* V */
+
+static double bled_faster(double t, const Charging *c) {
+  return DOUBLES / ((1 + DOUBLES / V) * exp(t / (5e8 * c->C)) - 1);
+}
+
+/* Through a bleeder that conducts better at a higher voltage, eq. (23.10). */
+TEST(test_discharge_through_a_bleeder_of_rising_conductance) {
+  Charging c = charging(
+      DEF(CLOSED_ACTUATOR, {"source.sink_limit", 0}, {"source.bleeder", 5e8}, {"source.bleeder_voltage", DOUBLES}));
+  ZpError err;
+  ck_assert(zp_outcome_good(zp_sim_step(c.sim, 1e-6, NULL, NULL)));
+  double stored = zp_sim_get(c.sim, "field_energy"), lost = zp_sim_get(c.sim, "bleeder_loss");
+  ck_assert(zp_sim_set_voltage(c.sim, 0, &err) == ZP_OK);
+  double worst = worst_error(&c, 0.3 * 5e8 * c.C, bled_faster), left = zp_sim_get(c.sim, "field_energy");
+  ck_below(worst, 7e-6); /* 2.5e-6 measured */
+  ck_near(zp_sim_get(c.sim, "bleeder_loss") - lost, stored - left, 4e-5);
+}
+
+/* A closed actuator on the measured supply, of which only the lag and the fall are left: after the dead time the
+ * voltage rises as the list says, and falls through the bleeder. */
+TEST(dead_time_before_a_closed_actuator) {
+  Charging c = charging(DEF(CLOSED_ACTUATOR, {"source.dead_time", DEAD}, {"source.bandwidth", 10},
+                            {"source.sink_limit", 0}, {"source.bleeder", 5e8}, {"source.capacitance", CABLE}));
+  ck_assert(zp_outcome_good(zp_sim_step(c.sim, DEAD, NULL, NULL)));
+  ck_assert(zp_sim_get(c.sim, "voltage") == 0 && zp_sim_get(c.sim, "source_energy") == 0);
+  ck_assert(zp_outcome_good(zp_sim_step(c.sim, 5e-3, NULL, NULL)));
+  ck_near(zp_sim_get(c.sim, "voltage"), V * (1 - exp(-5e-3 / TAU)), 1e-12);
+  ck_near(zp_sim_get(c.sim, "source_energy"),
+          zp_sim_get(c.sim, "field_energy") + zp_sim_get(c.sim, "cable_energy") + zp_sim_get(c.sim, "bleeder_loss"),
+          4e-6); /* 1.8e-6 measured: the layers give way */
+}
+
+/* A controller without gain but its boost gives 2 V from its first sample on: the supply waits, whatever the samples. A
+ * snapshot that is taken while it waits knows how long it has. */
+TEST(dead_time_behind_a_controller) {
+  ZpActuatorDef def =
+      DEF(CLOSED_ACTUATOR, {"control.kind", ZP_CONTROL_BOOST_PI}, {"control.boost_voltage", 2},
+          {"control.boost_band", 1e-6}, {"control.signal", ZP_CONTROL_CAPACITANCE}, {"control.period", 1e-3},
+          {"setpoint.value", 400e-12}, {"source.dead_time", 4.5e-3}, {"source.capacitance", CABLE});
+  Charging c = charging(def);
+  ck_assert(zp_outcome_good(zp_sim_step(c.sim, 2.5e-3, NULL, NULL)));
+  ck_near(zp_sim_get(c.sim, "command"), 2, 1e-12);
+  ZpSim *other = sim_of(c.model);
+  const size_t size = zp_snapshot_size(c.model);
+  unsigned char *bytes = memory_of(size);
+  zp_snapshot_write(c.model, c.sim->states, bytes);
+  ck_assert_int_eq(zp_snapshot_read(c.model, bytes, size, other->states, NULL), ZP_OK);
+  zp_sim_resume(other);
+  ZpSim *const both[] = {c.sim, other};
+  for (size_t k = 0; k < 2; k++) {
+    ck_assert(zp_outcome_good(zp_sim_run(both[k], 4.49e-3, false, NULL, NULL)));
+    ck_assert_double_eq(zp_sim_get(both[k], "voltage"), 0);
+    ck_assert(zp_outcome_good(zp_sim_run(both[k], 4.6e-3, false, NULL, NULL)));
+    ck_near(zp_sim_get(both[k], "voltage"), 2, 1e-12);
+  }
+}
+
 static double falls_by; /* A */
 
 static double falling(double t, const Charging *c) {
@@ -346,8 +487,9 @@ static Books books_of(ZpSim *sim) {
 
 /* Zip and release behind each kind of supply: its energy is stored, does work, or is heat, at any time. Measured
  * 3.6e-10, 1.7e-10, 4.9e-10; with a tolerance of 1e-5 5e-11, 1.2e-11, 3.4e-11. */
-TESTS(test_energy_behind_supplies, 0, 3) {
-  static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV};
+TESTS(test_energy_behind_supplies, 0, 4) {
+  static const int supplies[] = {ZP_SUPPLY_POCKET_6KV, ZP_SUPPLY_LABORATORY_10KV, ZP_SUPPLY_CONVERTER_10KV,
+                                 ZP_SUPPLY_MEASURED_10KV};
   ZpActuatorDef def = DEF({"mesh.nodes", 21}, {"source.supply", supplies[_i]}, {"drive.voltage", _i == 0 ? 6e3 : 10e3},
                           {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 2}, {"drive.duty", 0.4},
                           {"source.capacitance", 20e-12}, {"solver.tolerance", 1e-4});
@@ -385,6 +527,15 @@ TEST(test_loss_is_heat_of_the_resistance) {
 }
 
 /* -- what cannot be -------------------------------------------------------------------------------- */
+
+TEST(dead_times_that_cannot_be) {
+  ZpActuatorDef def = DEF({"mesh.nodes", 11});
+  ZpError err;
+  ck_assert_int_eq(zp_def_set_number(&def, "source.dead_time", -1e-3, &err), ZP_BAD_INPUT);
+  ck_assert_str_eq(err.message, "source.dead_time = -0.001 s: out of range; 0 to 10000 s");
+  ck_assert_int_eq(zp_def_set_number(&def, "source.dead_time", 1e-3, &err), ZP_OK);
+  ck_refused_by(ZP_STUDY_ACTUATE, &def, "an ideal source has no limits");
+}
 
 static const char *refusal(ZpActuatorDef def) {
   static ZpError err;

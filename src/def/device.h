@@ -1,4 +1,4 @@
-/* Devices: what the kinds of actuators consist of. A device is one file of src/device/ and a line of devices.def; all
+/* Devices: what the kinds of actuators consist of. A device is one file of src/device/ and a row of devices.def; all
  * others ask what a device has, not which one it is. docs/theory.md, section 19. */
 #ifndef ZP_DEF_DEVICE_H
 #define ZP_DEF_DEVICE_H
@@ -20,9 +20,8 @@ typedef struct ZpDevice {
 /* Defaults of a device: an array of {ZP_KEY(load.share), 1}. */
 #define ZP_GIVEN(array) .given = array, .given_count = sizeof(array) / sizeof(array)[0]
 
-#define ZP_KIND(kind, name) extern const ZpDevice zp_device_##name;
-#include "def/devices.def"
-#undef ZP_KIND
+#define ZP_KIND(kind, name, help) extern const ZpDevice zp_device_##name;
+#include <zipact/devices.def>
 
 const ZpDevice *zp_device_of(ZpActuatorKind kind);
 

@@ -149,7 +149,7 @@ ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
               "the paper's springs are those of a straight strip of one thickness")
 
 static const ZpRule rule[] = {
-    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.segment_3.curvature), ZP_HAS(PAIR),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.ribbon.material, lower.segment_K.curvature_lag), ZP_HAS(PAIR),
             "the other kinds have no lower ribbon"),
     ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.insulator.material, lower.insulator.breakdown_field),
             ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PAIR | ZP_DEVICE_SHAPED),

@@ -26,8 +26,7 @@ static const ZpRule rule[] = {
 };
 
 static const ZpRules rules = ZP_RULES_OF(rule);
-#define ZP_KIND(kind, name) &zp_device_##name.rules,
+#define ZP_KIND(kind, name, help) &zp_device_##name.rules,
 const ZpRules *const zp_rules_of_devices[] = {
-#include "def/devices.def"
+#include <zipact/devices.def>
     &rules, NULL};
-#undef ZP_KIND

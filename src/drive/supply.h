@@ -12,16 +12,30 @@
 extern const ZpRow *const zp_supply_rows[];
 
 typedef struct ZpSupply {
-  bool acts;          /* else the electrodes have the voltage of the command, whatever current flows */
-  double rate;        /* of the lag, 1/s; INFINITY: none */
+  bool acts;                        /* else the electrodes have the voltage of the command, whatever current flows */
+  double rate;                      /* of the lag, 1/s; INFINITY: none; NAN: that of its list */
+  double dead;                      /* time from off to the first voltage, s; NAN: that of its list */
+  const struct ZpSupplyLevel *list; /* [levels] of source.supply, from the lowest level on; NULL: it has none */
+  size_t levels;
   double slew;        /* V/s; INFINITY: none */
   double most, sinks; /* largest current out and in, A; INFINITY: none */
   double resistance;  /* in series, ohm */
   double capacitance; /* parallel to the electrodes, F */
-  double conductance; /* of the bleeder, S */
+  double conductance; /* of the bleeder at 0 V, S */
+  double doubles;     /* voltage at which it has doubled, V; INFINITY: nowhere */
 } ZpSupply;
 
 ZpSupply zp_supply_of(const ZpActuatorDef *def);
+
+/* Rate of the lag of a supply whose command goes to this voltage, 1/s; INFINITY: none. */
+double zp_supply_lag_rate(const ZpSupply *supply, double level);
+
+/* Its time from off to the first voltage, s. */
+double zp_supply_dead_time(const ZpSupply *supply, double level);
+
+/* Current through its bleeder at voltage U, A, eq. (23.10), and its derivative, S. */
+double zp_supply_bled(const ZpSupply *supply, double U);
+double zp_supply_bled_slope(const ZpSupply *supply, double U);
 
 /* Command to a supply: the waveform, or what a program has set by hand. */
 typedef struct ZpCommand {
@@ -36,17 +50,24 @@ double zp_command_voltage(const ZpCommand *command, double t);
 typedef struct ZpSupplyState {
   double lagged;  /* the command behind the lag, V */
   double voltage; /* inner voltage, V */
+  double ready; /* share of the dead time that has passed since the command left 0: 1 once it runs, 0 while it is off */
 } ZpSupplyState;
 
-/* At time t: a jump of the command passes what neither lags nor has a slew rate. */
+/* Of a supply that has run at this voltage for long. */
+static inline ZpSupplyState zp_supply_at(double voltage) {
+  return (ZpSupplyState){voltage, voltage, voltage != 0};
+}
+
+/* At time t: a command of 0 that stays turns a running supply off; a jump of the command passes what neither lags nor
+ * has a slew rate. */
 ZpSupplyState zp_supply_jump(const ZpSupply *supply, const ZpCommand *command, double t, ZpSupplyState at);
 
 /* From time `from`, its jumps passed, to `to`: between them is neither a corner of the command nor an event. */
 ZpSupplyState zp_supply_follow(const ZpSupply *supply, const ZpCommand *command, double from, double to,
                                ZpSupplyState at);
 
-/* The first time after t, before `latest` (finite), at which the slew rate begins or ceases to limit; INFINITY if there
- * is none. */
+/* The first time after t, at `latest` or before, at which the dead time has passed, or the slew rate begins or ceases
+ * to limit; INFINITY if there is none within a second. */
 double zp_supply_event(const ZpSupply *supply, const ZpCommand *command, double t, double latest, ZpSupplyState at);
 
 /* Rate of the inner voltage just after t, V/s. */

@@ -373,7 +373,8 @@ typedef struct Voltages {
 
 /* => number of states behind. */
 static size_t place(const ZpSupply *supply, size_t from, Voltages *at) {
-  const bool lags = supply->acts && isfinite(supply->rate), resists = supply->acts && supply->resistance > 0;
+  const bool lags = supply->acts && isfinite(zp_supply_lag_rate(supply, 0)),
+             resists = supply->acts && supply->resistance > 0;
   *at = (Voltages){lags ? from : 0, resists ? from + lags : 0};
   return from + lags + resists;
 }
@@ -394,7 +395,7 @@ static void fill_electrodes(Basis *w, size_t lead, Voltages at, double *b, ZpPla
   double *A = plant->A + at.electrodes * plant->n;
   for (size_t j = 0; j < w->m; j++)
     A[w->m + j] -= model->parts * w->push[j] / all;
-  A[at.electrodes] = -by_source - supply->conductance / all;
+  A[at.electrodes] = -by_source - zp_supply_bled_slope(supply, w->at->ports[lead]) / all;
   if (at.inner > 0)
     A[at.inner] = by_source;
   else if (b)
@@ -413,8 +414,9 @@ static void fill_port(Basis *w, size_t lead, Voltages at, double *b, ZpPlant *pl
     *(from > 0 ? &plant->A[(m + j) * n + from] : &b[m + j]) += w->push[j];
   if (at.electrodes > 0) fill_electrodes(w, lead, at, b, plant);
   if (at.inner == 0) return;
-  plant->A[at.inner * n + at.inner] = -supply->rate;
-  if (b) b[at.inner] = supply->rate;
+  const double rate = zp_supply_lag_rate(supply, s->ports[lead]);
+  plant->A[at.inner * n + at.inner] = -rate;
+  if (b) b[at.inner] = rate;
 }
 
 static void fill_motion(const Basis *w, ZpPlant *plant) {

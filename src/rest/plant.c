@@ -604,7 +604,7 @@ static void fill_electrodes(const Work *w, const ZpSupply *supply, const Layout 
   double *A = plant->A + row * at->n;
   for (size_t r = 0; r < w->rates; r++)
     A[at->rates + r] -= w->member->model->parts * w->charge[r] / all;
-  A[row] = -(1 / supply->resistance + supply->conductance) / all;
+  A[row] = -(1 / supply->resistance + zp_supply_bled_slope(supply, w->at->U)) / all;
   if (at->inner < at->electrodes)
     A[at->inner] = 1 / supply->resistance / all;
   else
@@ -786,7 +786,8 @@ static void close_linear(Work *all) {
 }
 
 bool zp_plant_create(ZpRest *rest, const ZpSetpointSignal *signal, ZpPlant *plant) {
-  const ZpSupply supply = zp_supply_of(&rest->statics.member->model->def);
+  ZpSupply supply = zp_supply_of(&rest->statics.member->model->def);
+  supply.rate = zp_supply_lag_rate(&supply, rest->statics.U);
   Work *w;
   *plant = (ZpPlant){.inputs = 1};
   bool done = open_linear(rest, signal, &w) && fill(w, &supply, plant);

@@ -80,6 +80,7 @@ typedef struct Number {
   X(REAL, held_capacitance)                                                                                            \
   X(VOLTAGE, supply.lagged)                                                                                            \
   X(VOLTAGE, supply.voltage)                                                                                           \
+  X(REAL, supply.ready)                                                                                                \
   X(REAL, source_charge)                                                                                               \
   X(REAL, source_energy)                                                                                               \
   X(RATE, U_rate)                                                                                                      \

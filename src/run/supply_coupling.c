@@ -42,10 +42,8 @@ static double inner_after(const ZpSim *sim, double h) {
 }
 
 double zp_supply_coupling_event(const ZpSim *sim, double latest) {
-  static const double far = 1; /* s */
   ZpCommand command = command_of(sim);
-  double t = sim->state->t;
-  return zp_supply_event(&sim->model->supply, &command, t, fmin(latest, t + far), sim->state->supply);
+  return zp_supply_event(&sim->model->supply, &command, sim->state->t, latest, sim->state->supply);
 }
 
 double zp_supply_coupling_resolution(const ZpSim *sim, double least) {
@@ -86,20 +84,25 @@ static double weight_of(double h, double tau) {
 static Drop drop_over(const ZpSim *sim, const ZpSourceStep *s) {
   const ZpSupply *supply = &sim->model->supply;
   double C = s->C + supply->capacitance, tau = supply->resistance * C;
-  double bleeds = supply->conductance > 0 ? weight_of(s->h, C / supply->conductance) : 0.5;
+  double slope = zp_supply_bled_slope(supply, s->U0), bleeds = slope > 0 ? weight_of(s->h, C / slope) : 0.5;
   return (Drop){tau, weight_of(s->h, tau), bleeds, sim->state->supply.voltage - s->U0, inner_after(sim, s->h)};
+}
+
+/* Mean voltage at the bleeder if the voltage ends at U, V. */
+static double bleeds_at(const ZpSourceStep *s, const Drop *drop, double U) {
+  return (1 - drop->bleeds) * s->U0 + drop->bleeds * U;
 }
 
 /* A cable and a bleeder are parallel to the electrodes: the charge that all take over a step, C, if the voltage ends at
  * U; its derivative by the voltage beside that of the electrodes, F. */
 static double taken_by_all(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop, double electrodes,
                            double U) {
-  double mean = (1 - drop->bleeds) * s->U0 + drop->bleeds * U;
-  return electrodes + supply->capacitance * (U - s->U0) + s->h * mean * supply->conductance;
+  double bled = s->h * zp_supply_bled(supply, bleeds_at(s, drop, U));
+  return electrodes + supply->capacitance * (U - s->U0) + bled;
 }
 
 static double parallel(const ZpSupply *supply, const ZpSourceStep *s, const Drop *drop) {
-  return supply->capacitance + drop->bleeds * s->h * supply->conductance;
+  return supply->capacitance + drop->bleeds * s->h * zp_supply_bled_slope(supply, bleeds_at(s, drop, s->U1));
 }
 
 /* The law without limits of the current: the mean of V - U is R I. As a charge that falls with U1 like that of the
@@ -335,7 +338,7 @@ static double charge_given(const ZpSim *sim) {
   double h = state->t - before->t, taken = 0;
   for (size_t k = 0, next = 1; next > 0; next = zp_sim_next(sim + k), k += next)
     taken += zp_source_share(sim[k].model) * taken_by(sim + k);
-  double bled = h * supply->conductance * at_bleeder(sim);
+  double bled = h * zp_supply_bled(supply, at_bleeder(sim));
   double given = taken + supply->capacitance * (state->U - before->U) + bled;
   return state->supply_mode == ZP_SUPPLY_SPILLS ? fmin(fmax(given, -supply->sinks * h), supply->most * h) : given;
 }
@@ -377,7 +380,7 @@ static void book(ZpSim *sim) {
     electrodes += m->model->parts * (given(m->state, moved->charge1) - given(m->before, moved->charge0));
     biased += zp_beside_port(m->model) * m->model->parts * taken_by(m);
   }
-  double bled = h * sim->model->supply.conductance * at_bleeder(sim) * at_bleeder(sim);
+  double bled = h * zp_supply_bled(&sim->model->supply, at_bleeder(sim)) * at_bleeder(sim);
   double taken = electrodes + sim->model->supply.capacitance * U * (state->U - before->U) + bled;
   bool ideal = state->supply_mode == ZP_SUPPLY_FREE && sim->model->supply.resistance == 0;
   double energy = ideal ? taken : 0.5 * (before->supply.voltage + state->supply.voltage) * charge + biased;

@@ -82,7 +82,7 @@ static void take_drive(ZpSim *sim, const ZpSim *from) {
   double voltage = zp_sim_is_fed(from) ? zp_sim_command(from) : state->U;
   if (!state->by_hand) state->voltage_input = (ZpRamp){voltage, 0, state->t, INFINITY};
   state->by_hand = true;
-  if (!zp_sim_is_fed(from)) state->supply = (ZpSupplyState){voltage, voltage};
+  if (!zp_sim_is_fed(from)) state->supply = zp_supply_at(voltage);
   state->refreshed = NAN;
   if (zp_cached_field_due(sim->model, state)) zp_cached_field_refresh(sim->model, state, &sim->eval);
   zp_control_restart(&sim->model->control, state->t, &state->control);
