@@ -70,6 +70,7 @@ PICTURES = {
     "held-clip.svg": "held-clip/plots/profiles.svg",
     "control.svg": "control/plots/control.svg",
     "tilted.svg": "tilted/plots/stroke.svg",
+    "heavy-clips.svg": "heavy-clips/plots/zip_time.svg",
     "wide-strip.svg": "wide-strip/plots/strokes.svg",
     "materials.svg": "materials/plots/distribution.svg",
     "demo.gif": "motion/plots/animation.gif",

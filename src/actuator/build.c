@@ -293,13 +293,18 @@ double zp_ribbon_mass(const ZpModel *model, size_t j) {
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
 
+/* Mass of clips and platforms at node j, eq. (39.1), kg. */
+static double connection_mass(const ZpModel *model, size_t j) {
+  return zp_clip_part(model, j) * model->def.clip.mass + zp_platform_part(model, j) * model->def.platform.mass;
+}
+
 /* With what hangs on it. */
 static double node_mass(const ZpModel *model, size_t j) {
   const ZpTopology *t = &model->topology;
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
   double part = carries ? zp_load_part(model, station) : 0;
-  return zp_ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
+  return zp_ribbon_mass(model, j) + connection_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
 }
 
 /* The arrays of a model. */
@@ -619,22 +624,26 @@ static double internal_damping_of(const ZpActuatorDef *def) {
   return damped ? of_taped_steel : 0;
 }
 
+/* Mass of the lower platform's end with its load and without the ribbon, kg. */
+static double end_mass(const ZpModel *model) {
+  return zp_end_share(model) * model->def.load.mass + connection_mass(model, zp_load_node(&model->topology));
+}
+
 /* Frequency of faces that overlap by five depths, as in fast impacts, rad/s: two free nodes, or the lower platform
  * below the held one. */
 static double contact_frequency(const ZpModel *model) {
   enum { DEPTH = 5 };
-  const ZpActuatorDef *def = &model->def;
   const ZpContactParams *p = &model->faces;
   double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, half = 0.5 * model->l;
   double mu = fmin(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double platform = stiffness * (half + p->flat_length);
-  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + zp_end_share(model) * def->load.mass)));
+  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + end_mass(model))));
 }
 
 /* Frequency of the platform on spring and stop, rad/s. */
 static double spring_frequency(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + zp_end_share(model) * def->load.mass;
+  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + end_mass(model);
   double stop = isnan(def->load.stop_opening) ? 0 : def->load.stop_stiffness;
   return sqrt(zp_end_share(model) * (def->load.stiffness + stop) / mass);
 }

@@ -229,6 +229,18 @@ bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *r
 /* Mass of the ribbon at node j, without what hangs there, kg. */
 double zp_ribbon_mass(const ZpModel *model, size_t j);
 
+/* Part of clip.mass that node j has, eq. (39.1): a half at both nodes of a clip. */
+static inline double zp_clip_part(const ZpModel *model, size_t j) {
+  return zp_is_clip(&model->topology, j / model->s) ? 0.5 : 0;
+}
+
+/* Part of platform.mass that node j has, eq. (39.1): a half at both ends of each platform. */
+static inline double zp_platform_part(const ZpModel *model, size_t j) {
+  const ZpTopology *t = &model->topology;
+  size_t station = j / t->ribbons;
+  return zp_has_platform(t) && station >= t->platform.first && station <= t->platform.last ? 0.5 : 0;
+}
+
 /* The fraction of the load that each modelled end carries on which it hangs. */
 static inline double zp_end_share(const ZpModel *model) {
   return model->def.load.share / model->def.stack.parallel;

@@ -557,7 +557,8 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
-  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && def->electro.gap_offset == 0);
+  bool touches =
+      zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && def->electro.gap_offset == 0);
   if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
