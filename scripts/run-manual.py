@@ -71,6 +71,7 @@ PICTURES = {
     "control.svg": "control/plots/control.svg",
     "tilted.svg": "tilted/plots/stroke.svg",
     "heavy-clips.svg": "heavy-clips/plots/zip_time.svg",
+    "tension.svg": "tension/plots/frequencies.svg",
     "wide-strip.svg": "wide-strip/plots/strokes.svg",
     "materials.svg": "materials/plots/distribution.svg",
     "demo.gif": "motion/plots/animation.gif",

@@ -387,6 +387,7 @@ static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
   return (ZpRodParams){.ribbons = model->s,
                        .nodes = model->nodes,
                        .lanes = model->stride,
+                       .cell = model->l,
                        .l = a->rod_l,
                        .S = a->rod_S,
                        .B = a->rod_B,
@@ -444,6 +445,12 @@ static void fill_platform(const ZpModel *model, Arrays *a) {
   a->rod_S[j] = zp_ribbon_section(model, 1).EA / model->def.platform.length;
 }
 
+/* An edge that is as long as it is laid out has the tension of the strip, eq. (39.3). */
+static void fill_edge(const ZpModel *model, size_t j, double compliance, Arrays *a) {
+  a->rod_l[j] = model->l - model->def.ribbon.tension * compliance;
+  a->rod_S[j] = 1 / compliance;
+}
+
 /* Eqs. (8.6): compliance and natural turn of a joint are those of its share of the edges beside it; a free end does not
  * bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
@@ -456,8 +463,7 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     a->rod_B[j] = free ? 0 : 1 / share.compliance;
     a->rod_k0[j] = natural_curvature(share.turn);
     if (station == last) continue;
-    a->rod_l[j] = model->l;
-    a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
+    fill_edge(model, j, edge_compliance(model, j % t->ribbons, element), a);
   }
   fill_platform(model, a);
   model->rod = rod_of(model, a);

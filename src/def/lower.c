@@ -61,11 +61,22 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
   return ZP_OK;
 }
 
+/* A strip is clamped with a strain that springs back. */
+static ZpStatus check_tension(const ZpActuatorDef *def, ZpError *err) {
+  static const double most = 0.1;
+  double stiffness = def->ribbon.width * (def->ribbon.thickness * def->ribbon.young_modulus +
+                                          def->insulator.thickness * def->insulator.young_modulus);
+  if (def->ribbon.tension <= most * stiffness) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "ribbon.tension = %g N: at most %g N, which stretch the strip by %g %%",
+                 def->ribbon.tension, most * stiffness, 100 * most);
+}
+
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
   double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
-  ZpStatus status = check_segments(def, "", flexible, err);
+  ZpStatus status = check_tension(def, err);
+  if (status == ZP_OK) status = check_segments(def, "", flexible, err);
   return status == ZP_OK ? check_segments(&lower, prefix, flexible, err) : status;
 }
 

@@ -26,6 +26,7 @@ typedef struct ZpRodParams {
   size_t ribbons;          /* s */
   size_t nodes;            /* N per ribbon */
   size_t lanes;            /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  double cell;             /* length of rod that a joint between two edges stands for, m */
   const double *l;         /* [lanes] rest lengths of edges, m */
   const double *S;         /* [lanes] stretching stiffness EA / l of edges, N/m */
   const double *B;         /* [lanes] bending stiffness of joints, EI over their length of rod, N m */

@@ -28,7 +28,7 @@ size_t zp_rod_point_at(const ZpRodParams *p, size_t j) {
 }
 
 static ZpRodPoint point_of_end(const ZpRodParams *p, size_t end, const Place *place) {
-  return (ZpRodPoint){.length = place->length * p->l[0],
+  return (ZpRodPoint){.length = place->length * p->cell,
                       .joints = 2,
                       .joint = {p->end[end].held, p->end[end].next},
                       .share = {place->held, place->next},
@@ -49,7 +49,7 @@ ZpRodPoint zp_rod_point(const ZpRodParams *p, size_t i) {
   }
   bool bends = p->B[i] > 0 && zp_rod_point_at(p, i) == i;
   double edges = is_beside_platform(p, i) ? 0.5 : 1;
-  return (ZpRodPoint){.length = bends ? edges * p->l[0] : 0, .joints = 1, .joint = {i, i}, .share = {1 / edges, 0}};
+  return (ZpRodPoint){.length = bends ? edges * p->cell : 0, .joints = 1, .joint = {i, i}, .share = {1 / edges, 0}};
 }
 
 size_t zp_rod_point_ribbon(const ZpRodParams *p, const ZpRodPoint *point) {
@@ -60,7 +60,7 @@ double zp_rod_point_curvature(const ZpRodParams *p, const ZpRodPoint *point, con
   double sum = 0;
   for (int c = 0; c < point->joints; c++)
     sum += point->share[c] * (e->k[point->joint[c]] - p->k0[point->joint[c]]);
-  return sum / p->l[0];
+  return sum / p->cell;
 }
 
 /* Joint j loses dU/dk, and of its stiffness what that does as the joint turns. */
@@ -72,7 +72,7 @@ static void take_moment(const ZpRodEval *e1, size_t j, double by_k, ZpRodStep *s
 
 void zp_rod_point_take(const ZpRodParams *p, const ZpRodPoint *point, double M, double K, const ZpRodEval *e1,
                        ZpRodStep *s) {
-  double part = point->length / p->l[0], by_k = part * K / p->l[0];
+  double part = point->length / p->cell, by_k = part * K / p->cell;
   for (int c = 0; c < point->joints; c++) {
     size_t j = point->joint[c];
     take_moment(e1, j, part * point->share[c] * M, s);

@@ -68,10 +68,25 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   zp_assemble_edges(assembly, (const double(*)[4])e->D, K);
 }
 
-/* Stretching and bending are proportional to the stiffness of a ribbon, but for curling and yielding. */
+/* The tension of all edges changes as that with which the strip was clamped. */
+static void by_tension(const ZpModel *model, ZpEval *e, double *F) {
+  const double none[2] = {0, 0};
+  for (size_t j = 0; j < zp_lanes(model); j++)
+    e->rod_step.T[j] = 1;
+  zp_rod_step_scale(&model->rod, (const double[]){1, 1}, none, &e->rod_step);
+  zp_term_add_edges(model, e->rod_step.Rx, e->rod_step.Ry, F);
+}
+
+/* Stretching and bending are proportional to the stiffness of a ribbon, but for curling, yielding and the tension with
+ * which a strip was clamped. */
 static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
   double axial[2], bending[2];
   (void)span;
+  if (key == ZP_KEY(ribbon.tension) && !model->rod.plastic) {
+    by_tension(model, e, F);
+    return true;
+  }
+  if (model->def.ribbon.tension > 0) return false;
   for (size_t r = 0; r < model->s; r++) {
     const ZpSection section = zp_ribbon_section(model, r);
     ZpSection rate;
@@ -102,6 +117,12 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_IS(ribbon.plane, ZP_PLANE_ANTICLASTIC), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
             "the paper's springs have one bending stiffness"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_LACKS(PAIR),
+            "clips, platforms and free ends do not hold the tension of two ribbons"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_IS(actuator.right_end, ZP_END_CLAMPED),
+            "an end that moves does not hold the tension of the strip"),
+    ZP_RULE(EQUATION, ZP_ABOVE(ribbon.tension, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
+            "the paper's springs have their lengths while nothing loads them"),
     ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
             "an elastic strip does not harden"),
     ZP_RULE(PHYSICS, ZP_ABOVE(lower.ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
