@@ -280,6 +280,7 @@ void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval
   edge_stiffness(p, edge_count(p), e0, e1, damping, s, tension, &D[0][0]);
   for (size_t i = 0; i < p->ends; i++)
     end_stiffness(s, &p->end[i], s->across[i], D);
+  zp_rod_plastic_stiffness(p, s, D);
 }
 
 void zp_rod_damping(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, ZpRodStep *s, double (*spare)[4],

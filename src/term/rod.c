@@ -8,12 +8,16 @@ const ZpRow zp_row_bending_energy =
     ZP_STORED(bending_energy, "bending energy (mass_spring: energy of the shear springs)");
 const ZpRow zp_row_internal_loss = ZP_LOST(internal_loss, "energy lost so far to internal damping");
 const ZpRow zp_row_plastic_loss =
-    ZP_LOST(plastic_loss, "energy lost so far to plastic bending; 0 without ribbon.plasticity");
+    ZP_LOST(plastic_loss, "energy lost so far to plastic bending and stretching; 0 without ribbon.plasticity");
 const ZpRow zp_row_permanent_curvature =
     ZP_SHOWN(permanent_curvature, "1/m", "_per_m",
              "largest curvature of a ribbon that would remain without a moment; 0 without ribbon.plasticity");
+const ZpRow zp_row_permanent_strain =
+    ZP_SHOWN(permanent_strain, "1", "",
+             "largest strain of a ribbon along that would remain without a force; 0 without "
+             "ribbon.plasticity");
 
-enum { AXIAL, BENDING, INTERNAL, PLASTIC, PERMANENT };
+enum { AXIAL, BENDING, INTERNAL, PLASTIC, PERMANENT, ELONGATED };
 
 static bool acts(const ZpModel *model) {
   return model->is_rod;
@@ -104,7 +108,9 @@ static void hold(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row
   row[AXIAL] += zp_rod_stretching_energy(&model->rod, &e->rod);
   row[BENDING] +=
       zp_rod_bending_energy(&model->rod, &e->rod) - zp_rod_plastic_relief(&model->rod, &e->rod, strain_of(model, now));
-  if (strain_of(model, now)) row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
+  if (!strain_of(model, now)) return;
+  row[PERMANENT] += zp_rod_plastic_set(&model->rod, strain_of(model, now));
+  row[ELONGATED] += zp_rod_plastic_elongation(&model->rod, strain_of(model, now));
 }
 
 /* The edges are those at the end of the span, one correction after the last force. */
@@ -145,7 +151,8 @@ const ZpTerm zp_term_rod = {.name = "rod",
                                     [BENDING] = &zp_row_bending_energy,
                                     [INTERNAL] = &zp_row_internal_loss,
                                     [PLASTIC] = &zp_row_plastic_loss,
-                                    [PERMANENT] = &zp_row_permanent_curvature},
+                                    [PERMANENT] = &zp_row_permanent_curvature,
+                                    [ELONGATED] = &zp_row_permanent_strain},
                             .state = state,
                             .acts = acts,
                             .create = create,
