@@ -72,6 +72,7 @@ PICTURES = {
     "tilted.svg": "tilted/plots/stroke.svg",
     "heavy-clips.svg": "heavy-clips/plots/zip_time.svg",
     "tension.svg": "tension/plots/frequencies.svg",
+    "creep.svg": "creep/plots/stroke.svg",
     "wide-strip.svg": "wide-strip/plots/strokes.svg",
     "materials.svg": "materials/plots/distribution.svg",
     "demo.gif": "motion/plots/animation.gif",

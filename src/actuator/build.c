@@ -60,6 +60,21 @@ static ZpPlastic plastic_of(const ZpActuatorDef *def) {
                     def->ribbon.hardening_modulus);
 }
 
+/* Branches of the layers that creep, for a ribbon of one thickness, eq. (39.8). */
+static void find_branches(const ZpActuatorDef *def, ZpMaxwell branch[ZP_BRANCHES]) {
+  const double modulus[LAYERS] = {def->ribbon.relaxation_modulus, def->insulator.relaxation_modulus},
+               time[LAYERS] = {def->ribbon.relaxation_time, def->insulator.relaxation_time};
+  const int plane_strain = def->ribbon.plane != ZP_PLANE_STRESS;
+  ZpLayer layer[LAYERS];
+  double below = -section_of(def, def->ribbon.thickness).axis;
+  layers_of(def, def->ribbon.thickness, layer);
+  for (int k = 0; k < LAYERS; k++) {
+    layer[k].young_modulus = modulus[k];
+    branch[k] = zp_maxwell(&layer[k], below, def->ribbon.width, plane_strain, modulus[k] > 0 ? time[k] : 0);
+    below += layer[k].thickness;
+  }
+}
+
 /* Eqs. (2.5) and (2.6), for a ribbon without segments. */
 static ZpCurl curl_of(const ZpActuatorDef *def) {
   ZpActuatorDef narrow = *def;
@@ -393,6 +408,7 @@ static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
                        .B = a->rod_B,
                        .k0 = a->rod_k0,
                        .curl = {model->ribbon[0].curl, model->ribbon[1].curl},
+                       .side = {model->flat ? -1 : 1, -1},
                        .rigid = platform->first,
                        .rigid_end = platform->last,
                        .lower_turns = zp_platform_turns(&model->topology)};
@@ -485,6 +501,15 @@ static void fill_plastic(ZpModel *model) {
   model->plastic[0] = plastic_of(&model->def);
   model->plastic[1] = plastic_of(&lower);
   model->rod.plastic = model->plastic;
+}
+
+/* Its layers may creep. */
+static void fill_branches(ZpModel *model) {
+  ZpActuatorDef lower = zp_def_lower(&model->def);
+  if (!zp_def_creeps(&model->def) || !model->is_rod) return;
+  find_branches(&model->def, model->branch);
+  find_branches(&lower, model->branch + ZP_BRANCHES);
+  model->rod.branch = model->branch;
 }
 
 /* All pieces within half an edge of node j count: the largest stress per moment and per force of any of them. */
@@ -796,6 +821,7 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
   else
     fill_chain(model, &arrays);
   fill_plastic(model);
+  fill_branches(model);
   fill_stress(model, &arrays);
   fill_masses(model, ties, &arrays);
   return ZP_OK;

@@ -70,7 +70,7 @@ typedef struct ZpHingeParams {
 
 /* Rows, each with a number. Models of one program have the same rows, whichever laws they have, so that a state of one
  * is a state of a neighbour; laws of a program's own add rows. */
-enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 40, ZP_ROWS_OF_TERM = 6 };
+enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 44, ZP_ROWS_OF_TERM = 8 };
 typedef struct ZpLedger {
   const ZpRow *row[ZP_MOST_ROWS]; /* the first one is the kinetic energy of nodes */
   size_t rows;
@@ -107,9 +107,10 @@ struct ZpModel {
   bool is_rod;            /* mechanics: rod, else spring */
   ZpHingeParams hinge;    /* of two ribbons on one */
   ZpMassSpringParams spring;
-  ZpMassSpringParams shear; /* the same without axial springs */
-  ZpRodParams rod;          /* of mass_spring its axial springs only */
-  ZpPlastic plastic[2];     /* of each ribbon, where ribbon.plasticity */
+  ZpMassSpringParams shear;          /* the same without axial springs */
+  ZpRodParams rod;                   /* of mass_spring its axial springs only */
+  ZpPlastic plastic[2];              /* of each ribbon, where ribbon.plasticity */
+  ZpMaxwell branch[2 * ZP_BRANCHES]; /* of its layers, where they creep */
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;

@@ -37,6 +37,10 @@ double zp_insulation(const ZpActuatorDef *def) {
   return def->insulator.thickness + (isnan(lower) ? def->insulator.thickness : lower);
 }
 
+bool zp_def_creeps(const ZpActuatorDef *def) {
+  return def->ribbon.relaxation_modulus > 0 || def->insulator.relaxation_modulus > 0;
+}
+
 /* Has any segment a thickness that differs from that of the ribbon? */
 static bool has_other_thickness(const ZpActuatorDef *ribbon) {
   double b = ribbon->ribbon.thickness;
@@ -52,12 +56,11 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
         err, ZP_BAD_INPUT,
         "%ssegment_1.length to %ssegment_3.length: %g m together, more than the flexible length of the ribbon, %g m",
         prefixed, prefixed, segments, flexible);
-  if (ribbon->ribbon.plasticity && has_other_thickness(ribbon))
-    return zp_fail(
-        err, ZP_BAD_INPUT,
-        "%ssegment_1.thickness to %ssegment_3.thickness: ribbon.plasticity requires segments as thick as the "
-        "ribbon, %g m",
-        prefixed, prefixed, ribbon->ribbon.thickness);
+  const char *needs = ribbon->ribbon.plasticity ? "ribbon.plasticity" : "a relaxation modulus";
+  if ((ribbon->ribbon.plasticity || zp_def_creeps(ribbon)) && has_other_thickness(ribbon))
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%ssegment_1.thickness to %ssegment_3.thickness: %s requires segments as thick as the ribbon, %g m",
+                   prefixed, prefixed, needs, ribbon->ribbon.thickness);
   return ZP_OK;
 }
 

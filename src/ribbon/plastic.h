@@ -3,6 +3,7 @@
 #ifndef ZP_RIBBON_PLASTIC_H
 #define ZP_RIBBON_PLASTIC_H
 
+#include "ribbon/maxwell.h"
 #include "ribbon/section.h"
 
 enum { ZP_FIBRES = 32 }; /* through the thickness of the metal */
@@ -41,11 +42,6 @@ double zp_plastic_elongation(const ZpPlastic *plastic, const double *p);
 
 /* How much less than the elastic energy is stored, with what hardening stores, J/m. */
 double zp_plastic_relief(const ZpPlastic *plastic, const double *p, double curvature, double strain);
-
-/* Curvature and strain of a section. */
-typedef struct ZpBent {
-  double curvature, strain;
-} ZpBent;
 
 /* Heat of the way from one shape and plastic strain to others, J/m, at least 0: work of mean moment and tension less
  * what is stored. */

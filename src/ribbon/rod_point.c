@@ -29,13 +29,17 @@ size_t zp_rod_point_at(const ZpRodParams *p, size_t j) {
   return j;
 }
 
+static double side_of(const ZpRodParams *p, size_t joint) {
+  return p->side[joint % p->ribbons];
+}
+
 static ZpRodPoint point_of_end(const ZpRodParams *p, size_t end, const Place *place) {
   const ZpRodEnd *of = &p->end[end];
   int near = of->near > of->far; /* its place among both edges */
   ZpRodPoint point = {.length = place->length * p->cell,
                       .joints = 2,
                       .joint = {of->held, of->next},
-                      .share = {place->held, place->next},
+                      .share = {side_of(p, of->held) * place->held, side_of(p, of->held) * place->next},
                       .end = end,
                       .edges = 2};
   point.edge[near] = of->near, point.part[near] = place->near;
@@ -77,7 +81,7 @@ ZpRodPoint zp_rod_point(const ZpRodParams *p, size_t i) {
   }
   if (zp_rod_point_at(p, i) != i) return (ZpRodPoint){.joints = 1, .joint = {i, i}};
   double edges = is_beside_platform(p, i) ? 0.5 : 1;
-  ZpRodPoint point = {.joints = 1, .joint = {i, i}, .share = {p->B[i] > 0 ? 1 / edges : 0, 0}};
+  ZpRodPoint point = {.joints = 1, .joint = {i, i}, .share = {p->B[i] > 0 ? side_of(p, i) / edges : 0, 0}};
   int halves = find_edges(p, i, &point);
   point.length = 0.5 * halves * p->cell;
   return point;

@@ -31,7 +31,8 @@ size_t zp_rod_point_ribbon(const ZpRodParams *params, const ZpRodPoint *point);
 /* The point at joint j, where it depends on whatever joints. */
 size_t zp_rod_point_at(const ZpRodParams *params, size_t j);
 
-/* Its curvature beyond the natural one at the last eval, 1/m. */
+/* Its curvature beyond the natural one at the last eval, 1/m; positive where it stretches the last layer of the ribbon.
+ */
 double zp_rod_point_curvature(const ZpRodParams *params, const ZpRodPoint *point, const ZpRodEval *eval);
 
 /* Its strain there. */
