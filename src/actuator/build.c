@@ -61,6 +61,21 @@ static ZpPlastic plastic_of(const ZpActuatorDef *def) {
                     def->ribbon.hardening_modulus);
 }
 
+/* Branches of the layers that creep, for a ribbon of one thickness, eq. (39.8). */
+static void find_branches(const ZpActuatorDef *def, ZpMaxwell branch[ZP_BRANCHES]) {
+  const double modulus[LAYERS] = {def->ribbon.relaxation_modulus, def->insulator.relaxation_modulus},
+               time[LAYERS] = {def->ribbon.relaxation_time, def->insulator.relaxation_time};
+  const int plane_strain = def->ribbon.plane != ZP_PLANE_STRESS;
+  ZpLayer layer[LAYERS];
+  double below = -section_of(def, def->ribbon.thickness).axis;
+  layers_of(def, def->ribbon.thickness, layer);
+  for (int k = 0; k < LAYERS; k++) {
+    layer[k].young_modulus = modulus[k];
+    branch[k] = zp_maxwell(&layer[k], below, def->ribbon.width, plane_strain, modulus[k] > 0 ? time[k] : 0);
+    below += layer[k].thickness;
+  }
+}
+
 /* Eqs. (2.5) and (2.6), for a ribbon without segments. */
 static ZpCurl curl_of(const ZpActuatorDef *def) {
   ZpActuatorDef narrow = *def;
@@ -298,13 +313,18 @@ double zp_ribbon_mass(const ZpModel *model, size_t j) {
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
 
+/* Mass of clips and platforms at node j, eq. (39.1), kg. */
+static double connection_mass(const ZpModel *model, size_t j) {
+  return zp_clip_part(model, j) * model->def.clip.mass + zp_platform_part(model, j) * model->def.platform.mass;
+}
+
 /* With what hangs on it. */
 static double node_mass(const ZpModel *model, size_t j) {
   const ZpTopology *t = &model->topology;
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
   double part = carries ? zp_load_part(model, station) : 0;
-  return zp_ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
+  return zp_ribbon_mass(model, j) + connection_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
 }
 
 /* The arrays of a model. */
@@ -404,11 +424,13 @@ static ZpRodParams rod_of(const ZpModel *model, const Arrays *a) {
   return (ZpRodParams){.ribbons = model->s,
                        .nodes = model->nodes,
                        .lanes = model->stride,
+                       .cell = model->l,
                        .l = a->rod_l,
                        .S = a->rod_S,
                        .B = a->rod_B,
                        .k0 = a->rod_k0,
                        .curl = {model->ribbon[0].curl, model->ribbon[1].curl},
+                       .side = {model->flat ? -1 : 1, -1},
                        .rigid = platform->first,
                        .rigid_end = platform->last,
                        .lower_turns = zp_platform_turns(&model->topology)};
@@ -497,6 +519,12 @@ static void fill_platform(const ZpModel *model, Arrays *a) {
   a->rod_S[j] = zp_ribbon_section(model, 1).EA / model->def.platform.length;
 }
 
+/* An edge that is as long as it is laid out has the tension of the strip, eq. (39.3). */
+static void fill_edge(const ZpModel *model, size_t j, double compliance, Arrays *a) {
+  a->rod_l[j] = model->l - model->def.ribbon.tension * compliance;
+  a->rod_S[j] = 1 / compliance;
+}
+
 /* Eqs. (8.6): compliance and natural turn of a joint are those of its share of the edges beside it; a free end does not
  * bend. */
 static void fill_rod(ZpModel *model, Arrays *a) {
@@ -508,8 +536,7 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     bool free = (station == 0 || station == last) && !zp_topology_holds_slope(t, station, j % t->ribbons);
     a->rod_B[j] = free ? 0 : 1 / share.compliance;
     if (station == last) continue;
-    a->rod_l[j] = model->l;
-    a->rod_S[j] = 1 / edge_compliance(model, j % t->ribbons, element);
+    fill_edge(model, j, edge_compliance(model, j % t->ribbons, element), a);
   }
   fill_platform(model, a);
   model->rod = rod_of(model, a);
@@ -566,6 +593,15 @@ static void fill_plastic(ZpModel *model) {
   model->plastic[0] = plastic_of(&model->def);
   model->plastic[1] = plastic_of(&lower);
   model->rod.plastic = model->plastic;
+}
+
+/* Its layers may creep. */
+static void fill_branches(ZpModel *model) {
+  ZpActuatorDef lower = zp_def_lower(&model->def);
+  if (!zp_def_creeps(&model->def) || !model->is_rod) return;
+  find_branches(&model->def, model->branch);
+  find_branches(&lower, model->branch + ZP_BRANCHES);
+  model->rod.branch = model->branch;
 }
 
 /* All pieces within half an edge of node j count: the largest stress per moment and per force of any of them. */
@@ -720,22 +756,26 @@ static double internal_damping_of(const ZpActuatorDef *def) {
   return damped ? of_taped_steel : 0;
 }
 
+/* Mass of the lower platform's end with its load and without the ribbon, kg. */
+static double end_mass(const ZpModel *model) {
+  return zp_end_share(model) * model->def.load.mass + connection_mass(model, zp_load_node(&model->topology));
+}
+
 /* Frequency of faces that overlap by five depths, as in fast impacts, rad/s: two free nodes, or the lower platform
  * below the held one. */
 static double contact_frequency(const ZpModel *model) {
   enum { DEPTH = 5 };
-  const ZpActuatorDef *def = &model->def;
   const ZpContactParams *p = &model->faces;
   double stiffness = 3 * p->push * DEPTH * DEPTH / p->depth, half = 0.5 * model->l;
   double mu = fmin(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double platform = stiffness * (half + p->flat_length);
-  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + zp_end_share(model) * def->load.mass)));
+  return sqrt(fmax(stiffness / (0.5 * mu), platform / (mu * half + end_mass(model))));
 }
 
 /* Frequency of the platform on spring and stop, rad/s. */
 static double spring_frequency(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + zp_end_share(model) * def->load.mass;
+  double mass = zp_ribbon_section(model, model->s - 1).mu * 0.5 * model->l + end_mass(model);
   double stop = isnan(def->load.stop_opening) ? 0 : def->load.stop_stiffness;
   return sqrt(zp_end_share(model) * (def->load.stiffness + stop) / mass);
 }
@@ -926,6 +966,7 @@ static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *mod
   else
     fill_chain(model, &arrays);
   fill_plastic(model);
+  fill_branches(model);
   fill_stress(model, &arrays);
   fill_masses(model, ties, &arrays);
   return ZP_OK;

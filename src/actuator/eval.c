@@ -19,7 +19,8 @@ static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {
   zp_rod_step_reserve(&model->rod, &e->rod_step, arena);
   e->k0 = zp_arena_take(arena, model->stride);
   if (model->driven.places > 0) reserve_natural(model, &e->natural, arena);
-  e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, e->rod.T, e->rod_step.Rx, e->rod_step.Ry};
+  const double *tension = model->rod.plastic ? e->rod_step.T : e->rod.T; /* less what yields */
+  e->edges = (ZpEdges){e->rod.dpx, e->rod.dpy, e->rod.ux, e->rod.uy, tension, e->rod_step.Rx, e->rod_step.Ry};
   if (model->is_rod) return;
   zp_massspring_reserve(&model->spring, &e->spring_start, arena);
   zp_massspring_reserve(&model->spring, &e->spring, arena);

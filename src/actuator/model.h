@@ -74,7 +74,7 @@ typedef struct ZpHingeParams {
 
 /* Rows, each with a number. Models of one program have the same rows, whichever laws they have, so that a state of one
  * is a state of a neighbour; laws of a program's own add rows. */
-enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 40, ZP_ROWS_OF_TERM = 6 };
+enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 44, ZP_ROWS_OF_TERM = 8 };
 typedef struct ZpLedger {
   const ZpRow *row[ZP_MOST_ROWS]; /* the first one is the kinetic energy of nodes */
   size_t rows;
@@ -111,10 +111,11 @@ struct ZpModel {
   bool is_rod;            /* mechanics: rod, else spring */
   ZpHingeParams hinge;    /* of two ribbons on one */
   ZpMassSpringParams spring;
-  ZpMassSpringParams shear; /* the same without axial springs */
-  ZpRodParams rod;          /* of mass_spring its axial springs only */
-  ZpDriven driven;          /* natural curvature that voltage drives */
-  ZpPlastic plastic[2];     /* of each ribbon, where ribbon.plasticity */
+  ZpMassSpringParams shear;          /* the same without axial springs */
+  ZpRodParams rod;                   /* of mass_spring its axial springs only */
+  ZpDriven driven;                   /* natural curvature that voltage drives */
+  ZpPlastic plastic[2];              /* of each ribbon, where ribbon.plasticity */
+  ZpMaxwell branch[2 * ZP_BRANCHES]; /* of its layers, where they creep */
   ZpStressParams stress;
   ZpSeriesParams series; /* insulators and liquid between the electrodes */
   ZpPlatesParams plates;
@@ -244,6 +245,18 @@ bool zp_ribbon_by_key(const ZpModel *model, size_t ribbon, int key, ZpSection *r
 
 /* Mass of the ribbon at node j, without what hangs there, kg. */
 double zp_ribbon_mass(const ZpModel *model, size_t j);
+
+/* Part of clip.mass that node j has, eq. (39.1): a half at both nodes of a clip. */
+static inline double zp_clip_part(const ZpModel *model, size_t j) {
+  return zp_is_clip(&model->topology, j / model->s) ? 0.5 : 0;
+}
+
+/* Part of platform.mass that node j has, eq. (39.1): a half at both ends of each platform. */
+static inline double zp_platform_part(const ZpModel *model, size_t j) {
+  const ZpTopology *t = &model->topology;
+  size_t station = j / t->ribbons;
+  return zp_has_platform(t) && station >= t->platform.first && station <= t->platform.last ? 0.5 : 0;
+}
 
 /* The fraction of the load that each modelled end carries on which it hangs. */
 static inline double zp_end_share(const ZpModel *model) {

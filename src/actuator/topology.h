@@ -138,6 +138,12 @@ static inline bool zp_has_angle(const ZpTopology *t) {
   return zp_is_hinge(t) || zp_platform_turns(t);
 }
 
+/* Does a clip join the ribbons at a station? The platform is no end of a whole actuator, and the right one of a half.
+ */
+static inline bool zp_is_clip(const ZpTopology *t, size_t station) {
+  return zp_has_platform(t) && (station == 0 || (station == t->stations - 1 && station > t->platform.last));
+}
+
 /* The nodes that the load hangs on. Where there are two and the platform does not turn, one tells of both. */
 static inline size_t zp_load_node(const ZpTopology *t) {
   return zp_lower(t, t->platform.first);

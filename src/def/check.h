@@ -242,6 +242,9 @@ double zp_insulator_thickness(const ZpActuatorDef *def);
 /* Checks of segments, which must fit into their ribbon, and of lower.*, which requires two ribbons. */
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
 
+/* Does a layer of the ribbons creep? */
+bool zp_def_creeps(const ZpActuatorDef *def);
+
 /* Motion requires a mass. */
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err);
 

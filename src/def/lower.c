@@ -47,6 +47,10 @@ double zp_insulator_thickness(const ZpActuatorDef *def) {
   return isnan(def->insulator.thickness) ? def->ribbon.thickness : def->insulator.thickness;
 }
 
+bool zp_def_creeps(const ZpActuatorDef *def) {
+  return def->ribbon.relaxation_modulus > 0 || def->insulator.relaxation_modulus > 0;
+}
+
 double zp_insulation(const ZpActuatorDef *def) {
   double upper = zp_insulator_thickness(def), lower = def->lower.insulator.thickness;
   return upper + (isnan(lower) ? upper : lower);
@@ -69,11 +73,13 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
         err, ZP_BAD_INPUT,
         "%ssegment_1.length to %ssegment_%d.length: %g m together, more than the flexible length of the ribbon, %g m",
         prefixed, prefixed, last, length, flexible);
-  for (int k = 0; k < last && ribbon->ribbon.plasticity; k++)
+  const char *needs = ribbon->ribbon.plasticity ? "ribbon.plasticity" : "a relaxation modulus";
+  const bool even = ribbon->ribbon.plasticity || zp_def_creeps(ribbon);
+  for (int k = 0; k < last && even; k++)
     if (ribbon->segment_K[k].length > 0 && ribbon->segment_K[k].thickness != ribbon->ribbon.thickness)
       return zp_fail(err, ZP_BAD_INPUT,
-                     "%ssegment_%d.thickness = %g m: ribbon.plasticity requires segments as thick as the ribbon, %g m",
-                     prefixed, k + 1, ribbon->segment_K[k].thickness, ribbon->ribbon.thickness);
+                     "%ssegment_%d.thickness = %g m: %s requires segments as thick as the ribbon, %g m", prefixed, k + 1,
+                     ribbon->segment_K[k].thickness, needs, ribbon->ribbon.thickness);
   return ZP_OK;
 }
 
@@ -129,11 +135,22 @@ static ZpStatus check_signs(const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
+/* A strip is clamped with a strain that springs back. */
+static ZpStatus check_tension(const ZpActuatorDef *def, ZpError *err) {
+  static const double most = 0.1;
+  double stiffness = def->ribbon.width * (def->ribbon.thickness * def->ribbon.young_modulus +
+                                          zp_insulator_thickness(def) * def->insulator.young_modulus);
+  if (def->ribbon.tension <= most * stiffness) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "ribbon.tension = %g N: at most %g N, which stretch the strip by %g %%",
+                 def->ribbon.tension, most * stiffness, 100 * most);
+}
+
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
   double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_signs(def, err);
+  if (status == ZP_OK) status = check_tension(def, err);
   if (status == ZP_OK) status = check_segments(def, "", flexible, err);
   if (status == ZP_OK) status = check_segments(&lower, prefix, flexible, err);
   if (status == ZP_OK) status = check_turns(def, "", flexible, err);

@@ -26,6 +26,9 @@ static const ZpRule rule[] = {
     ZP_MOTION_RULE(NOT_MODELLED, ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE),
                    ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "explicit steps are those of one half; use actuator.symmetry half"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(clip.mass, 0), ZP_HAS(PLATFORM), "the other kinds have no clips"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(platform.mass, 0), ZP_HAS(PLATFORM),
+            "the other kinds have no platform; use load.mass for what hangs on the end"),
     /* a platform that turns */
     ZP_RULE(PHYSICS, ZP_IS(platform.rotates, true), ZP_IS(actuator.symmetry, ZP_SYMMETRY_NONE),
             "the platform of a symmetric half is level"),

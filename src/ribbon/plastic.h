@@ -1,10 +1,9 @@
-/* Elastic-plastic bending of a section: the metal yields fibre by fibre, with linear kinematic hardening; other layers
- * stay elastic. docs/theory.md, eqs. (2.8) to (2.12). */
+/* A section that yields: fibre by fibre of its metal, stretched and bent, with linear kinematic hardening; other layers
+ * stay elastic. docs/theory.md, eqs. (2.8) to (2.12), (39.5) and (39.6). */
 #ifndef ZP_RIBBON_PLASTIC_H
 #define ZP_RIBBON_PLASTIC_H
 
-#include <stdbool.h>
-
+#include "ribbon/maxwell.h"
 #include "ribbon/section.h"
 
 enum { ZP_FIBRES = 32 }; /* through the thickness of the metal */
@@ -14,8 +13,8 @@ typedef struct ZpPlastic {
   double yields;          /* its yield stress, Pa */
   double hardening;       /* its stress per plastic strain, Pa */
   double EI;              /* bending stiffness of the whole section, N m^2 */
-  double EA;              /* what the whole section resists a strain of its axis with, N */
-  bool alone;             /* the metal alone is stiff: its axis stays in its middle */
+  double EA;              /* what the whole section resists a strain of its axis with, as fibres do, N */
+  double share;           /* of that its stiffness along, which is not in plane strain, 0 to 1; 0: nothing pulls */
   double surface[2];      /* heights of the metal's faces over the neutral axis, m */
   double z[ZP_FIBRES];    /* heights of the fibres, m */
   double part[ZP_FIBRES]; /* of EA, N */
@@ -26,28 +25,29 @@ typedef struct ZpPlastic {
 ZpPlastic zp_plastic(const ZpLayer *metal, const ZpSection *section, double width, int plane_strain, double yields,
                      double hardening);
 
-/* Moment that plasticity takes from the elastic one, EI times the curvature, N m, and its derivative by the curvature,
- * N m^2. */
-typedef struct ZpPlasticMoment {
-  double M, K;
-} ZpPlasticMoment;
+/* Below, `strain` is that of the axis, with which the section is stretched, beside the curvature, 1/m.
+ *
+ * (plastic strains p0 [ZP_FIBRES] before; NULL: none) => plastic strains p1 [ZP_FIBRES] there, and what they take from
+ * the elastic moment, EI times the curvature, and tension. */
+ZpSectionForce zp_plastic_bend(const ZpPlastic *plastic, const double *p0, double curvature, double strain, double *p1);
 
-/* (plastic strains p0 [ZP_FIBRES] before; NULL: none; curvature 1/m) => plastic strains p1 [ZP_FIBRES] at that
- * curvature, and the moment that they take. */
-ZpPlasticMoment zp_plastic_bend(const ZpPlastic *plastic, const double *p0, double curvature, double *p1);
+/* What plastic strains take, without derivatives. */
+ZpSectionForce zp_plastic_force(const ZpPlastic *plastic, const double *p);
 
-/* The moment that plastic strains take, N m. */
-double zp_plastic_moment(const ZpPlastic *plastic, const double *p);
+/* As zp_plastic_bend of plastic strains that are found: fibres yield where p1 is not p0. */
+ZpSectionForce zp_plastic_again(const ZpPlastic *plastic, const double *p0, const double *p1);
 
-/* How much less than 1/2 EI curvature^2 is stored, with what hardening stores, J/m. */
-double zp_plastic_relief(const ZpPlastic *plastic, const double *p, double curvature);
+/* Strain of the axis that is left where no force acts. */
+double zp_plastic_elongation(const ZpPlastic *plastic, const double *p);
 
-/* Heat of the way from one curvature and plastic strain to others, J/m, at least 0: work of the mean moment less what
- * is stored. */
-double zp_plastic_heat(const ZpPlastic *plastic, const double *p0, double curvature0, const double *p1,
-                       double curvature1);
+/* How much less than the elastic energy is stored, with what hardening stores, J/m. */
+double zp_plastic_relief(const ZpPlastic *plastic, const double *p, double curvature, double strain);
 
-/* The largest stress of the metal, Pa, at a curvature, with the plastic strains p0 (NULL: none) before. */
-double zp_plastic_stress(const ZpPlastic *plastic, const double *p0, double curvature);
+/* Heat of the way from one shape and plastic strain to others, J/m, at least 0: work of mean moment and tension less
+ * what is stored. */
+double zp_plastic_heat(const ZpPlastic *plastic, const double *p0, ZpBent from, const double *p1, ZpBent to);
+
+/* The largest stress of the metal, Pa, with the plastic strains p0 (NULL: none) before. */
+double zp_plastic_stress(const ZpPlastic *plastic, const double *p0, double curvature, double strain);
 
 #endif

@@ -12,6 +12,7 @@
 
 #include "base/memory.h"
 #include "ribbon/curl.h"
+#include "ribbon/maxwell.h"
 #include "ribbon/plastic.h"
 
 /* Two joints that bend together, eq. (8.9): the one at a held slope, and the one beside it. */
@@ -22,10 +23,14 @@ typedef struct ZpRodEnd {
 } ZpRodEnd;
 enum { ZP_ROD_MOST_ENDS = 8 };
 
+/* Branches of layers that creep: of the metal and of the tape. */
+enum { ZP_BRANCHES = 2 };
+
 typedef struct ZpRodParams {
   size_t ribbons;          /* s */
   size_t nodes;            /* N per ribbon */
   size_t lanes;            /* places of node arrays, a multiple of ZP_LANES, at least ZP_LANES more than edges */
+  double cell;             /* length of rod that a joint between two edges stands for, m */
   const double *l;         /* [lanes] rest lengths of edges, m */
   const double *S;         /* [lanes] stretching stiffness EA / l of edges, N/m */
   const double *B;         /* [lanes] bending stiffness of joints, EI over their length of rod, N m */
@@ -35,6 +40,8 @@ typedef struct ZpRodParams {
   size_t ends;
   ZpRodEnd end[ZP_ROD_MOST_ENDS];
   ZpCurl curl[2];           /* of each ribbon, which then is of one section and not bent by nature */
+  const ZpMaxwell *branch;  /* [ribbons * ZP_BRANCHES], without those whose time is 0; NULL: no layer creeps */
+  double side[2];           /* of each ribbon 1 or -1: a curvature of this sign stretches its last layer */
   const ZpPlastic *plastic; /* [ribbons], which then are of one section each; NULL: they stay elastic */
 } ZpRodParams;
 

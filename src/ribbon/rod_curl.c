@@ -29,6 +29,6 @@ void zp_rod_curl_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval
     if (!(point.length > 0)) continue;
     ZpCurlMean mean =
         zp_curl_mean(curl_of(p, &point), zp_rod_point_curvature(p, &point, e0), zp_rod_point_curvature(p, &point, e1));
-    zp_rod_point_take(p, &point, mean.M, mean.K, e1, s);
+    zp_rod_point_take(p, &point, &(ZpSectionForce){.M = mean.M, .K = mean.K}, e1, s);
   }
 }

@@ -11,6 +11,7 @@
 
 #include "base/kernel.h"
 #include "ribbon/rod_curl.h"
+#include "ribbon/rod_maxwell.h"
 #include "ribbon/rod_plastic.h"
 
 static size_t edge_count(const ZpRodParams *p) {
@@ -193,6 +194,7 @@ void zp_rod_step(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1,
   bend_ends(p, e0, e1, damping, s);
   zp_rod_curl_step(p, e0, e1, s);
   zp_rod_plastic_step(p, e1, e0 == e1, s);
+  zp_rod_maxwell_step(p, e0, e1, e0 == e1, s);
   edge_forces(p, edges, s);
 }
 
@@ -280,6 +282,8 @@ void zp_rod_stiffness(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval
   edge_stiffness(p, edge_count(p), e0, e1, damping, s, tension, &D[0][0]);
   for (size_t i = 0; i < p->ends; i++)
     end_stiffness(s, &p->end[i], s->across[i], D);
+  zp_rod_plastic_stiffness(p, s, D);
+  if (e0 != e1) zp_rod_maxwell_stiffness(p, s, D);
 }
 
 void zp_rod_damping(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval *e1, ZpRodStep *s, double (*spare)[4],

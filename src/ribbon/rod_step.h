@@ -23,6 +23,9 @@ typedef struct ZpRodStep {
   bool begun;                 /* an end was tried since zp_rod_step_begin */
   const double *strain_start; /* plastic strains at the start (rod_plastic.h); NULL: none */
   double *strain_end;         /* and at the end */
+  double h;                   /* length of the step, s; 0: rest */
+  const double *spring_start; /* strains of springs of layers that creep, at the start (rod_maxwell.h); NULL: none */
+  double *spring_end;         /* and at the end */
   double *Rx, *Ry;            /* edges: force on the right node, N; the left one gets the opposite; outside: 0 */
 } ZpRodStep;
 

@@ -22,6 +22,12 @@ typedef struct ZpSection {
   double per_force;  /* and by a force along the ribbon, Pa/N */
 } ZpSection;
 
+/* Moment and tension that a law adds to those of a section, or takes from them, and their derivatives. */
+typedef struct ZpSectionForce {
+  double M, N;           /* N m, N */
+  double K, both, axial; /* of M by the curvature, N m^2; of both by the other, N m; of N by the strain, N */
+} ZpSectionForce;
+
 /* Modulus of a layer in bending, Pa. */
 double zp_bending_modulus(const ZpLayer *layer, int plane_strain);
 

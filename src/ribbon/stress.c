@@ -62,16 +62,12 @@ static double tension_at_end(Edge last, Edge next) {
   return 1.5 * last.T - 0.5 * next.T;
 }
 
-/* Where the metal may yield the elastic moment tells the curvature. */
-static double bending_stress(const ZpStressParams *p, const double *strain, size_t j, double moment) {
-  if (!p->rod.plastic) return p->per_moment[j] * fabs(moment);
+/* Where the metal may yield the elastic moment tells the curvature, and the elastic tension the strain. */
+static double stress_at(const ZpStressParams *p, const double *strain, size_t j, double moment, double tension) {
+  if (!p->rod.plastic) return p->per_moment[j] * fabs(moment) + p->per_force[j] * fabs(tension);
   const ZpPlastic *plastic = &p->rod.plastic[j % p->rod.ribbons];
   const double *before = strain ? strain + ZP_FIBRES * zp_rod_point_at(&p->rod, j) : NULL;
-  return zp_plastic_stress(plastic, before, moment / plastic->EI);
-}
-
-static double stress_at(const ZpStressParams *p, const double *strain, size_t j, double moment, double tension) {
-  return bending_stress(p, strain, j, moment) + p->per_force[j] * fabs(tension);
+  return zp_plastic_stress(plastic, before, moment / plastic->EI, tension / (plastic->share * plastic->EA));
 }
 
 /* From node j to node `last` of a ribbon, between which no edge is rigid. */

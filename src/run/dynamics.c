@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "ribbon/rod_maxwell.h"
+
 static void reserve_equations(ZpDynamics *d, ZpArena *arena) {
   double **of_equations[] = {&d->mass,  &d->q,       &d->v,    &d->history.w, &d->history.a,
                              &d->scale, &d->sharers, &d->from, &d->to};
@@ -697,10 +699,26 @@ static double resolved(void *self, size_t i) {
   return i >= inner ? d->port[i - inner].law.resolved : 1;
 }
 
-/* Of friction of bodies in the plane. */
+/* Eq. (39.12): layers creep within a step, which its accelerations hardly tell. */
+static void add_creep(const ZpMovingMember *m, double *e) {
+  const double error = zp_rod_maxwell_error(&m->model->rod, &m->eval.rod_step, m->model->L);
+  for (size_t k = 0; k < 2 * m->model->count && error > 0; k++)
+    if (m->assembly.equation[k] >= 0) e[m->assembly.equation[k]] += copysign(error, e[m->assembly.equation[k]]);
+}
+
+/* Of friction of bodies in the plane, and of layers that creep. */
 static void overlooks(void *self, const double *v0, double h, double *e) {
   const ZpDynamics *d = self;
-  zp_links_add_overshoot(&d->links, d->pose0, d->pose1, v0, h, e);
+  if (in_plane(d)) zp_links_add_overshoot(&d->links, d->pose0, d->pose1, v0, h, e);
+  for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
+    if (m->model->rod.branch) add_creep(m, e);
+}
+
+static bool creeps(const ZpDynamics *d) {
+  bool any = false;
+  for (size_t k = 0; k < d->members; k++)
+    any |= d->member[k].model->rod.branch != NULL;
+  return any;
 }
 
 static void inertia(void *self, const double *a, double *f) {
@@ -876,7 +894,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .inertia = film ? inertia : NULL,
                             .attempt = attempt,
                             .resolved = resolved,
-                            .overlooks = in_plane(d) ? overlooks : NULL,
+                            .overlooks = in_plane(d) || creeps(d) ? overlooks : NULL,
                             .choose = film ? choose : NULL,
                             .unforeseen = unforeseen};
 }

@@ -35,7 +35,7 @@ static double mass_of_one(const ZpModel *model) {
   return model->parts * sum + model->def.stack.parallel * platform;
 }
 
-/* Mass of an actuator's strips and insulators, the platform's included, kg. */
+/* Mass of an actuator's strips and insulators, clips and platforms, kg. */
 static double mass_of(const ZpModel *model) {
   double sum = 0;
   for (const ZpModel *m = model; m < zp_lowest(model) && !zp_is_network(model); m++)

@@ -181,8 +181,12 @@ static void run(Problem *p) {
 
 /* Of the control loop at a setpoint: of that of all, and of each member's. */
 #define ZP_RULES_OF_A_LOOP                                                                                             \
-  ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(electro.model, ZP_ELECTRO_PLATES),                \
-          "the eigenvalues of the control loop are computed for plates only"),                                         \
+  ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(ribbon.relaxation_modulus, 0),                    \
+          "the small motion of layers that creep is not modelled"),                                                    \
+      ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(insulator.relaxation_modulus, 0),             \
+              "the small motion of layers that creep is not modelled"),                                                \
+      ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(electro.model, ZP_ELECTRO_PLATES),            \
+              "the eigenvalues of the control loop are computed for plates only"),                                     \
       ZP_RULE(NOT_MODELLED, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_IS(bead.suction, 0),                             \
               "the eigenvalues of the control loop are computed without suction only"),                                \
       ZP_RULE(PHYSICS, ZP_NOT(control.kind, ZP_CONTROL_NONE), ZP_SET(setpoint.value), "a controller has a setpoint"),  \

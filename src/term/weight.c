@@ -58,6 +58,16 @@ static bool add_ribbons(const ZpModel *model, double share, int key, double *F) 
   return true;
 }
 
+/* Of clips or platforms: `part` is that of their mass at a node. */
+static void add_connections(const ZpModel *model, double share, double (*part)(const ZpModel *, size_t), double *F) {
+  ZpForces to = zp_forces(model, F);
+  for (size_t j = 0; j < model->count; j++) {
+    double weight = share * part(model, j) * model->def.gravity;
+    to.x[j] += weight * model->fall[0];
+    to.y[j] += weight * model->fall[1];
+  }
+}
+
 static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
   (void)e;
   const double carried = span->share * zp_load_share(model);
@@ -68,6 +78,8 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
     add_load(model, -span->share * zp_series_inertia(model), 0, F);
   } else if (key == ZP_KEY(load.mass)) {
     add_load(model, carried * model->def.gravity, 0, F);
+  } else if (key == ZP_KEY(clip.mass) || key == ZP_KEY(platform.mass)) {
+    add_connections(model, span->share, key == ZP_KEY(clip.mass) ? zp_clip_part : zp_platform_part, F);
   } else if (key == ZP_KEY(load.force)) {
     add_load(model, 0, carried, F);
   } else {
