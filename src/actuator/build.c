@@ -213,7 +213,7 @@ static ZpLevelEnds level_faces(const ZpModel *model) {
 
 /* Length of platform at each station that it has, m. */
 static double platform_length(const ZpModel *model) {
-  return zp_has_platform(&model->topology) ? model->def.platform.length / 2 : 0;
+  return zp_has_platform(&model->topology) ? zp_platform_length(&model->def) / 2 : 0;
 }
 
 /* The strength of a layer, as a displacement over eps0; infinite for bare metal, so the other insulator is the weaker
@@ -287,10 +287,18 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
 }
 
 /* The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the edges beside them, which keeps
- * the centre of mass. */
+ * the centre of mass. A plate has its layers' at its ends, unless plate.mass gives it. */
 double zp_ribbon_mass(const ZpModel *model, size_t j) {
+  if (zp_def_has(&model->def, ZP_DEVICE_RIGID))
+    return isnan(model->def.plate.mass) ? zp_ribbon_section(model, j % model->s).mu * platform_length(model) : 0;
   return model->is_rod ? node_share(model, j).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
+}
+
+/* Of all that moves with a plate, at one of its ends, kg. */
+static double moved_mass(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  return zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.mass) ? zp_plate_share(model) * def->plate.mass : 0;
 }
 
 /* With what hangs on it. */
@@ -299,7 +307,8 @@ static double node_mass(const ZpModel *model, size_t j) {
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
   double part = carries ? zp_load_part(model, station) : 0;
-  return zp_ribbon_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
+  return zp_ribbon_mass(model, j) + (carries ? moved_mass(model) : 0) +
+         part * (zp_end_share(model) * model->def.load.mass);
 }
 
 /* The arrays of a model. */
@@ -440,7 +449,7 @@ static void fill_platform(const ZpModel *model, Arrays *a) {
 }
 
 /* Eqs. (8.6): compliance and natural turn of a joint are those of its share of the edges beside it; a free end does not
- * bend. */
+ * bend, nor a plate. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t last = model->nodes - 1;
@@ -448,7 +457,7 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
     Share share = node_share(model, j);
     bool free = (station == 0 || station == last) && !zp_topology_holds_slope(t, station, j % t->ribbons);
-    a->rod_B[j] = free ? 0 : 1 / share.compliance;
+    a->rod_B[j] = free || share.compliance == 0 ? 0 : 1 / share.compliance;
     a->rod_k0[j] = natural_curvature(share.turn);
     if (station == last) continue;
     a->rod_l[j] = model->l;
@@ -564,6 +573,7 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   double push = fmin(fmax(largest_attraction(model), weight), stiffest);
   return (ZpContactParams){.nodes = model->nodes,
                            .l = model->l,
+                           .stop = zp_def_has(def, ZP_DEVICE_RIGID) ? def->plate.stop_gap : 0,
                            .range = range,
                            .depth = depth,
                            .push = push,
@@ -613,7 +623,7 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
 /* damping.internal, or the value that auto means: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
-  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && def->ribbon.model == ZP_RIBBON_ROD &&
+  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) && def->ribbon.model == ZP_RIBBON_ROD &&
                 def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (!isnan(def->damping.internal)) return def->damping.internal;
   return damped ? of_taped_steel : 0;
@@ -656,10 +666,11 @@ static void derive(ZpModel *model) {
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
-  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER);
-  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel : 1;
-  model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
-  model->l = model->L / (double)zp_half_elements(t);
+  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER) && !two;
+  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel * zp_def_count(def) : 1;
+  model->L = platform ? (def->ribbon.length - zp_platform_length(def)) / 2 : def->ribbon.length;
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) model->L = def->plate.gap;
+  model->l = model->L / fmax((double)zp_half_elements(t), 1);
   ZpActuatorDef lower = zp_def_lower(def);
   model->ribbon[0] = ribbon_of(def, 1);
   model->ribbon[1] = ribbon_of(&lower, -1);

@@ -82,8 +82,7 @@ void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, 
 }
 
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
-  size_t front = zp_contact_front(&model->faces, gap);
-  return (ZpZipState){front, front == model->topology.platform.first};
+  return (ZpZipState){zp_contact_front(&model->faces, gap), zp_contact_closed(&model->faces, gap)};
 }
 
 static double ratio_bound(double length, double speed) {

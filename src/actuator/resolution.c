@@ -22,5 +22,6 @@ static double hanging_length(const ZpModel *model) {
 }
 
 double zp_mesh_resolution(const ZpModel *model, double voltage) {
+  if (zp_half_elements(&model->topology) == 0) return INFINITY; /* a plate does not bend */
   return fmin(zp_front_length(model, voltage), hanging_length(model)) / model->l;
 }

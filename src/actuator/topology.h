@@ -144,14 +144,21 @@ static inline double zp_platform_middle(const ZpTopology *t, const double *q) {
  * where the lower one is below; of a platform that turns its own, anticlockwise; NAN without either. */
 double zp_topology_angle(const ZpTopology *topology, const double *x, const double *y);
 
-/* Elements of a ribbon from its left end to the platform, or to its right end. */
+/* The first station whose nodes no joint unites: that after a clip. */
+static inline size_t zp_first_apart(const ZpTopology *t) {
+  return t->platform.first > 0;
+}
+
+/* Elements of a ribbon from its left end to the platform, or to its right end; none of a plate, which is all
+ * platform. */
 static inline size_t zp_half_elements(const ZpTopology *t) {
   return t->platform.first;
 }
 
-/* (y of all nodes) => height of the clip, the hinge or the left end over the lower platform or the right end, m. */
+/* (y of all nodes) => height of the clip, the hinge, the left end or the upper one of two plates over the lower platform
+ * or the right end, m. */
 static inline double zp_stroke(const ZpTopology *t, const double *y) {
-  return y[zp_lower(t, 0)] - zp_platform_middle(t, y);
+  return y[zp_upper(t, 0)] - zp_platform_middle(t, y);
 }
 
 /* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */

@@ -209,6 +209,15 @@ ZpStatus zp_check_members_voltage(const ZpActuatorDef *def, double voltage, ZpEr
 /* Thickness of both insulators together, m. */
 double zp_insulation(const ZpActuatorDef *def);
 
+/* Do electrodes touch where it is closed, without an insulator or a stop between them? */
+bool zp_def_shorts(const ZpActuatorDef *def);
+
+/* Length of its platform, m: a plate is all platform. */
+double zp_platform_length(const ZpActuatorDef *def);
+
+/* How many equal pairs of electrodes move as one: plate.count. */
+int zp_def_count(const ZpActuatorDef *def);
+
 /* Checks of segments, which must fit into their ribbon, and of lower.*, which requires two ribbons. */
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
 

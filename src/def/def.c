@@ -491,6 +491,18 @@ static ZpStatus check_waveforms(const ZpActuatorDef *def, ZpError *err) {
   return status;
 }
 
+bool zp_def_shorts(const ZpActuatorDef *def) {
+  return zp_insulation(def) == 0 && !(zp_def_has(def, ZP_DEVICE_RIGID) && def->plate.stop_gap > 0);
+}
+
+double zp_platform_length(const ZpActuatorDef *def) {
+  return zp_def_has(def, ZP_DEVICE_RIGID) ? def->ribbon.length : def->platform.length;
+}
+
+int zp_def_count(const ZpActuatorDef *def) {
+  return zp_def_has(def, ZP_DEVICE_RIGID) ? def->plate.count : 1;
+}
+
 bool zp_def_takes_table(const ZpActuatorDef *def) {
   if (!def) return false;
   bool controlled = def->control.kind != ZP_CONTROL_NONE;
@@ -558,7 +570,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
   bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && def->electro.gap_offset == 0);
-  if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
+  if (voltage == 0 || !zp_def_shorts(def) || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
                  "insulator, or 0 V",
@@ -619,7 +631,8 @@ ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def) {
 /* The halves are mirror images only if gravity is vertical. */
 static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
   static const double half_turn = 3.14159265358979323846;
-  bool mirrored = zp_def_has(def, ZP_DEVICE_PLATFORM) && def->actuator.symmetry == ZP_SYMMETRY_HALF;
+  bool mirrored = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) &&
+                  def->actuator.symmetry == ZP_SYMMETRY_HALF;
   double tilt = fabs(def->mount.tilt);
   if (!mirrored || tilt < zp_tilt_rounding || half_turn - tilt < zp_tilt_rounding) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
@@ -630,7 +643,7 @@ static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of the place of the load. */
 static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
-  double most = def->platform.length / 2, offset = def->load.offset;
+  double most = zp_platform_length(def) / 2, offset = def->load.offset;
   if (fabs(offset) <= most) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "load.offset = %g m: outside the platform; allowed are %g to %g m", offset, -most,
                  most);
@@ -658,7 +671,7 @@ static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
 /* Two faces that touch without an insulator and without a limit of the field. */
 static ZpStatus check_bare(const ZpActuatorDef *def, ZpError *err) {
   double offset = def->electro.insulator_offset;
-  bool bare = isnan(offset) ? zp_insulation(def) == 0 : offset == 0;
+  bool bare = isnan(offset) || zp_def_has(def, ZP_DEVICE_RIGID) ? zp_def_shorts(def) : offset == 0;
   if (!zp_def_has(def, ZP_DEVICE_PAIR) || !bare || def->electro.breakdown_cap) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: requires electro.breakdown_cap true; otherwise the force between bare "
@@ -667,12 +680,31 @@ static ZpStatus check_bare(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of lengths and numbers of nodes. */
 static ZpStatus check_sizes(const ZpActuatorDef *def, ZpError *err) {
-  if (zp_def_has(def, ZP_DEVICE_PLATFORM) && def->platform.length > 0.9 * def->ribbon.length)
+  const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
+  if (zp_def_has(def, ZP_DEVICE_PLATFORM) && !rigid && def->platform.length > 0.9 * def->ribbon.length)
     return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",
                    def->platform.length, 0.9 * def->ribbon.length);
   if (zp_def_has(def, ZP_DEVICE_PAIR) && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);
+  return ZP_OK;
+}
+
+/* The stops of a plate are between its place without voltage and the electrodes. */
+static ZpStatus check_plate(const ZpActuatorDef *def, ZpError *err) {
+  if (!zp_def_has(def, ZP_DEVICE_RIGID)) return ZP_OK;
+  if (def->plate.stop_gap >= def->plate.gap)
+    return zp_fail(err, ZP_BAD_INPUT, "plate.stop_gap = %g m: must be below plate.gap = %g m", def->plate.stop_gap,
+                   def->plate.gap);
+  if (isnan(def->plate.back_gap)) return ZP_OK;
+  if (def->plate.back_stop_gap >= def->plate.back_gap)
+    return zp_fail(err, ZP_BAD_INPUT, "plate.back_stop_gap = %g m: must be below plate.back_gap = %g m",
+                   def->plate.back_stop_gap, def->plate.back_gap);
+  if (zp_insulation(def) == 0 && def->plate.back_stop_gap == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "plate.back_stop_gap = 0 m: without an insulator the plate would touch the electrode behind it; give "
+                   "a stop below plate.back_gap = %g m",
+                   def->plate.back_gap);
   return ZP_OK;
 }
 
@@ -695,7 +727,7 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of numbers that depend on each other, in the order in which they are asked: of the mass that members of a
  * stack share before those of the members. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,  check_sizes, check_bare,      zp_check_ribbons, check_change, zp_check_stack,
+    check_build,  check_sizes, check_plate, check_bare,      zp_check_ribbons, check_change, zp_check_stack,
     check_offset, check_tilt,  check_waveforms, check_control,    check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {

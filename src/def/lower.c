@@ -63,7 +63,7 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
 
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
-  double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  double flexible = platform ? (def->ribbon.length - zp_platform_length(def)) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_segments(def, "", flexible, err);
   return status == ZP_OK ? check_segments(&lower, prefix, flexible, err) : status;

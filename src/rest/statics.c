@@ -604,7 +604,7 @@ double zp_statics_capacitance(const ZpStatics *s) {
 /* Capacitance of closed faces, whole actuator, F. */
 static double closed_capacitance(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double per_length = zp_plates_inverse_gap(&model->plates, 0) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
+  double per_length = zp_plates_inverse_gap(&model->plates, model->faces.stop) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
   return per_length * zp_contact_length(model);
 }
 
@@ -622,7 +622,7 @@ static double pressed_by_load(const ZpModel *model) {
 static double deepest_overlap(const ZpModel *model, double U) {
   static const double ranges = 2, of_insulators = 0.02, lever = 3;
   const ZpContactParams *faces = &model->faces;
-  double attraction = zp_plates_law(&model->plates, U, 0).W;
+  double attraction = zp_plates_law(&model->plates, U, model->faces.stop).W;
   double pull = (attraction + pressed_by_load(model)) / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
   return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&model->def)), lever * balanced);
@@ -640,7 +640,7 @@ static const char *fault_of_stations(const ZpRestMember *m, double U, bool conta
   double least = INFINITY, capacitance = m->model->parts * totals(m, U).capacitance;
   for (size_t i = 0; i < m->model->nodes; i++)
     least = fmin(least, m->eval.plates.gap[i]);
-  if (contact_acts && least < -deepest_overlap(m->model, U)) return "the insulators' faces overlap";
+  if (contact_acts && least < m->model->faces.stop - deepest_overlap(m->model, U)) return "the insulators' faces overlap";
   if (capacitance < 0) return "the capacitance is negative";
   if (capacitance > beyond_plates * closed_capacitance(m->model))
     return "the capacitance is above that of closed faces";
@@ -1084,8 +1084,19 @@ static void move_bodies(ZpStatics *s, const double *step, double fraction) {
   zp_plane_poses(&s->plane, s->form.inner, s->at, s->pose);
 }
 
+/* A plate has no edges to turn. */
+static void move_plate(ZpRestMember *m, const double *step, double fraction) {
+  const double height = zp_nodes(m->model, m->q).y[zp_load_node(&m->model->topology)],
+               rise = zp_assembly_change(&m->assembly, step, load_coordinate(m));
+  zp_place_platform(m->model, &m->assembly, height + fraction * rise, m->q);
+}
+
 static void move_member(ZpStatics *s, size_t k, const double *step, double fraction) {
   ZpRestMember *m = &s->member[k];
+  if (zp_half_elements(&m->model->topology) == 0) {
+    move_plate(m, step, fraction);
+    return;
+  }
   turn_edges(m, step, fraction);
   if (in_plane(s)) zp_plane_put_platform(&s->plane, k, s->pose, s->nearer, m->q);
   zp_place_edges(m->model, &m->assembly, m->moved, m->q);
