@@ -290,7 +290,7 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
  * the centre of mass. A plate has its layers' at its ends, unless plate.mass gives it. */
 double zp_ribbon_mass(const ZpModel *model, size_t j) {
   if (zp_def_has(&model->def, ZP_DEVICE_RIGID))
-    return isnan(model->def.plate.mass) ? zp_ribbon_section(model, j % model->s).mu * platform_length(model) : 0;
+    return isnan(model->def.plate.mass) && j % model->s > 0 ? zp_ribbon_section(model, 1).mu * platform_length(model) : 0;
   return model->is_rod ? node_share(model, j).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
@@ -559,6 +559,12 @@ static double settling_time(const ZpModel *model) {
   return part * model->L * model->L * sqrt(section.mu / section.EI);
 }
 
+/* Force per length of a plate with which its spring draws it away from the stop, N/m. */
+static double spring_at_stop(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  return zp_plate_share(model) * def->plate.stiffness * (def->plate.gap - def->plate.stop_gap) / platform_length(model);
+}
+
 /* Eq. (9.2). A free end may touch alone, as a point, eq. (9.8): its edge presses the layers together over as long a
  * part of them as they are thick. */
 static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
@@ -570,10 +576,12 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   double stiffest = def->ribbon.width / layers * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
-  double push = fmin(fmax(largest_attraction(model), weight), stiffest);
+  bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
+  double stop = rigid ? def->plate.stop_gap : 0, spring = rigid ? spring_at_stop(model) : 0;
+  double push = fmin(fmax(largest_attraction(model), fmax(weight, spring)), stiffest);
   return (ZpContactParams){.nodes = model->nodes,
                            .l = model->l,
-                           .stop = zp_def_has(def, ZP_DEVICE_RIGID) ? def->plate.stop_gap : 0,
+                           .stop = stop,
                            .range = range,
                            .depth = depth,
                            .push = push,
@@ -596,9 +604,18 @@ static ZpPlatesParams air_of(const ZpModel *model) {
   return air;
 }
 
+/* film.roughness, or what auto means: of a device that has a gap at rest a part of it. */
+static double roughness_of(const ZpActuatorDef *def) {
+  static const double usual = 2e-6, part = 0.01;
+  const double gap = zp_def_gap(def);
+  if (!isnan(def->film.roughness)) return def->film.roughness;
+  return gap > 0 ? fmin(usual, part * gap) : usual;
+}
+
 /* Eqs. (22.1) to (22.3). */
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
+  const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
   ZpFilmParams film = {.nodes = model->nodes,
                        .l = model->l,
                        .platform = model->topology.platform.first,
@@ -607,14 +624,20 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .w = def->ribbon.width,
                        .mu = def->medium.kinematic_viscosity * def->medium.density,
                        .rho = def->liquid.inertia ? def->medium.density : 0,
-                       .roughness = def->film.roughness};
-  zp_film_modes(&film, def->liquid.lateral_flow);
+                       .free_path = def->medium.mean_free_path,
+                       .floor = {rigid ? def->plate.floor_gap : NAN, def->ribbon.thickness},
+                       .roughness = roughness_of(def)};
+  if (rigid)
+    zp_film_plate_modes(&film, def->ribbon.length, def->liquid.lateral_flow);
+  else
+    zp_film_modes(&film, def->liquid.lateral_flow);
   return film;
 }
 
-/* A bead has air outside. */
+/* A bead has air outside; behind a plate there may be a film. */
 static ZpOuterParams outer_of(const ZpActuatorDef *def) {
-  if (zp_def_liquid(def) == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
+  const bool film = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.back_gap);
+  if (zp_def_liquid(def) == ZP_LIQUID_BEAD || film) return (ZpOuterParams){.w = def->ribbon.width};
   return (ZpOuterParams){.w = def->ribbon.width,
                          .rho = def->liquid.inertia ? def->medium.density : 0,
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};

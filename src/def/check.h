@@ -215,6 +215,9 @@ bool zp_def_shorts(const ZpActuatorDef *def);
 /* Length of its platform, m: a plate is all platform. */
 double zp_platform_length(const ZpActuatorDef *def);
 
+/* Gap of a device whose faces are apart at its clamp or all along without voltage, m; 0 of others. */
+double zp_def_gap(const ZpActuatorDef *def);
+
 /* How many equal pairs of electrodes move as one: plate.count. */
 int zp_def_count(const ZpActuatorDef *def);
 

@@ -451,6 +451,9 @@ static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_
   return status;
 }
 
+/* Gaps below this withstand far more than the strength of their medium, m. */
+static const double small_gap = 20e-6;
+
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpActuatorDef given = plain;
   ZpStatus status = check_there(def, err);
@@ -471,7 +474,11 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   apply_values(def, false, (int)given.preset, given.mesh.nodes);
   apply_values(def, true, (int)given.source.supply, 0);
   apply_materials(def, &given);
-  return apply_assignments(def, list, count, err);
+  status = apply_assignments(def, list, count, err);
+  const double gap = zp_def_gap(def);
+  if (status == ZP_OK && gap > 0 && gap < small_gap && !is_given(zp_key_find("electro.breakdown_cap"), list, count))
+    def->electro.breakdown_cap = false;
+  return status;
 }
 
 static ZpStatus check_square(const char *group, double duty, double frequency, double rise_time, ZpError *err) {
@@ -497,6 +504,11 @@ bool zp_def_shorts(const ZpActuatorDef *def) {
 
 double zp_platform_length(const ZpActuatorDef *def) {
   return zp_def_has(def, ZP_DEVICE_RIGID) ? def->ribbon.length : def->platform.length;
+}
+
+double zp_def_gap(const ZpActuatorDef *def) {
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) return def->plate.gap;
+  return zp_def_has(def, ZP_DEVICE_COUNTER) ? def->electro.gap_offset : 0;
 }
 
 int zp_def_count(const ZpActuatorDef *def) {
@@ -544,6 +556,9 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
+  const bool given = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.mass);
+  if (given && def->plate.mass == 0) return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
+  if (given) return ZP_OK;
   ZpActuatorDef lower = zp_def_lower(def);
   const ZpActuatorDef *of[] = {def, &lower};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
@@ -586,6 +601,9 @@ ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
 ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def) {
   if (!def) return ZP_LIQUID_NONE;
   if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
+  if (def->medium.density == 0) return ZP_LIQUID_NONE;
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) return ZP_LIQUID_SUBMERGED;
+  if (def->medium.mean_free_path > 0) return ZP_LIQUID_NONE; /* no beads of a gas */
   if (def->electro.edges || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity))
     return ZP_LIQUID_NONE; /* edges and leakage are in a bath unless the scenario asks for a bead */
   return zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def) ? ZP_LIQUID_NONE : ZP_LIQUID_BEAD;

@@ -19,10 +19,17 @@ static const ZpAssignment given[] = {{ZP_KEY(ribbon.length), 500e-6},
                                      {ZP_KEY(insulator.thickness), 0},
                                      {ZP_KEY(plate.gap), 4e-6},
                                      {ZP_KEY(plate.stop_gap), 1e-6},
+                                     {ZP_KEY(medium.permittivity), 1.0006},
+                                     {ZP_KEY(medium.breakdown_field), 3e6},
+                                     {ZP_KEY(medium.kinematic_viscosity), 1.51e-5},
+                                     {ZP_KEY(medium.density), 1.204},
+                                     {ZP_KEY(medium.surface_tension), 0},
+                                     {ZP_KEY(medium.mean_free_path), 6.7e-8},
                                      {ZP_KEY(load.mass), 0},
                                      {ZP_KEY(gravity), 0},
                                      {ZP_KEY(electro.breakdown_cap), false},
                                      {ZP_KEY(drive.voltage), 30},
+                                     {ZP_KEY(isometric.separation), 2e-6},
                                      {ZP_KEY(solver.end_time), 1e-2}};
 
 const ZpDevice zp_device_plate = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_PAIR | ZP_DEVICE_PLATFORM |

@@ -8,7 +8,7 @@
 #include "actuator/place.h"
 #include "actuator/resolution.h"
 #include "base/kernel.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "def/tolerance.h"
 #include "math/elementary.h"
 #include "math/vector.h"
@@ -601,11 +601,13 @@ double zp_statics_capacitance(const ZpStatics *s) {
   return sum;
 }
 
-/* Capacitance of closed faces, whole actuator, F. */
+/* Capacitance of closed faces, whole actuator, F: at most, of a plate between two electrodes. */
 static double closed_capacitance(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  double per_length = zp_plates_inverse_gap(&model->plates, model->faces.stop) * ZP_EPS0 * def->medium.permittivity * def->ribbon.width;
-  return per_length * zp_contact_length(model);
+  const bool backs = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.back_gap);
+  double inverse = zp_plates_inverse_gap(&model->plates, model->faces.stop);
+  if (backs) inverse += zp_plates_inverse_gap(&model->plates, def->plate.back_stop_gap);
+  return inverse * ZP_EPS0 * def->medium.permittivity * def->ribbon.width * zp_contact_length(model);
 }
 
 /* Force per length of faces, N/m, with which a load that falls upwards presses those of the platform together, or the
@@ -933,7 +935,21 @@ static void turn(ZpRestMember *m, const double *step) {
                    m->stretch);
 }
 
+static size_t load_coordinate(const ZpRestMember *m) {
+  return zp_y_of(zp_load_node(&m->model->topology));
+}
+
+/* The rise of a plate under a step, m. */
+static double rise_of(const ZpRestMember *m, const double *step) {
+  return zp_assembly_change(&m->assembly, step, load_coordinate(m));
+}
+
+/* Of a plate, which has no edges to turn, in place of a rotation the part of its gap by which it moves. */
 static double rotation_of(ZpRestMember *m, const double *step, double most) {
+  if (zp_half_elements(&m->model->topology) == 0) {
+    const double part = fabs(rise_of(m, step)) / m->model->L;
+    return part <= most ? most : part;
+  }
   turn(m, step);
   return turned_by(m, most);
 }
@@ -1019,10 +1035,6 @@ static void turn_edges(ZpRestMember *m, const double *step, double fraction) {
                m->rotation, m->stretch, m->tension, moved.x, moved.y);
 }
 
-static size_t load_coordinate(const ZpRestMember *m) {
-  return zp_y_of(zp_load_node(&m->model->topology));
-}
-
 double zp_statics_factor(const ZpStatics *s, size_t which) {
   const ZpRestMember *m = &s->member[which];
   return m->assembly.factor[load_coordinate(m)];
@@ -1084,11 +1096,9 @@ static void move_bodies(ZpStatics *s, const double *step, double fraction) {
   zp_plane_poses(&s->plane, s->form.inner, s->at, s->pose);
 }
 
-/* A plate has no edges to turn. */
 static void move_plate(ZpRestMember *m, const double *step, double fraction) {
-  const double height = zp_nodes(m->model, m->q).y[zp_load_node(&m->model->topology)],
-               rise = zp_assembly_change(&m->assembly, step, load_coordinate(m));
-  zp_place_platform(m->model, &m->assembly, height + fraction * rise, m->q);
+  const double height = zp_nodes(m->model, m->q).y[zp_load_node(&m->model->topology)];
+  zp_place_platform(m->model, &m->assembly, height + fraction * rise_of(m, step), m->q);
 }
 
 static void move_member(ZpStatics *s, size_t k, const double *step, double fraction) {

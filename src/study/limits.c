@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "study/equilibria.h"
 #include "study/sensitivity.h"
 

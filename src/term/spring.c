@@ -86,11 +86,8 @@ static double slope_of(const Spring *spring, Way way, bool still) {
 
 static void add_push(const ZpModel *model, double push, double *F) {
   const ZpTopology *t = &model->topology;
-  double *Fy = zp_forces(model, F).y;
-  for (size_t i = t->platform.first; i <= t->platform.last; i++) {
-    Fy[zp_upper(t, i)] += push;
-    Fy[zp_lower(t, i)] -= push;
-  }
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    zp_term_part(model, i, push, F);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
