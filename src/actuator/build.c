@@ -577,8 +577,8 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
-  double stop = rigid ? def->plate.stop_gap : 0, spring = rigid ? spring_at_stop(model) : 0;
-  double push = fmin(fmax(largest_attraction(model), fmax(weight, spring)), stiffest);
+  double stop = rigid ? def->plate.stop_gap : 0, most = fmax(largest_attraction(model), weight);
+  double push = fmin(stop > 0 ? fmax(spring_at_stop(model), weight) : most, stiffest);
   return (ZpContactParams){.nodes = model->nodes,
                            .l = model->l,
                            .stop = stop,
@@ -704,6 +704,7 @@ static void derive(ZpModel *model) {
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
   model->axial_stiffness = model->is_rod ? EA / model->l : model->spring.K_D;
+  if (zp_half_elements(t) == 0) model->axial_stiffness = 0;
   model->shear.K_D = 0;
   model->plates = plates_of(model);
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "def/device.h"
 
 static void reserve_mechanics(const ZpModel *model, ZpEval *e, ZpArena *arena) {
   zp_rod_reserve(&model->rod, &e->rod_start, arena);
@@ -109,7 +110,10 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, con
 
 double zp_eval_weight_scale(const ZpModel *model) {
   static const double least_weight = 1e-3; /* N */
-  return fmax(model->total_weight, least_weight);
+  const ZpActuatorDef *def = &model->def;
+  const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
+  const double least = rigid ? zp_plate_share(model) * def->plate.stiffness * def->plate.gap : least_weight;
+  return fmax(model->total_weight, least);
 }
 
 double zp_eval_imbalance(const ZpModel *model, const double *a) {

@@ -385,9 +385,10 @@ static inline double zp_straight_x(const ZpModel *model, size_t station) {
 }
 
 /* Coordinates of an actuator whose lengths L are `stretch` times these ones, laid so that the platform has its own
- * length. */
+ * length; those of a plate stay. */
 static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   const ZpJoint *platform = &model->topology.platform;
+  if (zp_half_elements(&model->topology) == 0) return;
   for (size_t k = 0; k < 2 * model->stride; k++)
     q[k] *= stretch;
   if (platform->first == platform->last) return;
