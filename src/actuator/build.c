@@ -559,10 +559,10 @@ static double settling_time(const ZpModel *model) {
   return part * model->L * model->L * sqrt(section.mu / section.EI);
 }
 
-/* Force per length of a plate with which its spring draws it away from the stop, N/m. */
-static double spring_at_stop(const ZpModel *model) {
+/* Force per length of a plate with which its spring would draw it away where its faces touch, N/m. */
+static double pull_of_spring(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  return zp_plate_share(model) * def->plate.stiffness * (def->plate.gap - def->plate.stop_gap) / platform_length(model);
+  return zp_plate_share(model) * def->plate.stiffness * def->plate.gap / platform_length(model);
 }
 
 /* Eq. (9.2). A free end may touch alone, as a point, eq. (9.8): its edge presses the layers together over as long a
@@ -578,7 +578,7 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
   bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
   double stop = rigid ? def->plate.stop_gap : 0, most = fmax(largest_attraction(model), weight);
-  double push = fmin(stop > 0 ? fmax(spring_at_stop(model), weight) : most, stiffest);
+  double push = fmin(stop > 0 ? fmax(pull_of_spring(model), weight) : most, stiffest);
   return (ZpContactParams){.nodes = model->nodes,
                            .l = model->l,
                            .stop = stop,
