@@ -33,7 +33,7 @@ static Spring spring_of(const ZpModel *model, int which) {
   case OF_PLATE:
     return (Spring){plate, def->plate.gap, 1, true};
   default:
-    return (Spring){backs ? zp_plate_share(model) * def->load.stop_stiffness : 0,
+    return (Spring){backs ? zp_plate_share(model) * def->plate.stop_stiffness : 0,
                     def->plate.gap + def->plate.back_gap - def->plate.back_stop_gap, -1, false};
   }
 }
@@ -110,7 +110,7 @@ static Rate rate_of(const ZpModel *model, int which, int key) {
   const bool backs = which == BACK_STOP;
   if (which == OF_LOAD) return (Rate){key == ZP_KEY(load.stiffness) ? load : 0, key == ZP_KEY(load.rest_opening)};
   if (which == STOP) return (Rate){key == ZP_KEY(load.stop_stiffness) ? load : 0, key == ZP_KEY(load.stop_opening)};
-  const double k = key == (backs ? ZP_KEY(load.stop_stiffness) : ZP_KEY(plate.stiffness)) ? plate : 0;
+  const double k = key == (backs ? ZP_KEY(plate.stop_stiffness) : ZP_KEY(plate.stiffness)) ? plate : 0;
   return (Rate){k, (key == ZP_KEY(plate.gap)) + (backs && key == ZP_KEY(plate.back_gap)) -
                        (double)(backs && key == ZP_KEY(plate.back_stop_gap))};
 }
