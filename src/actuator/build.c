@@ -604,14 +604,6 @@ static ZpPlatesParams air_of(const ZpModel *model) {
   return air;
 }
 
-/* film.roughness, or what auto means: of a device that has a gap at rest a part of it. */
-static double roughness_of(const ZpActuatorDef *def) {
-  static const double usual = 2e-6, part = 0.01;
-  const double gap = zp_def_gap(def);
-  if (!isnan(def->film.roughness)) return def->film.roughness;
-  return gap > 0 ? fmin(usual, part * gap) : usual;
-}
-
 /* Eqs. (22.1) to (22.3). */
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
@@ -626,7 +618,7 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .rho = def->liquid.inertia ? def->medium.density : 0,
                        .free_path = def->medium.mean_free_path,
                        .floor = {rigid ? def->plate.floor_gap : NAN, def->ribbon.thickness},
-                       .roughness = roughness_of(def)};
+                       .roughness = zp_def_roughness(def)};
   if (rigid)
     zp_film_plate_modes(&film, def->ribbon.length, def->liquid.lateral_flow);
   else

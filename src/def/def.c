@@ -511,6 +511,13 @@ double zp_def_gap(const ZpActuatorDef *def) {
   return zp_def_has(def, ZP_DEVICE_COUNTER) ? def->electro.gap_offset : 0;
 }
 
+double zp_def_roughness(const ZpActuatorDef *def) {
+  static const double usual = 2e-6, part = 0.01;
+  const double gap = zp_def_gap(def);
+  if (!isnan(def->film.roughness)) return def->film.roughness;
+  return gap > 0 ? fmin(usual, part * gap) : usual;
+}
+
 int zp_def_count(const ZpActuatorDef *def) {
   return zp_def_has(def, ZP_DEVICE_RIGID) ? def->plate.count : 1;
 }
