@@ -71,7 +71,8 @@ metal = '#37434d'
 tape = '#c9a66b'
 given = electro_insulator_offset == electro_insulator_offset
 insulator_offset = given ? electro_insulator_offset : 2*insulator_thickness*medium_permittivity/insulator_permittivity
-strongest = electro_breakdown_cap > 0 ? medium_breakdown_field : drive_voltage/(2*insulator_thickness)
+stopped = actuator_kind eq 'plate' ? plate_stop_gap : 0 # a gap that never closes
+strongest = electro_breakdown_cap > 0 ? medium_breakdown_field : drive_voltage/(2*insulator_thickness + stopped)
 limit(E) = electro_breakdown_cap > 0 && E > strongest ? strongest : E
 between(gap, volts) = limit(abs(volts)/((gap > 0 ? gap : 0) + insulator_offset))
 share(E) = E >= strongest ? 1 : sqrt(E/strongest)
@@ -80,7 +81,7 @@ _blend(l, p, k) = floor(word(l, k + 1) + (4*p - k)*(word(l, k + 2) - word(l, k +
 field_colour(p) = 65536*_blend('223 142 244 239 181', p, _of(p)) + 256*_blend('238 202 201 123 23', p, _of(p)) \
                 + _blend('240 208 93 69 158', p, _of(p))
 shown(gap, volts) = field_colour(share(between(gap, volts)))
-coloured = ribbons > 1 && insulator_offset > 0 && field_known
+coloured = ribbons > 1 && insulator_offset + stopped > 0 && field_known
 if (coloured) {
   do for [k=0:19] {
     set object 20+k rectangle from screen 0.70+0.012*k,0.08 to screen 0.712+0.012*k,0.095 fc rgb field_colour(k/19.0) fs solid noborder
@@ -97,7 +98,8 @@ magnified = 25
 
 # Bars of liquid, 5 pixels wide, so many for each element that no gaps are left. A row of shapes.dat has x and y of both
 # faces; bar q, from 0 to 1, is on the way from the row before to this one. Side 1 is the mirror image of side 0.
-parts = (60 + (half ? nodes : nodes/2) - 2)/((half ? nodes : nodes/2) - 1)
+columns_drawn = half || nodes == 2 ? nodes : nodes/2
+parts = (60 + columns_drawn - 2)/(columns_drawn - 1)
 side_x(side, x) = (side == 1 ? middle - x : x - middle)*length
 _is_wet(p) = (half || p <= last_node/2.0 ? p : last_node - p) <= wet_at[i]
 _between(was, now) = was + q*(now - was)
@@ -107,7 +109,7 @@ _bar(j) = (q = j == 0 ? 1.0 : j/(1.0*parts), p = column(4) - 1 + q, xu = _betwee
            j > 0 && node(0) % nodes == 0 ? NaN : _is_wet(p) ? xu : NaN)
 xu_was = 0; yu_was = 0; xl_was = 0; yl_was = 0
 node(c) = column(4) == column(4) ? int(column(4)) : -1
-is_clip(k) = k % nodes == 0 || (!half && k % nodes == nodes - 1)
+is_clip(k) = nodes > 2 && (k % nodes == 0 || (!half && k % nodes == nodes - 1))
 
 lensed = coloured && has_platform && members == 1
 lens_size = 0.17

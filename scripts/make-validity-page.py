@@ -13,6 +13,9 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+import validity_comb  # noqa: E402
+
 HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(HOME, "docs", "validity.md")
 SEQUENTIAL = {"contact.model": "sequential", "solver.integrator": "explicit"}
@@ -522,6 +525,7 @@ def slow_sections(runs):
     yield "zip-band", zip_band(runs)
     yield "bead-volume", bead_volumes(runs)
     yield "charge-retention", retention_table(runs)
+    yield from validity_comb.Comparison(runs).sections(table)
 
 
 def markers(name):
@@ -616,6 +620,7 @@ def pictures(runs):
     draw("validity-bead", [
         panel("Beads of several volumes at each front, 8 g, 10 kV", "time / ms", "contraction / %", bead_contractions(runs),
               "set yrange [60:101]\nset arrow 2 from graph 0, first 99 to graph 1, first 99 nohead dt 2 lc rgb '#404040'\n", points=False)])
+    draw("validity-comb", list(validity_comb.Comparison(runs).panels(panel)))
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
               LOG.format(low=0.003, high=20) + "set xrange [0:0.7]\n"),

@@ -53,9 +53,10 @@ static size_t number(const ZpTies *ties, ZpAssembly *a) {
 }
 
 /* Two halves that mirror each other have in common what a row ties across their platform, eq. (19.1). No row does so
- * where the platform turns: the whole is then one part. */
+ * where the platform turns: the whole is then one part. A plate has no halves beside its platform. */
 static void find_parts(const ZpTies *ties, ZpAssembly *a) {
   ZpParts *parts = &a->parts;
+  if (zp_half_elements(&ties->first[ties->member].topology) == 0) return;
   for (const ZpTie *tie = ties->tie; tie < ties->tie + ties->count; tie++) {
     if (tie->factor == 0) continue;
     if (leader_of(ties, tie) / (2 * a->s) != tie->coordinate / (2 * a->s))

@@ -233,7 +233,7 @@ static ZpLevelEnds level_faces(const ZpModel *model) {
 
 /* Length of platform at each station that it has, m. */
 static double platform_length(const ZpModel *model) {
-  return zp_has_platform(&model->topology) ? model->def.platform.length / 2 : 0;
+  return zp_has_platform(&model->topology) ? zp_platform_length(&model->def) / 2 : 0;
 }
 
 /* The strength of a layer, as a displacement over eps0; infinite for bare metal, so the other insulator is the weaker
@@ -307,10 +307,18 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
 }
 
 /* The paper's particles have 1/N each, eq. (6). The rod's nodes have their share of the edges beside them, which keeps
- * the centre of mass. */
+ * the centre of mass. A plate has its layers' at its ends, unless plate.mass gives it. */
 double zp_ribbon_mass(const ZpModel *model, size_t j) {
+  if (zp_def_has(&model->def, ZP_DEVICE_RIGID))
+    return isnan(model->def.plate.mass) && j % model->s > 0 ? zp_ribbon_section(model, 1).mu * platform_length(model) : 0;
   return model->is_rod ? node_share(model, j, NULL).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
+}
+
+/* Of all that moves with a plate, at one of its ends, kg. */
+static double moved_mass(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  return zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.mass) ? zp_plate_share(model) * def->plate.mass : 0;
 }
 
 /* Mass of clips and platforms at node j, eq. (39.1), kg. */
@@ -324,7 +332,8 @@ static double node_mass(const ZpModel *model, size_t j) {
   size_t station = j / t->ribbons;
   bool carries = j == zp_lower(t, station) && station >= t->platform.first && station <= t->platform.last;
   double part = carries ? zp_load_part(model, station) : 0;
-  return zp_ribbon_mass(model, j) + connection_mass(model, j) + part * (zp_end_share(model) * model->def.load.mass);
+  return zp_ribbon_mass(model, j) + connection_mass(model, j) + (carries ? moved_mass(model) : 0) +
+         part * (zp_end_share(model) * model->def.load.mass);
 }
 
 /* The arrays of a model. */
@@ -526,7 +535,7 @@ static void fill_edge(const ZpModel *model, size_t j, double compliance, Arrays 
 }
 
 /* Eqs. (8.6): compliance and natural turn of a joint are those of its share of the edges beside it; a free end does not
- * bend. */
+ * bend, nor a plate. */
 static void fill_rod(ZpModel *model, Arrays *a) {
   const ZpTopology *t = &model->topology;
   size_t last = model->nodes - 1;
@@ -534,7 +543,7 @@ static void fill_rod(ZpModel *model, Arrays *a) {
     size_t station = j / t->ribbons, element = zp_topology_element_image(t, station);
     Share share = node_share(model, j, NULL);
     bool free = (station == 0 || station == last) && !zp_topology_holds_slope(t, station, j % t->ribbons);
-    a->rod_B[j] = free ? 0 : 1 / share.compliance;
+    a->rod_B[j] = free || share.compliance == 0 ? 0 : 1 / share.compliance;
     if (station == last) continue;
     fill_edge(model, j, edge_compliance(model, j % t->ribbons, element), a);
   }
@@ -678,6 +687,12 @@ static double settling_time(const ZpModel *model) {
   return part * model->L * model->L * sqrt(section.mu / section.EI);
 }
 
+/* Force per length of a plate with which its spring would draw it away where its faces touch, N/m. */
+static double pull_of_spring(const ZpModel *model) {
+  const ZpActuatorDef *def = &model->def;
+  return zp_plate_share(model) * def->plate.stiffness * def->plate.gap / platform_length(model);
+}
+
 /* Eq. (9.2). A free end may touch alone, as a point, eq. (9.8): its edge presses the layers together over as long a
  * part of them as they are thick. */
 static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower) {
@@ -690,9 +705,12 @@ static ZpContactParams faces_of(const ZpModel *model, const ZpActuatorDef *lower
   double stiffest = def->ribbon.width / layers * depth / 3;
   double heavier = fmax(zp_ribbon_section(model, 0).mu, zp_ribbon_section(model, model->s - 1).mu);
   double weight = heavier * def->gravity; /* the load hangs: it does not press faces together */
-  double push = fmin(fmax(largest_attraction(model), weight), stiffest);
+  bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
+  double stop = rigid ? def->plate.stop_gap : 0, most = fmax(largest_attraction(model), weight);
+  double push = fmin(stop > 0 ? fmax(pull_of_spring(model), weight) : most, stiffest);
   return (ZpContactParams){.nodes = model->nodes,
                            .l = model->l,
+                           .stop = stop,
                            .range = range,
                            .depth = depth,
                            .push = push,
@@ -725,6 +743,7 @@ static ZpPlatesParams no_law(const ZpPlatesParams *plates) {
 /* Eqs. (22.1) to (22.3). */
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
+  const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
   ZpFilmParams film = {.nodes = model->nodes,
                        .l = model->l,
                        .platform = model->topology.platform.first,
@@ -733,15 +752,21 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .w = def->ribbon.width,
                        .mu = model->mirror * model->mirror * def->medium.kinematic_viscosity * def->medium.density,
                        .rho = def->liquid.inertia ? def->medium.density : 0,
-                       .roughness = model->mirror * def->film.roughness};
-  zp_film_modes(&film, def->liquid.lateral_flow);
+                       .free_path = def->medium.mean_free_path,
+                       .floor = {rigid ? def->plate.floor_gap : NAN, def->ribbon.thickness},
+                       .roughness = model->mirror * zp_def_roughness(def)};
+  if (rigid)
+    zp_film_plate_modes(&film, def->ribbon.length, def->liquid.lateral_flow);
+  else
+    zp_film_modes(&film, def->liquid.lateral_flow);
   film.outlet |= zp_ends_free(&model->topology);
   return film;
 }
 
-/* A bead has air outside. */
+/* A bead has air outside; behind a plate there may be a film. */
 static ZpOuterParams outer_of(const ZpActuatorDef *def) {
-  if (zp_def_liquid(def) == ZP_LIQUID_BEAD) return (ZpOuterParams){.w = def->ribbon.width};
+  const bool film = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.back_gap);
+  if (zp_def_liquid(def) == ZP_LIQUID_BEAD || film) return (ZpOuterParams){.w = def->ribbon.width};
   return (ZpOuterParams){.w = def->ribbon.width,
                          .rho = def->liquid.inertia ? def->medium.density : 0,
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};
@@ -750,7 +775,7 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
 /* damping.internal, or the value that auto means: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
-  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && def->ribbon.model == ZP_RIBBON_ROD &&
+  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) && def->ribbon.model == ZP_RIBBON_ROD &&
                 def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (!isnan(def->damping.internal)) return def->damping.internal;
   return damped ? of_taped_steel : 0;
@@ -815,11 +840,13 @@ static void derive(ZpModel *model) {
   model->count = t->nodes;
   model->stride = zp_round_up(model->count - model->s) + ZP_LANES;
   model->field = zp_def_has(def, ZP_DEVICE_ELECTRODES);
-  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH);
+  model->flat = zp_def_has(def, ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH) && !two;
   derive_pouch(model);
-  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel : (double)model->in_series / model->mirror;
-  model->L = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
-  model->l = model->L / (double)zp_half_elements(t);
+  model->parts = platform ? 2 / (double)zp_halves(t) * def->stack.parallel * zp_def_count(def)
+                          : (double)model->in_series / model->mirror;
+  model->L = platform ? (def->ribbon.length - zp_platform_length(def)) / 2 : def->ribbon.length;
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) model->L = def->plate.gap;
+  model->l = model->L / fmax((double)zp_half_elements(t), 1);
   ZpActuatorDef lower = zp_def_lower(def);
   model->ribbon[0] = ribbon_of(def, 1);
   model->ribbon[1] = ribbon_of(&lower, -1);
@@ -830,6 +857,7 @@ static void derive(ZpModel *model) {
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
   model->axial_stiffness = model->is_rod ? EA / model->l : model->spring.K_D;
+  if (zp_half_elements(t) == 0) model->axial_stiffness = 0;
   model->shear.K_D = 0;
   model->plates = plates_of(model);
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;

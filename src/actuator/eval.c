@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/kernel.h"
+#include "def/device.h"
 
 static void reserve_natural(const ZpModel *model, ZpNatural *n, ZpArena *arena) {
   n->kappa[ZP_NATURAL_START] = zp_arena_take(arena, model->driven.places);
@@ -100,8 +101,7 @@ void zp_eval_reach(const ZpModel *model, const double *gap, const ZpBead *bead, 
 }
 
 ZpZipState zp_eval_touching(const ZpModel *model, const double *gap) {
-  size_t front = zp_contact_front(&model->faces, gap);
-  return (ZpZipState){front, front == model->topology.platform.first};
+  return (ZpZipState){zp_contact_front(&model->faces, gap), zp_contact_closed(&model->faces, gap)};
 }
 
 static double ratio_bound(double length, double speed) {
@@ -128,7 +128,10 @@ ZpStepBounds zp_eval_step_bounds(const ZpModel *model, const ZpState *state, con
 
 double zp_eval_weight_scale(const ZpModel *model) {
   static const double least_weight = 1e-3, bends = 1e3; /* N; of the force that bends a ribbon */
+  const ZpActuatorDef *def = &model->def;
+  const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
   double small = bends * zp_ribbon_section(model, 0).EI / (model->L * model->L);
+  if (rigid) return fmax(model->total_weight, zp_plate_share(model) * def->plate.stiffness * def->plate.gap);
   return fmax(model->total_weight, fmin(least_weight, small));
 }
 

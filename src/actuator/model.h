@@ -104,8 +104,9 @@ struct ZpModel {
   bool field;             /* there are electrodes that attract each other */
   bool field_solved;      /* in two dimensions, beyond the plates law */
   bool flat;              /* one ribbon below a rigid electrode */
-  double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1; of each in parallel */
-  double L, l;            /* flexible length of a half or of the one ribbon, element, m */
+  double parts;           /* how many modelled parts make the whole actuator: 2 halves, or 1, or plate.count; of each in
+                             parallel */
+  double L, l;            /* flexible length of a half or of the one ribbon, element, m; of a plate its gap */
   ZpRibbon ribbon[2];     /* upper or only one, lower one */
   double axial_stiffness; /* of the stiffest edge, N/m */
   bool is_rod;            /* mechanics: rod, else spring */
@@ -260,7 +261,12 @@ static inline double zp_platform_part(const ZpModel *model, size_t j) {
 
 /* The fraction of the load that each modelled end carries on which it hangs. */
 static inline double zp_end_share(const ZpModel *model) {
-  return model->def.load.share / model->def.stack.parallel;
+  return model->def.load.share / (model->def.stack.parallel * (double)zp_def_count(&model->def));
+}
+
+/* One of a plate's springs, or its mass, as a fraction at each of its ends. */
+static inline double zp_plate_share(const ZpModel *model) {
+  return model->def.stack.parallel / (model->parts * (double)zp_halves(&model->topology));
 }
 
 /* Equal pouches in series move their load together: to one of them it has more inertia than weight by so much, eq.
@@ -273,7 +279,7 @@ static inline double zp_series_inertia(const ZpModel *model) {
 static inline double zp_load_part(const ZpModel *model, size_t station) {
   const ZpTopology *t = &model->topology;
   if (model->def.load.offset == 0) return 1;
-  return 1 + (station == t->platform.last ? 2 : -2) * model->def.load.offset / model->def.platform.length;
+  return 1 + (station == t->platform.last ? 2 : -2) * model->def.load.offset / zp_platform_length(&model->def);
 }
 
 /* (one coordinate of all nodes) => that of the point that the load hangs on. */
@@ -427,13 +433,14 @@ static inline double zp_state_load(const ZpModel *model, const ZpState *state, d
 static inline double zp_straight_x(const ZpModel *model, size_t station) {
   const ZpJoint *platform = &model->topology.platform;
   double rigid = (double)(platform->last - platform->first);
-  return (double)station * model->l + (station < platform->last ? 0 : rigid * (model->def.platform.length - model->l));
+  return (double)station * model->l + (station < platform->last ? 0 : rigid * (zp_platform_length(&model->def) - model->l));
 }
 
 /* Coordinates of an actuator whose lengths L are `stretch` times these ones, laid so that the platform has its own
- * length. */
+ * length; those of a plate stay. */
 static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
   const ZpJoint *platform = &model->topology.platform;
+  if (zp_half_elements(&model->topology) == 0) return;
   for (size_t k = 0; k < 2 * model->stride; k++)
     q[k] *= stretch;
   if (platform->first == platform->last) return;
@@ -443,10 +450,21 @@ static inline void zp_stretch(const ZpModel *model, double stretch, double *q) {
     q[j] += shift;
 }
 
-/* The opening at which an actuator counts as closed, m: 1 % of the hanging one, or the depth of contact if that is
- * more. */
+/* The opening at which an actuator counts as closed, m: beyond the stop 1 % of the hanging one, or the depth of contact
+ * if that is more. */
 static inline double zp_closed_opening(const ZpModel *model, double hanging) {
-  return fmax(0.01 * hanging, model->faces.depth);
+  const ZpContactParams *faces = &model->faces;
+  return faces->stop + fmax(0.01 * (hanging - faces->stop), faces->depth);
+}
+
+/* How much of the way from its hanging opening to the stop, or to contact, an actuator has closed; and the change of
+ * this with the opening, 1/m. */
+static inline double zp_contraction(const ZpModel *model, double opening, double hanging) {
+  return 1 - (opening - model->faces.stop) / (hanging - model->faces.stop);
+}
+
+static inline double zp_contraction_slope(const ZpModel *model, double hanging) {
+  return -1 / (hanging - model->faces.stop);
 }
 
 /* (sum of lengths over g + d, 1) => capacitance of the modelled part, F. */
@@ -469,8 +487,9 @@ static inline double zp_held_opening(const ZpModel *model) {
 
 /* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
 static inline double zp_contact_length(const ZpModel *model) {
-  double length = model->pouch.w > 0 ? model->pouch.electrode : model->L;
-  return model->parts * (double)zp_halves(&model->topology) * (length + model->plates.flat_length);
+  const ZpTopology *t = &model->topology;
+  const double flexible = zp_half_elements(t) > 0 ? model->L : 0, length = model->pouch.w > 0 ? model->pouch.electrode : flexible;
+  return model->parts * (double)zp_halves(t) * (length + model->plates.flat_length);
 }
 
 /* Forces on all nodes: only this room knows where x and y stand. */

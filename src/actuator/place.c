@@ -103,7 +103,9 @@ void zp_place_edges(const ZpModel *model, const ZpAssembly *assembly, const doub
 void zp_place_platform(const ZpModel *model, const ZpAssembly *assembly, double height, double *nodes) {
   const ZpTopology *t = &model->topology;
   double *y = zp_forces(model, nodes).y, missed = y[zp_load_node(t)] - height;
-  for (size_t h = 0; h < zp_halves(t); h++)
+  for (size_t i = t->platform.first; i <= t->platform.last && zp_half_elements(t) == 0; i++)
+    y[zp_lower(t, i)] = height;
+  for (size_t h = 0; h < zp_halves(t) && zp_half_elements(t) > 0; h++)
     spread(t, path_to_platform(t, assembly->equation, h > 0), missed, y);
 }
 

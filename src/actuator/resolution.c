@@ -4,6 +4,7 @@
 
 double zp_front_length(const ZpModel *model, double voltage) {
   const ZpActuatorDef *def = &model->def;
+  if (zp_half_elements(&model->topology) == 0) return INFINITY; /* a plate does not bend */
   bool pair = zp_is_pair(&model->topology), zips = pair || (model->flat && model->plates.face[0] == 0);
   if (!zips || voltage == 0 || def->electro.surface != ZP_SURFACE_POLYLINE) return INFINITY;
   ZpPlatesLaw closed = zp_plates_law(&model->plates, voltage, 0);
@@ -22,5 +23,6 @@ static double hanging_length(const ZpModel *model) {
 }
 
 double zp_mesh_resolution(const ZpModel *model, double voltage) {
+  if (zp_half_elements(&model->topology) == 0) return INFINITY;
   return fmin(zp_front_length(model, voltage), hanging_length(model)) / model->l;
 }

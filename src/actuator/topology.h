@@ -168,7 +168,13 @@ static inline double zp_platform_middle(const ZpTopology *t, const double *q) {
  * where the lower one is below; of a platform that turns its own, anticlockwise; NAN without either. */
 double zp_topology_angle(const ZpTopology *topology, const double *x, const double *y);
 
-/* Elements of a ribbon from its left end to the platform, or to its right end. */
+/* The first station whose nodes no joint unites: that after a clip. */
+static inline size_t zp_first_apart(const ZpTopology *t) {
+  return t->platform.first > 0;
+}
+
+/* Elements of a ribbon from its left end to the platform, or to its right end; none of a plate, which is all
+ * platform. */
 static inline size_t zp_half_elements(const ZpTopology *t) {
   return t->platform.first;
 }
@@ -183,10 +189,10 @@ static inline double zp_lifted(const ZpTopology *t, ZpNodes n, size_t node) {
   return t->along ? -n.x[node] : n.y[node];
 }
 
-/* How far the lower platform or the right end is from the clip, the hinge or the left end in the direction in which the
+/* How far the lower platform or the right end is from the clip, the hinge, the left end or the upper one of two plates in the direction in which the
  * load pulls, m. */
 static inline double zp_hangs_by(const ZpTopology *t, ZpNodes n) {
-  return t->along ? zp_platform_middle(t, n.x) - n.x[zp_lower(t, 0)] : n.y[zp_lower(t, 0)] - zp_platform_middle(t, n.y);
+  return t->along ? zp_platform_middle(t, n.x) - n.x[zp_upper(t, 0)] : n.y[zp_upper(t, 0)] - zp_platform_middle(t, n.y);
 }
 
 /* Distance of the platforms' faces, of a hinge that of the faces at the right ends, m; NAN for one ribbon. */

@@ -61,7 +61,7 @@ static bool is_rigid(const ZpContactParams *p, size_t i) {
 }
 
 static void add_platform(const ZpContactParams *p, const ZpContactSpan *span, size_t i, const ZpContactEval *e) {
-  Mean m = mean_of(-span->start[i] / p->depth, -span->end[i] / p->depth, span->late);
+  Mean m = mean_of((p->stop - span->start[i]) / p->depth, (p->stop - span->end[i]) / p->depth, span->late);
   double weight = p->flat_length * p->push, c = weight * m.slope / p->depth;
   e->push[i] += weight * m.push;
   e->own[i] += c;
@@ -177,7 +177,7 @@ static void add_elements(const ZpContactParams *p, const ZpContactSpan *span, co
 
 /* Eq. (9.6), and its derivative. */
 static void add_damper(const ZpContactParams *p, const ZpContactSpan *span, size_t i, const ZpContactEval *e) {
-  double s0 = fmax(-span->start[i] / p->depth, 0), s1 = fmax(-span->end[i] / p->depth, 0),
+  double s0 = fmax((p->stop - span->start[i]) / p->depth, 0), s1 = fmax((p->stop - span->end[i]) / p->depth, 0),
          c = e->damper[i] * span->rate;
   e->push[i] += 0.5 * c * p->depth * (s1 * s1 - s0 * s0);
   e->own[i] += c * s1;
@@ -221,7 +221,7 @@ double zp_contact_kept(const ZpContactEval *e, size_t i, double reduced_mass, do
 }
 
 double zp_contact_kept_at(const ZpContactParams *p, double gap, size_t i, double reduced_mass, double dt) {
-  double s = fmax(-gap / p->depth, 0);
+  double s = fmax((p->stop - gap) / p->depth, 0);
   return 1 / (1 + ZP_FACES_LOSS_FACTOR * dt * s * sqrt(layers_at(p, i) / reduced_mass));
 }
 
@@ -230,4 +230,8 @@ size_t zp_contact_front(const ZpContactParams *p, const double *gap) {
   while (front < p->platform && gap[front + 1] < p->range)
     front++;
   return front;
+}
+
+bool zp_contact_closed(const ZpContactParams *p, const double *gap) {
+  return zp_contact_front(p, gap) == p->platform && gap[p->platform] - p->stop < p->range;
 }

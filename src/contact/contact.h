@@ -16,6 +16,7 @@
 typedef struct ZpContactParams {
   size_t nodes;                  /* N stations; the first is the clip, which is closed by itself */
   double l;                      /* element length, m */
+  double stop;                   /* gap below which the platform is stopped, m; 0: where its faces touch */
   double range;                  /* faces closer than that count as closed, m; zp_contact_range */
   double depth;                  /* delta: overlap at which the push is p_c, m */
   double push;                   /* p_c, N/m */
@@ -66,7 +67,8 @@ double zp_contact_kept(const ZpContactEval *eval, size_t i, double reduced_mass,
 /* zp_contact_kept with the k_c of eq. (9.6), by the gap of the station alone, m. */
 double zp_contact_kept_at(const ZpContactParams *params, double gap, size_t i, double reduced_mass, double dt);
 
-/* How many stations from the first clip to the platform are closed, the clip not counted. */
+/* How many stations from the first clip to the platform are closed, the clip not counted; and is the platform? */
 size_t zp_contact_front(const ZpContactParams *params, const double *gap);
+bool zp_contact_closed(const ZpContactParams *params, const double *gap);
 
 #endif

@@ -239,6 +239,21 @@ double zp_insulation(const ZpActuatorDef *def);
 /* Thickness of the insulating layer on a ribbon, m; of a film that is the insulator itself (auto), that of the film. */
 double zp_insulator_thickness(const ZpActuatorDef *def);
 
+/* Do electrodes touch where it is closed, without an insulator or a stop between them? */
+bool zp_def_shorts(const ZpActuatorDef *def);
+
+/* Length of its platform, m: a plate is all platform. */
+double zp_platform_length(const ZpActuatorDef *def);
+
+/* Gap of a device whose faces are apart at its clamp or all along without voltage, m; 0 of others. */
+double zp_def_gap(const ZpActuatorDef *def);
+
+/* film.roughness, or what auto means: of a device that has such a gap at most a part of it, m. */
+double zp_def_roughness(const ZpActuatorDef *def);
+
+/* How many equal pairs of electrodes move as one: plate.count. */
+int zp_def_count(const ZpActuatorDef *def);
+
 /* Checks of segments, which must fit into their ribbon, and of lower.*, which requires two ribbons. */
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err);
 

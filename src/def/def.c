@@ -458,6 +458,9 @@ static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_
   return status;
 }
 
+/* Gaps below this withstand far more than the strength of their medium, m. */
+static const double small_gap = 20e-6;
+
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpActuatorDef given = plain;
   ZpStatus status = check_there(def, err);
@@ -478,7 +481,11 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   apply_values(def, false, (int)given.preset, given.mesh.nodes);
   apply_values(def, true, (int)given.source.supply, 0);
   apply_materials(def, &given);
-  return apply_assignments(def, list, count, err);
+  status = apply_assignments(def, list, count, err);
+  const double gap = zp_def_gap(def);
+  if (status == ZP_OK && gap > 0 && gap < small_gap && !is_given(zp_key_find("electro.breakdown_cap"), list, count))
+    def->electro.breakdown_cap = false;
+  return status;
 }
 
 static ZpStatus check_square(const char *group, double duty, double frequency, double rise_time, ZpError *err) {
@@ -496,6 +503,30 @@ static ZpStatus check_waveforms(const ZpActuatorDef *def, ZpError *err) {
   if (status == ZP_OK && def->setpoint.waveform == ZP_WAVEFORM_SQUARE)
     status = check_square("setpoint", def->setpoint.duty, def->setpoint.frequency, def->setpoint.rise_time, err);
   return status;
+}
+
+bool zp_def_shorts(const ZpActuatorDef *def) {
+  return zp_insulation(def) == 0 && !(zp_def_has(def, ZP_DEVICE_RIGID) && def->plate.stop_gap > 0);
+}
+
+double zp_platform_length(const ZpActuatorDef *def) {
+  return zp_def_has(def, ZP_DEVICE_RIGID) ? def->ribbon.length : def->platform.length;
+}
+
+double zp_def_gap(const ZpActuatorDef *def) {
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) return def->plate.gap;
+  return zp_def_has(def, ZP_DEVICE_COUNTER) ? def->electro.gap_offset : 0;
+}
+
+double zp_def_roughness(const ZpActuatorDef *def) {
+  static const double usual = 2e-6, part = 0.01;
+  const double gap = zp_def_gap(def);
+  if (!isnan(def->film.roughness)) return def->film.roughness;
+  return gap > 0 ? fmin(usual, part * gap) : usual;
+}
+
+int zp_def_count(const ZpActuatorDef *def) {
+  return zp_def_has(def, ZP_DEVICE_RIGID) ? def->plate.count : 1;
 }
 
 bool zp_def_takes_table(const ZpActuatorDef *def) {
@@ -539,6 +570,9 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
 }
 
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
+  const bool given = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.mass);
+  if (given && def->plate.mass == 0) return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
+  if (given) return ZP_OK;
   ZpActuatorDef lower = zp_def_lower(def);
   const ZpActuatorDef *of[] = {def, &lower};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
@@ -570,7 +604,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
   bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && gap_at_clamp(def) == 0);
-  if (voltage == 0 || zp_insulation(def) > 0 || !touches) return ZP_OK;
+  if (voltage == 0 || !zp_def_shorts(def) || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
                  "insulator, or 0 V",
@@ -586,6 +620,9 @@ ZpStatus zp_check_bead(const ZpActuatorDef *def, ZpError *err) {
 ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def) {
   if (!def) return ZP_LIQUID_NONE;
   if (def->liquid.model != ZP_LIQUID_AUTO) return def->liquid.model;
+  if (def->medium.density == 0) return ZP_LIQUID_NONE;
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) return ZP_LIQUID_SUBMERGED;
+  if (def->medium.mean_free_path > 0) return ZP_LIQUID_NONE; /* no beads of a gas */
   if (def->electro.edges || !isnan(def->insulator.resistivity) || !isnan(def->medium.resistivity))
     return ZP_LIQUID_NONE; /* edges and leakage are in a bath unless the scenario asks for a bead */
   return zp_rule_against(ZP_KEY(liquid.model), ZP_LIQUID_BEAD, def) ? ZP_LIQUID_NONE : ZP_LIQUID_BEAD;
@@ -631,7 +668,8 @@ ZpActuatorDef zp_def_unloaded(const ZpActuatorDef *def) {
 /* The halves are mirror images only if gravity is vertical. */
 static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
   static const double half_turn = 3.14159265358979323846;
-  bool mirrored = zp_def_has(def, ZP_DEVICE_PLATFORM) && def->actuator.symmetry == ZP_SYMMETRY_HALF;
+  bool mirrored = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) &&
+                  def->actuator.symmetry == ZP_SYMMETRY_HALF;
   double tilt = fabs(def->mount.tilt);
   if (!mirrored || tilt < zp_tilt_rounding || half_turn - tilt < zp_tilt_rounding) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
@@ -642,7 +680,7 @@ static ZpStatus check_tilt(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of the place of the load. */
 static ZpStatus check_offset(const ZpActuatorDef *def, ZpError *err) {
-  double most = def->platform.length / 2, offset = def->load.offset;
+  double most = zp_platform_length(def) / 2, offset = def->load.offset;
   if (fabs(offset) <= most) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "load.offset = %g m: outside the platform; allowed are %g to %g m", offset, -most,
                  most);
@@ -670,7 +708,7 @@ static ZpStatus check_fields(const ZpActuatorDef *def, ZpError *err) {
 /* Two faces that touch without an insulator and without a limit of the field. */
 static ZpStatus check_bare(const ZpActuatorDef *def, ZpError *err) {
   double offset = def->electro.insulator_offset;
-  bool bare = isnan(offset) ? zp_insulation(def) == 0 : offset == 0;
+  bool bare = isnan(offset) || zp_def_has(def, ZP_DEVICE_RIGID) ? zp_def_shorts(def) : offset == 0;
   if (!zp_def_has(def, ZP_DEVICE_PAIR) || !bare || def->electro.breakdown_cap) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: requires electro.breakdown_cap true; otherwise the force between bare "
@@ -700,12 +738,31 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
 
 /* Checks of lengths and numbers of nodes. */
 static ZpStatus check_sizes(const ZpActuatorDef *def, ZpError *err) {
-  if (zp_def_has(def, ZP_DEVICE_PLATFORM) && def->platform.length > 0.9 * def->ribbon.length)
+  const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
+  if (zp_def_has(def, ZP_DEVICE_PLATFORM) && !rigid && def->platform.length > 0.9 * def->ribbon.length)
     return zp_fail(err, ZP_BAD_INPUT, "platform.length = %g m: at most 0.9 of ribbon.length, %g m",
                    def->platform.length, 0.9 * def->ribbon.length);
   if (zp_def_has(def, ZP_DEVICE_PAIR) && def->contact.complete_margin > def->mesh.nodes - 2)
     return zp_fail(err, ZP_BAD_INPUT, "contact.complete_margin = %d: at most mesh.nodes - 2 = %d",
                    def->contact.complete_margin, def->mesh.nodes - 2);
+  return ZP_OK;
+}
+
+/* The stops of a plate are between its place without voltage and the electrodes. */
+static ZpStatus check_plate(const ZpActuatorDef *def, ZpError *err) {
+  if (!zp_def_has(def, ZP_DEVICE_RIGID)) return ZP_OK;
+  if (def->plate.stop_gap >= def->plate.gap)
+    return zp_fail(err, ZP_BAD_INPUT, "plate.stop_gap = %g m: must be below plate.gap = %g m", def->plate.stop_gap,
+                   def->plate.gap);
+  if (isnan(def->plate.back_gap)) return ZP_OK;
+  if (def->plate.back_stop_gap >= def->plate.back_gap)
+    return zp_fail(err, ZP_BAD_INPUT, "plate.back_stop_gap = %g m: must be below plate.back_gap = %g m",
+                   def->plate.back_stop_gap, def->plate.back_gap);
+  if (zp_insulation(def) == 0 && def->plate.back_stop_gap == 0)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "plate.back_stop_gap = 0 m: without an insulator the plate would touch the electrode behind it; give "
+                   "a stop below plate.back_gap = %g m",
+                   def->plate.back_gap);
   return ZP_OK;
 }
 
@@ -728,8 +785,8 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of numbers that depend on each other, in the order in which they are asked: of the mass that members of a
  * stack share before those of the members. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,    check_sizes,  check_counter, check_bare,      zp_check_ribbons, check_change,
-    zp_check_stack, check_offset, check_tilt,    check_waveforms, check_control,    check_meter};
+    check_build,    check_sizes,  check_counter, check_plate,     check_bare,    zp_check_ribbons, check_change,
+    zp_check_stack, check_offset, check_tilt,    check_waveforms, check_control, check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);

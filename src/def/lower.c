@@ -147,7 +147,7 @@ static ZpStatus check_tension(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_check_ribbons(const ZpActuatorDef *def, ZpError *err) {
   bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
-  double flexible = platform ? (def->ribbon.length - def->platform.length) / 2 : def->ribbon.length;
+  double flexible = platform ? (def->ribbon.length - zp_platform_length(def)) / 2 : def->ribbon.length;
   ZpActuatorDef lower = zp_def_lower(def);
   ZpStatus status = check_signs(def, err);
   if (status == ZP_OK) status = check_tension(def, err);

@@ -21,7 +21,7 @@ double zp_def_tolerance(const ZpActuatorDef *def) {
   if (!def) return NAN;
   if (!isnan(def->solver.tolerance)) return def->solver.tolerance;
   if (*def->sensitivity.by) return of_derivatives;
-  return zp_def_has(def, ZP_DEVICE_ELECTRODES) ? of_mesh(def) : usual;
+  return zp_def_has(def, ZP_DEVICE_ELECTRODES) && !zp_def_has(def, ZP_DEVICE_RIGID) ? of_mesh(def) : usual;
 }
 
 double zp_tolerance_at_rest(const ZpActuatorDef *def) {

@@ -8,6 +8,7 @@
 
 #include "base/fail.h"
 #include "base/table.h"
+#include "def/check.h"
 #include "io/number.h"
 #include "io/plan.h"
 #include "io/units.h"
@@ -216,6 +217,7 @@ void zp_plot_define(const void *of, FILE *file) {
   define_count(file, "", "fitted", plot->def.calibrate.fit[strspn(plot->def.calibrate.fit, " ")] != 0);
   for (int key = zp_def_next_key(&plot->def, -1); key >= 0; key = zp_def_next_key(&plot->def, key))
     define_key(plot, key, file);
+  fprintf(file, "film_roughness = %.9g # whatever auto means\n", zp_def_roughness(&plot->def));
   if (zp_def_network(&plot->def)) {
     define_names(&plot->def, "members_named", ZP_OF_MEMBER, file);
     define_names(&plot->def, "bodies_named", ZP_OF_BODY, file);

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "base/kernel.h"
+#include "math/elementary.h"
 
 static const double give = 1e-6;                    /* m/Pa: a cavity as thick as a millimetre takes 1 % more */
 static const double shortest = 1e-3;                /* of an element: what flows past a meniscus is led so far */
@@ -23,6 +24,35 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
   p->kappa2[0] = lateral_flow ? pi2 / w2 : 0;
   p->kappa2[1] = lateral_flow ? others / w2 : 0;
   p->outlet = !lateral_flow;
+  p->breadth = p->w;
+}
+
+/* tanh(x) / x. */
+static double tanh_over(double x) {
+  double back = 1 + zp_decay(2 * x);
+  return (1 - back) / ((1 + back) * x);
+}
+
+void zp_film_plate_modes(ZpFilmParams *p, double length, bool lateral_flow) {
+  enum { LAST = 99 }; /* of the series, whose terms fall as the fourth power */
+  static const double pi4 = 97.409091034002437;
+  const double b = lateral_flow ? fmin(p->w, length) : length, L = lateral_flow ? fmax(p->w, length) : INFINITY,
+               per_mode = 0.5 * zp_pi * L / b;
+  double all = 0;
+  zp_film_modes(p, true);
+  for (int n = 1; n <= LAST; n += 2)
+    all += 8 / (pi4 * n * n * n * n) * (1 - tanh_over(n * per_mode));
+  double lowest = p->share[0] / (zp_pi * zp_pi) * (1 - tanh_over(per_mode));
+  p->kappa2[0] = p->share[0] / (lowest * b * b);
+  p->kappa2[1] = p->share[1] / ((all - lowest) * b * b);
+  p->breadth = lateral_flow ? 2 * p->w * length / (p->w + length) : length;
+}
+
+double zp_film_viscosity(const ZpFilmParams *p, double H) {
+  const double mu = p->mu / (1 + 6 * p->free_path / H);
+  if (isnan(p->floor.opening)) return mu;
+  const double gap = H * H * H * p->floor.width, below = 2 * p->floor.opening * p->floor.opening * p->floor.opening * p->w;
+  return mu * (4 * gap + below) / (gap + below);
 }
 
 void zp_film_reserve(const ZpFilmParams *p, ZpFilmEval *e, ZpArena *arena) {
@@ -74,7 +104,7 @@ ZP_INLINE double depth_of(double width, double H) {
 }
 
 double zp_film_depth(const ZpFilmParams *p, double H) {
-  return depth_of(p->w, H);
+  return depth_of(p->breadth, H);
 }
 
 /* Length of the element from station i on, m: the platform's counts at its stations. */
@@ -208,7 +238,7 @@ typedef struct Momentum {
 /* `depth` is H or E, the mean over the step. A flow that begins because a bead has just arrived does so at once: theta
  * is 1. With 1/2, a flow that the gap's motion prescribes would begin twice as large and reverse in every step. */
 static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h, bool begins) {
-  double B = 6 * p->mu * h, inertia = p->rho * thick * thick, theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
+  double B = 6 * zp_film_viscosity(p, thick) * h, inertia = p->rho * thick * thick, theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
   return (Momentum){theta, p->rho + 2 * theta * B * depth / (thick * thick * thick)};
 }
 
@@ -279,7 +309,7 @@ static double open_share(const ZpFilmEnds *ends, const ZpFilmEval *e, size_t i) 
 /* Across open edges if inertia does not count, m/(s Pa). */
 static double viscous_conductance(const ZpFilmParams *p, const ZpFilmEval *e, size_t i, int k) {
   double H = e->middle[i];
-  return H * H * H / (12 * p->mu) * p->kappa2[k];
+  return H * H * H / (12 * zp_film_viscosity(p, H)) * p->kappa2[k];
 }
 
 /* If only a part of the edges has liquid, it flows in so slowly that its inertia does not count. */
@@ -297,7 +327,7 @@ static void flow_in(const ZpFilmParams *p, size_t i, double share, const double 
  * together v + C rho v^2 / 2 = A. */
 static void flow_across(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i, double h, const double *start,
                         const double *heads, const ZpFilmEval *e) {
-  double E = mean(e->depth0, e->depth1, i), per_speed = 0.5 * p->w / mean(e->H0, e->H1, i), A = 0, C = 0;
+  double E = mean(e->depth0, e->depth1, i), per_speed = 0.5 * p->breadth / mean(e->H0, e->H1, i), A = 0, C = 0;
   Momentum m = momentum_of(p, e->middle[i], E, h, ends->cover && start[across_at(i, 0)] == 0);
   for (int k = 0; k < ZP_FILM_MODES; k++) {
     size_t at = zp_film_mode_at(i, k);
@@ -343,7 +373,7 @@ ZP_KERNEL static void thicknesses(size_t nodes, double roughness, double width, 
 static void geometry(const ZpFilmParams *p, const ZpFilmEnds *ends, const double *g0, const double *g1, double h,
                      const ZpFilmEval *e) {
   lay_pieces(p, ends, e);
-  thicknesses(p->nodes, p->roughness, p->w, g0, g1, e->rate, h, e);
+  thicknesses(p->nodes, p->roughness, p->breadth, g0, g1, e->rate, h, e);
 }
 
 static double mean_head(const ZpFilmParams *p, const double *heads, size_t i) {
@@ -551,7 +581,7 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
 static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h,
                    bool begins) {
   Momentum m = momentum_of(p, thick, depth, h, begins);
-  return 12 * p->mu * h * flow * flow / (thick * thick * thick) + p->rho * depth * (m.theta - 0.5) * change * change;
+  return 12 * zp_film_viscosity(p, thick) * h * flow * flow / (thick * thick * thick) + p->rho * depth * (m.theta - 0.5) * change * change;
 }
 
 static double change(const double *start, const ZpFilmEval *e, size_t i) {
@@ -571,7 +601,7 @@ static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double 
   if (!(p->kappa2[k] > 0)) return 0;
   double share = open_share(ends, e, i), H = e->middle[i], leak = e->leak[zp_film_mode_at(i, k)];
   double stops = 0.5 * p->rho * E * b * b / p->kappa2[k];
-  if (share < 1) return stops + (share > 0 ? 12 * p->mu * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
+  if (share < 1) return stops + (share > 0 ? 12 * zp_film_viscosity(p, H) * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
   return lost(p, e->middle[i], E, e->leak[zp_film_mode_at(i, k)], change(start, e, across_at(i, k)), h,
               ends->cover && start[across_at(i, 0)] == 0) /
          p->kappa2[k];
@@ -603,7 +633,7 @@ ZpFilmLoss zp_film_loss(const ZpFilmParams *p, const ZpFilmEnds *ends, double h,
       sum.along += p->w * e->piece[i].length * p->share[k] * lost_along(p, ends, h, start, e, i, k);
       sum.carried += p->w * p->share[k] * carried(p, ends, h, start, e, i, k);
     }
-    sum.jets += length * (h * p->rho * out * out * out * H / p->w + lost_by_cavity(start, e, i));
+    sum.jets += length * (h * p->rho * out * out * out * H / p->breadth + lost_by_cavity(start, e, i));
   }
   for (int half = 0; half < 2; half++)
     sum.given += ends->head[half] * e->out[half];

@@ -27,12 +27,20 @@ static inline size_t zp_film_mode_at(size_t i, int k) {
 
 static const double zp_film_tension = 1e5; /* Pa: a liquid under an atmosphere stands no more before it cavitates */
 
+/* A floor below one long edge of electrodes that are so wide, along the floor, m; opening: NAN without one, m. */
+typedef struct ZpFilmFloor {
+  double opening, width;
+} ZpFilmFloor;
+
 typedef struct ZpFilmParams {
   size_t nodes;                  /* N stations */
   double l;                      /* element length, m */
   size_t platform, platform_end; /* its first and last station: nothing flows between them */
   double flat_length;            /* of its flat faces, at the gap of each of these, m */
   double w, mu, rho;             /* width, m; viscosity, Pa s; density, kg/m^3, 0: without inertia */
+  double free_path;              /* of the molecules of a gas, m; 0: the film does not slip along the faces */
+  ZpFilmFloor floor;             /* below one long edge */
+  double breadth;                /* twice the area over the length of the edges where it is open, m: w of a strip */
   double roughness;              /* thickness where g is 0, m; 0: none */
   double share[ZP_FILM_MODES];   /* a_k */
   double kappa2[ZP_FILM_MODES];  /* kappa_k^2, 1/m^2; 0: nothing flows out at the long edges */
@@ -41,6 +49,13 @@ typedef struct ZpFilmParams {
 
 /* Both modes of a strip of that width; without lateral flow one mode, and an outlet at the platform. */
 void zp_film_modes(ZpFilmParams *params, bool lateral_flow);
+
+/* Both modes of a level plate of that width and of this length, m, that is open all around, or without lateral flow at
+ * its ends only, eq. (37.5). */
+void zp_film_plate_modes(ZpFilmParams *params, double length, bool lateral_flow);
+
+/* Viscosity that resists in a film so thick, Pa s: less by slip, eq. (37.7), more above a floor, eq. (37.8). */
+double zp_film_viscosity(const ZpFilmParams *params, double thickness);
 
 /* The wet part of an element, of its left [0] and its right station [1]. */
 typedef struct ZpFilmPiece {

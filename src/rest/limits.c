@@ -404,8 +404,8 @@ void zp_limits_find(ZpRest *rest, const ZpLimits *near, bool load, ZpLimits *lim
   none_from(&f, 0, "it hangs closed");
   if (limits->hanging <= zp_closed_opening(model, 0)) return;
   ZpQuasistaticEnd up = raise_voltage(&f);
-  if (zp_insulation(&model->def) == 0) none_from(&f, ZP_LIMIT_CLOSING, "when closed, it is a short circuit");
-  if (zp_insulation(&model->def) == 0) return;
+  if (zp_def_shorts(&model->def)) none_from(&f, ZP_LIMIT_CLOSING, "when closed, it is a short circuit");
+  if (zp_def_shorts(&model->def)) return;
   none_from(&f, ZP_LIMIT_RELEASE, "it was not searched");
   if (up == ZP_QUASISTATIC_STOPPED) return;
   lower_voltage(&f);

@@ -28,7 +28,7 @@ double zp_loop_signal(ZpRest *rest, const ZpLoop *loop) {
   case ZP_CONTROL_STROKE:
     return zp_statics_member_stroke(s, loop->lead);
   case ZP_CONTROL_CONTRACTION:
-    return 1 - zp_statics_member_opening(s, loop->lead) / loop->hanging;
+    return zp_contraction(lead_of(s, loop), zp_statics_member_opening(s, loop->lead), loop->hanging);
   case ZP_CONTROL_ANGLE:
     return zp_statics_places(s)[lower_of(s, loop->lead)].turn;
   case ZP_CONTROL_CAPACITANCE:
@@ -75,7 +75,7 @@ static double signal_along(ZpStatics *s, const ZpLoop *loop, const double *x) {
   case ZP_CONTROL_STROKE:
     return zp_stroke_change(model, moved_by(s, loop->lead, x));
   case ZP_CONTROL_CONTRACTION:
-    return -zp_opening(&model->topology, moved_by(s, loop->lead, x).y) / loop->hanging;
+    return zp_contraction_slope(model, loop->hanging) * zp_opening(&model->topology, moved_by(s, loop->lead, x).y);
   case ZP_CONTROL_ANGLE:
     return angle_along(s, loop->lead, x);
   case ZP_CONTROL_CAPACITANCE:

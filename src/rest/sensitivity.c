@@ -334,7 +334,8 @@ static bool is_smooth(const ZpRestSensitivity *p, const ZpBranchSystem *branch) 
  * that nearly reach their limit points together, are left out to second order. */
 double zp_rest_sensitivity_of_fold(ZpRestSensitivity *p, int inputs, const ZpBranchSystem *branch, const double *null) {
   size_t n = p->at->n;
-  if (!solve_both(p, inputs, branch) || !is_smooth(p, branch)) return NAN;
+  if (!solve_both(p, inputs, branch)) return n == 1 ? -p->by_key[0] / p->by_parameter[0] : NAN; /* K is 0 */
+  if (!is_smooth(p, branch)) return NAN;
   zp_arrow_solve(&p->at->newton.K, p->by_key);
   zp_arrow_solve(&p->at->newton.K, p->by_parameter);
   return -zp_dot(n, null, p->by_key) / zp_dot(n, null, p->by_parameter);

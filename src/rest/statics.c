@@ -8,7 +8,7 @@
 #include "actuator/place.h"
 #include "actuator/resolution.h"
 #include "base/kernel.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "def/tolerance.h"
 #include "math/elementary.h"
 #include "math/vector.h"
@@ -628,9 +628,13 @@ double zp_statics_capacitance(const ZpStatics *s) {
   return sum;
 }
 
-/* Capacitance of closed faces, whole actuator, F. */
+/* Capacitance of closed faces, whole actuator, F: at most, of a plate between two electrodes. */
 static double closed_capacitance(const ZpModel *model) {
-  return zp_part_capacitance(model, zp_plates_inverse_gap(&model->plates, 0)) * zp_contact_length(model);
+  const ZpActuatorDef *def = &model->def;
+  const bool backs = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.back_gap);
+  double inverse = zp_plates_inverse_gap(&model->plates, model->faces.stop);
+  if (backs) inverse += zp_plates_inverse_gap(&model->plates, def->plate.back_stop_gap);
+  return zp_part_capacitance(model, inverse) * zp_contact_length(model);
 }
 
 /* Force per length of faces, N/m, with which a load that falls upwards presses those of the platform together, or the
@@ -647,7 +651,7 @@ static double pressed_by_load(const ZpModel *model) {
 static double deepest_overlap(const ZpModel *model, double U) {
   static const double ranges = 2, of_insulators = 0.02, lever = 3;
   const ZpContactParams *faces = &model->faces;
-  double attraction = zp_plates_law(&model->plates, U, 0).W;
+  double attraction = zp_plates_law(&model->plates, U, model->faces.stop).W;
   double pull = (attraction + pressed_by_load(model)) / faces->push;
   double balanced = faces->depth * zp_cube_root(fmax(pull, 1));
   return fmax(fmax(ranges * faces->range, of_insulators * zp_insulation(&model->def)), lever * balanced);
@@ -665,7 +669,7 @@ static const char *fault_of_stations(const ZpRestMember *m, double U, bool conta
   double least = INFINITY, capacitance = m->model->parts * totals(m, U).capacitance;
   for (size_t i = 0; i < m->model->nodes; i++)
     least = fmin(least, m->eval.plates.gap[i]);
-  if (contact_acts && least < -deepest_overlap(m->model, U)) return "the insulators' faces overlap";
+  if (contact_acts && least < m->model->faces.stop - deepest_overlap(m->model, U)) return "the insulators' faces overlap";
   if (capacitance < 0) return "the capacitance is negative";
   if (capacitance > beyond_plates * closed_capacitance(m->model))
     return "the capacitance is above that of closed faces";
@@ -965,7 +969,17 @@ static void turn(ZpRestMember *m, const double *step) {
                    m->stretch);
 }
 
+/* The rise of a plate under a step, m. */
+static double rise_of(const ZpRestMember *m, const double *step) {
+  return zp_assembly_change(&m->assembly, step, load_coordinate(m));
+}
+
+/* Of a plate, which has no edges to turn, in place of a rotation the part of its gap by which it moves. */
 static double rotation_of(ZpRestMember *m, const double *step, double most) {
+  if (zp_half_elements(&m->model->topology) == 0) {
+    const double part = fabs(rise_of(m, step)) / m->model->L;
+    return part <= most ? most : part;
+  }
   turn(m, step);
   return turned_by(m, most);
 }
@@ -1114,8 +1128,17 @@ static void move_bodies(ZpStatics *s, const double *step, double fraction) {
   zp_plane_poses(&s->plane, s->form.inner, s->at, s->pose);
 }
 
+static void move_plate(ZpRestMember *m, const double *step, double fraction) {
+  const double height = zp_nodes(m->model, m->q).y[zp_load_node(&m->model->topology)];
+  zp_place_platform(m->model, &m->assembly, height + fraction * rise_of(m, step), m->q);
+}
+
 static void move_member(ZpStatics *s, size_t k, const double *step, double fraction) {
   ZpRestMember *m = &s->member[k];
+  if (zp_half_elements(&m->model->topology) == 0) {
+    move_plate(m, step, fraction);
+    return;
+  }
   turn_edges(m, step, fraction);
   if (in_plane(s)) zp_plane_put_platform(&s->plane, k, s->pose, s->nearer, m->q);
   zp_place_edges(m->model, &m->assembly, m->moved, m->q);

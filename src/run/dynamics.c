@@ -489,15 +489,15 @@ static void keep_apart(const ZpDynamics *d, ZpMovingMember *m, double *q1) {
   const ZpTopology *t = &model->topology;
   const double *y = zp_nodes(model, m->start).y, little = 0.5 * model->faces.depth;
   if (in_plane(d)) place_nodes(d, m, d->pose1, q1, m->end);
-  for (size_t i = 1; i < model->nodes; i++) {
+  for (size_t i = zp_first_apart(t); i < model->nodes; i++) {
     Pair pair = pair_of(m, i);
     if (pair.lower < 0) continue;
     double upper = zp_is_pair(t) ? y[zp_upper(t, i)] : model->plates.face[i];
     if (pair.upper >= 0) upper = height_at(d, m, zp_upper(t, i), q1);
-    double overlap = height_at(d, m, zp_lower(t, i), q1) - upper;
-    bool overlapped = m->eval.plates_start.gap[i] < 0;
-    if (!(overlap > 0) && !overlapped) continue;
-    overlap += overlapped ? m->eval.plates_start.gap[i] : -fmin(little, overlap);
+    double overlap = height_at(d, m, zp_lower(t, i), q1) - upper + model->faces.stop;
+    double before = m->eval.plates_start.gap[i] - model->faces.stop;
+    if (!(overlap > 0) && !(before < 0)) continue;
+    overlap += before < 0 ? before : -fmin(little, overlap);
     bring_nearer(pair, -overlap, q1);
   }
 }
@@ -540,7 +540,7 @@ static double unforeseen_of_one(const ZpDynamics *d, ZpMovingMember *m, const do
   }
   ZpContactSpan span = zp_contact_span(&model->faces, m->eval.plates_start.gap, gap, d->h);
   zp_contact_eval(&model->faces, &span, faces);
-  for (size_t i = 1; i < model->nodes; i++)
+  for (size_t i = zp_first_apart(&model->topology); i < model->nodes; i++)
     work += fabs((faces->push[i] - foreseen[i]) * (gap[i] - m->eval.plates_start.gap[i]));
   return work;
 }
@@ -606,7 +606,7 @@ static bool meets(const ZpMovingMember *m, size_t i) {
 static double pushed(const ZpMovingMember *m) {
   const double *gap = m->eval.plates.gap, *before = m->eval.plates_start.gap;
   double loss = 0;
-  for (size_t i = 1; i < m->model->nodes; i++)
+  for (size_t i = zp_first_apart(&m->model->topology); i < m->model->nodes; i++)
     loss -= m->eval.faces.push[i] * (gap[i] - before[i]);
   return loss;
 }
@@ -617,7 +617,7 @@ static void damp_all(ZpDynamics *d) {
   for (size_t k = 0; k < d->members; k++) {
     const ZpMovingMember *m = &d->member[k];
     d->lost[k] = 0;
-    for (size_t i = 1; i < m->model->nodes; i++) {
+    for (size_t i = zp_first_apart(&m->model->topology); i < m->model->nodes; i++) {
       if (!meets(m, i)) continue;
       const Pair pair = pair_of(m, i);
       if (zp_abreast(m->model) > 1 && is_platform(m, i))
@@ -634,7 +634,7 @@ static void damp_all(ZpDynamics *d) {
 
 static bool any_meet(const ZpDynamics *d) {
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
-    for (size_t i = 1; i < m->model->nodes; i++)
+    for (size_t i = zp_first_apart(&m->model->topology); i < m->model->nodes; i++)
       if (meets(m, i)) return true;
   return false;
 }
@@ -644,7 +644,7 @@ static bool misses_layers(const ZpDynamics *d) {
   static const double followed = 4; /* angle by which such a vibration turns in a step, at most */
   double most = followed * followed / (d->h * d->h);
   for (const ZpMovingMember *m = d->member; m < d->member + d->members; m++)
-    for (size_t i = 1; i < m->model->nodes; i++)
+    for (size_t i = zp_first_apart(&m->model->topology); i < m->model->nodes; i++)
       if (meets(m, i) && m->eval.faces.stiffness[i] > most * pair_of(m, i).reduced) return true;
   return false;
 }
@@ -672,7 +672,7 @@ static double impact(ZpDynamics *d) {
 static void settle_film(ZpDynamics *d, const ZpMovingMember *m) {
   static const double thin = 2; /* times the roughness: faces lie on each other */
   const ZpFilmParams *film = &m->model->film;
-  for (size_t i = 1; i < m->model->nodes; i++) {
+  for (size_t i = zp_first_apart(&m->model->topology); i < m->model->nodes; i++) {
     Pair pair = pair_of(m, i);
     double H = zp_film_thickness(film, m->eval.plates.gap[i]), drag = 6 * film->mu * d->h;
     if (pair.lower < 0 || H > thin * film->roughness) continue;
@@ -750,7 +750,7 @@ static double mass_of_swing(const ZpDynamics *d, const ZpMovingMember *m, size_t
  * are damped after the step. */
 static void set_dampers(const ZpDynamics *d, ZpMovingMember *m) {
   const ZpModel *model = m->model;
-  for (size_t i = 1; i < model->nodes && model->field && !model->has_film; i++) {
+  for (size_t i = zp_first_apart(&model->topology); i < model->nodes && model->field && !model->has_film; i++) {
     Pair pair = pair_of(m, i);
     const double reduced = pair.lower < -1 ? mass_of_swing(d, m, i) : pair.reduced;
     if (pair.lower >= 0 || (pair.lower < -1 && isfinite(reduced)))

@@ -149,7 +149,8 @@ static bool is_before_fold(ZpTrack *m, double sign) {
  * corner, it is smooth itself: solved as such m hardly changes, but the state does, and with it the derivatives of m by
  * keys. False if the point is not stable. */
 static bool refine(ZpTrack *m) {
-  static const double near = 1e-8; /* of m: another limit point is farther away */
+  /* of m: another limit point is farther away; one unknown has only one */
+  const double near = m->fold.system->at_rest.n > 1 ? 1e-8 : 1e-4;
   go_back(m);
   if (!is_stable(m)) return false;
   zp_fold_guess(&m->fold);
@@ -315,7 +316,7 @@ static ZpTrackEnd track(ZpTrack *m, double target) {
 ZpTrackEnd zp_track(ZpTrack *m, double target) {
   const ZpBranchSystem *sys = m->fold.system;
   sys->save(sys->at_rest.self, m->start);
-  m->to = ZP_FOLD_ROUGH;
+  m->to = sys->at_rest.n > 1 ? ZP_FOLD_ROUGH : ZP_FOLD_EXACT; /* one unknown is cheap, as of a plate on a hard stop */
   ZpTrackEnd end = track(m, target);
   if (end != ZP_TRACK_LOST || creeps(m)) return end;
   sys->restore(sys->at_rest.self, m->start);

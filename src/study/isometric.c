@@ -417,14 +417,17 @@ static ZpStatus check_reach(double separation, double longest, const char *of, Z
                  zp_most_opening, of, most);
 }
 
+/* The largest opening, about. */
 static double length_of(const ZpActuatorDef *def) {
-  return def->ribbon.length - (zp_def_has(def, ZP_DEVICE_PLATFORM) ? def->platform.length : 0);
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) return isnan(def->plate.back_gap) ? INFINITY : def->plate.gap + def->plate.back_gap;
+  return def->ribbon.length - (zp_def_has(def, ZP_DEVICE_PLATFORM) ? zp_platform_length(def) : 0);
 }
 
 ZpStatus zp_check_held(const ZpActuatorDef *def, ZpError *err) {
-  bool platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
-  return check_reach(def->isometric.separation, length_of(def),
-                     platform ? "(ribbon.length - platform.length)" : "ribbon.length", err);
+  const char *of = zp_def_has(def, ZP_DEVICE_RIGID)      ? "(plate.gap + plate.back_gap)"
+                   : zp_def_has(def, ZP_DEVICE_PLATFORM) ? "(ribbon.length - platform.length)"
+                                                         : "ribbon.length";
+  return check_reach(def->isometric.separation, length_of(def), of, err);
 }
 
 /* The end of a series is held within the reach of all together. */

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/fail.h"
-#include "def/check.h"
+#include "def/device.h"
 #include "study/equilibria.h"
 #include "study/sensitivity.h"
 
@@ -27,10 +27,11 @@ typedef struct Finder {
 /* -- the actuator ----------------------------------------------------------------------------------- */
 
 static double mass_of_one(const ZpModel *model) {
+  const bool rigid = zp_def_has(&model->def, ZP_DEVICE_RIGID); /* its nodes have the mass of its platform */
   double sum = -zp_load_share(model) * model->def.load.mass - zp_series_inertia(model), platform = 0;
   for (size_t j = 0; j < model->count; j++)
     sum += model->mass[j];
-  for (size_t i = 0; zp_has_platform(&model->topology) && i < model->s; i++)
+  for (size_t i = 0; zp_has_platform(&model->topology) && !rigid && i < model->s; i++)
     platform += zp_ribbon_section(model, i).mu * model->def.platform.length;
   return model->parts * sum + model->def.stack.parallel * platform;
 }

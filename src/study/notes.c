@@ -69,6 +69,7 @@ void zp_note_mesh(ZpResult *result, const ZpModel *model, double voltage) {
   static const double fewest = 6; /* elements: docs/theory.md, section 9, has what this and the other bound leave */
   double front = zp_front_length(model, voltage), elements = model->L / model->l;
   result->resolution = zp_mesh_resolution(model, voltage);
+  if (zp_half_elements(&model->topology) == 0) return;
   if (elements < fewest)
     zp_result_note(result, "mesh.nodes = %d: with fewer than %g elements the error of a shape at rest may reach 8 %%",
                    model->def.mesh.nodes, fewest);
@@ -92,7 +93,7 @@ void zp_result_note_model(ZpResult *result, const ZpModel *model, double highest
 
 void zp_note_liquid(ZpResult *result, const ZpModel *model) {
   ZpError why;
-  if (model->def.liquid.model != ZP_LIQUID_AUTO || model->has_bead) return;
+  if (model->def.liquid.model != ZP_LIQUID_AUTO || model->has_film || !(model->def.medium.density > 0)) return;
   if (!zp_is_pair(&model->topology)) return;
   const bool possible = zp_check_bead(&model->def, &why) == ZP_OK;
   zp_result_note(result, "liquid.model auto means none here, liquid everywhere without drag: %s",

@@ -27,6 +27,14 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   }
 }
 
+/* By the gap at which a plate is stopped. */
+static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
+  if (key != ZP_KEY(plate.stop_gap)) return false;
+  for (size_t i = 0; !span->faces_pass && i < model->nodes; i++)
+    zp_term_part(model, i, 2 * e->faces.own[i], F);
+  return true;
+}
+
 /* The code that makes the steps books the losses of impacts. */
 const ZpTerm zp_term_contact = {
-    .name = "contact", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness};
+    .name = "contact", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness, .by_key = by_key};

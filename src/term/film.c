@@ -248,6 +248,7 @@ static const ZpRule rule[] = {
             "none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_HAS(PLATFORM),
             "the bead is modelled between two ribbons with a platform; use liquid.model submerged or none"),
+    ZP_RULE(PHYSICS, WET, ZP_ABOVE(medium.density, 0), "nothing flows in a vacuum; use liquid.model none"),
     ZP_RULE(EQUATION, WET, ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the film acts on rods; use liquid.model none"),
     ZP_RULE(EQUATION, WET, ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's surface has no gap for a film; use liquid.model none"),

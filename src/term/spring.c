@@ -1,26 +1,41 @@
-/* Springs between the platforms that act on one side of an opening. That of the load pushes them apart while they are
+/* Springs between the platforms that act on one side of an opening, or on both. That of the load pushes them apart while they are
  * nearer than load.rest_opening, eq. (27.3). A stop pulls them together while they are further apart than
- * load.stop_opening, eq. (27.5). */
+ * load.stop_opening, eq. (27.5). The spring of a plate does both, eq. (37.1), and the stop behind the plate is of the
+ * second kind. */
 #include <math.h>
 
+#include "def/device.h"
 #include "term/term.h"
 
 const ZpRow zp_row_spring_energy = ZP_STORED(
-    spring_energy, "energy of the spring in parallel with the load, of the stop and of the spring at a hinge");
+    spring_energy, "energy of the spring in parallel with the load, of stops, of the spring of a plate and of that at a "
+                   "hinge");
 
-enum { SPRINGS = 2 };
+enum { OF_LOAD, STOP, OF_PLATE, BACK_STOP, SPRINGS };
 
 typedef struct Spring {
   double k;    /* of one end that the load hangs on, N/m; 0: there is none */
   double rest; /* opening at which it begins to act, m */
   double side; /* 1: acts below that and pushes apart; -1: acts above and pulls together */
+  bool both;   /* acts on both sides */
 } Spring;
 
 static Spring spring_of(const ZpModel *model, int which) {
   const ZpActuatorDef *def = &model->def;
-  bool stops = !isnan(def->load.stop_opening);
-  if (which == 0) return (Spring){zp_end_share(model) * def->load.stiffness, def->load.rest_opening, 1};
-  return (Spring){stops ? zp_end_share(model) * def->load.stop_stiffness : 0, def->load.stop_opening, -1};
+  const bool stops = !isnan(def->load.stop_opening), rigid = zp_def_has(def, ZP_DEVICE_RIGID),
+             backs = rigid && !isnan(def->plate.back_gap);
+  const double plate = rigid ? zp_plate_share(model) * def->plate.stiffness : 0;
+  switch (which) {
+  case OF_LOAD:
+    return (Spring){zp_end_share(model) * def->load.stiffness, def->load.rest_opening, 1, false};
+  case STOP:
+    return (Spring){stops ? zp_end_share(model) * def->load.stop_stiffness : 0, def->load.stop_opening, -1, false};
+  case OF_PLATE:
+    return (Spring){plate, def->plate.gap, 1, true};
+  default:
+    return (Spring){backs ? zp_plate_share(model) * def->plate.stop_stiffness : 0,
+                    def->plate.gap + def->plate.back_gap - def->plate.back_stop_gap, -1, false};
+  }
 }
 
 static bool acts(const ZpModel *model) {
@@ -32,7 +47,12 @@ static bool acts(const ZpModel *model) {
 
 /* Its deformation at these coordinates, m. */
 static double deformed(const ZpModel *model, const Spring *spring, const double *q) {
-  return fmax(spring->side * (spring->rest - zp_opening(&model->topology, zp_nodes(model, q).y)), 0);
+  double s = spring->side * (spring->rest - zp_opening(&model->topology, zp_nodes(model, q).y));
+  return spring->both ? s : fmax(s, 0);
+}
+
+static bool is_taut(const Spring *spring, double s) {
+  return spring->both || s > 0;
 }
 
 /* Over a span: the deformation at start and end, and the increase of the opening, m. */
@@ -41,8 +61,8 @@ typedef struct Way {
 } Way;
 
 /* Does the contact neither end nor begin on the way? */
-static bool is_even(Way way) {
-  return (way.s0 > 0) == (way.s1 > 0);
+static bool is_even(const Spring *spring, Way way) {
+  return is_taut(spring, way.s0) == is_taut(spring, way.s1);
 }
 
 static Way way_of(const ZpModel *model, const Spring *spring, const ZpSpan *span) {
@@ -53,24 +73,21 @@ static Way way_of(const ZpModel *model, const Spring *spring, const ZpSpan *span
 
 /* The mean force over the span, N: its work is the decrease of the energy. */
 static double push_of(const Spring *spring, Way way) {
-  if (is_even(way)) return 0.5 * spring->side * spring->k * (way.s0 + way.s1);
+  if (is_even(spring, way)) return 0.5 * spring->side * spring->k * (way.s0 + way.s1);
   return 0.5 * spring->k * (way.s0 * way.s0 - way.s1 * way.s1) / way.opened;
 }
 
 /* Minus its derivative by the opening at the end, N/m; at rest both ends move. */
 static double slope_of(const Spring *spring, Way way, bool still) {
-  if (still) return way.s1 > 0 ? spring->k : 0;
-  if (is_even(way)) return way.s1 > 0 ? 0.5 * spring->k : 0;
+  if (still) return is_taut(spring, way.s1) ? spring->k : 0;
+  if (is_even(spring, way)) return is_taut(spring, way.s1) ? 0.5 * spring->k : 0;
   return (push_of(spring, way) - spring->side * spring->k * way.s1) / way.opened;
 }
 
 static void add_push(const ZpModel *model, double push, double *F) {
   const ZpTopology *t = &model->topology;
-  double *Fy = zp_forces(model, F).y;
-  for (size_t i = t->platform.first; i <= t->platform.last; i++) {
-    Fy[zp_upper(t, i)] += push;
-    Fy[zp_lower(t, i)] -= push;
-  }
+  for (size_t i = t->platform.first; i <= t->platform.last; i++)
+    zp_term_part(model, i, push, F);
 }
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
@@ -83,20 +100,34 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   add_push(model, push, F);
 }
 
+/* What a key does to a spring: to its stiffness, over the unit of the key; and to the opening at which it acts. */
+typedef struct Rate {
+  double k, rest;
+} Rate;
+
+static Rate rate_of(const ZpModel *model, int which, int key) {
+  const double load = zp_end_share(model), plate = zp_plate_share(model);
+  const bool backs = which == BACK_STOP;
+  if (which == OF_LOAD) return (Rate){key == ZP_KEY(load.stiffness) ? load : 0, key == ZP_KEY(load.rest_opening)};
+  if (which == STOP) return (Rate){key == ZP_KEY(load.stop_stiffness) ? load : 0, key == ZP_KEY(load.stop_opening)};
+  const double k = key == (backs ? ZP_KEY(plate.stop_stiffness) : ZP_KEY(plate.stiffness)) ? plate : 0;
+  return (Rate){k, (key == ZP_KEY(plate.gap)) + (backs && key == ZP_KEY(plate.back_gap)) -
+                       (double)(backs && key == ZP_KEY(plate.back_stop_gap))};
+}
+
 static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key, double *F) {
-  static const struct {
-    int stiffness, rest;
-  } of[SPRINGS] = {{ZP_KEY(load.stiffness), ZP_KEY(load.rest_opening)},
-                   {ZP_KEY(load.stop_stiffness), ZP_KEY(load.stop_opening)}};
+  bool any = false;
   (void)e;
-  for (int k = 0; k < SPRINGS; k++) {
-    const Spring spring = spring_of(model, k), unit = {zp_end_share(model), spring.rest, spring.side};
-    if (key != of[k].stiffness && key != of[k].rest) continue;
+  for (int which = 0; which < SPRINGS; which++) {
+    const Spring spring = spring_of(model, which);
+    const Rate rate = rate_of(model, which, key);
+    any |= rate.k != 0 || rate.rest != 0;
+    if (rate.k == 0 && (rate.rest == 0 || spring.k == 0)) continue;
+    const Spring unit = {rate.k, spring.rest, spring.side, spring.both};
     const Way way = way_of(model, &spring, span);
-    add_push(model, span->share * (key == of[k].rest ? slope_of(&spring, way, true) : push_of(&unit, way)), F);
-    return true;
+    add_push(model, span->share * (push_of(&unit, way) + rate.rest * slope_of(&spring, way, true)), F);
   }
-  return false;
+  return any;
 }
 
 /* Minus the derivative of the force at one end of a platform that turns, whose middle is the mean of both ends. */

@@ -151,6 +151,9 @@ ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach);
  * the gaps found last. */
 void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double *a, double *F);
 
+/* F += a push, N, that parts both platforms at a station. */
+void zp_term_part(const ZpModel *model, size_t station, double push, double *F);
+
 /* F += G. */
 void zp_term_add(const ZpModel *model, const double *Gx, const double *Gy, double *F);
 
