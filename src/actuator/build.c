@@ -740,6 +740,12 @@ static ZpPlatesParams no_law(const ZpPlatesParams *plates) {
   return none;
 }
 
+/* In the middle of what the electrodes leave open. Heads of a pouch are those over the pressure there, whose volume is
+ * fixed, so that nothing leaves. */
+static size_t deepest_station(const ZpModel *model) {
+  return (size_t)(0.5 * (model->pouch.electrode + model->pouch.length) / model->l);
+}
+
 /* Eqs. (22.1) to (22.3). */
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
@@ -754,19 +760,22 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .rho = def->liquid.inertia ? def->medium.density : 0,
                        .free_path = def->medium.mean_free_path,
                        .floor = {rigid ? def->plate.floor_gap : NAN, def->ribbon.thickness},
-                       .roughness = model->mirror * zp_def_roughness(def)};
+                       .roughness = model->mirror * zp_def_roughness(def),
+                       .vent = {model->topology.platform.first, model->topology.platform.last}};
   if (rigid)
     zp_film_plate_modes(&film, def->ribbon.length, def->liquid.lateral_flow);
   else
     zp_film_modes(&film, def->liquid.lateral_flow);
   film.outlet |= zp_ends_free(&model->topology);
+  if (model->pouch.w > 0) film.vent[0] = film.vent[1] = deepest_station(model);
   return film;
 }
 
-/* A bead has air outside; behind a plate there may be a film. */
+/* A bead and a pouch have air outside; behind a plate there may be a film. */
 static ZpOuterParams outer_of(const ZpActuatorDef *def) {
   const bool film = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.back_gap);
-  if (zp_def_liquid(def) == ZP_LIQUID_BEAD || film) return (ZpOuterParams){.w = def->ribbon.width};
+  const bool air = zp_def_liquid(def) == ZP_LIQUID_BEAD || zp_def_has(def, ZP_DEVICE_POUCH);
+  if (air || film) return (ZpOuterParams){.w = def->ribbon.width};
   return (ZpOuterParams){.w = def->ribbon.width,
                          .rho = def->liquid.inertia ? def->medium.density : 0,
                          .drag = 0.5 * def->medium.drag_coefficient * def->medium.density};

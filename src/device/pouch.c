@@ -26,6 +26,8 @@ static const ZpAssignment given[] = {{ZP_KEY(ribbon.length), 20e-3},
                                      {ZP_KEY(insulator.breakdown_field), 300e6},
                                      {ZP_KEY(electro.breakdown_cap), 0},
                                      {ZP_KEY(mesh.nodes), 201},
+                                     {ZP_KEY(liquid.model), ZP_LIQUID_SUBMERGED},
+                                     {ZP_KEY(liquid.lateral_flow), 0},
                                      {ZP_KEY(drive.voltage), 6e3},
                                      {ZP_KEY(load.mass), 0.2}};
 

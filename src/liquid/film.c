@@ -171,13 +171,13 @@ static double length_between(const ZpFilmPiece *left, const ZpFilmPiece *right, 
   return left->cell[1][0] + left->cell[1][1] + right->cell[0][0] + right->cell[0][1] + flat_length;
 }
 
-/* The head that is given at station i, Pa: where there is no liquid, beside a meniscus below the platform, at an
- * outlet. */
+/* The head that is given at station i, Pa: where there is no liquid, beside a meniscus below the platform, at a
+ * vent. */
 static double given_head(const ZpFilmParams *p, const ZpFilmEnds *ends, size_t i) {
   int half = half_of(p, i);
   if (!is_wet(p, ends->cover, i)) return 0;
   if (is_platform(p, i) && ends->cover && ends->cover->flat[half] < 1) return ends->head[half];
-  return p->outlet && is_platform(p, i) ? 0 : NAN;
+  return p->outlet && i >= p->vent[0] && i <= p->vent[1] ? 0 : NAN;
 }
 
 static void lay_pieces(const ZpFilmParams *p, const ZpFilmEnds *ends, const ZpFilmEval *e) {

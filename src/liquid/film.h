@@ -44,7 +44,8 @@ typedef struct ZpFilmParams {
   double roughness;              /* thickness where g is 0, m; 0: none */
   double share[ZP_FILM_MODES];   /* a_k */
   double kappa2[ZP_FILM_MODES];  /* kappa_k^2, 1/m^2; 0: nothing flows out at the long edges */
-  bool outlet;                   /* the head at the platform is 0 */
+  bool outlet;                   /* the head is 0 */
+  size_t vent[2];                /* from the first of these stations to the other */
 } ZpFilmParams;
 
 /* Both modes of a strip of that width; without lateral flow one mode, and an outlet at the platform. */

@@ -243,9 +243,9 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, WET, ZP_HAS(ELECTRODES), "a single ribbon has no gap for a film; use liquid.model none"),
-    ZP_RULE(NOT_MODELLED, WET, ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PLATFORM | ZP_DEVICE_COUNTER),
-            "the film is modelled between two ribbons with a platform, or over a counter electrode; use liquid.model "
-            "none"),
+    ZP_RULE(NOT_MODELLED, WET, ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PLATFORM | ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH),
+            "the film is modelled between two ribbons with a platform, over a counter electrode, or in a pouch; use "
+            "liquid.model none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_HAS(PLATFORM),
             "the bead is modelled between two ribbons with a platform; use liquid.model submerged or none"),
     ZP_RULE(PHYSICS, WET, ZP_ABOVE(medium.density, 0), "nothing flows in a vacuum; use liquid.model none"),

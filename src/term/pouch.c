@@ -20,6 +20,10 @@ size_t zp_pouch_rank(const ZpModel *model) {
   return acts(model);
 }
 
+static double modulus_of(const ZpSpan *span) {
+  return span->memory ? zp_pouch_modulus_of_step : zp_pouch_modulus_at_rest;
+}
+
 /* The pressure at which the search stands, Pa. */
 static double sought(const ZpModel *model, const ZpSpan *span) {
   if (span->memory) return *zp_law_memory(model, &zp_term_pouch, span->memory);
@@ -51,7 +55,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   const ZpPouchParams *pouch = &model->pouch;
   double V = zp_pouch_volume(pouch, model->nodes, zp_nodes(model, span->end).x, e->plates.gap);
   find_rates(model, span, e);
-  e->pressure = sought(model, span) - zp_pouch_modulus * (V / pouch->volume - 1);
+  e->pressure = sought(model, span) - modulus_of(span) * (V / pouch->volume - 1);
   for (size_t k = 0; k < zp_coordinates(model); k++)
     F[k] += e->pressure * e->by_volume[k];
   e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
@@ -61,7 +65,7 @@ double zp_pouch_predicted(const ZpModel *model, const ZpEval *e, const double *m
   double change = 0;
   for (size_t k = 0; k < zp_coordinates(model); k++)
     change += e->by_volume[k] * moved[k];
-  return e->pressure - fraction * zp_pouch_modulus * change / model->pouch.volume;
+  return e->pressure - fraction * zp_pouch_modulus_at_rest * change / model->pouch.volume;
 }
 
 /* Add minus a pressure times the second derivatives of the volume. */
@@ -78,7 +82,7 @@ static void bend(const ZpModel *model, double pressure, const ZpAssembly *a, ZpB
 
 /* The pressure follows the volume at the end: a term of rank one. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
-  const double k = zp_pouch_modulus / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
+  const double k = modulus_of(span) / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
   double *u = zp_band_term(K, K->u, K->rank - 1), *v = zp_band_term(K, K->v, K->rank - 1);
   bend(model, both * sought(model, span), a, K);
   for (size_t i = 0; i < model->nodes; i++) {
