@@ -183,6 +183,15 @@ static inline ZpResult *converged_of(ZpStudy study, const ZpActuatorDef *def) {
   return result;
 }
 
+/* The derivative of an output by a key; NAN: it is not there. */
+static inline double derivative_of(const ZpResult *result, const char *output, int key) {
+  for (size_t k = 0; k < zp_result_sensitivities(result); k++) {
+    const ZpSensitivity *of = zp_result_sensitivity(result, k);
+    if (of->key == key && strcmp(of->output, output) == 0) return of->value;
+  }
+  return NAN;
+}
+
 static inline double answered_value(ZpStudy study, const ZpActuatorDef *def, const char *name) {
   return zp_result_get(answer_of(study, def), name);
 }

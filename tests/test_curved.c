@@ -212,14 +212,6 @@ TESTS(energy_is_kept_while_it_zips, 0, 4) {
 
 /* -- derivatives ------------------------------------------------------------------------------------- */
 
-static double derivative_of(const ZpResult *result, const char *output, int key) {
-  for (size_t k = 0; k < zp_result_sensitivities(result); k++) {
-    const ZpSensitivity *of = zp_result_sensitivity(result, k);
-    if (of->key == key && strcmp(of->output, output) == 0) return of->value;
-  }
-  return NAN;
-}
-
 TESTS(derivatives_by_the_shape_are_those_of_differences, 0, 3) {
   static const char *const keys[] = {"counter.height", "counter.power", "lower.insulator.thickness"};
   ZpActuatorDef def = curved_def(1.5, 0.05, 0.4, 61);

@@ -310,7 +310,8 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
  * the centre of mass. A plate has its layers' at its ends, unless plate.mass gives it. */
 double zp_ribbon_mass(const ZpModel *model, size_t j) {
   if (zp_def_has(&model->def, ZP_DEVICE_RIGID))
-    return isnan(model->def.plate.mass) && j % model->s > 0 ? zp_ribbon_section(model, 1).mu * platform_length(model) : 0;
+    return isnan(model->def.plate.mass) && j % model->s > 0 ? zp_ribbon_section(model, 1).mu * platform_length(model)
+                                                            : 0;
   return model->is_rod ? node_share(model, j, NULL).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
@@ -784,8 +785,8 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
 /* damping.internal, or the value that auto means: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
-  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) && def->ribbon.model == ZP_RIBBON_ROD &&
-                def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
+  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) &&
+                def->ribbon.model == ZP_RIBBON_ROD && def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (!isnan(def->damping.internal)) return def->damping.internal;
   return damped ? of_taped_steel : 0;
 }
@@ -816,7 +817,8 @@ static double spring_frequency(const ZpModel *model) {
 
 /* Direction of gravity, eq. (27.4). A component that is only the rounding of the angle is set to 0. */
 static void find_fall(ZpModel *model) {
-  double turns = model->def.mount.tilt / (2 * zp_pi) + (model->topology.along ? 0.25 : 0), fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
+  double turns = model->def.mount.tilt / (2 * zp_pi) + (model->topology.along ? 0.25 : 0),
+         fall[2] = {zp_sine_of(turns), -zp_cosine_of(turns)};
   for (int k = 0; k < 2; k++)
     model->fall[k] = fabs(fall[k]) < zp_tilt_rounding ? 0 : fall[k];
   model->pull[model->topology.along ? 0 : 1] = model->topology.along ? 1 : -1;
@@ -833,6 +835,7 @@ static void derive_pouch(ZpModel *model) {
                                  .volume = 0.5 * area * def->ribbon.width,
                                  .electrode = def->pouch.electrode_length,
                                  .length = def->ribbon.length};
+  model->pouch.volume = zp_pouch_volume_of_chords(&model->pouch, model->nodes);
   model->mirror = 0.5;
   model->in_series = (size_t)def->pouch.count;
   model->stroke_by = -(double)def->pouch.count;

@@ -128,7 +128,7 @@ struct ZpModel {
   ZpLeakParams leak;
   bool has_bead; /* the film ends, and beyond it is air */
   ZpBeadParams bead;
-  ZpPlatesParams air;            /* the law there; of a pouch that beyond its electrodes: none */
+  ZpPlatesParams air; /* the law there; of a pouch that beyond its electrodes: none */
   ZpPouchParams pouch;
   ZpOuterParams outer;           /* of liquid outside */
   size_t own;                    /* unknowns of the laws at each station, in motion */
@@ -139,27 +139,27 @@ struct ZpModel {
   ZpWaveform waveform;
   ZpSupply supply;
   ZpControl control;
-  ZpWaveform setpoint;  /* of the controller, in the unit of its signal */
-  double field_scale;   /* force_scale * voltage_share^2 */
-  ZpMasses masses;      /* true masses */
-  ZpMasses pseudo;      /* for settling: all free nodes move at the same pace */
-  double pseudo_mass;   /* kg, in units of the pseudo-time step */
-  size_t in_series;     /* equal pouches: each is a part, and all have the same load; else 1 */
-  double mirror;        /* share of gaps and voltage that is on this side of the middle plane: 1/2 of a pouch, else 1 */
+  ZpWaveform setpoint; /* of the controller, in the unit of its signal */
+  double field_scale;  /* force_scale * voltage_share^2 */
+  ZpMasses masses;     /* true masses */
+  ZpMasses pseudo;     /* for settling: all free nodes move at the same pace */
+  double pseudo_mass;  /* kg, in units of the pseudo-time step */
+  size_t in_series;    /* equal pouches: each is a part, and all have the same load; else 1 */
+  double mirror;       /* share of gaps and voltage that is on this side of the middle plane: 1/2 of a pouch, else 1 */
   double stroke_by, stroke_at; /* the stroke is the first times how far the load hangs (zp_hangs_by), plus this, m */
-  double fall[2];       /* direction of gravity, x and y: a unit vector */
-  double pull[2];       /* that in which load.force acts */
-  const double *weight; /* [stride] of each node with its load, N */
-  const double *mass;   /* [stride] kg */
-  double total_weight;  /* of what moves, of one half, N */
-  double stable_step;   /* s */
-  void *memory;         /* the block that holds the arrays */
-  size_t members;       /* of the system: models that follow each other, in series from the uppermost one down */
-  size_t number;        /* which of them it is, from 0 */
-  ZpNetwork *network;   /* what joins them; the first one owns it */
-  double carried;       /* mass of all members and loads below, kg, of the whole actuator */
-  double ratio, bias;   /* its slow voltage: `ratio` times drive.voltage of all plus `bias`, V */
-  bool apart;           /* on another port than that of all: in motion it has the voltage of that port */
+  double fall[2];              /* direction of gravity, x and y: a unit vector */
+  double pull[2];              /* that in which load.force acts */
+  const double *weight;        /* [stride] of each node with its load, N */
+  const double *mass;          /* [stride] kg */
+  double total_weight;         /* of what moves, of one half, N */
+  double stable_step;          /* s */
+  void *memory;                /* the block that holds the arrays */
+  size_t members;              /* of the system: models that follow each other, in series from the uppermost one down */
+  size_t number;               /* which of them it is, from 0 */
+  ZpNetwork *network;          /* what joins them; the first one owns it */
+  double carried;              /* mass of all members and loads below, kg, of the whole actuator */
+  double ratio, bias;          /* its slow voltage: `ratio` times drive.voltage of all plus `bias`, V */
+  bool apart;                  /* on another port than that of all: in motion it has the voltage of that port */
 };
 
 /* Bounds of an opening, m, in cells of the time for which the actuator has been closed. Cell k is at place k modulo
@@ -306,7 +306,8 @@ static inline double zp_load_share(const ZpModel *model) {
 static inline double zp_load_pull(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   return model->parts / (double)model->in_series * zp_load_share(model) *
-         (def->load.force + def->load.mass * def->gravity * (model->fall[0] * model->pull[0] + model->fall[1] * model->pull[1]));
+         (def->load.force +
+          def->load.mass * def->gravity * (model->fall[0] * model->pull[0] + model->fall[1] * model->pull[1]));
 }
 
 /* (coordinates of all nodes) => stroke, m; (their changes or rates) => its own. */
@@ -316,6 +317,11 @@ static inline double zp_stroke(const ZpModel *model, ZpNodes nodes) {
 
 static inline double zp_stroke_change(const ZpModel *model, ZpNodes changes) {
   return model->stroke_by * zp_hangs_by(&model->topology, changes);
+}
+
+/* (stroke of a pouch, m) => its strain. */
+static inline double zp_pouch_strain(const ZpModel *model, double stroke) {
+  return stroke / ((double)model->in_series * model->pouch.length);
 }
 
 /* Work against this pull, J, while the point that the load hangs on moves by (along, up), m. */
@@ -433,7 +439,8 @@ static inline double zp_state_load(const ZpModel *model, const ZpState *state, d
 static inline double zp_straight_x(const ZpModel *model, size_t station) {
   const ZpJoint *platform = &model->topology.platform;
   double rigid = (double)(platform->last - platform->first);
-  return (double)station * model->l + (station < platform->last ? 0 : rigid * (zp_platform_length(&model->def) - model->l));
+  return (double)station * model->l +
+         (station < platform->last ? 0 : rigid * (zp_platform_length(&model->def) - model->l));
 }
 
 /* Coordinates of an actuator whose lengths L are `stretch` times these ones, laid so that the platform has its own
@@ -488,7 +495,8 @@ static inline double zp_held_opening(const ZpModel *model) {
 /* Length of faces that face each other in the whole actuator, platform's electrode included, m. */
 static inline double zp_contact_length(const ZpModel *model) {
   const ZpTopology *t = &model->topology;
-  const double flexible = zp_half_elements(t) > 0 ? model->L : 0, length = model->pouch.w > 0 ? model->pouch.electrode : flexible;
+  const double flexible = zp_half_elements(t) > 0 ? model->L : 0,
+               length = model->pouch.w > 0 ? model->pouch.electrode : flexible;
   return model->parts * (double)zp_halves(t) * (length + model->plates.flat_length);
 }
 

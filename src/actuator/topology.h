@@ -189,8 +189,8 @@ static inline double zp_lifted(const ZpTopology *t, ZpNodes n, size_t node) {
   return t->along ? -n.x[node] : n.y[node];
 }
 
-/* How far the lower platform or the right end is from the clip, the hinge, the left end or the upper one of two plates in the direction in which the
- * load pulls, m. */
+/* How far the lower platform or the right end is from the clip, the hinge, the left end or the upper one of two plates
+ * in the direction in which the load pulls, m. */
 static inline double zp_hangs_by(const ZpTopology *t, ZpNodes n) {
   return t->along ? zp_platform_middle(t, n.x) - n.x[zp_upper(t, 0)] : n.y[zp_upper(t, 0)] - zp_platform_middle(t, n.y);
 }

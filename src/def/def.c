@@ -571,13 +571,15 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   const bool given = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.mass);
-  if (given && def->plate.mass == 0) return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
+  if (given && def->plate.mass == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
   if (given) return ZP_OK;
   ZpActuatorDef lower = zp_def_lower(def);
   const ZpActuatorDef *of[] = {def, &lower};
   static const char *const key[] = {"ribbon.density", "lower.ribbon.density"};
   for (int k = 0; k < 2; k++)
-    if (of[k]->ribbon.density == 0 && (isnan(of[k]->insulator.thickness) || of[k]->insulator.density * of[k]->insulator.thickness == 0))
+    if (of[k]->ribbon.density == 0 &&
+        (isnan(of[k]->insulator.thickness) || of[k]->insulator.density * of[k]->insulator.thickness == 0))
       return zp_fail(err, ZP_BAD_INPUT, "%s = 0 kg/m3: a moving ribbon needs a mass", key[k]);
   return ZP_OK;
 }
@@ -720,10 +722,11 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
   const double height = def->counter.height, least = -def->electro.gap_offset, steepest = 1;
   const double slope = fabs(height) * fmax(def->counter.power, 1) / def->ribbon.length;
   if (height < least)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "counter.height = %g m: the counter electrode cuts the ribbon; with electro.gap_offset = %g m give at "
-                   "least %g m",
-                   height, def->electro.gap_offset, least + 0.0); /* no -0 */
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "counter.height = %g m: the counter electrode cuts the ribbon; with electro.gap_offset = %g m give at "
+        "least %g m",
+        height, def->electro.gap_offset, least + 0.0); /* no -0 */
   if (def->counter.power > 0 && slope > steepest)
     return zp_fail(err, ZP_BAD_INPUT,
                    "counter.height = %g m: the counter electrode is too steep for a ribbon to lie on it; with "
@@ -733,6 +736,29 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges = true: requires an insulator where the faces touch at the clamp; the field at the "
                    "edges of bare faces that touch is infinite");
+  return ZP_OK;
+}
+
+/* Films that hold the volume, with electrodes on a part of them. */
+static ZpStatus check_pouch(const ZpActuatorDef *def, ZpError *err) {
+  static const double longest = 0.95;
+  const double length = def->ribbon.length, open = length - def->pouch.electrode_length;
+  const double most = length * length / (open * open); /* a circle */
+  if (!zp_def_has(def, ZP_DEVICE_POUCH))
+    return isnan(def->insulator.thickness)
+               ? zp_fail(err, ZP_BAD_INPUT,
+                         "insulator.thickness = auto: requires actuator.kind pouch, whose film is "
+                         "its own insulator; give a thickness")
+               : ZP_OK;
+  if (def->pouch.electrode_length > longest * length)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "pouch.electrode_length = %g m: the electrodes leave no room for the liquid; at most %g of "
+                   "ribbon.length = %g m",
+                   def->pouch.electrode_length, longest, length);
+  if (def->pouch.fill > most)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "pouch.fill = %g: the films cannot hold that much liquid; at most %g, a pouch that is round",
+                   def->pouch.fill, most);
   return ZP_OK;
 }
 
@@ -759,10 +785,11 @@ static ZpStatus check_plate(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "plate.back_stop_gap = %g m: must be below plate.back_gap = %g m",
                    def->plate.back_stop_gap, def->plate.back_gap);
   if (zp_insulation(def) == 0 && def->plate.back_stop_gap == 0)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "plate.back_stop_gap = 0 m: without an insulator the plate would touch the electrode behind it; give "
-                   "a stop below plate.back_gap = %g m",
-                   def->plate.back_gap);
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "plate.back_stop_gap = 0 m: without an insulator the plate would touch the electrode behind it; give "
+        "a stop below plate.back_gap = %g m",
+        def->plate.back_gap);
   return ZP_OK;
 }
 
@@ -785,8 +812,8 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of numbers that depend on each other, in the order in which they are asked: of the mass that members of a
  * stack share before those of the members. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,    check_sizes,  check_counter, check_plate,     check_bare,    zp_check_ribbons, check_change,
-    zp_check_stack, check_offset, check_tilt,    check_waveforms, check_control, check_meter};
+    check_build,  check_sizes,    check_counter, check_plate, check_pouch,     check_bare,    zp_check_ribbons,
+    check_change, zp_check_stack, check_offset,  check_tilt,  check_waveforms, check_control, check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);

@@ -25,10 +25,32 @@ static const ZpAssignment given[] = {{ZP_KEY(ribbon.length), 20e-3},
                                      {ZP_KEY(insulator.permittivity), 3.3},
                                      {ZP_KEY(insulator.breakdown_field), 300e6},
                                      {ZP_KEY(electro.breakdown_cap), 0},
-                                     {ZP_KEY(mesh.nodes), 201},
+                                     {ZP_KEY(mesh.nodes), 401},
                                      {ZP_KEY(liquid.model), ZP_LIQUID_SUBMERGED},
                                      {ZP_KEY(liquid.lateral_flow), 0},
                                      {ZP_KEY(drive.voltage), 6e3},
                                      {ZP_KEY(load.mass), 0.2}};
 
-const ZpDevice zp_device_pouch = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_POUCH, .touches = "seam", .lay = lay, ZP_GIVEN(given)};
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(pouch.electrode_length, pouch.count), ZP_HAS(POUCH),
+            "the other kinds have no pouch"),
+    ZP_RULE(PHYSICS, ZP_SET(isometric.strain), ZP_HAS(POUCH), "the other kinds are held at isometric.separation"),
+    ZP_RULE(PHYSICS, ZP_HAS(POUCH), ZP_IS(liquid.lateral_flow, false), "a pouch is sealed at its sides"),
+    ZP_RULE(EQUATION, ZP_HAS(POUCH), ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the paper's springs are not those of a film"),
+    ZP_RULE(EQUATION, ZP_HAS(POUCH), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
+            "the paper's Bezier surface begins at a clip"),
+    ZP_RULE(NOT_MODELLED, ZP_HAS(POUCH), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
+            "the grid of the field covers two ribbons with a platform"),
+    ZP_RULE(NOT_MODELLED, ZP_HAS(POUCH), ZP_IS(electro.edges, false),
+            "the liquid beside the edges of a sealed pouch is not known"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_HAS(POUCH), ZP_SET(load.change_mass), ZP_AT_MOST(pouch.count, 1),
+               "an impact on several pouches in series sends a wave through them"),
+    ZP_MOTION_RULE(NOT_MODELLED, ZP_HAS(POUCH), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
+                   "the volume is kept by implicit steps"),
+};
+
+const ZpDevice zp_device_pouch = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_POUCH,
+                                  .touches = "seam",
+                                  .lay = lay,
+                                  ZP_GIVEN(given),
+                                  .rules = ZP_RULES_OF(rule)};

@@ -46,6 +46,16 @@ double zp_pouch_volume(const ZpPouchParams *p, size_t n, const double *x, const 
   return p->w * area;
 }
 
+double zp_pouch_volume_of_chords(const ZpPouchParams *p, size_t n) {
+  double area = 0, x[2] = {0, 0}, h[2] = {0, 0};
+  for (size_t i = 1; i < n; i++) {
+    x[0] = x[1], h[0] = h[1];
+    zp_pouch_place(p, 0, p->length * (double)i / (double)(n - 1), &x[1], &h[1]);
+    area += 0.5 * (h[0] + h[1]) * (x[1] - x[0]);
+  }
+  return p->w * area;
+}
+
 double zp_pouch_by_x(const ZpPouchParams *p, size_t n, const double *h, size_t i) {
   double left = i > 0 ? h[i - 1] + h[i] : 0, right = i + 1 < n ? h[i] + h[i + 1] : 0;
   return 0.5 * p->w * (left - right);

@@ -15,9 +15,9 @@ typedef struct ZpPouchParams {
   double length;    /* of a film, m */
 } ZpPouchParams;
 
-/* Moduli with which the volume is held, far stiffer than any liquid, Pa, eq. (40.6): while a pressure is sought at rest,
- * where what is found does not depend on it; over a step, whose pressure is that of the last one but for a change of the
- * volume by 1e-10 of it. */
+/* Moduli with which the volume is held, far stiffer than any liquid, Pa, eq. (40.6): while a pressure is sought at
+ * rest, where what is found does not depend on it; over a step, whose pressure is that of the last one but for a change
+ * of the volume by 1e-10 of it. */
 static const double zp_pouch_modulus_at_rest = 1e11, zp_pouch_modulus_of_step = 1e13;
 
 /* Half opening angle of an arc of `length` which, with its mirror image, encloses `area`, eq. (40.1); area up to
@@ -30,6 +30,10 @@ double zp_pouch_chord(double length, double angle);
 /* Place of the point of the film `s` from the left seam, of a pouch whose films lie on each other up to `zipped` and
  * are an arc beyond, m. */
 void zp_pouch_place(const ZpPouchParams *pouch, double zipped, double s, double *x, double *h);
+
+/* V of n nodes on the arc of a pouch with nothing zipped, m^3: less than that of the arc by a part of the order 1 /
+ * n^2. That of the nodes is kept, so that a pouch with nothing zipped has its length, eq. (40.2). */
+double zp_pouch_volume_of_chords(const ZpPouchParams *pouch, size_t n);
 
 /* (x, heights of n nodes) => V, eq. (40.4), m^3. */
 double zp_pouch_volume(const ZpPouchParams *pouch, size_t n, const double *x, const double *h);

@@ -172,7 +172,8 @@ static void find_shapes(Member *w) {
   v->K = &w->factors;
   memset(v->mass, 0, n * sizeof *v->mass);
   zp_assembly_add_masses(&w->assembly, w->model->mass, v->mass);
-  if (w->below > 0) v->mass[w->assembly.equation[zp_pulled(&w->model->topology, zp_load_node(&w->model->topology))]] += w->below;
+  if (w->below > 0)
+    v->mass[w->assembly.equation[zp_pulled(&w->model->topology, zp_load_node(&w->model->topology))]] += w->below;
   zp_vibration_start(v);
   zp_vibration_solve(v, v->m - v->m / 3);
   for (size_t j = 0; j < v->m; j++)

@@ -287,7 +287,7 @@ bool zp_rest_sensitivity_solve(ZpRestSensitivity *p, int inputs) {
   zp_arrow_solve(&p->at->newton.K, p->by_key);
   for (size_t which = 0; which < p->at->members; which++)
     add_motion(p, which);
-  if (zp_statics_holds(p->at)) p->reaction -= zp_dot(p->at->n, p->at->row, p->by_key);
+  if (zp_statics_holds(p->at)) p->reaction -= zp_statics_lifts(p->at) * zp_dot(p->at->n, p->at->row, p->by_key);
   return true;
 }
 

@@ -479,11 +479,19 @@ ZpNewtonInfo zp_statics_find_rest(ZpStatics *s) {
   return info;
 }
 
-/* A slack pouch has no shape to start from: it is held where nothing is zipped, until a voltage pulls. */
+/* A slack pouch has no shape to start from. Until a voltage pulls, it is held where it hangs under a small load, which
+ * bends its films over a twentieth of their length. */
 static ZpNewtonInfo hold_along(ZpStatics *s) {
-  s->from = s->model->stroke_at / (double)s->model->in_series;
-  s->nearer = 0;
-  return let_faces_push(s, zp_statics_solve(s, MOST_ITERATIONS));
+  static const double part = 20;
+  const ZpModel *model = s->model;
+  const double opening = s->opening;
+  s->opening = NAN;
+  s->force = 2 * part * part * zp_ribbon_section(model, 0).EI / (model->L * model->L);
+  ZpNewtonInfo info = zp_statics_find_rest(s);
+  s->from = reach_of(s->member);
+  s->opening = opening;
+  s->force = s->nearer = 0;
+  return zp_newton_good(info.end) ? zp_statics_solve(s, MOST_ITERATIONS) : info;
 }
 
 bool zp_statics_take_up(ZpStatics *s, void (*passed)(void *user), void *user) {
@@ -669,7 +677,8 @@ static const char *fault_of_stations(const ZpRestMember *m, double U, bool conta
   double least = INFINITY, capacitance = m->model->parts * totals(m, U).capacitance;
   for (size_t i = 0; i < m->model->nodes; i++)
     least = fmin(least, m->eval.plates.gap[i]);
-  if (contact_acts && least < m->model->faces.stop - deepest_overlap(m->model, U)) return "the insulators' faces overlap";
+  if (contact_acts && least < m->model->faces.stop - deepest_overlap(m->model, U))
+    return "the insulators' faces overlap";
   if (capacitance < 0) return "the capacitance is negative";
   if (capacitance > beyond_plates * closed_capacitance(m->model))
     return "the capacitance is above that of closed faces";
@@ -741,13 +750,14 @@ static double holding(const ZpStatics *s) {
 double zp_statics_away(const ZpStatics *s) {
   const ZpRestMember *m = s->member + s->held.member;
   if (!zp_statics_holds(s)) return 0;
-  return zp_tie_place(&s->held, 0, s->from + s->nearer * (s->opening - s->from)) - *zp_coordinate(m->model, m->q, s->held.coordinate);
+  return zp_tie_place(&s->held, 0, s->from + s->nearer * (s->opening - s->from)) -
+         *zp_coordinate(m->model, m->q, s->held.coordinate);
 }
 
 double zp_statics_hold_rate(const ZpStatics *s, double away, double *r_m) {
   if (!zp_statics_holds(s)) return 0;
   size_t row = zp_statics_platform(s);
-  double reaction = s->held.by_input < 0 ? r_m[row] : -r_m[row];
+  double reaction = zp_statics_lifts(s) * r_m[row];
   r_m[row] = holding(s) * away;
   return reaction;
 }
@@ -931,7 +941,7 @@ double zp_statics_holding(ZpStatics *s) {
   stiffness(s, &s->newton.K, s->newton.r);
   if (!zp_arrow_factor(&s->newton.K)) return s->reaction;
   zp_arrow_solve(&s->newton.K, s->newton.r);
-  return s->reaction - zp_dot(s->n, s->row, s->newton.r);
+  return s->reaction - zp_statics_lifts(s) * zp_dot(s->n, s->row, s->newton.r);
 }
 
 double zp_statics_stiffness_along(ZpStatics *s, const double *u, ZpArrow *K, double *r) {

@@ -106,6 +106,11 @@ static inline bool zp_statics_holds(const ZpStatics *statics) {
   return !isnan(statics->opening);
 }
 
+/* 1 where a force on the coordinate of a held platform lifts it, -1 where it is along the film of a pouch. */
+static inline double zp_statics_lifts(const ZpStatics *statics) {
+  return statics->held.by_input < 0 ? 1 : -1;
+}
+
 /* How far a held platform is from where it is held, m; 0: it is free. */
 double zp_statics_away(const ZpStatics *statics);
 
@@ -169,8 +174,8 @@ bool zp_statics_ramp_voltage(ZpStatics *statics, double voltage);
  * there. */
 ZpNewtonInfo zp_statics_hold(ZpStatics *statics, double opening);
 
-/* A pouch is held where nothing is zipped. Follow the equilibria from there to where it is to be held, and call `passed`
- * at each. False if the branch ends before. */
+/* A pouch is held where nothing is zipped. Follow the equilibria from there to where it is to be held, and call
+ * `passed` at each. False if the branch ends before. */
 bool zp_statics_take_up(ZpStatics *statics, void (*passed)(void *user), void *user);
 
 /* Places of all bodies at the present point [bodies], and their angles, as they are given in the drawing; valid until

@@ -280,7 +280,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   ZpMotion motion = zp_state_motion(model, state);
   const ZpTopology *t = &model->topology;
   row[SIGNAL_stroke] = zp_stroke(model, (ZpNodes){motion.x, motion.y});
-  row[SIGNAL_end_velocity] = zp_platform_middle(t, motion.vy);
+  row[SIGNAL_end_velocity] = t->along ? -zp_platform_middle(t, motion.vx) : zp_platform_middle(t, motion.vy);
   row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
   row[SIGNAL_film_thickness] = film_thickness(model, state);
   row[SIGNAL_wet_length] = wet_length(model, state);
@@ -288,6 +288,7 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_angle] = zp_topology_angle(t, motion.x, motion.y);
   row[SIGNAL_contraction] =
       state->opening0 > model->faces.stop ? zp_contraction(model, row[SIGNAL_opening], state->opening0) : NAN;
+  if (model->pouch.w > 0) row[SIGNAL_contraction] = row[SIGNAL_zipped_length] / model->pouch.electrode;
 }
 
 /* Signals that follow from the state alone, of one member of a series alone as of all below. */

@@ -142,7 +142,7 @@ static double *stack_values(ZpStatics *s, double *values) {
 static void pouch_values(const ZpStatics *s, double *values) {
   const ZpModel *model = s->model;
   if (model->pouch.w == 0) return;
-  values[0] = zp_statics_stroke(s) / ((double)model->in_series * model->pouch.length);
+  values[0] = zp_pouch_strain(model, zp_statics_stroke(s));
   values[1] = zp_statics_closed_length(s) / model->pouch.electrode;
   values[2] = s->member->eval.pressure;
 }

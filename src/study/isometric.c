@@ -321,7 +321,7 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
     h->outcome = ZP_NOT_SETTLED;
     return;
   }
-  h->unpowered = s->nearer == 1 ? holding(h) : 0; /* a pouch that contracts without voltage is slack */
+  h->unpowered = h->at.model->pouch.w > 0 ? 0 : holding(h); /* a pouch that contracts without voltage is slack */
   h->unpowered_moment = moment(h);
   zp_quasistatic_start(&h->at.rest); /* from now on a gap tells which members are closed */
   zp_rest_save(&h->at.rest, h->unpowered_state);
@@ -329,7 +329,8 @@ static void hold_unpowered(Holder *h, ZpNewtonInfo *info) {
 }
 
 static void record_passed(void *user) {
-  record(user, true, false);
+  Holder *h = user;
+  record(h, true, h->at.rest.statics.nearer == 1);
 }
 
 /* A pouch contracts to where it is held, under voltage. */
@@ -367,7 +368,8 @@ static double moment_slope(Holder *h, ZpRestSensitivity *slope) {
   ZpStatics *s = &h->at.rest.statics;
   if (!zp_is_hinge(&h->at.model->topology)) return NAN;
   double arm = lever(s, NULL), reaction = s->reaction;
-  return h->at.model->parts * (slope->reaction * arm + reaction * zp_rest_sensitivity_of(slope, lever, NULL));
+  return zp_parts_abreast(h->at.model) *
+         (slope->reaction * arm + reaction * zp_rest_sensitivity_of(slope, lever, NULL));
 }
 
 static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
@@ -376,14 +378,15 @@ static void derive(void *user, ZpRestSensitivity *slope, ZpResult *r) {
     ZpOutput output;
   } others[] = {{"opening_m", zp_output_opening}, {"charge_C", charge}, {"capacitance_F", capacitance}};
   Holder *h = user;
+  const double parts = zp_parts_abreast(h->at.model);
   zp_rest_go_to(&h->at.rest, h->unpowered_state);
-  bool rests = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
-  double unpowered = rests ? h->at.model->parts * slope->reaction : NAN;
+  bool slack = h->at.model->pouch.w > 0, rests = !slack && zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING);
+  double unpowered = rests ? parts * slope->reaction : slack ? 0 : NAN;
   double moment_without = rests ? moment_slope(h, slope) : NAN;
   zp_rest_go_to(&h->at.rest, h->answer);
   bool found = zp_rest_sensitivity_solve(slope, ZP_SETS_OPENING | ZP_SETS_VOLTAGE);
   double torque = found ? moment_slope(h, slope) - moment_without : NAN;
-  zp_result_add_sensitivity(r, "force_N", slope->key, found ? h->at.model->parts * slope->reaction - unpowered : NAN);
+  zp_result_add_sensitivity(r, "force_N", slope->key, found ? parts * slope->reaction - unpowered : NAN);
   zp_result_add_sensitivity(r, "force_unpowered_N", slope->key, unpowered);
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
     zp_result_add_sensitivity(r, others[k].name, slope->key,
@@ -419,7 +422,8 @@ static ZpStatus check_reach(double separation, double longest, const char *of, Z
 
 /* The largest opening, about. */
 static double length_of(const ZpActuatorDef *def) {
-  if (zp_def_has(def, ZP_DEVICE_RIGID)) return isnan(def->plate.back_gap) ? INFINITY : def->plate.gap + def->plate.back_gap;
+  if (zp_def_has(def, ZP_DEVICE_RIGID))
+    return isnan(def->plate.back_gap) ? INFINITY : def->plate.gap + def->plate.back_gap;
   return def->ribbon.length - (zp_def_has(def, ZP_DEVICE_PLATFORM) ? zp_platform_length(def) : 0);
 }
 

@@ -5,6 +5,9 @@
 #include "term/term.h"
 
 const ZpRow zp_row_pressure = ZP_SHOWN(pressure, "Pa", "_Pa", "pressure of the liquid in a pouch; 0 without one");
+const ZpRow zp_row_strain =
+    ZP_SHOWN(strain, "1", "", "contraction of a pouch over the length of its films; 0 without one");
+enum { PRESSURE, STRAIN };
 
 static bool acts(const ZpModel *model) {
   return model->pouch.w > 0;
@@ -97,12 +100,13 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 
 static void show(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   (void)e;
-  row[0] += sought(model, now);
+  row[PRESSURE] += sought(model, now);
+  row[STRAIN] += zp_pouch_strain(model, zp_stroke(model, zp_nodes(model, now->end)));
 }
 
 /* Its volume is fixed: it does no work, and stores nothing. */
 const ZpTerm zp_term_pouch = {.name = "pouch",
-                              .row = {&zp_row_pressure},
+                              .row = {&zp_row_pressure, &zp_row_strain},
                               .acts = acts,
                               .state = state,
                               .state_at_rest = true,

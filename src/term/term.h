@@ -124,8 +124,9 @@ double zp_term_level(const ZpModel *model, const ZpBeadPlace *end, const double 
 double zp_term_meniscus_head(const ZpModel *model, double suction, double U, double g, double H, double level);
 double zp_term_electric_head(const ZpModel *model, double suction, double U, double g, double H);
 
-/* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; that which the last force foresees
- * after a fraction of a change of the coordinates [2 stride], Pa; number of terms of rank one that it adds to the band. */
+/* Of a pouch: where a solver keeps its pressure, behind the tensions that it predicts; that which the last force
+ * foresees after a fraction of a change of the coordinates [2 stride], Pa; number of terms of rank one that it adds to
+ * the band. */
 static inline size_t zp_pressure_place(const ZpModel *model) {
   return model->count - model->s;
 }
