@@ -189,7 +189,8 @@ TEST(closed_ribbon_lies_on_the_electrode) {
     off = fmax(off, fabs(y[i] - def.counter.height * share * share));
     if (i > 0) strain = fmax(strain, fabs(hypot(x[i] - x[i - 1], y[i] - y[i - 1]) / model->l - 1));
   }
-  printf("off the electrode by %.2g um, strain %.1e, slope %.2f\n", 1e6 * off, strain, 2 * def.counter.height / model->L);
+  printf("off the electrode by %.2g um, strain %.1e, slope %.2f\n", 1e6 * off, strain,
+         2 * def.counter.height / model->L);
   ck_below(off, 3e-6);
   ck_below(strain, 1e-5);
   zp_rest_close(&rest);

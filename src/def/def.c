@@ -675,10 +675,11 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
   const double height = def->counter.height, least = -def->electro.gap_offset, steepest = 1;
   const double slope = fabs(height) * fmax(def->counter.power, 1) / def->ribbon.length;
   if (height < least)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "counter.height = %g m: the counter electrode cuts the ribbon; with electro.gap_offset = %g m give at "
-                   "least %g m",
-                   height, def->electro.gap_offset, least + 0.0); /* no -0 */
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "counter.height = %g m: the counter electrode cuts the ribbon; with electro.gap_offset = %g m give at "
+        "least %g m",
+        height, def->electro.gap_offset, least + 0.0); /* no -0 */
   if (def->counter.power > 0 && slope > steepest)
     return zp_fail(err, ZP_BAD_INPUT,
                    "counter.height = %g m: the counter electrode is too steep for a ribbon to lie on it; with "

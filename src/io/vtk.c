@@ -1,8 +1,8 @@
 /* For ParaView: shapes.pvd and shapes/shape_NNNN.vtp, the film of one run; field.vts, its electric field.
  *
- * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes. shapes/counter.vtp
- * is the polyline of a counter electrode, which is the same in every frame.
- * Numbers follow the XML as raw bytes, each array after its length, so nothing is rounded. */
+ * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes.
+ * shapes/counter.vtp is the polyline of a counter electrode, which is the same in every frame. Numbers follow the XML
+ * as raw bytes, each array after its length, so nothing is rounded. */
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
