@@ -131,7 +131,7 @@ static void put_map(const Vtk *vtk, const ZpFieldMap *map) {
   fputs("      </Points>\n    </Piece>\n  </StructuredGrid>\n", vtk->file);
 }
 
-/* What a file shows: a frame of a film, a map, or a counter electrode; the others are NULL. */
+/* The contents of a file: a frame of a film, a map, or a counter electrode; the others are NULL. */
 typedef struct Shown {
   const ZpShape *shape;
   const ZpShapes *film;

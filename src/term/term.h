@@ -137,6 +137,12 @@ ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach);
  * the gaps found last. */
 void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double *a, double *F);
 
+/* Forces on nodes along y += a force that pushes the faces of a station apart. */
+static inline void zp_term_part(const ZpModel *model, double *Fy, size_t station, double force) {
+  Fy[zp_lower(&model->topology, station)] -= force;
+  if (zp_is_pair(&model->topology)) Fy[zp_upper(&model->topology, station)] += force;
+}
+
 /* F += G. */
 void zp_term_add(const ZpModel *model, const double *Gx, const double *Gy, double *F);
 
