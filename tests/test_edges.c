@@ -88,7 +88,7 @@ TEST(test_strip_over_plate) {
 /* The plate's insulator: of the liquid's permittivity it is liquid, of a very high one metal; between them the capacity
  * is between theirs, and of a wide strip that of plates and insulators in series. */
 TEST(test_insulator_of_plate) {
-  const double gap = 0.4e-3, t = 0.2e-3, permittivity[] = {2.75, 1e5, 4};
+  const double gap = 0.5e-3, t = 0.2e-3, permittivity[] = {2.75, 1e5, 4};
   double C[3], liquid, metal, bare[] = {gap + t, gap};
   ZpEdgeParams p = {.w = 12.7e-3, .b = 100e-6, .t = 130e-6, .eps_m = 2.75, .eps_i = 4.62, .plate = true};
   ZpFieldMesh mesh = zp_edges_mesh(&p);
