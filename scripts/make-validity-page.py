@@ -501,6 +501,23 @@ def retention_curves(runs):
     curves["3.4·10¹³ Ω m"] = [(row["voltage_kV"], one) for row, _, one, _ in found if row["film_um"] == 15]
     curves["8.8·10¹² Ω m"] = [(row["voltage_kV"], own) for row, _, _, own in found if own]
     return curves
+def small_beams(runs):
+    """Published finite elements of beams over a wide electrode, beside ours without and with the edges."""
+    def pull_in(end, length, width, thick, gap, edges):
+        keys = {"actuator.right_end": end, "ribbon.length": length, "ribbon.width": width, "ribbon.thickness": thick, "electro.gap_offset": gap}
+        return runs.summary("small-beam", {**keys, "electro.edges": edges})["pull_in_voltage_V"]
+
+    thick, long = ("20 um", "2 um", "4 um"), ("300 um", "50 um", "3 um", "2.5 um")
+    beams = [("100 × 20 × 2 µm, gap 4 µm, clamped at both ends, without stretching", "{:.0f} V", 992, lambda e: pull_in("guided", "50 um", *thick, e)),
+             ("the same with stretching", "{:.0f} V", 1270, lambda e: pull_in("clamped", "100 um", *thick, e)),
+             ("300 × 50 × 3 µm, gap 2.5 µm: clamped at both ends over clamped at one", "{:.3g}", 6.75,
+              lambda e: pull_in("clamped", *long, e) / pull_in("free", *long, e))]
+    rows = []
+    for name, form, published, found in beams:
+        plates, edges = found("false"), found("true")
+        rows.append((name, form.format(published), form.format(plates), per_cent(100 * (plates / published - 1)),
+                     form.format(edges), per_cent(100 * (edges / published - 1))))
+    return table(("beam", "published", "plates", "off", "with edges", "off"), rows)
 
 
 def quick_sections(runs):
@@ -509,6 +526,7 @@ def quick_sections(runs):
     yield "field-force", grid(force, "opening", mm)
     yield "chain-limits", limits(strokes, "chain against rod", "stroke {:.2f} of the half length".format, "not up to 0.64")
     yield "chain-stroke", grid(strokes, "stroke / half length", "{:.3f}".format)
+    yield "small-beams", small_beams(runs)
     yield "experiments", experiments_table(runs)
     yield "experiments-spread", spread_table(runs)
     yield "converter-steps", converter_table(runs)

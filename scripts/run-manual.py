@@ -20,6 +20,7 @@ DOCS = pathlib.Path(__file__).resolve().parent.parent / "docs"
 PAGES = ["getting-started.md", "studies.md", "actuators.md", "control.md", "materials.md", "paper.md"]
 PICTURES = {
     "unlike-ribbons.svg": "unlike/plots/shapes.svg",
+    "curved.svg": "curved-rest/plots/shapes.svg",
     "antagonists-motion.svg": "antagonists-motion/plots/members.svg",
     "stack-tolerances.svg": "stack-tolerances/plots/parallel.svg",
     "stationary.svg": "stationary/plots/shape.svg",

@@ -35,7 +35,7 @@ def changed(case, value):
 
 
 status, text = score(ours)
-ok("our answers are within the tolerances", status == 0 and "38 of 38 cases" in text)
+ok("our answers are within the tolerances", status == 0 and "%d of %d cases" % (len(references), len(references)) in text)
 ok("there is an answer to each case", [case for case, _ in answers] == list(references))
 for case, row in references.items():
     reference, tolerance = row["reference"], float(row["tolerance"])
@@ -50,7 +50,7 @@ for case, row in references.items():
     ok("%s: a wrong answer is found, and printed first" % case, status == 1 and lines[1].startswith(case + " ") and "TOO LARGE" in lines[1])
     ok("%s: one within the tolerance is not" % case, score(changed(case, right))[0] == 0)
 status, text = score("case,value\n" + "".join("%s,%s\n" % tuple(a) for a in answers[1:]))
-ok("a missing answer counts", status == 1 and "%s: not answered" % answers[0][0] in text and "37 of 38" in text)
+ok("a missing answer counts", status == 1 and "%s: not answered" % answers[0][0] in text and "%d of %d" % (len(references) - 1, len(references)) in text)
 ok("further columns are ignored", score("who,case,value\n" + "".join("me,%s,%s\n" % tuple(a) for a in answers))[0] == 0)
 for what, bad, said in (("a word", changed("rest_guided_4", "wide"), '"wide" is neither a number nor none'),
                         ("no number", changed("rest_guided_4", "nan"), "neither a number nor none"),

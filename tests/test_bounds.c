@@ -326,6 +326,8 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
   if (strcmp(key, "lower.ribbon.density") == 0 && value == 0) def->lower.insulator.density = 1000;
   if (strcmp(key, "load.stiffness") == 0 && value > 0) def->load.rest_opening = 1e-3;
   if (strcmp(key, "load.rest_opening") == 0) def->load.stiffness = 1;
+  if (strncmp(key, "counter.", 8) == 0)
+    def->actuator.kind = ZP_KIND_CURVED, def->ribbon.length = 10, def->electro.gap_offset = 0.1;
   if (strncmp(key, "hinge.", 6) == 0) def->actuator.kind = ZP_KIND_HINGE;
   if (strcmp(key, "hinge.rest_angle") == 0) def->hinge.stiffness = 1;
   if (strcmp(key, "load.change_mass") == 0 && value != 0) def->load.change_time = 1e-5, def->load.mass = fabs(value);

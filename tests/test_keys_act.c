@@ -92,6 +92,11 @@
 /* One ribbon, 20 mm long, below a flat electrode. */
 #define FLANGE "actuator.kind=flange actuator.right_end=guided load.mass=0 ribbon.length=20mm mesh.nodes=21"
 
+/* A curved electrode above it, looked at before anything moves. */
+#define CURVED                                                                                                         \
+  "study=actuate actuator.kind=curved ribbon.length=20mm mesh.nodes=21 initial.state=straight solver.end_time=1ns "    \
+  "drive.voltage=100V electro.insulator_offset=100um"
+
 /* A plate on a hinge. */
 #define FOLD                                                                                                           \
   "study=stationary actuator.kind=hinge ribbon.length=20mm ribbon.thickness=5mm ribbon.young_modulus=1000GPa "         \

@@ -259,7 +259,7 @@ TESTS(test_what_is_refused, 0, 4) {
   } other[] = {{"ribbon.model", ZP_RIBBON_MASS_SPRING},
                {"solver.integrator", ZP_INTEGRATOR_EXPLICIT},
                {"contact.model", ZP_CONTACT_SEQUENTIAL},
-               {"actuator.kind", ZP_KIND_FLANGE}};
+               {"actuator.kind", ZP_KIND_HINGE}};
   ZpActuatorDef def = DEF({other[_i].key, other[_i].value});
   def.liquid.model = ZP_LIQUID_SUBMERGED;
   ck_refused_by(ZP_STUDY_ACTUATE, &def, "liquid.model = submerged");

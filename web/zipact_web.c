@@ -56,7 +56,7 @@ typedef struct ZpWeb {
   ZpModel *model;
   ZpSim *sim;
   double row[SIGNALS];
-  double part[MEMBER_NUMBERS]; /* the longest of the above */
+  double part[MEMBER_NUMBERS];    /* the longest of the above */
   double pair[2][2 * MOST_NODES]; /* x and y of a counter electrode and the ribbon below it, as of two ribbons */
   ZpResult *result;
 } ZpWeb;
@@ -201,7 +201,8 @@ static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError
   if (!zp_def_has(def, ZP_DEVICE_PAIR | ZP_DEVICE_COUNTER))
     return zp_fail(err, ZP_BAD_INPUT, "this page draws two faces, and a ribbon alone has one; use the command for it");
   if (!zp_def_has(def, ZP_DEVICE_PAIR) && zp_def_network(def))
-    return zp_fail(err, ZP_BAD_INPUT, "this page draws networks of two ribbons; use the command for counter electrodes");
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "this page draws networks of two ribbons; use the command for counter electrodes");
   if (study != ZP_STUDY_ACTUATE)
     return zp_fail(err, ZP_BAD_INPUT,
                    "this page runs the studies actuate and equilibrium only; use the command for the others");

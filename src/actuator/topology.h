@@ -102,12 +102,6 @@ static inline double zp_parting(const ZpTopology *t, const double *v, size_t sta
   return zp_is_pair(t) ? zp_gap_of(t, v, station) : -v[zp_lower(t, station)];
 }
 
-/* (forces on nodes along y) += a force that pushes the faces of a station apart. */
-static inline void zp_part(const ZpTopology *t, double *Fy, size_t station, double force) {
-  Fy[zp_lower(t, station)] -= force;
-  if (zp_is_pair(t)) Fy[zp_upper(t, station)] += force;
-}
-
 /* Two ribbons on a hinge? It is the left end, and their right ends are free. */
 static inline bool zp_is_hinge(const ZpTopology *t) {
   return t->joint[0].kind == ZP_JOINT_HINGE;

@@ -11,12 +11,12 @@
 /* Two parallel strips, an insulator on each of their facing sides, in liquid; or one of them over a plate that is much
  * wider, eq. (36.1). */
 typedef struct ZpEdgeParams {
-  double w;                   /* width, m */
-  double b, t;                /* thickness of metal and of insulator, m; of two strips t > 0 */
-  double eps_m, eps_i;        /* relative permittivity of liquid and insulator */
-  bool plate;                 /* a plate instead of the other strip, */
-  double plate_t, plate_eps;  /* thickness of its insulator, m, 0 without; relative permittivity */
-  double least;               /* smallest gap of bare metals that counts, m; > 0 where there is no insulator */
+  double w;                  /* width, m */
+  double b, t;               /* thickness of metal and of insulator, m; of two strips t > 0 */
+  double eps_m, eps_i;       /* relative permittivity of liquid and insulator */
+  bool plate;                /* a plate instead of the other strip, */
+  double plate_t, plate_eps; /* thickness of its insulator, m, 0 without; relative permittivity */
+  double least;              /* smallest gap of bare metals that counts, m; > 0 where there is no insulator */
 } ZpEdgeParams;
 
 /* The mesh on which the law is solved; about 1e-4 of the capacitance while strips are close, 6e-4 at a third of their

@@ -47,8 +47,8 @@ typedef struct ZpFieldParams {
   double clip;         /* length that is closed left of the first station, m */
   double slab, eps_slab; /* thickness of a layer of another permittivity in the middle of the gap, beyond the strips,
                             too, m; 0 without. With it mesh.gap is a multiple of 3, and forces are not found */
-  double platform;     /* straight length right of the last station up to the mirror plane, m; 0 without */
-  bool electrode;      /* whether the platform's faces are electrodes, too */
+  double platform;       /* straight length right of the last station up to the mirror plane, m; 0 without */
+  bool electrode;        /* whether the platform's faces are electrodes, too */
   ZpFieldMesh mesh;
 } ZpFieldParams;
 

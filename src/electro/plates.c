@@ -35,7 +35,8 @@ static void add_edges_to_law(const ZpPlatesParams *p, double U, double gap, ZpPl
   law->W -= K * v.slope;
   law->P -= K * (v.e + v.slope * (gap - at));
   law->q += 2 * p->k * U * (v.e + v.slope * (gap - at));
-  if (cap > p->edges->least && gap < cap && cap < p->edges->largest) law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
+  if (cap > p->edges->least && gap < cap && cap < p->edges->largest)
+    law->q += p->k * U * (cap + p->d) * v.bend * (gap - cap);
 }
 
 ZpPlatesLaw zp_plates_law(const ZpPlatesParams *p, double U, double gap) {

@@ -369,7 +369,7 @@ static double little_voltage(double U) {
 static Charges charges_with_edges(const ZpPlatesParams *p, double U, double g0, double g1) {
   double q0 = zp_plates_law(p, U, g0).q, q1 = zp_plates_law(p, U, g1).q, by = little_voltage(U);
   double W = are_near(p, g0, g1) ? (zp_plates_law(p, U + by, g1).W - zp_plates_law(p, U - by, g1).W) / (2 * by)
-                                   : -(q1 - q0) / (g1 - g0);
+                                 : -(q1 - q0) / (g1 - g0);
   return (Charges){W, -0.5 * (q0 + q1)};
 }
 

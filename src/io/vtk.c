@@ -1,8 +1,8 @@
 /* For ParaView: shapes.pvd and shapes/shape_NNNN.vtp, the film of one run; field.vts, its electric field.
  *
- * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes. shapes/counter.vtp
- * is the polyline of a counter electrode, which is the same in every frame.
- * Numbers follow the XML as raw bytes, each array after its length, so nothing is rounded. */
+ * Each .vtp is the PolyData of one frame: a polyline per ribbon with what a ZpShape says of its nodes.
+ * shapes/counter.vtp is the polyline of a counter electrode, which is the same in every frame. Numbers follow the XML
+ * as raw bytes, each array after its length, so nothing is rounded. */
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
@@ -12,7 +12,7 @@
 
 #include "base/fail.h"
 #include "base/table.h"
-#include "def/device.h"
+#include "def/check.h"
 #include "io/file.h"
 #include "io/number.h"
 #include "io/report.h"
@@ -131,7 +131,7 @@ static void put_map(const Vtk *vtk, const ZpFieldMap *map) {
   fputs("      </Points>\n    </Piece>\n  </StructuredGrid>\n", vtk->file);
 }
 
-/* What a file shows: a frame of a film, a map, or a counter electrode; the others are NULL. */
+/* The contents of a file: a frame of a film, a map, or a counter electrode; the others are NULL. */
 typedef struct Shown {
   const ZpShape *shape;
   const ZpShapes *film;
@@ -174,12 +174,13 @@ static ZpStatus write_frames(const char *folder, const ZpShapes *shapes, ZpError
 
 static const char counter_file[] = "counter.vtp";
 
-/* => *has: is there a counter electrode? Then its file is written, else an earlier one is removed. Members of a network
- * are where their bodies are: they have none. */
-static ZpStatus write_counter(const ZpReport *report, const char *folder, bool *has, ZpError *err) {
+/* => *has: is there a counter electrode, which one ribbon faces? Then its file is written, else an earlier one is
+ * removed. Members of a network are where their bodies are: they have none. */
+static ZpStatus write_counter(const ZpReport *report, const ZpShapes *shapes, const char *folder, bool *has,
+                              ZpError *err) {
   ZpActuatorDef def = {0};
   ZpStatus status = zp_scenario_def(report->scenario, 0, &def, err);
-  *has = status == ZP_OK && zp_def_has(&def, ZP_DEVICE_COUNTER) && !zp_def_network(&def);
+  *has = status == ZP_OK && shapes->ribbons == 1 && shapes->facing && shapes->members == 1;
   if (status == ZP_OK)
     status = *has ? write_vtk(folder, counter_file, (Shown){.counter = &def}, err)
                   : zp_remove_file(folder, counter_file, err);
@@ -233,7 +234,7 @@ static ZpStatus write_shapes(const ZpReport *report, const ZpShapes *shapes, con
   status = zp_make_folder(folder, err);
   bool counter = false;
   if (status == ZP_OK) status = write_frames(folder, shapes, err);
-  if (status == ZP_OK) status = write_counter(report, folder, &counter, err);
+  if (status == ZP_OK) status = write_counter(report, shapes, folder, &counter, err);
   return status == ZP_OK ? write_collection(report, shapes, counter, err) : status;
 }
 

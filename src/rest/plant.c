@@ -221,7 +221,6 @@ static double *find_rate(Member *w, size_t j) {
 /* A viscous film lets the actuator creep in shapes that are not vibrations. Each of them is the static response to the
  * film's drag in the previous one (Krylov's space). */
 static void find_slow_shapes(Member *w) {
-  const ZpTopology *t = &w->model->topology;
   const size_t N = w->model->nodes;
   const ZpForces moved = zp_forces(w->model, w->moved);
   for (int k = 0; k < SLOW && w->m < w->assembly.n; k++) {
@@ -229,7 +228,7 @@ static void find_slow_shapes(Member *w) {
     zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
     memset(w->moved, 0, zp_coordinates(w->model) * sizeof *w->moved);
     for (size_t i = 0; i < N; i++)
-      zp_part(t, moved.y, i, drag[i]);
+      zp_term_part_faces(w->model, moved.y, i, drag[i]);
     zp_assembly_sum(&w->assembly, w->moved, w->y);
     zp_arrow_solve(&w->factors, w->y);
     add_shape(w, w->y);

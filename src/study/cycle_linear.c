@@ -197,7 +197,8 @@ static double strain_of(ZpLinearCycle *l, size_t which) {
   zp_small_motion_nodes(&l->small, which, l->x, 1, l->q);
   zp_plates_gaps(&model->plates, m->q, zp_nodes(model, m->q).y, &m->eval.plates);
   for (size_t i = 0; i < model->nodes; i++)
-    most = fmax(most, fabs(zp_parting(&model->topology, y, i)) / zp_film_thickness(&model->film, m->eval.plates.gap[i]));
+    most =
+        fmax(most, fabs(zp_parting(&model->topology, y, i)) / zp_film_thickness(&model->film, m->eval.plates.gap[i]));
   return most;
 }
 

@@ -15,7 +15,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   ZpContactSpan faces = zp_contact_span(&model->faces, start, e->plates.gap, span->h);
   zp_contact_eval(&model->faces, &faces, &e->faces);
   for (size_t i = 0; i < model->nodes; i++)
-    zp_part(&model->topology, Fy, i, e->faces.push[i]);
+    zp_term_part_faces(model, Fy, i, e->faces.push[i]);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {

@@ -107,7 +107,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   double *Fy = zp_forces(model, F).y;
   solve_step(model, span, e);
   for (size_t i = 0; i < model->nodes; i++)
-    zp_part(&model->topology, Fy, i, e->film.force[i]);
+    zp_term_part_faces(model, Fy, i, e->film.force[i]);
 }
 
 static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, const ZpFilmEval *e,
@@ -236,8 +236,8 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
   const double *up = zp_nodes(model, a).y;
   double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++)
-    zp_part(&model->topology, Fy, i,
-            zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i));
+    zp_term_part_faces(model, Fy, i,
+                 zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i));
 }
 
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))

@@ -50,8 +50,7 @@ static double drag(const ZpModel *model, double length, double v) {
 
 /* The pair has the momentum M(g) Y'; its kinetic energy also acts on the gap. Together their work is its change.
  * => force on each face, N. */
-static void push_pair(const ZpModel *model, const ZpSpan *span, const Faces *of, double g0, double g1,
-                      double push[2]) {
+static void push_pair(const ZpModel *model, const ZpSpan *span, const Faces *of, double g0, double g1, double push[2]) {
   double before = zp_outer_pair(&model->outer, g0) * of->Y0, after = zp_outer_pair(&model->outer, g1) * of->Y1;
   double on_both = -0.5 * of->length * (after - before) / span->h;
   double on_gap = 0.5 * of->length * zp_outer_pair_slope(&model->outer, g0, g1) * of->Y0 * of->Y1;

@@ -155,6 +155,12 @@ void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double 
 /* F += a push, N, that parts both platforms at a station. */
 void zp_term_part(const ZpModel *model, size_t station, double push, double *F);
 
+/* Forces on nodes along y += a force that pushes the faces of a station apart. */
+static inline void zp_term_part_faces(const ZpModel *model, double *Fy, size_t station, double force) {
+  Fy[zp_lower(&model->topology, station)] -= force;
+  if (zp_is_pair(&model->topology)) Fy[zp_upper(&model->topology, station)] += force;
+}
+
 /* F += G. */
 void zp_term_add(const ZpModel *model, const double *Gx, const double *Gy, double *F);
 
