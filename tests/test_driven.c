@@ -266,6 +266,14 @@ TESTS(forces_by_voltage, 0, 2) {
     off = fmax(off, fabs((F[n + k] - F[2 * n + k]) / 2e-2 - F[k]));
   }
   ck_below(off / most, 2e-9);
+  /* without the curvature they are those of electrodes alone */
+  double *all = memory_of(2 * n * sizeof *all);
+  ZpByVoltage of_charge = {.force = all, .charge = by.charge, .of_charge = true},
+              alone = {.force = all + n, .charge = memory_of(n * sizeof *all)};
+  zp_system_force(model, &span, eval, F + n);
+  zp_system_by_voltage(model, &span, eval, &of_charge);
+  zp_term_plates.by_voltage(model, &span, eval, &alone);
+  ck_assert_mem_eq(all, all + n, n * sizeof *all);
 }
 
 /* Of results by the keys of a segment, against differences of studies. */
