@@ -516,7 +516,7 @@ TESTS(wrong_keys, 0, 13) {
                {{"setpoint.frequency", 5}, "setpoint.waveform sine or square"},
                {{"drive.waveform", ZP_WAVEFORM_SINE}, "the controller sets the voltage"},
                {{"actuator.kind", ZP_KIND_FLANGE}, "control.signal = contraction"},
-               {{"actuator.kind", ZP_KIND_RIBBON}, "a single ribbon has no electrodes"}};
+               {{"actuator.kind", ZP_KIND_RIBBON}, "a voltage does nothing to a single ribbon"}};
   const Setting list[] = {
       {"liquid.model", ZP_LIQUID_NONE}, {"control.kind", ZP_CONTROL_PI}, {"control.signal", ZP_CONTROL_CONTRACTION},
       {"control.proportional", 1e3},    {"setpoint.value", 0.5},         wrong[_i].setting};

@@ -266,6 +266,14 @@ TESTS(forces_by_voltage, 0, 2) {
     off = fmax(off, fabs((F[n + k] - F[2 * n + k]) / 2e-2 - F[k]));
   }
   ck_below(off / most, 2e-9);
+  /* without the curvature they are those of electrodes alone */
+  double *all = memory_of(2 * n * sizeof *all);
+  ZpByVoltage of_charge = {.force = all, .charge = by.charge, .of_charge = true},
+              alone = {.force = all + n, .charge = memory_of(n * sizeof *all)};
+  zp_system_force(model, &span, eval, F + n);
+  zp_system_by_voltage(model, &span, eval, &of_charge);
+  zp_term_plates.by_voltage(model, &span, eval, &alone);
+  ck_assert_mem_eq(all, all + n, n * sizeof *all);
 }
 
 /* Of results by the keys of a segment, against differences of studies. */
@@ -337,6 +345,34 @@ TESTS(plant_of_a_lag, 0, 2) {
   zp_plant_destroy(&plant);
   const double h = 1e-4;
   ck_near(gain, (-tip_of(&def, 0.5 + h).y + tip_of(&def, 0.5 - h).y) / (2 * h), 1e-8);
+}
+
+/* A periodic motion loses what electrodes and curvature have given it. */
+TEST(cycle_loses_what_it_was_given) {
+  const ZpActuatorDef def =
+      DEF(PAIR, {"drive.voltage", 300}, {"drive.offset", -300}, {"drive.waveform", ZP_WAVEFORM_SINE},
+          {"drive.frequency", 30}, {"damping.drag", 0.5}, {"segment_1.curvature_per_volt", 5e-3},
+          {"segment_1.curvature_lag", 5e-3}, {"mesh.nodes", 15}, {"cycle.tolerance", 1e-4});
+  ZpResult *result = answer_of(ZP_STUDY_CYCLE, &def);
+  const ZpTable *rows = result->series;
+  const double lost =
+      zp_table_get(rows, rows->rows - 1, "drag_loss_J") + zp_table_get(rows, rows->rows - 1, "internal_loss_J") +
+      zp_table_get(rows, rows->rows - 1, "contact_loss_J") + zp_table_get(rows, rows->rows - 1, "charging_loss_J");
+  ck_assert_double_eq(zp_result_get(result, "linear"), 0);
+  ck_assert_double_gt(zp_result_get(result, "curvature_work_per_cycle_J"), 0);
+  ck_near(zp_result_get(result, "energy_per_cycle_J"), lost, 5e-5);
+}
+
+/* A controller holds a strip whose curvature lags, as the eigenvalues of its loop say. */
+TEST(controlled_strip) {
+  const ZpActuatorDef def =
+      DEF(STRIP, {"drive.voltage", 3}, {"segment_1.curvature_lag", 0.05}, {"damping.internal", 2e-3},
+          {"ribbon.thickness", 2e-4}, {"segment_1.thickness", 2e-4}, {"control.kind", ZP_CONTROL_PI},
+          {"control.signal", ZP_CONTROL_STROKE}, {"control.proportional", 20}, {"control.integral", 400},
+          {"control.period", 2e-3}, {"setpoint.value", -5e-3}, {"solver.end_time", 2});
+  ZpResult *loop = answer_of(ZP_STUDY_MODES, &def), *run = answer_of(ZP_STUDY_ACTUATE, &def);
+  ck_assert_double_lt(zp_result_get(loop, "loop_growth_1_per_s"), -4);
+  ck_near(zp_result_get(run, "stroke_m"), -5e-3, 1.4e-4);
 }
 
 /* -- refusals ------------------------------------------------------------------------------------------ */

@@ -20,9 +20,9 @@ ZP_API ZpStatus zp_rest_create(const ZpModel *model, ZpRest **rest, ZpError *err
 /* Free it; NULL is allowed. */
 ZP_API void zp_rest_destroy(ZpRest *rest);
 
-/* Go to the equilibrium in which the actuator hangs at `voltage` (V, 0 or more), to which a slowly rising voltage
- * leads. False if there is none: the actuator pulls in at a lower voltage, electrodes without an insulator touch, or no
- * equilibrium was found. */
+/* Go to the equilibrium in which the actuator hangs at `voltage` (V; below 0 where its sign matters), to which a
+ * voltage that slowly departs from 0 leads. False if there is none: the actuator pulls in at a lower voltage,
+ * electrodes without an insulator touch, or no equilibrium was found. */
 ZP_API bool zp_rest_hang(ZpRest *rest, double voltage);
 
 /* The present state: height of the clip over the lower platform, signed (one ribbon: height of its left end over its

@@ -34,12 +34,14 @@ class Key(NamedTuple):
 
 
 class Keys(dict[str, Key]):
-    """Every key by its name, "load.mass". Those of all members, bodies, joints and springs are listed once, with K in the
-    place of a number; KEYS["member_3.ribbon.thickness"] and KEYS["members.left.ribbon.thickness"] are found as well, though
-    not by `in` or get."""
+    """Every key by its name, "load.mass". Those of all segments, members, bodies, joints and springs are listed once, with K
+    in the place of a number; KEYS["segment_2.length"], KEYS["member_3.ribbon.thickness"] and
+    KEYS["members.left.ribbon.thickness"] are found as well, though not by `in` or get."""
 
     def __missing__(self, name: str) -> Key:
         row, numbers = re.subn(r"^(member|body|joint|spring)_(?:[1-9][0-9]{0,2}|10[01][0-9]|102[0-4])[.]", r"\1_K.", name)
+        if numbers == 0:
+            row, numbers = re.subn(r"^(lower[.])?segment_(?:[1-9]|[1-5][0-9]|6[0-4])[.]", r"\1segment_K.", name)
         group, _, rest = name.partition(".")
         if group in GROUPS.values():
             row, numbers = f"{next(one for one in GROUPS if GROUPS[one] == group)}_K.{rest.partition('.')[2]}", 1
@@ -63,7 +65,7 @@ def key_name(keyword: str) -> str:
 
 def is_key(name: str) -> bool:
     try:
-        return KEYS[name].name == name and not re.match("[a-z]+_K[.]|(bodies|joints|members|springs)[.]", name)
+        return KEYS[name].name == name and not re.match("(lower[.])?[a-z]+_K[.]|(bodies|joints|members|springs)[.]", name)
     except KeyError:
         return False
 

@@ -93,7 +93,8 @@ static ZpStatus fill_start(ZpActuatorDef *def, ZpFmuStart *start, ZpError *err) 
   ZpStatus status = forget_waveforms(def, err);
   if (status == ZP_OK) status = zp_def_forget_ports(def, err);
   if (status != ZP_OK) return status;
-  if (zp_fmu_first(def, ZP_INPUT_VOLTAGE) < 0)
+  if (zp_fmu_first(def, ZP_INPUT_VOLTAGE) < 0 &&
+      zp_instance_given(def, zp_key_find("segment_K.curvature_per_volt")) < 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "drive.offset: the voltage is %g V at t = 0, where the input of an FMU starts; it takes 0 V or more",
                    zp_fmu_first(def, ZP_INPUT_VOLTAGE));

@@ -31,9 +31,10 @@ typedef struct Mark {
 
 /* How large the motion of a cycle is. */
 typedef struct Response {
-  double size, rate;  /* half of the range of the opening, m, and of its rate, m/s */
-  double spent, kept; /* energy that the source has given in the cycle: lost, and stored at its end, J */
-  double drawn;       /* all that it has given before it took some back, J */
+  double size, rate; /* half of the range of the opening, m, and of its rate, m/s */
+  double spent,
+      kept; /* energy that the source and driven curvatures have given in the cycle: lost, and stored at its end, J */
+  double drawn; /* all that it has given before it took some back, J */
 } Response;
 
 /* Liquid at the edges of a bead in a cycle, m^3: at its start, least and most. */
@@ -243,10 +244,15 @@ static double kept(const Cycles *c) {
   return sum;
 }
 
+/* Of what drives natural curvatures, J; 0 where nothing does. */
+static double curvature_work(const Cycles *c) {
+  return at(c, PHASES, "curvature_work_J") - at(c, 0, "curvature_work_J");
+}
+
 static Response response_of(const Cycles *c) {
   double given, taken, stored = kept(c);
   energies_of(c, &given, &taken);
-  Response response = {0, 0, given - taken - stored, stored, given};
+  Response response = {0, 0, given + curvature_work(c) - taken - stored, stored, given};
   for (const Opens *o = c->opens; o < c->opens + c->opening; o++) {
     response.size = fmax(response.size, half_of(o->opening));
     response.rate = fmax(response.rate, half_of(o->rate));
@@ -654,6 +660,7 @@ static void summarize_energy(const Cycles *c, ZpResult *result) {
   }
   add_periodic(c, result, "energy_per_cycle_J", "J", energy);
   add_periodic(c, result, "energy_drawn_per_cycle_J", "J", c->response.drawn);
+  if (c->model->driven.places > 0) add_periodic(c, result, "curvature_work_per_cycle_J", "J", curvature_work(c));
   add_periodic(c, result, "work_per_cycle_J", "J", work);
   add_periodic(c, result, "power_W", "W", energy / c->period);
   add_efficiency(c, result, "efficiency", work, energy);
