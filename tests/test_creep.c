@@ -267,5 +267,5 @@ TEST(what_creeps_needs_a_time) {
   ck_refused(&def, "its insulators may creep");
   def = moving(0);
   def.segment_1.length = 10e-3, def.segment_1.thickness = 80e-6;
-  ck_refused(&def, "a relaxation modulus requires segments as thick as the ribbon");
+  ck_refused(&def, "insulator.relaxation_modulus requires segments as thick as the ribbon");
 }

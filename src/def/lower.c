@@ -56,7 +56,9 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
         err, ZP_BAD_INPUT,
         "%ssegment_1.length to %ssegment_3.length: %g m together, more than the flexible length of the ribbon, %g m",
         prefixed, prefixed, segments, flexible);
-  const char *needs = ribbon->ribbon.plasticity ? "ribbon.plasticity" : "a relaxation modulus";
+  const char *needs = ribbon->ribbon.plasticity               ? "ribbon.plasticity"
+                      : ribbon->ribbon.relaxation_modulus > 0 ? "ribbon.relaxation_modulus"
+                                                              : "insulator.relaxation_modulus";
   if ((ribbon->ribbon.plasticity || zp_def_creeps(ribbon)) && has_other_thickness(ribbon))
     return zp_fail(err, ZP_BAD_INPUT,
                    "%ssegment_1.thickness to %ssegment_3.thickness: %s requires segments as thick as the ribbon, %g m",
