@@ -178,6 +178,37 @@ TESTS(strip_of_two_layers_rings_down, 0, LENGTH_OF(relaxing_times)) {
   ck_near(period, 2 * zp_pi / cimag(s), 3e-3);
 }
 
+/* Study modes has frequency and damping of that, and beside them the frequency of relaxed layers. */
+TESTS(modes_tell_the_ring_down, 0, LENGTH_OF(relaxing_times)) {
+  ZpActuatorDef def = ringing(relaxing_times[_i]);
+  double complex s = rate_of(&def);
+  def.mesh.nodes = 61, def.ribbon.density = 1, def.gravity = 0;
+  ZpResult *result = answer_of(ZP_STUDY_MODES, &def);
+  ck_near(zp_result_get(result, "creeping_frequency_1_Hz"), cimag(s) / (2 * zp_pi), 1.3e-3);
+  ck_near(zp_result_get(result, "creeping_damping_1"), -creal(s) / cabs(s), 3e-2); /* as its axis stretches */
+  def.insulator.relaxation_modulus = 0, def.insulator.relaxation_time = NAN;
+  ck_near(zp_result_get(result, "frequency_1_Hz"), answered_value(ZP_STUDY_MODES, &def, "frequency_1_Hz"), 1e-12);
+}
+
+/* All of a strip creeps alike: the modes are the same, and (39.13) is exact. */
+TEST(modes_of_one_layer_are_exact) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_RIBBON}, {"ribbon.relaxation_modulus", stiff * 200e9},
+                          {"ribbon.relaxation_time", 2e-3}, {"gravity", 0}, {"load.mass", 0}, {"mesh.nodes", 41});
+  ZpResult *result = answer_of(ZP_STUDY_MODES, &def);
+  for (int k = 1; k <= 3; k++) {
+    char at_rest[] = "frequency_#_Hz", creeps[] = "creeping_frequency_#_Hz", damping[] = "creeping_damping_#";
+    *strchr(at_rest, '#') = *strchr(creeps, '#') = *strchr(damping, '#') = (char)('0' + k);
+    double omega = 2 * zp_pi * zp_result_get(result, at_rest), tau = def.ribbon.relaxation_time;
+    double complex s = I * omega;
+    for (int i = 0; i < 200; i++) {
+      double complex next = csqrt(-omega * omega * (1 + stiff * s * tau / (1 + s * tau)));
+      s = cimag(next) > 0 ? next : -next;
+    }
+    ck_near(zp_result_get(result, creeps), cimag(s) / (2 * zp_pi), 6e-9);
+    ck_near(zp_result_get(result, damping), -creal(s) / cabs(s), 6e-9);
+  }
+}
+
 /* Where the loss factor is small, the decrement is pi times it. */
 TEST(small_decrement_is_that_of_the_loss_factor) {
   double K = 0.02, tau = 1, w = 1;
