@@ -73,7 +73,9 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
         err, ZP_BAD_INPUT,
         "%ssegment_1.length to %ssegment_%d.length: %g m together, more than the flexible length of the ribbon, %g m",
         prefixed, prefixed, last, length, flexible);
-  const char *needs = ribbon->ribbon.plasticity ? "ribbon.plasticity" : "a relaxation modulus";
+  const char *needs = ribbon->ribbon.plasticity               ? "ribbon.plasticity"
+                      : ribbon->ribbon.relaxation_modulus > 0 ? "ribbon.relaxation_modulus"
+                                                              : "insulator.relaxation_modulus";
   const bool even = ribbon->ribbon.plasticity || zp_def_creeps(ribbon);
   for (int k = 0; k < last && even; k++)
     if (ribbon->segment_K[k].length > 0 && ribbon->segment_K[k].thickness != ribbon->ribbon.thickness)

@@ -13,6 +13,7 @@
 #include "math/elementary.h"
 #include "math/vector.h"
 #include "rest/crossing.h"
+#include "ribbon/rod_maxwell.h"
 #include "solve/descend.h"
 #include "term/curvature.h"
 
@@ -1472,6 +1473,16 @@ void zp_statics_masses(const ZpStatics *s, double *mass) {
   if (in_plane(s)) zp_plane_add_masses(&s->plane, s->form.inner, mass);
   for (size_t k = 0; k < s->members; k++)
     zp_assembly_add_masses(&s->member[k].assembly, s->member[k].model->mass, mass);
+}
+
+double zp_statics_relaxing_along(ZpStatics *s, const double *u, size_t branch) {
+  double sum = 0;
+  for (ZpRestMember *m = s->member; m < s->member + s->members; m++) {
+    zp_assembly_changes(&m->assembly, u, m->moved);
+    const ZpNodes moved = zp_nodes(m->model, m->moved);
+    sum += zp_rod_maxwell_along(&m->model->rod, &m->eval.rod_step, branch, moved.x, moved.y);
+  }
+  return sum;
 }
 
 /* Upward momentum of all nodes, in m->moved. */

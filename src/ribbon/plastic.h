@@ -31,7 +31,7 @@ ZpPlastic zp_plastic(const ZpLayer *metal, const ZpSection *section, double widt
  * the elastic moment, EI times the curvature, and tension. */
 ZpSectionForce zp_plastic_bend(const ZpPlastic *plastic, const double *p0, double curvature, double strain, double *p1);
 
-/* What plastic strains take, without derivatives. */
+/* Moment and tension that plastic strains take, without derivatives. */
 ZpSectionForce zp_plastic_force(const ZpPlastic *plastic, const double *p);
 
 /* As zp_plastic_bend of plastic strains that are found: fibres yield where p1 is not p0. */

@@ -12,8 +12,8 @@ size_t zp_rod_maxwell_count(const ZpRodParams *p) {
 typedef struct At {
   const ZpMaxwell *branch;
   ZpRodPoint point;
-  size_t place; /* of its spring, in numbers */
-  int number;
+  size_t number; /* of the branch in its ribbon */
+  size_t place;  /* of its spring, in numbers */
 } At;
 
 /* The branches of all points in turn, from `at` on, beginning with {0}. */
@@ -24,8 +24,8 @@ typedef struct Walk {
 static bool walk(const ZpRodParams *p, Walk *from, At *at) {
   for (size_t k = from->next; p->branch && k < ZP_BRANCHES * zp_rod_point_count(p); k++) {
     const size_t i = k / ZP_BRANCHES;
-    *at = (At){.point = zp_rod_point(p, i), .place = 2 * k, .number = (int)(k % ZP_BRANCHES)};
-    at->branch = &p->branch[zp_rod_point_ribbon(p, &at->point) * ZP_BRANCHES + k % ZP_BRANCHES];
+    *at = (At){.point = zp_rod_point(p, i), .place = 2 * k, .number = k % ZP_BRANCHES};
+    at->branch = &p->branch[zp_rod_point_ribbon(p, &at->point) * ZP_BRANCHES + at->number];
     if (!(at->point.length > 0) || !(at->branch->time > 0)) continue;
     from->next = k + 1;
     return true;
@@ -88,6 +88,15 @@ void zp_rod_maxwell_stiffness(const ZpRodParams *p, const ZpRodStep *s, double (
     adds = taken(&adds);
     zp_rod_point_soften(p, &at.point, &adds, s, D);
   }
+}
+
+double zp_rod_maxwell_along(const ZpRodParams *p, const ZpRodStep *s, size_t number, const double *x, const double *y) {
+  double sum = 0;
+  At at;
+  for (Walk to = {0}; walk(p, &to, &at);)
+    if (at.number == number)
+      sum += 2 * at.point.length * zp_maxwell_energy(at.branch, zp_rod_point_change(p, &at.point, s, x, y));
+  return sum;
 }
 
 double zp_rod_maxwell_error(const ZpRodParams *p, const ZpRodStep *s, double length) {

@@ -21,6 +21,11 @@ void zp_rod_maxwell_step(const ZpRodParams *params, const ZpRodEval *start, cons
 /* After zp_rod_stiffness without them: D with what they add at the last zp_rod_maxwell_step. */
 void zp_rod_maxwell_stiffness(const ZpRodParams *params, const ZpRodStep *step, double (*D)[4]);
 
+/* u' K u of branch `number`, of layers that have not relaxed, for displacements of nodes u [lanes], N m: at rest, at
+ * the last zp_rod_step. */
+double zp_rod_maxwell_along(const ZpRodParams *params, const ZpRodStep *step, size_t number, const double *x,
+                            const double *y);
+
 /* Error of the places of nodes at the end of the last step, as far as creep within it makes it, m: of `length` of a
  * ribbon that is bent and stretched alike. */
 double zp_rod_maxwell_error(const ZpRodParams *params, const ZpRodStep *step, double length);

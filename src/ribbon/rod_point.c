@@ -144,6 +144,19 @@ static ByEdge by_edge(const ZpRodParams *p, const ZpRodPoint *point, int which, 
                   {turns * s->gx[edge], turns * s->gy[edge]}};
 }
 
+ZpBent zp_rod_point_change(const ZpRodParams *p, const ZpRodPoint *point, const ZpRodStep *s, const double *x,
+                           const double *y) {
+  ZpBent sum = {0, 0};
+  for (int k = 0; k < point->edges; k++) {
+    const size_t left = point->edge[k], right = left + p->ribbons;
+    const double along = x[right] - x[left], up = y[right] - y[left];
+    const ByEdge by = by_edge(p, point, k, s);
+    sum.curvature += (by.curvature[0] * along + by.curvature[1] * up) / p->cell;
+    sum.strain += (by.strain[0] * along + by.strain[1] * up) / p->cell;
+  }
+  return sum;
+}
+
 void zp_rod_point_soften(const ZpRodParams *p, const ZpRodPoint *point, const ZpSectionForce *force, const ZpRodStep *s,
                          double (*D)[4]) {
   const double part = point->length / (p->cell * p->cell), both = part * force->both, axial = part * force->axial;

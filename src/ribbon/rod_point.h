@@ -43,6 +43,10 @@ double zp_rod_point_strain(const ZpRodParams *params, const ZpRodPoint *point, c
 void zp_rod_point_take(const ZpRodParams *params, const ZpRodPoint *point, const ZpSectionForce *force,
                        const ZpRodEval *end, ZpRodStep *step);
 
+/* How its curvature and its strain go with displacements of nodes [lanes], at the last step. */
+ZpBent zp_rod_point_change(const ZpRodParams *params, const ZpRodPoint *point, const ZpRodStep *step, const double *x,
+                           const double *y);
+
 /* After zp_rod_stiffness without it: what the derivatives take from D beside those of joints, which the step has. */
 void zp_rod_point_soften(const ZpRodParams *params, const ZpRodPoint *point, const ZpSectionForce *force,
                          const ZpRodStep *step, double (*D)[4]);

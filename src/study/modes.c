@@ -6,6 +6,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "math/eigen_general.h"
 #include "math/vector.h"
 #include "rest/vibration.h"
 #include "study/equilibria.h"
@@ -20,7 +21,8 @@ static const ZpColumn columns[] = {
 };
 enum { COLUMNS = sizeof columns / sizeof columns[0] };
 
-static const char frequency[] = "frequency_#_Hz";
+static const char frequency[] = "frequency_#_Hz", creeping[] = "creeping_frequency_#_Hz",
+                  damping[] = "creeping_damping_#";
 
 /* "1" of the first mode. */
 static const char *number_of(size_t mode, char text[ZP_NAME_SIZE]) {
@@ -69,10 +71,49 @@ static void record_shape(Problem *p, size_t frame, const double *u) {
   zp_shapes_offer(p->at.result->shapes, &shape);
 }
 
+/* Eq. (39.13): a mode of unit mass and its branches, which move alike: rates of its displacement, its velocity and the
+ * strains of springs. => the eigenvalue that vibrates; 0 if none does. */
+static ZpEigenvalue creeping_rate(double omega2, const double stiffness[ZP_BRANCHES], const double time[ZP_BRANCHES]) {
+  enum { X, V, SPRINGS, N = SPRINGS + ZP_BRANCHES };
+  double a[N * N] = {0}, work[N];
+  ZpEigenvalue value[N], found = {0, 0};
+  a[X * N + V] = 1;
+  a[V * N + X] = -omega2;
+  for (size_t b = 0; b < ZP_BRANCHES; b++) {
+    const size_t spring = SPRINGS + b;
+    a[V * N + spring] = -stiffness[b];
+    a[spring * N + spring] = -1 / time[b];
+    if (stiffness[b] > 0) a[spring * N + V] = 1;
+  }
+  if (!zp_eigenvalues(N, a, work, value)) return found;
+  for (size_t k = 0; k < N; k++)
+    if (value[k].im > found.im) found = value[k];
+  return found;
+}
+
+/* Of a mode u [n]. The strip creeps by the keys of all ribbons. */
+static void report_creep(Problem *p, size_t mode, const double *u) {
+  const ZpActuatorDef *def = &p->at.model->def;
+  const double given[ZP_BRANCHES] = {def->ribbon.relaxation_time, def->insulator.relaxation_time};
+  double stiffness[ZP_BRANCHES], time[ZP_BRANCHES];
+  char room[ZP_NAME_SIZE];
+  for (size_t b = 0; b < ZP_BRANCHES; b++) {
+    time[b] = isnan(given[b]) ? 1 : given[b];
+    stiffness[b] = zp_statics_relaxing_along(&p->at.rest.statics, u, b);
+  }
+  const ZpEigenvalue rate = creeping_rate(p->vibration.omega2[mode], stiffness, time);
+  const bool vibrates = rate.im > 0;
+  zp_result_add_of(p->at.result, creeping, number_of(mode, room), "Hz", vibrates ? rate.im / two_pi : NAN);
+  zp_result_add_of(p->at.result, damping, number_of(mode, room), "1",
+                   vibrates ? -rate.re / sqrt(rate.re * rate.re + rate.im * rate.im) : NAN);
+}
+
 /* Frame 0 is the equilibrium itself, frame j + 1 mode j. */
 static void report(Problem *p) {
   ZpVibration *v = &p->vibration;
   zp_rest_save(&p->at.rest, p->equilibrium);
+  for (size_t j = 0; zp_def_creeps(&p->at.model->def) && j < count(p); j++)
+    report_creep(p, j, v->u + j * v->n);
   record_shape(p, 0, NULL);
   for (size_t j = 0; j < count(p); j++) {
     char room[ZP_NAME_SIZE];
