@@ -32,10 +32,11 @@ TESTS(pull_in_and_release_of_the_textbook, 0, 3) {
                g0 = def.plate.gap, gs = def.plate.stop_gap;
   ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
   const double pull_in = sqrt(8 * k * (g0 + d) * (g0 + d) * (g0 + d) / (27 * A));
-  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-10); /* 4e-11 measured */
-  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(2 * k * (g0 - gs) / A) * (gs + d), 5e-5);
+  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-10); /* 3.8e-11 measured */
+  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(2 * k * (g0 - gs) / A) * (gs + d),
+          4e-5); /* 1.6e-5 measured */
   result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
-  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-7);
+  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-14); /* 2e-16 measured */
 }
 
 /* Eq. (37.3): the balance of the spring with both electrodes, as a voltage squared. */
@@ -64,8 +65,9 @@ TESTS(pull_in_before_a_back_electrode, 0, 2) {
       DEF(GIVEN, {"drive.voltage", 80}, {"plate.back_gap", 7.75e-6}, {"plate.back_stop_gap", 1e-6}, {"plate.count", 3});
   if (_i == 1) def.insulator.thickness = 0.5e-6;
   ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(result, "pull_in_voltage_V"), sqrt(largest_square(&def)), 1e-9);
-  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(square_at(&def, def.plate.stop_gap)), 5e-5);
+  ck_near(zp_result_get(result, "pull_in_voltage_V"), sqrt(largest_square(&def)), 1e-14); /* 2e-16 measured */
+  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(square_at(&def, def.plate.stop_gap)),
+          4e-5); /* 1.6e-5 measured */
 }
 
 /* The plate that a load draws away from the front rests on the stop behind it. */
@@ -74,7 +76,7 @@ TEST(back_stop_holds) {
                           {"load.force", 1e-3});
   const double k = def.plate.stiffness, s = def.plate.stop_stiffness, stop = 10e-6;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
-          (def.load.force + k * def.plate.gap + s * stop) / (k + s), 1e-9);
+          (def.load.force + k * def.plate.gap + s * stop) / (k + s), 1e-14); /* 2e-16 measured */
 }
 
 /* Eq. (37.1): frequency without and with a voltage, which softens the spring. */
@@ -87,7 +89,7 @@ TESTS(frequency, 0, 2) {
     k -= 2 * k * (def.plate.gap - g) / g;
   }
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
-  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi), 1e-8);
+  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi), 2e-10); /* 7.8e-11 measured */
 }
 
 /* -- films ----------------------------------------------------------------------------------------- */
@@ -144,7 +146,7 @@ TESTS(damping_of_a_film, 0, 6) {
   def.ribbon.length = L;
   def.solver.end_time = 20 * strip * of_strip(L, w) / def.plate.stiffness;
   ck_near(damping(&def), strip * of_strip(L, w), 1e-4);
-  ck_near(damping(&def), strip * fit(L, w), 1e-2);
+  ck_near(damping(&def), strip * fit(L, w), 5e-3); /* 1.8e-3 measured */
 }
 
 /* Liquid that cannot leave at the long edges leaves at the ends, as from a strip along the width. */
@@ -168,7 +170,7 @@ TESTS(what_else_a_film_does, 0, 3) {
     c *= (4 * gap + below) / (gap + below);
   }
   def.solver.end_time = 20 * c / def.plate.stiffness;
-  ck_near(damping(&def), c, 2e-4);
+  ck_near(damping(&def), c, 1e-4); /* 3.9e-5 measured */
 }
 
 /* Period of a plate in a liquid that hardly flows off: the mass of the film, eq. (37.5), and that beside and behind the
@@ -214,7 +216,7 @@ TESTS(energy, 0, 4) {
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
   ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 0);
-  ck_below(zp_result_get(result, "energy_error"), 1e-8);
+  ck_below(zp_result_get(result, "energy_error"), 2e-10); /* 9.5e-11 measured */
 }
 
 /* So many fingers on one spring are one finger on their part of it. */

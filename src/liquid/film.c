@@ -50,7 +50,7 @@ void zp_film_plate_modes(ZpFilmParams *p, double length, bool lateral_flow) {
 
 double zp_film_viscosity(const ZpFilmParams *p, double H) {
   const double mu = p->mu / (1 + 6 * p->free_path / H);
-  if (isnan(p->floor.opening)) return mu;
+  if (!(p->floor.opening > 0)) return mu;
   const double gap = H * H * H * p->floor.width, below = 2 * p->floor.opening * p->floor.opening * p->floor.opening * p->w;
   return mu * (4 * gap + below) / (gap + below);
 }
