@@ -64,6 +64,8 @@ PICTURES = {
     "coil-set.svg": "coil-set/plots/strokes.svg",
     "return-spring.svg": "spring/plots/stroke.svg",
     "hinge.svg": "hinge-torque/plots/torques.svg",
+    "plate.svg": "plate/plots/stroke.svg",
+    "plate.gif": "plate/plots/animation.gif",
     "yielding.svg": "yielding/plots/plastic.svg",
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
     "off-centre.svg": "off-centre/plots/profiles.svg",

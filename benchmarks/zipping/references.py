@@ -173,6 +173,8 @@ SOLVED = {
     "modes_free_1": (lambda: frequency(False, 1), EXACT, 5e-3),
     "pull_in_guided": (lambda: electrode(False), SHOT, 5e-3),
     "pull_in_free": (lambda: electrode(True), SHOT, 5e-3),
+    "pull_in_plate": (lambda: 8 / 27, EXACT, 1e-3),
+    "release_plate": (lambda: 2 * 0.8 * 0.2**2, EXACT, 1e-3),
     "force_wedge_1mm": (lambda: wedge(1e-3, math.inf), SERIES, 5e-3),
     "force_wedge_2mm": (lambda: wedge(2e-3, math.inf), SERIES, 5e-3),
     "force_wedge_4mm": (lambda: wedge(4e-3, math.inf), SERIES, 5e-3),
@@ -191,7 +193,7 @@ WAVES = {"film_front_speed_0.3": 0.3030, "film_front_speed_0.5": 0.2476, "film_f
 
 
 def unit(case):
-    for start, word in (("rest_opening", "m"), ("rest_hanging", "m"), ("rest", "1"), ("modes", "Hz"), ("pull_in_8g", "V"), ("pull_in", "1"), ("closing", "V"),
+    for start, word in (("rest_opening", "m"), ("rest_hanging", "m"), ("rest", "1"), ("modes", "Hz"), ("pull_in_8g", "V"), ("pull_in", "1"), ("release_plate", "1"), ("closing", "V"),
                         ("largest", "kg"), ("release", "V"), ("force", "N"), ("zip_dry_opening", "m"), ("zip", "s"), ("film_zip", "s")):
         if case.startswith(start):
             return word

@@ -40,6 +40,11 @@ def flange(end):
             "medium.breakdown_field": "1 GV/m", "electro.gap_offset": "1 mm", "drive.voltage": "30 kV"}
 
 
+# A bare plate of 300 um x 40 um on a spring of 8 N/m, gap 5 um, with a stop at 1 um, in vacuum.
+PLATE = {**DRY, "actuator.kind": "plate", "ribbon.length": "300 um", "ribbon.width": "40 um", "plate.gap": "5 um", "plate.stop_gap": "1 um",
+         "plate.stiffness": "8 N/m", "medium.permittivity": 1, "drive.voltage": "80 V"}
+
+
 def load_of_voltage(voltage):
     """eps0 w V^2 L^4 / (2 EI g^3) of flange()."""
     return 8.8541878128e-12 * voltage**2 * 0.1**4 / (2 * 200e9 * 1e-9 / 12 * 1e-9)
@@ -71,6 +76,8 @@ CASES = {
     "modes_hanging_5kV": ("modes", {**DRY, "modes.voltage": "5 kV"}, lambda s: s["frequencies_Hz"][0]),
     "pull_in_guided": ("limits", flange("guided"), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_free": ("limits", flange("free"), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
+    "pull_in_plate": ("limits", PLATE, lambda s: 8.8541878128e-12 * 300e-6 * 40e-6 * s["pull_in_voltage_V"]**2 / (8 * 5e-6**3)),
+    "release_plate": ("limits", PLATE, lambda s: 8.8541878128e-12 * 300e-6 * 40e-6 * s["release_voltage_V"]**2 / (8 * 5e-6**3)),
     "pull_in_8g": ("limits", DRY, lambda s: s["pull_in_voltage_V"]),
     "pull_in_8g_no_breakdown": ("limits", {**DRY, "electro.breakdown_cap": "false"}, lambda s: s["pull_in_voltage_V"]),
     "closing_61g": ("limits", {**DRY, "load.mass": "61 g"}, lambda s: s["closing_voltage_V"]),
