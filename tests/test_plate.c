@@ -6,7 +6,10 @@
 
 static const double eps0 = ZP_EPS0;
 
-#define PLATE {"actuator.kind", ZP_KIND_PLATE}, {"medium.permittivity", 1}
+#define PLATE                                                                                                          \
+  {"actuator.kind", ZP_KIND_PLATE}, {                                                                                  \
+    "medium.permittivity", 1                                                                                           \
+  }
 #define GIVEN                                                                                                          \
   PLATE, {"ribbon.length", 300e-6}, {"ribbon.width", 40e-6}, {"plate.gap", 5e-6}, {"plate.stop_gap", 1e-6}, {          \
     "plate.stiffness", 8                                                                                               \
@@ -72,8 +75,8 @@ TESTS(pull_in_before_a_back_electrode, 0, 2) {
 
 /* The plate that a load draws away from the front rests on the stop behind it. */
 TEST(back_stop_holds) {
-  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 0}, {"plate.back_gap", 7e-6}, {"plate.back_stop_gap", 2e-6},
-                          {"load.force", 1e-3});
+  ZpActuatorDef def =
+      DEF(GIVEN, {"drive.voltage", 0}, {"plate.back_gap", 7e-6}, {"plate.back_stop_gap", 2e-6}, {"load.force", 1e-3});
   const double k = def.plate.stiffness, s = def.plate.stop_stiffness, stop = 10e-6;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
           (def.load.force + k * def.plate.gap + s * stop) / (k + s), 1e-14); /* 2e-16 measured */
@@ -89,7 +92,8 @@ TESTS(frequency, 0, 2) {
     k -= 2 * k * (def.plate.gap - g) / g;
   }
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
-  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi), 2e-10); /* 7.8e-11 measured */
+  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi),
+          2e-10); /* 7.8e-11 measured */
 }
 
 /* -- films ----------------------------------------------------------------------------------------- */
@@ -142,7 +146,8 @@ static double damping(const ZpActuatorDef *def) {
 TESTS(damping_of_a_film, 0, 6) {
   static const double length[] = {40e-3, 1e-3, 400e-6, 200e-6, 100e-6, 50e-6};
   ZpActuatorDef def = DEF(CREEPS, {"ribbon.width", 200e-6});
-  const double w = def.ribbon.width, h = def.plate.gap, L = length[_i], mu = 1e-2, strip = mu * L * w * w * w / (h * h * h);
+  const double w = def.ribbon.width, h = def.plate.gap, L = length[_i], mu = 1e-2,
+               strip = mu * L * w * w * w / (h * h * h);
   def.ribbon.length = L;
   def.solver.end_time = 20 * strip * of_strip(L, w) / def.plate.stiffness;
   ck_near(damping(&def), strip * of_strip(L, w), 1e-4);
@@ -177,11 +182,11 @@ TESTS(what_else_a_film_does, 0, 3) {
  * plate, eqs. (22.3) and (22.12). */
 TESTS(mass_of_a_film, 0, 2) {
   static const double length[] = {0.2, 10e-3};
-  ZpActuatorDef def = DEF(PLATE, {"ribbon.width", 10e-3}, {"plate.gap", 4e-6}, {"plate.stop_gap", 1e-6},
-                          {"plate.stiffness", 1e10}, {"plate.mass", 1e-3}, {"medium.density", 1000},
-                          {"medium.kinematic_viscosity", 1e-8}, {"medium.mean_free_path", 0}, {"film.roughness", 1e-9},
-                          {"medium.drag_coefficient", 0}, {"liquid.model", ZP_LIQUID_SUBMERGED},
-                          {"solver.tolerance", 1e-7}, {"output.samples", 2000});
+  ZpActuatorDef def =
+      DEF(PLATE, {"ribbon.width", 10e-3}, {"plate.gap", 4e-6}, {"plate.stop_gap", 1e-6}, {"plate.stiffness", 1e10},
+          {"plate.mass", 1e-3}, {"medium.density", 1000}, {"medium.kinematic_viscosity", 1e-8},
+          {"medium.mean_free_path", 0}, {"film.roughness", 1e-9}, {"medium.drag_coefficient", 0},
+          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.tolerance", 1e-7}, {"output.samples", 2000});
   const double part = 1e-4, w = def.ribbon.width, L = length[_i], h = def.plate.gap, A = L * w * eps0;
   const double film = 1000 * L * w * w * w / (12 * h), mass = film * fit(L, w) + def.plate.mass;
   def.ribbon.length = L;
@@ -209,8 +214,8 @@ TESTS(mass_of_a_film, 0, 2) {
 
 /* Closing, resting on the stop and swinging back, between two electrodes, dry and in air: the energy balances. */
 TESTS(energy, 0, 4) {
-  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 2e3},
-                          {"solver.end_time", 2e-3}, {"plate.mass", 3e-9});
+  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
+                          {"drive.frequency", 2e3}, {"solver.end_time", 2e-3}, {"plate.mass", 3e-9});
   if (_i & 1) def.plate.back_gap = 6e-6, def.plate.back_stop_gap = 1e-6;
   if (_i & 2) def.liquid.model = ZP_LIQUID_SUBMERGED, def.insulator.thickness = 1e-7, def.plate.floor_gap = 2e-6;
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
@@ -222,7 +227,8 @@ TESTS(energy, 0, 4) {
 /* So many fingers on one spring are one finger on their part of it. */
 TEST(fingers_share_spring_and_mass) {
   ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"solver.end_time", 1e-3}, {"plate.mass", 3e-9},
-                          {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}),
+                          {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6},
+                          {"solver.stop_when_zipped", ZP_WHEN_TRUE}),
                 one = def;
   def.plate.count = 7, def.plate.stiffness *= 7, def.plate.mass *= 7, def.plate.stop_stiffness *= 7;
   ZpResult *all = study_of(ZP_STUDY_ACTUATE, &def), *single = study_of(ZP_STUDY_ACTUATE, &one);
@@ -232,8 +238,8 @@ TEST(fingers_share_spring_and_mass) {
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
-static const char *const keys[] = {"plate.gap",     "plate.stiffness", "plate.stop_gap",        "plate.back_gap",
-                                   "plate.mass",    "plate.floor_gap", "medium.mean_free_path", "ribbon.width",
+static const char *const keys[] = {"plate.gap",     "plate.stiffness",    "plate.stop_gap",        "plate.back_gap",
+                                   "plate.mass",    "plate.floor_gap",    "medium.mean_free_path", "ribbon.width",
                                    "ribbon.length", "insulator.thickness"};
 
 static double difference(ZpStudy study, const ZpActuatorDef *def, const char *name, const char *key) {
@@ -261,15 +267,18 @@ TESTS(derivatives, 0, (int)LENGTH_OF(keys)) {
   } of[] = {{ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-5},
             {ZP_STUDY_LIMITS, "release_voltage_V", 1e-5},
             {ZP_STUDY_ACTUATE, "zip_time_s", 1e-3}};
-  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 90}, {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6},
-                          {"insulator.thickness", 1e-7}, {"plate.mass", 3e-9}, {"plate.floor_gap", 2e-6},
-                          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.tolerance", 1e-5});
+  ZpActuatorDef def =
+      DEF(GIVEN, {"drive.voltage", 90}, {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6},
+          {"insulator.thickness", 1e-7}, {"plate.mass", 3e-9}, {"plate.floor_gap", 2e-6},
+          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.tolerance", 1e-5});
   strcpy(def.sensitivity.by, keys[_i]);
   for (size_t k = 0; k < LENGTH_OF(of); k++) {
     ZpResult *result = study_of(of[k].study, &def);
     const double slope = slope_by(result, of[k].output),
                  expected = difference(of[k].study, &def, of[k].output, keys[_i]);
-    ck_assert_double_eq_tol(slope, expected, of[k].near * fabs(expected) + 1e-12 * zp_result_get(result, of[k].output) / zp_def_get(&def, zp_key_find(keys[_i])));
+    ck_assert_double_eq_tol(slope, expected,
+                            of[k].near * fabs(expected) +
+                                1e-12 * zp_result_get(result, of[k].output) / zp_def_get(&def, zp_key_find(keys[_i])));
   }
 }
 

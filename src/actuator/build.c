@@ -290,7 +290,8 @@ static ZpFieldParams cross_section_of(const ZpModel *model) {
  * the centre of mass. A plate has its layers' at its ends, unless plate.mass gives it. */
 double zp_ribbon_mass(const ZpModel *model, size_t j) {
   if (zp_def_has(&model->def, ZP_DEVICE_RIGID))
-    return isnan(model->def.plate.mass) && j % model->s > 0 ? zp_ribbon_section(model, 1).mu * platform_length(model) : 0;
+    return isnan(model->def.plate.mass) && j % model->s > 0 ? zp_ribbon_section(model, 1).mu * platform_length(model)
+                                                            : 0;
   return model->is_rod ? node_share(model, j).mass
                        : zp_ribbon_section(model, 0).mu * model->L / (double)model->def.mesh.nodes;
 }
@@ -608,17 +609,18 @@ static ZpPlatesParams air_of(const ZpModel *model) {
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
-  ZpFilmParams film = {.nodes = model->nodes,
-                       .l = model->l,
-                       .platform = model->topology.platform.first,
-                       .platform_end = model->topology.platform.last,
-                       .flat_length = platform_length(model),
-                       .w = def->ribbon.width,
-                       .mu = def->medium.kinematic_viscosity * def->medium.density,
-                       .rho = def->liquid.inertia ? def->medium.density : 0,
-                       .free_path = def->medium.mean_free_path,
-                       .floor = {rigid && !isnan(def->plate.floor_gap) ? def->plate.floor_gap : 0, def->ribbon.thickness},
-                       .roughness = zp_def_roughness(def)};
+  ZpFilmParams film = {
+      .nodes = model->nodes,
+      .l = model->l,
+      .platform = model->topology.platform.first,
+      .platform_end = model->topology.platform.last,
+      .flat_length = platform_length(model),
+      .w = def->ribbon.width,
+      .mu = def->medium.kinematic_viscosity * def->medium.density,
+      .rho = def->liquid.inertia ? def->medium.density : 0,
+      .free_path = def->medium.mean_free_path,
+      .floor = {rigid && !isnan(def->plate.floor_gap) ? def->plate.floor_gap : 0, def->ribbon.thickness},
+      .roughness = zp_def_roughness(def)};
   if (rigid)
     zp_film_plate_modes(&film, def->ribbon.length, def->liquid.lateral_flow);
   else
@@ -638,8 +640,8 @@ static ZpOuterParams outer_of(const ZpActuatorDef *def) {
 /* damping.internal, or the value that auto means: docs/theory.md, section 18. */
 static double internal_damping_of(const ZpActuatorDef *def) {
   static const double of_taped_steel = 10e-6; /* s */
-  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) && def->ribbon.model == ZP_RIBBON_ROD &&
-                def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
+  bool damped = zp_def_has(def, ZP_DEVICE_PLATFORM) && !zp_def_has(def, ZP_DEVICE_RIGID) &&
+                def->ribbon.model == ZP_RIBBON_ROD && def->solver.integrator == ZP_INTEGRATOR_IMPLICIT;
   if (!isnan(def->damping.internal)) return def->damping.internal;
   return damped ? of_taped_steel : 0;
 }

@@ -381,7 +381,8 @@ static inline double zp_state_load(const ZpModel *model, const ZpState *state, d
 static inline double zp_straight_x(const ZpModel *model, size_t station) {
   const ZpJoint *platform = &model->topology.platform;
   double rigid = (double)(platform->last - platform->first);
-  return (double)station * model->l + (station < platform->last ? 0 : rigid * (zp_platform_length(&model->def) - model->l));
+  return (double)station * model->l +
+         (station < platform->last ? 0 : rigid * (zp_platform_length(&model->def) - model->l));
 }
 
 /* Coordinates of an actuator whose lengths L are `stretch` times these ones, laid so that the platform has its own

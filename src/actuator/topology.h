@@ -155,8 +155,8 @@ static inline size_t zp_half_elements(const ZpTopology *t) {
   return t->platform.first;
 }
 
-/* (y of all nodes) => height of the clip, the hinge, the left end or the upper one of two plates over the lower platform
- * or the right end, m. */
+/* (y of all nodes) => height of the clip, the hinge, the left end or the upper one of two plates over the lower
+ * platform or the right end, m. */
 static inline double zp_stroke(const ZpTopology *t, const double *y) {
   return y[zp_upper(t, 0)] - zp_platform_middle(t, y);
 }

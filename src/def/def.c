@@ -451,8 +451,11 @@ static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_
   return status;
 }
 
-/* Gaps below this withstand far more than the strength of their medium, m. */
-static const double small_gap = 20e-6;
+/* Does a gap withstand far more than the strength of its medium? */
+static bool is_small(double gap) {
+  static const double most = 20e-6; /* m */
+  return gap > 0 && gap < most;
+}
 
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpActuatorDef given = plain;
@@ -474,11 +477,9 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   apply_values(def, false, (int)given.preset, given.mesh.nodes);
   apply_values(def, true, (int)given.source.supply, 0);
   apply_materials(def, &given);
-  status = apply_assignments(def, list, count, err);
-  const double gap = zp_def_gap(def);
-  if (status == ZP_OK && gap > 0 && gap < small_gap && !is_given(zp_key_find("electro.breakdown_cap"), list, count))
-    def->electro.breakdown_cap = false;
-  return status;
+  given.actuator.kind = kind;
+  if (is_small(zp_def_gap(&given))) def->electro.breakdown_cap = false;
+  return apply_assignments(def, list, count, err);
 }
 
 static ZpStatus check_square(const char *group, double duty, double frequency, double rise_time, ZpError *err) {
@@ -564,7 +565,8 @@ static ZpStatus check_control(const ZpActuatorDef *def, ZpError *err) {
 
 ZpStatus zp_check_mass(const ZpActuatorDef *def, ZpError *err) {
   const bool given = zp_def_has(def, ZP_DEVICE_RIGID) && !isnan(def->plate.mass);
-  if (given && def->plate.mass == 0) return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
+  if (given && def->plate.mass == 0)
+    return zp_fail(err, ZP_BAD_INPUT, "plate.mass = 0 kg: a moving plate needs a mass");
   if (given) return ZP_OK;
   ZpActuatorDef lower = zp_def_lower(def);
   const ZpActuatorDef *of[] = {def, &lower};
@@ -591,7 +593,8 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
-  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && def->electro.gap_offset == 0);
+  bool touches =
+      zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && def->electro.gap_offset == 0);
   if (voltage == 0 || !zp_def_shorts(def) || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
@@ -726,10 +729,11 @@ static ZpStatus check_plate(const ZpActuatorDef *def, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "plate.back_stop_gap = %g m: must be below plate.back_gap = %g m",
                    def->plate.back_stop_gap, def->plate.back_gap);
   if (zp_insulation(def) == 0 && def->plate.back_stop_gap == 0)
-    return zp_fail(err, ZP_BAD_INPUT,
-                   "plate.back_stop_gap = 0 m: without an insulator the plate would touch the electrode behind it; give "
-                   "a stop below plate.back_gap = %g m",
-                   def->plate.back_gap);
+    return zp_fail(
+        err, ZP_BAD_INPUT,
+        "plate.back_stop_gap = 0 m: without an insulator the plate would touch the electrode behind it; give "
+        "a stop below plate.back_gap = %g m",
+        def->plate.back_gap);
   return ZP_OK;
 }
 
@@ -752,8 +756,8 @@ static ZpStatus check_build(const ZpActuatorDef *def, ZpError *err) {
 /* Checks of numbers that depend on each other, in the order in which they are asked: of the mass that members of a
  * stack share before those of the members. */
 static ZpStatus (*const checks[])(const ZpActuatorDef *def, ZpError *err) = {
-    check_build,  check_sizes, check_plate, check_bare,      zp_check_ribbons, check_change, zp_check_stack,
-    check_offset, check_tilt,  check_waveforms, check_control,    check_meter};
+    check_build,    check_sizes,  check_plate, check_bare,      zp_check_ribbons, check_change,
+    zp_check_stack, check_offset, check_tilt,  check_waveforms, check_control,    check_meter};
 
 ZpStatus zp_def_check(const ZpActuatorDef *def, ZpError *err) {
   ZpStatus status = check_there(def, err);

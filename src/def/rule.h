@@ -22,7 +22,7 @@ enum {
   ZP_DEVICE_HINGE = 16,     /* a hinge at the left end of the lower ribbon */
   ZP_DEVICE_COUNTER = 32,   /* a rigid counter electrode */
   ZP_DEVICE_PAPERS = 64,    /* the ends that the paper's steps, zipping and surface know */
-  ZP_DEVICE_RIGID = 512     /* two plates in place of ribbons: a platform as long as they are, on the springs of plate.* */
+  ZP_DEVICE_RIGID = 512 /* two plates in place of ribbons: a platform as long as they are, on the springs of plate.* */
 };
 
 typedef enum ZpTest {

@@ -642,7 +642,8 @@ static const char *fault_of_stations(const ZpRestMember *m, double U, bool conta
   double least = INFINITY, capacitance = m->model->parts * totals(m, U).capacitance;
   for (size_t i = 0; i < m->model->nodes; i++)
     least = fmin(least, m->eval.plates.gap[i]);
-  if (contact_acts && least < m->model->faces.stop - deepest_overlap(m->model, U)) return "the insulators' faces overlap";
+  if (contact_acts && least < m->model->faces.stop - deepest_overlap(m->model, U))
+    return "the insulators' faces overlap";
   if (capacitance < 0) return "the capacitance is negative";
   if (capacitance > beyond_plates * closed_capacitance(m->model))
     return "the capacitance is above that of closed faces";

@@ -400,7 +400,8 @@ static ZpStatus check_reach(double separation, double longest, const char *of, Z
 
 /* The largest opening, about. */
 static double length_of(const ZpActuatorDef *def) {
-  if (zp_def_has(def, ZP_DEVICE_RIGID)) return isnan(def->plate.back_gap) ? INFINITY : def->plate.gap + def->plate.back_gap;
+  if (zp_def_has(def, ZP_DEVICE_RIGID))
+    return isnan(def->plate.back_gap) ? INFINITY : def->plate.gap + def->plate.back_gap;
   return def->ribbon.length - (zp_def_has(def, ZP_DEVICE_PLATFORM) ? zp_platform_length(def) : 0);
 }
 
