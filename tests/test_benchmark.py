@@ -50,7 +50,7 @@ for case, row in references.items():
     ok("%s: a wrong answer is found, and printed first" % case, status == 1 and lines[1].startswith(case + " ") and "TOO LARGE" in lines[1])
     ok("%s: one within the tolerance is not" % case, score(changed(case, right))[0] == 0)
 status, text = score("case,value\n" + "".join("%s,%s\n" % tuple(a) for a in answers[1:]))
-ok("a missing answer counts", status == 1 and "%s: not answered" % answers[0][0] in text and "36 of 37" in text)
+ok("a missing answer counts", status == 1 and "%s: not answered" % answers[0][0] in text and "38 of 39" in text)
 ok("further columns are ignored", score("who,case,value\n" + "".join("me,%s,%s\n" % tuple(a) for a in answers))[0] == 0)
 for what, bad, said in (("a word", changed("rest_guided_4", "wide"), '"wide" is neither a number nor none'),
                         ("no number", changed("rest_guided_4", "nan"), "neither a number nor none"),

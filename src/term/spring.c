@@ -101,7 +101,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   add_push(model, push, F);
 }
 
-/* What a key does to a spring: to its stiffness, over the unit of the key; and to the opening at which it acts. */
+/* Derivatives of a spring by a key: of its stiffness, over the unit of the key; of the opening at which it acts. */
 typedef struct Rate {
   double k, rest;
 } Rate;
