@@ -33,6 +33,7 @@ static const ZpAssignment given[] = {{ZP_KEY(ribbon.length), 500e-6},
                                      {ZP_KEY(solver.end_time), 1e-2}};
 
 static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(plate.gap, plate.floor_gap), ZP_HAS(RIGID), "they describe a plate and its spring"),
     ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "a plate has no halves"),
     ZP_RULE(NOT_MODELLED, ZP_HAS(RIGID), ZP_IS(platform.rotates, false), "plates stay parallel"),
     ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_IS(platform.electrode, true), "without electrodes nothing attracts a plate"),
