@@ -1,6 +1,6 @@
 /* A rigid plate on a spring: textbook limits, small oscillation, films of finite plates, and its books. Theory, section
  * 37. Measured values stand beside the bounds. */
-#include "check_util.h"
+#include "network_util.h"
 
 #include "math/elementary.h"
 
@@ -234,6 +234,27 @@ TEST(fingers_share_spring_and_mass) {
   ZpResult *all = study_of(ZP_STUDY_ACTUATE, &def), *single = study_of(ZP_STUDY_ACTUATE, &one);
   ck_near(zp_result_get(all, "zip_time_s"), zp_result_get(single, "zip_time_s"), 1e-12);
   ck_near(zp_result_get(all, "source_energy_J"), 7 * zp_result_get(single, "source_energy_J"), 1e-12);
+}
+
+/* -- several --------------------------------------------------------------------------------------- */
+
+/* Two plates on one body, of which one is half as wide, are one on both springs. */
+TEST(plates_on_one_body) {
+  ZpActuatorDef both = def_of("actuator.kind: plate\nmedium.permittivity: 1\nbodies: {b: {mass: 1 ug}}\n"
+                              "members:\n  one: {upper: frame, lower: b}\n"
+                              "  other: {upper: frame, lower: b, ribbon.width: 50 um}\n"),
+                one = DEF(PLATE, {"ribbon.width", 150e-6}, {"plate.stiffness", 20}, {"plate.mass", 1e-9});
+  const double pull_in = answered_value(ZP_STUDY_LIMITS, &one, "pull_in_voltage_V");
+  ck_near(answered_value(ZP_STUDY_LIMITS, &both, "pull_in_voltage_V"), pull_in, 1e-9);
+}
+
+/* The lower one of two antagonists is an electrode behind the plate of the upper one. */
+TEST(antagonists_are_plates_between_electrodes) {
+  ZpActuatorDef two = DEF(PLATE, {"plate.gap", 6e-6}, {"stack.series", 2}, {"stack.distance", 12e-6},
+                          {"stack.voltage_ratio", 0}, {"drive.voltage", 60}),
+                one = DEF(PLATE, {"plate.gap", 6e-6}, {"plate.stiffness", 20}, {"drive.voltage", 60});
+  ck_near(answered_value(ZP_STUDY_LIMITS, &two, "pull_in_voltage_V"),
+          answered_value(ZP_STUDY_LIMITS, &one, "pull_in_voltage_V"), 1e-9);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
