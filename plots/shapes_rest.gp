@@ -16,7 +16,7 @@ do for [r=1:ribbons] {
 }
 way = 0
 do for [k=1:frames] { way = way + moved[k] }
-part = way/(most - 1)
+part = (way > 0 ? way : 1)/(most - 1) # a held plate does not move
 next = part
 way = 0
 chosen = '1 '

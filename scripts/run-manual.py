@@ -68,6 +68,8 @@ PICTURES = {
     "curling-flange.gif": "curling-motion/plots/animation.gif",
     "return-spring.svg": "spring/plots/stroke.svg",
     "hinge.svg": "hinge-torque/plots/torques.svg",
+    "plate.svg": "plate/plots/stroke.svg",
+    "plate.gif": "plate/plots/animation.gif",
     "yielding.svg": "yielding/plots/plastic.svg",
     "caught-mass.svg": "caught-mass/plots/stroke.svg",
     "off-centre.svg": "off-centre/plots/profiles.svg",

@@ -396,8 +396,9 @@ TEST(test_key_unknown) {
       {"electrolysis", "electrolysis is not modelled"},
       {"insulator.viscosity", "unknown key; insulator has material, thickness, permittivity, density, young_modulus, "
                               "breakdown_field, resistivity"},
-      {"oil.colour", "unknown key; medium has material, permittivity, breakdown_field, kinematic_viscosity, density, "
-                     "surface_tension, drag_coefficient, resistivity"},
+      {"oil.colour",
+       "unknown key; medium has material, permittivity, breakdown_field, kinematic_viscosity, density, mean_free_path, "
+       "surface_tension, drag_coefficient, resistivity"},
       {"cost", "unknown key, and none has a similar name; zipact keys lists all"},
       {"skin_effect", "unknown key, and none has a similar name; zipact keys lists all"},
       {"acceleration", "unknown key, and none has a similar name; zipact keys lists all"},

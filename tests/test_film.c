@@ -238,7 +238,7 @@ TEST(test_masses_of_two_plates) {
   static const double q[] = {0.01, 0.1, 0.2, 0.5, 1, 2}, inner[] = {1.04, 1.23, 1.39, 1.90, 2.84, 4.99},
                       outer[] = {0.4065, 0.4774, 0.5319, 0.638, 0.718, 0.7635};
   double w = 12.7e-3, pi = 3.14159265358979324;
-  ZpFilmParams film = {.w = w};
+  ZpFilmParams film = {.w = w, .breadth = w};
   ZpOuterParams out = {.w = w, .rho = 960};
   for (size_t k = 0; k < LENGTH_OF(q); k++) {
     ck_near(q[k] * w / zp_film_depth(&film, q[k] * w), inner[k], 0.025); /* 0.022 measured */

@@ -523,7 +523,7 @@ TEST(test_refused) {
   check_refused(def, "isometric.separation = 0.08821 m", "0.0882 m");
   def = held_def(MM(2), KV(6), true, 61);
   def.isometric.separation = 0;
-  check_refused(def, "isometric.separation = 0 m", "1e-06");
+  check_refused(def, "isometric.separation = 0 m", "1e-08");
   def = DEF({"actuator.kind", ZP_KIND_FLANGE});
   check_refused(def, "actuator.kind = flange", "electro_ribbon");
   def.actuator.kind = ZP_KIND_RIBBON;

@@ -132,6 +132,12 @@
 /* The default actuator from hanging, on a coarse mesh. */
 #define HANGING "study=actuate mesh.nodes=11"
 
+/* A bare plate; one that creeps through a viscous film without mass. */
+#define PLATE "actuator.kind=plate medium.permittivity=1"
+#define CREEPS                                                                                                         \
+  PLATE " study=actuate liquid.model=submerged plate.mass=1e-9kg medium.density=1000 liquid.inertia=false "            \
+        "solver.end_time=10s solver.stop_when_zipped=true"
+
 /* Something falls on its platform, which hangs. */
 #define FALLS HANGING " drive.voltage=0 liquid.model=none load.change_time=1us solver.end_time=2us"
 

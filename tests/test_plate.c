@@ -1,12 +1,15 @@
 /* A rigid plate on a spring: textbook limits, small oscillation, films of finite plates, and its books. Theory, section
  * 37. Measured values stand beside the bounds. */
-#include "check_util.h"
+#include "network_util.h"
 
 #include "math/elementary.h"
 
 static const double eps0 = ZP_EPS0;
 
-#define PLATE {"actuator.kind", ZP_KIND_PLATE}, {"medium.permittivity", 1}
+#define PLATE                                                                                                          \
+  {"actuator.kind", ZP_KIND_PLATE}, {                                                                                  \
+    "medium.permittivity", 1                                                                                           \
+  }
 #define GIVEN                                                                                                          \
   PLATE, {"ribbon.length", 300e-6}, {"ribbon.width", 40e-6}, {"plate.gap", 5e-6}, {"plate.stop_gap", 1e-6}, {          \
     "plate.stiffness", 8                                                                                               \
@@ -32,10 +35,11 @@ TESTS(pull_in_and_release_of_the_textbook, 0, 3) {
                g0 = def.plate.gap, gs = def.plate.stop_gap;
   ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
   const double pull_in = sqrt(8 * k * (g0 + d) * (g0 + d) * (g0 + d) / (27 * A));
-  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-10); /* 4e-11 measured */
-  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(2 * k * (g0 - gs) / A) * (gs + d), 5e-5);
+  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-10); /* 3.8e-11 measured */
+  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(2 * k * (g0 - gs) / A) * (gs + d),
+          4e-5); /* 1.6e-5 measured */
   result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
-  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-7);
+  ck_near(zp_result_get(result, "pull_in_voltage_V"), pull_in, 1e-14); /* 2e-16 measured */
 }
 
 /* Eq. (37.3): the balance of the spring with both electrodes, as a voltage squared. */
@@ -64,17 +68,18 @@ TESTS(pull_in_before_a_back_electrode, 0, 2) {
       DEF(GIVEN, {"drive.voltage", 80}, {"plate.back_gap", 7.75e-6}, {"plate.back_stop_gap", 1e-6}, {"plate.count", 3});
   if (_i == 1) def.insulator.thickness = 0.5e-6;
   ZpResult *result = study_of(ZP_STUDY_LIMITS, &def);
-  ck_near(zp_result_get(result, "pull_in_voltage_V"), sqrt(largest_square(&def)), 1e-9);
-  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(square_at(&def, def.plate.stop_gap)), 5e-5);
+  ck_near(zp_result_get(result, "pull_in_voltage_V"), sqrt(largest_square(&def)), 1e-14); /* 2e-16 measured */
+  ck_near(zp_result_get(result, "release_voltage_V"), sqrt(square_at(&def, def.plate.stop_gap)),
+          4e-5); /* 1.6e-5 measured */
 }
 
 /* The plate that a load draws away from the front rests on the stop behind it. */
 TEST(back_stop_holds) {
-  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 0}, {"plate.back_gap", 7e-6}, {"plate.back_stop_gap", 2e-6},
-                          {"load.force", 1e-3});
+  ZpActuatorDef def =
+      DEF(GIVEN, {"drive.voltage", 0}, {"plate.back_gap", 7e-6}, {"plate.back_stop_gap", 2e-6}, {"load.force", 1e-3});
   const double k = def.plate.stiffness, s = def.plate.stop_stiffness, stop = 10e-6;
   ck_near(answered_value(ZP_STUDY_STATIONARY, &def, "opening_m"),
-          (def.load.force + k * def.plate.gap + s * stop) / (k + s), 1e-9);
+          (def.load.force + k * def.plate.gap + s * stop) / (k + s), 1e-14); /* 2e-16 measured */
 }
 
 /* Eq. (37.1): frequency without and with a voltage, which softens the spring. */
@@ -87,7 +92,8 @@ TESTS(frequency, 0, 2) {
     k -= 2 * k * (def.plate.gap - g) / g;
   }
   ZpResult *result = study_of(ZP_STUDY_MODES, &def);
-  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi), 1e-8);
+  ck_near(zp_table_get(result->series, 0, "frequency_Hz"), sqrt(k / def.plate.mass) / (2 * zp_pi),
+          2e-10); /* 7.8e-11 measured */
 }
 
 /* -- films ----------------------------------------------------------------------------------------- */
@@ -124,15 +130,17 @@ static double creep_time(ZpActuatorDef def) {
   return (t[1] - t[0]) / log(x[0] / x[1]);
 }
 
-/* Damping that this time constant means, N s/m. */
-static double damping(const ZpActuatorDef *def) {
-  return creep_time(*def) * def->plate.stiffness;
+/* Damping that this time constant means, N s/m. So small a mass counts by 1e-6, and does not make steps short. */
+static double damping(const ZpActuatorDef *def, double expected) {
+  ZpActuatorDef light = *def;
+  light.plate.mass = 1e-6 * expected * expected / def->plate.stiffness;
+  return creep_time(light) * def->plate.stiffness;
 }
 
 #define CREEPS                                                                                                         \
-  PLATE, {"plate.gap", 5e-6}, {"plate.stop_gap", 1e-6}, {"plate.stiffness", 10}, {"plate.mass", 1e-15},                \
-      {"medium.density", 1000}, {"medium.kinematic_viscosity", 1e-5}, {"medium.mean_free_path", 0},                    \
-      {"liquid.model", ZP_LIQUID_SUBMERGED}, {"liquid.inertia", 0}, {"film.roughness", 1e-9}, {                        \
+  PLATE, {"plate.gap", 5e-6}, {"plate.stop_gap", 1e-6}, {"plate.stiffness", 10}, {"medium.density", 1000},             \
+      {"medium.kinematic_viscosity", 1e-5}, {"medium.mean_free_path", 0}, {"liquid.model", ZP_LIQUID_SUBMERGED},       \
+      {"liquid.inertia", 0}, {"film.roughness", 1e-9}, {                                                               \
     "solver.tolerance", 1e-6                                                                                           \
   }
 
@@ -140,11 +148,12 @@ static double damping(const ZpActuatorDef *def) {
 TESTS(damping_of_a_film, 0, 6) {
   static const double length[] = {40e-3, 1e-3, 400e-6, 200e-6, 100e-6, 50e-6};
   ZpActuatorDef def = DEF(CREEPS, {"ribbon.width", 200e-6});
-  const double w = def.ribbon.width, h = def.plate.gap, L = length[_i], mu = 1e-2, strip = mu * L * w * w * w / (h * h * h);
+  const double w = def.ribbon.width, h = def.plate.gap, L = length[_i], mu = 1e-2,
+               strip = mu * L * w * w * w / (h * h * h);
   def.ribbon.length = L;
   def.solver.end_time = 20 * strip * of_strip(L, w) / def.plate.stiffness;
-  ck_near(damping(&def), strip * of_strip(L, w), 1e-4);
-  ck_near(damping(&def), strip * fit(L, w), 1e-2);
+  ck_near(damping(&def, strip * of_strip(L, w)), strip * of_strip(L, w), 1e-4); /* 4e-5 measured */
+  ck_near(damping(&def, strip * of_strip(L, w)), strip * fit(L, w), 5e-3);      /* 1.8e-3 measured */
 }
 
 /* Liquid that cannot leave at the long edges leaves at the ends, as from a strip along the width. */
@@ -152,7 +161,7 @@ TEST(film_that_is_closed_at_its_long_edges) {
   ZpActuatorDef def = DEF(CREEPS, {"ribbon.width", 3e-3}, {"ribbon.length", 200e-6}, {"liquid.lateral_flow", 0});
   const double w = def.ribbon.width, L = def.ribbon.length, h = def.plate.gap, c = 1e-2 * w * L * L * L / (h * h * h);
   def.solver.end_time = 20 * c / def.plate.stiffness;
-  ck_near(damping(&def), c, 1e-4);
+  ck_near(damping(&def, c), c, 8e-5); /* 3e-5 measured */
 }
 
 /* Eqs. (37.6) to (37.8): the film behind, slip, and a floor. */
@@ -168,18 +177,18 @@ TESTS(what_else_a_film_does, 0, 3) {
     c *= (4 * gap + below) / (gap + below);
   }
   def.solver.end_time = 20 * c / def.plate.stiffness;
-  ck_near(damping(&def), c, 2e-4);
+  ck_near(damping(&def, c), c, 1e-4); /* 3.9e-5 measured */
 }
 
 /* Period of a plate in a liquid that hardly flows off: the mass of the film, eq. (37.5), and that beside and behind the
  * plate, eqs. (22.3) and (22.12). */
 TESTS(mass_of_a_film, 0, 2) {
   static const double length[] = {0.2, 10e-3};
-  ZpActuatorDef def = DEF(PLATE, {"ribbon.width", 10e-3}, {"plate.gap", 4e-6}, {"plate.stop_gap", 1e-6},
-                          {"plate.stiffness", 1e10}, {"plate.mass", 1e-3}, {"medium.density", 1000},
-                          {"medium.kinematic_viscosity", 1e-8}, {"medium.mean_free_path", 0}, {"film.roughness", 1e-9},
-                          {"medium.drag_coefficient", 0}, {"liquid.model", ZP_LIQUID_SUBMERGED},
-                          {"solver.tolerance", 1e-7}, {"output.samples", 2000});
+  ZpActuatorDef def =
+      DEF(PLATE, {"ribbon.width", 10e-3}, {"plate.gap", 4e-6}, {"plate.stop_gap", 1e-6}, {"plate.stiffness", 1e10},
+          {"plate.mass", 1e-3}, {"medium.density", 1000}, {"medium.kinematic_viscosity", 1e-8},
+          {"medium.mean_free_path", 0}, {"film.roughness", 1e-9}, {"medium.drag_coefficient", 0},
+          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.tolerance", 1e-7}, {"output.samples", 2000});
   const double part = 1e-4, w = def.ribbon.width, L = length[_i], h = def.plate.gap, A = L * w * eps0;
   const double film = 1000 * L * w * w * w / (12 * h), mass = film * fit(L, w) + def.plate.mass;
   def.ribbon.length = L;
@@ -207,20 +216,21 @@ TESTS(mass_of_a_film, 0, 2) {
 
 /* Closing, resting on the stop and swinging back, between two electrodes, dry and in air: the energy balances. */
 TESTS(energy, 0, 4) {
-  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"drive.waveform", ZP_WAVEFORM_SQUARE}, {"drive.frequency", 2e3},
-                          {"solver.end_time", 2e-3}, {"plate.mass", 3e-9});
+  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"drive.waveform", ZP_WAVEFORM_SQUARE},
+                          {"drive.frequency", 2e3}, {"solver.end_time", 2e-3}, {"plate.mass", 3e-9});
   if (_i & 1) def.plate.back_gap = 6e-6, def.plate.back_stop_gap = 1e-6;
   if (_i & 2) def.liquid.model = ZP_LIQUID_SUBMERGED, def.insulator.thickness = 1e-7, def.plate.floor_gap = 2e-6;
   ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
   ck_assert_msg(zp_outcome_good(result->outcome), "%s", result->message);
   ck_assert_double_gt(zp_result_get(result, "zip_time_s"), 0);
-  ck_below(zp_result_get(result, "energy_error"), 1e-8);
+  ck_below(zp_result_get(result, "energy_error"), 2e-10); /* 9.5e-11 measured */
 }
 
 /* So many fingers on one spring are one finger on their part of it. */
 TEST(fingers_share_spring_and_mass) {
   ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 60}, {"solver.end_time", 1e-3}, {"plate.mass", 3e-9},
-                          {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}),
+                          {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6},
+                          {"solver.stop_when_zipped", ZP_WHEN_TRUE}),
                 one = def;
   def.plate.count = 7, def.plate.stiffness *= 7, def.plate.mass *= 7, def.plate.stop_stiffness *= 7;
   ZpResult *all = study_of(ZP_STUDY_ACTUATE, &def), *single = study_of(ZP_STUDY_ACTUATE, &one);
@@ -228,10 +238,31 @@ TEST(fingers_share_spring_and_mass) {
   ck_near(zp_result_get(all, "source_energy_J"), 7 * zp_result_get(single, "source_energy_J"), 1e-12);
 }
 
+/* -- several --------------------------------------------------------------------------------------- */
+
+/* Two plates on one body, of which one is half as wide, are one on both springs. */
+TEST(plates_on_one_body) {
+  ZpActuatorDef both = def_of("actuator.kind: plate\nmedium.permittivity: 1\nbodies: {b: {mass: 1 ug}}\n"
+                              "members:\n  one: {upper: frame, lower: b}\n"
+                              "  other: {upper: frame, lower: b, ribbon.width: 50 um}\n"),
+                one = DEF(PLATE, {"ribbon.width", 150e-6}, {"plate.stiffness", 20}, {"plate.mass", 1e-9});
+  const double pull_in = answered_value(ZP_STUDY_LIMITS, &one, "pull_in_voltage_V");
+  ck_near(answered_value(ZP_STUDY_LIMITS, &both, "pull_in_voltage_V"), pull_in, 1e-14); /* 0 measured */
+}
+
+/* The lower one of two antagonists is an electrode behind the plate of the upper one. */
+TEST(antagonists_are_plates_between_electrodes) {
+  ZpActuatorDef two = DEF(PLATE, {"plate.gap", 6e-6}, {"stack.series", 2}, {"stack.distance", 12e-6},
+                          {"stack.voltage_ratio", 0}, {"drive.voltage", 60}),
+                one = DEF(PLATE, {"plate.gap", 6e-6}, {"plate.stiffness", 20}, {"drive.voltage", 60});
+  ck_near(answered_value(ZP_STUDY_LIMITS, &two, "pull_in_voltage_V"),
+          answered_value(ZP_STUDY_LIMITS, &one, "pull_in_voltage_V"), 1e-14); /* 0 measured */
+}
+
 /* -- derivatives ----------------------------------------------------------------------------------- */
 
-static const char *const keys[] = {"plate.gap",     "plate.stiffness", "plate.stop_gap",        "plate.back_gap",
-                                   "plate.mass",    "plate.floor_gap", "medium.mean_free_path", "ribbon.width",
+static const char *const keys[] = {"plate.gap",     "plate.stiffness",    "plate.stop_gap",        "plate.back_gap",
+                                   "plate.mass",    "plate.floor_gap",    "medium.mean_free_path", "ribbon.width",
                                    "ribbon.length", "insulator.thickness"};
 
 static double difference(ZpStudy study, const ZpActuatorDef *def, const char *name, const char *key) {
@@ -259,15 +290,18 @@ TESTS(derivatives, 0, (int)LENGTH_OF(keys)) {
   } of[] = {{ZP_STUDY_LIMITS, "pull_in_voltage_V", 1e-5},
             {ZP_STUDY_LIMITS, "release_voltage_V", 1e-5},
             {ZP_STUDY_ACTUATE, "zip_time_s", 1e-3}};
-  ZpActuatorDef def = DEF(GIVEN, {"drive.voltage", 90}, {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6},
-                          {"insulator.thickness", 1e-7}, {"plate.mass", 3e-9}, {"plate.floor_gap", 2e-6},
-                          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.tolerance", 1e-5});
+  ZpActuatorDef def =
+      DEF(GIVEN, {"drive.voltage", 90}, {"plate.back_gap", 6e-6}, {"plate.back_stop_gap", 1e-6},
+          {"insulator.thickness", 1e-7}, {"plate.mass", 3e-9}, {"plate.floor_gap", 2e-6},
+          {"liquid.model", ZP_LIQUID_SUBMERGED}, {"solver.stop_when_zipped", ZP_WHEN_TRUE}, {"solver.tolerance", 1e-5});
   strcpy(def.sensitivity.by, keys[_i]);
   for (size_t k = 0; k < LENGTH_OF(of); k++) {
     ZpResult *result = study_of(of[k].study, &def);
     const double slope = slope_by(result, of[k].output),
                  expected = difference(of[k].study, &def, of[k].output, keys[_i]);
-    ck_assert_double_eq_tol(slope, expected, of[k].near * fabs(expected) + 1e-12 * zp_result_get(result, of[k].output) / zp_def_get(&def, zp_key_find(keys[_i])));
+    ck_assert_double_eq_tol(slope, expected,
+                            of[k].near * fabs(expected) +
+                                1e-12 * zp_result_get(result, of[k].output) / zp_def_get(&def, zp_key_find(keys[_i])));
   }
 }
 

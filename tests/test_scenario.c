@@ -488,7 +488,7 @@ TESTS(materials_fill_their_group, 0, 5) {
     int fills;
   } of[] = {{"ribbon.material", 4},
             {"insulator.material", 4},
-            {"medium.material", 5},
+            {"medium.material", 5}, /* of a gas its mean free path, too; of a vacuum no viscosity */
             {"lower.ribbon.material", 4},
             {"lower.insulator.material", 4}};
   const int key = zp_key_find(of[_i].key);
@@ -506,7 +506,8 @@ TESTS(materials_fill_their_group, 0, 5) {
       ck_assert_double_eq(zp_def_get(&def, i), value->value);
       ck_assert(value->spread > 0 && strlen(value->source) > 0);
     }
-    ck_assert_int_eq(filled, word ? of[_i].fills : 0);
+    const bool gas = _i == 2 && word == ZP_MEDIUM_AIR, vacuum = _i == 2 && word == ZP_MEDIUM_VACUUM;
+    ck_assert_int_eq(filled, word ? of[_i].fills + gas - vacuum : 0);
   }
 }
 

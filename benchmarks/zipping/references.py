@@ -180,6 +180,8 @@ SOLVED = {
     "pull_in_curved_1": (lambda: electrode(True, 1, 0.2, travels=(0.45, 0.6)), SHOT, 5e-3),
     "pull_in_curved_1.5": (lambda: electrode(True, 1.5, 0.05, travels=(0.33, 0.43)), SHOT, 5e-3),
     "pull_in_curling": (lambda: electrode(True, curls=0.5, travels=(0.35, 0.6)), SHOT, 5e-3),
+    "pull_in_plate": (lambda: 8 / 27, EXACT, 1e-3),
+    "release_plate": (lambda: 2 * 0.8 * 0.2**2, EXACT, 1e-3),
     "force_wedge_1mm": (lambda: wedge(1e-3, math.inf), SERIES, 5e-3),
     "force_wedge_2mm": (lambda: wedge(2e-3, math.inf), SERIES, 5e-3),
     "force_wedge_4mm": (lambda: wedge(4e-3, math.inf), SERIES, 5e-3),
@@ -198,7 +200,7 @@ WAVES = {"film_front_speed_0.3": 0.3030, "film_front_speed_0.5": 0.2476, "film_f
 
 
 def unit(case):
-    for start, word in (("rest_opening", "m"), ("rest_hanging", "m"), ("rest", "1"), ("modes", "Hz"), ("pull_in_8g", "V"), ("pull_in", "1"), ("closing", "V"),
+    for start, word in (("rest_opening", "m"), ("rest_hanging", "m"), ("rest", "1"), ("modes", "Hz"), ("pull_in_8g", "V"), ("pull_in", "1"), ("release_plate", "1"), ("closing", "V"),
                         ("largest", "kg"), ("release", "V"), ("force", "N"), ("zip_dry_opening", "m"), ("zip", "s"), ("film_zip", "s")):
         if case.startswith(start):
             return word

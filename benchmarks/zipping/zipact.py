@@ -44,6 +44,9 @@ def curved(power, eta):
     """A beam beside a curved electrode, 100 mm long and 1 mm thick; the electrode rises by 1 mm and has an insulator of eta mm."""
     return {**flange("free"), "actuator.kind": "curved", "electro.gap_offset": 0, "counter.height": "1 mm", "counter.power": power,
             "lower.insulator.thickness": "%g mm" % (4 * eta), "lower.insulator.permittivity": 4, "electro.breakdown_cap": "false"}
+# A bare plate of 300 um x 40 um on a spring of 8 N/m, gap 5 um, with a stop at 1 um, in vacuum.
+PLATE = {**DRY, "actuator.kind": "plate", "ribbon.length": "300 um", "ribbon.width": "40 um", "plate.gap": "5 um", "plate.stop_gap": "1 um",
+         "plate.stiffness": "8 N/m", "medium.permittivity": 1, "drive.voltage": "80 V"}
 
 
 def load_of_voltage(voltage):
@@ -86,6 +89,8 @@ CASES = {
     "pull_in_curved_1": ("limits", curved(1, 0.2), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_curved_1.5": ("limits", curved(1.5, 0.05), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
     "pull_in_curling": ("limits", curling(0.5), lambda s: load_of_voltage(s["pull_in_voltage_V"])),
+    "pull_in_plate": ("limits", PLATE, lambda s: 8.8541878128e-12 * 300e-6 * 40e-6 * s["pull_in_voltage_V"]**2 / (8 * 5e-6**3)),
+    "release_plate": ("limits", PLATE, lambda s: 8.8541878128e-12 * 300e-6 * 40e-6 * s["release_voltage_V"]**2 / (8 * 5e-6**3)),
     "pull_in_8g": ("limits", DRY, lambda s: s["pull_in_voltage_V"]),
     "pull_in_8g_no_breakdown": ("limits", {**DRY, "electro.breakdown_cap": "false"}, lambda s: s["pull_in_voltage_V"]),
     "closing_61g": ("limits", {**DRY, "load.mass": "61 g"}, lambda s: s["closing_voltage_V"]),

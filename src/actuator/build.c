@@ -760,7 +760,7 @@ static ZpFilmParams film_of(const ZpModel *model) {
                        .mu = model->mirror * model->mirror * def->medium.kinematic_viscosity * def->medium.density,
                        .rho = def->liquid.inertia ? def->medium.density : 0,
                        .free_path = def->medium.mean_free_path,
-                       .floor = {rigid ? def->plate.floor_gap : NAN, def->ribbon.thickness},
+                       .floor = {rigid && !isnan(def->plate.floor_gap) ? def->plate.floor_gap : 0, def->ribbon.thickness},
                        .roughness = model->mirror * zp_def_roughness(def),
                        .vent = {model->topology.platform.first, model->topology.platform.last}};
   if (rigid)
@@ -869,7 +869,7 @@ static void derive(ZpModel *model) {
   model->spring = model->shear = spring_of(model);
   double EA = fmax(zp_ribbon_section(model, 0).EA, zp_ribbon_section(model, model->s - 1).EA);
   model->axial_stiffness = model->is_rod ? EA / model->l : model->spring.K_D;
-  if (zp_half_elements(t) == 0) model->axial_stiffness = 0;
+  if (zp_def_has(def, ZP_DEVICE_RIGID)) model->axial_stiffness = zp_plate_share(model) * def->plate.stiffness;
   model->shear.K_D = 0;
   model->plates = plates_of(model);
   model->field_solved = two && def->electro.model == ZP_ELECTRO_FIELD;

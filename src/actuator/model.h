@@ -108,7 +108,7 @@ struct ZpModel {
                              parallel */
   double L, l;            /* flexible length of a half or of the one ribbon, element, m; of a plate its gap */
   ZpRibbon ribbon[2];     /* upper or only one, lower one */
-  double axial_stiffness; /* of the stiffest edge, N/m */
+  double axial_stiffness; /* of the stiffest edge, of a plate of its spring, N/m */
   bool is_rod;            /* mechanics: rod, else spring */
   ZpHingeParams hinge;    /* of two ribbons on one */
   ZpMassSpringParams spring;

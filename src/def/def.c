@@ -458,8 +458,11 @@ static ZpStatus apply_common(ZpActuatorDef *def, const ZpAssignment *list, size_
   return status;
 }
 
-/* Gaps below this withstand far more than the strength of their medium, m. */
-static const double small_gap = 20e-6;
+/* Does a gap withstand far more than the strength of its medium? */
+static bool is_small(double gap) {
+  static const double most = 20e-6; /* m */
+  return gap > 0 && gap < most;
+}
 
 ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t count, ZpError *err) {
   ZpActuatorDef given = plain;
@@ -481,11 +484,9 @@ ZpStatus zp_def_resolve(ZpActuatorDef *def, const ZpAssignment *list, size_t cou
   apply_values(def, false, (int)given.preset, given.mesh.nodes);
   apply_values(def, true, (int)given.source.supply, 0);
   apply_materials(def, &given);
-  status = apply_assignments(def, list, count, err);
-  const double gap = zp_def_gap(def);
-  if (status == ZP_OK && gap > 0 && gap < small_gap && !is_given(zp_key_find("electro.breakdown_cap"), list, count))
-    def->electro.breakdown_cap = false;
-  return status;
+  given.actuator.kind = kind;
+  if (is_small(zp_def_gap(&given))) def->electro.breakdown_cap = false;
+  return apply_assignments(def, list, count, err);
 }
 
 static ZpStatus check_square(const char *group, double duty, double frequency, double rise_time, ZpError *err) {

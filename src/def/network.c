@@ -226,8 +226,8 @@ static Between between(const ZpActuatorDef *def, int member) {
   const double length = isnan(own) ? def->ribbon.length : own;
   const int upper = body_in(def, ZP_KEY(member_K.upper), member), lower = body_in(def, ZP_KEY(member_K.lower), member);
   const bool turned = is_turned(def, (size_t)member), platform = zp_def_has(def, ZP_DEVICE_PLATFORM);
-  return (Between){turned ? lower : upper, turned ? upper : lower, platform ? 0 : -length,
-                   platform ? zp_most_opening * (length - def->platform.length) : length};
+  const double most = zp_def_has(def, ZP_DEVICE_RIGID) ? INFINITY : zp_most_opening * (length - def->platform.length);
+  return (Between){turned ? lower : upper, turned ? upper : lower, platform ? 0 : -length, platform ? most : length};
 }
 
 /* Joints and springs lead from one body to another. => do they lead to a new one? */

@@ -3,8 +3,8 @@
 #include <string.h>
 
 #include "base/fail.h"
+#include "def/device.h"
 #include "def/instances.h"
-#include "def/rule.h"
 
 /* The key of one actuator that a member's key overrides; -1: it says where the member is, or what is on its port. */
 static int key_of_one(int key) {
@@ -276,7 +276,7 @@ static ZpStatus check_members(const ZpActuatorDef *def, ZpError *err) {
 /* Each of two antagonists opens at most to its length. */
 static ZpStatus check_distance(const ZpActuatorDef *def, ZpError *err) {
   double most = 2 * zp_most_opening * (def->ribbon.length - def->platform.length);
-  if (def->stack.distance <= most) return ZP_OK;
+  if (def->stack.distance <= most || zp_def_has(def, ZP_DEVICE_RIGID)) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "stack.distance = %g m: two actuators of ribbon.length = %g m span at most %g m",
                  def->stack.distance, def->ribbon.length, most);
 }

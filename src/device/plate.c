@@ -32,8 +32,26 @@ static const ZpAssignment given[] = {{ZP_KEY(ribbon.length), 500e-6},
                                      {ZP_KEY(isometric.separation), 2e-6},
                                      {ZP_KEY(solver.end_time), 1e-2}};
 
+static const ZpRule rule[] = {
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(plate.gap, plate.floor_gap), ZP_HAS(RIGID), "they describe a plate and its spring"),
+    ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "a plate has no halves"),
+    ZP_RULE(NOT_MODELLED, ZP_HAS(RIGID), ZP_IS(platform.rotates, false), "plates stay parallel"),
+    ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_IS(platform.electrode, true), "without electrodes nothing attracts a plate"),
+    ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_IS(ribbon.model, ZP_RIBBON_ROD), "a plate is no chain of springs"),
+    ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_IS(ribbon.plasticity, false), "a rigid plate does not yield"),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(segment_1.length, segment_3.curvature), ZP_LACKS(RIGID), "a plate does not bend"),
+    ZP_RULE(PHYSICS, ZP_SET_WITHIN(lower.segment_1.length, lower.segment_3.curvature), ZP_LACKS(RIGID),
+            "a plate does not bend"),
+    ZP_RULE(PHYSICS, ZP_HAS(RIGID), ZP_NOT(initial.state, ZP_INITIAL_STRAIGHT), "its faces would lie on each other"),
+    ZP_RULE(NOT_MODELLED, ZP_HAS(RIGID), ZP_IS(electro.model, ZP_ELECTRO_PLATES),
+            "the grid of the field ends in the wedge at a clip; use plates"),
+    ZP_RULE(NOT_MODELLED, ZP_HAS(RIGID), ZP_NOT(liquid.model, ZP_LIQUID_BEAD),
+            "a film between plates is modelled up to their edges; use liquid.model submerged or none"),
+};
+
 const ZpDevice zp_device_plate = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_PAIR | ZP_DEVICE_PLATFORM |
                                          ZP_DEVICE_COUNTER | ZP_DEVICE_RIGID,
                                   .touches = "faces (plate.stop_gap = 0 m)",
                                   .lay = lay,
-                                  ZP_GIVEN(given)};
+                                  ZP_GIVEN(given),
+                                  .rules = ZP_RULES_OF(rule)};

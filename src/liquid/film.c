@@ -50,8 +50,9 @@ void zp_film_plate_modes(ZpFilmParams *p, double length, bool lateral_flow) {
 
 double zp_film_viscosity(const ZpFilmParams *p, double H) {
   const double mu = p->mu / (1 + 6 * p->free_path / H);
-  if (isnan(p->floor.opening)) return mu;
-  const double gap = H * H * H * p->floor.width, below = 2 * p->floor.opening * p->floor.opening * p->floor.opening * p->w;
+  if (!(p->floor.opening > 0)) return mu;
+  const double gap = H * H * H * p->floor.width,
+               below = 2 * p->floor.opening * p->floor.opening * p->floor.opening * p->w;
   return mu * (4 * gap + below) / (gap + below);
 }
 
@@ -238,7 +239,8 @@ typedef struct Momentum {
 /* `depth` is H or E, the mean over the step. A flow that begins because a bead has just arrived does so at once: theta
  * is 1. With 1/2, a flow that the gap's motion prescribes would begin twice as large and reverse in every step. */
 static Momentum momentum_of(const ZpFilmParams *p, double thick, double depth, double h, bool begins) {
-  double B = 6 * zp_film_viscosity(p, thick) * h, inertia = p->rho * thick * thick, theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
+  double B = 6 * zp_film_viscosity(p, thick) * h, inertia = p->rho * thick * thick,
+         theta = begins ? 1 : 0.5 * (1 + B / (B + inertia));
   return (Momentum){theta, p->rho + 2 * theta * B * depth / (thick * thick * thick)};
 }
 
@@ -581,7 +583,8 @@ double zp_film_energy(const ZpFilmParams *p, const ZpCover *cover, const double 
 static double lost(const ZpFilmParams *p, double thick, double depth, double flow, double change, double h,
                    bool begins) {
   Momentum m = momentum_of(p, thick, depth, h, begins);
-  return 12 * zp_film_viscosity(p, thick) * h * flow * flow / (thick * thick * thick) + p->rho * depth * (m.theta - 0.5) * change * change;
+  return 12 * zp_film_viscosity(p, thick) * h * flow * flow / (thick * thick * thick) +
+         p->rho * depth * (m.theta - 0.5) * change * change;
 }
 
 static double change(const double *start, const ZpFilmEval *e, size_t i) {
@@ -601,7 +604,9 @@ static double lost_across(const ZpFilmParams *p, const ZpFilmEnds *ends, double 
   if (!(p->kappa2[k] > 0)) return 0;
   double share = open_share(ends, e, i), H = e->middle[i], leak = e->leak[zp_film_mode_at(i, k)];
   double stops = 0.5 * p->rho * E * b * b / p->kappa2[k];
-  if (share < 1) return stops + (share > 0 ? 12 * zp_film_viscosity(p, H) * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
+  if (share < 1)
+    return stops +
+           (share > 0 ? 12 * zp_film_viscosity(p, H) * h * leak * leak / (share * H * H * H * p->kappa2[k]) : 0);
   return lost(p, e->middle[i], E, e->leak[zp_film_mode_at(i, k)], change(start, e, across_at(i, k)), h,
               ends->cover && start[across_at(i, 0)] == 0) /
          p->kappa2[k];

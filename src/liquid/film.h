@@ -27,7 +27,7 @@ static inline size_t zp_film_mode_at(size_t i, int k) {
 
 static const double zp_film_tension = 1e5; /* Pa: a liquid under an atmosphere stands no more before it cavitates */
 
-/* A floor below one long edge of electrodes that are so wide, along the floor, m; opening: NAN without one, m. */
+/* A floor below one long edge of electrodes that are so wide, along the floor, m; opening: 0 without one, m. */
 typedef struct ZpFilmFloor {
   double opening, width;
 } ZpFilmFloor;

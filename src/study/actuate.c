@@ -197,7 +197,7 @@ static void note(const ZpSim *sim, const ZpModel *model, ZpResult *result) {
         "the bead is too small: from %.3g ms on the zip front is beyond its liquid and closes in air; increase "
         "bead.volume",
         1e3 * starved);
-  if (isfinite(zp_result_get(result, "zip_time_s")))
+  if (isfinite(zp_result_get(result, "zip_time_s")) && model->def.medium.density > 0)
     zp_result_note(result, model->has_film
                                ? "the zip time has not been compared with a measured one"
                                : "the zip time is not a prediction: the drag of the liquid is not modelled");

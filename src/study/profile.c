@@ -600,10 +600,12 @@ static ZpStatus run(Profiler *p, ZpError *err) {
 }
 
 static const ZpRule rule[] = {
+
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(electro.edges, false),
             "it compares forces in the plane of the ribbons, without lateral edges; the other studies "
             "can include them"),
     ZP_RULE(PHYSICS, ZP_ANY, ZP_HAS(PLATFORM), "its profile runs from a clip to a platform"),
+    ZP_RULE(PHYSICS, ZP_ANY, ZP_LACKS(RIGID), "its profile begins at a clip"),
     ZP_RULE(NOT_MODELLED, ZP_ANY, ZP_IS(actuator.symmetry, ZP_SYMMETRY_HALF), "its grid covers one half"),
     ZP_RULES_EQUAL_RIBBONS(NOT_MODELLED, ZP_ANY, "its grid covers one half of the gap, whose middle plane is a mirror"),
     ZP_RULE(

@@ -1,5 +1,6 @@
-/* The electrode behind a plate, of the voltage of the one in front: it attracts the plate by the plates law, eq. (37.3),
- * and the film between both hinders the plate by its viscosity, eq. (37.6). Lengths of faces are those of the front. */
+/* The electrode behind a plate, of the voltage of the one in front: it attracts the plate by the plates law, eq.
+ * (37.3), and the film between both hinders the plate by its viscosity, eq. (37.6). Lengths of faces are those of the
+ * front. */
 #include <math.h>
 
 #include "def/device.h"
@@ -13,7 +14,8 @@ static bool acts(const ZpModel *model) {
 
 /* The gap behind the plate where that in front of it is `gap`, m. */
 static double behind(const ZpModel *model, double gap) {
-  return model->def.plate.gap + model->def.plate.back_gap - gap;
+  const ZpActuatorDef *def = &model->def;
+  return def->plate.gap + def->plate.back_gap - gap;
 }
 
 /* Gaps behind a station at the start and at the end of a span, m. */
@@ -26,8 +28,8 @@ static Way way_of(const ZpModel *model, const ZpSpan *span, const ZpEval *e, siz
   return (Way){behind(model, start[i]), behind(model, e->plates.gap[i])};
 }
 
-/* Of the film, against a change of the gap behind a station, N s/m: its thickness in the middle of the step is foreseen,
- * as in front. */
+/* Of the film, against a change of the gap behind a station, N s/m: its thickness in the middle of the step is
+ * foreseen, as in front. */
 static double resistance(const ZpModel *model, const ZpSpan *span, const ZpEval *e, size_t i) {
   const ZpFilmParams *film = &model->film;
   double across = 0;
@@ -43,8 +45,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   const ZpTopology *t = &model->topology;
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     const Way way = way_of(model, span, e, i);
-    double push = model->plates.flat_length *
-                  zp_plates_between(&model->plates, span->U0, span->U1, way.b0, way.b1).W;
+    double push = model->plates.flat_length * zp_plates_between(&model->plates, span->U0, span->U1, way.b0, way.b1).W;
     if (span->h > 0) push += resistance(model, span, e, i) * (way.b1 - way.b0) / span->h;
     zp_term_part(model, i, push, F);
   }
@@ -54,9 +55,10 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
   const ZpTopology *t = &model->topology;
   for (size_t i = t->platform.first; i <= t->platform.last; i++) {
     const Way way = way_of(model, span, e, i);
-    double slope = model->plates.flat_length *
-                   (zp_span_is_still(span) ? zp_plates_slope(&model->plates, span->U1, way.b1)
-                                           : zp_plates_between(&model->plates, span->U0, span->U1, way.b0, way.b1).slope);
+    double slope =
+        model->plates.flat_length * (zp_span_is_still(span)
+                                         ? zp_plates_slope(&model->plates, span->U1, way.b1)
+                                         : zp_plates_between(&model->plates, span->U0, span->U1, way.b0, way.b1).slope);
     if (span->h > 0) slope += resistance(model, span, e, i) / span->h;
     zp_assemble_heights(assembly, i, slope, slope, -slope, K);
   }
@@ -74,8 +76,8 @@ static void electric(const ZpModel *model, const ZpSpan *span, const ZpEval *e, 
     sum->force -= p->flat_length * law.W;
     sum->charge += p->flat_length * law.q;
     sum->potential += p->flat_length * law.P;
-    sum->capacitance += ZP_EPS0 * def->medium.permittivity * def->ribbon.width * p->flat_length *
-                        zp_plates_inverse_gap(p, b);
+    sum->capacitance +=
+        ZP_EPS0 * def->medium.permittivity * def->ribbon.width * p->flat_length * zp_plates_inverse_gap(p, b);
   }
 }
 

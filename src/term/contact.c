@@ -36,5 +36,9 @@ static bool by_key(const ZpModel *model, const ZpSpan *span, ZpEval *e, int key,
 }
 
 /* The code that makes the steps books the losses of impacts. */
-const ZpTerm zp_term_contact = {
-    .name = "contact", .row = {&zp_row_contact_loss}, .acts = acts, .force = force, .stiffness = stiffness, .by_key = by_key};
+const ZpTerm zp_term_contact = {.name = "contact",
+                                .row = {&zp_row_contact_loss},
+                                .acts = acts,
+                                .force = force,
+                                .stiffness = stiffness,
+                                .by_key = by_key};

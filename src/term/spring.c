@@ -1,15 +1,16 @@
-/* Springs between the platforms that act on one side of an opening, or on both. That of the load pushes them apart while they are
- * nearer than load.rest_opening, eq. (27.3). A stop pulls them together while they are further apart than
- * load.stop_opening, eq. (27.5). The spring of a plate does both, eq. (37.1), and the stop behind the plate is of the
- * second kind. */
+/* Springs between the platforms that act on one side of an opening, or on both. That of the load pushes them apart
+ * while they are nearer than load.rest_opening, eq. (27.3). A stop pulls them together while they are further apart
+ * than load.stop_opening, eq. (27.5). The spring of a plate does both, eq. (37.1), and the stop behind the plate is of
+ * the second kind. */
 #include <math.h>
 
 #include "def/device.h"
 #include "term/term.h"
 
-const ZpRow zp_row_spring_energy = ZP_STORED(
-    spring_energy, "energy of the spring in parallel with the load, of stops, of the spring of a plate and of that at a "
-                   "hinge");
+const ZpRow zp_row_spring_energy =
+    ZP_STORED(spring_energy,
+              "energy of the spring in parallel with the load, of stops, of the spring of a plate and of that at a "
+              "hinge");
 
 enum { OF_LOAD, STOP, OF_PLATE, BACK_STOP, SPRINGS };
 
@@ -100,7 +101,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   add_push(model, push, F);
 }
 
-/* What a key does to a spring: to its stiffness, over the unit of the key; and to the opening at which it acts. */
+/* Derivatives of a spring by a key: of its stiffness, over the unit of the key; of the opening at which it acts. */
 typedef struct Rate {
   double k, rest;
 } Rate;
