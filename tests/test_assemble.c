@@ -238,3 +238,26 @@ TESTS(test_coordinates_obey_their_ties, 0, LENGTH_OF(systems)) {
     zp_assembly_destroy(&a[k]);
   zp_arrow_form_destroy(&form);
 }
+
+/* Layouts that no model can have, as a device might lay them out, and why. */
+TEST(layouts_are_refused) {
+  const ZpJoint left = {ZP_JOINT_CLAMP, 0, 0}, middle = {ZP_JOINT_FREE, 4, 4}, right = {ZP_JOINT_CLAMP, 8, 8};
+  const struct {
+    ZpTopology t;
+    const char *words;
+  } layout[] = {
+      {{.joints = 2, .joint = {left, right}, .platform = right}, NULL},
+      {{.joints = 0, .platform = right}, "a joint at the first station"},
+      {{.joints = 2, .joint = {middle, right}, .platform = right}, "a joint at the first station"},
+      {{.joints = 2, .joint = {left, middle}, .platform = middle}, "a joint at the first station"},
+      {{.joints = 2, .joint = {left, right}, .platform = middle}, "on one of its joints"},
+      {{.joints = 3, .joint = {left, middle, right}, .platform = middle}, "lay out the left half"},
+  };
+  for (size_t k = 0; k < LENGTH_OF(layout); k++) {
+    ZpTopology t = layout[k].t;
+    t.ribbons = 1, t.stations = t.nodes = 9;
+    const char *fault = zp_topology_fault(&t);
+    ck_assert_msg(layout[k].words ? fault && strstr(fault, layout[k].words) : !fault, "%zu: %s", k,
+                  fault ? fault : "none");
+  }
+}

@@ -987,6 +987,14 @@ static ZpStatus make_edges(ZpModel *model, ZpError *err) {
 }
 #endif
 
+/* Is the layout that its device made one that a model can have? */
+static ZpStatus check_layout(const ZpModel *model, ZpError *err) {
+  const char *fault = zp_topology_fault(&model->topology);
+  if (!fault) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "actuator.kind = %s: layout of the device: %s",
+                 zp_def_word(&model->def, "actuator.kind"), fault);
+}
+
 /* Its arrays. */
 static ZpStatus fill(const ZpTies *ties, const ZpDriveTable *table, ZpModel *model, ZpError *err) {
   size_t rows = table ? table->rows : 0;
@@ -1059,7 +1067,8 @@ static ZpStatus fill_all(const ZpActuatorDef *def, const ZpDriveTable *table, Zp
     derive_member(def, k, model + k);
   for (size_t k = model->members; k-- > 0 && status == ZP_OK;) {
     const ZpTies ties = zp_ties_of(model, model->members, k);
-    status = fill(&ties, table, model + k, err);
+    status = check_layout(model + k, err);
+    if (status == ZP_OK) status = fill(&ties, table, model + k, err);
   }
   if (status == ZP_OK && !zp_shares_load(model)) carry(model);
   if (status == ZP_OK) status = zp_plane_check(model, err);

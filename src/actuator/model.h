@@ -74,7 +74,7 @@ typedef struct ZpHingeParams {
 
 /* Rows, each with a number. Models of one program have the same rows, whichever laws they have, so that a state of one
  * is a state of a neighbour; laws of a program's own add rows. */
-enum { ZP_MOST_TERMS = 20, ZP_MOST_ROWS = 44, ZP_ROWS_OF_TERM = 8 };
+enum { ZP_MOST_TERMS = 32, ZP_MOST_ROWS = 44, ZP_ROWS_OF_TERM = 8 };
 typedef struct ZpLedger {
   const ZpRow *row[ZP_MOST_ROWS]; /* the first one is the kinetic energy of nodes */
   size_t rows;

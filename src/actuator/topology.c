@@ -15,9 +15,26 @@ const ZpJointWay zp_joint_way[ZP_JOINT_KINDS] = {
 
 ZpTopology zp_topology_of(const ZpActuatorDef *def) {
   ZpTopology t = {.ribbons = zp_def_has(def, ZP_DEVICE_PAIR) ? 2 : 1};
-  zp_device_of(def->actuator.kind)->lay(def, &t);
+  const ZpDevice *device = zp_device_of(def->actuator.kind);
+  if (device->lay) device->lay(def, &t);
   t.nodes = t.ribbons * t.stations;
   return t;
+}
+
+static bool is_joint(const ZpTopology *t, const ZpJoint *one) {
+  for (const ZpJoint *joint = t->joint; joint < t->joint + t->joints; joint++)
+    if (joint->kind == one->kind && joint->first == one->first && joint->last == one->last) return true;
+  return false;
+}
+
+const char *zp_topology_fault(const ZpTopology *t) {
+  if (t->joints == 0 || t->joint[0].first != 0 || t->joint[t->joints - 1].last != t->stations - 1)
+    return "it needs a joint at the first station and one at the last, from left to right";
+  if (!is_joint(t, &t->platform)) return "the load has to hang on one of its joints";
+  if (!zp_has_platform(t) && t->platform.last != t->stations - 1)
+    return "the load has to hang on the joint at the last station; lay out the left half of what is its own mirror "
+           "image, with a guide there";
+  return NULL;
 }
 
 bool zp_topology_holds_slope(const ZpTopology *t, size_t station, size_t ribbon) {

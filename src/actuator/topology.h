@@ -60,6 +60,9 @@ typedef struct ZpNodes {
 /* (def) => its topology. */
 ZpTopology zp_topology_of(const ZpActuatorDef *def);
 
+/* In words, why no model can have this topology; NULL: it can. Devices lay it out, so this is a fault of a device. */
+const char *zp_topology_fault(const ZpTopology *topology);
+
 /* Does what is at this station, if anything, keep this ribbon horizontal? */
 bool zp_topology_holds_slope(const ZpTopology *topology, size_t station, size_t ribbon);
 

@@ -6,7 +6,9 @@ static const ZpTerm *const table[] = {
 #include "term/terms.def"
 #undef ZP_TERM
 };
-_Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS, "a model has room for all terms, and one of a program");
+/* A program may add a law of its own. */
+_Static_assert(sizeof table / sizeof table[0] < ZP_MOST_TERMS,
+               "terms.def has more laws than a model has room for: raise ZP_MOST_TERMS in src/actuator/model.h");
 
 #define ZP_SIGNAL(name, unit, suffix, help)
 #define ZP_ROW(name) +1
@@ -17,7 +19,8 @@ enum {
 };
 #undef ZP_SIGNAL
 #undef ZP_ROW
-_Static_assert(ROWS + ZP_ROWS_OF_TERM <= ZP_MOST_ROWS, "a ledger has room for all rows, and those of a program's law");
+_Static_assert(ROWS + ZP_ROWS_OF_TERM <= ZP_MOST_ROWS,
+               "terms.def has more rows than a ledger has room for: raise ZP_MOST_ROWS in src/actuator/model.h");
 
 const ZpRow zp_row_kinetic_energy = ZP_STORED(kinetic_energy, "kinetic energy");
 

@@ -17,6 +17,8 @@ static const ZpAssignment given[] = {{ZP_KEY(actuator.right_end), ZP_END_FREE},
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, ZP_ABOVE(reed.stiffness, 0), ZP_IS(actuator.kind, ZP_KIND_REED),
             "the other kinds have no return spring"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(reed.stiffness, 0), ZP_NOT(actuator.right_end, ZP_END_CLAMPED),
+            "a clamped end moves no spring"),
 };
 
 const ZpDevice zp_device_reed = {.has = ZP_DEVICE_ELECTRODES | ZP_DEVICE_COUNTER,

@@ -11,7 +11,7 @@ static bool acts(const ZpModel *model) {
 
 /* By how much the right end is above the clamp, m. */
 static double raised(const ZpModel *model, const double *q) {
-  return -zp_stroke(&model->topology, zp_nodes(model, q).y);
+  return -zp_hangs_by(&model->topology, zp_nodes(model, q));
 }
 
 /* The mean over the span: its work is exactly the decrease of the energy. At rest start and end are the same. */

@@ -45,7 +45,9 @@ TEST(energy_is_kept) {
   ck_below(most / zp_sim_get(sim, "electric_work"), 1.1e-9); /* 3.9e-10 measured */
 }
 
-TEST(other_kinds_have_no_return_spring) {
-  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"reed.stiffness", 1});
-  ck_refused_by(ZP_STUDY_STATIONARY, &def, "the other kinds have no return spring");
+TEST(springs_without_effect_are_refused) {
+  ZpActuatorDef flange = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"reed.stiffness", 1});
+  ZpActuatorDef clamped = DEF(REED, {"actuator.right_end", ZP_END_CLAMPED}, {"reed.stiffness", 1});
+  ck_refused_by(ZP_STUDY_STATIONARY, &flange, "the other kinds have no return spring");
+  ck_refused_by(ZP_STUDY_STATIONARY, &clamped, "a clamped end moves no spring");
 }
