@@ -92,6 +92,9 @@
 /* One ribbon, 20 mm long, below a flat electrode. */
 #define FLANGE "actuator.kind=flange actuator.right_end=guided load.mass=0 ribbon.length=20mm mesh.nodes=21"
 
+/* A pouch of the default size. */
+#define POUCH "actuator.kind=pouch mesh.nodes=101"
+
 /* A plate on a hinge. */
 #define FOLD                                                                                                           \
   "study=stationary actuator.kind=hinge ribbon.length=20mm ribbon.thickness=5mm ribbon.young_modulus=1000GPa "         \
