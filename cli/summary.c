@@ -120,10 +120,10 @@ static void print_result(const ZpResult *result) {
   printf("%s: %s\n", zp_outcome_name(zp_result_outcome(result)), zp_result_message(result));
   for (size_t i = 0; i < zp_result_scalars(result); i++)
     printed += print_fitted(result, zp_result_scalar(result, i));
-  const bool network = print_network(result) > 0;
+  const bool tells_others = print_network(result) > 0 || find_scalar(result, "strain"); /* of a network, or a pouch */
   for (size_t i = 0; i < SHOWN && printed < MOST_NUMBERS; i++) {
     const ZpScalar *scalar = shown[i].study == zp_result_study(result) ? find_scalar(result, shown[i].scalar) : NULL;
-    if (!scalar || (isnan(scalar->value) && (network || !shown[i].headline))) continue;
+    if (!scalar || (isnan(scalar->value) && (tells_others || !shown[i].headline))) continue;
     print_number(result, &shown[i], scalar->value);
     printed++;
   }

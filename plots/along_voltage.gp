@@ -10,7 +10,7 @@ set xrange [0:drive_voltage*voltage]
 xlabel = label('voltage', voltage_unit)
 set xlabel xlabel
 load 'functions.gp'
-travel = kind eq 'held_branch' ? 'force_N' : has('opening_m') ? 'opening_m' : 'stroke_m'
+travel = kind eq 'held_branch' ? 'force_N' : has('strain') ? 'strain' : has('opening_m') ? 'opening_m' : 'stroke_m'
 array kind_of[rows]
 array voltage_of[rows]
 array travel_of[rows]

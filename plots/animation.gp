@@ -14,7 +14,7 @@ note = foot
 path = kind ne 'motion'
 held = kind eq 'held_branch'
 has_platform = actuator_kind eq 'electro_ribbon'
-bath = !path && liquid eq 'submerged' && has('film_thickness_m')
+bath = !hanging && !path && liquid eq 'submerged' && has('film_thickness_m')
 field_known = members == 1 || liquid ne 'bead'
 last_node = nodes*members - 1
 load_node = has_platform && !half ? (last_node + 1)/2 - 1 : last_node
@@ -22,17 +22,18 @@ array end_x[frames]
 array end_y[frames]
 array clip_x[frames]
 array clip_y[frames]
-_load(f) = column(4) == load_node ? (end_x[f] = column(x_of(ribbons)), end_y[f] = column(x_of(ribbons) + 1)) : 0
-_clip(f) = column(4) == 0 ? (clip_x[f] = column(5), clip_y[f] = column(6)) : 0
+_load(f) = column(4) == load_node ? (end_x[f] = ribbon_x(ribbons), end_y[f] = ribbon_y(ribbons)) : 0
+_clip(f) = column(4) == 0 ? (clip_x[f] = ribbon_x(1), clip_y[f] = ribbon_y(1)) : 0
 stats 'shapes.dat' using (column(1) == column(1) ? (_load(int(column(1)) + 1), _clip(int(column(1)) + 1)) : 0, 1) nooutput
 middle = has_platform ? end_x[1] + platform_length/2 : (box_left + box_right)/2
 reach = max(middle - box_left, box_right - middle)
+if (hanging) { reach = max(reach, 0.55*(box_top - box_bottom)) }
 clamp = clip_x[1] - middle
 array contraction_at[frames]
 array stroke_at[frames]
 do for [i=1:frames] {
   contraction_at[i] = NaN
-  stroke_at[i] = clip_y[i] - end_y[i]
+  stroke_at[i] = hanging ? pouch_count*(end_y[i] - end_y[1]) : clip_y[i] - end_y[i]
 }
 if (!path) {
   load 'at_frames.gp'
@@ -70,6 +71,7 @@ platform = platform_length/2*length
 metal = '#37434d'
 tape = '#c9a66b'
 given = electro_insulator_offset == electro_insulator_offset
+if (hanging && insulator_thickness != insulator_thickness) { insulator_thickness = ribbon_thickness } # auto
 insulator_offset = given ? electro_insulator_offset : 2*insulator_thickness*medium_permittivity/insulator_permittivity
 stopped = actuator_kind eq 'plate' ? plate_stop_gap : 0 # a gap that never closes
 strongest = electro_breakdown_cap > 0 ? medium_breakdown_field : drive_voltage/(2*insulator_thickness + stopped)
@@ -81,6 +83,7 @@ _blend(l, p, k) = floor(word(l, k + 1) + (4*p - k)*(word(l, k + 2) - word(l, k +
 field_colour(p) = 65536*_blend('223 142 244 239 181', p, _of(p)) + 256*_blend('238 202 201 123 23', p, _of(p)) \
                 + _blend('240 208 93 69 158', p, _of(p))
 shown(gap, volts) = field_colour(share(between(gap, volts)))
+volts_at(node) = hanging && node > electrode_end ? 0 : volts
 coloured = ribbons > 1 && insulator_offset + stopped > 0 && field_known
 if (coloured) {
   do for [k=0:19] {
@@ -109,7 +112,7 @@ _bar(j) = (q = j == 0 ? 1.0 : j/(1.0*parts), p = column(4) - 1 + q, xu = _betwee
            j > 0 && node(0) % nodes == 0 ? NaN : _is_wet(p) ? xu : NaN)
 xu_was = 0; yu_was = 0; xl_was = 0; yl_was = 0
 node(c) = column(4) == column(4) ? int(column(4)) : -1
-is_clip(k) = nodes > 2 && (k % nodes == 0 || (!half && k % nodes == nodes - 1))
+is_clip(k) = !hanging && nodes > 2 && (k % nodes == 0 || (!half && k % nodes == nodes - 1))
 
 lensed = coloured && has_platform && members == 1
 lens_size = 0.17
@@ -131,8 +134,9 @@ if (!path && !coloured) set label 4 note at screen 0.5,0.025 center font ',11' t
 load 'stage.gp'
 
 # holder and clip, which stay where they are, or a wall
-if (has_platform) {
-  set object 1 rectangle from -platform,0 to platform,0.35*u fc rgb '#555555' fs solid noborder
+if (has_platform || hanging) {
+  holder = has_platform ? platform : 0.6*u
+  set object 1 rectangle from -holder,0 to holder,0.35*u fc rgb '#555555' fs solid noborder
   set arrow 1 from 0,0.35*u to 0,graph 1 nohead lw 3 lc rgb '#555555'
 } else {
   set object 1 rectangle from clamp*length - 0.35*u,-u to clamp*length,u fc rgb '#555555' fs solid noborder
@@ -146,8 +150,8 @@ do for [k=1:shown_frames + hold] {
     if (!held) { caption = caption.sprintf('    stroke %.2f %s', stroke_at[i]*length, length_unit) }
   } else {
     caption = sprintf('t = %.1f %s', frame_time[i]*time, time_unit)
-    if (has('contraction') && contraction_at[i] == contraction_at[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction_at[i]) < 0.005 ? 0 : contraction_at[i]*100) }
-    if (!has('contraction') && has('stroke_m') && stroke_at[i] == stroke_at[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke_at[i]*length, length_unit) }
+    if (!hanging && has('contraction') && contraction_at[i] == contraction_at[i]) { caption = caption.sprintf('    contraction %.0f %%', abs(contraction_at[i]) < 0.005 ? 0 : contraction_at[i]*100) }
+    if ((hanging || !has('contraction')) && has('stroke_m') && stroke_at[i] == stroke_at[i]) { caption = caption.sprintf('    stroke %.2f %s', stroke_at[i]*length, length_unit) }
     if (ribbons > 1 && one_voltage) { caption = caption.sprintf('    %.4g kV', frame_voltage[i]/1000.0) }
   }
   set label 1 caption at screen 0.5,0.965 center
@@ -159,8 +163,8 @@ do for [k=1:shown_frames + hold] {
   if (!held && load_mass > 0) {
     set arrow 2 from h,v to h,v-u nohead lw 2 lc rgb '#555555'
     set object 3 rectangle from h-1.2*u,v-2.6*u to h+1.2*u,v-u fc rgb '#55626d' fs solid noborder
-    if (members == 1) { set label 5 said(said_load_mass) at h,v-1.8*u center front tc rgb '#ffffff' }
-    if (members > 1) { set label 5 said(said_load_mass) at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
+    if (members == 1 && !hanging) { set label 5 said(said_load_mass) at h,v-1.8*u center front tc rgb '#ffffff' }
+    if (members > 1 || hanging) { set label 5 said(said_load_mass) at h+1.6*u,v-1.8*u left front tc rgb '#37434d' }
   }
   # what is between the faces, coloured by the field, then the ribbons over it
   volts = frame_voltage[i]
@@ -169,12 +173,14 @@ do for [k=1:shown_frames + hold] {
   }
   if (lensed) { set multiplot }
   plot for [side=0:half] for [j=0:(ribbons > 1 ? parts-1 : -1)] 'shapes.dat' index i-1 \
-         using (side_x(side, _bar(j))):(yu*length):((side == 1 ? xu - xl : xl - xu)*length):((yl - yu)*length):(coloured ? shown(yu - yl, volts) : 0xe2f1fa) \
+         using (bar = _bar(j), side_x(side, drawn_x(bar, yu))):(drawn_y(bar, yu)*length):(drawn_x(side == 1 ? xu - xl : xl - xu, yl - yu)*length):(drawn_y(xl - xu, yl - yu)*length):(coloured ? shown(yu - yl, volts_at(p)) : 0xe2f1fa) \
          with vectors nohead lw 5 lc rgb variable notitle, \
        for [c=1:counter] 'shapes.dat' index i-1 using (side_x(0, counter_x($4))):(counter_face(counter_x($4))*length) \
          with lines lw 5 lc rgb '#aaaaaa' notitle, \
-       for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (side_x(side, column(x_of(r)))):(column(x_of(r) + 1)*length) \
-         with lines lw 2 lc rgb metal notitle, \
+       for [side=0:half] for [r=1:ribbons] 'shapes.dat' index i-1 using (side_x(side, ribbon_x(r))):(ribbon_y(r)*length) \
+         with lines lw 2 lc rgb (hanging ? tape : metal) notitle, \
+       for [r=1:hanging*ribbons] 'shapes.dat' index i-1 using (side_x(0, ribbon_x(r))):(electrode_y(r)*length) \
+         with lines lw 4 lc rgb metal notitle, \
        for [side=0:(ribbons > 1 ? half : -1)] 'shapes.dat' index i-1 using (is_clip(node(0)) ? side_x(side, $7) : NaN):($8*length) \
          with points pt 5 ps (members > 8 ? 0.7 : 1.5) lc rgb metal notitle
   if (lensed) {

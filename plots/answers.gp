@@ -13,6 +13,7 @@ if (study eq 'equilibrium') {
   number[1] = 'pull_in_voltage_V'; number_name[1] = 'pull-in'
   number[2] = 'release_voltage_V'; number_name[2] = 'release'
 }
+if (has('strain') && (study eq 'actuate' || !has(number[1]))) { answer = 'Strain'; quantity = 'strain'; si = '%'; counted = 'are drawn'; number[1] = 'strain'; number[2] = '' }
 if (study eq 'modes') { answer = 'Lowest frequency about the loaded equilibrium'; quantity = 'frequency'; si = 'Hz'; number[1] = 'frequency_1_Hz' }
 if (study eq 'isometric') {
   answer = actuator_kind eq 'electro_ribbon' ? 'Force on the held platform' : 'Force on the held end'

@@ -3,7 +3,7 @@
 load 'of_box.gp'
 most = 8
 load 'snapshots.gp'
-title = (ribbons > 1 ? 'Shapes of the ribbons' : 'Shapes of the ribbon').(half ? ', left half' : '')
+title = (hanging ? 'Shapes of the films' : ribbons > 1 ? 'Shapes of the ribbons' : 'Shapes of the ribbon').(half ? ', left half' : '')
 load 'note.gp'
 if (!same_scale) remark = 'x and y have different scales'
 right = 0.79
@@ -24,5 +24,7 @@ if (same_scale) {
   set autoscale noextend
   set offsets graph 0.02, graph 0.02, graph 0.04, graph 0.04
 }
-plot for [f in snapshots] for [k=1:ribbons] 'shapes.dat' index int(f)-1 \
-       using (column(x_of(k))*length):(column(x_of(k)+1)*length):(frame_time[f+0]*time) with lines lw 2 lc palette z notitle
+plot for [f in snapshots] for [k=1:hanging*ribbons] 'shapes.dat' index int(f)-1 \
+       using (ribbon_x(k)*length):(electrode_y(k)*length):(frame_time[f+0]*time) with lines lw 5 lc palette z notitle, \
+     for [f in snapshots] for [k=1:ribbons] 'shapes.dat' index int(f)-1 \
+       using (ribbon_x(k)*length):(ribbon_y(k)*length):(frame_time[f+0]*time) with lines lw 2 lc palette z notitle

@@ -2,7 +2,7 @@
 # The loaded shape at rest.
 load 'of_box.gp'
 title = 'Shape at rest'.(half ? ', left half' : '')
-if (ribbons > 1) { letters = 6 } else { right = 0.96 }
+if (ribbons > 1) { letters = hanging ? 9 : 6 } else { right = 0.96 }
 if (!same_scale) remark = 'x and y have different scales'
 if (same_scale) {
   load 'shape_ratio.gp'
@@ -19,8 +19,10 @@ if (same_scale) {
 stroke = number('stroke_m')
 if (stroke == stroke) set label 5 sprintf('stroke %.4g %s', stroke*length, length_unit) at screen 0.985, 1 - px(39.9) right font ',12' tc rgb '#555555'
 if (ribbons > 1) {
-  plot for [k=1:ribbons] 'shapes.dat' index 0 using (column(x_of(k))*length):(column(x_of(k)+1)*length) with lines lw 2.5 dt dash(k) lc rgb colour(k) \
-       title word('upper lower', k)
+  plot for [k=1:ribbons] 'shapes.dat' index 0 using (ribbon_x(k)*length):(ribbon_y(k)*length) with lines lw 2.5 dt (hanging ? 1 : dash(k)) lc rgb colour(hanging ? 1 : k) \
+       title hanging ? (k == 1 ? 'films' : '') : word('upper lower', k), \
+       for [k=1:hanging*ribbons] 'shapes.dat' index 0 using (ribbon_x(k)*length):(electrode_y(k)*length) with lines lw 5 lc rgb '#55626d' \
+       title (k == 1 ? 'electrodes' : '')
 } else {
   plot for [c=1:counter] 'shapes.dat' index 0 using (counter_x($4)*length):(counter_face(counter_x($4))*length) with lines lw 5 lc rgb '#aaaaaa' \
          title 'counter electrode', \

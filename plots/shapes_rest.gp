@@ -60,6 +60,8 @@ if (same_scale) {
 }
 voltage = scale(drive_voltage, 'V')
 plot for [c=1:counter] 'shapes.dat' index 0 using (counter_x($4)*length):(counter_face(counter_x($4))*length) with lines lw 5 lc rgb '#aaaaaa' notitle, \
-     for [k=1:|at|] for [r=1:ribbons] 'shapes.dat' index at[k]-1 using (column(x_of(r))*length):(column(x_of(r)+1)*length) with lines lw 2 dt 2-stable[k] \
+     for [k=1:|at|] for [r=1:hanging*ribbons] 'shapes.dat' index at[k]-1 using (ribbon_x(r)*length):(electrode_y(r)*length) with lines lw 5 \
+     lc rgb shade((k - 1.0)/(|stable| - 1)) notitle, \
+     for [k=1:|at|] for [r=1:ribbons] 'shapes.dat' index at[k]-1 using (ribbon_x(r)*length):(ribbon_y(r)*length) with lines lw 2 dt 2-stable[k] \
      lc rgb shade((k - 1.0)/(|stable| - 1)) \
      title (r == 1 ? sprintf('%.3g %s', frame_voltage[at[k]]*voltage, unit(drive_voltage, 'V')) : '')

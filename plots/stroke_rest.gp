@@ -1,10 +1,12 @@
 #picture stroke.svg one branch voltage_V !:bodies +drive.voltage
-# Opening at rest, or the stroke of a kind that has none, against voltage, with pull-in, closing and release.
+# Opening at rest, or the strain or stroke of a kind that has none, against voltage, with pull-in, closing and release.
 load 'functions.gp'
 opens = has('opening_m')
-title = opens ? 'Opening at rest against voltage' : 'Stroke at rest against voltage'
+strains = has('strain')
+title = (strains ? 'Strain' : opens ? 'Opening' : 'Stroke').' at rest against voltage'
 load 'along_voltage.gp'
-factor = scale(largest(travel), 'm')
+si = strains ? '%' : 'm'
+factor = scale(largest(travel), si)
 tag = 11; name = 'pull-in'; at = number('pull_in_voltage_V'); rising = 1
 ends = !(number('closing_voltage_V') > (1 + 1e-6)*at)
 load 'jump.gp'
@@ -14,7 +16,7 @@ if (!whole) {
 }
 tag = 12; name = 'release'; at = number('release_voltage_V'); rising = 0; ends = 1
 load 'jump.gp'
-set ylabel label(opens ? 'opening' : 'stroke', unit(largest(travel), 'm')) offset 0.5
+set ylabel label(strains ? 'strain' : opens ? 'opening' : 'stroke', unit(largest(travel), si)) offset 0.5
 set autoscale y noextend
 set offsets 0, 0, graph 0.05, graph 0.03
 shown = travel

@@ -1,6 +1,7 @@
 #picture zip_time.svg many actuate zip_time_s :axis
 #picture strokes.svg many stationary stroke_m :axis
 #picture voltages.svg many equilibrium pull_in_voltage_V|release_voltage_V :axis
+#picture strains.svg many actuate|equilibrium strain !pull_in_voltage_V :axis
 #picture frequencies.svg many modes frequency_1_Hz :axis
 #picture factors.svg many profile scale_factor|paper_factor :axis
 #picture loads.svg many limits max_load_kg :axis

@@ -1,7 +1,7 @@
 # Where there is liquid: all along, or from the clip on as far as a bead reaches, wet_at[k] elements at frame k. wet(i, k,
 # x, g), row by row, is x of node i of a left half, at the end of the bead between two nodes, and sets `gap` to g there.
 bead = liquid eq 'bead' && members == 1 && has('wet_length_m')
-half_nodes = half ? nodes : nodes/2
+half_nodes = half || actuator_kind ne 'electro_ribbon' ? nodes : nodes/2 # all of a device without a platform
 array wet_at[frames]
 do for [k=1:frames] { wet_at[k] = 1e9 }
 if (bead) {

@@ -81,6 +81,9 @@ PICTURES = {
     "creep.svg": "creep/plots/stroke.svg",
     "wide-strip.svg": "wide-strip/plots/strokes.svg",
     "materials.svg": "materials/plots/distribution.svg",
+    "pouch.gif": "pouch/plots/animation.gif",
+    "pouch.svg": "pouch/plots/pressure.svg",
+    "pouch-force.svg": "pouch-force/plots/forces.svg",
     "demo.gif": "motion/plots/animation.gif",
 }
 

@@ -96,6 +96,8 @@
 #define CURVED                                                                                                         \
   "study=actuate actuator.kind=curved ribbon.length=20mm mesh.nodes=21 initial.state=straight solver.end_time=1ns "    \
   "drive.voltage=100V electro.insulator_offset=100um"
+/* A pouch of the default size. */
+#define POUCH "actuator.kind=pouch mesh.nodes=101"
 
 /* A plate on a hinge. */
 #define FOLD                                                                                                           \

@@ -25,7 +25,7 @@
 enum { TEXT_SIZE = 1024, MOST_ASSIGNMENTS = 512, MOST_NODES = 2001 };
 
 /* How many numbers the page reads of each; frame.js names them. */
-enum { MEMBER_NUMBERS = 14, BODY_NUMBERS = 5, SPRING_NUMBERS = 6, JOINT_NUMBERS = 4 };
+enum { MEMBER_NUMBERS = 16, BODY_NUMBERS = 5, SPRING_NUMBERS = 6, JOINT_NUMBERS = 4 };
 
 /* Number of signals. */
 #define ZP_SIGNAL(name, unit, suffix, help) +1
@@ -57,7 +57,7 @@ typedef struct ZpWeb {
   ZpSim *sim;
   double row[SIGNALS];
   double part[MEMBER_NUMBERS];    /* the longest of the above */
-  double pair[2][2 * MOST_NODES]; /* x and y of a counter electrode and the ribbon below it, as of two ribbons */
+  double pair[2][2 * MOST_NODES]; /* x and y of what a ribbon faces, and of the ribbon, as of two ribbons */
   ZpResult *result;
 } ZpWeb;
 
@@ -198,7 +198,7 @@ EXPORT int zp_web_assign(ZpWeb *web) {
 }
 
 static ZpStatus refuse_left_out(ZpStudy study, const ZpActuatorDef *def, ZpError *err) {
-  if (!zp_def_has(def, ZP_DEVICE_PAIR | ZP_DEVICE_COUNTER))
+  if (!zp_def_has(def, ZP_DEVICE_PAIR | ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH))
     return zp_fail(err, ZP_BAD_INPUT, "this page draws two faces, and a ribbon alone has one; use the command for it");
   if (!zp_def_has(def, ZP_DEVICE_PAIR) && zp_def_network(def))
     return zp_fail(err, ZP_BAD_INPUT,
@@ -369,25 +369,29 @@ static double middle_of(const ZpWeb *web, int member) {
 
 /* Voltage of its electrodes, V; opening, m; liquid equivalent to both insulators; thicknesses of the upper and the
  * lower insulator and metal; lengths of its ribbons and of its platform; does the platform attract; its middle, m; is
- * it upside down; numbers of the bodies at its upper and its lower end. */
+ * it upside down; numbers of the bodies at its upper and its lower end; does its load pull along its ribbons; length of
+ * the electrodes over that of the ribbons. */
 EXPORT const double *zp_web_member(ZpWeb *web, int member) {
   const ZpModel *model = web->model + member;
   const ZpActuatorDef *def = &model->def, lower = zp_def_lower(def);
   const ZpEnds *ends = &web->model->network->ends[member];
+  const bool film = isnan(def->insulator.thickness); /* which is its own insulator */
   const double values[MEMBER_NUMBERS] = {own_signal(web, member, "voltage"),
                                          own_signal(web, member, "opening"),
                                          zp_model_get(model, "insulator_offset"),
-                                         def->insulator.thickness,
-                                         lower.insulator.thickness,
-                                         def->ribbon.thickness,
-                                         lower.ribbon.thickness,
+                                         zp_insulator_thickness(def),
+                                         zp_insulator_thickness(&lower),
+                                         film ? 0 : def->ribbon.thickness,
+                                         film ? 0 : lower.ribbon.thickness,
                                          def->ribbon.length,
                                          def->platform.length,
                                          def->platform.electrode,
                                          middle_of(web, member),
                                          ends->turned,
                                          (double)ends->upper,
-                                         (double)ends->lower};
+                                         (double)ends->lower,
+                                         model->topology.along,
+                                         model->pouch.w > 0 ? model->pouch.electrode / model->pouch.length : 1};
   return give(web, values, MEMBER_NUMBERS);
 }
 
@@ -462,6 +466,15 @@ EXPORT int zp_web_pull(ZpWeb *web, int body, double right, double up) {
   return say(web, status, err.message);
 }
 
+/* Both films of a pouch, which hang: x of the ribbon is downwards, and its films are left and right of it. */
+static const double *hung(ZpWeb *web, size_t axis, ZpShape shape) {
+  for (size_t i = 0; i < web->model->topology.stations; i++) {
+    web->pair[axis][2 * i] = axis == 0 ? -shape.y[i] : -shape.x[i];
+    web->pair[axis][2 * i + 1] = axis == 0 ? shape.y[i] : -shape.x[i];
+  }
+  return web->pair[axis];
+}
+
 /* x and y [members * nodes * 2] of interleaved faces, gap and line force [members * nodes]. */
 static const double *paired(ZpWeb *web, size_t axis, const double *face, const double *ribbon) {
   const ZpTopology *topology = &web->model->topology;
@@ -474,10 +487,12 @@ static const double *paired(ZpWeb *web, size_t axis, const double *face, const d
 }
 
 EXPORT const double *zp_web_x(ZpWeb *web) {
+  if (web->model->topology.along) return hung(web, 0, zp_sim_shape(web->sim));
   return paired(web, 0, web->model->face_x, zp_sim_shape(web->sim).x);
 }
 
 EXPORT const double *zp_web_y(ZpWeb *web) {
+  if (web->model->topology.along) return hung(web, 1, zp_sim_shape(web->sim));
   return paired(web, 1, web->model->plates.face, zp_sim_shape(web->sim).y);
 }
 

@@ -207,6 +207,32 @@ void zp_shapes_keep_last(ZpShapes *shapes, const ZpShape *shape) {
   if (frame) fill_frame(shapes, frame, shape);
 }
 
+static void mirror_frame(size_t nodes, const double *from, double *to) {
+  memcpy(to, from, FRAME_HEAD * sizeof *to);
+  from += FRAME_HEAD;
+  to += FRAME_HEAD;
+  for (size_t k = 0; k < OF_NODES * nodes; k++) {
+    const bool height = k / nodes == 1;
+    to[2 * k] = height ? 0 - from[k] : from[k];
+    to[2 * k + 1] = from[k];
+  }
+  memcpy(to + 2 * OF_NODES * nodes, from + OF_NODES * nodes, OF_STATIONS * nodes * sizeof *to);
+}
+
+ZpShapes *zp_shapes_mirrored(const ZpShapes *half) {
+  ZpShapes *both = zp_shapes_create(2, half->nodes, half->capacity);
+  if (!both) return NULL;
+  double *value = both->value;
+  const size_t size = both->frame_size;
+  for (size_t k = 0; k < half->frames; k++)
+    mirror_frame(half->nodes, half->value + k * half->frame_size, value + k * size);
+  *both = *half;
+  both->ribbons = 2;
+  both->frame_size = size;
+  both->value = value;
+  return both;
+}
+
 ZpShape zp_shapes_get(const ZpShapes *shapes, size_t frame) {
   const double *f = shapes->value + frame * shapes->frame_size, *x = f + FRAME_HEAD;
   size_t nodes = shapes->nodes, all = shapes->ribbons * nodes;

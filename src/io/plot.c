@@ -128,8 +128,9 @@ static void define_key(const ZpPlot *plot, int index, FILE *file) {
 /* The name of a key that is a column, the unit in which it is shown, and the factor to this unit. */
 static void define_shown(const ZpPlotColumn *column, FILE *file) {
   const ZpKey *key = zp_key(column->key);
-  ZpUnitScale scale = {.factor = 1};
-  const bool shown = *key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK;
+  const bool percent = strcmp(key->shown, "%") == 0;
+  ZpUnitScale scale = {.decimal = true, .exponent = percent ? -2 : 0, .factor = 1};
+  const bool shown = percent || (*key->shown && zp_unit_scale(key->shown, key->unit, &scale, NULL) == ZP_OK);
   define_text(file, "name_", column->name, ZP_KEY_NAME(column->key));
   define_text(file, "unit_", column->name, shown ? key->shown : "");
   define(file, "factor_", column->name, scale.decimal ? pow(10, -scale.exponent) : 1 / scale.factor);

@@ -287,8 +287,9 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_opening] = zp_opening(t, motion.y);
   row[SIGNAL_angle] = zp_topology_angle(t, motion.x, motion.y);
   row[SIGNAL_contraction] =
-      state->opening0 > model->faces.stop ? zp_contraction(model, row[SIGNAL_opening], state->opening0) : NAN;
-  if (model->pouch.w > 0) row[SIGNAL_contraction] = row[SIGNAL_zipped_length] / model->pouch.electrode;
+      model->pouch.w > 0                     ? row[SIGNAL_zipped_length] / model->pouch.electrode
+      : state->opening0 > model->faces.stop ? zp_contraction(model, row[SIGNAL_opening], state->opening0)
+                                            : NAN;
 }
 
 /* Signals that follow from the state alone, of one member of a series alone as of all below. */

@@ -71,6 +71,7 @@ static void follow_both(Follower *f) {
   if (!f->limits->hangs || f->at.rest.statics.stopped) return;
   zp_rest_go_to(&f->at.rest, f->limits->start);
   follow_whole(f, true, 0);
+  if (f->at.model->pouch.w > 0 && isnan(f->left)) zp_equilibria_add_members(&f->at); /* those at drive.voltage */
   bool whole = isnan(f->left) && f->at.model->field && zp_quasistatic_is_closed(&f->at.rest);
   if (whole || !f->limits->closes || f->at.rest.statics.stopped) return;
   zp_rest_go_to(&f->at.rest, f->limits->closed);

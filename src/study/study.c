@@ -4,6 +4,7 @@
 
 #include "base/fail.h"
 #include "def/check.h"
+#include "def/device.h"
 #include "run/hooks.h"
 #include "study/estimate.h"
 #include "study/rates.h"
@@ -101,6 +102,15 @@ static ZpStatus solve_resolved(ZpStudyRun run, ZpStudy study, const ZpTask *task
   return status;
 }
 
+/* One film of a pouch is modelled; the result has both. */
+static void mirror(ZpResult *result) {
+  ZpShapes *both = zp_shapes_mirrored(result->shapes);
+  if (!both) result->incomplete = true;
+  if (!both) return;
+  zp_shapes_destroy(result->shapes);
+  result->shapes = both;
+}
+
 ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInput *input, const ZpHooks *hooks,
                       ZpResult **out, ZpError *err) {
   *out = NULL;
@@ -116,6 +126,7 @@ ZpStatus zp_study_run(ZpStudy study, const ZpActuatorDef *def, const ZpStudyInpu
   bool moves = table[study].files == FILES_course;
   status = zp_estimate_errors(&task, run, moves, result, err);
   if (status == ZP_OK && moves) status = zp_rates_settle(&task, run, result, err);
+  if (status == ZP_OK && result->shapes && zp_def_has(def, ZP_DEVICE_POUCH)) mirror(result);
   if (status == ZP_OK && result->incomplete) status = zp_fail_memory(err);
   if (status == ZP_OK)
     *out = result;

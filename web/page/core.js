@@ -17,12 +17,12 @@ export const kinds = {member: 'members', body: 'bodies', spring: 'springs', join
 
 /** Numbers of each part: of a member the voltage of its electrodes (V), its opening (m), the liquid equivalent to both insulators, thicknesses of the
  * upper and the lower insulator and metal, lengths of its ribbons and platform (m), 1 if the platform attracts, its middle
- * in the drawing (m; NaN: its shape is in the drawing as it is), 1 if it is upside down, and the bodies at its ends, of
- * which 0 is the frame; of a body its place (m, rad), mass (kg), and 1 if it is held; of a spring its ends, and of a joint
+ * in the drawing (m; NaN: its shape is in the drawing as it is), 1 if it is upside down, the bodies at its ends, of
+ * which 0 is the frame, 1 if it hangs and its load pulls along its films, and the length of its electrodes over theirs; of a body its place (m, rad), mass (kg), and 1 if it is held; of a spring its ends, and of a joint
  * its place (m), both with their bodies. */
 export const ofPart = {
   member: ['voltage', 'opening', 'offset', 'upperInsulator', 'lowerInsulator', 'upperMetal', 'lowerMetal', 'length', 'platform', 'electrode',
-           'middle', 'turned', 'upper', 'lower'],
+           'middle', 'turned', 'upper', 'lower', 'along', 'covered'],
   body: ['x', 'y', 'angle', 'mass', 'held'],
   spring: ['fromX', 'fromY', 'toX', 'toY', 'from', 'to'],
   joint: ['x', 'y', 'from', 'to'],

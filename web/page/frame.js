@@ -9,7 +9,7 @@ const signals = {
   film_thickness: 'film_thickness_m',
 };
 // of the scenario of this instant, which is not always the newest
-const keys = ['actuator.kind', 'load.mass', 'load.offset', 'mount.tilt', 'stack.series', 'stack.parallel', 'stack.distance',
+const keys = ['actuator.kind', 'load.mass', 'load.offset', 'mount.tilt', 'stack.series', 'stack.parallel', 'stack.distance', 'pouch.count',
               'medium.breakdown_field', 'medium.permittivity', 'air.breakdown_field', 'electro.breakdown_cap', 'electro.voltage_share'];
 const place = new Map([...own, ...Object.keys(signals), ...keys].map((name, k) => [name, k]));
 

@@ -13,13 +13,16 @@ function layoutOf(frame, {length: ribbon, platform: given}) {
   return {nodes, whole, hinge, platform, last, length, l: length / last};
 }
 
-/** Field between the faces at each station by the plates law, V/m: in the liquid, beyond a bead in air. */
+/** Field between the faces at each station by the plates law, V/m: in the liquid, beyond a bead in air; none beyond the
+ * electrodes. */
 function fieldOf(frame, member, half) {
-  const voltage = frame.get('electro.voltage_share') * member.voltage, {offset} = member;
+  const side = member.along ? 0.5 : 1; // films that mirror each other: gap, offset and voltage are those to the middle plane
+  const voltage = side * frame.get('electro.voltage_share') * member.voltage, {offset} = member;
   const cap = (name) => (frame.get('electro.breakdown_cap') ? frame.get(name) : Infinity);
   const liquid = {offset, most: cap('medium.breakdown_field')};
   const air = {offset: offset / frame.get('medium.permittivity'), most: cap('air.breakdown_field')};
   return Float64Array.from(half.gap, (g, i) => {
+    if (i > member.covered * (half.gap.length - 1)) return 0;
     const {offset: other, most} = i <= half.wetStations ? liquid : air;
     return Math.min(Math.abs(voltage) / (Math.max(g, 0) + other), most);
   });
@@ -67,19 +70,21 @@ function platformsOf({whole, hinge, platform, last}, member) {
 function memberOf(frame, k, bead) {
   const {upperInsulator, lowerInsulator, upperMetal, lowerMetal, wetLength, ...member} = frame.member(k);
   const layout = layoutOf(frame, member), {hinge, platform, last, length} = layout;
-  member.own = hinge ? length / 2 : member.x[2 * last] + platform / 2;
+  member.own = member.along ? 0 : hinge ? length / 2 : member.x[2 * last] + platform / 2;
   const drawn = Number.isNaN(member.middle);
   if (drawn) member.middle = member.own;
   member.wet = bead ? wetLength : [Infinity, Infinity];
   member.platforms = platformsOf(layout, member);
   const [[left, right] = []] = member.platforms;
-  member.angle = hinge ? 0 : Math.atan2(right.y - left.y, right.x - left.x);
+  member.angle = member.along ? -Math.PI / 2 : hinge ? 0 : Math.atan2(right.y - left.y, right.x - left.x);
   return {
     halves: (hinge ? [false] : [false, true]).map((right) => halfOf(frame, layout, member, right)),
     platforms: member.platforms,
     insulator: [upperInsulator, lowerInsulator],
     metal: [upperMetal, lowerMetal],
     electrode: hinge || member.electrode !== 0,
+    along: member.along !== 0, // both films hang, and the load at their ends
+    electrodes: member.covered * last, // a place along the ribbons
     angle: member.angle,
     turned: member.turned !== 0,
     drawn, // its shape is in the drawing as it is: it moves in the plane
@@ -135,7 +140,7 @@ function stackOf(frame, members) {
     joined: places.columns > 1 ? {from: places.of(0)[0], to: places.of(count - 1).at(-1)} : null, // rigid links of columns
     box: {left: -wide, right: wide, top: hinge ? Math.max(top, 0) : 0, bottom: Math.min(bottom, opposed ? -distance : 0)},
     supports: hinge
-      ? [{x: members[0].halves[0].x[0][0], y: 0, angle: Math.PI / 2, half: 4.5e-3}]
+      ? [{x: members[0].halves[0].x[0][0], y: 0, angle: members[0].along ? 0 : Math.PI / 2, half: 4.5e-3}]
       : columns.flatMap((x) => [{x, y: 0, angle: 0, half: 9e-3}, ...(opposed ? [{x, y: -distance, angle: Math.PI, half: 9e-3}] : [])]),
     loads: [{body: 0, mass: frame.get('load.mass'), hangs: !opposed, aside: false,
              x: middle.x + offset * Math.cos(tilt), y: middle.y + offset * Math.sin(tilt)}],

@@ -35,11 +35,11 @@ class Half {
     return part ? list[k] + part * (list[k + 1] - list[k]) : list[k];
   }
 
-  /** A layer of ribbon r between two distances from its face. */
-  layer(context, r, from, to) {
+  /** A layer of ribbon r between two distances from its face, up to place `end`. */
+  layer(context, r, from, to, end) {
     context.beginPath();
-    this.along(context, r, from);
-    this.along(context, r, to, true);
+    this.along(context, r, from, false, end);
+    this.along(context, r, to, true, end);
     context.fill();
   }
 
@@ -243,8 +243,14 @@ export class Picture {
     for (const half of member.halves) {
       const drawn = new Half(half, member, to, place);
       drawn.liquid(context, scene, member.electrode, insulator);
-      context.fillStyle = theme.colour.metal;
-      for (const r of [0, 1]) drawn.layer(context, r, insulator[r], insulator[r] + Math.max(metal[r], thinnest / to.scale));
+      for (const r of [0, 1]) {
+        const thin = thinnest / to.scale;
+        context.fillStyle = theme.colour.insulator;
+        if (member.along) drawn.layer(context, r, 0, Math.max(insulator[r], thin));
+        context.fillStyle = theme.colour.metal;
+        if (member.along) drawn.layer(context, r, insulator[r], insulator[r] + 2 * thin, member.electrodes);
+        else drawn.layer(context, r, insulator[r], insulator[r] + Math.max(metal[r], thin));
+      }
       if (member.platforms.length) this.#clip(drawn, half, to);
     }
     this.#platforms(member, to, place);

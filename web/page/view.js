@@ -183,14 +183,15 @@ export class View {
   /** Texts of the picture. */
   #texts(frame, geometry, word) {
     const parallel = frame.get('stack.parallel'), many = geometry.members.length > 1 && !geometry.joined && !geometry.opposed && !geometry.network;
-    const unseen = parallel > 1 && geometry.columns === 1 ? `one of ${parallel} side by side` : null;
+    const pouches = geometry.focus.along ? frame.get('pouch.count') : 0;
+    const unseen = parallel > 1 && geometry.columns === 1 ? `one of ${parallel} side by side` : pouches > 1 ? `one of ${pouches} pouches in a row` : null;
     return {
       masses: new Map(geometry.loads.map(({body, mass}) => [body, (geometry.network ? `body ${body}, ` : '') + pretty(this.core.print('load.mass', mass))])),
       voltages: geometry.members.map(({voltage}, k) => `${k + 1}: ${fixed(voltage / 1e3, 2)} kV`),
       pull: this.pull ? `${fixed(1e3 * Math.hypot(this.pull.right, this.pull.up), 0)} mN` : '',
       opening: `${fixed(1e3 * frame.get('opening'), 1)} mm`,
       wet: word !== 'none',
-      where: [wetWords[word], unseen].filter(Boolean),
+      where: [geometry.focus.along ? 'liquid within, air outside' : wetWords[word], unseen].filter(Boolean),
       front: many ? 'lowest zip front' : geometry.network ? 'zip front of member 1' : 'zip front',
     };
   }
@@ -206,7 +207,7 @@ export class View {
       geometry,
       texts: this.#texts(frame, geometry, word),
       opening: frame.get('opening'),
-      bath: word === 'submerged',
+      bath: word === 'submerged' && !geometry.focus.along,
       largest: strongest,
       pull: this.pull,
       hanging: frame.get('opening') / (1 - frame.get('contraction')), // by the definition of the contraction

@@ -203,6 +203,20 @@ test('side by side: equal ones are copies, unequal ones have their own strips; a
   assert.deepEqual(insulator, [130e-6, 50e-6]);
 });
 
+test('a pouch hangs: its films mirror each other, its electrodes attract, the load is at its lower end', () => {
+  const {engine, members: [before]} = geometryAt({...presetOf('Pouch'), 'mesh.nodes': '41'}), wide = ({halves: [{x}]}) => Math.max(...x[0]);
+  for (let k = 0; k < 10; k++) engine.answer({span: 5e-3, voltage: 6e3, pressed: true});
+  const {members: [{halves: [half], along, electrodes, platforms, angle}], loads: [load], supports} = geometryOf(new Frame(engine.answer({span: 1e-3}).frame), false);
+  assert.deepEqual([along, electrodes, platforms.length, angle, supports.map((support) => support.angle)], [true, 20, 0, -Math.PI / 2, [0]]);
+  half.x[0].forEach((x, i) => near(x, -half.x[1][i]));
+  half.y[0].forEach((y, i) => near(y, half.y[1][i]));
+  near(load.y, half.y[1].at(-1));
+  near(load.x, 0);
+  assert.ok(load.y < -18e-3 && load.y > before.halves[0].y[0].at(-1) + 1e-4, 'it is lifted');
+  assert.ok(Math.max(...half.x[0]) > wide(before) + 1e-4, 'liquid is squeezed down');
+  assert.ok(half.field[1] > 1e8 && half.field[20] > 0 && half.field[21] === 0, 'between the electrodes alone');
+});
+
 test('a network: members where their bodies are, each with its voltage; a body that is pulled moves that way', () => {
   const tree = presetOf('Tree'), {members, bodies, loads, supports, frame} = geometryAt({...tree, 'mesh.nodes': '9', 'member_3.drive.voltage': '5 kV'});
   assert.equal(frame.get('bodies'), 4);
