@@ -247,7 +247,8 @@ TEST(test_defaults_are_those_of_keys_def) {
 #define ZP_REAL_AS(path, field, name, unit, shown, def, min, max, help)                                                \
   check_key(&i, #path #name, d.path field, def, min, max);
 #define ZP_REAL_AUTO(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
-#define ZP_REAL_OR_AUTO(path, name, unit, shown, def, min, max, help) check_key(&i, #path #name, d.path name, def, min, max);
+#define ZP_REAL_OR_AUTO(path, name, unit, shown, def, min, max, help)                                                  \
+  check_key(&i, #path #name, d.path name, def, min, max);
 #define ZP_REAL_NONE(path, name, unit, shown, min, max, help) check_key(&i, #path #name, d.path name, NAN, min, max);
 #define ZP_INT(path, name, def, min, max, help)               check_key(&i, #path #name, d.path name, def, min, max);
 #define ZP_BOOL(path, name, def, help)                        check_key(&i, #path #name, d.path name, def, 0, 1);

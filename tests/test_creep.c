@@ -329,6 +329,6 @@ TEST(what_creeps_needs_a_time) {
   def.ribbon.plasticity = true;
   ck_refused(&def, "its insulators may creep");
   def = moving(0);
-  def.segment_1.length = 10e-3, def.segment_1.thickness = 80e-6;
+  def.segment_K[0].length = 10e-3, def.segment_K[0].thickness = 80e-6;
   ck_refused(&def, "insulator.relaxation_modulus requires segments as thick as the ribbon");
 }

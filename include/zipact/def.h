@@ -203,6 +203,9 @@ ZP_API ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, Z
  * ZP_LIQUID_NONE. ZP_LIQUID_NONE also without a Def. */
 ZP_API ZpLiquidModel zp_def_liquid(const ZpActuatorDef *def);
 
+/* film.roughness, or what auto means: 2 um, of a device with a gap at its clamp or all along at most 1 % of that; m. */
+ZP_API double zp_def_roughness(const ZpActuatorDef *def);
+
 /* solver.tolerance as a number: the relative error at which the time steps of a motion aim. */
 ZP_API double zp_def_tolerance(const ZpActuatorDef *def);
 

@@ -751,18 +751,19 @@ static size_t deepest_station(const ZpModel *model) {
 static ZpFilmParams film_of(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
   const bool rigid = zp_def_has(def, ZP_DEVICE_RIGID);
-  ZpFilmParams film = {.nodes = model->nodes,
-                       .l = model->l,
-                       .platform = model->topology.platform.first,
-                       .platform_end = model->topology.platform.last,
-                       .flat_length = platform_length(model),
-                       .w = def->ribbon.width,
-                       .mu = model->mirror * model->mirror * def->medium.kinematic_viscosity * def->medium.density,
-                       .rho = def->liquid.inertia ? def->medium.density : 0,
-                       .free_path = def->medium.mean_free_path,
-                       .floor = {rigid && !isnan(def->plate.floor_gap) ? def->plate.floor_gap : 0, def->ribbon.thickness},
-                       .roughness = model->mirror * zp_def_roughness(def),
-                       .vent = {model->topology.platform.first, model->topology.platform.last}};
+  ZpFilmParams film = {
+      .nodes = model->nodes,
+      .l = model->l,
+      .platform = model->topology.platform.first,
+      .platform_end = model->topology.platform.last,
+      .flat_length = platform_length(model),
+      .w = def->ribbon.width,
+      .mu = model->mirror * model->mirror * def->medium.kinematic_viscosity * def->medium.density,
+      .rho = def->liquid.inertia ? def->medium.density : 0,
+      .free_path = def->medium.mean_free_path,
+      .floor = {rigid && !isnan(def->plate.floor_gap) ? def->plate.floor_gap : 0, def->ribbon.thickness},
+      .roughness = model->mirror * zp_def_roughness(def),
+      .vent = {model->topology.platform.first, model->topology.platform.last}};
   if (rigid)
     zp_film_plate_modes(&film, def->ribbon.length, def->liquid.lateral_flow);
   else

@@ -248,9 +248,6 @@ double zp_platform_length(const ZpActuatorDef *def);
 /* Gap of a device whose faces are apart at its clamp or all along without voltage, m; 0 of others. */
 double zp_def_gap(const ZpActuatorDef *def);
 
-/* film.roughness, or what auto means: of a device that has such a gap at most a part of it, m. */
-double zp_def_roughness(const ZpActuatorDef *def);
-
 /* How many equal pairs of electrodes move as one: plate.count. */
 int zp_def_count(const ZpActuatorDef *def);
 

@@ -80,8 +80,8 @@ static ZpStatus check_segments(const ZpActuatorDef *ribbon, const char *prefixed
   for (int k = 0; k < last && even; k++)
     if (ribbon->segment_K[k].length > 0 && ribbon->segment_K[k].thickness != ribbon->ribbon.thickness)
       return zp_fail(err, ZP_BAD_INPUT,
-                     "%ssegment_%d.thickness = %g m: %s requires segments as thick as the ribbon, %g m", prefixed, k + 1,
-                     ribbon->segment_K[k].thickness, needs, ribbon->ribbon.thickness);
+                     "%ssegment_%d.thickness = %g m: %s requires segments as thick as the ribbon, %g m", prefixed,
+                     k + 1, ribbon->segment_K[k].thickness, needs, ribbon->ribbon.thickness);
   return ZP_OK;
 }
 

@@ -23,8 +23,8 @@ enum {
   ZP_DEVICE_COUNTER = 32,   /* a rigid counter electrode */
   ZP_DEVICE_POUCH = 128,    /* two films that mirror each other around a fixed volume of liquid; one is modelled */
   ZP_DEVICE_SHAPED = 256,   /* a counter electrode whose shape counter.* says */
-  ZP_DEVICE_RIGID = 512,    /* two plates in place of ribbons: a platform as long as they are, on the springs of plate.* */
-  ZP_DEVICE_PAPERS = 64,    /* the ends that the paper's steps, zipping and surface know */
+  ZP_DEVICE_RIGID = 512, /* two plates in place of ribbons: a platform as long as they are, on the springs of plate.* */
+  ZP_DEVICE_PAPERS = 64, /* the ends that the paper's steps, zipping and surface know */
   ZP_DEVICE_ENDS = ZP_DEVICE_PAIR | ZP_DEVICE_POUCH /* an end that hangs on electrodes, and may be held */
 };
 

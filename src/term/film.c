@@ -237,13 +237,14 @@ static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, c
   double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++)
     zp_term_part_faces(model, Fy, i,
-                 zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i));
+                       zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i));
 }
 
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))
 static const ZpRule rule[] = {
     ZP_RULE(PHYSICS, WET, ZP_HAS(ELECTRODES), "a single ribbon has no gap for a film; use liquid.model none"),
-    ZP_RULE(NOT_MODELLED, WET, ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PLATFORM | ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH),
+    ZP_RULE(NOT_MODELLED, WET,
+            ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_PLATFORM | ZP_DEVICE_COUNTER | ZP_DEVICE_POUCH),
             "the film is modelled between two ribbons with a platform, over a counter electrode, or in a pouch; use "
             "liquid.model none"),
     ZP_RULE(NOT_MODELLED, ZP_IS(liquid.model, ZP_LIQUID_BEAD), ZP_HAS(PLATFORM),

@@ -1,5 +1,5 @@
-/* Weight of all that has a mass, along gravity; load.force and the load input, downwards, of a pouch along its film. Eq.
- * (27.4). */
+/* Weight of all that has a mass, along gravity; load.force and the load input, downwards, of a pouch along its film.
+ * Eq. (27.4). */
 #include "base/kernel.h"
 #include "term/term.h"
 
