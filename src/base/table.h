@@ -48,8 +48,7 @@ struct ZpShapes {
   size_t members;    /* of a series; otherwise 1 */
 };
 
-/* The same shapes with their mirror images over y = 0 as the upper ribbon, of shapes of one ribbon; NULL if there is no
- * memory. */
+/* Shapes of one ribbon => those of two: the upper one is its mirror image over y = 0; NULL if there is no memory. */
 ZpShapes *zp_shapes_mirrored(const ZpShapes *half);
 
 #endif

@@ -286,10 +286,10 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   row[SIGNAL_wet_length] = wet_length(model, state);
   row[SIGNAL_opening] = zp_opening(t, motion.y);
   row[SIGNAL_angle] = zp_topology_angle(t, motion.x, motion.y);
-  row[SIGNAL_contraction] =
-      model->pouch.w > 0                     ? row[SIGNAL_zipped_length] / model->pouch.electrode
-      : state->opening0 > model->faces.stop ? zp_contraction(model, row[SIGNAL_opening], state->opening0)
-                                            : NAN;
+  row[SIGNAL_contraction] = model->pouch.w > 0 ? row[SIGNAL_zipped_length] / model->pouch.electrode
+                            : state->opening0 > model->faces.stop
+                                ? zp_contraction(model, row[SIGNAL_opening], state->opening0)
+                                : NAN;
 }
 
 /* Signals that follow from the state alone, of one member of a series alone as of all below. */
