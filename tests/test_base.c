@@ -149,6 +149,31 @@ TEST(test_film_thins) {
   zp_shapes_destroy(NULL);
 }
 
+/* The lower ribbon as it was, the upper one with its heights reversed; what is of stations once. */
+TEST(test_film_is_mirrored) {
+  static const double x[] = {1, 2, 3}, y[] = {0, -5, -6}, stress[] = {7, 8, 9}, gap[] = {10, 11, 12},
+                      force[] = {13, 14, 15}, field[] = {16, 17, 18};
+  ZpShapes *film = zp_shapes_create(1, 3, 6);
+  for (size_t k = 0; k < 2; k++)
+    zp_shapes_offer(film, &(ZpShape){(double)k, 5, k, x, y, gap, force, field, stress});
+  ZpShapes *both = zp_shapes_mirrored(film);
+  ck_assert_uint_eq(zp_shapes_ribbons(both), 2);
+  ck_assert_uint_eq(zp_shapes_frames(both), 2);
+  const ZpShape last = zp_shapes_get(both, 1);
+  ck_assert_double_eq(last.time, 1);
+  ck_assert_uint_eq(last.zipped, 1);
+  for (size_t i = 0; i < 6; i++) {
+    ck_assert_double_eq(last.x[i], x[i / 2]);
+    ck_assert_double_eq(last.y[i], i % 2 ? y[i / 2] : -y[i / 2]);
+    ck_assert_double_eq(last.stress[i], stress[i / 2]);
+    ck_assert_double_eq(last.gap[i / 2], 2 * gap[i / 2]);
+  }
+  ck_assert_mem_eq(last.line_force, force, sizeof force);
+  ck_assert_mem_eq(last.insulator_field, field, sizeof field);
+  zp_shapes_destroy(film);
+  zp_shapes_destroy(both);
+}
+
 /* -- memory and errors ----------------------------------------------------------------------------- */
 
 TEST(test_carver) {

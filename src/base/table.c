@@ -216,7 +216,11 @@ static void mirror_frame(size_t nodes, const double *from, double *to) {
     to[2 * k] = height ? 0 - from[k] : from[k];
     to[2 * k + 1] = from[k];
   }
-  memcpy(to + 2 * OF_NODES * nodes, from + OF_NODES * nodes, OF_STATIONS * nodes * sizeof *to);
+  from += OF_NODES * nodes;
+  to += 2 * OF_NODES * nodes;
+  memcpy(to, from, OF_STATIONS * nodes * sizeof *to);
+  for (size_t i = 0; i < nodes; i++)
+    to[i] = 2 * from[i]; /* the gap */
 }
 
 ZpShapes *zp_shapes_mirrored(const ZpShapes *half) {

@@ -435,7 +435,7 @@ export class Picture {
   /** The opening, beside the platforms. */
   #opening(scene, to) {
     const context = this.#context, x = to.x(scene.geometry.openingAt), top = to.y(0), bottom = to.y(-scene.opening);
-    if (bottom - top < 26) return;
+    if (!(bottom - top >= 26)) return; // a kind without an opening has none
     context.strokeStyle = context.fillStyle = theme.colour.ink;
     context.lineWidth = 1;
     context.beginPath();
