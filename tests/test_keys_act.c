@@ -21,8 +21,10 @@
 #define YIELDS "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 mesh.nodes=81"
 /* a light strip, mostly of tape, whose swings a damper ends */
 #define CREEPS                                                                                                         \
-  "study=actuate actuator.kind=ribbon actuator.right_end=free ribbon.length=30mm ribbon.density=10 ribbon.young_modulus=1MPa ribbon.thickness=1um " \
-  "insulator.young_modulus=1GPa load.mass=20mg mesh.nodes=11 initial.state=straight damping.internal=5ms solver.end_time=1s"
+  "study=actuate actuator.kind=ribbon actuator.right_end=free ribbon.length=30mm ribbon.density=10 "                   \
+  "ribbon.young_modulus=1MPa ribbon.thickness=1um "                                                                    \
+  "insulator.young_modulus=1GPa load.mass=20mg mesh.nodes=11 initial.state=straight damping.internal=5ms "             \
+  "solver.end_time=1s"
 #define CANTILEVER                                                                                                     \
   "study=stationary actuator.kind=ribbon actuator.right_end=free ribbon.density=0 load.mass=2mg mesh.nodes=21"
 

@@ -203,8 +203,8 @@ size_t zp_statics_front(const ZpStatics *statics);
 /* Do electrodes without an insulator touch at the present voltage? */
 bool zp_statics_shorted(const ZpStatics *statics);
 
-/* u' K u of a branch of layers that creep, of a motion u [n] about the last state, while nothing has relaxed, N m: of the
- * metal (0) or the tapes (1) of all members. */
+/* u' K u of a branch of layers that creep, of a motion u [n] about the last state, while nothing has relaxed, N m: of
+ * the metal (0) or the tapes (1) of all members. */
 double zp_statics_relaxing_along(ZpStatics *statics, const double *u, size_t branch);
 
 /* Moving masses by equations => mass [n], kg. */
