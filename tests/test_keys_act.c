@@ -138,7 +138,7 @@
 
 /* A bare plate; one that creeps through a viscous film without mass. */
 #define PLATE "actuator.kind=plate medium.permittivity=1"
-#define CREEPS                                                                                                         \
+#define PLATE_CREEPS                                                                                                   \
   PLATE " study=actuate liquid.model=submerged plate.mass=1e-9kg medium.density=1000 liquid.inertia=false "            \
         "solver.end_time=10s solver.stop_when_zipped=true"
 
