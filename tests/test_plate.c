@@ -305,6 +305,17 @@ TESTS(derivatives, 0, (int)LENGTH_OF(keys)) {
   }
 }
 
+/* -- defaults -------------------------------------------------------------------------------------- */
+
+TEST(small_gaps_have_no_cap) {
+  const ZpActuatorDef small = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 10e-6}),
+                      wide = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 30e-6}),
+                      given = DEF({"actuator.kind", ZP_KIND_FLANGE}, {"electro.gap_offset", 10e-6},
+                                  {"electro.breakdown_cap", true});
+  ck_assert(!small.electro.breakdown_cap && wide.electro.breakdown_cap && given.electro.breakdown_cap);
+  ck_near(zp_def_roughness(&small), 1e-7, 1e-15); /* 1e-16 measured */
+}
+
 /* -- what is refused ------------------------------------------------------------------------------- */
 
 TEST(stops_beyond_electrodes_are_refused) {
