@@ -271,7 +271,7 @@ def rows_of(repo, files):
         if not (name.startswith("src/") and name.endswith(".c")):
             continue
         text = read(repo, name)
-        for row in re.findall(r"= ?ZP_(?:STORED|LOST|LOST_BY_SOURCE)\(\s*(\w+),", re.sub(r"\s+", " ", text)):
+        for row in re.findall(r"= ?ZP_(?:STORED|LOST|GAVE|LOST_BY_SOURCE)\(\s*(\w+),", re.sub(r"\s+", " ", text)):
             rows[row] = ("J", "_J", name)
         for row in re.findall(r'= ?ZP_SHOWN\(\s*(\w+), "([^"]*)", "([^"]*)"', re.sub(r"\s+", " ", text)):
             rows[row[0]] = (row[1], row[2], name)

@@ -221,10 +221,14 @@ ALSO_NIGHTLY(bending_and_wedge, 1, 3)
 static double lost_volume(const ZpActuatorDef *def, const ZpResult *result) {
   const ZpModel *model = model_of(def);
   const ZpShape shape = zp_shapes_get(result->shapes, zp_shapes_frames(result->shapes) - 1);
-  double h[MOST_NODES];
-  for (size_t i = 0; i < model->nodes; i++)
-    h[i] = -shape.y[i];
-  return zp_pouch_volume(&model->pouch, model->nodes, shape.x, h) / model->pouch.volume - 1;
+  const size_t films = zp_shapes_ribbons(result->shapes);
+  double x[MOST_NODES], h[MOST_NODES];
+  ck_assert_uint_eq(films, 2);
+  for (size_t i = 0; i < model->nodes; i++) {
+    x[i] = shape.x[films * i];
+    h[i] = 0.5 * fabs(shape.y[films * i + 1] - shape.y[films * i]);
+  }
+  return zp_pouch_volume(&model->pouch, model->nodes, x, h) / model->pouch.volume - 1;
 }
 
 TESTS(volume_is_kept, 0, 3) {

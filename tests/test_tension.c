@@ -112,7 +112,7 @@ TEST(tension_needs_two_clamps) {
   def.actuator.right_end = ZP_END_GUIDED;
   ck_refused(&def, "an end that moves does not hold the tension of the strip");
   pair.ribbon.tension = 1;
-  ck_refused(&pair, "ribbon.tension = 1 N: requires actuator.kind ribbon or flange");
+  ck_refused(&pair, "ribbon.tension = 1 N: requires actuator.kind ribbon, flange or curved");
   springs.ribbon.model = ZP_RIBBON_MASS_SPRING;
   ck_refused(&springs, "ribbon.model rod");
   strong.ribbon.thickness = 10e-6, strong.ribbon.tension = 1e4;

@@ -155,8 +155,8 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
 static const ZpRule rule[] = {
     ZP_RULE(EQUATION, ZP_IS(ribbon.plane, ZP_PLANE_ANTICLASTIC), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
             "the paper's springs have one bending stiffness"),
-    ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_LACKS(PAIR),
-            "clips, platforms and free ends do not hold the tension of two ribbons"),
+    ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_LACKS(ENDS),
+            "clips, platforms and free ends do not hold the tension of two ribbons or films"),
     ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_IS(actuator.right_end, ZP_END_CLAMPED),
             "an end that moves does not hold the tension of the strip"),
     ZP_RULE(EQUATION, ZP_ABOVE(ribbon.tension, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
