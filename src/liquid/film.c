@@ -24,6 +24,8 @@ void zp_film_modes(ZpFilmParams *p, bool lateral_flow) {
   p->kappa2[0] = lateral_flow ? pi2 / w2 : 0;
   p->kappa2[1] = lateral_flow ? others / w2 : 0;
   p->outlet = !lateral_flow;
+  p->vent[0] = p->platform;
+  p->vent[1] = p->platform_end;
   p->breadth = p->w;
 }
 

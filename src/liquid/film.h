@@ -48,7 +48,7 @@ typedef struct ZpFilmParams {
   size_t vent[2];                /* from the first of these stations to the other */
 } ZpFilmParams;
 
-/* Both modes of a strip of that width; without lateral flow one mode, and an outlet at the platform. */
+/* Both modes of a strip of that width; without lateral flow one mode, and a vent at the platform. */
 void zp_film_modes(ZpFilmParams *params, bool lateral_flow);
 
 /* Both modes of a level plate of that width and of this length, m, that is open all around, or without lateral flow at
