@@ -1,12 +1,15 @@
-#picture pressure.svg one motion >pressure_Pa stroke_m
+#picture pressure.svg one motion >pressure_Pa strain
 # Strain of a pouch, and pressure of its liquid.
 title = 'Strain of the pouch and pressure of its liquid over time'
 load 'note.gp'
 load 'over_time.gp'
 load 'upper_panel.gp'
-set ylabel 'strain / %' offset 0.5
-set ytics step(100*span('stroke_m')/(pouch_count*ribbon_length), 5)
-plot '../table.csv' using (column('time_s')*time):(100*column('stroke_m')/(pouch_count*ribbon_length)) with lines lw 2 lc rgb colour(1) title 'strain'
+list = 'strain'
+titles = 'strain'
+quantity = 'strain'
+si = '%'
+sized = list
+load 'curves.gp'
 load 'lower_panel.gp'
 from_zero = 1
 list = 'pressure_Pa'

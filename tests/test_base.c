@@ -421,7 +421,7 @@ TEST(test_key_unknown) {
       {"buoyancy", "buoyancy of the load is not modelled; subtract it from load.mass"},
       {"electrolysis", "electrolysis is not modelled"},
       {"insulator.viscosity", "unknown key; insulator has material, thickness, permittivity, density, young_modulus, "
-                              "breakdown_field, resistivity"},
+                              "breakdown_field, relaxation_modulus, relaxation_time, resistivity"},
       {"oil.colour",
        "unknown key; medium has material, permittivity, breakdown_field, kinematic_viscosity, density, mean_free_path, "
        "surface_tension, drag_coefficient, resistivity"},
@@ -435,7 +435,7 @@ TEST(test_key_unknown) {
       {"wire.resistance", "unknown key; did you mean source.resistance?"},
       {"electrode",
        "unknown key; ribbon has material, length, width, thickness, young_modulus, poisson_ratio, density, "
-       "yield_stress, plasticity, hardening_modulus, plane, model"},
+       "yield_stress, plasticity, hardening_modulus, tension, relaxation_modulus, relaxation_time, plane, model"},
   };
   char text[256];
   for (size_t i = 0; i < LENGTH_OF(pairs); i++) {

@@ -53,10 +53,8 @@ static void summarize_actuator(ZpSim *sim, ZpStop stop, ZpResult *result) {
   zp_result_add(result, "energy_error", "1", energy_error(sim, result));
 }
 
-/* Of a pouch, as studies of equilibria tell them. */
-static void summarize_pouch(ZpSim *sim, const ZpModel *model, ZpResult *result) {
-  const double length = (double)model->in_series * model->pouch.length;
-  zp_result_add(result, "strain", "1", zp_at_end(sim, result, "stroke") / length);
+/* Of a pouch; its law adds strain and pressure. */
+static void summarize_pouch(ZpSim *sim, ZpResult *result) {
   zp_result_add(result, "contraction", "1", zp_at_end(sim, result, "contraction"));
   zp_result_add(result, "zipped_length_m", "m", zp_at_end(sim, result, "zipped_length"));
 }
@@ -318,7 +316,7 @@ static void summarize(ZpSim *sim, const ZpModel *model, ZpStop stop, const ZpRun
     summarize_actuator(sim, stop, result);
   else if (model->driven.places > 0)
     zp_result_add(result, "energy_error", "1", energy_error(sim, result));
-  if (model->pouch.w > 0) summarize_pouch(sim, model, result);
+  if (model->pouch.w > 0) summarize_pouch(sim, result);
   if (model->has_film) add_at_end(sim, result, of_film);
   if (model->leaks) add_at_end(sim, result, of_leak);
   if (model->rod.plastic) add_at_end(sim, result, of_yielding);
