@@ -32,7 +32,7 @@ void front_destroy(Front *f) {
 
 void front_open(Front *f, bool left) {
   f->opens_left = left;
-  f->film.platform = f->film.platform_end = left ? 0 : STATIONS - 1;
+  f->film.platform = f->film.platform_end = f->film.vent[0] = f->film.vent[1] = left ? 0 : STATIONS - 1;
 }
 
 static double *entry(Front *f, size_t i, int a, size_t j, int b) {

@@ -18,9 +18,12 @@ if (same_scale) {
 }
 stroke = number('stroke_m')
 if (stroke == stroke) set label 5 sprintf('stroke %.4g %s', stroke*length, length_unit) at screen 0.985, 1 - px(39.9) right font ',12' tc rgb '#555555'
+film_dash(k) = hanging ? 1 : dash(k)
+film_colour(k) = colour(hanging ? 1 : k)
+film_title(k) = hanging ? (k == 1 ? 'films' : '') : word('upper lower', k)
 if (ribbons > 1) {
-  plot for [k=1:ribbons] 'shapes.dat' index 0 using (ribbon_x(k)*length):(ribbon_y(k)*length) with lines lw 2.5 dt (hanging ? 1 : dash(k)) lc rgb colour(hanging ? 1 : k) \
-       title hanging ? (k == 1 ? 'films' : '') : word('upper lower', k), \
+  plot for [k=1:ribbons] 'shapes.dat' index 0 using (ribbon_x(k)*length):(ribbon_y(k)*length) with lines lw 2.5 dt film_dash(k) lc rgb film_colour(k) \
+       title film_title(k), \
        for [k=1:hanging*ribbons] 'shapes.dat' index 0 using (ribbon_x(k)*length):(electrode_y(k)*length) with lines lw 5 lc rgb '#55626d' \
        title (k == 1 ? 'electrodes' : '')
 } else {

@@ -656,7 +656,8 @@ TEST(test_attraction_and_film_along_the_ribbon) {
   for (size_t i = 0; i + 1 < model->nodes; i++) {
     bool wet = (double)i * model->l <= reach;
     sum += 0.5 * model->l * (shape.line_force[i] + shape.line_force[i + 1]);
-    ck_assert(wet ? liquid.thickness[i] >= zp_def_roughness(&def) : liquid.thickness[i] == 0 && liquid.pressure[i] == 0);
+    ck_assert(wet ? liquid.thickness[i] >= zp_def_roughness(&def)
+                  : liquid.thickness[i] == 0 && liquid.pressure[i] == 0);
     if (wet) ck_near(liquid.pressure[i], sim->dynamics.member->eval.film.head[i], 1e-12); /* 0 measured */
     most = fmax(most, liquid.pressure[i]);
   }

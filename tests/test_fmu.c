@@ -114,7 +114,7 @@ static void expect_parameter(const Fmu *fmu, const char *name, double start) {
  * values, with their numbers for 1. */
 static const Unit units[] = {{"V", true, {1, 2, -3, -1}, 1, {{"kV", 1e-3}}},
                              {"N", true, {1, 1, -2, 0}, 1, {{"mN", 1e3}}},
-                             {"m", true, {0, 1, 0, 0}, 2, {{"mm", 1e3}, {"um", 1e6}}},
+                             {"m", true, {0, 1, 0, 0}, 3, {{"mm", 1e3}, {"um", 1e6}, {"nm", 1e9}}},
                              {"m/s", true, {0, 1, -1, 0}, 0, {{"", 0}}},
                              {"C", true, {0, 0, 1, 1}, 0, {{"", 0}}},
                              {"F", true, {-1, -2, 4, 2}, 1, {{"pF", 1e12}}},

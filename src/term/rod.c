@@ -159,6 +159,8 @@ static const ZpRule rule[] = {
             "clips, platforms and free ends do not hold the tension of two ribbons or films"),
     ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.tension, 0), ZP_IS(actuator.right_end, ZP_END_CLAMPED),
             "an end that moves does not hold the tension of the strip"),
+    ZP_RULE(NOT_MODELLED, ZP_ABOVE(ribbon.tension, 0), ZP_IS(ribbon.plasticity, false),
+            "the fibres of a strip that yields begin without tension"),
     ZP_RULE(EQUATION, ZP_ABOVE(ribbon.tension, 0), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
             "the paper's springs have their lengths while nothing loads them"),
     ZP_RULE(PHYSICS, ZP_ABOVE(ribbon.hardening_modulus, 0), ZP_IS(ribbon.plasticity, true),
