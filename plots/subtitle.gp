@@ -12,7 +12,7 @@ _under(s) = s eq 'stationary' || s eq 'modes' ? _told("load ", 'load.mass') \
           : s eq 'isometric' ? (actuator_kind eq 'pouch' ? _told('held at a strain of ', 'isometric.strain') : _told('held at ', 'isometric.separation'))._told(_up_to, 'drive.voltage') \
           : s eq 'profile' ? _told('opening ', 'isometric.separation')._told('', 'drive.voltage')._told('shape ', 'profile.shape') : ''
 _network = exists('bodies_named') ? sprintf('%d %s, %d %s, ', words(bodies_named), words(bodies_named) == 1 ? 'body' : 'bodies', words(members_named), words(members_named) == 1 ? 'member' : 'members') : ''
-_pouches = actuator_kind eq 'pouch' && pouch_count > 1 ? sprintf('one of %d pouches, ', pouch_count) : ''
+_pouches = !exists('actuator_kind') ? '' : actuator_kind eq 'pouch' && pouch_count > 1 ? sprintf('one of %d pouches, ', pouch_count) : ''
 _all(s) = _pouches._network._under(s).(s eq 'profile' && profile_shape ne 'held' ? '' : (actuator_kind eq 'plate' ? '' : _told('N = ', 'mesh.nodes'))).(preset eq 'none' ? '' : _told('preset ', 'preset'))
 _short(s) = s[1:strlen(s) - 2]
 if (!exists('subtitle')) subtitle = _short(_all(study))
