@@ -495,6 +495,45 @@ def retention_table(runs):
     return table(["film", "voltage", "cycles 6 to 10", "cycle 50", "left", "computed, 3.4·10¹³ Ω m", "error", "8.8·10¹² Ω m", "error"], rows)
 
 
+def pouch_strain(curve, voltage):
+    """Strain of a followed branch at a voltage, over that without."""
+    for (a, s), (b, t) in zip(curve, curve[1:]):
+        if a <= voltage <= b:
+            return s + (t - s) * (voltage - a) / (b - a) - curve[0][1]
+    return None
+
+
+def pouch_strokes(runs):
+    """Rows of the measurement, each with the displacement above the lowest one of its load and the computed one, mm; and
+    the two numbers fitted to 133 g: adhesion over that of the scenario, and length of all films, mm."""
+    loads = {}
+    for row in published("pouch-strokes"):
+        loads.setdefault(row["load_g"], []).append(row)
+    curves = {load: [(row["voltage_V"], row["strain"]) for row in runs.rows("pouch-strokes", {"load.mass": f"{load:g} g"}) if row["branch"] == 0]
+              for load in loads}
+    rises = {load: [row["displacement_mm"] - min(r["displacement_mm"] for r in rows) for row in rows] for load, rows in loads.items()}
+
+    def strains(load, scale):
+        return [pouch_strain(curves[load], 1e3 * scale * row["voltage_kV"]) for row in loads[load]]
+
+    def fit(scale):  # of all voltages: adhesion goes with their square
+        model, seen = strains(133, scale), rises[133]
+        length = sum(m * y for m, y in zip(model, seen)) / sum(m * m for m in model)
+        return sum((length * m - y) ** 2 for m, y in zip(model, seen)), length
+
+    scale = min((k / 1000 for k in range(200, 1500)), key=lambda k: fit(k)[0])
+    length = fit(scale)[1]
+    return [(row, rise, length * strain) for load, rows in loads.items() for row, rise, strain in zip(rows, rises[load], strains(load, scale))], scale**2, length
+
+
+def pouch_strokes_table(runs):
+    rows, adhesion, length = pouch_strokes(runs)
+    lines = [[f"{row['load_g']:g} g", f"{row['voltage_kV']:g} kV", f"{seen:.3f} mm", f"{found:.3f} mm", f"{found - seen:+.3f} mm".replace("-", "−"),
+              "fitted" if row["load_g"] == 133 else "predicted"] for row, seen, found in rows]
+    return (table(["load", "voltage", "measured", "computed", "difference", ""], lines) +
+            f"\n\nFitted: {adhesion:.3f} of the adhesion of the scenario, and films of {length:.0f} mm in all.")
+
+
 def retention_curves(runs):
     found = retention(runs)
     curves = {f"{film} µm, measured": [(row["voltage_kV"], left) for row, left, _, _ in found if row["film_um"] == film] for film in (15, 18)}
@@ -543,6 +582,7 @@ def slow_sections(runs):
     yield "zip-band", zip_band(runs)
     yield "bead-volume", bead_volumes(runs)
     yield "charge-retention", retention_table(runs)
+    yield "pouch-strokes", pouch_strokes_table(runs)
     yield from validity_comb.Comparison(runs).sections(table)
 
 
