@@ -745,6 +745,7 @@ static ZpStatus check_pouch(const ZpActuatorDef *def, ZpError *err) {
   static const double longest = 0.95;
   const double length = def->ribbon.length, open = length - def->pouch.electrode_length;
   const double most = length * length / (open * open); /* a circle */
+  const double upright = 1.5707963267948966 * (1 + 1e-12);
   if (!zp_def_has(def, ZP_DEVICE_POUCH))
     return isnan(def->insulator.thickness)
                ? zp_fail(err, ZP_BAD_INPUT,
@@ -756,6 +757,11 @@ static ZpStatus check_pouch(const ZpActuatorDef *def, ZpError *err) {
                    "pouch.electrode_length = %g m: the electrodes leave no room for the liquid; at most %g of "
                    "ribbon.length = %g m",
                    def->pouch.electrode_length, longest, length);
+  if (def->load.force + def->load.mass * def->gravity < 0 || fabs(def->mount.tilt) > upright)
+    return zp_fail(err, ZP_BAD_INPUT,
+                   "%s: films do not bear a load that pushes; give a load that pulls, and mount.tilt from -90 to 90 "
+                   "degree",
+                   fabs(def->mount.tilt) > upright ? "mount.tilt" : "load.force");
   if (def->pouch.fill > most)
     return zp_fail(err, ZP_BAD_INPUT,
                    "pouch.fill = %g: the films cannot hold that much liquid; at most %g, a pouch that is round",

@@ -45,6 +45,8 @@ static const ZpRule rule[] = {
             "the liquid beside the edges of a sealed pouch is not known"),
     ZP_RULE_IF(NOT_MODELLED, ZP_HAS(POUCH), ZP_SET(load.change_mass), ZP_AT_MOST(pouch.count, 1),
                "an impact on several pouches in series sends a wave through them"),
+    ZP_RULE_IF(NOT_MODELLED, ZP_HAS(POUCH), ZP_NETWORK, ZP_NEVER,
+               "members pull across their ribbons; several pouches in series are pouch.count"),
     ZP_MOTION_RULE(NOT_MODELLED, ZP_HAS(POUCH), ZP_IS(solver.integrator, ZP_INTEGRATOR_IMPLICIT),
                    "the volume is kept by implicit steps"),
 };

@@ -226,12 +226,14 @@ static const char *const of_film[] =
                          *const of_catch[] = {"catch_loss", NULL},
                          *const of_bead[] = {"meniscus_loss", "wet_length", "bead_outside", "bead_lost", NULL};
 
-/* Losses and signals of laws that signals.def does not list. */
+/* Losses and signals of laws that signals.def does not list, but for what has stayed 0. */
 static void summarize_laws(ZpSim *sim, ZpResult *result) {
   size_t count;
   const ZpColumn *column = zp_signal_columns(&count);
-  for (size_t k = 0; zp_sim_next_row(sim, &k);)
-    zp_result_add(result, column[k].name, column[k].unit, zp_at_end(sim, result, zp_signal_name(k)));
+  for (size_t k = 0; zp_sim_next_row(sim, &k);) {
+    const double value = zp_at_end(sim, result, zp_signal_name(k));
+    if (value != 0) zp_result_add(result, column[k].name, column[k].unit, value);
+  }
 }
 
 /* A number of the last row for a member or a body: "#.opening_m". */
