@@ -759,8 +759,8 @@ static ZpStatus check_pouch(const ZpActuatorDef *def, ZpError *err) {
                    def->pouch.electrode_length, longest, length);
   if (def->load.force + def->load.mass * def->gravity < 0 || fabs(def->mount.tilt) > upright)
     return zp_fail(err, ZP_BAD_INPUT,
-                   "%s: films do not bear a load that pushes; give a load that pulls, and mount.tilt from -90 to 90 "
-                   "degree",
+                   "%s: the films of actuator.kind = pouch do not bear a load that pushes; give a load that pulls, and "
+                   "mount.tilt from -90 to 90 degree",
                    fabs(def->mount.tilt) > upright ? "mount.tilt" : "load.force");
   if (def->pouch.fill > most)
     return zp_fail(err, ZP_BAD_INPUT,
