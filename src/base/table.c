@@ -211,13 +211,11 @@ static void mirror_frame(size_t nodes, const double *from, double *to) {
   memcpy(to, from, FRAME_HEAD * sizeof *to);
   from += FRAME_HEAD;
   to += FRAME_HEAD;
-  for (size_t k = 0; k < OF_NODES * nodes; k++) {
-    const bool height = k / nodes == 1;
-    to[2 * k] = height ? 0 - from[k] : from[k];
-    to[2 * k + 1] = from[k];
-  }
-  from += OF_NODES * nodes;
-  to += 2 * OF_NODES * nodes;
+  for (size_t number = 0; number < OF_NODES; number++, from += nodes, to += 2 * nodes)
+    for (size_t i = 0; i < nodes; i++) {
+      to[2 * i] = number == 1 ? 0 - from[i] : from[i]; /* the height */
+      to[2 * i + 1] = from[i];
+    }
   memcpy(to, from, OF_STATIONS * nodes * sizeof *to);
   for (size_t i = 0; i < nodes; i++)
     to[i] = 2 * from[i]; /* the gap */

@@ -75,13 +75,13 @@ static void record_shape(Problem *p, size_t frame, const double *u) {
  * strains of springs. => the eigenvalue that vibrates; 0 if none does. */
 static ZpEigenvalue creeping_rate(double omega2, const double stiffness[ZP_BRANCHES], const double time[ZP_BRANCHES]) {
   enum { X, V, SPRINGS, N = SPRINGS + ZP_BRANCHES };
-  double a[N * N] = {0}, work[N];
+  double a[N * N] = {0}, work[N], *const row[] = {a + X, a + N};
   ZpEigenvalue value[N], found = {0, 0};
-  a[X * N + V] = 1;
-  a[V * N + X] = -omega2;
+  row[X][V] = 1;
+  row[V][X] = -omega2;
   for (size_t b = 0; b < ZP_BRANCHES; b++) {
     const size_t spring = SPRINGS + b;
-    a[V * N + spring] = -stiffness[b];
+    row[V][spring] = -stiffness[b];
     a[spring * N + spring] = -1 / time[b];
     if (stiffness[b] > 0) a[spring * N + V] = 1;
   }

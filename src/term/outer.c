@@ -65,7 +65,7 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
     Faces of = faces_over(model, span, i);
     double push[2] = {0, 0};
     if (of.count == 2) push_pair(model, span, &of, e->plates_start.gap[i], e->plates.gap[i], push);
-    for (size_t k = 0; k < of.count; k++)
+    for (size_t k = 0; k < 2 && k < of.count; k++)
       Fy[of.node[k]] += push[k] + drag(model, of.length, of.rate[k]);
   }
 }
