@@ -95,7 +95,7 @@ def choices():
 
 def keywords():
     """The text of zipact/keywords.py."""
-    types = {"REAL": "Number", "REAL_AUTO": "Number", "REAL_NONE": "Number", "INT": "int", "BOOL": "bool", "TEXT": "str"}
+    types = {"REAL": "Number", "REAL_AUTO": "Number", "REAL_OR_AUTO": "Number", "REAL_NONE": "Number", "INT": "int", "BOOL": "bool", "TEXT": "str"}
     words = choices()
     lines = [
         '"""Every key of an actuator as a keyword; made from keys.def by setup.py."""',
@@ -108,7 +108,7 @@ def keywords():
         "class Keywords(TypedDict, total=False):",
         '    """Keys, the dot written as two underscores."""',
     ]
-    for kind, given in arguments("src/def/keys.def", "REAL|REAL_AS|REAL_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
+    for kind, given in arguments("src/def/keys.def", "REAL|REAL_AS|REAL_AUTO|REAL_OR_AUTO|REAL_NONE|INT|BOOL|ENUM|TEXT|OF_SCENARIO"):
         if kind == "OF_SCENARIO":  # a choice key without a group
             kind, given = "ENUM", ["", *given]
         if kind == "REAL_AS":  # the field has another name

@@ -19,6 +19,9 @@ def rows(text):
         found = re.fullmatch(r"ZP_(\w+)\((.*)\)", line)
         if not found:
             return
+        if found.group(1) == "MANY":  # a group, and its rows
+            yield from expand(found.group(2).split(", ", 1)[1])
+            return
         given = arguments_of(found.group(2))
         if "ZP_" + found.group(1) not in macros:
             yield found.group(1), [re.sub(r'"\s+"', "", argument) for argument in given]

@@ -250,7 +250,7 @@ def keys_of(repo):
     for number, kind, given in keys_table.rows(read(repo, "src/def/keys.def")):
         if kind == "OF_SCENARIO":
             yield given[0], number
-        elif kind in ("REAL", "REAL_AS", "REAL_AUTO", "REAL_NONE", "INT", "BOOL", "ENUM", "TEXT"):
+        elif kind in ("REAL", "REAL_AS", "REAL_AUTO", "REAL_OR_AUTO", "REAL_NONE", "INT", "BOOL", "ENUM", "TEXT"):
             yield given[0] + given[2 if kind == "REAL_AS" else 1], number
 
 

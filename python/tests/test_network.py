@@ -352,7 +352,7 @@ def test_signals_of_a_stack():
         (lambda s: s.set_input("a.voltage", 1.0), "a.voltage: unknown input; did you mean b.voltage?"),
         (lambda s: s.set_input("load", 1.0), "load: the network has no such input; name the member or the body"),
         (lambda s: s.set_input("wrist.force_y", 1e5), "wrist.force_y = 100000 is out of range; -10000 to 10000"),
-        (lambda s: s.set_input("b.voltage", -1.0), "drive.voltage = -1 V: out of range"),
+        (lambda s: s.set_input("b.voltage", -1.0), "drive.voltage = -1 V: must be at least 0 V"),
         (lambda s: s.set_input("b.voltage", "3 mm"), 'b.voltage = "3 mm": not a voltage'),
         (lambda s: s.set_input("c.setpoint", "3 mm"), "c.setpoint: takes a number"),
         (lambda s: s.set_input("wrist.force_y", None), "wrist.force_y: takes a number"),
