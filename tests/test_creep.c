@@ -70,7 +70,7 @@ TEST(branch_is_that_of_its_layer) {
   ZpMaxwell branch = zp_maxwell(&layer, below, w, true, 1);
   ck_near(branch.EA, sum[0], 1e-12);
   ck_near(branch.ES, sum[1], 1e-12);
-  ck_near(branch.EI, sum[2], 3e-8);
+  ck_near(branch.EI, sum[2], 3e-9);
 }
 
 /* Tapes lie below the upper strip, above the lower one, and above a flange, which faces up. */
@@ -201,7 +201,7 @@ TESTS(strip_of_two_layers_rings_down, 0, LENGTH_OF(relaxing_times)) {
   double period, decrement = decrement_of(answer_of(ZP_STUDY_ACTUATE, &def), 20, 16, &period);
   printf("decrement %.5f, closed form %.5f; period %.4f ms, %.4f ms\n", decrement, -2 * zp_pi * creal(s) / cimag(s),
          1e3 * period, 2e3 * zp_pi / cimag(s));
-  ck_near(decrement, -2 * zp_pi * creal(s) / cimag(s), 4e-3);
+  ck_near(decrement, -2 * zp_pi * creal(s) / cimag(s), 2.6e-3);
   ck_near(period, 2 * zp_pi / cimag(s), 3e-3);
 }
 
@@ -251,7 +251,7 @@ TEST(small_decrement_is_that_of_the_loss_factor) {
     s = cimag(next) > 0 ? next : -next;
   }
   ck_below(factor, 0.02);
-  ck_near(-2 * zp_pi * creal(s) / cimag(s), zp_pi * factor, 1.5e-2);
+  ck_near(-2 * zp_pi * creal(s) / cimag(s), zp_pi * factor, 1.4e-2);
 }
 
 /* -- energy, order, state --------------------------------------------------------------------------- */
@@ -303,7 +303,7 @@ static double swung(double step) {
 
 TEST(steps_are_of_second_order) {
   double a = swung(1e-4), b = swung(5e-5), c = swung(2.5e-5);
-  ck_near(log2((a - b) / (b - c)), 2, 2e-4);
+  ck_near(log2((a - b) / (b - c)), 2, 1.4e-4);
 }
 
 TEST(run_goes_on_from_a_snapshot) {

@@ -80,7 +80,7 @@ TEST(closed_law_is_virtual_work) {
   const double a = 40 * degree, d = 1e-4;
   double rate =
       (capacitance_at(law, a + d) - capacitance_at(law, a - d)) / (length_at(law, a + d) - length_at(law, a - d));
-  ck_near(-0.5 * law->U * law->U * rate, force_at(law, a), 1e-7);
+  ck_near(-0.5 * law->U * law->U * rate, force_at(law, a), 4.5e-8);
 }
 
 /* -- what bending and the wedge add ---------------------------------------------------------------- */
@@ -191,7 +191,7 @@ TEST(corrections_vanish) {
     Film film = {published, stiffness_of(&published, 1e-6, a), 1};
     film.law.t *= thinner;
     film.law.U *= sqrt(thinner);
-    ck_near(strain_under(&film, force_at(&published, a)), strain_at(&published, a), 1e-3);
+    ck_near(strain_under(&film, force_at(&published, a)), strain_at(&published, a), 1.7e-4);
   }
 }
 
@@ -205,6 +205,10 @@ TESTS(bending_and_wedge, 0, 1) {
   const double stretch = F / (2 * def.ribbon.young_modulus * def.ribbon.thickness * def.ribbon.width);
   const State state = under_load(&film, F);
   const double misses = state.strain + stretch - closed, expected = strain_under(&film, F) - closed;
+  printf("%g degree, bends over %g %%, liquid %g: strain %.3f %%, without stretch %.3f %%, closed law %.3f %%, "
+         "explained %.0f %%\n",
+         of[_i].angle, 100 * of[_i].part, of[_i].eps_m, 100 * state.strain, 100 * (state.strain + stretch),
+         100 * closed, 100 * expected / misses);
   ck_near(misses, expected, 0.15);
   ck_near(state.strain, closed, 0.1);
 }
@@ -237,7 +241,7 @@ TEST(volume_is_kept) {
   zp_rest_close(&rest);
   ZpSim *sim = sim_of(model);
   run_to(sim, 3e-3);
-  ck_assert_double_eq_tol(lost_volume(model, zp_state_q(model, sim->state)), 0, 1e-9);
+  ck_assert_double_eq_tol(lost_volume(model, zp_state_q(model, sim->state)), 0, 4e-12);
 }
 
 /* In oil and without liquid, of one and of several in series, behind a supply. */
@@ -252,7 +256,7 @@ TESTS(energy_is_kept, 0, 4) {
     worst = fmax(worst, fabs(zp_table_get(result->series, k, "energy_imbalance_J")));
     work = fmax(work, zp_table_get(result->series, k, "electric_work_J"));
   }
-  ck_below(worst / work, _i == 1 ? 5e-7 : 1e-8); /* 1.6e-7; 4e-10 measured */
+  ck_below(worst / work, _i == 1 ? 4.8e-7 : 1.2e-9); /* 1.6e-7; 4e-10 measured */
 }
 
 /* Five have one strain, one force, and five times the stroke and the capacitance. */
@@ -275,7 +279,7 @@ TEST(several_move_as_one) {
   five.pouch.count = 5;
   one.load.mass = 5 * five.load.mass;
   ck_near(answered_value(ZP_STUDY_ACTUATE, &five, "stroke_m"), 5 * answered_value(ZP_STUDY_ACTUATE, &one, "stroke_m"),
-          1e-9);
+          2.8e-14);
 }
 
 /* Without a load a soft film contracts until the electrodes are closed; where its ends are held it pulls with the
@@ -284,7 +288,7 @@ TEST(free_strain_and_blocking_force) {
   ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_POUCH}, {"load.mass", 0}, {"gravity", 0}, {"drive.voltage", 8e3},
                           {"ribbon.thickness", 4e-6}, {"insulator.thickness", 18e-6});
   ZpResult *result = study_of(ZP_STUDY_EQUILIBRIUM, &def);
-  ck_near(zp_table_get(result->series, result->series->rows - 1, "strain"), strain_at(&published, 90 * degree), 0.1);
+  ck_near(zp_table_get(result->series, result->series->rows - 1, "strain"), strain_at(&published, 90 * degree), 0.09);
   const double blocked = force_at(&published, zp_pouch_angle(published.Lp, area_of(&published)));
   const double force = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N");
   ck_below(force, blocked);
@@ -329,7 +333,7 @@ TESTS(force_by_keys, 0, 4) {
     ck_assert_int_eq(zp_def_set(&def, key, value + (k ? by : -by), NULL), ZP_OK);
     force[k] = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N");
   }
-  ck_near(rate, (force[1] - force[0]) / (2 * by), 1e-4);
+  ck_near(rate, (force[1] - force[0]) / (2 * by), 6e-6);
 }
 
 /* -- wrong input ----------------------------------------------------------------------------------- */
@@ -386,6 +390,6 @@ TEST(stiffness_is_the_derivative_of_forces) {
       largest = fmax(largest, fabs(difference));
     }
   }
-  ck_below(worst / largest, 1e-8);
+  ck_below(worst / largest, 6e-9);
   zp_rest_close(&rest);
 }

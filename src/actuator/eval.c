@@ -10,6 +10,11 @@ static void reserve_natural(const ZpModel *model, ZpNatural *n, ZpArena *arena) 
   n->kappa[ZP_NATURAL_START] = zp_arena_take(arena, model->driven.places);
   n->rate = zp_arena_take(arena, model->driven.places);
   n->by = zp_arena_take(arena, model->stride);
+  double **const edges[] = {&n->Rx, &n->Ry};
+  for (size_t k = 0; k < 2; k++) {
+    double *array = zp_arena_take(arena, ZP_LANES + model->stride);
+    *edges[k] = array ? array + ZP_LANES : NULL;
+  }
   for (size_t k = 0; k < ZP_NATURAL_PLACES; k++)
     n->k0[k] = zp_arena_take(arena, model->stride);
 }

@@ -30,6 +30,7 @@ typedef struct ZpNatural {
   double *k0[ZP_NATURAL_PLACES];    /* [stride] that of joints */
   double *rate;                     /* [driven segments] derivative of kappa at the end by the voltage there */
   double *by;                       /* [stride] that of k0 */
+  double *Rx, *Ry;                  /* [stride], after an edge more, that of forces of edges, N/V */
 } ZpNatural;
 
 /* Work space of the terms, of the start and the end of a span; at rest and at an instant only of its end. */

@@ -302,10 +302,15 @@ static inline double zp_load_share(const ZpModel *model) {
   return (double)zp_halves(&model->topology) * zp_end_share(model);
 }
 
+/* Parts that bear the load side by side. */
+static inline double zp_parts_abreast(const ZpModel *model) {
+  return model->parts / (double)model->in_series;
+}
+
 /* Force of the whole actuator's load downwards, N: load.force and the part of its weight that acts downwards. */
 static inline double zp_load_pull(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  return model->parts / (double)model->in_series * zp_load_share(model) *
+  return zp_parts_abreast(model) * zp_load_share(model) *
          (def->load.force +
           def->load.mass * def->gravity * (model->fall[0] * model->pull[0] + model->fall[1] * model->pull[1]));
 }
@@ -478,11 +483,6 @@ static inline double zp_contraction_slope(const ZpModel *model, double hanging) 
 static inline double zp_part_capacitance(const ZpModel *model, double inverse_gap) {
   const ZpActuatorDef *def = &model->def;
   return model->mirror * model->mirror * ZP_EPS0 * def->medium.permittivity * def->ribbon.width * inverse_gap;
-}
-
-/* Parts that bear the load side by side. */
-static inline double zp_parts_abreast(const ZpModel *model) {
-  return model->parts / (double)model->in_series;
 }
 
 /* Where study isometric holds the load's end: the opening, or the length of a pouch at its strain, m. */

@@ -516,7 +516,8 @@ double zp_platform_length(const ZpActuatorDef *def) {
 
 double zp_def_gap(const ZpActuatorDef *def) {
   if (zp_def_has(def, ZP_DEVICE_RIGID)) return def->plate.gap;
-  return zp_def_has(def, ZP_DEVICE_COUNTER) ? def->electro.gap_offset : 0;
+  if (!zp_def_has(def, ZP_DEVICE_COUNTER)) return 0;
+  return def->electro.gap_offset + (def->counter.power == 0 ? def->counter.height : 0);
 }
 
 double zp_def_roughness(const ZpActuatorDef *def) {
@@ -592,11 +593,6 @@ ZpStatus zp_def_check_motion(const ZpActuatorDef *def, ZpError *err) {
   return status == ZP_OK ? zp_check_mass(def, err) : status;
 }
 
-/* The gap of one ribbon over a counter electrode at its clamp, m. */
-static double gap_at_clamp(const ZpActuatorDef *def) {
-  return def->electro.gap_offset + (def->counter.power == 0 ? def->counter.height : 0);
-}
-
 /* Two ribbons touch at their joint; one over a counter electrode touches at its clamp if its gap there is 0, otherwise
  * only beyond pull-in. */
 ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError *err) {
@@ -606,7 +602,7 @@ ZpStatus zp_def_check_voltage(const ZpActuatorDef *def, double voltage, ZpError 
   if (def->source.model == ZP_SOURCE_AMPLIFIER && fabs(voltage) > def->source.voltage_limit)
     return zp_fail(err, ZP_BAD_INPUT, "drive.voltage: %g V exceeds source.voltage_limit = %g V", voltage,
                    def->source.voltage_limit);
-  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && gap_at_clamp(def) == 0);
+  bool touches = zp_def_has(def, ZP_DEVICE_PAIR) || (zp_def_has(def, ZP_DEVICE_COUNTER) && zp_def_gap(def) == 0);
   if (voltage == 0 || !zp_def_shorts(def) || !touches) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT,
                  "insulator.thickness = 0 m: %g V is a short circuit, because the electrodes touch at the %s; give an "
@@ -733,7 +729,7 @@ static ZpStatus check_counter(const ZpActuatorDef *def, ZpError *err) {
                    "counter.height = %g m: the counter electrode is too steep for a ribbon to lie on it; with "
                    "ribbon.length = %g m and counter.power = %g at most %g m",
                    height, def->ribbon.length, def->counter.power, height * steepest / slope);
-  if (def->electro.edges && zp_def_has(def, ZP_DEVICE_COUNTER) && zp_insulation(def) == 0 && gap_at_clamp(def) == 0)
+  if (def->electro.edges && zp_def_has(def, ZP_DEVICE_COUNTER) && zp_insulation(def) == 0 && zp_def_gap(def) == 0)
     return zp_fail(err, ZP_BAD_INPUT,
                    "electro.edges = true: requires an insulator where the faces touch at the clamp; the field at the "
                    "edges of bare faces that touch is infinite");

@@ -11,9 +11,10 @@ void zp_lay_ribbon(const ZpActuatorDef *def, ZpTopology *t) {
 }
 
 static const ZpRule rule[] = {
-    ZP_RULE(EQUATION, ZP_HAS(OPEN), ZP_IS(ribbon.model, ZP_RIBBON_ROD),
-            "the paper's springs end at a clip; use actuator.kind electro_ribbon"),
-    ZP_RULE(EQUATION, ZP_HAS(OPEN), ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
+    ZP_RULE(EQUATION, ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_OPEN | ZP_DEVICE_POUCH),
+            ZP_IS(ribbon.model, ZP_RIBBON_ROD), "the paper's springs end at a clip; use actuator.kind electro_ribbon"),
+    ZP_RULE(EQUATION, ZP_CONDITION(actuator.kind, HAS, ZP_DEVICE_OPEN | ZP_DEVICE_POUCH),
+            ZP_IS(electro.surface, ZP_SURFACE_POLYLINE),
             "the paper's Bezier surface begins at a clip; use actuator.kind electro_ribbon"),
     ZP_RULE(EQUATION, ZP_HAS(OPEN), ZP_IS(contact.model, ZP_CONTACT_UNILATERAL),
             "the paper's zipping begins at a clip; use actuator.kind electro_ribbon"),

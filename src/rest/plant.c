@@ -222,13 +222,12 @@ static double *find_rate(Member *w, size_t j) {
  * film's drag in the previous one (Krylov's space). */
 static void find_slow_shapes(Member *w) {
   const size_t N = w->model->nodes;
-  const ZpForces moved = zp_forces(w->model, w->moved);
   for (int k = 0; k < SLOW && w->m < w->assembly.n; k++) {
     double *drag = w->force;
     zp_film_ways_drag(&w->ways, find_rate(w, w->m - 1), drag);
     memset(w->moved, 0, zp_coordinates(w->model) * sizeof *w->moved);
     for (size_t i = 0; i < N; i++)
-      zp_term_part_faces(w->model, moved.y, i, drag[i]);
+      zp_term_part(w->model, i, drag[i], w->moved);
     zp_assembly_sum(&w->assembly, w->moved, w->y);
     zp_arrow_solve(&w->factors, w->y);
     add_shape(w, w->y);

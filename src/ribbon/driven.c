@@ -1,6 +1,7 @@
 #include "ribbon/driven.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "math/elementary.h"
 
@@ -64,28 +65,25 @@ double zp_driven_work(const ZpRodParams *p, const ZpRodEval *e0, const ZpRodEval
   return sum;
 }
 
-/* A joint with moment m pulls back the edge behind it by m g, and the edge before it by -m g. */
-static void add_moment(const ZpRodParams *p, const ZpRodStep *s, size_t j, double m, double *Fx, double *Fy) {
-  const size_t r = p->ribbons, edges = r * (p->nodes - 1);
-  if (j < edges) {
-    Fx[j + r] -= m * s->gx[j];
-    Fy[j + r] -= m * s->gy[j];
-    Fx[j] += m * s->gx[j];
-    Fy[j] += m * s->gy[j];
+/* A joint with moment m pulls on the edge behind it by -m g, and on the edge before it by m g. */
+static void add_moment(const ZpRodParams *p, const ZpRodStep *s, size_t j, double m, double *Rx, double *Ry) {
+  const size_t r = p->ribbons;
+  if (j < r * (p->nodes - 1)) {
+    Rx[j] -= m * s->gx[j];
+    Ry[j] -= m * s->gy[j];
   }
   if (j < r) return;
-  Fx[j] += m * s->gx[j - r];
-  Fy[j] += m * s->gy[j - r];
-  Fx[j - r] -= m * s->gx[j - r];
-  Fy[j - r] -= m * s->gy[j - r];
+  Rx[j - r] += m * s->gx[j - r];
+  Ry[j - r] += m * s->gy[j - r];
 }
 
-void zp_driven_forces(const ZpRodParams *p, const ZpRodStep *s, const double *by, double share, double *Fx,
-                      double *Fy) {
+void zp_driven_edges(const ZpRodParams *p, const ZpRodStep *s, const double *by, double share, double *Rx, double *Ry) {
+  memset(Rx, 0, p->lanes * sizeof *Rx);
+  memset(Ry, 0, p->lanes * sizeof *Ry);
   for (size_t j = 0; j < p->ribbons * p->nodes; j++)
-    if (by[j] != 0) add_moment(p, s, j, -share * p->B[j] * by[j] * s->slope[j], Fx, Fy);
+    if (by[j] != 0) add_moment(p, s, j, -share * p->B[j] * by[j] * s->slope[j], Rx, Ry);
   for (const ZpRodEnd *end = p->end; end < p->end + p->ends; end++) {
-    add_moment(p, s, end->held, -share * end->B * by[end->next] * s->slope[end->held], Fx, Fy);
-    add_moment(p, s, end->next, -share * end->B * by[end->held] * s->slope[end->next], Fx, Fy);
+    add_moment(p, s, end->held, -share * end->B * by[end->next] * s->slope[end->held], Rx, Ry);
+    add_moment(p, s, end->next, -share * end->B * by[end->held] * s->slope[end->next], Rx, Ry);
   }
 }

@@ -47,8 +47,9 @@ void zp_driven_bend_rate(const ZpDriven *driven, const double *kappa, const doub
 double zp_driven_work(const ZpRodParams *params, const ZpRodEval *start, const ZpRodEval *end, const double *before,
                       const double *after);
 
-/* F += forces of joints whose moments change with `by`, at the last zp_rod_step: x and y of nodes [lanes]. */
-void zp_driven_forces(const ZpRodParams *params, const ZpRodStep *step, const double *by, double share, double *Fx,
-                      double *Fy);
+/* Forces of edges on their right nodes, by joints whose moments change with `by`, at the last zp_rod_step => Rx, Ry
+ * [lanes], as those of a ZpRodStep. */
+void zp_driven_edges(const ZpRodParams *params, const ZpRodStep *step, const double *by, double share, double *Rx,
+                     double *Ry);
 
 #endif

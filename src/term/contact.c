@@ -10,12 +10,11 @@ static bool acts(const ZpModel *model) {
 /* Up on the upper ribbon, down on the lower or only one. */
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (span->faces_pass) return;
-  double *Fy = zp_forces(model, F).y;
   const double *start = zp_span_is_still(span) ? e->plates.gap : e->plates_start.gap;
   ZpContactSpan faces = zp_contact_span(&model->faces, start, e->plates.gap, span->h);
   zp_contact_eval(&model->faces, &faces, &e->faces);
   for (size_t i = 0; i < model->nodes; i++)
-    zp_term_part_faces(model, Fy, i, e->faces.push[i]);
+    zp_term_part(model, i, e->faces.push[i], F);
 }
 
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, ZpEval *e, ZpBand *K) {

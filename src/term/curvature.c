@@ -79,6 +79,13 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
                zp_driven_work(&model->rod, &e->rod_start, &e->rod, start, e->natural.k0[ZP_NATURAL_END]);
 }
 
+/* F += a share of what `by` adds to the forces. */
+static void add_rate(const ZpModel *model, ZpEval *e, double share, double *F) {
+  const ZpNatural *n = &e->natural;
+  zp_driven_edges(&model->rod, &e->rod_step, n->by, share, n->Rx, n->Ry);
+  zp_term_add_edges(model, n->Rx, n->Ry, F);
+}
+
 static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpByVoltage *sum) {
   const ZpDriven *d = &model->driven;
   const bool still = zp_span_is_still(span);
@@ -88,18 +95,16 @@ static void by_voltage(const ZpModel *model, const ZpSpan *span, ZpEval *e, ZpBy
   for (size_t p = 0; p < d->places; p++)
     n->rate[p] = zp_driven_aim_rate(&d->place[p], span->U1) * (still ? 1 : zp_driven_share(&d->place[p], span->h));
   zp_driven_bend_rate(d, n->kappa[ZP_NATURAL_END], n->rate, n->by);
-  const ZpForces to = zp_forces(model, sum->force);
-  zp_driven_forces(&model->rod, &e->rod_step, n->by, still ? span->share : 0.5, to.x, to.y);
+  add_rate(model, e, still ? span->share : 0.5, sum->force);
 }
 
 void zp_term_curvature_by_place(const ZpModel *model, const ZpSpan *span, size_t place, ZpEval *e, double *F) {
   ZpNatural *n = &e->natural;
-  const ZpForces to = zp_forces(model, F);
   bend(model, span, e);
   memset(n->rate, 0, model->driven.places * sizeof *n->rate);
   n->rate[place] = 1;
   zp_driven_bend_rate(&model->driven, n->kappa[ZP_NATURAL_END], n->rate, n->by);
-  zp_driven_forces(&model->rod, &e->rod_step, n->by, span->share, to.x, to.y);
+  add_rate(model, e, span->share, F);
 }
 
 #define ZP_DRIVEN(key)                                                                                                 \

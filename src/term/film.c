@@ -104,10 +104,9 @@ static void solve_step(const ZpModel *model, const ZpSpan *span, ZpEval *e) {
 
 static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F) {
   if (zp_span_is_still(span)) return;
-  double *Fy = zp_forces(model, F).y;
   solve_step(model, span, e);
   for (size_t i = 0; i < model->nodes; i++)
-    zp_term_part_faces(model, Fy, i, e->film.force[i]);
+    zp_term_part(model, i, e->film.force[i], F);
 }
 
 static void by_heads(const ZpModel *model, const ZpSpan *span, const ZpAssembly *assembly, const ZpFilmEval *e,
@@ -234,10 +233,9 @@ static void loss(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *ro
 /* Resistance to a change of the gap, at most as if all liquid flowed across. */
 static void inertia(const ZpModel *model, const ZpSpan *span, const ZpEval *e, const double *a, double *F) {
   const double *up = zp_nodes(model, a).y;
-  double *Fy = zp_forces(model, F).y;
   for (size_t i = 0; i < model->nodes; i++)
-    zp_term_part_faces(model, Fy, i,
-                       zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i));
+    zp_term_part(model, i, zp_film_inertia(&model->film, span->h, &e->film, i) * zp_parting(&model->topology, up, i),
+                 F);
 }
 
 #define WET ZP_ONE_OF(liquid.model, ZP_BIT(ZP_LIQUID_SUBMERGED) | ZP_BIT(ZP_LIQUID_BEAD))

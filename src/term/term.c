@@ -54,12 +54,6 @@ ZP_KERNEL static void add(size_t lanes, const double *Gx, const double *Gy, doub
   }
 }
 
-void zp_term_part(const ZpModel *model, size_t station, double push, double *F) {
-  double *Fy = zp_forces(model, F).y;
-  Fy[zp_upper(&model->topology, station)] += push;
-  Fy[zp_lower(&model->topology, station)] -= push;
-}
-
 void zp_term_add(const ZpModel *model, const double *Gx, const double *Gy, double *F) {
   ZpForces to = zp_forces(model, F);
   add(zp_lanes(model), Gx, Gy, to.x, to.y);

@@ -152,13 +152,12 @@ ZpRoom zp_term_meniscus_room(const ZpModel *model, double reach);
  * the gaps found last. */
 void zp_term_add_outside(const ZpModel *model, const ZpEval *eval, const double *a, double *F);
 
-/* F += a push, N, that parts both platforms at a station. */
-void zp_term_part(const ZpModel *model, size_t station, double push, double *F);
-
-/* Forces on nodes along y += a force that pushes the faces of a station apart. */
-static inline void zp_term_part_faces(const ZpModel *model, double *Fy, size_t station, double force) {
-  Fy[zp_lower(&model->topology, station)] -= force;
-  if (zp_is_pair(&model->topology)) Fy[zp_upper(&model->topology, station)] += force;
+/* F += a push, N, that parts the faces of a station: down on the lower or only ribbon, up on the upper one. */
+static inline void zp_term_part(const ZpModel *model, size_t station, double push, double *F) {
+  const ZpTopology *t = &model->topology;
+  double *Fy = zp_forces(model, F).y;
+  Fy[zp_lower(t, station)] -= push;
+  if (zp_is_pair(t)) Fy[zp_upper(t, station)] += push;
 }
 
 /* F += G. */
