@@ -351,6 +351,26 @@ static inline double largest_in(const ZpTable *table, const char *column) {
   return most;
 }
 
+/* The largest energy in motion: that of gravity and the electric work, by magnitude. */
+static inline double largest_energy_in(const ZpTable *series) {
+  double most = 0;
+  for (size_t r = 0; r < series->rows; r++)
+    most = fmax(most, fabs(zp_table_get(series, r, "gravity_energy_J")) +
+                          fabs(zp_table_get(series, r, "electric_work_J")));
+  return most;
+}
+
+/* A column begins at zero or above and falls nowhere by more than `rounding`; its last value. */
+static inline double never_falls(const ZpTable *table, const char *column, double rounding) {
+  double before = 0;
+  for (size_t r = 0; r < table->rows; r++) {
+    double value = zp_table_get(table, r, column);
+    ck_assert_double_ge(value, before - rounding);
+    before = value;
+  }
+  return before;
+}
+
 /* Key `index`; of a key that stands for those of all members, that of member 8. */
 static inline int key_of_one(int index) {
   return zp_key_is_row(index) ? zp_key_of_instance(index, 8) : index;
