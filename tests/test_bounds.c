@@ -102,13 +102,14 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
 /* A run that diverged, or a study that found no state, may lack these numbers: places, volumes, work and stress. */
 static bool is_of_the_end(const char *name) {
   size_t length = strlen(name);
+  if (strcmp(name, "permanent_strain") == 0 || strcmp(name, "strain") == 0) return true;
   if (length > 3 && (strcmp(name + length - 3, "_m3") == 0 || strcmp(name + length - 3, "_Pa") == 0)) return true;
   if (length > 4 && strcmp(name + length - 4, "_rad") == 0) return true;
   return length > 2 && (strcmp(name + length - 2, "_m") == 0 || strcmp(name + length - 2, "_J") == 0);
 }
 
 static void check_scalars(const ZpResult *result, const ZpActuatorDef *def, const char *what) {
-  bool lost = result->outcome == ZP_NOT_SETTLED || result->outcome == ZP_DIVERGED;
+  bool lost = result->outcome == ZP_NOT_SETTLED || result->outcome == ZP_DIVERGED || result->outcome == ZP_BEYOND_MODEL;
   for (size_t i = 0; i < result->scalars; i++) {
     const ZpScalar *s = &result->scalar[i];
     bool may = scalar_may_be_missing(s->name, def) || (lost && is_of_the_end(s->name));
@@ -288,10 +289,33 @@ static void make_drive(ZpActuatorDef *def, const char *key, double value, bool o
   if (strcmp(key, "drive.duty") == 0) def->drive.waveform = ZP_WAVEFORM_SQUARE;
 }
 
+/* The kind whose keys these are. */
+static void make_kind(ZpActuatorDef *def, const char *key, double value) {
+  if (strncmp(key, "plate.", 6) == 0) def->actuator.kind = ZP_KIND_PLATE;
+  if (strcmp(key, "plate.stop_gap") == 0) def->plate.gap = fmin(fmax(2 * value, 1e-6), 0.1);
+  if (strncmp(key, "pouch.", 6) == 0 || strcmp(key, "isometric.strain") == 0 ||
+      (strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_POUCH))
+    def->actuator.kind = ZP_KIND_POUCH, def->liquid.lateral_flow = false;
+  if (strcmp(key, "pouch.electrode_length") == 0) def->ribbon.length = fmin(2 * value, 10);
+  if (strcmp(key, "ribbon.tension") == 0)
+    def->actuator.kind = ZP_KIND_FLANGE, def->actuator.right_end = ZP_END_CLAMPED;
+}
+
+/* Of layers that creep: the other key of each. */
+static void make_creep(ZpActuatorDef *def, const char *key, double value) {
+  if (strcmp(key, "ribbon.relaxation_modulus") == 0 && value > 0) def->ribbon.relaxation_time = 1;
+  if (strcmp(key, "ribbon.relaxation_time") == 0) def->ribbon.relaxation_modulus = 1e9;
+  if (strcmp(key, "insulator.relaxation_modulus") == 0 && value > 0) def->insulator.relaxation_time = 1;
+  if (strcmp(key, "insulator.relaxation_time") == 0) def->insulator.relaxation_modulus = 1e9;
+}
+
 /* What keys ask of one another, so that one of them can stand at its bound. */
 static void make_room(ZpActuatorDef *def, const char *key, double value) {
   const bool of_member = strncmp(key, "member_", 7) == 0;
   key = make_members(def, key);
+  make_kind(def, key, value);
+  make_creep(def, key, value);
+  if (strcmp(key, "source.bleeder_voltage") == 0) def->source.bleeder = 1e9;
   if (strcmp(key, "platform.length") == 0 && value > 0) def->ribbon.length = 10;
   if (strcmp(key, "ribbon.length") == 0 && value < 0.01) def->platform.length = 0.5 * value;
   bool unilateral = strcmp(key, "contact.model") == 0 && value == ZP_CONTACT_UNILATERAL;
@@ -351,7 +375,8 @@ static void make_room(ZpActuatorDef *def, const char *key, double value) {
 /* What cannot move is looked at at rest. */
 static ZpStudy study_for(const char *key, double value) {
   bool rests = strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_FLANGE;
-  return rests || (strcmp(key, "ribbon.density") == 0 && value == 0) ? ZP_STUDY_STATIONARY : ZP_STUDY_ACTUATE;
+  bool weightless = value == 0 && (strcmp(key, "ribbon.density") == 0 || strcmp(key, "plate.mass") == 0);
+  return rests || weightless ? ZP_STUDY_STATIONARY : ZP_STUDY_ACTUATE;
 }
 
 /* Of key study every word but the last, calibrate, which needs data: test_calibrate. */
@@ -381,6 +406,9 @@ static bool has_its_own_words(const char *key, double value) {
   if (strcmp(key, "control.period") == 0) return value > 1;
   if (strcmp(key, "control.delay") == 0) return value > 8e-5;
   if (strcmp(key, "source.bandwidth") == 0) return value > 1e9;
+  if (strcmp(key, "pouch.electrode_length") == 0) return value > 9.5; /* no room for the liquid */
+  if (strcmp(key, "pouch.fill") == 0) return value > 1.3;             /* more than a round pouch holds */
+  if (strcmp(key, "plate.stop_gap") == 0) return value >= 0.1;        /* not below the widest gap */
   return value == 0 && (strcmp(key, "source.slew_rate") == 0 || strcmp(key, "source.current_limit") == 0);
 }
 
