@@ -102,7 +102,9 @@ static bool cell_may_be_missing(const char *name, const ZpActuatorDef *def) {
 /* A run that diverged, or a study that found no state, may lack these numbers: places, volumes, work and stress. */
 static bool is_of_the_end(const char *name) {
   size_t length = strlen(name);
-  if (strcmp(name, "permanent_strain") == 0 || strcmp(name, "strain") == 0) return true;
+  static const char *const names[] = {"permanent_strain", "strain", "settle_residual"};
+  for (size_t i = 0; i < LENGTH_OF(names); i++)
+    if (strcmp(name, names[i]) == 0) return true;
   if (length > 3 && (strcmp(name + length - 3, "_m3") == 0 || strcmp(name + length - 3, "_Pa") == 0)) return true;
   if (length > 4 && strcmp(name + length - 4, "_rad") == 0) return true;
   return length > 2 && (strcmp(name + length - 2, "_m") == 0 || strcmp(name + length - 2, "_J") == 0);

@@ -81,7 +81,8 @@ static ZpSpan span_of(const ZpDynamics *d, const ZpMovingMember *m) {
                   .v0 = zp_state_motion(m->model, m->state).vx,
                   .w = m->state->last_step > 0 ? m->mean_v : NULL,
                   .share = 1,
-                  .beyond = zp_state_beyond(m->model, m->state)};
+                  .beyond = zp_state_beyond(m->model, m->state),
+                  .pressure = m->pressure};
 }
 
 /* The first member of a port, which has its voltage. */
@@ -508,12 +509,28 @@ static void release_cavities(ZpDynamics *d) {
     if (m->model->has_film) zp_film_release(&m->model->film, &m->eval.film);
 }
 
+/* The search for the pressure of a pouch starts from that of the last step; a neighbouring simulation takes that of the
+ * simulation beside it. */
+static void start_pressure(const ZpDynamics *d, ZpMovingMember *m) {
+  m->pressure = d->lead ? d->lead->member[m - d->member].pressure : zp_memory_pressure(m->model, span_of(d, m).memory);
+}
+
+static void corrected(void *self, const double *x) {
+  ZpDynamics *d = self;
+  for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    if (zp_pouch_rank(m->model) == 0) continue;
+    zp_assembly_changes(&m->assembly, x, m->moved);
+    m->pressure = zp_pouch_predicted(m->model, m->end, &m->eval, m->moved, 1);
+  }
+}
+
 static void attempt(void *self, double *q1) {
   ZpDynamics *d = self;
   d->fewest = SIZE_MAX;
   release_cavities(d);
   if (in_plane(d)) zp_plane_poses(&d->plane, d->form.inner, q1, d->pose1);
   for (ZpMovingMember *m = d->member; m < d->member + d->members; m++) {
+    start_pressure(d, m);
     zp_rod_step_begin(&m->model->rod, &m->eval.rod_start, &m->eval.rod_step);
     if (in_plane(d)) m->normal = zp_across(zp_direction(d->pose1[d->plane.stand[m - d->member].upper].turn));
     if (m->model->field) keep_apart(d, m, q1);
@@ -895,6 +912,7 @@ static ZpImplicitSystem system_of(ZpDynamics *d) {
                             .attempt = attempt,
                             .resolved = resolved,
                             .overlooks = in_plane(d) || creeps(d) ? overlooks : NULL,
+                            .corrected = zp_pouch_rank(d->member->model) > 0 ? corrected : NULL,
                             .choose = film ? choose : NULL,
                             .unforeseen = unforeseen};
 }

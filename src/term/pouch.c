@@ -13,7 +13,7 @@ static bool acts(const ZpModel *model) {
   return model->pouch.w > 0;
 }
 
-/* The pressure of the last step. */
+/* The pressure, by which the next search starts. */
 static size_t state(const ZpModel *model) {
   (void)model;
   return 1;
@@ -23,14 +23,8 @@ size_t zp_pouch_rank(const ZpModel *model) {
   return acts(model);
 }
 
-static double modulus_of(const ZpSpan *span) {
-  return span->memory ? zp_pouch_modulus_of_step : zp_pouch_modulus_at_rest;
-}
-
-/* The pressure at which the search stands, Pa. */
-static double sought(const ZpModel *model, const ZpSpan *span) {
-  if (span->memory) return *zp_law_memory(model, &zp_term_pouch, span->memory);
-  return span->pressure;
+double zp_memory_pressure(const ZpModel *model, const double *memory) {
+  return acts(model) ? *zp_law_memory(model, &zp_term_pouch, memory) : 0;
 }
 
 double zp_state_pressure(const ZpModel *model, ZpState *state) {
@@ -58,17 +52,22 @@ static void force(const ZpModel *model, const ZpSpan *span, ZpEval *e, double *F
   const ZpPouchParams *pouch = &model->pouch;
   double V = zp_pouch_volume(pouch, model->nodes, zp_nodes(model, span->end).x, e->plates.gap);
   find_rates(model, span, e);
-  e->pressure = sought(model, span) - modulus_of(span) * (V / pouch->volume - 1);
+  e->pressure = span->pressure - zp_pouch_modulus * (V / pouch->volume - 1);
   for (size_t k = 0; k < zp_coordinates(model); k++)
     F[k] += e->pressure * e->by_volume[k];
   e->memory_end[zp_law(model, &zp_term_pouch)->at] = e->pressure;
 }
 
-double zp_pouch_predicted(const ZpModel *model, const ZpEval *e, const double *moved, double fraction) {
+double zp_pouch_predicted(const ZpModel *model, const double *at, ZpEval *e, const double *moved, double fraction) {
+  const ZpPouchParams *pouch = &model->pouch;
+  const ZpNodes by = zp_nodes(model, moved);
   double change = 0;
-  for (size_t k = 0; k < zp_coordinates(model); k++)
-    change += e->by_volume[k] * moved[k];
-  return e->pressure - fraction * zp_pouch_modulus_at_rest * change / model->pouch.volume;
+  for (size_t i = 0; i < model->nodes; i++)
+    change += zp_pouch_by_x(pouch, model->nodes, e->plates.gap, i) * by.x[i] -
+              zp_pouch_by_h(pouch, model->nodes, zp_nodes(model, at).x, i) * by.y[i];
+  double pressure = e->pressure - fraction * zp_pouch_modulus * change / pouch->volume;
+  e->memory_end[zp_law(model, &zp_term_pouch)->at] = pressure;
+  return pressure;
 }
 
 /* Add minus a pressure times the second derivatives of the volume. */
@@ -85,9 +84,9 @@ static void bend(const ZpModel *model, double pressure, const ZpAssembly *a, ZpB
 
 /* The pressure follows the volume at the end: a term of rank one. */
 static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly *a, ZpEval *e, ZpBand *K) {
-  const double k = modulus_of(span) / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
+  const double k = zp_pouch_modulus / model->pouch.volume, both = zp_span_is_still(span) ? 1 : 0.5;
   double *u = zp_band_term(K, K->u, K->rank - 1), *v = zp_band_term(K, K->v, K->rank - 1);
-  bend(model, both * sought(model, span), a, K);
+  bend(model, both * span->pressure, a, K);
   for (size_t i = 0; i < model->nodes; i++) {
     const size_t x = zp_x_of(i), y = zp_y_of(i);
     const ZpForces by = zp_forces(model, e->by_volume);
@@ -100,7 +99,7 @@ static void stiffness(const ZpModel *model, const ZpSpan *span, const ZpAssembly
 
 static void show(const ZpModel *model, const ZpSpan *now, ZpEval *e, double *row) {
   (void)e;
-  row[PRESSURE] += sought(model, now);
+  row[PRESSURE] += now->memory ? zp_memory_pressure(model, now->memory) : now->pressure;
   row[STRAIN] += zp_pouch_strain(model, zp_stroke(model, zp_nodes(model, now->end)));
 }
 
