@@ -811,7 +811,7 @@ TEST(bad_input_is_refused) {
               "column load.mass_kg: another column sets load.mass");
   refuse_file("load_g,stroke_mm,voltage_kV,drive.voltage_V\n8,2,1,1\n", E, "another column sets drive.voltage");
   refuse_file("load_g,stroke_mm\n8,\"2\n", E, "bad.csv:2: a quote is not closed");
-  refuse_file("load_g;stroke_mm\n8;1.234,5\n", E, "text in a number column");
+  refuse_file("load_g;stroke_mm\n8;1.23,5\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm\n8,\"1,5\"\n", E, "text in a number column");
   refuse_file("load_g,stroke_mm,sigma_mm\n8,2,0\n", E,
               "bad.csv:2: column sigma_mm: a standard deviation must be above 0");

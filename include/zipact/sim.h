@@ -32,8 +32,9 @@ typedef enum ZpOutcome {
   ZP_AT_BOUND,      /* "at_bound": the best value of a fitted key lies at its bound, or beyond it */
   ZP_TIME_LIMIT,    /* "time_limit": solver.max_cpu_time was not enough */
   ZP_REOPENED,      /* "reopened": the actuator has closed, and is open again at the end */
-  ZP_BEYOND_MODEL /* "beyond_model": ribbons lie as the laws do not describe: a steep one has slid through the other, or
-                     one has folded back */
+  ZP_BEYOND_MODEL,  /* "beyond_model": ribbons lie as the laws do not describe: a steep one has slid through the other,
+                       or one has folded back */
+  ZP_DOUBTFUL       /* "doubtful": a fit was found, but its residuals are not noise, or another one is as good */
 } ZpOutcome;
 
 /* The word for an outcome, as in summary.json; "unknown" for any other number. */

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/fail.h"
 #include "def/check.h"
@@ -41,6 +42,8 @@ typedef struct OfKind {
              {"sigma_" of "_" unit, unit, SIGMA}}}
 static const OfKind of_kind[ZP_FIT_KINDS] = {
     OF_KIND(ZP_FIT_STROKE, "stroke", "m", "mm", 1e3, "stroke", "the same", "no equilibrium"),
+    OF_KIND(ZP_FIT_DISPLACEMENT, "displacement", "m", "mm", 1e3, "displacement", "the same", "no equilibrium"),
+    OF_KIND(ZP_FIT_CURRENT, "current", "A", "uA", 1e6, "current", "the same", "no motion"),
     OF_KIND(ZP_FIT_OPENING, "opening", "m", "mm", 1e3, "opening", "the same", "no equilibrium"),
     OF_KIND(ZP_FIT_CAPACITANCE, "capacitance", "F", "pF", 1e12, "capacitance", "the same", "no equilibrium"),
     OF_KIND(ZP_FIT_FORCE, "force", "N", "mN", 1e3, "force", "force_N of study isometric", "no equilibrium"),
@@ -54,8 +57,9 @@ static const OfKind of_kind[ZP_FIT_KINDS] = {
 };
 
 /* With the first, second, ... key of calibrate.fit. */
-static const char *const correlation[ZP_FIT_MOST - 1] = {"#_correlation_1", "#_correlation_2", "#_correlation_3",
-                                                         "#_correlation_4"};
+static const char *const correlation[ZP_FIT_MOST - 1] = {
+    "#_correlation_1", "#_correlation_2", "#_correlation_3",  "#_correlation_4",  "#_correlation_5",  "#_correlation_6",
+    "#_correlation_7", "#_correlation_8", "#_correlation_9", "#_correlation_10", "#_correlation_11", "#_correlation_12"};
 
 static bool at_bound(const ZpFit *fit, const double *z, int k) {
   static const double near = 1e-6;
@@ -63,33 +67,50 @@ static bool at_bound(const ZpFit *fit, const double *z, int k) {
   return z[k] <= low + near * fabs(low) || z[k] >= high - near * fabs(high);
 }
 
-/* The first key that lies at its bound, or -1. */
-static int key_at_bound(const ZpFit *fit, const double *z) {
+/* The name of the first parameter that lies at its bound, or NULL. */
+static const char *name_at_bound(const ZpFit *fit, const double *z) {
   for (int k = 0; k < fit->n; k++)
-    if (at_bound(fit, z, k)) return fit->key[k];
-  return -1;
+    if (at_bound(fit, z, k)) return zp_fit_name(fit, k);
+  return NULL;
 }
 
-/* The numbers of the summary about the keys; `square`: sum of squared weighted residuals. */
-static void report_keys(const ZpFit *fit, const double *z, const double *J, double square, ZpResult *result) {
+static void note_unbounded(const ZpFit *fit, int k, const ZpFitInterval *interval, ZpResult *result) {
+  if (!isnan(interval->low) && !isnan(interval->high)) return;
+  if (interval->trades >= 0)
+    zp_result_note(result,
+                   "%s has no interval: within the bounds the data do not limit it, because a change of it is made up "
+                   "for by %s",
+                   zp_fit_name(fit, k), zp_fit_name(fit, interval->trades));
+  else
+    zp_result_note(result, "%s has no interval: within the bounds the data do not limit it", zp_fit_name(fit, k));
+}
+
+/* The numbers of the summary about the parameters. */
+static void report_keys(const ZpFit *fit, const double *z, const double *J, const ZpFitJudgement *judgement,
+                        const ZpFitInterval *interval, ZpResult *result) {
   double C[ZP_FIT_MOST][ZP_FIT_MOST];
   bool told_apart = J && zp_fit_covariance(fit, J, NULL, 0, 1e-10, C);
   size_t n = (size_t)fit->n;
-  double reduced = fit->rows > n ? square / (double)(fit->rows - n) : NAN;
-  double variance = fit->sigma ? 1 : reduced; /* of a weighted residual */
+  const double variance = judgement->variance;
   for (int k = 0; k < fit->n; k++) {
-    const ZpKey *key = zp_key(fit->key[k]);
-    const char *name = ZP_KEY_NAME(fit->key[k]);
+    const char *name = zp_fit_name(fit, k), *unit = zp_fit_unit(fit, k);
     bool known = told_apart && !at_bound(fit, z, k);
-    zp_result_add_of(result, "#", name, key->unit, z[k] * fit->start[k]);
-    zp_result_add_of(result, "#_standard_error", name, key->unit,
+    zp_result_add_of(result, "#", name, unit, z[k] * fit->start[k]);
+    zp_result_add_of(result, "#_standard_error", name, unit,
                      known ? fabs(fit->start[k]) * sqrt(variance * C[k][k]) : NAN);
+    const bool turned = fit->start[k] < 0;
+    const double low = turned ? interval[k].high : interval[k].low, high = turned ? interval[k].low : interval[k].high;
+    zp_result_add_of(result, "#_interval_95_low", name, unit, known ? low * fit->start[k] : NAN);
+    zp_result_add_of(result, "#_interval_95_high", name, unit, known ? high * fit->start[k] : NAN);
+    if (known) note_unbounded(fit, k, &interval[k], result);
     for (int j = 0; j < k; j++)
       zp_result_add_of(result, correlation[j], name, "1", told_apart ? C[k][j] / sqrt(C[k][k] * C[j][j]) : NAN);
     if (at_bound(fit, z, k)) zp_result_note(result, "%s is at a bound of its range, so it has no standard error", name);
   }
-  if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", reduced);
+  if (fit->sigma) zp_result_add(result, "reduced_chi_square", "1", judgement->reduced);
+  zp_result_add(result, "runs_test", "1", judgement->runs);
   if (*fit->bare) zp_result_note(result, "columns without a unit in their name are read in SI: %s", fit->bare);
+  if (*fit->layout) zp_result_note(result, "%s", fit->layout);
   if (*fit->idle) zp_result_note(result, "columns that are not used: %s", fit->idle);
   if (!told_apart && n > 0)
     zp_result_note(
@@ -178,9 +199,12 @@ static bool fill_table(const ZpFit *fit, const double *fitted, ZpResult *result)
 static bool row_under_voltage(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage) {
   const ZpFitSet *of = zp_fit_set_of(fit, row);
   if (of->x_key < 0) {
-    *def = *fit->def;
-    *voltage = fmax(def->drive.voltage, fabs(def->drive.offset));
-    return true;
+    const ZpFitRun *run = &fit->run[of->run];
+    const bool set = zp_fit_run_def(fit, run, z, def);
+    *voltage = run->rows > 0 ? 0 : fmax(def->drive.voltage, fabs(def->drive.offset));
+    for (size_t i = 0; i < run->rows; i++)
+      *voltage = fmax(*voltage, fabs(run->voltage[i]));
+    return set;
   }
   if (!zp_fit_row(fit, z, row, def, voltage)) return false;
   if (zp_fit_number[of->kind].number) *voltage = of->kind == ZP_FIT_FREQUENCY ? def->modes.voltage : def->drive.voltage;
@@ -268,24 +292,62 @@ static void say(const ZpFit *fit, const double *fitted, const char *bound, doubl
              sqrt(square / (double)fit->rows), at, bound ? bound : "");
 }
 
-static ZpStatus solve_and_report(ZpFit *fit, double *fitted, double *J, ZpResult *result, ZpError *err) {
-  double z[ZP_FIT_MOST] = {0}, square = 0; /* of weighted residuals */
-  for (int k = 0; k < fit->n; k++)
-    z[k] = fmin(fmax(1, fit->lower[k]), fit->upper[k]);
-  if (!zp_fit_solve(fit, z, fitted) && fit->status != ZP_OK) return fit->status;
-  for (size_t i = 0; i < fit->rows; i++)
-    square += zp_fit_residual(fit, fitted, i) * zp_fit_residual(fit, fitted, i);
-  const char *bound = ZP_KEY_NAME(key_at_bound(fit, z));
-  bool good = isfinite(square) && !fit->stopped;
-  bool has_J = good && zp_fit_jacobian(fit, z, J);
+/* Is another minimum as good as the best one, as far as the data say? */
+static bool is_ambiguous(const ZpFit *fit, const ZpFitJudgement *judgement, const ZpFitStarts *starts) {
+  const double freedom = (double)fit->rows - fit->n, t = zp_fit_student(freedom);
+  const double variance = fit->sigma ? 1 : starts->best / freedom;
+  (void)judgement;
+  return fit->n > 0 && starts->next - starts->best < t * t * variance;
+}
+
+/* Why a fit is doubtful. */
+static void report_doubts(const ZpFit *fit, const ZpFitPoint *best, const ZpFitJudgement *judgement,
+                          const ZpFitStarts *starts, ZpResult *result) {
+  if (judgement->runs < 0.01)
+    zp_result_note(result, "residuals are not noise: so few runs of one sign have a probability of %.1g; the model lacks "
+                           "something, or the measurement has a drift",
+                   judgement->runs);
+  if (judgement->too_large < 0.01)
+    zp_result_note(result, "residuals are larger than the standard deviations given: reduced chi-square %.3g",
+                   judgement->reduced);
+  if (!best->ended) zp_result_note(result, "the search ended before the minimum");
+  if (is_ambiguous(fit, judgement, starts)) {
+    char text[256] = "";
+    for (int k = 0; k < fit->keys; k++) {
+      const size_t used = strlen(text);
+      snprintf(text + used, sizeof text - used, "%s%s %.5g %s", k ? ", " : "", zp_fit_name(fit, k),
+               starts->other[k] * fit->start[k], zp_fit_unit(fit, k));
+    }
+    zp_result_note(result, "other values fit as well: %s", text);
+  }
+  for (size_t i = 0; i < judgement->outliers; i++)
+    zp_result_note(result, "outlier: row %zu, %.4g standard deviations from the fit", judgement->outlier[i] + 1,
+                   fabs(zp_fit_residual(fit, best->fitted, judgement->outlier[i])) / sqrt(judgement->variance));
+}
+
+static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result, ZpError *err) {
+  ZpFitStarts starts;
+  bool good = zp_fit_solve(fit, best, &starts);
   if (fit->status != ZP_OK) return fit->status;
-  result->outcome = good ? (bound ? ZP_AT_BOUND : ZP_CONVERGED) : fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED;
+  ZpFitJudgement judgement = zp_fit_judge(fit, best);
+  ZpFitInterval interval[ZP_FIT_MOST];
+  if (good) zp_fit_intervals(fit, judgement.variance, best, interval);
+  if (good) judgement = zp_fit_judge(fit, best);
+  if (fit->status != ZP_OK) return fit->status;
+  const double *z = best->z, *fitted = best->fitted, square = best->square;
+  const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &judgement, &starts) || !best->ended;
+  const char *bound = name_at_bound(fit, z);
+  result->outcome = !good ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
+                    : doubtful ? ZP_DOUBTFUL
+                    : bound    ? ZP_AT_BOUND
+                               : ZP_CONVERGED;
   if (good)
     say(fit, fitted, bound, square, result);
   else
     snprintf(result->message, sizeof result->message,
              fit->stopped ? "interrupted" : "the model gives no value for some rows within the bounds");
-  report_keys(fit, z, has_J ? J : NULL, square, result);
+  report_keys(fit, z, good ? best->J : NULL, &judgement, interval, result);
+  report_doubts(fit, best, &judgement, &starts, result);
   if (note(fit, z, result, err) != ZP_OK) return ZP_MACHINE;
   const ZpFitSet *times = last_set(fit, ZP_FIT_TIME);
   if (good && times && note_pull_in(fit, times, z, result) != ZP_OK) return zp_fail_memory(err);
@@ -301,12 +363,10 @@ ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **o
   const bool runs = status == ZP_OK && out;
   fit.hooks = hooks;
   ZpResult *result = runs ? zp_result_create(ZP_STUDY_CALIBRATE) : NULL;
-  double *fitted = runs ? calloc(fit.rows, sizeof *fitted) : NULL;
-  double *J = runs ? calloc(fit.rows * (size_t)(fit.n + 1), sizeof *J) : NULL;
-  if (runs && (!result || !fitted || !J)) status = zp_fail_memory(err);
-  if (runs && status == ZP_OK) status = solve_and_report(&fit, fitted, J, result, err);
-  free(fitted);
-  free(J);
+  ZpFitPoint best = {0};
+  if (runs && (!result || !zp_fit_open_point(&fit, &best))) status = zp_fail_memory(err);
+  if (runs && status == ZP_OK) status = solve_and_report(&fit, &best, result, err);
+  free(best.fitted);
   zp_fit_close(&fit);
   if (runs && status == ZP_OK)
     *out = result;

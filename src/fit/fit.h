@@ -5,16 +5,20 @@
 #include <zipact/calibrate.h>
 
 enum {
-  ZP_FIT_MOST = 5,  /* keys fitted at once */
-  ZP_FIT_OTHERS = 8 /* further columns that set keys */
+  ZP_FIT_KEYS = 5,                           /* keys fitted at once, */
+  ZP_FIT_SHIFTS = 8,                         /* and shifts of times and measured columns, */
+  ZP_FIT_MOST = ZP_FIT_KEYS + ZP_FIT_SHIFTS, /* and both */
+  ZP_FIT_OTHERS = 8                          /* further columns that set keys */
 };
 
-/* The kinds of measurement: a stroke, opening or capacitance, at rest or over time; or a number that a study computes.
- */
+/* The kinds of measurement: a stroke, its change since there was no voltage, an opening or a capacitance, at rest or
+ * over time; a current over time; or a number that a study computes. */
 typedef enum ZpFitKind {
   ZP_FIT_STROKE,
+  ZP_FIT_DISPLACEMENT,
   ZP_FIT_OPENING,
   ZP_FIT_CAPACITANCE,
+  ZP_FIT_CURRENT,
   ZP_FIT_FORCE,
   ZP_FIT_TIME,
   ZP_FIT_PULL_IN,
@@ -33,10 +37,23 @@ typedef struct ZpFitNumber {
 
 extern const ZpFitNumber zp_fit_number[ZP_FIT_KINDS];
 
+/* A record over time: one run, whose measured columns are sets. */
+typedef struct ZpFitRun {
+  int keys; /* columns with one value all the time, which set these keys */
+  int key[ZP_FIT_OTHERS];
+  double value[ZP_FIT_OTHERS];
+  size_t rows;            /* of the voltage that drove it; 0: drive.* does */
+  double *time, *voltage; /* [rows] s, V */
+  double from;            /* what the times of the file have at the start of the run, s */
+  int late;               /* the parameter that is the time of the record at the start of the run; -1: none */
+} ZpFitRun;
+
 /* One measured column of one file: rows of one kind, against one quantity that was set. */
 typedef struct ZpFitSet {
   ZpFitKind kind;
   int x_key;  /* the key that was set; -1: x is time, s */
+  size_t run; /* over time: of which record */
+  int zero;   /* the parameter that is its reading of 0; -1: none */
   int others; /* further columns whose header is a key, which set this key for their row */
   int other_key[ZP_FIT_OTHERS];
   double *other[ZP_FIT_OTHERS]; /* [rows] SI */
@@ -46,18 +63,24 @@ typedef struct ZpFitSet {
 typedef struct ZpFit {
   const ZpActuatorDef *def;
   const ZpHooks *hooks;
-  int n; /* number of fitted keys; their values are z times the start values */
-  int key[ZP_FIT_MOST];
+  int n, keys; /* number of parameters: first keys, then shifts; their values are z times `start` */
+  int key[ZP_FIT_KEYS];
   double start[ZP_FIT_MOST];
+  double first[ZP_FIT_MOST];                     /* of z: 1 of keys, 0 of shifts */
   double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
-  ZpFitSet *set;                                 /* [sets] */
+  char shift[ZP_FIT_SHIFTS][40];                 /* names of shifts: "time_offset", "stroke_offset" */
+  const char *shift_unit[ZP_FIT_SHIFTS];
+  ZpFitRun *run; /* [runs] */
+  size_t runs;
+  ZpFitSet *set; /* [sets] */
   size_t sets, rows;
   double *x, *y;  /* [rows] SI, one set after the other */
   char bare[160]; /* columns without a unit in their name: "load in kg, stroke in m" */
   char idle[200]; /* columns that are not used: "monday.csv: Date, Remark; tuesday.csv: Date" */
+  char layout[300]; /* which lines of a file are its table, where that is not plain */
   double *sigma;  /* [rows] standard deviations of y; NULL: not given, all rows have the same weight */
+  double tolerance; /* of the time steps of records, if solver.tolerance is auto; NAN: the usual one */
   int evaluations;
-  bool searches;   /* values need no derivatives yet */
   bool stopped;    /* the progress hook asked to stop */
   ZpStatus status; /* of the machine */
   ZpError *err;
@@ -70,6 +93,10 @@ void zp_fit_close(ZpFit *fit);
 /* Read the files of measurements into the sets and rows of `fit`, whose keys are known. */
 ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err);
 
+/* The name of a parameter, and its unit. */
+const char *zp_fit_name(const ZpFit *fit, int k);
+const char *zp_fit_unit(const ZpFit *fit, int k);
+
 /* Is this key a real number, which can be fitted and set by a column? */
 bool zp_fit_takes(int key);
 
@@ -81,12 +108,59 @@ size_t zp_fit_kinds(const ZpFit *fit);
  * is out of the range of its key. */
 bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage);
 
+/* The definition of a record with the fitted keys at z. False if a value is out of the range of its key. */
+bool zp_fit_run_def(const ZpFit *fit, const ZpFitRun *run, const double *z, ZpActuatorDef *def);
+
+/* Sign of a change of the stroke as an actuator closes. */
+double zp_fit_closing(const ZpModel *model);
+
 /* The value that the model computes for row `row`, SI, unless the row belongs to a run in time; NAN if there is no such
  * value. */
 double zp_fit_predict(ZpFit *fit, const double *z, size_t row);
 
-/* Find the z [n] with the best fit, and the fitted values [rows]. False if there is no memory or no fit. */
-bool zp_fit_solve(ZpFit *fit, double *z, double *fitted);
+/* Values of the model at z => fitted [rows], NAN where there is none; unless J is NULL, their derivatives with respect
+ * to z, weighted as the residuals and 0 where there is none => J [rows][n]. False if one of the values does not exist,
+ * no derivative is found, the progress hook asked to stop, or there is no memory. */
+bool zp_fit_evaluate(ZpFit *fit, const double *z, double *fitted, double *J);
+
+/* Sum of squares of the weighted residuals. A row without a value counts as twice the largest measured value of its
+ * set. */
+double zp_fit_square(const ZpFit *fit, const double *fitted);
+
+/* A point of a fit. */
+typedef struct ZpFitPoint {
+  double z[ZP_FIT_MOST];
+  double square;
+  bool good;   /* all rows have a value */
+  bool ended;  /* it is a minimum */
+  double *fitted, *J; /* [rows], [rows][n] behind them, as zp_fit_evaluate */
+} ZpFitPoint;
+
+/* Its arrays; false if there is no memory. Free `fitted` afterwards. */
+bool zp_fit_open_point(ZpFit *fit, ZpFitPoint *point);
+
+/* Values, derivatives and the sum of squares at its z. */
+void zp_fit_go_to(ZpFit *fit, ZpFitPoint *point);
+
+/* The step to the minimum of the linear model at a point, with this damping. `held` as below. False if it is not
+ * determined. */
+bool zp_fit_step(const ZpFit *fit, const ZpFitPoint *at, const bool *held, double damping, double *step);
+
+/* Go from a point to the nearest minimum within the bounds, in at most so many iterations (Levenberg and Marquardt).
+ * `held` [n]: parameters that stay; NULL: none. => whether the minimum was reached. */
+bool zp_fit_descend(ZpFit *fit, const bool *held, int most, ZpFitPoint *point);
+
+/* What the starts have led to. */
+typedef struct ZpFitStarts {
+  int tried, agree; /* how many starts, and how many of them lead to the best minimum */
+  double best;      /* sum of squares there, with the time steps of the search, */
+  double next;      /* and sum of squares of the best other minimum; INFINITY: there is none */
+  double other[ZP_FIT_MOST]; /* z there */
+} ZpFitStarts;
+
+/* The best minimum within the bounds from all starts. False if there is no memory, or no start has a value for all
+ * rows. */
+bool zp_fit_solve(ZpFit *fit, ZpFitPoint *best, ZpFitStarts *starts);
 
 /* Read and check the input of study calibrate and, unless `out` is NULL, run it. */
 ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **out, ZpError *err);
@@ -94,9 +168,33 @@ ZpStatus zp_fit_run(const ZpActuatorDef *def, const ZpHooks *hooks, ZpResult **o
 /* Fitted minus measured value, divided by the standard deviation if there is one. */
 double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row);
 
-/* Derivative of the fitted values with respect to z, weighted as the residuals => J [rows][n]. False if there is none.
- */
-bool zp_fit_jacobian(ZpFit *fit, const double *z, double *J);
+/* What residuals say about a fit. */
+typedef struct ZpFitJudgement {
+  double reduced;   /* chi-square over the degrees of freedom; NAN: standard deviations are not known */
+  double too_large; /* probability of a larger chi-square if model and standard deviations are true; NAN likewise */
+  double runs;      /* probability of as few runs of residuals of one sign; NAN: too few rows */
+  double variance;  /* of a weighted residual: 1 if standard deviations are known */
+  size_t outliers;  /* rows whose residual is so large that not one in twenty such fits has it, */
+  size_t outlier[8]; /* the largest ones first */
+} ZpFitJudgement;
+
+ZpFitJudgement zp_fit_judge(const ZpFit *fit, const ZpFitPoint *best);
+
+/* Are these residuals noise? */
+bool zp_fit_is_noise(const ZpFitJudgement *judgement);
+
+/* Student's distribution: the value that a share of 0.975 is below, for so many degrees of freedom. */
+double zp_fit_student(double freedom);
+
+/* Interval of a parameter that covers the true value in 95 of 100 fits, by the profile of the likelihood; NAN where an
+ * end is unbounded, within the bounds of z. */
+typedef struct ZpFitInterval {
+  double low, high; /* z */
+  int trades;       /* the parameter against which an unbounded one trades; -1: none */
+} ZpFitInterval;
+
+/* Intervals of all parameters [n]. Where a point is found that fits better, `best` goes there first. */
+void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval);
 
 /* Inverse of J^T J, whose diagonal is first multiplied by 1 + ridge, in units of z => C, by Cholesky. A key that
  * `stays` (NULL: none) has no covariance with another. False if a pivot is at most `least` times its diagonal: the data

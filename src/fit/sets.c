@@ -27,7 +27,9 @@ typedef struct Names {
 typedef struct Measured {
   const ZpData *data;
   int x, y[NAMES_MOST], columns;
-  bool *used; /* [columns of the file] */
+  bool is_record; /* x is time: the rows are of one run, */
+  size_t run;     /* this one */
+  bool *used;     /* [columns of the file] */
 } Measured;
 
 typedef struct Reading {
@@ -56,10 +58,9 @@ static ZpStatus split_names(Names *names, const char *key, const char *text, ZpE
   return ZP_OK;
 }
 
-/* The columns of a file that have one of these names => columns [how many]. Without names: column `place`. */
-static int find_columns(const ZpData *data, Names *names, int place, int *columns) {
+/* The columns of a file that have one of these names => columns [how many]. */
+static int find_columns(const ZpData *data, Names *names, int *columns) {
   int found = 0;
-  if (names->count == 0 && place < (int)data->columns) columns[found++] = place;
   for (int i = 0; i < names->count; i++) {
     const int column = zp_data_column(data, names->name[i]);
     if (column < 0) continue;
@@ -73,12 +74,56 @@ static ZpStatus fail_column(const Names *names, const char *name, const char *pa
   return zp_fail(err, ZP_BAD_INPUT, "%s = \"%.60s\": no such column in %.200s", names->key, name, path);
 }
 
+static ZpStatus fail_measured(const Names *names, const char *name, const ZpData *data, ZpError *err) {
+  if (names->count > 0) return fail_column(names, name, data->path, err);
+  return zp_fail(err, ZP_BAD_INPUT,
+                 "%.200s:%d: no column of this record is measured: stroke, displacement, opening, capacitance or "
+                 "current with its unit; give another name by data.columns: %.60s = stroke_mm",
+                 data->path, zp_data_line(data, 0) - 1, data->cell[data->columns - 1]);
+}
+
 /* Refuse a name that no file has: it is misspelt. */
 static ZpStatus check_names(const Reading *r, const Names *names) {
   for (int i = 0; i < names->count; i++)
     if (!names->used[i])
       return fail_column(names, names->name[i], r->files.count > 1 ? "any file" : r->files.file->path, r->err);
   return ZP_OK;
+}
+
+static bool is_time(const char *name) {
+  ZpUnitScale scale;
+  return zp_data_unit(name, "time", "s", &scale);
+}
+
+/* Can a kind be measured against this quantity? Over time, only a quantity of a run; a current only so; against a
+ * weight, not a force. */
+static bool is_possible(bool over_time, int x_key, ZpFitKind kind) {
+  if (over_time) return !zp_fit_number[kind].number;
+  return kind != ZP_FIT_CURRENT && (kind != ZP_FIT_FORCE || x_key != zp_key_find("load.mass"));
+}
+
+/* Does a run have what a column measures? */
+static bool is_of_run(const char *name) {
+  ZpUnitScale scale;
+  for (int kind = 0; kind < ZP_FIT_KINDS; kind++)
+    if (is_possible(true, -1, (ZpFitKind)kind) &&
+        zp_data_unit(name, zp_fit_number[kind].column, zp_fit_number[kind].unit, &scale))
+      return true;
+  return false;
+}
+
+/* Without names in calibrate.x and .y: a column of time and all that a run has, otherwise the first and the second
+ * column. */
+static int usual_x(const ZpData *data) {
+  for (int column = 0; column < (int)data->columns; column++)
+    if (is_time(data->cell[column])) return column;
+  return 0;
+}
+
+static void take_usual_y(const ZpData *data, Measured *measured) {
+  for (int column = 0; column < (int)data->columns && measured->columns < NAMES_MOST; column++)
+    if (measured->is_record ? is_of_run(data->cell[column]) : column == 1)
+      measured->y[measured->columns++] = column;
 }
 
 /* Find the columns in every file; of the names in calibrate.x each file takes the first that it has. */
@@ -91,10 +136,17 @@ static ZpStatus find_measured(Reading *r) {
     measured->data = data;
     measured->used = calloc(data->columns, sizeof *measured->used);
     if (!measured->used) return zp_fail_memory(r->err);
-    if (find_columns(data, &r->x, 0, x) == 0) return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
+    x[0] = usual_x(data);
+    if (r->x.count > 0 && find_columns(data, &r->x, x) == 0)
+      return fail_column(&r->x, fit->def->calibrate.x, data->path, r->err);
     measured->x = x[0];
-    measured->columns = find_columns(data, &r->y, 1, measured->y);
-    if (measured->columns == 0) return fail_column(&r->y, fit->def->calibrate.y, data->path, r->err);
+    measured->is_record = is_time(data->cell[x[0]]);
+    if (r->y.count > 0)
+      measured->columns = find_columns(data, &r->y, measured->y);
+    else
+      take_usual_y(data, measured);
+    if (measured->columns == 0) return fail_measured(&r->y, fit->def->calibrate.y, data, r->err);
+    if (measured->is_record) measured->run = fit->runs++;
     if (data->rows == 0) return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: 0 rows of data", data->path);
     fit->rows += data->rows * (size_t)measured->columns;
     r->sets += (size_t)measured->columns;
@@ -158,6 +210,14 @@ static ZpStatus read_column(const ZpFit *fit, const ZpData *data, int column, in
   return status;
 }
 
+static ZpStatus fail_fitted(const ZpFit *fit, int key, const char *column, ZpError *err) {
+  for (int i = 0; i < fit->keys; i++)
+    if (fit->key[i] == key)
+      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is given by column %.60s and cannot be fitted",
+                     ZP_KEY_NAME(key), column);
+  return ZP_OK;
+}
+
 /* A key that a column sets must not be fitted or set by another column. */
 static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const char *column, ZpError *err) {
   bool twice = set->others > 0 && set->x_key == key;
@@ -166,19 +226,17 @@ static ZpStatus check_set(const ZpFit *fit, const ZpFitSet *set, int key, const 
   if (twice)
     return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well", column,
                    ZP_KEY_NAME(key));
-  for (int i = 0; i < fit->n; i++)
-    if (fit->key[i] == key)
-      return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is given by column %.60s and cannot be fitted",
-                     ZP_KEY_NAME(key), column);
-  return ZP_OK;
+  return fail_fitted(fit, key, column, err);
 }
 
-/* Times of one run must start at 0 or later and must not decrease. */
-static ZpStatus check_times(const double *time, const ZpData *data, ZpError *err) {
-  for (size_t i = 0; i < data->rows; i++)
-    if (!(time[i] >= (i ? time[i - 1] : 0)))
-      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must not be negative and must not decrease", data->path,
-                     zp_data_line(data, i));
+/* Times of one run must not decrease; those of day count from the first row. */
+static ZpStatus check_times(double *time, const ZpData *data, int column, ZpError *err) {
+  const double first = zp_data_is_clock(data, (size_t)column) ? time[0] : 0;
+  for (size_t i = 0; i < data->rows; i++) {
+    time[i] -= first;
+    if (i > 0 && time[i] < time[i - 1])
+      return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: times must not decrease", data->path, zp_data_line(data, i));
+  }
   return ZP_OK;
 }
 
@@ -186,17 +244,87 @@ static ZpStatus read_x(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
   Unit unit = {.per = 1};
   double *x = fit->x + set->first;
   const char *name = data->cell[column];
-  bool is_time = take_unit(fit, name, "time", "s", &unit.scale);
-  set->x_key = is_time ? -1 : key_of_header(fit, name, &unit);
-  if (!is_time && set->x_key < 0)
+  const bool over_time = take_unit(fit, name, "time", "s", &unit.scale);
+  set->x_key = over_time ? -1 : key_of_header(fit, name, &unit);
+  if (!over_time && set->x_key < 0)
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "%.200s:1: column %.60s: unknown; calibrate.x takes time, load, force, voltage or a numeric key, with its "
+        "%.200s:%d: column %.60s: unknown; calibrate.x takes time, load, force, voltage or a numeric key, with its "
         "unit, such as load_g; give another name by data.columns: %.60s = load_g",
-        data->path, name, name);
+        data->path, data->line[0], name, name);
   ZpStatus status = check_set(fit, set, set->x_key, name, err);
   if (status == ZP_OK) status = read_column(fit, data, column, set->x_key, &unit, x, err);
-  return status == ZP_OK && is_time ? check_times(x, data, err) : status;
+  return status == ZP_OK && over_time ? check_times(x, data, column, err) : status;
+}
+
+/* The voltage that drove a record. */
+static ZpStatus read_drive(ZpFit *fit, ZpFitRun *run, const ZpData *data, int column, const Unit *unit, ZpError *err) {
+  if (run->rows > 0)
+    return zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets drive.voltage as well",
+                   data->cell[column]);
+  run->rows = data->rows;
+  run->time = calloc(2 * data->rows, sizeof *run->time);
+  if (!run->time) return zp_fail_memory(err);
+  run->voltage = run->time + data->rows;
+  return read_column(fit, data, column, -1, unit, run->voltage, err);
+}
+
+/* A column with one value all the time sets its key. */
+static ZpStatus read_condition(ZpFit *fit, ZpFitRun *run, const ZpData *data, int column, int key, const Unit *unit,
+                               ZpError *err) {
+  double *values = calloc(data->rows, sizeof *values);
+  ZpStatus status = values ? read_column(fit, data, column, key, unit, values, err) : zp_fail_memory(err);
+  for (size_t i = 1; i < data->rows && status == ZP_OK; i++)
+    if (values[i] != values[0])
+      status = zp_fail(err, ZP_BAD_INPUT,
+                       "%.200s:%d: column %.60s: rows over time belong to one run, in which no key can change",
+                       data->path, zp_data_line(data, i), data->cell[column]);
+  for (int i = 0; i < run->keys && status == ZP_OK; i++)
+    if (run->key[i] == key)
+      status = zp_fail(err, ZP_BAD_INPUT, "data.file: column %.60s: another column sets %s as well",
+                       data->cell[column], ZP_KEY_NAME(key));
+  if (status == ZP_OK && run->keys == ZP_FIT_OTHERS)
+    status = zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns set keys", data->path, ZP_FIT_OTHERS);
+  if (status == ZP_OK) status = fail_fitted(fit, key, data->cell[column], err);
+  if (status == ZP_OK) {
+    run->key[run->keys] = key;
+    run->value[run->keys++] = values[0];
+  }
+  free(values);
+  return status;
+}
+
+/* What drove a record, and its conditions. */
+static ZpStatus read_run(ZpFit *fit, const Measured *measured, ZpError *err) {
+  ZpFitRun *run = &fit->run[measured->run];
+  const ZpData *data = measured->data;
+  ZpStatus status = ZP_OK;
+  run->late = -1;
+  for (int column = 0; column < (int)data->columns && status == ZP_OK; column++) {
+    Unit unit;
+    const bool known = column == measured->x || is_measured(measured, column);
+    const int key = known ? -1 : key_of_header(fit, data->cell[column], &unit);
+    measured->used[column] |= known || key >= 0;
+    if (key < 0) continue;
+    if (key == zp_key_find("drive.voltage"))
+      status = read_drive(fit, run, data, column, &unit, err);
+    else
+      status = read_condition(fit, run, data, column, key, &unit, err);
+  }
+  return status;
+}
+
+/* The run begins with the voltage, otherwise at time 0 of the file. */
+static ZpStatus begin_run(ZpFitRun *run, const double *time, const ZpData *data, ZpError *err) {
+  size_t row;
+  if (run->rows == 0) return ZP_OK;
+  run->from = time[0];
+  for (size_t i = 0; i < run->rows; i++)
+    run->time[i] = time[i] - run->from;
+  const ZpDriveTable table = {run->rows, run->time, run->voltage};
+  const char *fault = zp_drive_table_fault(&table, &row);
+  if (!fault) return ZP_OK;
+  return zp_fail(err, ZP_BAD_INPUT, "%.200s:%d: %s", data->path, zp_data_line(data, row), fault);
 }
 
 /* Take all other columns whose header is a key. */
@@ -210,10 +338,6 @@ static ZpStatus read_others(ZpFit *fit, ZpFitSet *set, const Measured *measured,
     int key = known ? -1 : key_of_header(fit, name, &unit);
     measured->used[column] |= known || key >= 0;
     if (key < 0) continue;
-    if (set->x_key < 0)
-      return zp_fail(err, ZP_BAD_INPUT,
-                     "%.200s: column %.60s: rows over time belong to one run, in which no key can change", data->path,
-                     name);
     if (set->others == ZP_FIT_OTHERS)
       return zp_fail(err, ZP_BAD_INPUT, "%.200s: more than %d columns set keys", data->path, ZP_FIT_OTHERS);
     set->other_key[set->others] = key;
@@ -236,16 +360,23 @@ static ZpStatus check_limit(ZpFitKind kind, const ZpActuatorDef *def, double mea
                  kind == ZP_FIT_PULL_IN ? "pull-in voltage" : "release voltage", measured, def->drive.voltage);
 }
 
+/* One run in time, over all rows. */
+static ZpStatus check_run(const ZpFit *fit, const ZpFitRun *run, ZpError *err) {
+  ZpActuatorDef def;
+  double highest = fmax(fit->def->drive.voltage, fabs(fit->def->drive.offset)), first[ZP_FIT_MOST];
+  memcpy(first, fit->first, sizeof first);
+  zp_fit_run_def(fit, run, first, &def);
+  ZpStatus status = zp_def_check_motion(&def, err);
+  for (size_t i = 0; i < run->rows; i++)
+    highest = fmax(i > 0 ? highest : 0, fabs(run->voltage[i]));
+  return status == ZP_OK ? zp_def_check_voltage(&def, highest, err) : status;
+}
+
 /* Each row must be a valid case: by the check of the study that computes its number, otherwise by its voltage. */
 static ZpStatus check_rows(const ZpFit *fit, const ZpFitSet *set, const ZpData *data, ZpError *err) {
   double start[ZP_FIT_MOST], voltage;
-  for (int k = 0; k < ZP_FIT_MOST; k++)
-    start[k] = 1;
-  if (set->x_key < 0) { /* one run in time, over all rows */
-    ZpStatus status = zp_def_check_motion(fit->def, err);
-    const double highest = fmax(fit->def->drive.voltage, fabs(fit->def->drive.offset));
-    return status == ZP_OK ? zp_def_check_voltage(fit->def, highest, err) : status;
-  }
+  memcpy(start, fit->first, sizeof start);
+  if (set->x_key < 0) return check_run(fit, &fit->run[set->run], err);
   const ZpFitNumber *number = &zp_fit_number[set->kind];
   for (size_t i = 0; i < set->rows; i++) {
     ZpActuatorDef def;
@@ -279,8 +410,8 @@ static ZpStatus read_sigma_of(Reading *r, char *part) {
   const int kind = kind_called(name);
   if (kind == ZP_FIT_KINDS)
     return zp_fail(r->err, ZP_BAD_INPUT,
-                   "calibrate.sigma: %.60s: takes stroke, opening, capacitance, force, zip_time, pull_in_voltage, "
-                   "release_voltage or frequency",
+                   "calibrate.sigma: %.60s: takes stroke, displacement, opening, capacitance, current, force, zip_time, "
+                   "pull_in_voltage, release_voltage or frequency",
                    name);
   const char *unit = zp_fit_number[kind].unit;
   ZpStatus status = zp_quantity_read(text, unit, &r->sigma[kind], &reason);
@@ -419,18 +550,12 @@ static ZpStatus check_sigma_key(const Reading *r) {
 
 /* -- what was measured ----------------------------------------------------------------------------- */
 
-/* Can a kind be measured against this quantity? Over time, only a quantity of a run; against a weight, not a force. */
-static bool is_possible(const ZpFitSet *set, ZpFitKind kind) {
-  if (set->x_key < 0) return !zp_fit_number[kind].number;
-  return kind != ZP_FIT_FORCE || set->x_key != zp_key_find("load.mass");
-}
-
 /* The kind of a column by its name, and its unit; false if it is none. */
 static bool find_kind(ZpFit *fit, ZpFitSet *set, const char *name, ZpUnitScale *scale) {
   for (int kind = 0; kind < ZP_FIT_KINDS; kind++) {
     const ZpFitNumber *of = &zp_fit_number[kind];
     set->kind = (ZpFitKind)kind;
-    if (is_possible(set, set->kind) && take_unit(fit, name, of->column, of->unit, scale)) return true;
+    if (is_possible(set->x_key < 0, set->x_key, set->kind) && take_unit(fit, name, of->column, of->unit, scale)) return true;
   }
   return false;
 }
@@ -441,11 +566,10 @@ static ZpStatus read_y(ZpFit *fit, ZpFitSet *set, const ZpData *data, int column
   if (!find_kind(fit, set, name, &unit.scale))
     return zp_fail(
         err, ZP_BAD_INPUT,
-        "%.200s:1: column %.60s: unknown; calibrate.y takes stroke, opening or capacitance with its unit; against a "
-        "key, "
-        "not over time, also zip_time, pull_in_voltage, release_voltage or frequency; against a key that is not "
-        "the load, also force; give another name by data.columns: %.60s = stroke_mm",
-        data->path, name, name);
+        "%.200s:%d: column %.60s: unknown; calibrate.y takes stroke, displacement, opening or capacitance with its "
+        "unit; over time, also current; against a key, also zip_time, pull_in_voltage, release_voltage or frequency; "
+        "against a key that is not the load, also force; give another name by data.columns: %.60s = stroke_mm",
+        data->path, data->line[0], name, name);
   if (set->kind == ZP_FIT_OPENING && fit->def->actuator.kind != ZP_KIND_ELECTRO_RIBBON)
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.y: column %.60s: only kind electro_ribbon has an opening", name);
   return read_column(fit, data, column, -1, &unit, fit->y + set->first, err);
@@ -471,32 +595,137 @@ static ZpStatus read_set(const Reading *r, ZpFitSet *set, const Measured *measur
     y = stroke;
   }
   ZpStatus status = read_x(r->fit, set, data, x, r->err);
-  if (status == ZP_OK) status = read_others(r->fit, set, measured, x, r->err);
+  if (status == ZP_OK && measured->is_record)
+    status = begin_run(&r->fit->run[set->run], r->fit->x + set->first, data, r->err);
+  else if (status == ZP_OK)
+    status = read_others(r->fit, set, measured, x, r->err);
   if (status == ZP_OK) status = read_y(r->fit, set, data, y, r->err);
   if (status == ZP_OK) status = read_sigma(r, set, measured);
   return status == ZP_OK ? check_rows(r->fit, set, data, r->err) : status;
 }
 
+/* Take the rows of a record out that are not fitted. */
+static void skip_rows(ZpFit *fit, ZpFitSet *set) {
+  const double from = fit->def->calibrate.skip_until, to = fit->def->calibrate.skip_after;
+  size_t kept = set->first;
+  for (size_t i = set->first; i < set->first + set->rows; i++) {
+    if (fit->x[i] < from || fit->x[i] > to) continue;
+    fit->x[kept] = fit->x[i];
+    fit->y[kept] = fit->y[i];
+    fit->sigma[kept++] = fit->sigma[i];
+  }
+  set->rows = kept - set->first;
+}
+
+/* The measured columns of a file; over time, the record that they are of. */
+static ZpStatus read_file(Reading *r, Measured *measured) {
+  ZpFit *fit = r->fit;
+  ZpStatus status = measured->is_record ? read_run(fit, measured, r->err) : ZP_OK;
+  for (int c = 0; c < measured->columns && status == ZP_OK; c++) {
+    ZpFitSet *set = &fit->set[fit->sets++];
+    *set = (ZpFitSet){.first = fit->rows, .rows = measured->data->rows, .run = measured->run, .zero = -1};
+    status = read_set(r, set, measured, measured->y[c]);
+    if (status == ZP_OK && measured->is_record) skip_rows(fit, set);
+    if (status == ZP_OK && set->rows == 0)
+      status = zp_fail(r->err, ZP_BAD_INPUT,
+                       "%.200s: no row is between calibrate.skip_until = %g s and calibrate.skip_after = %g s",
+                       measured->data->path, fit->def->calibrate.skip_until, fit->def->calibrate.skip_after);
+    fit->rows += set->rows;
+  }
+  return status;
+}
+
+/* -- shifts ---------------------------------------------------------------------------------------- */
+
+static ZpStatus add_shift(ZpFit *fit, const char *name, const char *unit, double size, int *place, ZpError *err) {
+  const int k = fit->n - fit->keys;
+  if (k == ZP_FIT_SHIFTS) return zp_fail(err, ZP_BAD_INPUT, "calibrate.offsets: more than %d shifts", ZP_FIT_SHIFTS);
+  snprintf(fit->shift[k], sizeof fit->shift[k], "%s", name);
+  fit->shift_unit[k] = unit;
+  fit->start[fit->n] = size;
+  fit->lower[fit->n] = -1e3;
+  fit->upper[fit->n] = 1e3;
+  *place = fit->n++;
+  return ZP_OK;
+}
+
+/* A hundredth of the range of these values, by which a shift counts. */
+static double part_of_range(const double *value, size_t count) {
+  double least = value[0], most = value[0];
+  for (size_t i = 1; i < count; i++)
+    least = fmin(least, value[i]), most = fmax(most, value[i]);
+  return most > least ? 0.01 * (most - least) : fmax(0.01 * fabs(most), 1e-9);
+}
+
+/* The times of all records against their voltage: each has its own. */
+static ZpStatus shift_times(Reading *r) {
+  ZpFit *fit = r->fit;
+  ZpStatus status = fit->runs > 0 ? ZP_OK : zp_fail(r->err, ZP_BAD_INPUT, "calibrate.offsets: time: no file has times");
+  for (size_t i = 0; i < fit->sets && status == ZP_OK; i++) {
+    const ZpFitSet *set = &fit->set[i];
+    if (set->x_key >= 0 || fit->run[set->run].late >= 0) continue;
+    char name[32] = "time_offset";
+    if (fit->runs > 1) snprintf(name, sizeof name, "time_offset_%zu", set->run + 1);
+    status = add_shift(fit, name, "s", part_of_range(fit->x + set->first, set->rows), &fit->run[set->run].late, r->err);
+  }
+  return status;
+}
+
+/* The zero of a measured quantity, one for each file that has it. */
+static ZpStatus shift_zeros(Reading *r, const char *name) {
+  ZpFit *fit = r->fit;
+  ZpStatus status = ZP_OK;
+  size_t found = 0, count = 0;
+  const int kind = kind_called(name);
+  for (size_t i = 0; i < fit->sets; i++)
+    count += (int)fit->set[i].kind == kind;
+  if (count == 0)
+    return zp_fail(r->err, ZP_BAD_INPUT, "calibrate.offsets: %.60s: takes time and names of measured columns", name);
+  for (size_t i = 0; i < fit->sets && status == ZP_OK; i++) {
+    ZpFitSet *set = &fit->set[i];
+    char shift[40];
+    if ((int)set->kind != kind) continue;
+    snprintf(shift, sizeof shift, count > 1 ? "%s_offset_%zu" : "%s_offset", zp_fit_number[kind].column, ++found);
+    status = add_shift(fit, shift, zp_fit_number[kind].unit, part_of_range(fit->y + set->first, set->rows), &set->zero,
+                       r->err);
+  }
+  return status;
+}
+
+static ZpStatus read_shifts(Reading *r) {
+  char list[ZP_TEXT_SIZE], *rest = list;
+  ZpStatus status = ZP_OK;
+  memcpy(list, r->fit->def->calibrate.offsets, sizeof list);
+  for (char *part = strsep(&rest, ";"); part && status == ZP_OK; part = strsep(&rest, ";")) {
+    part = zp_trim(part);
+    if (!*part) continue;
+    char *unit = strrchr(part, '_'); /* stroke_mm is stroke */
+    if (unit && kind_called(part) == ZP_FIT_KINDS) *unit = 0;
+    status = strcmp(part, "time") == 0 ? shift_times(r) : shift_zeros(r, part);
+  }
+  return status;
+}
+
+/* -- all of it ------------------------------------------------------------------------------------- */
+
 static ZpStatus read_sets(Reading *r) {
   ZpFit *fit = r->fit;
-  size_t row = 0;
   ZpStatus status = ZP_OK;
-  if (fit->rows < (size_t)fit->n)
-    return zp_fail(r->err, ZP_BAD_INPUT, "data.file: %zu rows of data, fewer than the %d keys of calibrate.fit",
-                   fit->rows, fit->n);
+  fit->run = calloc(fit->runs + 1, sizeof *fit->run);
   fit->set = calloc(r->sets, sizeof *fit->set);
   fit->x = calloc(fit->rows, sizeof *fit->x);
   fit->y = calloc(fit->rows, sizeof *fit->y);
   fit->sigma = calloc(fit->rows, sizeof *fit->sigma);
-  if (!fit->set || !fit->x || !fit->y || !fit->sigma) return zp_fail_memory(r->err);
-  for (size_t i = 0; i < r->files.count; i++)
-    for (int c = 0; c < r->measured[i].columns && status == ZP_OK; c++) {
-      ZpFitSet *set = &fit->set[fit->sets++];
-      set->first = row;
-      set->rows = r->measured[i].data->rows;
-      row += set->rows;
-      status = read_set(r, set, &r->measured[i], r->measured[i].y[c]);
-    }
+  if (!fit->run || !fit->set || !fit->x || !fit->y || !fit->sigma) return zp_fail_memory(r->err);
+  fit->rows = 0;
+  for (size_t i = 0; i < r->files.count && status == ZP_OK; i++)
+    status = read_file(r, &r->measured[i]);
+  if (status == ZP_OK) status = read_shifts(r);
+  if (status == ZP_OK && fit->rows < (size_t)fit->n)
+    status = zp_fail(r->err, ZP_BAD_INPUT,
+                     "data.file: %zu rows of data, fewer than the %d keys of calibrate.fit and shifts of "
+                     "calibrate.offsets",
+                     fit->rows, fit->n);
   if (status == ZP_OK) status = check_sigma_key(r);
   return status == ZP_OK ? check_sigmas(r) : status;
 }
@@ -517,6 +746,16 @@ static void note_idle(ZpFit *fit, const Measured *measured) {
   }
 }
 
+/* Remember which lines of a file were taken for what. */
+static void note_layout(ZpFit *fit, const Measured *measured) {
+  const char *folder = strrchr(measured->data->path, '/'), *file = folder ? folder + 1 : measured->data->path;
+  const size_t used = strlen(fit->layout);
+  char text[160];
+  zp_data_describe(measured->data, text, sizeof text);
+  if (*text)
+    snprintf(fit->layout + used, sizeof fit->layout - used, "%s%.60s: %s", used ? "; " : "", file, text);
+}
+
 static ZpStatus read_files(Reading *r) {
   const ZpActuatorDef *def = r->fit->def;
   ZpStatus status = zp_data_read_all("data.file", def->data.file, def->data.columns, &r->files, r->err);
@@ -535,6 +774,7 @@ ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err) {
   if (status == ZP_OK) status = read_sets(&reading);
   for (size_t i = 0; reading.measured && i < reading.files.count; i++) {
     if (status == ZP_OK) note_idle(fit, &reading.measured[i]);
+    if (status == ZP_OK) note_layout(fit, &reading.measured[i]);
     free(reading.measured[i].used);
   }
   free(reading.measured);

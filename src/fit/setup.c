@@ -10,8 +10,10 @@
 
 const ZpFitNumber zp_fit_number[ZP_FIT_KINDS] = {
     [ZP_FIT_STROKE] = {"stroke", "m", 0, NULL, true},
+    [ZP_FIT_DISPLACEMENT] = {"displacement", "m", 0, NULL, true},
     [ZP_FIT_OPENING] = {"opening", "m", 0, NULL, true},
     [ZP_FIT_CAPACITANCE] = {"capacitance", "F", 0, NULL, false},
+    [ZP_FIT_CURRENT] = {"current", "A", 0, NULL, false},
 #define ZP_MEASURED(enumerator, kind, column, unit, scalar, has_slopes)                                                \
   [kind] = {column, unit, enumerator, scalar, has_slopes},
 #include <zipact/studies.def>
@@ -21,13 +23,25 @@ void zp_fit_close(ZpFit *fit) {
   for (size_t i = 0; i < fit->sets; i++)
     for (int k = 0; k < fit->set[i].others; k++)
       free(fit->set[i].other[k]);
+  for (size_t i = 0; i < fit->runs; i++)
+    free(fit->run[i].time);
+  free(fit->run);
   free(fit->set);
   free(fit->x);
   free(fit->y);
   free(fit->sigma);
   fit->x = fit->y = fit->sigma = NULL;
   fit->set = NULL;
-  fit->sets = 0;
+  fit->run = NULL;
+  fit->sets = fit->runs = 0;
+}
+
+const char *zp_fit_name(const ZpFit *fit, int k) {
+  return k < fit->keys ? ZP_KEY_NAME(fit->key[k]) : fit->shift[k - fit->keys];
+}
+
+const char *zp_fit_unit(const ZpFit *fit, int k) {
+  return k < fit->keys ? zp_key(fit->key[k])->unit : fit->shift_unit[k - fit->keys];
 }
 
 const ZpFitSet *zp_fit_set_of(const ZpFit *fit, size_t row) {
@@ -63,10 +77,10 @@ static ZpStatus set_bounds(ZpFit *fit, char *text, ZpError *err) {
   ZpStatus status = zp_interval_read("calibrate.bounds", text, &bounds, err);
   if (status != ZP_OK) return status;
   int i = 0;
-  while (i < fit->n && fit->key[i] != bounds.key)
+  while (i < fit->keys && fit->key[i] != bounds.key)
     i++;
   const char *name = ZP_KEY_NAME(bounds.key);
-  if (i == fit->n) return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s is not in calibrate.fit", name);
+  if (i == fit->keys) return zp_fail(err, ZP_BAD_INPUT, "calibrate.bounds: %s is not in calibrate.fit", name);
   const double start = fit->start[i], from = bounds.from / start, to = bounds.to / start;
   fit->lower[i] = fmin(from, to);
   fit->upper[i] = fmax(from, to);
@@ -94,8 +108,9 @@ static ZpStatus add_key(ZpFit *fit, int key, ZpError *err) {
     return zp_fail(err, ZP_BAD_INPUT, "calibrate.fit: %s is %s: give a value to start from", name,
                    isnan(start) ? zp_key(key)->text : "0");
   double at_min = zp_key(key)->min / start, at_max = zp_key(key)->max / start;
-  fit->key[fit->n] = key;
+  fit->key[fit->keys++] = key;
   fit->start[fit->n] = start;
+  fit->first[fit->n] = 1;
   fit->lower[fit->n] = fmax(fit->def->calibrate.lower, fmin(at_min, at_max));
   fit->upper[fit->n++] = fmin(fit->def->calibrate.upper, fmax(at_min, at_max));
   return ZP_OK;
@@ -103,15 +118,15 @@ static ZpStatus add_key(ZpFit *fit, int key, ZpError *err) {
 
 /* If none is named, model and data are compared. */
 static ZpStatus read_keys(ZpFit *fit, ZpError *err) {
-  int key[ZP_FIT_MOST], keys;
-  ZpStatus status = zp_keys_named("calibrate.fit", fit->def->calibrate.fit, ZP_FIT_MOST, key, &keys, err);
+  int key[ZP_FIT_KEYS], keys;
+  ZpStatus status = zp_keys_named("calibrate.fit", fit->def->calibrate.fit, ZP_FIT_KEYS, key, &keys, err);
   for (int k = 0; k < keys && status == ZP_OK; k++)
     status = add_key(fit, key[k], err);
   return status;
 }
 
 ZpStatus zp_fit_open(const ZpActuatorDef *def, ZpFit *fit, ZpError *err) {
-  *fit = (ZpFit){.def = def, .err = err};
+  *fit = (ZpFit){.def = def, .tolerance = NAN, .err = err};
   if (*def->data.file == 0)
     return zp_fail(err, ZP_BAD_INPUT, "data.file: empty; study calibrate needs a CSV file of measurements");
   ZpStatus status = read_keys(fit, err);

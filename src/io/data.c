@@ -11,6 +11,7 @@
 
 #include "base/fail.h"
 #include "io/file.h"
+#include "io/layout.h"
 #include "io/number.h"
 #include "io/range.h"
 #include "io/source.h"
@@ -23,6 +24,7 @@ enum { LONGEST_NAME = 200, LONGEST_NUMBER = 64 };
 void zp_data_destroy(ZpData *data) {
   free(data->text);
   free(data->names);
+  free(data->plain);
   free(data->name);
   free(data->cell);
   free(data->line);
@@ -59,61 +61,17 @@ static size_t count_char(const char *text, char c) {
   return count;
 }
 
-/* -- cells ------------------------------------------------------------------------------------------ */
-
-/* End of the cell that starts at `text`: its separator or the end of the line; NULL if a quote is not closed. */
-static char *cell_end(char *text, char separator) {
-  bool quoted = false;
-  for (; *text && (quoted || *text != separator); text++)
-    quoted ^= *text == '"';
-  return quoted ? NULL : text;
-}
-
-/* "a ""b""" => a "b", in place. */
-static char *unquote(char *cell) {
-  size_t length = strlen(cell), used = 0;
-  if (length < 2 || cell[0] != '"' || cell[length - 1] != '"') return cell;
-  for (size_t i = 1; i + 1 < length; i++) {
-    cell[used++] = cell[i];
-    i += cell[i] == '"' && cell[i + 1] == '"' && i + 2 < length;
-  }
-  cell[used] = 0;
-  return zp_trim(cell);
-}
-
-/* Split the next cell off a line, in place; NULL after the last one. */
-static char *next_cell(char **line, char separator) {
-  char *cell = *line, *end = cell_end(cell, separator);
-  *line = *end ? end + 1 : NULL;
-  *end = 0;
-  return unquote(zp_trim(cell));
-}
-
-/* The separator: semicolon, tab or comma, the first of these that the row of names has outside of quotes. */
-static char find_separator(char *names) {
-  static const char separators[] = ";\t,";
-  for (const char *c = separators; *c; c++) {
-    char *end = cell_end(names, *c);
-    if (end && *end) return *c;
-  }
-  return ',';
-}
-
-/* Number of cells of a line, 0 if a quote is not closed. */
-static size_t count_cells(char *line, char separator) {
-  size_t count = 1;
-  for (char *end = cell_end(line, separator); !end || *end; end = cell_end(end + 1, separator), count++)
-    if (!end) return 0;
-  return count;
-}
+/* -- names ------------------------------------------------------------------------------------------ */
 
 /* The unit in a name, without what is around it, and the end of the name before it: of "Zip time (ms)", "Zip time
- * [ms]", "Zip time / ms" and "Zip time in ms". False if the name has no such unit. */
+ * [ms]", "Zip time / ms", "Zip time in ms", "Time/ms", "Time, ms" and "Time ms". False if the name has no such unit. */
 static bool find_unit(char *name, char **unit, char **end) {
   static const char *const before[] = {" / ", " in "};
   const size_t length = strlen(name);
-  char *open = strrchr(name, '[') ? strrchr(name, '[') : strrchr(name, '(');
-  if (open && open > name && strchr(")]", name[length - 1])) {
+  char *open = length > 1 && strchr(")]}>", name[length - 1]) ? name + length - 1 : name;
+  while (open > name && !strchr("([{<", *open))
+    open--;
+  if (open > name) {
     name[length - 1] = 0;
     *unit = zp_trim(open + 1);
     *end = open;
@@ -126,7 +84,13 @@ static bool find_unit(char *name, char **unit, char **end) {
     *end = found;
     return true;
   }
-  return false;
+  char *last = name + length;
+  while (last > name && !strchr("/, ", last[-1]))
+    last--;
+  if (last <= name + 1 || !zp_is_unit(last)) return false;
+  *unit = last;
+  *end = last - 1;
+  return true;
 }
 
 /* "Pull-in voltage (kV)" => Pull_in_voltage_kV, in place: not longer than before. */
@@ -134,7 +98,7 @@ static void plain_name(char *name) {
   char *unit = strrchr(name, '_'), *end = unit;
   const bool apart = find_unit(name, &unit, &end);
   if (!end) return;
-  while (apart && end > name && end[-1] == ' ')
+  while (apart && end > name && strchr(" ,/:", end[-1]))
     end--;
   for (char *c = name; c < end; c++)
     if (*c == '-' || (apart && *c == ' ')) *c = '_';
@@ -146,27 +110,19 @@ static void plain_name(char *name) {
 }
 
 /* Split a line into the cells of the next row. */
-static ZpStatus take_line(ZpData *data, char *line, int number, size_t *rows, ZpError *err) {
+static ZpStatus take_line(ZpData *data, char *line, int number, size_t width, size_t *rows, ZpError *err) {
   ZpSource source = {.name = data->path};
-  size_t cells = count_cells(line, data->separator);
+  size_t cells = zp_cells_count(line, data->separator);
   if (cells == 0) return zp_source_fail(&source, number, err, "a quote is not closed");
-  if (cells != data->columns)
+  if (cells != width && *rows > 0)
     return zp_source_fail(&source, number, err, "%zu cells; the header has %zu", cells, data->columns);
   char **cell = data->cell + *rows * data->columns;
-  for (size_t i = 0; i < cells; i++) {
-    cell[i] = next_cell(&line, data->separator);
-    if (*rows == 0) plain_name(cell[i]);
+  for (size_t i = 0; i < data->columns; i++) {
+    cell[i] = zp_cell_next(&line, data->separator);
+    if (*rows == 0 && !data->units) plain_name(cell[i]);
   }
   data->line[(*rows)++] = number;
   return ZP_OK;
-}
-
-/* A copy with a decimal point; false if it is no decimal. */
-static bool plain_decimal(const char *text, char separator, char copy[LONGEST_NUMBER]) {
-  snprintf(copy, LONGEST_NUMBER, "%s", text);
-  char *comma = separator != ',' && !strchr(copy, '.') ? strchr(copy, ',') : NULL;
-  if (comma) *comma = '.';
-  return *text && strlen(text) < LONGEST_NUMBER && strspn(copy, "+-.0123456789eE") == strlen(copy);
 }
 
 static bool counts(const char *line) {
@@ -182,22 +138,58 @@ static ZpStatus keep_names(ZpData *data, const char *names, ZpError *err) {
   char *rest = data->names, number[LONGEST_NUMBER];
   size_t numbers = 0;
   for (size_t i = 0; i < data->columns; i++) {
-    data->name[i] = next_cell(&rest, data->separator);
-    numbers += plain_decimal(data->name[i], data->separator, number);
+    data->name[i] = zp_cell_next(&rest, data->separator);
+    numbers += zp_cell_number(data->name[i], data->separator, 0, number, sizeof number);
   }
   if (numbers == 0 || numbers < data->columns) return ZP_OK;
   return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: the first row has numbers; it needs names with units, such as load_g",
                  data->key, data->path);
 }
 
-/* Allocate the rows of a text with so many lines, by its row of names. */
-static ZpStatus open_rows(ZpData *data, char *names, size_t lines, ZpError *err) {
-  data->separator = find_separator(names);
-  data->columns = count_cells(names, data->separator);
+/* "Time", "(ms)" => Time_ms, of all columns. */
+static ZpStatus join_units(ZpData *data, char *names, char *units, ZpError *err) {
+  const size_t size = strlen(names) + strlen(units) + 2 * data->columns + 1;
+  char *to = data->plain = malloc(size);
+  if (!to) return zp_fail_memory(err);
+  for (size_t i = 0; i < data->columns; i++) {
+    const char *name = zp_cell_next(&names, data->separator), *unit = NULL;
+    char *cell = units ? zp_cell_next(&units, data->separator) : NULL;
+    if (cell && strcmp(cell, "-") != 0) unit = zp_cell_unit(cell);
+    const int used = snprintf(to, size - (size_t)(to - data->plain), unit ? "%s_%s" : "%s", name, unit);
+    for (char *c = to; *c; c++)
+      if ((*c == '-' || *c == ' ') && c < to + strlen(name)) *c = '_';
+    data->cell[i] = to;
+    to += used + 1;
+  }
+  return ZP_OK;
+}
+
+/* Allocate the rows of a table. */
+static ZpStatus open_rows(ZpData *data, const ZpLayout *table, char *const *line, ZpError *err) {
+  data->separator = table->separator;
+  data->columns = table->columns;
+  data->units = table->units;
   if (data->columns > 1000)
     return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: more than 1000 columns", data->key, data->path);
-  data->cell = calloc(lines * (data->columns + 1), sizeof *data->cell);
-  return data->cell ? keep_names(data, names, err) : zp_fail_memory(err);
+  data->cell = calloc((table->end - table->first + 2) * (data->columns + 1), sizeof *data->cell);
+  data->line = calloc(table->end - table->first + 2, sizeof *data->line);
+  return data->cell && data->line ? keep_names(data, line[table->names], err) : zp_fail_memory(err);
+}
+
+/* Take the names, with their units, and the rows. `number`: of each line, from 1. */
+static ZpStatus take_table(ZpData *data, const ZpLayout *table, char *const *line, const int *number, ZpError *err) {
+  size_t rows = 0;
+  ZpStatus status = open_rows(data, table, line, err);
+  if (status == ZP_OK && table->units) {
+    status = join_units(data, line[table->names], line[table->names + 1], err);
+    data->line[rows++] = number[table->names];
+  } else if (status == ZP_OK) {
+    status = take_line(data, line[table->names], number[table->names], table->width, &rows, err);
+  }
+  for (size_t i = table->first; i < table->end && status == ZP_OK; i++)
+    status = take_line(data, line[i], number[i], table->width, &rows, err);
+  if (status == ZP_OK) data->rows = rows - 1;
+  return status;
 }
 
 /* A line without its end; blanks at its ends may be empty cells and stay. */
@@ -209,31 +201,77 @@ static char *take_end(char *start) {
   return end + 1;
 }
 
-static ZpStatus cut(ZpData *data, char *text, ZpError *err) {
-  size_t lines = count_char(text, '\n') + 1, rows = 0;
+/* The lines of a text that count => line, number [how many]. */
+static size_t cut(char *text, char **line, int *number) {
   char *start = text + (strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0); /* a byte order mark */
-  ZpStatus status = ZP_OK;
-  int number = 0;
-  data->line = calloc(lines, sizeof *data->line);
-  if (!data->line) return zp_fail_memory(err);
-  for (char *next; start && status == ZP_OK; start = next) {
-    next = take_end(start);
-    number++;
-    if (!counts(start)) continue;
-    if (!data->cell) status = open_rows(data, start, lines, err);
-    if (status == ZP_OK) status = take_line(data, start, number, &rows, err);
+  size_t lines = 0;
+  for (int k = 1; start; k++) {
+    char *next = take_end(start);
+    if (counts(start)) {
+      line[lines] = start;
+      number[lines++] = k;
+    }
+    start = next;
   }
-  if (status == ZP_OK && rows == 0)
-    return zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: empty; needs a row of names and rows of numbers", data->key,
-                   data->path);
-  if (status == ZP_OK) data->rows = rows - 1;
+  return lines;
+}
+
+/* Signs of groups: "1.234,5" and "1,234.5" tell which character is between thousands. If no number tells, points are,
+ * if others have decimal commas and all points are followed by three digits. */
+static char groups_of(const ZpData *data) {
+  bool comma = false, point = false, all = true;
+  char copy[LONGEST_NUMBER];
+  for (size_t i = data->columns; i < (data->rows + 1) * data->columns; i++) {
+    const char *cell = data->cell[i], *first = strpbrk(cell, ".,'");
+    if (!first) continue;
+    const char other = *first == '.' ? ',' : '.';
+    const bool both = strchr(first, other) || (strchr(first + 1, *first) && *first != other);
+    if (both && zp_cell_number(cell, data->separator, *first, copy, sizeof copy)) return *first;
+    if (*first == '\'' && zp_cell_number(cell, data->separator, '\'', copy, sizeof copy)) return '\'';
+    if (!zp_cell_number(cell, data->separator, 0, copy, sizeof copy)) continue;
+    comma |= *first == ',';
+    point |= *first == '.';
+    all &= *first != '.' || zp_cell_number(cell, data->separator, '.', copy, sizeof copy);
+  }
+  return comma && point && all && data->separator != ',' ? '.' : 0;
+}
+
+static ZpStatus take_text(ZpData *data, char *text, ZpError *err) {
+  const size_t most = count_char(text, '\n') + 1;
+  char **line = calloc(most, sizeof *line);
+  int *number = calloc(most, sizeof *number);
+  ZpStatus status = line && number ? ZP_OK : zp_fail_memory(err);
+  const size_t lines = status == ZP_OK ? cut(text, line, number) : 0;
+  if (status == ZP_OK && lines == 0)
+    status = zp_fail(err, ZP_BAD_INPUT, "%s: %.300s: empty; needs a row of names and rows of numbers", data->key,
+                     data->path);
+  if (status == ZP_OK) {
+    const ZpLayout table = zp_layout_find(line, lines);
+    status = take_table(data, &table, line, number, err);
+    data->before = table.names;
+    data->after = lines - table.end;
+    if (status == ZP_OK) data->grouped = groups_of(data);
+  }
+  free(line);
+  free(number);
   return status;
+}
+
+void zp_data_describe(const ZpData *data, char *text, size_t size) {
+  char units[48] = "";
+  *text = 0;
+  if (data->units) snprintf(units, sizeof units, "units in line %d, ", data->line[0] + 1);
+  if (data->before > 0 || data->after > 0 || data->units)
+    snprintf(text, size, "names in line %d, %s%zu rows in lines %d to %d", data->line[0], units, data->rows,
+             data->line[1], data->line[data->rows]);
 }
 
 static bool has_only_numbers(const ZpData *data, size_t column) {
   char number[LONGEST_NUMBER];
   for (size_t row = 1; row <= data->rows; row++)
-    if (!plain_decimal(data->cell[row * data->columns + column], data->separator, number)) return false;
+    if (!zp_cell_number(data->cell[row * data->columns + column], data->separator, data->grouped, number,
+                        sizeof number))
+      return false;
   return data->rows > 0;
 }
 
@@ -254,7 +292,7 @@ static ZpStatus check_table(const ZpData *data, ZpError *err) {
 ZpStatus zp_data_read(const char *key, const char *path, ZpData *data, ZpError *err) {
   *data = (ZpData){.key = key, .path = path};
   ZpStatus status = read_text(key, path, &data->text, err);
-  if (status == ZP_OK) status = cut(data, data->text, err);
+  if (status == ZP_OK) status = take_text(data, data->text, err);
   return status == ZP_OK ? check_table(data, err) : status;
 }
 
@@ -273,6 +311,8 @@ static int find_column(const ZpData *data, const char *plain) {
 
 int zp_data_column(const ZpData *data, const char *name) {
   char plain[LONGEST_NAME];
+  for (size_t i = 0; i < data->columns; i++)
+    if (strcmp(data->name[i], name) == 0) return (int)i;
   snprintf(plain, sizeof plain, "%s", name);
   plain_name(plain);
   return find_column(data, plain);
@@ -301,10 +341,9 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
   char *theirs = zp_trim(part), *ours = zp_trim(equals + 1);
   if (strchr(ours, '='))
     return zp_fail(err, ZP_BAD_INPUT, "data.columns: \"%.80s\": several names are separated by semicolons", ours);
-  plain_name(theirs);
   bool found = false;
   for (size_t i = 0; i < files->count; i++) {
-    const int column = find_column(&files->file[i], theirs);
+    const int column = zp_data_column(&files->file[i], theirs);
     found = found || column >= 0 || find_column(&files->file[i], ours) >= 0;
     if (column >= 0) files->file[i].cell[column] = ours;
   }
@@ -334,12 +373,35 @@ int zp_data_line(const ZpData *data, size_t row) {
   return data->line[row + 1];
 }
 
+/* "12:03:04.250" => s since midnight; false if it is no time of day. */
+static bool clock_time(const char *text, double *value) {
+  int hours, minutes, used = 0;
+  if (sscanf(text, "%d:%d%n", &hours, &minutes, &used) != 2 || hours < 0 || minutes < 0) return false;
+  double seconds = 0;
+  char copy[LONGEST_NUMBER];
+  if (text[used] == ':') {
+    if (!zp_cell_number(text + used + 1, ';', 0, copy, sizeof copy) || !zp_number_read(copy, &seconds)) return false;
+  } else if (text[used]) {
+    return false;
+  }
+  *value = 3600.0 * hours + 60.0 * minutes + seconds;
+  return true;
+}
+
+bool zp_data_is_clock(const ZpData *data, size_t column) {
+  double value;
+  return data->rows > 0 && clock_time(data->cell[data->columns + column], &value);
+}
+
 ZpStatus zp_data_number(const ZpData *data, size_t row, size_t column, double *value, ZpError *err) {
   const char *text = data->cell[(row + 1) * data->columns + column];
   ZpSource source = {.name = data->path};
   char copy[LONGEST_NUMBER];
   *value = NAN;
-  if (plain_decimal(text, data->separator, copy) && zp_number_read(copy, value) && isfinite(*value)) return ZP_OK;
+  if (zp_cell_number(text, data->separator, data->grouped, copy, sizeof copy) && zp_number_read(copy, value) &&
+      isfinite(*value))
+    return ZP_OK;
+  if (clock_time(text, value)) return ZP_OK;
   if (!*text)
     return zp_source_fail(&source, zp_data_line(data, row), err, "column %.60s: an empty cell; remove the row",
                           data->cell[column]);

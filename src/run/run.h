@@ -159,6 +159,8 @@ struct ZpSim {
   size_t members;                 /* simulations of one member each that follow each other, from this first one on */
   ZpState **states;               /* [members] of the first one: the states of all */
   struct ZpRunSensitivity *rates; /* derivatives of the run; NULL: none */
+  void (*stepped)(ZpSim *sim, void *user); /* called after each step, with its user; NULL: none */
+  void *stepped_user;
   ZpLiquidRoom liquid;            /* of the liquid that zp_sim_liquid returns */
   ZpManyShapes all;               /* of the uppermost member of a series: arrays for the shape of all members */
   void *all_memory;               /* memory of these arrays */

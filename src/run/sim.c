@@ -20,7 +20,7 @@ const char *zp_outcome_name(ZpOutcome outcome) {
   static const char *const names[] = {"end_time",      "zipped",      "interrupted", "not_settled", "diverged",
                                       "step_limit",    "converged",   "followed",    "branch_lost", "bad_argument",
                                       "short_circuit", "pulled_in",   "event",       "at_bound",    "time_limit",
-                                      "reopened",      "beyond_model"};
+                                      "reopened",      "beyond_model", "doubtful"};
   size_t index = (size_t)outcome;
   return index < sizeof names / sizeof names[0] ? names[index] : "unknown";
 }
@@ -28,7 +28,7 @@ const char *zp_outcome_name(ZpOutcome outcome) {
 bool zp_outcome_good(ZpOutcome outcome) {
   return outcome == ZP_REACHED_END || outcome == ZP_ZIPPED || outcome == ZP_CONVERGED || outcome == ZP_FOLLOWED ||
          outcome == ZP_SHORT_CIRCUIT || outcome == ZP_PULLED_IN || outcome == ZP_EVENT || outcome == ZP_AT_BOUND ||
-         outcome == ZP_REOPENED;
+         outcome == ZP_REOPENED || outcome == ZP_DOUBTFUL;
 }
 
 const char *zp_step_limit_name(ZpStepLimit limit) {
@@ -431,6 +431,7 @@ static void describe(const ZpSim *sim, ZpRunInfo *info) {
   case ZP_AT_BOUND:
   case ZP_TIME_LIMIT:
   case ZP_REOPENED:
+  case ZP_DOUBTFUL:
     break; /* of studies */
   case ZP_EVENT:
     snprintf(text, size, "an event at %g s", t);

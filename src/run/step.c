@@ -321,6 +321,7 @@ static void count(ZpSim *sim, const Step *step, double end_time, ZpRunInfo *info
   info->steps++;
   info->limited[limit]++;
   if (sim->rates) zp_run_sensitivity_follow(sim->rates);
+  if (sim->stepped) sim->stepped(sim, sim->stepped_user);
   sim->at_event = limit == ZP_LIMIT_EVENT || sim->state->supply_mode != step->supply_mode ||
                   (step->unzipped && !isnan(zp_sim_zip_time(sim)));
 }

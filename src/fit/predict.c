@@ -1,0 +1,395 @@
+/* Values of the model for the measured rows, and their derivatives by the parameters: exact ones, if they are
+ * available, otherwise finite differences. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <zipact/rest.h>
+
+#include "actuator/model.h"
+#include "base/fail.h"
+#include "def/check.h"
+#include "fit/fit.h"
+#include "fit/trace.h"
+#include "run/hooks.h"
+#include "study/result.h"
+
+/* Relative step of the finite differences: far above the tolerance of Newton's method, small enough to neglect the
+ * curvature. */
+static const double difference = 1e-4;
+
+/* Size of a key with which its changes are compared, in multiples of its start. The key may be negative or pass 0. */
+static double size_of(double z) {
+  static const double least = 1e-3;
+  return fmax(fabs(z), least);
+}
+
+double zp_fit_closing(const ZpModel *model) {
+  return model->stroke_by > 0 ? -1 : 1;
+}
+
+static double measured_at(ZpRest *rest, ZpFitKind kind) {
+  return kind == ZP_FIT_CAPACITANCE ? zp_rest_capacitance(rest)
+         : kind == ZP_FIT_OPENING   ? zp_rest_opening(rest)
+                                    : zp_rest_stroke(rest);
+}
+
+static double measure(ZpFit *fit, ZpFitKind kind, const ZpModel *model, double voltage) {
+  ZpRest *rest;
+  double value = NAN, start = 0;
+  if (zp_rest_create(model, &rest, fit->err) != ZP_OK)
+    fit->status = ZP_MACHINE;
+  else if (kind == ZP_FIT_DISPLACEMENT)
+    start = zp_rest_hang(rest, 0) ? zp_rest_stroke(rest) : (double)NAN;
+  if (rest && zp_rest_hang(rest, voltage)) value = measured_at(rest, kind);
+  zp_rest_destroy(rest);
+  return kind == ZP_FIT_DISPLACEMENT ? zp_fit_closing(model) * (value - start) : value;
+}
+
+/* The definition with the fitted keys at z; false if a value is out of its key's range. */
+static bool set_fitted(const ZpFit *fit, const double *z, ZpActuatorDef *def) {
+  bool set = true;
+  *def = *fit->def;
+  for (int i = 0; i < fit->keys && set; i++)
+    set = zp_def_set(def, fit->key[i], z[i] * fit->start[i], NULL) == ZP_OK;
+  return set;
+}
+
+static ZpModel *build(ZpFit *fit, const ZpActuatorDef *def) {
+  ZpModel *model;
+  if (zp_model_create(def, &model, NULL) == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  return model;
+}
+
+bool zp_fit_run_def(const ZpFit *fit, const ZpFitRun *run, const double *z, ZpActuatorDef *def) {
+  bool set = set_fitted(fit, z, def);
+  for (int k = 0; k < run->keys && set; k++)
+    set = zp_def_set(def, run->key[k], run->value[k], NULL) == ZP_OK;
+  if (run->rows > 0) def->drive.waveform = ZP_WAVEFORM_TABLE;
+  if (isnan(def->solver.tolerance)) def->solver.tolerance = fit->tolerance;
+  return set;
+}
+
+bool zp_fit_row(const ZpFit *fit, const double *z, size_t row, ZpActuatorDef *def, double *voltage) {
+  int drive = zp_key_find("drive.voltage");
+  const ZpFitSet *of = zp_fit_set_of(fit, row);
+  bool set = set_fitted(fit, z, def) && zp_def_set(def, of->x_key, fit->x[row], NULL) == ZP_OK;
+  *voltage = of->x_key == drive ? fit->x[row] : 0;
+  for (int k = 0; k < of->others && set; k++) {
+    const double value = of->other[k][row - of->first];
+    set = zp_def_set(def, of->other_key[k], value, NULL) == ZP_OK;
+    if (of->other_key[k] == drive) *voltage = value;
+  }
+  return set;
+}
+
+static void name_keys(const ZpFit *fit, ZpActuatorDef *def) {
+  char *text = def->sensitivity.by;
+  size_t size = sizeof def->sensitivity.by, used = 0;
+  for (int k = 0; k < fit->keys && used < size; k++)
+    used += (size_t)snprintf(text + used, size - used, "%s%s", k ? "," : "", ZP_KEY_NAME(fit->key[k]));
+}
+
+/* Of runs with derivatives, so that those are of the values. */
+static double tolerance_of(const ZpFit *fit, ZpActuatorDef def) {
+  name_keys(fit, &def);
+  return zp_def_tolerance(&def);
+}
+
+/* The result of the study whose number is measured; NULL if it cannot be run. */
+static ZpResult *run_study(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def) {
+  ZpResult *result = NULL;
+  def->output.samples = 10; /* only the numbers are needed */
+  def->output.shapes = 2;
+  def->output.errors = false;
+  def->solver.stop_when_zipped = ZP_WHEN_TRUE; /* of a motion only the zip time */
+  if (kind == ZP_FIT_TIME && fit->keys > 0) def->solver.tolerance = tolerance_of(fit, *def);
+  ZpStatus status = zp_study_run(zp_fit_number[kind].study, def, NULL, NULL, &result, NULL);
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  return result;
+}
+
+double zp_fit_predict(ZpFit *fit, const double *z, size_t row) {
+  ZpActuatorDef def;
+  double voltage;
+  const ZpFitKind kind = zp_fit_set_of(fit, row)->kind;
+  bool set = zp_fit_row(fit, z, row, &def, &voltage);
+  const bool is_number = zp_fit_number[kind].number != NULL;
+  ZpResult *result = set && is_number ? run_study(fit, kind, &def) : NULL;
+  ZpModel *model = set && !is_number ? build(fit, &def) : NULL;
+  double value = result  ? zp_result_get(result, zp_fit_number[kind].number)
+                 : model ? measure(fit, kind, model, voltage)
+                         : (double)NAN;
+  zp_result_destroy(result);
+  zp_model_destroy(model);
+  return value;
+}
+
+static bool ask(ZpFit *fit) {
+  double fraction = 1 - 1 / (1 + 0.02 * fit->evaluations);
+  if (zp_hooks_stop(fit->hooks, "fitting", fraction)) fit->stopped = true;
+  return fit->stopped || fit->status != ZP_OK;
+}
+
+/* Values of the model at z for the rows of a set at rest => fitted [its rows]; false if one of them does not exist. */
+static bool predict_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
+  bool all = true;
+  for (size_t i = 0; i < of->rows; i++) {
+    fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, of->first + i);
+    all &= isfinite(fitted[i]) != 0;
+  }
+  return all;
+}
+
+/* -- records ---------------------------------------------------------------------------------------- */
+
+static double value_of(int parameter, const ZpFit *fit, const double *z) {
+  return parameter < 0 ? 0 : z[parameter] * fit->start[parameter];
+}
+
+/* Time of the run at a row of a record. */
+static double run_time(const ZpFit *fit, const ZpFitRun *run, const double *z, size_t row) {
+  return fit->x[row] - run->from - value_of(run->late, fit, z);
+}
+
+static double end_of(const ZpFit *fit, size_t which, const double *z) {
+  double end = 0;
+  for (size_t i = 0; i < fit->sets; i++) {
+    const ZpFitSet *of = &fit->set[i];
+    if (of->x_key < 0 && of->run == which)
+      end = fmax(end, run_time(fit, &fit->run[which], z, of->first + of->rows - 1));
+  }
+  return end;
+}
+
+static const char *signal_of_kind(ZpFitKind kind) {
+  return kind == ZP_FIT_DISPLACEMENT ? "stroke" : zp_fit_number[kind].column;
+}
+
+/* The rows of a set => fitted, and rows of J. */
+static void read_trace(const ZpFit *fit, const ZpFitSet *of, const double *z, const ZpTrace *trace, size_t signal,
+                       double *fitted, double *J) {
+  const ZpFitRun *run = &fit->run[of->run];
+  const bool change = of->kind == ZP_FIT_DISPLACEMENT;
+  const double sign = change ? trace->closing : 1;
+  const ZpTraceValue start = change ? zp_trace_at(trace, signal, 0) : (ZpTraceValue){0};
+  for (size_t i = of->first; i < of->first + of->rows; i++) {
+    const ZpTraceValue at = zp_trace_at(trace, signal, run_time(fit, run, z, i));
+    fitted[i] = sign * (at.value - start.value) + value_of(of->zero, fit, z);
+    if (!J) continue;
+    double *row = J + i * (size_t)fit->n;
+    memset(row, 0, (size_t)fit->n * sizeof *row);
+    for (int k = 0; k < fit->keys; k++)
+      row[k] = sign * (at.by_key[k] - start.by_key[k]);
+    if (run->late >= 0) row[run->late] = -sign * at.rate * fit->start[run->late];
+    if (of->zero >= 0) row[of->zero] = fit->start[of->zero];
+  }
+}
+
+/* The rows of a record => fitted, and rows of J. */
+static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted, double *J) {
+  ZpTrace trace = {0};
+  size_t signal[ZP_FIT_KINDS];
+  for (size_t i = 0; i < fit->sets; i++) {
+    const ZpFitSet *of = &fit->set[i];
+    if (of->x_key < 0 && of->run == which) signal[of->kind] = zp_trace_signal(&trace, signal_of_kind(of->kind));
+  }
+  if (zp_trace_open(fit, &fit->run[which], z, end_of(fit, which, z), J != NULL, &trace))
+    for (size_t i = 0; i < fit->sets; i++) {
+      const ZpFitSet *of = &fit->set[i];
+      if (of->x_key < 0 && of->run == which) read_trace(fit, of, z, &trace, signal[of->kind], fitted, J);
+    }
+  zp_trace_close(&trace);
+}
+
+static double weight(const ZpFit *fit, size_t row) {
+  return fit->sigma ? 1 / fit->sigma[row] : 1;
+}
+
+double zp_fit_residual(const ZpFit *fit, const double *fitted, size_t row) {
+  return (fitted[row] - fit->y[row]) * weight(fit, row);
+}
+
+/* Sum of squares. A row without a value counts as twice the largest measured value of its set. */
+double zp_fit_square(const ZpFit *fit, const double *fitted) {
+  double sum = 0;
+  for (size_t k = 0; k < fit->sets; k++) {
+    const ZpFitSet *of = &fit->set[k];
+    double largest = 0;
+    for (size_t i = of->first; i < of->first + of->rows; i++)
+      largest = fmax(largest, fabs(fit->y[i]));
+    for (size_t i = of->first; i < of->first + of->rows; i++) {
+      double r = isfinite(fitted[i]) ? zp_fit_residual(fit, fitted, i) : 2 * largest * weight(fit, i);
+      sum += r * r;
+    }
+  }
+  return sum;
+}
+
+/* -- derivatives at rest ---------------------------------------------------------------------------- */
+
+/* Derivatives of a stroke or an opening with respect to a fitted key, where `rest` hangs. */
+static double slope_of(ZpFit *fit, ZpRest *rest, ZpFitKind kind, int key) {
+  double stroke, opening;
+  ZpStatus status = zp_rest_sensitivity(rest, key, &stroke, &opening, NULL);
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  return status != ZP_OK ? (double)NAN : kind == ZP_FIT_OPENING ? opening : stroke;
+}
+
+/* With respect to all fitted keys => row [keys]. */
+static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def, double voltage, double *row) {
+  ZpModel *model = build(fit, def);
+  ZpRest *rest = NULL;
+  const bool change = kind == ZP_FIT_DISPLACEMENT;
+  if (model && zp_rest_create(model, &rest, fit->err) != ZP_OK) fit->status = ZP_MACHINE;
+  double start[ZP_FIT_KEYS] = {0}, sign = change && model ? zp_fit_closing(model) : 1;
+  bool good = rest && (!change || zp_rest_hang(rest, 0));
+  for (int k = 0; k < fit->keys && good && change; k++)
+    start[k] = slope_of(fit, rest, kind, fit->key[k]);
+  good = good && zp_rest_hang(rest, voltage);
+  for (int k = 0; k < fit->keys && good; k++) {
+    row[k] = sign * (slope_of(fit, rest, kind, fit->key[k]) - start[k]);
+    good = isfinite(row[k]);
+  }
+  zp_rest_destroy(rest);
+  zp_model_destroy(model);
+  return good;
+}
+
+/* Derivatives of the number of a study with respect to the fitted keys => row [n]. */
+static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *row) {
+  int found = 0;
+  name_keys(fit, def);
+  ZpResult *result = run_study(fit, kind, def);
+  for (size_t i = 0; result && i < result->sensitivities && found < fit->keys; i++) {
+    const ZpSensitivity *s = &result->sensitivity[i];
+    if (strcmp(s->output, zp_fit_number[kind].number) == 0) row[found++] = s->value;
+  }
+  zp_result_destroy(result);
+  for (int k = 0; k < found; k++)
+    if (!isfinite(row[k])) return false;
+  return found == fit->keys;
+}
+
+/* Are exact derivatives available for the rows of a set? */
+static bool has_slopes(const ZpFitSet *of) {
+  return zp_fit_number[of->kind].has_slopes;
+}
+
+/* Exact derivatives, if they are available for all fitted keys => rows of J of this set. */
+static bool differentiate(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
+  bool is_number = zp_fit_number[of->kind].number != NULL, good = has_slopes(of);
+  for (size_t i = 0; i < of->rows && good; i++) {
+    ZpActuatorDef def;
+    double voltage, *row = J + i * (size_t)fit->n;
+    good = !ask(fit) && zp_fit_row(fit, z, of->first + i, &def, &voltage);
+    good = good &&
+           (is_number ? slopes_of_number(fit, of->kind, &def, row) : slopes_of_rest(fit, of->kind, &def, voltage, row));
+    for (int k = 0; k < fit->keys && good; k++)
+      row[k] *= fit->start[k];
+  }
+  return good;
+}
+
+/* Derivatives by finite differences => rows of J of a set at rest. */
+static bool difference_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
+  double *up = calloc(2 * of->rows, sizeof *up), *down = up ? up + of->rows : NULL;
+  bool good = up != NULL;
+  if (!up) fit->status = zp_fail_memory(fit->err);
+  for (int k = 0; k < fit->keys && good; k++) {
+    double at[ZP_FIT_MOST];
+    memcpy(at, z, sizeof at);
+    double step = difference * size_of(z[k]);
+    double high = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
+    at[k] = high;
+    good = predict_set(fit, of, at, up);
+    at[k] = low;
+    good = good && predict_set(fit, of, at, down) && high > low;
+    for (size_t i = 0; i < of->rows && good; i++)
+      J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
+  }
+  free(up);
+  return good;
+}
+
+/* Derivatives of a set at rest => rows of J. */
+static bool differentiate_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
+  memset(J, 0, of->rows * (size_t)fit->n * sizeof *J);
+  if (!differentiate(fit, of, z, J)) {
+    fit->evaluations += 2 * fit->keys;
+    if (!difference_set(fit, of, z, J)) return false;
+  }
+  for (size_t i = 0; i < of->rows && of->zero >= 0; i++)
+    J[i * (size_t)fit->n + (size_t)of->zero] = fit->start[of->zero];
+  return true;
+}
+
+/* The keys' derivatives of a record by finite differences of whole runs, where the run has none. */
+static bool difference_run(ZpFit *fit, size_t which, const double *z, double *J) {
+  double *up = calloc(2 * fit->rows, sizeof *up), *down = up ? up + fit->rows : NULL;
+  if (!up) fit->status = zp_fail_memory(fit->err);
+  for (int k = 0; k < fit->keys && up && !ask(fit); k++) {
+    double at[ZP_FIT_MOST];
+    memcpy(at, z, sizeof at);
+    double step = 10 * difference * size_of(z[k]);
+    double high = at[k] = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
+    follow_run(fit, which, at, up, NULL);
+    at[k] = low;
+    follow_run(fit, which, at, down, NULL);
+    for (size_t s = 0; s < fit->sets; s++) {
+      const ZpFitSet *of = &fit->set[s];
+      if (of->x_key >= 0 || of->run != which) continue;
+      for (size_t i = of->first; i < of->first + of->rows; i++)
+        J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
+    }
+  }
+  fit->evaluations += 2 * fit->keys;
+  const bool good = up && !fit->stopped && fit->status == ZP_OK;
+  free(up);
+  return good;
+}
+
+/* Has the record a value in some row whose derivatives are missing? */
+static bool lacks_slopes(const ZpFit *fit, size_t which, const double *fitted, const double *J) {
+  for (size_t s = 0; s < fit->sets; s++) {
+    const ZpFitSet *of = &fit->set[s];
+    if (of->x_key >= 0 || of->run != which) continue;
+    for (size_t i = of->first; i < of->first + of->rows; i++)
+      for (int k = 0; k < fit->keys; k++)
+        if (isfinite(fitted[i]) && !isfinite(J[i * (size_t)fit->n + (size_t)k])) return true;
+  }
+  return false;
+}
+
+static bool follow_record(ZpFit *fit, size_t which, const double *z, double *fitted, double *J) {
+  if (ask(fit)) return false;
+  follow_run(fit, which, z, fitted, J);
+  if (!J || !lacks_slopes(fit, which, fitted, J)) return fit->status == ZP_OK;
+  return difference_run(fit, which, z, J);
+}
+
+/* -- all rows --------------------------------------------------------------------------------------- */
+
+bool zp_fit_evaluate(ZpFit *fit, const double *z, double *fitted, double *J) {
+  bool all = true, good = true;
+  fit->evaluations++;
+  for (size_t which = 0; which < fit->runs && good; which++)
+    good = follow_record(fit, which, z, fitted, J);
+  for (size_t s = 0; s < fit->sets && good; s++) {
+    const ZpFitSet *of = &fit->set[s];
+    if (of->x_key < 0) continue;
+    predict_set(fit, of, z, fitted + of->first);
+    for (size_t i = of->first; i < of->first + of->rows; i++)
+      fitted[i] += value_of(of->zero, fit, z);
+    if (J) good = differentiate_set(fit, of, z, J + of->first * (size_t)fit->n);
+  }
+  for (size_t i = 0; i < fit->rows; i++) {
+    all &= isfinite(fitted[i]) != 0;
+    for (int k = 0; k < fit->n && J; k++) {
+      double *entry = &J[i * (size_t)fit->n + (size_t)k];
+      *entry = isfinite(*entry) && isfinite(fitted[i]) ? *entry * weight(fit, i) : 0;
+    }
+  }
+  return good && all && !fit->stopped && fit->status == ZP_OK;
+}

@@ -1,0 +1,139 @@
+/* Intervals by the profile of the likelihood: one parameter is held, the others are fitted again, until the sum of
+ * squares has grown by what belongs to 95 of 100. Near the minimum the fit is nearly linear, so the derivatives there
+ * mostly serve all points of a profile. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "fit/fit.h"
+
+/* A fit at its best point. */
+typedef struct Profile {
+  ZpFit *fit;
+  ZpFitPoint *best;
+  double rise; /* of the sum of squares at the ends of intervals */
+  double C[ZP_FIT_MOST][ZP_FIT_MOST];
+  ZpFitPoint at; /* the point of the profile, with arrays of its own */
+  bool better;   /* it fits better than the best point */
+} Profile;
+
+static void look(Profile *p) {
+  p->at.good = zp_fit_evaluate(p->fit, p->at.z, p->at.fitted, NULL);
+  p->at.square = zp_fit_square(p->fit, p->at.fitted);
+}
+
+static void put(const ZpFit *fit, const double *step, double *z) {
+  for (int k = 0; k < fit->n; k++)
+    z[k] = fmin(fmax(z[k] + step[k], fit->lower[k]), fit->upper[k]);
+}
+
+/* Fit the others again with the derivatives of the best point => whether that sufficed. */
+static bool correct(Profile *p, const bool *held) {
+  enum { MOST = 3 };
+  static const double little = 0.03; /* of the rise */
+  for (int k = 0; k < MOST; k++) {
+    const ZpFitPoint before = {.square = p->at.square, .fitted = p->at.fitted, .J = p->best->J};
+    double z[ZP_FIT_MOST], step[ZP_FIT_MOST];
+    ZpFitPoint linear = before;
+    memcpy(linear.z, p->at.z, sizeof z);
+    memcpy(z, p->at.z, sizeof z);
+    if (!zp_fit_step(p->fit, &linear, held, 0, step)) return false;
+    put(p->fit, step, p->at.z);
+    look(p);
+    if (p->at.square > before.square) {
+      memcpy(p->at.z, z, sizeof z);
+      look(p);
+      return p->at.square < before.square + little * p->rise;
+    }
+    if (before.square - p->at.square < little * p->rise) return true;
+  }
+  return false;
+}
+
+/* Rise of the sum of squares where parameter `held` is at z and the others fit best. */
+static double rise_at(Profile *p, int which, double z) {
+  enum { MOST = 12 };
+  double step[ZP_FIT_MOST];
+  bool held[ZP_FIT_MOST] = {false};
+  held[which] = true;
+  for (int k = 0; k < p->fit->n; k++)
+    step[k] = p->C[k][which] / p->C[which][which] * (z - p->best->z[which]);
+  memcpy(p->at.z, p->best->z, sizeof p->at.z);
+  put(p->fit, step, p->at.z);
+  p->at.z[which] = z;
+  look(p);
+  if (p->fit->n > 1 && !correct(p, held)) {
+    zp_fit_go_to(p->fit, &p->at);
+    zp_fit_descend(p->fit, held, MOST, &p->at);
+  }
+  const double rise = p->at.square - p->best->square;
+  p->better |= p->at.good && rise < -0.01 * p->rise;
+  return rise;
+}
+
+/* The end of an interval on one side; NAN: the bounds come first. */
+static double end_at(Profile *p, int which, double side) {
+  enum { MOST = 10 };
+  static const double near = 0.03;
+  const double from = p->best->z[which], bound = side > 0 ? p->fit->upper[which] : p->fit->lower[which];
+  const double most = fabs(bound - from);
+  double low = 0, high = INFINITY, root_low = 0, root_high = 0, s = sqrt(p->rise * p->C[which][which]);
+  for (int k = 0; k < MOST && !p->better && !p->fit->stopped && p->fit->status == ZP_OK; k++) {
+    s = fmin(s, most);
+    const double share = rise_at(p, which, from + side * s) / p->rise, root = sqrt(fmax(share, 0));
+    if (fabs(share - 1) < near) return from + side * fmin(s / root, most);
+    if (share < 1 && s >= most) return NAN;
+    if (share < 1)
+      low = s, root_low = root;
+    else
+      high = s, root_high = root;
+    if (high - low < 1e-3 * s) return from + side * s;
+    s = isfinite(high) ? low + (high - low) * fmin(fmax((1 - root_low) / (root_high - root_low), 0.05), 0.95)
+                       : s * fmin(fmax(1 / fmax(root, 0.1), 1.2), 3);
+  }
+  return NAN;
+}
+
+/* The parameter whose estimate is most correlated with this one. */
+static int partner_of(const Profile *p, int which) {
+  int partner = -1;
+  double most = 0.5;
+  for (int k = 0; k < p->fit->n; k++) {
+    const double size = fabs(p->C[k][which]) / sqrt(p->C[k][k] * p->C[which][which]);
+    if (k != which && size > most) most = size, partner = k;
+  }
+  return partner;
+}
+
+/* False: a better point was found. */
+static bool find_all(Profile *p, ZpFitInterval *interval) {
+  for (int k = 0; k < p->fit->n; k++)
+    interval[k] = (ZpFitInterval){NAN, NAN, -1};
+  if (!zp_fit_covariance(p->fit, p->best->J, NULL, 1e-10, 1e-12, p->C)) return true;
+  for (int k = 0; k < p->fit->n && !p->better; k++) {
+    interval[k] = (ZpFitInterval){end_at(p, k, -1), p->better ? NAN : end_at(p, k, 1), -1};
+    if (isnan(interval[k].low) || isnan(interval[k].high)) interval[k].trades = partner_of(p, k);
+  }
+  return !p->better;
+}
+
+static void go_to_better(Profile *p) {
+  enum { MOST = 60 };
+  memcpy(p->best->z, p->at.z, sizeof p->best->z);
+  zp_fit_go_to(p->fit, p->best);
+  p->best->ended = zp_fit_descend(p->fit, NULL, MOST, p->best);
+  p->better = false;
+}
+
+void zp_fit_intervals(ZpFit *fit, double variance, ZpFitPoint *best, ZpFitInterval *interval) {
+  enum { MOST = 4 };
+  static const double normal = 1.959963984540054;
+  const double freedom = (double)fit->rows - fit->n, t = fit->sigma ? normal : zp_fit_student(freedom);
+  Profile p = {.fit = fit, .best = best, .rise = t * t * variance};
+  for (int k = 0; k < fit->n; k++)
+    interval[k] = (ZpFitInterval){NAN, NAN, -1};
+  if (!(p.rise > 0) || !zp_fit_open_point(fit, &p.at)) return;
+  for (int k = 0; k < MOST && !find_all(&p, interval); k++)
+    go_to_better(&p);
+  free(p.at.fitted);
+}
