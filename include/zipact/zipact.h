@@ -13,6 +13,7 @@
 #include <zipact/sim.h>
 #include <zipact/study.h>
 #include <zipact/table.h>
+#include <zipact/trace.h>
 #include <zipact/version.h>
 
 #endif

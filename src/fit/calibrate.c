@@ -70,7 +70,7 @@ static bool at_bound(const ZpFit *fit, const double *z, int k) {
 /* The name of the first parameter that lies at its bound, or NULL. */
 static const char *name_at_bound(const ZpFit *fit, const double *z) {
   for (int k = 0; k < fit->n; k++)
-    if (at_bound(fit, z, k)) return zp_fit_name(fit, k);
+    if (at_bound(fit, z, k)) return fit->name[k];
   return NULL;
 }
 
@@ -80,9 +80,9 @@ static void note_unbounded(const ZpFit *fit, int k, const ZpFitInterval *interva
     zp_result_note(result,
                    "%s has no interval: within the bounds the data do not limit it, because a change of it is made up "
                    "for by %s",
-                   zp_fit_name(fit, k), zp_fit_name(fit, interval->trades));
+                   fit->name[k], fit->name[interval->trades]);
   else
-    zp_result_note(result, "%s has no interval: within the bounds the data do not limit it", zp_fit_name(fit, k));
+    zp_result_note(result, "%s has no interval: within the bounds the data do not limit it", fit->name[k]);
 }
 
 /* The numbers of the summary about the parameters. */
@@ -93,7 +93,7 @@ static void report_keys(const ZpFit *fit, const double *z, const double *J, cons
   size_t n = (size_t)fit->n;
   const double variance = judgement->variance;
   for (int k = 0; k < fit->n; k++) {
-    const char *name = zp_fit_name(fit, k), *unit = zp_fit_unit(fit, k);
+    const char *name = fit->name[k], *unit = fit->unit[k];
     bool known = told_apart && !at_bound(fit, z, k);
     zp_result_add_of(result, "#", name, unit, z[k] * fit->start[k]);
     zp_result_add_of(result, "#_standard_error", name, unit,
@@ -293,10 +293,9 @@ static void say(const ZpFit *fit, const double *fitted, const char *bound, doubl
 }
 
 /* Is another minimum as good as the best one, as far as the data say? */
-static bool is_ambiguous(const ZpFit *fit, const ZpFitJudgement *judgement, const ZpFitStarts *starts) {
+static bool is_ambiguous(const ZpFit *fit, const ZpFitStarts *starts) {
   const double freedom = (double)fit->rows - fit->n, t = zp_fit_student(freedom);
   const double variance = fit->sigma ? 1 : starts->best / freedom;
-  (void)judgement;
   return fit->n > 0 && starts->next - starts->best < t * t * variance;
 }
 
@@ -311,12 +310,12 @@ static void report_doubts(const ZpFit *fit, const ZpFitPoint *best, const ZpFitJ
     zp_result_note(result, "residuals are larger than the standard deviations given: reduced chi-square %.3g",
                    judgement->reduced);
   if (!best->ended) zp_result_note(result, "the search ended before the minimum");
-  if (is_ambiguous(fit, judgement, starts)) {
+  if (is_ambiguous(fit, starts)) {
     char text[256] = "";
     for (int k = 0; k < fit->keys; k++) {
       const size_t used = strlen(text);
-      snprintf(text + used, sizeof text - used, "%s%s %.5g %s", k ? ", " : "", zp_fit_name(fit, k),
-               starts->other[k] * fit->start[k], zp_fit_unit(fit, k));
+      snprintf(text + used, sizeof text - used, "%s%s %.5g %s", k ? ", " : "", fit->name[k],
+               starts->other[k] * fit->start[k], fit->unit[k]);
     }
     zp_result_note(result, "other values fit as well: %s", text);
   }
@@ -335,7 +334,7 @@ static ZpStatus solve_and_report(ZpFit *fit, ZpFitPoint *best, ZpResult *result,
   if (good) judgement = zp_fit_judge(fit, best);
   if (fit->status != ZP_OK) return fit->status;
   const double *z = best->z, *fitted = best->fitted, square = best->square;
-  const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &judgement, &starts) || !best->ended;
+  const bool doubtful = !zp_fit_is_noise(&judgement) || is_ambiguous(fit, &starts) || !best->ended;
   const char *bound = name_at_bound(fit, z);
   result->outcome = !good ? (fit->stopped ? ZP_INTERRUPTED : ZP_NOT_SETTLED)
                     : doubtful ? ZP_DOUBTFUL

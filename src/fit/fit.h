@@ -68,8 +68,8 @@ typedef struct ZpFit {
   double start[ZP_FIT_MOST];
   double first[ZP_FIT_MOST];                     /* of z: 1 of keys, 0 of shifts */
   double lower[ZP_FIT_MOST], upper[ZP_FIT_MOST]; /* of z */
-  char shift[ZP_FIT_SHIFTS][40];                 /* names of shifts: "time_offset", "stroke_offset" */
-  const char *shift_unit[ZP_FIT_SHIFTS];
+  char name[ZP_FIT_MOST][64]; /* "ribbon.young_modulus", "time_offset" */
+  const char *unit[ZP_FIT_MOST];
   ZpFitRun *run; /* [runs] */
   size_t runs;
   ZpFitSet *set; /* [sets] */
@@ -92,10 +92,6 @@ void zp_fit_close(ZpFit *fit);
 
 /* Read the files of measurements into the sets and rows of `fit`, whose keys are known. */
 ZpStatus zp_fit_read_sets(ZpFit *fit, ZpError *err);
-
-/* The name of a parameter, and its unit. */
-const char *zp_fit_name(const ZpFit *fit, int k);
-const char *zp_fit_unit(const ZpFit *fit, int k);
 
 /* Is this key a real number, which can be fitted and set by a column? */
 bool zp_fit_takes(int key);

@@ -6,12 +6,12 @@
 #include <string.h>
 
 #include <zipact/rest.h>
+#include <zipact/trace.h>
 
 #include "actuator/model.h"
 #include "base/fail.h"
 #include "def/check.h"
 #include "fit/fit.h"
-#include "fit/trace.h"
 #include "run/hooks.h"
 #include "study/result.h"
 
@@ -132,14 +132,10 @@ static bool ask(ZpFit *fit) {
   return fit->stopped || fit->status != ZP_OK;
 }
 
-/* Values of the model at z for the rows of a set at rest => fitted [its rows]; false if one of them does not exist. */
-static bool predict_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
-  bool all = true;
-  for (size_t i = 0; i < of->rows; i++) {
+/* Values of the model at z for the rows of a set at rest => fitted [its rows]. */
+static void predict_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted) {
+  for (size_t i = 0; i < of->rows; i++)
     fitted[i] = ask(fit) ? NAN : zp_fit_predict(fit, z, of->first + i);
-    all &= isfinite(fitted[i]) != 0;
-  }
-  return all;
 }
 
 /* -- records ---------------------------------------------------------------------------------------- */
@@ -167,12 +163,12 @@ static const char *signal_of_kind(ZpFitKind kind) {
   return kind == ZP_FIT_DISPLACEMENT ? "stroke" : zp_fit_number[kind].column;
 }
 
-/* The rows of a set => fitted, and rows of J. */
+/* The rows of a set => fitted, and rows of J. `closing`: sign of a change of the stroke as the actuator closes. */
 static void read_trace(const ZpFit *fit, const ZpFitSet *of, const double *z, const ZpTrace *trace, size_t signal,
-                       double *fitted, double *J) {
+                       double closing, double *fitted, double *J) {
   const ZpFitRun *run = &fit->run[of->run];
   const bool change = of->kind == ZP_FIT_DISPLACEMENT;
-  const double sign = change ? trace->closing : 1;
+  const double sign = change ? closing : 1;
   const ZpTraceValue start = change ? zp_trace_at(trace, signal, 0) : (ZpTraceValue){0};
   for (size_t i = of->first; i < of->first + of->rows; i++) {
     const ZpTraceValue at = zp_trace_at(trace, signal, run_time(fit, run, z, i));
@@ -181,26 +177,47 @@ static void read_trace(const ZpFit *fit, const ZpFitSet *of, const double *z, co
     double *row = J + i * (size_t)fit->n;
     memset(row, 0, (size_t)fit->n * sizeof *row);
     for (int k = 0; k < fit->keys; k++)
-      row[k] = sign * (at.by_key[k] - start.by_key[k]);
+      row[k] = sign * (at.by_key[k] - start.by_key[k]) * fit->start[k];
     if (run->late >= 0) row[run->late] = -sign * at.rate * fit->start[run->late];
     if (of->zero >= 0) row[of->zero] = fit->start[of->zero];
   }
 }
 
-/* The rows of a record => fitted, and rows of J. */
-static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted, double *J) {
-  ZpTrace trace = {0};
-  size_t signal[ZP_FIT_KINDS];
+/* The rows of all sets of a record have no value. */
+static void miss_run(const ZpFit *fit, size_t which, double *fitted) {
   for (size_t i = 0; i < fit->sets; i++) {
     const ZpFitSet *of = &fit->set[i];
-    if (of->x_key < 0 && of->run == which) signal[of->kind] = zp_trace_signal(&trace, signal_of_kind(of->kind));
+    for (size_t row = of->first; of->x_key < 0 && of->run == which && row < of->first + of->rows; row++)
+      fitted[row] = NAN;
   }
-  if (zp_trace_open(fit, &fit->run[which], z, end_of(fit, which, z), J != NULL, &trace))
-    for (size_t i = 0; i < fit->sets; i++) {
-      const ZpFitSet *of = &fit->set[i];
-      if (of->x_key < 0 && of->run == which) read_trace(fit, of, z, &trace, signal[of->kind], fitted, J);
-    }
-  zp_trace_close(&trace);
+}
+
+/* The rows of a record => fitted, and rows of J. */
+static void follow_run(ZpFit *fit, size_t which, const double *z, double *fitted, double *J) {
+  const ZpFitRun *record = &fit->run[which];
+  const ZpDriveTable table = {record->rows, record->time, record->voltage};
+  const double end = fmax(end_of(fit, which, z), 1e-9);
+  const char *signal[ZP_TRACE_SIGNALS];
+  size_t signals = 0;
+  ZpActuatorDef def;
+  ZpModel *model = NULL;
+  ZpTrace *trace = NULL;
+  for (size_t i = 0; i < fit->sets; i++)
+    if (fit->set[i].x_key < 0 && fit->set[i].run == which) signal[signals++] = signal_of_kind(fit->set[i].kind);
+  miss_run(fit, which, fitted);
+  ZpStatus status = zp_fit_run_def(fit, record, z, &def) ? ZP_OK : ZP_BAD_INPUT;
+  def.solver.end_time = end;
+  if (status == ZP_OK) status = zp_model_create_driven(&def, record->rows > 0 ? &table : NULL, &model, NULL);
+  if (status == ZP_OK)
+    status = zp_trace_create(model, signal, signals, fit->key, J ? (size_t)fit->keys : 0, end, fit->hooks, &trace, NULL);
+  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  size_t k = 0;
+  for (size_t i = 0; i < fit->sets && trace; i++) {
+    const ZpFitSet *of = &fit->set[i];
+    if (of->x_key < 0 && of->run == which) read_trace(fit, of, z, trace, k++, zp_fit_closing(model), fitted, J);
+  }
+  zp_trace_destroy(trace);
+  zp_model_destroy(model);
 }
 
 static double weight(const ZpFit *fit, size_t row) {
@@ -237,19 +254,23 @@ static double slope_of(ZpFit *fit, ZpRest *rest, ZpFitKind kind, int key) {
   return status != ZP_OK ? (double)NAN : kind == ZP_FIT_OPENING ? opening : stroke;
 }
 
-/* With respect to all fitted keys => row [keys]. */
-static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def, double voltage, double *row) {
+/* The value of a row at rest, and its derivatives with respect to all fitted keys => row [keys]; false if one of them is
+ * not available. */
+static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def, double voltage, double *value,
+                           double *row) {
   ZpModel *model = build(fit, def);
   ZpRest *rest = NULL;
   const bool change = kind == ZP_FIT_DISPLACEMENT;
   if (model && zp_rest_create(model, &rest, fit->err) != ZP_OK) fit->status = ZP_MACHINE;
-  double start[ZP_FIT_KEYS] = {0}, sign = change && model ? zp_fit_closing(model) : 1;
+  double start = 0, slope[ZP_FIT_KEYS] = {0}, sign = change && model ? zp_fit_closing(model) : 1;
   bool good = rest && (!change || zp_rest_hang(rest, 0));
+  if (good && change) start = zp_rest_stroke(rest);
   for (int k = 0; k < fit->keys && good && change; k++)
-    start[k] = slope_of(fit, rest, kind, fit->key[k]);
+    slope[k] = slope_of(fit, rest, kind, fit->key[k]);
   good = good && zp_rest_hang(rest, voltage);
+  if (good) *value = sign * (measured_at(rest, kind) - start);
   for (int k = 0; k < fit->keys && good; k++) {
-    row[k] = sign * (slope_of(fit, rest, kind, fit->key[k]) - start[k]);
+    row[k] = sign * (slope_of(fit, rest, kind, fit->key[k]) - slope[k]);
     good = isfinite(row[k]);
   }
   zp_rest_destroy(rest);
@@ -257,11 +278,12 @@ static bool slopes_of_rest(ZpFit *fit, ZpFitKind kind, const ZpActuatorDef *def,
   return good;
 }
 
-/* Derivatives of the number of a study with respect to the fitted keys => row [n]. */
-static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *row) {
+/* Likewise of the number of a study. */
+static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, double *value, double *row) {
   int found = 0;
   name_keys(fit, def);
   ZpResult *result = run_study(fit, kind, def);
+  if (result) *value = zp_result_get(result, zp_fit_number[kind].number);
   for (size_t i = 0; result && i < result->sensitivities && found < fit->keys; i++) {
     const ZpSensitivity *s = &result->sensitivity[i];
     if (strcmp(s->output, zp_fit_number[kind].number) == 0) row[found++] = s->value;
@@ -272,57 +294,47 @@ static bool slopes_of_number(ZpFit *fit, ZpFitKind kind, ZpActuatorDef *def, dou
   return found == fit->keys;
 }
 
-/* Are exact derivatives available for the rows of a set? */
-static bool has_slopes(const ZpFitSet *of) {
-  return zp_fit_number[of->kind].has_slopes;
-}
-
-/* Exact derivatives, if they are available for all fitted keys => rows of J of this set. */
-static bool differentiate(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
-  bool is_number = zp_fit_number[of->kind].number != NULL, good = has_slopes(of);
-  for (size_t i = 0; i < of->rows && good; i++) {
-    ZpActuatorDef def;
-    double voltage, *row = J + i * (size_t)fit->n;
-    good = !ask(fit) && zp_fit_row(fit, z, of->first + i, &def, &voltage);
-    good = good &&
-           (is_number ? slopes_of_number(fit, of->kind, &def, row) : slopes_of_rest(fit, of->kind, &def, voltage, row));
-    for (int k = 0; k < fit->keys && good; k++)
-      row[k] *= fit->start[k];
-  }
+/* A row with exact derivatives => value, row [n] of J; false if they are not available. */
+static bool differentiate(ZpFit *fit, const ZpFitSet *of, const double *z, size_t i, double *value, double *row) {
+  const ZpFitNumber *number = &zp_fit_number[of->kind];
+  ZpActuatorDef def;
+  double voltage;
+  if (!number->has_slopes || fit->keys == 0 || !zp_fit_row(fit, z, i, &def, &voltage)) return false;
+  const bool good = number->number ? slopes_of_number(fit, of->kind, &def, value, row)
+                                   : slopes_of_rest(fit, of->kind, &def, voltage, value, row);
+  for (int k = 0; k < fit->keys && good; k++)
+    row[k] *= fit->start[k];
   return good;
 }
 
-/* Derivatives by finite differences => rows of J of a set at rest. */
-static bool difference_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
-  double *up = calloc(2 * of->rows, sizeof *up), *down = up ? up + of->rows : NULL;
-  bool good = up != NULL;
-  if (!up) fit->status = zp_fail_memory(fit->err);
-  for (int k = 0; k < fit->keys && good; k++) {
+/* A row with derivatives by finite differences, 0 where there are none. */
+static void differ(ZpFit *fit, const double *z, size_t i, double *value, double *row) {
+  *value = zp_fit_predict(fit, z, i);
+  for (int k = 0; k < fit->keys && isfinite(*value) && !ask(fit); k++) {
     double at[ZP_FIT_MOST];
     memcpy(at, z, sizeof at);
-    double step = difference * size_of(z[k]);
-    double high = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
-    at[k] = high;
-    good = predict_set(fit, of, at, up);
+    const double step = difference * size_of(z[k]);
+    const double high = at[k] = fmin(z[k] + step, fit->upper[k]), low = fmax(z[k] - step, fit->lower[k]);
+    const double up = zp_fit_predict(fit, at, i);
     at[k] = low;
-    good = good && predict_set(fit, of, at, down) && high > low;
-    for (size_t i = 0; i < of->rows && good; i++)
-      J[i * (size_t)fit->n + (size_t)k] = (up[i] - down[i]) / (high - low);
+    row[k] = (up - zp_fit_predict(fit, at, i)) / (high - low);
   }
-  free(up);
-  return good;
 }
 
-/* Derivatives of a set at rest => rows of J. */
-static bool differentiate_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *J) {
+/* Values of a set at rest, and their derivatives => fitted, rows of J. => whether there were differences. */
+static bool differentiate_set(ZpFit *fit, const ZpFitSet *of, const double *z, double *fitted, double *J) {
+  bool differed = false;
   memset(J, 0, of->rows * (size_t)fit->n * sizeof *J);
-  if (!differentiate(fit, of, z, J)) {
-    fit->evaluations += 2 * fit->keys;
-    if (!difference_set(fit, of, z, J)) return false;
+  for (size_t i = 0; i < of->rows; i++) {
+    double *row = J + i * (size_t)fit->n;
+    fitted[i] = NAN;
+    if (ask(fit) || differentiate(fit, of, z, of->first + i, &fitted[i], row)) continue;
+    differed = true;
+    differ(fit, z, of->first + i, &fitted[i], row);
   }
   for (size_t i = 0; i < of->rows && of->zero >= 0; i++)
     J[i * (size_t)fit->n + (size_t)of->zero] = fit->start[of->zero];
-  return true;
+  return differed;
 }
 
 /* The keys' derivatives of a record by finite differences of whole runs, where the run has none. */
@@ -372,18 +384,21 @@ static bool follow_record(ZpFit *fit, size_t which, const double *z, double *fit
 /* -- all rows --------------------------------------------------------------------------------------- */
 
 bool zp_fit_evaluate(ZpFit *fit, const double *z, double *fitted, double *J) {
-  bool all = true, good = true;
+  bool all = true, good = true, differed = false;
   fit->evaluations++;
   for (size_t which = 0; which < fit->runs && good; which++)
     good = follow_record(fit, which, z, fitted, J);
   for (size_t s = 0; s < fit->sets && good; s++) {
     const ZpFitSet *of = &fit->set[s];
     if (of->x_key < 0) continue;
-    predict_set(fit, of, z, fitted + of->first);
+    if (J)
+      differed |= differentiate_set(fit, of, z, fitted + of->first, J + of->first * (size_t)fit->n);
+    else
+      predict_set(fit, of, z, fitted + of->first);
     for (size_t i = of->first; i < of->first + of->rows; i++)
       fitted[i] += value_of(of->zero, fit, z);
-    if (J) good = differentiate_set(fit, of, z, J + of->first * (size_t)fit->n);
   }
+  if (differed) fit->evaluations += 2 * fit->keys;
   for (size_t i = 0; i < fit->rows; i++) {
     all &= isfinite(fitted[i]) != 0;
     for (int k = 0; k < fit->n && J; k++) {

@@ -5,6 +5,8 @@
 #include <string.h>
 #include <strings.h>
 
+#include <zipact/trace.h>
+
 #include "base/fail.h"
 #include "def/check.h"
 #include "fit/fit.h"
@@ -147,6 +149,8 @@ static ZpStatus find_measured(Reading *r) {
       take_usual_y(data, measured);
     if (measured->columns == 0) return fail_measured(&r->y, fit->def->calibrate.y, data, r->err);
     if (measured->is_record) measured->run = fit->runs++;
+    if (measured->is_record && measured->columns > ZP_TRACE_SIGNALS)
+      return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: more than %d measured columns", data->path, ZP_TRACE_SIGNALS);
     if (data->rows == 0) return zp_fail(r->err, ZP_BAD_INPUT, "%.200s: 0 rows of data", data->path);
     fit->rows += data->rows * (size_t)measured->columns;
     r->sets += (size_t)measured->columns;
@@ -638,10 +642,9 @@ static ZpStatus read_file(Reading *r, Measured *measured) {
 /* -- shifts ---------------------------------------------------------------------------------------- */
 
 static ZpStatus add_shift(ZpFit *fit, const char *name, const char *unit, double size, int *place, ZpError *err) {
-  const int k = fit->n - fit->keys;
-  if (k == ZP_FIT_SHIFTS) return zp_fail(err, ZP_BAD_INPUT, "calibrate.offsets: more than %d shifts", ZP_FIT_SHIFTS);
-  snprintf(fit->shift[k], sizeof fit->shift[k], "%s", name);
-  fit->shift_unit[k] = unit;
+  if (fit->n - fit->keys == ZP_FIT_SHIFTS) return zp_fail(err, ZP_BAD_INPUT, "calibrate.offsets: more than %d shifts", ZP_FIT_SHIFTS);
+  snprintf(fit->name[fit->n], sizeof fit->name[0], "%s", name);
+  fit->unit[fit->n] = unit;
   fit->start[fit->n] = size;
   fit->lower[fit->n] = -1e3;
   fit->upper[fit->n] = 1e3;

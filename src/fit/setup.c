@@ -1,5 +1,6 @@
 /* Def => the fitted keys and their bounds; src/fit/sets.c reads the measurements. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -34,14 +35,6 @@ void zp_fit_close(ZpFit *fit) {
   fit->set = NULL;
   fit->run = NULL;
   fit->sets = fit->runs = 0;
-}
-
-const char *zp_fit_name(const ZpFit *fit, int k) {
-  return k < fit->keys ? ZP_KEY_NAME(fit->key[k]) : fit->shift[k - fit->keys];
-}
-
-const char *zp_fit_unit(const ZpFit *fit, int k) {
-  return k < fit->keys ? zp_key(fit->key[k])->unit : fit->shift_unit[k - fit->keys];
 }
 
 const ZpFitSet *zp_fit_set_of(const ZpFit *fit, size_t row) {
@@ -109,6 +102,8 @@ static ZpStatus add_key(ZpFit *fit, int key, ZpError *err) {
                    isnan(start) ? zp_key(key)->text : "0");
   double at_min = zp_key(key)->min / start, at_max = zp_key(key)->max / start;
   fit->key[fit->keys++] = key;
+  snprintf(fit->name[fit->n], sizeof fit->name[0], "%s", name);
+  fit->unit[fit->n] = zp_key(key)->unit;
   fit->start[fit->n] = start;
   fit->first[fit->n] = 1;
   fit->lower[fit->n] = fmax(fit->def->calibrate.lower, fmin(at_min, at_max));

@@ -330,6 +330,24 @@ static ZpStatus fail_renaming(const ZpDataFiles *files, const char *theirs, ZpEr
                  files->count > 1 ? "any file; the first is " : "", files->file->path, names);
 }
 
+/* The column whose name, without its unit, is this one; -1 if there is none. */
+static int find_stem(const ZpData *data, const char *stem) {
+  const size_t length = strlen(stem);
+  for (size_t i = 0; i < data->columns; i++) {
+    const char *name = data->cell[i];
+    if (strncasecmp(name, stem, length) == 0 && name[length] == '_' && zp_is_unit(name + length + 1)) return (int)i;
+  }
+  return -1;
+}
+
+/* Do both names have a unit, and not the same one? An instrument's line of units is that of its channels, before a
+ * probe or a sensor, so the new name decides. */
+static bool differ_in_unit(const ZpData *data, const char *theirs, const char *ours) {
+  if (data->units) return false;
+  const char *a = strrchr(theirs, '_'), *b = strrchr(ours, '_');
+  return a && b && zp_is_unit(a + 1) && zp_is_unit(b + 1) && strcmp(a, b) != 0;
+}
+
 /* Rename a column: "Gewicht = load_g". `part` is modified and must outlive the data. */
 static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err) {
   char *equals = strchr(part, '=');
@@ -343,9 +361,15 @@ static ZpStatus rename_column(const ZpDataFiles *files, char *part, ZpError *err
     return zp_fail(err, ZP_BAD_INPUT, "data.columns: \"%.80s\": several names are separated by semicolons", ours);
   bool found = false;
   for (size_t i = 0; i < files->count; i++) {
-    const int column = zp_data_column(&files->file[i], theirs);
+    int column = zp_data_column(&files->file[i], theirs);
+    if (column < 0) column = find_stem(&files->file[i], theirs);
     found = found || column >= 0 || find_column(&files->file[i], ours) >= 0;
-    if (column >= 0) files->file[i].cell[column] = ours;
+    if (column < 0) continue;
+    const char *unit = strrchr(files->file[i].cell[column], '_');
+    if (differ_in_unit(&files->file[i], files->file[i].cell[column], ours))
+      return zp_fail(err, ZP_BAD_INPUT, "data.columns: %.60s = %.60s: in %.200s the unit of that column is %.20s", theirs,
+                     ours, files->file[i].path, unit + 1);
+    files->file[i].cell[column] = ours;
   }
   return found ? ZP_OK : fail_renaming(files, theirs, err);
 }

@@ -85,7 +85,10 @@ static bool is_number(const char *cell, char separator) {
 
 bool zp_is_unit(const char *text) {
   static const char *const of[] = {"s", "m", "V", "kg", "N", "F", "A", "Hz", "Pa", "rad", "1"};
+  static const char *const others[] = {"%", "C", "K", "\xC2\xB0" "C", "\xC2\xB0"};
   ZpUnitScale scale;
+  for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+    if (strcmp(text, others[i]) == 0) return true;
   if (!*text || strlen(text) > LONGEST_UNIT) return false;
   for (size_t i = 0; i < sizeof of / sizeof of[0]; i++)
     if (zp_unit_scale(text, of[i], &scale, NULL) == ZP_OK) return true;

@@ -1,18 +1,24 @@
-#include "fit/trace.h"
+#include <zipact/trace.h>
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "run/sensitivity.h"
+
+struct ZpTrace {
+  size_t signals, keys;
+  const char *signal[ZP_TRACE_SIGNALS];
+  size_t rows, room, width;
+  double *row; /* [rows][width] time, s; of each signal its value and its derivatives by the keys */
+};
 
 /* -- recording ------------------------------------------------------------------------------------- */
 
 /* A trace under way; `failed`: no memory. */
 typedef struct Recording {
   ZpTrace *trace;
-  const ZpFit *fit;
   const ZpRunSensitivity *rates; /* NULL: none */
   bool failed;
 } Recording;
@@ -21,79 +27,84 @@ static double signal_of(ZpSim *sim, const void *name) {
   return zp_sim_get(sim, name);
 }
 
-static double *next_row(Recording *r) {
-  ZpTrace *trace = r->trace;
-  if (trace->rows == trace->room) {
-    const size_t room = trace->room > 0 ? 2 * trace->room : 1024;
-    double *row = realloc(trace->row, room * trace->width * sizeof *row);
-    r->failed |= !row;
-    if (!row) return NULL;
-    trace->row = row;
-    trace->room = room;
-  }
-  return trace->row + trace->rows++ * trace->width;
+static bool make_room(ZpTrace *trace) {
+  const size_t room = trace->room > 0 ? 2 * trace->room : 1024;
+  double *row = trace->rows < trace->room ? trace->row : zp_calloc(room * trace->width, sizeof *row);
+  if (!row || row == trace->row) return row;
+  if (trace->rows > 0) memcpy(row, trace->row, trace->rows * trace->width * sizeof *row);
+  zp_free(trace->row);
+  trace->row = row;
+  trace->room = room;
+  return true;
 }
 
 static void take_row(ZpSim *sim, void *user) {
   Recording *r = user;
-  const ZpTrace *trace = r->trace;
-  double *row = r->failed ? NULL : next_row(r);
-  if (!row) return;
+  ZpTrace *trace = r->trace;
+  r->failed = r->failed || !make_room(trace);
+  if (r->failed) return;
+  double *row = trace->row + trace->rows++ * trace->width;
   *row++ = sim->state->t;
   for (size_t s = 0; s < trace->signals; s++) {
     *row++ = zp_sim_get(sim, trace->signal[s]);
     for (size_t k = 0; k < trace->keys; k++)
-      *row++ = r->rates ? r->fit->start[k] * zp_run_rate_of(r->rates, k, signal_of, trace->signal[s]) : NAN;
+      *row++ = r->rates ? zp_run_rate_of(r->rates, k, signal_of, trace->signal[s]) : NAN;
   }
 }
 
-static void run(ZpFit *fit, ZpSim *sim, double end, bool with_rates, ZpTrace *trace) {
-  ZpRunSensitivity rates;
+static ZpStatus record(ZpSim *sim, const int *key, double end, const ZpHooks *hooks, ZpTrace *trace, ZpError *err) {
+  ZpRunSensitivity rates = {.sim = sim};
   ZpStatus status = ZP_OK;
-  if (with_rates) status = zp_run_sensitivity_open(&rates, sim, fit->key, (size_t)fit->keys, NULL);
-  Recording recording = {.trace = trace, .fit = fit, .rates = with_rates && status == ZP_OK ? &rates : NULL};
+  if (trace->keys > 0) status = zp_run_sensitivity_open(&rates, sim, key, trace->keys, NULL);
+  Recording recording = {.trace = trace, .rates = trace->keys > 0 && status == ZP_OK ? &rates : NULL};
   sim->stepped = take_row;
   sim->stepped_user = &recording;
   if (status != ZP_MACHINE) {
     take_row(sim, &recording);
-    zp_sim_run(sim, end, false, fit->hooks, NULL);
+    zp_sim_run(sim, end, false, hooks, NULL);
   }
   sim->stepped = NULL;
   sim->stepped_user = NULL;
-  if (with_rates) zp_run_sensitivity_close(&rates);
-  if (recording.failed || status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
+  if (trace->keys > 0) zp_run_sensitivity_close(&rates);
+  return recording.failed || status == ZP_MACHINE ? zp_fail_memory(err) : ZP_OK;
 }
 
-bool zp_trace_open(ZpFit *fit, const ZpFitRun *record, const double *z, double end, bool with_rates, ZpTrace *trace) {
-  ZpActuatorDef def;
-  ZpModel *model = NULL;
+static ZpStatus check(const char *const *signal, size_t signals, size_t keys, double end, ZpError *err) {
+  if (signals == 0 || signals > ZP_TRACE_SIGNALS || keys > ZP_TRACE_KEYS || !(end > 0))
+    return zp_fail(err, ZP_BAD_INPUT, "a trace has 1 to %d signals, at most %d keys, and ends after 0 s",
+                   ZP_TRACE_SIGNALS, ZP_TRACE_KEYS);
+  for (size_t s = 0; s < signals; s++)
+    if (zp_signal_find(signal[s]) < 0)
+      return zp_fail(err, ZP_BAD_INPUT, "%.60s: no such signal", signal[s]);
+  return ZP_OK;
+}
+
+ZpStatus zp_trace_create(const ZpModel *model, const char *const *signal, size_t signals, const int *key, size_t keys,
+                         double end, const ZpHooks *hooks, ZpTrace **out, ZpError *err) {
   ZpSim *sim = NULL;
-  const ZpDriveTable table = {record->rows, record->time, record->voltage};
-  trace->keys = (size_t)fit->keys;
-  trace->width = 1 + trace->signals * (1 + trace->keys);
-  ZpStatus status = zp_fit_run_def(fit, record, z, &def) ? ZP_OK : ZP_BAD_INPUT;
-  def.solver.end_time = fmax(end, 1e-9);
-  if (status == ZP_OK) status = zp_model_create_driven(&def, record->rows > 0 ? &table : NULL, &model, NULL);
-  if (status == ZP_OK) trace->closing = zp_fit_closing(model);
-  if (status == ZP_OK) status = zp_sim_create(model, NULL, &sim, NULL);
-  if (status == ZP_MACHINE) fit->status = zp_fail_memory(fit->err);
-  if (status == ZP_OK) run(fit, sim, def.solver.end_time, with_rates && trace->keys > 0, trace);
+  *out = NULL;
+  ZpStatus status = check(signal, signals, keys, end, err);
+  ZpTrace *trace = status == ZP_OK ? zp_calloc(1, sizeof *trace) : NULL;
+  if (status == ZP_OK && !trace) status = zp_fail_memory(err);
+  if (status == ZP_OK) {
+    *trace = (ZpTrace){.signals = signals, .keys = keys, .width = 1 + signals * (1 + keys)};
+    for (size_t s = 0; s < signals; s++)
+      trace->signal[s] = zp_signal_name((size_t)zp_signal_find(signal[s]));
+    status = zp_sim_create(model, NULL, &sim, err);
+  }
+  if (status == ZP_OK) status = record(sim, key, end, hooks, trace, err);
   zp_sim_destroy(sim);
-  zp_model_destroy(model);
-  return fit->status == ZP_OK;
+  if (status == ZP_OK)
+    *out = trace;
+  else
+    zp_trace_destroy(trace);
+  return status;
 }
 
-void zp_trace_close(ZpTrace *trace) {
-  free(trace->row);
-  *trace = (ZpTrace){0};
-}
-
-size_t zp_trace_signal(ZpTrace *trace, const char *name) {
-  size_t place = 0;
-  while (place < trace->signals && strcmp(trace->signal[place], name) != 0)
-    place++;
-  if (place == trace->signals) trace->signal[trace->signals++] = name;
-  return place;
+void zp_trace_destroy(ZpTrace *trace) {
+  if (!trace) return;
+  zp_free(trace->row);
+  zp_free(trace);
 }
 
 /* -- interpolation ---------------------------------------------------------------------------------- */
