@@ -542,13 +542,14 @@ def retention_curves(runs):
     return curves
 def small_beams(runs):
     """Published finite elements of beams over a wide electrode, beside ours without and with the edges."""
-    def pull_in(end, length, width, thick, gap, edges):
+    def pull_in(end, length, width, thick, gap, edges, tension="0 N"):
         keys = {"actuator.right_end": end, "ribbon.length": length, "ribbon.width": width, "ribbon.thickness": thick, "electro.gap_offset": gap}
-        return runs.summary("small-beam", {**keys, "electro.edges": edges})["pull_in_voltage_V"]
+        return runs.summary("small-beam", {**keys, "ribbon.tension": tension, "electro.edges": edges})["pull_in_voltage_V"]
 
     thick, long = ("20 um", "2 um", "4 um"), ("300 um", "50 um", "3 um", "2.5 um")
     beams = [("100 × 20 × 2 µm, gap 4 µm, clamped at both ends, without stretching", "{:.0f} V", 992, lambda e: pull_in("guided", "50 um", *thick, e)),
              ("the same with stretching", "{:.0f} V", 1270, lambda e: pull_in("clamped", "100 um", *thick, e)),
+             ("the same with stretching and 100 MPa of tension", "{:.0f} V", 1408, lambda e: pull_in("clamped", "100 um", *thick, e, "4 mN")),
              ("300 × 50 × 3 µm, gap 2.5 µm: clamped at both ends over clamped at one", "{:.3g}", 6.75,
               lambda e: pull_in("clamped", *long, e) / pull_in("free", *long, e))]
     rows = []
