@@ -15,6 +15,7 @@ import tempfile
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 import validity_comb  # noqa: E402
+import validity_pouch  # noqa: E402
 
 HOME = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 PAGE = os.path.join(HOME, "docs", "validity.md")
@@ -679,6 +680,7 @@ def pictures(runs):
     draw("validity-bead", [
         panel("Beads of several volumes at each front, 8 g, 10 kV", "time / ms", "contraction / %", bead_contractions(runs),
               "set yrange [60:101]\nset arrow 2 from graph 0, first 99 to graph 1, first 99 nohead dt 2 lc rgb '#404040'\n", points=False)])
+    draw("validity-pouch", [validity_pouch.panel(runs, INK)])
     draw("validity-comb", list(validity_comb.Comparison(runs).panels(panel)))
     draw("validity-chain", [
         panel("Stroke: chain against rod", "stroke / half length", "difference", chain_strokes(runs),
