@@ -184,14 +184,25 @@ static State under_load(const Film *film, double force) {
                  zp_table_get(result->series, last, "pressure_Pa")};
 }
 
-/* The closed law is their limit: a film a thousand times thinner at as much adhesion, which hardly bends. */
-TEST(corrections_vanish) {
+/* Strain that both corrections take to first order, eq. (40.11), at the force of the closed law. */
+static double first_order(const Film *film, double part, double a) {
+  const Law *law = &film->law;
+  const double d = 1e-4, C = wedge(film, arc_of(law, a + d), a + d) - wedge(film, arc_of(law, a - d), a - d);
+  return law->U * law->U / (2 * law->Lp) * C / (force_at(law, a + d) - force_at(law, a - d)) +
+         4 * part * (1 / cos(0.5 * a) - 1);
+}
+
+/* The closed law is their limit: a film a thousand times thinner at as much adhesion, which hardly bends. What they
+ * take is then of first order, mostly by the liquid or, where the film bends over more, mostly by bending. */
+TESTS(corrections_vanish, 0, 2) {
   for (size_t k = 0; k < LENGTH_OF(angles); k++) {
-    const double a = angles[k] * degree, thinner = 1e-3;
-    Film film = {published, stiffness_of(&published, 1e-6, a), 1};
+    const double a = angles[k] * degree, thinner = 1e-3, part = _i ? 1e-4 : 1e-6;
+    Film film = {published, stiffness_of(&published, part, a), 1};
     film.law.t *= thinner;
     film.law.U *= sqrt(thinner);
-    ck_near(strain_under(&film, force_at(&published, a)), strain_at(&published, a), 1.7e-4);
+    const double found = strain_under(&film, force_at(&published, a)), closed = strain_at(&published, a);
+    if (_i == 0) ck_near(found, closed, 1.7e-4);
+    ck_near(closed - found, first_order(&film, part, a), 0.02); /* 6.8e-3 measured */
   }
 }
 
