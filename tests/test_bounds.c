@@ -299,8 +299,7 @@ static void make_kind(ZpActuatorDef *def, const char *key, double value) {
       (strcmp(key, "actuator.kind") == 0 && value == ZP_KIND_POUCH))
     def->actuator.kind = ZP_KIND_POUCH, def->liquid.lateral_flow = false;
   if (strcmp(key, "pouch.electrode_length") == 0) def->ribbon.length = fmin(2 * value, 10);
-  if (strcmp(key, "ribbon.tension") == 0)
-    def->actuator.kind = ZP_KIND_FLANGE, def->actuator.right_end = ZP_END_CLAMPED;
+  if (strcmp(key, "ribbon.tension") == 0) def->actuator.kind = ZP_KIND_FLANGE, def->actuator.right_end = ZP_END_CLAMPED;
 }
 
 /* Of layers that creep: the other key of each. */
