@@ -1,6 +1,6 @@
 /* A pouch: the closed law of films that do not bend, what bending and the field in the wedge add, the volume, several
- * in series, motion. Theory, section 40. Measured values stand beside the bounds. */
-#include "check_util.h"
+ * in series, motion, networks. Theory, section 40. Measured values stand beside the bounds. */
+#include "network_util.h"
 
 #include "liquid/pouch.h"
 #include "math/elementary.h"
@@ -265,19 +265,25 @@ TEST(pressure_of_steps_is_that_at_rest) {
     ck_near(zp_table_get(table, row, "pressure_Pa"), at_rest, 1.2e-7); /* 4.1e-8 measured */
 }
 
+/* The largest imbalance of a run over the work. */
+static double lost_energy(const ZpActuatorDef *def) {
+  const ZpTable *table = study_of(ZP_STUDY_ACTUATE, def)->series;
+  double worst = 0, work = 0;
+  for (size_t k = 0; k < table->rows; k++) {
+    worst = fmax(worst, fabs(zp_table_get(table, k, "energy_imbalance_J")));
+    work = fmax(work, zp_table_get(table, k, "electric_work_J"));
+  }
+  printf("energy off by %.2g\n", worst / work);
+  return worst / work;
+}
+
 /* In oil and without liquid, of one and of several in series, behind a supply. */
 TESTS(energy_is_kept, 0, 4) {
   ZpActuatorDef def = DEF(POUCH, {"solver.end_time", 5e-3});
   if (_i == 1) def.liquid.model = ZP_LIQUID_NONE, def.solver.end_time = 1e-3;
   if (_i == 2) def.pouch.count = 5;
   if (_i == 3) def.source.model = ZP_SOURCE_AMPLIFIER, def.source.current_limit = 1e-3;
-  const ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
-  double worst = 0, work = 0;
-  for (size_t k = 0; k < result->series->rows; k++) {
-    worst = fmax(worst, fabs(zp_table_get(result->series, k, "energy_imbalance_J")));
-    work = fmax(work, zp_table_get(result->series, k, "electric_work_J"));
-  }
-  ck_below(worst / work, _i == 1 ? 4.8e-7 : 1.1e-10); /* 1.7e-7; 3.7e-11 measured */
+  ck_below(lost_energy(&def), _i == 1 ? 4.8e-7 : 1.1e-10); /* 1.7e-7; 3.7e-11 measured */
 }
 
 /* Five have one strain, one force, and five times the stroke and the capacitance. */
@@ -357,6 +363,168 @@ TESTS(force_by_keys, 0, 4) {
   ck_near(rate, (force[1] - force[0]) / (2 * by), 6e-6);
 }
 
+/* -- members of networks --------------------------------------------------------------------------- */
+
+/* Pouches of light thick films, whose fronts are longer than elements, and what follows. */
+static ZpActuatorDef pouches(const char *rest) {
+  char text[1024];
+  snprintf(text, sizeof text,
+           "study: stationary\nactuator.kind: pouch\nmesh.nodes: 101\nribbon: {density: 1 kg/m3, thickness: 60 um}\n"
+           "drive: {voltage: 6 kV, waveform: ramp, rise_time: 8 ms}\nsolver: {end_time: 10 ms, time_step: 50 us}\n%s",
+           rest);
+  return def_of(text);
+}
+
+static const char in_a_row[] = "pouch.count: 2\nload.mass: 200 g\n", alone[] = "load.mass: 200 g\n",
+                  below[] = "bodies: {link: {mass: 0 g}, hand: {mass: 200 g}}\n"
+                            "members: {a: {upper: frame, lower: link}, b: {upper: link, lower: hand}}\n",
+                  beside[] = "bodies: {hand: {mass: 400 g}}\n"
+                             "members: {a: {upper: frame, lower: hand}, b: {upper: frame, lower: hand}}\n",
+                  on_a_spring[] =
+                      "bodies: {floor: {moves: none, at: [0, -31 mm]}, hand: {mass: 100 g}}\n"
+                      "members: {a: {upper: frame, lower: hand}}\n"
+                      "springs: {coil: {between: [hand, floor], stiffness: 2 N/mm, rest: 10 mm, kind: pull}}\n",
+                  opposed[] = "bodies: {floor: {moves: none, at: [0, -39.63 mm]}, hand: {mass: 100 g}}\n"
+                              "members: {a: {upper: frame, lower: hand}, b: {upper: floor, lower: hand, angle: 180 "
+                              "degree, drive.voltage: 0 V}}\n";
+
+static double last(const ZpResult *result, const char *column) {
+  return zp_table_get(result->series, result->series->rows - 1, column);
+}
+
+/* At rest two below each other are pouch.count 2, and two beside each other with twice the load are as one. */
+TESTS(members_rest_as_one, 0, 2) {
+  ZpActuatorDef one = pouches(_i ? alone : in_a_row), two = pouches(_i ? beside : below);
+  one.ribbon.density = two.ribbon.density = 0;
+  const ZpResult *a = answer_of(ZP_STUDY_EQUILIBRIUM, &one), *b = answer_of(ZP_STUDY_EQUILIBRIUM, &two);
+  const double start = answered_value(ZP_STUDY_STATIONARY, &two, "bodies.hand.y_m"),
+               hangs = answered_value(ZP_STUDY_STATIONARY, &one, "stroke_m");
+  const double rises = last(b, "hand.y_m") - start, stroke = last(a, "stroke_m") - hangs;
+  printf("rise off by %.2g, charge by %.2g\n", rises / stroke - 1, last(b, "charge_C") / last(a, "charge_C") - 1);
+  ck_near(rises, stroke, 1e-13);                                           /* 0 measured */
+  ck_near(last(b, "charge_C"), (_i ? 2 : 1) * last(a, "charge_C"), 1e-13); /* 1.8e-15 measured */
+}
+
+/* And in motion, without weight, whose films pull at those above them. */
+TESTS(members_move_as_one, 0, 2) {
+  ZpActuatorDef one = pouches(_i ? alone : in_a_row), two = pouches(_i ? beside : below);
+  one.gravity = two.gravity = 0;
+  one.ribbon.density = two.ribbon.density = 0.1;
+  const ZpResult *a = answer_of(ZP_STUDY_ACTUATE, &one), *b = answer_of(ZP_STUDY_ACTUATE, &two);
+  const double rises = last(b, "hand.y_m") - zp_table_get(b->series, 0, "hand.y_m"),
+               stroke = last(a, "stroke_m") - zp_table_get(a->series, 0, "stroke_m");
+  printf("rise off by %.2g\n", rises / stroke - 1);
+  ck_near(rises, stroke, _i ? 1e-13 : 5e-8); /* 0; 1.6e-8 measured, which goes with the mass of the films */
+  ck_near(last(b, "strain"), last(a, "strain"), _i ? 1e-13 : 5e-8);
+}
+
+/* And in small motions. */
+TESTS(members_vibrate_as_one, 0, 2) {
+  ZpActuatorDef one = pouches(_i ? alone : in_a_row), two = pouches(_i ? beside : below);
+  one.liquid.model = two.liquid.model = ZP_LIQUID_NONE;
+  one.drive.voltage = two.drive.voltage = 0;
+  const double a = answered_value(ZP_STUDY_MODES, &one, "frequency_1_Hz"),
+               b = answered_value(ZP_STUDY_MODES, &two, "frequency_1_Hz");
+  printf("frequency off by %.2g\n", b / a - 1);
+  ck_near(b, a, _i ? 2.6e-11 : 6e-8); /* 8.7e-12; 2.1e-8 measured, which goes with the mass of the films */
+}
+
+/* Where a spring stretches, a pouch pulls with its force and the weight, and held alone at that strain as much. */
+TEST(spring_is_what_a_held_pouch_pulls) {
+  ZpActuatorDef on = pouches(on_a_spring), held = pouches("");
+  on.ribbon.density = held.ribbon.density = 0;
+  const ZpResult *r = answer_of(ZP_STUDY_EQUILIBRIUM, &on);
+  const double spring = 2e3 * (last(r, "hand.y_m") + 31e-3 - 10e-3), pull = spring + 0.1 * on.gravity;
+  held.isometric.strain = last(r, "a.stroke_m") / held.ribbon.length;
+  const double force = answered_value(ZP_STUDY_ISOMETRIC, &held, "force_N");
+  printf("pull off by %.2g, held by %.2g\n", last(r, "a.force_N") / pull - 1, force / pull - 1);
+  ck_near(last(r, "a.force_N"), pull, 5e-11); /* 1.7e-11 measured */
+  ck_near(force, pull, 1e-13);                /* 2.2e-16 measured */
+}
+
+/* One that opens upwards takes what the upper one does not carry. */
+TEST(opposed_ones_hold_the_weight_between_them) {
+  ZpActuatorDef def = pouches(opposed);
+  def.ribbon.density = 0;
+  const ZpResult *r = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  const double weight = 0.1 * def.gravity;
+  printf("off by %.2g\n", (last(r, "a.force_N") - last(r, "b.force_N")) / weight - 1);
+  ck_near(last(r, "a.force_N") - last(r, "b.force_N"), weight, 8e-10); /* 2.5e-10 measured */
+  ck_below(1, last(r, "b.force_N"));
+}
+
+/* A body that moves up lets its pouch slack. */
+TEST(slack_pouch_has_no_rest) {
+  ZpActuatorDef def = pouches("bodies: {hand: {mass: 100 g, force: [0, 2 N]}}\n"
+                              "members: {a: {upper: frame, lower: hand}}\n");
+  def.ribbon.thickness = 18e-6;
+  ck_assert_int_ne(study_of(ZP_STUDY_STATIONARY, &def)->outcome, ZP_CONVERGED);
+}
+
+/* The force that holds a body is that which holds the end of the pouch, in a row, too. */
+TESTS(held_body_is_a_held_end, 0, 2) {
+  ZpActuatorDef end = pouches(""), body = pouches(_i ? below : on_a_spring);
+  end.ribbon.density = body.ribbon.density = 0;
+  end.isometric.strain = 0.005;
+  body.isometric.body = 2;
+  const ZpModel *model = model_of(&end);
+  const double length = model->stroke_at - 0.005 * end.ribbon.length;
+  body.isometric.separation = (_i ? 2 : 1) * length;
+  const double spring = _i ? 0 : 2e3 * (31e-3 - 10e-3 - length);
+  const double force = answered_value(ZP_STUDY_ISOMETRIC, &body, "force_N"),
+               alone_force = answered_value(ZP_STUDY_ISOMETRIC, &end, "force_N");
+  printf("force off by %.2g\n", (force + spring) / alone_force - 1);
+  ck_near(force + spring, alone_force, 1e-13); /* 1.8e-15 measured */
+}
+
+/* A chain with a spring, and one against another, behind films that have weight. */
+TESTS(energy_of_members_is_kept, 0, 3) {
+  static const char *const of[] = {below, on_a_spring, opposed};
+  ZpActuatorDef def = pouches(of[_i]);
+  def.ribbon.density = 1390;
+  def.drive.waveform = ZP_WAVEFORM_STEP;
+  def.drive.rise_time = zp_actuator_def_default().drive.rise_time;
+  def.solver.time_step = NAN;
+  def.solver.end_time = 2e-3;
+  ck_below(lost_energy(&def), 2.5e-9); /* 8.4e-10 measured */
+}
+
+/* Derivatives at rest by keys of a body and a spring are those of differences. */
+TESTS(places_by_keys, 0, 2) {
+  ZpActuatorDef def = pouches(on_a_spring);
+  const int key[] = {zp_key_of_instance(zp_key_find("body_K.mass"), 2),
+                     zp_key_of_instance(zp_key_find("spring_K.stiffness"), 1)};
+  const double value = zp_def_get(&def, key[_i]), by = 1e-4 * value;
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "%s", ZP_KEY_NAME(key[_i]));
+  const double rate = derivative_of(answer_of(ZP_STUDY_STATIONARY, &def), "bodies.hand.y_m", key[_i]);
+  def.sensitivity.by[0] = 0;
+  double y[2];
+  for (int k = 0; k < 2; k++) {
+    ck_assert_int_eq(zp_def_set(&def, key[_i], value + (k ? by : -by), NULL), ZP_OK);
+    y[k] = answered_value(ZP_STUDY_STATIONARY, &def, "bodies.hand.y_m");
+  }
+  printf("off by %.2g\n", rate / ((y[1] - y[0]) / (2 * by)) - 1);
+  ck_near(rate, (y[1] - y[0]) / (2 * by), 7.5e-7); /* 2.5e-7 measured */
+}
+
+/* Films are drawn below their bodies, one on each side. */
+TEST(members_are_drawn_hanging) {
+  ZpActuatorDef def = pouches(below);
+  def.output.shapes = 4;
+  const ZpResult *r = answer_of(ZP_STUDY_EQUILIBRIUM, &def);
+  const ZpShapes *shapes = r->shapes;
+  const ZpShape shape = zp_shapes_get(shapes, zp_shapes_frames(shapes) - 1);
+  const size_t each = zp_shapes_nodes(shapes), half = each / 2;
+  ck_assert_uint_eq(zp_shapes_ribbons(shapes), 2);
+  for (size_t j = 0; j < each; j++) {
+    ck_assert_double_eq(shape.x[2 * j], -shape.x[2 * j + 1]);
+    ck_assert_double_eq(shape.y[2 * j], shape.y[2 * j + 1]);
+  }
+  ck_near(shape.y[2 * half], last(r, "link.y_m"), 1e-14); /* 0 measured */
+  ck_near(shape.y[2 * each - 2], last(r, "hand.y_m"), 1e-14);
+  ck_below(1e-3, fabs(shape.x[half]));
+}
+
 /* -- wrong input ----------------------------------------------------------------------------------- */
 
 TEST(refuses_what_no_pouch_is) {
@@ -373,6 +541,20 @@ TEST(refuses_what_no_pouch_is) {
     ck_assert_int_eq(zp_def_set(&def, zp_key_find(of[k].key), of[k].value, NULL), ZP_OK);
     ck_assert_int_eq(zp_def_check(&def, &err), ZP_BAD_INPUT);
     ck_assert_msg(strstr(err.message, of[k].says) != NULL, "%s", err.message);
+  }
+}
+
+TEST(networks_ask_for_one_pouch_a_member) {
+  static const char network[] = "actuator.kind: pouch\nbodies: {hand: {mass: 1 g}}\n"
+                                "members: {a: {upper: frame, lower: hand}}\n%s";
+  static const struct {
+    const char *keys, *says;
+  } of[] = {{"pouch.count: 2\n", "each pouch of a network is a member"},
+            {"isometric.strain: 0.01\n", "a body is held at isometric.separation"}};
+  for (size_t k = 0; k < LENGTH_OF(of); k++) {
+    char text[256];
+    snprintf(text, sizeof text, network, of[k].keys);
+    ck_scenario_refused(ZP_STUDY_ISOMETRIC, text, of[k].says);
   }
 }
 

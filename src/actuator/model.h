@@ -488,7 +488,7 @@ static inline double zp_part_capacitance(const ZpModel *model, double inverse_ga
 /* Where study isometric holds the load's end: the opening, or the length of a pouch at its strain, m. */
 static inline double zp_held_opening(const ZpModel *model) {
   const ZpActuatorDef *def = &model->def;
-  if (model->pouch.w == 0) return def->isometric.separation;
+  if (model->pouch.w == 0 || zp_is_network(model)) return def->isometric.separation;
   return model->stroke_at / (double)model->in_series - def->isometric.strain * def->ribbon.length;
 }
 
@@ -516,6 +516,11 @@ static inline ZpForces zp_forces(const ZpModel *model, double *F) {
 /* Coordinate k of q; of k = 0 and 1 x and y of all nodes. */
 static inline double *zp_coordinate(const ZpModel *model, double *q, size_t k) {
   return q + k / 2 + k % 2 * model->stride;
+}
+
+/* [stride] of q those along which the load pulls. */
+static inline double *zp_pulled_of(const ZpModel *model, double *q) {
+  return zp_coordinate(model, q, zp_pulled(&model->topology, 0));
 }
 
 /* How many numbers x or y has, whole lanes, and both have. */

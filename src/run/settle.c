@@ -138,7 +138,7 @@ static bool settle_one(ZpSim *sim, const ZpHooks *hooks) {
 static void start_member(ZpSim *sim, ZpStatics *rest, size_t which) {
   const ZpModel *model = sim->model;
   const double *q = rest->member[which].q;
-  sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
+  if (zp_is_pair(&model->topology)) sim->state->opening0 = zp_opening(&model->topology, zp_nodes(model, q).y);
   if (model->def.initial.state != ZP_INITIAL_EQUILIBRIUM) return;
   zp_sim_start_at(sim, q, rest->member[which].eval.pressure);
   if (zp_abreast(model) > 1)
