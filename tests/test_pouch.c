@@ -259,6 +259,18 @@ TESTS(energy_is_kept, 0, 4) {
   ck_below(worst / work, _i == 1 ? 4.8e-7 : 1.2e-9); /* 1.6e-7; 4e-10 measured */
 }
 
+/* Several in series draw their load so many times as fast as one. */
+TEST(load_moves_as_its_stroke) {
+  ZpActuatorDef def = DEF(POUCH, {"pouch.count", 3}, {"load.mass", 2e-2});
+  ZpSim *sim = sim_of(model_of(&def));
+  double stroke[3], velocity[3];
+  for (int k = 0; k < 3; k++) {
+    run_to(sim, 1e-3 + k * 1e-6);
+    stroke[k] = zp_sim_get(sim, "stroke"), velocity[k] = zp_sim_get(sim, "end_velocity");
+  }
+  ck_near((stroke[2] - stroke[0]) / 2e-6, velocity[1], 2.9e-6); /* 9.7e-7 measured */
+}
+
 /* Five have one strain, one force, and five times the stroke and the capacitance. */
 TEST(several_are_as_one) {
   ZpActuatorDef one = DEF(POUCH, {"isometric.strain", 0.05}), five = one;
