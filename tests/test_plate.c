@@ -180,6 +180,20 @@ TESTS(what_else_a_film_does, 0, 3) {
   ck_near(damping(&def, c), c, 7e-4); /* 3.5e-4 measured */
 }
 
+/* Jets and depth see twice the area over the length of the edges where the liquid leaves: the width of a strip, half of
+ * that of a square, the length of a plate that is closed at its long edges. */
+TEST(liquid_leaves_all_around) {
+  ZpFilmParams square = {.w = 2e-4}, strip = square, shut = square, law = square;
+  zp_film_modes(&law, true);
+  zp_film_plate_modes(&square, 2e-4, true);
+  zp_film_plate_modes(&strip, 2e4, true);
+  zp_film_plate_modes(&shut, 3e-4, false);
+  ck_near(square.breadth, 1e-4, 1e-12);
+  ck_near(strip.breadth, law.breadth, 1e-8);
+  ck_near(zp_film_depth(&strip, 5e-6), zp_film_depth(&law, 5e-6), 1e-8);
+  ck_near(shut.breadth, 3e-4, 1e-12);
+}
+
 /* Period of a plate in a liquid that hardly flows off: the mass of the film, eq. (37.5), and that beside and behind the
  * plate, eqs. (22.3) and (22.12). */
 TESTS(mass_of_a_film, 0, 2) {
