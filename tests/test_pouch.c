@@ -74,6 +74,15 @@ TEST(closed_law) {
   ck_assert_double_eq_tol(1e12 * capacitance_at(law, 90 * degree), 405.8169, 5e-5);
 }
 
+/* Flat arcs, whose area is a series, on both sides of where it begins. */
+TEST(angle_of_flat_arcs) {
+  static const double angle[] = {0.02, 0.035, 0.049, 0.051, 0.07};
+  for (size_t k = 0; k < LENGTH_OF(angle); k++) {
+    const double a = angle[k], area = (a - sin(a) * cos(a)) / (2 * a * a);
+    ck_near(zp_pouch_angle(1, area), a, 4.3e-11); /* 1.5e-11 measured */
+  }
+}
+
 /* Force is minus half the square of the voltage times dC/dH. */
 TEST(closed_law_is_virtual_work) {
   const Law *law = &published;
@@ -226,6 +235,18 @@ TESTS(bending_and_wedge, 0, 1) {
 
 ALSO_NIGHTLY(bending_and_wedge, 1, 3)
 
+/* Nothing is zipped without a voltage: both films are arcs under the tension F / (2 cos a), which is the pressure times
+ * their radius L_p / (2 a) and the width. */
+TEST(pressure_of_two_arcs) {
+  const Law *law = &published;
+  const double a = zp_pouch_angle(law->Lp, area_of(law)), F = 25;
+  Film film = {published, 0, 1};
+  film.law.U = 0;
+  film.EI = F / (2 * cos(a)) * (1e-3 * law->Lp) * (1e-3 * law->Lp);
+  ck_near(under_load(&film, F).pressure, F * a / (law->w * law->Lp * cos(a)),
+          1.6e-2); /* 5.6e-3 measured: ends that bend */
+}
+
 /* -- books ----------------------------------------------------------------------------------------- */
 
 #define POUCH                                                                                                          \
@@ -286,6 +307,61 @@ TESTS(energy_is_kept, 0, 4) {
   ck_below(lost_energy(&def), _i == 1 ? 4.8e-7 : 1.1e-10); /* 1.7e-7; 3.7e-11 measured */
 }
 
+/* The zipped length is told as a share of that of the electrodes. */
+TEST(contraction_is_zipped_length) {
+  ZpActuatorDef def = DEF(POUCH, {"solver.end_time", 5e-3});
+  const ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  ck_near(zp_result_get(result, "contraction"), zp_result_get(result, "zipped_length_m") / def.pouch.electrode_length,
+          1e-14);
+}
+
+/* A run begins at rest. */
+TEST(pressure_at_the_start) {
+  ZpActuatorDef def = DEF(POUCH);
+  ck_near(settled_value(&def, "pressure"), answered_value(ZP_STUDY_STATIONARY, &def, "pressure_Pa"),
+          2.4e-7); /* 8.2e-8 measured */
+}
+
+/* The film up to the middle plane, at half of the gaps, flows half as much as the whole under the same heads. */
+TEST(half_of_the_film_flows_half) {
+  enum { N = ZP_FILM_MODES * MOST_NODES };
+  ZpActuatorDef def = DEF(POUCH);
+  const ZpFilmParams half = model_of(&def)->film;
+  ZpFilmParams film[2] = {half, half};
+  film[1].mu = def.medium.kinematic_viscosity * def.medium.density;
+  film[1].roughness = zp_def_roughness(&def);
+  double gap[2][MOST_NODES], head[N], *start = memory_of(ZP_FILM_STATE * half.nodes * sizeof *start), left[2][N];
+  for (int k = 0; k < 2; k++) {
+    uint64_t seed = 3;
+    ZpFilmEval eval;
+    ZpArena arena = {NULL, 0};
+    zp_film_reserve(&film[k], &eval, &arena);
+    arena = (ZpArena){memory_of(arena.used + ZP_ALIGNMENT), 0};
+    zp_film_reserve(&film[k], &eval, &arena);
+    for (size_t i = 0; i < half.nodes; i++)
+      gap[k][i] = (k + 1) * 1e-6 * (double)i * (1 + 0.1 * noise(&seed));
+    for (size_t i = 0; i < ZP_FILM_MODES * half.nodes; i++)
+      head[i] = 1e3 * noise(&seed);
+    zp_film_step(&film[k], &(ZpFilmEnds){0}, gap[k], gap[k], 1e-4, start, head, &eval);
+    for (size_t i = 0; i < ZP_FILM_MODES * half.nodes; i++)
+      left[k][i] = zp_film_is_free(&half, &eval, i / ZP_FILM_MODES, (int)(i % ZP_FILM_MODES)) ? eval.r[i] : 0;
+  }
+  for (size_t i = 0; i < ZP_FILM_MODES * half.nodes; i++)
+    ck_assert_double_eq_tol(2 * left[0][i], left[1][i], 1e-15 * largest_of(left[1], ZP_FILM_MODES * half.nodes));
+}
+
+/* Several in series draw their load so many times as fast as one. */
+TEST(load_moves_as_its_stroke) {
+  ZpActuatorDef def = DEF(POUCH, {"pouch.count", 3}, {"load.mass", 2e-2});
+  ZpSim *sim = sim_of(model_of(&def));
+  double stroke[3], velocity[3];
+  for (int k = 0; k < 3; k++) {
+    run_to(sim, 1e-3 + k * 1e-6);
+    stroke[k] = zp_sim_get(sim, "stroke"), velocity[k] = zp_sim_get(sim, "end_velocity");
+  }
+  ck_near((stroke[2] - stroke[0]) / 2e-6, velocity[1], 2.9e-6); /* 9.7e-7 measured */
+}
+
 /* Five have one strain, one force, and five times the stroke and the capacitance. */
 TEST(several_are_as_one) {
   ZpActuatorDef one = DEF(POUCH, {"isometric.strain", 0.05}), five = one;
@@ -309,6 +385,19 @@ TEST(several_move_as_one) {
           2.8e-14);
 }
 
+/* Charge is capacitance times voltage, also where electrodes end. As the force does no work but on the ends, dF/dU is
+ * dQ/ds, s the way of the ends: of several in series each has the force, and all have the charge and the way. */
+TEST(force_and_charge_are_reciprocal) {
+  ZpActuatorDef def = DEF(POUCH, {"isometric.strain", 0.05}, {"pouch.count", 3});
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "drive.voltage, isometric.strain");
+  const ZpResult *result = answer_of(ZP_STUDY_ISOMETRIC, &def);
+  ck_near(zp_result_get(result, "charge_C"), zp_result_get(result, "capacitance_F") * def.drive.voltage, 1e-12);
+  ck_near(slope_in(result, "charge_C", "isometric.strain") / (def.pouch.count * def.ribbon.length),
+          slope_in(result, "force_N", "drive.voltage"), 1e-10); /* 3.7e-11 measured */
+  ck_near(zp_result_get(result, "contraction"), zp_result_get(result, "zipped_length_m") / def.pouch.electrode_length,
+          1e-14);
+}
+
 /* Without a load a soft film contracts until the electrodes are closed; where its ends are held it pulls with the
  * blocking force, less than the closed law has, for its arcs flatten where they bend. */
 TEST(free_strain_and_blocking_force) {
@@ -320,6 +409,27 @@ TEST(free_strain_and_blocking_force) {
   const double force = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N");
   ck_below(force, blocked);
   ck_below(0.3 * blocked, force);
+}
+
+/* Both films are drawn, as mirror images. */
+TEST(shapes_have_both_films) {
+  ZpActuatorDef def = DEF(POUCH);
+  const ZpShapes *shapes = answer_of(ZP_STUDY_STATIONARY, &def)->shapes;
+  ck_assert_uint_eq(zp_shapes_ribbons(shapes), 2);
+  const ZpShape shape = zp_shapes_get(shapes, zp_shapes_frames(shapes) - 1);
+  for (size_t i = 0; i < zp_shapes_nodes(shapes); i++) {
+    ck_assert_double_eq(shape.x[2 * i], shape.x[2 * i + 1]);
+    ck_assert_double_eq(shape.y[2 * i], -shape.y[2 * i + 1]);
+  }
+}
+
+/* Insulators conduct as the field in them, and so as the charge: Q / (rho eps), before they have conducted much. */
+TEST(leaks_as_its_charge) {
+  ZpActuatorDef def = DEF(POUCH, {"insulator.resistivity", 1e12}, {"pouch.count", 2});
+  ZpSim *sim = sim_of(model_of(&def));
+  run_to(sim, 1e-4);
+  ck_near(zp_sim_get(sim, "leak_current"),
+          zp_sim_get(sim, "charge") / (def.insulator.resistivity * ZP_EPS0 * def.insulator.permittivity), 1e-12);
 }
 
 /* -- derivatives ----------------------------------------------------------------------------------- */
@@ -361,6 +471,20 @@ TESTS(force_by_keys, 0, 4) {
     force[k] = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N");
   }
   ck_near(rate, (force[1] - force[0]) / (2 * by), 6e-6);
+}
+
+/* Of several in series, whose load weighs on each, though to one of them it is heavier. */
+TEST(stroke_by_gravity) {
+  ZpActuatorDef def = DEF(POUCH, {"pouch.count", 3});
+  snprintf(def.sensitivity.by, sizeof def.sensitivity.by, "gravity");
+  const double slope = slope_in(answer_of(ZP_STUDY_STATIONARY, &def), "stroke_m", "gravity"), by = 1e-3;
+  double stroke[2];
+  def.sensitivity.by[0] = 0;
+  for (int k = 0; k < 2; k++) {
+    def.gravity += k ? -2 * by : by;
+    stroke[k] = answered_value(ZP_STUDY_STATIONARY, &def, "stroke_m");
+  }
+  ck_near(slope, (stroke[0] - stroke[1]) / (2 * by), 5.6e-7); /* 1.9e-7 measured */
 }
 
 /* -- members of networks --------------------------------------------------------------------------- */
@@ -595,4 +719,49 @@ TEST(stiffness_is_the_derivative_of_forces) {
   }
   ck_below(worst / largest, 6e-9);
   zp_rest_close(&rest);
+}
+
+/* That of a step, in directions that keep the volume to first order: of two random ones, so much of both that the term
+ * of rank one, a hundred thousand times as large as all else, is not in them. */
+TEST(tangent_of_a_step) {
+  static const double h = 1e-6, by = 1e-8;
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_POUCH}, {"mesh.nodes", 16}, {"load.mass", 50});
+  ZpSim *sim = sim_of(model_of(&def));
+  run_to(sim, 1e-4);
+  ZpDynamics *d = &sim->dynamics;
+  const ZpImplicitSystem *system = &d->system;
+  const size_t n = system->n, size = n * sizeof(double);
+  double *y = memory_of(size), *at = memory_of(size), *u[2], *column[2], *r[2], worst = 0, largest = 0;
+  uint64_t seed = 11;
+  for (int k = 0; k < 2; k++)
+    u[k] = memory_of(size), column[k] = memory_of(size), r[k] = memory_of(size);
+  zp_dynamics_begin(d, sim->states, 1e-4 + h);
+  system->begin(d, d->q, d->v);
+  for (size_t i = 0; i < n; i++)
+    at[i] = d->q[i];
+  for (int twice = 0; twice < 2; twice++)
+    system->residual(d, at, h, r[0]);
+  system->tangent(d, &d->stepper.A);
+  for (int round = 0; round < 10; round++) {
+    size_t most = 0;
+    for (int k = 0; k < 2; k++) {
+      for (size_t i = 0; i < n; i++)
+        u[k][i] = noise(&seed);
+      zp_arrow_multiply(&d->stepper.A, u[k], column[k]);
+    }
+    for (size_t i = 0; i < n; i++)
+      if (fabs(column[1][i]) > fabs(column[1][most])) most = i;
+    const double part = column[0][most] / column[1][most];
+    for (int k = 0; k < 2; k++) {
+      for (size_t i = 0; i < n; i++)
+        y[i] = at[i] + (k ? -by : by) * (u[0][i] - part * u[1][i]);
+      system->residual(d, y, h, r[k]);
+    }
+    for (size_t i = 0; i < n; i++) {
+      const double expected = (r[1][i] - r[0][i]) / (2 * by);
+      worst = fmax(worst, fabs(column[0][i] - part * column[1][i] - expected));
+      largest = fmax(largest, fabs(expected));
+    }
+  }
+  ck_below(worst / largest, 8e-6); /* 2.7e-6 measured */
 }

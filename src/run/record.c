@@ -280,7 +280,8 @@ static void fill_geometry(const ZpSim *sim, double *row) {
   ZpMotion motion = zp_state_motion(model, state);
   const ZpTopology *t = &model->topology;
   row[SIGNAL_stroke] = zp_stroke(model, (ZpNodes){motion.x, motion.y});
-  row[SIGNAL_end_velocity] = t->along ? -zp_platform_middle(t, motion.vx) : zp_platform_middle(t, motion.vy);
+  row[SIGNAL_end_velocity] =
+      t->along ? zp_stroke_change(model, (ZpNodes){motion.vx, motion.vy}) : zp_platform_middle(t, motion.vy);
   row[SIGNAL_zipped_length] = (double)front(model, state) * model->l;
   row[SIGNAL_film_thickness] = film_thickness(model, state);
   row[SIGNAL_wet_length] = wet_length(model, state);
