@@ -398,6 +398,23 @@ TEST(force_and_charge_are_reciprocal) {
           1e-14);
 }
 
+/* It has closed when 99 % of its electrodes are zipped. */
+TEST(closes_when_zipped) {
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_POUCH}, {"liquid.model", ZP_LIQUID_NONE}, {"mesh.nodes", 101},
+                          {"pouch.fill", 0.6}, {"load.mass", 20e-3}, {"drive.voltage", 8e3},
+                          {"solver.end_time", 1.2e-3}, {"output.samples", 2000}, {"output.errors", 0});
+  const ZpResult *result = study_of(ZP_STUDY_ACTUATE, &def);
+  const double time = zp_result_get(result, "zip_time_s");
+  for (size_t row = 1; row < result->series->rows; row++) {
+    if (zp_table_get(result->series, row, "contraction") < 0.99) continue;
+    ck_assert(zp_table_get(result->series, row - 1, "time_s") <= time);
+    ck_assert(time <= zp_table_get(result->series, row, "time_s"));
+    break;
+  }
+  ck_near(time, 1.036e-3, 1e-3);
+  ck_assert(zp_result_get(result, "closed_from_s") >= time);
+}
+
 /* Without a load a soft film contracts until the electrodes are closed; where its ends are held it pulls with the
  * blocking force, less than the closed law has, for its arcs flatten where they bend. */
 TEST(free_strain_and_blocking_force) {

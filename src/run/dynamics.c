@@ -1212,7 +1212,7 @@ static void arrive(const ZpDynamics *d, const ZpMovingMember *m, ZpState *state)
   double before = zp_load_down(model, at), hung = mean_load(d, m);
   store(d, m, state);
   state->load_work += hung * (zp_load_down(model, at) - before);
-  if (zp_is_pair(&model->topology)) state->zip = zp_eval_touching(model, m->eval.plates.gap);
+  if (model->field) state->zip = zp_eval_touching(model, m->eval.plates.gap);
 }
 
 void zp_dynamics_begin(ZpDynamics *d, ZpState *const state[], double latest) {
