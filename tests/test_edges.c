@@ -127,6 +127,39 @@ TEST(test_bare_strip_over_plate) {
   }
 }
 
+/* A rigid plate over a wide electrode, bare and insulated: the force on it, held, is that of the field of its
+ * cross-section times its length; edges lower its pull-in. */
+TESTS(edges_of_a_plate, 0, 2) {
+  static const double gaps[] = {4e-6, 3e-6, 2e-6}, part = 1e-3, insulator = 0.1e-6;
+  ZpActuatorDef def = DEF({"actuator.kind", ZP_KIND_PLATE}, {"electro.edges", 1}), plain = def;
+  ZpEdgeParams p = {.w = def.ribbon.width,
+                    .b = def.ribbon.thickness,
+                    .eps_m = def.medium.permittivity,
+                    .eps_i = 1,
+                    .plate = true,
+                    .least = 0.1 * def.plate.gap};
+  if (_i) def.insulator.thickness = p.t = p.plate_t = insulator;
+  if (_i) p.eps_i = p.plate_eps = def.insulator.permittivity;
+  ZpFieldMesh mesh = zp_edges_mesh(&p);
+  for (size_t k = 0; k < LENGTH_OF(gaps); k++) {
+    const double g = gaps[k], at[] = {g * (1 - part), g * (1 + part)}, U = def.drive.voltage;
+    double C[2];
+    ck_assert(zp_edges_capacitance(&p, &mesh, 2, at, C));
+    def.isometric.separation = g;
+    const double force = answered_value(ZP_STUDY_ISOMETRIC, &def, "force_N"),
+                 field = 0.5 * U * U * def.ribbon.length * (C[0] - C[1]) / (2 * part * g);
+    printf("plate at %g um: %.6g N, by the field %.6g N\n", 1e6 * g, force, field);
+    ck_near(force, field, 7e-6); /* 2.2e-6 measured */
+  }
+  plain.electro.edges = false;
+  plain.insulator.thickness = def.insulator.thickness;
+  const double with = answered_value(ZP_STUDY_LIMITS, &def, "pull_in_voltage_V"),
+               without = answered_value(ZP_STUDY_LIMITS, &plain, "pull_in_voltage_V");
+  printf("pull-in at %.4f V, without edges at %.4f V\n", with, without);
+  ck_below(with, 0.99 * without);
+  ck_below(0.97 * without, with);
+}
+
 /* Wide strips: what their edges add grows with the charge on their backs only, ln 2 / pi for twice the width,
  * whatever lies between them: along an arc of length 2 pi x round the edge falls the voltage. */
 TEST(test_wide_strips) {

@@ -549,17 +549,17 @@ static void settle(Cycles *c) {
 
 /* -- the results of a cycle ------------------------------------------------------------------------ */
 
-/* Harmonic n over a cycle. */
+/* A part of a periodic signal. */
 typedef struct Harmonic {
   double cosine, sine;
 } Harmonic;
 
-/* What a voltage asks for: faces attract with its square; else the curvature that it drives. */
+/* Faces attract with the square of a voltage; without them it drives a curvature. */
 static double drive_of(const Cycles *c, double U) {
   return c->model->field ? U * U : zp_driven_aim(c->model->driven.place, U);
 }
 
-/* Of that, or of minus the spread. */
+/* Of the drive, or of minus the spread. */
 static Harmonic harmonic(const Cycles *c, bool of_drive, int n) {
   Harmonic sum = {0, 0};
   for (int k = 0; k < PHASES; k++) {
